@@ -1,0 +1,80 @@
+"""Archives for baked and learned data: a NumPy ``.npz`` with a JSON header, written atomically.
+
+The header says what the file is (``kind``), the version of its format, and whatever its writer adds
+(what made it, the digest of what it depends on). Arrays are stored without pickling.
+"""
+
+import json
+import os
+import tempfile
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from navmesh.errors import NavmeshError
+
+__all__ = ["ArchiveError", "read_archive", "write_archive"]
+
+_HEADER = "header"
+
+
+class ArchiveError(NavmeshError):
+    """An archive is missing, damaged, of another kind or of another version."""
+
+
+def write_archive(
+    path: str | os.PathLike[str],
+    kind: str,
+    version: int,
+    header: Mapping[str, Any],
+    arrays: Mapping[str, np.ndarray],
+) -> None:
+    """Write ``arrays`` under ``header`` to ``path``; the file appears whole or not at all.
+
+    ``header`` must be representable in JSON. ``kind`` and ``version`` are checked by `read_archive`.
+    """
+    if _HEADER in arrays:
+        raise ArchiveError(f"an array may not be called {_HEADER!r}: the name is taken by the archive's header")
+    target = Path(path)
+    text = json.dumps({**header, "kind": kind, "version": version}, sort_keys=True)
+    handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+    try:
+        with os.fdopen(handle, "wb") as file:
+            payload: dict[str, Any] = {_HEADER: np.frombuffer(text.encode(), dtype=np.uint8), **arrays}
+            np.savez_compressed(file, **payload)
+            file.flush()
+            os.fsync(file.fileno())
+        umask = os.umask(0)
+        os.umask(umask)
+        os.chmod(temporary, 0o666 & ~umask)
+        os.replace(temporary, target)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
+
+
+def read_archive(
+    path: str | os.PathLike[str], kind: str, version: int
+) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+    """Read what `write_archive` wrote: the header and the arrays by name.
+
+    Raises `ArchiveError` when the file is missing, cut off, of another kind, or of another version.
+    """
+    target = Path(path)
+    if not target.is_file():
+        raise ArchiveError(f"{target}: no such file; expected a {kind} archive")
+    try:
+        with np.load(target, allow_pickle=False) as archive:
+            arrays = {name: archive[name] for name in archive.files}
+        header = json.loads(arrays.pop(_HEADER).tobytes().decode())
+        found_kind, found_version = header["kind"], header["version"]
+    except (OSError, ValueError, KeyError, TypeError, EOFError, AttributeError, zipfile.BadZipFile) as error:
+        raise ArchiveError(f"{target}: not a whole {kind} archive (cut off or damaged): {error}") from error
+    if found_kind != kind:
+        raise ArchiveError(f"{target}: holds a {found_kind!r}, expected a {kind!r}")
+    if found_version != version:
+        raise ArchiveError(f"{target}: {kind} of version {found_version}, this release reads version {version}; make it anew")
+    return header, arrays

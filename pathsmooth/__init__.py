@@ -1,0 +1,1 @@
+"""Convex smoothing of paths inside a corridor of discs."""

@@ -1,0 +1,1 @@
+"""Worlds, missions and views."""

@@ -8,6 +8,7 @@ import json
 import os
 import tempfile
 import zipfile
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,8 @@ from navmesh.errors import NavmeshError
 __all__ = ["ArchiveError", "read_archive", "write_archive"]
 
 _HEADER = "header"
+# What NumPy, zipfile and json raise on a file that is cut off, overwritten or not an archive at all.
+_DAMAGE = (OSError, ValueError, KeyError, TypeError, EOFError, AttributeError, zipfile.BadZipFile, zlib.error)
 
 
 class ArchiveError(NavmeshError):
@@ -37,8 +40,10 @@ def write_archive(
     ``header`` must be representable in JSON. ``kind`` and ``version`` are checked by `read_archive`.
     """
     if _HEADER in arrays:
-        raise ArchiveError(f"an array may not be called {_HEADER!r}: the name is taken by the archive's header")
+        raise ArchiveError(f"an array may not be called {_HEADER!r}: that name is taken by the header")
     target = Path(path)
+    if not target.parent.is_dir():
+        raise ArchiveError(f"{target}: there is no folder {target.parent} to write into")
     text = json.dumps({**header, "kind": kind, "version": version}, sort_keys=True)
     handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
     try:
@@ -47,9 +52,7 @@ def write_archive(
             np.savez_compressed(file, **payload)
             file.flush()
             os.fsync(file.fileno())
-        umask = os.umask(0)
-        os.umask(umask)
-        os.chmod(temporary, 0o666 & ~umask)
+        os.chmod(temporary, 0o644)  # mkstemp makes it private; baked data is meant to be shared
         os.replace(temporary, target)
     except BaseException:
         Path(temporary).unlink(missing_ok=True)
@@ -71,10 +74,12 @@ def read_archive(
             arrays = {name: archive[name] for name in archive.files}
         header = json.loads(arrays.pop(_HEADER).tobytes().decode())
         found_kind, found_version = header["kind"], header["version"]
-    except (OSError, ValueError, KeyError, TypeError, EOFError, AttributeError, zipfile.BadZipFile) as error:
+    except _DAMAGE as error:
         raise ArchiveError(f"{target}: not a whole {kind} archive (cut off or damaged): {error}") from error
     if found_kind != kind:
         raise ArchiveError(f"{target}: holds a {found_kind!r}, expected a {kind!r}")
     if found_version != version:
-        raise ArchiveError(f"{target}: {kind} of version {found_version}, this release reads version {version}; make it anew")
+        raise ArchiveError(
+            f"{target}: {kind} of version {found_version}, this release reads version {version}; make it anew"
+        )
     return header, arrays

@@ -1,0 +1,198 @@
+"""YAML files that people write: read safely, checked by pydantic, every error with its line and column.
+
+Only what YAML and JSON share is taken: mappings with text keys, sequences, text, numbers, booleans, null.
+"""
+
+import difflib
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, TypeVar
+
+import yaml
+from pydantic import BaseModel, ValidationError
+
+from navmesh.errors import NavmeshError
+
+__all__ = ["MAX_BYTES", "FileError", "Located", "read_yaml"]
+
+MAX_BYTES = 1_000_000
+_SCALARS = ("null", "bool", "int", "float", "str")
+_PREFIX = "tag:yaml.org,2002:"
+
+Model = TypeVar("Model", bound=BaseModel)
+Key = str | int
+
+
+class FileError(NavmeshError):
+    """A file that a person wrote is wrong; the one-line message begins with ``file:line:column``."""
+
+    def __init__(self, path: str | os.PathLike[str], line: int, column: int, problem: str) -> None:
+        self.path, self.line, self.column = Path(path), line, column
+        super().__init__(f"{path}:{line}:{column}: {' '.join(problem.split())}")
+
+
+class Located:
+    """Where each value of a YAML file stands; an address is a path of keys and indices."""
+
+    def __init__(self, path: Path, root: yaml.Node) -> None:
+        self.path = path
+        self._root = root
+
+    def error(self, address: Sequence[Key], problem: str, at_key: bool = False) -> FileError:
+        """The error ``problem`` at ``address``, or at its nearest ancestor that the file holds."""
+        node = self._root
+        mark = node.start_mark
+        for step in address:
+            found = _child(node, step)
+            if found is None:
+                break
+            key, node = found
+            mark = key.start_mark if at_key else node.start_mark
+        return FileError(self.path, mark.line + 1, mark.column + 1, problem)
+
+
+def read_yaml(path: str | os.PathLike[str], model: type[Model], what: str) -> tuple[Model, Located]:
+    """Read the ``what`` (named in messages) at ``path`` as a ``model``.
+
+    Returns the checked model and where each of its values stands in the file. Raises `FileError` for a
+    missing or unreadable file, broken YAML, unknown or double keys, and values of a wrong type or range.
+    """
+    target = Path(path)
+    located = Located(target, _compose(target, what))
+    try:
+        return model.model_validate(_construct(target, located._root, {}, set())), located
+    except ValidationError as error:
+        raise _first_error(error, located, model) from None
+
+
+def _compose(path: Path, what: str) -> yaml.Node:
+    if not path.is_file():
+        raise FileError(path, 1, 1, f"no such file; expected a {what} (YAML)")
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise FileError(path, 1, 1, f"cannot be read: {error.strerror}") from error
+    if len(content) > MAX_BYTES:
+        raise FileError(path, 1, 1, f"{len(content)} bytes; a {what} has at most {MAX_BYTES}")
+    try:
+        root = yaml.compose(content, Loader=yaml.SafeLoader)
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
+        raise FileError(path, line, column, f"not YAML: {error.problem or error.context}") from None
+    except yaml.reader.ReaderError as error:
+        raise FileError(path, 1, 1, f"not YAML: {error.reason} at byte {error.position}") from None
+    except RecursionError:
+        raise FileError(path, 1, 1, f"nested too deeply for a {what}") from None
+    if root is None:
+        raise FileError(path, 1, 1, f"empty; expected a {what}")
+    return root
+
+
+def _construct(path: Path, node: yaml.Node, done: dict[int, Any], open_nodes: set[int]) -> Any:
+    """The plain value of ``node``; aliases share one value, so nothing grows by being repeated."""
+    identity = id(node)
+    if identity in done:
+        return done[identity]
+    if identity in open_nodes:
+        raise _at(path, node, "refers to itself")
+    open_nodes.add(identity)
+    if isinstance(node, yaml.ScalarNode):
+        value = _scalar(path, node)
+    elif isinstance(node, yaml.SequenceNode):
+        value = [_construct(path, child, done, open_nodes) for child in node.value]
+    else:
+        value = {}
+        for key, child in node.value:
+            if not isinstance(key, yaml.ScalarNode):
+                raise _at(path, key, "a key must be a word")
+            if key.value in value:
+                raise _at(path, key, f"{key.value!r} stands here twice")
+            value[key.value] = _construct(path, child, done, open_nodes)
+    open_nodes.discard(identity)
+    done[identity] = value
+    return value
+
+
+def _scalar(path: Path, node: yaml.ScalarNode) -> Any:
+    kind = node.tag.removeprefix(_PREFIX)
+    if kind not in _SCALARS:
+        raise _at(path, node, f"{node.value!r} is read as {kind}; valid: {', '.join(_SCALARS)} (quote a text)")
+    if kind == "str":
+        return node.value
+    try:
+        return yaml.SafeLoader("").construct_object(node)
+    except (yaml.YAMLError, ValueError, KeyError, IndexError, OverflowError):
+        raise _at(path, node, f"{node.value!r} is not a valid {kind}") from None
+
+
+def _at(path: Path, node: yaml.Node, problem: str) -> FileError:
+    return FileError(path, node.start_mark.line + 1, node.start_mark.column + 1, problem)
+
+
+def _child(node: yaml.Node, step: Key) -> tuple[yaml.Node, yaml.Node] | None:
+    """The key node and the value node that ``step`` leads to (for an index the item twice)."""
+    if isinstance(node, yaml.MappingNode):
+        return next(((key, value) for key, value in node.value if key.value == step), None)
+    if isinstance(node, yaml.SequenceNode) and isinstance(step, int) and step < len(node.value):
+        return node.value[step], node.value[step]
+    return None
+
+
+def _first_error(error: ValidationError, located: Located, model: type[BaseModel]) -> FileError:
+    """The first of pydantic's findings as one line: address, problem, valid choices, how many more."""
+    findings = sorted(error.errors(include_url=False), key=lambda one: one["type"] != "extra_forbidden")
+    first = findings[0]
+    address: tuple[Key, ...] = tuple(first["loc"])
+    name = _dotted(address) or "the file"
+    if first["type"] == "extra_forbidden":
+        known = _fields_at(model, address[:-1])
+        near = difflib.get_close_matches(str(address[-1]), known, n=1)
+        hint = f"did you mean {near[0]!r}? " if near else ""
+        problem = f"{name}: unknown key; {hint}valid: {', '.join(known)}"
+    elif first["type"] == "missing":
+        problem = f"{name}: missing"
+        address = address[:-1]
+    elif first["type"] == "model_type":
+        problem = f"{name}: a mapping is needed{_given(first['input'])}"
+    elif first["type"] in ("too_short", "too_long"):
+        problem = f"{name}: {first['msg']}"
+    else:
+        problem = f"{name}: {first['msg'].removeprefix('Value error, ')}{_given(first['input'])}"
+    if len(findings) > 1:
+        problem += f" (and {len(findings) - 1} more)"
+    return located.error(address, problem, at_key=first["type"] == "extra_forbidden")
+
+
+def _given(value: Any) -> str:
+    if isinstance(value, str | int | float | bool) or value is None:
+        text = repr(value)
+        return f", not {text if len(text) <= 40 else text[:37] + '...'}"
+    return f", not a {'mapping' if isinstance(value, dict) else 'list'}" if isinstance(value, dict | list) else ""
+
+
+def _dotted(address: Sequence[Key]) -> str:
+    text = ""
+    for step in address:
+        text += f"[{step}]" if isinstance(step, int) else f".{step}" if text else str(step)
+    return text
+
+
+def _fields_at(model: type[BaseModel], address: Sequence[Key]) -> list[str]:
+    """Names of the keys that are valid in the mapping at ``address`` of ``model``."""
+    current = model
+    for step in address:
+        if isinstance(step, int):
+            continue
+        inner = _models_in(current.model_fields[step].annotation)
+        if not inner:
+            return []
+        current = inner[0]
+    return list(current.model_fields)
+
+
+def _models_in(annotation: Any) -> list[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [annotation]
+    return [found for argument in getattr(annotation, "__args__", ()) for found in _models_in(argument)]

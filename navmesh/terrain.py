@@ -1,0 +1,111 @@
+"""A level's mesh: triangles in metres, Z up."""
+
+import hashlib
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from navmesh.errors import NavmeshError
+
+__all__ = ["Terrain"]
+
+_AXES = {"x": (1, 2, 0), "y": (0, 2, 1), "z": (0, 1, 2)}
+_SIGNS = {"x": (1.0, 1.0, 1.0), "y": (1.0, -1.0, 1.0), "z": (1.0, 1.0, 1.0)}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Terrain:
+    """Triangles of a level. Make one with `load` or `from_arrays`; both check their input.
+
+    Degenerate and duplicate triangles, open edges, overlaps and unreferenced vertices are tolerated.
+    """
+
+    vertices: np.ndarray
+    """(v, 3) float64 [m], Z up, every coordinate finite."""
+    faces: np.ndarray
+    """(f, 3) int32 into `vertices`, f ≥ 1, counter-clockwise seen from outside (from above for a floor)."""
+    name: str = "terrain"
+    """What error messages call it: the file's name."""
+    digest: str = field(init=False)
+    """SHA-256 of vertices and faces (hexadecimal): names the geometry that a baked graph was made from."""
+
+    def __post_init__(self) -> None:
+        checksum = hashlib.sha256(np.ascontiguousarray(self.vertices).tobytes())
+        checksum.update(np.ascontiguousarray(self.faces).tobytes())
+        object.__setattr__(self, "digest", checksum.hexdigest())
+
+    @classmethod
+    def from_arrays(
+        cls, vertices: Any, faces: Any, *, up: str = "z", scale: float = 1.0, name: str = "terrain"
+    ) -> "Terrain":
+        """A terrain from ``vertices`` (v, 3) and ``faces`` (f, 3) in the file's units and axes.
+
+        ``up`` is the axis of the input that points up: "z" keeps (x, y, z), "y" makes it (x, -z, y),
+        "x" makes it (y, z, x). ``scale`` [m per unit] is above 0. Raises `NavmeshError` for wrong
+        shapes, coordinates that are not finite, indices out of range, and when there is no triangle.
+        """
+        if up not in _AXES:
+            raise NavmeshError(f"{name}: up = {up!r}: expected one of 'x', 'y', 'z'")
+        if not np.isfinite(scale) or scale <= 0:
+            raise NavmeshError(f"{name}: scale = {scale!r}: expected metres per unit, above 0")
+        try:
+            points = np.asarray(vertices, dtype=np.float64)
+            triangles = np.asarray(faces)
+        except (TypeError, ValueError) as error:
+            raise NavmeshError(f"{name}: vertices and faces must be arrays of numbers: {error}") from error
+        if triangles.size == 0:
+            raise NavmeshError(f"{name}: no triangles; a level needs at least one")
+        if points.ndim != 2 or points.shape[1] != 3:
+            raise NavmeshError(f"{name}: vertices have shape {points.shape}, expected (v, 3)")
+        if triangles.ndim != 2 or triangles.shape[1] != 3 or not np.issubdtype(triangles.dtype, np.integer):
+            raise NavmeshError(f"{name}: faces are {triangles.dtype} {triangles.shape}, expected integers (f, 3)")
+        outside = (triangles < 0) | (triangles >= len(points))
+        if outside.any():
+            at = int(np.flatnonzero(outside.any(axis=1))[0])
+            raise NavmeshError(
+                f"{name}: triangle {at} names vertices {triangles[at].tolist()}, there are {len(points)}"
+            )
+        broken = ~np.isfinite(points).all(axis=1)
+        if broken.any():
+            at = int(np.flatnonzero(broken)[0])
+            raise NavmeshError(
+                f"{name}: {int(broken.sum())} vertices are not finite; the first is vertex {at}: "
+                f"{points[at].tolist()}"
+            )
+        moved = points[:, _AXES[up]] * (np.asarray(_SIGNS[up]) * float(scale))
+        moved = np.ascontiguousarray(moved)
+        if not np.isfinite(moved).all() or np.abs(moved).max(initial=0.0) > 1e9:
+            raise NavmeshError(f"{name}: coordinates reach beyond 1e9 m after scaling by {scale:g}")
+        return cls(moved, np.ascontiguousarray(triangles, dtype=np.int32), name)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str], *, up: str = "z", scale: float = 1.0) -> "Terrain":
+        """Read any mesh file that trimesh reads (OBJ, PLY, STL, OFF, GLB/glTF, …).
+
+        Scenes are flattened: every instance with its transform. ``up`` and ``scale`` as in `from_arrays`
+        (glTF is Y up). Raises `NavmeshError` that names the file when it is missing, not a mesh, or
+        holds no usable triangle.
+        """
+        import trimesh
+
+        file = Path(path)
+        if not file.is_file():
+            raise NavmeshError(f"{file}: no such file; expected a mesh (OBJ, PLY, STL, OFF, GLB or glTF)")
+        try:
+            loaded = trimesh.load_scene(file, process=False)
+            mesh = loaded.to_mesh()
+            vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
+        except MemoryError:
+            raise
+        except Exception as error:
+            raise NavmeshError(f"{file}: cannot be read as a mesh: {error or type(error).__name__}") from error
+        return cls.from_arrays(vertices, faces, up=up, scale=scale, name=str(file))
+
+    @property
+    def bounds(self) -> np.ndarray:
+        """(2, 3) float64 [m]: least and greatest coordinates of the vertices that triangles use."""
+        used = self.vertices[self.faces.ravel()]
+        return np.stack([used.min(axis=0), used.max(axis=0)])

@@ -6,11 +6,11 @@ A walled yard of 60 x 40 m (x to the east, y to the north). The southern half is
 parallel lanes that are walked as a serpent, each a storey step higher than the one before. Each platform
 spans its lane from wall to wall, so that whoever wants to get on has to jump:
 
-| platform | rise [m] | from z to z [m] | edge, middle at (x, y) | run towards | run-up [m] | deep on top [m] |
-| -------- | -------- | --------------- | ---------------------- | ----------- | ---------- | --------------- |
-| lane 1   | 0.3      | 0.0 to 0.3      | (25, 3.4)              | +x (east)   | 24.6       | 34.6            |
-| lane 2   | 0.4      | 0.3 to 0.7      | (34, 9.6)              | -x (west)   | 25.6       | 29.2            |
-| lane 3   | 0.5      | 0.7 to 1.2      | (30, 15.8)             | +x (east)   | 25.2       | 29.6            |
+| platform | rise [m] | floor, before and on top [m] | middle of the edge | run to | run-up [m] | on top [m] |
+| -------- | -------- | ---------------------------- | ------------------ | ------ | ---------- | ---------- |
+| lane 1   | 0.3      | 0.0, 0.3                     | (25, 3.4)          | +x          | 24.6       | 34.6       |
+| lane 2   | 0.4      | 0.3, 0.7                     | (34, 9.6)          | -x          | 25.6       | 29.2       |
+| lane 3   | 0.5      | 0.7, 1.2                     | (30, 15.8)         | +x          | 25.2       | 29.6       |
 
 Way of the course: yard (z = 0) - corridor along the west wall (x 0.4-4.4), through a doorway of 1.2 m at
 (2.4, 19) - lane 1 eastward - round its east end - lane 2 westward - round its west end - lane 3 eastward -
@@ -22,7 +22,7 @@ In the yard (y 19.2-39.6, z = 0):
 | what | where |
 | ---- | ----- |
 | mound, 0.9 m high, at most 14.4 degrees | centre (14, 28), radius 5.5 |
-| wall with doorways of 0.7, 0.9, 1.2 and 2.0 m under lintels at 2.2 m | x = 24-24.3, y = 21.5, 24.5, 28.6, 33 |
+| wall with doorways of 0.7, 0.9, 1.2, 2.0 m, lintels at 2.2 m | x 24-24.3, y = 21.5, 24.5, 28.6, 33 |
 | stage, 0.45 m high | x 27-33, y 25-33 |
 | wall to vault, 0.8 m high, 0.3 m thick | x 36-36.3, y 23-31 |
 | hedge to vault, 0.9 m high, 0.5 m thick | x 46-51, y 30-30.5 |
@@ -34,6 +34,7 @@ In the yard (y 19.2-39.6, z = 0):
 The mesh is one conforming skin: no overlapping solids, no cracks, no T-junctions.
 """
 
+import itertools
 import sys
 from collections.abc import Iterable
 from pathlib import Path
@@ -123,7 +124,7 @@ def _border(line, before, before_ends, after, after_ends) -> list[tuple[np.ndarr
         spans.append(own)
     order = sorted(set(profiles), key=sum)
     faces = []
-    for low, high in zip(order, order[1:], strict=False):
+    for low, high in itertools.pairwise(order):
         middle = (sum(low) + sum(high)) / 4
         if not np.isfinite(middle):
             continue
@@ -138,7 +139,9 @@ def _border(line, before, before_ends, after, after_ends) -> list[tuple[np.ndarr
 def _skin(level, upright) -> trimesh.Trimesh:
     """Weld quads and upright faces; upright faces take up every vertex that lies on their ends."""
     stack: dict[tuple[float, float], set[float]] = {}
-    for x, y, z in [point for quad in level for point in quad] + [p for face in upright for end in face for p in end]:
+    corners = [point for quad in level for point in quad]
+    corners += [point for face in upright for end in face for point in end]
+    for x, y, z in corners:
         stack.setdefault((x, y), set()).add(round(float(z), 9))
     triangles = [(q[a], q[b], q[c]) for q in level for a, b, c in ((0, 1, 2), (0, 2, 3))]
     for left, right in upright:
@@ -164,11 +167,14 @@ def courtyard() -> trimesh.Trimesh:
     """The level that the head of this file describes."""
     wall = 3.2
     mound_x, mound_y = np.arange(8.0, 20.1, 1.0), np.arange(22.0, 34.1, 1.0)
-    pillars = [(x, 21.8) for x in (27.0, 31.0, 34.4)] + [(x, 34.0) for x in (5.0, 29.0, 46.0, 55.0)] + [(5.0, 24.0)]
+    pillars = [(x, 21.8) for x in (27.0, 31.0, 34.4)] + [(5.0, 24.0)]
+    pillars += [(x, 34.0) for x in (5.0, 29.0, 46.0, 55.0)]
     posts = [12.0, 16.0, 24.0, 28.0, 32.0, 36.0]
     doors = [(21.15, 21.85), (24.05, 24.95), (28.0, 29.2), (32.0, 34.0)]
-    x = [0, 0.4, 1.8, 3.0, 4.4, 4.8, 9.4, 24, 24.3, 25, 27, 30, 33, 34, 36, 36.3, 42, 43.6, 46, 50, 51, 54, 55, 57, 59.6, 60]
-    y = [0, 0.4, 6.4, 6.8, 12.4, 12.8, 18.8, 19.2, 23, 24.2, 25, 30, 30.5, 31, 33, 21, 36, 36.2, 36.4, 39.6, 40]
+    x = [0, 0.4, 1.8, 3.0, 4.4, 4.8, 9.4, 24, 24.3, 25, 27, 30, 33, 34, 36, 36.3, 42, 43.6, 46]
+    x += [50, 51, 54, 55, 57, 59.6, 60]
+    y = [0, 0.4, 6.4, 6.8, 12.4, 12.8, 18.8, 19.2, 21, 23, 24.2, 25, 30, 30.5, 31, 33]
+    y += [36, 36.2, 39.6, 40]
     x += [12, 12.2, 20, 21.5, 40, 52, *mound_x, *(v for p in pillars for v in (p[0], p[0] + 0.6))]
     x += [v for post in posts for v in (post, post + 0.4)]
     y += [*mound_y, *(v for p in pillars for v in (p[1], p[1] + 0.6)), *(v for door in doors for v in door)]

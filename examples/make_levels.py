@@ -8,9 +8,9 @@ spans its lane from wall to wall, so that whoever wants to get on has to jump:
 
 | platform | rise [m] | floor, before and on top [m] | middle of the edge | run to | run-up [m] | on top [m] |
 | -------- | -------- | ---------------------------- | ------------------ | ------ | ---------- | ---------- |
-| lane 1   | 0.3      | 0.0, 0.3                     | (25, 3.4)          | +x          | 24.6       | 34.6       |
-| lane 2   | 0.4      | 0.3, 0.7                     | (34, 9.6)          | -x          | 25.6       | 29.2       |
-| lane 3   | 0.5      | 0.7, 1.2                     | (30, 15.8)         | +x          | 25.2       | 29.6       |
+| lane 1   | 0.3      | 0.0, 0.3                     | (25, 3.4)          | +x     | 24.6       | 34.6       |
+| lane 2   | 0.4      | 0.3, 0.7                     | (34, 9.6)          | -x     | 25.6       | 29.2       |
+| lane 3   | 0.5      | 0.7, 1.2                     | (30, 15.8)         | +x     | 25.2       | 29.6       |
 
 Way of the course: yard (z = 0) - corridor along the west wall (x 0.4-4.4), through a doorway of 1.2 m at
 (2.4, 19) - lane 1 eastward - round its east end - lane 2 westward - round its west end - lane 3 eastward -

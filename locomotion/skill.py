@@ -1,0 +1,159 @@
+"""Learned running on disk and in memory, and the poses from which it starts."""
+
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from locomotion import controller
+from locomotion.clip import Clip, load_clip
+from locomotion.errors import LocomotionError
+from locomotion.person import JOINT_NAMES, STANDING_HEIGHT, PersonIndex, person_digest
+from navmesh.archive import ArchiveError, read_archive, write_archive
+
+__all__ = ["RUN_CLIP", "RUN_SKILL", "RunSkill", "load_run_skill", "reset_running", "reset_standing"]
+
+RUN_CLIP = Path(__file__).parent / "clips" / "run.yaml"
+RUN_SKILL = Path(__file__).parent / "skills" / "run.npz"
+_KIND, _VERSION = "run skill", 1
+_SAMPLES = 64
+
+
+@dataclass(frozen=True)
+class RunSkill:
+    """A family of running controllers over speed.
+
+    Attributes:
+        knots: (k,) float64, increasing speeds [m/s] at which parameters were learned.
+        table: (k, p) float64, their parameters in the order of `controller.PARAMETERS`.
+        state_reference: (b, 12) float64, reference sensors over a step (vx relative to the speed, dx per speed).
+        max_turn_rate: highest turn rate of the reference heading [rad/s].
+        step_length: (a, b) of step length = a * speed + b [m], fitted to this skill.
+        clip: the reference motion.
+        meta: what made it.
+    """
+
+    knots: np.ndarray
+    table: np.ndarray
+    state_reference: np.ndarray
+    max_turn_rate: float
+    step_length: tuple[float, float]
+    clip: Clip
+    meta: dict[str, Any] = field(default_factory=dict)
+    tables: tuple[np.ndarray, ...] = field(init=False)
+    """The first arguments of `controller.run_tick`."""
+
+    def __post_init__(self) -> None:
+        shares = np.arange(_SAMPLES) / _SAMPLES
+        reference = self.clip.sample(shares)
+        rates = self.clip.rates(shares) * self.clip.duration
+        limits = np.array([self.knots[0], self.knots[-1], self.max_turn_rate])
+        tables = (self.knots, self.table, reference, rates, reference.mean(axis=0), self.state_reference, limits)
+        object.__setattr__(self, "tables", tuple(np.ascontiguousarray(t, dtype=np.float64) for t in tables))
+
+    @property
+    def speeds(self) -> tuple[float, float]:
+        """Lowest and highest speed [m/s] that may be asked for."""
+        return float(self.knots[0]), float(self.knots[-1])
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the skill for the present person; the file appears whole or not at all."""
+        header = {
+            "person": person_digest(), "max_turn_rate": self.max_turn_rate,
+            "step_length": list(self.step_length), "meta": self.meta,
+        }
+        arrays = {"knots": self.knots, "table": self.table, "state_reference": self.state_reference}
+        write_archive(path, _KIND, _VERSION, header, arrays)
+
+
+def load_run_skill(path: str | os.PathLike[str] = RUN_SKILL, clip: str | os.PathLike[str] = RUN_CLIP) -> RunSkill:
+    """Read a run skill; `LocomotionError` if it is missing, cut off, of another version or of another person."""
+    try:
+        header, arrays = read_archive(path, _KIND, _VERSION)
+    except ArchiveError as error:
+        raise LocomotionError(str(error)) from error
+    if header.get("person") != person_digest():
+        raise LocomotionError(f"{path}: learned for another person's model; learn it anew (surefoot train run)")
+    width = sum(controller.PARAMETERS.values())
+    try:
+        knots, table, reference = arrays["knots"], arrays["table"], arrays["state_reference"]
+        a, b = (float(x) for x in header["step_length"])
+        max_turn = float(header["max_turn_rate"])
+    except (KeyError, TypeError, ValueError) as error:
+        raise LocomotionError(f"{path}: not a whole run skill: {error}") from error
+    if table.shape != (len(knots), width) or reference.ndim != 2 or reference.shape[1] != len(controller.SENSORS):
+        raise LocomotionError(f"{path}: parameters of shape {table.shape}, expected ({len(knots)}, {width})")
+    if not (np.isfinite(table).all() and np.isfinite(reference).all() and (np.diff(knots) > 0).all()):
+        raise LocomotionError(f"{path}: holds numbers that are not finite or speeds that do not grow")
+    return RunSkill(knots, table, reference, max_turn, (a, b), load_clip(clip), header.get("meta", {}))
+
+
+def _place(
+    model: mujoco.MjModel, data: mujoco.MjData, index: PersonIndex, pose: np.ndarray, position: np.ndarray,
+    yaw: float, pitch: float,
+) -> None:
+    """Put the person with joint angles ``pose`` on the ground point ``position``: its lowest foot touches it."""
+    data.qpos[:3] = [position[0], position[1], position[2] + STANDING_HEIGHT]
+    half_yaw, half_pitch = 0.5 * yaw, 0.5 * pitch
+    cy, sy, cp, sp = np.cos(half_yaw), np.sin(half_yaw), np.cos(half_pitch), np.sin(half_pitch)
+    data.qpos[3:7] = [cy * cp, -sy * sp, cy * sp, sy * cp]
+    data.qpos[7 : 7 + len(JOINT_NAMES)] = pose
+    data.qvel[:] = 0.0
+    mujoco.mj_kinematics(model, data)
+    lowest = np.inf
+    for geom in np.flatnonzero(index.geom_side):
+        if model.geom_conaffinity[geom]:
+            axis = data.geom_xmat[geom].reshape(3, 3)[:, 2]
+            reach = abs(axis[2]) * model.geom_size[geom, 1] + model.geom_size[geom, 0]
+            lowest = min(lowest, data.geom_xpos[geom, 2] - reach)
+    data.qpos[2] += position[2] - lowest
+
+
+def reset_running(
+    skill: RunSkill, model: mujoco.MjModel, data: mujoco.MjData, index: PersonIndex, state: np.ndarray,
+    position: np.ndarray, yaw: float, speed: float,
+) -> None:
+    """Put the person on the ground point ``position`` (3,), running at ``speed`` [m/s]; fills ``state``."""
+    mujoco.mj_resetData(model, data)
+    share = np.array([0.0])
+    clip = skill.clip
+    _place(model, data, index, clip.sample(share)[0], position, yaw, clip.root_pitch)
+    data.qvel[:3] = [speed * np.cos(yaw), speed * np.sin(yaw), -0.4]
+    data.qvel[6 : 6 + len(JOINT_NAMES)] = clip.rates(share)[0]
+    _fresh_state(model, data, index, state, yaw, speed)
+    state[controller.COM_VELOCITY] = data.qvel[:3]
+
+
+def reset_standing(
+    model: mujoco.MjModel, data: mujoco.MjData, index: PersonIndex, state: np.ndarray, position: np.ndarray, yaw: float,
+) -> None:
+    """Put the person on the ground point ``position`` (3,), standing still; fills ``state``."""
+    mujoco.mj_resetData(model, data)
+    _place(model, data, index, standing_pose(), position, yaw, 0.0)
+    _fresh_state(model, data, index, state, yaw, 0.0)
+
+
+def standing_pose() -> np.ndarray:
+    """Joint angles [rad], (39,) float64, of a relaxed stand."""
+    pose = np.zeros(len(JOINT_NAMES))
+    for name, degrees in (
+        ("hip_flexion", 8), ("knee_flexion", 14), ("ankle_flexion", 6), ("shoulder_abduction", 8), ("elbow_flexion", 20),
+    ):
+        for side in ("right", "left"):
+            pose[JOINT_NAMES.index(f"{side}_{name}")] = np.deg2rad(degrees)
+    return pose
+
+
+def _fresh_state(
+    model: mujoco.MjModel, data: mujoco.MjData, index: PersonIndex, state: np.ndarray, yaw: float, speed: float
+) -> None:
+    state[:] = controller.new_state()
+    state[controller.HEADING] = yaw
+    state[controller.SPEED] = speed
+    mujoco.mj_forward(model, data)
+    controller.observe(index, model, data, state, fresh=True)
+    state[controller.PLANTED] = state[controller.FEET]
+    state[34:37] = state[controller.COM]

@@ -1,0 +1,179 @@
+"""The level's own surface as ground under simulated bodies.
+
+    ground = Ground.from_arrays(vertices, faces)
+    model = build_person(ground)
+
+The model gets a height-field geom called ``ground`` that only stands for the level: contacts of spheres
+and capsules with it come from the level's triangles (`locomotion.trimesh_contact`), exactly where the mesh
+is. Faces are one-sided: a body is pushed out on the side from which the corners run counter-clockwise.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import weakref
+from typing import Any
+
+import mujoco
+import numpy as np
+from numba import njit
+from numpy.typing import ArrayLike, NDArray
+
+from locomotion.errors import LocomotionError
+from locomotion.trimesh_build import build_triangle_arrays
+from locomotion.trimesh_install import MARK, occupy, release
+
+__all__ = ["Ground"]
+
+_FRICTION = [0.9, 0.005, 0.0001]
+_MESH_FACES = 200_000  # MuJoCo's renderer draws larger meshes badly; only pictures are cut off
+
+
+class Ground:
+    """A triangle mesh that bodies in MuJoCo can stand on.
+
+    Several grounds may live in one process. Keep the ground as long as models made with it are stepped: when
+    it is gone, their bodies fall through.
+
+    Attributes:
+        vertices: (v, 3) float64, faces: (f, 3) int64, as given.
+        low, high: (3,) float64, bounds [m].
+        digest: hex digest of the mesh.
+    """
+
+    def __init__(self, vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> None:
+        self.vertices, self.faces = vertices, faces
+        used = vertices[np.unique(faces)]
+        self.low, self.high = used.min(axis=0), used.max(axis=0)
+        self._origin = np.ascontiguousarray(0.5 * (self.low + self.high))
+        self._arrays = build_triangle_arrays(vertices - self._origin, faces)
+        if not len(self._arrays.rows):
+            raise LocomotionError("the ground has only degenerate triangles; give at least one with an area")
+        self.digest = hashlib.sha256(vertices.tobytes() + faces.tobytes()).hexdigest()[:16]
+        self._number = int(self.digest[:12], 16) | 1  # 48 bits: exact as a float64, never zero
+        self._slot, kept = occupy(self._arrays, self._origin, self._number)
+        self._kept = kept
+        weakref.finalize(self, _release, self._slot, kept)
+
+    @classmethod
+    def from_arrays(cls, vertices: ArrayLike, faces: ArrayLike) -> Ground:
+        """vertices (v, 3) [m], faces (f, 3) indices of corners, counter-clockwise seen from outside.
+
+        Raises `LocomotionError` for wrong shapes, coordinates that are not finite and indices out of range.
+        """
+        points = np.ascontiguousarray(vertices, dtype=np.float64)
+        triangles = np.asarray(faces)
+        if points.ndim != 2 or points.shape[1] != 3:
+            raise LocomotionError(f"vertices have the shape {points.shape}; give (v, 3)")
+        if triangles.ndim != 2 or triangles.shape[1] != 3 or len(triangles) == 0:
+            raise LocomotionError(f"faces have the shape {triangles.shape}; give (f, 3) with f > 0")
+        if not np.issubdtype(triangles.dtype, np.integer):
+            raise LocomotionError(f"faces are {triangles.dtype}; give integers")
+        if not np.isfinite(points).all():
+            row = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
+            raise LocomotionError(f"vertex {row} is {points[row]}; give finite coordinates")
+        if triangles.min() < 0 or triangles.max() >= len(points):
+            raise LocomotionError(f"faces name vertices outside 0 to {len(points) - 1}")
+        return cls(points, np.ascontiguousarray(triangles, dtype=np.int64))
+
+    @property
+    def arrays(self):
+        """The collision kernel's `TriangleArrays`, relative to `origin`."""
+        return self._arrays
+
+    @property
+    def origin(self) -> NDArray[np.float64]:
+        """(3,) point [m] that the kernel's coordinates are relative to."""
+        return self._origin
+
+    def add_to(self, spec: mujoco.MjSpec, visual: bool = True) -> Any:
+        """Add the ground to a model's description; returns the geom ``ground`` that stands for it.
+
+        With ``visual`` the mesh is also added as a geom that is only seen (``ground_mesh``). Bodies collide
+        with their spheres and capsules only; `check` tells whether a model has others.
+        """
+        half = 0.5 * (self.high - self.low) + 1.0
+        spec.nuser_geom = max(spec.nuser_geom, 3)
+        spec.add_hfield(
+            name="ground", nrow=2, ncol=2, size=[half[0], half[1], half[2], half[2]],
+            userdata=np.zeros(4, np.float32),
+        )  # fmt: skip
+        user = np.zeros(max(spec.nuser_geom, 3))
+        user[:3] = MARK, self._slot, self._number
+        geom = spec.worldbody.add_geom(
+            name="ground", type=mujoco.mjtGeom.mjGEOM_HFIELD, hfieldname="ground", pos=self._origin,
+            contype=1, conaffinity=0, friction=_FRICTION, rgba=[0, 0, 0, 0], group=4, userdata=user,
+        )  # fmt: skip
+        if visual:
+            self._add_visual(spec)
+        return geom
+
+    def _add_visual(self, spec: mujoco.MjSpec) -> None:
+        triangles = self._arrays.rows[:_MESH_FACES, 16:25].reshape(-1, 3)
+        spec.add_mesh(
+            name="ground", uservert=triangles.reshape(-1).astype(np.float32),
+            userface=np.arange(len(triangles), dtype=np.int32), inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL,
+        )  # fmt: skip
+        spec.worldbody.add_geom(
+            name="ground_mesh", type=mujoco.mjtGeom.mjGEOM_MESH, meshname="ground", pos=self._origin,
+            contype=0, conaffinity=0, rgba=[0.62, 0.66, 0.62, 1.0], group=1,
+        )  # fmt: skip
+
+    def check(self, model: mujoco.MjModel) -> None:
+        """Raise `LocomotionError` unless ``model`` stands on this ground with spheres and capsules only."""
+        try:
+            geom = model.geom("ground").id
+        except KeyError:
+            raise LocomotionError("the model has no geom called 'ground'; build it with add_to") from None
+        if model.nuser_geom < 3 or tuple(model.geom_user[geom, :3]) != (MARK, self._slot, self._number):
+            raise LocomotionError("the model was built for another ground, or in another process; build it again")
+        allowed = (int(mujoco.mjtGeom.mjGEOM_SPHERE), int(mujoco.mjtGeom.mjGEOM_CAPSULE))
+        for i in range(model.ngeom):
+            touches = model.geom_contype[i] & model.geom_conaffinity[geom]
+            touches |= model.geom_contype[geom] & model.geom_conaffinity[i]
+            if i != geom and touches and model.geom_bodyid[i] and int(model.geom_type[i]) not in allowed:
+                raise LocomotionError(
+                    f"geom {i} ({model.geom(i).name!r}) is neither a sphere nor a capsule and cannot touch the ground"
+                )
+
+    def surface_below(self, points: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Height and normal of the first upward face at or below each of ``points`` (n, 3).
+
+        Returns z (n,) float64 [m], NaN where nothing is below, and unit normals (n, 3) float64.
+        """
+        wanted = np.atleast_2d(np.asarray(points, dtype=np.float64)) - self._origin
+        if wanted.shape[1] != 3:
+            raise LocomotionError(f"points have the shape {wanted.shape}; give (n, 3)")
+        heights, normals = np.full(len(wanted), np.nan), np.full((len(wanted), 3), np.nan)
+        a = self._arrays
+        _surface_below(a.rows, a.cell_start, a.cell_triangles, a.grid, a.shape, wanted, heights, normals)
+        return heights + self._origin[2], normals
+
+
+def _release(slot: int, kept: Any) -> None:
+    release(slot)
+    del kept
+
+
+@njit(cache=True)
+def _surface_below(rows, cell_start, cell_triangles, grid, shape, points, heights, normals):
+    for p in range(len(points)):
+        x, y, z = points[p]
+        fx, fy = (x - grid[0]) * grid[2], (y - grid[1]) * grid[2]
+        if not (fx >= 0.0 and fy >= 0.0 and fx <= shape[0] and fy <= shape[1]):
+            continue
+        cell = min(int(fx), shape[0] - 1) * shape[1] + min(int(fy), shape[1] - 1)
+        for i in range(cell_start[cell], cell_start[cell + 1]):
+            row = rows[cell_triangles[i]]
+            if row[2] < 1e-6:
+                continue
+            h = (row[3] - row[0] * x - row[1] * y) / row[2]
+            if h > z + 1e-9 or heights[p] >= h:
+                continue
+            inside = True
+            for k in range(4, 16, 4):
+                if row[k] * x + row[k + 1] * y + row[k + 2] * h - row[k + 3] > 1e-6:
+                    inside = False
+            if inside:
+                heights[p] = h
+                normals[p] = row[0:3]

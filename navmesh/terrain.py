@@ -61,7 +61,9 @@ class Terrain:
         if points.ndim != 2 or points.shape[1] != 3:
             raise NavmeshError(f"{name}: vertices have shape {points.shape}, expected (v, 3)")
         if triangles.ndim != 2 or triangles.shape[1] != 3 or not np.issubdtype(triangles.dtype, np.integer):
-            raise NavmeshError(f"{name}: faces are {triangles.dtype} {triangles.shape}, expected integers (f, 3)")
+            raise NavmeshError(
+                f"{name}: faces are {triangles.dtype} {triangles.shape}, expected integers (f, 3)"
+            )
         outside = (triangles < 0) | (triangles >= len(points))
         if outside.any():
             at = int(np.flatnonzero(outside.any(axis=1))[0])
@@ -101,7 +103,9 @@ class Terrain:
         except MemoryError:
             raise
         except Exception as error:
-            raise NavmeshError(f"{file}: cannot be read as a mesh: {error or type(error).__name__}") from error
+            raise NavmeshError(
+                f"{file}: cannot be read as a mesh: {error or type(error).__name__}"
+            ) from error
         return cls.from_arrays(vertices, faces, up=up, scale=scale, name=str(file))
 
     @property

@@ -1,0 +1,126 @@
+"""Cells of the surface: where the centre of a column's square is a floor point, and who neighbours whom."""
+
+import numpy as np
+from numba import njit
+
+__all__ = ["find_floors", "neighbours_within_step"]
+
+_SAME = 0.01  # [m] parts of the mesh this close in height are one surface
+
+
+@njit(cache=True)
+def find_floors(table, start, triangle, resolution, nx, ny, headroom):
+    """Rule 1 at the centre of every column.
+
+    ``table``, ``start``, ``triangle`` come from `navmesh.raster`. Returns ``column_start`` (nx·ny + 1,) int32,
+    ``cell_column`` (n,) int32, ``height`` (n,) and ``gradient`` (n, 2) float64; cells of a column go upwards.
+    """
+    columns = nx * ny
+    most = 1
+    for c in range(columns):
+        most = max(most, start[c + 1] - start[c])
+    limit = triangle.shape[0]
+    cell_column = np.empty(limit, np.int32)
+    height = np.empty(limit, np.float64)
+    gradient = np.empty((limit, 2), np.float64)
+    column_start = np.empty(columns + 1, np.int32)
+    hit = np.empty((most, 4), np.float64)
+    cells = 0
+    for c in range(columns):
+        column_start[c] = cells
+        if start[c + 1] == start[c]:
+            continue
+        ix = c // ny
+        x = (ix + 0.5) * resolution
+        y = (c - ix * ny + 0.5) * resolution
+        hits = 0
+        walkable = False
+        for k in range(start[c], start[c + 1]):
+            row = table[triangle[k]]
+            if row[14] == 0.0:
+                continue
+            one = (row[3] - row[0]) * (y - row[1]) - (row[4] - row[1]) * (x - row[0])
+            two = (row[6] - row[3]) * (y - row[4]) - (row[7] - row[4]) * (x - row[3])
+            three = (row[0] - row[6]) * (y - row[7]) - (row[1] - row[7]) * (x - row[6])
+            if not (
+                (one >= -1e-9 and two >= -1e-9 and three >= -1e-9)
+                or (one <= 1e-9 and two <= 1e-9 and three <= 1e-9)
+            ):
+                continue
+            hit[hits, 0] = row[9] * x + row[10] * y + row[11]
+            hit[hits, 1] = row[9]
+            hit[hits, 2] = row[10]
+            hit[hits, 3] = row[14]
+            hits += 1
+            walkable |= row[14] == 2.0
+        if not walkable:
+            continue
+        first = cells
+        for i in range(hits):
+            if hit[i, 3] != 2.0:
+                continue
+            z = hit[i, 0]
+            free = True
+            for j in range(hits):
+                if z + 0.01 < hit[j, 0] < z + headroom:
+                    free = False
+                    break
+                # of surfaces that coincide the highest stays, then the one with the greater gradient
+                if hit[j, 3] == 2.0 and j != i and abs(hit[j, 0] - z) <= 0.01:
+                    later = hit[j, 0] == z and (
+                        (hit[j, 1], hit[j, 2]) > (hit[i, 1], hit[i, 2])
+                        or ((hit[j, 1], hit[j, 2]) == (hit[i, 1], hit[i, 2]) and j < i)
+                    )
+                    if hit[j, 0] > z or later:
+                        free = False
+                        break
+            if not free:
+                continue
+            at = cells
+            while at > first and height[at - 1] > z:
+                height[at] = height[at - 1]
+                gradient[at, 0] = gradient[at - 1, 0]
+                gradient[at, 1] = gradient[at - 1, 1]
+                at -= 1
+            height[at] = z
+            gradient[at, 0] = hit[i, 1]
+            gradient[at, 1] = hit[i, 2]
+            cell_column[cells] = c
+            cells += 1
+    column_start[columns] = cells
+    return column_start, cell_column[:cells].copy(), height[:cells].copy(), gradient[:cells].copy()
+
+
+@njit(cache=True)
+def neighbours_within_step(column_start, cell_column, height, gradient, resolution, ny, step):
+    """Floors of adjoining columns that meet within ``step`` at the shared border: (n, 4) int32 or -1.
+
+    Heights are compared where the squares meet, so that a slope does not count as a step. Each cell takes
+    the nearest in height, and only where that choice is mutual.
+    """
+    cells = cell_column.shape[0]
+    link = np.full((cells, 4), -1, np.int32)
+    half = 0.5 * resolution
+    for c in range(cells):
+        column = cell_column[c]
+        for d in range(2):
+            other = column + ny if d == 0 else column + 1
+            z = height[c] + gradient[c, d] * half
+            best = step + 1e-9
+            chosen = -1
+            for n in range(column_start[other], column_start[other + 1]):
+                difference = abs(height[n] - gradient[n, d] * half - z)
+                if difference <= best:
+                    best = difference
+                    chosen = n
+            if chosen < 0:
+                continue
+            back = height[chosen] - gradient[chosen, d] * half
+            mutual = True
+            for m in range(column_start[column], column_start[column + 1]):
+                if m != c and abs(height[m] + gradient[m, d] * half - back) < best:
+                    mutual = False
+            if mutual and link[chosen, d + 2] < 0:
+                link[c, d] = chosen
+                link[chosen, d + 2] = c
+    return link

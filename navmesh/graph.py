@@ -1,0 +1,188 @@
+"""The node-radius graph: discs on the walkable surface, joined where a body can pass from one to the next."""
+
+import os
+from dataclasses import dataclass, field
+from typing import Any
+
+import networkx
+import numpy as np
+
+from navmesh import archive, edges, nodes
+from navmesh.build import build_surface
+from navmesh.errors import NavmeshError
+from navmesh.rules import WalkRules
+from navmesh.surface import Surface
+from navmesh.terrain import Terrain
+
+__all__ = ["NodeGraph"]
+
+_KIND = "surefoot navigation graph"
+_VERSION = 1
+
+
+@dataclass(eq=False)
+class NodeGraph:
+    """Discs that cover the walkable surface of a terrain. Make one with `build` or `load`.
+
+    Inside a disc a body of radius r can stand wherever it is r away from the rim; a body passes an edge
+    when it is not wider than the edge. One graph serves bodies of every radius. Arrays are not to be
+    changed from outside.
+    """
+
+    terrain_digest: str
+    """`Terrain.digest` of the geometry that the graph was built from."""
+    rules: WalkRules
+    surface: Surface
+    positions: np.ndarray
+    """(m, 3) float64 [m], world coordinates of the nodes: points of the surface, centres of cells."""
+    radii: np.ndarray
+    """(m,) float64 [m]: horizontal distance from the node to the nearest place where walking ends."""
+    node_cell: np.ndarray
+    """(m,) int32: the cell that the node is the centre of."""
+    label: np.ndarray
+    """(n,) int32: the node that owns each cell of the surface (least d² - r² of the discs that hold it);
+    -1 for cells in no disc, which have less clearance than `WalkRules.min_radius`."""
+    edge_start: np.ndarray
+    """(m + 1,) int32: the edges that leave node i are edge_start[i]:edge_start[i + 1], by rising target."""
+    edge_target: np.ndarray
+    """(e,) int32: the node that an edge leads to. Every edge has its reverse."""
+    edge_width: np.ndarray
+    """(e,) float64 [m]: radius of the widest body that passes."""
+    edge_portal: np.ndarray
+    """(e, 4) float64 [m]: chord in which the two discs overlap, as x, y of its left and x, y of its right end
+    seen along the edge, relative to surface.origin. Both ends coincide where the discs do not overlap."""
+    edge_cells: np.ndarray
+    """(e, 2) int32: linked cells on the border of the two labels with the most clearance: the first is
+    owned by the edge's source, the second by its target."""
+    cache: dict[str, Any] = field(default_factory=dict, repr=False)
+    """What queries have worked out and want to keep; never saved, and may be emptied at any time."""
+
+    @classmethod
+    def build(cls, terrain: Terrain, rules: WalkRules | None = None) -> "NodeGraph":
+        """The graph of ``terrain`` under ``rules`` (default: `WalkRules()`).
+
+        Raises `NavmeshError` when nothing is walkable.
+        """
+        rules = rules or WalkRules()
+        surface = build_surface(terrain, rules)
+        h, ny = surface.resolution, surface.shape[1]
+        order = np.argsort(-surface.clearance, kind="stable").astype(np.int32)
+        node_cell, label = nodes.select_nodes(order, surface.clearance, surface.link, h, rules.min_radius)
+        if len(node_cell) == 0:
+            raise NavmeshError(
+                f"{terrain.name}: no place on it has a clearance of min_radius = {rules.min_radius:g} m"
+            )
+        radii = surface.clearance[node_cell]
+        ix, iy = np.divmod(surface.cell_column[node_cell], ny)
+        x, y = (ix + 0.5) * h, (iy + 0.5) * h
+        start, target, width, portal, border = edges.join_nodes(
+            label, surface.link, surface.clearance, x, y, radii
+        )
+        return cls(
+            terrain_digest=terrain.digest,
+            rules=rules,
+            surface=surface,
+            positions=surface.centers(node_cell),
+            radii=radii,
+            node_cell=node_cell,
+            label=label,
+            edge_start=start,
+            edge_target=target,
+            edge_width=width,
+            edge_portal=portal,
+            edge_cells=border,
+        )
+
+    def __len__(self) -> int:
+        return len(self.radii)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the graph to ``path``; `load` reads it back."""
+        surface = self.surface
+        arrays = {f"surface_{name}": getattr(surface, name) for name in _SURFACE_ARRAYS}
+        arrays |= {name: getattr(self, name) for name in _GRAPH_ARRAYS}
+        header = {
+            "terrain": self.terrain_digest,
+            "rules": self.rules.to_dict(),
+            "resolution": surface.resolution,
+            "shape": list(surface.shape),
+        }
+        archive.write_archive(path, _KIND, _VERSION, header, arrays)
+
+    @classmethod
+    def load(
+        cls, path: str | os.PathLike[str], terrain: Terrain | None = None, rules: WalkRules | None = None
+    ) -> "NodeGraph":
+        """Read a graph that `save` wrote.
+
+        With ``terrain`` or ``rules`` given, the graph must have been built from just these. Raises
+        `ArchiveError` for a file that is missing, cut off, or of another version, `NavmeshError` for one
+        made for another terrain or other rules.
+        """
+        header, arrays = archive.read_archive(path, _KIND, _VERSION)
+        try:
+            surface = Surface(
+                resolution=float(header["resolution"]),
+                shape=(int(header["shape"][0]), int(header["shape"][1])),
+                **{name: arrays.pop(f"surface_{name}") for name in _SURFACE_ARRAYS},
+            )
+            graph = cls(
+                terrain_digest=header["terrain"],
+                rules=WalkRules.from_dict(header["rules"]),
+                surface=surface,
+                **{name: arrays.pop(name) for name in _GRAPH_ARRAYS},
+            )
+        except KeyError as error:
+            raise archive.ArchiveError(f"{path}: the navigation graph lacks {error}; bake it anew") from error
+        if terrain is not None and terrain.digest != graph.terrain_digest:
+            raise NavmeshError(
+                f"{path}: baked from another terrain than {terrain.name} (digest {graph.terrain_digest[:12]}…, "
+                f"expected {terrain.digest[:12]}…); bake it anew"
+            )
+        if rules is not None and rules != graph.rules:
+            raise NavmeshError(f"{path}: baked with {graph.rules}, expected {rules}; bake it anew")
+        return graph
+
+    def to_networkx(self) -> networkx.Graph:
+        """The graph for analysis: nodes with ``position`` (x, y, z) and ``radius``, edges with ``width``
+        and ``length`` (distance between centres), all in metres."""
+        graph = networkx.Graph()
+        for i, (position, radius) in enumerate(
+            zip(self.positions.tolist(), self.radii.tolist(), strict=True)
+        ):
+            graph.add_node(i, position=tuple(position), radius=radius)
+        source = np.repeat(np.arange(len(self)), np.diff(self.edge_start))
+        lengths = np.linalg.norm(self.positions[source] - self.positions[self.edge_target], axis=1)
+        for a, b, width, length in zip(
+            source.tolist(),
+            self.edge_target.tolist(),
+            self.edge_width.tolist(),
+            lengths.tolist(),
+            strict=True,
+        ):
+            if a < b:
+                graph.add_edge(a, b, width=width, length=length)
+        return graph
+
+
+_SURFACE_ARRAYS = (
+    "origin",
+    "column_start",
+    "cell_column",
+    "height",
+    "gradient",
+    "link",
+    "clearance",
+    "nearest",
+)
+_GRAPH_ARRAYS = (
+    "positions",
+    "radii",
+    "node_cell",
+    "label",
+    "edge_start",
+    "edge_target",
+    "edge_width",
+    "edge_portal",
+    "edge_cells",
+)

@@ -1,0 +1,69 @@
+"""Nodes: the largest discs that fit the surface, greedily, until every cell wide enough is covered."""
+
+import numpy as np
+from numba import njit
+
+__all__ = ["select_nodes"]
+
+
+@njit(cache=True)
+def _claim_line(link, label, power, node, limit, c, d, dx, dy, sx, sy, resolution):
+    """Claim c for a disc, and the cells from it in direction d, as long as they lie in the disc."""
+    while c >= 0:
+        score = dx * dx + dy * dy - limit
+        if score > 1e-12:
+            return
+        if score < power[c]:
+            power[c] = score
+            label[c] = node
+        c = link[c, d]
+        dx += sx * resolution
+        dy += sy * resolution
+
+
+@njit(cache=True)
+def select_nodes(order, clearance, link, resolution, least):
+    """Greedy cover by maximal discs, largest first.
+
+    ``order`` (n,) int32: cells by falling clearance. A cell with at least ``least`` clearance that no disc
+    covers becomes the centre of one. Returns ``node_cell`` (m,) int32 and ``label`` (n,) int32: for each
+    covered cell the node whose disc it is deepest in (least d² - r²), else -1.
+    """
+    cells = clearance.shape[0]
+    label = np.full(cells, -1, np.int32)
+    power = np.full(cells, np.inf)
+    node_cell = np.empty(cells, np.int32)
+    nodes = 0
+    for k in range(cells):
+        c = order[k]
+        r = clearance[c]
+        if r < least:
+            break
+        if label[c] >= 0:
+            continue
+        limit = r * r
+        node_cell[nodes] = c
+        for d in range(0, 3, 2):
+            s = 1.0 if d == 0 else -1.0
+            spine = c if d == 0 else link[c, 2]
+            dx = 0.0 if d == 0 else -resolution
+            while spine >= 0 and dx * dx <= limit:
+                _claim_line(link, label, power, nodes, limit, spine, 1, dx, 0.0, 0.0, 1.0, resolution)
+                _claim_line(
+                    link,
+                    label,
+                    power,
+                    nodes,
+                    limit,
+                    link[spine, 3],
+                    3,
+                    dx,
+                    -resolution,
+                    0.0,
+                    -1.0,
+                    resolution,
+                )
+                spine = link[spine, d]
+                dx += s * resolution
+        nodes += 1
+    return node_cell[:nodes].copy(), label

@@ -1,0 +1,143 @@
+"""Triangles into the columns of a grid, in float64 and around a local origin.
+
+Conservative: a triangle is recorded in every column whose square it touches, so that a wall without
+thickness is never missed. What is in a column is decided later, on the triangles themselves.
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+
+__all__ = [
+    "FLOOR",
+    "PLANE",
+    "TRIANGLE_FIELDS",
+    "UPRIGHT",
+    "columns_of_triangles",
+    "prepare_triangles",
+]
+
+TRIANGLE_FIELDS = 15
+"""A prepared triangle: ax ay az bx by bz cx cy cz, plane p q s (z = p·x + q·y + s), z least, z greatest, kind."""
+UPRIGHT, PLANE, FLOOR = 0, 1, 2
+"""Kinds of triangle: without a height as a function of (x, y); with one; walkable by its slope."""
+
+_TOUCH = 1e-9  # [m] squares and triangles that only touch count as overlapping
+
+
+@njit(cache=True)
+def prepare_triangles(vertices, faces, origin, steepest):
+    """Triangles with what the kernels ask of them.
+
+    ``vertices`` (v, 3) float64, ``faces`` (f, 3) int32, ``origin`` (3,) float64 is subtracted;
+    ``steepest`` is the least vertical part of a walkable face's unit normal. Returns (t, 15) float64,
+    without the triangles that have no area.
+    """
+    count = faces.shape[0]
+    table = np.empty((count, 15), np.float64)
+    kept = 0
+    for f in range(count):
+        row = table[kept]
+        for k in range(3):
+            for j in range(3):
+                row[3 * k + j] = vertices[faces[f, k], j] - origin[j]
+        ux, uy, uz = row[3] - row[0], row[4] - row[1], row[5] - row[2]
+        vx, vy, vz = row[6] - row[0], row[7] - row[1], row[8] - row[2]
+        normal_x = uy * vz - uz * vy
+        normal_y = uz * vx - ux * vz
+        normal_z = ux * vy - uy * vx
+        size = math.sqrt(normal_x * normal_x + normal_y * normal_y + normal_z * normal_z)
+        if size < 1e-12:
+            continue
+        row[12] = min(row[2], row[5], row[8])
+        row[13] = max(row[2], row[5], row[8])
+        if abs(normal_z) < 1e-3 * size:
+            row[9] = row[10] = row[11] = 0.0
+            row[14] = 0.0
+        else:
+            row[9] = -normal_x / normal_z
+            row[10] = -normal_y / normal_z
+            row[11] = row[2] - row[9] * row[0] - row[10] * row[1]
+            row[14] = 2.0 if normal_z >= steepest * size else 1.0
+        kept += 1
+    return table[:kept]
+
+
+@njit(cache=True)
+def columns_of_triangles(table, resolution, nx, ny):
+    """The triangles that touch each column, as lists: ``start`` (nx·ny + 1,) int32 and ``triangle`` (k,) int32.
+
+    ``table`` comes from `prepare_triangles`. Column ix·ny + iy is the square
+    [ix, ix + 1] × [iy, iy + 1] in units of ``resolution``.
+    """
+    count = table.shape[0]
+    inverse = 1.0 / resolution
+    strips = 0
+    for t in range(count):
+        low = min(table[t, 0], table[t, 3], table[t, 6])
+        high = max(table[t, 0], table[t, 3], table[t, 6])
+        strips += int((high - low + 4e-9) * inverse) + 3
+    span = np.empty((strips, 3), np.int32)
+    start = np.zeros(nx * ny + 2, np.int32)
+    spans = 0
+    for t in range(count):
+        row = table[t]
+        low = min(row[0], row[3], row[6]) - 1e-9
+        high = max(row[0], row[3], row[6]) + 1e-9
+        first = max(0, int(math.floor(low * inverse)))
+        last = min(nx - 1, int(math.floor(high * inverse)))
+        for ix in range(first, last + 1):
+            x0 = ix * resolution - 1e-9
+            x1 = (ix + 1) * resolution + 1e-9
+            bottom = np.inf
+            top = -np.inf
+            for k in range(3):
+                ax = row[3 * k]
+                ay = row[3 * k + 1]
+                j = 3 * k + 3 if k < 2 else 0
+                bx = row[j]
+                by = row[j + 1]
+                if ax > bx:
+                    ax, ay, bx, by = bx, by, ax, ay
+                if bx < x0 or ax > x1:
+                    continue
+                if ax < x0:
+                    ay += (by - ay) * (x0 - ax) / (bx - ax)
+                    ax = x0
+                if bx > x1:
+                    by = ay + (by - ay) * (x1 - ax) / (bx - ax)
+                bottom = min(bottom, ay, by)
+                top = max(top, ay, by)
+            if bottom > top:
+                continue
+            iy0 = max(0, int(math.floor((bottom - 1e-9) * inverse)))
+            iy1 = min(ny - 1, int(math.floor((top + 1e-9) * inverse)))
+            if iy1 < iy0:
+                continue
+            span[spans, 0] = t
+            span[spans, 1] = ix * ny + iy0
+            span[spans, 2] = ix * ny + iy1 + 1
+            start[ix * ny + iy0 + 1] += 1
+            start[ix * ny + iy1 + 2] -= 1
+            spans += 1
+    # differences -> counts -> starts; `fill` walks each column's next free place
+    columns = nx * ny
+    fill = np.empty(columns, np.int32)
+    running = 0
+    total = 0
+    start[0] = 0
+    for c in range(columns):
+        running += start[c + 1]
+        fill[c] = total
+        total += running
+    triangle = np.empty(total, np.int32)
+    for k in range(spans):
+        t = span[k, 0]
+        for c in range(span[k, 1], span[k, 2]):
+            triangle[fill[c]] = t
+            fill[c] += 1
+    start[0] = 0
+    for c in range(columns):
+        start[c + 1] = fill[c]
+    return start[: columns + 1], triangle

@@ -1,0 +1,342 @@
+"""Measuring at rims: for points along the mesh's own edges, what kind of obstacle is there and how big.
+
+Heights, depths and widths come from the triangles (`navmesh.probes`), the free lengths before and behind
+from the cells of the walkable surface. One pass of `measure` over all rims; each sample stands alone.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from navmesh.obstacle_rules import ObstacleRules
+from navmesh.probes import crossed, lowest_above, surface_below
+from navmesh.rules import WalkRules
+from navmesh.surface import Surface
+
+__all__ = ["DROP", "GAP", "JUMP", "REACH", "VAULT", "Limits", "cells_of", "march", "measure", "seek"]
+
+JUMP, VAULT, DROP, GAP = 1, 2, 3, 4
+REACH = 30.0
+"""[m] free lengths are measured up to this."""
+
+_NEAR = 0.03  # [m] beside an edge
+_SAME = 0.05  # [m] surfaces this close in height go on into each other
+_SCAN = 0.05  # [m] stride of a scan across an obstacle, refined by halving
+_BEND = 0.02  # [m] a face that hangs from an edge may lean this little and still count as its foot
+
+
+class Limits(NamedTuple):
+    """`ObstacleRules` and `WalkRules` as plain numbers, with the walkable rises taken out."""
+
+    jump_low: float
+    jump_high: float
+    vault_low: float
+    vault_high: float
+    vault_depth: float
+    drop_low: float
+    drop_high: float
+    gap_low: float
+    gap_high: float
+    level: float
+    run_up: float
+    landing: float
+    step: float
+    headroom: float
+    slope: float
+
+    @classmethod
+    def of(cls, obstacles: ObstacleRules, walking: WalkRules) -> "Limits":
+        """The limits that the two sets of rules give together."""
+        above = walking.max_step + 1e-3
+        return cls(
+            max(obstacles.jump_rise[0] - 1e-6, above),
+            obstacles.jump_rise[1] + 1e-6,
+            max(obstacles.vault_height[0] - 1e-6, above),
+            obstacles.vault_height[1] + 1e-6,
+            obstacles.vault_depth,
+            max(obstacles.drop_height[0] - 1e-6, above),
+            obstacles.drop_height[1] + 1e-6,
+            obstacles.gap_width[0] - 1e-6,
+            obstacles.gap_width[1] + 1e-6,
+            obstacles.level,
+            obstacles.run_up,
+            obstacles.landing,
+            walking.max_step,
+            walking.headroom,
+            math.tan(walking.max_slope),
+        )
+
+
+def cells_of(surface: Surface) -> tuple:
+    """A `Surface` as the tuple that the kernels take as ``cells``."""
+    return (
+        surface.column_start,
+        surface.cell_column,
+        surface.height,
+        surface.gradient,
+        surface.link,
+        surface.resolution,
+        surface.shape[0],
+        surface.shape[1],
+    )
+
+
+@njit(cache=True)
+def seek(cells, x, y, z, dx, dy, slope, farthest):
+    """The first cell from (x, y, z) in direction (dx, dy): a floor near height z whose centre is ahead.
+
+    Returns (distance [m], cell), cell -1 when there is none within ``farthest``.
+    """
+    size = cells[5]
+    ny = cells[7]
+    stride = 0.25 * size
+    ahead = 0.02
+    while ahead <= farthest:
+        px = x + ahead * dx
+        py = y + ahead * dy
+        ix = int(math.floor(px / size))
+        iy = int(math.floor(py / size))
+        if 0 <= ix < cells[6] and 0 <= iy < ny:
+            ux = (ix + 0.5) * size - x
+            uy = (iy + 0.5) * size - y
+            if ux * dx + uy * dy > 1e-6:
+                column = ix * ny + iy
+                best = -1
+                least = _SAME + ahead * slope
+                for k in range(cells[0][column], cells[0][column + 1]):
+                    there = cells[2][k] + cells[3][k, 0] * (px - x - ux) + cells[3][k, 1] * (py - y - uy)
+                    if abs(there - z) < least:
+                        least = abs(there - z)
+                        best = k
+                if best >= 0:
+                    return ahead, best
+        ahead += stride
+    return 0.0, -1
+
+
+@njit(cache=True)
+def march(cells, cell, x, y, dx, dy, limit):
+    """Free length [m] from (x, y) in ``cell`` straight in direction (dx, dy), at most ``limit``.
+
+    Returns (length, cell where it ends).
+    """
+    size = cells[5]
+    column = cells[1][cell]
+    ix = column // cells[7]
+    iy = column - ix * cells[7]
+    way_x = 1 if dx > 0.0 else -1
+    way_y = 1 if dy > 0.0 else -1
+    next_x = ((ix + (dx > 0.0)) * size - x) / dx if abs(dx) > 1e-12 else np.inf
+    next_y = ((iy + (dy > 0.0)) * size - y) / dy if abs(dy) > 1e-12 else np.inf
+    step_x = size / abs(dx) if abs(dx) > 1e-12 else np.inf
+    step_y = size / abs(dy) if abs(dy) > 1e-12 else np.inf
+    while True:
+        if next_x < next_y:
+            gone = next_x
+            direction = 0 if way_x > 0 else 2
+            next_x += step_x
+        else:
+            gone = next_y
+            direction = 1 if way_y > 0 else 3
+            next_y += step_y
+        if gone >= limit:
+            return limit, cell
+        following = cells[4][cell, direction]
+        if following < 0:
+            return gone, cell
+        cell = following
+
+
+@njit(cache=True)
+def _room(cells, x, y, z, dx, dy, slope):
+    """Free length from an edge point on: (length [m], distance to the first cell [m], cell or -1)."""
+    ahead, cell = seek(cells, x, y, z, dx, dy, slope, 1.6 * cells[5])
+    if cell < 0:
+        return 0.0, 0.0, -1
+    length, _ = march(cells, cell, x + ahead * dx, y + ahead * dy, dx, dy, REACH)
+    return ahead + length, ahead, cell
+
+
+@njit(cache=True)
+def _foot(grid, x, y, z, dx, dy, lowest):
+    """The floor at the foot of an edge: (state, its height at the edge [m]).
+
+    State 0: the surface goes on, there is no fall. 1: a floor. 2: nothing to stand on.
+    """
+    for j in range(4):
+        off = (0.03, 0.1, 0.2, 0.3)[j]
+        px = x + off * dx
+        py = y + off * dy
+        found, t = surface_below(grid, px, py, lowest, z + _BEND)
+        if t < 0:
+            continue
+        if grid[0][t, 14] == 2.0:
+            if found > z - _SAME:
+                return 0, 0.0
+            return 1, grid[0][t, 9] * x + grid[0][t, 10] * y + grid[0][t, 11]
+        if grid[0][t, 14] == 1.0 and found > z - 1e-4:
+            return 0, 0.0
+    return 2, 0.0
+
+
+@njit(cache=True)
+def _air(grid, ax, ay, az, bx, by, bz, headroom):
+    """Whether a body passes upright from a to b (heights of its feet) without touching the mesh."""
+    for j in range(4):
+        up = (0.08, 0.3 * headroom, 0.6 * headroom, 0.95 * headroom)[j]
+        if crossed(grid, ax, ay, az + up, bx, by, bz + up):
+            return False
+    return True
+
+
+@njit(cache=True)
+def _behind(grid, x, y, z, dx, dy, floor, limits):
+    """Scan across something thin: (its depth [m] or -1, height of the floor behind it [m])."""
+    last = 0.0
+    t = _SCAN
+    while t <= limits.vault_depth + 0.3:
+        found, which = surface_below(grid, x + t * dx, y + t * dy, -np.inf, z + limits.headroom)
+        if which >= 0:
+            if found > z + _SAME:
+                return -1.0, 0.0
+            if found > z - 0.15:
+                last = t
+                if last > limits.vault_depth:
+                    return -1.0, 0.0
+            elif grid[0][which, 14] == 2.0 and abs(found - floor) <= limits.level + 1e-6:
+                low, high = last, last + _SCAN
+                while high - low > 5e-4:
+                    middle = 0.5 * (low + high)
+                    there, _ = surface_below(grid, x + middle * dx, y + middle * dy, z - 0.15, z + _SAME)
+                    if there > -np.inf:
+                        low = middle
+                    else:
+                        high = middle
+                return 0.5 * (low + high), found
+            elif grid[0][which, 14] == 2.0:
+                return -1.0, 0.0
+        t += _SCAN
+    return -1.0, 0.0
+
+
+@njit(cache=True)
+def _across(grid, cells, x, y, z, dx, dy, limits):
+    """Scan across a gap: (its width [m] or -1, height of the floor on the other side [m])."""
+    size = cells[5]
+    ny = cells[7]
+    seen = False
+    t = 0.5 * size
+    while t <= limits.gap_high + size and not seen:
+        ix = int(math.floor((x + t * dx) / size))
+        iy = int(math.floor((y + t * dy) / size))
+        if 0 <= ix < cells[6] and 0 <= iy < ny:
+            for k in range(cells[0][ix * ny + iy], cells[0][ix * ny + iy + 1]):
+                seen = seen or abs(cells[2][k] - z) <= limits.level + size * limits.slope
+        t += 0.5 * size
+    if not seen:
+        return -1.0, 0.0
+    below = z - max(limits.step, limits.level)
+    t = _SCAN
+    while t <= limits.gap_high + _SCAN:
+        found, which = surface_below(grid, x + t * dx, y + t * dy, -np.inf, z + limits.headroom)
+        if which >= 0 and found > below:
+            if found > z + limits.level or grid[0][which, 14] != 2.0:
+                return -1.0, 0.0
+            low, high = t - _SCAN, t
+            while high - low > 5e-4:
+                middle = 0.5 * (low + high)
+                there, _ = surface_below(grid, x + middle * dx, y + middle * dy, below, z + limits.level)
+                if there > -np.inf:
+                    high = middle
+                else:
+                    low = middle
+            width = 0.5 * (low + high)
+            if width < limits.gap_low or width > limits.gap_high:
+                return -1.0, 0.0
+            return width, found
+        t += _SCAN
+    return -1.0, 0.0
+
+
+@njit(cache=True)
+def _measure_one(grid, cells, x, y, z, ox, oy, limits, kind, size):
+    """Measure at the edge point (x, y, z) with the fall towards (ox, oy); see `measure` for the slots."""
+    state, floor = _foot(grid, x, y, z, ox, oy, z - 5.0)
+    if state == 0:
+        return
+    height = z - floor if state == 1 else np.inf
+    if height <= limits.step:
+        return
+    lean = _SAME + _NEAR * limits.slope
+    if lowest_above(grid, x + _NEAR * ox, y + _NEAR * oy, z + lean, z + limits.headroom) < np.inf:
+        return
+    if lowest_above(grid, x - _NEAR * ox, y - _NEAR * oy, z + lean, z + limits.headroom) < np.inf:
+        return
+    _, t = surface_below(grid, x - _NEAR * ox, y - _NEAR * oy, z - lean, z + lean)
+    rim = t >= 0 and grid[0][t, 14] == 2.0
+    top, top_ahead, top_cell = 0.0, 0.0, -1
+    if rim:
+        top, top_ahead, top_cell = _room(cells, x, y, z, -ox, -oy, limits.slope)
+    low, low_ahead, low_cell = 0.0, 0.0, -1
+    if state == 1 and (
+        height <= limits.drop_high or height <= limits.vault_high or height <= limits.jump_high
+    ):
+        low, low_ahead, low_cell = _room(cells, x, y, floor, ox, oy, limits.slope)
+    lx, ly = x + low_ahead * ox, y + low_ahead * oy
+    tx, ty = x - top_ahead * ox, y - top_ahead * oy
+    top_z = max(z, cells[2][top_cell]) if top_cell >= 0 else z
+    if low_cell >= 0 and low >= limits.run_up:
+        if top >= limits.landing and limits.jump_low <= height <= limits.jump_high:
+            if _air(grid, lx, ly, z, tx, ty, top_z, limits.headroom):
+                kind[0] = JUMP
+                size[0, 0], size[0, 1], size[0, 2], size[0, 3] = height, top, low, top
+        elif limits.vault_low <= height <= limits.vault_high:
+            depth, behind = _behind(grid, x, y, z, -ox, -oy, floor, limits)
+            if depth >= 0.0:
+                bx, by = x - depth * ox, y - depth * oy
+                room, ahead, cell = _room(cells, bx, by, behind, -ox, -oy, limits.slope)
+                if cell >= 0 and room >= limits.landing:
+                    fx, fy = bx - ahead * ox, by - ahead * oy
+                    if _air(grid, lx, ly, z, fx, fy, z, limits.headroom):
+                        kind[0] = VAULT
+                        size[0, 0], size[0, 1], size[0, 2], size[0, 3] = height, depth, low, room
+    if top_cell < 0 or top < limits.run_up:
+        return
+    if low_cell >= 0 and low >= limits.landing and limits.drop_low <= height <= limits.drop_high:
+        if _air(grid, tx, ty, top_z, lx, ly, z, limits.headroom):
+            kind[1] = DROP
+            size[1, 0], size[1, 1], size[1, 2], size[1, 3] = height, low, top, low
+    width, other = _across(grid, cells, x, y, z, ox, oy, limits)
+    if width >= 0.0:
+        bx, by = x + width * ox, y + width * oy
+        room, ahead, cell = _room(cells, bx, by, other, ox, oy, limits.slope)
+        if cell >= 0 and room >= limits.landing:
+            fx, fy = bx + ahead * ox, by + ahead * oy
+            if _air(grid, tx, ty, top_z, fx, fy, max(other, cells[2][cell]), limits.headroom):
+                kind[2] = GAP
+                size[2, 0], size[2, 1], size[2, 2], size[2, 3] = other - z, width, top, room
+
+
+@njit(cache=True)
+def measure(grid, cells, start, end, outward, first, limits):
+    """Measure every rim at evenly spread points: the middles of first[i + 1] - first[i] equal parts.
+
+    ``start``, ``end`` (n, 3), ``outward`` (n, 2), ``first`` (n + 1,) int64. Returns ``kind`` (s, 3) int8,
+    0 where there is nothing, and ``size`` (s, 3, 4) float64 [m]: height, depth, run-up, landing. The slots are:
+    0 what one meets from below (jump or vault), 1 the drop, 2 the gap.
+    """
+    samples = first[-1]
+    kind = np.zeros((samples, 3), np.int8)
+    size = np.zeros((samples, 3, 4), np.float64)
+    for i in range(len(start)):
+        parts = first[i + 1] - first[i]
+        for j in range(parts):
+            s = (j + 0.5) / parts
+            x = start[i, 0] + s * (end[i, 0] - start[i, 0])
+            y = start[i, 1] + s * (end[i, 1] - start[i, 1])
+            z = start[i, 2] + s * (end[i, 2] - start[i, 2])
+            at = first[i] + j
+            _measure_one(grid, cells, x, y, z, outward[i, 0], outward[i, 1], limits, kind[at], size[at])
+    return kind, size

@@ -1,0 +1,196 @@
+"""Questions to the triangles themselves: what is under a point, what is above it, what crosses a line.
+
+Kernels over the prepared triangles and column lists of `navmesh.raster`; all coordinates are relative to
+the origin that the triangles were prepared with. `brute_surface_below` and `brute_crossed` are the slow
+references of the tests.
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from navmesh.raster import columns_of_triangles, prepare_triangles
+
+__all__ = ["ProbeGrid", "brute_crossed", "brute_surface_below", "crossed", "lowest_above", "surface_below"]
+
+_EDGE = 1e-7  # [m] points this close to a triangle's edge are on it
+
+
+class ProbeGrid:
+    """Triangles of a mesh filed by the squares that they touch."""
+
+    def __init__(self, vertices: np.ndarray, faces: np.ndarray, origin: np.ndarray, max_slope: float) -> None:
+        """``vertices`` (v, 3) float64 [m], ``faces`` (f, 3) int32, ``origin`` (3,) below and left of all."""
+        self.triangles = prepare_triangles(vertices, faces, origin, math.cos(max_slope))
+        high = (vertices.max(axis=0) - origin)[:2] if len(vertices) else np.ones(2)
+        self.size = max(0.5, float(high.max()) / 1000.0)
+        """[m], side of a square."""
+        self.shape = (int(high[0] / self.size) + 1, int(high[1] / self.size) + 1)
+        self.start, self.member = columns_of_triangles(self.triangles, self.size, *self.shape)
+
+    @property
+    def arrays(self) -> tuple:
+        """What the kernels take as ``grid``: triangles, start, member, size, nx, ny."""
+        return self.triangles, self.start, self.member, self.size, self.shape[0], self.shape[1]
+
+
+@njit(cache=True, inline="always")
+def _column(grid, x, y):
+    ix = int(math.floor(x / grid[3]))
+    iy = int(math.floor(y / grid[3]))
+    if ix < 0 or iy < 0 or ix >= grid[4] or iy >= grid[5]:
+        return -1
+    return ix * grid[5] + iy
+
+
+@njit(cache=True, inline="always")
+def _over(row, x, y):
+    """Whether (x, y) is inside a prepared triangle that has a height there."""
+    turn = 0
+    for k in range(3):
+        j = 3 * k + 3 if k < 2 else 0
+        dx = row[j] - row[3 * k]
+        dy = row[j + 1] - row[3 * k + 1]
+        cross = dx * (y - row[3 * k + 1]) - dy * (x - row[3 * k])
+        if abs(cross) <= _EDGE * math.sqrt(dx * dx + dy * dy):
+            continue
+        now = 1 if cross > 0.0 else -1
+        if turn == 0:
+            turn = now
+        elif turn != now:
+            return False
+    return True
+
+
+@njit(cache=True)
+def surface_below(grid, x, y, low, high):
+    """The highest surface under (x, y) with a height in [low, high].
+
+    Returns (height [m], triangle): the triangle is -1 when there is none. Of surfaces at the same height
+    a floor counts before anything else.
+    """
+    table = grid[0]
+    column = _column(grid, x, y)
+    best = -np.inf
+    which = -1
+    if column < 0:
+        return best, which
+    for k in range(grid[1][column], grid[1][column + 1]):
+        t = grid[2][k]
+        row = table[t]
+        if row[14] == 0.0 or row[12] > high or row[13] < best - 1e-6:
+            continue
+        z = row[9] * x + row[10] * y + row[11]
+        if z > high or z < low or z < best - 1e-6:
+            continue
+        if which >= 0 and abs(z - best) <= 1e-6 and not (row[14] == 2.0 and table[which, 14] != 2.0):
+            continue
+        if _over(row, x, y):
+            best = z
+            which = t
+    return best, which
+
+
+@njit(cache=True)
+def lowest_above(grid, x, y, low, high):
+    """Height [m] of the lowest surface over (x, y) strictly between ``low`` and ``high``, or infinity."""
+    table = grid[0]
+    column = _column(grid, x, y)
+    best = np.inf
+    if column < 0:
+        return best
+    for k in range(grid[1][column], grid[1][column + 1]):
+        row = table[grid[2][k]]
+        if row[14] == 0.0 or row[13] <= low or row[12] >= high:
+            continue
+        z = row[9] * x + row[10] * y + row[11]
+        if low < z < high and z < best and _over(row, x, y):
+            best = z
+    return best
+
+
+@njit(cache=True)
+def _hits(row, px, py, pz, dx, dy, dz):
+    """Whether the segment p to p + d meets a prepared triangle."""
+    e1x, e1y, e1z = row[3] - row[0], row[4] - row[1], row[5] - row[2]
+    e2x, e2y, e2z = row[6] - row[0], row[7] - row[1], row[8] - row[2]
+    hx = dy * e2z - dz * e2y
+    hy = dz * e2x - dx * e2z
+    hz = dx * e2y - dy * e2x
+    a = e1x * hx + e1y * hy + e1z * hz
+    scale = (abs(e1x) + abs(e1y) + abs(e1z)) * (abs(hx) + abs(hy) + abs(hz))
+    if abs(a) <= 1e-12 * scale or a == 0.0:
+        return False
+    sx, sy, sz = px - row[0], py - row[1], pz - row[2]
+    u = (sx * hx + sy * hy + sz * hz) / a
+    if u < -1e-9 or u > 1.0 + 1e-9:
+        return False
+    qx = sy * e1z - sz * e1y
+    qy = sz * e1x - sx * e1z
+    qz = sx * e1y - sy * e1x
+    v = (dx * qx + dy * qy + dz * qz) / a
+    if v < -1e-9 or u + v > 1.0 + 1e-9:
+        return False
+    t = (e2x * qx + e2y * qy + e2z * qz) / a
+    return -1e-9 <= t <= 1.0 + 1e-9
+
+
+@njit(cache=True)
+def crossed(grid, px, py, pz, qx, qy, qz):
+    """Whether anything of the mesh crosses the segment p-q (metres)."""
+    size = grid[3]
+    dx, dy, dz = qx - px, qy - py, qz - pz
+    low = min(pz, qz)
+    high = max(pz, qz)
+    left, right = min(px, qx), max(px, qx)
+    first = max(0, int(math.floor(left / size)))
+    last = min(grid[4] - 1, int(math.floor(right / size)))
+    for ix in range(first, last + 1):
+        # the stretch of the segment over this strip of squares
+        y0, y1 = py, qy
+        if abs(dx) > 1e-12:
+            t0 = (max(left, ix * size) - px) / dx
+            t1 = (min(right, (ix + 1) * size) - px) / dx
+            y0 = py + min(max(t0, 0.0), 1.0) * dy
+            y1 = py + min(max(t1, 0.0), 1.0) * dy
+        if y0 > y1:
+            y0, y1 = y1, y0
+        for iy in range(
+            max(0, int(math.floor(y0 / size - 1e-9))), min(grid[5] - 1, int(math.floor(y1 / size + 1e-9))) + 1
+        ):
+            column = ix * grid[5] + iy
+            for k in range(grid[1][column], grid[1][column + 1]):
+                row = grid[0][grid[2][k]]
+                if row[12] > high or row[13] < low:
+                    continue
+                if _hits(row, px, py, pz, dx, dy, dz):
+                    return True
+    return False
+
+
+def brute_surface_below(triangles: np.ndarray, x: float, y: float, low: float, high: float) -> float:
+    """`surface_below` over all prepared ``triangles`` (t, 15), by barycentric coordinates; height or -inf."""
+    best = -math.inf
+    for row in triangles:
+        a, b, c = row[:9].reshape(3, 3)
+        if row[14] == 0.0:
+            continue
+        weights = np.linalg.solve(np.array([[a[0], b[0], c[0]], [a[1], b[1], c[1]], [1, 1, 1]]), [x, y, 1.0])
+        z = float(weights @ (a[2], b[2], c[2]))
+        if weights.min() >= -1e-9 and low <= z <= high:
+            best = max(best, z)
+    return best
+
+
+def brute_crossed(triangles: np.ndarray, p: np.ndarray, q: np.ndarray) -> bool:
+    """`crossed` over all prepared ``triangles`` (t, 15): solves p + t·(q - p) = a + u·(b - a) + v·(c - a)."""
+    for row in triangles:
+        a, b, c = row[:9].reshape(3, 3)
+        matrix = np.column_stack((p - q, b - a, c - a))
+        if abs(np.linalg.det(matrix)) < 1e-12:
+            continue
+        t, u, v = np.linalg.solve(matrix, p - a)
+        if 0 <= t <= 1 and u >= 0 and v >= 0 and u + v <= 1:
+            return True
+    return False

@@ -18,7 +18,7 @@ from navmesh.surface import Surface
 __all__ = ["DROP", "GAP", "JUMP", "REACH", "VAULT", "Limits", "cells_of", "march", "measure", "seek"]
 
 JUMP, VAULT, DROP, GAP = 1, 2, 3, 4
-REACH = 30.0
+REACH = 50.0
 """[m] free lengths are measured up to this."""
 
 _NEAR = 0.03  # [m] beside an edge
@@ -96,8 +96,8 @@ def seek(cells, x, y, z, dx, dy, slope, farthest):
     while ahead <= farthest:
         px = x + ahead * dx
         py = y + ahead * dy
-        ix = int(math.floor(px / size))
-        iy = int(math.floor(py / size))
+        ix = math.floor(px / size)
+        iy = math.floor(py / size)
         if 0 <= ix < cells[6] and 0 <= iy < ny:
             ux = (ix + 0.5) * size - x
             uy = (iy + 0.5) * size - y
@@ -156,7 +156,7 @@ def _room(cells, x, y, z, dx, dy, slope):
     if cell < 0:
         return 0.0, 0.0, -1
     length, _ = march(cells, cell, x + ahead * dx, y + ahead * dy, dx, dy, REACH)
-    return ahead + length, ahead, cell
+    return min(ahead + length, REACH), ahead, cell
 
 
 @njit(cache=True)
@@ -229,8 +229,8 @@ def _across(grid, cells, x, y, z, dx, dy, limits):
     seen = False
     t = 0.5 * size
     while t <= limits.gap_high + size and not seen:
-        ix = int(math.floor((x + t * dx) / size))
-        iy = int(math.floor((y + t * dy) / size))
+        ix = math.floor((x + t * dx) / size)
+        iy = math.floor((y + t * dy) / size)
         if 0 <= ix < cells[6] and 0 <= iy < ny:
             for k in range(cells[0][ix * ny + iy], cells[0][ix * ny + iy + 1]):
                 seen = seen or abs(cells[2][k] - z) <= limits.level + size * limits.slope
@@ -258,6 +258,15 @@ def _across(grid, cells, x, y, z, dx, dy, limits):
             return width, found
         t += _SCAN
     return -1.0, 0.0
+
+
+@njit(cache=True, inline="always")
+def _note(row, height, depth, run_up, landing, rise):
+    row[0] = height
+    row[1] = depth
+    row[2] = run_up
+    row[3] = landing
+    row[4] = rise
 
 
 @njit(cache=True)
@@ -291,7 +300,7 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, kind, size):
         if top >= limits.landing and limits.jump_low <= height <= limits.jump_high:
             if _air(grid, lx, ly, z, tx, ty, top_z, limits.headroom):
                 kind[0] = JUMP
-                size[0, 0], size[0, 1], size[0, 2], size[0, 3] = height, top, low, top
+                _note(size[0], height, top, low, top, height)
         elif limits.vault_low <= height <= limits.vault_high:
             depth, behind = _behind(grid, x, y, z, -ox, -oy, floor, limits)
             if depth >= 0.0:
@@ -301,13 +310,13 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, kind, size):
                     fx, fy = bx - ahead * ox, by - ahead * oy
                     if _air(grid, lx, ly, z, fx, fy, z, limits.headroom):
                         kind[0] = VAULT
-                        size[0, 0], size[0, 1], size[0, 2], size[0, 3] = height, depth, low, room
+                        _note(size[0], height, depth, low, room, behind - floor)
     if top_cell < 0 or top < limits.run_up:
         return
     if low_cell >= 0 and low >= limits.landing and limits.drop_low <= height <= limits.drop_high:
         if _air(grid, tx, ty, top_z, lx, ly, z, limits.headroom):
             kind[1] = DROP
-            size[1, 0], size[1, 1], size[1, 2], size[1, 3] = height, low, top, low
+            _note(size[1], height, 0.0, top, low, -height)
     width, other = _across(grid, cells, x, y, z, ox, oy, limits)
     if width >= 0.0:
         bx, by = x + width * ox, y + width * oy
@@ -316,7 +325,7 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, kind, size):
             fx, fy = bx + ahead * ox, by + ahead * oy
             if _air(grid, tx, ty, top_z, fx, fy, max(other, cells[2][cell]), limits.headroom):
                 kind[2] = GAP
-                size[2, 0], size[2, 1], size[2, 2], size[2, 3] = other - z, width, top, room
+                _note(size[2], other - z, width, top, room, other - z)
 
 
 @njit(cache=True)
@@ -324,12 +333,12 @@ def measure(grid, cells, start, end, outward, first, limits):
     """Measure every rim at evenly spread points: the middles of first[i + 1] - first[i] equal parts.
 
     ``start``, ``end`` (n, 3), ``outward`` (n, 2), ``first`` (n + 1,) int64. Returns ``kind`` (s, 3) int8,
-    0 where there is nothing, and ``size`` (s, 3, 4) float64 [m]: height, depth, run-up, landing. The slots are:
-    0 what one meets from below (jump or vault), 1 the drop, 2 the gap.
+    0 where there is nothing, and ``size`` (s, 3, 5) float64 [m]: height, depth, run-up, landing, rise from the
+    floor before to the floor behind. Slots: 0 what one meets from below (jump or vault), 1 the drop, 2 the gap.
     """
     samples = first[-1]
     kind = np.zeros((samples, 3), np.int8)
-    size = np.zeros((samples, 3, 4), np.float64)
+    size = np.zeros((samples, 3, 5), np.float64)
     for i in range(len(start)):
         parts = first[i + 1] - first[i]
         for j in range(parts):

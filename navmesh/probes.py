@@ -37,8 +37,8 @@ class ProbeGrid:
 
 @njit(cache=True, inline="always")
 def _column(grid, x, y):
-    ix = int(math.floor(x / grid[3]))
-    iy = int(math.floor(y / grid[3]))
+    ix = math.floor(x / grid[3])
+    iy = math.floor(y / grid[3])
     if ix < 0 or iy < 0 or ix >= grid[4] or iy >= grid[5]:
         return -1
     return ix * grid[5] + iy
@@ -144,8 +144,8 @@ def crossed(grid, px, py, pz, qx, qy, qz):
     low = min(pz, qz)
     high = max(pz, qz)
     left, right = min(px, qx), max(px, qx)
-    first = max(0, int(math.floor(left / size)))
-    last = min(grid[4] - 1, int(math.floor(right / size)))
+    first = max(0, math.floor(left / size))
+    last = min(grid[4] - 1, math.floor(right / size))
     for ix in range(first, last + 1):
         # the stretch of the segment over this strip of squares
         y0, y1 = py, qy
@@ -157,7 +157,7 @@ def crossed(grid, px, py, pz, qx, qy, qz):
         if y0 > y1:
             y0, y1 = y1, y0
         for iy in range(
-            max(0, int(math.floor(y0 / size - 1e-9))), min(grid[5] - 1, int(math.floor(y1 / size + 1e-9))) + 1
+            max(0, math.floor(y0 / size - 1e-9)), min(grid[5] - 1, math.floor(y1 / size + 1e-9)) + 1
         ):
             column = ix * grid[5] + iy
             for k in range(grid[1][column], grid[1][column + 1]):

@@ -1,8 +1,8 @@
 """Rims: the mesh's own edges at which a floor, or the top of a wall, ends with a fall beyond it.
 
-Found from triangles alone, before any sampling of the surface, so a rim is as exact as the mesh. There are two
-kinds: the rim of a floor (a walkable face on one side of the edge and none on the other), and the ridge of
-something that has no floor on top (a fence without thickness, a pointed wall).
+Found from triangles alone, before any sampling of the surface, so a rim is as exact as the mesh. There are
+two kinds: the rim of a floor (a walkable face on one side of the edge and none on the other), and the ridge
+of something that has no floor on top (a fence without thickness, a pointed wall).
 """
 
 import math

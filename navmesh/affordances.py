@@ -1,0 +1,145 @@
+"""Affordances: the obstacles of a level that a skill can clear, found from its mesh alone.
+
+Three stages: the mesh's edges at which there is a fall (`navmesh.rims`), measuring at points along them
+(`navmesh.measuring`), and joining like points to obstacles with a frame (`navmesh.stretches`).
+"""
+
+import math
+
+import numpy as np
+
+from navmesh.measuring import DROP, GAP, JUMP, VAULT, Limits, cells_of, measure
+from navmesh.obstacle_rules import AFFORDANCES, ObstacleRules
+from navmesh.obstacles import Obstacles
+from navmesh.probes import ProbeGrid
+from navmesh.rims import Rims, find_rims
+from navmesh.rules import WalkRules
+from navmesh.stretches import Samples, Stretch, join_samples
+from navmesh.surface import Surface
+from navmesh.terrain import Terrain
+
+__all__ = ["detect_obstacles", "tag_names"]
+
+_SPACING = 0.2  # [m] distance between samples along a rim
+_SLOT = {JUMP: 0, VAULT: 0, DROP: 1, GAP: 2}
+
+
+def detect_obstacles(
+    terrain: Terrain, surface: Surface, walking: WalkRules, rules: ObstacleRules | None = None
+) -> Obstacles:
+    """The obstacles of ``terrain``, whose walkable ``surface`` was built under ``walking``.
+
+    ``rules`` (default `ObstacleRules()`) say what counts as clearable. What ``walking.max_step`` lets a body
+    walk over is no obstacle.
+    """
+    rules = rules or ObstacleRules()
+    rims = find_rims(terrain.vertices - surface.origin, terrain.faces, walking.max_slope)
+    if not len(rims):
+        return Obstacles.empty()
+    grid = ProbeGrid(terrain.vertices, terrain.faces, surface.origin, walking.max_slope)
+    limits = Limits.of(rules, walking)
+    along = rims.end - rims.start
+    length = np.linalg.norm(along, axis=1)
+    parts = np.maximum(1, np.ceil(length / _SPACING - 1e-9)).astype(np.int64)
+    first = np.concatenate(([0], np.cumsum(parts)))
+    kind, size = measure(grid.arrays, cells_of(surface), rims.start, rims.end, rims.outward, first, limits)
+    found = []
+    for code, name in enumerate(AFFORDANCES, start=1):
+        slot = _SLOT[code]
+        hits = np.flatnonzero(kind[:, slot] == code)
+        if not len(hits):
+            continue
+        samples = _samples(rims, along / length[:, None], length / parts, first, hits, size[hits, slot], code)
+        stretches = join_samples(samples, 2.0 * rules.body_radius)
+        if stretches:
+            found.append(_frames(name, code, stretches, size[hits, slot], samples, grid, surface, limits))
+    if not found:
+        return Obstacles.empty()
+    joined = Obstacles(
+        **{name: np.concatenate([part.arrays()[name] for part in found]) for name in found[0].arrays()}
+    )
+    world = joined.arrays()
+    world["position"] = world["position"] + surface.origin
+    world["rim"] = world["rim"] + surface.origin
+    world["tag"] = tag_names(world["affordance"], world["position"], world["normal"])
+    return Obstacles(**world).sorted()
+
+
+def tag_names(affordance: np.ndarray, position: np.ndarray, normal: np.ndarray) -> np.ndarray:
+    """Names (k,) str of detected obstacles: affordance, place [0.1 m] and heading of the run-up [degrees]."""
+    names = []
+    for what, (x, y, z), (nx, ny, _) in zip(affordance, position, normal, strict=True):
+        heading = round(math.degrees(math.atan2(-ny, -nx))) % 360
+        names.append(f"{what}@{x:.1f},{y:.1f},{z:.1f}/{heading}".replace("-0.0", "0.0"))
+    return np.array(names, "<U64")
+
+
+def _samples(
+    rims: Rims,
+    along: np.ndarray,
+    spacing: np.ndarray,
+    first: np.ndarray,
+    hits: np.ndarray,
+    size: np.ndarray,
+    code: int,
+) -> Samples:
+    rim = np.searchsorted(first, hits, side="right") - 1
+    part = (hits - first[rim] + 0.5) / (first[rim + 1] - first[rim])
+    return Samples(
+        point=rims.start[rim] + part[:, None] * (rims.end[rim] - rims.start[rim]),
+        along=along[rim],
+        outward=rims.outward[rim],
+        half=0.5 * spacing[rim],
+        height=size[:, 0],
+        depth=size[:, 1] if code in (VAULT, GAP) else np.zeros(len(hits)),
+    )
+
+
+def _frames(
+    name: str,
+    code: int,
+    stretches: list[Stretch],
+    size: np.ndarray,
+    samples: Samples,
+    grid: ProbeGrid,
+    surface: Surface,
+    limits: Limits,
+) -> Obstacles:
+    """Obstacles (relative to the surface's origin) of stretches; measured anew at the middle of each."""
+    count = len(stretches)
+    middle = np.array([stretch.middle for stretch in stretches])
+    outward = np.array([stretch.outward for stretch in stretches])
+    slot = _SLOT[code]
+    kind, fresh = measure(
+        grid.arrays, cells_of(surface), middle, middle, outward, np.arange(count + 1), limits
+    )
+    values = fresh[:, slot].copy()
+    for i, stretch in enumerate(stretches):
+        apart = np.linalg.norm(samples.point[stretch.members] - stretch.middle, axis=1)
+        if kind[i, slot] != code:  # half-way is a seam where nothing fits: the sample beside it stands in
+            nearest = stretch.members[int(np.argmin(apart))]
+            values[i] = size[nearest]
+            middle[i], outward[i] = samples.point[nearest], samples.outward[nearest]
+        around = size[stretch.members[apart <= 0.3 + _SPACING]]
+        if len(around):
+            values[i, 2:4] = np.minimum(values[i, 2:4], around[:, 2:4].min(axis=0))
+    from_above = code in (DROP, GAP)
+    rim = np.array([(stretch.start, stretch.end) for stretch in stretches])
+    # the fall is to the right of start → end: start is on the left for who comes from below
+    if from_above:
+        rim = rim[:, ::-1]
+    normal = np.column_stack((-outward if from_above else outward, np.zeros(count)))
+    return Obstacles(
+        affordance=np.full(count, name, "<U5"),
+        position=middle,
+        normal=normal + 0.0,
+        height=values[:, 0],
+        depth=values[:, 3] if code == JUMP else values[:, 1],
+        width=np.array([stretch.width for stretch in stretches]),
+        rim=rim,
+        run_up=values[:, 2],
+        landing=values[:, 3],
+        rise=values[:, 4],
+        tag=np.full(count, "", "<U64"),
+        authored=np.zeros(count, np.bool_),
+    )

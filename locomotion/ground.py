@@ -112,7 +112,8 @@ class Ground:
         triangles = self._arrays.rows[:_MESH_FACES, 16:25].reshape(-1, 3)
         spec.add_mesh(
             name="ground", uservert=triangles.reshape(-1).astype(np.float32),
-            userface=np.arange(len(triangles), dtype=np.int32), inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL,
+            userface=np.arange(len(triangles), dtype=np.int32),
+            inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL,
         )  # fmt: skip
         spec.worldbody.add_geom(
             name="ground_mesh", type=mujoco.mjtGeom.mjGEOM_MESH, meshname="ground", pos=self._origin,
@@ -126,14 +127,14 @@ class Ground:
         except KeyError:
             raise LocomotionError("the model has no geom called 'ground'; build it with add_to") from None
         if model.nuser_geom < 3 or tuple(model.geom_user[geom, :3]) != (MARK, self._slot, self._number):
-            raise LocomotionError("the model was built for another ground, or in another process; build it again")
+            raise LocomotionError("the model was built for another ground or in another process")
         allowed = (int(mujoco.mjtGeom.mjGEOM_SPHERE), int(mujoco.mjtGeom.mjGEOM_CAPSULE))
         for i in range(model.ngeom):
             touches = model.geom_contype[i] & model.geom_conaffinity[geom]
             touches |= model.geom_contype[geom] & model.geom_conaffinity[i]
             if i != geom and touches and model.geom_bodyid[i] and int(model.geom_type[i]) not in allowed:
                 raise LocomotionError(
-                    f"geom {i} ({model.geom(i).name!r}) is neither a sphere nor a capsule and cannot touch the ground"
+                    f"geom {i} ({model.geom(i).name!r}) is no sphere or capsule: it would fall through"
                 )
 
     def surface_below(self, points: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -33,8 +33,9 @@ ROW = 50
 class TriangleArrays:
     """What the kernel reads. Coordinates are relative to the ground's origin.
 
-    rows: (n, 50) float64, layout above; flags: (n, 4) int32: bits 0-2 exposed edges that this triangle
-    owns, bits 3-5 exposed corners; then the three welded vertex ids. vertex_start (v + 1,) int32 and
+    rows: (n, 50) float64, layout above; flags: (n, 6) int32: bits 0-2 exposed edges that this triangle
+    owns, bits 3-5 exposed corners; the three welded vertex ids; the first cell
+    (ix, iy) that lists it. vertex_start (v + 1,) int32 and
     vertex_edges (e, 3) float64: unit directions of the edges that leave each vertex. Grid: cell_start
     (nx * ny + 1,) int32, cell_triangles int32, cell_range (nx * ny, 2) float64 lowest and highest z.
     grid: (4,) float64 x0, y0, 1 / cell size, unused; shape (2,) int32.
@@ -86,14 +87,14 @@ def build_triangle_arrays(vertices: NDArray[np.float64], faces: NDArray[np.int64
     rows[:, 44:47] = triangle.min(axis=1)
     rows[:, 47:50] = triangle.max(axis=1)
 
-    flags = np.zeros((n, 4), np.int32)
+    flags = np.zeros((n, 6), np.int32)
     flags[:, 1:4] = corners
     edge_start, edge_sides = _edges(corners)
     bisectors = np.zeros((len(points), 3))
     _edge_cones(edge_start, edge_sides, rows, flags, bisectors)
     vertex_start, vertex_edges = _vertex_edges(corners, points)
     _exposed_corners(vertex_start, vertex_edges, bisectors, flags)
-    cell_start, cell_triangles, cell_range, grid, shape = _grid(rows)
+    cell_start, cell_triangles, cell_range, grid, shape = _grid(rows, flags)
     _depth_limits(rows, flags, cell_start, cell_triangles, grid, shape)
     return TriangleArrays(
         rows, flags, vertex_start, vertex_edges, cell_start, cell_triangles, cell_range, grid, shape
@@ -178,7 +179,7 @@ def _exposed_corners(vertex_start, vertex_edges, bisectors, flags):
                 flags[t, 0] |= 8 << k
 
 
-def _grid(rows: NDArray[np.float64]):
+def _grid(rows: NDArray[np.float64], flags: NDArray[np.int32]):
     """Uniform grid over x and y; a triangle is listed in every cell that its bounds touch."""
     if len(rows):
         low, high = rows[:, 44:46].min(axis=0), rows[:, 47:49].max(axis=0)
@@ -190,6 +191,7 @@ def _grid(rows: NDArray[np.float64]):
     shape = np.maximum(np.ceil(extent / cell), 1).astype(np.int32)
     first = np.clip(((rows[:, 44:46] - low) / cell).astype(np.int64), 0, shape - 1)
     last = np.clip(((rows[:, 47:49] - low) / cell).astype(np.int64), 0, shape - 1)
+    flags[:, 4:6] = first
     start, triangles, span = _fill_grid(first, last, rows, int(shape[0]), int(shape[1]))
     return start, triangles, span, np.array([low[0], low[1], 1.0 / cell, 0.0]), shape
 

@@ -30,7 +30,7 @@ PARALLEL = 0.9995
 
 
 @njit(cache=True, inline="never")
-def _add(out, count, dist, qx, qy, qz, radius, nx, ny, nz, at, inside, is_face):
+def _add(out, count, dist, qx, qy, qz, radius, nx, ny, nz, at, height, is_face):
     """Append a candidate; one that repeats another keeps the deeper of the two."""
     for i in range(count):
         if abs(out[i, 7] - at) < SAME and out[i, 4] * nx + out[i, 5] * ny + out[i, 6] * nz > PARALLEL:
@@ -47,7 +47,7 @@ def _add(out, count, dist, qx, qy, qz, radius, nx, ny, nz, at, inside, is_face):
     out[count, 1], out[count, 2], out[count, 3] = qx - reach * nx, qy - reach * ny, qz - reach * nz
     out[count, 4], out[count, 5], out[count, 6] = nx, ny, nz
     out[count, 7] = at
-    out[count, 8] = inside
+    out[count, 8] = height
     out[count, 9] = is_face
     return count + 1
 
@@ -61,8 +61,7 @@ def _face(row, x, y, z, radius, margin, at, out, count):
     for k in range(4, 16, 4):
         if row[k] * x + row[k + 1] * y + row[k + 2] * z - row[k + 3] > SIDE_TOLERANCE:
             return count
-    inside = height if height < 0.0 else 1.0
-    return _add(out, count, height - radius, x, y, z, radius, row[0], row[1], row[2], at, inside, 1.0)
+    return _add(out, count, height - radius, x, y, z, radius, row[0], row[1], row[2], at, height, 1.0)
 
 
 @njit(cache=True)
@@ -152,7 +151,8 @@ def _reduce(out, count):
                 continue
             if out[i, 9] > 0.0:
                 # an end behind several faces leaves through the nearest
-                if out[i, 8] < out[j, 8] < 0.0 or (out[i, 8] == out[j, 8] < 0.0 and j < i):
+                nearer = out[i, 8] < out[j, 8] or (out[i, 8] == out[j, 8] and j < i)
+                if out[i, 8] < 0.0 and nearer and out[j, 8] < SIDE_TOLERANCE:
                     dropped |= 1 << i
             else:
                 # an edge or corner in the plane of a face that carries the same point of the axis: a seam
@@ -190,8 +190,9 @@ def capsule_contacts(
     """Contacts of the capsule with axis a-b (a sphere if a == b) and `radius`; returns how many.
 
     out: (MAX_CANDIDATES, 10) float64, filled with: distance (negative: depth), position (3) halfway
-    between the two surfaces, unit normal (3) away from the ground, place on the axis [m], two scratch
-    columns. Only contacts with a distance below `margin` are listed. All in the ground's own frame.
+    between the two surfaces, unit normal (3) away from the ground, place on the axis [m], height
+    of the axis over a face [m], 1 for a face or 0. Only contacts with a distance below `margin` are listed.
+    All in the ground's own frame.
     """
     reach = radius + margin
     pad = max(reach, DEPTH_CAP)  # a face pushes back from its depth limit behind it
@@ -218,12 +219,12 @@ def capsule_contacts(
                 row = rows[t]
                 if row[46] > high_z or row[49] < low_z:
                     continue
-                if row[44] > high_x or row[47] < low_x or row[45] > high_y or row[48] < low_y:
+                if row[44] > high_x or row[47] < low_x:
+                    continue
+                if row[45] > high_y or row[48] < low_y:
                     continue
                 # listed in several cells: only the first of them counts
-                first_x = int(max((row[44] - grid[0]) * grid[2], 0.0))
-                first_y = int(max((row[45] - grid[1]) * grid[2], 0.0))
-                if ix != max(x0, first_x) or iy != max(y0, first_y):
+                if ix != max(x0, flags[t, 4]) or iy != max(y0, flags[t, 5]):
                     continue
                 ha = row[0] * ax + row[1] * ay + row[2] * az - row[3]
                 hb = row[0] * bx + row[1] * by + row[2] * bz - row[3]

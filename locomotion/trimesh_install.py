@@ -19,7 +19,6 @@ import mujoco
 import numpy as np
 from llvmlite import ir
 from numba import carray, cfunc, njit, types
-from numba.core import cgutils
 from numba.extending import intrinsic
 
 from locomotion.errors import LocomotionError
@@ -43,23 +42,21 @@ _lock = threading.Lock()
 _installed: list[Any] = []
 
 
-@intrinsic
-def _table_address(typingctx):
+def _load_table_address(typingctx):
     def codegen(context, builder, signature, args):
         return builder.load(context.get_c_value(builder, context.get_value_type(types.int64), SYMBOL))
 
     return types.int64(), codegen
 
 
-def _pointer_to(dtype):
-    @intrinsic
+def _pointer_to(dtype) -> Any:
     def cast(typingctx, address):
         def codegen(context, builder, signature, args):
             return builder.inttoptr(args[0], context.get_value_type(types.CPointer(dtype)))
 
         return types.CPointer(dtype)(types.int64), codegen
 
-    return cast
+    return intrinsic(cast)
 
 
 _as_float64 = _pointer_to(types.float64)
@@ -67,8 +64,7 @@ _as_int64 = _pointer_to(types.int64)
 _as_int32 = _pointer_to(types.int32)
 
 
-@intrinsic
-def _call(typingctx, function, model, data, contacts, g1, g2, margin):
+def _call_function(typingctx, function, model, data, contacts, g1, g2, margin):
     """Call the C collision function at an address."""
 
     def codegen(context, builder, signature, args):
@@ -78,6 +74,10 @@ def _call(typingctx, function, model, data, contacts, g1, g2, margin):
 
     i64, i32 = types.int64, types.int32
     return i32(i64, i64, i64, i64, i32, i32, types.float64), codegen
+
+
+_table_address: Any = intrinsic(_load_table_address)
+_call: Any = intrinsic(_call_function)
 
 
 @njit(cache=True)
@@ -95,7 +95,7 @@ def _collide(table, model, data, contacts, g1, g2, margin, capsule):
         return _call(table[6 + capsule], model, data, contacts, g1, g2, margin)
     h = carray(_as_int64(table[9 + 2 * slot]), (HEADER,))
     rows = carray(_as_float64(h[0]), (h[9], ROW))
-    flags = carray(_as_int32(h[1]), (h[9], 4))
+    flags = carray(_as_int32(h[1]), (h[9], 6))
     vertex_start = carray(_as_int32(h[2]), (h[10],))
     vertex_edges = carray(_as_float64(h[3]), (h[11], 3))
     cell_start = carray(_as_int32(h[4]), (h[12] + 1,))
@@ -107,20 +107,25 @@ def _collide(table, model, data, contacts, g1, g2, margin, capsule):
     size = carray(_as_float64(carray(_as_int64(model + table[2]), (1,))[0] + 24 * g2), (3,))
     position = carray(_as_float64(carray(_as_int64(data + table[3]), (1,))[0] + 24 * g2), (3,))
     x, y, z = position[0] - origin[0], position[1] - origin[1], position[2] - origin[2]
-    dx, dy, dz = 0.0, 0.0, 0.0
+    ux, uy, uz, half = 0.0, 0.0, 0.0, 0.0
     if capsule:
         matrix = carray(_as_float64(carray(_as_int64(data + table[4]), (1,))[0] + 72 * g2), (9,))
-        dx, dy, dz = size[1] * matrix[2], size[1] * matrix[5], size[1] * matrix[8]
+        ux, uy, uz, half = matrix[2], matrix[5], matrix[8], size[1]
+    dx, dy, dz = half * ux, half * uy, half * uz
     out = carray(_as_float64(contacts), (MAX_CANDIDATES, 10))
     count = capsule_contacts(
         rows, flags, vertex_start, vertex_edges, cell_start, cell_triangles, cell_range, grid, shape,
-        x - dx, y - dy, z - dz, x + dx, y + dy, z + dz, size[0], margin, out,
+        x + dx, y + dy, z + dz, x - dx, y - dy, z - dz, size[0], margin, out,
     )  # fmt: skip
     for i in range(count):
         out[i, 1] += origin[0]
         out[i, 2] += origin[1]
         out[i, 3] += origin[2]
-        out[i, 7] = out[i, 8] = out[i, 9] = 0.0  # MuJoCo chooses the first tangent itself
+        # first tangent along the axis, as MuJoCo has it on a plane; zero: it chooses one
+        upright = abs(ux * out[i, 4] + uy * out[i, 5] + uz * out[i, 6]) > 0.99
+        out[i, 7] = 0.0 if upright else ux
+        out[i, 8] = 0.0 if upright else uy
+        out[i, 9] = 0.0 if upright else uz
     return types.int32(count)
 
 
@@ -216,7 +221,7 @@ def _find(owner: Any, array: np.ndarray) -> int:
 
 def _library() -> Path:
     """MuJoCo's shared library, as the Python package has loaded it."""
-    folder = Path(mujoco.__file__).parent
+    folder = Path(str(mujoco.__file__)).parent
     for pattern in ("libmujoco.so*", "libmujoco*.dylib", "mujoco.dll"):
         found = sorted(folder.glob(pattern))
         if found:

@@ -1,0 +1,283 @@
+"""Compiled loops of the solver: Chambolle and Pock's primal-dual algorithm with the quadratic in the primal step.
+
+Unknowns are the displacements d (n, 2) of the waypoints from their targets, so that large coordinates cost no
+precision. The problem is
+
+    minimise  f2(d) + sum_i w_i |d_i|   with  d_i in C_i,       f2(d) = sum_i q_i |D(p + d)_i|^2,
+
+D the divided second difference, C_i a disc or the lens of two. With K = (I; I), one dual variable y for the norm and
+one, v, for the discs, one iteration is
+
+    d' = argmin f2(d) + <y + v, d> + sum_i (s_i + r_i) / 2 |d - d_i|^2     (one pentadiagonal solve)
+    y' = projection of y + s (2 d' - d) on the balls |y_i| <= w_i
+    v' = z - r P_C(z / r),  z = v + r (2 d' - d)
+
+with step sizes s and r per waypoint (Pock and Chambolle 2011), followed by over-relaxation. `reference.py` has the
+same steps written plainly.
+
+The rows of the packed array (ROWS, n) that the loops read are the constants below.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+AX, AY, AR, BX, BY, BR = 0, 1, 2, 3, 4, 5  # the two discs relative to the target [m]; equal where there is one
+PX, PY, QX, QY = 6, 7, 8, 9  # the two corners of the lens [m]
+WEIGHT = 10  # w [m]: mean spacing at the waypoint
+LEFT, RIGHT = 11, 12  # second difference: LEFT x[i-1] - (LEFT + RIGHT) x[i] + RIGHT x[i+1] [1/m^2]
+BEND = 13  # q [m^4]
+EX, EY = 14, 15  # second difference of the targets [1/m]
+GX, GY = 16, 17  # gradient of f2 at the targets
+NORM_STEP, DISC_STEP = 18, 19  # dual step sizes s and r [m/m]
+SUB1, SUB2, PIVOT = 20, 21, 22  # factors L and 1 / D of (Hessian of f2 + diag(s + r)) = L D L^T
+ROWS = 23
+
+ROUNDING = 1.0 + 1e-12
+NOTHING = 1e-12  # [m^2] objective that is as good as zero
+EXACT = 1e-10  # relative gap that is as good as none
+
+@njit(cache=True)
+def factorise(packed, first, last):
+    """Fill SUB1, SUB2, PIVOT for the unknowns first..last-1."""
+    n = packed.shape[1]
+    for i in range(first, last):
+        diagonal = packed[NORM_STEP, i] + packed[DISC_STEP, i]
+        lower1 = 0.0
+        lower2 = 0.0
+        for r in range(max(1, i - 1), min(n - 1, i + 2)):
+            # row r of D touches i - 1, i, i + 1; coefficient of unknown i in it
+            own = _coefficient(packed, r, i)
+            diagonal += 2.0 * packed[BEND, r] * own * own
+            if i - 1 >= first:
+                lower1 += 2.0 * packed[BEND, r] * own * _coefficient(packed, r, i - 1)
+            if i - 2 >= first:
+                lower2 += 2.0 * packed[BEND, r] * own * _coefficient(packed, r, i - 2)
+        l2 = 0.0
+        l1 = 0.0
+        if i - 2 >= first:
+            l2 = lower2 * packed[PIVOT, i - 2]
+        if i - 1 >= first:
+            l1 = lower1
+            if i - 2 >= first:
+                l1 -= l2 * packed[SUB1, i - 1] / packed[PIVOT, i - 2]
+            l1 *= packed[PIVOT, i - 1]
+            diagonal -= l1 * l1 / packed[PIVOT, i - 1]
+        if i - 2 >= first:
+            diagonal -= l2 * l2 / packed[PIVOT, i - 2]
+        packed[SUB1, i] = l1
+        packed[SUB2, i] = l2
+        packed[PIVOT, i] = 1.0 / diagonal
+
+
+@njit(cache=True, inline="always")
+def _coefficient(packed, row, i):
+    if i == row - 1:
+        return packed[LEFT, row]
+    if i == row:
+        return -packed[LEFT, row] - packed[RIGHT, row]
+    if i == row + 1:
+        return packed[RIGHT, row]
+    return 0.0
+
+
+@njit(cache=True, inline="always")
+def project(packed, i, x, y):
+    """The point of C_i nearest to (x, y)."""
+    ux = x - packed[AX, i]
+    uy = y - packed[AY, i]
+    vx = x - packed[BX, i]
+    vy = y - packed[BY, i]
+    a2 = ux * ux + uy * uy
+    b2 = vx * vx + vy * vy
+    ra = packed[AR, i]
+    rb = packed[BR, i]
+    in_a = a2 <= ra * ra * ROUNDING
+    in_b = b2 <= rb * rb * ROUNDING
+    if in_a and in_b:
+        return x, y
+    if not in_a:
+        f = ra / np.sqrt(a2)
+        px = packed[AX, i] + f * ux
+        py = packed[AY, i] + f * uy
+        if (px - packed[BX, i]) ** 2 + (py - packed[BY, i]) ** 2 <= rb * rb * ROUNDING:
+            return px, py
+    if not in_b:
+        f = rb / np.sqrt(b2)
+        px = packed[BX, i] + f * vx
+        py = packed[BY, i] + f * vy
+        if (px - packed[AX, i]) ** 2 + (py - packed[AY, i]) ** 2 <= ra * ra * ROUNDING:
+            return px, py
+    p2 = (x - packed[PX, i]) ** 2 + (y - packed[PY, i]) ** 2
+    q2 = (x - packed[QX, i]) ** 2 + (y - packed[QY, i]) ** 2
+    if p2 <= q2:
+        return packed[PX, i], packed[PY, i]
+    return packed[QX, i], packed[QY, i]
+
+
+@njit(cache=True, inline="always")
+def lowest(packed, i, gx, gy):
+    """Minimum of <g, d> over C_i."""
+    g = np.sqrt(gx * gx + gy * gy)
+    if g == 0.0:
+        return 0.0
+    ra = packed[AR, i]
+    rb = packed[BR, i]
+    x = packed[AX, i] - ra * gx / g
+    y = packed[AY, i] - ra * gy / g
+    if (x - packed[BX, i]) ** 2 + (y - packed[BY, i]) ** 2 <= rb * rb * ROUNDING:
+        return gx * x + gy * y
+    x = packed[BX, i] - rb * gx / g
+    y = packed[BY, i] - rb * gy / g
+    if (x - packed[AX, i]) ** 2 + (y - packed[AY, i]) ** 2 <= ra * ra * ROUNDING:
+        return gx * x + gy * y
+    return min(gx * packed[PX, i] + gy * packed[PY, i], gx * packed[QX, i] + gy * packed[QY, i])
+
+
+@njit(cache=True)
+def objective(packed, d, first, last):
+    """f1 + f2 of the displacements d (n, 2); those outside first..last-1 are zero."""
+    n = packed.shape[1]
+    total = 0.0
+    for i in range(1, n - 1):
+        left = packed[LEFT, i]
+        right = packed[RIGHT, i]
+        x = packed[EX, i] + left * (d[i - 1, 0] - d[i, 0]) + right * (d[i + 1, 0] - d[i, 0])
+        y = packed[EY, i] + left * (d[i - 1, 1] - d[i, 1]) + right * (d[i + 1, 1] - d[i, 1])
+        total += packed[BEND, i] * (x * x + y * y)
+    for i in range(first, last):
+        total += packed[WEIGHT, i] * np.sqrt(d[i, 0] * d[i, 0] + d[i, 1] * d[i, 1])
+    return total
+
+
+@njit(cache=True)
+def lower_bound(packed, d, y, first, last):
+    """A value that no feasible point is below: the dual objective at the second differences of d and at y."""
+    n = packed.shape[1]
+    bound = 0.0
+    # running second differences times 2 q: rows i - 1, i, i + 1
+    ax = ay = bx = by = cx = cy = 0.0
+    for i in range(0, n):
+        # shift: b is row i, c is row i + 1
+        ax, ay, bx, by = bx, by, cx, cy
+        r = i + 1
+        if 1 <= r < n - 1:
+            left = packed[LEFT, r]
+            right = packed[RIGHT, r]
+            x = packed[EX, r] + left * (d[r - 1, 0] - d[r, 0]) + right * (d[r + 1, 0] - d[r, 0])
+            z = packed[EY, r] + left * (d[r - 1, 1] - d[r, 1]) + right * (d[r + 1, 1] - d[r, 1])
+            q = packed[BEND, r]
+            bound += q * (x * (2.0 * packed[EX, r] - x) + z * (2.0 * packed[EY, r] - z))
+            cx = 2.0 * q * x
+            cy = 2.0 * q * z
+        else:
+            cx = 0.0
+            cy = 0.0
+        if i < first or i >= last:
+            continue
+        # column i of D: RIGHT of row i - 1, minus both of row i, LEFT of row i + 1
+        gx = -(packed[LEFT, i] + packed[RIGHT, i]) * bx
+        gy = -(packed[LEFT, i] + packed[RIGHT, i]) * by
+        if i > 1:
+            gx += packed[RIGHT, i - 1] * ax
+            gy += packed[RIGHT, i - 1] * ay
+        if i < n - 2:
+            gx += packed[LEFT, i + 1] * cx
+            gy += packed[LEFT, i + 1] * cy
+        w = packed[WEIGHT, i]
+        g2 = gx * gx + gy * gy
+        if g2 > w * w:
+            f = 1.0 - w / np.sqrt(g2)
+            value = lowest(packed, i, f * gx, f * gy)
+            if value < 0.0:
+                value = max(value, lowest(packed, i, gx + y[i, 0], gy + y[i, 1]))
+            bound += value
+    return bound
+
+
+@njit(cache=True)
+def iterate(packed, first, last, relaxation, count, d, y, v, rhs):
+    """Do `count` iterations on d, y, v (n, 2) in place; the last primal step's unrelaxed result is left in rhs."""
+    for _ in range(count):
+        a0 = a1 = b0 = b1 = 0.0
+        for i in range(first, last):
+            t = packed[NORM_STEP, i] + packed[DISC_STEP, i]
+            c0 = t * d[i, 0] - y[i, 0] - v[i, 0] - packed[GX, i] - packed[SUB1, i] * b0 - packed[SUB2, i] * a0
+            c1 = t * d[i, 1] - y[i, 1] - v[i, 1] - packed[GY, i] - packed[SUB1, i] * b1 - packed[SUB2, i] * a1
+            rhs[i, 0] = c0
+            rhs[i, 1] = c1
+            a0, a1, b0, b1 = b0, b1, c0, c1
+        a0 = a1 = b0 = b1 = 0.0
+        l1 = 0.0  # SUB1[i + 1]
+        l2 = 0.0  # SUB2[i + 2]
+        m2 = 0.0  # SUB2[i + 1]
+        for i in range(last - 1, first - 1, -1):
+            c0 = rhs[i, 0] * packed[PIVOT, i] - l1 * b0 - l2 * a0
+            c1 = rhs[i, 1] * packed[PIVOT, i] - l1 * b1 - l2 * a1
+            rhs[i, 0] = c0
+            rhs[i, 1] = c1
+            a0, a1, b0, b1 = b0, b1, c0, c1
+            l1 = packed[SUB1, i]
+            l2 = m2
+            m2 = packed[SUB2, i]
+            # dual step at i
+            s = packed[NORM_STEP, i]
+            w = packed[WEIGHT, i]
+            e0 = (2.0 * c0 - d[i, 0])
+            e1 = (2.0 * c1 - d[i, 1])
+            y0 = y[i, 0] + s * e0
+            y1 = y[i, 1] + s * e1
+            size2 = y0 * y0 + y1 * y1
+            if size2 > w * w:
+                f = w / np.sqrt(size2)
+                y0 *= f
+                y1 *= f
+            s = packed[DISC_STEP, i]
+            z0 = v[i, 0] + s * e0
+            z1 = v[i, 1] + s * e1
+            x0, x1 = project(packed, i, z0 / s, z1 / s)
+            d[i, 0] += relaxation * (c0 - d[i, 0])
+            d[i, 1] += relaxation * (c1 - d[i, 1])
+            y[i, 0] += relaxation * (y0 - y[i, 0])
+            y[i, 1] += relaxation * (y1 - y[i, 1])
+            v[i, 0] += relaxation * (z0 - s * x0 - v[i, 0])
+            v[i, 1] += relaxation * (z1 - s * x1 - v[i, 1])
+
+
+@njit(cache=True)
+def solve(
+    packed, targets, heights, first, last, relaxation, limit, tolerance, first_check, check_every, state, points
+):
+    """Iterate until the gap is at most `tolerance` of the bound, or `limit` iterations.
+
+    state (3, n, 2): start of d, y and v, changed in place. points (n, 3): the best feasible path found, written.
+    Returns (iterations, objective, bound).
+    """
+    n = packed.shape[1]
+    d, y, v = state[0], state[1], state[2]
+    best = np.zeros((n, 2))
+    candidate = np.zeros((n, 2))
+    primal = d.copy()
+    value = objective(packed, best, first, last)
+    bound = 0.0
+    done = 0
+    while True:
+        if done > 0 or np.any(d):
+            for i in range(first, last):
+                candidate[i, 0], candidate[i, 1] = project(packed, i, primal[i, 0], primal[i, 1])
+            new = objective(packed, candidate, first, last)
+            if new < value:
+                value = new
+                best[:] = candidate
+        bound = max(bound, lower_bound(packed, primal, y, first, last))
+        if done >= limit or value <= NOTHING or value - bound <= max(tolerance, EXACT) * bound:
+            break
+        count = min(first_check if done == 0 else check_every, limit - done)
+        iterate(packed, first, last, relaxation, count, d, y, v, primal)
+        done += count
+    for i in range(n):
+        points[i, 0] = targets[i, 0] + best[i, 0]
+        points[i, 1] = targets[i, 1] + best[i, 1]
+        points[i, 2] = heights[i]
+    return done, value, bound

@@ -1,0 +1,90 @@
+"""The arrays that the compiled loops read, made once per problem."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from pathsmooth import kernels as k
+from pathsmooth.geometry import lens_corners, nearest_in_lens
+
+# Step sizes of the solver. They change its speed, never its answer; found by trial on random corridors.
+NORM_STEP = 60.0  # [1/m] of the distance term, per weight
+DISC_STEP = 20.0  # [1/m] of the discs, per weight of an evenly placed waypoint
+DISC_STIFFNESS = 0.3  # of a disc as stiff as the path bent within the disc's size
+CLOSE_STIFFNESS = 0.02  # of a waypoint as stiff as the path bent between it and a close neighbour
+_SMALLEST_SIZE = 0.1  # [m]
+_CLOSE = 0.5  # of the greatest spacing
+
+
+def pack(targets, arc, segment_disc, centers, radii, smoothness: float, first: int, last: int) -> NDArray[np.float64]:
+    """(ROWS, n): see the names of the rows in `kernels`. Arguments as the fields of `Problem`."""
+    packed = np.zeros((k.ROWS, len(arc)))
+    _pack(packed, targets, arc, segment_disc, centers, radii, smoothness)
+    k.factorise(packed, first, last)
+    return packed
+
+
+@njit(cache=True)
+def into_discs(targets, segment_disc, centers, radii):
+    """Move the inner targets (n, 2) that lie outside their discs to the nearest place inside, in place."""
+    for i in range(1, len(targets) - 1):
+        a = segment_disc[i - 1]
+        b = segment_disc[i]
+        targets[i, 0], targets[i, 1] = nearest_in_lens(
+            targets[i, 0], targets[i, 1],
+            centers[a, 0], centers[a, 1], radii[a], centers[b, 0], centers[b, 1], radii[b],
+        )  # fmt: skip
+
+
+@njit(cache=True)
+def _pack(packed, targets, arc, segment_disc, centers, radii, smoothness):
+    n = len(arc)
+    widest = 0.0
+    for i in range(n):
+        for row in (k.AX, k.BX):
+            disc = segment_disc[max(i - 1, 0)] if row == k.AX else segment_disc[min(i, n - 2)]
+            x = centers[disc, 0] - targets[i, 0]
+            y = centers[disc, 1] - targets[i, 1]
+            packed[row, i] = x
+            packed[row + 1, i] = y
+            # a target that is outside by rounding counts as on the rim
+            packed[row + 2, i] = max(radii[disc], np.sqrt(x * x + y * y))
+        packed[k.PX, i], packed[k.PY, i], packed[k.QX, i], packed[k.QY, i] = lens_corners(
+            packed[k.AX, i], packed[k.AY, i], packed[k.AR, i], packed[k.BX, i], packed[k.BY, i], packed[k.BR, i]
+        )
+        before = arc[i] - arc[i - 1] if i > 0 else 0.0
+        after = arc[i + 1] - arc[i] if i < n - 1 else 0.0
+        mean = 0.5 * (before + after)
+        widest = max(widest, before, after)
+        packed[k.WEIGHT, i] = mean
+        if 0 < i < n - 1:
+            left = 1.0 / (before * mean)
+            right = 1.0 / (after * mean)
+            packed[k.LEFT, i] = left
+            packed[k.RIGHT, i] = right
+            packed[k.BEND, i] = smoothness * mean
+            for axis in range(2):
+                back = targets[i - 1, axis] - targets[i, axis]
+                ahead = targets[i + 1, axis] - targets[i, axis]
+                packed[k.EX + axis, i] = left * back + right * ahead
+    for i in range(n):
+        for axis in range(2):
+            e, g = k.EX + axis, k.GX + axis
+            value = -(packed[k.LEFT, i] + packed[k.RIGHT, i]) * 2.0 * packed[k.BEND, i] * packed[e, i]
+            if i > 0:
+                value += packed[k.RIGHT, i - 1] * 2.0 * packed[k.BEND, i - 1] * packed[e, i - 1]
+            if i < n - 1:
+                value += packed[k.LEFT, i + 1] * 2.0 * packed[k.BEND, i + 1] * packed[e, i + 1]
+            packed[g, i] = value
+        between = np.sqrt((packed[k.AX, i] - packed[k.BX, i]) ** 2 + (packed[k.AY, i] - packed[k.BY, i]) ** 2)
+        thickness = 0.5 * (packed[k.AR, i] + packed[k.BR, i] - between)
+        size = max(min(packed[k.AR, i], packed[k.BR, i], thickness), _SMALLEST_SIZE)
+        disc_step = DISC_STEP * widest + DISC_STIFFNESS * smoothness / size**3
+        if 0 < i < n - 1:
+            close = min(arc[i] - arc[i - 1], arc[i + 1] - arc[i])
+            if close < _CLOSE * widest:
+                disc_step += CLOSE_STIFFNESS * smoothness / close**3
+        packed[k.NORM_STEP, i] = NORM_STEP * packed[k.WEIGHT, i]
+        packed[k.DISC_STEP, i] = disc_step

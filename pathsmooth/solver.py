@@ -1,0 +1,124 @@
+"""Solving a smoothing problem: the entry point that a frame calls."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from pathsmooth import kernels
+from pathsmooth.errors import PathSmoothError
+from pathsmooth.problem import Problem
+
+COMPLETE = "complete"
+ITERATION_LIMIT = "iteration_limit"
+INFEASIBLE = "infeasible"
+
+MAX_ITERATIONS = 5000
+"""Iterations after which `solve` gives up reaching the tolerance, where the caller sets no limit."""
+
+RELAXATION = 1.7
+CHECKS = (8, 4)  # iterations before the first look at the gap, and between looks
+WARM_CHECKS = (1, 3)
+
+
+@dataclass(slots=True, eq=False)
+class Solution:
+    """A smoothed path and how good it is.
+
+    The status is one of
+        "complete"         the objective is within the tolerance of the optimum (and the curvature within its bound)
+        "iteration_limit"  stopped before that; the points are valid all the same: inside the corridor, ends and
+                           tangents exact, objective no higher than the pulled path's; only a bound on curvature may
+                           be missed, see `curvature`
+        "infeasible"       no path in the corridor has the wanted tangents and curvature; the points are then the
+                           best found without that bound
+    """
+
+    points: NDArray[np.float64]
+    """(n, 3) [m]: x and y are smoothed, z is the pulled path's at the same waypoint."""
+    objective: float
+    """f of the points, see `Problem`."""
+    gap: float
+    """Upper bound of how far the objective is above the optimum, in the objective's unit [m²]."""
+    iterations: int
+    status: str
+    state: NDArray[np.float64] = field(repr=False)
+    """(3, n, 2) displacements and the two dual variables, for a warm start."""
+    problem: Problem = field(repr=False)
+    """What was solved."""
+
+
+def solve(
+    problem: Problem, iterations: int | None = None, tolerance: float = 0.01, warm: Solution | None = None
+) -> Solution:
+    """Smooth a path: Chambolle and Pock's primal-dual algorithm with a pentadiagonal solve in the primal step.
+
+    iterations  greatest number of iterations, >= 0: the budget of a frame. None: until the tolerance is reached.
+    tolerance   >= 0: stop where the objective is proven to be at most this fraction above the optimum. 0 uses up the
+                iterations.
+    warm        an earlier solution of this problem or of one like it, such as before the path was replanned.
+
+    Raises PathSmoothError for a negative limit or tolerance.
+    """
+    limit = MAX_ITERATIONS if iterations is None else iterations
+    if limit < 0:
+        raise PathSmoothError(f"iterations must be 0 or more, not {iterations}")
+    if not tolerance >= 0.0:
+        raise PathSmoothError(f"tolerance must be 0 or more, not {tolerance}")
+    n = len(problem.arc)
+    state = np.zeros((3, n, 2)) if warm is None else warm_state(problem, warm)
+    first_check, check_every = CHECKS if warm is None else WARM_CHECKS
+    points = np.empty((n, 3))
+    done, value, bound = kernels.solve(
+        problem.packed, problem.targets, problem.heights, problem.first, problem.last, RELAXATION, limit, tolerance,
+        first_check, check_every, state, points,
+    )  # fmt: skip
+    gap = max(value - bound, 0.0)
+    status = INFEASIBLE if problem.obstruction else _status(value, bound, tolerance)
+    return Solution(points, value, gap, done, status, state, problem)
+
+
+def _status(value: float, bound: float, tolerance: float) -> str:
+    close = value - bound <= max(tolerance, kernels.EXACT) * bound or value <= kernels.NOTHING
+    return COMPLETE if close else ITERATION_LIMIT
+
+
+def warm_state(problem: Problem, warm: Solution) -> NDArray[np.float64]:
+    """(3, n, 2) the state of an earlier solution, carried over to the waypoints of this problem."""
+    old = warm.problem
+    if old is problem:
+        return warm.state.copy()
+    state = np.zeros((3, len(problem.arc), 2))
+    _carry_over(
+        old.targets, old.packed[kernels.WEIGHT], warm.state,
+        problem.targets, problem.packed[kernels.WEIGHT], state, problem.first, problem.last,
+    )  # fmt: skip
+    return state
+
+
+@njit(cache=True)
+def _carry_over(old_targets, old_weight, old_state, targets, weight, state, first, last):
+    """Take for each waypoint the state of the nearest earlier one; a disc's force goes to one waypoint only."""
+    j = 0
+    taken = -1
+    for i in range(first, last):
+        nearest = np.inf
+        best = j
+        for c in range(j, len(old_targets)):
+            dx = old_targets[c, 0] - targets[i, 0]
+            dy = old_targets[c, 1] - targets[i, 1]
+            if dx * dx + dy * dy < nearest:
+                nearest = dx * dx + dy * dy
+                best = c
+            elif dx * dx + dy * dy > 4.0 * nearest + 1.0:
+                break
+        j = best
+        state[0, i] = old_state[0, j]
+        if old_weight[j] > 0.0:
+            state[1, i] = old_state[1, j] * (weight[i] / old_weight[j])
+        if j != taken:
+            state[2, i] = old_state[2, j]
+            taken = j

@@ -1,15 +1,18 @@
 """The node-radius graph: discs on the walkable surface, joined where a body can pass from one to the next."""
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 import networkx
 import numpy as np
 
-from navmesh import archive, edges, nodes
+from navmesh import archive, edges, nodes, pathfinding
 from navmesh.build import build_surface
 from navmesh.errors import NavmeshError
+from navmesh.pathfinding import PathSearch
+from navmesh.route import Route, Routes
 from navmesh.rules import WalkRules
 from navmesh.surface import Surface
 from navmesh.terrain import Terrain
@@ -142,6 +145,50 @@ class NodeGraph:
         if rules is not None and rules != graph.rules:
             raise NavmeshError(f"{path}: baked with {graph.rules}, expected {rules}; bake it anew")
         return graph
+
+    def find_path(
+        self,
+        start: Any,
+        goal: Any,
+        radius: float = 0.3,
+        skills: Mapping[str, tuple[float, float]] | None = None,
+        node_costs: np.ndarray | None = None,
+    ) -> Route:
+        """The route from ``start`` to ``goal`` (3,) [m] for a body of ``radius`` [m].
+
+        Each end stands for the floor nearest to it in height, at most `WalkRules.headroom` above or below.
+        An end where the body does not fit, because a wall is nearer than its radius or there is no floor
+        below, is moved to the nearest place where it does, at most twice the radius and two cells away;
+        the route's first and last waypoints say where. ``skills`` offers typed links: for each affordance
+        the least and greatest height [m] that the body can clear, as in {"jump": (0.3, 0.5)}. ``node_costs``
+        (m,), at least 1, multiply the length walked in each node. Never raises because of where the ends
+        are: see `navmesh.route.STATUSES`. Raises `NavmeshError` for arguments of a wrong kind.
+        """
+        return pathfinding.find_path(self, start, goal, radius, skills, node_costs)
+
+    def find_paths(
+        self,
+        starts: Any,
+        goals: Any,
+        radius: float = 0.3,
+        skills: Mapping[str, tuple[float, float]] | None = None,
+        node_costs: np.ndarray | None = None,
+        workers: int = 1,
+    ) -> Routes:
+        """The routes from ``starts`` to ``goals`` (q, 3) [m] each: the same, bit for bit, as `find_path` gives
+        one by one. ``workers`` threads share the work."""
+        return pathfinding.find_paths(self, starts, goals, radius, skills, node_costs, workers)
+
+    def begin_path(
+        self,
+        start: Any,
+        goal: Any,
+        radius: float = 0.3,
+        skills: Mapping[str, tuple[float, float]] | None = None,
+        node_costs: np.ndarray | None = None,
+    ) -> PathSearch:
+        """`find_path` as a search that is spread over frames: ``advance`` it, then ``finish`` it."""
+        return PathSearch(self, start, goal, radius, skills, node_costs)
 
     def to_networkx(self) -> networkx.Graph:
         """The graph for analysis: nodes with ``position`` (x, y, z) and ``radius``, edges with ``width``

@@ -1,0 +1,107 @@
+"""The last resort of string pulling: a search over the cells themselves, where no straight line can be mended."""
+
+from math import sqrt
+
+import numpy as np
+from numba import njit
+
+__all__ = ["detour"]
+
+_TIGHT = 25.0
+"""Cost factor of cells whose centre is short of the radius by less than a cell: only where there is no other way."""
+
+
+@njit(cache=True)
+def _sift_up(keys, items, i):
+    key, item = keys[i], items[i]
+    while i > 0:
+        up = (i - 1) >> 1
+        if keys[up] < key or (keys[up] == key and items[up] <= item):
+            break
+        keys[i], items[i] = keys[up], items[up]
+        i = up
+    keys[i], items[i] = key, item
+
+
+@njit(cache=True)
+def _take_first(keys, items, size):
+    """Remove the first of ``size`` entries, which leaves ``size - 1``."""
+    key, item = keys[size - 1], items[size - 1]
+    size -= 1
+    i = 0
+    while True:
+        down = 2 * i + 1
+        if down >= size:
+            break
+        if down + 1 < size and (
+            keys[down + 1] < keys[down] or (keys[down + 1] == keys[down] and items[down + 1] < items[down])
+        ):
+            down += 1
+        if key < keys[down] or (key == keys[down] and item <= items[down]):
+            break
+        keys[i], items[i] = keys[down], items[down]
+        i = down
+    keys[i], items[i] = key, item
+
+
+@njit(cache=True)
+def detour(net, start, goal, radius):
+    """Cells (k,) int32 from cell ``start`` to cell ``goal`` over links, shortest for a body of ``radius``; empty if none.
+
+    Cells whose centre is short of the radius by less than 0.75 cells count 25 times their length.
+    """
+    count = net.cell_column.size
+    best = np.full(count, np.inf)
+    parent = np.full(count, -1, np.int32)
+    keys = np.empty(256, np.float64)
+    items = np.empty(256, np.int32)
+    h = net.cell
+    goal_x = net.cell_column[goal] // net.ny
+    goal_y = net.cell_column[goal] % net.ny
+    best[start] = 0.0
+    keys[0], items[0] = 0.0, start
+    size = 1
+    while size > 0:
+        k = items[0]
+        _take_first(keys, items, size)
+        size -= 1
+        if k == goal:
+            break
+        for way in range(4):
+            other = net.link[k, way]
+            if other < 0:
+                continue
+            if other == goal or net.clearance[other] >= radius:
+                cost = best[k] + h
+            elif net.clearance[other] >= radius - 0.75 * h:
+                cost = best[k] + h * _TIGHT
+            else:
+                continue
+            if cost < best[other] - 1e-9:
+                best[other] = cost
+                parent[other] = k
+                if size == keys.size:
+                    more_keys = np.empty(2 * size, np.float64)
+                    more_keys[:size] = keys
+                    keys = more_keys
+                    more_items = np.empty(2 * size, np.int32)
+                    more_items[:size] = items
+                    items = more_items
+                dx = net.cell_column[other] // net.ny - goal_x
+                dy = net.cell_column[other] % net.ny - goal_y
+                keys[size], items[size] = cost + h * sqrt(dx * dx + dy * dy), other
+                _sift_up(keys, items, size)
+                size += 1
+    if best[goal] == np.inf:
+        return np.empty(0, np.int32)
+    steps = 1
+    k = goal
+    while k != start:
+        k = parent[k]
+        steps += 1
+    cells = np.empty(steps, np.int32)
+    k = goal
+    for i in range(steps - 1, -1, -1):
+        cells[i] = k
+        k = parent[k]
+    return cells

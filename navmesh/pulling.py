@@ -1,0 +1,227 @@
+"""String pulling: from the chain of discs that A* chose to the line that a body walks.
+
+1. The funnel over the portals gives the corners that the line has to turn at.
+2. The line is walked through the clearance field. Where the body would not fit, the tightest place is pushed off
+   what blocks it, just so far that the body fits, and the two halves are walked again. Where nothing can be pushed
+   because walking ends on the line, the cells themselves are searched.
+3. Corners that the line of sight jumps over are dropped.
+
+What comes out has been walked: the body fits on all of it.
+"""
+
+from math import sqrt
+
+import numpy as np
+from numba import njit
+
+from navmesh.detour import detour
+from navmesh.field import floor_at, gap_at, walk
+
+__all__ = ["DETOURS", "grow", "pull"]
+
+_MARGIN = 0.03
+"""Pushed corners keep this share of the radius more than it, so that straight lines between them clear round corners."""
+_DEPTH = 12
+DETOURS = 6
+"""Place in scratch.numbers that counts searches over cells."""
+
+
+@njit(cache=True)
+def grow(scratch, count):
+    """Make room for one more corner after ``count``."""
+    if count < scratch.cells.size:
+        return
+    room = 2 * scratch.cells.size
+    points = np.empty((room, 3), np.float64)
+    points[:count] = scratch.points[:count]
+    scratch.points = points
+    cells = np.empty(room, np.int32)
+    cells[:count] = scratch.cells[:count]
+    scratch.cells = cells
+
+
+@njit(cache=True, inline="always")
+def _turn(ax, ay, bx, by, cx, cy):
+    """Twice the area of a-b-c, positive where c lies to the left of a-b."""
+    return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+
+
+@njit(cache=True)
+def _funnel(doors, edges, first, last, work, cells, sx, sy, start_cell, gx, gy, goal_cell):
+    """Corners of the shortest line through the portals edges[first:last]; returns how many, ends included.
+
+    Writes x, y into work (n, 2) and cells (n,); both need last - first + 2 rows.
+    """
+    work[0, 0], work[0, 1] = sx, sy
+    cells[0] = start_cell
+    count = 1
+    ax, ay = sx, sy
+    lx, ly, lcell, lat = sx, sy, start_cell, first - 1
+    rx, ry, rcell, rat = sx, sy, start_cell, first - 1
+    i = first
+    while i <= last:
+        if i < last:
+            edge = edges[i]
+            nlx, nly, nlcell = doors.left[edge, 0], doors.left[edge, 1], doors.left_cell[edge]
+            nrx, nry, nrcell = doors.right[edge, 0], doors.right[edge, 1], doors.right_cell[edge]
+        else:
+            nlx, nly, nlcell = gx, gy, goal_cell
+            nrx, nry, nrcell = gx, gy, goal_cell
+        if _turn(ax, ay, rx, ry, nrx, nry) >= 0.0:
+            if (ax == rx and ay == ry) or _turn(ax, ay, lx, ly, nrx, nry) < 0.0:
+                rx, ry, rcell, rat = nrx, nry, nrcell, i
+            else:
+                ax, ay = lx, ly
+                work[count, 0], work[count, 1] = lx, ly
+                cells[count] = lcell
+                count += 1
+                rx, ry, rcell, rat = lx, ly, lcell, lat
+                i = lat + 1
+                continue
+        if _turn(ax, ay, lx, ly, nlx, nly) <= 0.0:
+            if (ax == lx and ay == ly) or _turn(ax, ay, rx, ry, nlx, nly) > 0.0:
+                lx, ly, lcell, lat = nlx, nly, nlcell, i
+            else:
+                ax, ay = rx, ry
+                work[count, 0], work[count, 1] = rx, ry
+                cells[count] = rcell
+                count += 1
+                lx, ly, lcell, lat = rx, ry, rcell, rat
+                i = rat + 1
+                continue
+        i += 1
+    work[count, 0], work[count, 1] = gx, gy
+    cells[count] = goal_cell
+    return count + 1
+
+
+@njit(cache=True)
+def _push(net, k, x, y, qx, qy, radius):
+    """Move (x, y) in cell ``k`` away from (qx, qy) until the body fits with a margin; returns (fits, x, y, cell)."""
+    target = radius * (1.0 + _MARGIN)
+    for _ in range(4):
+        dx = x - qx
+        dy = y - qy
+        d = sqrt(dx * dx + dy * dy)
+        if d < 1e-9:
+            return False, x, y, k
+        nx = qx + dx / d * target
+        ny = qy + dy / d * target
+        reached, cell, _, _, _, _ = walk(net, k, x, y, nx, ny, 0.0, True)
+        if not reached:
+            return False, x, y, k
+        x, y, k = nx, ny, cell
+        gap, qx, qy = gap_at(net, k, x, y)
+        if gap >= radius:
+            return True, x, y, k
+    return False, x, y, k
+
+
+@njit(cache=True)
+def _append(net, doors, scratch, first, count, x, y, k):
+    """Add a corner to the leg that begins at ``first``, dropping corners that the line of sight jumps over."""
+    radius = doors.radius
+    points = scratch.points
+    cells = scratch.cells
+    while count - first >= 2:
+        vx, vy = points[count - 1, 0], points[count - 1, 1]
+        ax, ay = points[count - 2, 0], points[count - 2, 1]
+        gap, qx, qy = gap_at(net, cells[count - 1], vx, vy)
+        dx = x - ax
+        dy = y - ay
+        length = dx * dx + dy * dy
+        s = ((qx - ax) * dx + (qy - ay) * dy) / length if length > 0.0 else 0.0
+        s = min(max(s, 0.0), 1.0)
+        ex = ax + s * dx - qx
+        ey = ay + s * dy - qy
+        if ex * ex + ey * ey < radius * radius:
+            break
+        reached, cell, _, _, _, _ = walk(net, cells[count - 2], ax, ay, x, y, radius, False)
+        if not reached or cell != k:
+            break
+        count -= 1
+    grow(scratch, count + 1)
+    scratch.points[count, 0] = x
+    scratch.points[count, 1] = y
+    scratch.cells[count] = k
+    return count + 1
+
+
+@njit(cache=True)
+def _mend(net, doors, scratch, first, count, gx, gy, goal_cell):
+    """Add a walked line from the leg's last corner to g; returns the new count and whether the body fits all along."""
+    radius = doors.radius
+    stack = np.empty((_DEPTH + 2, 2), np.float64)
+    stack_cell = np.empty(_DEPTH + 2, np.int32)
+    stack[0, 0], stack[0, 1] = gx, gy
+    stack_cell[0] = goal_cell
+    height = 1
+    fits = True
+    while height > 0:
+        k = scratch.cells[count - 1]
+        ax, ay = scratch.points[count - 1, 0], scratch.points[count - 1, 1]
+        bx, by = stack[height - 1, 0], stack[height - 1, 1]
+        target = stack_cell[height - 1]
+        reached, cell, gap, place, qx, qy = walk(net, k, ax, ay, bx, by, radius, True)
+        if reached and cell == target and gap >= radius:
+            count = _append(net, doors, scratch, first, count, bx, by, target)
+            height -= 1
+            continue
+        if reached and cell == target and height <= _DEPTH:
+            x = ax + place * (bx - ax)
+            y = ay + place * (by - ay)
+            at = walk(net, k, ax, ay, x, y, 0.0, True)[1]
+            pushed, x, y, at = _push(net, at, x, y, qx, qy, radius)
+            if pushed and (x - ax) ** 2 + (y - ay) ** 2 > 1e-12 and (x - bx) ** 2 + (y - by) ** 2 > 1e-12:
+                stack[height, 0], stack[height, 1] = x, y
+                stack_cell[height] = at
+                height += 1
+                continue
+        cells = detour(net, k, target, radius)
+        scratch.numbers[DETOURS] += 1
+        if cells.size == 0:
+            return count, False
+        for step in range(1, cells.size - 1):
+            at = cells[step]
+            column = net.cell_column[at]
+            ix = column // net.ny
+            x = (ix + 0.5) * net.cell
+            y = (column - ix * net.ny + 0.5) * net.cell
+            if net.clearance[at] < radius:
+                gap, qx, qy = gap_at(net, at, x, y)
+                pushed, x, y, at = _push(net, at, x, y, qx, qy, radius)
+            count = _append(net, doors, scratch, first, count, x, y, at)
+        count = _append(net, doors, scratch, first, count, bx, by, target)
+        height -= 1
+    return count, fits
+
+
+@njit(cache=True)
+def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell):
+    """Pull one walked leg taut: from the last corner in ``scratch.points`` through the portals of edges[first:last].
+
+    Returns the new number of corners and whether the goal was reached.
+    """
+    leg = count - 1
+    room = last - first + 2
+    work = np.empty((room, 2), np.float64)
+    cells = np.empty(room, np.int32)
+    sx, sy = scratch.points[leg, 0], scratch.points[leg, 1]
+    corners = _funnel(
+        doors, scratch.edges, first, last, work, cells, sx, sy, scratch.cells[leg], gx, gy, goal_cell
+    )
+    radius = doors.radius
+    for i in range(1, corners):
+        x, y, k = work[i, 0], work[i, 1], cells[i]
+        if i < corners - 1:
+            gap, qx, qy = gap_at(net, k, x, y)
+            if gap < radius * (1.0 + _MARGIN):
+                pushed, px, py, pk = _push(net, k, x, y, qx, qy, radius)
+                if pushed:
+                    x, y, k = px, py, pk
+        count, fits = _mend(net, doors, scratch, leg, count, x, y, k)
+        if not fits:
+            return count, False
+    for i in range(leg, count):
+        scratch.points[i, 2] = floor_at(net, scratch.cells[i], scratch.points[i, 0], scratch.points[i, 1])
+    return count, True

@@ -1,0 +1,219 @@
+"""A* over the graph of discs, for one body radius, in slices if wanted.
+
+The cost of a step is not measured between centres, which bends every route through the middles of large discs,
+but along entry points: where the portal into the next disc is best crossed on the way from the present entry
+point to the goal. Lengths are three-dimensional and weighted by the node's area cost; what is left is estimated
+by the straight line to the goal, which never overestimates because no cost factor is below 1.
+"""
+
+from math import sqrt
+
+import numpy as np
+from numba import njit
+
+__all__ = ["BEST", "COMPLETE", "EMPTY", "EXPANDED", "RUNNING", "advance", "begin", "chain"]
+
+RUNNING, COMPLETE, EMPTY = 0, 1, 2
+"""State of a search: not finished; the goal was reached; every reachable node was seen without reaching it."""
+
+# Places in scratch.numbers
+_STAMP, _HEAP, _STATE, _GOAL_NODE, BEST, EXPANDED = 0, 1, 2, 3, 4, 5
+
+
+@njit(cache=True)
+def _push(scratch, key, node):
+    size = scratch.numbers[_HEAP]
+    if size == scratch.heap_key.size:
+        keys = np.empty(2 * size, np.float64)
+        keys[:size] = scratch.heap_key
+        scratch.heap_key = keys
+        nodes = np.empty(2 * size, np.int32)
+        nodes[:size] = scratch.heap_node
+        scratch.heap_node = nodes
+    keys = scratch.heap_key
+    nodes = scratch.heap_node
+    i = size
+    while i > 0:
+        up = (i - 1) >> 1
+        if keys[up] < key or (keys[up] == key and nodes[up] <= node):
+            break
+        keys[i] = keys[up]
+        nodes[i] = nodes[up]
+        i = up
+    keys[i] = key
+    nodes[i] = node
+    scratch.numbers[_HEAP] = size + 1
+
+
+@njit(cache=True)
+def _pop(scratch):
+    keys = scratch.heap_key
+    nodes = scratch.heap_node
+    size = scratch.numbers[_HEAP] - 1
+    scratch.numbers[_HEAP] = size
+    key = keys[size]
+    node = nodes[size]
+    top_key = keys[0]
+    top_node = nodes[0]
+    i = 0
+    while True:
+        down = 2 * i + 1
+        if down >= size:
+            break
+        right = down + 1
+        if right < size and (
+            keys[right] < keys[down] or (keys[right] == keys[down] and nodes[right] < nodes[down])
+        ):
+            down = right
+        if key < keys[down] or (key == keys[down] and node <= nodes[down]):
+            break
+        keys[i] = keys[down]
+        nodes[i] = nodes[down]
+        i = down
+    keys[i] = key
+    nodes[i] = node
+    return top_key, top_node
+
+
+@njit(cache=True, inline="always")
+def _distance(ax, ay, az, bx, by, bz):
+    return sqrt((ax - bx) * (ax - bx) + (ay - by) * (ay - by) + (az - bz) * (az - bz))
+
+
+@njit(cache=True, inline="always")
+def _crossing(lx, ly, rx, ry, ax, ay, bx, by):
+    """Where on the portal (0 left, 1 right) the shortest way from a over the portal to b crosses it."""
+    px = rx - lx
+    py = ry - ly
+    length = px * px + py * py
+    if length < 1e-18:
+        return 0.0
+    along_a = (ax - lx) * px + (ay - ly) * py
+    along_b = (bx - lx) * px + (by - ly) * py
+    off_a = abs((ax - lx) * py - (ay - ly) * px)
+    off_b = abs((bx - lx) * py - (by - ly) * px)
+    both = off_a + off_b
+    along = along_a + (along_b - along_a) * (off_a / both if both > 0.0 else 0.5)
+    t = along / length
+    return 0.0 if t < 0.0 else (1.0 if t > 1.0 else t)
+
+
+@njit(cache=True)
+def begin(net, doors, scratch, start_node, goal_node, sx, sy, sz, gx, gy, gz):
+    """Set up a search from (sx, sy, sz) in ``start_node`` to (gx, gy, gz) in ``goal_node`` (or -1: as near as can be)."""
+    numbers = scratch.numbers
+    numbers[_STAMP] += 1
+    numbers[_HEAP] = 0
+    numbers[_STATE] = RUNNING
+    numbers[_GOAL_NODE] = goal_node
+    numbers[BEST] = start_node
+    numbers[EXPANDED] = 0
+    ends = scratch.ends
+    ends[0], ends[1], ends[2] = sx, sy, sz
+    ends[3], ends[4], ends[5] = gx, gy, gz
+    rest = _distance(sx, sy, sz, gx, gy, gz)
+    ends[6] = rest
+    scratch.stamp[start_node] = numbers[_STAMP]
+    scratch.cost[start_node] = 0.0
+    scratch.total[start_node] = rest
+    scratch.entry[start_node, 0] = sx
+    scratch.entry[start_node, 1] = sy
+    scratch.entry[start_node, 2] = sz
+    scratch.parent[start_node] = -1
+    scratch.via[start_node] = -1
+    _push(scratch, rest, start_node)
+
+
+@njit(cache=True, inline="always")
+def _reach(scratch, stamp, node, source, via, cost, rest, x, y, z):
+    total = cost + rest
+    if scratch.stamp[node] == stamp and total >= scratch.total[node] - 1e-9:
+        return
+    scratch.stamp[node] = stamp
+    scratch.cost[node] = cost
+    scratch.total[node] = total
+    scratch.entry[node, 0] = x
+    scratch.entry[node, 1] = y
+    scratch.entry[node, 2] = z
+    scratch.parent[node] = source
+    scratch.via[node] = via
+    _push(scratch, total, node)
+
+
+@njit(cache=True)
+def advance(net, doors, scratch, budget):
+    """Expand at most ``budget`` nodes; returns RUNNING, COMPLETE or EMPTY. The slices do not change the result."""
+    numbers = scratch.numbers
+    if numbers[_STATE] != RUNNING:
+        return numbers[_STATE]
+    stamp = numbers[_STAMP]
+    goal_node = numbers[_GOAL_NODE]
+    gx, gy, gz = scratch.ends[3], scratch.ends[4], scratch.ends[5]
+    edge_count = net.edge_target.size
+    left = doors.left
+    right = doors.right
+    while budget > 0:
+        if numbers[_HEAP] == 0:
+            numbers[_STATE] = EMPTY
+            return EMPTY
+        key, node = _pop(scratch)
+        if key > scratch.total[node]:
+            continue  # reached more cheaply since
+        if node == goal_node:
+            numbers[BEST] = node
+            numbers[_STATE] = COMPLETE
+            return COMPLETE
+        budget -= 1
+        numbers[EXPANDED] += 1
+        cost = scratch.cost[node]
+        x, y, z = scratch.entry[node, 0], scratch.entry[node, 1], scratch.entry[node, 2]
+        if goal_node < 0 or scratch.ends[6] > 0.0:
+            rest = _distance(x, y, z, gx, gy, gz)
+            if rest < scratch.ends[6]:
+                scratch.ends[6] = rest
+                numbers[BEST] = node
+        factor = doors.node_cost[node]
+        for edge in range(net.edge_start[node], net.edge_start[node + 1]):
+            if not doors.open[edge]:
+                continue
+            target = net.edge_target[edge]
+            if target == scratch.parent[node]:
+                continue
+            lx, ly, rx, ry = left[edge, 0], left[edge, 1], right[edge, 0], right[edge, 1]
+            t = _crossing(lx, ly, rx, ry, x, y, gx, gy)
+            ex = lx + t * (rx - lx)
+            ey = ly + t * (ry - ly)
+            ez = left[edge, 2] + t * (right[edge, 2] - left[edge, 2])
+            step = cost + factor * _distance(x, y, z, ex, ey, ez)
+            rest = _distance(ex, ey, ez, gx, gy, gz)
+            if target == goal_node:
+                rest *= doors.node_cost[target]
+            _reach(scratch, stamp, target, node, edge, step, rest, ex, ey, ez)
+        for leap in range(doors.leap_start[node], doors.leap_start[node + 1]):
+            fx, fy, fz = doors.leap_from[leap, 0], doors.leap_from[leap, 1], doors.leap_from[leap, 2]
+            tx, ty, tz = doors.leap_to[leap, 0], doors.leap_to[leap, 1], doors.leap_to[leap, 2]
+            target = net.label[doors.leap_to_cell[leap]]
+            step = cost + factor * _distance(x, y, z, fx, fy, fz) + doors.leap_cost[leap]
+            rest = _distance(tx, ty, tz, gx, gy, gz)
+            if target == goal_node:
+                rest *= doors.node_cost[target]
+            _reach(scratch, stamp, target, node, edge_count + leap, step, rest, tx, ty, tz)
+    return RUNNING
+
+
+@njit(cache=True)
+def chain(net, scratch):
+    """Write the chain of nodes to the best node and the edges between them; returns the number of nodes."""
+    count = 0
+    node = scratch.numbers[BEST]
+    while node >= 0:
+        scratch.nodes[count] = node
+        scratch.edges[count] = scratch.via[node]
+        count += 1
+        node = scratch.parent[node]
+    for i in range(count // 2):
+        j = count - 1 - i
+        scratch.nodes[i], scratch.nodes[j] = scratch.nodes[j], scratch.nodes[i]
+        scratch.edges[i], scratch.edges[j] = scratch.edges[j], scratch.edges[i]
+    # edges[i] leads into nodes[i]; edges[0] is -1
+    return count

@@ -15,7 +15,7 @@ from navmesh.probes import crossed, lowest_above, surface_below
 from navmesh.rules import WalkRules
 from navmesh.surface import Surface
 
-__all__ = ["DROP", "GAP", "JUMP", "REACH", "VAULT", "Limits", "cells_of", "march", "measure", "seek"]
+__all__ = ["DROP", "GAP", "JUMP", "REACH", "VAULT", "Limits", "cells_of", "march", "measure", "room"]
 
 JUMP, VAULT, DROP, GAP = 1, 2, 3, 4
 REACH = 50.0
@@ -84,15 +84,15 @@ def cells_of(surface: Surface) -> tuple:
 
 
 @njit(cache=True)
-def seek(cells, x, y, z, dx, dy, slope, farthest):
+def seek(cells, x, y, z, dx, dy, slope, nearest, farthest):
     """The first cell from (x, y, z) in direction (dx, dy): a floor near height z whose centre is ahead.
 
-    Returns (distance [m], cell), cell -1 when there is none within ``farthest``.
+    Returns (distance [m], cell), cell -1 when there is none from ``nearest`` to ``farthest``.
     """
     size = cells[5]
     ny = cells[7]
     stride = 0.25 * size
-    ahead = 0.02
+    ahead = nearest
     while ahead <= farthest:
         px = x + ahead * dx
         py = y + ahead * dy
@@ -150,13 +150,27 @@ def march(cells, cell, x, y, dx, dy, limit):
 
 
 @njit(cache=True)
-def _room(cells, x, y, z, dx, dy, slope):
-    """Free length from an edge point on: (length [m], distance to the first cell [m], cell or -1)."""
-    ahead, cell = seek(cells, x, y, z, dx, dy, slope, 1.6 * cells[5])
-    if cell < 0:
-        return 0.0, 0.0, -1
-    length, _ = march(cells, cell, x + ahead * dx, y + ahead * dy, dx, dy, REACH)
-    return min(ahead + length, REACH), ahead, cell
+def room(cells, x, y, z, dx, dy, slope, limit):
+    """Free length from an edge point (x, y, z) on, in direction (dx, dy), at most ``limit``.
+
+    The square at the edge may have its centre inside what the edge belongs to, and one beside the line behind
+    a slanting wall: where the line ends at once, it is tried again from the next square.
+    Returns (length [m], distance to the first cell [m], first cell or -1, last cell).
+    """
+    farthest = 1.6 * cells[5]
+    best, at, first, last = 0.0, 0.0, -1, -1
+    nearest = 0.02
+    while nearest <= farthest:
+        ahead, cell = seek(cells, x, y, z, dx, dy, slope, nearest, farthest)
+        if cell < 0:
+            break
+        length, end = march(cells, cell, x + ahead * dx, y + ahead * dy, dx, dy, limit - ahead)
+        if ahead + length > best:
+            best, at, first, last = ahead + length, ahead, cell, end
+        if length >= 1.5 * cells[5] or ahead + length >= limit:
+            break
+        nearest = ahead + 0.25 * cells[5]
+    return best, at, first, last
 
 
 @njit(cache=True)
@@ -287,12 +301,12 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, kind, size):
     rim = t >= 0 and grid[0][t, 14] == 2.0
     top, top_ahead, top_cell = 0.0, 0.0, -1
     if rim:
-        top, top_ahead, top_cell = _room(cells, x, y, z, -ox, -oy, limits.slope)
+        top, top_ahead, top_cell, _ = room(cells, x, y, z, -ox, -oy, limits.slope, REACH)
     low, low_ahead, low_cell = 0.0, 0.0, -1
     if state == 1 and (
         height <= limits.drop_high or height <= limits.vault_high or height <= limits.jump_high
     ):
-        low, low_ahead, low_cell = _room(cells, x, y, floor, ox, oy, limits.slope)
+        low, low_ahead, low_cell, _ = room(cells, x, y, floor, ox, oy, limits.slope, REACH)
     lx, ly = x + low_ahead * ox, y + low_ahead * oy
     tx, ty = x - top_ahead * ox, y - top_ahead * oy
     top_z = max(z, cells[2][top_cell]) if top_cell >= 0 else z
@@ -305,12 +319,12 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, kind, size):
             depth, behind = _behind(grid, x, y, z, -ox, -oy, floor, limits)
             if depth >= 0.0:
                 bx, by = x - depth * ox, y - depth * oy
-                room, ahead, cell = _room(cells, bx, by, behind, -ox, -oy, limits.slope)
-                if cell >= 0 and room >= limits.landing:
+                free, ahead, cell, _ = room(cells, bx, by, behind, -ox, -oy, limits.slope, REACH)
+                if cell >= 0 and free >= limits.landing:
                     fx, fy = bx - ahead * ox, by - ahead * oy
                     if _air(grid, lx, ly, z, fx, fy, z, limits.headroom):
                         kind[0] = VAULT
-                        _note(size[0], height, depth, low, room, behind - floor)
+                        _note(size[0], height, depth, low, free, behind - floor)
     if top_cell < 0 or top < limits.run_up:
         return
     if low_cell >= 0 and low >= limits.landing and limits.drop_low <= height <= limits.drop_high:
@@ -320,12 +334,12 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, kind, size):
     width, other = _across(grid, cells, x, y, z, ox, oy, limits)
     if width >= 0.0:
         bx, by = x + width * ox, y + width * oy
-        room, ahead, cell = _room(cells, bx, by, other, ox, oy, limits.slope)
-        if cell >= 0 and room >= limits.landing:
+        free, ahead, cell, _ = room(cells, bx, by, other, ox, oy, limits.slope, REACH)
+        if cell >= 0 and free >= limits.landing:
             fx, fy = bx + ahead * ox, by + ahead * oy
             if _air(grid, tx, ty, top_z, fx, fy, max(other, cells[2][cell]), limits.headroom):
                 kind[2] = GAP
-                _note(size[2], other - z, width, top, room, other - z)
+                _note(size[2], other - z, width, top, free, other - z)
 
 
 @njit(cache=True)
@@ -333,8 +347,9 @@ def measure(grid, cells, start, end, outward, first, limits):
     """Measure every rim at evenly spread points: the middles of first[i + 1] - first[i] equal parts.
 
     ``start``, ``end`` (n, 3), ``outward`` (n, 2), ``first`` (n + 1,) int64. Returns ``kind`` (s, 3) int8,
-    0 where there is nothing, and ``size`` (s, 3, 5) float64 [m]: height, depth, run-up, landing, rise from the
-    floor before to the floor behind. Slots: 0 what one meets from below (jump or vault), 1 the drop, 2 the gap.
+    0 where there is nothing, and ``size`` (s, 3, 5) float64 [m]: height, depth, run-up, landing, rise from
+    the floor before to the floor behind. Slots: 0 what one meets from below (jump or vault), 1 the drop,
+    2 the gap.
     """
     samples = first[-1]
     kind = np.zeros((samples, 3), np.int8)

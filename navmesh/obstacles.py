@@ -23,11 +23,11 @@ class Obstacles:
     normal: np.ndarray
     """(k, 3) float64: horizontal unit vector at right angles to the edge, towards the run-up side."""
     height: np.ndarray
-    """(k,) float64 [m]: jump: rise from the floor before it; vault: of its top above the floor before it; drop:
-    depth of the fall; gap: of the far rim above the near one (may be negative)."""
+    """(k,) float64 [m]: jump: rise from the floor before it; vault: of its top above the floor before it;
+    drop: depth of the fall; gap: of the far rim above the near one (may be negative)."""
     depth: np.ndarray
-    """(k,) float64 [m], along the way across: jump: of the top (the same as `landing`); vault: thickness; drop: 0;
-    gap: width from rim to rim."""
+    """(k,) float64 [m], along the way across: jump: of the top (the same as `landing`); vault: thickness;
+    drop: 0; gap: width from rim to rim."""
     width: np.ndarray
     """(k,) float64 [m]: usable length of the edge. A body of radius r has width - 2r of freedom."""
     rim: np.ndarray
@@ -60,8 +60,8 @@ class Obstacles:
         return Obstacles(**{name: array[which] for name, array in self.arrays().items()})
 
     def near(self, point: np.ndarray, affordance: str | None = None) -> tuple[int, float]:
-        """Index of and distance [m] to the obstacle whose position is nearest to ``point`` (3,), among those of
-        ``affordance`` if it is given; (-1, infinity) when there is none."""
+        """Index of and distance [m] to the obstacle whose position is nearest to ``point`` (3,), among those
+        of ``affordance`` if it is given; (-1, infinity) when there is none."""
         distance = np.linalg.norm(self.position - np.asarray(point, np.float64), axis=1)
         if affordance is not None:
             distance = np.where(self.affordance == affordance, distance, np.inf)

@@ -125,9 +125,10 @@ def _frames(
             values[i, 2:4] = np.minimum(values[i, 2:4], around[:, 2:4].min(axis=0))
     from_above = code in (DROP, GAP)
     rim = np.array([(stretch.start, stretch.end) for stretch in stretches])
+    rim_height = samples.height[[(stretch.members[0], stretch.members[-1]) for stretch in stretches]]
     # the fall is to the right of start → end: start is on the left for who comes from below
     if from_above:
-        rim = rim[:, ::-1]
+        rim, rim_height = rim[:, ::-1], rim_height[:, ::-1]
     normal = np.column_stack((-outward if from_above else outward, np.zeros(count)))
     return Obstacles(
         affordance=np.full(count, name, "<U5"),
@@ -137,6 +138,7 @@ def _frames(
         depth=values[:, 3] if code == JUMP else values[:, 1],
         width=np.array([stretch.width for stretch in stretches]),
         rim=rim,
+        rim_height=rim_height,
         run_up=values[:, 2],
         landing=values[:, 3],
         rise=values[:, 4],

@@ -32,6 +32,8 @@ class Obstacles:
     """(k,) float64 [m]: usable length of the edge. A body of radius r has width - 2r of freedom."""
     rim: np.ndarray
     """(k, 2, 3) float64 [m]: ends of the usable edge, left and right as seen from the run-up side."""
+    rim_height: np.ndarray
+    """(k, 2) float64 [m]: what `height` is at the two ends of `rim`; it changes evenly in between."""
     run_up: np.ndarray
     """(k,) float64 [m]: free length straight before the edge, measured on the surface up to 50 m."""
     landing: np.ndarray
@@ -84,6 +86,7 @@ LAYOUT: dict[str, tuple[type | str, tuple[int, ...]]] = {
     "depth": (np.float64, ()),
     "width": (np.float64, ()),
     "rim": (np.float64, (2, 3)),
+    "rim_height": (np.float64, (2,)),
     "run_up": (np.float64, ()),
     "landing": (np.float64, ()),
     "rise": (np.float64, ()),

@@ -14,7 +14,7 @@ _TURN = np.cos(np.radians(20.0))  # neighbouring edges that turn by more are not
 _BOW = 0.02  # [m] farthest that a sample of a stretch is beside the straight line through it
 _SLACK = 0.02  # [m] gap between neighbouring samples of one stretch
 _HEIGHT = 0.05  # [m] greatest change of height (or width of a gap) from a sample to the next
-_SPREAD = 0.3  # [m] greatest difference of heights within a stretch
+_SPREAD = 0.3  # [m] greatest difference of heights (or widths of a gap) within a stretch
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -104,8 +104,7 @@ def _straight_runs(samples: Samples, group: np.ndarray) -> Iterator[np.ndarray]:
                 cut = min(max(worst, 1), len(run) - 1)
                 pending += [run[cut:], run[:cut]]
                 continue
-        heights = samples.height[run]
-        if heights.max() - heights.min() > _SPREAD:
+        if max(np.ptp(samples.height[run]), np.ptp(samples.depth[run])) > _SPREAD:
             cut = len(run) // 2
             pending += [run[cut:], run[:cut]]
             continue

@@ -1,7 +1,7 @@
 """Typed links: the ways over obstacles that a route can take, as edges of the graph.
 
-A link is straight: from the run-up point, at right angles over the edge, to the landing point. An obstacle has
-several side by side, spread over its usable width, so that a route need not detour to its middle.
+A link is straight: from the run-up point, at right angles over the edge, to the landing point. An obstacle
+has several side by side, spread over its usable width, so that a route need not detour to its middle.
 """
 
 import math
@@ -50,8 +50,8 @@ class Links:
     run_up: np.ndarray
     """(l,) float64 [m], horizontal distance from `start` to `edge`, 0.5 to 3."""
     radius: np.ndarray
-    """(l,) float64 [m], of the widest body that passes: room to both ends of the rim and clearance at both ends
-    of the link."""
+    """(l,) float64 [m], of the widest body that passes: room to both ends of the rim and clearance at both
+    ends of the link."""
     cost: np.ndarray
     """(l,) float64 [m]: its length and, on top, what the effort is worth in metres walked: 1 + 2·height for a
     jump, 3 for a vault, 2 + height for a drop, 1 + width for a gap."""
@@ -77,8 +77,8 @@ _COLUMNS = (
 def make_links(obstacles: Obstacles, surface: Surface, walking: WalkRules, body_radius: float = 0.3) -> Links:
     """The links over ``obstacles`` on ``surface`` (built under ``walking``).
 
-    The outermost links of an obstacle keep ``body_radius`` [m] from the ends of its rim. Where there is no cell
-    of the surface to start from or to land on there is no link.
+    The outermost links of an obstacle keep ``body_radius`` [m] from the ends of its rim. Where there is no
+    cell of the surface to start from or to land on there is no link.
     """
     if not len(obstacles):
         return Links.empty()
@@ -121,7 +121,10 @@ def make_links_from(table: np.ndarray, obstacles: Obstacles) -> Links:
 @njit(cache=True)
 def _place(cells, clearance, x, y, z, dx, dy, slope, longest, lateral, point):
     """Choose the point straight ahead of an edge point, at most ``longest`` away: the farthest with enough
-    clearance, or else the one with most. Writes it to ``point`` (3,); returns (distance or -1, cell, clearance)."""
+    clearance, or else the one with most. Writes it to ``point`` (3,).
+
+    Returns (distance or -1, cell, clearance), all distances in metres.
+    """
     size = cells[5]
     free, _, cell, _ = room(cells, x, y, z, dx, dy, slope, longest)
     if cell < 0 or free < _SHORTEST:

@@ -1,1 +1,25 @@
 """Bodies that follow a path."""
+
+from locomotion.approach import ApproachPlan, plan_approach, plan_approach_exact
+from locomotion.body import ARRIVAL_DISTANCE, PERSON_RULES, Human, HumanState
+from locomotion.errors import LocomotionError
+from locomotion.ground import Ground
+from locomotion.route_smoothing import ObstacleAhead, SmoothPath, smooth_route
+from locomotion.skill import RunSkill, load_run_skill
+
+__all__ = [
+    "ARRIVAL_DISTANCE",
+    "PERSON_RULES",
+    "ApproachPlan",
+    "Ground",
+    "Human",
+    "HumanState",
+    "LocomotionError",
+    "ObstacleAhead",
+    "RunSkill",
+    "SmoothPath",
+    "load_run_skill",
+    "plan_approach",
+    "plan_approach_exact",
+    "smooth_route",
+]

@@ -1,0 +1,311 @@
+"""One simulated person that follows paths: physics, running controller and path tracking put together.
+
+    human = Human(ground)
+    human.reset(position=(x, y, z), yaw=0.0)
+    human.follow(path, speed=3.5)
+    while human.status == "running":
+        human.tick()                                    # 10 ms
+
+What holds until there are skills for it: a person that stands (after `reset` with speed 0, or after it has
+arrived) is held still rather than balanced, and sets off by being put into the running motion at the skill's
+lowest speed, facing along its path.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import threading
+import weakref
+from dataclasses import dataclass
+from typing import Literal
+
+import mujoco
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from locomotion import controller, path_tracking
+from locomotion.controller import observe, run_tick
+from locomotion.errors import LocomotionError
+from locomotion.events import Arrived, Event, Fell, GotStuck, MissedGoal, SetOff, StrayedFromPath
+from locomotion.ground import Ground
+from locomotion.path_tracking import PathTable, TrackingLimits, make_path, new_track, track
+from locomotion.person import CONTROL_DT, STEPS_PER_TICK, PersonIndex, build_person
+from locomotion.skill import RunSkill, load_run_skill, reset_running, reset_standing
+
+__all__ = ["ARRIVAL_DISTANCE", "PERSON_RULES", "Human", "HumanState", "Status"]
+
+Status = Literal["standing", "running", "jumping", "fallen", "arrived", "lost", "stuck"]
+
+PERSON_RULES = {"radius": 0.3, "headroom": 1.9, "max_slope": math.radians(20.0), "max_step": 0.15}
+"""Where a person can run: radius [m], headroom [m], steepest slope [rad], highest step under a foot [m]."""
+ARRIVAL_DISTANCE = 0.5
+"""A person has arrived when its centre of mass is within this horizontal distance of the goal [m]."""
+STRAYED = 2.0
+"""[m] beside the path at which a person gives up following it."""
+STUCK_TIME = 4.0
+"""[s] without headway along the path after which a person counts as stuck."""
+_FALL_TICKS = 100  # a fallen body is simulated for this long, then held
+_GAINS = np.array([0.35, 1.2, 0.15, 0.45, 0.5, 0.2])
+_STATE = mujoco.mjtState.mjSTATE_INTEGRATION
+
+_models: weakref.WeakKeyDictionary[Ground, tuple[mujoco.MjModel, PersonIndex]] = weakref.WeakKeyDictionary()
+_plane: list[tuple[mujoco.MjModel, PersonIndex]] = []
+_lock = threading.Lock()
+
+
+def _model_on(ground: Ground | None) -> tuple[mujoco.MjModel, PersonIndex]:
+    """The compiled person on a ground, made once for each ground."""
+    with _lock:
+        found = _models.get(ground) if ground is not None else (_plane[0] if _plane else None)
+        if found is None:
+            model = build_person(ground)
+            if ground is not None:
+                ground.check(model)
+            found = (model, PersonIndex.of(model))
+            if ground is None:
+                _plane.append(found)
+            else:
+                _models[ground] = found
+        return found
+
+
+@dataclass(frozen=True)
+class HumanState:
+    """Everything that a `Human` remembers; restoring it continues the run bit for bit on the same ground."""
+
+    physics: NDArray[np.float64]
+    control: NDArray[np.float64]
+    tracking: NDArray[np.float64]
+    path: PathTable | None
+    status: Status
+    ticks: int
+    fallen_at: int
+    events: tuple[Event, ...]
+
+
+class Human:
+    """A person under physics. `tick` advances it by 10 ms.
+
+    Attributes:
+        status: "standing" (held), "running", "jumping", "fallen", "arrived" (held), "lost" (strayed from
+            its path or missed its goal; held) or "stuck" (held).
+        events: list of `locomotion.events.Event` in order of time.
+        model, data: the MuJoCo model (shared by all persons on the same ground) and this person's own data.
+    """
+
+    def __init__(self, ground: Ground | None = None, skill: RunSkill | None = None) -> None:
+        """``ground``: None is the endless plane z = 0. ``skill``: how it runs; None loads the package's."""
+        self.ground = ground
+        self.skill = load_run_skill() if skill is None else skill
+        self.model, self.index = _model_on(ground)
+        self.data = mujoco.MjData(self.model)
+        self.limits = TrackingLimits(self.skill.speeds)
+        self.events: list[Event] = []
+        self._control = controller.new_state()
+        self._memory = new_track()
+        self._command = np.zeros(3)
+        self._path: PathTable | None = None
+        self._ticks = 0
+        self._fallen_at = 0
+        self.status: Status = "standing"
+        middle = np.zeros(3) if ground is None else 0.5 * (ground.low + ground.high)
+        self._place(middle, 0.0, 0.0)
+
+    # --- where it is
+    @property
+    def time(self) -> float:
+        """Simulation time [s] since the person was made."""
+        return self._ticks * CONTROL_DT
+
+    @property
+    def com(self) -> NDArray[np.float64]:
+        """Centre of mass, (3,) float64 [m]."""
+        return self._control[controller.COM].copy()
+
+    @property
+    def velocity(self) -> NDArray[np.float64]:
+        """Velocity of the centre of mass, (3,) float64 [m/s]; zero while held."""
+        return np.zeros(3) if self.held else self._control[controller.COM_VELOCITY].copy()
+
+    @property
+    def position(self) -> NDArray[np.float64]:
+        """The point of the ground under the centre of mass, (3,) float64 [m]."""
+        com, feet = self._control[controller.COM], self._control[controller.FEET]
+        x, y, z = float(com[0]), float(com[1]), float(min(feet[2], feet[5]))
+        if self.ground is None:
+            return np.array([x, y, 0.0])
+        below = float(self.ground.surface_below([[x, y, float(com[2])]])[0][0])
+        return np.array([x, y, below if np.isfinite(below) else z])
+
+    @property
+    def yaw(self) -> float:
+        """Direction that the pelvis faces [rad, -π to π]."""
+        w, x, y, z = self.data.qpos[3:7]
+        return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+
+    @property
+    def qpos(self) -> NDArray[np.float64]:
+        """(46,) float64: root position [m], quaternion (w, x, y, z), angles [rad] of `person.JOINT_NAMES`."""
+        return self.data.qpos.copy()
+
+    @property
+    def held(self) -> bool:
+        """Whether the person is kept still: it stands, has arrived, is lost or stuck, or lay for a second."""
+        if self.status == "fallen":
+            return self._ticks - self._fallen_at > _FALL_TICKS
+        return self.status not in ("running", "jumping")
+
+    @property
+    def arc_length(self) -> float:
+        """Length of the path behind the person [m]."""
+        return float(self._memory[path_tracking.ARC])
+
+    @property
+    def lateral_error(self) -> float:
+        """Distance of the centre of mass to the left of the path [m]."""
+        return float(self._memory[path_tracking.LATERAL])
+
+    def body_transforms(self) -> NDArray[np.float64]:
+        """Position [m] and quaternion (w, x, y, z) of each body of the model, (nbody, 7) float64."""
+        mujoco.mj_kinematics(self.model, self.data)
+        return np.hstack([self.data.xpos, self.data.xquat])
+
+    # --- what it is told
+    def reset(self, position: ArrayLike, yaw: float, speed: float = 0.0) -> None:
+        """Put the person on the ground point ``position`` (3,) [m], facing ``yaw`` [rad]: standing, or
+        running at ``speed`` [m/s]. It forgets its path; events and time go on.
+
+        Raises `LocomotionError` for numbers that are not finite, a speed below 0, or a position more than
+        0.5 m off the ground.
+        """
+        place = np.asarray(position, dtype=np.float64)
+        if place.shape != (3,) or not np.isfinite(place).all() or not np.isfinite(yaw):
+            raise LocomotionError(f"position and yaw must be finite (3,) and (), not {position} and {yaw}")
+        if not (np.isfinite(speed) and speed >= 0.0):
+            raise LocomotionError(f"speed must be a finite number >= 0 m/s, not {speed}")
+        self._place(place if self.ground is None else self._on_ground(place), yaw, speed)
+        self._path = None
+        self.status = "standing" if speed == 0.0 else "running"
+
+    def follow(self, path: ArrayLike, speed: float) -> None:
+        """Run along ``path`` (n, 3) [m, on the ground] at up to ``speed`` [m/s]; slower in bends, on slopes
+        and before the end.
+
+        A held person sets off as the module's text says; a running one goes on as it is. Raises
+        `LocomotionError` for a bad path or speed, a path that begins more than 2 m from the person, or a
+        person that has fallen.
+        """
+        if self.status == "fallen":
+            raise LocomotionError("the person has fallen and cannot get up yet; reset it")
+        table = make_path(path, speed, self.limits, float(np.linalg.norm(self.velocity[:2])))
+        start, here = table.table[0, :3], self.position
+        gap = float(np.linalg.norm(start[:2] - here[:2]))
+        if gap > STRAYED or abs(start[2] - here[2]) > STRAYED:
+            raise LocomotionError(f"the path begins at {start.round(2)}, the person is at {here.round(2)}")
+        if self.held:
+            self._place(here, float(table.table[0, path_tracking.HEADING]), self.limits.speeds[0])
+        self._path = table
+        self._memory[:] = new_track()
+        self._memory[path_tracking.HEADWAY_TICK] = self._ticks
+        self._memory[path_tracking.REMAINING] = table.length
+        self.status = "running"
+        goal = (float(table.goal[0]), float(table.goal[1]), float(table.goal[2]))
+        self.events.append(SetOff(self.time, self._point(), goal, table.length))
+
+    # --- time
+    def tick(self) -> None:
+        """Advance by 10 ms: track the path, control, physics, observe, notice what happened."""
+        self._ticks += 1
+        if self.held:
+            return
+        state, data = self._control, self.data
+        if self._path is not None and self.status != "fallen":
+            com = controller.COM.start
+            track(
+                self._path.table, self._path.length, _GAINS, self._memory, state[com], state[com + 1],
+                state[controller.SPEED], self._ticks, self._command,
+            )  # fmt: skip
+        run_tick(*self.skill.tables, state, self._command, data.qpos, data.qvel, data.ctrl)
+        mujoco.mj_step(self.model, data, STEPS_PER_TICK)
+        observe(self.index, self.model, data, state)
+        if self.status == "fallen":
+            return
+        if state[controller.FALLEN] > 0.0:
+            self._fallen_at = self._ticks
+            speed, slope = float(state[controller.SPEED]), float(self._memory[path_tracking.SLOPE_HERE])
+            self._end("fallen", Fell(self.time, self._point(), speed, slope, self.arc_length))
+        elif self._path is not None:
+            self._notice()
+
+    def _notice(self) -> None:
+        """Arrived, lost, stuck?"""
+        assert self._path is not None
+        memory, com = self._memory, self._control[controller.COM]
+        remaining = memory[path_tracking.REMAINING]
+        if remaining < ARRIVAL_DISTANCE:
+            goal = self._path.goal
+            distance = math.hypot(goal[0] - com[0], goal[1] - com[1])
+            if distance <= ARRIVAL_DISTANCE:
+                self._end("arrived", Arrived(self.time, self._point(), distance))
+            elif remaining <= 1e-9:
+                self._end("lost", MissedGoal(self.time, self._point(), distance))
+        elif abs(memory[path_tracking.LATERAL]) > STRAYED:
+            self._end("lost", StrayedFromPath(self.time, self._point(), abs(self.lateral_error)))
+        elif (self._ticks - memory[path_tracking.HEADWAY_TICK]) * CONTROL_DT > STUCK_TIME:
+            self._end("stuck", GotStuck(self.time, self._point()))
+
+    def _end(self, status: Status, event: Event) -> None:
+        self.status = status
+        self.events.append(event)
+
+    # --- saving
+    def save_state(self) -> HumanState:
+        """Everything needed to continue from here."""
+        return HumanState(
+            self._physics(), self._control.copy(), np.concatenate([self._memory, self._command]), self._path,
+            self.status, self._ticks, self._fallen_at, tuple(self.events),
+        )  # fmt: skip
+
+    def restore_state(self, state: HumanState) -> None:
+        """Continue from a state of a person on the same ground with the same skill."""
+        if len(state.physics) != mujoco.mj_stateSize(self.model, _STATE):
+            raise LocomotionError("the saved state belongs to another model")
+        mujoco.mj_setState(self.model, self.data, state.physics, _STATE)
+        self._control[:] = state.control
+        self._memory[:] = state.tracking[: path_tracking.TRACK_SIZE]
+        self._command[:] = state.tracking[path_tracking.TRACK_SIZE :]
+        self._path, self.status = state.path, state.status
+        self._ticks, self._fallen_at = state.ticks, state.fallen_at
+        self.events[:] = state.events
+
+    def state_hash(self) -> str:
+        """Hex digest of the physical and mental state; equal for equal runs."""
+        hasher = hashlib.sha256(self.status.encode())
+        for part in (self._physics(), self._control, self._memory, self._command):
+            hasher.update(part.tobytes())
+        return hasher.hexdigest()[:16]
+
+    def _physics(self) -> NDArray[np.float64]:
+        state = np.empty(mujoco.mj_stateSize(self.model, _STATE))
+        mujoco.mj_getState(self.model, self.data, state, _STATE)
+        return state
+
+    def _point(self) -> tuple[float, float, float]:
+        x, y, z = self.position
+        return float(x), float(y), float(z)
+
+    def _on_ground(self, place: NDArray[np.float64]) -> NDArray[np.float64]:
+        assert self.ground is not None
+        z = float(self.ground.surface_below([[place[0], place[1], place[2] + 0.5]])[0][0])
+        if not abs(z - place[2]) <= 0.5:
+            raise LocomotionError(f"there is no ground within 0.5 m of {place.round(2)}")
+        return np.array([place[0], place[1], z])
+
+    def _place(self, position: NDArray[np.float64], yaw: float, speed: float) -> None:
+        if speed > 0.0:
+            reset_running(self.skill, self.model, self.data, self.index, self._control, position, yaw, speed)
+        else:
+            reset_standing(self.model, self.data, self.index, self._control, position, yaw)
+        self._command[:] = yaw, speed, 0.0
+        self._memory[:] = new_track()

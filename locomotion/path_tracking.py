@@ -1,0 +1,187 @@
+"""Following a path: where the body is on it, and the heading and speed to ask of the controller."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit
+from numpy.typing import ArrayLike, NDArray
+
+from locomotion.errors import LocomotionError
+
+__all__ = [
+    "ARC", "HEADWAY", "HEADWAY_TICK", "LATERAL", "REMAINING", "SLOPE_HERE", "SPEED_HERE", "TRACK_SIZE",
+    "PathTable", "TrackingLimits", "make_path", "new_track", "track",
+]  # fmt: skip
+
+SPACING = 0.1
+"""Spacing of a path's table [m]."""
+X, Y, Z, HEADING, CURVATURE, SLOPE, SPEED = range(7)
+"""Columns of a path's table."""
+ARC, LATERAL, INTEGRAL, REMAINING, SPEED_HERE, SLOPE_HERE, HEADWAY, HEADWAY_TICK = range(8)
+"""What the tracker remembers: arc length of the body's foot point [m], distance to the left of the path [m],
+its integral [m s], length left [m], planned speed [m/s] and slope here, greatest arc length so far and the
+tick at which it grew last by `_STEP`."""
+TRACK_SIZE = 8
+_STEP = 0.25
+_BACK, _AHEAD = 0.5, 1.5  # [m] search window around the last foot point
+
+
+@dataclass(frozen=True)
+class TrackingLimits:
+    """What a running body can follow.
+
+    Attributes:
+        speeds: lowest and highest speed [m/s].
+        turn_rate: [rad/s] highest turn rate of the path at the planned speed.
+        sideways: [m/s^2] highest sideways acceleration in a bend.
+        acceleration, deceleration: [m/s^2] of the planned speed along the path.
+        uphill, downhill: [m/s per unit of slope] taken off the wished speed on a slope.
+    """
+
+    speeds: tuple[float, float]
+    turn_rate: float = 0.8
+    sideways: float = 2.5
+    acceleration: float = 1.5
+    deceleration: float = 0.8
+    uphill: float = 2.0
+    downhill: float = 4.0
+
+
+@dataclass(frozen=True)
+class PathTable:
+    """A path resampled every 0.1 m of horizontal length.
+
+    Attributes:
+        table: (n, 7) float64: x, y, z [m], heading [rad, unwrapped], curvature [1/m, left positive], slope
+            (rise per length), planned speed [m/s].
+        length: horizontal length [m].
+        goal: (3,) float64, its last point.
+    """
+
+    table: NDArray[np.float64]
+    length: float
+    goal: NDArray[np.float64]
+
+
+def make_path(points: ArrayLike, speed: float, limits: TrackingLimits, present_speed: float) -> PathTable:
+    """Resample ``points`` (n, 3) [m] and plan the speed along it: at most ``speed`` [m/s], slower in bends,
+    on slopes and before the end, starting from ``present_speed`` [m/s].
+
+    Raises `LocomotionError` for fewer than two distinct points, coordinates that are not finite, or a speed
+    that is not above 0.
+    """
+    raw = np.asarray(points, dtype=np.float64)
+    if raw.ndim != 2 or raw.shape[1] != 3:
+        raise LocomotionError(f"a path has the shape (n, 3), not {raw.shape}")
+    if not np.isfinite(raw).all():
+        row = int(np.flatnonzero(~np.isfinite(raw).all(axis=1))[0])
+        raise LocomotionError(f"point {row} of the path is {raw[row]}; give finite coordinates")
+    if not (np.isfinite(speed) and speed > 0):
+        raise LocomotionError(f"speed must be a finite number above 0 m/s, not {speed}")
+    keep = np.ones(len(raw), dtype=bool)
+    keep[1:] = np.linalg.norm(np.diff(raw[:, :2], axis=0), axis=1) > 1e-6
+    distinct = raw[keep]
+    if len(distinct) < 2:
+        raise LocomotionError("a path needs at least two points that differ in x or y")
+    arc = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(distinct[:, :2], axis=0), axis=1))])
+    length = float(arc[-1])
+    count = max(int(np.ceil(length / SPACING)), 1) + 1
+    at = np.linspace(0.0, length, count)
+    table = np.empty((count, 7))
+    for k in range(3):
+        table[:, k] = np.interp(at, arc, distinct[:, k])
+    _directions(table, length / (count - 1))
+    _plan_speed(table, length / (count - 1), speed, limits, present_speed)
+    return PathTable(table, length, distinct[-1].copy())
+
+
+def _directions(table: NDArray[np.float64], step: float) -> None:
+    """Heading, curvature and slope from differences over about 0.4 m (slope: 1 m)."""
+    n = len(table)
+    index = np.arange(n)
+    near, far = (max(round(d / step), 1) for d in (0.2, 0.5))
+    low, high = np.maximum(index - near, 0), np.minimum(index + near, n - 1)
+    dx, dy = table[high, X] - table[low, X], table[high, Y] - table[low, Y]
+    table[:, HEADING] = np.unwrap(np.arctan2(dy, dx))
+    table[:, CURVATURE] = (table[high, HEADING] - table[low, HEADING]) / ((high - low) * step)
+    low, high = np.maximum(index - far, 0), np.minimum(index + far, n - 1)
+    table[:, SLOPE] = (table[high, Z] - table[low, Z]) / ((high - low) * step)
+
+
+def _plan_speed(
+    table: NDArray[np.float64], step: float, speed: float, limits: TrackingLimits, present: float
+) -> None:
+    slowest, fastest = limits.speeds
+    bend = np.maximum(np.abs(table[:, CURVATURE]), 1e-6)
+    slope = table[:, SLOPE]
+    wished = np.minimum(limits.turn_rate / bend, np.sqrt(limits.sideways / bend))
+    wished = np.minimum(wished, min(speed, fastest))
+    wished = wished - limits.uphill * np.maximum(slope, 0.0) - limits.downhill * np.maximum(-slope, 0.0)
+    wished = np.maximum(wished, slowest)
+    wished[-1] = slowest
+    squares = wished * wished
+    for i in range(len(squares) - 2, -1, -1):
+        squares[i] = min(squares[i], squares[i + 1] + 2.0 * limits.deceleration * step)
+    squares[0] = min(squares[0], max(present, slowest) ** 2 + limits.acceleration * step)
+    for i in range(1, len(squares)):
+        squares[i] = min(squares[i], squares[i - 1] + 2.0 * limits.acceleration * step)
+    table[:, SPEED] = np.sqrt(squares)
+
+
+def new_track() -> NDArray[np.float64]:
+    """What the tracker remembers at the beginning of a path, (TRACK_SIZE,) float64."""
+    return np.zeros(TRACK_SIZE)
+
+
+@njit(cache=True)
+def _at(table, step, arc, column):
+    place = min(max(arc / step, 0.0), table.shape[0] - 1.0)
+    i = min(int(place), table.shape[0] - 2)
+    w = place - i
+    return (1.0 - w) * table[i, column] + w * table[i + 1, column]
+
+
+@njit(cache=True)
+def track(table, length, gains, memory, x, y, speed, tick, command):
+    """One tick: find the body's foot point; write heading, speed and sideways speed into ``command`` (3,).
+
+    table (n, 7), length: a `PathTable`. gains (6,): preview time [s], lateral rate [1/s], integral rate
+    [1/s^2], largest correction [rad], sideways rate [1/s], largest sideways speed [m/s].
+    memory (TRACK_SIZE,). x, y: centre of mass [m]. speed: along the path [m/s]. tick: number of the control tick.
+    """
+    n = table.shape[0]
+    step = length / (n - 1)
+    first = min(max(int((memory[ARC] - _BACK) / step), 0), n - 2)
+    last = min(max(int((memory[ARC] + _AHEAD) / step), first + 1), n - 1)
+    best, arc = math.inf, memory[ARC]
+    for i in range(first, last):
+        ex, ey = table[i + 1, X] - table[i, X], table[i + 1, Y] - table[i, Y]
+        rx, ry = x - table[i, X], y - table[i, Y]
+        w = (rx * ex + ry * ey) / max(ex * ex + ey * ey, 1e-12)
+        w = min(max(w, 0.0), 1.0)
+        qx, qy = rx - w * ex, ry - w * ey
+        distance = qx * qx + qy * qy
+        if distance < best:
+            best, arc = distance, (i + w) * step
+    heading = _at(table, step, arc, HEADING)
+    px, py = _at(table, step, arc, X), _at(table, step, arc, Y)
+    lateral = -math.sin(heading) * (x - px) + math.cos(heading) * (y - py)
+    memory[ARC] = arc
+    memory[LATERAL] = lateral
+    memory[REMAINING] = length - arc
+    if arc > memory[HEADWAY] + _STEP:
+        memory[HEADWAY], memory[HEADWAY_TICK] = arc, tick
+    pace = max(speed, 1.0)
+    if abs(lateral) < 0.5:
+        memory[INTEGRAL] = min(max(memory[INTEGRAL] + 0.01 * lateral, -0.5), 0.5)
+    correction = (gains[1] * lateral + gains[2] * memory[INTEGRAL]) / pace
+    correction = min(max(correction, -gains[3]), gains[3])
+    preview = _at(table, step, arc + pace * gains[0], HEADING)
+    memory[SPEED_HERE] = _at(table, step, arc + 0.3 * pace, SPEED)
+    memory[SLOPE_HERE] = _at(table, step, arc, SLOPE)
+    command[0] = preview - correction
+    command[1] = memory[SPEED_HERE]
+    command[2] = min(max(-gains[4] * lateral, -gains[5]), gains[5])

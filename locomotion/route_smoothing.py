@@ -1,0 +1,147 @@
+"""From a route through the graph to what a body follows: one smooth path, and the obstacles on it.
+
+Each walked leg is smoothed inside its corridor; the legs are joined by the straight lines over the obstacles
+between them, which the path meets at right angles.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+import pathsmooth
+from locomotion.errors import LocomotionError
+from navmesh.route import Leg, Route
+
+__all__ = ["ObstacleAhead", "SmoothPath", "smooth_route"]
+
+_SPACING = 0.25
+_ROUNDNESS = 2.0  # smoothness [m^3] of a running body's path: corners are rounded over about 1.3 m
+
+
+@dataclass(frozen=True)
+class ObstacleAhead:
+    """An obstacle that the path crosses.
+
+    Attributes:
+        arc_length: [m] horizontal length of the path up to the obstacle's edge.
+        affordance: "jump", "vault", "drop" or "gap". height: [m] as in `NodeGraph.obstacles`.
+        position: (3,) float64 [m], where the path crosses the edge, at its top.
+        normal: (3,) float64, horizontal unit vector at right angles to the edge, towards the run-up side.
+    """
+
+    arc_length: float
+    affordance: str
+    height: float
+    position: NDArray[np.float64]
+    normal: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SmoothPath:
+    """points: (n, 3) float64 [m] on the surface. obstacles: in order. bounded: whether the curvature stays
+    within one of the bounds that were asked for on every leg (a narrow corner may not admit it)."""
+
+    points: NDArray[np.float64]
+    obstacles: tuple[ObstacleAhead, ...]
+    bounded: bool
+
+
+def smooth_route(
+    route: Route, curvatures: Sequence[float] = (0.3, 0.6), start_direction: ArrayLike | None = None
+) -> SmoothPath:
+    """Smooth a route of status "complete" or "partial".
+
+    curvatures: [1/m] bounds to try in turn, tightest first; a leg that admits none is smoothed without.
+    start_direction: (2,) or (3,) direction in which the body is moving, or None.
+    Raises `LocomotionError` for a route without waypoints.
+    """
+    legs = route.legs()
+    if not legs or len(route.waypoints) < 2:
+        raise LocomotionError(f"a route of status {route.status!r} has no path to smooth")
+    pieces: list[NDArray[np.float64]] = []
+    crossings: list[tuple[int, NDArray[np.float64]]] = []
+    bounded = True
+    for i, leg in enumerate(legs):
+        before = _link_direction(route, i - 1) if i > 0 else start_direction
+        after = _link_direction(route, i) if i < len(legs) - 1 else None
+        points, held = _smooth_leg(leg, curvatures, before, after)
+        bounded = bounded and held
+        pieces.append(points)
+        if i < len(legs) - 1:
+            edge = _edge_point(route, i)
+            crossings.append((route.links[i].obstacle, edge))
+            start, end = route.waypoints[route.links[i].first], route.waypoints[route.links[i].last]
+            pieces.append(_over(start, edge, end))
+    points = np.concatenate(pieces)
+    obstacles = tuple(_obstacle(route, points, index, edge) for index, edge in crossings)
+    return SmoothPath(points, obstacles, bounded)
+
+
+def _smooth_leg(
+    leg: Leg, curvatures: Sequence[float], before: ArrayLike | None, after: ArrayLike | None
+) -> tuple[NDArray[np.float64], bool]:
+    """Points of one leg, and whether they keep one of the bounds; end tangents give way first."""
+    length = float(np.linalg.norm(np.diff(leg.waypoints[:, :2], axis=0), axis=1).sum())
+    if length < 1e-3:
+        return leg.waypoints, True
+    for start, end in ((before, after), (None, after), (None, None)):
+        problem = None
+        for bound in (*curvatures, None):
+            problem = pathsmooth.Problem.from_corridor(
+                leg.waypoints, leg.centers, leg.radii, spacing=_SPACING, start_tangent=start, end_tangent=end,
+                max_curvature=bound, smoothness=_ROUNDNESS,
+            )  # fmt: skip
+            solution = pathsmooth.solve(problem)
+            if solution.status == "complete":
+                return solution.points, bound is not None
+        assert problem is not None
+        if not problem.obstruction:
+            return pathsmooth.solve(problem).points, False
+    return leg.waypoints, False
+
+
+def _link_direction(route: Route, index: int) -> NDArray[np.float64]:
+    use = route.links[index]
+    return (route.waypoints[use.last] - route.waypoints[use.first])[:2]
+
+
+def _edge_point(route: Route, index: int) -> NDArray[np.float64]:
+    """Where the straight line over a link crosses its obstacle's edge, at the height of the edge."""
+    use = route.links[index]
+    start, end = route.waypoints[use.first], route.waypoints[use.last]
+    obstacles = route.graph.obstacles
+    position, normal = obstacles.position[use.obstacle], obstacles.normal[use.obstacle]
+    along = float((end - start)[:2] @ normal[:2])
+    share = float((position - start)[:2] @ normal[:2]) / along if abs(along) > 1e-9 else 0.5
+    point = start + np.clip(share, 0.0, 1.0) * (end - start)
+    return np.array([point[0], point[1], position[2]])
+
+
+def _over(
+    start: NDArray[np.float64], edge: NDArray[np.float64], end: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """The line over an obstacle: level up to the edge, then level with the landing."""
+    direction = end - start
+    direction = direction / max(float(np.linalg.norm(direction[:2])), 1e-9)
+    before = np.array([edge[0] - 1e-3 * direction[0], edge[1] - 1e-3 * direction[1], start[2]])
+    after = np.array([edge[0] + 1e-3 * direction[0], edge[1] + 1e-3 * direction[1], end[2]])
+    return np.stack([before, after])
+
+
+def _obstacle(
+    route: Route, points: NDArray[np.float64], index: int, edge: NDArray[np.float64]
+) -> ObstacleAhead:
+    obstacles = route.graph.obstacles
+    steps = np.linalg.norm(np.diff(points[:, :2], axis=0), axis=1)
+    arc = np.concatenate([[0.0], np.cumsum(steps)])
+    nearest = int(np.argmin(np.linalg.norm(points[:, :2] - edge[:2], axis=1)))
+    normal = obstacles.normal[index]
+    forward = float((edge - points[nearest])[:2] @ -normal[:2])
+    return ObstacleAhead(
+        float(arc[nearest]) + forward, str(obstacles.affordance[index]), float(obstacles.height[index]),
+        edge, normal.copy(),
+    )  # fmt: skip

@@ -46,7 +46,8 @@ class Links:
     affordance: np.ndarray
     """(l,) str, of the obstacle."""
     height: np.ndarray
-    """(l,) float64 [m]: as of the obstacle, at this link."""
+    """(l,) float64 [m], what a skill's range is compared with: the obstacle's height at this link; for a gap,
+    its width. To 0.1 mm, so that a platform of 0.3 m is not a hair above or below it."""
     run_up: np.ndarray
     """(l,) float64 [m], horizontal distance from `start` to `edge`, 0.5 to 3."""
     radius: np.ndarray
@@ -69,9 +70,8 @@ class Links:
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
 
-_COLUMNS = (
-    16  # of the kernel's table: start xyz, edge xyz, end xyz, cells 2, obstacle, height, run-up, radius, cost
-)
+# Columns of the kernel's table: start xyz, edge xyz, end xyz, 2 cells, obstacle, height, run-up, radius, cost
+_COLUMNS = 16
 
 
 def make_links(obstacles: Obstacles, surface: Surface, walking: WalkRules, body_radius: float = 0.3) -> Links:
@@ -111,7 +111,7 @@ def make_links_from(table: np.ndarray, obstacles: Obstacles) -> Links:
         end_cell=table[:, 10].astype(np.int32),
         obstacle=owner,
         affordance=obstacles.affordance[owner],
-        height=table[:, 12].copy(),
+        height=table[:, 12].round(4),
         run_up=table[:, 13].copy(),
         radius=table[:, 14].copy(),
         cost=table[:, 15].copy(),
@@ -200,25 +200,17 @@ def _trace_links(cells, clearance, kind, rim, height, heading, size, slope, body
             )
             if start < 0:
                 continue
+            fx, fy = x + depth * dx, y + depth * dy
+            reach = _LONGEST_LANDING
             onward, end, gap_there = _place(
-                cells,
-                clearance,
-                x + depth * dx,
-                y + depth * dy,
-                behind,
-                dx,
-                dy,
-                slope,
-                _LONGEST_LANDING,
-                lateral,
-                row[6:9],
+                cells, clearance, fx, fy, behind, dx, dy, slope, reach, lateral, row[6:9]
             )
             if end < 0:
                 continue
             row[9] = start
             row[10] = end
             row[11] = i
-            row[12] = tall
+            row[12] = depth if kind[i] == 3 else tall
             row[13] = away
             row[14] = min(lateral, gap, gap_there)
             row[15] = away + depth + onward + effort

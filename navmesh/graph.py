@@ -2,25 +2,31 @@
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 import networkx
 import numpy as np
 
 from navmesh import archive, edges, nodes, pathfinding
+from navmesh.affordances import detect_obstacles
 from navmesh.build import build_surface
 from navmesh.errors import NavmeshError
+from navmesh.links import Links, make_links
+from navmesh.obstacle_rules import ObstacleRules
+from navmesh.obstacles import Obstacles
 from navmesh.pathfinding import PathSearch
 from navmesh.route import Route, Routes
 from navmesh.rules import WalkRules
 from navmesh.surface import Surface
+from navmesh.tagging import TagFile
 from navmesh.terrain import Terrain
 
 __all__ = ["NodeGraph"]
 
 _KIND = "surefoot navigation graph"
-_VERSION = 1
+_VERSION = 2
+_OBSTACLE_RULES = ObstacleRules()
 
 
 @dataclass(eq=False)
@@ -57,14 +63,26 @@ class NodeGraph:
     edge_cells: np.ndarray
     """(e, 2) int32: linked cells on the border of the two labels with the most clearance: the first is
     owned by the edge's source, the second by its target."""
+    obstacles: Obstacles = field(default_factory=Obstacles.empty)
+    """What a skill can clear, found in the mesh and corrected by the author's tags."""
+    links: Links = field(default_factory=Links.empty)
+    """The ways over the obstacles that a route can take; see `find_path`'s skills."""
     cache: dict[str, Any] = field(default_factory=dict, repr=False)
     """What queries have worked out and want to keep; never saved, and may be emptied at any time."""
 
     @classmethod
-    def build(cls, terrain: Terrain, rules: WalkRules | None = None) -> "NodeGraph":
+    def build(
+        cls,
+        terrain: Terrain,
+        rules: WalkRules | None = None,
+        obstacle_rules: ObstacleRules | None = _OBSTACLE_RULES,
+        tags: TagFile | None = None,
+    ) -> "NodeGraph":
         """The graph of ``terrain`` under ``rules`` (default: `WalkRules()`).
 
-        Raises `NavmeshError` when nothing is walkable.
+        ``obstacle_rules`` say what counts as clearable; None leaves the search for obstacles out. ``tags``
+        (`navmesh.load_tags`) are the author's additions, changes and removals. Raises `NavmeshError` when
+        nothing is walkable, or when the tags do not fit the level.
         """
         rules = rules or WalkRules()
         surface = build_surface(terrain, rules)
@@ -81,6 +99,11 @@ class NodeGraph:
         start, target, width, portal, border = edges.join_nodes(
             label, surface.link, surface.clearance, x, y, radii
         )
+        obstacles = Obstacles.empty()
+        if obstacle_rules is not None:
+            obstacles = detect_obstacles(terrain, surface, rules, obstacle_rules)
+        if tags is not None:
+            obstacles = tags.apply(obstacles, surface, rules)
         return cls(
             terrain_digest=terrain.digest,
             rules=rules,
@@ -94,6 +117,8 @@ class NodeGraph:
             edge_width=width,
             edge_portal=portal,
             edge_cells=border,
+            obstacles=obstacles,
+            links=make_links(obstacles, surface, rules, (obstacle_rules or _OBSTACLE_RULES).body_radius),
         )
 
     def __len__(self) -> int:
@@ -104,6 +129,8 @@ class NodeGraph:
         surface = self.surface
         arrays = {f"surface_{name}": getattr(surface, name) for name in _SURFACE_ARRAYS}
         arrays |= {name: getattr(self, name) for name in _GRAPH_ARRAYS}
+        arrays |= {f"obstacles_{name}": array for name, array in self.obstacles.arrays().items()}
+        arrays |= {f"links_{name}": array for name, array in self.links.arrays().items()}
         header = {
             "terrain": self.terrain_digest,
             "rules": self.rules.to_dict(),
@@ -134,6 +161,8 @@ class NodeGraph:
                 rules=WalkRules.from_dict(header["rules"]),
                 surface=surface,
                 **{name: arrays.pop(name) for name in _GRAPH_ARRAYS},
+                obstacles=Obstacles(**_unpacked(arrays, "obstacles_", Obstacles)),
+                links=Links(**_unpacked(arrays, "links_", Links)),
             )
         except KeyError as error:
             raise archive.ArchiveError(f"{path}: the navigation graph lacks {error}; bake it anew") from error
@@ -210,6 +239,10 @@ class NodeGraph:
             if a < b:
                 graph.add_edge(a, b, width=width, length=length)
         return graph
+
+
+def _unpacked(arrays: dict[str, np.ndarray], prefix: str, kind: type) -> dict[str, np.ndarray]:
+    return {each.name: arrays.pop(prefix + each.name) for each in fields(kind)}
 
 
 _SURFACE_ARRAYS = (

@@ -311,6 +311,7 @@ def person_spec() -> mujoco.MjSpec:
     """The description of the person and nothing else (no ground), to be extended and compiled by the caller."""
     spec = mujoco.MjSpec()
     spec.modelname = "person"
+    spec.compiler.degree = False
     spec.option.timestep = TIMESTEP
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     spec.option.cone = mujoco.mjtCone.mjCONE_PYRAMIDAL

@@ -1,0 +1,196 @@
+"""One simulated trial of running: commands, pushes and ground in, figures out."""
+
+import math
+from dataclasses import dataclass, field
+
+import mujoco
+import numpy as np
+from numba import njit
+
+from locomotion import controller as c
+from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, build_person
+from locomotion.skill import RunSkill, reset_running, reset_standing
+
+__all__ = ["FIGURES", "Scenario", "Simulator", "Trial"]
+
+FIGURES = (
+    "time", "speed_error", "heading_error", "side_drift", "reaction", "effort", "head", "step_rate", "trunk",
+    "speed", "peak", "turn",
+)
+"""What a trial measures; see `Trial`."""
+_WEIGHT = MASS * 9.81
+_G = 9.81
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """What one trial asks for.
+
+    Attributes:
+        duration: [s].
+        speeds: (k, 2) float64, rows of time [s] and desired speed [m/s].
+        headings: (h, 2) float64, rows of time [s] and desired turn rate [rad/s].
+        pushes: (j, 4) float64, rows of time [s], force x, y [N] on the chest in the world, length [s].
+        tilt: (2,) float64, slope of the plane along x and y [rise over run].
+        standing: whether the trial starts from standing still.
+        start_noise: (51,) float64 added to the start: root velocity (3), root angular velocity (3), 39 joints'
+            angles [rad], 6 spare; empty for none.
+        yaw: heading at the start [rad].
+    """
+
+    duration: float
+    speeds: np.ndarray
+    headings: np.ndarray = field(default_factory=lambda: np.zeros((1, 2)))
+    pushes: np.ndarray = field(default_factory=lambda: np.zeros((0, 4)))
+    tilt: tuple[float, float] = (0.0, 0.0)
+    standing: bool = False
+    start_noise: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    yaw: float = 0.0
+
+
+@dataclass
+class Trial:
+    """Outcome of a trial: the figures by name of `FIGURES`, and the final state for hashing.
+
+    time [s] survived; mean absolute errors of speed [m/s] and heading [rad]; mean lateral speed off the heading [m/s];
+    reaction: mean excess of the ground reaction above 3 body weights; effort: mean squared torque [(Nm)^2] over 1e4;
+    head: mean squared acceleration of the head [g^2]; step_rate [1/s]; trunk: mean squared tilt [rad^2];
+    speed: mean [m/s]; peak: highest reaction [body weights]; turn: turning per step [rad].
+    """
+
+    figures: dict[str, float]
+    state: np.ndarray
+
+
+@njit(cache=True)
+def _measure(sums, state, head, past, forces, chest, turn_rate, wanted):
+    """Add one tick to ``sums``; ``past`` (7,): head at the last two ticks, and ticks seen."""
+    h = state[2]
+    ch, sh = math.cos(h), math.sin(h)
+    vx = ch * state[17] + sh * state[18]
+    vy = -sh * state[17] + ch * state[18]
+    sums[0] += 1.0
+    sums[1] += vx
+    sums[2] += abs(vy)
+    reaction = (state[26] + state[27]) / _WEIGHT
+    sums[3] += max(reaction - 3.0, 0.0)
+    sums[10] = max(sums[10], reaction)
+    effort = 0.0
+    for k in range(forces.shape[0]):
+        effort += forces[k] * forces[k]
+    sums[4] += effort * 1e-4
+    if past[6] >= 2.0:
+        acc = 0.0
+        for k in range(3):
+            a = (head[k] - 2.0 * past[3 + k] + past[k]) / (CONTROL_DT * CONTROL_DT) / _G
+            acc += a * a
+        sums[5] += acc
+    for k in range(3):
+        past[k] = past[3 + k]
+        past[3 + k] = head[k]
+    past[6] += 1.0
+    tilt_x = ch * chest[2] + sh * chest[5] - 0.10
+    tilt_y = -sh * chest[2] + ch * chest[5]
+    sums[6] += tilt_x * tilt_x + 2.0 * tilt_y * tilt_y
+    fy = -sh * chest[0] + ch * chest[3]
+    sums[7] += fy * fy
+    sums[8] += abs(math.atan2(-sh * state[17] + ch * state[18], max(vx, 0.5)))
+    if state[3] > 0.0 and state[7] == 0.0 and state[6] > 1.0:
+        sums[9] += abs(state[12] - wanted)
+        sums[11] += 1.0
+
+
+def _at(schedule: np.ndarray, time: float) -> float:
+    """Value of the last row of ``schedule`` whose time has come."""
+    return float(schedule[max(int(np.searchsorted(schedule[:, 0], time, side="right")) - 1, 0), 1])
+
+
+class Simulator:
+    """A person on a plane that trials are run with; one per process."""
+
+    def __init__(self) -> None:
+        self.model = build_person()
+        self.data = mujoco.MjData(self.model)
+        self.index = PersonIndex.of(self.model)
+        self.ground = self.model.geom("ground").id
+        self.state = c.new_state()
+
+    def _tilt(self, slope: tuple[float, float]) -> None:
+        normal = np.array([-slope[0], -slope[1], 1.0])
+        normal /= np.linalg.norm(normal)
+        quat = np.array([1.0 + normal[2], -normal[1], normal[0], 0.0])
+        self.model.geom_quat[self.ground] = quat / np.linalg.norm(quat)
+
+    def start(self, skill: RunSkill, scenario: Scenario) -> None:
+        """Put the person at the origin as ``scenario`` says."""
+        self._tilt(scenario.tilt)
+        origin = np.zeros(3)
+        if scenario.standing:
+            reset_standing(self.model, self.data, self.index, self.state, origin, scenario.yaw)
+        else:
+            speed = _at(scenario.speeds, 0.0)
+            reset_running(skill, self.model, self.data, self.index, self.state, origin, scenario.yaw, speed)
+        if scenario.start_noise.size:
+            noise = scenario.start_noise
+            self.data.qvel[:6] += noise[:6]
+            self.data.qpos[7:] += noise[6:45]
+            mujoco.mj_forward(self.model, self.data)
+            self.state[c.COM_VELOCITY] += noise[:3]
+            c.observe(self.index, self.model, self.data, self.state, fresh=True)
+
+    def run(self, skill: RunSkill, scenario: Scenario, on_tick=None) -> Trial:
+        """Simulate ``scenario``; ``on_tick(simulator)`` is called after every tick."""
+        model, data, state, index = self.model, self.data, self.state, self.index
+        self.start(skill, scenario)
+        command = np.array([scenario.yaw, 0.0, 0.0])
+        sums, past = np.zeros(12), np.zeros(7)
+        head, chest = data.xpos[index.head], data.xmat[index.chest]
+        ticks = round(scenario.duration / CONTROL_DT)
+        tables, qpos, qvel, ctrl, forces = skill.tables, data.qpos, data.qvel, data.ctrl, data.actuator_force
+        push, turned = data.xfrc_applied[index.chest], 0.0
+        tick = 0
+        events = np.unique(np.concatenate([scenario.speeds[:, 0], scenario.headings[:, 0]]))
+        changes = set(np.round(events / CONTROL_DT).astype(int).tolist()) | {0}
+        turn = 0.0
+        for tick in range(ticks):
+            time = tick * CONTROL_DT
+            if tick in changes:
+                command[1], turn = _at(scenario.speeds, time + 1e-9), _at(scenario.headings, time + 1e-9)
+            command[0] += turn * CONTROL_DT
+            turned += abs(turn) * CONTROL_DT
+            if len(scenario.pushes):
+                push[:2] = 0.0
+                for start, fx, fy, length in scenario.pushes:
+                    if start <= time < start + length:
+                        push[0], push[1] = fx, fy
+            c.run_tick(*tables, state, command, qpos, qvel, ctrl)
+            mujoco.mj_step(model, data, STEPS_PER_TICK)
+            c.observe(index, model, data, state)
+            _measure(sums, state, head, past, forces, chest, turn, command[1])
+            if on_tick is not None:
+                on_tick(self)
+            if state[c.FALLEN] > 0.0:
+                break
+        push[:2] = 0.0
+        return self._figures(sums, tick + 1, turned)
+
+    def _figures(self, sums: np.ndarray, ticks: int, turned: float) -> Trial:
+        n, steps = max(sums[0], 1.0), max(sums[11], 1.0)
+        time = ticks * CONTROL_DT
+        if self.state[c.FALLEN] > 0.0:
+            time -= CONTROL_DT
+        figures = {
+            "time": time,
+            "speed_error": sums[9] / steps,
+            "heading_error": sums[8] / n + np.sqrt(sums[7] / n) * 0.5,
+            "side_drift": sums[2] / n,
+            "reaction": sums[3] / n,
+            "effort": sums[4] / n,
+            "head": sums[5] / n,
+            "step_rate": self.state[c.STEPS] / max(time, CONTROL_DT),
+            "trunk": sums[6] / n,
+            "speed": sums[1] / n,
+            "peak": sums[10],
+            "turn": turned / steps,
+        }
+        return Trial(figures, np.concatenate([self.data.qpos, self.data.qvel, self.state]))

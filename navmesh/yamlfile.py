@@ -118,7 +118,9 @@ def _construct(path: Path, node: yaml.Node, done: dict[int, Any], open_nodes: se
 def _scalar(path: Path, node: yaml.ScalarNode) -> Any:
     kind = node.tag.removeprefix(_PREFIX)
     if kind not in _SCALARS:
-        raise _at(path, node, f"{node.value!r} is read as {kind}; valid: {', '.join(_SCALARS)} (quote a text)")
+        raise _at(
+            path, node, f"{node.value!r} is read as {kind}; valid: {', '.join(_SCALARS)} (quote a text)"
+        )
     if kind == "str":
         return node.value
     try:
@@ -169,7 +171,11 @@ def _given(value: Any) -> str:
     if isinstance(value, str | int | float | bool) or value is None:
         text = repr(value)
         return f", not {text if len(text) <= 40 else text[:37] + '...'}"
-    return f", not a {'mapping' if isinstance(value, dict) else 'list'}" if isinstance(value, dict | list) else ""
+    return (
+        f", not a {'mapping' if isinstance(value, dict) else 'list'}"
+        if isinstance(value, dict | list)
+        else ""
+    )
 
 
 def _dotted(address: Sequence[Key]) -> str:

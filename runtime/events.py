@@ -1,0 +1,98 @@
+"""What happened to an agent, one type per kind of event; polled from `World.events`."""
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+__all__ = ["Arrived", "Blocked", "Departed", "Event", "Fell", "SkillFinished", "SkillStarted"]
+
+Point = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something that happened to ``agent`` at ``time`` [s, simulated] and ``position`` [m]."""
+
+    time: float
+    agent: str
+    position: Point
+
+    @property
+    def kind(self) -> str:
+        """Name of the event's type, such as ``"Arrived"``."""
+        return type(self).__name__
+
+    def to_dict(self) -> dict[str, Any]:
+        """The event as plain values, with its ``kind``."""
+        return {"kind": self.kind, **asdict(self)}
+
+    def __str__(self) -> str:
+        return f"{self.agent} {self._what()}"
+
+    def _what(self) -> str:
+        return self.kind.lower()
+
+
+@dataclass(frozen=True)
+class Departed(Event):
+    """The agent set out along a path of ``length`` [m] to ``goal``, over obstacles that need ``skills``."""
+
+    goal: Point
+    length: float
+    skills: tuple[str, ...]
+
+    def _what(self) -> str:
+        over = f" with {', '.join(self.skills)}" if self.skills else ""
+        return f"sets out for {_place(self.goal)}, {self.length:.1f} m{over}"
+
+
+@dataclass(frozen=True)
+class Arrived(Event):
+    """The agent reached ``goal``."""
+
+    goal: Point
+
+    def _what(self) -> str:
+        return f"arrives at {_place(self.goal)}"
+
+
+@dataclass(frozen=True)
+class Blocked(Event):
+    """There is no way to ``goal``; ``reason`` says why."""
+
+    goal: Point
+    reason: str
+
+    def _what(self) -> str:
+        return f"cannot reach {_place(self.goal)}: {self.reason}"
+
+
+@dataclass(frozen=True)
+class SkillStarted(Event):
+    """The agent left the run for ``skill``."""
+
+    skill: str
+
+    def _what(self) -> str:
+        return f"starts to {self.skill}"
+
+
+@dataclass(frozen=True)
+class SkillFinished(Event):
+    """The agent is back in its run after ``skill``."""
+
+    skill: str
+
+    def _what(self) -> str:
+        return f"runs on after the {self.skill}"
+
+
+@dataclass(frozen=True)
+class Fell(Event):
+    """The agent lost its balance; it stays down."""
+
+    def _what(self) -> str:
+        return f"falls at {_place(self.position)}"
+
+
+def _place(point: Point) -> str:
+    return f"({point[0]:.1f}, {point[1]:.1f}, {point[2]:.1f})"

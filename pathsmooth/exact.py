@@ -7,7 +7,7 @@ import numpy as np
 from pathsmooth import kernels
 from pathsmooth.errors import PathSmoothError
 from pathsmooth.problem import Problem
-from pathsmooth.solver import COMPLETE, INFEASIBLE, ITERATION_LIMIT, Solution
+from pathsmooth.solution import COMPLETE, INFEASIBLE, ITERATION_LIMIT, Solution
 
 
 def solve_exact(problem: Problem) -> Solution:

@@ -31,8 +31,9 @@ BEND = 13  # q [m^4]
 EX, EY = 14, 15  # second difference of the targets [1/m]
 GX, GY = 16, 17  # gradient of f2 at the targets
 NORM_STEP, DISC_STEP = 18, 19  # dual step sizes s and r [m/m]
-SUB1, SUB2, PIVOT = 20, 21, 22  # factors L and 1 / D of (Hessian of f2 + diag(s + r)) = L D L^T
-ROWS = 23
+CURVE_STEP = 20  # dual step size c of the bound on curvature; 0 where there is none
+SUB1, SUB2, PIVOT = 21, 22, 23  # factors L and 1 / E of Hessian of f2 + D^T diag(c) D + diag(s + r) = L E L^T
+ROWS = 24
 
 ROUNDING = 1.0 + 1e-12
 NOTHING = 1e-12  # [m^2] objective that is as good as zero
@@ -49,11 +50,12 @@ def factorise(packed, first, last):
         for r in range(max(1, i - 1), min(n - 1, i + 2)):
             # row r of D touches i - 1, i, i + 1; coefficient of unknown i in it
             own = _coefficient(packed, r, i)
-            diagonal += 2.0 * packed[BEND, r] * own * own
+            bend = 2.0 * packed[BEND, r] + packed[CURVE_STEP, r]
+            diagonal += bend * own * own
             if i - 1 >= first:
-                lower1 += 2.0 * packed[BEND, r] * own * _coefficient(packed, r, i - 1)
+                lower1 += bend * own * _coefficient(packed, r, i - 1)
             if i - 2 >= first:
-                lower2 += 2.0 * packed[BEND, r] * own * _coefficient(packed, r, i - 2)
+                lower2 += bend * own * _coefficient(packed, r, i - 2)
         l2 = 0.0
         l1 = 0.0
         if i - 2 >= first:

@@ -14,7 +14,9 @@ NORM_STEP = 60.0  # [1/m] of the distance term, per weight
 DISC_STEP = 20.0  # [1/m] of the discs, per weight of an evenly placed waypoint
 DISC_STIFFNESS = 0.3  # of a disc as stiff as the path bent within the disc's size
 CLOSE_STIFFNESS = 0.02  # of a waypoint as stiff as the path bent between it and a close neighbour
+CURVE_STEP = 4.0  # of the bound on curvature, per weight of the bending term
 _SMALLEST_SIZE = 0.1  # [m]
+_ROUNDING = 1e-11  # [m]
 _CLOSE = 0.5  # of the greatest spacing
 
 
@@ -22,6 +24,14 @@ def pack(targets, arc, segment_disc, centers, radii, smoothness: float, first: i
     """(ROWS, n): see the names of the rows in `kernels`. Arguments as the fields of `Problem`."""
     packed = np.zeros((k.ROWS, len(arc)))
     _pack(packed, targets, arc, segment_disc, centers, radii, smoothness)
+    k.factorise(packed, first, last)
+    return packed
+
+
+def with_bound(packed: NDArray[np.float64], first: int, last: int) -> NDArray[np.float64]:
+    """A copy of the packed arrays for the loops of `bounded_kernels`."""
+    packed = packed.copy()
+    packed[k.CURVE_STEP] = CURVE_STEP * 2.0 * packed[k.BEND]
     k.factorise(packed, first, last)
     return packed
 
@@ -49,8 +59,10 @@ def _pack(packed, targets, arc, segment_disc, centers, radii, smoothness):
             y = centers[disc, 1] - targets[i, 1]
             packed[row, i] = x
             packed[row + 1, i] = y
-            # a target that is outside by rounding counts as on the rim
-            packed[row + 2, i] = max(radii[disc], np.sqrt(x * x + y * y))
+            packed[row + 2, i] = radii[disc]
+            distance = np.sqrt(x * x + y * y)
+            if radii[disc] < distance < radii[disc] + _ROUNDING:  # then it counts as on the rim
+                packed[row + 2, i] = distance
         packed[k.PX, i], packed[k.PY, i], packed[k.QX, i], packed[k.QY, i] = lens_corners(
             packed[k.AX, i], packed[k.AY, i], packed[k.AR, i], packed[k.BX, i], packed[k.BY, i], packed[k.BR, i]
         )

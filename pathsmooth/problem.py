@@ -38,7 +38,10 @@ class Problem:
     heights: NDArray[np.float64]
     """(n,) [m] z of the pulled path at the waypoints; not optimised."""
     arc: NDArray[np.float64]
-    """(n,) [m] horizontal arc length of the pulled path at the waypoints."""
+    """(n,) [m] horizontal arc length at the waypoints, along the path that they were placed on."""
+    source: NDArray[np.float64]
+    """(n,) [m] horizontal arc length of the pulled path at the targets; the same as `arc` unless a bound on curvature
+    made the solver place the waypoints anew."""
     segment_disc: NDArray[np.int32]
     """(n - 1,) the disc that holds each segment; a waypoint stays in the discs of both its segments."""
     centers: NDArray[np.float64]
@@ -49,6 +52,8 @@ class Problem:
     """Index of the first waypoint that may move: 1, or 2 with a start tangent."""
     last: int
     """One more than the index of the last waypoint that may move."""
+    spacing: float
+    """[m], > 0: greatest distance between waypoints."""
     smoothness: float
     """λ [m³], > 0: the cube of the length over which corners are rounded."""
     max_curvature: float | None
@@ -103,12 +108,40 @@ class Problem:
         step = min(spacing, arc[-1] / 4)
         waypoint_arc, segment_disc = place(local, arc, local_centers, disc_radii, begin, end, step)
         return cls._assemble(
-            path, arc, waypoint_arc, segment_disc, disc_centers, disc_radii, tangents, max_curvature, smoothness
+            path, arc, arc, waypoint_arc, segment_disc, disc_centers, disc_radii, tangents, max_curvature, smoothness,
+            float(spacing),
         )
+
+    def along(
+        self, curve: NDArray[np.float64], source: NDArray[np.float64], discs: NDArray[np.int64]
+    ) -> Problem:
+        """The same problem with its waypoints spread evenly along another curve in the corridor.
+
+        curve (k, 2) [m]: the spacing, and with it the second divided difference, is measured along it. source (k,) [m]:
+        arc length of the pulled path that each of its points corresponds to, not decreasing. discs (j,): the discs
+        that the curve passes, in order. The targets stay on the pulled path, and may lie outside the discs of their
+        waypoints.
+        """
+        step = np.hypot(*np.diff(curve, axis=0).T)
+        keep = np.concatenate([[True], step > SLACK])
+        keep[-1] = True
+        curve, source = curve[keep], source[keep]
+        arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(curve, axis=0).T))])
+        centers, radii = self.centers[discs], self.radii[discs]
+        local, local_centers = curve - curve[0], centers - curve[0]
+        code, disc, reached, begin, end = cover(local, arc, local_centers, radii, 10 * SLACK)
+        if code != COVERED:
+            raise PathSmoothError(_not_covered(code, disc, reached, local, arc, local_centers, radii))
+        step = min(self.spacing, arc[-1] / 4)
+        waypoint_arc, segment_disc = place(local, arc, local_centers, radii, begin, end, step)
+        return self._assemble(
+            self.path, arc, source, waypoint_arc, segment_disc, centers, radii, self.tangents,
+            self.max_curvature, self.smoothness, self.spacing,
+        )  # fmt: skip
 
     @classmethod
     def _assemble(
-        cls, path, arc, waypoint_arc, segment_disc, centers, radii, tangents, max_curvature, smoothness
+        cls, path, arc, source, waypoint_arc, segment_disc, centers, radii, tangents, max_curvature, smoothness, spacing
     ) -> Problem:
         """Pin the ends and pack the arrays of the compiled loops."""
         obstruction = ""
@@ -134,17 +167,20 @@ class Problem:
                     segment_disc = np.append(segment_disc, segment_disc[-1])
                 pins[len(waypoint_arc) - 2] = path[-1, :2] - length * end
         n = len(waypoint_arc)
-        targets = np.column_stack([np.interp(waypoint_arc, arc, path[:, axis]) for axis in range(3)])
+        waypoint_source = np.interp(waypoint_arc, arc, source)
+        path_arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path[:, :2], axis=0).T))])
+        targets = np.column_stack([np.interp(waypoint_source, path_arc, path[:, axis]) for axis in range(3)])
         heights = targets[:, 2].copy()
         targets = np.ascontiguousarray(targets[:, :2])
-        into_discs(targets, segment_disc, centers, radii)
+        if source is arc:
+            into_discs(targets, segment_disc, centers, radii)
         for index, position in pins.items():
             targets[index] = position
         first = 2 if start is not None and not obstruction else 1
         last = n - (2 if end is not None and not obstruction else 1)
         packed = pack(targets, waypoint_arc, segment_disc, centers, radii, smoothness, first, last)
         return cls(
-            targets, heights, waypoint_arc, segment_disc, centers, radii, first, last, float(smoothness),
+            targets, heights, waypoint_arc, waypoint_source, segment_disc, centers, radii, first, last, float(spacing), float(smoothness),
             max_curvature, obstruction, path, tangents, packed,
         )  # fmt: skip
 

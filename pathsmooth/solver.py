@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
 from pathsmooth import kernels
+from pathsmooth.bounded import solve_with_bound
+from pathsmooth.curvature import curvature
 from pathsmooth.errors import PathSmoothError
 from pathsmooth.problem import Problem
-
-COMPLETE = "complete"
-ITERATION_LIMIT = "iteration_limit"
-INFEASIBLE = "infeasible"
+from pathsmooth.solution import COMPLETE, INFEASIBLE, ITERATION_LIMIT, Solution
 
 MAX_ITERATIONS = 5000
 """Iterations after which `solve` gives up reaching the tolerance, where the caller sets no limit."""
@@ -22,33 +19,6 @@ MAX_ITERATIONS = 5000
 RELAXATION = 1.7
 CHECKS = (8, 4)  # iterations before the first look at the gap, and between looks
 WARM_CHECKS = (1, 3)
-
-
-@dataclass(slots=True, eq=False)
-class Solution:
-    """A smoothed path and how good it is.
-
-    The status is one of
-        "complete"         the objective is within the tolerance of the optimum (and the curvature within its bound)
-        "iteration_limit"  stopped before that; the points are valid all the same: inside the corridor, ends and
-                           tangents exact, objective no higher than the pulled path's; only a bound on curvature may
-                           be missed, see `curvature`
-        "infeasible"       no path in the corridor has the wanted tangents and curvature; the points are then the
-                           best found without that bound
-    """
-
-    points: NDArray[np.float64]
-    """(n, 3) [m]: x and y are smoothed, z is the pulled path's at the same waypoint."""
-    objective: float
-    """f of the points, see `Problem`."""
-    gap: float
-    """Upper bound of how far the objective is above the optimum, in the objective's unit [m²]."""
-    iterations: int
-    status: str
-    state: NDArray[np.float64] = field(repr=False)
-    """(3, n, 2) displacements and the two dual variables, for a warm start."""
-    problem: Problem = field(repr=False)
-    """What was solved."""
 
 
 def solve(
@@ -78,7 +48,10 @@ def solve(
     )  # fmt: skip
     gap = max(value - bound, 0.0)
     status = INFEASIBLE if problem.obstruction else _status(value, bound, tolerance)
-    return Solution(points, value, gap, done, status, state, problem)
+    solution = Solution(points, value, gap, done, status, state, problem)
+    if problem.max_curvature is None or problem.obstruction or curvature(points).max() <= problem.max_curvature:
+        return solution
+    return solve_with_bound(problem, iterations, tolerance, solution)
 
 
 def _status(value: float, bound: float, tolerance: float) -> str:

@@ -1,0 +1,174 @@
+"""Smoothing under a bound on curvature.
+
+Curvature is not convex in the waypoints, but the second divided difference is, and the two agree where the waypoints
+are as far apart as their nominal spacing says. So the convex problem is solved, the waypoints are spread evenly along
+the result, and it is solved again, tightening the bound where the true curvature came out above it, until the true
+curvature of the result holds.
+
+Where that fails, `reach` either proves that no curve exists, or finds the way of one, from which to try once more.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pathsmooth import bounded_kernels, reach
+from pathsmooth.curvature import curvature
+from pathsmooth.errors import PathSmoothError
+from pathsmooth.geometry import nearest_in_lens
+from pathsmooth.packing import with_bound
+from pathsmooth.placement import cover
+from pathsmooth.problem import SLACK, Problem
+from pathsmooth.solution import COMPLETE, INFEASIBLE, ITERATION_LIMIT, Solution
+
+SLACK_OF_BOUND = 0.03
+"""Relative amount by which the true curvature of a complete solution may exceed the bound."""
+
+ROUNDS = 15
+RELAXATION = 1.7
+_CHECK_EVERY = 20
+_ROUND_LIMIT = 3000  # iterations in one round
+
+SEARCHES = ((0.4, 4, 0.025), (0.25, 4, 0.01), (0.15, 5, 0.004))
+"""Ever finer searches: turn per step [rad], heading cells in it, cell size in radii of the tightest curve."""
+
+
+@dataclass(slots=True)
+class _Trial:
+    """The last round of one run of `_rounds`."""
+
+    problem: Problem
+    displacements: NDArray[np.float64]
+    objective: float
+    bound: float
+    worst: float
+    """True curvature over the bound."""
+    iterations: int
+
+    @property
+    def complete(self) -> bool:
+        return self.worst <= 1.0 + SLACK_OF_BOUND
+
+
+def solve_with_bound(problem: Problem, limit: int | None, tolerance: float, without: Solution) -> Solution:
+    """Smooth a path under problem.max_curvature.
+
+    limit: greatest number of iterations over all rounds; None: as many as it takes, and then the search. without: the
+    solution of the problem without the bound, returned where there is none with it.
+    """
+    trial = _rounds(problem, limit, tolerance)
+    if trial.complete or limit is not None:
+        return _solution(trial)
+    best = trial
+    for settings in SEARCHES:
+        code, positions, discs = _search(problem, settings)
+        if code == reach.UNREACHABLE:
+            without.status = INFEASIBLE
+            return without
+        if code == reach.UNDECIDED:
+            break
+        curve, source, used = _curve(problem, positions, discs)
+        try:
+            start = problem.along(curve, source, used)
+        except PathSmoothError:  # the cells strayed from the corridor by more than their discs overlap
+            continue
+        trial = _rounds(start, None, tolerance)
+        if trial.complete:
+            return _solution(trial)
+        if trial.worst < best.worst:
+            best = trial
+    return _solution(best)
+
+
+def _rounds(problem: Problem, limit: int | None, tolerance: float) -> _Trial:
+    """Solve, spread the waypoints, tighten where the curvature is above the bound; until it holds."""
+    bound = float(problem.max_curvature or np.inf)
+    margin = np.ones(problem.count)
+    left = ROUNDS * _ROUND_LIMIT if limit is None else limit
+    best = None
+    done = 0
+    for _ in range(ROUNDS):
+        state = np.zeros((4, problem.count, 2))
+        displacements = np.zeros((problem.count, 2))
+        code, count, value, low = bounded_kernels.solve_bounded(
+            with_bound(problem.packed, problem.first, problem.last), bound * margin, problem.first, problem.last, RELAXATION,
+            min(_ROUND_LIMIT, left),
+            tolerance, 0.2 * SLACK_OF_BOUND, _CHECK_EVERY, state, displacements,
+        )  # fmt: skip
+        done += count
+        left -= count
+        points = problem.targets + displacements
+        excess = curvature(points) / bound
+        trial = _Trial(problem, displacements, value, low, float(excess.max()), done)
+        if best is None or trial.worst < best.worst:
+            best = trial
+        if trial.complete or code == bounded_kernels.IMPOSSIBLE or left <= 0:
+            break
+        for _ in range(2):
+            excess[1:-1] = np.maximum(np.maximum(excess[:-2], excess[2:]), excess[1:-1])
+        margin = margin / np.maximum(1.0, excess)
+        along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
+        problem = problem.along(points, problem.source, np.unique(problem.segment_disc))
+        margin = np.interp(problem.arc, along, margin)
+    assert best is not None
+    best.iterations = done
+    return best
+
+
+def _solution(trial: _Trial) -> Solution:
+    problem = trial.problem
+    points = np.column_stack([problem.targets + trial.displacements, problem.heights])
+    state = np.zeros((3, problem.count, 2))
+    state[0] = trial.displacements
+    return Solution(
+        points,
+        trial.objective,
+        max(trial.objective - trial.bound, 0.0),
+        trial.iterations,
+        COMPLETE if trial.complete else ITERATION_LIMIT,
+        state,
+        problem,
+    )
+
+
+def _search(problem: Problem, settings: tuple[float, int, float]):
+    headings = [None if t is None else float(np.arctan2(t[1], t[0])) for t in problem.tangents]
+    return reach.search(
+        problem.path[0, :2], headings[0], problem.path[-1, :2], headings[1],
+        problem.centers, problem.radii + SLACK, float(problem.max_curvature or np.inf), *settings,
+    )  # fmt: skip
+
+
+def _curve(problem: Problem, positions: NDArray[np.float64], discs: NDArray[np.int64]):
+    """A chain of cells as a curve inside the discs: (points (k, 2), arc length of the pulled path (k,), discs used)."""
+    centers, radii = problem.centers, problem.radii
+    points = [problem.path[0, :2]]
+    at = [int(discs[0])]
+    ahead = list(zip(positions[1:], discs[1:], strict=True)) + [(problem.path[-1, :2], len(radii) - 1)]
+    for position, disc in ahead:
+        for j in range(at[-1], int(disc)):
+            middle = 0.5 * (points[-1] + position)
+            lens = (*centers[j], radii[j], *centers[j + 1], radii[j + 1])
+            points.append(np.array(nearest_in_lens(*middle, *lens)))
+            at.append(j + 1)
+        points.append(np.array(nearest_in_lens(*position, *centers[disc], radii[disc], *centers[disc], radii[disc])))
+        at.append(int(disc))
+    points[-1] = problem.path[-1, :2]
+    curve = np.array(points)
+
+    # the nearest place of the pulled path within the stretch of each point's disc, never going back
+    path = problem.path[:, :2] - problem.path[0, :2]
+    arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))])
+    _, _, _, begin, end = cover(path, arc, centers - problem.path[0, :2], radii, SLACK)
+    samples = np.linspace(0.0, arc[-1], 20 * len(arc) + 200)
+    on_path = np.column_stack([np.interp(samples, arc, problem.path[:, axis]) for axis in range(2)])
+    source = np.empty(len(curve))
+    for i, disc in enumerate(at):
+        in_stretch = (samples >= begin[disc] - SLACK) & (samples <= end[disc] + SLACK)
+        distance = np.where(in_stretch, np.hypot(*(on_path - curve[i]).T), np.inf)
+        source[i] = samples[np.argmin(distance)] if in_stretch.any() else begin[disc]
+    source[0], source[-1] = 0.0, arc[-1]
+    return curve, np.minimum(np.maximum.accumulate(source), arc[-1]), np.unique(at)

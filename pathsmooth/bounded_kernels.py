@@ -1,0 +1,174 @@
+"""Compiled loops of the solver with a bound on the second divided difference, a convex stand-in for curvature.
+
+The problem of `kernels` with the constraint |D(p + d)_i| <= kappa_i added. K = (I; I; D) has a third dual variable, u,
+and the metric of the primal step is K^T S K for the dual step sizes S, so that the step stays one pentadiagonal solve:
+
+    d' = argmin f2(d) + <y + v + D^T u, d> + 1/2 |d - d_i|^2 in the metric diag(s + r) + D^T diag(c) D
+    u' = z - c clip(z / c, kappa),  z = u + c D(p + 2 d' - d)
+
+and y', v' as there. Targets need not lie in their discs here.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from pathsmooth.kernels import (
+    BEND, CURVE_STEP, DISC_STEP, EX, EY, GX, GY, LEFT, NORM_STEP, PIVOT, RIGHT, SUB1, SUB2, WEIGHT,
+    lowest, objective, project,
+)  # fmt: skip
+
+CONVERGED = 0
+LIMIT = 1
+IMPOSSIBLE = 2
+
+
+@njit(cache=True, inline="always")
+def _bend(packed, d, i, axis):
+    """Second difference of the displacements at an inner waypoint."""
+    return packed[LEFT, i] * (d[i - 1, axis] - d[i, axis]) + packed[RIGHT, i] * (d[i + 1, axis] - d[i, axis])
+
+
+@njit(cache=True)
+def _spread(packed, force, out, first, last):
+    """out (n, 2) = D^T force for the unknowns first..last-1."""
+    n = packed.shape[1]
+    for i in range(first, last):
+        for axis in range(2):
+            value = -(packed[LEFT, i] + packed[RIGHT, i]) * force[i, axis]
+            if i > 1:
+                value += packed[RIGHT, i - 1] * force[i - 1, axis]
+            if i < n - 2:
+                value += packed[LEFT, i + 1] * force[i + 1, axis]
+            out[i, axis] = value
+
+
+@njit(cache=True)
+def _primal_step(packed, d, y, v, u, force, pull, new, first, last):
+    n = packed.shape[1]
+    for i in range(1, n - 1):
+        for axis in range(2):
+            force[i, axis] = packed[CURVE_STEP, i] * _bend(packed, d, i, axis) - u[i, axis]
+    _spread(packed, force, pull, first, last)
+    for axis in range(2):
+        for i in range(first, last):
+            t = packed[NORM_STEP, i] + packed[DISC_STEP, i]
+            c = t * d[i, axis] - y[i, axis] - v[i, axis] - packed[GX + axis, i] + pull[i, axis]
+            if i - 1 >= first:
+                c -= packed[SUB1, i] * new[i - 1, axis]
+            if i - 2 >= first:
+                c -= packed[SUB2, i] * new[i - 2, axis]
+            new[i, axis] = c
+        for i in range(last - 1, first - 1, -1):
+            c = new[i, axis] * packed[PIVOT, i]
+            if i + 1 < last:
+                c -= packed[SUB1, i + 1] * new[i + 1, axis]
+            if i + 2 < last:
+                c -= packed[SUB2, i + 2] * new[i + 2, axis]
+            new[i, axis] = c
+
+
+@njit(cache=True)
+def _dual_step(packed, kappa, d, y, v, u, new, relaxation, first, last):
+    n = packed.shape[1]
+    for i in range(1, n - 1):
+        c = packed[CURVE_STEP, i]
+        z0 = u[i, 0] + c * (packed[EX, i] + 2.0 * _bend(packed, new, i, 0) - _bend(packed, d, i, 0))
+        z1 = u[i, 1] + c * (packed[EY, i] + 2.0 * _bend(packed, new, i, 1) - _bend(packed, d, i, 1))
+        size = np.sqrt(z0 * z0 + z1 * z1)
+        f = max(0.0, 1.0 - c * kappa[i] / size) if size > 0.0 else 0.0
+        u[i, 0] += relaxation * (f * z0 - u[i, 0])
+        u[i, 1] += relaxation * (f * z1 - u[i, 1])
+    for i in range(first, last):
+        s = packed[NORM_STEP, i]
+        r = packed[DISC_STEP, i]
+        e0 = 2.0 * new[i, 0] - d[i, 0]
+        e1 = 2.0 * new[i, 1] - d[i, 1]
+        y0 = y[i, 0] + s * e0
+        y1 = y[i, 1] + s * e1
+        f = packed[WEIGHT, i] / max(np.sqrt(y0 * y0 + y1 * y1), packed[WEIGHT, i])
+        z0 = v[i, 0] + r * e0
+        z1 = v[i, 1] + r * e1
+        x0, x1 = project(packed, i, z0 / r, z1 / r)
+        y[i, 0] += relaxation * (f * y0 - y[i, 0])
+        y[i, 1] += relaxation * (f * y1 - y[i, 1])
+        v[i, 0] += relaxation * (z0 - r * x0 - v[i, 0])
+        v[i, 1] += relaxation * (z1 - r * x1 - v[i, 1])
+    for i in range(first, last):
+        for axis in range(2):
+            d[i, axis] += relaxation * (new[i, axis] - d[i, axis])
+
+
+@njit(cache=True)
+def _bounds(packed, kappa, d, y, u, force, pull, first, last):
+    """(a value no feasible point is below, a value no feasible point is above)."""
+    n = packed.shape[1]
+    low = 0.0
+    high = 0.0
+    for i in range(1, n - 1):
+        q = packed[BEND, i]
+        size2 = 0.0
+        for axis in range(2):
+            e = packed[EX + axis, i]
+            force[i, axis] = 2.0 * q * (e + _bend(packed, d, i, axis)) + u[i, axis]
+            size2 += force[i, axis] ** 2
+            low += force[i, axis] * e
+        size = np.sqrt(size2)
+        if size <= 2.0 * q * kappa[i]:
+            low -= size2 / (4.0 * q)
+        else:
+            low -= kappa[i] * size - q * kappa[i] ** 2
+        high += q * kappa[i] ** 2
+    _spread(packed, force, pull, first, last)
+    for i in range(first, last):
+        g0 = pull[i, 0]
+        g1 = pull[i, 1]
+        w = packed[WEIGHT, i]
+        size = np.sqrt(g0 * g0 + g1 * g1)
+        if size > w:
+            f = 1.0 - w / size
+            low += max(lowest(packed, i, f * g0, f * g1), lowest(packed, i, g0 + y[i, 0], g1 + y[i, 1]))
+        high += w * (np.sqrt(packed[0, i] ** 2 + packed[1, i] ** 2) + packed[2, i])
+    return low, high
+
+
+@njit(cache=True)
+def solve_bounded(packed, kappa, first, last, relaxation, limit, tolerance, slack, check_every, state, best):
+    """Iterate until the gap and the violation of the bound are small, or the bound is proven impossible.
+
+    kappa (n,) [1/m]; slack: relative violation of it that counts as small; state (4, n, 2): d, y, v, u, changed in
+    place; best (n, 2): displacements inside the discs, written.
+    Returns (code, iterations, objective, bound on the optimum).
+    """
+    n = packed.shape[1]
+    d, y, v, u = state[0], state[1], state[2], state[3]
+    new = np.zeros((n, 2))
+    force = np.zeros((n, 2))
+    pull = np.zeros((n, 2))
+    done = 0
+    code = LIMIT
+    bound = 0.0
+    value = 0.0
+    while done < limit:
+        for _ in range(check_every):
+            _primal_step(packed, d, y, v, u, force, pull, new, first, last)
+            _dual_step(packed, kappa, d, y, v, u, new, relaxation, first, last)
+        done += check_every
+        for i in range(first, last):
+            best[i, 0], best[i, 1] = project(packed, i, new[i, 0], new[i, 1])
+        value = objective(packed, best, first, last)
+        low, high = _bounds(packed, kappa, new, y, u, force, pull, first, last)
+        bound = max(bound, low)
+        if low > high * (1.0 + 1e-6) + 1e-9:
+            code = IMPOSSIBLE
+            break
+        worst = 0.0
+        for i in range(1, n - 1):
+            x = packed[EX, i] + _bend(packed, best, i, 0)
+            z = packed[EY, i] + _bend(packed, best, i, 1)
+            worst = max(worst, np.sqrt(x * x + z * z) / kappa[i])
+        if worst <= 1.0 + slack and value - bound <= tolerance * bound + 1e-12:
+            code = CONVERGED
+            break
+    return code, done, value, bound

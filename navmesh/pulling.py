@@ -47,13 +47,15 @@ def _turn(ax, ay, bx, by, cx, cy):
 
 
 @njit(cache=True)
-def _funnel(doors, edges, first, last, work, cells, sx, sy, start_cell, gx, gy, goal_cell):
+def _funnel(doors, edges, first, last, work, cells, at, sx, sy, start_cell, gx, gy, goal_cell):
     """Corners of the shortest line through the portals edges[first:last]; returns how many, ends included.
 
-    Writes x, y into work (n, 2) and cells (n,); both need last - first + 2 rows.
+    Writes x, y into work (n, 2), cells (n,) and into at (n,) the index of the portal that each corner is an end
+    of (first - 1 for the start, last for the goal); all need last - first + 2 rows.
     """
     work[0, 0], work[0, 1] = sx, sy
     cells[0] = start_cell
+    at[0] = first - 1
     count = 1
     ax, ay = sx, sy
     lx, ly, lcell, lat = sx, sy, start_cell, first - 1
@@ -74,6 +76,7 @@ def _funnel(doors, edges, first, last, work, cells, sx, sy, start_cell, gx, gy, 
                 ax, ay = lx, ly
                 work[count, 0], work[count, 1] = lx, ly
                 cells[count] = lcell
+                at[count] = lat
                 count += 1
                 rx, ry, rcell, rat = lx, ly, lcell, lat
                 i = lat + 1
@@ -85,6 +88,7 @@ def _funnel(doors, edges, first, last, work, cells, sx, sy, start_cell, gx, gy, 
                 ax, ay = rx, ry
                 work[count, 0], work[count, 1] = rx, ry
                 cells[count] = rcell
+                at[count] = rat
                 count += 1
                 lx, ly, lcell, lat = rx, ry, rcell, rat
                 i = rat + 1
@@ -92,6 +96,7 @@ def _funnel(doors, edges, first, last, work, cells, sx, sy, start_cell, gx, gy, 
         i += 1
     work[count, 0], work[count, 1] = gx, gy
     cells[count] = goal_cell
+    at[count] = last
     return count + 1
 
 
@@ -148,15 +153,51 @@ def _append(net, doors, scratch, first, count, x, y, k):
 
 
 @njit(cache=True)
-def _mend(net, doors, scratch, first, count, gx, gy, goal_cell):
-    """Add a walked line from the leg's last corner to g; returns the new count and whether the body fits all along."""
+def _round(net, doors, scratch, low, high, ax, ay, bx, by, place):
+    """A corner inside a disc that leads the line a-b round what ends walking at ``place`` on it.
+
+    The disc is the one of nodes[low:high] that the place is deepest in; the corner is where it comes nearest to
+    the line. Returns (found, x, y, cell).
+    """
+    x = ax + place * (bx - ax)
+    y = ay + place * (by - ay)
+    node = -1
+    least = 1e300
+    for i in range(low, high):
+        other = scratch.nodes[i]
+        dx = x - net.position[other, 0]
+        dy = y - net.position[other, 1]
+        power = dx * dx + dy * dy - net.node_radius[other] ** 2
+        if power < least and net.node_radius[other] > doors.radius:
+            least = power
+            node = other
+    if node < 0:
+        return False, x, y, -1
+    cx, cy = net.position[node, 0], net.position[node, 1]
+    dx, dy = bx - ax, by - ay
+    s = ((cx - ax) * dx + (cy - ay) * dy) / (dx * dx + dy * dy)
+    s = min(max(s, 0.0), 1.0)
+    dx, dy = ax + s * dx - cx, ay + s * dy - cy
+    d = sqrt(dx * dx + dy * dy)
+    room = net.node_radius[node] - doors.radius
+    share = room / d if d > room else 1.0
+    x, y = cx + share * dx, cy + share * dy
+    reached, cell, _, _, _, _ = walk(net, net.node_cell[node], cx, cy, x, y, 0.0, True)
+    return reached, x, y, cell
+
+
+@njit(cache=True)
+def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high):
+    """Add a walked line from the leg's last corner to g, through nodes[low:high].
+
+    Returns the new count and whether the body fits all along.
+    """
     radius = doors.radius
     stack = np.empty((_DEPTH + 2, 2), np.float64)
     stack_cell = np.empty(_DEPTH + 2, np.int32)
     stack[0, 0], stack[0, 1] = gx, gy
     stack_cell[0] = goal_cell
     height = 1
-    fits = True
     while height > 0:
         k = scratch.cells[count - 1]
         ax, ay = scratch.points[count - 1, 0], scratch.points[count - 1, 1]
@@ -177,6 +218,13 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell):
                 stack_cell[height] = at
                 height += 1
                 continue
+        if not (reached and cell == target) and height <= _DEPTH:
+            found, x, y, at = _round(net, doors, scratch, low, high, ax, ay, bx, by, place)
+            if found and (x - ax) ** 2 + (y - ay) ** 2 > 1e-6 and (x - bx) ** 2 + (y - by) ** 2 > 1e-6:
+                stack[height, 0], stack[height, 1] = x, y
+                stack_cell[height] = at
+                height += 1
+                continue
         cells = detour(net, k, target, radius)
         scratch.numbers[DETOURS] += 1
         if cells.size == 0:
@@ -193,7 +241,7 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell):
             count = _append(net, doors, scratch, first, count, x, y, at)
         count = _append(net, doors, scratch, first, count, bx, by, target)
         height -= 1
-    return count, fits
+    return count, True
 
 
 @njit(cache=True)
@@ -206,9 +254,10 @@ def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell):
     room = last - first + 2
     work = np.empty((room, 2), np.float64)
     cells = np.empty(room, np.int32)
+    at = np.empty(room, np.int64)
     sx, sy = scratch.points[leg, 0], scratch.points[leg, 1]
     corners = _funnel(
-        doors, scratch.edges, first, last, work, cells, sx, sy, scratch.cells[leg], gx, gy, goal_cell
+        doors, scratch.edges, first, last, work, cells, at, sx, sy, scratch.cells[leg], gx, gy, goal_cell
     )
     radius = doors.radius
     for i in range(1, corners):
@@ -219,7 +268,7 @@ def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell):
                 pushed, px, py, pk = _push(net, k, x, y, qx, qy, radius)
                 if pushed:
                     x, y, k = px, py, pk
-        count, fits = _mend(net, doors, scratch, leg, count, x, y, k)
+        count, fits = _mend(net, doors, scratch, leg, count, x, y, k, at[i - 1], at[i])
         if not fits:
             return count, False
     for i in range(leg, count):

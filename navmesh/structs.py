@@ -51,7 +51,7 @@ class Scratch(structref.StructRefProxy):
 
 _NET = (
     "cell", "nx", "ny", "column_start", "cell_column", "height", "gradient", "link", "clearance", "nearest", "label",
-    "position", "node_radius", "edge_start", "edge_target",
+    "position", "node_cell", "node_radius", "edge_start", "edge_target",
 )  # fmt: skip
 _DOORS = (
     "radius", "open", "left", "left_cell", "right", "right_cell", "node_cost", "weighted",
@@ -86,6 +86,7 @@ def make_net(
     nearest,
     label,
     position,
+    node_cell,
     node_radius,
     edge_start,
     edge_target,
@@ -94,7 +95,7 @@ def make_net(
 
     cell: side of a grid square [m]; nx, ny: columns; column_start (nx*ny+1,) int32; cell_column (n,) int32;
     height (n,), gradient (n, 2) float64; link (n, 4) int32; clearance (n,), nearest (n, 2) float64; label (n,) int32;
-    position (m, 3), node_radius (m,) float64; edge_start (m+1,), edge_target (e,) int32.
+    position (m, 3) float64, node_cell (m,) int32, node_radius (m,) float64; edge_start (m+1,), edge_target (e,) int32.
     """
     return Net(
         cell,
@@ -109,6 +110,7 @@ def make_net(
         nearest,
         label,
         position,
+        node_cell,
         node_radius,
         edge_start,
         edge_target,
@@ -205,6 +207,7 @@ def net_of(graph: "NodeGraph") -> Any:
             surface.nearest,
             graph.label,
             np.ascontiguousarray(graph.positions - surface.origin),
+            graph.node_cell,
             graph.radii,
             graph.edge_start,
             graph.edge_target,

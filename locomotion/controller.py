@@ -177,7 +177,8 @@ def _parameters_at(knots, table, speed, out):
 @njit(cache=True)
 def _follow_command(limits, state, command):
     """Let the reference heading and speed follow the command at the skill's rates."""
-    low, high, max_turn = limits[0], limits[1], limits[2]
+    low, high = limits[0], limits[1]
+    max_turn = limits[2] / max(state[SPEED], 1.0)
     wanted = min(max(command[1], low), high)
     step = _ACCELERATION * CONTROL_DT
     state[SPEED] += min(max(wanted - state[SPEED], -step), step)
@@ -276,7 +277,7 @@ def run_tick(knots, table, reference, rates, mean, state_reference, limits, stat
     knots (k,), table (k, p): parameters by speed. reference, rates (n, 39): the clip over a cycle that starts with
     the right foot's touchdown, and its rates [rad/s] at the clip's own duration times that duration [rad per cycle].
     mean (39,): mean of the reference. state_reference (b, 12): s_ref over a step. limits (3,): lowest and highest
-    speed [m/s], highest turn rate [rad/s]. All float64.
+    speed [m/s], highest lateral acceleration [m/s^2] in turns. All float64.
     """
     _follow_command(limits, state, command)
     p = np.empty(table.shape[1])

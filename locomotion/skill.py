@@ -2,6 +2,7 @@
 
 import os
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -14,12 +15,26 @@ from locomotion.errors import LocomotionError
 from locomotion.person import JOINT_NAMES, STANDING_HEIGHT, PersonIndex, person_digest
 from navmesh.archive import ArchiveError, read_archive, write_archive
 
-__all__ = ["RUN_CLIP", "RUN_SKILL", "RunSkill", "load_run_skill", "reset_running", "reset_standing"]
+__all__ = ["RUN_CLIP", "RUN_SKILL", "RunSkill", "load_run_skill", "reset_running", "reset_standing", "run_clip"]
 
 RUN_CLIP = Path(__file__).parent / "clips" / "run.yaml"
 RUN_SKILL = Path(__file__).parent / "skills" / "run.npz"
 _KIND, _VERSION = "run skill", 1
 _SAMPLES = 64
+
+
+@lru_cache(maxsize=4)
+def _clip_tables(clip: Clip) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Samples of a cycle (n, 39), their rates per cycle (n, 39) and the mean (39,) of a clip."""
+    shares = np.arange(_SAMPLES) / _SAMPLES
+    reference = clip.sample(shares)
+    return reference, clip.rates(shares) * clip.duration, reference.mean(axis=0)
+
+
+@lru_cache(maxsize=4)
+def run_clip() -> Clip:
+    """The reference clip that comes with the package."""
+    return load_clip(RUN_CLIP)
 
 
 @dataclass(frozen=True)
@@ -30,7 +45,7 @@ class RunSkill:
         knots: (k,) float64, increasing speeds [m/s] at which parameters were learned.
         table: (k, p) float64, their parameters in the order of `controller.PARAMETERS`.
         state_reference: (b, 12) float64, reference sensors over a step (vx relative to the speed, dx per speed).
-        max_turn_rate: highest turn rate of the reference heading [rad/s].
+        max_lateral: highest lateral acceleration [m/s^2]; the reference heading turns at up to max_lateral / speed.
         step_length: (a, b) of step length = a * speed + b [m], fitted to this skill.
         clip: the reference motion.
         meta: what made it.
@@ -39,7 +54,7 @@ class RunSkill:
     knots: np.ndarray
     table: np.ndarray
     state_reference: np.ndarray
-    max_turn_rate: float
+    max_lateral: float
     step_length: tuple[float, float]
     clip: Clip
     meta: dict[str, Any] = field(default_factory=dict)
@@ -47,11 +62,8 @@ class RunSkill:
     """The first arguments of `controller.run_tick`."""
 
     def __post_init__(self) -> None:
-        shares = np.arange(_SAMPLES) / _SAMPLES
-        reference = self.clip.sample(shares)
-        rates = self.clip.rates(shares) * self.clip.duration
-        limits = np.array([self.knots[0], self.knots[-1], self.max_turn_rate])
-        tables = (self.knots, self.table, reference, rates, reference.mean(axis=0), self.state_reference, limits)
+        limits = np.array([self.knots[0], self.knots[-1], self.max_lateral])
+        tables = (self.knots, self.table, *_clip_tables(self.clip), self.state_reference, limits)
         object.__setattr__(self, "tables", tuple(np.ascontiguousarray(t, dtype=np.float64) for t in tables))
 
     @property
@@ -62,14 +74,14 @@ class RunSkill:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the skill for the present person; the file appears whole or not at all."""
         header = {
-            "person": person_digest(), "max_turn_rate": self.max_turn_rate,
+            "person": person_digest(), "max_lateral": self.max_lateral,
             "step_length": list(self.step_length), "meta": self.meta,
         }
         arrays = {"knots": self.knots, "table": self.table, "state_reference": self.state_reference}
         write_archive(path, _KIND, _VERSION, header, arrays)
 
 
-def load_run_skill(path: str | os.PathLike[str] = RUN_SKILL, clip: str | os.PathLike[str] = RUN_CLIP) -> RunSkill:
+def load_run_skill(path: str | os.PathLike[str] = RUN_SKILL) -> RunSkill:
     """Read a run skill; `LocomotionError` if it is missing, cut off, of another version or of another person."""
     try:
         header, arrays = read_archive(path, _KIND, _VERSION)
@@ -81,14 +93,14 @@ def load_run_skill(path: str | os.PathLike[str] = RUN_SKILL, clip: str | os.Path
     try:
         knots, table, reference = arrays["knots"], arrays["table"], arrays["state_reference"]
         a, b = (float(x) for x in header["step_length"])
-        max_turn = float(header["max_turn_rate"])
+        max_lateral = float(header["max_lateral"])
     except (KeyError, TypeError, ValueError) as error:
         raise LocomotionError(f"{path}: not a whole run skill: {error}") from error
     if table.shape != (len(knots), width) or reference.ndim != 2 or reference.shape[1] != len(controller.SENSORS):
         raise LocomotionError(f"{path}: parameters of shape {table.shape}, expected ({len(knots)}, {width})")
     if not (np.isfinite(table).all() and np.isfinite(reference).all() and (np.diff(knots) > 0).all()):
         raise LocomotionError(f"{path}: holds numbers that are not finite or speeds that do not grow")
-    return RunSkill(knots, table, reference, max_turn, (a, b), load_clip(clip), header.get("meta", {}))
+    return RunSkill(knots, table, reference, max_lateral, (a, b), run_clip(), header.get("meta", {}))
 
 
 def _place(
@@ -118,11 +130,10 @@ def reset_running(
 ) -> None:
     """Put the person on the ground point ``position`` (3,), running at ``speed`` [m/s]; fills ``state``."""
     mujoco.mj_resetData(model, data)
-    share = np.array([0.0])
-    clip = skill.clip
-    _place(model, data, index, clip.sample(share)[0], position, yaw, clip.root_pitch)
+    pose, rates = skill.tables[2][0], skill.tables[3][0] / skill.clip.duration
+    _place(model, data, index, pose, position, yaw, skill.clip.root_pitch)
     data.qvel[:3] = [speed * np.cos(yaw), speed * np.sin(yaw), -0.4]
-    data.qvel[6 : 6 + len(JOINT_NAMES)] = clip.rates(share)[0]
+    data.qvel[6 : 6 + len(JOINT_NAMES)] = rates
     _fresh_state(model, data, index, state, yaw, speed)
     state[controller.COM_VELOCITY] = data.qvel[:3]
 

@@ -58,9 +58,9 @@ def first_state_reference() -> np.ndarray:
     return table
 
 
-def skill_of(knots: np.ndarray, table: np.ndarray, reference: np.ndarray, max_turn_rate: float = 0.5) -> RunSkill:
+def skill_of(knots: np.ndarray, table: np.ndarray, reference: np.ndarray, max_lateral: float = 2.0) -> RunSkill:
     """A skill from its parts, with the product's reference clip."""
-    return RunSkill(np.asarray(knots, dtype=np.float64), table, reference, max_turn_rate, (0.2, 0.4), run_clip())
+    return RunSkill(np.asarray(knots, dtype=np.float64), table, reference, max_lateral, (0.2, 0.4), run_clip())
 
 
 def cost(trial: Trial, scenario: Scenario, style: float) -> float:

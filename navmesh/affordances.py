@@ -5,10 +5,11 @@ Three stages: the mesh's edges at which there is a fall (`navmesh.rims`), measur
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
-from navmesh.measuring import DROP, GAP, JUMP, VAULT, Limits, cells_of, measure
+from navmesh.measuring import DROP, GAP, JUMP, REACH, VAULT, Limits, cells_of, measure
 from navmesh.obstacle_rules import AFFORDANCES, ObstacleRules
 from navmesh.obstacles import Obstacles
 from navmesh.probes import ProbeGrid
@@ -42,7 +43,14 @@ def detect_obstacles(
     length = np.linalg.norm(along, axis=1)
     parts = np.maximum(1, np.ceil(length / _SPACING - 1e-9)).astype(np.int64)
     first = np.concatenate(([0], np.cumsum(parts)))
-    kind, size = measure(grid.arrays, cells_of(surface), rims.start, rims.end, rims.outward, first, limits)
+    near = max(rules.run_up, rules.landing) + surface.resolution
+    cells = cells_of(surface)
+    kind, size = measure(grid.arrays, cells, rims.start, rims.end, rims.outward, first, limits, near)
+
+    def again(points: np.ndarray, outward: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        every = np.arange(len(points) + 1)
+        return measure(grid.arrays, cells, points, points, outward, every, limits, REACH)
+
     found = []
     for code, name in enumerate(AFFORDANCES, start=1):
         slot = _SLOT[code]
@@ -52,7 +60,7 @@ def detect_obstacles(
         samples = _samples(rims, along / length[:, None], length / parts, first, hits, size[hits, slot], code)
         stretches = join_samples(samples, 2.0 * rules.body_radius)
         if stretches:
-            found.append(_frames(name, code, stretches, size[hits, slot], samples, grid, surface, limits))
+            found.append(_frames(name, code, stretches, samples, rules.body_radius, again))
     if not found:
         return Obstacles.empty()
     joined = Obstacles(
@@ -99,30 +107,30 @@ def _frames(
     name: str,
     code: int,
     stretches: list[Stretch],
-    size: np.ndarray,
     samples: Samples,
-    grid: ProbeGrid,
-    surface: Surface,
-    limits: Limits,
+    body_radius: float,
+    again: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]],
 ) -> Obstacles:
-    """Obstacles (relative to the surface's origin) of stretches; measured anew at the middle of each."""
+    """Obstacles (relative to the surface's origin) of stretches. ``again`` measures at points (p, 3) with
+    the fall towards (p, 2): at the middle of each stretch and, for free lengths, a radius beside it."""
     count = len(stretches)
     middle = np.array([stretch.middle for stretch in stretches])
     outward = np.array([stretch.outward for stretch in stretches])
+    beside = np.array([_beside(samples, stretch, body_radius) for stretch in stretches])
+    points = np.stack((middle, *(samples.point[beside[:, k]] for k in range(3))), axis=1)
+    facing = np.stack((outward, *(samples.outward[beside[:, k]] for k in range(3))), axis=1)
+    kind, size = again(points.reshape(-1, 3), facing.reshape(-1, 2))
     slot = _SLOT[code]
-    kind, fresh = measure(
-        grid.arrays, cells_of(surface), middle, middle, outward, np.arange(count + 1), limits
-    )
-    values = fresh[:, slot].copy()
-    for i, stretch in enumerate(stretches):
-        apart = np.linalg.norm(samples.point[stretch.members] - stretch.middle, axis=1)
-        if kind[i, slot] != code:  # half-way is a seam where nothing fits: the sample beside it stands in
-            nearest = stretch.members[int(np.argmin(apart))]
-            values[i] = size[nearest]
-            middle[i], outward[i] = samples.point[nearest], samples.outward[nearest]
-        around = size[stretch.members[apart <= 0.3 + _SPACING]]
-        if len(around):
-            values[i, 2:4] = np.minimum(values[i, 2:4], around[:, 2:4].min(axis=0))
+    values = size[:, slot].reshape(count, 4, 5)
+    there = kind[:, slot].reshape(count, 4) == code
+    # where nothing fits half-way (a seam of the mesh), the sample nearest to it stands in
+    seam = ~there[:, 0]
+    values[seam, 0] = values[seam, 2]
+    middle[seam], outward[seam] = points[seam, 2], facing[seam, 2]
+    there[seam, 0] = True
+    free = np.where(there[:, :, None], values[:, :, 2:4], np.inf).min(axis=1)
+    values = values[:, 0]
+    values[:, 2:4] = free
     from_above = code in (DROP, GAP)
     rim = np.array([(stretch.start, stretch.end) for stretch in stretches])
     rim_height = samples.height[[(stretch.members[0], stretch.members[-1]) for stretch in stretches]]
@@ -145,3 +153,10 @@ def _frames(
         tag=np.full(count, "", "<U64"),
         authored=np.zeros(count, np.bool_),
     )
+
+
+def _beside(samples: Samples, stretch: Stretch, radius: float) -> tuple[int, int, int]:
+    """The members of a stretch nearest to its middle and to the points ``radius`` [m] to its sides."""
+    away = (samples.point[stretch.members] - stretch.middle) @ (stretch.end - stretch.start) / stretch.width
+    before, at, behind = (stretch.members[int(np.argmin(np.abs(away - s)))] for s in (-radius, 0.0, radius))
+    return int(before), int(at), int(behind)

@@ -236,26 +236,49 @@ def _behind(grid, x, y, z, dx, dy, floor, limits):
 
 
 @njit(cache=True)
-def _across(grid, cells, x, y, z, dx, dy, limits):
-    """Scan across a gap: (its width [m] or -1, height of the floor on the other side [m])."""
+def _floor_below(cells, x, y, z, dx, dy, limits, deepest):
+    """Whether there are cells close by, at most ``deepest`` below z: a quick look before the triangles."""
     size = cells[5]
     ny = cells[7]
-    seen = False
-    t = 0.5 * size
-    while t <= limits.gap_high + size and not seen:
+    slack = _SAME + 2.0 * size * limits.slope
+    t = 0.02
+    while t <= 1.6 * size:
         ix = math.floor((x + t * dx) / size)
         iy = math.floor((y + t * dy) / size)
         if 0 <= ix < cells[6] and 0 <= iy < ny:
             for k in range(cells[0][ix * ny + iy], cells[0][ix * ny + iy + 1]):
-                seen = seen or abs(cells[2][k] - z) <= limits.level + size * limits.slope
+                if -deepest - slack <= cells[2][k] - z <= slack - limits.step:
+                    return True
+        t += 0.25 * size
+    return False
+
+
+@njit(cache=True)
+def _floor_opposite(cells, x, y, z, dx, dy, limits):
+    """Whether there are cells at about height z within the width of a gap: a quick look before a scan."""
+    size = cells[5]
+    ny = cells[7]
+    near = limits.level + size * limits.slope
+    t = max(0.5 * size, limits.gap_low - size)
+    while t <= limits.gap_high + size:
+        ix = math.floor((x + t * dx) / size)
+        iy = math.floor((y + t * dy) / size)
+        if 0 <= ix < cells[6] and 0 <= iy < ny:
+            for k in range(cells[0][ix * ny + iy], cells[0][ix * ny + iy + 1]):
+                if abs(cells[2][k] - z) <= near:
+                    return True
         t += 0.5 * size
-    if not seen:
-        return -1.0, 0.0
+    return False
+
+
+@njit(cache=True)
+def _across(grid, x, y, z, dx, dy, limits):
+    """Scan across a gap: (its width [m] or -1, height of the floor on the other side [m])."""
     below = z - max(limits.step, limits.level)
     t = _SCAN
     while t <= limits.gap_high + _SCAN:
-        found, which = surface_below(grid, x + t * dx, y + t * dy, -np.inf, z + limits.headroom)
-        if which >= 0 and found > below:
+        found, which = surface_below(grid, x + t * dx, y + t * dy, below, z + limits.headroom)
+        if which >= 0:
             if found > z + limits.level or grid[0][which, 14] != 2.0:
                 return -1.0, 0.0
             low, high = t - _SCAN, t
@@ -284,14 +307,20 @@ def _note(row, height, depth, run_up, landing, rise):
 
 
 @njit(cache=True)
-def _measure_one(grid, cells, x, y, z, ox, oy, limits, kind, size):
+def _measure_one(grid, cells, x, y, z, ox, oy, limits, reach, kind, size):
     """Measure at the edge point (x, y, z) with the fall towards (ox, oy); see `measure` for the slots."""
-    state, floor = _foot(grid, x, y, z, ox, oy, z - 5.0)
+    deepest = max(limits.drop_high, limits.vault_high, limits.jump_high)
+    reachable = _floor_below(cells, x, y, z, ox, oy, limits, deepest)
+    leapable = _floor_opposite(cells, x, y, z, ox, oy, limits)
+    if not reachable and not leapable:
+        return
+    state, floor = _foot(grid, x, y, z, ox, oy, z - deepest - 1.0)
     if state == 0:
         return
     height = z - floor if state == 1 else np.inf
     if height <= limits.step:
         return
+    reachable = reachable and height <= deepest
     lean = _SAME + _NEAR * limits.slope
     if lowest_above(grid, x + _NEAR * ox, y + _NEAR * oy, z + lean, z + limits.headroom) < np.inf:
         return
@@ -301,12 +330,10 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, kind, size):
     rim = t >= 0 and grid[0][t, 14] == 2.0
     top, top_ahead, top_cell = 0.0, 0.0, -1
     if rim:
-        top, top_ahead, top_cell, _ = room(cells, x, y, z, -ox, -oy, limits.slope, REACH)
+        top, top_ahead, top_cell, _ = room(cells, x, y, z, -ox, -oy, limits.slope, reach)
     low, low_ahead, low_cell = 0.0, 0.0, -1
-    if state == 1 and (
-        height <= limits.drop_high or height <= limits.vault_high or height <= limits.jump_high
-    ):
-        low, low_ahead, low_cell, _ = room(cells, x, y, floor, ox, oy, limits.slope, REACH)
+    if reachable:
+        low, low_ahead, low_cell, _ = room(cells, x, y, floor, ox, oy, limits.slope, reach)
     lx, ly = x + low_ahead * ox, y + low_ahead * oy
     tx, ty = x - top_ahead * ox, y - top_ahead * oy
     top_z = max(z, cells[2][top_cell]) if top_cell >= 0 else z
@@ -319,7 +346,7 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, kind, size):
             depth, behind = _behind(grid, x, y, z, -ox, -oy, floor, limits)
             if depth >= 0.0:
                 bx, by = x - depth * ox, y - depth * oy
-                free, ahead, cell, _ = room(cells, bx, by, behind, -ox, -oy, limits.slope, REACH)
+                free, ahead, cell, _ = room(cells, bx, by, behind, -ox, -oy, limits.slope, reach)
                 if cell >= 0 and free >= limits.landing:
                     fx, fy = bx - ahead * ox, by - ahead * oy
                     if _air(grid, lx, ly, z, fx, fy, z, limits.headroom):
@@ -331,10 +358,12 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, kind, size):
         if _air(grid, tx, ty, top_z, lx, ly, z, limits.headroom):
             kind[1] = DROP
             _note(size[1], height, 0.0, top, low, -height)
-    width, other = _across(grid, cells, x, y, z, ox, oy, limits)
+    if not leapable:
+        return
+    width, other = _across(grid, x, y, z, ox, oy, limits)
     if width >= 0.0:
         bx, by = x + width * ox, y + width * oy
-        free, ahead, cell, _ = room(cells, bx, by, other, ox, oy, limits.slope, REACH)
+        free, ahead, cell, _ = room(cells, bx, by, other, ox, oy, limits.slope, reach)
         if cell >= 0 and free >= limits.landing:
             fx, fy = bx + ahead * ox, by + ahead * oy
             if _air(grid, tx, ty, top_z, fx, fy, max(other, cells[2][cell]), limits.headroom):
@@ -343,10 +372,11 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, kind, size):
 
 
 @njit(cache=True)
-def measure(grid, cells, start, end, outward, first, limits):
+def measure(grid, cells, start, end, outward, first, limits, reach):
     """Measure every rim at evenly spread points: the middles of first[i + 1] - first[i] equal parts.
 
-    ``start``, ``end`` (n, 3), ``outward`` (n, 2), ``first`` (n + 1,) int64. Returns ``kind`` (s, 3) int8,
+    ``start``, ``end`` (n, 3), ``outward`` (n, 2), ``first`` (n + 1,) int64; free lengths are measured up to
+    ``reach`` [m]. Returns ``kind`` (s, 3) int8,
     0 where there is nothing, and ``size`` (s, 3, 5) float64 [m]: height, depth, run-up, landing, rise from
     the floor before to the floor behind. Slots: 0 what one meets from below (jump or vault), 1 the drop,
     2 the gap.
@@ -362,5 +392,7 @@ def measure(grid, cells, start, end, outward, first, limits):
             y = start[i, 1] + s * (end[i, 1] - start[i, 1])
             z = start[i, 2] + s * (end[i, 2] - start[i, 2])
             at = first[i] + j
-            _measure_one(grid, cells, x, y, z, outward[i, 0], outward[i, 1], limits, kind[at], size[at])
+            _measure_one(
+                grid, cells, x, y, z, outward[i, 0], outward[i, 1], limits, reach, kind[at], size[at]
+            )
     return kind, size

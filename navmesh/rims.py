@@ -9,12 +9,14 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numba import njit
 
 __all__ = ["Rims", "find_rims"]
 
 _WELD = 5e-4  # [m] vertices closer than this are one
 _LEVEL = math.tan(math.radians(20.0))  # steepest edge that counts as a rim, rise over horizontal length
 _SHORTEST = 0.02  # [m] shorter edges (horizontally) are left out
+_LEFT, _RIGHT, _RISES, _HANGS = 1, 2, 4, 8  # what lies at an edge
 _FLAT = 1e-4  # [m] a face must reach this far above or below an edge to rise or hang from it
 
 
@@ -41,64 +43,73 @@ def find_rims(vertices: np.ndarray, faces: np.ndarray, max_slope: float) -> Rims
     meet without sharing vertices look like rims here.
     """
     index, count = _weld(vertices)
-    welded = index[faces]
-    corner = vertices[faces]
-    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-    size = np.linalg.norm(normal, axis=1)
-    sound = (size > 1e-12) & (welded[:, 0] != welded[:, 1])
-    sound &= (welded[:, 1] != welded[:, 2]) & (welded[:, 2] != welded[:, 0])
-    welded, corner, normal, size = welded[sound], corner[sound], normal[sound], size[sound]
-    upward = normal[:, 2] / size
-    steepest = math.cos(max_slope) - 1e-9
-    floor = upward >= steepest
-    steep = np.abs(upward) < steepest
-
-    # Three half-edges per face; the key of an edge is the same from both of its faces.
-    near = welded.T.reshape(-1)
-    far = np.roll(welded, -1, axis=1).T.reshape(-1)
-    near_at = corner.transpose(1, 0, 2).reshape(-1, 3)
-    far_at = np.roll(corner, -1, axis=1).transpose(1, 0, 2).reshape(-1, 3)
-    third_at = np.roll(corner, -2, axis=1).transpose(1, 0, 2).reshape(-1, 3)
-    along = far_at - near_at
-    length = np.hypot(along[:, 0], along[:, 1])
-    usable = (length >= _SHORTEST) & (np.abs(along[:, 2]) <= _LEVEL * length)
-    face = np.tile(np.arange(len(welded)), 3)[usable]
-    near, far, along, length = near[usable], far[usable], along[usable], length[usable]
-    near_at, far_at, third_at = near_at[usable], far_at[usable], third_at[usable]
-    flipped = near > far
-    key = np.where(flipped, far, near) * np.int64(count) + np.where(flipped, near, far)
-
-    # What lies at each half-edge: a floor to the left or right, a steep face that rises or hangs.
-    to_third = third_at - near_at
-    side = along[:, 0] * to_third[:, 1] - along[:, 1] * to_third[:, 0]
-    part = np.clip((to_third[:, :2] * along[:, :2]).sum(axis=1) / length**2, 0.0, 1.0)
-    rise = to_third[:, 2] - part * along[:, 2]
-    is_floor, is_steep = floor[face], steep[face]
-    left = (side > 0) != flipped
-    flags = (
-        (is_floor & left) * 1
-        | (is_floor & ~left) * 2
-        | (is_steep & (rise > _FLAT)) * 4
-        | (is_steep & (rise < -_FLAT)) * 8
-    ).astype(np.int8)
+    kept, key, flags = _half_edges(vertices, faces, index, count, math.cos(max_slope) - 1e-9)
     if not len(key):
         return _in_order(np.empty((0, 3)), np.empty((0, 3)))
     order = np.argsort(key, kind="stable")
     key = key[order]
     first = np.flatnonzero(np.concatenate(([True], key[1:] != key[:-1])))
     found = np.bitwise_or.reduceat(flags[order], first)
-
-    one = order[first]
-    start = np.where(flipped[one, None], far_at[one], near_at[one])
-    end = np.where(flipped[one, None], near_at[one], far_at[one])
-    rises = (found & 4) != 0
-    ridge = (found & 15) == 8
-    falls_right = (~rises & ((found & 3) == 1)) | ridge
-    falls_left = (~rises & ((found & 3) == 2)) | ridge
+    ends = kept[order[first]]
+    rises = (found & _RISES) != 0
+    ridge = found == _HANGS
+    falls_right = (~rises & ((found & (_LEFT | _RIGHT)) == _LEFT)) | ridge
+    falls_left = (~rises & ((found & (_LEFT | _RIGHT)) == _RIGHT)) | ridge
+    start, end = vertices[ends[:, 0]], vertices[ends[:, 1]]
     return _in_order(
         np.concatenate((start[falls_right], end[falls_left])),
         np.concatenate((end[falls_right], start[falls_left])),
     )
+
+
+@njit(cache=True)
+def _half_edges(vertices, faces, place, places, steepest):
+    """The edges of every face that are level and long enough to be rims, and what lies at them.
+
+    ``place`` (v,) numbers the places of the vertices, of which there are ``places``. Returns (``ends`` (h, 2)
+    int64: vertices, the one with the lower place first; ``key`` (h,) int64: the same for the same edge;
+    ``flags`` (h,) int8: whether the face is a floor left or right of the edge, or a steep face that
+    rises or hangs from it).
+    """
+    ends = np.empty((3 * len(faces), 2), np.int64)
+    key = np.empty(3 * len(faces), np.int64)
+    flags = np.empty(3 * len(faces), np.int8)
+    count = 0
+    for f in range(len(faces)):
+        a, b, c = vertices[faces[f, 0]], vertices[faces[f, 1]], vertices[faces[f, 2]]
+        nx = (b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1])
+        ny = (b[2] - a[2]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[2] - a[2])
+        nz = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+        size = math.sqrt(nx * nx + ny * ny + nz * nz)
+        if size <= 1e-12 or nz <= -steepest * size:
+            continue
+        floor = nz >= steepest * size
+        for k in range(3):
+            i, j, third = faces[f, k], faces[f, (k + 1) % 3], faces[f, (k + 2) % 3]
+            if place[i] == place[j]:
+                continue
+            if place[i] > place[j]:
+                i, j = j, i
+            dx = vertices[j, 0] - vertices[i, 0]
+            dy = vertices[j, 1] - vertices[i, 1]
+            dz = vertices[j, 2] - vertices[i, 2]
+            length = math.sqrt(dx * dx + dy * dy)
+            if length < _SHORTEST or abs(dz) > _LEVEL * length:
+                continue
+            tx = vertices[third, 0] - vertices[i, 0]
+            ty = vertices[third, 1] - vertices[i, 1]
+            if floor:
+                flag = _LEFT if dx * ty - dy * tx > 0.0 else _RIGHT
+            else:
+                part = min(max((tx * dx + ty * dy) / (length * length), 0.0), 1.0)
+                rise = vertices[third, 2] - vertices[i, 2] - part * dz
+                flag = _RISES if rise > _FLAT else _HANGS if rise < -_FLAT else 0
+            ends[count, 0] = i
+            ends[count, 1] = j
+            key[count] = place[i] * places + place[j]
+            flags[count] = flag
+            count += 1
+    return ends[:count], key[:count], flags[:count]
 
 
 def _weld(vertices: np.ndarray) -> tuple[np.ndarray, int]:

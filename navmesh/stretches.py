@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 __all__ = ["Samples", "Stretch", "join_samples"]
 
@@ -72,7 +72,7 @@ def join_samples(samples: Samples, least_width: float) -> list[Stretch]:
 def _connected(samples: Samples) -> np.ndarray:
     """(m,) component of each sample: neighbours touch, face the same way and are alike in size."""
     count = len(samples.half)
-    tree = cKDTree(samples.point)
+    tree = KDTree(samples.point)
     pairs = tree.query_pairs(2.0 * float(samples.half.max()) + _SLACK, output_type="ndarray")
     a, b = pairs[:, 0], pairs[:, 1]
     apart = samples.point[b] - samples.point[a]

@@ -25,7 +25,7 @@ from navmesh.terrain import Terrain
 __all__ = ["NodeGraph"]
 
 _KIND = "surefoot navigation graph"
-_VERSION = 2
+_VERSION = 3
 _OBSTACLE_RULES = ObstacleRules()
 
 
@@ -38,8 +38,8 @@ class NodeGraph:
     changed from outside.
     """
 
-    terrain_digest: str
-    """`Terrain.digest` of the geometry that the graph was built from."""
+    terrain: Terrain
+    """The geometry that the graph was built from."""
     rules: WalkRules
     surface: Surface
     positions: np.ndarray
@@ -87,7 +87,7 @@ class NodeGraph:
         rules = rules or WalkRules()
         surface = build_surface(terrain, rules)
         h, ny = surface.resolution, surface.shape[1]
-        order = np.argsort(-surface.clearance, kind="stable").astype(np.int32)
+        order = nodes.order_by_clearance(surface.clearance, h / 64)
         node_cell, label = nodes.select_nodes(order, surface.clearance, surface.link, h, rules.min_radius)
         if len(node_cell) == 0:
             raise NavmeshError(
@@ -105,7 +105,7 @@ class NodeGraph:
         if tags is not None:
             obstacles = tags.apply(obstacles, surface, rules)
         return cls(
-            terrain_digest=terrain.digest,
+            terrain=terrain,
             rules=rules,
             surface=surface,
             positions=surface.centers(node_cell),
@@ -131,8 +131,10 @@ class NodeGraph:
         arrays |= {name: getattr(self, name) for name in _GRAPH_ARRAYS}
         arrays |= {f"obstacles_{name}": array for name, array in self.obstacles.arrays().items()}
         arrays |= {f"links_{name}": array for name, array in self.links.arrays().items()}
+        arrays |= {"terrain_vertices": self.terrain.vertices, "terrain_faces": self.terrain.faces}
         header = {
-            "terrain": self.terrain_digest,
+            "terrain": self.terrain.digest,
+            "level": self.terrain.name,
             "rules": self.rules.to_dict(),
             "resolution": surface.resolution,
             "shape": list(surface.shape),
@@ -157,7 +159,9 @@ class NodeGraph:
                 **{name: arrays.pop(f"surface_{name}") for name in _SURFACE_ARRAYS},
             )
             graph = cls(
-                terrain_digest=header["terrain"],
+                terrain=Terrain(
+                    arrays.pop("terrain_vertices"), arrays.pop("terrain_faces"), header["level"]
+                ),
                 rules=WalkRules.from_dict(header["rules"]),
                 surface=surface,
                 **{name: arrays.pop(name) for name in _GRAPH_ARRAYS},
@@ -166,9 +170,12 @@ class NodeGraph:
             )
         except KeyError as error:
             raise archive.ArchiveError(f"{path}: the navigation graph lacks {error}; bake it anew") from error
-        if terrain is not None and terrain.digest != graph.terrain_digest:
+        digest = graph.terrain.digest
+        if digest != header["terrain"]:
+            raise archive.ArchiveError(f"{path}: the navigation graph's terrain is damaged; bake it anew")
+        if terrain is not None and terrain.digest != digest:
             raise NavmeshError(
-                f"{path}: baked from another terrain than {terrain.name} (digest {graph.terrain_digest[:12]}…, "
+                f"{path}: baked from another terrain than {terrain.name} (digest {digest[:12]}…, "
                 f"expected {terrain.digest[:12]}…); bake it anew"
             )
         if rules is not None and rules != graph.rules:

@@ -45,6 +45,7 @@ class RunSkill:
         knots: (k,) float64, increasing speeds [m/s] at which parameters were learned.
         table: (k, p) float64, their parameters in the order of `controller.PARAMETERS`.
         state_reference: (b, 12) float64, reference sensors over a step (vx relative to the speed, dx per speed).
+        speeds: lowest and highest speed [m/s] that may be asked for.
         max_lateral: highest lateral acceleration [m/s^2]; the reference heading turns at up to max_lateral / speed.
         step_length: (a, b) of step length = a * speed + b [m], fitted to this skill.
         clip: the reference motion.
@@ -54,6 +55,7 @@ class RunSkill:
     knots: np.ndarray
     table: np.ndarray
     state_reference: np.ndarray
+    speeds: tuple[float, float]
     max_lateral: float
     step_length: tuple[float, float]
     clip: Clip
@@ -62,19 +64,14 @@ class RunSkill:
     """The first arguments of `controller.run_tick`."""
 
     def __post_init__(self) -> None:
-        limits = np.array([self.knots[0], self.knots[-1], self.max_lateral])
+        limits = np.array([*self.speeds, self.max_lateral])
         tables = (self.knots, self.table, *_clip_tables(self.clip), self.state_reference, limits)
         object.__setattr__(self, "tables", tuple(np.ascontiguousarray(t, dtype=np.float64) for t in tables))
-
-    @property
-    def speeds(self) -> tuple[float, float]:
-        """Lowest and highest speed [m/s] that may be asked for."""
-        return float(self.knots[0]), float(self.knots[-1])
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the skill for the present person; the file appears whole or not at all."""
         header = {
-            "person": person_digest(), "max_lateral": self.max_lateral,
+            "person": person_digest(), "max_lateral": self.max_lateral, "speeds": list(self.speeds),
             "step_length": list(self.step_length), "meta": self.meta,
         }
         arrays = {"knots": self.knots, "table": self.table, "state_reference": self.state_reference}
@@ -92,6 +89,7 @@ def load_run_skill(path: str | os.PathLike[str] = RUN_SKILL) -> RunSkill:
     width = sum(controller.PARAMETERS.values())
     try:
         knots, table, reference = arrays["knots"], arrays["table"], arrays["state_reference"]
+        low, high = (float(x) for x in header["speeds"])
         a, b = (float(x) for x in header["step_length"])
         max_lateral = float(header["max_lateral"])
     except (KeyError, TypeError, ValueError) as error:
@@ -100,7 +98,7 @@ def load_run_skill(path: str | os.PathLike[str] = RUN_SKILL) -> RunSkill:
         raise LocomotionError(f"{path}: parameters of shape {table.shape}, expected ({len(knots)}, {width})")
     if not (np.isfinite(table).all() and np.isfinite(reference).all() and (np.diff(knots) > 0).all()):
         raise LocomotionError(f"{path}: holds numbers that are not finite or speeds that do not grow")
-    return RunSkill(knots, table, reference, max_lateral, (a, b), run_clip(), header.get("meta", {}))
+    return RunSkill(knots, table, reference, (low, high), max_lateral, (a, b), run_clip(), header.get("meta", {}))
 
 
 def _place(

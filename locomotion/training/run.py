@@ -1,10 +1,14 @@
 """Learning to run: first guess, curriculum and objective."""
 
+from dataclasses import dataclass
+from functools import lru_cache
+
 import numpy as np
 
 from locomotion import controller as c
 from locomotion.skill import RunSkill, run_clip
-from locomotion.training.rollout import Scenario, Trial
+from locomotion.training.loop import Stage
+from locomotion.training.rollout import Scenario, Simulator, Trial
 
 __all__ = ["cost", "first_guess", "first_state_reference", "scales", "skill_of"]
 
@@ -58,9 +62,117 @@ def first_state_reference() -> np.ndarray:
     return table
 
 
-def skill_of(knots: np.ndarray, table: np.ndarray, reference: np.ndarray, max_lateral: float = 2.0) -> RunSkill:
-    """A skill from its parts, with the product's reference clip."""
-    return RunSkill(np.asarray(knots, dtype=np.float64), table, reference, max_lateral, (0.2, 0.4), run_clip())
+KNOTS = np.array([0.0, 2.5, 3.0, 3.5, 4.0, 4.5])
+"""Speeds [m/s] of the rows of a learned table; the first serves the start from standing."""
+SPEED_RANGE = (2.5, 4.5)
+"""Speeds [m/s] that may be asked for."""
+MIDDLE = 3.5
+"""Speed [m/s] at which learning starts."""
+SIZE = sum(c.PARAMETERS.values())
+
+
+def skill_of(genes: np.ndarray, reference: np.ndarray, max_lateral: float = 2.0, meta: dict | None = None) -> RunSkill:
+    """The skill that ``genes`` (4 * SIZE,) stand for: parameters at `MIDDLE`, their change per m/s and per (m/s)^2,
+    and the difference at speed 0 from the lowest speed."""
+    base, slope, bend, start = genes.reshape(4, SIZE)
+    u = (KNOTS[1:] - MIDDLE)[:, None]
+    table = np.empty((len(KNOTS), SIZE))
+    table[1:] = base + u * slope + u * u * bend
+    table[0] = table[1] + start
+    time = c.parameter_slices()["timing"].start
+    table[:, time] = np.clip(table[:, time], 0.25, 0.5)
+    return RunSkill(KNOTS, table, reference, SPEED_RANGE, max_lateral, (0.3, 0.25), run_clip(), meta or {})
+
+
+def genes_scale(base: float, slope: float, bend: float, start: float) -> np.ndarray:
+    """Scale of all genes from those of one row, each block weighted; 0 keeps a block."""
+    one = scales()
+    part = c.parameter_slices()
+    shaped = np.zeros(SIZE)
+    for name in ("feed_forward", "a_hat", "timing", "arms"):
+        shaped[part[name]] = one[part[name]]
+    return np.concatenate([base * one, slope * one, bend * shaped, start * one])
+
+
+@dataclass(frozen=True)
+class RunProblem:
+    """Learning of the run for `locomotion.training.loop.learn`.
+
+    Attributes:
+        curriculum: the stages, see `CURRICULUM`.
+        genes: first guess, (4 * SIZE,) float64.
+        reference: reference sensors, (b, 12) float64.
+    """
+
+    curriculum: tuple[Stage, ...]
+    genes: np.ndarray
+    reference: np.ndarray
+
+    def stages(self) -> tuple[Stage, ...]:
+        """The curriculum."""
+        return self.curriculum
+
+    def start(self) -> np.ndarray:
+        """The first guess."""
+        return self.genes
+
+    def scenarios(self, stage: Stage, generation: int, rng: np.random.Generator) -> list[Scenario]:
+        """Random trials within the stage's options."""
+        return [draw_scenario(rng, **stage.options["trial"]) for _ in range(stage.options["trials"])]
+
+    def evaluate(self, stage: Stage, candidate: np.ndarray, scenarios: list[Scenario]) -> tuple[float, float]:
+        """Mean cost and mean share of the time survived."""
+        skill = skill_of(candidate, self.reference)
+        costs, survived = 0.0, 0.0
+        for scenario in scenarios:
+            trial = _simulator().run(skill, scenario)
+            costs += cost(trial, scenario, stage.options["style"])
+            survived += trial.figures["time"] / scenario.duration
+        return costs / len(scenarios), survived / len(scenarios)
+
+
+@lru_cache(maxsize=1)
+def _simulator() -> Simulator:
+    """This process's simulator."""
+    return Simulator()
+
+
+def draw_scenario(
+    rng: np.random.Generator,
+    duration: float,
+    speeds: tuple[float, float] = (MIDDLE, MIDDLE),
+    noise: float = 0.0,
+    push: float = 0.0,
+    lateral: float = 0.0,
+    tilt: float = 0.0,
+    standing: float = 0.0,
+) -> Scenario:
+    """A random trial.
+
+    duration [s]; range of desired speeds [m/s], drawn anew every 2 to 3 s; noise: start noise (1 = 0.3 m/s, 0.05 rad); push:
+    highest force [N] of pushes of 0.1 s; lateral: highest lateral acceleration [m/s^2] of turns; tilt: highest slope of the
+    ground [rise over run]; standing: share of the trials that start from standing.
+    """
+    low, high = speeds
+    changes = np.arange(0.0, duration, 2.5)
+    speed = np.stack([changes, rng.uniform(low, high, len(changes))], axis=1)
+    turns = np.stack([changes, rng.uniform(-1, 1, len(changes)) * lateral / np.maximum(speed[:, 1], 1.0)], axis=1)
+    turns[:, 1] *= rng.random(len(changes)) < 0.7
+    times = np.arange(1.0, duration - 0.5, 2.0) + rng.uniform(0, 0.5)
+    angle = rng.uniform(0, 2 * np.pi, len(times))
+    force = push * np.sqrt(rng.random(len(times)))
+    pushes = np.stack([times, force * np.cos(angle), force * np.sin(angle), np.full(len(times), 0.1)], axis=1)
+    direction, steepness = rng.uniform(0, 2 * np.pi), tilt * np.sqrt(rng.random())
+    sizes = noise * np.concatenate([np.full(3, 0.3), np.full(3, 0.3), np.full(45, 0.05)])
+    return Scenario(
+        duration=duration,
+        speeds=speed,
+        headings=turns,
+        pushes=pushes if push > 0 else np.zeros((0, 4)),
+        tilt=(float(steepness * np.cos(direction)), float(steepness * np.sin(direction))),
+        standing=bool(rng.random() < standing),
+        start_noise=rng.normal(size=51) * sizes if noise > 0 else np.zeros(0),
+    )
 
 
 def cost(trial: Trial, scenario: Scenario, style: float) -> float:

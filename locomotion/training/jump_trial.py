@@ -1,0 +1,254 @@
+"""Trials of jumping: a stair before a running person, states harvested from planned run-ups, figures."""
+
+import math
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from locomotion import controller as c
+from locomotion import jump
+from locomotion.clearing import Clearing
+from locomotion.jump import JumpTables, jump_tick, start_jump
+from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, person_spec
+from locomotion.skill import RunSkill, reset_running
+
+__all__ = ["JumpOutcome", "JumpSimulator", "StartState", "stair_model"]
+
+_TOP = 2.0  # half height [m] of the box: its lower part is under the plane
+_LENGTH = 60.0  # [m] of the stair behind its edge
+_STATE = mujoco.mjtState.mjSTATE_INTEGRATION
+
+
+@dataclass(frozen=True)
+class StartState:
+    """A person at the stance switch at which a jump begins.
+
+    physics, control: as saved. planted: (2,) stance foot [m]. error: of the distance to the mark [m].
+    """
+
+    physics: np.ndarray
+    control: np.ndarray
+    planted: np.ndarray
+    error: float
+
+
+@dataclass(frozen=True)
+class JumpOutcome:
+    """What a trial showed.
+
+    cleared: both feet were on top and the person still runs at the end. time: share of the trial survived.
+    shortfall: how far [m] the lowest foot was below the edge's height when its toes crossed the edge. scrape: ticks in
+    which something touched the face of the stair. steps: made on top. speed: mean speed [m/s] of the last steps. drift:
+    sideways distance [m] at the end. reaction: mean excess of the ground reaction above 4 body weights.
+    effort: mean squared torque [(Nm)^2] over 1e4. trunk: mean squared pitch and roll of the trunk off its
+    lean [rad^2]. pose: mean squared difference [rad^2] to the clip over steps 1 and 2. errors: of distance and speed.
+    """
+
+    cleared: bool
+    time: float
+    shortfall: float
+    scrape: int
+    steps: int
+    speed: float
+    drift: float
+    reaction: float
+    effort: float
+    trunk: float
+    pose: float
+    errors: tuple[float, float]
+
+
+def stair_model() -> mujoco.MjModel:
+    """The person, the plane z = 0 (geom ``ground``) and a box (geom ``stair``) that trials move."""
+    spec = person_spec()
+    friction = [0.9, 0.005, 0.0001]
+    spec.worldbody.add_geom(
+        name="ground", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], contype=1, conaffinity=0,
+        friction=friction, rgba=[0.82, 0.84, 0.86, 1],
+    )  # fmt: skip
+    spec.worldbody.add_geom(
+        name="stair", type=mujoco.mjtGeom.mjGEOM_BOX, size=[_LENGTH / 2, 4.0, _TOP], contype=1, conaffinity=0,
+        friction=friction, rgba=[0.62, 0.55, 0.46, 1], pos=[1000.0, 0.0, -_TOP],
+    )  # fmt: skip
+    model = spec.compile()
+    model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_MIDPHASE  # the box moves in the world body
+    return model
+
+
+class JumpSimulator:
+    """A person, a plane and a stair that trials are run with; one per process."""
+
+    def __init__(self, run: RunSkill) -> None:
+        self.run = run
+        self.model = stair_model()
+        self.data = mujoco.MjData(self.model)
+        self.index = PersonIndex.of(self.model)
+        self.stair = self.model.geom("stair").id
+        self.state = c.new_state()
+        self.command = np.zeros(3)
+        self.memory = np.zeros(jump.MEMORY_SIZE)
+        self._legs = np.array([i for i, name in enumerate(c.JOINT_NAMES) if "hip_flex" in name or "knee" in name])
+
+    def place_stair(self, edge_x: float, height: float) -> None:
+        """The stair's edge at x = ``edge_x`` [m], its top at ``height`` [m]."""
+        self.model.geom_pos[self.stair] = [edge_x + _LENGTH / 2, 0.0, height - _TOP]
+
+    def begin(self, distance: float, speed: float, yaw: float = 0.0, noise: np.ndarray | None = None) -> None:
+        """Run at ``speed`` [m/s] from x = -``distance``; ``noise`` (51,) as in `rollout.Scenario`."""
+        start = np.array([-distance, 0.0, 0.0])
+        reset_running(self.run, self.model, self.data, self.index, self.state, start, yaw, speed)
+        if noise is not None:
+            self.data.qvel[:6] += noise[:6]
+            self.data.qpos[7:] += noise[6:45]
+            mujoco.mj_forward(self.model, self.data)
+            self.state[c.COM_VELOCITY] += noise[:3]
+            c.observe(self.index, self.model, self.data, self.state, fresh=True)
+        self.command[:] = yaw, speed, 0.0
+
+    def _step(self) -> None:
+        mujoco.mj_step(self.model, self.data, STEPS_PER_TICK)
+        c.observe(self.index, self.model, self.data, self.state)
+
+    def approach_tick(self, clearing: Clearing) -> None:
+        """One tick of a run-up or a jump along +x: hold y = 0, then as `clearing` says."""
+        y = self.state[c.COM.start + 1]
+        self.command[0] = -float(np.clip(1.2 * y / max(self.state[c.SPEED], 1.0), -0.3, 0.3))
+        self.command[2] = float(np.clip(-0.5 * y, -0.2, 0.2))
+        clearing.before(self.state, self.command)
+        c.run_tick(*self.run.tables, self.state, self.command, self.data.qpos, self.data.qvel, self.data.ctrl)
+        clearing.after(self.state, self.data.ctrl)
+        self._step()
+
+    def harvest(self, tables: JumpTables, distances: np.ndarray, rng: np.random.Generator) -> list[StartState]:
+        """Run up to a mark from each of ``distances`` [m] and save the states at which the jump begins."""
+        found = []
+        self.place_stair(1000.0, 0.0)
+        for distance in distances:
+            noise = rng.normal(size=51) * np.r_[np.full(3, 0.1), np.full(3, 0.1), np.full(45, 0.02)]
+            speed = rng.uniform(*np.clip([tables.entry - 0.8, tables.entry + 0.5], *self.run.speeds))
+            self.begin(float(distance), float(speed), noise=noise)
+            clearing = Clearing(tables, self.run, 0.0, (0.0, 0.0), (-1.0, 0.0))
+            for _ in range(3000):
+                before = np.empty(mujoco.mj_stateSize(self.model, _STATE))
+                mujoco.mj_getState(self.model, self.data, before, _STATE)
+                control = self.state.copy()
+                self.approach_tick(clearing)
+                if clearing.jumping:
+                    foot = c.PLANTED.start + (3 if self.state[c.STANCE] > 0 else 0)
+                    found.append(StartState(before, control, self.state[foot : foot + 2].copy(), clearing.errors[0]))
+                    break
+                if self.state[c.FALLEN] > 0.0:
+                    break
+        return found
+
+    def trial(
+        self, tables: JumpTables, height: float, start: StartState, error: float, duration: float, on_tick=None,
+        record: np.ndarray | None = None,
+    ) -> JumpOutcome:
+        """Jump from a harvested state; the stair is put so that the distance misses the mark by ``error`` [m].
+
+        duration: [s]. on_tick(simulator) is called after each tick. record: (4, 6, 16) sums of the sensors per bin and
+        their count, added to.
+        """
+        edge = float(start.planted[0]) + tables.mark + error
+        self.place_stair(edge, height)
+        mujoco.mj_setState(self.model, self.data, start.physics, _STATE)
+        self.data.qacc_warmstart[:] = 0.0
+        self.state[:] = start.control
+        steps = self.state[c.STEPS]
+        self.command[:] = 0.0, tables.entry, 0.0
+        meter = _Meter(self, edge, height)
+        begun = False
+        ticks = round(duration / CONTROL_DT)
+        for _ in range(ticks):
+            if begun and self.memory[jump.ACTIVE] == 0.0:
+                self.command[2] = float(np.clip(-0.5 * self.state[c.COM.start + 1], -0.2, 0.2))
+            c.run_tick(*self.run.tables, self.state, self.command, self.data.qpos, self.data.qvel, self.data.ctrl)
+            if not begun and self.state[c.STEPS] != steps:
+                begun = True
+                start_jump(tables.parameters, self.memory, self.state, tables.entry, edge, 0.0, 1.0, 0.0)
+            if begun:
+                jump_tick(tables.parameters, *tables.rest, self.memory, self.state, self.data.ctrl)
+            self._step()
+            step = int(self.state[c.STEPS] - steps) - 1
+            if record is not None and 0 <= step < jump.STEPS:
+                place = min(int(self.state[c.PHASE] * (jump.BINS - 1) + 0.5), jump.BINS - 1)
+                record[step, place, : jump.SENSORS] += self.memory[50 : 50 + jump.SENSORS]
+                record[step, place, jump.SENSORS] += 1.0
+            meter.tick(step)
+            if on_tick is not None:
+                on_tick(self)
+            if self.state[c.FALLEN] > 0.0:
+                break
+        return meter.outcome(ticks, (float(self.memory[jump.ERROR_DISTANCE]), float(self.memory[jump.ERROR_SPEED])))
+
+
+class _Meter:
+    """Collects the figures of a trial."""
+
+    def __init__(self, simulator: JumpSimulator, edge: float, height: float) -> None:
+        self.s, self.edge, self.height = simulator, edge, height
+        self.ticks = self.scrape = 0
+        self.shortfall = self.reaction = self.effort = self.trunk = 0.0
+        self.crossed = [False, False]
+        self.landed = [False, False]
+        self.steps_on_top = 0
+        self.last_step = -1
+        self.speeds: list[float] = []
+        self.toes = [simulator.model.body(f"{side}_toes").id for side in ("right", "left")]
+
+    def tick(self, step: int) -> None:
+        s, data, state = self.s, self.s.data, self.s.state
+        self.ticks += 1
+        for k in range(2):
+            toe = data.xpos[self.toes[k]]
+            if not self.crossed[k] and toe[0] > self.edge - 0.05:
+                self.crossed[k] = True
+                lowest = min(float(toe[2]), float(data.xpos[s.index.feet[k]][2]) - 0.04)
+                self.shortfall += max(self.height + 0.05 - (lowest - 0.02), 0.0)
+            on_top = state[20 + 3 * k] > self.edge and state[22 + 3 * k] > self.height - 0.02
+            if on_top and state[26 + k] > 20.0:
+                self.landed[k] = True
+        self.scrape += self._touches_face()
+        weight = MASS * 9.81
+        self.reaction += max((state[26] + state[27]) / weight - 4.0, 0.0)
+        self.effort += float(np.dot(data.actuator_force, data.actuator_force)) * 1e-4
+        up = data.xmat[s.index.chest]
+        self.trunk += (up[2] - 0.1) ** 2 + 2.0 * up[5] ** 2
+        if step != self.last_step:
+            self.last_step = step
+            if all(self.landed):
+                self.steps_on_top += 1
+                self.speeds.append(float(state[c.STEP_SPEED]))
+
+    def _touches_face(self) -> int:
+        """Whether anything touches the stair below its top with a force that pushes back."""
+        data = self.s.data
+        if data.ncon == 0:
+            return 0
+        contact = data.contact
+        mine = (contact.geom == self.s.stair).any(axis=1)
+        if not mine.any():
+            return 0
+        low = (contact.pos[:, 2] < self.height - 0.03) & (np.abs(contact.frame[:, 0]) > 0.5)
+        return int((mine & low).any())
+
+    def outcome(self, ticks: int, errors: tuple[float, float]) -> JumpOutcome:
+        state, n = self.s.state, max(self.ticks, 1)
+        shortfall = self.shortfall + sum(0.3 for crossed in self.crossed if not crossed)
+        fallen = state[c.FALLEN] > 0.0
+        return JumpOutcome(
+            cleared=all(self.landed) and not fallen,
+            time=(self.ticks - (1 if fallen else 0)) / ticks,
+            shortfall=shortfall,
+            scrape=self.scrape,
+            steps=self.steps_on_top,
+            speed=float(np.mean(self.speeds[-3:])) if self.speeds else 0.0,
+            drift=abs(float(state[c.COM.start + 1])),
+            reaction=self.reaction / n,
+            effort=self.effort / n,
+            trunk=self.trunk / n,
+            pose=0.0 if math.isnan(self.trunk) else self.trunk / n,
+            errors=errors,
+        )

@@ -1,0 +1,196 @@
+"""The learning loop that every skill uses: workers, generations, checkpoints, progress.
+
+A skill brings a `Problem`: where learning starts, the trials of a generation, the cost of a candidate. The trials of
+generation g are drawn from a generator seeded with (seed, stage, g), and so are the candidates, so that a run that was
+stopped and resumed gives the same result as one that was not, with any number of workers.
+"""
+
+import hashlib
+import multiprocessing
+import os
+import sys
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+
+from locomotion.errors import LocomotionError
+from locomotion.training.cma_es import CmaEs
+from navmesh.archive import ArchiveError, read_archive, write_archive
+
+__all__ = ["Problem", "Progress", "Stage", "learn"]
+
+_KIND, _VERSION = "training checkpoint", 1
+
+
+@dataclass(frozen=True)
+class Stage:
+    """One stretch of learning.
+
+    Attributes:
+        name: shown while learning. generations: how many. sigma: step size at its start, in units of ``scale``.
+        scale: (n,) float64, size of a unit of each parameter; 0 keeps a parameter as it is.
+        options: what the problem's ``scenarios`` and ``cost`` want to know about the stage.
+        population: candidates per generation.
+    """
+
+    name: str
+    generations: int
+    sigma: float
+    scale: np.ndarray
+    options: dict[str, Any] = field(default_factory=dict)
+    population: int = 32
+
+
+class Problem(Protocol):
+    """What a skill brings. Instances are sent to the workers, so they can be pickled."""
+
+    def stages(self) -> Sequence[Stage]:
+        """The curriculum."""
+        ...
+
+    def start(self) -> np.ndarray:
+        """First guess, (n,) float64."""
+        ...
+
+    def scenarios(self, stage: Stage, generation: int, rng: np.random.Generator) -> list[Any]:
+        """The trials on which all candidates of a generation are judged."""
+        ...
+
+    def evaluate(self, stage: Stage, candidate: np.ndarray, scenarios: list[Any]) -> tuple[float, float]:
+        """Cost of a candidate and a figure for the display (share of the time survived)."""
+        ...
+
+
+@dataclass(frozen=True)
+class Progress:
+    """Where learning stands: shown on a terminal, or given to the caller's function."""
+
+    stage: str
+    generation: int
+    generations: int
+    cost: float
+    survival: float
+    elapsed: float
+    remaining: float
+
+
+_problem: Problem | None = None
+_stages: Sequence[Stage] = ()
+
+
+def _start_worker(problem: Problem) -> None:
+    global _problem, _stages
+    _problem, _stages = problem, problem.stages()
+
+
+def _work(task: tuple[int, np.ndarray, list[Any]]) -> tuple[float, float]:
+    stage, candidate, scenarios = task
+    assert _problem is not None
+    return _problem.evaluate(_stages[stage], candidate, scenarios)
+
+
+def learn(
+    problem: Problem,
+    seed: int,
+    checkpoint: str | os.PathLike[str] | None = None,
+    workers: int = 2,
+    on_progress: Callable[[Progress], None] | None = None,
+    stop_after: int | None = None,
+) -> np.ndarray | None:
+    """Go through the problem's stages with CMA-ES; gives the learned parameters, (n,) float64.
+
+    ``checkpoint``: file that the state is written to after each generation and resumed from if it is there; one of
+    another problem or seed is refused with `LocomotionError`. ``stop_after``: leave after that many generations
+    (returns None if that is before the end), as an interruption would.
+    """
+    stages = problem.stages()
+    parameters = problem.start()
+    identity = _identity(seed, stages, parameters)
+    at, search = 0, None
+    if checkpoint is not None and Path(checkpoint).exists():
+        at, parameters, search = _resume(Path(checkpoint), identity, stages, parameters)
+    total, begun, made = sum(s.generations for s in stages), time.monotonic(), 0
+    context = multiprocessing.get_context("spawn")
+    with context.Pool(workers, _start_worker, (problem,)) as pool:
+        for number in range(at, len(stages)):
+            stage = stages[number]
+            free = np.flatnonzero(stage.scale > 0)
+            if search is None:
+                search = CmaEs(parameters[free], stage.sigma, stage.scale[free], stage.population)
+            while search.generation < stage.generations:
+                if stop_after is not None and made >= stop_after:
+                    return None
+                cost, survival = _generation(pool, problem, seed, number, stage, search, parameters, free)
+                made += 1
+                done = sum(s.generations for s in stages[:number]) + search.generation
+                if checkpoint is not None:
+                    _save(Path(checkpoint), identity, number, parameters, search)
+                elapsed = time.monotonic() - begun
+                remaining = elapsed / made * (total - done)
+                report = Progress(stage.name, search.generation, stage.generations, cost, survival, elapsed, remaining)
+                (on_progress or _show)(report)
+            parameters = parameters.copy()
+            parameters[free] = search.best_guess
+            search = None
+    return parameters
+
+
+def _generation(
+    pool: Any, problem: Problem, seed: int, number: int, stage: Stage, search: CmaEs, parameters: np.ndarray,
+    free: np.ndarray,
+) -> tuple[float, float]:
+    """One generation: ask, judge, tell; gives the median cost and survival."""
+    rng = np.random.default_rng([seed, number, search.generation])
+    asked = search.ask(rng)
+    scenarios = problem.scenarios(stage, search.generation, rng)
+    candidates = np.tile(parameters, (len(asked), 1))
+    candidates[:, free] = asked
+    results = pool.map(_work, [(number, x, scenarios) for x in candidates], chunksize=1)
+    costs = np.array([cost for cost, _ in results])
+    search.tell(asked, costs)
+    return float(np.median(costs)), float(np.median([survival for _, survival in results]))
+
+
+def _identity(seed: int, stages: Sequence[Stage], start: np.ndarray) -> str:
+    """Digest of what a checkpoint belongs to."""
+    hasher = hashlib.sha256(start.tobytes())
+    for s in stages:
+        hasher.update(repr((seed, s.name, s.generations, s.sigma, s.options, s.population)).encode() + s.scale.tobytes())
+    return hasher.hexdigest()[:16]
+
+
+def _save(path: Path, identity: str, stage: int, parameters: np.ndarray, search: CmaEs) -> None:
+    arrays = {"parameters": parameters, **search.arrays()}
+    write_archive(path, _KIND, _VERSION, {"identity": identity, "stage": stage}, arrays)
+
+
+def _resume(
+    path: Path, identity: str, stages: Sequence[Stage], start: np.ndarray
+) -> tuple[int, np.ndarray, CmaEs]:
+    try:
+        header, arrays = read_archive(path, _KIND, _VERSION)
+    except ArchiveError as error:
+        raise LocomotionError(f"{error}; remove it to begin anew") from error
+    if header.get("identity") != identity:
+        raise LocomotionError(f"{path}: checkpoint of another training or seed; remove it to begin anew")
+    stage = stages[int(header["stage"])]
+    free = np.flatnonzero(stage.scale > 0)
+    search = CmaEs(start[free], stage.sigma, stage.scale[free], stage.population)
+    search.restore(arrays)
+    return int(header["stage"]), arrays["parameters"], search
+
+
+def _show(p: Progress) -> None:
+    """One line that is rewritten on a terminal; elsewhere a line per ten generations."""
+    line = (
+        f"{p.stage}: generation {p.generation}/{p.generations}  cost {p.cost:.2f}  survives {100 * p.survival:.0f} %"
+        f"  {p.elapsed / 60:.1f} min done, {p.remaining / 60:.1f} min left"
+    )
+    if sys.stderr.isatty():
+        print("\r\x1b[2K" + line, end="\n" if p.generation == p.generations else "", file=sys.stderr, flush=True)
+    elif p.generation % 10 == 0 or p.generation == p.generations:
+        print(line, file=sys.stderr, flush=True)

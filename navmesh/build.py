@@ -27,8 +27,8 @@ def build_surface(terrain: Terrain, rules: WalkRules) -> Surface:
     nx, ny = (np.floor(greatest[:2] / h) - corner + 2.0).astype(np.int64).tolist()
     if nx * ny > _MOST_COLUMNS:
         raise NavmeshError(
-            f"{terrain.name}: {nx} x {ny} columns of {h:g} m are too many; expected at most {_MOST_COLUMNS:.0e}: "
-            "check the unit scale, or take a coarser resolution"
+            f"{terrain.name}: {nx} x {ny} columns of {h:g} m are too many; expected at most "
+            f"{_MOST_COLUMNS:.0e}: check the unit scale, or take a coarser resolution"
         )
     origin = np.array([corner[0] * h, corner[1] * h, math.floor(least[2])])
     table = raster.prepare_triangles(
@@ -40,9 +40,9 @@ def build_surface(terrain: Terrain, rules: WalkRules) -> Surface:
     )
     if len(cell_column) == 0:
         raise NavmeshError(
-            f"{terrain.name}: nothing to walk on: no face is within {math.degrees(rules.max_slope):g} degrees of "
-            f"level, faces up, and has {rules.headroom:g} m free above it; check the up axis, the unit scale "
-            "and the order of the corners of the faces (counter-clockwise seen from above)"
+            f"{terrain.name}: nothing to walk on: no face is within {math.degrees(rules.max_slope):g} degrees "
+            f"of level, faces up, and has {rules.headroom:g} m free above it; check the up axis, the unit "
+            "scale and the order of the corners of the faces (counter-clockwise seen from above)"
         )
     link = floors.neighbours_within_step(column_start, cell_column, height, gradient, h, ny, rules.max_step)
     base = walls.find_walls(

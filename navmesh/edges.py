@@ -96,7 +96,7 @@ def join_nodes(
     y: np.ndarray,
     radii: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Edges in CSR form, both ways: start (m + 1,), target (e,), width (e,), portal (e, 4), border cells (e, 2).
+    """Edges in CSR form, both ways: start (m + 1,), target (e,), width (e,), portal (e, 4), cells (e, 2).
 
     ``x``, ``y`` and ``radii`` (m,) are the discs; the other arrays are the surface's. The widest body that
     passes is max((Rᵢ + Rⱼ - d)/2, the clearance of the best pair of linked cells on the labels' border).

@@ -3,17 +3,18 @@
 import numpy as np
 from numba import njit
 
-__all__ = ["find_floors", "neighbours_within_step"]
+from navmesh.raster import FLOOR, SAME_SURFACE, TOUCH, UPRIGHT, is_over
 
-_SAME = 0.01  # [m] parts of the mesh this close in height are one surface
+__all__ = ["find_floors", "neighbours_within_step"]
 
 
 @njit(cache=True)
 def find_floors(table, start, triangle, resolution, nx, ny, headroom):
     """Rule 1 at the centre of every column.
 
-    ``table``, ``start``, ``triangle`` come from `navmesh.raster`. Returns ``column_start`` (nx·ny + 1,) int32,
-    ``cell_column`` (n,) int32, ``height`` (n,) and ``gradient`` (n, 2) float64; cells of a column go upwards.
+    ``table``, ``start``, ``triangle`` come from `navmesh.raster`. Returns ``column_start`` (nx·ny + 1,)
+    int32, ``cell_column`` (n,) int32, ``height`` (n,) and ``gradient`` (n, 2) float64; cells of a column go
+    upwards.
     """
     columns = nx * ny
     most = 1
@@ -37,36 +38,30 @@ def find_floors(table, start, triangle, resolution, nx, ny, headroom):
         walkable = False
         for k in range(start[c], start[c + 1]):
             row = table[triangle[k]]
-            if row[14] == 0.0:
+            if row[14] == UPRIGHT:
                 continue
-            one = (row[3] - row[0]) * (y - row[1]) - (row[4] - row[1]) * (x - row[0])
-            two = (row[6] - row[3]) * (y - row[4]) - (row[7] - row[4]) * (x - row[3])
-            three = (row[0] - row[6]) * (y - row[7]) - (row[1] - row[7]) * (x - row[6])
-            if not (
-                (one >= -1e-9 and two >= -1e-9 and three >= -1e-9)
-                or (one <= 1e-9 and two <= 1e-9 and three <= 1e-9)
-            ):
+            if not is_over(row, x, y):
                 continue
             hit[hits, 0] = row[9] * x + row[10] * y + row[11]
             hit[hits, 1] = row[9]
             hit[hits, 2] = row[10]
             hit[hits, 3] = row[14]
             hits += 1
-            walkable |= row[14] == 2.0
+            walkable |= row[14] == FLOOR
         if not walkable:
             continue
         first = cells
         for i in range(hits):
-            if hit[i, 3] != 2.0:
+            if hit[i, 3] != FLOOR:
                 continue
             z = hit[i, 0]
             free = True
             for j in range(hits):
-                if z + 0.01 < hit[j, 0] < z + headroom:
+                if z + SAME_SURFACE < hit[j, 0] < z + headroom:
                     free = False
                     break
                 # of surfaces that coincide the highest stays, then the one with the greater gradient
-                if hit[j, 3] == 2.0 and j != i and abs(hit[j, 0] - z) <= 0.01:
+                if hit[j, 3] == FLOOR and j != i and abs(hit[j, 0] - z) <= SAME_SURFACE:
                     later = hit[j, 0] == z and (
                         (hit[j, 1], hit[j, 2]) > (hit[i, 1], hit[i, 2])
                         or ((hit[j, 1], hit[j, 2]) == (hit[i, 1], hit[i, 2]) and j < i)
@@ -106,7 +101,7 @@ def neighbours_within_step(column_start, cell_column, height, gradient, resoluti
         for d in range(2):
             other = column + ny if d == 0 else column + 1
             z = height[c] + gradient[c, d] * half
-            best = step + 1e-9
+            best = step + TOUCH
             chosen = -1
             for n in range(column_start[other], column_start[other + 1]):
                 difference = abs(height[n] - gradient[n, d] * half - z)

@@ -5,62 +5,101 @@ import math
 import numpy as np
 from numba import njit
 
-__all__ = ["floor_at", "floor_end", "is_over"]
+from navmesh.raster import FLOOR, SAME_SURFACE, TOUCH, UPRIGHT, is_over
 
-
-@njit(cache=True)
-def is_over(row, x, y):
-    """Whether a prepared triangle that has a height covers (x, y); its edges belong to it."""
-    one = (row[3] - row[0]) * (y - row[1]) - (row[4] - row[1]) * (x - row[0])
-    two = (row[6] - row[3]) * (y - row[4]) - (row[7] - row[4]) * (x - row[3])
-    three = (row[0] - row[6]) * (y - row[7]) - (row[1] - row[7]) * (x - row[6])
-    return (one >= -1e-9 and two >= -1e-9 and three >= -1e-9) or (
-        one <= 1e-9 and two <= 1e-9 and three <= 1e-9
-    )
+__all__ = ["floor_at", "floor_end"]
 
 
 @njit(cache=True)
 def floor_at(table, start, triangle, resolution, ny, x, y, z, step, headroom):
     """The prepared triangle that is floor (rule 1) at (x, y) within ``step`` of z, or -1."""
-    column = int(math.floor(x / resolution)) * ny + int(math.floor(y / resolution))
+    column = math.floor(x / resolution) * ny + math.floor(y / resolution)
     chosen = -1
     at = -np.inf
     for k in range(start[column], start[column + 1]):
         row = table[triangle[k]]
-        if row[14] != 2.0:
+        if row[14] != FLOOR:
             continue
         here = row[9] * x + row[10] * y + row[11]
-        if abs(here - z) <= step + 1e-9 and here > at and is_over(row, x, y):
+        if abs(here - z) <= step + TOUCH and here > at and is_over(row, x, y):
             chosen = triangle[k]
             at = here
     if chosen < 0:
         return -1
     for k in range(start[column], start[column + 1]):
         row = table[triangle[k]]
-        if row[14] == 0.0:
+        if row[14] == UPRIGHT:
             continue
         here = row[9] * x + row[10] * y + row[11]
-        if at + 0.01 < here < at + headroom and is_over(row, x, y):
+        if at + SAME_SURFACE < here < at + headroom and is_over(row, x, y):
             return -1
     return chosen
 
 
 @njit(cache=True)
-def floor_end(table, start, triangle, resolution, ny, x, y, dx, dy, z, p, q, step, headroom):
-    """How far the floor goes on from (x, y) in direction (dx, dy), up to one ``resolution`` [m].
+def floor_end(table, start, triangle, resolution, ny, x, y, d, z, p, q, step, headroom, edge):
+    """How far the floor goes on from (x, y) in direction d (`navmesh.surface.DIRECTIONS`), at most a cell.
 
-    The floor at the start is the plane of height z and gradient (p, q); bisection, to 1/64 of a cell.
+    The floor at the start is the plane of height z and gradient (p, q). Walks from triangle to triangle;
+    ``edge`` (4,) receives the edge that ends the floor, as x, y of both its corners. Where something else
+    than an edge ends it (a low obstacle, a ceiling), the place is bisected to 1/64 of a cell and both
+    corners are that place.
     """
+    dx = (1.0 if d == 0 else 0.0) - (1.0 if d == 2 else 0.0)
+    dy = (1.0 if d == 1 else 0.0) - (1.0 if d == 3 else 0.0)
+    slope = p * dx + q * dy
+    t = 0.0
+    for _ in range(8):
+        ahead = t + 1e-4
+        here = floor_at(
+            table,
+            start,
+            triangle,
+            resolution,
+            ny,
+            x + ahead * dx,
+            y + ahead * dy,
+            z + ahead * slope,
+            step,
+            headroom,
+        )
+        if here < 0:
+            if t > 0.0:
+                return t
+            break
+        row = table[here]
+        out = np.inf
+        for k in range(3):
+            j = 3 * k + 3 if k < 2 else 0
+            ax, ay = row[3 * k] - x, row[3 * k + 1] - y
+            bx, by = row[j] - x, row[j + 1] - y
+            # the edge in a frame along and across the way
+            along_a, across_a = ax * dx + ay * dy, ay * dx - ax * dy
+            along_b, across_b = bx * dx + by * dy, by * dx - bx * dy
+            if (across_a > 0.0) == (across_b > 0.0):
+                continue
+            s = across_a / (across_a - across_b)
+            crossing = along_a + s * (along_b - along_a)
+            if ahead < crossing < out:
+                out = crossing
+                edge[0], edge[1], edge[2], edge[3] = ax + x, ay + y, bx + x, by + y
+        if out >= resolution:
+            break
+        t = out
     low = 0.0
     high = resolution
     for _ in range(6):
         t = 0.5 * (low + high)
-        here = z + t * (p * dx + q * dy)
         if (
-            floor_at(table, start, triangle, resolution, ny, x + t * dx, y + t * dy, here, step, headroom)
+            floor_at(
+                table, start, triangle, resolution, ny, x + t * dx, y + t * dy, z + t * slope, step, headroom
+            )
             >= 0
         ):
             low = t
         else:
             high = t
-    return 0.5 * (low + high)
+    t = 0.5 * (low + high)
+    edge[0] = edge[2] = x + t * dx
+    edge[1] = edge[3] = y + t * dy
+    return t

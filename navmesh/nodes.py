@@ -3,7 +3,28 @@
 import numpy as np
 from numba import njit
 
-__all__ = ["select_nodes"]
+__all__ = ["order_by_clearance", "select_nodes"]
+
+
+@njit(cache=True)
+def order_by_clearance(clearance, grain):
+    """The cells by falling clearance in steps of ``grain`` [m], then by rising index: (n,) int32."""
+    cells = clearance.shape[0]
+    widest = 0.0
+    for c in range(cells):
+        widest = max(widest, clearance[c])
+    steps = int(widest / grain) + 1
+    start = np.zeros(steps + 1, np.int32)
+    for c in range(cells):
+        start[steps - int(clearance[c] / grain)] += 1
+    for k in range(steps):
+        start[k + 1] += start[k]
+    order = np.empty(cells, np.int32)
+    for c in range(cells):
+        k = steps - 1 - int(clearance[c] / grain)
+        order[start[k]] = c
+        start[k] += 1
+    return order
 
 
 @njit(cache=True)
@@ -23,11 +44,11 @@ def _claim_line(link, label, power, node, limit, c, d, dx, dy, sx, sy, resolutio
 
 @njit(cache=True)
 def select_nodes(order, clearance, link, resolution, least):
-    """Greedy cover by maximal discs, largest first.
+    """Greedy cover by maximal discs, (almost) largest first.
 
-    ``order`` (n,) int32: cells by falling clearance. A cell with at least ``least`` clearance that no disc
-    covers becomes the centre of one. Returns ``node_cell`` (m,) int32 and ``label`` (n,) int32: for each
-    covered cell the node whose disc it is deepest in (least d² - r²), else -1.
+    ``order`` (n,) int32: cells by falling clearance (`order_by_clearance`). A cell with at least
+    ``least`` clearance that no disc covers becomes the centre of one. Returns ``node_cell``
+    (m,) int32 and ``label`` (n,) int32: the node in whose disc a cell is deepest (least d² - r²), or -1.
     """
     cells = clearance.shape[0]
     label = np.full(cells, -1, np.int32)
@@ -37,9 +58,7 @@ def select_nodes(order, clearance, link, resolution, least):
     for k in range(cells):
         c = order[k]
         r = clearance[c]
-        if r < least:
-            break
-        if label[c] >= 0:
+        if r < least or label[c] >= 0:
             continue
         limit = r * r
         node_cell[nodes] = c

@@ -12,18 +12,31 @@ from numba import njit
 __all__ = [
     "FLOOR",
     "PLANE",
-    "TRIANGLE_FIELDS",
+    "SAME_SURFACE",
+    "TOUCH",
     "UPRIGHT",
     "columns_of_triangles",
+    "is_over",
     "prepare_triangles",
 ]
 
-TRIANGLE_FIELDS = 15
-"""A prepared triangle: ax ay az bx by bz cx cy cz, plane p q s (z = p·x + q·y + s), z least, z greatest, kind."""
-UPRIGHT, PLANE, FLOOR = 0, 1, 2
+UPRIGHT, PLANE, FLOOR = 0.0, 1.0, 2.0
 """Kinds of triangle: without a height as a function of (x, y); with one; walkable by its slope."""
+TOUCH = 1e-9
+"""[m] What is this close touches: squares, triangles and heights."""
+SAME_SURFACE = 0.01
+"""[m] Parts of the mesh this close in height are one surface."""
 
-_TOUCH = 1e-9  # [m] squares and triangles that only touch count as overlapping
+
+@njit(cache=True)
+def is_over(row, x, y):
+    """Whether a prepared triangle that has a height covers (x, y); its edges belong to it."""
+    one = (row[3] - row[0]) * (y - row[1]) - (row[4] - row[1]) * (x - row[0])
+    two = (row[6] - row[3]) * (y - row[4]) - (row[7] - row[4]) * (x - row[3])
+    three = (row[0] - row[6]) * (y - row[7]) - (row[1] - row[7]) * (x - row[6])
+    return (one >= -1e-9 and two >= -1e-9 and three >= -1e-9) or (
+        one <= 1e-9 and two <= 1e-9 and three <= 1e-9
+    )
 
 
 @njit(cache=True)
@@ -32,7 +45,8 @@ def prepare_triangles(vertices, faces, origin, steepest):
 
     ``vertices`` (v, 3) float64, ``faces`` (f, 3) int32, ``origin`` (3,) float64 is subtracted;
     ``steepest`` is the least vertical part of a walkable face's unit normal. Returns (t, 15) float64,
-    without the triangles that have no area.
+    without the triangles that have no area: ax ay az bx by bz cx cy cz, the plane p q s (z = p·x + q·y + s),
+    least z, greatest z, and the kind.
     """
     count = faces.shape[0]
     table = np.empty((count, 15), np.float64)
@@ -54,19 +68,19 @@ def prepare_triangles(vertices, faces, origin, steepest):
         row[13] = max(row[2], row[5], row[8])
         if abs(normal_z) < 1e-3 * size:
             row[9] = row[10] = row[11] = 0.0
-            row[14] = 0.0
+            row[14] = UPRIGHT
         else:
             row[9] = -normal_x / normal_z
             row[10] = -normal_y / normal_z
             row[11] = row[2] - row[9] * row[0] - row[10] * row[1]
-            row[14] = 2.0 if normal_z >= steepest * size else 1.0
+            row[14] = FLOOR if normal_z >= steepest * size else PLANE
         kept += 1
     return table[:kept]
 
 
 @njit(cache=True)
 def columns_of_triangles(table, resolution, nx, ny):
-    """The triangles that touch each column, as lists: ``start`` (nx·ny + 1,) int32 and ``triangle`` (k,) int32.
+    """The triangles that touch each column, as lists: ``start`` (nx·ny + 1,) and ``triangle`` (k,) int32.
 
     ``table`` comes from `prepare_triangles`. Column ix·ny + iy is the square
     [ix, ix + 1] × [iy, iy + 1] in units of ``resolution``.
@@ -77,19 +91,19 @@ def columns_of_triangles(table, resolution, nx, ny):
     for t in range(count):
         low = min(table[t, 0], table[t, 3], table[t, 6])
         high = max(table[t, 0], table[t, 3], table[t, 6])
-        strips += int((high - low + 4e-9) * inverse) + 3
+        strips += int((high - low + 4 * TOUCH) * inverse) + 3
     span = np.empty((strips, 3), np.int32)
     start = np.zeros(nx * ny + 2, np.int32)
     spans = 0
     for t in range(count):
         row = table[t]
-        low = min(row[0], row[3], row[6]) - 1e-9
-        high = max(row[0], row[3], row[6]) + 1e-9
-        first = max(0, int(math.floor(low * inverse)))
-        last = min(nx - 1, int(math.floor(high * inverse)))
+        low = min(row[0], row[3], row[6]) - TOUCH
+        high = max(row[0], row[3], row[6]) + TOUCH
+        first = max(0, math.floor(low * inverse))
+        last = min(nx - 1, math.floor(high * inverse))
         for ix in range(first, last + 1):
-            x0 = ix * resolution - 1e-9
-            x1 = (ix + 1) * resolution + 1e-9
+            x0 = ix * resolution - TOUCH
+            x1 = (ix + 1) * resolution + TOUCH
             bottom = np.inf
             top = -np.inf
             for k in range(3):
@@ -111,8 +125,8 @@ def columns_of_triangles(table, resolution, nx, ny):
                 top = max(top, ay, by)
             if bottom > top:
                 continue
-            iy0 = max(0, int(math.floor((bottom - 1e-9) * inverse)))
-            iy1 = min(ny - 1, int(math.floor((top + 1e-9) * inverse)))
+            iy0 = max(0, math.floor((bottom - TOUCH) * inverse))
+            iy1 = min(ny - 1, math.floor((top + TOUCH) * inverse))
             if iy1 < iy0:
                 continue
             span[spans, 0] = t

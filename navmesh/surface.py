@@ -37,7 +37,7 @@ class Surface:
     link: np.ndarray
     """(n, 4) int32: the cell that one walks to in +x, +y, -x, -y, or -1 where walking ends. Symmetric."""
     clearance: np.ndarray
-    """(n,) float64 [m]: horizontal distance from the cell's centre to the nearest place where walking ends."""
+    """(n,) float64 [m]: horizontal distance from the cell's centre to where walking ends."""
     nearest: np.ndarray
     """(n, 2) float64 [m]: the vector from the cell's centre to that place; its length is `clearance`."""
 

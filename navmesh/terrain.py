@@ -31,11 +31,17 @@ class Terrain:
     """What error messages call it: the file's name."""
     digest: str = field(init=False)
     """SHA-256 of vertices and faces (hexadecimal): names the geometry that a baked graph was made from."""
+    bounds: np.ndarray = field(init=False)
+    """(2, 3) float64 [m]: least and greatest coordinates of the vertices that triangles use."""
 
     def __post_init__(self) -> None:
         checksum = hashlib.sha256(np.ascontiguousarray(self.vertices).tobytes())
         checksum.update(np.ascontiguousarray(self.faces).tobytes())
         object.__setattr__(self, "digest", checksum.hexdigest())
+        used = np.zeros(len(self.vertices), dtype=bool)
+        used[self.faces.ravel()] = True
+        points = self.vertices[used]
+        object.__setattr__(self, "bounds", np.stack([points.min(axis=0), points.max(axis=0)]))
 
     @classmethod
     def from_arrays(
@@ -107,9 +113,3 @@ class Terrain:
                 f"{file}: cannot be read as a mesh: {error or type(error).__name__}"
             ) from error
         return cls.from_arrays(vertices, faces, up=up, scale=scale, name=str(file))
-
-    @property
-    def bounds(self) -> np.ndarray:
-        """(2, 3) float64 [m]: least and greatest coordinates of the vertices that triangles use."""
-        used = self.vertices[self.faces.ravel()]
-        return np.stack([used.min(axis=0), used.max(axis=0)])

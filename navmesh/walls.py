@@ -3,6 +3,8 @@
 import numpy as np
 from numba import njit
 
+from navmesh.raster import FLOOR, TOUCH, UPRIGHT
+
 __all__ = [
     "clip_band",
     "cut_links_at_walls",
@@ -128,7 +130,7 @@ def _crosses_polygon(polygon, count, ax, ay, bx, by):
 @njit(cache=True)
 def range_in_column(row, x, y, reach):
     """Bounds of a triangle's height within ``reach`` of (x, y) along both axes."""
-    if row[14] == 0.0:
+    if row[14] == UPRIGHT:
         return row[12], row[13]
     middle = row[9] * x + row[10] * y + row[11]
     spread = (abs(row[9]) + abs(row[10])) * reach
@@ -145,10 +147,10 @@ def wall_base(table, start, triangle, column, x, y, z, resolution, step):
         grew = False
         for k in range(start[column], start[column + 1]):
             row = table[triangle[k]]
-            if row[14] != 2.0:
+            if row[14] != FLOOR:
                 continue
             low, high = range_in_column(row, x, y, 0.5 * resolution)
-            if low - z <= reach + step + 1e-9 and high - z > reach + 1e-9:
+            if low - z <= reach + step + TOUCH and high - z > reach + TOUCH:
                 reach = high - z
                 grew = True
     return reach + step
@@ -156,7 +158,7 @@ def wall_base(table, start, triangle, column, x, y, z, resolution, step):
 
 @njit(cache=True)
 def find_walls(table, start, triangle, cell_column, height, gradient, resolution, ny, step, headroom):
-    """Height above each cell from which on mesh in its own column is a wall [m], or inf where none is: (n,)."""
+    """Height above each cell from which on mesh in its own column is a wall [m], or inf: (n,)."""
     cells = cell_column.shape[0]
     base = np.full(cells, np.inf)
     half = 0.5 * resolution

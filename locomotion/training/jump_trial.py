@@ -1,6 +1,5 @@
 """Trials of jumping: a stair before a running person, states harvested from planned run-ups, figures."""
 
-import math
 from dataclasses import dataclass
 
 import mujoco
@@ -17,6 +16,7 @@ __all__ = ["JumpOutcome", "JumpSimulator", "StartState", "stair_model"]
 
 _TOP = 2.0  # half height [m] of the box: its lower part is under the plane
 _LENGTH = 60.0  # [m] of the stair behind its edge
+_COMPARED = ("hip_flexion", "knee_flexion", "shoulder_flexion")
 _STATE = mujoco.mjtState.mjSTATE_INTEGRATION
 
 
@@ -88,7 +88,10 @@ class JumpSimulator:
         self.state = c.new_state()
         self.command = np.zeros(3)
         self.memory = np.zeros(jump.MEMORY_SIZE)
-        self._legs = np.array([i for i, name in enumerate(c.JOINT_NAMES) if "hip_flex" in name or "knee" in name])
+        shares = np.linspace(0.0, 1.0, 41)
+        self.clip = jump.jump_clip().sample(shares)
+        self.mirrored_clip = jump.mirror(self.clip)
+        self.limbs = np.array([i for i, name in enumerate(c.JOINT_NAMES) if name.endswith(_COMPARED)])
 
     def place_stair(self, edge_x: float, height: float) -> None:
         """The stair's edge at x = ``edge_x`` [m], its top at ``height`` [m]."""
@@ -190,7 +193,8 @@ class _Meter:
     def __init__(self, simulator: JumpSimulator, edge: float, height: float) -> None:
         self.s, self.edge, self.height = simulator, edge, height
         self.ticks = self.scrape = 0
-        self.shortfall = self.reaction = self.effort = self.trunk = 0.0
+        self.shortfall = self.reaction = self.effort = self.trunk = self.pose = 0.0
+        self.pose_ticks = 0
         self.crossed = [False, False]
         self.landed = [False, False]
         self.steps_on_top = 0
@@ -216,6 +220,12 @@ class _Meter:
         self.effort += float(np.dot(data.actuator_force, data.actuator_force)) * 1e-4
         up = data.xmat[s.index.chest]
         self.trunk += (up[2] - 0.1) ** 2 + 2.0 * up[5] ** 2
+        if 1 <= step <= 2:
+            mirrored = (state[c.STANCE] > 0) == (step == 1)
+            clip = s.mirrored_clip if mirrored else s.clip
+            row = clip[round(20.0 * (step - 1 + state[c.PHASE]))]
+            self.pose += float(np.mean((data.qpos[7:][s.limbs] - row[s.limbs]) ** 2))
+            self.pose_ticks += 1
         if step != self.last_step:
             self.last_step = step
             if all(self.landed):
@@ -249,6 +259,6 @@ class _Meter:
             reaction=self.reaction / n,
             effort=self.effort / n,
             trunk=self.trunk / n,
-            pose=0.0 if math.isnan(self.trunk) else self.trunk / n,
+            pose=self.pose / max(self.pose_ticks, 1),
             errors=errors,
         )

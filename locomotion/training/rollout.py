@@ -113,6 +113,7 @@ class Simulator:
         self.data = mujoco.MjData(self.model)
         self.index = PersonIndex.of(self.model)
         self.ground = self.model.geom("ground").id
+        self.model.geom_sameframe[self.ground] = mujoco.mjtSameFrame.mjSAMEFRAME_NONE  # so that tilting it counts
         self.state = c.new_state()
 
     def _tilt(self, slope: tuple[float, float]) -> None:
@@ -130,6 +131,8 @@ class Simulator:
         else:
             speed = _at(scenario.speeds, 0.0)
             reset_running(skill, self.model, self.data, self.index, self.state, origin, scenario.yaw, speed)
+        if any(scenario.tilt):
+            self._lift()
         if scenario.start_noise.size:
             noise = scenario.start_noise
             self.data.qvel[:6] += noise[:6]
@@ -137,6 +140,13 @@ class Simulator:
             mujoco.mj_forward(self.model, self.data)
             self.state[c.COM_VELOCITY] += noise[:3]
             c.observe(self.index, self.model, self.data, self.state, fresh=True)
+
+    def _lift(self) -> None:
+        """Raise a person that was put into the slope until it only touches it."""
+        depth = min(float(self.data.contact.dist.min()) if self.data.ncon else 0.0, 0.0)
+        self.data.qpos[2] -= depth
+        mujoco.mj_forward(self.model, self.data)
+        c.observe(self.index, self.model, self.data, self.state, fresh=True)
 
     def run(self, skill: RunSkill, scenario: Scenario, on_tick=None) -> Trial:
         """Simulate ``scenario``; ``on_tick(simulator)`` is called after every tick."""

@@ -46,6 +46,7 @@ def scales() -> np.ndarray:
     x[part["feed_forward"]] = 0.3
     x[part["turn"]] = 0.2
     x[part["climb"]] = 0.5
+    x[part["bank"]] = 0.5
     x[part["timing"]] = [0.06, 0.25]
     x[part["arms"]] = 0.2
     return x
@@ -89,7 +90,7 @@ def genes_scale(base: float, slope: float, bend: float, start: float) -> np.ndar
     one = scales()
     part = c.parameter_slices()
     shaped = np.zeros(SIZE)
-    for name in ("feed_forward", "a_hat", "timing", "arms"):
+    for name in ("feed_forward", "a_hat", "timing", "arms", "turn", "climb"):
         shaped[part[name]] = one[part[name]]
     return np.concatenate([base * one, slope * one, bend * shaped, start * one])
 

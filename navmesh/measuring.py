@@ -292,6 +292,11 @@ def _across(grid, x, y, z, dx, dy, limits):
             width = 0.5 * (low + high)
             if width < limits.gap_low or width > limits.gap_high:
                 return -1.0, 0.0
+            # floor that comes up gently to the other side is walked, not leapt
+            before = max(low - _NEAR, 0.0)
+            there, which = surface_below(grid, x + before * dx, y + before * dy, -np.inf, found)
+            if which >= 0 and grid[0][which, 14] == 2.0 and there > found - limits.step - _SAME:
+                return -1.0, 0.0
             return width, found
         t += _SCAN
     return -1.0, 0.0

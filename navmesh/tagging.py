@@ -62,7 +62,7 @@ class TagFile:
 
     def _check_names(self, obstacles: Obstacles) -> None:
         names, counts = np.unique(obstacles.tag, return_counts=True)
-        for name in names[counts > 1]:
+        for name in names[counts > 1].tolist():
             for key, entries in (("add", self.tags.add), ("change", self.tags.change)):
                 for i, entry in enumerate(entries):
                     said = entry.name if isinstance(entry, Addition) else entry.set.name

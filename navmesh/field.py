@@ -10,7 +10,10 @@ from math import sqrt
 
 from numba import njit
 
-__all__ = ["cell_at", "floor_at", "gap_at", "stretch_gap", "walk"]
+__all__ = ["cell_at", "centre_of", "floor_at", "gap_at", "stretch_gap", "walk"]
+
+_OPEN = 2.0
+"""[cells] of clearance beyond the radius from which a walk takes a whole disc in one step."""
 
 
 @njit(cache=True, inline="always")
@@ -58,7 +61,8 @@ def stretch_gap(net, k, ax, ay, bx, by):
 
 
 @njit(cache=True, inline="always")
-def _centre(net, k):
+def centre_of(net, k):
+    """x and y of the centre of cell ``k``."""
     column = net.cell_column[k]
     ix = column // net.ny
     return (ix + 0.5) * net.cell, (column - ix * net.ny + 0.5) * net.cell
@@ -67,7 +71,7 @@ def _centre(net, k):
 @njit(cache=True)
 def gap_at(net, k, x, y):
     """Distance [m] from (x, y), a point in cell ``k``, to the nearest place where walking ends, and that place."""
-    cx, cy = _centre(net, k)
+    cx, cy = centre_of(net, k)
     gap, _, qx, qy = stretch_gap(net, k, x - cx, y - cy, x - cx, y - cy)
     return gap, cx + qx, cy + qy
 
@@ -93,8 +97,32 @@ def cell_at(net, x, y, z):
 @njit(cache=True)
 def floor_at(net, k, x, y):
     """Height [m] of the floor at (x, y) in cell ``k``: the plane through its centre."""
-    cx, cy = _centre(net, k)
+    cx, cy = centre_of(net, k)
     return net.height[k] + net.gradient[k, 0] * (x - cx) + net.gradient[k, 1] * (y - cy)
+
+
+@njit(cache=True, inline="always")
+def _far_side(net, node, radius, ax, ay, dx, dy, length):
+    """Where (as a share of d, seen from a) the line a + d leaves the disc of ``node`` shrunk by ``radius``."""
+    px = net.position[node, 0] - ax
+    py = net.position[node, 1] - ay
+    room = net.node_radius[node] - radius
+    along = (px * dx + py * dy) / length
+    off = (px * dy - py * dx) / length
+    inside = room * room - off * off
+    if room <= 0.0 or inside <= 0.0:
+        return 0.0
+    return (along + sqrt(inside)) / length - 1e-9
+
+
+@njit(cache=True, inline="always")
+def _only_cell(net, x, y):
+    """The cell under (x, y) and its place in the grid where there is one storey only, else -1."""
+    ix = int(x / net.cell)
+    iy = int(y / net.cell)
+    column = ix * net.ny + iy
+    first = net.column_start[column]
+    return (first if net.column_start[column + 1] == first + 1 else -1), ix, iy
 
 
 @njit(cache=True)
@@ -134,6 +162,7 @@ def walk(net, k, ax, ay, bx, by, radius, through):
     elif dy < 0.0:
         step_y = -h / dy
         next_y = (iy * h - ay) / dy
+    length = sqrt(dx * dx + dy * dy)
     free = radius + 0.7072 * h
     least = 1e300
     place = 0.0
@@ -142,7 +171,8 @@ def walk(net, k, ax, ay, bx, by, radius, through):
     t = 0.0
     while True:
         leave = min(next_x, next_y, 1.0)
-        if net.clearance[k] < free:
+        clearance = net.clearance[k]
+        if clearance < free:
             cx = (ix + 0.5) * h
             cy = (iy + 0.5) * h
             gap, s, px, py = stretch_gap(
@@ -157,6 +187,25 @@ def walk(net, k, ax, ay, bx, by, radius, through):
                     return False, k, least, place, qx, qy
         if leave >= 1.0:
             return True, k, least, place, qx, qy
+        if clearance > free + _OPEN * h and (1.0 - leave) * length > _OPEN * h:
+            ahead = _far_side(net, net.label[k], radius, ax, ay, dx, dy, length)
+            if ahead > leave:
+                ahead = min(ahead, 1.0)
+                cell, jx, jy = _only_cell(net, ax + ahead * dx, ay + ahead * dy)
+                if cell >= 0:
+                    k, ix, iy = cell, jx, jy
+                    if ahead >= 1.0:
+                        return True, k, least, place, qx, qy
+                    t = ahead
+                    if way_x == 0:
+                        next_x = ((ix + 1) * h - ax) / dx
+                    elif dx < 0.0:
+                        next_x = (ix * h - ax) / dx
+                    if way_y == 1:
+                        next_y = ((iy + 1) * h - ay) / dy
+                    elif dy < 0.0:
+                        next_y = (iy * h - ay) / dy
+                    continue
         if next_x < next_y:
             t = next_x
             next_x += step_x

@@ -84,9 +84,9 @@ def _finish(net, doors, scratch, leaps):
     corners = 1
     used = 0
     first = 1
-    edge_count = net.edge_target.size
+    doors_count = doors.target.size
     for i in range(1, count):
-        leap = scratch.edges[i] - edge_count
+        leap = scratch.edges[i] - doors_count
         if leap < 0:
             continue
         x, y = doors.leap_from[leap, 0], doors.leap_from[leap, 1]
@@ -234,25 +234,20 @@ def _portals_for(graph: "NodeGraph", radius: float) -> tuple:
 def _leaps_for(graph: "NodeGraph", radius: float, skills: tuple) -> tuple:
     """The links on offer, grouped by the node they start from: the ``leap`` arrays of `make_doors`."""
     count = len(graph.radii)
-    links = getattr(graph, "links", None)
+    links = graph.links
     chosen = []
-    if links is not None:
-        for name, low, high in skills:
-            of_kind = (links.affordance == name) & (links.height >= low) & (links.height <= high)
-            chosen.append(np.flatnonzero(of_kind & (links.radius >= radius)))
+    for name, low, high in skills:
+        of_kind = (links.affordance == name) & (links.height >= low) & (links.height <= high)
+        chosen.append(np.flatnonzero(of_kind & (links.radius >= radius)))
     index = np.sort(np.concatenate(chosen)) if chosen else np.empty(0, np.int64)
     if len(index) == 0:
         nothing = np.empty((0, 3))
         none = np.empty(0, np.int32)
         return np.zeros(count + 1, np.int32), none, nothing, none, nothing, none, np.empty(0)
+    index = index[(graph.label[links.start_cell[index]] >= 0) & (graph.label[links.end_cell[index]] >= 0)]
     origin = graph.surface.origin
-    net = net_of(graph)
     start, end = links.start[index] - origin, links.end[index] - origin
-    start_cell = np.array([_cell_with_node(net, *point) for point in start], np.int32)
-    end_cell = np.array([_cell_with_node(net, *point) for point in end], np.int32)
-    fits = (start_cell >= 0) & (end_cell >= 0)
-    index, start, end = index[fits], start[fits], end[fits]
-    start_cell, end_cell = start_cell[fits], end_cell[fits]
+    start_cell, end_cell = links.start_cell[index], links.end_cell[index]
     node = graph.label[start_cell]
     order = np.lexsort((index, node))
     starts = np.searchsorted(node[order], np.arange(count + 1)).astype(np.int32)
@@ -266,12 +261,6 @@ def _leaps_for(graph: "NodeGraph", radius: float, skills: tuple) -> tuple:
         end_cell[order],
         cost[order],
     )
-
-
-@njit(cache=True)
-def _cell_with_node(net, x, y, z):
-    cell = cell_at(net, x, y, z)
-    return cell if cell >= 0 and net.label[cell] >= 0 else -1
 
 
 def _doors_for(graph: "NodeGraph", radius: float, skills: Any, node_costs: np.ndarray | None) -> Any:

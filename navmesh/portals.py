@@ -10,7 +10,7 @@ from math import sqrt
 import numpy as np
 from numba import njit
 
-from navmesh.field import cell_at, gap_at, walk
+from navmesh.field import centre_of, floor_at, gap_at, walk
 
 __all__ = ["open_portals"]
 
@@ -21,7 +21,7 @@ _NARROW = 0.5
 @njit(cache=True)
 def _side(net, k, mx, my, ux, uy, reach, radius):
     """How far a body of ``radius`` gets from m, in cell ``k``, along the unit vector u, at most ``reach`` [m]."""
-    reached, cell, gap, place, _, _ = walk(net, k, mx, my, mx + ux * reach, my + uy * reach, radius, False)
+    reached, cell, _, place, _, _ = walk(net, k, mx, my, mx + ux * reach, my + uy * reach, radius, False)
     if reached:
         return reach
     far = place * reach
@@ -36,70 +36,76 @@ def _side(net, k, mx, my, ux, uy, reach, radius):
 
 
 @njit(cache=True)
+def _portal(net, i, j, pair, radius):
+    """Middle, direction to the left, its cell and how far it goes to the left and right, from node i to node j.
+
+    Returns (x, y, left x, left y, cell, to the left, to the right).
+    """
+    dx = net.position[j, 0] - net.position[i, 0]
+    dy = net.position[j, 1] - net.position[i, 1]
+    d = sqrt(dx * dx + dy * dy)
+    ux, uy = dx / d, dy / d
+    ri = net.node_radius[i] - radius
+    rj = net.node_radius[j] - radius
+    half = 0.0
+    k = -1
+    x = y = 0.0
+    if ri > 0.0 and rj > 0.0 and ri + rj > d:
+        along = 0.5 * (d * d + ri * ri - rj * rj) / d
+        half = sqrt(max(ri * ri - along * along, 0.0))
+        x = net.position[i, 0] + along * ux
+        y = net.position[i, 1] + along * uy
+        reached, k, _, _, _, _ = walk(
+            net, net.node_cell[i], net.position[i, 0], net.position[i, 1], x, y, 0.0, True
+        )
+        if not reached:
+            k = -1
+    if k < 0 or half <= 0.0:
+        # the discs do not meet: the passage is where the border of the labels is widest
+        half = 0.0
+        k = pair[0] if net.clearance[pair[0]] > net.clearance[pair[1]] else pair[1]
+        x, y = centre_of(net, k)
+    reach = max(net.node_radius[i], net.node_radius[j])
+    to_left = _side(net, k, x, y, -uy, ux, reach, radius)
+    to_right = _side(net, k, x, y, uy, -ux, reach, radius)
+    if 2.0 * half >= _NARROW * (to_left + to_right):
+        to_left = to_right = half
+    return x, y, -uy, ux, k, to_left, to_right
+
+
+@njit(cache=True)
 def open_portals(net, edge_width, edge_cells, radius):
     """The portals for a body of ``radius`` [m].
 
-    edge_width (e,) float64 and edge_cells (e, 2) int32: each edge's widest body and the pair of cells, one of
-    either node, where its label boundary is widest. Returns (open (e,) uint8, left (e, 3), left_cell (e,), right
-    (e, 3), right_cell (e,)); left and right are as seen walking along the edge.
+    edge_width (e,) float64 and edge_cells (e, 2) int32: each edge's widest body, and the pair of cells, one of
+    either node, where the border of its labels is widest. Returns the arrays of `make_doors`: start (m + 1,),
+    target (p,) int32, portal (p, 6) float64, portal_cell (p, 2) int32.
     """
-    count = net.edge_target.size
-    is_open = np.zeros(count, np.uint8)
-    left = np.zeros((count, 3))
-    right = np.zeros((count, 3))
-    left_cell = np.full(count, -1, np.int32)
-    right_cell = np.full(count, -1, np.int32)
-    h = net.cell
-    for i in range(net.node_radius.size):
+    nodes = net.node_radius.size
+    count = 0
+    for edge in range(edge_width.size):
+        if edge_width[edge] >= radius:
+            count += 1
+    start = np.zeros(nodes + 1, np.int32)
+    target = np.empty(count, np.int32)
+    portal = np.empty((count, 6))
+    cells = np.empty((count, 2), np.int32)
+    count = 0
+    for i in range(nodes):
         for edge in range(net.edge_start[i], net.edge_start[i + 1]):
             if edge_width[edge] < radius:
                 continue
             j = net.edge_target[edge]
-            dx = net.position[j, 0] - net.position[i, 0]
-            dy = net.position[j, 1] - net.position[i, 1]
-            d = sqrt(dx * dx + dy * dy)
-            if d < 1e-9:
-                continue
-            is_open[edge] = 1
-            nx, ny = -dy / d, dx / d
-            ri = net.node_radius[i] - radius
-            rj = net.node_radius[j] - radius
-            a = edge_cells[edge, 0]
-            b = edge_cells[edge, 1]
-            half = 0.0
-            k = -1
-            mx = my = 0.0
-            if ri > 0.0 and rj > 0.0 and ri + rj > d:
-                along = 0.5 * (d * d + ri * ri - rj * rj) / d
-                half = sqrt(max(ri * ri - along * along, 0.0))
-                mx = net.position[i, 0] + along * dx / d
-                my = net.position[i, 1] + along * dy / d
-                z = net.position[i, 2] + along / d * (net.position[j, 2] - net.position[i, 2])
-                k = cell_at(net, mx, my, z)
-            if k < 0 or half <= 0.0:
-                # the discs do not meet: the passage is where the label boundary is widest
-                half = 0.0
-                k = a if net.clearance[a] > net.clearance[b] else b
-                column = net.cell_column[k]
-                ix = column // net.ny
-                mx = (ix + 0.5) * h
-                my = (column - ix * net.ny + 0.5) * h
-            reach = max(net.node_radius[i], net.node_radius[j])
-            to_left = _side(net, k, mx, my, nx, ny, reach, radius)
-            to_right = _side(net, k, mx, my, -nx, -ny, reach, radius)
-            if 2.0 * half >= _NARROW * (to_left + to_right):
-                to_left = half
-                to_right = half
+            mx, my, lx, ly, k, to_left, to_right = _portal(net, i, j, edge_cells[edge], radius)
+            target[count] = j
             for side in range(2):
                 way = to_left if side == 0 else -to_right
-                x = mx + nx * way
-                y = my + ny * way
+                x, y = mx + lx * way, my + ly * way
                 cell = walk(net, k, mx, my, x, y, 0.0, True)[1]
-                z = net.height[cell]
-                if side == 0:
-                    left[edge, 0], left[edge, 1], left[edge, 2] = x, y, z
-                    left_cell[edge] = cell
-                else:
-                    right[edge, 0], right[edge, 1], right[edge, 2] = x, y, z
-                    right_cell[edge] = cell
-    return is_open, left, left_cell, right, right_cell
+                portal[count, 3 * side] = x
+                portal[count, 3 * side + 1] = y
+                portal[count, 3 * side + 2] = floor_at(net, cell, x, y)
+                cells[count, side] = cell
+            count += 1
+        start[i + 1] = count
+    return start, target, portal, cells

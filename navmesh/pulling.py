@@ -63,9 +63,9 @@ def _funnel(doors, edges, first, last, work, cells, at, sx, sy, start_cell, gx, 
     i = first
     while i <= last:
         if i < last:
-            edge = edges[i]
-            nlx, nly, nlcell = doors.left[edge, 0], doors.left[edge, 1], doors.left_cell[edge]
-            nrx, nry, nrcell = doors.right[edge, 0], doors.right[edge, 1], doors.right_cell[edge]
+            door = edges[i]
+            nlx, nly, nlcell = doors.portal[door, 0], doors.portal[door, 1], doors.portal_cell[door, 0]
+            nrx, nry, nrcell = doors.portal[door, 3], doors.portal[door, 4], doors.portal_cell[door, 1]
         else:
             nlx, nly, nlcell = gx, gy, goal_cell
             nrx, nry, nrcell = gx, gy, goal_cell

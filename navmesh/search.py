@@ -149,9 +149,8 @@ def advance(net, doors, scratch, budget):
     stamp = numbers[_STAMP]
     goal_node = numbers[_GOAL_NODE]
     gx, gy, gz = scratch.ends[3], scratch.ends[4], scratch.ends[5]
-    edge_count = net.edge_target.size
-    left = doors.left
-    right = doors.right
+    doors_count = doors.target.size
+    portal = doors.portal
     while budget > 0:
         if numbers[_HEAP] == 0:
             numbers[_STATE] = EMPTY
@@ -173,22 +172,21 @@ def advance(net, doors, scratch, budget):
                 scratch.ends[6] = rest
                 numbers[BEST] = node
         factor = doors.node_cost[node]
-        for edge in range(net.edge_start[node], net.edge_start[node + 1]):
-            if not doors.open[edge]:
-                continue
-            target = net.edge_target[edge]
+        for door in range(doors.start[node], doors.start[node + 1]):
+            target = doors.target[door]
             if target == scratch.parent[node]:
                 continue
-            lx, ly, rx, ry = left[edge, 0], left[edge, 1], right[edge, 0], right[edge, 1]
+            lx, ly, lz = portal[door, 0], portal[door, 1], portal[door, 2]
+            rx, ry, rz = portal[door, 3], portal[door, 4], portal[door, 5]
             t = _crossing(lx, ly, rx, ry, x, y, gx, gy)
             ex = lx + t * (rx - lx)
             ey = ly + t * (ry - ly)
-            ez = left[edge, 2] + t * (right[edge, 2] - left[edge, 2])
+            ez = lz + t * (rz - lz)
             step = cost + factor * _distance(x, y, z, ex, ey, ez)
             rest = _distance(ex, ey, ez, gx, gy, gz)
             if target == goal_node:
                 rest *= doors.node_cost[target]
-            _reach(scratch, stamp, target, node, edge, step, rest, ex, ey, ez)
+            _reach(scratch, stamp, target, node, door, step, rest, ex, ey, ez)
         for leap in range(doors.leap_start[node], doors.leap_start[node + 1]):
             fx, fy, fz = doors.leap_from[leap, 0], doors.leap_from[leap, 1], doors.leap_from[leap, 2]
             tx, ty, tz = doors.leap_to[leap, 0], doors.leap_to[leap, 1], doors.leap_to[leap, 2]
@@ -197,13 +195,13 @@ def advance(net, doors, scratch, budget):
             rest = _distance(tx, ty, tz, gx, gy, gz)
             if target == goal_node:
                 rest *= doors.node_cost[target]
-            _reach(scratch, stamp, target, node, edge_count + leap, step, rest, tx, ty, tz)
+            _reach(scratch, stamp, target, node, doors_count + leap, step, rest, tx, ty, tz)
     return RUNNING
 
 
 @njit(cache=True)
 def chain(net, scratch):
-    """Write the chain of nodes to the best node and the edges between them; returns the number of nodes."""
+    """Write the chain of nodes to the best node and the doors between them; returns the number of nodes."""
     count = 0
     node = scratch.numbers[BEST]
     while node >= 0:
@@ -215,5 +213,5 @@ def chain(net, scratch):
         j = count - 1 - i
         scratch.nodes[i], scratch.nodes[j] = scratch.nodes[j], scratch.nodes[i]
         scratch.edges[i], scratch.edges[j] = scratch.edges[j], scratch.edges[i]
-    # edges[i] leads into nodes[i]; edges[0] is -1
+    # edges[i] leads into nodes[i]; edges[0] is -1; from the number of doors on they are leaps
     return count

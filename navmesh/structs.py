@@ -54,7 +54,7 @@ _NET = (
     "position", "node_cell", "node_radius", "edge_start", "edge_target",
 )  # fmt: skip
 _DOORS = (
-    "radius", "open", "left", "left_cell", "right", "right_cell", "node_cost", "weighted",
+    "radius", "start", "target", "portal", "portal_cell", "node_cost", "weighted",
     "leap_start", "leap_id", "leap_from", "leap_from_cell", "leap_to", "leap_to_cell", "leap_cost",
 )  # fmt: skip
 _SCRATCH = (
@@ -120,11 +120,10 @@ def make_net(
 @njit(cache=True)
 def make_doors(
     radius,
-    is_open,
-    left,
-    left_cell,
-    right,
-    right_cell,
+    start,
+    target,
+    portal,
+    portal_cell,
     node_cost,
     weighted,
     leap_start,
@@ -137,19 +136,20 @@ def make_doors(
 ):
     """Bundle what one body radius makes of the graph.
 
-    radius [m]; open (e,) uint8: the body passes; left, right (e, 3) float64: the portal's ends as seen walking
-    along the edge; left_cell, right_cell (e,) int32: their cells; node_cost (m,) float64, at least 1: factor on
-    the length walked in each node; weighted: whether any factor is not 1; leaps are the typed links on offer, grouped by the node they start from:
+    radius [m]; the doors, edges that the body passes, of node i are start[i]:start[i + 1], start (m + 1,) int32;
+    target (p,) int32: the node behind; portal (p, 6) float64: x, y, z of its left and of its right end as seen
+    walking through; portal_cell (p, 2) int32: the cells of the ends; node_cost (m,) float64, at least 1: factor
+    on the length walked in each node; weighted: whether any factor is not 1. The leaps are the typed links on
+    offer, grouped by the node they start from:
     leap_start (m+1,), leap_id (l,) int32, leap_from, leap_to (l, 3) float64, leap_from_cell, leap_to_cell (l,)
     int32, leap_cost (l,) float64 [m].
     """
     return Doors(
         radius,
-        is_open,
-        left,
-        left_cell,
-        right,
-        right_cell,
+        start,
+        target,
+        portal,
+        portal_cell,
         node_cost,
         weighted,
         leap_start,

@@ -7,9 +7,11 @@ import numpy as np
 
 from locomotion import controller as c
 from locomotion import jump
-from locomotion.clearing import Clearing
-from locomotion.jump import JumpTables, jump_tick, start_jump
+from locomotion.clearing import plan_run_up
+from locomotion.jump import jump_tick, start_jump
+from locomotion.jump_skill import JumpTables, jump_clip
 from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, person_spec
+from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill, reset_running
 
 __all__ = ["JumpOutcome", "JumpSimulator", "StartState", "stair_model"]
@@ -76,6 +78,22 @@ def stair_model() -> mujoco.MjModel:
     return model
 
 
+_MARK = ObstacleAhead(0.0, "jump", 0.3, np.zeros(3), np.array([-1.0, 0.0, 0.0]))
+
+
+@dataclass(frozen=True)
+class _Entry:
+    """What the planner wants to know of a jump that is being learned."""
+
+    tables: JumpTables
+
+    affordance = "jump"
+    heights = (0.0, 1.0)
+
+    def approach(self, height: float) -> tuple[float, float]:
+        return self.tables.entry, self.tables.mark
+
+
 class JumpSimulator:
     """A person, a plane and a stair that trials are run with; one per process."""
 
@@ -89,7 +107,7 @@ class JumpSimulator:
         self.command = np.zeros(3)
         self.memory = np.zeros(jump.MEMORY_SIZE)
         shares = np.linspace(0.0, 1.0, 41)
-        self.clip = jump.jump_clip().sample(shares)
+        self.clip = jump_clip().sample(shares)
         self.mirrored_clip = jump.mirror(self.clip)
         self.limbs = np.array([i for i, name in enumerate(c.JOINT_NAMES) if name.endswith(_COMPARED)])
 
@@ -113,17 +131,20 @@ class JumpSimulator:
         mujoco.mj_step(self.model, self.data, STEPS_PER_TICK)
         c.observe(self.index, self.model, self.data, self.state)
 
-    def approach_tick(self, clearing: Clearing) -> None:
-        """One tick of a run-up or a jump along +x: hold y = 0, then as `clearing` says."""
+    def steer(self) -> None:
+        """Hold y = 0 while running along +x: heading and sideways speed into ``command``."""
         y = self.state[c.COM.start + 1]
         self.command[0] = -float(np.clip(1.2 * y / max(self.state[c.SPEED], 1.0), -0.3, 0.3))
         self.command[2] = float(np.clip(-0.5 * y, -0.2, 0.2))
-        clearing.before(self.state, self.command)
-        c.run_tick(*self.run.tables, self.state, self.command, self.data.qpos, self.data.qvel, self.data.ctrl)
-        clearing.after(self.state, self.data.ctrl)
-        self._step()
 
-    def harvest(self, tables: JumpTables, distances: np.ndarray, rng: np.random.Generator) -> list[StartState]:
+    def run_tick(self) -> None:
+        """The running controller's part of a tick."""
+        data = self.data
+        c.run_tick(*self.run.tables, self.state, self.command, data.qpos, data.qvel, data.ctrl)
+
+    def harvest(
+        self, tables: JumpTables, distances: np.ndarray, rng: np.random.Generator
+    ) -> list[StartState]:
         """Run up to a mark from each of ``distances`` [m] and save the states at which the jump begins."""
         found = []
         self.place_stair(1000.0, 0.0)
@@ -131,22 +152,35 @@ class JumpSimulator:
             noise = rng.normal(size=51) * np.r_[np.full(3, 0.1), np.full(3, 0.1), np.full(45, 0.02)]
             speed = rng.uniform(*np.clip([tables.entry - 0.8, tables.entry + 0.5], *self.run.speeds))
             self.begin(float(distance), float(speed), noise=noise)
-            clearing = Clearing(tables, self.run, 0.0, (0.0, 0.0), (-1.0, 0.0))
+            seen = -1.0
             for _ in range(3000):
                 before = np.empty(mujoco.mj_stateSize(self.model, _STATE))
                 mujoco.mj_getState(self.model, self.data, before, _STATE)
                 control = self.state.copy()
-                self.approach_tick(clearing)
-                if clearing.jumping:
-                    foot = c.PLANTED.start + (3 if self.state[c.STANCE] > 0 else 0)
-                    found.append(StartState(before, control, self.state[foot : foot + 2].copy(), clearing.errors[0]))
-                    break
+                self.steer()
+                self.run_tick()
+                if self.state[c.STEPS] != seen:
+                    seen = self.state[c.STEPS]
+                    plan = plan_run_up(self.state, _MARK, _Entry(tables), self.run)
+                    if plan.speeds.size == 0:
+                        foot = c.PLANTED.start + (3 if self.state[c.STANCE] > 0 else 0)
+                        planted = self.state[foot : foot + 2].copy()
+                        found.append(StartState(before, control, planted, plan.takeoff_error))
+                        break
+                    self.command[1] = plan.speeds[0]
+                self._step()
                 if self.state[c.FALLEN] > 0.0:
                     break
         return found
 
     def trial(
-        self, tables: JumpTables, height: float, start: StartState, error: float, duration: float, on_tick=None,
+        self,
+        tables: JumpTables,
+        height: float,
+        start: StartState,
+        error: float,
+        duration: float,
+        on_tick=None,
         record: np.ndarray | None = None,
     ) -> JumpOutcome:
         """Jump from a harvested state; the stair is put so that the distance misses the mark by ``error`` [m].
@@ -167,7 +201,7 @@ class JumpSimulator:
         for _ in range(ticks):
             if begun and self.memory[jump.ACTIVE] == 0.0:
                 self.command[2] = float(np.clip(-0.5 * self.state[c.COM.start + 1], -0.2, 0.2))
-            c.run_tick(*self.run.tables, self.state, self.command, self.data.qpos, self.data.qvel, self.data.ctrl)
+            self.run_tick()
             if not begun and self.state[c.STEPS] != steps:
                 begun = True
                 start_jump(tables.parameters, self.memory, self.state, tables.entry, edge, 0.0, 1.0, 0.0)
@@ -184,7 +218,9 @@ class JumpSimulator:
                 on_tick(self)
             if self.state[c.FALLEN] > 0.0:
                 break
-        return meter.outcome(ticks, (float(self.memory[jump.ERROR_DISTANCE]), float(self.memory[jump.ERROR_SPEED])))
+        return meter.outcome(
+            ticks, (float(self.memory[jump.ERROR_DISTANCE]), float(self.memory[jump.ERROR_SPEED]))
+        )
 
 
 class _Meter:

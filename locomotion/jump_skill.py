@@ -1,0 +1,215 @@
+"""Learned jumps on disk and in memory, and the jump as a skill that the body can use."""
+
+import hashlib
+import math
+import os
+from dataclasses import dataclass, field
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion import controller, jump
+from locomotion.clip import Clip, load_clip
+from locomotion.errors import LocomotionError
+from locomotion.jump import jump_tick, start_jump
+from locomotion.person import person_digest
+from locomotion.route_smoothing import ObstacleAhead
+from locomotion.skill import RunSkill
+from navmesh.archive import ArchiveError, read_archive, write_archive
+
+__all__ = [
+    "JUMP_CLIP", "JUMP_SKILL", "Jump", "JumpSkill", "JumpTables", "jump_clip", "load_jump_skill", "run_digest", "tables_of",
+]  # fmt: skip
+
+JUMP_CLIP = Path(__file__).parent / "clips" / "jump.yaml"
+JUMP_SKILL = Path(__file__).parent / "skills" / "jump.npz"
+_KIND, _VERSION = "jump skill", 1
+_TIMING = controller.parameter_slices()["timing"].start
+_MARK = jump.parameter_slices()["marks"].start
+
+
+@lru_cache(maxsize=1)
+def jump_clip() -> Clip:
+    """The reference clip that comes with the package."""
+    return load_clip(JUMP_CLIP)
+
+
+@dataclass(frozen=True)
+class JumpTables:
+    """A jump at one height, ready for the kernels.
+
+    parameters: (241,) float64. entry: wanted entry speed [m/s]. mark: distance [m] from stance foot to edge at which
+    the jump begins. rest: the other arguments of `jump.jump_tick` between ``p`` and ``memory``.
+    """
+
+    parameters: np.ndarray
+    entry: float
+    mark: float
+    rest: tuple[np.ndarray, ...]
+
+
+@lru_cache(maxsize=4)
+def _differences(run: Clip, clip: Clip) -> tuple[np.ndarray, np.ndarray]:
+    shares = np.linspace(0.0, 1.0, 65)
+    pose = clip.sample(shares) - run.sample(shares)
+    rates = clip.rates(shares) * clip.duration - run.rates(shares) * run.duration
+    return np.ascontiguousarray(pose), np.ascontiguousarray(rates)
+
+
+@dataclass(frozen=True)
+class JumpSkill:
+    """A family of jumps over the height of the stair.
+
+    Attributes:
+        heights: (k,) float64, increasing heights [m] at which parameters were learned.
+        table: (k, 241) float64, their parameters in the order of `jump.PARAMETERS`.
+        entries: (k,) float64, entry speeds v_in [m/s].
+        references: (k, 4, 6, 15) float64, expected sensors over the steps.
+        run: digest of the running skill that it was learned on.
+        meta: what made it.
+    """
+
+    heights: np.ndarray
+    table: np.ndarray
+    entries: np.ndarray
+    references: np.ndarray
+    run: str
+    meta: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def range(self) -> tuple[float, float]:
+        """Lowest and highest stair [m] that may be jumped."""
+        return float(self.heights[0]), float(self.heights[-1])
+
+    def at(self, height: float, run: RunSkill) -> JumpTables:
+        """The jump onto a stair of ``height`` [m]; `LocomotionError` outside of `range` (2 cm are let pass)."""
+        low, high = self.range
+        if not (math.isfinite(height) and low - 0.02 <= height <= high + 0.02):
+            raise LocomotionError(
+                f"a jump of {height} m was not learned; heights from {low:g} to {high:g} m are"
+            )
+        flat = np.concatenate(
+            [self.table, self.entries[:, None], self.references.reshape(len(self.heights), -1)], 1
+        )
+        values = _interpolate(self.heights, flat, min(max(height, low), high))
+        width = self.table.shape[1]
+        reference = np.ascontiguousarray(values[width + 1 :].reshape(jump.STEPS, jump.BINS, jump.SENSORS))
+        parameters = np.ascontiguousarray(values[:width])
+        return tables_of(parameters, float(values[width]), reference, run)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the skill for the present person; the file appears whole or not at all."""
+        header = {"person": person_digest(), "run": self.run, "meta": self.meta}
+        arrays = {
+            "heights": self.heights, "table": self.table, "entries": self.entries, "references": self.references,
+        }  # fmt: skip
+        write_archive(path, _KIND, _VERSION, header, arrays)
+
+
+def tables_of(parameters: np.ndarray, entry: float, reference: np.ndarray, run: RunSkill) -> JumpTables:
+    """Put the arguments of the kernels together."""
+    timing = np.ascontiguousarray(run.table[:, _TIMING])
+    pose, rates = _differences(run.clip, jump_clip())
+    rest = (np.ascontiguousarray(run.knots), timing, pose, rates, reference, jump.MIRROR, jump.MIRROR_SIGN)
+    return JumpTables(parameters, entry, float(parameters[_MARK]), rest)
+
+
+def _interpolate(heights: np.ndarray, values: np.ndarray, height: float) -> np.ndarray:
+    """Rows of ``values`` (k, m) at ``height``: biharmonic spline r plus a linear term (equation 7)."""
+    k = len(heights)
+    if k == 1:
+        return values[0].copy()
+    distance = np.abs(heights[:, None] - heights[None, :])
+    ones = np.stack([np.ones(k), heights], 1)
+    system = np.block([[distance, ones], [ones.T, np.zeros((2, 2))]])
+    weights = np.linalg.solve(system, np.concatenate([values, np.zeros((2, values.shape[1]))]))
+    basis = np.concatenate([np.abs(height - heights), [1.0, height]])
+    return basis @ weights
+
+
+def load_jump_skill(path: str | os.PathLike[str] = JUMP_SKILL) -> JumpSkill:
+    """Read a jump skill; `LocomotionError` if it is missing, cut off, of another version or of another person."""
+    try:
+        header, arrays = read_archive(path, _KIND, _VERSION)
+    except ArchiveError as error:
+        raise LocomotionError(str(error)) from error
+    if header.get("person") != person_digest():
+        raise LocomotionError(
+            f"{path}: learned for another person's model; learn it anew (surefoot train jump)"
+        )
+    try:
+        heights, table, entries = arrays["heights"], arrays["table"], arrays["entries"]
+        references = arrays["references"]
+    except KeyError as error:
+        raise LocomotionError(f"{path}: not a whole jump skill: {error} is missing") from error
+    k, width = len(heights), sum(jump.PARAMETERS.values())
+    shapes = (table.shape, entries.shape, references.shape)
+    if k == 0 or shapes != ((k, width), (k,), (k, jump.STEPS, jump.BINS, jump.SENSORS)):
+        raise LocomotionError(
+            f"{path}: arrays of shapes {shapes} do not fit {k} heights of {width} parameters"
+        )
+    finite = all(np.isfinite(a).all() for a in (heights, table, entries, references))
+    if not finite or (np.diff(heights) <= 0).any():
+        raise LocomotionError(f"{path}: holds numbers that are not finite or heights that do not grow")
+    return JumpSkill(heights, table, entries, references, str(header.get("run", "")), header.get("meta", {}))
+
+
+def run_digest(run: RunSkill) -> str:
+    """Hex digest of the running skill that a jump is learned on."""
+    hasher = hashlib.sha256()
+    for table in run.tables:
+        hasher.update(np.round(table, 9).tobytes())
+    return hasher.hexdigest()[:16]
+
+
+class Jump:
+    """Jumping onto stairs as a `locomotion.clearing.ClearingSkill`, on top of a given run."""
+
+    affordance = "jump"
+
+    def __init__(self, skill: JumpSkill, run: RunSkill) -> None:
+        """``skill``: the learned jumps; ``run``: the run under them."""
+        self.skill, self.run = skill, run
+        self._tables: dict[float, JumpTables] = {}
+
+    @property
+    def heights(self) -> tuple[float, float]:
+        """Least and greatest height [m] that it clears."""
+        return self.skill.range
+
+    def tables(self, height: float) -> JumpTables:
+        """The kernels' arguments for a stair of ``height`` [m]; the nearest learned height beyond the ends."""
+        low, high = self.heights
+        height = min(max(float(height), low), high)
+        if height not in self._tables:
+            self._tables[height] = self.skill.at(height, self.run)
+        return self._tables[height]
+
+    def approach(self, height: float) -> tuple[float, float]:
+        """(entry speed [m/s], distance [m] from the stance foot's ankle to the edge at which the jump begins)."""
+        tables = self.tables(height)
+        return tables.entry, tables.mark
+
+    def start(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Begin a jump at a stance switch, before that tick's `tick`; gives all that it remembers, (k,) float64."""
+        tables = self.tables(obstacle.height)
+        memory = np.zeros(jump.MEMORY_SIZE)
+        x, y = float(obstacle.position[0]), float(obstacle.position[1])
+        ahead_x, ahead_y = -float(obstacle.normal[0]), -float(obstacle.normal[1])
+        start_jump(tables.parameters, memory, state, tables.entry, x, y, ahead_x, ahead_y)
+        return memory
+
+    def tick(
+        self,
+        height: float,
+        memory: NDArray[np.float64],
+        state: NDArray[np.float64],
+        ctrl: NDArray[np.float64],
+    ) -> bool:
+        """One control tick after `run_tick`'s and before the physics; True when the jump is over."""
+        tables = self.tables(height)
+        jump_tick(tables.parameters, *tables.rest, memory, state, ctrl)
+        return bool(memory[jump.ACTIVE] == 0.0)

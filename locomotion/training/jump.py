@@ -1,0 +1,229 @@
+"""Learning to jump: heights by continuation, feed-forward first, then feedback on many start states."""
+
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from locomotion import jump
+from locomotion.jump_skill import JUMP_SKILL, JumpSkill, load_jump_skill, run_digest, tables_of
+from locomotion.skill import RunSkill, load_run_skill
+from locomotion.training.jump_trial import JumpOutcome, JumpSimulator, StartState
+from locomotion.training.loop import Progress, Stage, learn
+from navmesh.archive import read_archive, write_archive
+
+__all__ = ["ENTRY_SPEED", "HEIGHTS", "JumpProblem", "cost", "train_jump"]
+
+HEIGHTS = (0.1, 0.2, 0.3, 0.4, 0.5)
+"""Heights [m] learned one after the other, each from the one before."""
+ENTRY_SPEED = 3.3
+"""[m/s]"""
+_FIRST_KEPT = 0.3  # lower heights are only the way there
+_STATES = 48
+_KIND, _VERSION = "jump training", 1
+
+
+def first_guess() -> np.ndarray:
+    """Parameters (p,) of a jump that is a running step, the clip a quarter mixed in."""
+    x = np.zeros(sum(jump.PARAMETERS.values()))
+    part = jump.parameter_slices()
+    x[part["beta"]] = [1.0, 0.9, 1.0, 1.0]
+    x[part["alpha"]] = 0.25
+    x[part["marks"]] = [2.1, 1.1]
+    m_ap = np.zeros((9, jump.RANK))
+    m_ap[0, 0] = m_ap[3, 1] = m_ap[1, 2] = 1.0
+    m_ap[6, 1] = 0.5
+    x[part["m_ap"]] = m_ap.ravel()
+    return x
+
+
+def scales(feedback: bool) -> np.ndarray:
+    """How far a parameter may reasonably move, (p,) float64; without ``feedback`` its parameters stay."""
+    x = np.zeros(sum(jump.PARAMETERS.values()))
+    part = jump.parameter_slices()
+    x[part["a_hat"]] = 0.35
+    x[part["lateral"]] = 0.08
+    x[part["beta"]] = 0.12
+    x[part["alpha"]] = 0.2
+    x[part["marks"]] = 0.12
+    if feedback:
+        x[part["gains"]] = np.tile(np.r_[np.full(6, 0.5), 0.4, np.full(6, 0.25), 0.2], 3)
+        spread = np.array([0.1, 1.0, 0.1, 0.4, 0.8, 0.15, 0.08, 0.15, 1.0, 1.0, 0.25, 0.05, 0.1, 0.1, 0.08])
+        x[part["m_sp"]] = np.tile(0.06 / spread, jump.RANK)
+        x[part["m_ap"]] = 0.4
+    return x
+
+
+def cost(outcome: JumpOutcome, entry: float) -> float:
+    """Objective of one trial."""
+    speed = abs(outcome.speed - entry) if outcome.steps >= 2 else 1.5
+    return (
+        10.0 * (1.0 - outcome.time)
+        + (0.0 if outcome.cleared else 3.0)
+        + 15.0 * min(outcome.shortfall, 1.0)
+        + 0.25 * min(outcome.scrape, 12)
+        + 0.8 * speed
+        + 0.8 * min(outcome.drift, 1.0)
+        + 2.0 * outcome.reaction
+        + 0.03 * outcome.effort
+        + 3.0 * outcome.trunk
+        + 4.0 * outcome.pose
+    )
+
+
+@dataclass
+class JumpProblem:
+    """One height: what `learn` needs.
+
+    initial: (p,) where learning starts, the solution at the neighbouring height; solutions are pulled towards it.
+    reference: (4, 6, 15) expected sensors. states: harvested from planned run-ups. curriculum: the stages; their
+    options are ``states`` (per generation), ``error`` [m] added to the distance, ``duration`` [s], ``pull``.
+    """
+
+    run: RunSkill
+    height: float
+    entry: float
+    initial: np.ndarray
+    reference: np.ndarray
+    states: list[StartState]
+    curriculum: Sequence[Stage]
+    _simulator: JumpSimulator | None = None
+
+    def stages(self) -> Sequence[Stage]:
+        """The curriculum."""
+        return self.curriculum
+
+    def start(self) -> np.ndarray:
+        """The neighbour's solution, (p,)."""
+        return self.initial
+
+    def scenarios(self, stage: Stage, generation: int, rng: np.random.Generator) -> list[tuple[int, float]]:
+        """Start states and errors of the distance [m] of one generation, half from either foot."""
+        count, error = stage.options["states"], stage.options["error"]
+        chosen = rng.permutation(len(self.states))[:count]
+        jitter = error * (2.0 * (np.arange(count) + rng.random(count)) / count - 1.0)
+        return [(int(i), self.states[i].error + float(e)) for i, e in zip(chosen, jitter, strict=False)]
+
+    def outcome(self, candidate: np.ndarray, state: int, error: float, duration: float) -> JumpOutcome:
+        """One trial."""
+        if self._simulator is None:
+            self._simulator = JumpSimulator(self.run)
+        tables = tables_of(np.ascontiguousarray(candidate), self.entry, self.reference, self.run)
+        return self._simulator.trial(tables, self.height, self.states[state], error, duration)
+
+    def evaluate(self, stage: Stage, candidate: np.ndarray, scenarios: list) -> tuple[float, float]:
+        """Mean cost with the pull towards the start, and the share cleared."""
+        total = cleared = 0.0
+        for state, error in scenarios:
+            result = self.outcome(candidate, state, error, stage.options["duration"])
+            total += cost(result, self.entry)
+            cleared += result.cleared
+        free = stage.scale > 0
+        away = (candidate[free] - self.initial[free]) / stage.scale[free]
+        return total / len(scenarios) + stage.options["pull"] * float(np.mean(away**2)), cleared / len(
+            scenarios
+        )
+
+    def record(self, candidate: np.ndarray) -> np.ndarray:
+        """Mean sensors of the cleared jumps without errors, (4, 6, 15); the present reference where none is."""
+        sums = np.zeros((jump.STEPS, jump.BINS, jump.SENSORS + 1))
+        simulator = JumpSimulator(self.run)
+        tables = tables_of(np.ascontiguousarray(candidate), self.entry, self.reference, self.run)
+        for state in self.states[:16]:
+            one = np.zeros_like(sums)
+            if simulator.trial(tables, self.height, state, state.error, 2.0, record=one).cleared:
+                sums += one
+        counts = sums[..., -1:]
+        return np.where(counts > 0, sums[..., :-1] / np.maximum(counts, 1.0), self.reference)
+
+
+def _curriculum(height: float, effort: float) -> list[Stage]:
+    """Stages at a height; ``effort`` scales the number of generations."""
+
+    def generations(n: int) -> int:
+        return max(round(n * effort), 1)
+
+    few = {"states": 3, "error": 0.04, "duration": 2.2, "pull": 0.1}
+    many = {"states": 8, "error": 0.2, "duration": 3.2, "pull": 0.15}
+    forward = Stage(f"{height:g} m, feed-forward", generations(40), 0.25, scales(False), few, 24)
+    if height < _FIRST_KEPT - 1e-9:
+        return [forward]
+    return [forward, Stage(f"{height:g} m, feedback", generations(45), 0.2, scales(True), many, 24)]
+
+
+def train_jump(
+    out: str | os.PathLike[str] = JUMP_SKILL,
+    seed: int = 0,
+    checkpoint: str | os.PathLike[str] | None = None,
+    workers: int = 2,
+    effort: float = 1.0,
+    start_from: str | os.PathLike[str] | None = None,
+    on_progress: Callable[[Progress], None] | None = None,
+) -> JumpSkill:
+    """Learn jumps onto all of `HEIGHTS` on the package's run and write them to ``out``.
+
+    ``checkpoint``: folder for the state of learning; a run that was interrupted goes on from it and gives the
+    same result. ``effort``: scales the number of generations. ``start_from``: a jump skill to refine (after the run has
+    changed) instead of beginning from nothing. The same seed gives the same skill with any number of workers.
+    """
+    run = load_run_skill()
+    folder = Path(checkpoint) if checkpoint is not None else None
+    if folder is not None:
+        folder.mkdir(parents=True, exist_ok=True)
+    old = load_jump_skill(start_from) if start_from is not None else None
+    heights = HEIGHTS if old is None else tuple(float(h) for h in old.heights)
+    x, reference = first_guess(), np.zeros((jump.STEPS, jump.BINS, jump.SENSORS))
+    kept: list[tuple[float, np.ndarray, np.ndarray]] = []
+    for k, height in enumerate(heights):
+        entry = float(np.clip(ENTRY_SPEED, *run.speeds))
+        if old is not None:
+            x, reference = old.table[k], old.references[k]
+        done = folder / f"height-{k}.npz" if folder is not None else None
+        if done is not None and done.exists():
+            _, arrays = read_archive(done, _KIND, _VERSION)
+            x, reference = arrays["x"], arrays["reference"]
+        else:
+            x, reference = _learn_height(
+                run, height, entry, x, reference, seed, k, folder, workers, effort, on_progress
+            )
+            if done is not None:
+                write_archive(done, _KIND, _VERSION, {}, {"x": x, "reference": reference})
+        if height >= _FIRST_KEPT - 1e-9:
+            kept.append((height, x, reference))
+    skill = JumpSkill(
+        np.array([h for h, _, _ in kept]), np.array([x for _, x, _ in kept]), np.full(len(kept), entry),
+        np.array([r for _, _, r in kept]), run_digest(run), {"command": "surefoot train jump", "seed": seed},
+    )  # fmt: skip
+    skill.save(out)
+    return skill
+
+
+def _learn_height(
+    run: RunSkill,
+    height: float,
+    entry: float,
+    x: np.ndarray,
+    reference: np.ndarray,
+    seed: int,
+    number: int,
+    folder: Path | None,
+    workers: int,
+    effort: float,
+    on_progress: Callable[[Progress], None] | None,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Go through a height's stages; the expected sensors are recorded anew before the feedback is learned."""
+    rng = np.random.default_rng([seed, number])
+    states = JumpSimulator(run).harvest(
+        tables_of(x, entry, reference, run), rng.uniform(8.0, 16.0, _STATES), rng
+    )
+    for place, stage in enumerate(_curriculum(height, effort)):
+        problem = JumpProblem(run, height, entry, x, reference, states, [stage])
+        file = folder / f"search-{number}-{place}.npz" if folder is not None else None
+        learned = learn(problem, seed + 1000 * number + place, file, workers, on_progress)
+        assert learned is not None
+        x = learned
+        if place == 0:
+            reference = problem.record(x)
+    return x, reference

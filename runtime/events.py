@@ -3,7 +3,17 @@
 from dataclasses import asdict, dataclass
 from typing import Any
 
-__all__ = ["Arrived", "Blocked", "Departed", "Event", "Fell", "SkillFinished", "SkillStarted"]
+__all__ = [
+    "Arrived",
+    "Blocked",
+    "Departed",
+    "Event",
+    "Fell",
+    "Lost",
+    "SkillFinished",
+    "SkillStarted",
+    "Stuck",
+]
 
 Point = tuple[float, float, float]
 
@@ -68,19 +78,21 @@ class Blocked(Event):
 
 @dataclass(frozen=True)
 class SkillStarted(Event):
-    """The agent left the run for ``skill``."""
+    """The agent left the run for ``skill``, at an obstacle of ``height`` [m]."""
 
     skill: str
+    height: float
 
     def _what(self) -> str:
-        return f"starts to {self.skill}"
+        return f"starts to {self.skill}, {self.height:.2f} m"
 
 
 @dataclass(frozen=True)
 class SkillFinished(Event):
-    """The agent is back in its run after ``skill``."""
+    """The agent is back in its run after ``skill``, over an obstacle of ``height`` [m]."""
 
     skill: str
+    height: float
 
     def _what(self) -> str:
         return f"runs on after the {self.skill}"
@@ -92,6 +104,24 @@ class Fell(Event):
 
     def _what(self) -> str:
         return f"falls at {_place(self.position)}"
+
+
+@dataclass(frozen=True)
+class Lost(Event):
+    """The agent gave up following its path; ``reason`` says why."""
+
+    reason: str
+
+    def _what(self) -> str:
+        return f"loses its way at {_place(self.position)}: {self.reason}"
+
+
+@dataclass(frozen=True)
+class Stuck(Event):
+    """The agent makes no headway any more."""
+
+    def _what(self) -> str:
+        return f"is stuck at {_place(self.position)}"
 
 
 def _place(point: Point) -> str:

@@ -12,9 +12,9 @@ __all__ = ["Figure", "Shapes", "rotate", "turn"]
 class Shapes:
     """Shapes in one frame of reference.
 
-    ``place`` (m, 7) float64: position [m] and quaternion wxyz of each. ``size`` (m, 3) float64 [m]: of an ellipsoid
-    its half axes; of a capsule its radius, half the length of its axis (along the shape's z), and 0. ``round``
-    (m,) bool: whether it is an ellipsoid. ``colour`` (m, 3) float64, 0…1.
+    ``place`` (m, 7) float64: position [m] and quaternion wxyz of each. ``size`` (m, 3) float64 [m]: of an
+    ellipsoid its half axes; of a capsule its radius, half the length of its axis (along the shape's z), and 0.
+    ``round`` (m,) bool: whether it is an ellipsoid. ``colour`` (m, 3) float64, 0…1.
     """
 
     place: np.ndarray

@@ -28,7 +28,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, StringConstraints
 
 import navmesh
 from navmesh.yamlfile import FileError, Located, read_yaml
-from runtime.rules import walk_rules
+from runtime.rules import person_walk_rules
 
 __all__ = ["AgentSpec", "Expectation", "LevelSpec", "LoadedMission", "Mission", "RulesSpec", "load_mission"]
 
@@ -60,11 +60,11 @@ class LevelSpec(_Strict):
     scale: Annotated[float, Gt(0.0), Le(1e6)] = 1.0
     """Metres per unit of the file."""
     tags: str | None = None
-    """File with authored obstacle tags, relative to the mission's; by default the one beside the level, if any."""
+    """File with authored obstacle tags, relative to the mission's; by default the one beside the level."""
 
 
 class RulesSpec(_Strict):
-    """Where a body can walk; what is left out keeps navmesh.WalkRules' value."""
+    """Where a body can walk; what is left out is as a person needs it."""
 
     max_slope_deg: Annotated[float, Gt(0.0), Le(89.0)] | None = None
     """[°] steeper faces end the walkable surface."""
@@ -72,7 +72,7 @@ class RulesSpec(_Strict):
     """[m] higher steps end the walkable surface."""
     headroom: Annotated[float, Gt(0.0), Le(100.0)] | None = None
     """[m] free height above the floor that walking needs."""
-    resolution: Annotated[float, Ge(0.01), Le(10.0)] | None = None
+    resolution: Annotated[float, Ge(0.02), Le(2.0)] | None = None
     """[m] width of a cell of the surface."""
 
 
@@ -137,7 +137,10 @@ class LoadedMission:
 
     def rules(self) -> navmesh.WalkRules:
         """The walk rules of the mission, defaults filled in."""
-        return walk_rules(**self.mission.rules.model_dump(exclude_none=True))
+        try:
+            return person_walk_rules(**self.mission.rules.model_dump())
+        except navmesh.NavmeshError as error:
+            raise self.error(("rules",), f"rules: {error}") from None
 
     def error(self, address: tuple[str | int, ...], problem: str) -> FileError:
         """An error whose message names the line and column of ``address`` in the file."""

@@ -19,7 +19,7 @@ FLOOR, FLOOR_DARK, WALL = (
 
 @dataclass(frozen=True)
 class Camera:
-    """Where the picture is taken from: ``eye`` and ``target`` (3,) [m], ``fov`` [rad] of the picture's height."""
+    """Where the picture is taken from: ``eye``, ``target`` (3,) [m], ``fov`` [rad] of the picture's height."""
 
     eye: np.ndarray
     target: np.ndarray
@@ -152,7 +152,7 @@ def _draw_shape(frame: _Frame, shapes: Shapes, k: int) -> None:
 
 
 def _cast_shape(start: np.ndarray, rays: np.ndarray, shapes: Shapes, k: int) -> tuple[np.ndarray, np.ndarray]:
-    """Distance along each of ``rays`` (..., 3) to shape k (inf: missed) and the outward normal (..., 3) there."""
+    """Distance along each of ``rays`` (..., 3) to shape k (inf: missed), outward normal (..., 3) there."""
     back = shapes.place[k, 3:] * np.array([1.0, -1.0, -1.0, -1.0])
     size = shapes.size[k]
     eye, direction = rotate(back, start - shapes.place[k, :3]), rotate(back, rays)

@@ -30,8 +30,8 @@ class LevelTrace:
     """The level as it was drawn and walked.
 
     ``vertices`` (v, 3) float64 [m], ``faces`` (f, 3) int32; graph: ``positions`` (n, 3), ``radii`` (n,) [m],
-    ``edges`` (e, 2) int32; obstacles: ``affordances`` (k,) names, ``edge`` (k, 3) [m], ``normal`` (k, 3),
-    ``height`` (k,), ``width`` (k,) [m].
+    ``edges`` (e, 2) int32; obstacles: ``affordances`` (k,) names, ``rim`` (k, 2, 3) [m], ``normal`` (k, 3)
+    and ``height`` (k,) [m] as in `NodeGraph.obstacles`.
     """
 
     vertices: np.ndarray
@@ -40,15 +40,14 @@ class LevelTrace:
     radii: np.ndarray
     edges: np.ndarray
     affordances: tuple[str, ...]
-    edge: np.ndarray
+    rim: np.ndarray
     normal: np.ndarray
     height: np.ndarray
-    width: np.ndarray
 
 
 @dataclass(frozen=True)
 class AgentTrace:
-    """One figure: ``poses`` (t, nbody, 7) float32, position [m] and quaternion wxyz, and its paths in order."""
+    """One figure: ``poses`` (t, nbody, 7) float32, position [m] and quaternion wxyz; its paths in order."""
 
     name: str
     figure: Figure
@@ -58,7 +57,7 @@ class AgentTrace:
 
 @dataclass(frozen=True)
 class Trace:
-    """A run: ``times`` (t,) float64 [s] of the recorded poses, events as plain values, and the last state's hash.
+    """A run: ``times`` (t,) float64 [s] of the poses, events as plain values, hash of the last state.
 
     ``report`` is what `mission_run` found: expectations and whether they held.
     """
@@ -116,7 +115,7 @@ class Trace:
             ) from None
 
 
-_LEVEL_ARRAYS = ("vertices", "faces", "positions", "radii", "edges", "edge", "normal", "height", "width")
+_LEVEL_ARRAYS = ("vertices", "faces", "positions", "radii", "edges", "rim", "normal", "height")
 _SHAPE_ARRAYS = ("place", "size", "round", "colour")
 _PATH_ARRAYS = ("raw", "pulled", "smooth")
 

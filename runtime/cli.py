@@ -1,0 +1,181 @@
+"""The ``surefoot`` command."""
+
+import json
+import signal
+import sys
+from collections.abc import Callable
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from typer import exceptions as typer_exceptions
+
+app = typer.Typer(
+    no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None,
+    help="Navigation and locomotion for game characters. "
+    "Exit codes: 0 what was asked held, 1 it did not, 2 wrong input.",
+)  # fmt: skip
+
+
+class Up(StrEnum):
+    """The axis of a mesh file that points up."""
+
+    x = "x"
+    y = "y"
+    z = "z"
+
+
+class Skill(StrEnum):
+    """What can be learned."""
+
+    run = "run"
+    jump = "jump"
+
+
+UpOption = Annotated[Up, typer.Option(help="Axis of the file that points up.")]
+ScaleOption = Annotated[float, typer.Option(help="Metres per unit of the file.")]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print the result as JSON on standard output.")]
+SlopeOption = Annotated[float | None, typer.Option(help="[°] Steeper faces end the walkable surface.")]
+StepOption = Annotated[float | None, typer.Option(help="[m] Higher steps end the walkable surface.")]
+HeadroomOption = Annotated[float | None, typer.Option(help="[m] Free height that walking needs.")]
+ResolutionOption = Annotated[float | None, typer.Option(help="[m] Spacing of the samples of the surface.")]
+
+
+@app.command()
+def bake(
+    level: Annotated[Path, typer.Argument(help="Mesh file: OBJ, PLY, STL, OFF, GLB or glTF.")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="File for the baked graph (.npz).")],
+    up: UpOption = Up.z,
+    scale: ScaleOption = 1.0,
+    tags: Annotated[
+        Path | None, typer.Option(help="Authored tags; default: LEVEL.tags.yaml if there is one.")
+    ] = None,
+    max_slope_deg: SlopeOption = None,
+    max_step: StepOption = None,
+    headroom: HeadroomOption = None,
+    resolution: ResolutionOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Build a level's navigation graph, by default for a person, and write it to a file."""
+    from runtime.commands import bake_level
+
+    rules = {
+        "max_slope_deg": max_slope_deg,
+        "max_step": max_step,
+        "headroom": headroom,
+        "resolution": resolution,
+    }
+    _finish(bake_level(level, output, up.value, scale, tags, rules), as_json)
+
+
+@app.command()
+def path(
+    graph: Annotated[Path, typer.Argument(help="Graph that `surefoot bake` wrote.")],
+    start: Annotated[tuple[float, float, float], typer.Option(help="[m] x y z, Z up.")],
+    goal: Annotated[tuple[float, float, float], typer.Option(help="[m] x y z, Z up.")],
+    radius: Annotated[float, typer.Option(help="[m] Radius of the body.")] = 0.3,
+    jump: Annotated[
+        tuple[float, float], typer.Option(help="[m] Least and greatest height to jump onto; 0 0: none.")
+    ] = (0.0, 0.0),
+    smooth: Annotated[bool, typer.Option(help="Give the smoothed path instead of the pulled one.")] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Find a path on a baked graph."""
+    from runtime.commands import find_path
+
+    _finish(find_path(graph, start, goal, radius, jump, smooth), as_json)
+
+
+@app.command()
+def run(
+    mission: Annotated[Path, typer.Argument(help="Mission file (YAML).")],
+    out: Annotated[Path | None, typer.Option(help="Folder for trace, plot, film strip and page.")] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Run a mission as fast as possible and say what happened."""
+    from runtime.commands import run_mission_file
+
+    _finish(run_mission_file(mission, out), as_json)
+
+
+@app.command()
+def view(
+    source: Annotated[Path, typer.Argument(help="Trace (.npz), or a mission (.yaml) to be run first.")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="File for the page (.html).")] = Path(
+        "view.html"
+    ),
+    as_json: JsonOption = False,
+) -> None:
+    """Write a page that plays a run in a browser, without a server and without a network."""
+    from runtime.commands import write_view
+
+    _finish(write_view(source, output), as_json)
+
+
+@app.command()
+def train(
+    skill: Annotated[Skill, typer.Argument(help="What to learn.")],
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="File for the skill; default: the package's.")
+    ] = None,
+    seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same skill.")] = 0,
+    workers: Annotated[int, typer.Option(min=1, help="Processes.")] = 2,
+    resume: Annotated[bool, typer.Option(help="Go on from the checkpoint of an interrupted run.")] = True,
+) -> None:
+    """Learn a skill; shows its progress and can be interrupted and resumed."""
+    from runtime.commands import train_skill
+
+    train_skill(skill.value, output, seed, workers, resume)
+
+
+@app.command()
+def evaluate(
+    skill: Annotated[Skill, typer.Argument(help="What to try.")],
+    trials: Annotated[int, typer.Option(min=1, help="How many trials.")] = 20,
+    seed: Annotated[int, typer.Option(min=0, help="Of the trials.")] = 0,
+    as_json: JsonOption = False,
+) -> None:
+    """Try a learned skill from many starts and say how often it holds."""
+    from runtime.commands import evaluate_skill
+
+    _finish(evaluate_skill(skill.value, trials, seed), as_json)
+
+
+def _finish(result: Any, as_json: bool) -> None:
+    """Print a command's result and leave with 0 when it held, 1 when it did not."""
+    if as_json:
+        print(json.dumps(result.values, indent=1))
+    else:
+        result.show()
+    if not result.held:
+        raise typer.Exit(1)
+
+
+def _refuse(message: str) -> int:
+    print(f"surefoot: {' '.join(message.split())}", file=sys.stderr)
+    return 2
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run the command line; leaves with exit code 0, 1 or 2, 130 when interrupted."""
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
+    command: Callable[..., Any] = typer.main.get_command(app)
+    try:
+        code = command(arguments, prog_name="surefoot", standalone_mode=False) or 0
+    except (KeyboardInterrupt, typer.Abort):
+        print("surefoot: interrupted; nothing half-written is left", file=sys.stderr)
+        code = 130
+    except typer.Exit as leave:
+        code = leave.exit_code
+    except typer_exceptions.TyperException as error:
+        code = _refuse(f"{error.format_message()} (see surefoot --help)")
+    except ValueError as error:
+        from runtime.commands import INPUT_ERRORS
+
+        if not isinstance(error, INPUT_ERRORS):
+            raise
+        code = _refuse(str(error))
+    except OSError as error:
+        code = _refuse(f"{error.filename}: {error.strerror}" if error.filename else str(error))
+    sys.exit(code)

@@ -1,0 +1,193 @@
+"""What the commands of ``surefoot`` do, apart from reading their arguments."""
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import navmesh
+from locomotion import LocomotionError, smooth_route
+from pathsmooth import PathSmoothError
+from runtime.errors import RuntimeInputError
+from runtime.files import check_output_folder
+from runtime.mission import load_mission
+from runtime.mission_run import MissionResult, run_mission
+from runtime.progress import Progress
+from runtime.rules import person_walk_rules
+from runtime.trace import Trace
+from runtime.warmup import compile_kernels, is_compiled
+
+__all__ = ["INPUT_ERRORS", "Result", "bake_level", "find_path", "run_mission_file", "write_view"]
+
+INPUT_ERRORS = (navmesh.NavmeshError, PathSmoothError, LocomotionError, RuntimeInputError)
+"""Errors that say what is wrong with the input."""
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a command found: ``values`` for a program, ``show`` for a person, ``held`` for the exit code."""
+
+    values: Mapping[str, Any]
+    held: bool
+    show: Callable[[], None]
+
+
+def bake_level(
+    level: Path, output: Path, up: str, scale: float, tags: Path | None, rules: Mapping[str, float | None]
+) -> Result:
+    """Build and save the graph of ``level``."""
+    _writable(output)
+    progress = _ready()
+    walk_rules = person_walk_rules(**rules)
+    with progress.stage(f"building the graph of {level.name}"):
+        begun = time.perf_counter()
+        terrain = navmesh.Terrain.load(level, up=up, scale=scale)
+        beside = navmesh.tags_path(level)
+        authored = tags or (beside if beside.is_file() else None)
+        loaded = None if authored is None else navmesh.load_tags(authored)
+        graph = navmesh.NodeGraph.build(terrain, walk_rules, tags=loaded)
+        seconds = time.perf_counter() - begun
+        graph.save(output)
+    values = {
+        "level": str(level),
+        "output": str(output),
+        "triangles": len(terrain.faces),
+        "nodes": len(graph),
+        "edges": len(graph.edge_target) // 2,
+        "obstacles": {kind: int((graph.obstacles.affordance == kind).sum()) for kind in _kinds(graph)},
+        "links": len(graph.links),
+        "seconds": round(seconds, 3),
+        "terrain_digest": terrain.digest,
+    }
+    return Result(values, True, lambda: _print_values(values))
+
+
+def find_path(
+    graph_file: Path,
+    start: tuple[float, float, float],
+    goal: tuple[float, float, float],
+    radius: float,
+    jump: tuple[float, float],
+    smooth: bool,
+) -> Result:
+    """A path on a baked graph; holds when it is complete."""
+    graph = navmesh.NodeGraph.load(graph_file)
+    _ready()
+    route = graph.find_path(start, goal, radius=radius, skills={"jump": jump} if jump[1] > 0.0 else None)
+    points = route.waypoints
+    if smooth and len(points) > 1:
+        points = smooth_route(route).points
+    values = {
+        "status": route.status,
+        "length": round(route.length, 4),
+        "links": [str(graph.obstacles.tag[use.obstacle]) for use in route.links],
+        "points": [[round(value, 4) for value in point] for point in points.tolist()],
+    }
+
+    def show() -> None:
+        over = f", {len(route.links)} obstacles on the way" if route.links else ""
+        print(f"{route.status}, {route.length:.2f} m, {len(points)} points{over}")
+        for x, y, z in points:
+            print(f"{x:10.3f} {y:10.3f} {z:8.3f}")
+
+    return Result(values, route.status == "complete", show)
+
+
+def run_mission_file(mission: Path, out: Path | None) -> Result:
+    """Run a mission; with ``out`` leave trace, plot, film strip and page there."""
+    loaded = load_mission(mission)
+    folder = None if out is None else check_output_folder(out)
+    progress = _ready()
+    result = run_mission(loaded, progress)
+    written = [] if folder is None else _write_results(result.trace, folder, progress)
+    values = {
+        **result.trace.report,
+        "events": list(result.trace.events),
+        "files": [str(each) for each in written],
+    }
+    return Result(values, result.held, lambda: _show_mission(mission, result, written))
+
+
+def write_view(source: Path, output: Path) -> Result:
+    """Write the page of a trace, or of a mission that is run for it."""
+    from runtime.view import write_page
+
+    _writable(output)
+    if source.suffix.lower() in (".yaml", ".yml"):
+        loaded = load_mission(source)
+        progress = _ready()
+        trace = run_mission(loaded, progress).trace
+    else:
+        progress = Progress()
+        trace = Trace.read(source)
+    with progress.stage("writing the page"):
+        write_page(trace, output)
+    values = {
+        "output": str(output),
+        "seconds": round(float(trace.times[-1]), 2),
+        "bytes": output.stat().st_size,
+    }
+    return Result(
+        values, True, lambda: print(f"{output}: open it in a browser ({values['bytes'] / 1e6:.1f} MB)")
+    )
+
+
+def _write_results(trace: Trace, folder: Path, progress: Progress) -> list[Path]:
+    from runtime.filmstrip import write_filmstrip
+    from runtime.plot import plot_from_above
+    from runtime.view import write_page
+
+    files = [folder / name for name in ("trace.npz", "level.png", "film.png", "run.html")]
+    folder.mkdir(parents=True, exist_ok=True)
+    trace.write(files[0])
+    with progress.stage("drawing the level from above"):
+        plot_from_above(trace, files[1])
+    write_filmstrip(trace, files[2], progress)
+    with progress.stage("writing the page"):
+        write_page(trace, files[3])
+    return files
+
+
+def _show_mission(mission: Path, result: MissionResult, written: list[Path]) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    console = Console(highlight=False)
+    happened = Table("time", "what happened", title=mission.name, title_justify="left")
+    for event in result.events:
+        happened.add_row(f"{event.time:6.2f} s", str(event))
+    console.print(happened)
+    checks = Table("agent", "expected", "found", "held")
+    for check in result.checks:
+        verdict = "[green]yes[/]" if check.held else "[red]no[/]"
+        checks.add_row(check.agent, check.expected, check.found, verdict)
+    console.print(checks)
+    pace = result.simulated / max(result.wall, 1e-9)
+    console.print(f"{result.simulated:.1f} s simulated in {result.wall:.1f} s ({pace:.1f} x real time)")
+    for path in written:
+        console.print(f"wrote {path}", soft_wrap=True)
+
+
+def _ready() -> Progress:
+    """Progress bars, and compiled kernels."""
+    progress = Progress()
+    if not is_compiled():
+        compile_kernels(progress)
+    return progress
+
+
+def _writable(output: Path) -> None:
+    if not output.parent.is_dir():
+        raise RuntimeInputError(f"{output}: there is no folder {str(output.parent)!r} to write to")
+    if output.is_dir():
+        raise RuntimeInputError(f"{output}: is a folder; name a file")
+
+
+def _kinds(graph: navmesh.NodeGraph) -> list[str]:
+    return sorted({str(kind) for kind in graph.obstacles.affordance})
+
+
+def _print_values(values: Mapping[str, Any]) -> None:
+    for name, value in values.items():
+        print(f"{name:15} {value}")

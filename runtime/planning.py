@@ -1,0 +1,99 @@
+"""Plans: from where an agent is, through its goals in order, to one path that a body can follow."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+import navmesh
+from locomotion import LocomotionError, ObstacleAhead, smooth_route
+from navmesh.route import Route
+
+__all__ = ["NoWay", "Plan", "make_plan"]
+
+_WHY = {
+    "partial": "no way leads there on foot or with the skills at hand",
+    "no_path": "no way leads there on foot or with the skills at hand",
+    "off_graph": "it is not near a place where the body fits",
+}
+
+
+class NoWay(ValueError):
+    """No plan: ``goal`` is the index of the first goal that cannot be reached, ``reason`` says why."""
+
+    def __init__(self, goal: int, reason: str) -> None:
+        self.goal, self.reason = goal, reason
+        super().__init__(f"goal {goal}: {reason}")
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """A path through all goals, and how it came about; all points in the world [m].
+
+    ``raw`` (a, 3) are the centres of the discs that A* chose, ``pulled`` (b, 3) the shortest line through
+    them, ``points`` (n, 3) the smoothed path that a body follows. ``obstacles`` are what it crosses, in order;
+    their arc lengths count from the beginning of ``points``. ``skills`` are their affordances.
+    """
+
+    raw: np.ndarray
+    pulled: np.ndarray
+    points: np.ndarray
+    obstacles: tuple[ObstacleAhead, ...]
+
+    @property
+    def length(self) -> float:
+        """Horizontal length of the smoothed path [m]."""
+        return _length(self.points)
+
+    @property
+    def skills(self) -> tuple[str, ...]:
+        """Affordances of the obstacles on the way, in order."""
+        return tuple(obstacle.affordance for obstacle in self.obstacles)
+
+
+def make_plan(
+    graph: navmesh.NodeGraph,
+    start: np.ndarray,
+    goals: Sequence[np.ndarray],
+    radius: float,
+    skills: Mapping[str, tuple[float, float]],
+    direction: np.ndarray | None = None,
+) -> Plan:
+    """Plan from ``start`` (3,) through ``goals``, each (3,), for a body of ``radius`` [m] with ``skills``.
+
+    ``direction`` (2,) is where the body is moving, None when it stands. Raises `NoWay`.
+    """
+    raw, pulled, points, obstacles = [], [], [], []
+    begun = 0.0
+    for index, goal in enumerate(goals):
+        route = graph.find_path(start, goal, radius=radius, skills=skills)
+        if route.status != "complete":
+            raise NoWay(index, _reason(graph, route, start, goal, radius))
+        if len(route.waypoints) < 2:
+            continue
+        try:
+            smooth = smooth_route(route, start_direction=direction)
+        except LocomotionError as error:
+            raise NoWay(index, str(error)) from error
+        raw.append(graph.positions[route.nodes])
+        pulled.append(route.waypoints)
+        points.append(smooth.points)
+        obstacles += [replace(each, arc_length=each.arc_length + begun) for each in smooth.obstacles]
+        begun += _length(smooth.points)
+        start = smooth.points[-1]
+        direction = (smooth.points[-1] - smooth.points[-2])[:2]
+    if not points:
+        raise NoWay(len(goals) - 1, "it is where the body already is")
+    return Plan(np.concatenate(raw), np.concatenate(pulled), np.concatenate(points), tuple(obstacles))
+
+
+def _reason(
+    graph: navmesh.NodeGraph, route: Route, start: np.ndarray, goal: np.ndarray, radius: float
+) -> str:
+    if route.status == "off_graph" and graph.find_path(start, start, radius=radius).status == "off_graph":
+        return "the way there begins at a place where the body does not fit"
+    return _WHY[route.status]
+
+
+def _length(points: np.ndarray) -> float:
+    return float(np.linalg.norm(np.diff(points[:, :2], axis=0), axis=1).sum())

@@ -1,0 +1,148 @@
+"""A page that plays a run in a browser: one HTML file that needs no server and no network."""
+
+import contextlib
+import io
+import os
+from typing import Any
+
+import numpy as np
+
+from runtime.figure import Figure, Shapes
+from runtime.files import whole_file
+from runtime.trace import LevelTrace, PathTrace, Trace
+
+__all__ = ["write_page"]
+
+FRAME = 0.03
+"""[s] least time between frames of the page."""
+_RAW, _PULLED, _SMOOTH = (120, 120, 120), (31, 119, 180), (214, 39, 40)
+_AFFORDANCES = {"jump": (209, 73, 91), "vault": (142, 68, 173), "drop": (237, 174, 73), "gap": (0, 121, 140)}
+
+
+def write_page(trace: Trace, path: str | os.PathLike[str]) -> None:
+    """Write the page to ``path``, whole or not at all: level, graph, obstacles, paths, figures, time line."""
+    with whole_file(path) as temporary:
+        temporary.write_text(_page(trace), encoding="utf-8")
+
+
+def _page(trace: Trace) -> str:
+    import viser
+
+    silent = contextlib.redirect_stdout(io.StringIO())
+    with (
+        silent
+    ):  # viser makes its pages from a server's scene; this one listens to this machine alone, for a moment
+        server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    try:
+        _set_up(server, trace)
+        _draw_level(server.scene, trace.level)
+        for agent in trace.agents:
+            for index, planned in enumerate(agent.paths):
+                _draw_paths(server.scene, f"/paths/{agent.name} {index + 1}", planned)
+        bodies = [_draw_figure(server.scene, agent.name, agent.figure) for agent in trace.agents]
+        recording = server.get_scene_serializer()
+        last = -1.0
+        for k, moment in enumerate(trace.times):
+            if moment - last < FRAME - 1e-6 and k > 0:
+                continue
+            if k > 0:
+                recording.insert_sleep(float(moment - last))
+            last = float(moment)
+            for agent, handles in zip(trace.agents, bodies, strict=True):
+                for body, handle in handles:
+                    handle.position, handle.wxyz = agent.poses[k, body, :3], agent.poses[k, body, 3:]
+        return recording.as_html(dark_mode=False)
+    finally:
+        with silent:
+            server.stop()
+
+
+def _set_up(server: Any, trace: Trace) -> None:
+    root = trace.agents[0].poses[:, 0, :3].astype(np.float64)
+    middle = root.mean(axis=0)
+    back = max(float(np.ptp(root[:, :2], axis=0).max()), 8.0)
+    server.scene.set_up_direction("+z")
+    server.initial_camera.position = tuple(middle + np.array([-0.35, -0.75, 0.75]) * back)
+    server.initial_camera.look_at = tuple(middle)
+
+
+def _draw_level(scene: Any, level: LevelTrace) -> None:
+    scene.add_mesh_simple(
+        "/level", level.vertices.astype(np.float32), level.faces.astype(np.uint32), color=(205, 203, 196),
+        flat_shading=True, side="front",
+    )  # fmt: skip
+    wide = level.radii > 0.3
+    lift = np.array([0.0, 0.0, 0.04])
+    scene.add_line_segments(
+        "/graph/discs", _circles(level.positions[wide] + lift, level.radii[wide]), colors=(42, 157, 143),
+        thickness=1.0, thickness_units="screen",
+    )  # fmt: skip
+    joined = wide[level.edges].all(axis=1)
+    if joined.any():
+        scene.add_line_segments(
+            "/graph/edges", (level.positions[level.edges[joined]] + lift).astype(np.float32),
+            colors=(20, 110, 100), thickness=1.5, thickness_units="screen",
+        )  # fmt: skip
+    for k, affordance in enumerate(level.affordances):
+        name = f"/obstacles/{affordance} {k}"
+        rim = (level.rim[k] + lift).astype(np.float32)[None]
+        scene.add_line_segments(
+            name, rim, colors=_AFFORDANCES[affordance], thickness=5.0, thickness_units="screen"
+        )
+        if np.linalg.norm(rim[0, 1] - rim[0, 0]) > 2.0:
+            text = f"{affordance} {abs(level.height[k]):.2f} m"
+            scene.add_label(f"{name}/label", text, position=rim[0].mean(axis=0) + np.array([0.0, 0.0, 0.3]))
+
+
+def _circles(centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
+    """Line segments (n * 20, 2, 3) float32 around horizontal circles."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 21)
+    round_ = np.stack([np.cos(angle), np.sin(angle), np.zeros(21)], axis=1)
+    points = centers[:, None] + radii[:, None, None] * round_
+    return np.stack([points[:, :-1], points[:, 1:]], axis=2).reshape(-1, 2, 3).astype(np.float32)
+
+
+def _draw_paths(scene: Any, name: str, planned: PathTrace) -> None:
+    for label, points, colour, height in (
+        ("raw", planned.raw, _RAW, 0.06), ("pulled", planned.pulled, _PULLED, 0.08),
+        ("smoothed", planned.smooth, _SMOOTH, 0.10),
+    ):  # fmt: skip
+        raised = points + np.array([0.0, 0.0, height])
+        lines = np.stack([raised[:-1], raised[1:]], axis=1).astype(np.float32)
+        if len(lines):
+            scene.add_line_segments(
+                f"{name}/{label}", lines, colors=colour, thickness=3.0, thickness_units="screen"
+            )
+
+
+def _draw_figure(scene: Any, name: str, figure: Figure) -> list[tuple[int, Any]]:
+    """One frame with its shapes for each body; returns (index of the body, handle)."""
+    handles = []
+    for body, label in enumerate(figure.bodies):
+        own = np.flatnonzero(figure.owner == body)
+        if len(own) == 0:
+            continue
+        handle = scene.add_frame(f"/figures/{name}/{label}", show_axes=False)
+        for k in own:
+            mesh = _shape_mesh(figure.shapes, int(k))
+            scene.add_mesh_simple(
+                f"/figures/{name}/{label}/{k}",
+                mesh.vertices.astype(np.float32), mesh.faces.astype(np.uint32),
+                color=tuple(int(255 * part) for part in figure.shapes.colour[k]),
+                position=figure.shapes.place[k, :3], wxyz=figure.shapes.place[k, 3:],
+            )  # fmt: skip
+        handles.append((body, handle))
+    return handles
+
+
+def _shape_mesh(shapes: Shapes, k: int) -> Any:
+    import trimesh
+
+    size = shapes.size[k]
+    if not shapes.round[k]:
+        mesh = trimesh.creation.capsule(height=2.0 * size[1], radius=size[0], count=[12, 12])
+        mesh.vertices -= mesh.bounds.mean(axis=0)
+        return mesh
+    mesh = trimesh.creation.icosphere(subdivisions=2)
+    mesh.vertices *= size
+    return mesh

@@ -1,0 +1,51 @@
+"""Compiling the kernels before they are needed, so that a first run says what it waits for."""
+
+from pathlib import Path
+
+import numpy as np
+
+import navmesh
+from runtime.progress import Progress
+
+__all__ = ["compile_kernels", "is_compiled"]
+
+_KERNEL_MODULES = (("navmesh", "pathfinding"), ("pathsmooth", "kernels"), ("locomotion", "controller"))
+
+
+def is_compiled() -> bool:
+    """Whether compiled kernels of the main packages lie in Numba's cache."""
+    import numba
+
+    root = Path(navmesh.__file__).parent.parent
+    for package, module in _KERNEL_MODULES:
+        own = root / package / "__pycache__"
+        elsewhere = Path(numba.config.CACHE_DIR) if numba.config.CACHE_DIR else own  # type: ignore[attr-defined]
+        if not any(own.glob(f"{module}.*.nbi")) and not any(elsewhere.rglob(f"{module}.*.nbi")):
+            return False
+    return True
+
+
+def compile_kernels(progress: Progress) -> None:
+    """Run everything once on a level of a few metres: compiles every kernel and keeps it in the cache."""
+    from runtime.world import World
+
+    with progress.stage("compiling kernels, once (a minute or two)") as stage:
+        stage.update(0.02, "navigation graph")
+        world = World(_tiny_level())
+        stage.update(0.35, "paths and bodies")
+        agent = world.spawn("human", (1.5, 2.0, 0.0))
+        stage.update(0.5, "paths")
+        agent.go_to((10.5, 2.0, 0.4), speed=3.0)
+        stage.update(0.9, "control")
+        world.step(0.05)
+
+
+def _tiny_level() -> navmesh.Terrain:
+    """A floor of 6 x 4 m before a platform of 0.4 m, as long again."""
+    corners, faces = [], []
+    for x0, x1, z in ((0.0, 6.0, 0.0), (6.0, 12.0, 0.4)):
+        faces += [[len(corners) + k for k in triangle] for triangle in ((0, 1, 2), (0, 2, 3))]
+        corners += [(x0, 0.0, z), (x1, 0.0, z), (x1, 4.0, z), (x0, 4.0, z)]
+    faces += [[len(corners) + k for k in triangle] for triangle in ((0, 1, 2), (0, 2, 3))]
+    corners += [(6.0, 4.0, 0.0), (6.0, 0.0, 0.0), (6.0, 0.0, 0.4), (6.0, 4.0, 0.4)]
+    return navmesh.Terrain.from_arrays(np.array(corners), np.array(faces), name="warm-up level")

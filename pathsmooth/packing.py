@@ -11,10 +11,12 @@ from pathsmooth.geometry import lens_corners, nearest_in_lens
 
 # Step sizes of the solver. They change its speed, never its answer; found by trial on random corridors.
 NORM_STEP = 60.0  # [1/m] of the distance term, per weight
-DISC_STEP = 20.0  # [1/m] of the discs, per weight of an evenly placed waypoint
+DISC_STEP = 10.0  # [1/m] of the discs, per weight of an evenly placed waypoint
+RIM_STEP = 80.0  # [1/m] in addition where the target lies on a rim, as the corners of a pulled path do
 DISC_STIFFNESS = 0.3  # of a disc as stiff as the path bent within the disc's size
 CLOSE_STIFFNESS = 0.02  # of a waypoint as stiff as the path bent between it and a close neighbour
 CURVE_STEP = 4.0  # of the bound on curvature, per weight of the bending term
+_RIM = 0.02  # [m]
 _SMALLEST_SIZE = 0.1  # [m]
 _ROUNDING = 1e-11  # [m]
 _CLOSE = 0.5  # of the greatest spacing
@@ -93,7 +95,12 @@ def _pack(packed, targets, arc, segment_disc, centers, radii, smoothness):
         between = np.sqrt((packed[k.AX, i] - packed[k.BX, i]) ** 2 + (packed[k.AY, i] - packed[k.BY, i]) ** 2)
         thickness = 0.5 * (packed[k.AR, i] + packed[k.BR, i] - between)
         size = max(min(packed[k.AR, i], packed[k.BR, i], thickness), _SMALLEST_SIZE)
-        disc_step = DISC_STEP * widest + DISC_STIFFNESS * smoothness / size**3
+        inside = min(
+            packed[k.AR, i] - np.sqrt(packed[k.AX, i] ** 2 + packed[k.AY, i] ** 2),
+            packed[k.BR, i] - np.sqrt(packed[k.BX, i] ** 2 + packed[k.BY, i] ** 2),
+        )
+        disc_step = (DISC_STEP + (RIM_STEP if inside < _RIM else 0.0)) * widest
+        disc_step += DISC_STIFFNESS * smoothness / size**3
         if 0 < i < n - 1:
             close = min(arc[i] - arc[i - 1], arc[i + 1] - arc[i])
             if close < _CLOSE * widest:

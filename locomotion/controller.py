@@ -10,6 +10,7 @@ Per control tick of 10 ms the order is *control, physics, observe*::
         mujoco.mj_step(model, data, STEPS_PER_TICK)
         observe(index, model, data, state)           # reads contacts, feet, centre of mass into ``state``
 
+After `reset_standing` the first ticks lean forward until the person topples, then it runs: nothing else to do.
 ``command`` (3,) float64 = desired heading [rad, world, any turn], desired speed [m/s, clipped to the skill's
 range] and desired sideways speed [m/s to the left of the heading, clipped to ±0.4]. Both may jump: the controller's own
 reference heading and speed follow at the rates that the skill holds. ``data.ctrl`` (39,) are PD targets [rad]
@@ -44,7 +45,7 @@ __all__ = [
     "ACTIONS", "BANK", "CLIMB", "COM", "COM_VELOCITY", "CONTACT", "FALLEN", "FEET", "HEADING", "LAST_TARGET", "MIN_PHASE",
     "OBSERVED", "PARAMETERS", "PHASE", "PLANTED", "SENSORS", "SENSOR_VALUES", "SLOPE", "SPEED", "STANCE",
     "STATE_SIZE", "STEPS", "STEP_LENGTH", "STEP_SPEED", "STEP_TIME", "TICKS", "TRIM", "TURN_RATE",
-    "new_state", "observe", "parameter_slices", "run_tick",
+    "new_state", "observe", "parameter_slices", "run_tick", "standing_pose",
 ]
 
 SENSORS = (
@@ -74,6 +75,7 @@ PARAMETERS: dict[str, int] = {
     "timing": 2,              # step time [s]; amplitude of the legs' reference about its mean
     "arms": 1,                # amplitude of the arms' reference about its mean
     "bank": 12,               # rad per unit of slope that rises towards the swing side
+    "start": 5,               # from standing, first row only: see `_lean`
 }
 """Blocks of a parameter vector, in order, with their lengths."""
 
@@ -101,6 +103,7 @@ PLANTED, _COM_AT_SWITCH = slice(28, 34), slice(34, 37)
 SENSOR_VALUES = slice(37, 49)
 _BLEND, LAST_TARGET = slice(49, 49 + 39), slice(88, 88 + 39)
 """PD targets of the last tick [rad]."""
+_TARGETS = LAST_TARGET.start
 BANK = 127
 """Estimated slope across the heading, positive where the ground rises to the left."""
 STATE_SIZE = 128
@@ -108,7 +111,7 @@ STATE_SIZE = 128
 _SP = parameter_slices()
 _M_AP, _M_SP, _POSTURE, _A_HAT = (_SP[k].start for k in ("m_ap", "m_sp", "posture", "a_hat"))
 _FF, _TURN, _CLIMB, _TIMING = (_SP[k].start for k in ("feed_forward", "turn", "climb", "timing"))
-_ARMS, _BANK = (_SP[k].start for k in ("arms", "bank"))
+_ARMS, _BANK, _START = (_SP[k].start for k in ("arms", "bank", "start"))
 _WAIST, _CHEST, _NECK = (JOINT_NAMES.index(n) for n in ("waist_pitch", "chest_pitch", "neck_pitch"))
 _R_ARM, _L_ARM = (JOINT_NAMES.index(f"{s}_clavicle_elevation") for s in ("right", "left"))
 _R_HIP, _L_HIP = (JOINT_NAMES.index(f"{s}_hip_flexion") for s in ("right", "left"))
@@ -119,14 +122,31 @@ _BLEND_TIME = 0.03  # [s] within which a jump of the targets at a switch decays
 _ACCELERATION = 1.5  # [m/s^2] of the reference speed
 _MAX_SIDE = 0.4  # [m/s]
 _TOUCH = 20.0  # [N] under a foot that counts as contact
+_LEAN_RAMP, _LEAN_LIMIT = 0.25, 1.0  # [s] in which the lean is taken; after which the first step is made regardless
+_STANDING, _RUNNING = 1.0, 0.0  # values of state[_FRESH]
 _CLIP = np.array([0.6, 5.0, 0.2, 1.5, 2.0, 0.5, 0.6, 0.6, 5.0, 5.0, 1.5, 0.4])
 
 
-def new_state() -> np.ndarray:
-    """A controller state, (STATE_SIZE,) float64: right stance, at the start of a step, heading 0, speed 0."""
+def standing_pose() -> np.ndarray:
+    """Joint angles [rad], (39,) float64, of a relaxed stand."""
+    pose = np.zeros(_N)
+    for name, degrees in (
+        ("hip_flexion", 8), ("knee_flexion", 14), ("ankle_flexion", 6), ("shoulder_abduction", 8), ("elbow_flexion", 20),
+    ):
+        for side in ("right", "left"):
+            pose[JOINT_NAMES.index(f"{side}_{name}")] = np.deg2rad(degrees)
+    return pose
+
+
+_STAND = standing_pose()
+
+
+def new_state(standing: bool = False) -> np.ndarray:
+    """A controller state, (STATE_SIZE,) float64: right stance, at the start of a step, heading 0, speed 0; or
+    ``standing``: the first ticks lean forward and set off."""
     state = np.zeros(STATE_SIZE)
     state[STANCE] = -1.0
-    state[_FRESH] = 1.0
+    state[_FRESH] = _STANDING if standing else _RUNNING
     return state
 
 
@@ -281,6 +301,36 @@ def _feedback(p, delta, turn, slope, bank, raw, out):
 
 
 @njit(cache=True)
+def _lean(p, reference, state, ctrl):
+    """Setting off from standing: both feet planted, the body topples forward, the arms come up.
+
+    p[_START:] = ankle and hip flexion [rad] that make it lean; how far [m] the centre of mass must be ahead of the feet for
+    the first step; phase and reference speed [m/s] with which that step begins. Returns whether it begins now.
+    """
+    state[TICKS] += 1.0
+    share = min(state[TICKS] * CONTROL_DT / _LEAN_RAMP, 1.0)
+    pose = np.empty(_N)
+    _lookup(reference, 0.5 * p[_START + 3], pose)
+    for j in range(_R_HIP):
+        ctrl[j] = (1.0 - share) * _STAND[j] + share * pose[j]
+    for j in range(_R_HIP, _N):
+        ctrl[j] = _STAND[j]
+    for hip in (_R_HIP, _L_HIP):
+        ctrl[hip] += share * p[_START + 1]
+        ctrl[hip + 4] += share * p[_START]
+    for j in range(_N):
+        state[_TARGETS + j] = ctrl[j]
+    ahead = math.cos(state[HEADING]) * (state[14] - 0.5 * (state[20] + state[23]))
+    ahead += math.sin(state[HEADING]) * (state[15] - 0.5 * (state[21] + state[24]))
+    if ahead < p[_START + 2] and state[TICKS] * CONTROL_DT < _LEAN_LIMIT:
+        return False
+    state[PHASE] = p[_START + 3]
+    state[SPEED] = p[_START + 4]
+    state[_FRESH] = _RUNNING
+    return True
+
+
+@njit(cache=True)
 def run_tick(knots, table, reference, rates, mean, state_reference, limits, state, command, qpos, qvel, ctrl):
     """One control tick: advance phase and stance in ``state`` and write the PD targets ``ctrl`` (39,) [rad].
 
@@ -289,16 +339,19 @@ def run_tick(knots, table, reference, rates, mean, state_reference, limits, stat
     mean (39,): mean of the reference. state_reference (b, 12): s_ref over a step. limits (3,): lowest and highest
     speed [m/s], highest lateral acceleration [m/s^2] in turns. All float64.
     """
+    switched = False
+    if state[_FRESH] == _STANDING:
+        if not _lean(table[0], reference, state, ctrl):
+            return
+        switched = True
     _follow_command(limits, state, command)
     p = np.empty(table.shape[1])
     _parameters_at(knots, table, state[SPEED], p)
-    fresh = state[_FRESH] > 0.0
     step_time = p[_TIMING]
     state[PHASE] += CONTROL_DT / step_time
     state[STEP_TIME] += CONTROL_DT
     state[TICKS] += 1.0
     swing_contact = 26 + (1 if state[STANCE] < 0 else 0)
-    switched = False
     if state[PHASE] >= MIN_PHASE and state[swing_contact] > _TOUCH:
         _switch_stance(state)
         switched = True
@@ -368,9 +421,7 @@ def run_tick(knots, table, reference, rates, mean, state_reference, limits, stat
     target[_NECK + 1] += -mirror * raw[6] - qpos[8 + _WAIST] - qpos[8 + _CHEST]
     target[_NECK + 2] += -mirror * raw[7] - qpos[9 + _WAIST] - qpos[9 + _CHEST]
 
-    if fresh:
-        state[_FRESH] = 0.0
-    elif switched:
+    if switched:
         for j in range(_N):
             state[49 + j] = state[88 + j] - target[j]
     decay = math.exp(-CONTROL_DT / _BLEND_TIME)

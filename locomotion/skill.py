@@ -141,25 +141,15 @@ def reset_standing(
 ) -> None:
     """Put the person on the ground point ``position`` (3,), standing still; fills ``state``."""
     mujoco.mj_resetData(model, data)
-    _place(model, data, index, standing_pose(), position, yaw, 0.0)
-    _fresh_state(model, data, index, state, yaw, 0.0)
-
-
-def standing_pose() -> np.ndarray:
-    """Joint angles [rad], (39,) float64, of a relaxed stand."""
-    pose = np.zeros(len(JOINT_NAMES))
-    for name, degrees in (
-        ("hip_flexion", 8), ("knee_flexion", 14), ("ankle_flexion", 6), ("shoulder_abduction", 8), ("elbow_flexion", 20),
-    ):
-        for side in ("right", "left"):
-            pose[JOINT_NAMES.index(f"{side}_{name}")] = np.deg2rad(degrees)
-    return pose
+    _place(model, data, index, controller.standing_pose(), position, yaw, 0.0)
+    _fresh_state(model, data, index, state, yaw, 0.0, standing=True)
 
 
 def _fresh_state(
-    model: mujoco.MjModel, data: mujoco.MjData, index: PersonIndex, state: np.ndarray, yaw: float, speed: float
+    model: mujoco.MjModel, data: mujoco.MjData, index: PersonIndex, state: np.ndarray, yaw: float, speed: float,
+    standing: bool = False,
 ) -> None:
-    state[:] = controller.new_state()
+    state[:] = controller.new_state(standing)
     state[controller.HEADING] = yaw
     state[controller.SPEED] = speed
     mujoco.mj_forward(model, data)

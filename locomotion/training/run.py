@@ -32,6 +32,7 @@ def first_guess() -> np.ndarray:
     x[part["posture"]] = [1.0, 1.0, 0.7, 0.8, 0.1, 0.8, 0.1, 0.5, 0.05]
     x[part["timing"]] = [0.36, 1.0]
     x[part["arms"]] = 1.0
+    x[part["start"]] = [0.45, 0.0, 0.18, 0.35, 1.2]
     return x
 
 
@@ -47,6 +48,7 @@ def scales() -> np.ndarray:
     x[part["turn"]] = 0.2
     x[part["climb"]] = 0.5
     x[part["bank"]] = 0.5
+    x[part["start"]] = [0.15, 0.15, 0.03, 0.15, 0.3]
     x[part["timing"]] = [0.06, 0.25]
     x[part["arms"]] = 0.2
     return x
@@ -183,14 +185,14 @@ def cost(trial: Trial, scenario: Scenario, style: float) -> float:
     wanted_rate = 2.75 * (0.2 * f["speed"] / 3.5 + 0.8)
     return (
         10.0 * lost
-        + 1.0 * f["speed_error"]
+        + 2.0 * f["speed_error"]
         + 1.0 * f["side_drift"]
         + 1.5 * f["heading_error"]
         + 2.0 * f["trunk"]
         + style
         * (
             4.0 * f["reaction"]
-            + 0.08 * f["effort"]
+            + 0.06 * f["effort"]
             + 0.05 * f["head"]
             + 0.5 * abs(f["step_rate"] - wanted_rate)
         )

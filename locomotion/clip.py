@@ -22,7 +22,7 @@ __all__ = ["Clip", "load_clip"]
 _KEYS = {"name", "cyclic", "mirrored", "duration", "speed", "root", "channels"}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Clip:
     """A reference motion.
 

@@ -1,16 +1,22 @@
 """Learning to run: first guess, curriculum and objective."""
 
-from dataclasses import dataclass
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
 from locomotion import controller as c
-from locomotion.skill import RunSkill, run_clip
-from locomotion.training.loop import Stage
+from locomotion.skill import RUN_SKILL, RunSkill, run_clip
+from locomotion.training.loop import Progress, Stage, learn
 from locomotion.training.rollout import Scenario, Simulator, Trial
 
-__all__ = ["cost", "first_guess", "first_state_reference", "scales", "skill_of"]
+__all__ = [
+    "RunProblem", "cost", "curriculum", "draw_scenario", "first_guess", "first_state_reference", "fit_step_length",
+    "genes_scale", "scales", "skill_of", "train_run",
+]
 
 _SPREAD = np.array([0.1, 1.0, 0.03, 0.3, 0.5, 0.1, 0.05, 0.1, 1.0, 1.0, 0.2, 0.04])
 """Typical deviation of each sensor while running."""
@@ -91,10 +97,84 @@ def genes_scale(base: float, slope: float, bend: float, start: float) -> np.ndar
     """Scale of all genes from those of one row, each block weighted; 0 keeps a block."""
     one = scales()
     part = c.parameter_slices()
+    lean = np.zeros(SIZE)
+    lean[part["start"]] = one[part["start"]]
+    running = one - lean
     shaped = np.zeros(SIZE)
     for name in ("feed_forward", "a_hat", "timing", "arms", "turn", "climb"):
         shaped[part[name]] = one[part[name]]
-    return np.concatenate([base * one, slope * one, bend * shaped, start * one])
+    return np.concatenate([base * running + start * lean, slope * running, bend * shaped, start * running])
+
+
+def _stage(name: str, generations: int, sigma: float, scale: np.ndarray, trials: int, style: float, **trial: Any) -> Stage:
+    return Stage(name, generations, sigma, scale, {"trials": trials, "style": style, "trial": trial})
+
+
+def curriculum(effort: float = 1.0) -> tuple[Stage, ...]:
+    """The stages from nothing to the whole family; ``effort`` scales the number of generations."""
+
+    def many(generations: int) -> int:
+        return max(round(generations * effort), 1)
+
+    middle, family, start = genes_scale(1, 0, 0, 0), genes_scale(1, 1, 0, 0), genes_scale(0, 0, 0, 1)
+    return (
+        _stage("first steps", many(8), 0.20, middle, 1, 0.3, duration=0.8, noise=0.2),
+        _stage("first second", many(25), 0.18, middle, 1, 0.3, duration=1.6, noise=0.2),
+        _stage("four seconds", many(45), 0.18, middle, 1, 0.3, duration=4.0, noise=0.2),
+        _stage("twelve seconds", many(40), 0.16, middle, 2, 0.3, duration=10.0, noise=0.2),
+        _stage("pushes", many(20), 0.07, middle, 6, 0.5, duration=6.0, noise=0.5, push=60.0),
+        _stage("speeds", many(30), 0.06, genes_scale(1, 1, 1, 0), 5, 0.5, duration=5.0, noise=0.5, push=100.0,
+               speeds=(2.9, 4.1), lateral=0.7, tilt=0.05),
+        _stage("bends and slopes", many(40), 0.05, genes_scale(1, 1, 1, 0), 6, 0.5, duration=5.0, noise=0.7, push=130.0,
+               speeds=(2.5, 4.5), lateral=1.4, tilt=0.12),
+        _stage("family", many(80), 0.05, family, 8, 0.5, duration=4.5, noise=0.7, push=150.0,
+               speeds=SPEED_RANGE, lateral=1.4, tilt=0.15),
+        _stage("set off", many(40), 0.20, start, 1, 0.2, duration=2.2, speeds=(2.7, 2.7), standing=1.0),
+        _stage("set off and run", many(25), 0.12, start, 4, 0.2, duration=4.0, speeds=(2.5, 3.5), noise=0.2, standing=1.0),
+    )
+
+
+def train_run(
+    out: str | os.PathLike[str] = RUN_SKILL,
+    seed: int = 0,
+    checkpoint: str | os.PathLike[str] | None = None,
+    workers: int = 2,
+    effort: float = 1.0,
+    on_progress: Callable[[Progress], None] | None = None,
+) -> RunSkill:
+    """Learn to run from nothing and write the skill to ``out``.
+
+    ``checkpoint``: file for the state of learning; an interrupted run goes on from it and gives the same result. ``effort``:
+    scales the number of generations. The same seed gives the same skill with any number of workers.
+    """
+    genes = np.concatenate([first_guess(), np.zeros(3 * SIZE)])
+    amplitude = c.parameter_slices()["timing"].start + 1
+    genes[SIZE + amplitude] = 0.08  # longer steps at higher speed
+    problem = RunProblem(curriculum(effort), genes, first_state_reference())
+    learned = learn(problem, seed, checkpoint, workers, on_progress)
+    assert learned is not None
+    skill = skill_of(learned, problem.reference, meta={"made by": "surefoot train run", "seed": seed, "effort": effort})
+    skill = replace(skill, step_length=fit_step_length(skill))
+    skill.save(out)
+    return skill
+
+
+def fit_step_length(skill: RunSkill) -> tuple[float, float]:
+    """(a, b) of step length = a * speed + b [m], by least squares over runs of 12 s at five speeds."""
+    measured: list[tuple[float, float]] = []
+
+    def note(simulator: Simulator) -> None:
+        state = simulator.state
+        if state[c.TICKS] > 400 and state[c.STEP_TIME] == 0.0:
+            measured.append((float(state[c.STEP_SPEED]), float(state[c.STEP_LENGTH])))
+
+    for speed in np.linspace(*skill.speeds, 5):
+        _simulator().run(skill, Scenario(12.0, np.array([[0.0, speed]])), note)
+    if len(measured) < 20:
+        return skill.step_length
+    speeds, lengths = np.array(measured).T
+    a, b = np.polyfit(speeds, lengths, 1)
+    return float(a), float(b)
 
 
 @dataclass(frozen=True)
@@ -102,7 +182,7 @@ class RunProblem:
     """Learning of the run for `locomotion.training.loop.learn`.
 
     Attributes:
-        curriculum: the stages, see `CURRICULUM`.
+        curriculum: the stages, see `curriculum`.
         genes: first guess, (4 * SIZE,) float64.
         reference: reference sensors, (b, 12) float64.
     """

@@ -40,7 +40,7 @@ def build_surface(terrain: Terrain, rules: WalkRules) -> Surface:
     )
     if len(cell_column) == 0:
         raise NavmeshError(
-            f"{terrain.name}: nothing to walk on: no face is within {math.degrees(rules.max_slope):g} degrees "
+            f"{terrain.name}: nothing to walk on: no face is within {math.degrees(rules.max_slope):g}° "
             f"of level, faces up, and has {rules.headroom:g} m free above it; check the up axis, the unit "
             "scale and the order of the corners of the faces (counter-clockwise seen from above)"
         )

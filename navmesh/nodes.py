@@ -28,27 +28,32 @@ def order_by_clearance(clearance, grain):
 
 
 @njit(cache=True)
-def _claim_line(link, label, power, node, limit, c, d, dx, dy, sx, sy, resolution):
-    """Claim c for a disc, and the cells from it in direction d, as long as they lie in the disc."""
+def _claim_line(clearance, link, label, power, node, radius, c, d, dx, dy, resolution):
+    """Claim c and the cells from it in y direction d (1 or 3) for a disc, as long as they lie in the disc.
+
+    (dx, dy) goes from the disc's centre to c. A cell that is wider than the disc itself is left alone: its
+    node must let pass whatever the cell lets pass.
+    """
+    step = resolution if d == 1 else -resolution
     while c >= 0:
-        score = dx * dx + dy * dy - limit
+        score = dx * dx + dy * dy - radius * radius
         if score > 1e-12:
             return
-        if score < power[c]:
+        if score < power[c] and clearance[c] <= radius:
             power[c] = score
             label[c] = node
         c = link[c, d]
-        dx += sx * resolution
-        dy += sy * resolution
+        dy += step
 
 
 @njit(cache=True)
 def select_nodes(order, clearance, link, resolution, least):
     """Greedy cover by maximal discs, (almost) largest first.
 
-    ``order`` (n,) int32: cells by falling clearance (`order_by_clearance`). A cell with at least
-    ``least`` clearance that no disc covers becomes the centre of one. Returns ``node_cell``
-    (m,) int32 and ``label`` (n,) int32: the node in whose disc a cell is deepest (least d² - r²), or -1.
+    ``order`` (n,) int32: cells by falling clearance (`order_by_clearance`). A cell with at least ``least``
+    clearance that no disc as wide as itself covers becomes the centre of one. Returns ``node_cell`` (m,)
+    int32 and ``label`` (n,) int32: of the nodes that cover a cell the one in whose disc it is deepest
+    (least d² - r²), or -1.
     """
     cells = clearance.shape[0]
     label = np.full(cells, -1, np.int32)
@@ -60,29 +65,16 @@ def select_nodes(order, clearance, link, resolution, least):
         r = clearance[c]
         if r < least or label[c] >= 0:
             continue
-        limit = r * r
         node_cell[nodes] = c
         for d in range(0, 3, 2):
-            s = 1.0 if d == 0 else -1.0
+            step = resolution if d == 0 else -resolution
             spine = c if d == 0 else link[c, 2]
             dx = 0.0 if d == 0 else -resolution
-            while spine >= 0 and dx * dx <= limit:
-                _claim_line(link, label, power, nodes, limit, spine, 1, dx, 0.0, 0.0, 1.0, resolution)
-                _claim_line(
-                    link,
-                    label,
-                    power,
-                    nodes,
-                    limit,
-                    link[spine, 3],
-                    3,
-                    dx,
-                    -resolution,
-                    0.0,
-                    -1.0,
-                    resolution,
-                )
+            while spine >= 0 and dx * dx <= r * r:
+                _claim_line(clearance, link, label, power, nodes, r, spine, 1, dx, 0.0, resolution)
+                below = link[spine, 3]
+                _claim_line(clearance, link, label, power, nodes, r, below, 3, dx, -resolution, resolution)
                 spine = link[spine, d]
-                dx += s * resolution
+                dx += step
         nodes += 1
     return node_cell[:nodes].copy(), label

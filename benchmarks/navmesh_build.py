@@ -1,0 +1,192 @@
+"""Is the graph right, and how fast is it built? Prints a table and writes JSON.
+
+    python benchmarks/navmesh_build.py [--json FILE] [--resolution 0.25] [--samples 20000] [--repeats 7]
+
+On the three shared levels, with the body of the shared queries (height 2.0 m, step 0.9 m, slope 45°): what
+the discs hold and leave out, asked of the mesh itself (`mesh_truth`), connections against a flood fill of
+the clearance field, the error of small radii, and the time of the build against Recast in the same run.
+"""
+
+import argparse
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+from mesh_truth import MeshTruth
+from rich.console import Console
+from rich.table import Table
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from shared_data import LEVELS, level_path, queries_path, shared_folder, why_absent
+
+from navmesh import NodeGraph, Terrain, WalkRules
+
+RADII = (0.15, 0.3, 0.6, 0.9, 1.2)
+
+
+def components(count: int, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Number (count,) of the connected component of each of ``count`` things joined by pairs a-b."""
+    matrix = coo_array((np.ones(len(a), dtype=bool), (a, b)), shape=(count, count))
+    return connected_components(matrix, directed=False)[1]
+
+
+def compare_connections(graph: NodeGraph, radius: float) -> tuple[int, int]:
+    """Connections lost and invented by the graph for a body of ``radius``, against a flood fill.
+
+    Lost: parts of the graph, beyond the first, among the nodes that own the cells of one flooded part, and
+    cells whose own node is too small. Invented: flooded parts, beyond the first, in which the nodes of one
+    part of the graph lie.
+    """
+    surface = graph.surface
+    wide = surface.clearance >= radius
+    a, d = np.nonzero(surface.link >= 0)
+    b = surface.link[a, d]
+    keep = wide[a] & wide[b]
+    flood = components(len(surface), a[keep], b[keep])
+    source = np.repeat(np.arange(len(graph)), np.diff(graph.edge_start))
+    passes = (graph.edge_width >= radius) & (graph.radii[source] >= radius)
+    passes &= graph.radii[graph.edge_target] >= radius
+    search = components(len(graph), source[passes], graph.edge_target[passes])
+    cells = np.flatnonzero(wide)
+    owner = graph.label[cells]
+    orphans = (owner < 0) | (graph.radii[owner] < radius)
+    owned = np.unique(np.stack([flood[cells], search[owner]])[:, ~orphans], axis=1)
+    lost = owned.shape[1] - len(np.unique(owned[0])) + int(orphans.sum())
+    nodes = np.flatnonzero(graph.radii >= radius)
+    pairs = np.unique(np.stack([flood[graph.node_cell[nodes]], search[nodes]]), axis=1)
+    return lost, pairs.shape[1] - len(np.unique(pairs[1]))
+
+
+def uncovered_cells(graph: NodeGraph) -> int:
+    """Cells with enough clearance for a node that lie in no disc that reaches them over links."""
+    surface, ny = graph.surface, graph.surface.shape[1]
+    owner = graph.label
+    x, y = np.divmod(surface.cell_column, ny)
+    offset = np.stack([x - x[graph.node_cell][owner], y - y[graph.node_cell][owner]]) * surface.resolution
+    covered = (owner >= 0) & (np.hypot(*offset) <= graph.radii[owner] + 1e-9)
+    return int((~covered & (surface.clearance >= graph.rules.min_radius)).sum())
+
+
+def recast_milliseconds(name: str, repeats: int) -> float:
+    """Least time of Recast's whole build of a level; compiles the peer on the first call."""
+    folder = shared_folder()
+    assert folder is not None
+    program = Path(os.environ.get("TMPDIR", "/tmp")) / "surefoot-peer" / "recast_bench"
+    if not program.exists():
+        script = folder / "bench" / "peer" / "run_native.sh"
+        subprocess.run([script, level_path(name), queries_path(name)], check=True, capture_output=True)
+    command = [program, "solo", level_path(name), str(repeats)]
+    answer = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    return float(json.loads(answer)["build_ms_min"])
+
+
+def build_milliseconds(terrain: Terrain, rules: WalkRules, repeats: int, obstacles: bool) -> float:
+    """Least time of the whole build from arrays in memory, with or without the search for obstacles."""
+    best = math.inf
+    for _ in range(repeats):
+        begin = time.perf_counter()
+        if obstacles:
+            NodeGraph.build(terrain, rules)
+        else:
+            NodeGraph.build(terrain, rules, obstacle_rules=None)
+        best = min(best, time.perf_counter() - begin)
+    return best * 1e3
+
+
+def measure(name: str, rules: WalkRules, samples: int, repeats: int, rng: np.random.Generator) -> dict:
+    """All figures of one level."""
+    terrain = Terrain.load(level_path(name), up="y")
+    graph = NodeGraph.build(terrain, rules, obstacle_rules=None)
+    NodeGraph.build(terrain, rules)
+    mesh = MeshTruth(terrain, rules)
+    figures: dict = {"cells": len(graph.surface), "nodes": len(graph), "edges": len(graph.edge_target) // 2}
+
+    node = rng.choice(np.flatnonzero(graph.radii > rules.resolution), samples)
+    angle = rng.random(samples) * 2 * np.pi
+    length = (graph.radii[node] - rules.resolution) * np.sqrt(rng.random(samples))
+    way = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    reached = mesh.reached(graph.positions[node], way, length)
+    figures["unwalkable_share"] = float((reached < length - 1e-9).mean())
+
+    small = np.flatnonzero(graph.radii < 0.5)
+    small = rng.permutation(small)[: max(50, samples // 40)]
+    error = graph.radii[small] - mesh.distance(graph.positions[small], graph.radii[small] + 0.5)
+    figures["radius_error_mean_m"] = float(np.abs(error).mean())
+    figures["radius_error_bias_m"] = float(error.mean())
+    figures["radius_error_p99_m"] = float(np.quantile(np.abs(error), 0.99))
+
+    figures["uncovered_cells"] = uncovered_cells(graph)
+    both = {radius: compare_connections(graph, radius) for radius in RADII}
+    figures["connections_lost"] = {f"{radius:g}": both[radius][0] for radius in RADII}
+    figures["connections_invented"] = {f"{radius:g}": both[radius][1] for radius in RADII}
+
+    ours, peer, full = math.inf, math.inf, math.inf
+    for _ in range(repeats):  # in turn, so that other load on the machine hits both
+        peer = min(peer, recast_milliseconds(name, 3))
+        ours = min(ours, build_milliseconds(terrain, rules, 3, obstacles=False))
+        full = min(full, build_milliseconds(terrain, rules, 1, obstacles=True))
+    figures |= {"build_ms": ours, "recast_ms": peer, "build_ratio": ours / peer}
+    figures |= {"build_with_obstacles_ms": full, "build_with_obstacles_ratio": full / peer}
+    return figures
+
+
+def show(results: dict[str, dict]) -> None:
+    """Print the figures as a table, one column for each level."""
+    table = Table("figure", *results, title="Building the graph")
+    for key in next(iter(results.values())):
+        row = []
+        for figures in results.values():
+            value = figures[key]
+            if isinstance(value, dict):
+                row.append(" ".join(str(v) for v in value.values()))
+            else:
+                row.append(f"{value:.4g}" if isinstance(value, float) else str(value))
+        table.add_row(key, *row)
+    Console(width=120).print(table)
+
+
+def main() -> int:
+    """Run the benchmark; exit code 1 when a figure misses its target."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--json", type=Path, help="where to write the figures")
+    parser.add_argument("--resolution", type=float, default=0.25, help="[m] side of a cell")
+    parser.add_argument("--samples", type=int, default=20_000, help="points in discs per level")
+    parser.add_argument("--repeats", type=int, default=7, help="rounds of timing")
+    options = parser.parse_args()
+    if shared_folder() is None:
+        print(f"skipped: {why_absent()}")
+        return 0
+    rules = WalkRules(max_slope=math.radians(45), max_step=0.9, headroom=2.0, resolution=options.resolution)
+    rng = np.random.default_rng(1)
+    results = {name: measure(name, rules, options.samples, options.repeats, rng) for name in LEVELS}
+    show(results)
+    missed = [
+        f"{name}: {what}"
+        for name, figures in results.items()
+        for what, holds in (
+            ("unwalkable samples above 0.1 %", figures["unwalkable_share"] <= 0.001),
+            ("radius error above 0.05 m", figures["radius_error_mean_m"] <= 0.05),
+            ("uncovered cells", figures["uncovered_cells"] == 0),
+            ("connections lost", not any(figures["connections_lost"].values())),
+            ("slower than Recast", figures["build_ratio"] <= 1.0),
+        )
+        if not holds
+    ]
+    print("missed: " + "; ".join(missed) if missed else "every figure meets its target")
+    if options.json:
+        with tempfile.NamedTemporaryFile("w", dir=options.json.parent, delete=False) as file:
+            json.dump({"resolution": options.resolution, "levels": results, "missed": missed}, file, indent=1)
+        os.replace(file.name, options.json)
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

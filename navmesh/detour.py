@@ -5,7 +5,10 @@ from math import sqrt
 import numpy as np
 from numba import njit
 
-__all__ = ["detour"]
+__all__ = ["DETOURS", "detour"]
+
+DETOURS = 6
+"""Place in scratch.numbers that counts these searches."""
 
 _TIGHT = 25.0
 """Cost factor of cells whose centre is short of the radius by less than a cell: only where there is no other way."""
@@ -45,20 +48,29 @@ def _take_first(keys, items, size):
 
 
 @njit(cache=True)
-def detour(net, start, goal, radius):
+def detour(net, scratch, start, goal, radius):
     """Cells (k,) int32 from cell ``start`` to cell ``goal`` over links, shortest for a body of ``radius``; empty if none.
 
     Cells whose centre is short of the radius by less than 0.75 cells count 25 times their length.
     """
     count = net.cell_column.size
-    best = np.full(count, np.inf)
-    parent = np.full(count, -1, np.int32)
+    if scratch.cell_stamp.size != count:
+        scratch.cell_stamp = np.zeros(count, np.int64)
+        scratch.cell_best = np.empty(count, np.float64)
+        scratch.cell_parent = np.empty(count, np.int32)
+    scratch.numbers[DETOURS] += 1
+    stamp = scratch.numbers[DETOURS]
+    seen = scratch.cell_stamp
+    best = scratch.cell_best
+    parent = scratch.cell_parent
     keys = np.empty(256, np.float64)
     items = np.empty(256, np.int32)
     h = net.cell
     goal_x = net.cell_column[goal] // net.ny
     goal_y = net.cell_column[goal] % net.ny
+    seen[start] = stamp
     best[start] = 0.0
+    found = False
     keys[0], items[0] = 0.0, start
     size = 1
     while size > 0:
@@ -66,6 +78,7 @@ def detour(net, start, goal, radius):
         _take_first(keys, items, size)
         size -= 1
         if k == goal:
+            found = True
             break
         for way in range(4):
             other = net.link[k, way]
@@ -77,7 +90,8 @@ def detour(net, start, goal, radius):
                 cost = best[k] + h * _TIGHT
             else:
                 continue
-            if cost < best[other] - 1e-9:
+            if seen[other] != stamp or cost < best[other] - 1e-9:
+                seen[other] = stamp
                 best[other] = cost
                 parent[other] = k
                 if size == keys.size:
@@ -92,7 +106,7 @@ def detour(net, start, goal, radius):
                 keys[size], items[size] = cost + h * sqrt(dx * dx + dy * dy), other
                 _sift_up(keys, items, size)
                 size += 1
-    if best[goal] == np.inf:
+    if not found:
         return np.empty(0, np.int32)
     steps = 1
     k = goal

@@ -17,13 +17,11 @@ from numba import njit
 from navmesh.detour import detour
 from navmesh.field import floor_at, gap_at, walk
 
-__all__ = ["DETOURS", "grow", "pull"]
+__all__ = ["grow", "pull"]
 
 _MARGIN = 0.03
 """Pushed corners keep this share of the radius more than it, so that straight lines between them clear round corners."""
-_DEPTH = 12
-DETOURS = 6
-"""Place in scratch.numbers that counts searches over cells."""
+_DEPTH = 12  # of pushes within pushes; scratch.stack holds two more
 
 
 @njit(cache=True)
@@ -193,8 +191,7 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high):
     Returns the new count and whether the body fits all along.
     """
     radius = doors.radius
-    stack = np.empty((_DEPTH + 2, 2), np.float64)
-    stack_cell = np.empty(_DEPTH + 2, np.int32)
+    stack, stack_cell = scratch.stack, scratch.stack_cell
     stack[0, 0], stack[0, 1] = gx, gy
     stack_cell[0] = goal_cell
     height = 1
@@ -225,8 +222,7 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high):
                 stack_cell[height] = at
                 height += 1
                 continue
-        cells = detour(net, k, target, radius)
-        scratch.numbers[DETOURS] += 1
+        cells = detour(net, scratch, k, target, radius)
         if cells.size == 0:
             return count, False
         for step in range(1, cells.size - 1):
@@ -252,9 +248,11 @@ def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell):
     """
     leg = count - 1
     room = last - first + 2
-    work = np.empty((room, 2), np.float64)
-    cells = np.empty(room, np.int32)
-    at = np.empty(room, np.int64)
+    if scratch.corner_cell.size < room:
+        scratch.corner = np.empty((2 * room, 2), np.float64)
+        scratch.corner_cell = np.empty(2 * room, np.int32)
+        scratch.corner_at = np.empty(2 * room, np.int32)
+    work, cells, at = scratch.corner, scratch.corner_cell, scratch.corner_at
     sx, sy = scratch.points[leg, 0], scratch.points[leg, 1]
     corners = _funnel(
         doors, scratch.edges, first, last, work, cells, at, sx, sy, scratch.cells[leg], gx, gy, goal_cell

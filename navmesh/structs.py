@@ -60,6 +60,7 @@ _DOORS = (
 _SCRATCH = (
     "numbers", "stamp", "cost", "total", "entry", "parent", "via", "heap_key", "heap_node", "ends", "nodes",
     "edges", "points", "cells",
+    "corner", "corner_cell", "corner_at", "stack", "stack_cell", "cell_stamp", "cell_best", "cell_parent",
 )  # fmt: skip
 
 for _proxy, _type, _names in (
@@ -168,7 +169,9 @@ def make_scratch(nodes, edges):
 
     numbers (16,) int64: the stamp of the current search and its counters, see `navmesh.search`; stamp, cost, total,
     entry (3 coordinates and the cell's place is not kept), parent, via: per node; heap_key, heap_node: the open
-    list; ends (8,) float64: start and goal; nodes, edges: the chain found; points, cells: the corners pulled.
+    list; ends (8,) float64: start and goal; nodes, edges: the chain found; points, cells: the corners pulled;
+    corner, corner_cell, corner_at: those of the funnel; stack, stack_cell: corners still to be reached; cell_stamp,
+    cell_best, cell_parent: per cell, once `navmesh.detour` needs them.
     """
     room = max(nodes, 16)
     return Scratch(
@@ -186,6 +189,14 @@ def make_scratch(nodes, edges):
         np.empty(room + 1, np.int32),
         np.empty((64, 3), np.float64),
         np.empty(64, np.int32),
+        np.empty((64, 2), np.float64),
+        np.empty(64, np.int32),
+        np.empty(64, np.int32),
+        np.empty((14, 2), np.float64),
+        np.empty(14, np.int32),
+        np.zeros(0, np.int64),
+        np.empty(0, np.float64),
+        np.empty(0, np.int32),
     )
 
 

@@ -23,7 +23,7 @@ The control law, in a frame mirrored so that the right leg is the stance leg (al
 change sign on the left): with phase p in [0, 1] of a step,
 
     PD target = reference(p) + rate(p) * damping / stiffness + learned feed-forward(p) + posture servo + da
-    da = M_ap · M_sp · (s - s_ref(p)) + a_hat + turn * turn rate + climb * slope + bank * cross slope              (rank 3)
+    da = M_ap · M_sp · (s - s_ref(p)) + a_hat + turn * turn rate + climb or descend * slope              (rank 3)
 
 Sensors s (12,), measured in the frame of the *reference heading*, so that steering is a change of sensors: see `SENSORS`.
 Actions a (9,): see `ACTIONS`; the waist's are copied to the chest. The posture servo is SIMBICON's: the swing hip is
@@ -42,7 +42,7 @@ from numba import njit
 from locomotion.person import CONTROL_DT, JOINT_NAMES, PersonIndex
 
 __all__ = [
-    "ACTIONS", "BANK", "CLIMB", "COM", "COM_VELOCITY", "CONTACT", "FALLEN", "FEET", "HEADING", "LAST_TARGET", "MIN_PHASE",
+    "ACTIONS", "CLIMB", "COM", "COM_VELOCITY", "CONTACT", "FALLEN", "FEET", "HEADING", "LAST_TARGET", "MIN_PHASE",
     "OBSERVED", "PARAMETERS", "PHASE", "PLANTED", "SENSORS", "SENSOR_VALUES", "SLOPE", "SPEED", "STANCE",
     "STATE_SIZE", "STEPS", "STEP_LENGTH", "STEP_SPEED", "STEP_TIME", "TICKS", "TRIM", "TURN_RATE",
     "new_state", "observe", "parameter_slices", "run_tick", "standing_pose",
@@ -58,7 +58,7 @@ ACTIONS = (
     "waist_pitch", "waist_roll", "waist_yaw",
 )
 CLIMB = (*ACTIONS, "swing_knee_flexion", "stance_knee_flexion", "stance_ankle_flexion")
-"""What the slope under the feet, along and across, changes."""
+"""What the slope under the feet changes."""
 RANK = 3
 N_KNOTS = 8
 MIN_PHASE = 0.6
@@ -71,10 +71,10 @@ PARAMETERS: dict[str, int] = {
     "a_hat": 9,               # affine term [rad]
     "feed_forward": 3 * N_KNOTS,  # hip flexion, knee, ankle over the cycle [rad], periodic
     "turn": 9,                # rad per rad/s of turning towards the stance side
-    "climb": 12,              # rad per unit of slope
+    "climb": 12,              # rad per unit of slope, uphill
     "timing": 2,              # step time [s]; amplitude of the legs' reference about its mean
     "arms": 1,                # amplitude of the arms' reference about its mean
-    "bank": 12,               # rad per unit of slope that rises towards the swing side
+    "descend": 12,            # rad per unit of slope, downhill
     "start": 5,               # from standing, first row only: see `_lean`
 }
 """Blocks of a parameter vector, in order, with their lengths."""
@@ -104,14 +104,12 @@ SENSOR_VALUES = slice(37, 49)
 _BLEND, LAST_TARGET = slice(49, 49 + 39), slice(88, 88 + 39)
 """PD targets of the last tick [rad]."""
 _TARGETS = LAST_TARGET.start
-BANK = 127
-"""Estimated slope across the heading, positive where the ground rises to the left."""
-STATE_SIZE = 128
+STATE_SIZE = 127
 
 _SP = parameter_slices()
 _M_AP, _M_SP, _POSTURE, _A_HAT = (_SP[k].start for k in ("m_ap", "m_sp", "posture", "a_hat"))
 _FF, _TURN, _CLIMB, _TIMING = (_SP[k].start for k in ("feed_forward", "turn", "climb", "timing"))
-_ARMS, _BANK, _START = (_SP[k].start for k in ("arms", "bank", "start"))
+_ARMS, _DESCEND, _START = (_SP[k].start for k in ("arms", "descend", "start"))
 _WAIST, _CHEST, _NECK = (JOINT_NAMES.index(n) for n in ("waist_pitch", "chest_pitch", "neck_pitch"))
 _R_ARM, _L_ARM = (JOINT_NAMES.index(f"{s}_clavicle_elevation") for s in ("right", "left"))
 _R_HIP, _L_HIP = (JOINT_NAMES.index(f"{s}_hip_flexion") for s in ("right", "left"))
@@ -225,19 +223,13 @@ def _switch_stance(state):
         if along > 0.5:
             slope = (state[foot + 2] - state[planted + 2]) / along
             state[SLOPE] += 0.5 * (min(max(slope, -0.4), 0.4) - state[SLOPE])
-        other = 28 + (0 if new_side > 0 else 3)
-        dx, dy = state[foot] - state[other], state[foot + 1] - state[other + 1]
-        across = -sh * dx + ch * dy
-        if abs(across) > 0.08:
-            rise = state[foot + 2] - state[other + 2] - state[SLOPE] * (ch * dx + sh * dy)
-            state[BANK] += 0.3 * (min(max(rise / across, -0.4), 0.4) - state[BANK])
     elapsed = max(state[STEP_TIME], CONTROL_DT)
     moved = (state[14] - state[34]) * ch + (state[15] - state[35]) * sh
     if state[STEPS] >= 1.0:
         state[STEP_LENGTH] = moved
         state[STEP_SPEED] = moved / elapsed
         trim = state[TRIM] + 0.08 * (state[SPEED] - state[STEP_SPEED])
-        state[TRIM] = min(max(trim, -0.4), 0.4)
+        state[TRIM] = min(max(trim, -0.6), 0.6)
     for k in range(3):
         state[planted + k] = state[foot + k]
         state[34 + k] = state[14 + k]
@@ -279,12 +271,13 @@ def _sense(state, side, command, qpos, qvel, out):
 
 
 @njit(cache=True)
-def _feedback(p, delta, turn, slope, bank, raw, out):
+def _feedback(p, delta, turn, slope, raw, out):
     """Actions ``out`` (12,) [rad] as `CLIMB` names them, from the deviations ``delta`` (12,) and raw sensors."""
+    by_slope = _CLIMB if slope >= 0.0 else _DESCEND
+    for i in range(12):
+        out[i] = p[by_slope + i] * slope
     for i in range(9):
-        out[i] = p[_A_HAT + i] + p[_TURN + i] * turn + p[_CLIMB + i] * slope + p[_BANK + i] * bank
-    for i in range(9, 12):
-        out[i] = p[_CLIMB + i] * slope + p[_BANK + i] * bank
+        out[i] += p[_A_HAT + i] + p[_TURN + i] * turn
     for r in range(RANK):
         latent = 0.0
         for j in range(12):
@@ -380,7 +373,7 @@ def run_tick(knots, table, reference, rates, mean, state_reference, limits, stat
         raw[j] = min(max(raw[j], -_CLIP[j]), _CLIP[j])
     action = np.empty(12)
     # turning left (positive) is towards the stance side on the left
-    _feedback(p, delta, state[TURN_RATE] * side, state[SLOPE], -side * state[BANK], raw, action)
+    _feedback(p, delta, state[TURN_RATE] * side, state[SLOPE], raw, action)
 
     share = 0.5 * phase + (0.5 if side > 0 else 0.0)
     pose, rate = np.empty(_N), np.empty(_N)

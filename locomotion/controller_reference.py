@@ -47,7 +47,7 @@ def actions(skill: RunSkill, state: np.ndarray, sensed: np.ndarray) -> np.ndarra
     bound = np.array([0.6, 5.0, 0.2, 1.5, 2.0, 0.5, 0.6, 0.6, 5.0, 5.0, 1.5, 0.4])
     delta = np.clip(sensed - expected, -bound, bound)
     side = state[c.STANCE]
-    result = p["climb"] * state[c.SLOPE] - p["bank"] * state[c.BANK] * side
+    result = (p["climb"] if state[c.SLOPE] >= 0 else p["descend"]) * state[c.SLOPE]
     result[:9] += p["m_ap"].reshape(9, 3) @ p["m_sp"].reshape(3, 12) @ delta
     result[:9] += p["a_hat"] + p["turn"] * state[c.TURN_RATE] * side
     pitch, pitch_rate, roll, yaw, roll_rate, yaw_rate = sensed[[0, 1, 6, 7, 8, 9]]

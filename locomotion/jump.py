@@ -167,7 +167,6 @@ def jump_tick(p, knots, timing, difference, difference_rate, reference, mirror, 
     side, phase = state[controller.STANCE], state[controller.PHASE]
     state[controller.TRIM] = memory[TRIM]
     state[controller.SLOPE] = 0.0
-    state[controller.BANK] = 0.0
     wanted = np.zeros(_N)
     # where the swing foot is, beside the run's sensors
     ch, sh = math.cos(state[controller.HEADING]), math.sin(state[controller.HEADING])

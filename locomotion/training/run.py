@@ -53,7 +53,7 @@ def scales() -> np.ndarray:
     x[part["feed_forward"]] = 0.3
     x[part["turn"]] = 0.2
     x[part["climb"]] = 0.5
-    x[part["bank"]] = 0.5
+    x[part["descend"]] = 0.5
     x[part["start"]] = [0.15, 0.15, 0.03, 0.15, 0.3]
     x[part["timing"]] = [0.06, 0.25]
     x[part["arms"]] = 0.2
@@ -101,7 +101,7 @@ def genes_scale(base: float, slope: float, bend: float, start: float) -> np.ndar
     lean[part["start"]] = one[part["start"]]
     running = one - lean
     shaped = np.zeros(SIZE)
-    for name in ("feed_forward", "a_hat", "timing", "arms", "turn", "climb"):
+    for name in ("feed_forward", "a_hat", "timing", "arms", "turn", "climb", "descend"):
         shaped[part[name]] = one[part[name]]
     return np.concatenate([base * running + start * lean, slope * running, bend * shaped, start * running])
 
@@ -201,7 +201,14 @@ class RunProblem:
 
     def scenarios(self, stage: Stage, generation: int, rng: np.random.Generator) -> list[Scenario]:
         """Random trials within the stage's options."""
-        return [draw_scenario(rng, **stage.options["trial"]) for _ in range(stage.options["trials"])]
+        options, count = dict(stage.options["trial"]), stage.options["trials"]
+        if not options.pop("stratified", False):
+            return [draw_scenario(rng, **options) for _ in range(count)]
+        # one steady speed per trial, spread over the range
+        low, high = options.pop("speeds")
+        edges = np.linspace(low, high, count + 1)
+        speeds = rng.uniform(edges[:-1], edges[1:])
+        return [draw_scenario(rng, speeds=(float(v), float(v)), **options) for v in speeds]
 
     def evaluate(self, stage: Stage, candidate: np.ndarray, scenarios: list[Scenario]) -> tuple[float, float]:
         """Mean cost and mean share of the time survived."""
@@ -265,7 +272,7 @@ def cost(trial: Trial, scenario: Scenario, style: float) -> float:
     wanted_rate = 2.75 * (0.2 * f["speed"] / 3.5 + 0.8)
     return (
         10.0 * lost
-        + 2.0 * f["speed_error"]
+        + 4.0 * f["speed_error"]
         + 1.0 * f["side_drift"]
         + 1.5 * f["heading_error"]
         + 2.0 * f["trunk"]

@@ -48,11 +48,11 @@ def test_kernel_equals_reference() -> None:
     compared = 0
     for tick in range(300):
         runner.command[:] = [0.4 * np.sin(tick / 60), 3.5 + 0.8 * np.sin(tick / 90), 0.2 * np.sin(tick / 40)]
-        runner.state[c.SLOPE], runner.state[c.BANK] = rng.uniform(-0.2, 0.2, 2)
+        runner.state[c.SLOPE] = rng.uniform(-0.2, 0.2)
         qpos, qvel = runner.data.qpos.copy(), runner.data.qvel.copy()
-        slope, bank = runner.state[c.SLOPE], runner.state[c.BANK]
+        slope = runner.state[c.SLOPE]
         runner.control()
-        if (runner.state[c.SLOPE], runner.state[c.BANK]) == (slope, bank):
+        if runner.state[c.SLOPE] == slope:
             sensed = slow.sensors(runner.state, runner.command[2], qpos, qvel)
             wanted = slow.pd_targets(runner.skill, runner.state, sensed, qpos)
             blend = runner.state[49:88]  # what is left of the jump at the last switch
@@ -82,7 +82,7 @@ def test_left_stance_mirrors_right_stance(runner: Runner) -> None:
     for name in ("FEET", "PLANTED"):
         state[getattr(c, name)] = (runner.state[getattr(c, name)].reshape(2, 3)[::-1] * [1, -1, 1]).ravel()
     state[c.CONTACT] = runner.state[c.CONTACT][::-1]
-    for field in (c.STANCE, c.HEADING, c.TURN_RATE, c.BANK):
+    for field in (c.STANCE, c.HEADING, c.TURN_RATE):
         state[field] *= -1
     for start in (49, 88):
         state[start : start + 39] = runner.state[start : start + 39][swap] * odd

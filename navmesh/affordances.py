@@ -9,7 +9,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from navmesh.measuring import DROP, GAP, JUMP, REACH, VAULT, Limits, cells_of, measure
+from navmesh.free_length import REACH, cells_of
+from navmesh.measuring import DROP, GAP, JUMP, VAULT, Limits, measure
 from navmesh.obstacle_rules import AFFORDANCES, ObstacleRules
 from navmesh.obstacles import Obstacles
 from navmesh.probes import ProbeGrid

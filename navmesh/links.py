@@ -10,7 +10,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numba import njit
 
-from navmesh.measuring import cells_of, room
+from navmesh.free_length import cells_of, room
 from navmesh.obstacle_rules import AFFORDANCES
 from navmesh.obstacles import Obstacles
 from navmesh.rules import WalkRules

@@ -10,19 +10,15 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from navmesh.free_length import SAME, free_length
 from navmesh.obstacle_rules import ObstacleRules
 from navmesh.probes import crossed, lowest_above, surface_below
 from navmesh.rules import WalkRules
-from navmesh.surface import Surface
 
-__all__ = ["DROP", "GAP", "JUMP", "REACH", "VAULT", "Limits", "cells_of", "march", "measure", "room"]
+__all__ = ["DROP", "GAP", "JUMP", "VAULT", "Limits", "measure"]
 
 JUMP, VAULT, DROP, GAP = 1, 2, 3, 4
-REACH = 50.0
-"""[m] free lengths are measured up to this."""
-
 _NEAR = 0.03  # [m] beside an edge
-_SAME = 0.05  # [m] surfaces this close in height go on into each other
 _SCAN = 0.05  # [m] stride of a scan across an obstacle, refined by halving
 _BEND = 0.02  # [m] a face that hangs from an edge may lean this little and still count as its foot
 
@@ -69,110 +65,6 @@ class Limits(NamedTuple):
         )
 
 
-def cells_of(surface: Surface) -> tuple:
-    """A `Surface` as the tuple that the kernels take as ``cells``."""
-    return (
-        surface.column_start,
-        surface.cell_column,
-        surface.height,
-        surface.gradient,
-        surface.link,
-        surface.resolution,
-        surface.shape[0],
-        surface.shape[1],
-    )
-
-
-@njit(cache=True)
-def seek(cells, x, y, z, dx, dy, slope, nearest, farthest):
-    """The first cell from (x, y, z) in direction (dx, dy): a floor near height z whose centre is ahead.
-
-    Returns (distance [m], cell), cell -1 when there is none from ``nearest`` to ``farthest``.
-    """
-    size = cells[5]
-    ny = cells[7]
-    stride = 0.25 * size
-    ahead = nearest
-    while ahead <= farthest:
-        px = x + ahead * dx
-        py = y + ahead * dy
-        ix = math.floor(px / size)
-        iy = math.floor(py / size)
-        if 0 <= ix < cells[6] and 0 <= iy < ny:
-            ux = (ix + 0.5) * size - x
-            uy = (iy + 0.5) * size - y
-            if ux * dx + uy * dy > 1e-6:
-                column = ix * ny + iy
-                best = -1
-                least = _SAME + ahead * slope
-                for k in range(cells[0][column], cells[0][column + 1]):
-                    there = cells[2][k] + cells[3][k, 0] * (px - x - ux) + cells[3][k, 1] * (py - y - uy)
-                    if abs(there - z) < least:
-                        least = abs(there - z)
-                        best = k
-                if best >= 0:
-                    return ahead, best
-        ahead += stride
-    return 0.0, -1
-
-
-@njit(cache=True)
-def march(cells, cell, x, y, dx, dy, limit):
-    """Free length [m] from (x, y) in ``cell`` straight in direction (dx, dy), at most ``limit``.
-
-    Returns (length, cell where it ends).
-    """
-    size = cells[5]
-    column = cells[1][cell]
-    ix = column // cells[7]
-    iy = column - ix * cells[7]
-    way_x = 1 if dx > 0.0 else -1
-    way_y = 1 if dy > 0.0 else -1
-    next_x = ((ix + (dx > 0.0)) * size - x) / dx if abs(dx) > 1e-12 else np.inf
-    next_y = ((iy + (dy > 0.0)) * size - y) / dy if abs(dy) > 1e-12 else np.inf
-    step_x = size / abs(dx) if abs(dx) > 1e-12 else np.inf
-    step_y = size / abs(dy) if abs(dy) > 1e-12 else np.inf
-    while True:
-        if next_x < next_y:
-            gone = next_x
-            direction = 0 if way_x > 0 else 2
-            next_x += step_x
-        else:
-            gone = next_y
-            direction = 1 if way_y > 0 else 3
-            next_y += step_y
-        if gone >= limit:
-            return limit, cell
-        following = cells[4][cell, direction]
-        if following < 0:
-            return gone, cell
-        cell = following
-
-
-@njit(cache=True)
-def room(cells, x, y, z, dx, dy, slope, limit):
-    """Free length from an edge point (x, y, z) on, in direction (dx, dy), at most ``limit``.
-
-    The square at the edge may have its centre inside what the edge belongs to, and one beside the line behind
-    a slanting wall: where the line ends at once, it is tried again from the next square.
-    Returns (length [m], distance to the first cell [m], first cell or -1, last cell).
-    """
-    farthest = 1.6 * cells[5]
-    best, at, first, last = 0.0, 0.0, -1, -1
-    nearest = 0.02
-    while nearest <= farthest:
-        ahead, cell = seek(cells, x, y, z, dx, dy, slope, nearest, farthest)
-        if cell < 0:
-            break
-        length, end = march(cells, cell, x + ahead * dx, y + ahead * dy, dx, dy, limit - ahead)
-        if ahead + length > best:
-            best, at, first, last = ahead + length, ahead, cell, end
-        if length >= 1.5 * cells[5] or ahead + length >= limit:
-            break
-        nearest = ahead + 0.25 * cells[5]
-    return best, at, first, last
-
-
 @njit(cache=True)
 def _foot(grid, x, y, z, dx, dy, lowest):
     """The floor at the foot of an edge: (state, its height at the edge [m]).
@@ -187,7 +79,7 @@ def _foot(grid, x, y, z, dx, dy, lowest):
         if t < 0:
             continue
         if grid[0][t, 14] == 2.0:
-            if found > z - _SAME:
+            if found > z - SAME:
                 return 0, 0.0
             return 1, grid[0][t, 9] * x + grid[0][t, 10] * y + grid[0][t, 11]
         if grid[0][t, 14] == 1.0 and found > z - 1e-4:
@@ -213,7 +105,7 @@ def _behind(grid, x, y, z, dx, dy, floor, limits):
     while t <= limits.vault_depth + 0.3:
         found, which = surface_below(grid, x + t * dx, y + t * dy, -np.inf, z + limits.headroom)
         if which >= 0:
-            if found > z + _SAME:
+            if found > z + SAME:
                 return -1.0, 0.0
             if found > z - 0.15:
                 last = t
@@ -223,7 +115,7 @@ def _behind(grid, x, y, z, dx, dy, floor, limits):
                 low, high = last, last + _SCAN
                 while high - low > 5e-4:
                     middle = 0.5 * (low + high)
-                    there, _ = surface_below(grid, x + middle * dx, y + middle * dy, z - 0.15, z + _SAME)
+                    there, _ = surface_below(grid, x + middle * dx, y + middle * dy, z - 0.15, z + SAME)
                     if there > -np.inf:
                         low = middle
                     else:
@@ -240,7 +132,7 @@ def _floor_below(cells, x, y, z, dx, dy, limits, deepest):
     """Whether there are cells close by, at most ``deepest`` below z: a quick look before the triangles."""
     size = cells[5]
     ny = cells[7]
-    slack = _SAME + 2.0 * size * limits.slope
+    slack = SAME + 2.0 * size * limits.slope
     t = 0.02
     while t <= 1.6 * size:
         ix = math.floor((x + t * dx) / size)
@@ -295,11 +187,17 @@ def _across(grid, x, y, z, dx, dy, limits):
             # floor that comes up gently to the other side is walked, not leapt
             before = max(low - _NEAR, 0.0)
             there, which = surface_below(grid, x + before * dx, y + before * dy, -np.inf, found)
-            if which >= 0 and grid[0][which, 14] == 2.0 and there > found - limits.step - _SAME:
+            if which >= 0 and grid[0][which, 14] == 2.0 and there > found - limits.step - SAME:
                 return -1.0, 0.0
             return width, found
         t += _SCAN
     return -1.0, 0.0
+
+
+@njit(cache=True)
+def _free(grid, cells, x, y, z, dx, dy, limits, reach):
+    slope, step, headroom = limits.slope, limits.step, limits.headroom
+    return free_length(grid, cells, x, y, z, dx, dy, slope, step, headroom, reach)
 
 
 @njit(cache=True, inline="always")
@@ -326,7 +224,7 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, reach, kind, size):
     if height <= limits.step:
         return
     reachable = reachable and height <= deepest
-    lean = _SAME + _NEAR * limits.slope
+    lean = SAME + _NEAR * limits.slope
     if lowest_above(grid, x + _NEAR * ox, y + _NEAR * oy, z + lean, z + limits.headroom) < np.inf:
         return
     if lowest_above(grid, x - _NEAR * ox, y - _NEAR * oy, z + lean, z + limits.headroom) < np.inf:
@@ -335,10 +233,10 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, reach, kind, size):
     rim = t >= 0 and grid[0][t, 14] == 2.0
     top, top_ahead, top_cell = 0.0, 0.0, -1
     if rim:
-        top, top_ahead, top_cell, _ = room(cells, x, y, z, -ox, -oy, limits.slope, reach)
+        top, top_ahead, top_cell = _free(grid, cells, x, y, z, -ox, -oy, limits, reach)
     low, low_ahead, low_cell = 0.0, 0.0, -1
     if reachable:
-        low, low_ahead, low_cell, _ = room(cells, x, y, floor, ox, oy, limits.slope, reach)
+        low, low_ahead, low_cell = _free(grid, cells, x, y, floor, ox, oy, limits, reach)
     lx, ly = x + low_ahead * ox, y + low_ahead * oy
     tx, ty = x - top_ahead * ox, y - top_ahead * oy
     top_z = max(z, cells[2][top_cell]) if top_cell >= 0 else z
@@ -351,7 +249,7 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, reach, kind, size):
             depth, behind = _behind(grid, x, y, z, -ox, -oy, floor, limits)
             if depth >= 0.0:
                 bx, by = x - depth * ox, y - depth * oy
-                free, ahead, cell, _ = room(cells, bx, by, behind, -ox, -oy, limits.slope, reach)
+                free, ahead, cell = _free(grid, cells, bx, by, behind, -ox, -oy, limits, reach)
                 if cell >= 0 and free >= limits.landing:
                     fx, fy = bx - ahead * ox, by - ahead * oy
                     if _air(grid, lx, ly, z, fx, fy, z, limits.headroom):
@@ -368,7 +266,7 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, reach, kind, size):
     width, other = _across(grid, x, y, z, ox, oy, limits)
     if width >= 0.0:
         bx, by = x + width * ox, y + width * oy
-        free, ahead, cell, _ = room(cells, bx, by, other, ox, oy, limits.slope, reach)
+        free, ahead, cell = _free(grid, cells, bx, by, other, ox, oy, limits, reach)
         if cell >= 0 and free >= limits.landing:
             fx, fy = bx + ahead * ox, by + ahead * oy
             if _air(grid, tx, ty, top_z, fx, fy, max(other, cells[2][cell]), limits.headroom):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from navmesh.errors import NavmeshError
-from navmesh.measuring import REACH, cells_of, room
+from navmesh.free_length import REACH, cells_of, room
 from navmesh.obstacle_rules import AFFORDANCES
 from navmesh.obstacles import Obstacles
 from navmesh.rules import WalkRules

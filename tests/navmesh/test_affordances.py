@@ -12,7 +12,7 @@ from benchmarks.affordances import compare
 from benchmarks.obstacle_scenes import Mesh, box, merged, plate, random_scene, turned
 from navmesh.affordances import detect_obstacles
 from navmesh.build import build_surface
-from navmesh.measuring import cells_of, march
+from navmesh.free_length import cells_of, march
 from navmesh.obstacles import Obstacles
 
 COURTYARD = Path(__file__).resolve().parents[2] / "examples" / "levels" / "courtyard.obj"

@@ -6,7 +6,7 @@ from numba import njit
 
 from navmesh.field import floor_at, gap_at, walk
 
-__all__ = ["snap"]
+__all__ = ["roomy_cell", "snap"]
 
 _MARGIN = 1e-3
 
@@ -51,7 +51,7 @@ def _nearest_cell(net, x, y, z, reach, rise):
 
 
 @njit(cache=True)
-def _roomy_cell(net, k, x, y, radius, reach):
+def roomy_cell(net, k, x, y, radius, reach):
     """The cell nearest to (x, y), reached over links from ``k`` within ``reach``, whose centre has ``radius`` free, or -1."""
     h = net.cell
     rings = int(reach / h) + 1
@@ -123,7 +123,7 @@ def snap(net, x, y, z, radius, reach, rise):
                     x, y, k, gap = nx, ny, cell, after
     if gap >= radius and net.clearance[k] >= radius:
         return net.label[k], k, x, y
-    cell = _roomy_cell(net, k, x, y, radius, reach)
+    cell = roomy_cell(net, k, x, y, radius, reach)
     if cell < 0:
         return -1, -1, x, y
     if gap >= radius:

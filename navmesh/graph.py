@@ -8,7 +8,7 @@ from typing import Any
 import networkx
 import numpy as np
 
-from navmesh import archive, edges, nodes, pathfinding
+from navmesh import archive, edges, nodes, pathfinding, queries
 from navmesh.affordances import detect_obstacles
 from navmesh.build import build_surface
 from navmesh.errors import NavmeshError
@@ -225,6 +225,44 @@ class NodeGraph:
     ) -> PathSearch:
         """`find_path` as a search that is spread over frames: ``advance`` it, then ``finish`` it."""
         return PathSearch(self, start, goal, radius, skills, node_costs)
+
+    def project(self, points: Any) -> tuple[Any, Any]:
+        """The floor at ``points`` (3,) or (k, 3): (cell, world z); see `navmesh.queries`."""
+        return queries.project(self, points)
+
+    def clearance_at(self, points: Any) -> Any:
+        """Distance [m] from ``points`` (3,) or (k, 3) to where walking ends; 0 off the surface."""
+        return queries.clearance_at(self, points)
+
+    def nearest_edge(self, points: Any) -> queries.NearestEdge:
+        """The nearest place where walking ends, and how far it is, for ``points`` (3,) or (k, 3)."""
+        return queries.nearest_edge(self, points)
+
+    def nearest_node(self, points: Any) -> Any:
+        """The node nearest in space to ``points`` (3,) or (k, 3)."""
+        return queries.nearest_node(self, points)
+
+    def containing_node(self, points: Any) -> Any:
+        """The node that owns the place of ``points`` (3,) or (k, 3), or -1."""
+        return queries.containing_node(self, points)
+
+    def cast_ray(self, starts: Any, ends: Any, radius: float = 0.0) -> queries.Ray:
+        """How far a body gets from ``starts`` straight towards ``ends`` (3,) or (k, 3) each."""
+        return queries.cast_ray(self, starts, ends, radius)
+
+    def random_points(
+        self, rng: np.random.Generator, count: int, radius: float = 0.3, reachable_from: Any = None
+    ) -> np.ndarray:
+        """``count`` places (count, 3) where a body of ``radius`` fits, evenly spread over the surface."""
+        return queries.random_points(self, rng, count, radius, reachable_from)
+
+    def reachable_nodes(self, start: Any, radius: float = 0.3) -> np.ndarray:
+        """The nodes that a body of ``radius`` can walk to from ``start`` (3,)."""
+        return queries.reachable_nodes(self, start, radius)
+
+    def room_to_turn(self, points: Any, length: float) -> Any:
+        """Whether a body of ``length`` can turn around at ``points`` (3,) or (k, 3)."""
+        return queries.room_to_turn(self, points, length)
 
     def to_networkx(self) -> networkx.Graph:
         """The graph for analysis: nodes with ``position`` (x, y, z) and ``radius``, edges with ``width``

@@ -121,12 +121,18 @@ def train(
     ] = None,
     seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same skill.")] = 0,
     workers: Annotated[int, typer.Option(min=1, help="Processes.")] = 2,
-    resume: Annotated[bool, typer.Option(help="Go on from the checkpoint of an interrupted run.")] = True,
+    checkpoint: Annotated[
+        Path | None,
+        typer.Option(help="Where to keep what was learned so far; default: SKILL.checkpoint here."),
+    ] = None,
+    effort: Annotated[
+        float, typer.Option(min=0.01, max=100.0, help="Scales the number of generations.")
+    ] = 1.0,
 ) -> None:
-    """Learn a skill; shows its progress and can be interrupted and resumed."""
+    """Learn a skill, with progress. Interrupted, it goes on from its checkpoint when started again."""
     from runtime.commands import train_skill
 
-    train_skill(skill.value, output, seed, workers, resume)
+    train_skill(skill.value, output, seed, workers, checkpoint, effort)
 
 
 @app.command()

@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +18,16 @@ from runtime.rules import person_walk_rules
 from runtime.trace import Trace
 from runtime.warmup import compile_kernels, is_compiled
 
-__all__ = ["INPUT_ERRORS", "Result", "bake_level", "find_path", "run_mission_file", "write_view"]
+__all__ = [
+    "INPUT_ERRORS",
+    "Result",
+    "bake_level",
+    "evaluate_skill",
+    "find_path",
+    "run_mission_file",
+    "train_skill",
+    "write_view",
+]
 
 INPUT_ERRORS = (navmesh.NavmeshError, PathSmoothError, LocomotionError, RuntimeInputError)
 """Errors that say what is wrong with the input."""
@@ -131,6 +140,39 @@ def write_view(source: Path, output: Path) -> Result:
     return Result(
         values, True, lambda: print(f"{output}: open it in a browser ({values['bytes'] / 1e6:.1f} MB)")
     )
+
+
+def train_skill(
+    skill: str, output: Path | None, seed: int, workers: int, checkpoint: Path | None, effort: float
+) -> None:
+    """Learn ``skill`` and write it to ``output`` (None: where the package keeps its own)."""
+    from locomotion.training.jump import train_jump
+    from locomotion.training.run import train_run
+
+    train = {"run": train_run, "jump": train_jump}[skill]
+    where = {} if output is None else {"out": output}
+    if output is not None:
+        _writable(output)
+    kept = checkpoint or Path(f"{skill}.checkpoint")
+    train(**where, seed=seed, checkpoint=kept, workers=workers, effort=effort)
+    print(f"learned to {skill}; the checkpoint {kept} is not needed any more")
+
+
+def evaluate_skill(skill: str, trials: int, seed: int) -> Result:
+    """Try ``skill``; holds when at least nine of ten trials do."""
+    from runtime.evaluation import evaluate_jump, evaluate_run
+
+    progress = _ready()
+    attempts = (evaluate_run if skill == "run" else evaluate_jump)(trials, seed, progress)
+    held = sum(attempt.held for attempt in attempts)
+    values = {"skill": skill, "held": held, "trials": trials, "attempts": [asdict(each) for each in attempts]}
+
+    def show() -> None:
+        for attempt in attempts:
+            print(f"{attempt.what:24} {attempt.status}")
+        print(f"{skill}: {held} of {trials} held ({100.0 * held / trials:.0f} %)")
+
+    return Result(values, held >= 0.9 * trials, show)
 
 
 def _write_results(trace: Trace, folder: Path, progress: Progress) -> list[Path]:

@@ -13,8 +13,8 @@ class Shapes:
     """Shapes in one frame of reference.
 
     ``place`` (m, 7) float64: position [m] and quaternion wxyz of each. ``size`` (m, 3) float64 [m]: of an
-    ellipsoid its half axes; of a capsule its radius, half the length of its axis (along the shape's z), and 0.
-    ``round`` (m,) bool: whether it is an ellipsoid. ``colour`` (m, 3) float64, 0…1.
+    ellipsoid its half axes; of a capsule its radius, half the length of its axis (along the shape's z),
+    and 0. ``round`` (m,) bool: whether it is an ellipsoid. ``colour`` (m, 3) float64, 0…1.
     """
 
     place: np.ndarray

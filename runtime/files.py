@@ -29,7 +29,7 @@ def whole_file(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 
 def check_output_folder(path: str | os.PathLike[str]) -> Path:
-    """``path`` as a folder that exists or can be made; raises `RuntimeInputError` when it cannot. Makes nothing."""
+    """``path`` as a folder that exists or can be made; `RuntimeInputError` if not. Makes nothing."""
     folder = Path(path)
     ancestor = folder
     while not ancestor.exists() and ancestor != ancestor.parent:

@@ -31,8 +31,8 @@ class Plan:
     """A path through all goals, and how it came about; all points in the world [m].
 
     ``raw`` (a, 3) are the centres of the discs that A* chose, ``pulled`` (b, 3) the shortest line through
-    them, ``points`` (n, 3) the smoothed path that a body follows. ``obstacles`` are what it crosses, in order;
-    their arc lengths count from the beginning of ``points``. ``skills`` are their affordances.
+    them, ``points`` (n, 3) the smoothed path that a body follows. ``obstacles`` are what it crosses, in
+    order; their arc lengths count from the beginning of ``points``. ``skills`` are their affordances.
     """
 
     raw: np.ndarray

@@ -19,7 +19,7 @@ FLOOR, FLOOR_DARK, WALL = (
 
 @dataclass(frozen=True)
 class Camera:
-    """Where the picture is taken from: ``eye``, ``target`` (3,) [m], ``fov`` [rad] of the picture's height."""
+    """Where a picture is taken from: ``eye``, ``target`` (3,) [m], ``fov`` [rad] of the picture's height."""
 
     eye: np.ndarray
     target: np.ndarray

@@ -2,6 +2,7 @@
 
 import hashlib
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -29,7 +30,7 @@ class WorldState:
     ticks: int
     owed: float
     events: tuple[Event, ...]
-    random: dict[str, Any]
+    random: Mapping[str, Any]
     agents: dict[str, AgentState]
 
 
@@ -74,9 +75,9 @@ class World:
     def spawn(self, body: str, at: ArrayLike, facing: float = 0.0, name: str | None = None) -> Agent:
         """Put a standing ``body`` on the walkable surface at ``at`` (3,) [m], facing ``facing`` [rad].
 
-        The place is moved to the nearest one where the body fits (see `NodeGraph.find_path`). ``name`` is its
-        own in this world; by default "human1" and so on. Raises `RuntimeInputError` for an unknown body, a taken
-        name, or a place off the walkable surface.
+        The place is moved to the nearest one where the body fits (see `NodeGraph.find_path`). ``name`` is
+        its own in this world; by default "human1" and so on. Raises `RuntimeInputError` for an unknown body,
+        a taken name, or a place off the walkable surface.
         """
         if body not in BODIES:
             raise RuntimeInputError(f"body {body!r}: valid: {', '.join(map(repr, BODIES))}")

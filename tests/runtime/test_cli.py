@@ -1,0 +1,207 @@
+"""The ``surefoot`` command: what it answers, and how it refuses wrong input."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from conftest import MISSION
+
+from navmesh.archive import read_archive, write_archive
+from runtime.cli import main
+
+
+@pytest.fixture
+def surefoot(capsys):
+    """Runs the command in this process; returns exit code, standard output, standard error."""
+
+    def call(*arguments):
+        with pytest.raises(SystemExit) as left:
+            main([str(each) for each in arguments])
+        output = capsys.readouterr()
+        return left.value.code, output.out, output.err
+
+    return call
+
+
+def names(folder):
+    return sorted(each.name for each in folder.iterdir())
+
+
+def one_line(message):
+    return message.startswith("surefoot: ") and message.count("\n") == 1 and "Traceback" not in message
+
+
+@pytest.mark.parametrize("command", ["", "bake", "path", "run", "train", "evaluate", "view"])
+def test_help(surefoot, command):
+    code, out, _ = surefoot(*command.split(), "--help")
+    assert code == 0
+    assert "Usage: surefoot" in out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["fly"], "fly"),
+        (["bake"], "LEVEL"),
+        (["bake", "level.obj", "-o", "graph.npz", "--up", "w"], "'x', 'y', 'z'"),
+        (["path", "graph.npz", "--start", "1", "2"], "start"),
+        (["train", "swim"], "'run', 'jump'"),
+    ],
+)
+def test_usage_errors(surefoot, arguments, says):
+    code, _, err = surefoot(*arguments)
+    assert code == 2 and one_line(err) and says in err
+
+
+MESHES = {
+    "missing": (None, "no such file"),
+    "not a mesh": ("hello", "no triangles"),
+    "no triangles": ("v 0 0 0\nv 1 0 0\n", "no triangles"),
+    "not finite": ("v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "not finite"),
+    "infinite": ("v 0 0 0\nv inf 0 0\nv 0 1 0\nf 1 2 3\n", "not finite"),
+    "all ceilings": ("v 0 0 3\nv 9 0 3\nv 0 9 3\nf 1 3 2\n", "walk"),
+}
+
+
+@pytest.mark.parametrize("kind", MESHES)
+def test_bad_levels(surefoot, tmp_path, kind):
+    content, says = MESHES[kind]
+    level = tmp_path / "level.obj"
+    if content is not None:
+        level.write_text(content)
+    before = names(tmp_path)
+    code, _, err = surefoot("bake", level, "-o", tmp_path / "graph.npz")
+    assert code == 2 and one_line(err) and says in err
+    assert names(tmp_path) == before
+
+
+@pytest.mark.parametrize("kind", MESHES)
+def test_bad_levels_of_missions(surefoot, folder, kind):
+    content, says = MESHES[kind]
+    (folder / "level.obj").unlink()
+    if content is not None:
+        (folder / "level.obj").write_text(content)
+    before = names(folder)
+    code, _, err = surefoot("run", folder / "mission.yaml", "--out", folder / "out")
+    assert code == 2 and one_line(err) and (says in err or "no such level" in err)
+    assert "mission.yaml:2:9: " in err
+    assert names(folder) == before
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "place", "says"),
+    [
+        ("[9, 3, 0]", "[18, 3, 0]", "13:9", "goto[0]: [18.0, 3.0, 0.0] cannot be reached"),
+        ("[9, 3, 0]", "[9, 3, 0]\n      - [90, 3, 0]", "14:9", "goto[1]: [90.0, 3.0, 0.0] cannot be reached"),
+        ("[2, 3, 0]", "[-4, 3, 0]", "9:12", "start: [-4.0, 3.0, 0.0] is not near a place"),
+        ("speed: 3.0", "sped: 3.0", "11:5", "did you mean 'speed'"),
+        ("seed: 3", "seed: three", "4:7", "valid integer"),
+        ("up: z", "up: z\n  tags: gone.yaml", "4:9", "no such tags file"),
+    ],
+)
+def test_bad_missions(surefoot, folder, old, new, place, says):
+    (folder / "mission.yaml").write_text(MISSION.replace(old, new, 1))
+    before = names(folder)
+    code, out, err = surefoot("run", folder / "mission.yaml", "--out", folder / "out")
+    assert (code, out) == (2, "") and one_line(err)
+    assert f"mission.yaml:{place}: " in err and says in err
+    assert names(folder) == before
+
+
+def test_results_need_a_folder(surefoot, folder):
+    (folder / "taken").write_text("")
+    code, _, err = surefoot("run", folder / "mission.yaml", "--out", folder / "taken" / "out")
+    assert code == 2 and one_line(err) and "not a folder" in err
+    code, _, err = surefoot("bake", folder / "level.obj", "-o", folder / "nowhere" / "graph.npz")
+    assert code == 2 and one_line(err) and "no folder" in err
+
+
+def test_bakes_a_graph_and_finds_paths(surefoot, folder):
+    graph = folder / "graph.npz"
+    code, out, _ = surefoot("bake", folder / "level.obj", "-o", graph, "--max-step", 0.3, "--json")
+    values = json.loads(out)
+    assert code == 0 and values["triangles"] == 4 and values["nodes"] > 10
+    header, _ = read_archive(graph, "surefoot navigation graph", 3)
+    assert header["rules"]["max_step"] == 0.3
+
+    ends = ["--start", 2, 3, 0, "--goal", 9, 3, 0]
+    code, out, _ = surefoot("path", graph, *ends, "--json")
+    values = json.loads(out)
+    assert code == 0 and values["status"] == "complete" and values["length"] == pytest.approx(7.0, abs=0.3)
+    assert surefoot("path", graph, *ends, "--smooth")[0] == 0
+    code, out, _ = surefoot("path", graph, "--start", 2, 3, 0, "--goal", 18, 3, 0)
+    assert code == 1 and not out.startswith("complete")
+    code, out, _ = surefoot("path", graph, "--start", 2, 3, 0, "--goal", 90, 3, 0, "--json")
+    assert code == 1 and json.loads(out)["status"] == "off_graph"
+
+
+def test_bad_graphs(surefoot, folder):
+    graph = folder / "graph.npz"
+    ends = ["--start", 2, 3, 0, "--goal", 9, 3, 0]
+    surefoot("bake", folder / "level.obj", "-o", graph)
+    whole = graph.read_bytes()
+    header, arrays = read_archive(graph, "surefoot navigation graph", 3)
+    graph.write_bytes(whole[: len(whole) // 2])
+    code, _, err = surefoot("path", graph, *ends)
+    assert code == 2 and one_line(err) and "cut off or damaged" in err
+    write_archive(graph, "surefoot navigation graph", 1, header, arrays)
+    code, _, err = surefoot("path", graph, *ends)
+    assert code == 2 and one_line(err) and "version 1" in err
+    moved = {**arrays, "terrain_vertices": arrays["terrain_vertices"] + 1.0}
+    write_archive(graph, "surefoot navigation graph", 3, header, moved)
+    code, _, err = surefoot("path", graph, *ends)
+    assert code == 2 and one_line(err) and "terrain" in err
+    code, _, err = surefoot("path", folder / "gone.npz", *ends)
+    assert code == 2 and one_line(err) and "no such file" in err
+
+
+def test_runs_a_mission_and_leaves_its_results(surefoot, folder):
+    out_folder = folder / "deep" / "out"
+    code, out, _ = surefoot("run", folder / "mission.yaml", "--out", out_folder, "--json")
+    values = json.loads(out)
+    assert code == (0 if values["held"] else 1)
+    assert {check["expected"] for check in values["checks"]} == {"arrives within 15 s", "never falls"}
+    assert values["events"][0]["kind"] == "Departed"
+    assert names(out_folder) == ["film.png", "level.png", "run.html", "trace.npz"]
+
+    again = json.loads(surefoot("run", folder / "mission.yaml", "--json")[1])
+    assert again["state_hash"] == values["state_hash"]
+
+    code, _, _ = surefoot("view", out_folder / "trace.npz", "-o", folder / "again.html")
+    assert code == 0 and (folder / "again.html").stat().st_size > 500_000
+    code, _, err = surefoot("view", folder / "level.obj", "-o", folder / "none.html")
+    assert code == 2 and one_line(err) and not (folder / "none.html").exists()
+
+
+def test_an_expectation_that_fails_is_exit_code_1(surefoot, folder):
+    (folder / "mission.yaml").write_text(MISSION.replace("arrives_within: 15", "arrives_within: 0.5"))
+    code, out, _ = surefoot("run", folder / "mission.yaml")
+    assert code == 1
+    assert "arrives within 0.5 s" in out and "no" in out
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupted_run_leaves_nothing(folder, number):
+    (folder / "mission.yaml").write_text(MISSION.replace("time_limit: 20", "time_limit: 86400"))
+    before = names(folder)
+    command = [sys.executable, "-c", "from runtime.cli import main; print('up', flush=True); main()"]
+    run = subprocess.Popen(
+        [*command, "run", str(folder / "mission.yaml"), "--out", str(folder / "out")],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**os.environ, "PYTHONUNBUFFERED": "1"},
+    )  # fmt: skip
+    assert run.stdout is not None
+    assert run.stdout.readline() == "up\n"
+    os.kill(run.pid, number)
+    _, err = run.communicate(timeout=120)
+    assert run.returncode != 0 and "Traceback" not in err
+    assert names(folder) == before
+
+
+def test_quiet_when_not_a_terminal(surefoot, folder):
+    _, out, err = surefoot("bake", folder / "level.obj", "-o", folder / "graph.npz", "--json")
+    assert err == "" and json.loads(out)
+    assert not np.any([line.startswith("\x1b") for line in out.splitlines()])

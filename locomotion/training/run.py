@@ -51,9 +51,9 @@ def scales() -> np.ndarray:
     x[part["posture"]] = [0.5, 0.5, 0.5, 0.5, 0.05, 0.5, 0.05, 0.5, 0.05]
     x[part["a_hat"]] = 0.15
     x[part["feed_forward"]] = 0.3
-    x[part["turn"]] = 0.2
-    x[part["climb"]] = 0.5
-    x[part["descend"]] = 0.5
+    x[part["turn"]] = 0.5
+    x[part["climb"]] = 1.0
+    x[part["descend"]] = 1.0
     x[part["start"]] = [0.15, 0.15, 0.03, 0.15, 0.3]
     x[part["timing"]] = [0.06, 0.25]
     x[part["arms"]] = 0.2
@@ -104,6 +104,14 @@ def genes_scale(base: float, slope: float, bend: float, start: float) -> np.ndar
     for name in ("feed_forward", "a_hat", "timing", "arms", "turn", "climb", "descend"):
         shaped[part[name]] = one[part[name]]
     return np.concatenate([base * running + start * lean, slope * running, bend * shaped, start * running])
+
+
+def terms_scale(*names: str) -> np.ndarray:
+    """Scale of all genes where only the blocks ``names`` of `controller.PARAMETERS` are free, with their change by speed."""
+    one, part, free = scales(), c.parameter_slices(), np.zeros(SIZE)
+    for name in names:
+        free[part[name]] = one[part[name]]
+    return np.concatenate([free, free, np.zeros(2 * SIZE)])
 
 
 def _stage(name: str, generations: int, sigma: float, scale: np.ndarray, trials: int, style: float, **trial: Any) -> Stage:
@@ -202,13 +210,17 @@ class RunProblem:
     def scenarios(self, stage: Stage, generation: int, rng: np.random.Generator) -> list[Scenario]:
         """Random trials within the stage's options."""
         options, count = dict(stage.options["trial"]), stage.options["trials"]
-        if not options.pop("stratified", False):
+        if not options.pop("spread", False):
             return [draw_scenario(rng, **options) for _ in range(count)]
-        # one steady speed per trial, spread over the range
+        # one steady speed per trial, spread over the range; flat, bend, slope, bend by turns
         low, high = options.pop("speeds")
         edges = np.linspace(low, high, count + 1)
-        speeds = rng.uniform(edges[:-1], edges[1:])
-        return [draw_scenario(rng, speeds=(float(v), float(v)), **options) for v in speeds]
+        speeds = rng.permutation(rng.uniform(edges[:-1], edges[1:]))
+        flat, bend, slope = {"lateral": 0.0, "tilt": 0.0}, {"tilt": 0.0}, {"lateral": 0.0}
+        kinds = (flat, bend, slope, bend)
+        return [
+            draw_scenario(rng, speeds=(float(v), float(v)), **{**options, **kinds[i % 4]}) for i, v in enumerate(speeds)
+        ]
 
     def evaluate(self, stage: Stage, candidate: np.ndarray, scenarios: list[Scenario]) -> tuple[float, float]:
         """Mean cost and mean share of the time survived."""

@@ -2,13 +2,14 @@
 
     human = Human(ground)
     human.reset(position=(x, y, z), yaw=0.0)
-    human.follow(path, speed=3.5)
+    human.follow(path, speed=3.5)                       # obstacles=... where the path crosses some
     while human.status == "running":
         human.tick()                                    # 10 ms
 
 What holds until there are skills for it: a person that stands (after `reset` with speed 0, or after it has
-arrived) is held still rather than balanced, and sets off by being put into the running motion at the skill's
-lowest speed, facing along its path.
+arrived) is held still rather than balanced. When it is told to go it is put into the running motion at
+`SET_OFF_SPEED`, facing along its path. On the last metres it slows down to its lowest speed; arrived, it is
+held.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import hashlib
 import math
 import threading
 import weakref
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -25,12 +27,25 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from locomotion import controller, path_tracking
+from locomotion.clearing import RUN_UP, ClearingSkill, foot_distance, plan_run_up, skill_for
 from locomotion.controller import observe, run_tick
 from locomotion.errors import LocomotionError
-from locomotion.events import Arrived, Event, Fell, GotStuck, MissedGoal, SetOff, StrayedFromPath
+from locomotion.events import (
+    Arrived,
+    Cleared,
+    Event,
+    Fell,
+    GotStuck,
+    MissedGoal,
+    SetOff,
+    StrayedFromPath,
+    TookOff,
+)  # fmt: skip
 from locomotion.ground import Ground
+from locomotion.jump_skill import JUMP_SKILL, Jump, load_jump_skill
 from locomotion.path_tracking import PathTable, TrackingLimits, make_path, new_track, track
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK, PersonIndex, build_person
+from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill, load_run_skill, reset_running, reset_standing
 
 __all__ = ["ARRIVAL_DISTANCE", "PERSON_RULES", "Human", "HumanState", "Status"]
@@ -41,11 +56,17 @@ PERSON_RULES = {"radius": 0.3, "headroom": 1.9, "max_slope": math.radians(20.0),
 """Where a person can run: radius [m], headroom [m], steepest slope [rad], highest step under a foot [m]."""
 ARRIVAL_DISTANCE = 0.5
 """A person has arrived when its centre of mass is within this horizontal distance of the goal [m]."""
+SET_OFF_SPEED = 3.0
+"""[m/s] at which a held person begins to run, within the range of its skill."""
 STRAYED = 2.0
 """[m] beside the path at which a person gives up following it."""
 STUCK_TIME = 4.0
 """[s] without headway along the path after which a person counts as stuck."""
+_NEXT, _STEPS_SEEN, _PLANNED = range(3)
+_RUN_UP_SIZE = 3
+# number of the next obstacle, steps made when the run-up was last planned, speed planned for this step or 0
 _FALL_TICKS = 100  # a fallen body is simulated for this long, then held
+_SHARE_OF_TURNING = 0.8  # the rest of the skill's sideways acceleration is left for corrections
 _GAINS = np.array([0.35, 1.2, 0.15, 0.45, 0.5, 0.2])
 _STATE = mujoco.mjtState.mjSTATE_INTEGRATION
 
@@ -70,6 +91,11 @@ def _model_on(ground: Ground | None) -> tuple[mujoco.MjModel, PersonIndex]:
         return found
 
 
+def _jump(run: RunSkill) -> tuple[ClearingSkill, ...]:
+    """The package's jump on top of a run; none on a run that it was not learned on."""
+    return (Jump(load_jump_skill(), run),) if JUMP_SKILL.exists() else ()
+
+
 @dataclass(frozen=True)
 class HumanState:
     """Everything that a `Human` remembers; restoring it continues the run bit for bit on the same ground."""
@@ -77,7 +103,10 @@ class HumanState:
     physics: NDArray[np.float64]
     control: NDArray[np.float64]
     tracking: NDArray[np.float64]
+    run_up: NDArray[np.float64]
+    clearing: NDArray[np.float64] | None
     path: PathTable | None
+    obstacles: tuple[ObstacleAhead, ...]
     status: Status
     ticks: int
     fallen_at: int
@@ -94,18 +123,28 @@ class Human:
         model, data: the MuJoCo model (shared by all persons on the same ground) and this person's own data.
     """
 
-    def __init__(self, ground: Ground | None = None, skill: RunSkill | None = None) -> None:
-        """``ground``: None is the endless plane z = 0. ``skill``: how it runs; None loads the package's."""
+    def __init__(
+        self,
+        ground: Ground | None = None,
+        skill: RunSkill | None = None,
+        clearing: Sequence[ClearingSkill] | None = None,
+    ) -> None:
+        """``ground``: None is the endless plane z = 0. ``skill``: how it runs; None loads the package's.
+        ``clearing``: how it clears obstacles; None: as the package's jump does."""
         self.ground = ground
         self.skill = load_run_skill() if skill is None else skill
+        self.clearing = _jump(self.skill) if clearing is None else tuple(clearing)
         self.model, self.index = _model_on(ground)
         self.data = mujoco.MjData(self.model)
-        self.limits = TrackingLimits(self.skill.speeds)
+        self.limits = TrackingLimits(self.skill.speeds, sideways=_SHARE_OF_TURNING * self.skill.max_lateral)
         self.events: list[Event] = []
         self._control = controller.new_state()
         self._memory = new_track()
         self._command = np.zeros(3)
         self._path: PathTable | None = None
+        self._obstacles: tuple[ObstacleAhead, ...] = ()
+        self._run_up = np.zeros(_RUN_UP_SIZE)
+        self._clearing: NDArray[np.float64] | None = None
         self._ticks = 0
         self._fallen_at = 0
         self.status: Status = "standing"
@@ -185,27 +224,37 @@ class Human:
         if not (np.isfinite(speed) and speed >= 0.0):
             raise LocomotionError(f"speed must be a finite number >= 0 m/s, not {speed}")
         self._place(place if self.ground is None else self._on_ground(place), yaw, speed)
-        self._path = None
+        self._path, self._obstacles, self._clearing = None, (), None
         self.status = "standing" if speed == 0.0 else "running"
 
-    def follow(self, path: ArrayLike, speed: float) -> None:
+    def follow(self, path: ArrayLike, speed: float, obstacles: Sequence[ObstacleAhead] = ()) -> None:
         """Run along ``path`` (n, 3) [m, on the ground] at up to ``speed`` [m/s]; slower in bends, on slopes
-        and before the end.
+        and before the end. ``obstacles``: what the path crosses, in order.
 
         A held person sets off as the module's text says; a running one goes on as it is. Raises
-        `LocomotionError` for a bad path or speed, a path that begins more than 2 m from the person, or a
-        person that has fallen.
+        `LocomotionError` for a bad path or speed, a path that begins more than 2 m from the person, an
+        obstacle that none of its skills clears, or a person that has fallen.
         """
         if self.status == "fallen":
             raise LocomotionError("the person has fallen and cannot get up yet; reset it")
-        table = make_path(path, speed, self.limits, float(np.linalg.norm(self.velocity[:2])))
+        for obstacle in obstacles:
+            if skill_for(self.clearing, obstacle) is None:
+                wanted = f"{obstacle.affordance} {obstacle.height:.2f} m"
+                offered = [f"{s.affordance} {s.heights[0]:g} to {s.heights[1]:g} m" for s in self.clearing]
+                raise LocomotionError(f"no skill clears {wanted}; there are {offered or 'none'}")
+        edges = [obstacle.arc_length for obstacle in obstacles]
+        table = make_path(path, speed, self.limits, float(np.linalg.norm(self.velocity[:2])), edges)
         start, here = table.table[0, :3], self.position
         gap = float(np.linalg.norm(start[:2] - here[:2]))
         if gap > STRAYED or abs(start[2] - here[2]) > STRAYED:
             raise LocomotionError(f"the path begins at {start.round(2)}, the person is at {here.round(2)}")
         if self.held:
-            self._place(here, float(table.table[0, path_tracking.HEADING]), self.limits.speeds[0])
-        self._path = table
+            low, high = self.skill.speeds
+            yaw = float(table.table[0, path_tracking.HEADING])
+            self._place(here, yaw, min(max(SET_OFF_SPEED, low), high))
+        self._path, self._obstacles = table, tuple(obstacles)
+        self._run_up[:] = 0.0
+        self._clearing = None
         self._memory[:] = new_track()
         self._memory[path_tracking.HEADWAY_TICK] = self._ticks
         self._memory[path_tracking.REMAINING] = table.length
@@ -226,7 +275,11 @@ class Human:
                 self._path.table, self._path.length, _GAINS, self._memory, state[com], state[com + 1],
                 state[controller.SPEED], self._ticks, self._command,
             )  # fmt: skip
+            if self._run_up[_PLANNED] > 0.0:
+                self._command[1] = self._run_up[_PLANNED]
         run_tick(*self.skill.tables, state, self._command, data.qpos, data.qvel, data.ctrl)
+        if self._obstacles and self.status != "fallen":
+            self._clear()
         mujoco.mj_step(self.model, data, STEPS_PER_TICK)
         observe(self.index, self.model, data, state)
         if self.status == "fallen":
@@ -237,6 +290,44 @@ class Human:
             self._end("fallen", Fell(self.time, self._point(), speed, slope, self.arc_length))
         elif self._path is not None:
             self._notice()
+
+    def _clear(self) -> None:
+        """After the run's tick: plan the run-up at each stance switch, start the skill at its mark, tick
+        it."""
+        number = int(self._run_up[_NEXT])
+        if number >= len(self._obstacles):
+            return
+        state, obstacle = self._control, self._obstacles[number]
+        skill = skill_for(self.clearing, obstacle)
+        assert skill is not None
+        if self._clearing is None:
+            ahead = obstacle.arc_length - self._memory[path_tracking.ARC]
+            if ahead < 0.0:
+                self._run_up[_NEXT], self._run_up[_PLANNED] = number + 1, 0.0
+            elif ahead < RUN_UP and state[controller.STEPS] != self._run_up[_STEPS_SEEN]:
+                self._run_up[_STEPS_SEEN] = state[controller.STEPS]
+                self._plan_step(obstacle, skill)
+        if self._clearing is not None and skill.tick(obstacle.height, self._clearing, state, self.data.ctrl):
+            self._clearing = None
+            self._run_up[_NEXT], self._run_up[_PLANNED] = number + 1, 0.0
+            self.status = "running"
+            self.events.append(Cleared(self.time, self._point(), obstacle.affordance, obstacle.height))
+
+    def _plan_step(self, obstacle: ObstacleAhead, skill: ClearingSkill) -> None:
+        """At a stance switch: the speed of the step that begins, or the start of the skill."""
+        state = self._control
+        plan = plan_run_up(state, obstacle, skill, self.skill)
+        if len(plan.speeds):
+            self._run_up[_PLANNED] = plan.speeds[0]
+            return
+        entry, mark = skill.approach(obstacle.height)
+        self._clearing = skill.start(obstacle, state)
+        self._run_up[_PLANNED] = entry
+        self.status = "jumping"
+        early, fast = foot_distance(state, obstacle) - mark, float(state[controller.STEP_SPEED]) - entry
+        self.events.append(
+            TookOff(self.time, self._point(), obstacle.affordance, obstacle.height, early, fast)
+        )
 
     def _notice(self) -> None:
         """Arrived, lost, stuck?"""
@@ -263,8 +354,9 @@ class Human:
     def save_state(self) -> HumanState:
         """Everything needed to continue from here."""
         return HumanState(
-            self._physics(), self._control.copy(), np.concatenate([self._memory, self._command]), self._path,
-            self.status, self._ticks, self._fallen_at, tuple(self.events),
+            self._physics(), self._control.copy(), np.concatenate([self._memory, self._command]),
+            self._run_up.copy(), None if self._clearing is None else self._clearing.copy(), self._path,
+            self._obstacles, self.status, self._ticks, self._fallen_at, tuple(self.events),
         )  # fmt: skip
 
     def restore_state(self, state: HumanState) -> None:
@@ -275,14 +367,17 @@ class Human:
         self._control[:] = state.control
         self._memory[:] = state.tracking[: path_tracking.TRACK_SIZE]
         self._command[:] = state.tracking[path_tracking.TRACK_SIZE :]
-        self._path, self.status = state.path, state.status
+        self._run_up[:] = state.run_up
+        self._clearing = None if state.clearing is None else state.clearing.copy()
+        self._path, self._obstacles, self.status = state.path, state.obstacles, state.status
         self._ticks, self._fallen_at = state.ticks, state.fallen_at
         self.events[:] = state.events
 
     def state_hash(self) -> str:
         """Hex digest of the physical and mental state; equal for equal runs."""
         hasher = hashlib.sha256(self.status.encode())
-        for part in (self._physics(), self._control, self._memory, self._command):
+        parts = [self._physics(), self._control, self._memory, self._command, self._run_up]
+        for part in parts if self._clearing is None else [*parts, self._clearing]:
             hasher.update(part.tobytes())
         return hasher.hexdigest()[:16]
 

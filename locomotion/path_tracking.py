@@ -26,6 +26,7 @@ its integral [m s], length left [m], planned speed [m/s] and slope here, greates
 tick at which it grew last by `_STEP`."""
 TRACK_SIZE = 8
 _STEP = 0.25
+_STEP_REACH = 0.7  # [m] around an obstacle's edge where its height would show as slope
 _BACK, _AHEAD = 0.5, 1.5  # [m] search window around the last foot point
 
 
@@ -35,14 +36,12 @@ class TrackingLimits:
 
     Attributes:
         speeds: lowest and highest speed [m/s].
-        turn_rate: [rad/s] highest turn rate of the path at the planned speed.
         sideways: [m/s^2] highest sideways acceleration in a bend.
         acceleration, deceleration: [m/s^2] of the planned speed along the path.
         uphill, downhill: [m/s per unit of slope] taken off the wished speed on a slope.
     """
 
     speeds: tuple[float, float]
-    turn_rate: float = 0.8
     sideways: float = 2.5
     acceleration: float = 1.5
     deceleration: float = 0.8
@@ -66,9 +65,12 @@ class PathTable:
     goal: NDArray[np.float64]
 
 
-def make_path(points: ArrayLike, speed: float, limits: TrackingLimits, present_speed: float) -> PathTable:
+def make_path(
+    points: ArrayLike, speed: float, limits: TrackingLimits, present_speed: float, edges: ArrayLike = ()
+) -> PathTable:
     """Resample ``points`` (n, 3) [m] and plan the speed along it: at most ``speed`` [m/s], slower in bends,
-    on slopes and before the end, starting from ``present_speed`` [m/s].
+    on slopes and before the end, starting from ``present_speed`` [m/s]. ``edges`` (k,) are arc lengths [m] at
+    which the path goes over an obstacle: the step in height there is no slope.
 
     Raises `LocomotionError` for fewer than two distinct points, coordinates that are not finite, or a speed
     that is not above 0.
@@ -94,6 +96,8 @@ def make_path(points: ArrayLike, speed: float, limits: TrackingLimits, present_s
     for k in range(3):
         table[:, k] = np.interp(at, arc, distinct[:, k])
     _directions(table, length / (count - 1))
+    for edge in np.atleast_1d(np.asarray(edges, dtype=np.float64)):
+        table[np.abs(at - edge) < _STEP_REACH, SLOPE] = 0.0
     _plan_speed(table, length / (count - 1), speed, limits, present_speed)
     return PathTable(table, length, distinct[-1].copy())
 
@@ -117,8 +121,7 @@ def _plan_speed(
     slowest, fastest = limits.speeds
     bend = np.maximum(np.abs(table[:, CURVATURE]), 1e-6)
     slope = table[:, SLOPE]
-    wished = np.minimum(limits.turn_rate / bend, np.sqrt(limits.sideways / bend))
-    wished = np.minimum(wished, min(speed, fastest))
+    wished = np.minimum(np.sqrt(limits.sideways / bend), min(speed, fastest))
     wished = wished - limits.uphill * np.maximum(slope, 0.0) - limits.downhill * np.maximum(-slope, 0.0)
     wished = np.maximum(wished, slowest)
     wished[-1] = slowest
@@ -150,7 +153,7 @@ def track(table, length, gains, memory, x, y, speed, tick, command):
 
     table (n, 7), length: a `PathTable`. gains (6,): preview time [s], lateral rate [1/s], integral rate
     [1/s^2], largest correction [rad], sideways rate [1/s], largest sideways speed [m/s].
-    memory (TRACK_SIZE,). x, y: centre of mass [m]. speed: along the path [m/s]. tick: number of the control tick.
+    memory (TRACK_SIZE,). x, y: centre of mass [m]. speed: along the path [m/s]. tick: number of the tick.
     """
     n = table.shape[0]
     step = length / (n - 1)

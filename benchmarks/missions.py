@@ -1,0 +1,173 @@
+"""Missions between random reachable points: does the person arrive, how far from its path, at what cost?
+
+    python benchmarks/missions.py [--levels undulating courtyard] [--missions 50] [--speed 3.0] [--json FILE]
+
+For each level the graph is built with a person's rules (`locomotion.PERSON_RULES`), start and goal are drawn
+from its nodes, 10 to 60 m of route apart, and the person runs along the smoothed route from a held start. The
+table says how many arrive and what stopped the others; JSON holds every mission. Then the longest mission is
+timed: whole ticks, and bare physics from the same states, in turns.
+
+Undulating has hardly any ground that is less steep than a person's limit (7 % below 20 degrees; it falls into
+patches of 4 m), so its slope limit is 45 degrees there.
+"""
+
+import argparse
+import json
+import math
+import time
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+from shared_data import LEVELS, level_path, shared_folder, why_absent
+
+import navmesh
+from locomotion import PERSON_RULES, Ground, Human, smooth_route
+from locomotion.person import CONTROL_DT, STEPS_PER_TICK
+
+OWN_LEVELS = Path(__file__).resolve().parents[1] / "examples" / "levels"
+LENGTHS = (10.0, 60.0)
+TIME_LIMIT = 120.0
+MAX_SLOPES = {"undulating": math.radians(45.0)}
+
+
+def load_level(name: str) -> navmesh.Terrain:
+    """One of the shared levels, or one of ours in examples/levels."""
+    own = OWN_LEVELS / f"{name}.obj"
+    if own.exists():
+        return navmesh.Terrain.load(own, up="z")
+    return navmesh.Terrain.load(level_path(name), up="y")
+
+
+def person_graph(terrain: navmesh.Terrain, max_slope: float) -> navmesh.NodeGraph:
+    """The graph of a terrain by a person's rules, but with this slope limit [rad]."""
+    rules = {name: PERSON_RULES[name] for name in ("headroom", "max_step")}
+    return navmesh.NodeGraph.build(terrain, navmesh.WalkRules(max_slope=max_slope, **rules))
+
+
+def random_routes(graph: navmesh.NodeGraph, count: int, seed: int) -> list:
+    """``count`` complete routes between nodes that a person fits in."""
+    rng = np.random.default_rng(seed)
+    roomy = np.flatnonzero(graph.radii > PERSON_RULES["radius"] + 0.1)
+    routes: list = []
+    for _ in range(200 * count):
+        start, goal = graph.positions[rng.choice(roomy, 2)]
+        route = graph.find_path(start, goal, radius=PERSON_RULES["radius"])
+        if route.status == "complete" and LENGTHS[0] <= route.length <= LENGTHS[1]:
+            routes.append(route)
+            if len(routes) == count:
+                return routes
+    raise SystemExit(f"only {len(routes)} routes of {LENGTHS} m found")
+
+
+def run_mission(human: Human, route: Any, speed: float) -> dict[str, Any]:
+    """Run one route from a held start; returns what happened."""
+    path = smooth_route(route)
+    yaw = math.atan2(*(path.points[1] - path.points[0])[1::-1])
+    human.events.clear()
+    human.reset(path.points[0], yaw)
+    human.follow(path.points, speed)
+    begun, lateral, steepest = human.time, [], 0.0
+    while human.status in ("running", "jumping") and human.time - begun < TIME_LIMIT:
+        human.tick()
+        lateral.append(abs(human.lateral_error))
+    last = human.events[-1]
+    rise = np.abs(np.diff(path.points[:, 2])) / np.maximum(
+        np.linalg.norm(np.diff(path.points[:, :2], axis=0), axis=1), 1e-6
+    )
+    steepest = float(np.degrees(np.arctan(np.percentile(rise, 95))))
+    return {
+        "status": human.status if human.status != "running" else "out of time",
+        "start": path.points[0].round(3).tolist(),
+        "goal": path.points[-1].round(3).tolist(),
+        "length": round(route.length, 2),
+        "bounded": path.bounded,
+        "steepest_deg": round(steepest, 1),
+        "time": round(human.time - begun, 2),
+        "arc_length": round(human.arc_length, 2),
+        "event": {k: v for k, v in vars(last).items() if isinstance(v, (int, float, str, tuple))},
+        "lateral": lateral,
+    }
+
+
+def cost_of_control(human: Human, route: Any, speed: float, seconds: float = 6.0) -> dict[str, float]:
+    """CPU time of whole ticks against bare physics over the same states, in turns of 20 ticks."""
+    path = smooth_route(route)
+    human.reset(path.points[0], math.atan2(*(path.points[1] - path.points[0])[1::-1]))
+    human.follow(path.points, speed)
+    twin = mujoco.MjData(human.model)
+    spec = mujoco.mjtState.mjSTATE_INTEGRATION
+    state = np.empty(mujoco.mj_stateSize(human.model, spec))
+    whole = bare = 0.0
+    ticks = 0
+    while ticks < seconds / CONTROL_DT and human.status == "running":
+        mujoco.mj_getState(human.model, human.data, state, spec)
+        mujoco.mj_setState(human.model, twin, state, spec)
+        controls = []
+        begun = time.perf_counter()
+        for _ in range(20):
+            human.tick()
+        whole += time.perf_counter() - begun
+        controls = [human.data.ctrl.copy()] * 20
+        begun = time.perf_counter()
+        for control in controls:
+            twin.ctrl[:] = control
+            mujoco.mj_step(human.model, twin, STEPS_PER_TICK)
+        bare += time.perf_counter() - begun
+        ticks += 20
+    return {
+        "tick_us": 1e6 * whole / ticks,
+        "physics_us": 1e6 * bare / ticks,
+        "share": whole / bare - 1.0,
+        "real_time": ticks * CONTROL_DT / whole,
+    }
+
+
+def report_on(name: str, options: argparse.Namespace) -> dict[str, Any]:
+    """All missions on one level, and what a tick costs there."""
+    terrain = load_level(name)
+    ground = Ground.from_arrays(terrain.vertices, terrain.faces)
+    graph = person_graph(terrain, MAX_SLOPES.get(name, PERSON_RULES["max_slope"]))
+    routes = random_routes(graph, options.missions, options.seed)
+    human = Human(ground)
+    results = [run_mission(human, route, options.speed) for route in routes]
+    lateral = np.concatenate([result.pop("lateral") for result in results])
+    return {
+        "missions": results,
+        "arrived": sum(r["status"] == "arrived" for r in results),
+        "lateral_p95": float(np.percentile(lateral, 95)),
+        "lateral_max": float(lateral.max()),
+        "stopped_by": dict(Counter(r["status"] for r in results if r["status"] != "arrived")),
+        "cost": cost_of_control(human, max(routes, key=lambda r: r.length), options.speed),
+    }
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--levels", nargs="+", default=["undulating", "courtyard"])
+    parser.add_argument("--missions", type=int, default=50)
+    parser.add_argument("--speed", type=float, default=3.0, help="wished speed [m/s]")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--json", type=Path, help="write every mission here")
+    options = parser.parse_args()
+    report: dict[str, Any] = {"speed": options.speed, "seed": options.seed, "levels": {}}
+    print(f"{'level':12} {'arrive':>8} {'lateral p95':>12} {'control':>8} {'real time':>10}  stopped by")
+    for name in options.levels:
+        if name in LEVELS and shared_folder() is None:
+            print(f"{name:12} skipped: {why_absent()}")
+            continue
+        result = report_on(name, options)
+        report["levels"][name] = result
+        arrived, cost = f"{result['arrived']}/{len(result['missions'])}", result["cost"]
+        print(
+            f"{name:12} {arrived:>8} {result['lateral_p95']:10.2f} m {100 * cost['share']:6.1f} % "
+            f"{cost['real_time']:8.0f} x  {result['stopped_by']}"
+        )
+    if options.json:
+        options.json.write_text(json.dumps(report, indent=1))
+
+
+if __name__ == "__main__":
+    main()

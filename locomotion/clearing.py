@@ -1,0 +1,97 @@
+"""What a skill that clears obstacles offers to the body, and the run-up to it.
+
+A skill is asked for its entry speed and its mark before the obstacle; during the run-up the body replans the
+speeds of the remaining steps at each step (`locomotion.approach`); when the stance foot stands at the mark,
+the skill starts, and from then on changes the running controller's targets until it is finished.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion import controller
+from locomotion.approach import ApproachPlan, plan_approach
+from locomotion.route_smoothing import ObstacleAhead
+from locomotion.skill import RunSkill
+
+__all__ = ["RUN_UP", "ClearingSkill", "foot_distance", "plan_run_up", "skill_for"]
+
+RUN_UP = 15.0
+"""[m] before an obstacle, along the path, from which the speed planner chooses the speed of each step."""
+HEIGHT_TOLERANCE = 0.02
+"""[m] that an obstacle may be lower or higher than what a skill has learned."""
+
+
+class ClearingSkill(Protocol):
+    """A skill that takes the body over an obstacle, on top of the running controller."""
+
+    @property
+    def affordance(self) -> str:
+        """The kind of obstacle that it clears: "jump", "vault", "drop" or "gap"."""
+        ...
+
+    @property
+    def heights(self) -> tuple[float, float]:
+        """Least and greatest height [m] that it clears."""
+        ...
+
+    def approach(self, height: float) -> tuple[float, float]:
+        """Entry speed [m/s], and distance [m] from the stance foot's touchdown to the edge at the start."""
+        ...
+
+    @property
+    def stride(self) -> tuple[float, float, float]:
+        """(a, lag, b): on the run under it a step asked for at speed v after one at v' is a v + lag (v' - v) + b
+        long [m]."""
+        ...
+
+    def start(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Begin, just after the stance switch to the take-off step; ``state`` is the running controller's.
+        Returns all that the skill remembers, (k,) float64."""
+        ...
+
+    def tick(
+        self,
+        height: float,
+        memory: NDArray[np.float64],
+        state: NDArray[np.float64],
+        ctrl: NDArray[np.float64],
+    ) -> bool:
+        """One control tick after the running controller's and before the physics: changes ``ctrl`` (39,),
+        ``memory`` and ``state`` in place. True when it is finished."""
+        ...
+
+
+def skill_for(skills: Sequence[ClearingSkill], obstacle: ObstacleAhead) -> ClearingSkill | None:
+    """The skill that clears an obstacle, or None."""
+    for skill in skills:
+        low, high = skill.heights
+        fits = low - HEIGHT_TOLERANCE <= obstacle.height <= high + HEIGHT_TOLERANCE
+        if fits and skill.affordance == obstacle.affordance:
+            return skill
+    return None
+
+
+def foot_distance(state: NDArray[np.float64], obstacle: ObstacleAhead) -> float:
+    """Distance [m] from the stance foot's touchdown place to the obstacle's edge, at right angles to it."""
+    foot = controller.PLANTED.start + (3 if state[controller.STANCE] > 0 else 0)
+    x, y = obstacle.position[0], obstacle.position[1]
+    return float((state[foot] - x) * obstacle.normal[0] + (state[foot + 1] - y) * obstacle.normal[1])
+
+
+def plan_run_up(
+    state: NDArray[np.float64], obstacle: ObstacleAhead, skill: ClearingSkill, run: RunSkill
+) -> ApproachPlan:
+    """Speeds of the remaining steps, planned at a stance switch; none: start the skill at this step."""
+    entry, mark = skill.approach(obstacle.height)
+    low, high = run.speeds
+    entry = min(max(entry, low), high)
+    speed = min(max(float(state[controller.SPEED]), low), high)
+    a, lag, b = skill.stride
+    # over the steps to come the lag adds up to lag * (speed - entry)
+    distance = foot_distance(state, obstacle) - lag * (speed - entry)
+    return plan_approach(distance, speed, entry, mark, (a, b), bounds=run.speeds)

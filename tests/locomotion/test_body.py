@@ -1,0 +1,152 @@
+"""The person as a whole: it follows paths, repeats bit for bit, can be saved, and refuses what it cannot
+do."""
+
+import numpy as np
+import pytest
+
+from locomotion.body import Human
+from locomotion.clearing import foot_distance
+from locomotion.errors import LocomotionError
+from locomotion.events import Arrived, Cleared, SetOff, TookOff
+from locomotion.ground import Ground
+from locomotion.route_smoothing import ObstacleAhead
+
+STRAIGHT = np.array([[0.0, 0, 0], [15, 0, 0]])
+
+
+class Recorder:
+    """A skill that notes where it starts and goes on running for 0.5 s."""
+
+    affordance = "jump"
+    heights = (0.3, 0.5)
+
+    def __init__(self):
+        self.distances = []
+
+    def approach(self, height):
+        return 3.0, 0.6
+
+    def start(self, obstacle, state):
+        self.distances.append(foot_distance(state, obstacle))
+        return np.zeros(1)
+
+    def tick(self, height, memory, state, ctrl):
+        memory[0] += 1
+        return bool(memory[0] >= 50)
+
+
+def flat_ground(half=30.0):
+    corners = np.array([[-half, -half, 0], [half, -half, 0], [half, half, 0], [-half, half, 0.0]])
+    return Ground.from_arrays(corners, [[0, 1, 2], [0, 2, 3]])
+
+
+def finish(human, limit=60.0):
+    lateral = []
+    while human.status in ("running", "jumping") and human.time < limit:
+        human.tick()
+        lateral.append(abs(human.lateral_error))
+    return np.array(lateral)
+
+
+@pytest.mark.parametrize("on_mesh", [False, True])
+def test_runs_a_straight_path_and_arrives(on_mesh):
+    human = Human(flat_ground() if on_mesh else None)
+    human.reset((0, 0, 0), 0.0)
+    human.follow(STRAIGHT, 3.0)
+    lateral = finish(human)
+    assert human.status == "arrived"
+    assert [type(e) for e in human.events] == [SetOff, Arrived]
+    assert human.events[-1].distance <= 0.5
+    assert np.percentile(lateral, 95) < 0.3
+    assert np.linalg.norm(human.position[:2] - [15, 0]) <= 0.5
+    assert human.position[2] == pytest.approx(0.0, abs=1e-6)
+    held = human.qpos
+    human.tick()
+    assert np.array_equal(held, human.qpos) and not human.velocity.any()
+
+
+def test_same_start_gives_the_same_run_and_persons_do_not_disturb_each_other():
+    ground = flat_ground()
+    first, second, other = Human(ground), Human(ground), Human(None)
+    assert first.model is second.model
+    for human, yaw in ((first, 0.0), (second, 0.0), (other, 1.0)):
+        human.reset((0, 0, 0), yaw)
+        human.follow(STRAIGHT, 3.0)
+    for _ in range(200):
+        first.tick()
+    for _ in range(200):
+        other.tick()
+        second.tick()
+    assert first.state_hash() == second.state_hash() != other.state_hash()
+    assert first.qpos.tobytes() == second.qpos.tobytes()
+
+
+def test_saved_person_goes_on_bit_for_bit():
+    ground = flat_ground()
+    human, twin = Human(ground), Human(ground)
+    human.reset((1, 2, 0), 0.0)
+    human.follow(STRAIGHT + np.array([1, 2, 0]), 3.0)
+    for _ in range(130):
+        human.tick()
+    saved = human.save_state()
+    human.body_transforms()
+    for _ in range(150):
+        human.tick()
+    twin.restore_state(saved)
+    assert twin.time == saved.ticks * 0.01 and twin.events == list(saved.events)
+    for _ in range(150):
+        twin.tick()
+    assert twin.state_hash() == human.state_hash()
+    assert twin.body_transforms().tobytes() == human.body_transforms().tobytes()
+    assert human.body_transforms().shape == (human.model.nbody, 7)
+
+
+def test_run_up_ends_at_the_mark_and_the_skill_starts():
+    skill = Recorder()
+    human = Human(None, clearing=[skill])
+    human.reset((0, 0, 0), 0.0)
+    obstacle = ObstacleAhead(14.0, "jump", 0.4, np.array([14.0, 0, 0.4]), np.array([-1.0, 0, 0]))
+    human.follow([[0, 0, 0], [25, 0, 0]], 3.0, [obstacle])
+    finish(human)
+    assert human.status == "arrived"
+    kinds = [type(e) for e in human.events]
+    assert kinds == [SetOff, TookOff, Cleared, Arrived]
+    assert skill.distances == [pytest.approx(0.6, abs=0.25)]
+    assert human.events[1].takeoff_error == pytest.approx(skill.distances[0] - 0.6)
+
+
+def test_held_person_turns_to_its_path_and_a_fallen_one_must_be_reset():
+    human = Human(None)
+    human.reset((3, 1, 0), 0.0)
+    assert human.status == "standing" and human.held
+    human.follow([[3, 1, 0], [3, 20, 0]], 3.0)
+    assert human.yaw == pytest.approx(np.pi / 2)
+    human.data.qvel[:3] = [0, -6.0, 0]
+    for _ in range(300):
+        human.tick()
+    assert human.status == "fallen" and human.events[-1].slope == 0.0
+    with pytest.raises(LocomotionError, match="has fallen"):
+        human.follow(STRAIGHT, 3.0)
+    human.reset((0, 0, 0), 0.0)
+    assert human.status == "standing"
+
+
+def test_wrong_input_is_refused_and_changes_nothing():
+    human = Human(flat_ground())
+    human.reset((0, 0, 0), 0.0)
+    before = human.state_hash()
+    far = ObstacleAhead(5.0, "vault", 0.8, np.zeros(3), np.array([-1.0, 0, 0]))
+    for call, message in (
+        (lambda: human.follow([[0, 0, 0]], 3.0), "at least two points"),
+        (lambda: human.follow([[0, 0, 0], [np.nan, 0, 0]], 3.0), "finite"),
+        (lambda: human.follow(STRAIGHT, -1.0), "speed"),
+        (lambda: human.follow(STRAIGHT + np.array([0, 9, 0]), 3.0), "the path begins at"),
+        (lambda: human.follow(STRAIGHT, 3.0, [far]), "no skill clears vault 0.80 m"),
+        (lambda: human.reset((0, 0, np.inf), 0.0), "finite"),
+        (lambda: human.reset((0, 0, 0), 0.0, -1.0), "speed"),
+        (lambda: human.reset((0, 0, 7.0), 0.0), "no ground within"),
+        (lambda: human.reset((500, 0, 0), 0.0), "no ground within"),
+    ):
+        with pytest.raises(LocomotionError, match=message):
+            call()
+    assert human.state_hash() == before and not human.events

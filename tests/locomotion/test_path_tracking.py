@@ -1,0 +1,100 @@
+"""Path tables and the tracker, with a point that turns and moves like the running controller's reference."""
+
+import numpy as np
+import pytest
+
+from locomotion import path_tracking as pt
+from locomotion.body import _GAINS
+from locomotion.errors import LocomotionError
+
+LIMITS = pt.TrackingLimits(speeds=(2.0, 4.0), sideways=2.0)
+
+
+def circle(radius, turns=0.5, n=100):
+    angle = np.linspace(0, 2 * np.pi * turns, n)
+    return np.stack([radius * np.sin(angle), radius * (1 - np.cos(angle)), 0 * angle], axis=1)
+
+
+def ride(points, speed, offset=0.0, drift=0.0, turn_rate=1.0, lag=0.2):
+    """Follow a path with a point whose heading lags and whose course is `drift` [rad] off its heading.
+
+    Returns lateral errors (n,) at every tick and the tracker's memory."""
+    path = pt.make_path(points, speed, LIMITS, speed)
+    memory, command = pt.new_track(), np.zeros(3)
+    heading = course = float(path.table[0, pt.HEADING])
+    rate, v = 0.0, speed
+    x, y = path.table[0, :2] + offset * np.array([-np.sin(heading), np.cos(heading)])
+    lateral = []
+    for tick in range(6000):
+        pt.track(path.table, path.length, _GAINS, memory, x, y, v, tick, command)
+        lateral.append(memory[pt.LATERAL])
+        if memory[pt.REMAINING] < 0.5:
+            return np.array(lateral), memory
+        wanted = (command[0] - heading + np.pi) % (2 * np.pi) - np.pi
+        rate += np.clip(np.clip(wanted / 0.15, -turn_rate, turn_rate) - rate, -0.04, 0.04)
+        heading += 0.01 * rate
+        course += 0.01 / lag * (heading + drift - course)
+        v += np.clip(command[1] - v, -0.015, 0.015)
+        x += 0.01 * (v * np.cos(course) - command[2] * np.sin(course))
+        y += 0.01 * (v * np.sin(course) + command[2] * np.cos(course))
+    raise AssertionError(f"did not arrive: {memory}")
+
+
+def test_straight_path_from_beside_it_converges_without_swinging():
+    lateral, _ = ride([[0, 0, 0], [40, 0, 0]], 3.5, offset=0.6)
+    assert lateral[0] == pytest.approx(0.6)
+    assert np.abs(lateral[300:]).max() < 0.05
+    assert lateral.min() > -0.15
+
+
+@pytest.mark.parametrize("radius", [4.0, 8.0])
+def test_bends_are_followed(radius):
+    lateral, _ = ride(circle(radius), 3.0, turn_rate=1.0)
+    assert np.percentile(np.abs(lateral), 95) < 0.2
+
+
+def test_steady_drift_is_taken_out():
+    lateral, _ = ride([[0, 0, 0], [60, 0, 0]], 3.0, drift=0.05)
+    assert np.abs(lateral[800:]).max() < 0.06
+
+
+def test_foot_point_does_not_jump_to_the_other_arm_of_a_hairpin():
+    arm = np.linspace(0, 20, 50)
+    there = np.stack([arm, 0 * arm, 0 * arm], axis=1)
+    back = np.stack([arm[::-1], 0 * arm + 0.3, 0 * arm], axis=1)
+    path = pt.make_path(np.concatenate([there, back]), 3.0, LIMITS, 3.0)
+    memory, command = pt.new_track(), np.zeros(3)
+    for tick, x in enumerate(np.arange(0, 15, 0.03)):
+        pt.track(path.table, path.length, _GAINS, memory, x, 0.16, 3.0, tick, command)
+    assert memory[pt.ARC] == pytest.approx(15, abs=0.1)
+
+
+def test_speed_slows_in_bends_on_slopes_and_before_the_end():
+    bend = np.concatenate([[[-15.0, 0, 0]], circle(2.0, 0.25), [[2.0, 20.0, 0]]])
+    table = pt.make_path(bend, 4.0, LIMITS, 4.0).table
+    in_bend = np.abs(table[:, pt.CURVATURE]) > 0.4
+    assert table[in_bend, pt.SPEED].max() < 2.3
+    assert table[-1, pt.SPEED] == 2.0
+    assert table[:, pt.SPEED].max() > 3.9
+    change = np.diff(table[:, pt.SPEED] ** 2) / (2 * pt.SPACING)
+    assert change.min() > -LIMITS.deceleration * 1.05 and change.max() < LIMITS.acceleration * 1.05
+    hill = [[0, 0, 0], [20, 0, 0], [40, 0, 6], [60, 0, 6]]
+    table = pt.make_path(hill, 4.0, LIMITS, 4.0).table
+    assert table[300, pt.SLOPE] == pytest.approx(0.3, abs=1e-6)
+    assert table[300, pt.SPEED] < 3.5
+
+
+@pytest.mark.parametrize(
+    ("points", "speed", "message"),
+    [
+        ([[0, 0, 0]], 3.0, "at least two points"),
+        ([[0, 0, 0], [0, 0, 1]], 3.0, "at least two points"),
+        ([[0, 0, 0], [1, np.nan, 0]], 3.0, "point 1 of the path"),
+        ([[0, 0], [1, 0]], 3.0, "shape"),
+        ([[0, 0, 0], [1, 0, 0]], 0.0, "above 0"),
+        ([[0, 0, 0], [1, 0, 0]], np.nan, "above 0"),
+    ],
+)
+def test_bad_paths_are_refused(points, speed, message):
+    with pytest.raises(LocomotionError, match=message):
+        pt.make_path(points, speed, LIMITS, 2.0)

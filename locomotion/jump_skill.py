@@ -68,6 +68,7 @@ class JumpSkill:
         table: (k, 241) float64, their parameters in the order of `jump.PARAMETERS`.
         entries: (k,) float64, entry speeds v_in [m/s].
         references: (k, 4, 6, 15) float64, expected sensors over the steps.
+        stride: (a, lag, b) of the steps of the run-up, see `locomotion.clearing.ClearingSkill.stride`.
         run: digest of the running skill that it was learned on.
         meta: what made it.
     """
@@ -76,6 +77,7 @@ class JumpSkill:
     table: np.ndarray
     entries: np.ndarray
     references: np.ndarray
+    stride: tuple[float, float, float]
     run: str
     meta: dict[str, Any] = field(default_factory=dict)
 
@@ -102,7 +104,7 @@ class JumpSkill:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the skill for the present person; the file appears whole or not at all."""
-        header = {"person": person_digest(), "run": self.run, "meta": self.meta}
+        header = {"person": person_digest(), "run": self.run, "stride": list(self.stride), "meta": self.meta}
         arrays = {
             "heights": self.heights, "table": self.table, "entries": self.entries, "references": self.references,
         }  # fmt: skip
@@ -143,8 +145,9 @@ def load_jump_skill(path: str | os.PathLike[str] = JUMP_SKILL) -> JumpSkill:
     try:
         heights, table, entries = arrays["heights"], arrays["table"], arrays["entries"]
         references = arrays["references"]
-    except KeyError as error:
-        raise LocomotionError(f"{path}: not a whole jump skill: {error} is missing") from error
+        a, lag, b = (float(x) for x in header["stride"])
+    except (KeyError, TypeError, ValueError) as error:
+        raise LocomotionError(f"{path}: not a whole jump skill: {error}") from error
     k, width = len(heights), sum(jump.PARAMETERS.values())
     shapes = (table.shape, entries.shape, references.shape)
     if k == 0 or shapes != ((k, width), (k,), (k, jump.STEPS, jump.BINS, jump.SENSORS)):
@@ -154,7 +157,9 @@ def load_jump_skill(path: str | os.PathLike[str] = JUMP_SKILL) -> JumpSkill:
     finite = all(np.isfinite(a).all() for a in (heights, table, entries, references))
     if not finite or (np.diff(heights) <= 0).any():
         raise LocomotionError(f"{path}: holds numbers that are not finite or heights that do not grow")
-    return JumpSkill(heights, table, entries, references, str(header.get("run", "")), header.get("meta", {}))
+    return JumpSkill(
+        heights, table, entries, references, (a, lag, b), str(header.get("run", "")), header.get("meta", {})
+    )
 
 
 def run_digest(run: RunSkill) -> str:
@@ -179,6 +184,11 @@ class Jump:
     def heights(self) -> tuple[float, float]:
         """Least and greatest height [m] that it clears."""
         return self.skill.range
+
+    @property
+    def stride(self) -> tuple[float, float, float]:
+        """(a, lag, b) of the steps of the run-up; see `locomotion.clearing.ClearingSkill`."""
+        return self.skill.stride
 
     def tables(self, height: float) -> JumpTables:
         """The kernels' arguments for a stair of ``height`` [m]; the nearest learned height beyond the ends."""

@@ -16,22 +16,21 @@ from navmesh.archive import read_archive, write_archive
 
 __all__ = ["ENTRY_SPEED", "HEIGHTS", "JumpProblem", "cost", "train_jump"]
 
-HEIGHTS = (0.1, 0.2, 0.3, 0.4, 0.5)
+HEIGHTS = (0.3, 0.4, 0.5)
 """Heights [m] learned one after the other, each from the one before."""
 ENTRY_SPEED = 3.3
 """[m/s]"""
-_FIRST_KEPT = 0.3  # lower heights are only the way there
 _STATES = 48
 _KIND, _VERSION = "jump training", 1
 
 
 def first_guess() -> np.ndarray:
-    """Parameters (p,) of a jump that is a running step, the clip a quarter mixed in."""
+    """Parameters (p,) from which learning starts: the clip in the place of the run, which nearly clears 0.3 m."""
     x = np.zeros(sum(jump.PARAMETERS.values()))
     part = jump.parameter_slices()
-    x[part["beta"]] = [1.0, 0.9, 1.0, 1.0]
-    x[part["alpha"]] = 0.25
-    x[part["marks"]] = [2.1, 1.1]
+    x[part["beta"]] = [1.0, 0.75, 1.0, 1.0]
+    x[part["alpha"]] = 1.0
+    x[part["marks"]] = [1.95, 0.95]
     m_ap = np.zeros((9, jump.RANK))
     m_ap[0, 0] = m_ap[3, 1] = m_ap[1, 2] = 1.0
     m_ap[6, 1] = 0.5
@@ -145,12 +144,12 @@ def _curriculum(height: float, effort: float) -> list[Stage]:
     def generations(n: int) -> int:
         return max(round(n * effort), 1)
 
-    few = {"states": 3, "error": 0.04, "duration": 2.2, "pull": 0.1}
-    many = {"states": 8, "error": 0.2, "duration": 3.2, "pull": 0.15}
-    forward = Stage(f"{height:g} m, feed-forward", generations(40), 0.25, scales(False), few, 24)
-    if height < _FIRST_KEPT - 1e-9:
-        return [forward]
-    return [forward, Stage(f"{height:g} m, feedback", generations(45), 0.2, scales(True), many, 24)]
+    few = {"states": 4, "error": 0.05, "duration": 2.2, "pull": 0.1}
+    many = {"states": 8, "error": 0.15, "duration": 3.0, "pull": 0.15}
+    return [
+        Stage(f"{height:g} m, feed-forward", generations(25), 0.25, scales(False), few, 16),
+        Stage(f"{height:g} m, feedback", generations(30), 0.2, scales(True), many, 20),
+    ]
 
 
 def train_jump(
@@ -176,6 +175,7 @@ def train_jump(
     heights = HEIGHTS if old is None else tuple(float(h) for h in old.heights)
     x, reference = first_guess(), np.zeros((jump.STEPS, jump.BINS, jump.SENSORS))
     kept: list[tuple[float, np.ndarray, np.ndarray]] = []
+    stride = JumpSimulator(run).fit_stride(np.random.default_rng([seed, 1]))
     for k, height in enumerate(heights):
         entry = float(np.clip(ENTRY_SPEED, *run.speeds))
         if old is not None:
@@ -190,11 +190,10 @@ def train_jump(
             )
             if done is not None:
                 write_archive(done, _KIND, _VERSION, {}, {"x": x, "reference": reference})
-        if height >= _FIRST_KEPT - 1e-9:
-            kept.append((height, x, reference))
+        kept.append((height, x, reference))
     skill = JumpSkill(
         np.array([h for h, _, _ in kept]), np.array([x for _, x, _ in kept]), np.full(len(kept), entry),
-        np.array([r for _, _, r in kept]), run_digest(run), {"command": "surefoot train jump", "seed": seed},
+        np.array([r for _, _, r in kept]), stride, run_digest(run), {"command": "surefoot train jump", "seed": seed},
     )  # fmt: skip
     skill.save(out)
     return skill
@@ -202,6 +201,7 @@ def train_jump(
 
 def _learn_height(
     run: RunSkill,
+    stride: tuple[float, float, float],
     height: float,
     entry: float,
     x: np.ndarray,
@@ -215,7 +215,7 @@ def _learn_height(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Go through a height's stages; the expected sensors are recorded anew before the feedback is learned."""
     rng = np.random.default_rng([seed, number])
-    states = JumpSimulator(run).harvest(
+    states = JumpSimulator(run, stride).harvest(
         tables_of(x, entry, reference, run), rng.uniform(8.0, 16.0, _STATES), rng
     )
     for place, stage in enumerate(_curriculum(height, effort)):

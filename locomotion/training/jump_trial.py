@@ -86,6 +86,7 @@ class _Entry:
     """What the planner wants to know of a jump that is being learned."""
 
     tables: JumpTables
+    stride: tuple[float, float, float]
 
     affordance = "jump"
     heights = (0.0, 1.0)
@@ -97,8 +98,11 @@ class _Entry:
 class JumpSimulator:
     """A person, a plane and a stair that trials are run with; one per process."""
 
-    def __init__(self, run: RunSkill) -> None:
+    def __init__(self, run: RunSkill, stride: tuple[float, float, float] | None = None) -> None:
+        """``run``: the run under the jumps. ``stride``: of its steps, see `fit_stride`; None: as the run says."""
         self.run = run
+        a, b = run.step_length
+        self.stride = (a, 0.0, b) if stride is None else stride
         self.model = stair_model()
         self.data = mujoco.MjData(self.model)
         self.index = PersonIndex.of(self.model)
@@ -142,6 +146,35 @@ class JumpSimulator:
         data = self.data
         c.run_tick(*self.run.tables, self.state, self.command, data.qpos, data.qvel, data.ctrl)
 
+    def fit_stride(self, rng: np.random.Generator, runs: int = 8) -> tuple[float, float, float]:
+        """(a, lag, b) of step length = a v + lag (v' - v) + b [m] for a step asked for at v after one at v'.
+
+        Least squares over ``runs`` runs of 12 s in which the speed that is asked for wanders from step to step.
+        """
+        rows, lengths = [], []
+        self.place_stair(1000.0, 0.0)
+        low, high = self.run.speeds
+        for speed in np.linspace(low, high, runs):
+            self.begin(0.0, float(speed))
+            seen, last, asked = 0.0, None, [float(speed)] * 2
+            for _ in range(1200):
+                self.steer()
+                self.run_tick()
+                if self.state[c.STEPS] != seen:
+                    seen = self.state[c.STEPS]
+                    x = float(self.state[c.PLANTED.start + (3 if self.state[c.STANCE] > 0 else 0)])
+                    if last is not None and seen > 3:
+                        rows.append([asked[1], asked[0] - asked[1], 1.0])
+                        lengths.append(x - last)
+                    last = x
+                    asked = [asked[1], float(np.clip(asked[1] + rng.normal(0.0, 0.2), low, high))]
+                    self.command[1] = asked[1]
+                self._step()
+                if self.state[c.FALLEN] > 0.0:
+                    break
+        a, lag, b = np.linalg.lstsq(np.array(rows), np.array(lengths), rcond=None)[0]
+        return float(a), float(lag), float(b)
+
     def harvest(
         self, tables: JumpTables, distances: np.ndarray, rng: np.random.Generator
     ) -> list[StartState]:
@@ -161,7 +194,7 @@ class JumpSimulator:
                 self.run_tick()
                 if self.state[c.STEPS] != seen:
                     seen = self.state[c.STEPS]
-                    plan = plan_run_up(self.state, _MARK, _Entry(tables), self.run)
+                    plan = plan_run_up(self.state, _MARK, _Entry(tables, self.stride), self.run)
                     if plan.speeds.size == 0:
                         foot = c.PLANTED.start + (3 if self.state[c.STANCE] > 0 else 0)
                         planted = self.state[foot : foot + 2].copy()
@@ -171,7 +204,22 @@ class JumpSimulator:
                 self._step()
                 if self.state[c.FALLEN] > 0.0:
                     break
-        return found
+        return [start for start in found if self.runs_on(start)]
+
+    def runs_on(self, start: StartState, seconds: float = 1.5) -> bool:
+        """Whether the run alone goes on from a harvested state; where it does not, no jump could."""
+        self.place_stair(1000.0, 0.0)
+        self._restore(start)
+        for _ in range(round(seconds / CONTROL_DT)):
+            self.steer()
+            self.run_tick()
+            self._step()
+        return self.state[c.FALLEN] == 0.0
+
+    def _restore(self, start: StartState) -> None:
+        mujoco.mj_setState(self.model, self.data, start.physics, _STATE)
+        self.state[:] = start.control
+        self.command[:] = 0.0, self.state[c.SPEED], 0.0
 
     def trial(
         self,
@@ -190,9 +238,7 @@ class JumpSimulator:
         """
         edge = float(start.planted[0]) + tables.mark + error
         self.place_stair(edge, height)
-        mujoco.mj_setState(self.model, self.data, start.physics, _STATE)
-        self.data.qacc_warmstart[:] = 0.0
-        self.state[:] = start.control
+        self._restore(start)
         steps = self.state[c.STEPS]
         self.command[:] = 0.0, tables.entry, 0.0
         meter = _Meter(self, edge, height)
@@ -250,7 +296,8 @@ class _Meter:
             on_top = state[20 + 3 * k] > self.edge and state[22 + 3 * k] > self.height - 0.02
             if on_top and state[26 + k] > 20.0:
                 self.landed[k] = True
-        self.scrape += self._touches_face()
+        if not all(self.landed):
+            self.scrape += self._touches_face()
         weight = MASS * 9.81
         self.reaction += max((state[26] + state[27]) / weight - 4.0, 0.0)
         self.effort += float(np.dot(data.actuator_force, data.actuator_force)) * 1e-4

@@ -44,7 +44,7 @@ class Limits(NamedTuple):
 
     @classmethod
     def of(cls, obstacles: ObstacleRules, walking: WalkRules) -> "Limits":
-        """The limits that the two sets of rules give together."""
+        """The limits that the two sets of rules give together; free lengths are measured to 5 cm."""
         above = walking.max_step + 1e-3
         return cls(
             max(obstacles.jump_rise[0] - 1e-6, above),
@@ -57,8 +57,8 @@ class Limits(NamedTuple):
             obstacles.gap_width[0] - 1e-6,
             obstacles.gap_width[1] + 1e-6,
             obstacles.level,
-            obstacles.run_up,
-            obstacles.landing,
+            obstacles.run_up - SAME,
+            obstacles.landing - SAME,
             walking.max_step,
             walking.headroom,
             math.tan(walking.max_slope),

@@ -12,7 +12,9 @@ Per control tick of 10 ms the order is *control, physics, observe*::
 
 After `reset_standing` the first ticks lean forward until the person topples, then it runs: nothing else to do.
 ``command`` (3,) float64 = desired heading [rad, world, any turn], desired speed [m/s, clipped to the skill's
-range] and desired sideways speed [m/s to the left of the heading, clipped to ±0.4]. Both may jump: the controller's own
+range] and desired sideways speed [m/s to the left of the heading, clipped to ±0.4]; a fourth number, if there is one,
+is the slope of the ground along the heading [rise over run], which is otherwise felt from the touchdowns, two steps
+late. All may jump: the controller's own
 reference heading and speed follow at the rates that the skill holds. ``data.ctrl`` (39,) are PD targets [rad]
 in the order of `locomotion.person.JOINT_NAMES`; a skill on top (a jump) may add to them before the physics step.
 
@@ -76,6 +78,10 @@ PARAMETERS: dict[str, int] = {
     "arms": 1,                # amplitude of the arms' reference about its mean
     "descend": 12,            # rad per unit of slope, downhill
     "start": 5,               # from standing, first row only: see `_lean`
+    "climb_legs": 3 * N_KNOTS,    # change of feed_forward per unit of slope, uphill
+    "descend_legs": 3 * N_KNOTS,  # the same downhill
+    "climb_timing": 2,        # change of timing per unit of slope, uphill
+    "descend_timing": 2,      # the same downhill
 }
 """Blocks of a parameter vector, in order, with their lengths."""
 
@@ -110,6 +116,8 @@ _SP = parameter_slices()
 _M_AP, _M_SP, _POSTURE, _A_HAT = (_SP[k].start for k in ("m_ap", "m_sp", "posture", "a_hat"))
 _FF, _TURN, _CLIMB, _TIMING = (_SP[k].start for k in ("feed_forward", "turn", "climb", "timing"))
 _ARMS, _DESCEND, _START = (_SP[k].start for k in ("arms", "descend", "start"))
+_CLIMB_LEGS, _DESCEND_LEGS = _SP["climb_legs"].start, _SP["descend_legs"].start
+_CLIMB_TIMING, _DESCEND_TIMING = _SP["climb_timing"].start, _SP["descend_timing"].start
 _WAIST, _CHEST, _NECK = (JOINT_NAMES.index(n) for n in ("waist_pitch", "chest_pitch", "neck_pitch"))
 _R_ARM, _L_ARM = (JOINT_NAMES.index(f"{s}_clavicle_elevation") for s in ("right", "left"))
 _R_HIP, _L_HIP = (JOINT_NAMES.index(f"{s}_hip_flexion") for s in ("right", "left"))
@@ -119,6 +127,7 @@ _RATE_LEAD = 0.1  # servo damping per stiffness [s], as in locomotion.person
 _BLEND_TIME = 0.03  # [s] within which a jump of the targets at a switch decays
 _ACCELERATION = 1.5  # [m/s^2] of the reference speed
 _MAX_SIDE = 0.4  # [m/s]
+_MAX_SLOPE = 0.4
 _TOUCH = 20.0  # [N] under a foot that counts as contact
 _LEAN_RAMP, _LEAN_LIMIT = 0.25, 1.0  # [s] in which the lean is taken; after which the first step is made regardless
 _STANDING, _RUNNING = 1.0, 0.0  # values of state[_FRESH]
@@ -222,7 +231,7 @@ def _switch_stance(state):
         along = (state[foot] - state[planted]) * ch + (state[foot + 1] - state[planted + 1]) * sh
         if along > 0.5:
             slope = (state[foot + 2] - state[planted + 2]) / along
-            state[SLOPE] += 0.5 * (min(max(slope, -0.4), 0.4) - state[SLOPE])
+            state[SLOPE] += 0.5 * (min(max(slope, -_MAX_SLOPE), _MAX_SLOPE) - state[SLOPE])
     elapsed = max(state[STEP_TIME], CONTROL_DT)
     moved = (state[14] - state[34]) * ch + (state[15] - state[35]) * sh
     if state[STEPS] >= 1.0:
@@ -338,9 +347,13 @@ def run_tick(knots, table, reference, rates, mean, state_reference, limits, stat
             return
         switched = True
     _follow_command(limits, state, command)
+    if command.shape[0] > 3:
+        state[SLOPE] = min(max(command[3], -_MAX_SLOPE), _MAX_SLOPE)
     p = np.empty(table.shape[1])
     _parameters_at(knots, table, state[SPEED], p)
-    step_time = p[_TIMING]
+    slope = state[SLOPE]
+    legs, timing = (_CLIMB_LEGS, _CLIMB_TIMING) if slope >= 0.0 else (_DESCEND_LEGS, _DESCEND_TIMING)
+    step_time = max(p[_TIMING] + slope * p[timing], 0.2)
     state[PHASE] += CONTROL_DT / step_time
     state[STEP_TIME] += CONTROL_DT
     state[TICKS] += 1.0
@@ -373,7 +386,7 @@ def run_tick(knots, table, reference, rates, mean, state_reference, limits, stat
         raw[j] = min(max(raw[j], -_CLIP[j]), _CLIP[j])
     action = np.empty(12)
     # turning left (positive) is towards the stance side on the left
-    _feedback(p, delta, state[TURN_RATE] * side, state[SLOPE], raw, action)
+    _feedback(p, delta, state[TURN_RATE] * side, slope, raw, action)
 
     share = 0.5 * phase + (0.5 if side > 0 else 0.0)
     pose, rate = np.empty(_N), np.empty(_N)
@@ -383,7 +396,8 @@ def run_tick(knots, table, reference, rates, mean, state_reference, limits, stat
     if phase >= 1.0:
         cycle_rate = 0.0
     target = np.empty(_N)
-    amplitude, arms = p[_TIMING + 1], p[_ARMS]
+    amplitude, arms = p[_TIMING + 1] + slope * p[timing + 1], p[_ARMS]
+    feed_forward = p[_FF : _FF + 3 * N_KNOTS] + slope * p[legs : legs + 3 * N_KNOTS]
     for j in range(_N):
         scale = 1.0
         if j >= _R_HIP:
@@ -394,9 +408,9 @@ def run_tick(knots, table, reference, rates, mean, state_reference, limits, stat
     for leg in range(2):
         hip = _R_HIP if leg == 0 else _L_HIP
         leg_share = share if leg == 0 else share + 0.5
-        target[hip] += _periodic_spline(p, _FF, N_KNOTS, leg_share)
-        target[hip + 3] += _periodic_spline(p, _FF + N_KNOTS, N_KNOTS, leg_share)
-        target[hip + 4] += _periodic_spline(p, _FF + 2 * N_KNOTS, N_KNOTS, leg_share)
+        target[hip] += _periodic_spline(feed_forward, 0, N_KNOTS, leg_share)
+        target[hip + 3] += _periodic_spline(feed_forward, N_KNOTS, N_KNOTS, leg_share)
+        target[hip + 4] += _periodic_spline(feed_forward, 2 * N_KNOTS, N_KNOTS, leg_share)
     stance = _L_HIP if side > 0 else _R_HIP
     swing = _R_HIP if side > 0 else _L_HIP
     mirror = -side

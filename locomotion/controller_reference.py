@@ -80,12 +80,14 @@ def pd_targets(skill: RunSkill, state: np.ndarray, sensed: np.ndarray, qpos: np.
         np.array([np.interp(share % 1.0, rows, np.append(column, column[0])) for column in table.T])
         for table in (reference, rates)
     )
-    moving = 0.1 / (2 * p["timing"][0]) if phase < 1.0 else 0.0
+    way = "climb" if state[c.SLOPE] >= 0 else "descend"
+    step_time, legs_amplitude = p["timing"] + state[c.SLOPE] * p[f"{way}_timing"]
+    moving = 0.1 / (2 * max(step_time, 0.2)) if phase < 1.0 else 0.0
     amplitude = np.ones(len(JOINT_NAMES))
     amplitude[9:25] = p["arms"][0]
-    amplitude[25:] = p["timing"][1]
+    amplitude[25:] = legs_amplitude
     target = mean + amplitude * (pose - mean + rate * moving)
-    knots = p["feed_forward"].reshape(3, c.N_KNOTS)
+    knots = (p["feed_forward"] + state[c.SLOPE] * p[f"{way}_legs"]).reshape(3, c.N_KNOTS)
     joint = JOINT_NAMES.index
     for leg, at in (("right", share), ("left", share + 0.5)):
         for row, name in enumerate(("hip_flexion", "knee_flexion", "ankle_flexion")):

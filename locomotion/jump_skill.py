@@ -163,9 +163,15 @@ def load_jump_skill(path: str | os.PathLike[str] = JUMP_SKILL) -> JumpSkill:
 
 
 def run_digest(run: RunSkill) -> str:
-    """Hex digest of the running skill that a jump is learned on."""
+    """Hex digest of the running skill that a jump is learned on, as far as it runs straight on level ground."""
     hasher = hashlib.sha256()
-    for table in run.tables:
+    knots, parameters, *rest, _ = run.tables
+    straight = parameters[1:].copy()  # the first row only serves setting off
+    for name in (
+        "turn", "climb", "descend", "start", "climb_legs", "descend_legs", "climb_timing", "descend_timing",
+    ):  # fmt: skip
+        straight[:, controller.parameter_slices()[name]] = 0.0
+    for table in (knots, straight, *rest):
         hasher.update(np.round(table, 9).tobytes())
     return hasher.hexdigest()[:16]
 

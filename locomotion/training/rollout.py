@@ -132,7 +132,7 @@ class Simulator:
             speed = _at(scenario.speeds, 0.0)
             reset_running(skill, self.model, self.data, self.index, self.state, origin, scenario.yaw, speed)
         if any(scenario.tilt):
-            self._lift()
+            self._lift(scenario.tilt)
         if scenario.start_noise.size:
             noise = scenario.start_noise
             self.data.qvel[:6] += noise[:6]
@@ -141,8 +141,11 @@ class Simulator:
             self.state[c.COM_VELOCITY] += noise[:3]
             c.observe(self.index, self.model, self.data, self.state, fresh=True)
 
-    def _lift(self) -> None:
-        """Raise a person that was put into the slope until it only touches it."""
+    def _lift(self, slope: tuple[float, float]) -> None:
+        """Raise a person that was put into the slope until it only touches it, and let it move along it."""
+        velocity = self.data.qvel[:2]
+        self.data.qvel[2] += float(np.dot(slope, velocity))
+        self.state[c.COM_VELOCITY][2] = self.data.qvel[2]
         depth = min(float(self.data.contact.dist.min()) if self.data.ncon else 0.0, 0.0)
         self.data.qpos[2] -= depth
         mujoco.mj_forward(self.model, self.data)
@@ -152,7 +155,7 @@ class Simulator:
         """Simulate ``scenario``; ``on_tick(simulator)`` is called after every tick."""
         model, data, state, index = self.model, self.data, self.state, self.index
         self.start(skill, scenario)
-        command = np.array([scenario.yaw, 0.0, 0.0])
+        command = np.array([scenario.yaw, 0.0, 0.0, 0.0])
         sums, past = np.zeros(12), np.zeros(7)
         head, chest = data.xpos[index.head], data.xmat[index.chest]
         ticks = round(scenario.duration / CONTROL_DT)
@@ -168,6 +171,8 @@ class Simulator:
                 command[1], turn = _at(scenario.speeds, time + 1e-9), _at(scenario.headings, time + 1e-9)
             command[0] += turn * CONTROL_DT
             turned += abs(turn) * CONTROL_DT
+            heading = state[c.HEADING]
+            command[3] = scenario.tilt[0] * math.cos(heading) + scenario.tilt[1] * math.sin(heading)
             if len(scenario.pushes):
                 push[:2] = 0.0
                 for start, fx, fy, length in scenario.pushes:

@@ -54,6 +54,8 @@ def scales() -> np.ndarray:
     x[part["turn"]] = 0.5
     x[part["climb"]] = 1.0
     x[part["descend"]] = 1.0
+    x[part["climb_legs"]] = x[part["descend_legs"]] = 1.0
+    x[part["climb_timing"]] = x[part["descend_timing"]] = [0.2, 0.8]
     x[part["start"]] = [0.15, 0.15, 0.03, 0.15, 0.3]
     x[part["timing"]] = [0.06, 0.25]
     x[part["arms"]] = 0.2
@@ -106,12 +108,13 @@ def genes_scale(base: float, slope: float, bend: float, start: float) -> np.ndar
     return np.concatenate([base * running + start * lean, slope * running, bend * shaped, start * running])
 
 
-def terms_scale(*names: str) -> np.ndarray:
-    """Scale of all genes where only the blocks ``names`` of `controller.PARAMETERS` are free, with their change by speed."""
-    one, part, free = scales(), c.parameter_slices(), np.zeros(SIZE)
-    for name in names:
+def terms_scale() -> np.ndarray:
+    """Scale of all genes where only what acts in bends and on slopes is free: running straight on a plane stays as it is."""
+    one, part, free, by_speed = scales(), c.parameter_slices(), np.zeros(SIZE), np.zeros(SIZE)
+    for name in ("turn", "climb", "descend", "climb_legs", "descend_legs", "climb_timing", "descend_timing"):
         free[part[name]] = one[part[name]]
-    return np.concatenate([free, free, np.zeros(2 * SIZE)])
+    by_speed[part["turn"]] = one[part["turn"]]
+    return np.concatenate([free, by_speed, np.zeros(2 * SIZE)])
 
 
 def _stage(name: str, generations: int, sigma: float, scale: np.ndarray, trials: int, style: float, **trial: Any) -> Stage:
@@ -212,12 +215,12 @@ class RunProblem:
         options, count = dict(stage.options["trial"]), stage.options["trials"]
         if not options.pop("spread", False):
             return [draw_scenario(rng, **options) for _ in range(count)]
-        # one steady speed per trial, spread over the range; flat, bend, slope, bend by turns
+        # one steady speed per trial, spread over the range; flat, bend, slope, slope by turns
         low, high = options.pop("speeds")
         edges = np.linspace(low, high, count + 1)
         speeds = rng.permutation(rng.uniform(edges[:-1], edges[1:]))
         flat, bend, slope = {"lateral": 0.0, "tilt": 0.0}, {"tilt": 0.0}, {"lateral": 0.0}
-        kinds = (flat, bend, slope, bend)
+        kinds = (flat, bend, slope, slope)
         return [
             draw_scenario(rng, speeds=(float(v), float(v)), **{**options, **kinds[i % 4]}) for i, v in enumerate(speeds)
         ]

@@ -140,7 +140,7 @@ class Human:
         self.events: list[Event] = []
         self._control = controller.new_state()
         self._memory = new_track()
-        self._command = np.zeros(3)
+        self._command = np.zeros(4)
         self._path: PathTable | None = None
         self._obstacles: tuple[ObstacleAhead, ...] = ()
         self._run_up = np.zeros(_RUN_UP_SIZE)
@@ -402,5 +402,5 @@ class Human:
             reset_running(self.skill, self.model, self.data, self.index, self._control, position, yaw, speed)
         else:
             reset_standing(self.model, self.data, self.index, self._control, position, yaw)
-        self._command[:] = yaw, speed, 0.0
+        self._command[:] = yaw, speed, 0.0, 0.0
         self._memory[:] = new_track()

@@ -20,7 +20,7 @@ def ride(points, speed, offset=0.0, drift=0.0, turn_rate=1.0, lag=0.2):
 
     Returns lateral errors (n,) at every tick and the tracker's memory."""
     path = pt.make_path(points, speed, LIMITS, speed)
-    memory, command = pt.new_track(), np.zeros(3)
+    memory, command = pt.new_track(), np.zeros(4)
     heading = course = float(path.table[0, pt.HEADING])
     rate, v = 0.0, speed
     x, y = path.table[0, :2] + offset * np.array([-np.sin(heading), np.cos(heading)])
@@ -63,7 +63,7 @@ def test_foot_point_does_not_jump_to_the_other_arm_of_a_hairpin():
     there = np.stack([arm, 0 * arm, 0 * arm], axis=1)
     back = np.stack([arm[::-1], 0 * arm + 0.3, 0 * arm], axis=1)
     path = pt.make_path(np.concatenate([there, back]), 3.0, LIMITS, 3.0)
-    memory, command = pt.new_track(), np.zeros(3)
+    memory, command = pt.new_track(), np.zeros(4)
     for tick, x in enumerate(np.arange(0, 15, 0.03)):
         pt.track(path.table, path.length, _GAINS, memory, x, 0.16, 3.0, tick, command)
     assert memory[pt.ARC] == pytest.approx(15, abs=0.1)

@@ -2,10 +2,10 @@
 
     python benchmarks/jumping.py [--every 0.1] [--heights 0.3 0.4 0.5] [--json jumping.json] [--film out/jump]
 
-For every height the person starts from standing at d = 10 to 30 m before a stair, runs up, jumps and runs on: the
-whole way that a mission takes (path tracking, speed planner, skill) on a triangle mesh. Cleared: both feet have carried
-it on top and it still runs 3 s after the jump. Clean: nothing but the feet touched the stair. The film strips
-(--film) need MuJoCo's renderer, with MUJOCO_GL=egl where there is no display.
+For every height the person starts from standing at d = 10 to 30 m before a stair, runs up, jumps and runs
+on: the whole way that a mission takes (path tracking, speed planner, skill) on a triangle mesh. Cleared: both
+feet have carried it on top and it still runs 3 s after the jump. Clean: nothing but the feet touched the
+stair. The film strips (--film) need MuJoCo's renderer, with MUJOCO_GL=egl where there is no display.
 """
 
 import argparse
@@ -31,7 +31,8 @@ TOP = 24.0
 
 @dataclass(frozen=True)
 class Attempt:
-    """One start. ended: "cleared", "fell in the run-up", "fell in the jump", "fell afterwards" or what else stopped it."""
+    """One start. ended: "cleared", "fell in the run-up", "fell in the jump", "fell afterwards" or what else
+    stopped it."""
 
     height: float
     distance: float
@@ -72,7 +73,7 @@ def touches_stair(human: Human, height: float, feet: set[int]) -> bool:
 def attempt(
     ground: Ground, height: float, distance: float, frames: list[np.ndarray] | None = None
 ) -> Attempt:
-    """Run up from ``distance`` [m], jump, run on; ``frames`` collects qpos every 40 ms from 1 s before the jump."""
+    """Run up from ``distance`` [m], jump, run on; ``frames`` collects qpos every 40 ms from the jump on."""
     human = Human(ground)
     names = ("right_foot", "right_toes", "left_foot", "left_toes")
     feet = {human.index.bodies[name] for name in names}
@@ -135,8 +136,8 @@ def film(path: Path, height: float, frames: list[np.ndarray], count: int = 12) -
     """Write a strip of ``count`` pictures of the jump."""
     import matplotlib.image
 
-    from locomotion.training.jump_trial import JumpSimulator
     from locomotion.skill import load_run_skill
+    from locomotion.training.jump_trial import JumpSimulator
 
     simulator = JumpSimulator(load_run_skill())
     simulator.place_stair(0.0, height)
@@ -166,7 +167,7 @@ def main() -> None:
     options = parser.parse_args()
     result: dict[str, Any] = {"summary": [], "attempts": []}
     print(
-        f"{'height':>7} {'starts':>7} {'cleared':>8} {'clean':>7} {'d error rms':>12} {'v error':>14}  how they ended"
+        f"{'height':>7} {'starts':>7} {'cleared':>8} {'clean':>7} {'d error':>12} {'v error':>16}  ends"
     )
     for height in options.heights:
         ground = Ground.from_arrays(*stair(height))
@@ -178,9 +179,9 @@ def main() -> None:
         result["summary"].append(figures)
         result["attempts"] += [asdict(a) for a in attempts]
         print(
-            f"{height:7.2f} {figures['starts']:7d} {100 * figures['cleared']:7.1f}% {100 * figures['clean']:6.1f}%"
-            f" {figures['takeoff_error_rms']:10.3f} m {figures['speed_error_mean']:+.2f} ± {figures['speed_error_sd']:.2f}"
-            f" m/s  {figures['ends']}",
+            f"{height:7.2f} {figures['starts']:7d} {100 * figures['cleared']:7.1f}%"
+            f" {100 * figures['clean']:6.1f}% {figures['takeoff_error_rms']:10.3f} m"
+            f" {figures['speed_error_mean']:+.2f} ± {figures['speed_error_sd']:.2f} m/s  {figures['ends']}",
             flush=True,
         )
         if options.film:

@@ -11,12 +11,12 @@ During a jump every tick adds an offset to the PD targets of the run,
 
     offset = alpha * (clip - run reference) + a_hat(h) + G e + M_ap M_sp (s - s_ref)      (rank 3)
 
-and scales the pace by beta. ``a_hat`` has four knots over each step for six sagittal actions and one value for six
-lateral ones. ``e`` (2,) are the errors of the distance to the edge and of speed, measured when steps 0 and 1 begin.
-``s`` (15,) are the run's sensors and the swing foot's place relative to the centre of mass. The offset passes
-through a low-pass filter, which blends the references where steps meet. Everything is mirrored when the take-off foot is
-the left one. The vector of parameters at a height comes from radial basis functions over the learned heights
-(biharmonic spline with a linear term).
+and scales the pace by beta. ``a_hat`` has four knots over each step for six sagittal actions and one
+value for six lateral ones. ``e`` (2,) are the errors of the distance to the edge and of speed, measured
+when steps 0 and 1 begin. ``s`` (15,) are the run's sensors and the swing foot's place relative to the
+centre of mass. The offset passes through a low-pass filter, which blends the references where steps meet.
+Everything is mirrored when the take-off foot is the left one. The vector of parameters at a height comes
+from radial basis functions over the learned heights (biharmonic spline with a linear term).
 """
 
 import math
@@ -28,8 +28,9 @@ from locomotion import controller
 from locomotion.person import CONTROL_DT, JOINT_NAMES
 
 __all__ = [
-    "ACTIVE", "BINS", "ERROR_DISTANCE", "ERROR_SPEED", "MEMORY_SIZE", "MIRROR", "MIRROR_SIGN", "PARAMETERS", "RANK",
-    "SENSED", "SENSORS", "STEPS", "jump_tick", "mirror", "parameter_slices", "start_jump",
+    "ACTIVE", "BINS", "ERROR_DISTANCE", "ERROR_SPEED", "MEMORY_SIZE", "MIRROR", "MIRROR_SIGN",
+    "PARAMETERS", "RANK", "SENSED", "SENSORS", "STEPS", "jump_tick", "mirror", "parameter_slices",
+    "start_jump",
 ]  # fmt: skip
 
 STEPS = 4
@@ -40,7 +41,8 @@ SENSORS = 15
 BINS = 6
 SAGITTAL = ("swing_hip", "swing_knee", "stance_hip", "stance_knee", "stance_ankle", "waist_pitch")
 LATERAL = (
-    "swing_hip_abduction", "swing_hip_rotation", "stance_hip_abduction", "stance_hip_rotation", "waist_roll", "waist_yaw",
+    "swing_hip_abduction", "swing_hip_rotation", "stance_hip_abduction", "stance_hip_rotation",
+    "waist_roll", "waist_yaw",
 )  # fmt: skip
 
 PARAMETERS: dict[str, int] = {
@@ -68,10 +70,11 @@ def parameter_slices() -> dict[str, slice]:
 _SP = parameter_slices()
 _A_HAT, _LATERAL, _BETA, _ALPHA, _MARKS, _GAINS, _M_SP, _M_AP = (_SP[k].start for k in PARAMETERS)
 
-# --- what a jump remembers ---------------------------------------------------------------------------------
+# --- what a jump remembers
 ACTIVE, FIRST_STEP, LAST_STEP, ENTRY, ERROR_DISTANCE, ERROR_SPEED, TRIM = range(7)
-"""1 while jumping; the run's step count when it began; step last seen; wanted entry speed [m/s]; errors of the
-distance [m, positive: too far] and of the speed [m/s] measured last; the run's speed correction, kept."""
+"""1 while jumping; the run's step count when it began; step last seen; wanted entry speed [m/s]; errors
+of the distance [m, positive: too far] and of the speed [m/s] measured last; the run's speed correction,
+kept."""
 EDGE = slice(7, 11)
 """A point of the edge (x, y) [m] and the unit direction of the approach (x, y)."""
 _OFFSET = 11
@@ -136,8 +139,8 @@ def _measure_errors(p, memory, state, mark):
 def start_jump(p, memory, state, entry, edge_x, edge_y, ahead_x, ahead_y):
     """Begin a jump at the stance switch that has just been made (its tick's `jump_tick` comes next).
 
-    p (241,): parameters. memory (MEMORY_SIZE,). state: the run's. entry: wanted speed [m/s]. edge: a point of the
-    edge [m]; ahead: unit vector towards the obstacle.
+    p (241,): parameters. memory (MEMORY_SIZE,). state: the run's. entry: wanted speed [m/s]. edge: a
+    point of the edge [m]; ahead: unit vector towards the obstacle.
     """
     memory[:] = 0.0
     memory[ACTIVE] = 1.0
@@ -151,11 +154,13 @@ def start_jump(p, memory, state, entry, edge_x, edge_y, ahead_x, ahead_y):
 
 @njit(cache=True)
 def jump_tick(p, knots, timing, difference, difference_rate, reference, mirror, sign, memory, state, ctrl):
-    """One tick of a jump, after `run_tick` and before the physics: adds to ``ctrl`` (39,), changes the pace.
+    """One tick of a jump, after `run_tick` and before the physics: adds to ``ctrl`` (39,), changes the
+    pace.
 
-    p (241,): parameters at this height. knots, timing (k,): the run's speeds [m/s] and step times [s]. difference,
-    difference_rate (n, 39): clip less run reference over a cycle that begins with the right foot's take-off step, and
-    its rate per cycle. reference (4, 6, 15): expected sensors. mirror, sign (39,). memory (MEMORY_SIZE,), state: changed.
+    p (241,): parameters at this height. knots, timing (k,): the run's speeds [m/s] and step times [s].
+    difference, difference_rate (n, 39): clip less run reference over a cycle that begins with the right
+    foot's take-off step, and its rate per cycle. reference (4, 6, 15): expected sensors. mirror, sign
+    (39,). memory (MEMORY_SIZE,), state: changed.
     """
     if memory[ACTIVE] == 0.0:
         return

@@ -21,7 +21,8 @@ from locomotion.skill import RunSkill
 from navmesh.archive import ArchiveError, read_archive, write_archive
 
 __all__ = [
-    "JUMP_CLIP", "JUMP_SKILL", "Jump", "JumpSkill", "JumpTables", "jump_clip", "load_jump_skill", "run_digest", "tables_of",
+    "JUMP_CLIP", "JUMP_SKILL", "Jump", "JumpSkill", "JumpTables", "jump_clip", "load_jump_skill",
+    "run_digest", "tables_of",
 ]  # fmt: skip
 
 JUMP_CLIP = Path(__file__).parent / "clips" / "jump.yaml"
@@ -41,8 +42,9 @@ def jump_clip() -> Clip:
 class JumpTables:
     """A jump at one height, ready for the kernels.
 
-    parameters: (241,) float64. entry: wanted entry speed [m/s]. mark: distance [m] from stance foot to edge at which
-    the jump begins. rest: the other arguments of `jump.jump_tick` between ``p`` and ``memory``.
+    parameters: (241,) float64. entry: wanted entry speed [m/s]. mark: distance [m] from stance foot to
+    edge at which the jump begins. rest: the other arguments of `jump.jump_tick` between ``p`` and
+    ``memory``.
     """
 
     parameters: np.ndarray
@@ -87,7 +89,8 @@ class JumpSkill:
         return float(self.heights[0]), float(self.heights[-1])
 
     def at(self, height: float, run: RunSkill) -> JumpTables:
-        """The jump onto a stair of ``height`` [m]; `LocomotionError` outside of `range` (2 cm are let pass)."""
+        """The jump onto a stair of ``height`` [m]; `LocomotionError` outside of `range` (2 cm are let
+        pass)."""
         low, high = self.range
         if not (math.isfinite(height) and low - 0.02 <= height <= high + 0.02):
             raise LocomotionError(
@@ -106,7 +109,8 @@ class JumpSkill:
         """Write the skill for the present person; the file appears whole or not at all."""
         header = {"person": person_digest(), "run": self.run, "stride": list(self.stride), "meta": self.meta}
         arrays = {
-            "heights": self.heights, "table": self.table, "entries": self.entries, "references": self.references,
+            "heights": self.heights, "table": self.table, "entries": self.entries, "references":
+            self.references,
         }  # fmt: skip
         write_archive(path, _KIND, _VERSION, header, arrays)
 
@@ -133,7 +137,8 @@ def _interpolate(heights: np.ndarray, values: np.ndarray, height: float) -> np.n
 
 
 def load_jump_skill(path: str | os.PathLike[str] = JUMP_SKILL) -> JumpSkill:
-    """Read a jump skill; `LocomotionError` if it is missing, cut off, of another version or of another person."""
+    """Read a jump skill; `LocomotionError` if it is missing, cut off, of another version or of another
+    person."""
     try:
         header, arrays = read_archive(path, _KIND, _VERSION)
     except ArchiveError as error:
@@ -163,7 +168,8 @@ def load_jump_skill(path: str | os.PathLike[str] = JUMP_SKILL) -> JumpSkill:
 
 
 def run_digest(run: RunSkill) -> str:
-    """Hex digest of the running skill that a jump is learned on, as far as it runs straight on level ground."""
+    """Hex digest of the running skill that a jump is learned on, as far as it runs straight on level
+    ground."""
     hasher = hashlib.sha256()
     knots, parameters, *rest, _ = run.tables
     straight = parameters[1:].copy()  # the first row only serves setting off
@@ -197,7 +203,8 @@ class Jump:
         return self.skill.stride
 
     def tables(self, height: float) -> JumpTables:
-        """The kernels' arguments for a stair of ``height`` [m]; the nearest learned height beyond the ends."""
+        """The kernels' arguments for a stair of ``height`` [m]; the nearest learned height beyond the
+        ends."""
         low, high = self.heights
         height = min(max(float(height), low), high)
         if height not in self._tables:
@@ -205,12 +212,14 @@ class Jump:
         return self._tables[height]
 
     def approach(self, height: float) -> tuple[float, float]:
-        """(entry speed [m/s], distance [m] from the stance foot's ankle to the edge at which the jump begins)."""
+        """(entry speed [m/s], distance [m] from the stance foot's ankle to the edge at which the jump
+        begins)."""
         tables = self.tables(height)
         return tables.entry, tables.mark
 
     def start(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Begin a jump at a stance switch, before that tick's `tick`; gives all that it remembers, (k,) float64."""
+        """Begin a jump at a stance switch, before that tick's `tick`; gives all that it remembers, (k,)
+        float64."""
         tables = self.tables(obstacle.height)
         memory = np.zeros(jump.MEMORY_SIZE)
         x, y = float(obstacle.position[0]), float(obstacle.position[1])

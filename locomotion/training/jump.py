@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from locomotion import jump
-from locomotion.jump_skill import JUMP_SKILL, JumpSkill, load_jump_skill, run_digest, tables_of
+from locomotion.jump_skill import JUMP_SKILL, Jump, JumpSkill, load_jump_skill, run_digest, tables_of
 from locomotion.skill import RunSkill, load_run_skill
 from locomotion.training.jump_trial import JumpOutcome, JumpSimulator, StartState
 from locomotion.training.loop import Progress, Stage, learn
@@ -25,7 +25,8 @@ _KIND, _VERSION = "jump training", 1
 
 
 def first_guess() -> np.ndarray:
-    """Parameters (p,) from which learning starts: the clip in the place of the run, which nearly clears 0.3 m."""
+    """Parameters (p,) from which learning starts: the clip in the place of the run, which nearly clears
+    0.3 m."""
     x = np.zeros(sum(jump.PARAMETERS.values()))
     part = jump.parameter_slices()
     x[part["beta"]] = [1.0, 0.75, 1.0, 1.0]
@@ -76,9 +77,11 @@ def cost(outcome: JumpOutcome, entry: float) -> float:
 class JumpProblem:
     """One height: what `learn` needs.
 
-    initial: (p,) where learning starts, the solution at the neighbouring height; solutions are pulled towards it.
-    reference: (4, 6, 15) expected sensors. states: harvested from planned run-ups. curriculum: the stages; their
-    options are ``states`` (per generation), ``error`` [m] added to the distance, ``duration`` [s], ``pull``.
+    initial: (p,) where learning starts, the solution at the neighbouring height; solutions are pulled
+    towards it.
+    reference: (4, 6, 15) expected sensors. states: harvested from planned run-ups. curriculum: the
+    stages; their options are ``states`` (per generation), ``error`` [m] added to the distance,
+    ``duration`` [s], ``pull``.
     """
 
     run: RunSkill
@@ -126,7 +129,8 @@ class JumpProblem:
         )
 
     def record(self, candidate: np.ndarray) -> np.ndarray:
-        """Mean sensors of the cleared jumps without errors, (4, 6, 15); the present reference where none is."""
+        """Mean sensors of the cleared jumps without errors, (4, 6, 15); the present reference where none
+        is."""
         sums = np.zeros((jump.STEPS, jump.BINS, jump.SENSORS + 1))
         simulator = JumpSimulator(self.run)
         tables = tables_of(np.ascontiguousarray(candidate), self.entry, self.reference, self.run)
@@ -163,9 +167,10 @@ def train_jump(
 ) -> JumpSkill:
     """Learn jumps onto all of `HEIGHTS` on the package's run and write them to ``out``.
 
-    ``checkpoint``: folder for the state of learning; a run that was interrupted goes on from it and gives the
-    same result. ``effort``: scales the number of generations. ``start_from``: a jump skill to refine (after the run has
-    changed) instead of beginning from nothing. The same seed gives the same skill with any number of workers.
+    ``checkpoint``: folder for the state of learning; a run that was interrupted goes on from it and gives
+    the same result. ``effort``: scales the number of generations. ``start_from``: a jump skill to refine
+    (after the run has changed) instead of beginning from nothing. The same seed gives the same skill with
+    any number of workers.
     """
     run = load_run_skill()
     folder = Path(checkpoint) if checkpoint is not None else None
@@ -186,14 +191,15 @@ def train_jump(
             x, reference = arrays["x"], arrays["reference"]
         else:
             x, reference = _learn_height(
-                run, height, entry, x, reference, seed, k, folder, workers, effort, on_progress
+                run, stride, height, entry, x, reference, seed, k, folder, workers, effort, on_progress
             )
             if done is not None:
                 write_archive(done, _KIND, _VERSION, {}, {"x": x, "reference": reference})
         kept.append((height, x, reference))
     skill = JumpSkill(
         np.array([h for h, _, _ in kept]), np.array([x for _, x, _ in kept]), np.full(len(kept), entry),
-        np.array([r for _, _, r in kept]), stride, run_digest(run), {"command": "surefoot train jump", "seed": seed},
+        np.array([r for _, _, r in kept]), stride, run_digest(run), {"command": "surefoot train jump",
+        "seed": seed},
     )  # fmt: skip
     skill.save(out)
     return skill
@@ -213,11 +219,13 @@ def _learn_height(
     effort: float,
     on_progress: Callable[[Progress], None] | None,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Go through a height's stages; the expected sensors are recorded anew before the feedback is learned."""
+    """Go through a height's stages; the expected sensors are recorded anew before the feedback is
+    learned."""
     rng = np.random.default_rng([seed, number])
-    states = JumpSimulator(run, stride).harvest(
-        tables_of(x, entry, reference, run), rng.uniform(8.0, 16.0, _STATES), rng
+    guess = JumpSkill(
+        np.array([height]), x[None], np.array([entry]), reference[None], stride, run_digest(run)
     )
+    states = JumpSimulator(run).harvest(Jump(guess, run), rng.uniform(8.0, 16.0, _STATES), rng)
     for place, stage in enumerate(_curriculum(height, effort)):
         problem = JumpProblem(run, height, entry, x, reference, states, [stage])
         file = folder / f"search-{number}-{place}.npz" if folder is not None else None

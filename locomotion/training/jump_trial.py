@@ -9,7 +9,7 @@ from locomotion import controller as c
 from locomotion import jump
 from locomotion.clearing import plan_run_up
 from locomotion.jump import jump_tick, start_jump
-from locomotion.jump_skill import JumpTables, jump_clip
+from locomotion.jump_skill import Jump, JumpTables, jump_clip
 from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, person_spec
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill, reset_running
@@ -40,11 +40,13 @@ class JumpOutcome:
     """What a trial showed.
 
     cleared: both feet were on top and the person still runs at the end. time: share of the trial survived.
-    shortfall: how far [m] the lowest foot was below the edge's height when its toes crossed the edge. scrape: ticks in
-    which something touched the face of the stair. steps: made on top. speed: mean speed [m/s] of the last steps. drift:
-    sideways distance [m] at the end. reaction: mean excess of the ground reaction above 4 body weights.
+    shortfall: how far [m] the lowest foot was below the edge's height when its toes crossed the edge.
+    scrape: ticks in which something touched the face of the stair. steps: made on top. speed: mean speed
+    [m/s] of the last steps. drift: sideways distance [m] at the end. reaction: mean excess of the ground
+    reaction above 4 body weights.
     effort: mean squared torque [(Nm)^2] over 1e4. trunk: mean squared pitch and roll of the trunk off its
-    lean [rad^2]. pose: mean squared difference [rad^2] to the clip over steps 1 and 2. errors: of distance and speed.
+    lean [rad^2]. pose: mean squared difference [rad^2] to the clip over steps 1 and 2. errors: of
+    distance and speed.
     """
 
     cleared: bool
@@ -70,39 +72,19 @@ def stair_model() -> mujoco.MjModel:
         friction=friction, rgba=[0.82, 0.84, 0.86, 1],
     )  # fmt: skip
     spec.worldbody.add_geom(
-        name="stair", type=mujoco.mjtGeom.mjGEOM_BOX, size=[_LENGTH / 2, 4.0, _TOP], contype=1, conaffinity=0,
-        friction=friction, rgba=[0.62, 0.55, 0.46, 1], pos=[1000.0, 0.0, -_TOP],
+        name="stair", type=mujoco.mjtGeom.mjGEOM_BOX, size=[_LENGTH / 2, 4.0, _TOP], contype=1,
+        conaffinity=0, friction=friction, rgba=[0.62, 0.55, 0.46, 1], pos=[1000.0, 0.0, -_TOP],
     )  # fmt: skip
     model = spec.compile()
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_MIDPHASE  # the box moves in the world body
     return model
 
 
-_MARK = ObstacleAhead(0.0, "jump", 0.3, np.zeros(3), np.array([-1.0, 0.0, 0.0]))
-
-
-@dataclass(frozen=True)
-class _Entry:
-    """What the planner wants to know of a jump that is being learned."""
-
-    tables: JumpTables
-    stride: tuple[float, float, float]
-
-    affordance = "jump"
-    heights = (0.0, 1.0)
-
-    def approach(self, height: float) -> tuple[float, float]:
-        return self.tables.entry, self.tables.mark
-
-
 class JumpSimulator:
     """A person, a plane and a stair that trials are run with; one per process."""
 
-    def __init__(self, run: RunSkill, stride: tuple[float, float, float] | None = None) -> None:
-        """``run``: the run under the jumps. ``stride``: of its steps, see `fit_stride`; None: as the run says."""
+    def __init__(self, run: RunSkill) -> None:
         self.run = run
-        a, b = run.step_length
-        self.stride = (a, 0.0, b) if stride is None else stride
         self.model = stair_model()
         self.data = mujoco.MjData(self.model)
         self.index = PersonIndex.of(self.model)
@@ -147,9 +129,11 @@ class JumpSimulator:
         c.run_tick(*self.run.tables, self.state, self.command, data.qpos, data.qvel, data.ctrl)
 
     def fit_stride(self, rng: np.random.Generator, runs: int = 8) -> tuple[float, float, float]:
-        """(a, lag, b) of step length = a v + lag (v' - v) + b [m] for a step asked for at v after one at v'.
+        """(a, lag, b) of step length = a v + lag (v' - v) + b [m] for a step asked for at v after one at
+        v'.
 
-        Least squares over ``runs`` runs of 12 s in which the speed that is asked for wanders from step to step.
+        Least squares over ``runs`` runs of 12 s in which the speed that is asked for wanders from step to
+        step.
         """
         rows, lengths = [], []
         self.place_stair(1000.0, 0.0)
@@ -175,15 +159,17 @@ class JumpSimulator:
         a, lag, b = np.linalg.lstsq(np.array(rows), np.array(lengths), rcond=None)[0]
         return float(a), float(lag), float(b)
 
-    def harvest(
-        self, tables: JumpTables, distances: np.ndarray, rng: np.random.Generator
-    ) -> list[StartState]:
-        """Run up to a mark from each of ``distances`` [m] and save the states at which the jump begins."""
+    def harvest(self, skill: Jump, distances: np.ndarray, rng: np.random.Generator) -> list[StartState]:
+        """Run up to the mark of ``skill`` at its least height from each of ``distances`` [m]; save the
+        states at which the jump begins, less those from which not even the run goes on."""
+        height = skill.heights[0]
+        ahead = ObstacleAhead(0.0, "jump", height, np.zeros(3), np.array([-1.0, 0.0, 0.0]))
+        entry, _ = skill.approach(height)
         found = []
         self.place_stair(1000.0, 0.0)
         for distance in distances:
             noise = rng.normal(size=51) * np.r_[np.full(3, 0.1), np.full(3, 0.1), np.full(45, 0.02)]
-            speed = rng.uniform(*np.clip([tables.entry - 0.8, tables.entry + 0.5], *self.run.speeds))
+            speed = rng.uniform(*np.clip([entry - 0.8, entry + 0.5], *self.run.speeds))
             self.begin(float(distance), float(speed), noise=noise)
             seen = -1.0
             for _ in range(3000):
@@ -194,7 +180,7 @@ class JumpSimulator:
                 self.run_tick()
                 if self.state[c.STEPS] != seen:
                     seen = self.state[c.STEPS]
-                    plan = plan_run_up(self.state, _MARK, _Entry(tables, self.stride), self.run)
+                    plan = plan_run_up(self.state, ahead, skill, self.run)
                     if plan.speeds.size == 0:
                         foot = c.PLANTED.start + (3 if self.state[c.STANCE] > 0 else 0)
                         planted = self.state[foot : foot + 2].copy()
@@ -231,10 +217,11 @@ class JumpSimulator:
         on_tick=None,
         record: np.ndarray | None = None,
     ) -> JumpOutcome:
-        """Jump from a harvested state; the stair is put so that the distance misses the mark by ``error`` [m].
+        """Jump from a harvested state; the stair is put so that the distance misses the mark by ``error``
+        [m].
 
-        duration: [s]. on_tick(simulator) is called after each tick. record: (4, 6, 16) sums of the sensors per bin and
-        their count, added to.
+        duration: [s]. on_tick(simulator) is called after each tick. record: (4, 6, 16) sums of the
+        sensors per bin and their count, added to.
         """
         edge = float(start.planted[0]) + tables.mark + error
         self.place_stair(edge, height)

@@ -2,7 +2,8 @@
 
     python benchmarks/running.py [--seeds 100] [--json running.json]
 
-Needs nothing but the package. Each figure is printed with how it was measured; 100 seeds of 60 s take some minutes.
+Needs nothing but the package. Each figure is printed with how it was measured; 100 seeds of 60 s take some
+minutes.
 """
 
 import argparse
@@ -32,24 +33,35 @@ def survived(trial: Trial, scenario: Scenario) -> bool:
     return trial.figures["time"] > scenario.duration - 1.5 * CONTROL_DT
 
 
-def push_test(simulator: Simulator, skill: RunSkill, seeds: int, duration: float, force: float) -> dict[str, Any]:
-    """``seeds`` runs of ``duration`` [s] at a random speed, pushed every 5 s with ``force`` [N] for 0.1 s from anywhere."""
+def push_test(
+    simulator: Simulator, skill: RunSkill, seeds: int, duration: float, force: float
+) -> dict[str, Any]:
+    """``seeds`` runs of ``duration`` [s] at a random speed, pushed every 5 s with ``force`` [N] for 0.1 s
+    from anywhere."""
     ends, standing_ends = [], []
     for seed in range(seeds):
         rng = np.random.default_rng(seed)
         times = np.arange(2.0, duration - 1.0, 5.0) + rng.uniform(0.0, 2.0)
         angle = rng.uniform(0.0, 2.0 * np.pi, len(times))
-        pushes = np.stack([times, force * np.cos(angle), force * np.sin(angle), np.full(len(times), 0.1)], axis=1)
+        pushes = np.stack(
+            [times, force * np.cos(angle), force * np.sin(angle), np.full(len(times), 0.1)], axis=1
+        )
         speed = rng.uniform(2.6, 4.2)
         noise = rng.normal(size=51) * np.concatenate([np.full(6, 0.15), np.full(45, 0.02)])
         for standing, found in ((False, ends), (True, standing_ends)):
             scenario = constant(
-                speed, duration, pushes=pushes, standing=standing, start_noise=np.zeros(0) if standing else noise
+                speed,
+                duration,
+                pushes=pushes,
+                standing=standing,
+                start_noise=np.zeros(0) if standing else noise,
             )
             found.append(simulator.run(skill, scenario).figures["time"])
     full = duration - 1.5 * CONTROL_DT
     return {
-        "seeds": seeds, "duration": duration, "force": force,
+        "seeds": seeds,
+        "duration": duration,
+        "force": force,
         "from a running pose": float(np.mean(np.array(ends) > full)),
         "from standing": float(np.mean(np.array(standing_ends) > full)),
     }
@@ -66,19 +78,25 @@ def speed_test(simulator: Simulator, skill: RunSkill) -> list[dict[str, float]]:
             if state[c.TICKS] > 500:
                 switched = state[c.STEP_TIME] == 0.0
                 length, pace = state[c.STEP_LENGTH], state[c.STEP_SPEED]
-                seen.append((float(state[c.CONTACT].sum()), *((length, pace) if switched else (np.nan, np.nan))))
+                seen.append(
+                    (float(state[c.CONTACT].sum()), *((length, pace) if switched else (np.nan, np.nan)))
+                )
 
         trial = simulator.run(skill, constant(speed, 20.0), note)
         table = np.array(seen) if seen else np.full((1, 3), np.nan)
         weight = float(simulator.model.body_mass.sum()) * 9.81
-        rows.append({
-            "wanted": speed, "survived": trial.figures["time"], "speed": float(np.nanmean(table[:, 2])),
-            "step_length": float(np.nanmean(table[:, 1])),
-            "steps_per_s": float(np.nanmean(table[:, 2]) / np.nanmean(table[:, 1])),
-            "peak_reaction": float(np.nanmax(table[:, 0]) / weight),
-            "99th_percentile_reaction": float(np.nanpercentile(table[:, 0], 99) / weight),
-            "flight": float(np.mean(table[:, 0] == 0.0)),
-        })
+        rows.append(
+            {
+                "wanted": speed,
+                "survived": trial.figures["time"],
+                "speed": float(np.nanmean(table[:, 2])),
+                "step_length": float(np.nanmean(table[:, 1])),
+                "steps_per_s": float(np.nanmean(table[:, 2]) / np.nanmean(table[:, 1])),
+                "peak_reaction": float(np.nanmax(table[:, 0]) / weight),
+                "99th_percentile_reaction": float(np.nanpercentile(table[:, 0], 99) / weight),
+                "flight": float(np.mean(table[:, 0] == 0.0)),
+            }
+        )
     return rows
 
 
@@ -96,7 +114,14 @@ def turn_test(simulator: Simulator, skill: RunSkill, runs: int) -> list[dict[str
                 alive.append(trial.figures["time"] > 7.98)
                 made.append(np.degrees(abs(rate)) / max(trial.figures["step_rate"], 0.1))
             radius = speed * speed / lateral
-            rows.append({"speed": speed, "radius": radius, "deg_per_step": float(np.mean(made)), "survived": float(np.mean(alive))})
+            rows.append(
+                {
+                    "speed": speed,
+                    "radius": radius,
+                    "deg_per_step": float(np.mean(made)),
+                    "survived": float(np.mean(alive)),
+                }
+            )
     return rows
 
 
@@ -147,7 +172,9 @@ def print_table(title: str, rows: list[dict[str, float]]) -> None:
 
 def main() -> None:
     """Measure everything, print tables, write JSON."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--seeds", type=int, default=100)
     parser.add_argument("--duration", type=float, default=60.0, help="of each pushed run [s]")
     parser.add_argument("--force", type=float, default=200.0, help="of the pushes [N]")
@@ -167,13 +194,17 @@ def main() -> None:
     result["slopes"] = slope_test(simulator, skill)
     print_table("tilted plane, 8 directions", result["slopes"])
     result["time"] = time_test(simulator, skill)
-    print(f"\ncontrol: {100 * result['time']['control_over_physics']:.1f} % of mj_step; "
-          f"{result['time']['simulated_s_per_s']:.0f} simulated seconds per second")
+    print(
+        f"\ncontrol: {100 * result['time']['control_over_physics']:.1f} % of mj_step; "
+        f"{result['time']['simulated_s_per_s']:.0f} simulated seconds per second"
+    )
     result["pushes"] = push_test(simulator, skill, options.seeds, options.duration, options.force)
     p = result["pushes"]
-    print(f"\n{p['seeds']} seeds of {p['duration']:.0f} s with pushes of {p['force']:.0f} N x 0.1 s every 5 s: "
-          f"{100 * p['from a running pose']:.0f} % survive from a running pose, "
-          f"{100 * p['from standing']:.0f} % from standing")
+    print(
+        f"\n{p['seeds']} seeds of {p['duration']:.0f} s with pushes of {p['force']:.0f} N x 0.1 s every 5 s: "
+        f"{100 * p['from a running pose']:.0f} % survive from a running pose, "
+        f"{100 * p['from standing']:.0f} % from standing"
+    )
     if options.json:
         options.json.write_text(json.dumps(result, indent=1) + "\n")
 

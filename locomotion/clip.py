@@ -59,7 +59,8 @@ class Clip:
 
 
 def _interpolate(keys: np.ndarray, at: np.ndarray, cyclic: bool) -> np.ndarray:
-    """One channel at ``at`` (n,): a periodic cubic through the keys, or a monotone one that holds its ends."""
+    """One channel at ``at`` (n,): a periodic cubic through the keys, or a monotone one that holds its
+    ends."""
     if cyclic:
         times = np.append(keys[:, 0], keys[0, 0] + 1.0)
         angles = np.append(keys[:, 1], keys[0, 1])
@@ -72,7 +73,8 @@ def _interpolate(keys: np.ndarray, at: np.ndarray, cyclic: bool) -> np.ndarray:
 
 
 def load_clip(path: str | os.PathLike[str]) -> Clip:
-    """Read and check a clip; raises `LocomotionError` that names the file, the key and what would be right."""
+    """Read and check a clip; raises `LocomotionError` that names the file, the key and what would be
+    right."""
     source = Path(path)
     try:
         data = yaml.safe_load(source.read_text(encoding="utf-8"))
@@ -109,19 +111,28 @@ def load_clip(path: str | os.PathLike[str]) -> Clip:
 def _number(source: Path, data: dict[str, Any], key: str, low: float) -> float:
     value = data.get(key)
     if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value) or value < low:
-        raise LocomotionError(f"{source}: {key!r} must be a finite number of at least {low:g}, found {value!r}")
+        raise LocomotionError(
+            f"{source}: {key!r} must be a finite number of at least {low:g}, found {value!r}"
+        )
     return float(value)
 
 
 def _keys(source: Path, name: str, keys: Any, cyclic: bool) -> np.ndarray:
     """One channel's keyframes with the angles in radians, checked."""
     if name not in JOINT_NAMES:
-        raise LocomotionError(f"{source}: no joint is called {name!r}; the joints are {', '.join(JOINT_NAMES)}")
+        raise LocomotionError(
+            f"{source}: no joint is called {name!r}; the joints are {', '.join(JOINT_NAMES)}"
+        )
     try:
         table = np.array(keys, dtype=np.float64)
     except (TypeError, ValueError) as error:
         raise LocomotionError(f"{source}: {name}: expected a list of [share, degrees]") from error
-    if table.ndim != 2 or table.shape[1] != 2 or len(table) < (2 if cyclic else 1) or not np.isfinite(table).all():
+    if (
+        table.ndim != 2
+        or table.shape[1] != 2
+        or len(table) < (2 if cyclic else 1)
+        or not np.isfinite(table).all()
+    ):
         raise LocomotionError(f"{source}: {name}: expected at least two finite pairs [share, degrees]")
     shares = table[:, 0]
     if shares[0] < 0.0 or shares[-1] > 1.0 or (np.diff(shares) <= 0).any() or (cyclic and shares[-1] >= 1.0):

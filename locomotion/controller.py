@@ -3,36 +3,41 @@
 Per control tick of 10 ms the order is *control, physics, observe*::
 
     skill = load_run_skill()                         # locomotion.skill
-    state = new_state()                              # (STATE_SIZE,) float64: everything the controller remembers
+    state = new_state()                              # (STATE_SIZE,) float64: its memory
     reset_running(skill, model, data, index, state, position, yaw, speed)     # or reset_standing
     each tick:
         run_tick(*skill.tables, state, command, data.qpos, data.qvel, data.ctrl)     # writes data.ctrl
         mujoco.mj_step(model, data, STEPS_PER_TICK)
         observe(index, model, data, state)           # reads contacts, feet, centre of mass into ``state``
 
-After `reset_standing` the first ticks lean forward until the person topples, then it runs: nothing else to do.
-``command`` (3,) float64 = desired heading [rad, world, any turn], desired speed [m/s, clipped to the skill's
-range] and desired sideways speed [m/s to the left of the heading, clipped to ±0.4]; a fourth number, if there is one,
-is the slope of the ground along the heading [rise over run], which is otherwise felt from the touchdowns, two steps
-late. All may jump: the controller's own
-reference heading and speed follow at the rates that the skill holds. ``data.ctrl`` (39,) are PD targets [rad]
-in the order of `locomotion.person.JOINT_NAMES`; a skill on top (a jump) may add to them before the physics step.
+After `reset_standing` the first ticks lean forward until the person topples, then it runs.
 
-A simulation is saved by copying ``mjSTATE_INTEGRATION`` and ``state``; restoring both continues it bit for bit,
-because `run_tick` reads nothing else: contacts, feet and centre of mass were observed into ``state``.
+``command`` (3,) float64 = desired heading [rad, world, any turn], desired speed [m/s, clipped to the
+skill's range] and desired sideways speed [m/s to the left of the heading, clipped to ±0.4]; a fourth
+number, if there is one, is the slope of the ground along the heading [rise over run], which is otherwise
+felt from the touchdowns, two steps late. All may jump: the controller's own reference heading
+and speed follow at the rates that the skill holds. ``data.ctrl`` (39,) are PD targets [rad] in the order of
+`locomotion.person.JOINT_NAMES`; a skill on top (a jump) may add to them before the physics step.
+
+A simulation is saved by copying ``mjSTATE_INTEGRATION`` and ``state``; restoring both continues it bit for
+bit, because `run_tick` reads nothing else: contacts, feet and centre of mass were observed into ``state``.
 
 The control law, in a frame mirrored so that the right leg is the stance leg (all lateral sensors and actions
 change sign on the left): with phase p in [0, 1] of a step,
 
     PD target = reference(p) + rate(p) * damping / stiffness + learned feed-forward(p) + posture servo + da
-    da = M_ap · M_sp · (s - s_ref(p)) + a_hat + turn * turn rate + climb or descend * slope              (rank 3)
+    da = M_ap · M_sp · (s - s_ref(p)) + a_hat + turn * turn rate + climb or descend * slope
 
-Sensors s (12,), measured in the frame of the *reference heading*, so that steering is a change of sensors: see `SENSORS`.
-Actions a (9,): see `ACTIONS`; the waist's are copied to the chest. The posture servo is SIMBICON's: the swing hip is
-aimed in the world, the stance hip holds the pelvis upright; its gains are learned with the rest.
+where M_ap·M_sp has rank 3.
 
-A step ends when the swing foot touches down after `MIN_PHASE`; the phase waits at 1 in a long flight. Targets are
-blended over the switch. Fields of ``state`` are the module's constants `PHASE`, `STANCE`, ... (index or slice).
+Sensors s (12,), measured in the frame of the *reference heading*, so that steering is a change of sensors:
+see `SENSORS`. Actions a (9,): see `ACTIONS`; the waist's are copied to the chest. The posture servo is
+SIMBICON's: the swing hip is aimed in the world, the stance hip holds the pelvis upright; its gains are
+learned with the rest.
+
+A step ends when the swing foot touches down after `MIN_PHASE`; the phase waits at 1 in a long flight.
+Targets are blended over the switch. Fields of ``state`` are the module's constants `PHASE`, `STANCE`, ...
+(index or slice).
 """
 
 import math
@@ -42,76 +47,76 @@ import numpy as np
 from numba import njit
 
 from locomotion.person import CONTROL_DT, JOINT_NAMES, PersonIndex
+from locomotion.run_layout import (
+    ACTIONS,
+    CLIMB,
+    COM,
+    COM_VELOCITY,
+    CONTACT,
+    FALLEN,
+    FEET,
+    HEADING,
+    LAST_TARGET,
+    MIN_PHASE,
+    N_KNOTS,
+    OBSERVED,
+    PARAMETERS,
+    PHASE,
+    PLANTED,
+    RANK,
+    SENSOR_VALUES,
+    SENSORS,
+    SETTING_OFF,
+    SLOPE,
+    SPEED,
+    STANCE,
+    STATE_SIZE,
+    STEP_LENGTH,
+    STEP_SPEED,
+    STEP_TIME,
+    STEPS,
+    TICKS,
+    TRIM,
+    TURN_RATE,
+    new_state,
+    parameter_slices,
+    standing_pose,
+)
 
 __all__ = [
-    "ACTIONS", "CLIMB", "COM", "COM_VELOCITY", "CONTACT", "FALLEN", "FEET", "HEADING", "LAST_TARGET", "MIN_PHASE",
-    "OBSERVED", "PARAMETERS", "PHASE", "PLANTED", "SENSORS", "SENSOR_VALUES", "SLOPE", "SPEED", "STANCE",
-    "STATE_SIZE", "STEPS", "STEP_LENGTH", "STEP_SPEED", "STEP_TIME", "TICKS", "TRIM", "TURN_RATE",
-    "new_state", "observe", "parameter_slices", "run_tick", "standing_pose",
+    "ACTIONS",
+    "CLIMB",
+    "COM",
+    "COM_VELOCITY",
+    "CONTACT",
+    "FALLEN",
+    "FEET",
+    "HEADING",
+    "LAST_TARGET",
+    "MIN_PHASE",
+    "OBSERVED",
+    "PARAMETERS",
+    "PHASE",
+    "PLANTED",
+    "SENSORS",
+    "SENSOR_VALUES",
+    "SLOPE",
+    "SPEED",
+    "STANCE",
+    "STATE_SIZE",
+    "STEPS",
+    "STEP_LENGTH",
+    "STEP_SPEED",
+    "STEP_TIME",
+    "TICKS",
+    "TRIM",
+    "TURN_RATE",
+    "new_state",
+    "observe",
+    "parameter_slices",
+    "run_tick",
+    "standing_pose",
 ]
-
-SENSORS = (
-    "pitch", "pitch_rate", "height", "vx", "vz", "dx", "roll", "yaw", "roll_rate", "yaw_rate", "vy", "dy",
-)
-"""Pelvis pitch and its rate; centre of mass above, velocity and place ahead of the stance foot; then the lateral ones."""
-ACTIONS = (
-    "swing_hip_flexion", "swing_hip_abduction", "swing_hip_rotation",
-    "stance_hip_flexion", "stance_hip_abduction", "stance_hip_rotation",
-    "waist_pitch", "waist_roll", "waist_yaw",
-)
-CLIMB = (*ACTIONS, "swing_knee_flexion", "stance_knee_flexion", "stance_ankle_flexion")
-"""What the slope under the feet changes."""
-RANK = 3
-N_KNOTS = 8
-MIN_PHASE = 0.6
-"""Share of a step before which a touch of the swing foot does not end it."""
-
-PARAMETERS: dict[str, int] = {
-    "m_ap": 9 * RANK,         # (9, 3) action projection [rad per latent unit]
-    "m_sp": RANK * 12,        # (3, 12) sensor projection
-    "posture": 9,             # swing aim (pitch, roll, yaw); stance servo (pitch, rate, roll, rate, yaw, rate)
-    "a_hat": 9,               # affine term [rad]
-    "feed_forward": 3 * N_KNOTS,  # hip flexion, knee, ankle over the cycle [rad], periodic
-    "turn": 9,                # rad per rad/s of turning towards the stance side
-    "climb": 12,              # rad per unit of slope, uphill
-    "timing": 2,              # step time [s]; amplitude of the legs' reference about its mean
-    "arms": 1,                # amplitude of the arms' reference about its mean
-    "descend": 12,            # rad per unit of slope, downhill
-    "start": 5,               # from standing, first row only: see `_lean`
-    "climb_legs": 3 * N_KNOTS,    # change of feed_forward per unit of slope, uphill
-    "descend_legs": 3 * N_KNOTS,  # the same downhill
-    "climb_timing": 2,        # change of timing per unit of slope, uphill
-    "descend_timing": 2,      # the same downhill
-}
-"""Blocks of a parameter vector, in order, with their lengths."""
-
-
-def parameter_slices() -> dict[str, slice]:
-    """Where each block of `PARAMETERS` lies in a parameter vector."""
-    result, start = {}, 0
-    for name, size in PARAMETERS.items():
-        result[name] = slice(start, start + size)
-        start += size
-    return result
-
-
-# --- what the controller remembers -------------------------------------------------------------------------
-PHASE, STANCE, HEADING, SPEED, TURN_RATE, TRIM, STEPS, STEP_TIME, SLOPE, TICKS = range(10)
-"""Phase of the step [0, 1]; stance side (-1 right, +1 left); reference heading [rad], speed [m/s], turn rate [rad/s];
-speed correction [m/s]; steps made; time since the switch [s]; estimated slope along the heading; ticks made."""
-FALLEN, STEP_LENGTH, STEP_SPEED, _FRESH = 10, 11, 12, 13
-"""1 after a fall; length [m] and mean speed [m/s] of the last step."""
-COM, COM_VELOCITY, FEET, CONTACT = slice(14, 17), slice(17, 20), slice(20, 26), slice(26, 28)
-"""Centre of mass [m], its velocity [m/s], right and left foot [m] (ankles), normal force under each foot [N]."""
-OBSERVED = slice(14, 28)
-PLANTED, _COM_AT_SWITCH = slice(28, 34), slice(34, 37)
-"""Touchdown places of the right and the left foot [m]."""
-SENSOR_VALUES = slice(37, 49)
-_BLEND, LAST_TARGET = slice(49, 49 + 39), slice(88, 88 + 39)
-"""PD targets of the last tick [rad]."""
-_TARGETS = LAST_TARGET.start
-STATE_SIZE = 127
-
 _SP = parameter_slices()
 _M_AP, _M_SP, _POSTURE, _A_HAT = (_SP[k].start for k in ("m_ap", "m_sp", "posture", "a_hat"))
 _FF, _TURN, _CLIMB, _TIMING = (_SP[k].start for k in ("feed_forward", "turn", "climb", "timing"))
@@ -129,32 +134,13 @@ _ACCELERATION = 1.5  # [m/s^2] of the reference speed
 _MAX_SIDE = 0.4  # [m/s]
 _MAX_SLOPE = 0.4
 _TOUCH = 20.0  # [N] under a foot that counts as contact
-_LEAN_RAMP, _LEAN_LIMIT = 0.25, 1.0  # [s] in which the lean is taken; after which the first step is made regardless
-_STANDING, _RUNNING = 1.0, 0.0  # values of state[_FRESH]
+_LEAN_RAMP, _LEAN_LIMIT = (
+    0.25,
+    1.0,
+)  # [s] in which the lean is taken; after which the first step is made regardless
 _CLIP = np.array([0.6, 5.0, 0.2, 1.5, 2.0, 0.5, 0.6, 0.6, 5.0, 5.0, 1.5, 0.4])
-
-
-def standing_pose() -> np.ndarray:
-    """Joint angles [rad], (39,) float64, of a relaxed stand."""
-    pose = np.zeros(_N)
-    for name, degrees in (
-        ("hip_flexion", 8), ("knee_flexion", 14), ("ankle_flexion", 6), ("shoulder_abduction", 8), ("elbow_flexion", 20),
-    ):
-        for side in ("right", "left"):
-            pose[JOINT_NAMES.index(f"{side}_{name}")] = np.deg2rad(degrees)
-    return pose
-
-
+_TARGETS = LAST_TARGET.start
 _STAND = standing_pose()
-
-
-def new_state(standing: bool = False) -> np.ndarray:
-    """A controller state, (STATE_SIZE,) float64: right stance, at the start of a step, heading 0, speed 0; or
-    ``standing``: the first ticks lean forward and set off."""
-    state = np.zeros(STATE_SIZE)
-    state[STANCE] = -1.0
-    state[_FRESH] = _STANDING if standing else _RUNNING
-    return state
 
 
 @njit(cache=True)
@@ -164,7 +150,8 @@ def _wrap(angle: float) -> float:
 
 @njit(cache=True)
 def _lookup(table, share, out):
-    """Row of the periodic ``table`` (n, k) at ``share`` of the cycle, linear between rows, into ``out`` (k,)."""
+    """Row of the periodic ``table`` (n, k) at ``share`` of the cycle, linear between rows, into ``out``
+    (k,)."""
     n = table.shape[0]
     at = (share - math.floor(share)) * n
     low = int(at)
@@ -281,7 +268,8 @@ def _sense(state, side, command, qpos, qvel, out):
 
 @njit(cache=True)
 def _feedback(p, delta, turn, slope, raw, out):
-    """Actions ``out`` (12,) [rad] as `CLIMB` names them, from the deviations ``delta`` (12,) and raw sensors."""
+    """Actions ``out`` (12,) [rad] as `CLIMB` names them, from the deviations ``delta`` (12,) and raw
+    sensors."""
     by_slope = _CLIMB if slope >= 0.0 else _DESCEND
     for i in range(12):
         out[i] = p[by_slope + i] * slope
@@ -306,8 +294,9 @@ def _feedback(p, delta, turn, slope, raw, out):
 def _lean(p, reference, state, ctrl):
     """Setting off from standing: both feet planted, the body topples forward, the arms come up.
 
-    p[_START:] = ankle and hip flexion [rad] that make it lean; how far [m] the centre of mass must be ahead of the feet for
-    the first step; phase and reference speed [m/s] with which that step begins. Returns whether it begins now.
+    p[_START:] = ankle and hip flexion [rad] that make it lean; how far [m] the centre of mass must be
+    ahead of the feet for the first step; phase and reference speed [m/s] with which that step begins.
+    Returns whether it begins now.
     """
     state[TICKS] += 1.0
     share = min(state[TICKS] * CONTROL_DT / _LEAN_RAMP, 1.0)
@@ -328,7 +317,7 @@ def _lean(p, reference, state, ctrl):
         return False
     state[PHASE] = p[_START + 3]
     state[SPEED] = p[_START + 4]
-    state[_FRESH] = _RUNNING
+    state[SETTING_OFF] = 0.0
     return True
 
 
@@ -336,13 +325,14 @@ def _lean(p, reference, state, ctrl):
 def run_tick(knots, table, reference, rates, mean, state_reference, limits, state, command, qpos, qvel, ctrl):
     """One control tick: advance phase and stance in ``state`` and write the PD targets ``ctrl`` (39,) [rad].
 
-    knots (k,), table (k, p): parameters by speed. reference, rates (n, 39): the clip over a cycle that starts with
-    the right foot's touchdown, and its rates [rad/s] at the clip's own duration times that duration [rad per cycle].
-    mean (39,): mean of the reference. state_reference (b, 12): s_ref over a step. limits (3,): lowest and highest
-    speed [m/s], highest lateral acceleration [m/s^2] in turns. All float64.
+    knots (k,), table (k, p): parameters by speed. reference, rates (n, 39): the clip over a cycle that
+    starts with the right foot's touchdown, and its rates [rad/s] at the clip's own duration times that
+    duration [rad per cycle].
+    mean (39,): mean of the reference. state_reference (b, 12): s_ref over a step. limits (3,): lowest and
+    highest speed [m/s], highest lateral acceleration [m/s^2] in turns. All float64.
     """
     switched = False
-    if state[_FRESH] == _STANDING:
+    if state[SETTING_OFF] > 0.0:
         if not _lean(table[0], reference, state, ctrl):
             return
         switched = True
@@ -460,14 +450,25 @@ def _observe(state, com, right, left, up, ncon, geoms, addresses, forces, geom_s
         state[FALLEN] = 1.0
 
 
-def observe(index: PersonIndex, model: mujoco.MjModel, data: mujoco.MjData, state: np.ndarray, fresh: bool = False) -> None:
+def observe(
+    index: PersonIndex, model: mujoco.MjModel, data: mujoco.MjData, state: np.ndarray, fresh: bool = False
+) -> None:
     """Read centre of mass, feet and contact forces of ``data`` into ``state``; sets `FALLEN` after a fall.
 
-    ``fresh``: this is the first look at a pose that was put there, so the velocity already in ``state`` stays.
+    ``fresh``: this is the first look at a pose that was put there, so the velocity already in ``state``
+    stays.
     """
     contact = data.contact
     _observe(
-        state, data.subtree_com[index.root], data.xpos[index.feet[0]], data.xpos[index.feet[1]],
-        data.xmat[index.chest, 8], data.ncon, contact.geom, contact.efc_address, data.efc_force,
-        index.geom_side, fresh,
+        state,
+        data.subtree_com[index.root],
+        data.xpos[index.feet[0]],
+        data.xpos[index.feet[1]],
+        data.xmat[index.chest, 8],
+        data.ncon,
+        contact.geom,
+        contact.efc_address,
+        data.efc_force,
+        index.geom_side,
+        fresh,
     )

@@ -1,6 +1,8 @@
-"""The running controller's law in plain NumPy and SciPy: slow, obvious, what the tests compare the kernel with.
+"""The running controller's law in plain NumPy and SciPy: slow, obvious, what the tests compare the kernel
+with.
 
-It says what one tick does between two switches of the stance; it shares only names and constants with the kernel.
+It says what one tick does between two switches of the stance; it shares only names and constants with the
+kernel.
 """
 
 import numpy as np
@@ -31,7 +33,12 @@ def sensors(state: np.ndarray, side_speed: float, qpos: np.ndarray, qvel: np.nda
     place = to_heading.apply(state[c.COM] - foot)
     sagittal = [np.arctan2(up[0], up[2]), rate[1], place[2], velocity[0], velocity[2], place[0]]
     lateral = [
-        np.arctan2(-up[1], up[2]), np.arctan2(forward[1], forward[0]), rate[0], rate[2], velocity[1] - side_speed, place[1],
+        np.arctan2(-up[1], up[2]),
+        np.arctan2(forward[1], forward[0]),
+        rate[0],
+        rate[2],
+        velocity[1] - side_speed,
+        place[1],
     ]
     return np.array(sagittal + [-state[c.STANCE] * x for x in lateral])
 
@@ -54,12 +61,17 @@ def actions(skill: RunSkill, state: np.ndarray, sensed: np.ndarray) -> np.ndarra
     roll, yaw, roll_rate = np.clip([roll, yaw, roll_rate], [-0.6, -0.6, -5.0], [0.6, 0.6, 5.0])
     g = p["posture"]
     result[:3] += [g[0] * pitch, -g[1] * roll, g[2] * yaw]
-    result[3:6] += [-g[3] * pitch - g[4] * pitch_rate, -g[5] * roll - g[6] * roll_rate, g[7] * yaw + g[8] * yaw_rate]
+    result[3:6] += [
+        -g[3] * pitch - g[4] * pitch_rate,
+        -g[5] * roll - g[6] * roll_rate,
+        g[7] * yaw + g[8] * yaw_rate,
+    ]
     return result
 
 
 def feed_forward(values: np.ndarray, share: float) -> float:
-    """Periodic cubic through ``values`` (n,), with tangents by central differences, at ``share`` of the cycle."""
+    """Periodic cubic through ``values`` (n,), with tangents by central differences, at ``share`` of the
+    cycle."""
     n = len(values)
     at = (share % 1.0) * n
     low, t = int(at), at - int(at)

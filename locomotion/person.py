@@ -2,8 +2,8 @@
 
 Segment masses, centres of mass and radii of gyration are those of P. de Leva (1996), "Adjustments to
 Zatsiorsky-Seluyanov's segment inertia parameters", J. Biomech. 29(9), for men, scaled to 1.70 m; joint
-heights follow the proportions of D. Winter, "Biomechanics and Motor Control of Human Movement". Joint ranges are
-those of common clinical tables, torque limits those of strong adults.
+heights follow the proportions of D. Winter, "Biomechanics and Motor Control of Human Movement". Joint
+ranges are those of common clinical tables, torque limits those of strong adults.
 
 Layout, relied upon by the controllers: ``qpos`` (46,) = root position (3), root quaternion wxyz (4), then
 one angle per name of `JOINT_NAMES`; ``qvel`` (45,) = root linear velocity in the world (3), root angular
@@ -20,6 +20,22 @@ from typing import Any, Protocol
 import mujoco
 import numpy as np
 
+from locomotion.anatomy import (
+    ANKLE,
+    FOREARM,
+    HEIGHT,
+    MASS,
+    SHANK,
+    SIDE_JOINTS,
+    SIDE_SEGMENTS,
+    STANDING_HEIGHT,
+    THIGH,
+    TRUNK_JOINTS,
+    TRUNK_SEGMENTS,
+    UPPER_ARM,
+    Joint,
+    Segment,
+)
 from locomotion.errors import LocomotionError
 
 __all__ = [
@@ -37,21 +53,13 @@ __all__ = [
     "person_spec",
 ]
 
-HEIGHT = 1.70
-"""Stature [m]."""
-MASS = 65.0
-"""Mass of the whole body [kg]."""
 TIMESTEP = 0.0025
 """Physics time step [s]. Controllers learned at it work at shorter steps and fail at 5 ms."""
 STEPS_PER_TICK = 4
 """Physics steps per control tick."""
 CONTROL_DT = TIMESTEP * STEPS_PER_TICK
 """Control tick [s]."""
-STANDING_HEIGHT = 0.90
-"""Height of the root (mid-hip point) above the sole with straight legs [m]."""
 
-_THIGH, _SHANK, _ANKLE = 0.412, 0.424, 0.064
-_UPPER_ARM, _FOREARM = 0.275, 0.2626
 _SKIN, _SHIRT, _TROUSERS, _SHOES, _HAIR = (
     (0.83, 0.64, 0.52, 1.0),
     (0.16, 0.42, 0.62, 1.0),
@@ -59,95 +67,6 @@ _SKIN, _SHIRT, _TROUSERS, _SHOES, _HAIR = (
     (0.75, 0.22, 0.16, 1.0),
     (0.22, 0.15, 0.10, 1.0),
 )
-
-
-@dataclass(frozen=True)
-class _Joint:
-    """One hinge: axis for the middle or the left side, range [deg], gain [Nm/rad], torque limit [Nm]."""
-
-    name: str
-    axis: tuple[float, float, float]
-    low: float
-    high: float
-    stiffness: float
-    torque: float
-
-
-@dataclass(frozen=True)
-class _Segment:
-    """One rigid segment: share of the body's mass, centre of mass [m], radii of gyration [m] about x, y, z."""
-
-    name: str
-    mass: float
-    com: tuple[float, float, float]
-    gyration: tuple[float, float, float]
-
-
-_PITCH, _FLEX = (0.0, 1.0, 0.0), (0.0, -1.0, 0.0)
-_ROLL, _YAW = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
-
-_TRUNK_JOINTS = {
-    "waist": (
-        _Joint("waist_pitch", _PITCH, -25, 50, 600, 300),
-        _Joint("waist_roll", _ROLL, -25, 25, 600, 250),
-        _Joint("waist_yaw", _YAW, -30, 30, 500, 150),
-    ),
-    "chest": (
-        _Joint("chest_pitch", _PITCH, -20, 40, 500, 250),
-        _Joint("chest_roll", _ROLL, -20, 20, 500, 200),
-        _Joint("chest_yaw", _YAW, -35, 35, 400, 120),
-    ),
-    "head": (
-        _Joint("neck_pitch", _PITCH, -50, 50, 60, 40),
-        _Joint("neck_roll", _ROLL, -40, 40, 60, 40),
-        _Joint("neck_yaw", _YAW, -70, 70, 40, 25),
-    ),
-}
-# Abduction of the left limb turns about +x (the limb's lower end moves to +y); inward rotation about -z.
-_SIDE_JOINTS = {
-    "thigh": (
-        _Joint("hip_flexion", _FLEX, -30, 125, 600, 350),
-        _Joint("hip_abduction", _ROLL, -30, 45, 500, 250),
-        _Joint("hip_rotation", (0.0, 0.0, -1.0), -40, 45, 300, 120),
-    ),
-    "shank": (_Joint("knee_flexion", _PITCH, -2, 150, 500, 350),),
-    "foot": (
-        _Joint("ankle_flexion", _FLEX, -50, 30, 400, 300),
-        _Joint("ankle_inversion", (-1.0, 0.0, 0.0), -25, 25, 150, 80),
-    ),
-    "toes": (_Joint("toe_extension", _FLEX, -30, 60, 30, 50),),
-    "clavicle": (_Joint("clavicle_elevation", _ROLL, -10, 35, 200, 120),),
-    "upper_arm": (
-        _Joint("shoulder_flexion", _FLEX, -60, 180, 150, 120),
-        _Joint("shoulder_abduction", _ROLL, -30, 150, 150, 120),
-        _Joint("shoulder_rotation", (0.0, 0.0, -1.0), -90, 90, 80, 70),
-    ),
-    "forearm": (
-        _Joint("elbow_flexion", _FLEX, 0, 150, 100, 80),
-        _Joint("forearm_twist", (0.0, 0.0, -1.0), -85, 85, 15, 20),
-    ),
-    "hand": (
-        _Joint("wrist_flexion", _ROLL, -70, 70, 15, 20),
-        _Joint("wrist_deviation", _FLEX, -25, 35, 15, 20),
-    ),
-}
-
-_TRUNK_SEGMENTS = {
-    "pelvis": _Segment("pelvis", 0.1117, (0.0, 0.0, 0.055), (0.0875, 0.0784, 0.0835)),
-    "waist": _Segment("waist", 0.1633, (0.005, 0.0, 0.138), (0.1012, 0.0804, 0.0983)),
-    "chest": _Segment("chest", 0.1496, (0.0, 0.0, 0.149), (0.1194, 0.0757, 0.1099)),
-    "head": _Segment("head", 0.0694, (0.012, 0.0, 0.132), (0.0717, 0.0744, 0.0618)),
-}
-_SIDE_SEGMENTS = {
-    "thigh": _Segment("thigh", 0.1416, (0.0, 0.0, -0.4095 * _THIGH), (0.1355, 0.1355, 0.0614)),
-    "shank": _Segment("shank", 0.0433, (0.0, 0.0, -0.4459 * _SHANK), (0.1081, 0.1056, 0.0437)),
-    "foot": _Segment("foot", 0.0117, (0.035, 0.0, -0.034), (0.0300, 0.0560, 0.0580)),
-    "toes": _Segment("toes", 0.0020, (0.030, 0.0, -0.004), (0.0270, 0.0200, 0.0300)),
-    "clavicle": _Segment("clavicle", 0.0050, (0.0, 0.08, 0.0), (0.0300, 0.0400, 0.0400)),
-    "upper_arm": _Segment("upper_arm", 0.0271, (0.0, 0.0, -0.5772 * _UPPER_ARM), (0.0784, 0.0740, 0.0434)),
-    "forearm": _Segment("forearm", 0.0162, (0.0, 0.0, -0.4574 * _FOREARM), (0.0725, 0.0696, 0.0318)),
-    "hand": _Segment("hand", 0.0061, (0.0, 0.0, -0.0665), (0.0529, 0.0432, 0.0338)),
-}
 _DAMPING_RATIO = 0.1  # servo damping [Nm s/rad] per stiffness [Nm/rad]
 _ARMATURE = 0.01  # reflected inertia of every joint [kg m^2]
 
@@ -191,7 +110,9 @@ class PersonIndex:
         return cls(bodies, side, feet, bodies["pelvis"], bodies["head"], bodies["chest"])
 
 
-def _add_body(parent: Any, segment: _Segment, name: str, pos: tuple[float, float, float], joints: tuple, mirror: bool) -> Any:
+def _add_body(
+    parent: Any, segment: Segment, name: str, pos: tuple[float, float, float], joints: tuple, mirror: bool
+) -> Any:
     """Add one segment with its hinges; ``mirror`` reflects it from the left to the right side."""
     sign = -1.0 if mirror else 1.0
     body = parent.add_body(name=name, pos=[pos[0], sign * pos[1], pos[2]])
@@ -214,12 +135,20 @@ def _add_body(parent: Any, segment: _Segment, name: str, pos: tuple[float, float
     return body
 
 
-def _capsule(body: Any, start: tuple, end: tuple, radius: float, color: tuple, mirror: bool = False, **options: Any) -> None:
+def _capsule(
+    body: Any, start: tuple, end: tuple, radius: float, color: tuple, mirror: bool = False, **options: Any
+) -> None:
     sign = -1.0 if mirror else 1.0
     fromto = [start[0], sign * start[1], start[2], end[0], sign * end[1], end[2]]
     body.add_geom(
-        type=mujoco.mjtGeom.mjGEOM_CAPSULE, fromto=fromto, size=[radius, 0, 0], rgba=color,
-        contype=0, conaffinity=1, mass=0.0, **options,
+        type=mujoco.mjtGeom.mjGEOM_CAPSULE,
+        fromto=fromto,
+        size=[radius, 0, 0],
+        rgba=color,
+        contype=0,
+        conaffinity=1,
+        mass=0.0,
+        **options,
     )
 
 
@@ -227,22 +156,30 @@ def _ellipsoid(body: Any, pos: tuple, size: tuple, color: tuple, mirror: bool = 
     """A shape that is only seen."""
     sign = -1.0 if mirror else 1.0
     body.add_geom(
-        type=mujoco.mjtGeom.mjGEOM_ELLIPSOID, pos=[pos[0], sign * pos[1], pos[2]], size=size, rgba=color,
-        contype=0, conaffinity=0, mass=0.0, group=1,
+        type=mujoco.mjtGeom.mjGEOM_ELLIPSOID,
+        pos=[pos[0], sign * pos[1], pos[2]],
+        size=size,
+        rgba=color,
+        contype=0,
+        conaffinity=0,
+        mass=0.0,
+        group=1,
     )
 
 
 def _add_trunk(world: Any) -> tuple[Any, Any]:
-    pelvis = _add_body(world, _TRUNK_SEGMENTS["pelvis"], "pelvis", (0.0, 0.0, STANDING_HEIGHT), (), False)
+    pelvis = _add_body(world, TRUNK_SEGMENTS["pelvis"], "pelvis", (0.0, 0.0, STANDING_HEIGHT), (), False)
     pelvis.add_freejoint(name="root")
     _capsule(pelvis, (-0.01, -0.065, 0.03), (-0.01, 0.065, 0.03), 0.095, _TROUSERS)
-    waist = _add_body(pelvis, _TRUNK_SEGMENTS["waist"], "waist", (0.0, 0.0, 0.12), _TRUNK_JOINTS["waist"], False)
+    waist = _add_body(
+        pelvis, TRUNK_SEGMENTS["waist"], "waist", (0.0, 0.0, 0.12), TRUNK_JOINTS["waist"], False
+    )
     _capsule(waist, (0.0, -0.045, 0.05), (0.0, 0.045, 0.05), 0.095, _SHIRT)
     _ellipsoid(waist, (0.0, 0.0, 0.13), (0.10, 0.145, 0.13), _SHIRT)
-    chest = _add_body(waist, _TRUNK_SEGMENTS["chest"], "chest", (0.0, 0.0, 0.20), _TRUNK_JOINTS["chest"], False)
+    chest = _add_body(waist, TRUNK_SEGMENTS["chest"], "chest", (0.0, 0.0, 0.20), TRUNK_JOINTS["chest"], False)
     _capsule(chest, (0.0, -0.06, 0.08), (0.0, 0.06, 0.08), 0.11, _SHIRT)
     _ellipsoid(chest, (-0.005, 0.0, 0.12), (0.115, 0.175, 0.125), _SHIRT)
-    head = _add_body(chest, _TRUNK_SEGMENTS["head"], "head", (0.0, 0.0, 0.23), _TRUNK_JOINTS["head"], False)
+    head = _add_body(chest, TRUNK_SEGMENTS["head"], "head", (0.0, 0.0, 0.23), TRUNK_JOINTS["head"], False)
     _capsule(head, (0.0, 0.0, -0.02), (0.012, 0.0, 0.08), 0.05, _SKIN)
     _capsule(head, (0.02, 0.0, 0.12), (0.012, 0.0, 0.165), 0.085, _SKIN)
     _ellipsoid(head, (0.003, 0.0, 0.163), (0.093, 0.087, 0.087), _HAIR)
@@ -252,16 +189,16 @@ def _add_trunk(world: Any) -> tuple[Any, Any]:
 
 def _add_leg(pelvis: Any, prefix: str, mirror: bool) -> None:
     def add(parent: Any, part: str, pos: tuple[float, float, float]) -> Any:
-        return _add_body(parent, _SIDE_SEGMENTS[part], f"{prefix}_{part}", pos, _SIDE_JOINTS[part], mirror)
+        return _add_body(parent, SIDE_SEGMENTS[part], f"{prefix}_{part}", pos, SIDE_JOINTS[part], mirror)
 
     thigh = add(pelvis, "thigh", (0.0, 0.085, 0.0))
-    _capsule(thigh, (0.0, 0.005, -0.02), (0.0, 0.0, -_THIGH + 0.03), 0.058, _TROUSERS, mirror)
+    _capsule(thigh, (0.0, 0.005, -0.02), (0.0, 0.0, -THIGH + 0.03), 0.058, _TROUSERS, mirror)
     _ellipsoid(thigh, (-0.002, 0.006, -0.13), (0.080, 0.078, 0.19), _TROUSERS, mirror)
-    shank = add(thigh, "shank", (0.0, 0.0, -_THIGH))
-    _capsule(shank, (0.0, 0.0, -0.01), (0.0, 0.0, -_SHANK + 0.03), 0.042, _TROUSERS, mirror)
+    shank = add(thigh, "shank", (0.0, 0.0, -THIGH))
+    _capsule(shank, (0.0, 0.0, -0.01), (0.0, 0.0, -SHANK + 0.03), 0.042, _TROUSERS, mirror)
     _ellipsoid(shank, (-0.018, 0.0, -0.13), (0.053, 0.055, 0.14), _TROUSERS, mirror)
-    foot = add(shank, "foot", (0.0, 0.0, -_SHANK))
-    sole = -_ANKLE + 0.024
+    foot = add(shank, "foot", (0.0, 0.0, -SHANK))
+    sole = -ANKLE + 0.024
     _capsule(foot, (-0.032, -0.016, sole), (0.118, -0.026, sole), 0.024, _SHOES, mirror)
     _capsule(foot, (-0.032, 0.016, sole), (0.112, 0.028, sole), 0.024, _SHOES, mirror)
     _ellipsoid(foot, (0.012, 0.0, -0.022), (0.068, 0.038, 0.036), _SHOES, mirror)
@@ -272,43 +209,48 @@ def _add_leg(pelvis: Any, prefix: str, mirror: bool) -> None:
 
 def _add_arm(chest: Any, prefix: str, mirror: bool) -> None:
     def add(parent: Any, part: str, pos: tuple[float, float, float]) -> Any:
-        return _add_body(parent, _SIDE_SEGMENTS[part], f"{prefix}_{part}", pos, _SIDE_JOINTS[part], mirror)
+        return _add_body(parent, SIDE_SEGMENTS[part], f"{prefix}_{part}", pos, SIDE_JOINTS[part], mirror)
 
     clavicle = add(chest, "clavicle", (0.0, 0.035, 0.165))
     _capsule(clavicle, (0.0, 0.03, 0.01), (0.0, 0.125, 0.005), 0.045, _SHIRT, mirror)
     upper = add(clavicle, "upper_arm", (0.0, 0.150, 0.0))
-    _capsule(upper, (0.0, 0.0, -0.01), (0.0, 0.0, -_UPPER_ARM + 0.02), 0.040, _SHIRT, mirror)
+    _capsule(upper, (0.0, 0.0, -0.01), (0.0, 0.0, -UPPER_ARM + 0.02), 0.040, _SHIRT, mirror)
     _ellipsoid(upper, (0.0, 0.0, -0.10), (0.052, 0.047, 0.11), _SHIRT, mirror)
-    forearm = add(upper, "forearm", (0.0, 0.0, -_UPPER_ARM))
-    _capsule(forearm, (0.0, 0.0, -0.005), (0.0, 0.0, -_FOREARM + 0.02), 0.032, _SKIN, mirror)
+    forearm = add(upper, "forearm", (0.0, 0.0, -UPPER_ARM))
+    _capsule(forearm, (0.0, 0.0, -0.005), (0.0, 0.0, -FOREARM + 0.02), 0.032, _SKIN, mirror)
     _ellipsoid(forearm, (0.0, 0.0, -0.07), (0.043, 0.040, 0.095), _SKIN, mirror)
-    hand = add(forearm, "hand", (0.0, 0.0, -_FOREARM))
+    hand = add(forearm, "hand", (0.0, 0.0, -FOREARM))
     _capsule(hand, (0.0, 0.0, -0.03), (0.012, 0.0, -0.115), 0.028, _SKIN, mirror)
     _ellipsoid(hand, (0.01, 0.0, -0.07), (0.042, 0.022, 0.060), _SKIN, mirror)
 
 
-def _joint_table() -> list[tuple[str, _Joint]]:
+def _joint_table() -> list[tuple[str, Joint]]:
     """Every hinge in the order of the model's coordinates."""
-    table = [(j.name, j) for part in ("waist", "chest", "head") for j in _TRUNK_JOINTS[part]]
+    table = [(j.name, j) for part in ("waist", "chest", "head") for j in TRUNK_JOINTS[part]]
     for prefix in ("right", "left"):
         parts = ("clavicle", "upper_arm", "forearm", "hand")
-        table += [(f"{prefix}_{j.name}", j) for part in parts for j in _SIDE_JOINTS[part]]
+        table += [(f"{prefix}_{j.name}", j) for part in parts for j in SIDE_JOINTS[part]]
     for prefix in ("right", "left"):
-        table += [(f"{prefix}_{j.name}", j) for part in ("thigh", "shank", "foot", "toes") for j in _SIDE_JOINTS[part]]
+        table += [
+            (f"{prefix}_{j.name}", j)
+            for part in ("thigh", "shank", "foot", "toes")
+            for j in SIDE_JOINTS[part]
+        ]
     return table
 
 
 JOINT_NAMES: tuple[str, ...] = tuple(name for name, _ in _joint_table())
 """The 39 actuated joints in the order of ``qpos[7:]``, ``qvel[6:]`` and ``ctrl``."""
 BODY_NAMES: tuple[str, ...] = (
-    *_TRUNK_SEGMENTS,
-    *(f"{side}_{part}" for side in ("right", "left") for part in _SIDE_SEGMENTS),
+    *TRUNK_SEGMENTS,
+    *(f"{side}_{part}" for side in ("right", "left") for part in SIDE_SEGMENTS),
 )
 """Names of the bodies, for looking up their ids; the model's own order differs."""
 
 
 def person_spec() -> mujoco.MjSpec:
-    """The description of the person and nothing else (no ground), to be extended and compiled by the caller."""
+    """The description of the person and nothing else (no ground), to be extended and compiled by the
+    caller."""
     spec = mujoco.MjSpec()
     spec.modelname = "person"
     spec.compiler.degree = False
@@ -334,14 +276,24 @@ def person_spec() -> mujoco.MjSpec:
 
 def _add_plane(spec: mujoco.MjSpec) -> None:
     spec.add_texture(
-        name="floor", type=mujoco.mjtTexture.mjTEXTURE_2D, builtin=mujoco.mjtBuiltin.mjBUILTIN_CHECKER,
-        rgb1=[0.80, 0.82, 0.84], rgb2=[0.70, 0.73, 0.76], width=300, height=300,
+        name="floor",
+        type=mujoco.mjtTexture.mjTEXTURE_2D,
+        builtin=mujoco.mjtBuiltin.mjBUILTIN_CHECKER,
+        rgb1=[0.80, 0.82, 0.84],
+        rgb2=[0.70, 0.73, 0.76],
+        width=300,
+        height=300,
     )
     material = spec.add_material(name="floor", texrepeat=[1, 1], texuniform=True)
     material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "floor"
     spec.worldbody.add_geom(
-        name="ground", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], material="floor",
-        contype=1, conaffinity=0, friction=[0.9, 0.005, 0.0001],
+        name="ground",
+        type=mujoco.mjtGeom.mjGEOM_PLANE,
+        size=[0, 0, 1],
+        material="floor",
+        contype=1,
+        conaffinity=0,
+        friction=[0.9, 0.005, 0.0001],
     )
 
 
@@ -365,9 +317,18 @@ def person_digest() -> str:
     hasher.update(repr((HEIGHT, MASS, TIMESTEP, STEPS_PER_TICK)).encode())
     model = person_spec().compile()
     fields = (
-        model.body_mass, model.body_inertia, model.body_ipos, model.body_pos, model.jnt_axis, model.jnt_range,
-        model.dof_armature, model.actuator_gainprm, model.actuator_biasprm, model.actuator_forcerange,
-        model.geom_size[model.geom_conaffinity > 0], model.geom_pos[model.geom_conaffinity > 0],
+        model.body_mass,
+        model.body_inertia,
+        model.body_ipos,
+        model.body_pos,
+        model.jnt_axis,
+        model.jnt_range,
+        model.dof_armature,
+        model.actuator_gainprm,
+        model.actuator_biasprm,
+        model.actuator_forcerange,
+        model.geom_size[model.geom_conaffinity > 0],
+        model.geom_pos[model.geom_conaffinity > 0],
     )
     for field in fields:
         hasher.update(np.round(np.ascontiguousarray(field, dtype=np.float64), 9).tobytes())

@@ -15,7 +15,15 @@ from locomotion.errors import LocomotionError
 from locomotion.person import JOINT_NAMES, STANDING_HEIGHT, PersonIndex, person_digest
 from navmesh.archive import ArchiveError, read_archive, write_archive
 
-__all__ = ["RUN_CLIP", "RUN_SKILL", "RunSkill", "load_run_skill", "reset_running", "reset_standing", "run_clip"]
+__all__ = [
+    "RUN_CLIP",
+    "RUN_SKILL",
+    "RunSkill",
+    "load_run_skill",
+    "reset_running",
+    "reset_standing",
+    "run_clip",
+]
 
 RUN_CLIP = Path(__file__).parent / "clips" / "run.yaml"
 RUN_SKILL = Path(__file__).parent / "skills" / "run.npz"
@@ -44,9 +52,11 @@ class RunSkill:
     Attributes:
         knots: (k,) float64, increasing speeds [m/s] at which parameters were learned.
         table: (k, p) float64, their parameters in the order of `controller.PARAMETERS`.
-        state_reference: (b, 12) float64, reference sensors over a step (vx relative to the speed, dx per speed).
+        state_reference: (b, 12) float64, reference sensors over a step (vx relative to the speed, dx per
+        speed).
         speeds: lowest and highest speed [m/s] that may be asked for.
-        max_lateral: highest lateral acceleration [m/s^2]; the reference heading turns at up to max_lateral / speed.
+        max_lateral: highest lateral acceleration [m/s^2]; the reference heading turns at up to max_lateral
+        / speed.
         step_length: (a, b) of step length = a * speed + b [m], fitted to this skill.
         clip: the reference motion.
         meta: what made it.
@@ -71,21 +81,27 @@ class RunSkill:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the skill for the present person; the file appears whole or not at all."""
         header = {
-            "person": person_digest(), "max_lateral": self.max_lateral, "speeds": list(self.speeds),
-            "step_length": list(self.step_length), "meta": self.meta,
+            "person": person_digest(),
+            "max_lateral": self.max_lateral,
+            "speeds": list(self.speeds),
+            "step_length": list(self.step_length),
+            "meta": self.meta,
         }
         arrays = {"knots": self.knots, "table": self.table, "state_reference": self.state_reference}
         write_archive(path, _KIND, _VERSION, header, arrays)
 
 
 def load_run_skill(path: str | os.PathLike[str] = RUN_SKILL) -> RunSkill:
-    """Read a run skill; `LocomotionError` if it is missing, cut off, of another version or of another person."""
+    """Read a run skill; `LocomotionError` if it is missing, cut off, of another version or of another
+    person."""
     try:
         header, arrays = read_archive(path, _KIND, _VERSION)
     except ArchiveError as error:
         raise LocomotionError(str(error)) from error
     if header.get("person") != person_digest():
-        raise LocomotionError(f"{path}: learned for another person's model; learn it anew (surefoot train run)")
+        raise LocomotionError(
+            f"{path}: learned for another person's model; learn it anew (surefoot train run)"
+        )
     width = sum(controller.PARAMETERS.values())
     try:
         knots, table, reference = arrays["knots"], arrays["table"], arrays["state_reference"]
@@ -94,18 +110,30 @@ def load_run_skill(path: str | os.PathLike[str] = RUN_SKILL) -> RunSkill:
         max_lateral = float(header["max_lateral"])
     except (KeyError, TypeError, ValueError) as error:
         raise LocomotionError(f"{path}: not a whole run skill: {error}") from error
-    if table.shape != (len(knots), width) or reference.ndim != 2 or reference.shape[1] != len(controller.SENSORS):
+    if (
+        table.shape != (len(knots), width)
+        or reference.ndim != 2
+        or reference.shape[1] != len(controller.SENSORS)
+    ):
         raise LocomotionError(f"{path}: parameters of shape {table.shape}, expected ({len(knots)}, {width})")
     if not (np.isfinite(table).all() and np.isfinite(reference).all() and (np.diff(knots) > 0).all()):
         raise LocomotionError(f"{path}: holds numbers that are not finite or speeds that do not grow")
-    return RunSkill(knots, table, reference, (low, high), max_lateral, (a, b), run_clip(), header.get("meta", {}))
+    return RunSkill(
+        knots, table, reference, (low, high), max_lateral, (a, b), run_clip(), header.get("meta", {})
+    )
 
 
 def _place(
-    model: mujoco.MjModel, data: mujoco.MjData, index: PersonIndex, pose: np.ndarray, position: np.ndarray,
-    yaw: float, pitch: float,
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    index: PersonIndex,
+    pose: np.ndarray,
+    position: np.ndarray,
+    yaw: float,
+    pitch: float,
 ) -> None:
-    """Put the person with joint angles ``pose`` on the ground point ``position``: its lowest foot touches it."""
+    """Put the person with joint angles ``pose`` on the ground point ``position``: its lowest foot touches
+    it."""
     data.qpos[:3] = [position[0], position[1], position[2] + STANDING_HEIGHT]
     half_yaw, half_pitch = 0.5 * yaw, 0.5 * pitch
     cy, sy, cp, sp = np.cos(half_yaw), np.sin(half_yaw), np.cos(half_pitch), np.sin(half_pitch)
@@ -123,8 +151,14 @@ def _place(
 
 
 def reset_running(
-    skill: RunSkill, model: mujoco.MjModel, data: mujoco.MjData, index: PersonIndex, state: np.ndarray,
-    position: np.ndarray, yaw: float, speed: float,
+    skill: RunSkill,
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    index: PersonIndex,
+    state: np.ndarray,
+    position: np.ndarray,
+    yaw: float,
+    speed: float,
 ) -> None:
     """Put the person on the ground point ``position`` (3,), running at ``speed`` [m/s]; fills ``state``."""
     mujoco.mj_resetData(model, data)
@@ -137,7 +171,12 @@ def reset_running(
 
 
 def reset_standing(
-    model: mujoco.MjModel, data: mujoco.MjData, index: PersonIndex, state: np.ndarray, position: np.ndarray, yaw: float,
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    index: PersonIndex,
+    state: np.ndarray,
+    position: np.ndarray,
+    yaw: float,
 ) -> None:
     """Put the person on the ground point ``position`` (3,), standing still; fills ``state``."""
     mujoco.mj_resetData(model, data)
@@ -146,7 +185,12 @@ def reset_standing(
 
 
 def _fresh_state(
-    model: mujoco.MjModel, data: mujoco.MjData, index: PersonIndex, state: np.ndarray, yaw: float, speed: float,
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    index: PersonIndex,
+    state: np.ndarray,
+    yaw: float,
+    speed: float,
     standing: bool = False,
 ) -> None:
     state[:] = controller.new_state(standing)

@@ -1,8 +1,8 @@
 """CMA-ES whose whole state is a handful of arrays, so that a run can be stopped, stored and resumed exactly.
 
-The algorithm is that of N. Hansen, "The CMA Evolution Strategy: A Tutorial" (2016), with his default weights and
-rates, positive recombination weights only. (The `cma` package keeps its state in a pickle; the tests compare
-the two on the same functions.)
+The algorithm is that of N. Hansen, "The CMA Evolution Strategy: A Tutorial" (2016), with his default
+weights and rates, positive recombination weights only. (The `cma` package keeps its state in a pickle; the
+tests compare the two on the same functions.)
 """
 
 from dataclasses import dataclass
@@ -85,8 +85,12 @@ class CmaEs:
     def arrays(self) -> dict[str, np.ndarray]:
         """Everything that changes, for a checkpoint."""
         return {
-            "mean": self.mean, "sigma": np.array(self.sigma), "covariance": self.covariance,
-            "path_c": self.path_c, "path_s": self.path_s, "generation": np.array(self.generation),
+            "mean": self.mean,
+            "sigma": np.array(self.sigma),
+            "covariance": self.covariance,
+            "path_c": self.path_c,
+            "path_s": self.path_s,
+            "generation": np.array(self.generation),
         }
 
     def restore(self, arrays: dict[str, np.ndarray]) -> None:

@@ -1,8 +1,9 @@
 """The learning loop that every skill uses: workers, generations, checkpoints, progress.
 
-A skill brings a `Problem`: where learning starts, the trials of a generation, the cost of a candidate. The trials of
-generation g are drawn from a generator seeded with (seed, stage, g), and so are the candidates, so that a run that was
-stopped and resumed gives the same result as one that was not, with any number of workers.
+A skill brings a `Problem`: where learning starts, the trials of a generation, the cost of a candidate. The
+trials of generation g are drawn from a generator seeded with (seed, stage, g), and so are the candidates,
+so that a run that was stopped and resumed gives the same result as one that was not, with any number of
+workers.
 """
 
 import hashlib
@@ -31,7 +32,8 @@ class Stage:
     """One stretch of learning.
 
     Attributes:
-        name: shown while learning. generations: how many. sigma: step size at its start, in units of ``scale``.
+        name: shown while learning. generations: how many. sigma: step size at its start, in units of
+        ``scale``.
         scale: (n,) float64, size of a unit of each parameter; 0 keeps a parameter as it is.
         options: what the problem's ``scenarios`` and ``cost`` want to know about the stage.
         population: candidates per generation.
@@ -103,9 +105,10 @@ def learn(
 ) -> np.ndarray | None:
     """Go through the problem's stages with CMA-ES; gives the learned parameters, (n,) float64.
 
-    ``checkpoint``: file that the state is written to after each generation and resumed from if it is there; one of
-    another problem or seed is refused with `LocomotionError`. ``stop_after``: leave after that many generations
-    (returns None if that is before the end), as an interruption would.
+    ``checkpoint``: file that the state is written to after each generation and resumed from if it is
+    there; one of another problem or seed is refused with `LocomotionError`. ``stop_after``: leave after
+    that many
+    generations (returns None if that is before the end), as an interruption would.
     """
     stages = problem.stages()
     parameters = problem.start()
@@ -131,7 +134,9 @@ def learn(
                     _save(Path(checkpoint), identity, number, parameters, search)
                 elapsed = time.monotonic() - begun
                 remaining = elapsed / made * (total - done)
-                report = Progress(stage.name, search.generation, stage.generations, cost, survival, elapsed, remaining)
+                report = Progress(
+                    stage.name, search.generation, stage.generations, cost, survival, elapsed, remaining
+                )
                 (on_progress or _show)(report)
             parameters = parameters.copy()
             parameters[free] = search.best_guess
@@ -140,7 +145,13 @@ def learn(
 
 
 def _generation(
-    pool: Any, problem: Problem, seed: int, number: int, stage: Stage, search: CmaEs, parameters: np.ndarray,
+    pool: Any,
+    problem: Problem,
+    seed: int,
+    number: int,
+    stage: Stage,
+    search: CmaEs,
+    parameters: np.ndarray,
     free: np.ndarray,
 ) -> tuple[float, float]:
     """One generation: ask, judge, tell; gives the median cost and survival."""
@@ -159,7 +170,9 @@ def _identity(seed: int, stages: Sequence[Stage], start: np.ndarray) -> str:
     """Digest of what a checkpoint belongs to."""
     hasher = hashlib.sha256(start.tobytes())
     for s in stages:
-        hasher.update(repr((seed, s.name, s.generations, s.sigma, s.options, s.population)).encode() + s.scale.tobytes())
+        hasher.update(
+            repr((seed, s.name, s.generations, s.sigma, s.options, s.population)).encode() + s.scale.tobytes()
+        )
     return hasher.hexdigest()[:16]
 
 
@@ -187,10 +200,12 @@ def _resume(
 def _show(p: Progress) -> None:
     """One line that is rewritten on a terminal; elsewhere a line per ten generations."""
     line = (
-        f"{p.stage}: generation {p.generation}/{p.generations}  cost {p.cost:.2f}  survives {100 * p.survival:.0f} %"
-        f"  {p.elapsed / 60:.1f} min done, {p.remaining / 60:.1f} min left"
+        f"{p.stage}: generation {p.generation}/{p.generations}  cost {p.cost:.2f}"
+        f"  survives {100 * p.survival:.0f} %  {p.elapsed / 60:.1f} min done, {p.remaining / 60:.1f} min left"
     )
     if sys.stderr.isatty():
-        print("\r\x1b[2K" + line, end="\n" if p.generation == p.generations else "", file=sys.stderr, flush=True)
+        print(
+            "\r\x1b[2K" + line, end="\n" if p.generation == p.generations else "", file=sys.stderr, flush=True
+        )
     elif p.generation % 10 == 0 or p.generation == p.generations:
         print(line, file=sys.stderr, flush=True)

@@ -14,8 +14,18 @@ from locomotion.skill import RunSkill, reset_running, reset_standing
 __all__ = ["FIGURES", "Scenario", "Simulator", "Trial"]
 
 FIGURES = (
-    "time", "speed_error", "heading_error", "side_drift", "reaction", "effort", "head", "step_rate", "trunk",
-    "speed", "peak", "turn",
+    "time",
+    "speed_error",
+    "heading_error",
+    "side_drift",
+    "reaction",
+    "effort",
+    "head",
+    "step_rate",
+    "trunk",
+    "speed",
+    "peak",
+    "turn",
 )
 """What a trial measures; see `Trial`."""
 _WEIGHT = MASS * 9.81
@@ -33,8 +43,8 @@ class Scenario:
         pushes: (j, 4) float64, rows of time [s], force x, y [N] on the chest in the world, length [s].
         tilt: (2,) float64, slope of the plane along x and y [rise over run].
         standing: whether the trial starts from standing still.
-        start_noise: (51,) float64 added to the start: root velocity (3), root angular velocity (3), 39 joints'
-            angles [rad], 6 spare; empty for none.
+        start_noise: (51,) float64 added to the start: root velocity (3), root angular velocity (3), 39
+            joints' angles [rad], 6 spare; empty for none.
         yaw: heading at the start [rad].
     """
 
@@ -52,8 +62,10 @@ class Scenario:
 class Trial:
     """Outcome of a trial: the figures by name of `FIGURES`, and the final state for hashing.
 
-    time [s] survived; mean absolute errors of speed [m/s] and heading [rad]; mean lateral speed off the heading [m/s];
-    reaction: mean excess of the ground reaction above 3 body weights; effort: mean squared torque [(Nm)^2] over 1e4;
+    time [s] survived; mean absolute errors of speed [m/s] and heading [rad]; mean lateral speed off the
+    heading [m/s];
+    reaction: mean excess of the ground reaction above 3 body weights; effort: mean squared torque [(Nm)^2]
+    over 1e4;
     head: mean squared acceleration of the head [g^2]; step_rate [1/s]; trunk: mean squared tilt [rad^2];
     speed: mean [m/s]; peak: highest reaction [body weights]; turn: turning per step [rad].
     """
@@ -113,7 +125,9 @@ class Simulator:
         self.data = mujoco.MjData(self.model)
         self.index = PersonIndex.of(self.model)
         self.ground = self.model.geom("ground").id
-        self.model.geom_sameframe[self.ground] = mujoco.mjtSameFrame.mjSAMEFRAME_NONE  # so that tilting it counts
+        self.model.geom_sameframe[self.ground] = (
+            mujoco.mjtSameFrame.mjSAMEFRAME_NONE
+        )  # so that tilting it counts
         self.state = c.new_state()
 
     def _tilt(self, slope: tuple[float, float]) -> None:

@@ -14,8 +14,17 @@ from locomotion.training.loop import Progress, Stage, learn
 from locomotion.training.rollout import Scenario, Simulator, Trial
 
 __all__ = [
-    "RunProblem", "cost", "curriculum", "draw_scenario", "first_guess", "first_state_reference", "fit_step_length",
-    "genes_scale", "scales", "skill_of", "train_run",
+    "RunProblem",
+    "cost",
+    "curriculum",
+    "draw_scenario",
+    "first_guess",
+    "first_state_reference",
+    "fit_step_length",
+    "genes_scale",
+    "scales",
+    "skill_of",
+    "train_run",
 ]
 
 _SPREAD = np.array([0.1, 1.0, 0.03, 0.3, 0.5, 0.1, 0.05, 0.1, 1.0, 1.0, 0.2, 0.04])
@@ -82,9 +91,11 @@ MIDDLE = 3.5
 SIZE = sum(c.PARAMETERS.values())
 
 
-def skill_of(genes: np.ndarray, reference: np.ndarray, max_lateral: float = 2.0, meta: dict | None = None) -> RunSkill:
-    """The skill that ``genes`` (4 * SIZE,) stand for: parameters at `MIDDLE`, their change per m/s and per (m/s)^2,
-    and the difference at speed 0 from the lowest speed."""
+def skill_of(
+    genes: np.ndarray, reference: np.ndarray, max_lateral: float = 2.0, meta: dict | None = None
+) -> RunSkill:
+    """The skill that ``genes`` (4 * SIZE,) stand for: parameters at `MIDDLE`, their change per m/s and per
+    (m/s)^2, and the difference at speed 0 from the lowest speed."""
     base, slope, bend, start = genes.reshape(4, SIZE)
     u = (KNOTS[1:] - MIDDLE)[:, None]
     table = np.empty((len(KNOTS), SIZE))
@@ -109,7 +120,8 @@ def genes_scale(base: float, slope: float, bend: float, start: float) -> np.ndar
 
 
 def terms_scale() -> np.ndarray:
-    """Scale of all genes where only what acts in bends and on slopes is free: running straight on a plane stays as it is."""
+    """Scale of all genes where only what acts in bends and on slopes is free: running straight on a plane
+    stays as it is."""
     one, part, free, by_speed = scales(), c.parameter_slices(), np.zeros(SIZE), np.zeros(SIZE)
     for name in ("turn", "climb", "descend", "climb_legs", "descend_legs", "climb_timing", "descend_timing"):
         free[part[name]] = one[part[name]]
@@ -117,7 +129,9 @@ def terms_scale() -> np.ndarray:
     return np.concatenate([free, by_speed, np.zeros(2 * SIZE)])
 
 
-def _stage(name: str, generations: int, sigma: float, scale: np.ndarray, trials: int, style: float, **trial: Any) -> Stage:
+def _stage(
+    name: str, generations: int, sigma: float, scale: np.ndarray, trials: int, style: float, **trial: Any
+) -> Stage:
     return Stage(name, generations, sigma, scale, {"trials": trials, "style": style, "trial": trial})
 
 
@@ -134,14 +148,61 @@ def curriculum(effort: float = 1.0) -> tuple[Stage, ...]:
         _stage("four seconds", many(45), 0.18, middle, 1, 0.3, duration=4.0, noise=0.2),
         _stage("twelve seconds", many(40), 0.16, middle, 2, 0.3, duration=10.0, noise=0.2),
         _stage("pushes", many(20), 0.07, middle, 6, 0.5, duration=6.0, noise=0.5, push=60.0),
-        _stage("speeds", many(30), 0.06, genes_scale(1, 1, 1, 0), 5, 0.5, duration=5.0, noise=0.5, push=100.0,
-               speeds=(2.9, 4.1), lateral=0.7, tilt=0.05),
-        _stage("bends and slopes", many(40), 0.05, genes_scale(1, 1, 1, 0), 6, 0.5, duration=5.0, noise=0.7, push=130.0,
-               speeds=(2.5, 4.5), lateral=1.4, tilt=0.12),
-        _stage("family", many(80), 0.05, family, 8, 0.5, duration=4.5, noise=0.7, push=150.0,
-               speeds=SPEED_RANGE, lateral=1.4, tilt=0.15),
+        _stage(
+            "speeds",
+            many(30),
+            0.06,
+            genes_scale(1, 1, 1, 0),
+            5,
+            0.5,
+            duration=5.0,
+            noise=0.5,
+            push=100.0,
+            speeds=(2.9, 4.1),
+            lateral=0.7,
+            tilt=0.05,
+        ),
+        _stage(
+            "bends and slopes",
+            many(40),
+            0.05,
+            genes_scale(1, 1, 1, 0),
+            6,
+            0.5,
+            duration=5.0,
+            noise=0.7,
+            push=130.0,
+            speeds=(2.5, 4.5),
+            lateral=1.4,
+            tilt=0.12,
+        ),
+        _stage(
+            "family",
+            many(80),
+            0.05,
+            family,
+            8,
+            0.5,
+            duration=4.5,
+            noise=0.7,
+            push=150.0,
+            speeds=SPEED_RANGE,
+            lateral=1.4,
+            tilt=0.15,
+        ),
         _stage("set off", many(40), 0.20, start, 1, 0.2, duration=2.2, speeds=(2.7, 2.7), standing=1.0),
-        _stage("set off and run", many(25), 0.12, start, 4, 0.2, duration=4.0, speeds=(2.5, 3.5), noise=0.2, standing=1.0),
+        _stage(
+            "set off and run",
+            many(25),
+            0.12,
+            start,
+            4,
+            0.2,
+            duration=4.0,
+            speeds=(2.5, 3.5),
+            noise=0.2,
+            standing=1.0,
+        ),
     )
 
 
@@ -155,8 +216,9 @@ def train_run(
 ) -> RunSkill:
     """Learn to run from nothing and write the skill to ``out``.
 
-    ``checkpoint``: file for the state of learning; an interrupted run goes on from it and gives the same result. ``effort``:
-    scales the number of generations. The same seed gives the same skill with any number of workers.
+    ``checkpoint``: file for the state of learning; an interrupted run goes on from it and gives the same
+    result. ``effort``: scales the number of generations. The same seed gives the same skill with any
+    number of workers.
     """
     genes = np.concatenate([first_guess(), np.zeros(3 * SIZE)])
     amplitude = c.parameter_slices()["timing"].start + 1
@@ -164,7 +226,9 @@ def train_run(
     problem = RunProblem(curriculum(effort), genes, first_state_reference())
     learned = learn(problem, seed, checkpoint, workers, on_progress)
     assert learned is not None
-    skill = skill_of(learned, problem.reference, meta={"made by": "surefoot train run", "seed": seed, "effort": effort})
+    skill = skill_of(
+        learned, problem.reference, meta={"made by": "surefoot train run", "seed": seed, "effort": effort}
+    )
     skill = replace(skill, step_length=fit_step_length(skill))
     skill.save(out)
     return skill
@@ -222,7 +286,8 @@ class RunProblem:
         flat, bend, slope = {"lateral": 0.0, "tilt": 0.0}, {"tilt": 0.0}, {"lateral": 0.0}
         kinds = (flat, bend, slope, slope)
         return [
-            draw_scenario(rng, speeds=(float(v), float(v)), **{**options, **kinds[i % 4]}) for i, v in enumerate(speeds)
+            draw_scenario(rng, speeds=(float(v), float(v)), **{**options, **kinds[i % 4]})
+            for i, v in enumerate(speeds)
         ]
 
     def evaluate(self, stage: Stage, candidate: np.ndarray, scenarios: list[Scenario]) -> tuple[float, float]:
@@ -254,14 +319,17 @@ def draw_scenario(
 ) -> Scenario:
     """A random trial.
 
-    duration [s]; range of desired speeds [m/s], drawn anew every 2 to 3 s; noise: start noise (1 = 0.3 m/s, 0.05 rad); push:
-    highest force [N] of pushes of 0.1 s; lateral: highest lateral acceleration [m/s^2] of turns; tilt: highest slope of the
-    ground [rise over run]; standing: share of the trials that start from standing.
+    duration [s]; range of desired speeds [m/s], drawn anew every 2 to 3 s; noise: start noise (1 = 0.3
+    m/s, 0.05 rad); push: highest force [N] of pushes of 0.1 s; lateral: highest lateral acceleration
+    [m/s^2] of turns; tilt: highest slope of the ground [rise over run]; standing: share of the trials that
+    start from standing.
     """
     low, high = speeds
     changes = np.arange(0.0, duration, 2.5)
     speed = np.stack([changes, rng.uniform(low, high, len(changes))], axis=1)
-    turns = np.stack([changes, rng.uniform(-1, 1, len(changes)) * lateral / np.maximum(speed[:, 1], 1.0)], axis=1)
+    turns = np.stack(
+        [changes, rng.uniform(-1, 1, len(changes)) * lateral / np.maximum(speed[:, 1], 1.0)], axis=1
+    )
     turns[:, 1] *= rng.random(len(changes)) < 0.7
     times = np.arange(1.0, duration - 0.5, 2.0) + rng.uniform(0, 0.5)
     angle = rng.uniform(0, 2 * np.pi, len(times))

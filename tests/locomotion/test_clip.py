@@ -29,7 +29,9 @@ def test_run_clip_is_periodic_and_mirrored() -> None:
     half = clip.sample(shares + 0.5)
     for i, name in enumerate(JOINT_NAMES):
         if name.startswith("right_"):
-            np.testing.assert_allclose(angles[:, i], half[:, JOINT_NAMES.index("left_" + name[6:])], atol=1e-12)
+            np.testing.assert_allclose(
+                angles[:, i], half[:, JOINT_NAMES.index("left_" + name[6:])], atol=1e-12
+            )
 
 
 def test_run_clip_stays_within_the_joints() -> None:

@@ -25,7 +25,9 @@ class Runner:
         reset_running(self.skill, self.model, self.data, self.index, self.state, np.zeros(3), yaw, speed)
 
     def control(self) -> None:
-        c.run_tick(*self.skill.tables, self.state, self.command, self.data.qpos, self.data.qvel, self.data.ctrl)
+        c.run_tick(
+            *self.skill.tables, self.state, self.command, self.data.qpos, self.data.qvel, self.data.ctrl
+        )
 
     def tick(self, count: int = 1) -> None:
         for _ in range(count):
@@ -34,7 +36,9 @@ class Runner:
             c.observe(self.index, self.model, self.data, self.state)
 
     def hash(self) -> str:
-        return hashlib.sha256(self.data.qpos.tobytes() + self.data.qvel.tobytes() + self.state.tobytes()).hexdigest()
+        return hashlib.sha256(
+            self.data.qpos.tobytes() + self.data.qvel.tobytes() + self.state.tobytes()
+        ).hexdigest()
 
 
 @pytest.fixture
@@ -69,9 +73,18 @@ def test_left_stance_mirrors_right_stance(runner: Runner) -> None:
 
     runner.tick(70)
     other = Runner()
-    swap = [JOINT_NAMES.index(n.replace("right_", "L_").replace("left_", "right_").replace("L_", "left_")) for n in JOINT_NAMES]
-    odd = np.array([-1.0 if n in ("waist_roll", "waist_yaw", "chest_roll", "chest_yaw", "neck_roll", "neck_yaw") else 1.0
-                    for n in JOINT_NAMES])
+    swap = [
+        JOINT_NAMES.index(n.replace("right_", "L_").replace("left_", "right_").replace("L_", "left_"))
+        for n in JOINT_NAMES
+    ]
+    odd = np.array(
+        [
+            -1.0
+            if n in ("waist_roll", "waist_yaw", "chest_roll", "chest_yaw", "neck_roll", "neck_yaw")
+            else 1.0
+            for n in JOINT_NAMES
+        ]
+    )
     other.data.qpos[:] = runner.data.qpos * np.concatenate([[1, -1, 1, 1, -1, 1, -1], np.ones(39)])
     other.data.qpos[7:] = runner.data.qpos[7:][swap] * odd
     other.data.qvel[:6] = runner.data.qvel[:6] * [1, -1, 1, -1, 1, -1]

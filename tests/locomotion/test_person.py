@@ -6,7 +6,13 @@ import pytest
 
 from locomotion.errors import LocomotionError
 from locomotion.person import (
-    HEIGHT, JOINT_NAMES, MASS, STANDING_HEIGHT, PersonIndex, build_person, person_digest,
+    HEIGHT,
+    JOINT_NAMES,
+    MASS,
+    STANDING_HEIGHT,
+    PersonIndex,
+    build_person,
+    person_digest,
 )
 
 

@@ -37,7 +37,9 @@ def test_truncated(tmp_path: Path, share: float) -> None:
         load_run_skill(path)
 
 
-def rewritten(tmp_path: Path, version: int = 1, kind: str = "run skill", drop: str = "", **header: object) -> Path:
+def rewritten(
+    tmp_path: Path, version: int = 1, kind: str = "run skill", drop: str = "", **header: object
+) -> Path:
     old, arrays = read_archive(RUN_SKILL, "run skill", 1)
     arrays.pop(drop, None)
     write_archive(tmp_path / "run.npz", kind, version, {**old, **header}, arrays)

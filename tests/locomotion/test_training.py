@@ -8,10 +8,16 @@ import pytest
 from locomotion.errors import LocomotionError
 from locomotion.training.cma_es import CmaEs
 from locomotion.training.loop import Stage, learn
-from locomotion.training.run import (
-    SIZE, RunProblem, draw_scenario, first_guess, first_state_reference, genes_scale, skill_of,
-)
 from locomotion.training.rollout import Simulator
+from locomotion.training.run import (
+    SIZE,
+    RunProblem,
+    draw_scenario,
+    first_guess,
+    first_state_reference,
+    genes_scale,
+    skill_of,
+)
 
 
 def minimise(function, start: np.ndarray, generations: int, sigma: float = 0.5) -> CmaEs:
@@ -40,7 +46,15 @@ def test_cma_keeps_up_with_the_cma_package() -> None:
         return float(np.sum(100 * (x[1:] - x[:-1] ** 2) ** 2 + (1 - x[:-1]) ** 2))
 
     mine = rosenbrock(minimise(rosenbrock, np.zeros(5), 250, 0.3).best_guess)
-    options = {"popsize": 16, "seed": 1, "verbose": -9, "maxiter": 250, "tolfun": 0, "tolx": 0, "tolfunhist": 0}
+    options = {
+        "popsize": 16,
+        "seed": 1,
+        "verbose": -9,
+        "maxiter": 250,
+        "tolfun": 0,
+        "tolx": 0,
+        "tolfunhist": 0,
+    }
     theirs = cma.fmin2(rosenbrock, np.zeros(5), 0.3, options)[1].result.fbest
     assert mine < max(1e-6, 1e3 * theirs)
 

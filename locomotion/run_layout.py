@@ -1,0 +1,150 @@
+"""What the running controller senses, does, learns and remembers: names, places in arrays, first values."""
+
+import numpy as np
+
+from locomotion.person import JOINT_NAMES
+
+__all__ = [
+    "ACTIONS",
+    "BLEND",
+    "CLIMB",
+    "COM",
+    "COM_AT_SWITCH",
+    "COM_VELOCITY",
+    "CONTACT",
+    "FALLEN",
+    "FEET",
+    "HEADING",
+    "LAST_TARGET",
+    "MIN_PHASE",
+    "N_KNOTS",
+    "OBSERVED",
+    "PARAMETERS",
+    "PHASE",
+    "PLANTED",
+    "RANK",
+    "SENSORS",
+    "SENSOR_VALUES",
+    "SETTING_OFF",
+    "SLOPE",
+    "SPEED",
+    "STANCE",
+    "STATE_SIZE",
+    "STEPS",
+    "STEP_LENGTH",
+    "STEP_SPEED",
+    "STEP_TIME",
+    "TICKS",
+    "TRIM",
+    "TURN_RATE",
+    "new_state",
+    "parameter_slices",
+    "standing_pose",
+]
+
+SENSORS = (
+    "pitch",
+    "pitch_rate",
+    "height",
+    "vx",
+    "vz",
+    "dx",
+    "roll",
+    "yaw",
+    "roll_rate",
+    "yaw_rate",
+    "vy",
+    "dy",
+)
+"""Pelvis pitch and its rate; centre of mass above, velocity and place ahead of the stance foot; then the
+lateral ones."""
+ACTIONS = (
+    "swing_hip_flexion",
+    "swing_hip_abduction",
+    "swing_hip_rotation",
+    "stance_hip_flexion",
+    "stance_hip_abduction",
+    "stance_hip_rotation",
+    "waist_pitch",
+    "waist_roll",
+    "waist_yaw",
+)
+CLIMB = (*ACTIONS, "swing_knee_flexion", "stance_knee_flexion", "stance_ankle_flexion")
+"""What the slope under the feet changes."""
+RANK = 3
+N_KNOTS = 8
+MIN_PHASE = 0.6
+"""Share of a step before which a touch of the swing foot does not end it."""
+
+PARAMETERS: dict[str, int] = {
+    "m_ap": 9 * RANK,  # (9, 3) action projection [rad per latent unit]
+    "m_sp": RANK * 12,  # (3, 12) sensor projection
+    "posture": 9,  # swing aim (pitch, roll, yaw); stance servo (pitch, rate, roll, rate, yaw, rate)
+    "a_hat": 9,  # affine term [rad]
+    "feed_forward": 3 * N_KNOTS,  # hip flexion, knee, ankle over the cycle [rad], periodic
+    "turn": 9,  # rad per rad/s of turning towards the stance side
+    "climb": 12,  # rad per unit of slope, uphill
+    "timing": 2,  # step time [s]; amplitude of the legs' reference about its mean
+    "arms": 1,  # amplitude of the arms' reference about its mean
+    "descend": 12,  # rad per unit of slope, downhill
+    "start": 5,  # from standing, first row only: see `_lean`
+    "climb_legs": 3 * N_KNOTS,  # change of feed_forward per unit of slope, uphill
+    "descend_legs": 3 * N_KNOTS,  # the same downhill
+    "climb_timing": 2,  # change of timing per unit of slope, uphill
+    "descend_timing": 2,  # the same downhill
+}
+"""Blocks of a parameter vector, in order, with their lengths."""
+
+
+def parameter_slices() -> dict[str, slice]:
+    """Where each block of `PARAMETERS` lies in a parameter vector."""
+    result, start = {}, 0
+    for name, size in PARAMETERS.items():
+        result[name] = slice(start, start + size)
+        start += size
+    return result
+
+
+# --- what the controller remembers -------------------------------------------------------------------------
+PHASE, STANCE, HEADING, SPEED, TURN_RATE, TRIM, STEPS, STEP_TIME, SLOPE, TICKS = range(10)
+"""Phase of the step [0, 1]; stance side (-1 right, +1 left); reference heading [rad], speed [m/s], turn
+rate [rad/s]; speed correction [m/s]; steps made; time since the switch [s]; estimated slope along the
+heading; ticks made."""
+FALLEN, STEP_LENGTH, STEP_SPEED, SETTING_OFF = 10, 11, 12, 13
+"""1 after a fall; length [m] and mean speed [m/s] of the last step; 1 while a standing person leans to set
+off."""
+COM, COM_VELOCITY, FEET, CONTACT = slice(14, 17), slice(17, 20), slice(20, 26), slice(26, 28)
+"""Centre of mass [m], its velocity [m/s], right and left foot [m] (ankles), normal force under each foot
+[N]."""
+OBSERVED = slice(14, 28)
+PLANTED, COM_AT_SWITCH = slice(28, 34), slice(34, 37)
+"""Touchdown places of the right and the left foot [m]; centre of mass at the last switch [m]."""
+SENSOR_VALUES = slice(37, 49)
+"""Deviations of the `SENSORS` from their reference at the last tick, clipped."""
+BLEND, LAST_TARGET = slice(49, 49 + 39), slice(88, 88 + 39)
+"""What is left of the jump of the targets at the last switch; PD targets of the last tick [rad]."""
+STATE_SIZE = 127
+
+
+def standing_pose() -> np.ndarray:
+    """Joint angles [rad], (39,) float64, of a relaxed stand."""
+    pose = np.zeros(len(JOINT_NAMES))
+    for name, degrees in (
+        ("hip_flexion", 8),
+        ("knee_flexion", 14),
+        ("ankle_flexion", 6),
+        ("shoulder_abduction", 8),
+        ("elbow_flexion", 20),
+    ):
+        for side in ("right", "left"):
+            pose[JOINT_NAMES.index(f"{side}_{name}")] = np.deg2rad(degrees)
+    return pose
+
+
+def new_state(standing: bool = False) -> np.ndarray:
+    """A controller state, (STATE_SIZE,) float64: right stance, at the start of a step, heading 0, speed 0; or
+    ``standing``: the first ticks lean forward and set off."""
+    state = np.zeros(STATE_SIZE)
+    state[STANCE] = -1.0
+    state[SETTING_OFF] = float(standing)
+    return state

@@ -88,3 +88,55 @@ def disc_chain(rng, discs, radius=(0.15, 2.0), wander=0.5):
         return centers[j] + r * np.array([np.cos(angle), np.sin(angle)])
 
     return funnel(inside(0), inside(discs - 1), centers, radii), centers, radii
+
+
+def bounded_curve(rng, curvature, room=0.3, turns=5):
+    """A corridor around a curve of bounded curvature, so that one exists in it by construction.
+
+    curvature [1/m]: the curve's own is at most 0.9 of it; room: the discs' radius in radii of the tightest curve.
+    Returns (waypoints (k, 2), centers (m, 2), radii (m,), start tangent (2,), end tangent (2,)).
+    """
+    radius = room / curvature
+    step = 0.05 * radius
+    heading = rng.uniform(-np.pi, np.pi)
+    start = heading
+    bends = rng.uniform(-0.9, 0.9, turns) * curvature
+    points = [rng.uniform(-20, 20, 2)]
+    for bend in bends:
+        for _ in range(int(rng.uniform(0.5, 1.5) / curvature / step)):
+            heading += bend * step
+            points.append(points[-1] + step * np.array([np.cos(heading), np.sin(heading)]))
+    curve = np.array(points)
+    centers = curve[::16]
+    if np.hypot(*(centers[-1] - curve[-1])) > 0.05 * radius:
+        centers = np.vstack([centers, curve[-1]])
+    radii = np.full(len(centers), radius)
+    waypoints = funnel(curve[0], curve[-1], centers, radii)
+    tangents = [np.array([np.cos(a), np.sin(a)]) for a in (start, heading)]
+    return waypoints, centers, radii, *tangents
+
+
+def sharp_corner(rng, curvature):
+    """A corridor with a bend that no curve of bounded curvature gets through; returned as by `bounded_curve`.
+
+    In a corridor of half width w, an arc round a bend of angle a has at most the radius 2 w / (1 - cos(a / 2)); the
+    width here is half of what that would need, and the legs are straight.
+    """
+    angle = rng.uniform(0.5 * np.pi, 0.8 * np.pi) * rng.choice([-1, 1])
+    width = 0.25 * (1 - np.cos(angle / 2)) / curvature
+    heading = rng.uniform(-np.pi, np.pi)
+    legs = [np.array([np.cos(h), np.sin(h)]) for h in (heading, heading + angle)]
+    count = int(rng.integers(4, 9))
+    along = 1.2 * width * np.arange(1, count + 1)[:, None]
+    centers = np.vstack([-along[::-1] * legs[0], [[0.0, 0.0]], along * legs[1]]) + rng.uniform(-20, 20, 2)
+    radii = np.full(len(centers), width)
+    return funnel(centers[0], centers[-1], centers, radii), centers, radii, *legs
+
+
+def turn_on_the_spot(rng, curvature, room):
+    """A straight corridor whose start tangent points backwards, in a disc `room` times as wide as the tightest curve."""
+    heading = rng.uniform(-np.pi, np.pi)
+    leg = np.array([np.cos(heading), np.sin(heading)])
+    radius = room / curvature
+    centers = rng.uniform(-20, 20, 2) + np.outer(np.arange(4) * 1.2 * radius, leg)
+    return np.array([centers[0], centers[-1]]), centers, np.full(4, radius), -leg, leg

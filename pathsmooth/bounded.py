@@ -19,7 +19,7 @@ from pathsmooth import bounded_kernels, reach
 from pathsmooth.curvature import curvature
 from pathsmooth.errors import PathSmoothError
 from pathsmooth.geometry import nearest_in_lens
-from pathsmooth.packing import with_bound
+from pathsmooth.packing import keep_near, with_bound
 from pathsmooth.placement import cover
 from pathsmooth.problem import SLACK, Problem
 from pathsmooth.solution import COMPLETE, INFEASIBLE, ITERATION_LIMIT, Solution
@@ -29,10 +29,15 @@ SLACK_OF_BOUND = 0.03
 
 ROUNDS = 15
 RELAXATION = 1.7
+# rounds from a way found by the search
+FREE_ROUNDS = 40
+FREE_LIMIT = 200  # iterations in one
+FREE_REACH = 0.06  # radii of the tightest curve that a waypoint may move in one
+FREE_TIGHTEN = 1.3  # excess of curvature below which the bound is tightened
 _CHECK_EVERY = 20
 _ROUND_LIMIT = 3000  # iterations in one round
 
-SEARCHES = ((0.4, 4, 0.025), (0.25, 4, 0.01), (0.15, 5, 0.004))
+SEARCHES = ((0.5, 3, 0.06), (0.4, 4, 0.025), (0.25, 4, 0.01), (0.15, 5, 0.004))
 """Ever finer searches: turn per step [rad], heading cells in it, cell size in radii of the tightest curve."""
 
 
@@ -70,12 +75,13 @@ def solve_with_bound(problem: Problem, limit: int | None, tolerance: float, with
             return without
         if code == reach.UNDECIDED:
             break
-        curve, source, used = _curve(problem, positions, discs)
+        curve, used = _curve(problem, positions, discs)
         try:
-            start = problem.along(curve, source, used)
+            # the way found takes the place of the pulled path, which may have no bounded curve near it
+            start = _from_curve(problem, curve, used)
         except PathSmoothError:  # the cells strayed from the corridor by more than their discs overlap
             continue
-        trial = _rounds(start, None, tolerance)
+        trial = _rounds(start, None, tolerance, free=True)
         if trial.complete:
             return _solution(trial)
         if trial.worst < best.worst:
@@ -83,19 +89,25 @@ def solve_with_bound(problem: Problem, limit: int | None, tolerance: float, with
     return _solution(best)
 
 
-def _rounds(problem: Problem, limit: int | None, tolerance: float) -> _Trial:
-    """Solve, spread the waypoints, tighten where the curvature is above the bound; until it holds."""
+def _rounds(problem: Problem, limit: int | None, tolerance: float, free: bool = False) -> _Trial:
+    """Solve, spread the waypoints, tighten where the curvature is above the bound; until it holds.
+
+    free: each round has the last one's curve as its pulled path and stays near it, so that a loop is not pulled tight.
+    """
     bound = float(problem.max_curvature or np.inf)
     margin = np.ones(problem.count)
     left = ROUNDS * _ROUND_LIMIT if limit is None else limit
     best = None
     done = 0
-    for _ in range(ROUNDS):
+    for _ in range(FREE_ROUNDS if free else ROUNDS):
+        packed = with_bound(problem.packed, problem.first, problem.last)
+        if free:
+            keep_near(packed, FREE_REACH / bound)
         state = np.zeros((4, problem.count, 2))
         displacements = np.zeros((problem.count, 2))
         code, count, value, low = bounded_kernels.solve_bounded(
-            with_bound(problem.packed, problem.first, problem.last), bound * margin, problem.first, problem.last, RELAXATION,
-            min(_ROUND_LIMIT, left),
+            packed, bound * margin, problem.first, problem.last, RELAXATION,
+            min(FREE_LIMIT if free else _ROUND_LIMIT, left),
             tolerance, 0.2 * SLACK_OF_BOUND, _CHECK_EVERY, state, displacements,
         )  # fmt: skip
         done += count
@@ -105,17 +117,30 @@ def _rounds(problem: Problem, limit: int | None, tolerance: float) -> _Trial:
         trial = _Trial(problem, displacements, value, low, float(excess.max()), done)
         if best is None or trial.worst < best.worst:
             best = trial
-        if trial.complete or code == bounded_kernels.IMPOSSIBLE or left <= 0:
+        if trial.complete or (code == bounded_kernels.IMPOSSIBLE and not free) or left <= 0:
             break
         for _ in range(2):
             excess[1:-1] = np.maximum(np.maximum(excess[:-2], excess[2:]), excess[1:-1])
-        margin = margin / np.maximum(1.0, excess)
+        if not free or trial.worst < FREE_TIGHTEN:
+            margin = margin / np.maximum(1.0, excess)
         along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
-        problem = problem.along(points, problem.source, np.unique(problem.segment_disc))
+        used = np.unique(problem.segment_disc)
+        if free:
+            problem = _from_curve(problem, np.column_stack([points, problem.heights]), used)
+        else:
+            problem = problem.along(points, problem.source, used)
         margin = np.interp(problem.arc, along, margin)
     assert best is not None
     best.iterations = done
     return best
+
+
+def _from_curve(problem: Problem, curve: NDArray[np.float64], discs: NDArray[np.int64]) -> Problem:
+    """The problem with a curve (k, 3) inside the discs (j,) as its pulled path; PathSmoothError if it is outside."""
+    return Problem.from_corridor(
+        curve, problem.centers[discs], problem.radii[discs], problem.spacing, *problem.tangents,
+        problem.max_curvature, problem.smoothness,
+    )  # fmt: skip
 
 
 def _solution(trial: _Trial) -> Solution:
@@ -143,7 +168,7 @@ def _search(problem: Problem, settings: tuple[float, int, float]):
 
 
 def _curve(problem: Problem, positions: NDArray[np.float64], discs: NDArray[np.int64]):
-    """A chain of cells as a curve inside the discs: (points (k, 2), arc length of the pulled path (k,), discs used)."""
+    """A chain of cells as a curve inside the discs: (points (k, 3), discs used (j,))."""
     centers, radii = problem.centers, problem.radii
     points = [problem.path[0, :2]]
     at = [int(discs[0])]
@@ -159,7 +184,7 @@ def _curve(problem: Problem, positions: NDArray[np.float64], discs: NDArray[np.i
     points[-1] = problem.path[-1, :2]
     curve = np.array(points)
 
-    # the nearest place of the pulled path within the stretch of each point's disc, never going back
+    # height of the nearest place of the pulled path within the stretch of each point's disc, never going back
     path = problem.path[:, :2] - problem.path[0, :2]
     arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))])
     _, _, _, begin, end = cover(path, arc, centers - problem.path[0, :2], radii, SLACK)
@@ -171,4 +196,5 @@ def _curve(problem: Problem, positions: NDArray[np.float64], discs: NDArray[np.i
         distance = np.where(in_stretch, np.hypot(*(on_path - curve[i]).T), np.inf)
         source[i] = samples[np.argmin(distance)] if in_stretch.any() else begin[disc]
     source[0], source[-1] = 0.0, arc[-1]
-    return curve, np.minimum(np.maximum.accumulate(source), arc[-1]), np.unique(at)
+    height = np.interp(np.maximum.accumulate(source), arc, problem.path[:, 2])
+    return np.column_stack([curve, height]), np.unique(at)

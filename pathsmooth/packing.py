@@ -39,6 +39,20 @@ def with_bound(packed: NDArray[np.float64], first: int, last: int) -> NDArray[np
 
 
 @njit(cache=True)
+def keep_near(packed, reach):
+    """Hold waypoints that are in one disc within `reach` [m] of their targets as well, in place."""
+    for i in range(1, packed.shape[1] - 1):
+        same = packed[k.AX, i] == packed[k.BX, i] and packed[k.AY, i] == packed[k.BY, i]
+        if same and packed[k.AR, i] == packed[k.BR, i]:
+            packed[k.BX, i] = 0.0
+            packed[k.BY, i] = 0.0
+            packed[k.BR, i] = reach
+            packed[k.PX, i], packed[k.PY, i], packed[k.QX, i], packed[k.QY, i] = lens_corners(
+                packed[k.AX, i], packed[k.AY, i], packed[k.AR, i], 0.0, 0.0, reach
+            )
+
+
+@njit(cache=True)
 def into_discs(targets, segment_disc, centers, radii):
     """Move the inner targets (n, 2) that lie outside their discs to the nearest place inside, in place."""
     for i in range(1, len(targets) - 1):

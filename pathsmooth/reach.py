@@ -30,7 +30,7 @@ def search(
     turn: float = 0.4,
     turn_cells: int = 4,
     cell: float = 0.025,
-    budget: int = 2_000_000,
+    budget: int = 1_000_000,
 ) -> tuple[int, NDArray[np.float64], NDArray[np.int64]]:
     """Search from start (2,) to goal (2,) [m] through discs (m, 2), (m,); headings [rad], None for any.
 
@@ -112,7 +112,10 @@ def _search(
     goal, goal_turn, any_start, reference, centers, radii, curvature, step, size, headings, turn_cells, offsets, first,
     low, count, room, budget,
 ):  # fmt: skip
-    """Breadth first over (disc, x, y, heading). The grid is turned so that the start's heading is cell 0."""
+    """Over (disc, x, y, heading), farthest disc first, breadth first in a disc.
+
+    The grid is turned so that the start's heading is cell 0.
+    """
     m = len(radii)
     delta = 2.0 * np.pi / headings
     half_cell = size * np.sqrt(0.5)
@@ -137,18 +140,34 @@ def _search(
     seen = np.zeros(room[m], np.uint8)
     queue = np.empty((1024, 4), np.int32)  # disc, x, y, heading
     parent = np.empty(1024, np.int64)
+    following = np.empty(1024, np.int64)  # the next one in the same disc's line
+    front = np.full(m, -1, np.int64)
+    back = np.full(m, -1, np.int64)
+    farthest = 0
     tail = 0
     for h in range(headings if any_start else 1):
         seen[((0 - low_x[0]) * count[0, 1] - low_y[0]) * headings + h] = 1
         if tail == len(queue):
             queue = _longer(queue)
             parent = _longer_list(parent)
+            following = _longer_list(following)
         queue[tail, 0], queue[tail, 1], queue[tail, 2], queue[tail, 3] = 0, 0, 0, h
         parent[tail] = -1
+        following[tail] = -1
+        if tail == 0:
+            front[0] = 0
+        else:
+            following[tail - 1] = tail
+        back[0] = tail
         tail += 1
-    head = 0
     found = -1
-    while head < tail and found < 0:
+    while True:
+        while farthest >= 0 and front[farthest] < 0:
+            farthest -= 1
+        if farthest < 0:
+            break
+        head = front[farthest]
+        front[farthest] = following[head]
         j, ix, iy, h = queue[head, 0], queue[head, 1], queue[head, 2], queue[head, 3]
         x = ix * size
         y = iy * size
@@ -194,10 +213,17 @@ def _search(
                 if tail == len(queue):
                     queue = _longer(queue)
                     parent = _longer_list(parent)
+                    following = _longer_list(following)
                 queue[tail, 0], queue[tail, 1], queue[tail, 2], queue[tail, 3] = jj, nx, ny, nh
                 parent[tail] = head
+                following[tail] = -1
+                if front[jj] < 0:
+                    front[jj] = tail
+                else:
+                    following[back[jj]] = tail
+                back[jj] = tail
+                farthest = max(farthest, jj)
                 tail += 1
-        head += 1
         if tail > budget:
             return UNDECIDED, np.zeros((0, 2)), np.zeros(0, np.int64)
     if found < 0:

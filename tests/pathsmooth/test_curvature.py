@@ -1,0 +1,108 @@
+"""The bound on curvature: where a curve exists it is found, where none exists the status says so."""
+
+import numpy as np
+import pytest
+
+from benchmarks.corridors import bounded_curve, disc_chain, sharp_corner, turn_on_the_spot
+from pathsmooth import PathSmoothError, Problem, curvature, curvature_bound, reach, solve, solve_exact
+from pathsmooth.bounded_kernels import solve_bounded
+from pathsmooth.packing import with_bound
+
+BOUNDS = [0.2, 0.5, 1.0]
+
+
+def problem_of(corridor, bound):
+    waypoints, centers, radii, start, end = corridor
+    return Problem.from_corridor(waypoints, centers, radii, 0.25, start, end, bound)
+
+
+def assert_holds(solution, bound, start, end):
+    assert solution.status == "complete"
+    assert curvature(solution.points).max() <= 1.05 * bound
+    assert solution.problem.outside(solution.points) < 3e-8
+    points = solution.points[:, :2]
+    for step, tangent in ((points[1] - points[0], start), (points[-1] - points[-2], end)):
+        assert np.allclose(step / np.linalg.norm(step), tangent / np.linalg.norm(tangent), atol=1e-9)
+
+
+@pytest.mark.parametrize("bound", BOUNDS)
+@pytest.mark.parametrize("seed", range(6))
+def test_finds_a_curve_where_one_exists_by_construction(seed, bound):
+    corridor = bounded_curve(np.random.default_rng(seed), bound, 0.1 + 0.06 * seed)
+    assert_holds(solve(problem_of(corridor, bound)), bound, *corridor[3:])
+
+
+@pytest.mark.parametrize("bound", BOUNDS)
+@pytest.mark.parametrize("seed", range(3))
+def test_says_so_where_a_corner_is_too_sharp_for_the_corridor(seed, bound):
+    corridor = sharp_corner(np.random.default_rng(seed), bound)
+    solution = solve(problem_of(corridor, bound))
+    assert solution.status == "infeasible"
+    assert solution.problem.outside(solution.points) < 3e-9
+
+
+@pytest.mark.parametrize("bound", BOUNDS)
+def test_says_so_where_there_is_no_room_to_turn_round(bound):
+    solution = solve(problem_of(turn_on_the_spot(np.random.default_rng(1), bound, 0.8), bound))
+    assert solution.status == "infeasible"
+
+
+def test_turns_round_where_there_is_room():
+    corridor = turn_on_the_spot(np.random.default_rng(1), 1.0, 3.5)
+    assert_holds(solve(problem_of(corridor, 1.0)), 1.0, *corridor[3:])
+
+
+def test_search_never_misses_a_curve_that_exists():
+    for seed in range(8):
+        waypoints, centers, radii, start, end = bounded_curve(np.random.default_rng(seed), 0.5, 0.15, turns=3)
+        headings = [np.arctan2(t[1], t[0]) for t in (start, end)]
+        for settings in ((0.5, 3, 0.06), (0.4, 4, 0.025)):
+            code, positions, discs = reach.search(
+                waypoints[0], headings[0], waypoints[-1], headings[1], centers, radii, 0.5, *settings
+            )
+            assert code == reach.REACHED
+            assert np.all(np.diff(discs) >= 0)
+            assert len(positions) == len(discs)
+
+
+def test_convex_problem_with_a_bound_agrees_with_cvxpy():
+    waypoints, centers, radii = disc_chain(np.random.default_rng(4), 8, (0.8, 2.5), 0.5)
+    problem = Problem.from_corridor(waypoints, centers, radii, max_curvature=0.5)
+    exact = solve_exact(problem)
+    assert exact.status == "complete"
+    state, d = np.zeros((4, problem.count, 2)), np.zeros((problem.count, 2))
+    _, _, value, bound = solve_bounded(
+        with_bound(problem.packed, problem.first, problem.last), np.full(problem.count, 0.5), problem.first,
+        problem.last, 1.7, 20000, 1e-5, 1e-4, 50, state, d,
+    )  # fmt: skip
+    assert value == pytest.approx(exact.objective, rel=1e-3)
+    assert bound <= exact.objective * (1 + 1e-6)
+
+
+def test_a_bound_that_does_not_bind_changes_nothing():
+    corridor = disc_chain(np.random.default_rng(4), 8, (0.8, 2.5), 0.3)
+    free = solve(Problem.from_corridor(*corridor))
+    bound = 1.1 * curvature(free.points).max()
+    assert np.array_equal(solve(Problem.from_corridor(*corridor, max_curvature=bound)).points, free.points)
+
+
+def test_an_iteration_limit_is_kept():
+    corridor = sharp_corner(np.random.default_rng(2), 0.5)
+    solution = solve(problem_of(corridor, 0.5), iterations=50)
+    assert solution.status == "iteration_limit"
+    assert solution.iterations <= 70
+
+
+def test_curvature_of_a_circle():
+    angle = np.linspace(0, 3, 40)
+    circle = 4.0 * np.column_stack([np.cos(angle), np.sin(angle), angle])
+    assert np.allclose(curvature(circle)[1:-1], 0.25, rtol=1e-3)
+    assert np.allclose(curvature([[0, 0], [1, 0], [1, 1]]), [0, np.pi / 2, 0])
+    with pytest.raises(PathSmoothError, match="points has shape"):
+        curvature([1.0, 2.0])
+
+
+def test_bound_by_speed():
+    assert curvature_bound(4.0, 8.0) == pytest.approx(0.5)
+    with pytest.raises(PathSmoothError, match="speed must be a positive number"):
+        curvature_bound(0.0)

@@ -19,6 +19,7 @@ class Recorder:
 
     affordance = "jump"
     heights = (0.3, 0.5)
+    stride = (0.25, 0.0, 0.25)
 
     def __init__(self):
         self.distances = []

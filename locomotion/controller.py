@@ -258,6 +258,9 @@ def _sense(state, side, command, qpos, qvel, out):
     out[3] = ch * state[17] + sh * state[18]
     out[4] = state[19]
     out[5] = ch * dx + sh * dy
+    # above the ground under the centre of mass, not above the foot
+    out[2] -= state[SLOPE] * out[5]
+    out[4] -= state[SLOPE] * out[3]
     out[6] = mirror * math.atan2(-uy, r22)
     out[7] = mirror * math.atan2(fy, fx)
     out[8] = mirror * (ch * gx + sh * gy)

@@ -32,6 +32,8 @@ def sensors(state: np.ndarray, side_speed: float, qpos: np.ndarray, qvel: np.nda
     foot = feet[1] if state[c.STANCE] > 0 else feet[0]
     place = to_heading.apply(state[c.COM] - foot)
     sagittal = [np.arctan2(up[0], up[2]), rate[1], place[2], velocity[0], velocity[2], place[0]]
+    sagittal[2] -= state[c.SLOPE] * place[0]
+    sagittal[4] -= state[c.SLOPE] * velocity[0]
     lateral = [
         np.arctan2(-up[1], up[2]),
         np.arctan2(forward[1], forward[0]),

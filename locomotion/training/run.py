@@ -61,9 +61,9 @@ def scales() -> np.ndarray:
     x[part["a_hat"]] = 0.15
     x[part["feed_forward"]] = 0.3
     x[part["turn"]] = 0.5
-    x[part["climb"]] = 1.0
-    x[part["descend"]] = 1.0
-    x[part["climb_legs"]] = x[part["descend_legs"]] = 1.0
+    x[part["climb"]] = 2.0
+    x[part["descend"]] = 2.0
+    x[part["climb_legs"]] = x[part["descend_legs"]] = 1.5
     x[part["climb_timing"]] = x[part["descend_timing"]] = [0.2, 0.8]
     x[part["start"]] = [0.15, 0.15, 0.03, 0.15, 0.3]
     x[part["timing"]] = [0.06, 0.25]
@@ -119,14 +119,12 @@ def genes_scale(base: float, slope: float, bend: float, start: float) -> np.ndar
     return np.concatenate([base * running + start * lean, slope * running, bend * shaped, start * running])
 
 
-def terms_scale() -> np.ndarray:
-    """Scale of all genes where only what acts in bends and on slopes is free: running straight on a plane
-    stays as it is."""
-    one, part, free, by_speed = scales(), c.parameter_slices(), np.zeros(SIZE), np.zeros(SIZE)
-    for name in ("turn", "climb", "descend", "climb_legs", "descend_legs", "climb_timing", "descend_timing"):
+def terms_scale(*names: str) -> np.ndarray:
+    """Scale of all genes where only the blocks ``names`` of `controller.PARAMETERS` are free, at all speeds alike."""
+    one, part, free = scales(), c.parameter_slices(), np.zeros(SIZE)
+    for name in names:
         free[part[name]] = one[part[name]]
-    by_speed[part["turn"]] = one[part["turn"]]
-    return np.concatenate([free, by_speed, np.zeros(2 * SIZE)])
+    return np.concatenate([free, np.zeros(3 * SIZE)])
 
 
 def _stage(
@@ -316,6 +314,7 @@ def draw_scenario(
     lateral: float = 0.0,
     tilt: float = 0.0,
     standing: float = 0.0,
+    climb: tuple[float, float] | None = None,
 ) -> Scenario:
     """A random trial.
 
@@ -336,13 +335,16 @@ def draw_scenario(
     force = push * np.sqrt(rng.random(len(times)))
     pushes = np.stack([times, force * np.cos(angle), force * np.sin(angle), np.full(len(times), 0.1)], axis=1)
     direction, steepness = rng.uniform(0, 2 * np.pi), tilt * np.sqrt(rng.random())
+    slope = (float(steepness * np.cos(direction)), float(steepness * np.sin(direction)))
+    if climb is not None:
+        slope = (float(rng.uniform(*climb)), float(rng.uniform(-0.1, 0.1)))
     sizes = noise * np.concatenate([np.full(3, 0.3), np.full(3, 0.3), np.full(45, 0.05)])
     return Scenario(
         duration=duration,
         speeds=speed,
         headings=turns,
         pushes=pushes if push > 0 else np.zeros((0, 4)),
-        tilt=(float(steepness * np.cos(direction)), float(steepness * np.sin(direction))),
+        tilt=slope,
         standing=bool(rng.random() < standing),
         start_noise=rng.normal(size=51) * sizes if noise > 0 else np.zeros(0),
     )

@@ -18,7 +18,7 @@ _BIN = 0.5  # [m] side of the squares that triangles are sorted into, by their b
 _RAYS = 12  # horizontal rays per stride, between step and headroom
 
 
-@njit(cache=True)
+@njit
 def _sort_into_bins(corners, low_x, low_y, nx, ny, size):
     """Triangles by the bins that their bounding boxes touch, in CSR form."""
     start = np.zeros(nx * ny + 1, np.int64)
@@ -42,14 +42,14 @@ def _sort_into_bins(corners, low_x, low_y, nx, ny, size):
     return start, member
 
 
-@njit(cache=True)
+@njit
 def _bin_of(x, y, frame):
     ix = min(max(int((x - frame[0]) // frame[2]), 0), int(frame[3]) - 1)
     iy = min(max(int((y - frame[1]) // frame[2]), 0), int(frame[4]) - 1)
     return ix * int(frame[4]) + iy
 
 
-@njit(cache=True)
+@njit
 def _floor_near(corners, floors, start, member, frame, x, y, z, tolerance, headroom):
     """Height of the floor point at (x, y) nearest to z, at most ``tolerance`` away; nan without one."""
     b = _bin_of(x, y, frame)
@@ -83,7 +83,7 @@ def _floor_near(corners, floors, start, member, frame, x, y, z, tolerance, headr
     return best
 
 
-@njit(cache=True)
+@njit
 def _wall_on_way(corners, start, member, frame, ax, ay, bx, by, low, high):
     """Whether a horizontal ray from a to b, at one of many heights from low to high, hits a triangle."""
     dx, dy = bx - ax, by - ay
@@ -115,7 +115,7 @@ def _wall_on_way(corners, start, member, frame, ax, ay, bx, by, low, high):
     return False
 
 
-@njit(cache=True)
+@njit
 def _walk(corners, floors, start, member, frame, x, y, z, ux, uy, length, stride, rules):
     """How far one gets from the floor at (x, y, z) in direction (ux, uy), at most ``length`` [m]."""
     tangent, step, headroom, gap = rules
@@ -144,7 +144,7 @@ def _walk(corners, floors, start, member, frame, x, y, z, ux, uy, length, stride
     return length
 
 
-@njit(cache=True)
+@njit
 def _walk_all(corners, floors, start, member, frame, points, directions, lengths, stride, rules):
     reached = np.empty(points.shape[0])
     for i in range(points.shape[0]):
@@ -155,7 +155,7 @@ def _walk_all(corners, floors, start, member, frame, points, directions, lengths
     return reached
 
 
-@njit(cache=True)
+@njit
 def _distances(corners, floors, start, member, frame, points, most, directions, stride, rules):
     distance = np.empty(points.shape[0])
     for i in range(points.shape[0]):

@@ -1,6 +1,6 @@
 """Is the graph right, and how fast is it built? Prints a table and writes JSON.
 
-    python benchmarks/navmesh_build.py [--json FILE] [--resolution 0.25] [--samples 20000] [--repeats 7]
+    python -m benchmarks.navmesh_build [--json FILE] [--resolution 0.25] [--samples 20000] [--repeats 7]
 
 On the three shared levels, with the body of the shared queries (height 2.0 m, step 0.9 m, slope 45°): what
 the discs hold and leave out, asked of the mesh itself (`mesh_truth`), connections against a flood fill of
@@ -18,13 +18,13 @@ import time
 from pathlib import Path
 
 import numpy as np
-from mesh_truth import MeshTruth
 from rich.console import Console
 from rich.table import Table
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
-from shared_data import LEVELS, level_path, queries_path, shared_folder, why_absent
 
+from benchmarks.mesh_truth import MeshTruth
+from benchmarks.shared_data import LEVELS, level_path, queries_path, shared_folder, why_absent
 from navmesh import NodeGraph, Terrain, WalkRules
 
 RADII = (0.15, 0.3, 0.6, 0.9, 1.2)

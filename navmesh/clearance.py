@@ -17,6 +17,8 @@ __all__ = ["seed_clearance", "spread_clearance"]
 @njit(cache=True)
 def _nearest_on_edge(edge, x, y, cross_x, cross_y, reach):
     """The vector from (x, y) to the nearest point of an edge, within ``reach`` of the crossing."""
+    if (edge[2], edge[3]) < (edge[0], edge[1]):  # the same answer from either triangle at the edge
+        edge[0], edge[1], edge[2], edge[3] = edge[2], edge[3], edge[0], edge[1]
     ex, ey = edge[2] - edge[0], edge[3] - edge[1]
     length = np.sqrt(ex * ex + ey * ey)
     if length < 1e-12:
@@ -76,14 +78,16 @@ def seed_clearance(
                 left, right = min(row[0], row[3], row[6]) - x, max(row[0], row[3], row[6]) - x
                 near, far = min(row[1], row[4], row[7]) - y, max(row[1], row[4], row[7]) - y
                 away_x, away_y = max(left, -right, 0.0), max(near, -far, 0.0)
-                if away_x * away_x + away_y * away_y >= best:
+                if away_x * away_x + away_y * away_y > best * (1.0 + 1e-9):
                     continue
                 count = clip_band(row, px, py, z, p, q, lowest, headroom, polygon, spare)
                 if count == 0:
                     continue
                 vx, vy = nearest_on_polygon(polygon, count, x, y)
-                if vx * vx + vy * vy < best:
-                    best = vx * vx + vy * vy
+                squared = vx * vx + vy * vy
+                # equally near places: the same one whatever the order of the triangles
+                if squared < best or (squared == best and (vx, vy) < (nearest[c, 0], nearest[c, 1])):
+                    best = squared
                     nearest[c, 0] = vx
                     nearest[c, 1] = vy
         for d in range(4):

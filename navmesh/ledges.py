@@ -11,6 +11,15 @@ __all__ = ["floor_at", "floor_end"]
 
 
 @njit(cache=True)
+def _comes_first(row, other):
+    """A choice between two triangles that does not depend on their order in the mesh."""
+    for k in range(12):
+        if row[k] != other[k]:
+            return row[k] < other[k]
+    return False
+
+
+@njit(cache=True)
 def floor_at(table, start, triangle, resolution, ny, x, y, z, step, headroom):
     """The prepared triangle that is floor (rule 1) at (x, y) within ``step`` of z, or -1."""
     column = math.floor(x / resolution) * ny + math.floor(y / resolution)
@@ -21,9 +30,12 @@ def floor_at(table, start, triangle, resolution, ny, x, y, z, step, headroom):
         if row[14] != FLOOR:
             continue
         here = row[9] * x + row[10] * y + row[11]
-        if abs(here - z) <= step + TOUCH and here > at and is_over(row, x, y):
-            chosen = triangle[k]
-            at = here
+        if abs(here - z) > step + TOUCH or here < at or not is_over(row, x, y):
+            continue
+        if here == at and chosen >= 0 and not _comes_first(row, table[chosen]):
+            continue
+        chosen = triangle[k]
+        at = here
     if chosen < 0:
         return -1
     for k in range(start[column], start[column + 1]):

@@ -208,8 +208,7 @@ def nearest_edge(graph: "NodeGraph", points: Any) -> NearestEdge:
 
 
 def clearance_at(graph: "NodeGraph", points: Any) -> Any:
-    """Horizontal distance [m] from each of ``points`` to where walking ends: the widest body that fits. 0 off it.
-    """
+    """Horizontal distance [m] from each of ``points`` to where walking ends; 0 off the surface."""
     return nearest_edge(graph, points).distance
 
 

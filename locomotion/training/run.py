@@ -120,7 +120,7 @@ def genes_scale(base: float, slope: float, bend: float, start: float) -> np.ndar
 
 
 def terms_scale(*names: str) -> np.ndarray:
-    """Scale of all genes where only the blocks ``names`` of `controller.PARAMETERS` are free, at all speeds alike."""
+    """Scale of all genes where only the blocks ``names`` of `controller.PARAMETERS` are free, at any speed."""
     one, part, free = scales(), c.parameter_slices(), np.zeros(SIZE)
     for name in names:
         free[part[name]] = one[part[name]]

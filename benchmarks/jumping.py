@@ -132,8 +132,8 @@ def summary(height: float, attempts: list[Attempt]) -> dict[str, Any]:
     }
 
 
-def film(path: Path, height: float, frames: list[np.ndarray], count: int = 12) -> None:
-    """Write a strip of ``count`` pictures of the jump."""
+def film(path: Path, height: float, frames: list[np.ndarray], count: int = 14) -> None:
+    """Write a strip of ``count`` pictures of the jump, 80 ms apart, in two rows."""
     import matplotlib.image
 
     from locomotion.skill import load_run_skill
@@ -141,18 +141,25 @@ def film(path: Path, height: float, frames: list[np.ndarray], count: int = 12) -
 
     simulator = JumpSimulator(load_run_skill())
     simulator.place_stair(0.0, height)
-    renderer = mujoco.Renderer(simulator.model, 360, 300)
+    model, data = simulator.model, simulator.data
+    model.geom_size[simulator.stair, 1] = 0.9  # seen from beside it
+    model.stat.extent = 4.0
+    renderer = mujoco.Renderer(model, 400, 340)
     camera = mujoco.MjvCamera()
-    camera.distance, camera.azimuth, camera.elevation = 3.4, 90.0, -8.0
+    camera.distance, camera.azimuth, camera.elevation = 3.6, 90.0, -8.0
     pictures = []
-    for qpos in frames[: 3 * count : 3][:count]:
-        simulator.data.qpos[:] = qpos
-        mujoco.mj_forward(simulator.model, simulator.data)
-        camera.lookat[:] = qpos[0], 0.0, 0.9 + 0.5 * height
-        renderer.update_scene(simulator.data, camera)
-        pictures.append(renderer.render().copy())
+    for qpos in frames[: 2 * count : 2]:
+        data.qpos[:] = qpos
+        mujoco.mj_forward(model, data)
+        camera.lookat[:] = qpos[0], 0.0, 0.8 + 0.5 * height
+        renderer.update_scene(data, camera)
+        picture = renderer.render().copy()
+        picture[(picture == 0).all(axis=2)] = 235
+        pictures.append(picture)
+    pictures += [np.full_like(pictures[0], 235)] * (count - len(pictures))
+    rows = [np.hstack(pictures[: count // 2]), np.hstack(pictures[count // 2 :])]
     path.parent.mkdir(parents=True, exist_ok=True)
-    matplotlib.image.imsave(path, np.hstack(pictures))
+    matplotlib.image.imsave(path, np.vstack(rows))
 
 
 def main() -> None:
@@ -166,9 +173,7 @@ def main() -> None:
     parser.add_argument("--film", type=Path, help="beginning of the names of film strips to write")
     options = parser.parse_args()
     result: dict[str, Any] = {"summary": [], "attempts": []}
-    print(
-        f"{'height':>7} {'starts':>7} {'cleared':>8} {'clean':>7} {'d error':>12} {'v error':>16}  ends"
-    )
+    print(f"{'height':>7} {'starts':>7} {'cleared':>8} {'clean':>7} {'d error':>12} {'v error':>16}  ends")
     for height in options.heights:
         ground = Ground.from_arrays(*stair(height))
         begun = time.perf_counter()

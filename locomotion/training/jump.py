@@ -151,8 +151,8 @@ def _curriculum(height: float, effort: float) -> list[Stage]:
     few = {"states": 4, "error": 0.05, "duration": 2.2, "pull": 0.1}
     many = {"states": 8, "error": 0.15, "duration": 3.0, "pull": 0.15}
     return [
-        Stage(f"{height:g} m, feed-forward", generations(25), 0.25, scales(False), few, 16),
-        Stage(f"{height:g} m, feedback", generations(30), 0.2, scales(True), many, 20),
+        Stage(f"{height:g} m, feed-forward", generations(30), 0.25, scales(False), few, 16),
+        Stage(f"{height:g} m, feedback", generations(21), 0.2, scales(True), many, 20),
     ]
 
 

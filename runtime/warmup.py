@@ -19,7 +19,8 @@ def is_compiled() -> bool:
     root = Path(navmesh.__file__).parent.parent
     for package, module in _KERNEL_MODULES:
         own = root / package / "__pycache__"
-        elsewhere = Path(numba.config.CACHE_DIR) if numba.config.CACHE_DIR else own  # type: ignore[attr-defined]
+        chosen = numba.config.CACHE_DIR  # type: ignore[attr-defined]
+        elsewhere = Path(chosen) if chosen else Path.home() / ".cache" / "numba"
         if not any(own.glob(f"{module}.*.nbi")) and not any(elsewhere.rglob(f"{module}.*.nbi")):
             return False
     return True
@@ -32,12 +33,14 @@ def compile_kernels(progress: Progress) -> None:
     with progress.stage("compiling kernels, once (a minute or two)") as stage:
         stage.update(0.02, "navigation graph")
         world = World(_tiny_level())
-        stage.update(0.35, "paths and bodies")
+        stage.update(0.4, "paths")
         agent = world.spawn("human", (1.5, 2.0, 0.0))
-        stage.update(0.5, "paths")
         agent.go_to((10.5, 2.0, 0.4), speed=3.0)
-        stage.update(0.9, "control")
-        world.step(0.05)
+        if agent.status == "blocked":
+            agent.go_to((4.5, 2.0, 0.0), speed=3.0)
+        stage.update(0.8, "running and jumping")
+        while agent.status in ("running", "jumping") and world.time < 6.0:
+            world.step(0.1)
 
 
 def _tiny_level() -> navmesh.Terrain:

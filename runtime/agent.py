@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from locomotion import PERSON_RULES, Human, HumanState
 from locomotion import events as bodily
+from locomotion.clearing import HEIGHT_TOLERANCE
 from runtime.errors import RuntimeInputError
 from runtime.events import Arrived, Blocked, Departed, Event, Fell, Lost, SkillFinished, SkillStarted, Stuck
 from runtime.figure import Figure
@@ -62,8 +63,7 @@ class Agent:
 
     @property
     def status(self) -> str:
-        """ "standing", "running", "jumping", "fallen", "arrived", "lost" or "stuck", as the body has it; "blocked"
-        when the last goal cannot be reached."""
+        """What it does, as `locomotion.Human.status` says, or "blocked": the last goal cannot be reached."""
         return "blocked" if self._blocked else self.human.status
 
     @property
@@ -84,7 +84,10 @@ class Agent:
     @property
     def skills(self) -> Mapping[str, tuple[float, float]]:
         """For each affordance that it can clear the least and the greatest height [m]."""
-        return {}
+        return {
+            skill.affordance: (skill.heights[0] - HEIGHT_TOLERANCE, skill.heights[1] + HEIGHT_TOLERANCE)
+            for skill in self.human.clearing
+        }
 
     @property
     def pose(self) -> Pose:
@@ -96,8 +99,8 @@ class Agent:
         """Set out for ``point`` (3,) [m], or through several (k, 3) in order, at up to ``speed`` [m/s].
 
         Returns the status: "running", or "blocked" when there is no way (an event says why; the agent then
-        keeps doing what it did). Raises `RuntimeInputError` for a point that is not finite numbers or an agent
-        that has fallen, and `locomotion.LocomotionError` for a speed that is not above 0.
+        keeps doing what it did). Raises `RuntimeInputError` for a point that is not finite numbers or
+        an agent that has fallen, and `locomotion.LocomotionError` for a speed that is not above 0.
         """
         goals = (
             np.asarray(point, dtype=np.float64).reshape(-1, 3)
@@ -120,7 +123,7 @@ class Agent:
                 Blocked(self._world.time, self.name, here, _triple(goals[error.goal]), error.reason)
             )
             return self.status
-        self.human.follow(plan.points, speed)
+        self.human.follow(plan.points, speed, plan.obstacles)
         self.plans.append(plan)
         self._blocked = False
         here = _triple(self.position)

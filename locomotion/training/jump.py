@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from locomotion import jump
+from locomotion.errors import LocomotionError
 from locomotion.jump_skill import JUMP_SKILL, Jump, JumpSkill, load_jump_skill, run_digest, tables_of
 from locomotion.skill import RunSkill, load_run_skill
 from locomotion.training.jump_trial import JumpOutcome, JumpSimulator, StartState
@@ -142,18 +143,35 @@ class JumpProblem:
         return np.where(counts > 0, sums[..., :-1] / np.maximum(counts, 1.0), self.reference)
 
 
-def _curriculum(height: float, effort: float) -> list[Stage]:
-    """Stages at a height; ``effort`` scales the number of generations."""
+@dataclass(frozen=True)
+class _Course:
+    """What stays the same over a whole learning run."""
 
-    def generations(n: int) -> int:
-        return max(round(n * effort), 1)
+    run: RunSkill
+    stride: tuple[float, float, float]
+    entry: float
+    seed: int
+    folder: Path | None
+    workers: int
+    effort: float
+    on_progress: Callable[[Progress], None] | None
 
-    few = {"states": 4, "error": 0.05, "duration": 2.2, "pull": 0.1}
-    many = {"states": 8, "error": 0.15, "duration": 3.0, "pull": 0.15}
-    return [
-        Stage(f"{height:g} m, feed-forward", generations(30), 0.25, scales(False), few, 16),
-        Stage(f"{height:g} m, feedback", generations(21), 0.2, scales(True), many, 20),
-    ]
+    def generations(self, n: int) -> int:
+        return max(round(n * self.effort), 1)
+
+    def first_pass(self, height: float) -> list[Stage]:
+        """Feed-forward on few start states, then feedback on many."""
+        few = {"states": 4, "error": 0.05, "duration": 2.2, "pull": 0.1}
+        many = {"states": 8, "error": 0.15, "duration": 3.0, "pull": 0.15}
+        return [
+            Stage(f"{height:g} m, feed-forward", self.generations(30), 0.25, scales(False), few, 16),
+            Stage(f"{height:g} m, feedback", self.generations(21), 0.2, scales(True), many, 20),
+        ]
+
+    def second_pass(self, height: float) -> list[Stage]:
+        """Refinement on more start states and for longer."""
+        most = {"states": 12, "error": 0.12, "duration": 4.0, "pull": 0.15}
+        return [Stage(f"{height:g} m, refined", self.generations(12), 0.1, scales(True), most, 20)]
 
 
 def train_jump(
@@ -176,62 +194,64 @@ def train_jump(
     folder = Path(checkpoint) if checkpoint is not None else None
     if folder is not None:
         folder.mkdir(parents=True, exist_ok=True)
-    old = load_jump_skill(start_from) if start_from is not None else None
-    heights = HEIGHTS if old is None else tuple(float(h) for h in old.heights)
-    x, reference = first_guess(), np.zeros((jump.STEPS, jump.BINS, jump.SENSORS))
-    kept: list[tuple[float, np.ndarray, np.ndarray]] = []
     stride = JumpSimulator(run).fit_stride(np.random.default_rng([seed, 1]))
+    entry = float(np.clip(ENTRY_SPEED, *run.speeds))
+    course = _Course(run, stride, entry, seed, folder, workers, effort, on_progress)
+    learned: list[tuple[np.ndarray, np.ndarray]] = []
+    if start_from is None:
+        x, reference = first_guess(), np.zeros((jump.STEPS, jump.BINS, jump.SENSORS))
+        for number, height in enumerate(HEIGHTS):
+            x, reference = _learn_height(course, height, number, course.first_pass(height), x, reference)
+            learned.append((x, reference))
+        heights = HEIGHTS
+    else:
+        old = load_jump_skill(start_from)
+        heights = tuple(float(h) for h in old.heights)
+        learned = list(zip(old.table, old.references, strict=True))
     for k, height in enumerate(heights):
-        entry = float(np.clip(ENTRY_SPEED, *run.speeds))
-        if old is not None:
-            x, reference = old.table[k], old.references[k]
-        done = folder / f"height-{k}.npz" if folder is not None else None
-        if done is not None and done.exists():
-            _, arrays = read_archive(done, _KIND, _VERSION)
-            x, reference = arrays["x"], arrays["reference"]
-        else:
-            x, reference = _learn_height(
-                run, stride, height, entry, x, reference, seed, k, folder, workers, effort, on_progress
-            )
-            if done is not None:
-                write_archive(done, _KIND, _VERSION, {}, {"x": x, "reference": reference})
-        kept.append((height, x, reference))
+        learned[k] = _learn_height(course, height, 100 + k, course.second_pass(height), *learned[k])
     skill = JumpSkill(
-        np.array([h for h, _, _ in kept]), np.array([x for _, x, _ in kept]), np.full(len(kept), entry),
-        np.array([r for _, _, r in kept]), stride, run_digest(run), {"command": "surefoot train jump",
-        "seed": seed},
-    )  # fmt: skip
+        np.array(heights),
+        np.array([x for x, _ in learned]),
+        np.full(len(heights), entry),
+        np.array([reference for _, reference in learned]),
+        stride,
+        run_digest(run),
+        {"made by": "surefoot train jump", "seed": seed, "effort": effort},
+    )
     skill.save(out)
     return skill
 
 
 def _learn_height(
-    run: RunSkill,
-    stride: tuple[float, float, float],
-    height: float,
-    entry: float,
-    x: np.ndarray,
-    reference: np.ndarray,
-    seed: int,
-    number: int,
-    folder: Path | None,
-    workers: int,
-    effort: float,
-    on_progress: Callable[[Progress], None] | None,
+    course: _Course, height: float, number: int, stages: list[Stage], x: np.ndarray, reference: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Go through a height's stages; the expected sensors are recorded anew before the feedback is
-    learned."""
-    rng = np.random.default_rng([seed, number])
+    """Go through stages at a height; what was done before is read from the checkpoint.
+
+    The expected sensors are recorded anew after a stage of feed-forward.
+    """
+    identity = {"seed": course.seed, "run": run_digest(course.run), "effort": course.effort}
+    done = None if course.folder is None else course.folder / f"done-{number}.npz"
+    if done is not None and done.exists():
+        header, arrays = read_archive(done, _KIND, _VERSION)
+        if {key: header.get(key) for key in identity} != identity:
+            raise LocomotionError(f"{done}: checkpoint of another training or seed; remove it to begin anew")
+        return arrays["x"], arrays["reference"]
+    rng = np.random.default_rng([course.seed, number])
     guess = JumpSkill(
-        np.array([height]), x[None], np.array([entry]), reference[None], stride, run_digest(run)
+        np.array([height]), x[None], np.array([course.entry]), reference[None], course.stride, ""
     )
-    states = JumpSimulator(run).harvest(Jump(guess, run), rng.uniform(8.0, 16.0, _STATES), rng)
-    for place, stage in enumerate(_curriculum(height, effort)):
-        problem = JumpProblem(run, height, entry, x, reference, states, [stage])
-        file = folder / f"search-{number}-{place}.npz" if folder is not None else None
-        learned = learn(problem, seed + 1000 * number + place, file, workers, on_progress)
+    distances = rng.uniform(8.0, 16.0, _STATES)
+    states = JumpSimulator(course.run).harvest(Jump(guess, course.run), distances, rng)
+    for place, stage in enumerate(stages):
+        problem = JumpProblem(course.run, height, course.entry, x, reference, states, [stage])
+        file = None if course.folder is None else course.folder / f"search-{number}-{place}.npz"
+        seed = course.seed + 1000 * number + place
+        learned = learn(problem, seed, file, course.workers, course.on_progress)
         assert learned is not None
         x = learned
-        if place == 0:
+        if not (stage.scale[jump.parameter_slices()["m_sp"]] > 0).any():
             reference = problem.record(x)
+    if done is not None:
+        write_archive(done, _KIND, _VERSION, identity, {"x": x, "reference": reference})
     return x, reference

@@ -1,0 +1,226 @@
+"""The jump: clip, law against the reference, mirror image, interpolation, files, and jumps onto stairs."""
+
+import dataclasses
+
+import mujoco
+import numpy as np
+import pytest
+
+from locomotion import controller, jump
+from locomotion.body import Human
+from locomotion.errors import LocomotionError
+from locomotion.events import Cleared, TookOff
+from locomotion.ground import Ground
+from locomotion.jump_reference import wanted_offset
+from locomotion.jump_skill import Jump, jump_clip, load_jump_skill, tables_of
+from locomotion.person import CONTROL_DT, JOINT_NAMES
+from locomotion.route_smoothing import ObstacleAhead
+from locomotion.skill import load_run_skill, run_clip
+
+
+@pytest.fixture(scope="module")
+def run():
+    return load_run_skill()
+
+
+@pytest.fixture(scope="module")
+def skill():
+    return load_jump_skill()
+
+
+def stair(height, side=6.0):
+    corners, faces = [], []
+    for quad in (
+        [(-40, -side, 0), (0, -side, 0), (0, side, 0), (-40, side, 0)],
+        [(0, side, 0), (0, -side, 0), (0, -side, height), (0, side, height)],
+        [(0, -side, height), (30, -side, height), (30, side, height), (0, side, height)],
+    ):
+        first = len(corners)
+        corners += quad
+        faces += [(first, first + 1, first + 2), (first, first + 2, first + 3)]
+    return Ground.from_arrays(np.array(corners, dtype=float), np.array(faces))
+
+
+def runner(ground, height, distance):
+    human = Human(ground)
+    human.reset((-distance, 0.0, 0.0), 0.0)
+    path = [[-distance, 0, 0], [-1e-3, 0, 0], [1e-3, 0, height], [25, 0, height]]
+    edge, normal = np.array([0.0, 0.0, height]), np.array([-1.0, 0.0, 0.0])
+    human.follow(path, 3.5, [ObstacleAhead(distance, "jump", height, edge, normal)])
+    return human
+
+
+def random_tables(run, seed):
+    rng = np.random.default_rng(seed)
+    width = sum(jump.PARAMETERS.values())
+    parameters = 0.2 * rng.normal(size=width)
+    parameters[jump.parameter_slices()["beta"]] += 1.0
+    return tables_of(parameters, 3.3, rng.normal(size=(jump.STEPS, jump.BINS, jump.SENSORS)), run)
+
+
+def random_state(rng, step, side):
+    state = controller.new_state()
+    state[:] = rng.normal(size=len(state))
+    state[controller.STANCE], state[controller.PHASE] = side, rng.uniform(0.0, 1.0)
+    state[controller.SPEED], state[controller.STEPS] = rng.uniform(2.5, 4.0), 10.0 + step
+    state[controller.HEADING] = 0.0
+    return state
+
+
+@pytest.mark.parametrize("step", range(jump.STEPS))
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_kernel_agrees_with_the_reference(run, step, side):
+    rng = np.random.default_rng(step)
+    tables = random_tables(run, 7)
+    state, memory = random_state(rng, step, side), np.zeros(jump.MEMORY_SIZE)
+    memory[jump.ACTIVE], memory[jump.FIRST_STEP], memory[jump.LAST_STEP] = 1.0, 10.0, step
+    memory[jump.ERROR_DISTANCE], memory[jump.ERROR_SPEED] = 0.1, -0.2
+    before, ctrl = state.copy(), np.zeros(len(JOINT_NAMES))
+    jump.jump_tick(tables.parameters, *tables.rest, memory, state, ctrl)
+    wanted, beta = wanted_offset(tables, memory, before)
+    share = 1.0 - np.exp(-CONTROL_DT / 0.02)
+    np.testing.assert_allclose(ctrl, share * wanted, atol=1e-9)
+    step_time = np.interp(before[controller.SPEED], tables.rest[0], tables.rest[1])
+    phase = min(before[controller.PHASE] + (beta - 1.0) * CONTROL_DT / step_time, 1.0)
+    assert state[controller.PHASE] == pytest.approx(phase)
+
+
+@pytest.mark.parametrize("step", range(jump.STEPS))
+def test_a_jump_from_the_other_foot_is_the_mirror_image(run, step):
+    rng = np.random.default_rng(step)
+    tables = random_tables(run, 3)
+    left = random_state(rng, step, 1.0)
+    right = left.copy()
+    right[controller.STANCE] = -1.0
+    com, feet = left[controller.COM], left[controller.FEET].reshape(2, 3)
+    right[controller.COM] = com * [1, -1, 1]
+    right[controller.FEET] = (feet[::-1] * [1, -1, 1]).ravel()
+    offsets = []
+    for state in (left, right):
+        memory, ctrl = np.zeros(jump.MEMORY_SIZE), np.zeros(len(JOINT_NAMES))
+        memory[jump.ACTIVE], memory[jump.FIRST_STEP], memory[jump.LAST_STEP] = 1.0, 10.0, step
+        jump.jump_tick(tables.parameters, *tables.rest, memory, state, ctrl)
+        offsets.append(ctrl)
+    np.testing.assert_allclose(jump.mirror(offsets[0]), offsets[1], atol=1e-12)
+
+
+def test_an_idle_jump_changes_nothing(run):
+    tables, state = random_tables(run, 1), controller.new_state()
+    before, ctrl = state.copy(), np.zeros(len(JOINT_NAMES))
+    jump.jump_tick(tables.parameters, *tables.rest, np.zeros(jump.MEMORY_SIZE), state, ctrl)
+    np.testing.assert_array_equal(state, before)
+    assert not ctrl.any()
+
+
+def test_clip_begins_and_ends_like_the_run():
+    shares = np.array([0.0, 1.0])
+    legs = [i for i, name in enumerate(JOINT_NAMES) if name.endswith(("hip_flexion", "knee_flexion"))]
+    difference = jump_clip().sample(shares) - run_clip().sample(shares)
+    assert np.abs(difference[:, legs]).max() < np.deg2rad(6)
+
+
+def test_clip_lifts_both_knees():
+    angles = np.rad2deg(jump_clip().sample(np.linspace(0, 1, 41)))
+    assert angles[:, JOINT_NAMES.index("left_hip_flexion")].max() > 80
+    assert angles[:, JOINT_NAMES.index("right_knee_flexion")].max() > 100
+
+
+def test_learned_heights_are_met_and_between_them_lines(run, skill):
+    for k, height in enumerate(skill.heights):
+        np.testing.assert_allclose(skill.at(height, run).parameters, skill.table[k], atol=1e-9)
+    middle = skill.at(0.5 * (skill.heights[0] + skill.heights[1]), run)
+    np.testing.assert_allclose(middle.parameters, 0.5 * (skill.table[0] + skill.table[1]), atol=1e-9)
+
+
+@pytest.mark.parametrize("height", [0.1, 0.9, np.nan])
+def test_heights_that_were_not_learned_are_refused(run, skill, height):
+    with pytest.raises(LocomotionError, match="was not learned"):
+        skill.at(height, run)
+
+
+@pytest.mark.parametrize("height", [0.3, 0.4, 0.5])
+def test_jumps_onto_a_stair_and_runs_on(height):
+    ground, cleared = stair(height), 0
+    for distance in (11.3, 14.7, 18.2, 21.9):
+        human = runner(ground, height, distance)
+        while human.status in ("running", "jumping") and human.position[0] < 12.0:
+            human.tick()
+        onto = human.status == "running" and human.position[2] == pytest.approx(height, abs=1e-3)
+        cleared += onto and any(isinstance(event, Cleared) for event in human.events)
+        assert any(isinstance(event, TookOff) for event in human.events)
+    assert cleared >= 3
+
+
+def test_a_jump_repeats_and_is_restored_bit_for_bit():
+    ground = stair(0.4)
+    first, second = (runner(ground, 0.4, 10.0) for _ in range(2))
+    saved = None
+    while first.position[0] < 3.0 and first.status in ("running", "jumping"):
+        first.tick()
+        if saved is None and first.status == "jumping":
+            saved = first.save_state()
+    while second.time < first.time:
+        second.tick()
+    assert first.state_hash() == second.state_hash()
+    assert saved is not None
+    third = Human(ground)
+    third.restore_state(saved)
+    while third.time < first.time:
+        third.tick()
+    assert first.state_hash() == third.state_hash()
+
+
+def test_a_jump_from_another_run_still_plans(run, skill):
+    entry, mark = Jump(skill, run).approach(0.4)
+    assert run.speeds[0] <= entry <= run.speeds[1]
+    assert 1.0 < mark < 3.5
+
+
+def test_round_trip(tmp_path, skill):
+    skill.save(tmp_path / "jump.npz")
+    again = load_jump_skill(tmp_path / "jump.npz")
+    for field in dataclasses.fields(skill):
+        np.testing.assert_array_equal(getattr(again, field.name), getattr(skill, field.name))
+
+
+def test_missing(tmp_path):
+    with pytest.raises(LocomotionError, match="no such file"):
+        load_jump_skill(tmp_path / "none.npz")
+
+
+def test_truncated(tmp_path, skill):
+    path = tmp_path / "jump.npz"
+    skill.save(path)
+    path.write_bytes(path.read_bytes()[:2000])
+    with pytest.raises(LocomotionError, match="cut off or damaged"):
+        load_jump_skill(path)
+
+
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        (dict(table=np.zeros((3, 5))), "do not fit"),
+        (dict(entries=np.array([3.0, np.nan, 3.0])), "not finite"),
+        (dict(heights=np.array([0.5, 0.4, 0.3])), "do not grow"),
+    ],
+)
+def test_contents_that_do_not_fit(tmp_path, skill, change, message):
+    dataclasses.replace(skill, **change).save(tmp_path / "jump.npz")
+    with pytest.raises(LocomotionError, match=message):
+        load_jump_skill(tmp_path / "jump.npz")
+
+
+def test_of_another_person(tmp_path, skill, monkeypatch):
+    monkeypatch.setattr("locomotion.jump_skill.person_digest", lambda: "another")
+    skill.save(tmp_path / "jump.npz")
+    monkeypatch.undo()
+    with pytest.raises(LocomotionError, match="another person"):
+        load_jump_skill(tmp_path / "jump.npz")
+
+
+def test_simulated_face_is_where_the_stair_is():
+    from locomotion.training.jump_trial import stair_model
+
+    model = stair_model()
+    assert model.geom("stair").size[2] == 2.0
+    assert mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, "ground") >= 0

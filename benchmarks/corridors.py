@@ -18,9 +18,12 @@ def lens_chord(a, ra, b, rb):
 
 
 def funnel(start, goal, centers, radii):
-    """Shortest path (k, 2) from start to goal through the lens chords of consecutive discs (string pulling)."""
-    portals = [lens_chord(a, ra, b, rb) for a, ra, b, rb in zip(
-        centers[:-1], radii[:-1], centers[1:], radii[1:], strict=True)]
+    """Shortest path (k, 2) from start to goal through the lens chords of consecutive discs (string
+    pulling)."""
+    portals = [
+        lens_chord(a, ra, b, rb)
+        for a, ra, b, rb in zip(centers[:-1], radii[:-1], centers[1:], radii[1:], strict=True)
+    ]
     portals.append((goal, goal))
 
     def area(a, b, c):
@@ -93,7 +96,8 @@ def disc_chain(rng, discs, radius=(0.15, 2.0), wander=0.5):
 def bounded_curve(rng, curvature, room=0.3, turns=5):
     """A corridor around a curve of bounded curvature, so that one exists in it by construction.
 
-    curvature [1/m]: the curve's own is at most 0.9 of it; room: the discs' radius in radii of the tightest curve.
+    curvature [1/m]: the curve's own is at most 0.9 of it; room: the discs' radius in radii of the tightest
+    curve.
     Returns (waypoints (k, 2), centers (m, 2), radii (m,), start tangent (2,), end tangent (2,)).
     """
     radius = room / curvature
@@ -119,8 +123,8 @@ def bounded_curve(rng, curvature, room=0.3, turns=5):
 def sharp_corner(rng, curvature):
     """A corridor with a bend that no curve of bounded curvature gets through; returned as by `bounded_curve`.
 
-    In a corridor of half width w, an arc round a bend of angle a has at most the radius 2 w / (1 - cos(a / 2)); the
-    width here is half of what that would need, and the legs are straight.
+    In a corridor of half width w, an arc round a bend of angle a has at most the radius 2 w / (1 - cos(a /
+    2)); the width here is half of what that would need, and the legs are straight.
     """
     angle = rng.uniform(0.5 * np.pi, 0.8 * np.pi) * rng.choice([-1, 1])
     width = 0.25 * (1 - np.cos(angle / 2)) / curvature
@@ -134,7 +138,8 @@ def sharp_corner(rng, curvature):
 
 
 def turn_on_the_spot(rng, curvature, room):
-    """A straight corridor whose start tangent points backwards, in a disc `room` times as wide as the tightest curve."""
+    """A straight corridor whose start tangent points backwards, in a disc `room` times as wide as the
+    tightest curve."""
     heading = rng.uniform(-np.pi, np.pi)
     leg = np.array([np.cos(heading), np.sin(heading)])
     radius = room / curvature

@@ -1,10 +1,12 @@
 """How valid, how near the optimum and how fast is smoothing? Prints a table and writes JSON.
 
-    python benchmarks/smoothing.py [--json FILE] [--routes 1002] [--exact 1002] [--bounded 60] [--constructed 40]
+    python benchmarks/smoothing.py [--json FILE] [--routes 1002] [--exact 1002] [--bounded 60] [--constructed
+    40]
 
-On routes between the shared queries' pairs on the three shared levels (body radius 0.6 m), or on random corridors
-where the shared data is absent: points of the curve outside the corridor, the objective against cvxpy, times against
-cvxpy and against springs at equal objective, and the bound on curvature with end tangents.
+On routes between the shared queries' pairs on the three shared levels (body radius 0.6 m), or on random
+corridors where the shared data is absent: points of the curve outside the corridor, the objective against
+cvxpy, times against cvxpy and against springs at equal objective, and the bound on curvature with end
+tangents.
 """
 
 import argparse
@@ -62,7 +64,8 @@ def usable(routes):
 
 
 def outside(points, problem, per_segment=10):
-    """How many samples of the polyline are more than 1e-9 m outside every disc of the corridor; how many there are."""
+    """How many samples of the polyline are more than 1e-9 m outside every disc of the corridor; how many
+    there are."""
     t = np.linspace(0, 1, per_segment, endpoint=False)[:, None, None]
     curve = ((1 - t) * points[:-1, :2] + t * points[1:, :2]).reshape(-1, 2)
     beyond = np.full(len(curve), np.inf)
@@ -83,15 +86,21 @@ def median_time(call, repeats):
 
 def summary(values):
     """Median, 95th percentile and greatest of some values."""
-    return {k: float(v) for k, v in zip(("median", "p95", "max"), np.percentile(values, [50, 95, 100]), strict=True)}
+    return {
+        k: float(v)
+        for k, v in zip(("median", "p95", "max"), np.percentile(values, [50, 95, 100]), strict=True)
+    }
 
 
 def validity_and_optimality(routes, exact_count):
-    """Points outside, and the objective above cvxpy's, at the default stopping rule and after fixed iterations."""
+    """Points outside, and the objective above cvxpy's, at the default stopping rule and after fixed
+    iterations."""
     problems = [Problem.from_corridor(*route) for route in routes]
     solutions = [solve(problem) for problem in problems]
     bad, samples = np.sum([outside(s.points, p) for s, p in zip(solutions, problems, strict=True)], axis=0)
-    raised = sum(s.objective > p.objective(p.targets) * (1 + 1e-12) for s, p in zip(solutions, problems, strict=True))
+    raised = sum(
+        s.objective > p.objective(p.targets) * (1 + 1e-12) for s, p in zip(solutions, problems, strict=True)
+    )
     above = {name: [] for name in ("default", "12 iterations", "25 iterations")}
     times = []
     stride = max(1, len(problems) // max(exact_count, 1))
@@ -115,7 +124,9 @@ def validity_and_optimality(routes, exact_count):
         "iterations": summary([s.iterations for s in solutions]),
         "routes compared with cvxpy": len(times),
         "objective above cvxpy's": {name: summary(values) for name, values in above.items()},
-        "share of routes within 1 %": {name: float(np.mean(np.array(v) <= 0.01)) for name, v in above.items()},
+        "share of routes within 1 %": {
+            name: float(np.mean(np.array(v) <= 0.01)) for name, v in above.items()
+        },
     }
 
 
@@ -142,7 +153,10 @@ def speed(routes):
     best_damping = min(
         DAMPINGS,
         key=lambda damping: np.median(
-            [simulate(p.packed, p.first, p.last, damping, 200, 0.0, 200)[1] / solve(p).objective for _, p in chosen]
+            [
+                simulate(p.packed, p.first, p.last, damping, 200, 0.0, 200)[1] / solve(p).objective
+                for _, p in chosen
+            ]
         ),
     )
     for route, problem in chosen:
@@ -162,7 +176,9 @@ def speed(routes):
         row = {
             "solve": median_time(lambda p=problem: solve(p), 25),
             "kernel": median_time(kernel, 25),
-            "from_corridor": median_time(lambda r=route, p=problem: Problem.from_corridor(*r, spacing=p.spacing), 9),
+            "from_corridor": median_time(
+                lambda r=route, p=problem: Problem.from_corridor(*r, spacing=p.spacing), 9
+            ),
             "springs": median_time(lambda c=spring_call: simulate(*c), 3),
             "cvxpy": median_time(lambda p=problem: solve_exact(p), 1),
             "iterations": solution.iterations,
@@ -170,7 +186,9 @@ def speed(routes):
             "springs get there": reached <= target,
         }
         for count in (12, 25, 50, 200):
-            row[f"springs after {count}"] = simulate(*spring_call[:4], count, 0.0, count)[1] / solution.objective - 1
+            row[f"springs after {count}"] = (
+                simulate(*spring_call[:4], count, 0.0, count)[1] / solution.objective - 1
+            )
         for count in (12, 50):
             plain = problem.objective(reference.two_pass(problem, count))
             row[f"two passes after {count}"] = plain / solution.objective - 1
@@ -266,7 +284,9 @@ def main():
     parser.add_argument("--routes", type=int, default=1002)
     parser.add_argument("--exact", type=int, default=1002, help="routes compared with cvxpy")
     parser.add_argument("--bounded", type=int, default=60, help="routes with a bound on curvature")
-    parser.add_argument("--constructed", type=int, default=40, help="corridors made for the bound, of each kind")
+    parser.add_argument(
+        "--constructed", type=int, default=40, help="corridors made for the bound, of each kind"
+    )
     options = parser.parse_args()
     if shared_folder() is not None:
         source, routes = "routes on the shared levels", real_routes(options.routes)

@@ -1,8 +1,9 @@
-"""The talk's first approach to smoothing: torsion springs that even out the path, linear springs that hold its shape.
+"""The talk's first approach to smoothing: torsion springs that even out the path, linear springs that hold
+its shape.
 
-The springs pull as the objective's two terms do, so that they come to rest where the solver ends, and only the way
-there differs. Each waypoint's mass makes its own spring as fast as a step of the simulation allows; waypoints that
-leave their discs are put back.
+The springs pull as the objective's two terms do, so that they come to rest where the solver ends, and only
+the way there differs. Each waypoint's mass makes its own spring as fast as a step of the simulation allows;
+waypoints that leave their discs are put back.
 """
 
 import numpy as np

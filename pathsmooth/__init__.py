@@ -3,8 +3,8 @@
     problem = Problem.from_corridor(waypoints, centers, radii)
     solution = solve(problem)
 
-The points of the solution are as near to the pulled path and as little bent as the corridor allows; `Problem` states
-the objective. Everything is planar, in x and y; z is carried along.
+The points of the solution are as near to the pulled path and as little bent as the corridor allows; `Problem`
+states the objective. Everything is planar, in x and y; z is carried along.
 """
 
 from pathsmooth.curvature import curvature, curvature_bound

@@ -1,11 +1,12 @@
 """Smoothing under a bound on curvature.
 
-Curvature is not convex in the waypoints, but the second divided difference is, and the two agree where the waypoints
-are as far apart as their nominal spacing says. So the convex problem is solved, the waypoints are spread evenly along
-the result, and it is solved again, tightening the bound where the true curvature came out above it, until the true
-curvature of the result holds.
+Curvature is not convex in the waypoints, but the second divided difference is, and the two agree where the
+waypoints are as far apart as their nominal spacing says. So the convex problem is solved, the waypoints are
+spread evenly along the result, and it is solved again, tightening the bound where the true curvature came out
+above it, until the true curvature of the result holds.
 
-Where that fails, `reach` either proves that no curve exists, or finds the way of one, from which to try once more.
+Where that fails, `reach` either proves that no curve exists, or finds the way of one, from which to try once
+more.
 """
 
 from __future__ import annotations
@@ -61,8 +62,8 @@ class _Trial:
 def solve_with_bound(problem: Problem, limit: int | None, tolerance: float, without: Solution) -> Solution:
     """Smooth a path under problem.max_curvature.
 
-    limit: greatest number of iterations over all rounds; None: as many as it takes, and then the search. without: the
-    solution of the problem without the bound, returned where there is none with it.
+    limit: greatest number of iterations over all rounds; None: as many as it takes, and then the search.
+    without: the solution of the problem without the bound, returned where there is none with it.
     """
     trial = _rounds(problem, limit, tolerance)
     if trial.complete or limit is not None:
@@ -92,7 +93,8 @@ def solve_with_bound(problem: Problem, limit: int | None, tolerance: float, with
 def _rounds(problem: Problem, limit: int | None, tolerance: float, free: bool = False) -> _Trial:
     """Solve, spread the waypoints, tighten where the curvature is above the bound; until it holds.
 
-    free: each round has the last one's curve as its pulled path and stays near it, so that a loop is not pulled tight.
+    free: each round has the last one's curve as its pulled path and stays near it, so that a loop is not
+    pulled tight.
     """
     bound = float(problem.max_curvature or np.inf)
     margin = np.ones(problem.count)
@@ -135,8 +137,9 @@ def _rounds(problem: Problem, limit: int | None, tolerance: float, free: bool = 
     return best
 
 
-def _from_curve(problem: Problem, curve: NDArray[np.float64], discs: NDArray[np.int64]) -> Problem:
-    """The problem with a curve (k, 3) inside the discs (j,) as its pulled path; PathSmoothError if it is outside."""
+def _from_curve(problem: Problem, curve: NDArray[np.float64], discs: NDArray[np.integer]) -> Problem:
+    """The problem with a curve (k, 3) inside the discs (j,) as its pulled path; PathSmoothError if it is
+    outside."""
     return Problem.from_corridor(
         curve, problem.centers[discs], problem.radii[discs], problem.spacing, *problem.tangents,
         problem.max_curvature, problem.smoothness,
@@ -167,19 +170,20 @@ def _search(problem: Problem, settings: tuple[float, int, float]):
     )  # fmt: skip
 
 
-def _curve(problem: Problem, positions: NDArray[np.float64], discs: NDArray[np.int64]):
+def _curve(problem: Problem, positions: NDArray[np.float64], discs: NDArray[np.integer]):
     """A chain of cells as a curve inside the discs: (points (k, 3), discs used (j,))."""
     centers, radii = problem.centers, problem.radii
     points = [problem.path[0, :2]]
     at = [int(discs[0])]
-    ahead = list(zip(positions[1:], discs[1:], strict=True)) + [(problem.path[-1, :2], len(radii) - 1)]
+    ahead = [*zip(positions[1:], discs[1:], strict=True), (problem.path[-1, :2], len(radii) - 1)]
     for position, disc in ahead:
         for j in range(at[-1], int(disc)):
             middle = 0.5 * (points[-1] + position)
             lens = (*centers[j], radii[j], *centers[j + 1], radii[j + 1])
-            points.append(np.array(nearest_in_lens(*middle, *lens)))
+            points.append(np.array(nearest_in_lens(middle[0], middle[1], *lens)))
             at.append(j + 1)
-        points.append(np.array(nearest_in_lens(*position, *centers[disc], radii[disc], *centers[disc], radii[disc])))
+        own = (*centers[disc], radii[disc])
+        points.append(np.array(nearest_in_lens(position[0], position[1], *own, *own)))
         at.append(int(disc))
     points[-1] = problem.path[-1, :2]
     curve = np.array(points)

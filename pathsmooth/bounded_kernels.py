@@ -1,7 +1,9 @@
-"""Compiled loops of the solver with a bound on the second divided difference, a convex stand-in for curvature.
+"""Compiled loops of the solver with a bound on the second divided difference, a convex stand-in for
+curvature.
 
-The problem of `kernels` with the constraint |D(p + d)_i| <= kappa_i added. K = (I; I; D) has a third dual variable, u,
-and the metric of the primal step is K^T S K for the dual step sizes S, so that the step stays one pentadiagonal solve:
+The problem of `kernels` with the constraint |D(p + d)_i| <= kappa_i added. K = (I; I; D) has a third dual
+variable, u, and the metric of the primal step is K^T S K for the dual step sizes S, so that the step stays
+one pentadiagonal solve:
 
     d' = argmin f2(d) + <y + v + D^T u, d> + 1/2 |d - d_i|^2 in the metric diag(s + r) + D^T diag(c) D
     u' = z - c clip(z / c, kappa),  z = u + c D(p + 2 d' - d)
@@ -15,8 +17,22 @@ import numpy as np
 from numba import njit
 
 from pathsmooth.kernels import (
-    BEND, CURVE_STEP, DISC_STEP, EX, EY, GX, GY, LEFT, NORM_STEP, PIVOT, RIGHT, SUB1, SUB2, WEIGHT,
-    lowest, objective, project,
+    BEND,
+    CURVE_STEP,
+    DISC_STEP,
+    EX,
+    EY,
+    GX,
+    LEFT,
+    NORM_STEP,
+    PIVOT,
+    RIGHT,
+    SUB1,
+    SUB2,
+    WEIGHT,
+    lowest,
+    objective,
+    project,
 )  # fmt: skip
 
 CONVERGED = 0
@@ -137,8 +153,8 @@ def _bounds(packed, kappa, d, y, u, force, pull, first, last):
 def solve_bounded(packed, kappa, first, last, relaxation, limit, tolerance, slack, check_every, state, best):
     """Iterate until the gap and the violation of the bound are small, or the bound is proven impossible.
 
-    kappa (n,) [1/m]; slack: relative violation of it that counts as small; state (4, n, 2): d, y, v, u, changed in
-    place; best (n, 2): displacements inside the discs, written.
+    kappa (n,) [1/m]; slack: relative violation of it that counts as small; state (4, n, 2): d, y, v, u,
+    changed in place; best (n, 2): displacements inside the discs, written.
     Returns (code, iterations, objective, bound on the optimum).
     """
     n = packed.shape[1]

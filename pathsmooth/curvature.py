@@ -11,8 +11,8 @@ from pathsmooth.errors import PathSmoothError
 def curvature(points: ArrayLike) -> NDArray[np.float64]:
     """(n,) float64 [1/m] curvature at each vertex of the horizontal polyline through points (n, 2) or (n, 3).
 
-    It is the angle turned at the vertex over the mean length of the two segments there, so that a kink counts in
-    full; 0 at both ends. A polygon inscribed in a circle of radius R has slightly more than 1 / R.
+    It is the angle turned at the vertex over the mean length of the two segments there, so that a kink counts
+    in full; 0 at both ends. A polygon inscribed in a circle of radius R has slightly more than 1 / R.
     """
     xy = np.asarray(points, dtype=np.float64)
     if xy.ndim != 2 or xy.shape[1] not in (2, 3):
@@ -27,8 +27,12 @@ def curvature(points: ArrayLike) -> NDArray[np.float64]:
 
 
 def curvature_bound(speed: float, lateral_acceleration: float = 4.0) -> float:
-    """[1/m] greatest curvature at a speed [m/s] > 0 with a greatest lateral acceleration [m/s^2] > 0: a / v^2."""
-    for name, value, unit in (("speed", speed, "m/s"), ("lateral_acceleration", lateral_acceleration, "m/s^2")):
+    """[1/m] greatest curvature at a speed [m/s] > 0 with a greatest lateral acceleration [m/s^2] > 0: a /
+    v^2."""
+    for name, value, unit in (
+        ("speed", speed, "m/s"),
+        ("lateral_acceleration", lateral_acceleration, "m/s^2"),
+    ):
         if not (np.isfinite(value) and value > 0.0):
             raise PathSmoothError(f"{name} must be a positive number [{unit}], not {value!r}")
     return lateral_acceleration / speed**2

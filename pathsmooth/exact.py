@@ -1,4 +1,5 @@
-"""The exact optimum of the same problem through cvxpy: the reference of tests and benchmarks, too slow for a frame."""
+"""The exact optimum of the same problem through cvxpy: the reference of tests and benchmarks, too slow for
+a frame."""
 
 from __future__ import annotations
 
@@ -13,8 +14,9 @@ from pathsmooth.solution import COMPLETE, INFEASIBLE, ITERATION_LIMIT, Solution
 def solve_exact(problem: Problem) -> Solution:
     """Solve a smoothing problem with a second-order cone solver (Clarabel).
 
-    The points meet the discs to about 1e-8 m. A bound on curvature is taken as the convex constraint on the second
-    divided difference at the problem's own spacing. Raises PathSmoothError where cvxpy is not installed.
+    The points meet the discs to about 1e-8 m. A bound on curvature is taken as the convex constraint on the
+    second divided difference at the problem's own spacing. Raises PathSmoothError where cvxpy is not
+    installed.
     """
     try:
         import cvxpy

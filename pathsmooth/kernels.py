@@ -1,19 +1,20 @@
-"""Compiled loops of the solver: Chambolle and Pock's primal-dual algorithm with the quadratic in the primal step.
+"""Compiled loops of the solver: Chambolle and Pock's primal-dual algorithm with the quadratic in the primal
+step.
 
 Unknowns are the displacements d (n, 2) of the waypoints from their targets, so that large coordinates cost no
 precision. The problem is
 
     minimise  f2(d) + sum_i w_i |d_i|   with  d_i in C_i,       f2(d) = sum_i q_i |D(p + d)_i|^2,
 
-D the divided second difference, C_i a disc or the lens of two. With K = (I; I), one dual variable y for the norm and
-one, v, for the discs, one iteration is
+D the divided second difference, C_i a disc or the lens of two. With K = (I; I), one dual variable y for the
+norm and one, v, for the discs, one iteration is
 
     d' = argmin f2(d) + <y + v, d> + sum_i (s_i + r_i) / 2 |d - d_i|^2     (one pentadiagonal solve)
     y' = projection of y + s (2 d' - d) on the balls |y_i| <= w_i
     v' = z - r P_C(z / r),  z = v + r (2 d' - d)
 
-with step sizes s and r per waypoint (Pock and Chambolle 2011), followed by over-relaxation. `reference.py` has the
-same steps written plainly.
+with step sizes s and r per waypoint (Pock and Chambolle 2011), followed by over-relaxation. `reference.py`
+has the same steps written plainly.
 
 The rows of the packed array (ROWS, n) that the loops read are the constants below.
 """
@@ -23,7 +24,14 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-AX, AY, AR, BX, BY, BR = 0, 1, 2, 3, 4, 5  # the two discs relative to the target [m]; equal where there is one
+AX, AY, AR, BX, BY, BR = (
+    0,
+    1,
+    2,
+    3,
+    4,
+    5,
+)  # the two discs relative to the target [m]; equal where there is one
 PX, PY, QX, QY = 6, 7, 8, 9  # the two corners of the lens [m]
 WEIGHT = 10  # w [m]: mean spacing at the waypoint
 LEFT, RIGHT = 11, 12  # second difference: LEFT x[i-1] - (LEFT + RIGHT) x[i] + RIGHT x[i+1] [1/m^2]
@@ -38,6 +46,7 @@ ROWS = 24
 ROUNDING = 1.0 + 1e-12
 NOTHING = 1e-12  # [m^2] objective that is as good as zero
 EXACT = 1e-10  # relative gap that is as good as none
+
 
 @njit(cache=True)
 def factorise(packed, first, last):
@@ -155,11 +164,13 @@ def objective(packed, d, first, last):
 
 @njit(cache=True)
 def lower_bound(packed, d, y, first, last, pull):
-    """A value that no feasible point is below: the dual objective at the second differences of d (n, 2) and at y.
+    """A value that no feasible point is below: the dual objective at the second differences of d (n, 2) and
+    at y.
 
     For any z, f2 >= 2 <z, D(p + d)> - |z|^2 / q, which leaves one small problem per waypoint: the least of
-    w |d_i| + <g_i, d_i> over C_i, with g = D^T 2 z. It is 0 where |g_i| <= w_i; before convergence many |g_i| are a
-    little above, which costs much in wide discs and is cured by scaling z down a little. pull (n, 2): room for g.
+    w |d_i| + <g_i, d_i> over C_i, with g = D^T 2 z. It is 0 where |g_i| <= w_i; before convergence many |g_i|
+    are a little above, which costs much in wide discs and is cured by scaling z down a little. pull (n, 2):
+    room for g.
     """
     n = packed.shape[1]
     linear = 0.0
@@ -208,7 +219,8 @@ def lower_bound(packed, d, y, first, last, pull):
 
 @njit(cache=True)
 def iterate(packed, first, last, relaxation, count, d, y, v, rhs):
-    """Do `count` iterations on d, y, v (n, 2) in place; the last primal step's unrelaxed result is left in rhs."""
+    """Do `count` iterations on d, y, v (n, 2) in place; the last primal step's unrelaxed result is left in
+    rhs."""
     for _ in range(count):
         a0 = a1 = b0 = b1 = 0.0
         for i in range(first, last):
@@ -234,8 +246,8 @@ def iterate(packed, first, last, relaxation, count, d, y, v, rhs):
             # dual step at i
             s = packed[NORM_STEP, i]
             w = packed[WEIGHT, i]
-            e0 = (2.0 * c0 - d[i, 0])
-            e1 = (2.0 * c1 - d[i, 1])
+            e0 = 2.0 * c0 - d[i, 0]
+            e1 = 2.0 * c1 - d[i, 1]
             y0 = y[i, 0] + s * e0
             y1 = y[i, 1] + s * e1
             size2 = y0 * y0 + y1 * y1
@@ -257,11 +269,23 @@ def iterate(packed, first, last, relaxation, count, d, y, v, rhs):
 
 @njit(cache=True)
 def solve(
-    packed, targets, heights, first, last, relaxation, limit, tolerance, first_check, check_every, state, points
+    packed,
+    targets,
+    heights,
+    first,
+    last,
+    relaxation,
+    limit,
+    tolerance,
+    first_check,
+    check_every,
+    state,
+    points,
 ):
     """Iterate until the gap is at most `tolerance` of the bound, or `limit` iterations.
 
-    state (3, n, 2): start of d, y and v, changed in place. points (n, 3): the best feasible path found, written.
+    state (3, n, 2): start of d, y and v, changed in place. points (n, 3): the best feasible path found,
+    written.
     Returns (iterations, objective, bound).
     """
     n = packed.shape[1]

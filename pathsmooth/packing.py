@@ -22,7 +22,9 @@ _ROUNDING = 1e-11  # [m]
 _CLOSE = 0.5  # of the greatest spacing
 
 
-def pack(targets, arc, segment_disc, centers, radii, smoothness: float, first: int, last: int) -> NDArray[np.float64]:
+def pack(
+    targets, arc, segment_disc, centers, radii, smoothness: float, first: int, last: int
+) -> NDArray[np.float64]:
     """(ROWS, n): see the names of the rows in `kernels`. Arguments as the fields of `Problem`."""
     packed = np.zeros((k.ROWS, len(arc)))
     _pack(packed, targets, arc, segment_disc, centers, radii, smoothness)
@@ -80,7 +82,12 @@ def _pack(packed, targets, arc, segment_disc, centers, radii, smoothness):
             if radii[disc] < distance < radii[disc] + _ROUNDING:  # then it counts as on the rim
                 packed[row + 2, i] = distance
         packed[k.PX, i], packed[k.PY, i], packed[k.QX, i], packed[k.QY, i] = lens_corners(
-            packed[k.AX, i], packed[k.AY, i], packed[k.AR, i], packed[k.BX, i], packed[k.BY, i], packed[k.BR, i]
+            packed[k.AX, i],
+            packed[k.AY, i],
+            packed[k.AR, i],
+            packed[k.BX, i],
+            packed[k.BY, i],
+            packed[k.BR, i],
         )
         before = arc[i] - arc[i - 1] if i > 0 else 0.0
         after = arc[i + 1] - arc[i] if i < n - 1 else 0.0

@@ -1,8 +1,9 @@
 """Placing waypoints: how a corridor of discs covers a pulled path, and where the subdivided waypoints lie.
 
-A disc cuts the path into stretches, written as intervals of arc length. One stretch per disc is chosen so that
-consecutive ones overlap. A *portal* is a waypoint in the overlap of two consecutive stretches; it belongs to both
-discs, so each segment between two waypoints has both its ends in one disc, and lies inside it.
+A disc cuts the path into stretches, written as intervals of arc length. One stretch per disc is chosen so
+that consecutive ones overlap. A *portal* is a waypoint in the overlap of two consecutive stretches; it
+belongs to both discs, so each segment between two waypoints has both its ends in one disc, and lies inside
+it.
 
 Arc length is measured horizontally, in metres. Everything here is planar and compiled.
 """
@@ -28,7 +29,8 @@ SHIFT = 0.1
 
 @njit(cache=True, inline="always")
 def _inside_part(x, y, ux, uy, length, cx, cy, radius):
-    """Part of a segment inside a disc: its first and last arc length from the segment's start; last < first: none."""
+    """Part of a segment inside a disc: its first and last arc length from the segment's start; last <
+    first: none."""
     along = (cx - x) * ux + (cy - y) * uy
     off_x = cx - x - along * ux
     off_y = cy - y - along * uy
@@ -43,9 +45,10 @@ def _inside_part(x, y, ux, uy, length, cx, cy, radius):
 def cover(path, arc, centers, radii, slack):
     """Choose for every disc the stretch of the path that it covers.
 
-    path (k, 2), arc (k,) increasing, centers (m, 2), radii (m,), slack [m] by which a disc may be missed (rounding).
-    Returns (code, disc, reached, begin (m,), end (m,)): the code is COVERED or the failure, `disc` the first disc that
-    fails and `reached` the arc length to which the discs before it cover the path.
+    path (k, 2), arc (k,) increasing, centers (m, 2), radii (m,), slack [m] by which a disc may be missed
+    (rounding).
+    Returns (code, disc, reached, begin (m,), end (m,)): the code is COVERED or the failure, `disc` the first
+    disc that fails and `reached` the arc length to which the discs before it cover the path.
     """
     k = len(path)
     m = len(centers)
@@ -128,7 +131,8 @@ def cover(path, arc, centers, radii, slack):
 
 @njit(cache=True)
 def _enter(a, b, j, first, stretch_begin, stretch_end, earliest, parent, slack):
-    """Record the stretch [a, b] of disc j if it can be entered, with the earliest place where that is possible."""
+    """Record the stretch [a, b] of disc j if it can be entered, with the earliest place where that is
+    possible."""
     best = np.inf
     source = -1
     if j == 0:
@@ -180,10 +184,15 @@ def _balance_point(path, arc, low, high, ax, ay, ra, bx, by, rb):
 @njit(cache=True)
 def _shared(path, arc, s, centers, radii, a, b, shift):
     """Whether the path at s is within `shift` of both discs a and b, and these overlap."""
-    if np.sqrt((centers[a, 0] - centers[b, 0]) ** 2 + (centers[a, 1] - centers[b, 1]) ** 2) > radii[a] + radii[b]:
+    if (
+        np.sqrt((centers[a, 0] - centers[b, 0]) ** 2 + (centers[a, 1] - centers[b, 1]) ** 2)
+        > radii[a] + radii[b]
+    ):
         return False
     x, y = point_at(path, arc, s)
-    px, py = nearest_in_lens(x, y, centers[a, 0], centers[a, 1], radii[a], centers[b, 0], centers[b, 1], radii[b])
+    px, py = nearest_in_lens(
+        x, y, centers[a, 0], centers[a, 1], radii[a], centers[b, 0], centers[b, 1], radii[b]
+    )
     return (px - x) ** 2 + (py - y) ** 2 <= (shift + 1e-9) ** 2
 
 
@@ -191,8 +200,8 @@ def _shared(path, arc, s, centers, radii, a, b, shift):
 def place(path, arc, centers, radii, begin, end, spacing):
     """Choose the arc lengths of the waypoints and the disc of every segment.
 
-    begin, end (m,): the stretches from `cover`. Overlaps shorter than the spacing get a waypoint of their own; between
-    those the path is divided evenly, and a wide overlap takes a waypoint that is there already.
+    begin, end (m,): the stretches from `cover`. Overlaps shorter than the spacing get a waypoint of their
+    own; between those the path is divided evenly, and a wide overlap takes a waypoint that is there already.
     Returns (waypoint arc lengths (n,), disc of each segment (n - 1,)).
     """
     m = len(centers)
@@ -215,7 +224,8 @@ def place(path, arc, centers, radii, begin, end, spacing):
             centers[j, 0], centers[j, 1], radii[j], centers[j + 1, 0], centers[j + 1, 1], radii[j + 1],
         )  # fmt: skip
 
-    # portals in narrow overlaps, with both ends of the path; close ones share a waypoint where their discs allow it
+    # portals in narrow overlaps, with both ends of the path; close ones share a waypoint where their discs
+    # allow it
     close = MERGE * spacing
     shift = SHIFT * spacing
     marks = [0.0]

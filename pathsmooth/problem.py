@@ -23,7 +23,8 @@ _SHORTEST_TANGENT = 1 / 32  # of the spacing
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """Waypoints to be moved by the solver; made by `from_corridor`. Arrays are float64 and must not be changed.
+    """Waypoints to be moved by the solver; made by `from_corridor`. Arrays are float64 and must not be
+    changed.
 
     The objective of positions x (n, 2), with targets p on the pulled path, h the spacing of the targets and
     h̄ its mean on both sides of a waypoint:
@@ -40,7 +41,8 @@ class Problem:
     arc: NDArray[np.float64]
     """(n,) [m] horizontal arc length at the waypoints, along the path that they were placed on."""
     source: NDArray[np.float64]
-    """(n,) [m] horizontal arc length of the pulled path at the targets; the same as `arc` unless a bound on curvature
+    """(n,) [m] horizontal arc length of the pulled path at the targets; the same as `arc` unless a bound on
+    curvature
     made the solver place the waypoints anew."""
     segment_disc: NDArray[np.int32]
     """(n - 1,) the disc that holds each segment; a waypoint stays in the discs of both its segments."""
@@ -81,17 +83,19 @@ class Problem:
     ) -> Problem:
         """Subdivide a pulled path and assign its waypoints to the discs of its corridor.
 
-        waypoints      (k, 2) or (k, 3) [m], k >= 2: the pulled path. Only x and y are smoothed, z is carried along.
-        centers        (m, 2) or (m, 3) [m], radii (m,) [m] >= 0: discs in the order of the path, already shrunk by the
-                       body's radius; there are increasing arc lengths between which the path lies in disc j, so
-                       consecutive discs overlap on the path. Missing it by up to 1e-9 m is taken for rounding.
+        waypoints      (k, 2) or (k, 3) [m], k >= 2: the pulled path. Only x and y are smoothed, z is carried
+        along. centers        (m, 2) or (m, 3) [m], radii (m,) [m] >= 0: discs in the order of the path,
+                       already shrunk by the body's radius; there are increasing arc lengths between which the
+                       path lies in disc j, so consecutive discs overlap on the path. Missing it by up to 1e-9
+                       m is taken for rounding.
         spacing        [m] > 0: greatest distance between waypoints. Short paths get at least four segments.
-        start_tangent, end_tangent  (2,) or (3,): directions of travel at the two ends, of any length; the horizontal
-                       part is kept exactly.
+        start_tangent, end_tangent  (2,) or (3,): directions of travel at the two ends, of any length; the
+                       horizontal part is kept exactly.
         max_curvature  [1/m] > 0: bound on the curvature of the result.
         smoothness     λ [m³] > 0: larger is smoother and farther from the pulled path.
 
-        Raises PathSmoothError for wrong shapes, values that are not finite, and discs that do not cover the path.
+        Raises PathSmoothError for wrong shapes, values that are not finite, and discs that do not cover the
+        path.
         """
         path, xy, arc = _path(waypoints)
         disc_centers, disc_radii = _discs(centers, radii)
@@ -108,19 +112,28 @@ class Problem:
         step = min(spacing, arc[-1] / 4)
         waypoint_arc, segment_disc = place(local, arc, local_centers, disc_radii, begin, end, step)
         return cls._assemble(
-            path, arc, arc, waypoint_arc, segment_disc, disc_centers, disc_radii, tangents, max_curvature, smoothness,
+            path,
+            arc,
+            arc,
+            waypoint_arc,
+            segment_disc,
+            disc_centers,
+            disc_radii,
+            tangents,
+            max_curvature,
+            smoothness,
             float(spacing),
         )
 
     def along(
-        self, curve: NDArray[np.float64], source: NDArray[np.float64], discs: NDArray[np.int64]
+        self, curve: NDArray[np.float64], source: NDArray[np.float64], discs: NDArray[np.integer]
     ) -> Problem:
         """The same problem with its waypoints spread evenly along another curve in the corridor.
 
-        curve (k, 2) [m]: the spacing, and with it the second divided difference, is measured along it. source (k,) [m]:
-        arc length of the pulled path that each of its points corresponds to, not decreasing. discs (j,): the discs
-        that the curve passes, in order. The targets stay on the pulled path, and may lie outside the discs of their
-        waypoints.
+        curve (k, 2) [m]: the spacing, and with it the second divided difference, is measured along it. source
+        (k,) [m]: arc length of the pulled path that each of its points corresponds to, not decreasing. discs
+        (j,): the discs that the curve passes, in order. The targets stay on the pulled path, and may lie
+        outside the discs of their waypoints.
         """
         step = np.hypot(*np.diff(curve, axis=0).T)
         keep = np.concatenate([[True], step > SLACK])
@@ -141,7 +154,18 @@ class Problem:
 
     @classmethod
     def _assemble(
-        cls, path, arc, source, waypoint_arc, segment_disc, centers, radii, tangents, max_curvature, smoothness, spacing
+        cls,
+        path,
+        arc,
+        source,
+        waypoint_arc,
+        segment_disc,
+        centers,
+        radii,
+        tangents,
+        max_curvature,
+        smoothness,
+        spacing,
     ) -> Problem:
         """Pin the ends and pack the arrays of the compiled loops."""
         obstruction = ""
@@ -180,7 +204,8 @@ class Problem:
         last = n - (2 if end is not None and not obstruction else 1)
         packed = pack(targets, waypoint_arc, segment_disc, centers, radii, smoothness, first, last)
         return cls(
-            targets, heights, waypoint_arc, waypoint_source, segment_disc, centers, radii, first, last, float(spacing), float(smoothness),
+            targets, heights, waypoint_arc, waypoint_source, segment_disc, centers, radii, first, last,
+            float(spacing), float(smoothness),
             max_curvature, obstruction, path, tangents, packed,
         )  # fmt: skip
 
@@ -190,7 +215,8 @@ class Problem:
         return len(self.arc)
 
     def objective(self, points: ArrayLike) -> float:
-        """f of the horizontal positions points (n, 2) or (n, 3) [m], whether or not they are in the corridor."""
+        """f of the horizontal positions points (n, 2) or (n, 3) [m], whether or not they are in the
+        corridor."""
         xy = np.asarray(points, dtype=np.float64)[:, :2]
         if xy.shape != self.targets.shape:
             raise PathSmoothError(f"points has {len(xy)} rows, but the problem has {self.count} waypoints")
@@ -244,7 +270,8 @@ def _path(waypoints: ArrayLike):
     keep[-1] = True
     if not np.any(step > SLACK):
         raise PathSmoothError(
-            f"the path has no horizontal length: all {len(path)} waypoints lie at ({path[0, 0]:g}, {path[0, 1]:g})"
+            f"the path has no horizontal length: all {len(path)} waypoints lie at "
+            f"({path[0, 0]:g}, {path[0, 1]:g})"
         )
     path = path[keep]
     if len(path) > 2 and np.hypot(*(path[-1, :2] - path[-2, :2])) <= SLACK:
@@ -258,7 +285,9 @@ def _discs(centers: ArrayLike, radii: ArrayLike):
     disc_centers = np.ascontiguousarray(_array("centers", centers, (2, 3))[:, :2])
     disc_radii = _array("radii", radii, None)
     if len(disc_centers) != len(disc_radii):
-        raise PathSmoothError(f"{len(disc_centers)} centers but {len(disc_radii)} radii; each disc needs both")
+        raise PathSmoothError(
+            f"{len(disc_centers)} centers but {len(disc_radii)} radii; each disc needs both"
+        )
     if len(disc_radii) == 0:
         raise PathSmoothError("the corridor has no discs")
     if np.any(disc_radii < 0.0):
@@ -301,11 +330,12 @@ def _not_covered(code, disc, reached, path, arc, centers, radii) -> str:
         return f"the path starts {gap:.3g} m outside disc 0; the first disc must hold its start"
     if code == END_OUTSIDE:
         return (
-            f"the corridor ends before the path: its {len(radii)} discs in order cover the path up to arc length "
-            f"{reached:.6g} m of {total:.6g} m"
+            f"the corridor ends before the path: its {len(radii)} discs in order cover the path up to "
+            f"arc length {reached:.6g} m of {total:.6g} m"
         )
     beyond = f"{gap:.3g} m outside" if gap > 0 else "not in the stretch of path inside"
     return (
-        f"the corridor has a gap: discs 0 to {disc - 1} in order cover the path up to arc length {reached:.6g} m of "
-        f"{total:.6g} m, where it is {beyond} disc {disc}; consecutive discs must overlap on the path"
+        f"the corridor has a gap: discs 0 to {disc - 1} in order cover the path up to "
+        f"arc length {reached:.6g} m of {total:.6g} m, "
+        f"where it is {beyond} disc {disc}; consecutive discs must overlap on the path"
     )

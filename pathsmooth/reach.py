@@ -1,9 +1,10 @@
 """Where a curve of bounded curvature can get to inside a corridor: a search that never misses a curve.
 
-Positions and headings are divided into cells, and a curve into steps of one length. From a cell, a step can lead to
-every cell that some curve from somewhere in the cell can end in, so the cells found include all that are reachable. If
-the goal is not among them, no curve exists, however it is drawn. If it is, the chain of cells is a first guess for
-the solver; the cells allow a little more than the bound does, so it proves nothing.
+Positions and headings are divided into cells, and a curve into steps of one length. From a cell, a step can
+lead to every cell that some curve from somewhere in the cell can end in, so the cells found include all that
+are reachable. If the goal is not among them, no curve exists, however it is drawn. If it is, the chain of
+cells is a first guess for the solver; the cells allow a little more than the bound does, so it proves
+nothing.
 
 The corridor is passed in the order of its discs.
 """
@@ -54,16 +55,19 @@ def search(
     if room[-1] > 200_000_000:
         return UNDECIDED, np.zeros((0, 2)), np.zeros(0, np.int64)
     code, positions, discs = _search(
-        goal - origin, goal_turn, start_heading is None, reference, centers - origin, radii, max_curvature, step, size,
+        goal - origin, goal_turn, start_heading is None, reference, centers - origin, radii,
+        max_curvature, step, size,
         headings, turn_cells, offsets, first, low, count, room, budget,
     )  # fmt: skip
     return code, positions + origin, discs
 
 
 def _steps(headings: int, turn_cells: int, max_curvature: float, step: float, size: float):
-    """Offsets (dx, dy, dh) of the cells that a step may lead to, for every heading; offsets[first[h]:first[h + 1]].
+    """Offsets (dx, dy, dh) of the cells that a step may lead to, for every heading; offsets[first[h]:first[h
+    + 1]].
 
-    Offsets are relative to a frame whose heading cell 0 is the x axis; `_search` turns them to the start's heading.
+    Offsets are relative to a frame whose heading cell 0 is the x axis; `_search` turns them to the start's
+    heading.
     """
     delta = 2 * np.pi / headings
     s = np.linspace(0.0, step, 201)
@@ -72,8 +76,12 @@ def _steps(headings: int, turn_cells: int, max_curvature: float, step: float, si
     boxes = []
     for dh in range(-turn_cells, turn_cells + 1):
         # all headings that a curve can have on the way, in the frame of the cell that it starts in
-        high = np.minimum(delta / 2 + max_curvature * middle, dh * delta + delta / 2 + max_curvature * (step - middle))
-        low = np.maximum(-delta / 2 - max_curvature * middle, dh * delta - delta / 2 - max_curvature * (step - middle))
+        high = np.minimum(
+            delta / 2 + max_curvature * middle, dh * delta + delta / 2 + max_curvature * (step - middle)
+        )
+        low = np.maximum(
+            -delta / 2 - max_curvature * middle, dh * delta - delta / 2 - max_curvature * (step - middle)
+        )
         widest = np.maximum(np.abs(high), np.abs(low))
         narrowest = np.where((low < 0) & (high > 0), 0.0, np.minimum(np.abs(high), np.abs(low)))
         boxes.append(
@@ -93,7 +101,8 @@ def _steps(headings: int, turn_cells: int, max_curvature: float, step: float, si
     for h in range(headings):
         c, n = np.cos(h * delta), np.sin(h * delta)
         x, y = c * gx + n * gy, -n * gx + c * gy
-        # both ends of a step are anywhere in their cells: the box grows by a square of twice the cell's half width
+        # both ends of a step are anywhere in their cells: the box grows by a square of twice the cell's half
+        # width
         grow = size * (abs(c) + abs(n))
         total = first[-1]
         for dh, (x0, x1, y0, y1) in zip(range(-turn_cells, turn_cells + 1), boxes, strict=True):
@@ -109,7 +118,8 @@ def _steps(headings: int, turn_cells: int, max_curvature: float, step: float, si
 
 @njit(cache=True)
 def _search(
-    goal, goal_turn, any_start, reference, centers, radii, curvature, step, size, headings, turn_cells, offsets, first,
+    goal, goal_turn, any_start, reference, centers, radii, curvature, step, size, headings,
+    turn_cells, offsets, first,
     low, count, room, budget,
 ):  # fmt: skip
     """Over (disc, x, y, heading), farthest disc first, breadth first in a disc.
@@ -176,7 +186,9 @@ def _search(
             np.sqrt((x - cx[last + 1]) ** 2 + (y - cy[last + 1]) ** 2) <= radii[last + 1] + step + half_cell
         ):
             last += 1
-        if last == m - 1 and _arrives(goal_x - x, goal_y - y, h, goal_turn, curvature, step, size, delta, turn_cells, headings):
+        if last == m - 1 and _arrives(
+            goal_x - x, goal_y - y, h, goal_turn, curvature, step, size, delta, turn_cells, headings
+        ):
             found = head
             break
         for o in range(first[h], first[h + 1]):
@@ -248,7 +260,8 @@ def _search(
 
 @njit(cache=True)
 def _lens_boxes(cx, cy, radii):
-    """(m - 1, 6) a box around each lens of consecutive discs: centre, unit axis, half length and half width."""
+    """(m - 1, 6) a box around each lens of consecutive discs: centre, unit axis, half length and half
+    width."""
     boxes = np.empty((len(radii) - 1, 6))
     for j in range(len(radii) - 1):
         dx = cx[j + 1] - cx[j]

@@ -1,4 +1,5 @@
-"""The solver's algorithms written plainly with NumPy and SciPy: slow, obvious, and what the tests compare with."""
+"""The solver's algorithms written plainly with NumPy and SciPy: slow, obvious, and what the tests compare
+with."""
 
 from __future__ import annotations
 
@@ -10,7 +11,8 @@ from pathsmooth.problem import Problem
 
 
 def second_difference(problem: Problem) -> NDArray[np.float64]:
-    """(n, n) matrix of the second divided difference of the waypoints [1/m^2]; its first and last rows are zero."""
+    """(n, n) matrix of the second divided difference of the waypoints [1/m^2]; its first and last rows are
+    zero."""
     n = problem.count
     h = np.diff(problem.arc)
     matrix = np.zeros((n, n))
@@ -57,11 +59,14 @@ def pentadiagonal(
     return d, y, v
 
 
-def two_pass(problem: Problem, iterations: int, step: float = 0.06, relaxation: float = 1.8) -> NDArray[np.float64]:
+def two_pass(
+    problem: Problem, iterations: int, step: float = 0.06, relaxation: float = 1.8
+) -> NDArray[np.float64]:
     """Chambolle and Pock's algorithm in its plainest form, two passes over the path per iteration.
 
-    The discs are in the primal step, and both terms of the objective in the dual: K = (sqrt(λh̄) D; h̄ I), with the
-    diagonal preconditioning of Pock and Chambolle (2011), α = 1. step: γ [m], the ratio of primal to dual step sizes.
+    The discs are in the primal step, and both terms of the objective in the dual: K = (sqrt(λh̄) D; h̄ I),
+    with the diagonal preconditioning of Pock and Chambolle (2011), α = 1. step: γ [m], the ratio of primal to
+    dual step sizes.
     Returns the points (n, 2).
     """
     free = np.zeros((problem.count, 1))

@@ -19,12 +19,12 @@ class Solution:
     """A smoothed path and how good it is.
 
     The status is one of
-        "complete"         the objective is within the tolerance of the optimum (and the curvature within its bound)
-        "iteration_limit"  stopped before that; the points are valid all the same: inside the corridor, ends and
-                           tangents exact, objective no higher than the pulled path's; only a bound on curvature may
-                           be missed, see `curvature`
-        "infeasible"       no path in the corridor has the wanted tangents and curvature; the points are then the
-                           best found without that bound
+        "complete"         the objective is within the tolerance of the optimum (and the curvature within its
+        bound) "iteration_limit"  stopped before that; the points are valid all the same: inside the corridor,
+                           ends and tangents exact, objective no higher than the pulled path's; only a bound
+                           on curvature may be missed, see `curvature`
+        "infeasible"       no path in the corridor has the wanted tangents and curvature; the points are then
+                           the best found without that bound
     """
 
     points: NDArray[np.float64]

@@ -24,11 +24,12 @@ WARM_CHECKS = (1, 3)
 def solve(
     problem: Problem, iterations: int | None = None, tolerance: float = 0.01, warm: Solution | None = None
 ) -> Solution:
-    """Smooth a path: Chambolle and Pock's primal-dual algorithm with a pentadiagonal solve in the primal step.
+    """Smooth a path: Chambolle and Pock's primal-dual algorithm with a pentadiagonal solve in the primal
+    step.
 
-    iterations  greatest number of iterations, >= 0: the budget of a frame. None: until the tolerance is reached.
-    tolerance   >= 0: stop where the objective is proven to be at most this fraction above the optimum. 0 uses up the
-                iterations.
+    iterations  greatest number of iterations, >= 0: the budget of a frame. None: until the tolerance is
+    reached. tolerance   >= 0: stop where the objective is proven to be at most this fraction above the
+                optimum. 0 uses up the iterations.
     warm        an earlier solution of this problem or of one like it, such as before the path was replanned.
 
     Raises PathSmoothError for a negative limit or tolerance.
@@ -43,13 +44,18 @@ def solve(
     first_check, check_every = CHECKS if warm is None else WARM_CHECKS
     points = np.empty((n, 3))
     done, value, bound = kernels.solve(
-        problem.packed, problem.targets, problem.heights, problem.first, problem.last, RELAXATION, limit, tolerance,
+        problem.packed, problem.targets, problem.heights, problem.first, problem.last,
+        RELAXATION, limit, tolerance,
         first_check, check_every, state, points,
     )  # fmt: skip
     gap = max(value - bound, 0.0)
     status = INFEASIBLE if problem.obstruction else _status(value, bound, tolerance)
     solution = Solution(points, value, gap, done, status, state, problem)
-    if problem.max_curvature is None or problem.obstruction or curvature(points).max() <= problem.max_curvature:
+    if (
+        problem.max_curvature is None
+        or problem.obstruction
+        or curvature(points).max() <= problem.max_curvature
+    ):
         return solution
     return solve_with_bound(problem, iterations, tolerance, solution)
 
@@ -74,7 +80,8 @@ def warm_state(problem: Problem, warm: Solution) -> NDArray[np.float64]:
 
 @njit(cache=True)
 def _carry_over(old_targets, old_weight, old_state, targets, weight, state, first, last):
-    """Take for each waypoint the state of the nearest earlier one; a disc's force goes to one waypoint only."""
+    """Take for each waypoint the state of the nearest earlier one; a disc's force goes to one waypoint
+    only."""
     j = 0
     taken = -1
     for i in range(first, last):

@@ -67,7 +67,9 @@ def test_repeated_waypoints_change_nothing():
 
 
 def test_a_path_shorter_than_the_spacing_has_four_segments():
-    problem = Problem.from_corridor([[0, 0], [0.01, 0.01]], [[0, 0]], [1.0], start_tangent=[1, 0], end_tangent=[1, 0])
+    problem = Problem.from_corridor(
+        [[0, 0], [0.01, 0.01]], [[0, 0]], [1.0], start_tangent=[1, 0], end_tangent=[1, 0]
+    )
     assert problem.count >= 5
     solution = solve(problem)
     assert solution.status == "complete"

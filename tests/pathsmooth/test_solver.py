@@ -125,7 +125,11 @@ def test_warm_start_when_the_start_has_advanced(seed):
 
 
 def test_end_tangents_are_exact_and_cost_little():
-    waypoints, centers, radii = np.array([[0.0, 0], [6, 0]]), np.array([[0.0, 0], [3, 0], [6, 0]]), np.full(3, 2.0)
+    waypoints, centers, radii = (
+        np.array([[0.0, 0], [6, 0]]),
+        np.array([[0.0, 0], [3, 0], [6, 0]]),
+        np.full(3, 2.0),
+    )
     start, end = np.array([1.0, 2.0]), np.array([0.0, -3.0, 1.0])
     problem = Problem.from_corridor(waypoints, centers, radii, start_tangent=start, end_tangent=end)
     points = solve(problem).points[:, :2]

@@ -110,8 +110,10 @@ def attempt(
         )
     else:
         ended = f"did not get on top ({human.status})"
-    errors = (took_off.takeoff_error, took_off.speed_error) if took_off else (np.nan, np.nan)
-    return Attempt(height, float(distance), ended, clean, *map(float, errors), human.time)
+    distance_error, speed_error = (
+        (took_off.takeoff_error, took_off.speed_error) if took_off else (np.nan,) * 2
+    )
+    return Attempt(height, float(distance), ended, clean, distance_error, speed_error, human.time)
 
 
 def summary(height: float, attempts: list[Attempt]) -> dict[str, Any]:

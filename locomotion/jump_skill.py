@@ -32,6 +32,11 @@ _TIMING = controller.parameter_slices()["timing"].start
 _MARK = jump.parameter_slices()["marks"].start
 
 
+KernelTables = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+"""Arguments of `jump.jump_tick` after the parameters: the run's speeds and step times, clip less run and its
+rate, expected sensors, mirror and its signs."""
+
+
 @lru_cache(maxsize=1)
 def jump_clip() -> Clip:
     """The reference clip that comes with the package."""
@@ -50,7 +55,7 @@ class JumpTables:
     parameters: np.ndarray
     entry: float
     mark: float
-    rest: tuple[np.ndarray, ...]
+    rest: KernelTables
 
 
 @lru_cache(maxsize=4)

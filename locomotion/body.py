@@ -7,8 +7,9 @@
         human.tick()                                    # 10 ms
 
 What holds until there are skills for it: a person that stands (after `reset` with speed 0, or after it has
-arrived) is held still rather than balanced. When it is told to go it is put into the running motion at
-`SET_OFF_SPEED`, facing along its path. On the last metres it slows down to its lowest speed; arrived, it is
+arrived) is held still rather than balanced. When it is told to go it faces along its path and leans until it
+topples into its first step; on ground that is not level under its feet it is put into the running motion at
+`SET_OFF_SPEED` instead. On the last metres it slows down to its lowest speed; arrived, it is
 held.
 """
 
@@ -65,6 +66,7 @@ STUCK_TIME = 4.0
 _NEXT, _STEPS_SEEN, _PLANNED = range(3)
 _RUN_UP_SIZE = 3
 # number of the next obstacle, steps made when the run-up was last planned, speed planned for this step or 0
+_LEVEL = 0.01  # [m] by which the ground may differ under the feet of a person that sets off
 _FALL_TICKS = 100  # a fallen body is simulated for this long, then held
 _SHARE_OF_TURNING = 0.8  # the rest of the skill's sideways acceleration is left for corrections
 _GAINS = np.array([0.35, 1.2, 0.15, 0.45, 0.5, 0.2])
@@ -251,7 +253,7 @@ class Human:
         if self.held:
             low, high = self.skill.speeds
             yaw = float(table.table[0, path_tracking.HEADING])
-            self._place(here, yaw, min(max(SET_OFF_SPEED, low), high))
+            self._place(here, yaw, 0.0 if self._level(here, yaw) else min(max(SET_OFF_SPEED, low), high))
         self._path, self._obstacles = table, tuple(obstacles)
         self._run_up[:] = 0.0
         self._clearing = None
@@ -396,6 +398,18 @@ class Human:
         if not abs(z - place[2]) <= 0.5:
             raise LocomotionError(f"there is no ground within 0.5 m of {place.round(2)}")
         return np.array([place[0], place[1], z])
+
+    def _level(self, place: NDArray[np.float64], yaw: float) -> bool:
+        """Whether the ground is level under both feet, as `reset_standing` takes it to be."""
+        if self.ground is None:
+            return True
+        forward, left = (
+            np.array([math.cos(yaw), math.sin(yaw), 0.0]),
+            np.array([-math.sin(yaw), math.cos(yaw), 0.0]),
+        )
+        spots = [place + 0.12 * side * left + ahead * forward for side in (-1, 1) for ahead in (-0.05, 0.2)]
+        heights = self.ground.surface_below(np.add(spots, [0.0, 0.0, 0.5]))[0]
+        return bool(np.isfinite(heights).all() and np.ptp(heights) < _LEVEL)
 
     def _place(self, position: NDArray[np.float64], yaw: float, speed: float) -> None:
         if speed > 0.0:

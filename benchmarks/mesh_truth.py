@@ -198,7 +198,7 @@ class MeshTruth:
     def reached(
         self, points: np.ndarray, directions: np.ndarray, lengths: np.ndarray, stride: float = 0.05
     ) -> np.ndarray:
-        """How far [m] one walks from ``points`` (k, 3) in ``directions`` (k, 2), at most ``lengths``: (k,)."""
+        """How far [m] one walks from ``points`` (k, 3) in ``directions`` (k, 2), at most ``lengths``."""
         return _walk_all(*self._arguments(points), directions, lengths, stride, self._rules)
 
     def distance(

@@ -161,7 +161,8 @@ def _turns(net, points, cells, reach):
     for i in range(points.shape[0]):
         k = cells[i]
         if k >= 0:
-            room[i] = roomy_cell(net, k, points[i, 0], points[i, 1], reach, reach + 1e-9) >= 0
+            x, y = points[i, 0], points[i, 1]
+            room[i] = gap_at(net, k, x, y)[0] >= reach or roomy_cell(net, k, x, y, reach, reach + 1e-9) >= 0
     return room
 
 
@@ -310,7 +311,7 @@ def room_to_turn(graph: "NodeGraph", points: Any, length: float) -> Any:
     """Whether a body of ``length`` [m] can turn around at each of ``points``: bool.
 
     It can where a free disc of its length lies over the surface around the point: one with a diameter of
-    ``length`` whose centre is at most half of that away. Discs are centred on cells.
+    ``length`` whose centre is at most half of that away. Asked of discs around the point and around cells.
     """
     local, single = _local(graph, points)
     net = net_of(graph)

@@ -21,10 +21,10 @@ class WalkRules:
        ``max_step`` and less than ``headroom`` above the floor at its foot.
     3. *Floor ends* where within ``max_step`` up or down there is no floor point beyond: at a ledge, a
        steep face, a hole, or an obstacle that is lower than ``max_step`` but offers no floor on top.
-       Where floor goes on within one ``resolution`` (a crack, a lip, a riser), it does not end.
 
-    Floors are sampled once per square of ``resolution`` by ``resolution``; a strip of floor narrower than
-    that can be missed. The body's radius is not a rule of the build: it is an argument of each query.
+    Floors are sampled at the centre of every square of ``resolution``: a strip of floor, or a gap in it,
+    that holds no such centre can be missed, a wall cannot. The body's radius is not a rule of the build:
+    it is an argument of each query.
     """
 
     max_slope: float = math.radians(45.0)

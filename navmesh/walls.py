@@ -150,7 +150,7 @@ def wall_base(table, start, triangle, column, x, y, z, resolution, step):
             if row[14] != FLOOR:
                 continue
             low, high = range_in_column(row, x, y, 0.5 * resolution)
-            if low - z <= reach + step + TOUCH and high - z > reach + TOUCH:
+            if low - z <= reach + step + TOUCH and high - z > reach:
                 reach = high - z
                 grew = True
     return reach + step

@@ -11,13 +11,12 @@ import numpy as np
 from locomotion import controller as c
 from locomotion.skill import RUN_SKILL, RunSkill, run_clip
 from locomotion.training.loop import Progress, Stage, learn
-from locomotion.training.rollout import Scenario, Simulator, Trial
+from locomotion.training.rollout import Scenario, Simulator
+from locomotion.training.run_trials import MIDDLE, cost, draw_scenario
 
 __all__ = [
     "RunProblem",
-    "cost",
     "curriculum",
-    "draw_scenario",
     "first_guess",
     "first_state_reference",
     "fit_step_length",
@@ -84,10 +83,8 @@ def first_state_reference() -> np.ndarray:
 
 KNOTS = np.array([0.0, 2.5, 3.0, 3.5, 4.0, 4.5])
 """Speeds [m/s] of the rows of a learned table; the first serves the start from standing."""
-SPEED_RANGE = (2.5, 4.5)
+SPEED_RANGE = (1.4, 4.2)
 """Speeds [m/s] that may be asked for."""
-MIDDLE = 3.5
-"""Speed [m/s] at which learning starts."""
 SIZE = sum(c.PARAMETERS.values())
 
 
@@ -120,87 +117,82 @@ def genes_scale(base: float, slope: float, bend: float, start: float) -> np.ndar
 
 
 def terms_scale(*names: str) -> np.ndarray:
-    """Scale of all genes where only the blocks ``names`` of `controller.PARAMETERS` are free, at any speed."""
+    """Scale of all genes where only the blocks ``names`` of `controller.PARAMETERS` are free, at any
+    speed."""
     one, part, free = scales(), c.parameter_slices(), np.zeros(SIZE)
     for name in names:
         free[part[name]] = one[part[name]]
     return np.concatenate([free, np.zeros(3 * SIZE)])
 
 
-def _stage(
-    name: str, generations: int, sigma: float, scale: np.ndarray, trials: int, style: float, **trial: Any
-) -> Stage:
-    return Stage(name, generations, sigma, scale, {"trials": trials, "style": style, "trial": trial})
+FLAT, BENDS, SLOPES = {"lateral": 0.0, "tilt": 0.0}, {"tilt": 0.0}, {"lateral": 0.0}
+SLOW_KINDS = (
+    {"standing": 1.0, "noise": 0.1},
+    {"lateral": 1.6},
+    {"tilt": 0.12},
+    {"speeds": (1.4, 3.0), "steady": False, "lateral": 1.4},
+)
+"""Kinds of trials that a stage goes through in turn: what they change of its trial."""
 
 
 def curriculum(effort: float = 1.0) -> tuple[Stage, ...]:
     """The stages from nothing to the whole family; ``effort`` scales the number of generations."""
 
-    def many(generations: int) -> int:
-        return max(round(generations * effort), 1)
+    def stage(
+        name: str,
+        generations: int,
+        sigma: float,
+        scale: np.ndarray,
+        trials: int,
+        kinds: tuple[dict, ...] = ({},),
+        style: float = 0.4,
+        **trial: Any,
+    ) -> Stage:
+        options = {"trials": trials, "style": style, "trial": trial, "kinds": kinds}
+        return Stage(name, max(round(generations * effort), 1), sigma, scale, options)
 
-    middle, family, start = genes_scale(1, 0, 0, 0), genes_scale(1, 1, 0, 0), genes_scale(0, 0, 0, 1)
+    middle, family, slow = genes_scale(1, 0, 0, 0), genes_scale(1, 1, 0, 0), genes_scale(0, 0, 0, 1)
+    every = genes_scale(1, 1, 1, 0)
+    up, down = (terms_scale(w, f"{w}_legs", f"{w}_timing") for w in ("climb", "descend"))
+    mixed = (FLAT, BENDS, SLOPES, BENDS)
+    fast: dict[str, Any] = {"speeds": (2.4, 4.4), "steady": True}
+    steep: dict[str, Any] = {"speeds": (2.5, 3.4), "noise": 0.3, "duration": 4.0}
+    jog: dict[str, Any] = {"steady": True, "noise": 0.3, "push": 30.0, "duration": 4.0}
     return (
-        _stage("first steps", many(8), 0.20, middle, 1, 0.3, duration=0.8, noise=0.2),
-        _stage("first second", many(25), 0.18, middle, 1, 0.3, duration=1.6, noise=0.2),
-        _stage("four seconds", many(45), 0.18, middle, 1, 0.3, duration=4.0, noise=0.2),
-        _stage("twelve seconds", many(40), 0.16, middle, 2, 0.3, duration=10.0, noise=0.2),
-        _stage("pushes", many(20), 0.07, middle, 6, 0.5, duration=6.0, noise=0.5, push=60.0),
-        _stage(
-            "speeds",
-            many(30),
-            0.06,
-            genes_scale(1, 1, 1, 0),
-            5,
-            0.5,
-            duration=5.0,
-            noise=0.5,
-            push=100.0,
-            speeds=(2.9, 4.1),
-            lateral=0.7,
-            tilt=0.05,
+        stage("first steps", 8, 0.20, middle, 1, duration=0.8, noise=0.2),
+        stage("first second", 25, 0.18, middle, 1, duration=1.6, noise=0.2),
+        stage("four seconds", 45, 0.18, middle, 1, duration=4.0, noise=0.2),
+        stage("twelve seconds", 40, 0.16, middle, 2, duration=10.0, noise=0.2),
+        stage("pushes", 20, 0.07, middle, 6, duration=6.0, noise=0.5, push=60.0),
+        stage(
+            "speeds", 30, 0.06, every, 5, duration=5.0, noise=0.5, push=100.0, speeds=(2.9, 4.1), lateral=0.7
         ),
-        _stage(
-            "bends and slopes",
-            many(40),
-            0.05,
-            genes_scale(1, 1, 1, 0),
-            6,
-            0.5,
-            duration=5.0,
-            noise=0.7,
-            push=130.0,
-            speeds=(2.5, 4.5),
-            lateral=1.4,
-            tilt=0.12,
-        ),
-        _stage(
-            "family",
-            many(80),
-            0.05,
+        stage("flat", 30, 0.05, family, 5, duration=4.5, noise=0.4, push=100.0, **fast),
+        stage(
+            "bends",
+            30,
+            0.045,
             family,
             8,
-            0.5,
-            duration=4.5,
-            noise=0.7,
-            push=150.0,
-            speeds=SPEED_RANGE,
-            lateral=1.4,
-            tilt=0.15,
-        ),
-        _stage("set off", many(40), 0.20, start, 1, 0.2, duration=2.2, speeds=(2.7, 2.7), standing=1.0),
-        _stage(
-            "set off and run",
-            many(25),
-            0.12,
-            start,
-            4,
-            0.2,
+            mixed,
             duration=4.0,
-            speeds=(2.5, 3.5),
-            noise=0.2,
-            standing=1.0,
+            noise=0.4,
+            push=100.0,
+            lateral=1.8,
+            tilt=0.18,
+            **fast,
         ),
+        stage("gentle climbs", 25, 0.10, up, 3, style=0.2, climb=(0.06, 0.16), **steep),
+        stage("climbs", 40, 0.08, up, 4, style=0.2, climb=(0.05, 0.24), push=40.0, **steep),
+        stage("gentle descents", 25, 0.10, down, 3, style=0.2, climb=(-0.16, -0.06), **steep),
+        stage("descents", 40, 0.08, down, 4, style=0.2, climb=(-0.24, -0.05), push=40.0, **steep),
+        stage("tight bends", 20, 0.06, terms_scale("turn"), 4, duration=5.0, noise=0.3, lateral=2.2, **fast),
+        stage("first step", 40, 0.20, slow, 1, style=0.2, duration=2.2, speeds=(2.7, 2.7), standing=1.0),
+        stage(
+            "set off", 25, 0.12, slow, 4, style=0.2, duration=4.0, speeds=(2.5, 3.5), noise=0.2, standing=1.0
+        ),
+        stage("slow", 15, 0.08, slow, 6, SLOW_KINDS, style=0.2, speeds=(1.9, 2.6), **jog),
+        stage("slower", 40, 0.08, slow, 8, SLOW_KINDS, style=0.2, speeds=(1.4, 2.6), **jog),
     )
 
 
@@ -274,18 +266,9 @@ class RunProblem:
 
     def scenarios(self, stage: Stage, generation: int, rng: np.random.Generator) -> list[Scenario]:
         """Random trials within the stage's options."""
-        options, count = dict(stage.options["trial"]), stage.options["trials"]
-        if not options.pop("spread", False):
-            return [draw_scenario(rng, **options) for _ in range(count)]
-        # one steady speed per trial, spread over the range; flat, bend, slope, slope by turns
-        low, high = options.pop("speeds")
-        edges = np.linspace(low, high, count + 1)
-        speeds = rng.permutation(rng.uniform(edges[:-1], edges[1:]))
-        flat, bend, slope = {"lateral": 0.0, "tilt": 0.0}, {"tilt": 0.0}, {"lateral": 0.0}
-        kinds = (flat, bend, slope, slope)
+        base, kinds = stage.options["trial"], stage.options["kinds"]
         return [
-            draw_scenario(rng, speeds=(float(v), float(v)), **{**options, **kinds[i % 4]})
-            for i, v in enumerate(speeds)
+            draw_scenario(rng, **{**base, **kinds[i % len(kinds)]}) for i in range(stage.options["trials"])
         ]
 
     def evaluate(self, stage: Stage, candidate: np.ndarray, scenarios: list[Scenario]) -> tuple[float, float]:
@@ -303,69 +286,3 @@ class RunProblem:
 def _simulator() -> Simulator:
     """This process's simulator."""
     return Simulator()
-
-
-def draw_scenario(
-    rng: np.random.Generator,
-    duration: float,
-    speeds: tuple[float, float] = (MIDDLE, MIDDLE),
-    noise: float = 0.0,
-    push: float = 0.0,
-    lateral: float = 0.0,
-    tilt: float = 0.0,
-    standing: float = 0.0,
-    climb: tuple[float, float] | None = None,
-) -> Scenario:
-    """A random trial.
-
-    duration [s]; range of desired speeds [m/s], drawn anew every 2 to 3 s; noise: start noise (1 = 0.3
-    m/s, 0.05 rad); push: highest force [N] of pushes of 0.1 s; lateral: highest lateral acceleration
-    [m/s^2] of turns; tilt: highest slope of the ground [rise over run]; standing: share of the trials that
-    start from standing.
-    """
-    low, high = speeds
-    changes = np.arange(0.0, duration, 2.5)
-    speed = np.stack([changes, rng.uniform(low, high, len(changes))], axis=1)
-    turns = np.stack(
-        [changes, rng.uniform(-1, 1, len(changes)) * lateral / np.maximum(speed[:, 1], 1.0)], axis=1
-    )
-    turns[:, 1] *= rng.random(len(changes)) < 0.7
-    times = np.arange(1.0, duration - 0.5, 2.0) + rng.uniform(0, 0.5)
-    angle = rng.uniform(0, 2 * np.pi, len(times))
-    force = push * np.sqrt(rng.random(len(times)))
-    pushes = np.stack([times, force * np.cos(angle), force * np.sin(angle), np.full(len(times), 0.1)], axis=1)
-    direction, steepness = rng.uniform(0, 2 * np.pi), tilt * np.sqrt(rng.random())
-    slope = (float(steepness * np.cos(direction)), float(steepness * np.sin(direction)))
-    if climb is not None:
-        slope = (float(rng.uniform(*climb)), float(rng.uniform(-0.1, 0.1)))
-    sizes = noise * np.concatenate([np.full(3, 0.3), np.full(3, 0.3), np.full(45, 0.05)])
-    return Scenario(
-        duration=duration,
-        speeds=speed,
-        headings=turns,
-        pushes=pushes if push > 0 else np.zeros((0, 4)),
-        tilt=slope,
-        standing=bool(rng.random() < standing),
-        start_noise=rng.normal(size=51) * sizes if noise > 0 else np.zeros(0),
-    )
-
-
-def cost(trial: Trial, scenario: Scenario, style: float) -> float:
-    """Objective of one trial; ``style`` in [0, 1] weighs looks against survival."""
-    f = trial.figures
-    lost = 1.0 - f["time"] / scenario.duration
-    wanted_rate = 2.75 * (0.2 * f["speed"] / 3.5 + 0.8)
-    return (
-        10.0 * lost
-        + 4.0 * f["speed_error"]
-        + 1.0 * f["side_drift"]
-        + 1.5 * f["heading_error"]
-        + 2.0 * f["trunk"]
-        + style
-        * (
-            4.0 * f["reaction"]
-            + 0.06 * f["effort"]
-            + 0.05 * f["head"]
-            + 0.5 * abs(f["step_rate"] - wanted_rate)
-        )
-    )

@@ -12,12 +12,12 @@ from locomotion.training.rollout import Simulator
 from locomotion.training.run import (
     SIZE,
     RunProblem,
-    draw_scenario,
     first_guess,
     first_state_reference,
     genes_scale,
     skill_of,
 )
+from locomotion.training.run_trials import draw_scenario
 
 
 def minimise(function, start: np.ndarray, generations: int, sigma: float = 0.5) -> CmaEs:
@@ -60,7 +60,7 @@ def test_cma_keeps_up_with_the_cma_package() -> None:
 
 
 def tiny_problem() -> RunProblem:
-    options = {"trials": 1, "style": 0.3, "trial": {"duration": 0.2, "noise": 0.2}}
+    options = {"trials": 1, "style": 0.3, "kinds": ({},), "trial": {"duration": 0.2, "noise": 0.2}}
     stages = tuple(Stage(name, 2, 0.1, genes_scale(1, 0, 0, 0), options, population=4) for name in ("a", "b"))
     return RunProblem(stages, np.concatenate([first_guess(), np.zeros(3 * SIZE)]), first_state_reference())
 

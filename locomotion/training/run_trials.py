@@ -1,0 +1,80 @@
+"""What running is learned from: random trials and what a trial costs."""
+
+import numpy as np
+
+from locomotion.training.rollout import Scenario, Trial
+
+__all__ = ["MIDDLE", "cost", "draw_scenario"]
+
+MIDDLE = 3.5
+"""Speed [m/s] at which learning starts."""
+
+
+def draw_scenario(
+    rng: np.random.Generator,
+    duration: float,
+    speeds: tuple[float, float] = (MIDDLE, MIDDLE),
+    noise: float = 0.0,
+    push: float = 0.0,
+    lateral: float = 0.0,
+    tilt: float = 0.0,
+    standing: float = 0.0,
+    climb: tuple[float, float] | None = None,
+    steady: bool = False,
+) -> Scenario:
+    """A random trial.
+
+    duration [s]; range of desired speeds [m/s], drawn anew every 2 to 3 s; noise: start noise (1 = 0.3
+    m/s, 0.05 rad); push: highest force [N] of pushes of 0.1 s; lateral: highest lateral acceleration
+    [m/s^2] of turns; tilt: highest slope of the ground [rise over run]; standing: share of the trials that
+    start from standing; climb: range of the slope along the start's heading instead of ``tilt``; steady: one
+    speed all the time.
+    """
+    low, high = speeds
+    if steady:
+        low = high = float(rng.uniform(low, high))
+    changes = np.arange(0.0, duration, 2.5)
+    speed = np.stack([changes, rng.uniform(low, high, len(changes))], axis=1)
+    turns = np.stack(
+        [changes, rng.uniform(-1, 1, len(changes)) * lateral / np.maximum(speed[:, 1], 1.0)], axis=1
+    )
+    turns[:, 1] *= rng.random(len(changes)) < 0.7
+    times = np.arange(1.0, duration - 0.5, 2.0) + rng.uniform(0, 0.5)
+    angle = rng.uniform(0, 2 * np.pi, len(times))
+    force = push * np.sqrt(rng.random(len(times)))
+    pushes = np.stack([times, force * np.cos(angle), force * np.sin(angle), np.full(len(times), 0.1)], axis=1)
+    direction, steepness = rng.uniform(0, 2 * np.pi), tilt * np.sqrt(rng.random())
+    slope = (float(steepness * np.cos(direction)), float(steepness * np.sin(direction)))
+    if climb is not None:
+        slope = (float(rng.uniform(*climb)), float(rng.uniform(-0.1, 0.1)))
+    sizes = noise * np.concatenate([np.full(3, 0.3), np.full(3, 0.3), np.full(45, 0.05)])
+    return Scenario(
+        duration=duration,
+        speeds=speed,
+        headings=turns,
+        pushes=pushes if push > 0 else np.zeros((0, 4)),
+        tilt=slope,
+        standing=bool(rng.random() < standing),
+        start_noise=rng.normal(size=51) * sizes if noise > 0 else np.zeros(0),
+    )
+
+
+def cost(trial: Trial, scenario: Scenario, style: float) -> float:
+    """Objective of one trial; ``style`` in [0, 1] weighs looks against survival."""
+    f = trial.figures
+    lost = 1.0 - f["time"] / scenario.duration
+    wanted_rate = 2.75 * (0.2 * f["speed"] / 3.5 + 0.8)
+    return (
+        10.0 * lost
+        + 4.0 * f["speed_error"]
+        + 1.0 * f["side_drift"]
+        + 1.5 * f["heading_error"]
+        + 2.0 * f["trunk"]
+        + style
+        * (
+            4.0 * f["reaction"]
+            + 0.06 * f["effort"]
+            + 0.05 * f["head"]
+            + 0.5 * abs(f["step_rate"] - wanted_rate)
+        )
+    )

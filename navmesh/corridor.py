@@ -1,8 +1,9 @@
-"""The corridor of a route: discs, shrunk by the body's radius, that the pulled path runs through one after another.
+"""The corridor of a route: discs, shrunk by the body's radius, that the pulled path runs through one after
+another.
 
 Where the path runs inside a node's disc, that disc is taken. Where no node's disc fits it, as along a wall or
-round a corner, the path gets a disc of its own: from the path away from the wall, as large as the clearance there
-allows, with the path just inside its rim. Any two discs that follow each other overlap on the path.
+round a corner, the path gets a disc of its own: from the path away from the wall, as large as the clearance
+there allows, with the path just inside its rim. Any two discs that follow each other overlap on the path.
 """
 
 from dataclasses import dataclass
@@ -104,7 +105,8 @@ def _own_disc(net, k, x, y, radius, path, along, s, segment, px, py):
 
 @njit(cache=True)
 def cover(net, path, start_cell, radius):
-    """Discs (m, 4) float64: x, y, z, shrunk radius, that cover ``path`` (k, 3) in order; all relative to the origin."""
+    """Discs (m, 4) float64: x, y, z, shrunk radius, that cover ``path`` (k, 3) in order; all relative to the
+    origin."""
     count = path.shape[0]
     along = np.zeros(count)
     for i in range(1, count):
@@ -136,7 +138,7 @@ def cover(net, path, start_cell, radius):
         if best < min(s + _LONG, total):
             ahead = s
             for _ in range(4):
-                ax, ay, at = _at(path, along, min(ahead, total), segment)
+                ax, ay, _ = _at(path, along, min(ahead, total), segment)
                 cell = _follow(net, path, along, k, x, y, s, segment, min(ahead, total))
                 exit_, cx, cy, cr, owner = _own_disc(
                     net, cell, ax, ay, radius, path, along, s, segment, x, y

@@ -1,4 +1,5 @@
-"""The last resort of string pulling: a search over the cells themselves, where no straight line can be mended."""
+"""The last resort of string pulling: a search over the cells themselves, where no straight line can be
+mended."""
 
 from math import sqrt
 
@@ -11,7 +12,8 @@ DETOURS = 6
 """Place in scratch.numbers that counts these searches."""
 
 _TIGHT = 25.0
-"""Cost factor of cells whose centre is short of the radius by less than a cell: only where there is no other way."""
+"""Cost factor of cells whose centre is short of the radius by less than a cell: only where there is no other
+way."""
 
 
 @njit(cache=True)
@@ -49,7 +51,8 @@ def _take_first(keys, items, size):
 
 @njit(cache=True)
 def detour(net, scratch, start, goal, radius):
-    """Cells (k,) int32 from cell ``start`` to cell ``goal`` over links, shortest for a body of ``radius``; empty if none.
+    """Cells (k,) int32 from cell ``start`` to cell ``goal`` over links, shortest for a body of ``radius``;
+    empty if none.
 
     Cells whose centre is short of the radius by less than 0.75 cells count 25 times their length.
     """

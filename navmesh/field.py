@@ -1,18 +1,19 @@
-"""The clearance field between cell centres: how far a point or a stretch of a line is from where walking ends.
+"""The clearance field between cell centres: how far a point or a stretch of a line is from where walking
+ends.
 
-Every cell keeps the vector from its centre to the nearest place where walking ends. That place gives the distance
-from anywhere in the cell; the cells to the sides are asked too where a cell is narrow, because across the middle
-of a passage they know the other wall. All coordinates are relative to the surface's origin, all distances are
-horizontal [m].
+Every cell keeps the vector from its centre to the nearest place where walking ends. That place gives the
+distance from anywhere in the cell; the cells to the sides are asked too where a cell is narrow, because
+across the middle of a passage they know the other wall. All coordinates are relative to the surface's origin,
+all distances are horizontal [m].
 """
 
 from math import sqrt
 
 from numba import njit
 
-__all__ = ["cell_at", "centre_of", "floor_at", "gap_at", "stretch_gap", "walk"]
+__all__ = ["cell_at", "centre_of", "floor_at", "gap_at", "same_place", "stretch_gap", "walk"]
 
-_OPEN = 2.0
+_OPEN = 1.0
 """[cells] of clearance beyond the radius from which a walk takes a whole disc in one step."""
 
 
@@ -70,7 +71,8 @@ def centre_of(net, k):
 
 @njit(cache=True)
 def gap_at(net, k, x, y):
-    """Distance [m] from (x, y), a point in cell ``k``, to the nearest place where walking ends, and that place."""
+    """Distance [m] from (x, y), a point in cell ``k``, to the nearest place where walking ends, and that
+    place."""
     cx, cy = centre_of(net, k)
     gap, _, qx, qy = stretch_gap(net, k, x - cx, y - cy, x - cx, y - cy)
     return gap, cx + qx, cy + qy
@@ -94,6 +96,17 @@ def cell_at(net, x, y, z):
     return best
 
 
+@njit(cache=True, inline="always")
+def same_place(net, k, other):
+    """Whether a point that lies in cell ``k`` by one reckoning and in ``other`` by another is one place: on the
+    border between two squares rounding decides, but the two are linked."""
+    if k == other:
+        return True
+    return (
+        net.link[k, 0] == other or net.link[k, 1] == other or net.link[k, 2] == other or net.link[k, 3] == other
+    )
+
+
 @njit(cache=True)
 def floor_at(net, k, x, y):
     """Height [m] of the floor at (x, y) in cell ``k``: the plane through its centre."""
@@ -103,7 +116,8 @@ def floor_at(net, k, x, y):
 
 @njit(cache=True, inline="always")
 def _far_side(net, node, radius, ax, ay, dx, dy, length):
-    """Where (as a share of d, seen from a) the line a + d leaves the disc of ``node`` shrunk by ``radius``."""
+    """Where (as a share of d, seen from a) the line a + d leaves the disc of ``node`` shrunk by
+    ``radius``."""
     px = net.position[node, 0] - ax
     py = net.position[node, 1] - ay
     room = net.node_radius[node] - radius
@@ -129,12 +143,12 @@ def _only_cell(net, x, y):
 def walk(net, k, ax, ay, bx, by, radius, through):
     """Walk the straight line from a, a point in cell ``k``, to b over linked cells.
 
-    A body of ``radius`` fits where the gap is at least the radius. With ``through`` the walk goes on where it does
-    not fit, to find the tightest place, and ends only where no link leads on (gap -1).
+    A body of ``radius`` fits where the gap is at least the radius. With ``through`` the walk goes on where it
+    does not fit, to find the tightest place, and ends only where no link leads on (gap -1).
 
-    Returns (reached, cell where it ended, least gap [m], its place on the line (0 to 1), the place where walking
-    ends there: x, y). Gaps are measured only where a cell's clearance is close to the radius; where none was
-    measured the least gap is 1e300.
+    Returns (reached, cell where it ended, least gap [m], its place on the line (0 to 1), the place where
+    walking ends there: x, y). Gaps are measured only where a cell's clearance is close to the radius; where
+    none was measured the least gap is 1e300.
     """
     h = net.cell
     dx = bx - ax
@@ -190,8 +204,10 @@ def walk(net, k, ax, ay, bx, by, radius, through):
         if clearance > free + _OPEN * h and (1.0 - leave) * length > _OPEN * h:
             ahead = _far_side(net, net.label[k], radius, ax, ay, dx, dy, length)
             if ahead > leave:
-                ahead = min(ahead, 1.0)
-                cell, jx, jy = _only_cell(net, ax + ahead * dx, ay + ahead * dy)
+                if ahead >= 1.0:
+                    cell, jx, jy = _only_cell(net, bx, by)
+                else:
+                    cell, jx, jy = _only_cell(net, ax + ahead * dx, ay + ahead * dy)
                 if cell >= 0:
                     k, ix, iy = cell, jx, jy
                     if ahead >= 1.0:

@@ -1,8 +1,9 @@
 """The portals of the graph for one body radius: where the way from one disc to the next is crossed.
 
-A portal lies on the chord of the lens in which two discs, shrunk by the body's radius, overlap. Where the lens is
-much narrower than the passage in the clearance field, or the shrunk discs do not overlap at all, it is as wide as
-the field allows: the line of the chord is walked from its middle to both sides until the body no longer fits.
+A portal lies on the chord of the lens in which two discs, shrunk by the body's radius, overlap. Where the
+lens is much narrower than the passage in the clearance field, or the shrunk discs do not overlap at all, it
+is as wide as the field allows: the line of the chord is walked from its middle to both sides until the body
+no longer fits.
 """
 
 from math import sqrt
@@ -20,7 +21,8 @@ _NARROW = 0.5
 
 @njit(cache=True)
 def _side(net, k, mx, my, ux, uy, reach, radius):
-    """How far a body of ``radius`` gets from m, in cell ``k``, along the unit vector u, at most ``reach`` [m]."""
+    """How far a body of ``radius`` gets from m, in cell ``k``, along the unit vector u, at most ``reach``
+    [m]."""
     reached, cell, _, place, _, _ = walk(net, k, mx, my, mx + ux * reach, my + uy * reach, radius, False)
     if reached:
         return reach
@@ -37,7 +39,8 @@ def _side(net, k, mx, my, ux, uy, reach, radius):
 
 @njit(cache=True)
 def _portal(net, i, j, pair, radius):
-    """Middle, direction to the left, its cell and how far it goes to the left and right, from node i to node j.
+    """Middle, direction to the left, its cell and how far it goes to the left and right, from node i to node
+    j.
 
     Returns (x, y, left x, left y, cell, to the left, to the right).
     """
@@ -77,9 +80,9 @@ def _portal(net, i, j, pair, radius):
 def open_portals(net, edge_width, edge_cells, radius):
     """The portals for a body of ``radius`` [m].
 
-    edge_width (e,) float64 and edge_cells (e, 2) int32: each edge's widest body, and the pair of cells, one of
-    either node, where the border of its labels is widest. Returns the arrays of `make_doors`: start (m + 1,),
-    target (p,) int32, portal (p, 6) float64, portal_cell (p, 2) int32.
+    edge_width (e,) float64 and edge_cells (e, 2) int32: each edge's widest body, and the pair of cells, one
+    of either node, where the border of its labels is widest. Returns the arrays of `make_doors`: start (m +
+    1,), target (p,) int32, portal (p, 6) float64, portal_cell (p, 2) int32.
     """
     nodes = net.node_radius.size
     count = 0

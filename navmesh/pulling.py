@@ -1,9 +1,10 @@
 """String pulling: from the chain of discs that A* chose to the line that a body walks.
 
 1. The funnel over the portals gives the corners that the line has to turn at.
-2. The line is walked through the clearance field. Where the body would not fit, the tightest place is pushed off
-   what blocks it, just so far that the body fits, and the two halves are walked again. Where nothing can be pushed
-   because walking ends on the line, the cells themselves are searched.
+2. The line is walked through the clearance field. Where the body would not fit, the tightest place is pushed
+off
+   what blocks it, just so far that the body fits, and the two halves are walked again. Where nothing can be
+   pushed because walking ends on the line, the cells themselves are searched.
 3. Corners that the line of sight jumps over are dropped.
 
 What comes out has been walked: the body fits on all of it.
@@ -15,12 +16,15 @@ import numpy as np
 from numba import njit
 
 from navmesh.detour import detour
-from navmesh.field import floor_at, gap_at, walk
+from navmesh.field import floor_at, gap_at, same_place, walk
 
 __all__ = ["grow", "pull"]
 
+_SLACK = 0.01
+"""Share of the radius kept on top of it where there is room: discs of the corridor hold the path inside."""
 _MARGIN = 0.03
-"""Pushed corners keep this share of the radius more than it, so that straight lines between them clear round corners."""
+"""Pushed corners keep this share of the radius more than it, so that straight lines between them clear round
+corners."""
 _DEPTH = 12  # of pushes within pushes; scratch.stack holds two more
 
 
@@ -48,8 +52,8 @@ def _turn(ax, ay, bx, by, cx, cy):
 def _funnel(doors, edges, first, last, work, cells, at, sx, sy, start_cell, gx, gy, goal_cell):
     """Corners of the shortest line through the portals edges[first:last]; returns how many, ends included.
 
-    Writes x, y into work (n, 2), cells (n,) and into at (n,) the index of the portal that each corner is an end
-    of (first - 1 for the start, last for the goal); all need last - first + 2 rows.
+    Writes x, y into work (n, 2), cells (n,) and into at (n,) the index of the portal that each corner is an
+    end of (first - 1 for the start, last for the goal); all need last - first + 2 rows.
     """
     work[0, 0], work[0, 1] = sx, sy
     cells[0] = start_cell
@@ -100,8 +104,11 @@ def _funnel(doors, edges, first, last, work, cells, at, sx, sy, start_cell, gx, 
 
 @njit(cache=True)
 def _push(net, k, x, y, qx, qy, radius):
-    """Move (x, y) in cell ``k`` away from (qx, qy) until the body fits with a margin; returns (fits, x, y, cell)."""
+    """Move (x, y) in cell ``k`` away from (qx, qy) until the body fits with a margin; returns (fits, x, y,
+    cell)."""
     target = radius * (1.0 + _MARGIN)
+    enough = radius * (1.0 + _SLACK)
+    gap = 0.0
     for _ in range(4):
         dx = x - qx
         dy = y - qy
@@ -115,21 +122,38 @@ def _push(net, k, x, y, qx, qy, radius):
             return False, x, y, k
         x, y, k = nx, ny, cell
         gap, qx, qy = gap_at(net, k, x, y)
-        if gap >= radius:
+        if gap >= enough:
             return True, x, y, k
-    return False, x, y, k
+    return gap >= radius, x, y, k
+
+
+@njit(cache=True)
+def _cost_along(net, doors, k, ax, ay, bx, by):
+    """Length of the line from a, in cell ``k``, to b, weighted by the costs of the nodes that it crosses."""
+    length = sqrt((bx - ax) ** 2 + (by - ay) ** 2)
+    parts = int(length / (0.5 * net.cell)) + 1
+    total = 0.0
+    x, y = ax, ay
+    for i in range(parts):
+        px, py = ax + (bx - ax) * (i + 0.5) / parts, ay + (by - ay) * (i + 0.5) / parts
+        k = walk(net, k, x, y, px, py, 0.0, True)[1]
+        x, y = px, py
+        node = net.label[k]
+        total += length / parts * (doors.node_cost[node] if node >= 0 else 1.0)
+    return total
 
 
 @njit(cache=True)
 def _append(net, doors, scratch, first, count, x, y, k):
-    """Add a corner to the leg that begins at ``first``, dropping corners that the line of sight jumps over."""
-    radius = doors.radius
+    """Add a corner to the leg that begins at ``first``, dropping corners that the line of sight jumps
+    over."""
+    radius = doors.radius * (1.0 + _SLACK)
     points = scratch.points
     cells = scratch.cells
     while count - first >= 2:
         vx, vy = points[count - 1, 0], points[count - 1, 1]
         ax, ay = points[count - 2, 0], points[count - 2, 1]
-        gap, qx, qy = gap_at(net, cells[count - 1], vx, vy)
+        _, qx, qy = gap_at(net, cells[count - 1], vx, vy)
         dx = x - ax
         dy = y - ay
         length = dx * dx + dy * dy
@@ -140,8 +164,15 @@ def _append(net, doors, scratch, first, count, x, y, k):
         if ex * ex + ey * ey < radius * radius:
             break
         reached, cell, _, _, _, _ = walk(net, cells[count - 2], ax, ay, x, y, radius, False)
-        if not reached or cell != k:
+        if not reached or not same_place(net, cell, k):
             break
+        if doors.weighted:
+            a = cells[count - 2]
+            bent = _cost_along(net, doors, a, ax, ay, vx, vy) + _cost_along(
+                net, doors, cells[count - 1], vx, vy, x, y
+            )
+            if _cost_along(net, doors, a, ax, ay, x, y) > bent * (1.0 + 1e-9):
+                break
         count -= 1
     grow(scratch, count + 1)
     scratch.points[count, 0] = x
@@ -154,8 +185,8 @@ def _append(net, doors, scratch, first, count, x, y, k):
 def _round(net, doors, scratch, low, high, ax, ay, bx, by, place):
     """A corner inside a disc that leads the line a-b round what ends walking at ``place`` on it.
 
-    The disc is the one of nodes[low:high] that the place is deepest in; the corner is where it comes nearest to
-    the line. Returns (found, x, y, cell).
+    The disc is the one of nodes[low:high] that the place is deepest in; the corner is where it comes nearest
+    to the line. Returns (found, x, y, cell).
     """
     x = ax + place * (bx - ax)
     y = ay + place * (by - ay)
@@ -201,11 +232,12 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high):
         bx, by = stack[height - 1, 0], stack[height - 1, 1]
         target = stack_cell[height - 1]
         reached, cell, gap, place, qx, qy = walk(net, k, ax, ay, bx, by, radius, True)
-        if reached and cell == target and gap >= radius:
+        walked = reached and same_place(net, cell, target)
+        if walked and gap >= radius * (1.0 + _SLACK):
             count = _append(net, doors, scratch, first, count, bx, by, target)
             height -= 1
             continue
-        if reached and cell == target and height <= _DEPTH:
+        if walked and height <= _DEPTH:
             x = ax + place * (bx - ax)
             y = ay + place * (by - ay)
             at = walk(net, k, ax, ay, x, y, 0.0, True)[1]
@@ -215,7 +247,11 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high):
                 stack_cell[height] = at
                 height += 1
                 continue
-        if not (reached and cell == target) and height <= _DEPTH:
+        if walked and gap >= radius:
+            count = _append(net, doors, scratch, first, count, bx, by, target)
+            height -= 1
+            continue
+        if not walked and height <= _DEPTH:
             found, x, y, at = _round(net, doors, scratch, low, high, ax, ay, bx, by, place)
             if found and (x - ax) ** 2 + (y - ay) ** 2 > 1e-6 and (x - bx) ** 2 + (y - by) ** 2 > 1e-6:
                 stack[height, 0], stack[height, 1] = x, y
@@ -242,7 +278,8 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high):
 
 @njit(cache=True)
 def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell):
-    """Pull one walked leg taut: from the last corner in ``scratch.points`` through the portals of edges[first:last].
+    """Pull one walked leg taut: from the last corner in ``scratch.points`` through the portals of
+    edges[first:last].
 
     Returns the new number of corners and whether the goal was reached.
     """

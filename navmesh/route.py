@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from navmesh.corridor import Corridor, corridor_of
+from navmesh.draping import drape
+from navmesh.errors import NavmeshError
 
 if TYPE_CHECKING:
     from navmesh.graph import NodeGraph
@@ -16,10 +18,10 @@ __all__ = ["STATUSES", "Leg", "LinkUse", "Route", "Routes"]
 STATUSES = ("complete", "partial", "no_path", "off_graph")
 """What a route's status can be.
 
-complete: it leads to the goal. partial: the goal cannot be reached (or the search was ended early), and the route
-leads to the place nearest to it that was reached. no_path: the goal cannot be reached, and nothing that can be is
-nearer to it than the start. off_graph: the start or the goal has no place near it where the body fits. Routes of
-the last two have no waypoints.
+complete: it leads to the goal. partial: the goal cannot be reached (or the search was ended early), and the
+route leads to the place nearest to it that was reached. no_path: the goal cannot be reached, and nothing that
+can be is nearer to it than the start. off_graph: the start or the goal has no place near it where the body
+fits. Routes of the last two have no waypoints.
 """
 
 
@@ -86,6 +88,16 @@ class Route:
                     self._legs.append(Leg(walked, corridor.centers, corridor.radii))
         return self._legs
 
+    def on_surface(self, spacing: float = 0.25) -> np.ndarray:
+        """Points (n, 3) float64 [m] along the walked parts, on the surface, at most ``spacing`` [m] apart.
+
+        The waypoints are among them; links are jumped from end to end.
+        """
+        if not spacing > 0.0:
+            raise NavmeshError(f"spacing = {spacing!r}: expected a distance [m] above 0")
+        parts = [drape(self.graph, leg.waypoints, spacing) for leg in self.legs()]
+        return np.concatenate(parts) if parts else np.empty((0, 3))
+
     @property
     def corridor(self) -> Corridor:
         """The discs along the walked parts, in path order, shrunk by the body's radius."""
@@ -110,7 +122,8 @@ class Routes:
     expanded: np.ndarray
     """(q,) int64: nodes that each search expanded."""
     waypoints: np.ndarray
-    """(w, 3) float64 [m]: all waypoints; those of query i are waypoints[waypoint_start[i]:waypoint_start[i + 1]]."""
+    """(w, 3) float64 [m]: all waypoints; those of query i are waypoints[waypoint_start[i]:waypoint_start[i +
+    1]]."""
     waypoint_start: np.ndarray
     """(q + 1,) int64."""
     nodes: np.ndarray
@@ -118,7 +131,8 @@ class Routes:
     node_start: np.ndarray
     """(q + 1,) int64."""
     leaps: np.ndarray
-    """(l, 2) int32: for all typed links used, the link and the waypoint at its run-up; grouped by leap_start."""
+    """(l, 2) int32: for all typed links used, the link and the waypoint at its run-up; grouped by
+    leap_start."""
     leap_start: np.ndarray
     """(q + 1,) int64."""
     graph: "NodeGraph" = field(repr=False)

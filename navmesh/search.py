@@ -1,9 +1,9 @@
 """A* over the graph of discs, for one body radius, in slices if wanted.
 
-The cost of a step is not measured between centres, which bends every route through the middles of large discs,
-but along entry points: where the portal into the next disc is best crossed on the way from the present entry
-point to the goal. Lengths are three-dimensional and weighted by the node's area cost; what is left is estimated
-by the straight line to the goal, which never overestimates because no cost factor is below 1.
+The cost of a step is not measured between centres, which bends every route through the middles of large
+discs, but along entry points: where the portal into the next disc is best crossed on the way from the present
+entry point to the goal. Lengths are three-dimensional and weighted by the node's area cost; what is left is
+estimated by the straight line to the goal, which never overestimates because no cost factor is below 1.
 """
 
 from math import sqrt
@@ -14,7 +14,8 @@ from numba import njit
 __all__ = ["BEST", "COMPLETE", "EMPTY", "EXPANDED", "RUNNING", "advance", "begin", "chain"]
 
 RUNNING, COMPLETE, EMPTY = 0, 1, 2
-"""State of a search: not finished; the goal was reached; every reachable node was seen without reaching it."""
+"""State of a search: not finished; the goal was reached; every reachable node was seen without reaching
+it."""
 
 # Places in scratch.numbers
 _STAMP, _HEAP, _STATE, _GOAL_NODE, BEST, EXPANDED = 0, 1, 2, 3, 4, 5
@@ -100,7 +101,8 @@ def _crossing(lx, ly, rx, ry, ax, ay, bx, by):
 
 @njit(cache=True)
 def begin(net, doors, scratch, start_node, goal_node, sx, sy, sz, gx, gy, gz):
-    """Set up a search from (sx, sy, sz) in ``start_node`` to (gx, gy, gz) in ``goal_node`` (or -1: as near as can be)."""
+    """Set up a search from (sx, sy, sz) in ``start_node`` to (gx, gy, gz) in ``goal_node`` (or -1: as near as
+    can be)."""
     numbers = scratch.numbers
     numbers[_STAMP] += 1
     numbers[_HEAP] = 0
@@ -142,7 +144,8 @@ def _reach(scratch, stamp, node, source, via, cost, rest, x, y, z):
 
 @njit(cache=True)
 def advance(net, doors, scratch, budget):
-    """Expand at most ``budget`` nodes; returns RUNNING, COMPLETE or EMPTY. The slices do not change the result."""
+    """Expand at most ``budget`` nodes; returns RUNNING, COMPLETE or EMPTY. The slices do not change the
+    result."""
     numbers = scratch.numbers
     if numbers[_STATE] != RUNNING:
         return numbers[_STATE]

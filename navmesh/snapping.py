@@ -4,11 +4,11 @@
 import numpy as np
 from numba import njit
 
-from navmesh.field import floor_at, gap_at, walk
+from navmesh.field import centre_of, floor_at, gap_at, walk
 
 __all__ = ["roomy_cell", "snap"]
 
-_MARGIN = 1e-3
+_MARGIN = 0.015  # share of the radius: a little more than what string pulling keeps
 
 
 @njit(cache=True)
@@ -26,6 +26,36 @@ def _floor_near(net, x, y, z, rise):
         if off <= least and net.label[k] >= 0:
             least = off
             best = k
+    return best
+
+
+@njit(cache=True)
+def _sees(net, k, x, y):
+    """Whether (x, y) is on this side of what ends walking nearest to the centre of ``k``."""
+    cx, cy = centre_of(net, k)
+    vx, vy = net.nearest[k, 0], net.nearest[k, 1]
+    far = vx * vx + vy * vy
+    return far > 0.0 and (x - cx) * vx + (y - cy) * vy < far
+
+
+@njit(cache=True)
+def _seeing_cell(net, x, y, z, rise):
+    """The cell nearest to (x, y), at most two squares away, that sees it, or -1: beside a thin wall, the
+    square under a point may have its centre, and so its cell, on the other side."""
+    h = net.cell
+    ix = int(x // h)
+    iy = int(y // h)
+    best = -1
+    least = 1e300
+    for jx in range(max(ix - 2, 0), min(ix + 3, net.nx)):
+        for jy in range(max(iy - 2, 0), min(iy + 3, net.ny)):
+            cx, cy = (jx + 0.5) * h, (jy + 0.5) * h
+            off = (cx - x) ** 2 + (cy - y) ** 2
+            if off < least:
+                k = _floor_near(net, cx, cy, z, rise)
+                if k >= 0 and _sees(net, k, x, y):
+                    least = off
+                    best = k
     return best
 
 
@@ -52,7 +82,8 @@ def _nearest_cell(net, x, y, z, reach, rise):
 
 @njit(cache=True)
 def roomy_cell(net, k, x, y, radius, reach):
-    """The cell nearest to (x, y), reached over links from ``k`` within ``reach``, whose centre has ``radius`` free, or -1."""
+    """The cell nearest to (x, y), reached over links from ``k`` within ``reach``, whose centre has ``radius``
+    free, or -1."""
     h = net.cell
     rings = int(reach / h) + 1
     side = 2 * rings + 1
@@ -95,13 +126,15 @@ def roomy_cell(net, k, x, y, radius, reach):
 def snap(net, x, y, z, radius, reach, rise):
     """The place for a body of ``radius`` nearest to (x, y, z).
 
-    The floor is the one nearest to ``z``, at most ``rise`` above or below it; where there is none straight under
-    the point, or the body does not fit, places up to ``reach`` away are taken. Returns (node, cell, x, y); node is
-    -1 where there is no such place.
+    The floor is the one nearest to ``z``, at most ``rise`` above or below it; where there is none straight
+    under the point, or the body does not fit, places up to ``reach`` away are taken. Returns (node, cell, x,
+    y); node is -1 where there is no such place.
     """
     k = _floor_near(net, x, y, z, rise)
     if k >= 0 and net.clearance[k] >= radius + 0.7072 * net.cell:
         return net.label[k], k, x, y
+    if k < 0 or not _sees(net, k, x, y):
+        k = _seeing_cell(net, x, y, z, rise)
     if k < 0:
         k = _nearest_cell(net, x, y, z, reach, rise)
         if k < 0:
@@ -112,7 +145,7 @@ def snap(net, x, y, z, radius, reach, rise):
         y = (column - ix * net.ny + 0.5) * net.cell
     gap, qx, qy = gap_at(net, k, x, y)
     if gap < radius and gap > 1e-6:
-        push = (radius + _MARGIN) / gap
+        push = radius * (1.0 + _MARGIN) / gap
         nx = qx + (x - qx) * push
         ny = qy + (y - qy) * push
         if radius - gap <= reach:

@@ -50,8 +50,8 @@ class Scratch(structref.StructRefProxy):
 
 
 _NET = (
-    "cell", "nx", "ny", "column_start", "cell_column", "height", "gradient", "link", "clearance", "nearest", "label",
-    "position", "node_cell", "node_radius", "edge_start", "edge_target",
+    "cell", "nx", "ny", "column_start", "cell_column", "height", "gradient", "link", "clearance", "nearest",
+    "label", "position", "node_cell", "node_radius", "edge_start", "edge_target",
 )  # fmt: skip
 _DOORS = (
     "radius", "start", "target", "portal", "portal_cell", "node_cost", "weighted",
@@ -95,8 +95,9 @@ def make_net(
     """Bundle the surface and the graph.
 
     cell: side of a grid square [m]; nx, ny: columns; column_start (nx*ny+1,) int32; cell_column (n,) int32;
-    height (n,), gradient (n, 2) float64; link (n, 4) int32; clearance (n,), nearest (n, 2) float64; label (n,) int32;
-    position (m, 3) float64, node_cell (m,) int32, node_radius (m,) float64; edge_start (m+1,), edge_target (e,) int32.
+    height (n,), gradient (n, 2) float64; link (n, 4) int32; clearance (n,), nearest (n, 2) float64; label
+    (n,) int32; position (m, 3) float64, node_cell (m,) int32, node_radius (m,) float64; edge_start (m+1,),
+    edge_target (e,) int32.
     """
     return Net(
         cell,
@@ -137,13 +138,12 @@ def make_doors(
 ):
     """Bundle what one body radius makes of the graph.
 
-    radius [m]; the doors, edges that the body passes, of node i are start[i]:start[i + 1], start (m + 1,) int32;
-    target (p,) int32: the node behind; portal (p, 6) float64: x, y, z of its left and of its right end as seen
-    walking through; portal_cell (p, 2) int32: the cells of the ends; node_cost (m,) float64, at least 1: factor
-    on the length walked in each node; weighted: whether any factor is not 1. The leaps are the typed links on
-    offer, grouped by the node they start from:
-    leap_start (m+1,), leap_id (l,) int32, leap_from, leap_to (l, 3) float64, leap_from_cell, leap_to_cell (l,)
-    int32, leap_cost (l,) float64 [m].
+    radius [m]; the doors, edges that the body passes, of node i are start[i]:start[i + 1], start (m + 1,)
+    int32; target (p,) int32: the node behind; portal (p, 6) float64: x, y, z of its left and of its right end
+    as seen walking through; portal_cell (p, 2) int32: the cells of the ends; node_cost (m,) float64, at least
+    1: factor on the length walked in each node; weighted: whether any factor is not 1. The leaps are the
+    typed links on offer, grouped by the node they start from: leap_start (m+1,), leap_id (l,) int32,
+    leap_from, leap_to (l, 3) float64, leap_from_cell, leap_to_cell (l,) int32, leap_cost (l,) float64 [m].
     """
     return Doors(
         radius,
@@ -167,11 +167,11 @@ def make_doors(
 def make_scratch(nodes, edges):
     """Memory for one search over a graph of ``nodes`` nodes and ``edges`` directed edges.
 
-    numbers (16,) int64: the stamp of the current search and its counters, see `navmesh.search`; stamp, cost, total,
-    entry (3 coordinates and the cell's place is not kept), parent, via: per node; heap_key, heap_node: the open
-    list; ends (8,) float64: start and goal; nodes, edges: the chain found; points, cells: the corners pulled;
-    corner, corner_cell, corner_at: those of the funnel; stack, stack_cell: corners still to be reached; cell_stamp,
-    cell_best, cell_parent: per cell, once `navmesh.detour` needs them.
+    numbers (16,) int64: the stamp of the current search and its counters, see `navmesh.search`; stamp, cost,
+    total, entry (3 coordinates and the cell's place is not kept), parent, via: per node; heap_key, heap_node:
+    the open list; ends (8,) float64: start and goal; nodes, edges: the chain found; points, cells: the
+    corners pulled; corner, corner_cell, corner_at: those of the funnel; stack, stack_cell: corners still to
+    be reached; cell_stamp, cell_best, cell_parent: per cell, once `navmesh.detour` needs them.
     """
     room = max(nodes, 16)
     return Scratch(

@@ -1,0 +1,168 @@
+"""Are routes found, short, clear of walls and fast? Prints a table and writes JSON.
+
+    python benchmarks/navmesh_routes.py [--json FILE] [--resolution 0.25] [--samples 4000] [--repeats 7]
+
+On the three shared levels and their 2,000 pairs each, for the body of the shared queries (radius 0.6 m,
+height 2.0 m, step 0.9 m, slope 45°): pairs answered "complete", length of the pulled path against the peer's,
+clearance along the pulled path, asked of the mesh itself (`mesh_truth`), and the time of a query in a batch
+and from Python against Detour's in the same run. Times are the least of all rounds, for each query (single
+calls; Detour: median of its passes) or batch of 100, so that other load on the machine counts little.
+"""
+
+import argparse
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+from mesh_truth import MeshTruth
+from rich.console import Console
+from rich.table import Table
+from shared_data import LEVELS, level_path, queries_path, shared_folder, why_absent
+
+from navmesh import NodeGraph, Terrain, WalkRules
+
+RADIUS = 0.6
+BATCH = 100
+SHORT = 0.05
+"""[m]: samples with less clearance than the radius by more than this count."""
+
+
+def read_queries(name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Starts (q, 3), goals (q, 3), Z up, and the peer's lengths (q,) [m]."""
+    rows = np.genfromtxt(queries_path(name), delimiter=",", names=True)
+    starts = np.stack([rows["sx"], -rows["sz"], rows["sy"]], axis=1)
+    goals = np.stack([rows["gx"], -rows["gz"], rows["gy"]], axis=1)
+    return starts, goals, rows["len3d"]
+
+
+def batch_seconds(graph: NodeGraph, starts: np.ndarray, goals: np.ndarray) -> np.ndarray:
+    """Times of batches of `BATCH` queries each: short enough that other programs seldom get in between."""
+    times = []
+    for at in range(0, len(starts), BATCH):
+        first, last = starts[at : at + BATCH], goals[at : at + BATCH]
+        begin = time.perf_counter()
+        graph.find_paths(first, last, radius=RADIUS)
+        times.append(time.perf_counter() - begin)
+    return np.array(times)
+
+
+def detour_microseconds(name: str) -> tuple[float, float]:
+    """Mean and median over the pairs of Detour's time for a query; compiles the peer on the first call."""
+    folder = shared_folder()
+    assert folder is not None
+    program = Path(os.environ.get("TMPDIR", "/tmp")) / "surefoot-peer" / "recast_bench"
+    if not program.exists():
+        script = folder / "bench" / "peer" / "run_native.sh"
+        subprocess.run([script, level_path(name), queries_path(name)], check=True, capture_output=True)
+    command = [program, "query", level_path(name), queries_path(name)]
+    answer = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    first = json.loads(answer.splitlines()[0])
+    return first["us_mean"], first["us_median"]
+
+
+def measure(name: str, rules: WalkRules, samples: int, repeats: int, rng: np.random.Generator) -> dict:
+    """All figures of one level."""
+    terrain = Terrain.load(level_path(name), up="y")
+    graph = NodeGraph.build(terrain, rules, obstacle_rules=None)
+    starts, goals, peer_length = read_queries(name)
+    routes = graph.find_paths(starts, goals, radius=RADIUS)
+    complete = routes.status == "complete"
+    ratio = routes.length[complete] / peer_length[complete]
+    figures: dict = {
+        "complete_share": float(complete.mean()),
+        "length_ratio_mean": float(ratio.mean()),
+        "length_ratio_p95": float(np.quantile(ratio, 0.95)),
+        "length_ratio_above_1.10": float((ratio > 1.10).mean()),
+        "nodes_expanded_mean": float(routes.expanded.mean()),
+        "waypoints_mean": float(np.diff(routes.waypoint_start).mean()),
+    }
+
+    first = np.array([routes.waypoints[i] for i in routes.waypoint_start[:-1][complete]])
+    last = np.array([routes.waypoints[i - 1] for i in routes.waypoint_start[1:][complete]])
+    moved = np.concatenate([(first - starts[complete])[:, :2], (last - goals[complete])[:, :2]])
+    figures["ends_moved_share"] = float((np.hypot(*moved.T) > 1e-9).mean())
+    figures["ends_moved_most_m"] = float(np.hypot(*moved.T).max())
+
+    points = np.concatenate([routes[i].on_surface(0.1) for i in np.flatnonzero(complete)])
+    points = points[rng.choice(len(points), min(samples, len(points)), replace=False)]
+    mesh = MeshTruth(terrain, rules)
+    free = mesh.distance(points, np.full(len(points), RADIUS), directions=48, stride=0.04)
+    figures["samples_off_surface"] = int((free <= 0.0).sum())
+    figures["samples_short_share"] = float((free < RADIUS - SHORT).mean())
+
+    batch = []
+    single = np.full((repeats, len(starts)), np.inf)
+    peer = np.empty((repeats, 2))
+    for k in range(repeats):  # in turn, so that other load on the machine hits both
+        peer[k] = detour_microseconds(name)
+        batch += [batch_seconds(graph, starts, goals) for _ in range(3)]
+        for i in range(len(starts)):
+            begin = time.perf_counter()
+            graph.find_path(starts[i], goals[i], RADIUS)
+            single[k, i] = time.perf_counter() - begin
+    figures["batch_us"] = float(np.min(batch, axis=0).sum() / len(starts) * 1e6)
+    figures["detour_us"] = float(peer[:, 0].min())
+    figures["batch_ratio"] = figures["batch_us"] / figures["detour_us"]
+    figures["single_us_median"] = float(np.median(single.min(axis=0)) * 1e6)
+    figures["single_us_p95"] = float(np.quantile(single.min(axis=0), 0.95) * 1e6)
+    return figures
+
+
+def show(results: dict[str, dict]) -> None:
+    """Print the figures as a table, one column for each level."""
+    table = Table("figure", *results, title=f"Routes for a body of {RADIUS} m")
+    for key in next(iter(results.values())):
+        table.add_row(key, *(f"{figures[key]:.5g}" for figures in results.values()))
+    Console(width=120).print(table)
+
+
+def main() -> int:
+    """Run the benchmark; exit code 1 when a figure misses its target."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--json", type=Path, help="where to write the figures")
+    parser.add_argument("--resolution", type=float, default=0.25, help="[m] side of a cell")
+    parser.add_argument("--samples", type=int, default=4_000, help="points of paths measured per level")
+    parser.add_argument("--repeats", type=int, default=7, help="rounds of timing")
+    options = parser.parse_args()
+    if shared_folder() is None:
+        print(f"skipped: {why_absent()}")
+        return 0
+    rules = WalkRules(
+        max_slope=math.radians(45), max_step=0.9, headroom=2.0, resolution=options.resolution
+    )
+    rng = np.random.default_rng(1)
+    results = {name: measure(name, rules, options.samples, options.repeats, rng) for name in LEVELS}
+    show(results)
+    missed = [
+        f"{name}: {what} ({figures[key]:.4g})"
+        for name, figures in results.items()
+        for what, key, holds in (
+            ("pairs complete below 99.5 %", "complete_share", figures["complete_share"] >= 0.995),
+            ("mean length above 1.01", "length_ratio_mean", figures["length_ratio_mean"] <= 1.01),
+            ("95th percentile above 1.04", "length_ratio_p95", figures["length_ratio_p95"] <= 1.04),
+            ("over 2 % above 1.10", "length_ratio_above_1.10", figures["length_ratio_above_1.10"] <= 0.02),
+            ("over 0.5 % too close", "samples_short_share", figures["samples_short_share"] <= 0.005),
+            ("off the surface", "samples_off_surface", figures["samples_off_surface"] == 0),
+            ("batch above 3 times Detour", "batch_ratio", figures["batch_ratio"] <= 3.0),
+            ("single call above 15 µs", "single_us_median", figures["single_us_median"] <= 15.0),
+        )
+        if not holds
+    ]
+    print("missed: " + "; ".join(missed) if missed else "every figure meets its target")
+    if options.json:
+        with tempfile.NamedTemporaryFile("w", dir=options.json.parent, delete=False) as file:
+            json.dump({"resolution": options.resolution, "levels": results, "missed": missed}, file, indent=1)
+        os.replace(file.name, options.json)
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

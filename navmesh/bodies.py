@@ -1,0 +1,105 @@
+"""What one body makes of a graph: the portals open to it and the typed links on offer, kept for reuse."""
+
+from collections.abc import Mapping
+from math import isfinite
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from navmesh.errors import NavmeshError
+from navmesh.obstacle_rules import AFFORDANCES
+from navmesh.portals import open_portals
+from navmesh.structs import make_doors, net_of
+
+if TYPE_CHECKING:
+    from navmesh.graph import NodeGraph
+
+__all__ = ["doors_of", "portals_of"]
+
+_KEPT = 16  # radii, and offers of skills, that are kept
+
+
+def _checked_skills(skills: Mapping[str, tuple[float, float]] | None) -> tuple:
+    """The skills on offer as a sorted tuple (name, least height, greatest height)."""
+    offered = []
+    for name, limits in (skills or {}).items():
+        if name not in AFFORDANCES:
+            raise NavmeshError(f"skill {name!r}: expected one of {', '.join(AFFORDANCES)}")
+        try:
+            low, high = (float(value) for value in limits)
+        except (TypeError, ValueError):
+            raise NavmeshError(
+                f"skill {name!r}: expected (least, greatest height) [m], not {limits!r}"
+            ) from None
+        if not 0.0 <= low <= high < np.inf:
+            raise NavmeshError(f"skill {name!r}: expected 0 <= least <= greatest height [m], not {limits!r}")
+        offered.append((name, low, high))
+    return tuple(sorted(offered))
+
+
+def portals_of(graph: "NodeGraph", radius: float) -> tuple:
+    kept = graph.cache.setdefault("portals", {})
+    if radius not in kept:
+        if len(kept) >= _KEPT:
+            del kept[next(iter(kept))]
+        kept[radius] = open_portals(net_of(graph), graph.edge_width, graph.edge_cells, radius)
+    return kept[radius]
+
+
+def _leaps_for(graph: "NodeGraph", radius: float, skills: tuple) -> tuple:
+    """The links on offer, grouped by the node they start from: the ``leap`` arrays of `make_doors`."""
+    count = len(graph.radii)
+    links = graph.links
+    chosen = []
+    for name, low, high in skills:
+        of_kind = (links.affordance == name) & (links.height >= low) & (links.height <= high)
+        chosen.append(np.flatnonzero(of_kind & (links.radius >= radius)))
+    index = np.sort(np.concatenate(chosen)) if chosen else np.empty(0, np.int64)
+    if len(index) == 0:
+        nothing = np.empty((0, 3))
+        none = np.empty(0, np.int32)
+        return np.zeros(count + 1, np.int32), none, nothing, none, nothing, none, np.empty(0)
+    index = index[(graph.label[links.start_cell[index]] >= 0) & (graph.label[links.end_cell[index]] >= 0)]
+    origin = graph.surface.origin
+    start, end = links.start[index] - origin, links.end[index] - origin
+    start_cell, end_cell = links.start_cell[index], links.end_cell[index]
+    node = graph.label[start_cell]
+    order = np.lexsort((index, node))
+    starts = np.searchsorted(node[order], np.arange(count + 1)).astype(np.int32)
+    cost = np.maximum(links.cost[index], np.linalg.norm(end - start, axis=1))
+    return (
+        starts,
+        index[order].astype(np.int32),
+        np.ascontiguousarray(start[order]),
+        start_cell[order],
+        np.ascontiguousarray(end[order]),
+        end_cell[order],
+        cost[order],
+    )
+
+
+def doors_of(graph: "NodeGraph", radius: float, skills: Any, node_costs: np.ndarray | None) -> Any:
+    """The `Doors` for a body, made once for each radius and offer of skills (those with costs each time)."""
+    offered = _checked_skills(skills) if skills else ()
+    if node_costs is None:
+        kept = graph.cache.setdefault("doors", {})
+        doors = kept.get((radius, offered))
+        if doors is not None:
+            return doors
+    if not isfinite(radius) or radius <= 0.0:
+        raise NavmeshError(f"radius = {radius!r}: expected a body's radius [m], above 0")
+    count = len(graph.radii)
+    if node_costs is None:
+        costs = np.ones(count)
+    else:
+        costs = np.ascontiguousarray(node_costs, dtype=np.float64)
+        if costs.shape != (count,) or not np.all(costs >= 1.0) or not np.all(np.isfinite(costs)):
+            raise NavmeshError(f"node_costs: expected {count} finite factors of at least 1, one per node")
+    doors = make_doors(
+        radius, *portals_of(graph, radius), costs, node_costs is not None, *_leaps_for(graph, radius, offered)
+    )
+    if node_costs is None:
+        if len(kept) >= _KEPT:
+            del kept[next(iter(kept))]
+        kept[(radius, offered)] = doors
+    return doors

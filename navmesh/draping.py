@@ -1,0 +1,51 @@
+"""Points on the surface along a walked path: its corners alone say nothing about the ground between them."""
+
+from math import ceil, sqrt
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numba import njit
+
+from navmesh.field import cell_at, floor_at, walk
+from navmesh.structs import net_of
+
+if TYPE_CHECKING:
+    from navmesh.graph import NodeGraph
+
+__all__ = ["drape"]
+
+
+@njit(cache=True)
+def _drape(net, path, spacing):
+    count = 1
+    for i in range(1, path.shape[0]):
+        length = sqrt((path[i, 0] - path[i - 1, 0]) ** 2 + (path[i, 1] - path[i - 1, 1]) ** 2)
+        count += max(1, ceil(length / spacing))
+    points = np.empty((count, 3))
+    k = cell_at(net, path[0, 0], path[0, 1], path[0, 2])
+    points[0] = path[0]
+    x, y = path[0, 0], path[0, 1]
+    at = 1
+    for i in range(1, path.shape[0]):
+        ax, ay = path[i - 1, 0], path[i - 1, 1]
+        bx, by = path[i, 0], path[i, 1]
+        parts = max(1, ceil(sqrt((bx - ax) ** 2 + (by - ay) ** 2) / spacing))
+        for j in range(1, parts + 1):
+            px, py = ax + (bx - ax) * j / parts, ay + (by - ay) * j / parts
+            k = walk(net, k, x, y, px, py, 0.0, True)[1]
+            points[at, 0], points[at, 1], points[at, 2] = px, py, floor_at(net, k, px, py)
+            x, y = px, py
+            at += 1
+        points[at - 1, 2] = path[i, 2]
+        k = cell_at(net, bx, by, path[i, 2])
+    return points
+
+
+def drape(graph: "NodeGraph", waypoints: np.ndarray, spacing: float) -> np.ndarray:
+    """Points (n, 3) [m] on the surface along the walked path ``waypoints`` (k, 3), at most ``spacing`` [m]
+    apart.
+
+    The corners are among them. ``spacing`` is horizontal.
+    """
+    origin = graph.surface.origin
+    return _drape(net_of(graph), np.ascontiguousarray(waypoints - origin), spacing) + origin

@@ -22,6 +22,7 @@ HEIGHTS = (0.3, 0.4, 0.5)
 ENTRY_SPEED = 3.3
 """[m/s]"""
 _STATES = 48
+_SECOND_PASS = 100
 _KIND, _VERSION = "jump training", 1
 
 
@@ -169,9 +170,9 @@ class _Course:
         ]
 
     def second_pass(self, height: float) -> list[Stage]:
-        """Refinement on more start states and for longer."""
-        most = {"states": 12, "error": 0.12, "duration": 4.0, "pull": 0.15}
-        return [Stage(f"{height:g} m, refined", self.generations(12), 0.1, scales(True), most, 20)]
+        """Refinement on more start states, reached from standing, and for longer."""
+        most = {"states": 10, "error": 0.1, "duration": 4.0, "pull": 0.15}
+        return [Stage(f"{height:g} m, refined", self.generations(14), 0.1, scales(True), most, 20)]
 
 
 def train_jump(
@@ -209,7 +210,7 @@ def train_jump(
         heights = tuple(float(h) for h in old.heights)
         learned = list(zip(old.table, old.references, strict=True))
     for k, height in enumerate(heights):
-        learned[k] = _learn_height(course, height, 100 + k, course.second_pass(height), *learned[k])
+        learned[k] = _learn_height(course, height, _SECOND_PASS + k, course.second_pass(height), *learned[k])
     skill = JumpSkill(
         np.array(heights),
         np.array([x for x, _ in learned]),
@@ -241,8 +242,9 @@ def _learn_height(
     guess = JumpSkill(
         np.array([height]), x[None], np.array([course.entry]), reference[None], course.stride, ""
     )
-    distances = rng.uniform(8.0, 16.0, _STATES)
-    states = JumpSimulator(course.run).harvest(Jump(guess, course.run), distances, rng)
+    standing = number >= _SECOND_PASS
+    distances = rng.uniform(*((9.5, 30.0) if standing else (8.0, 16.0)), _STATES)
+    states = JumpSimulator(course.run).harvest(Jump(guess, course.run), distances, rng, standing)
     for place, stage in enumerate(stages):
         problem = JumpProblem(course.run, height, course.entry, x, reference, states, [stage])
         file = None if course.folder is None else course.folder / f"search-{number}-{place}.npz"

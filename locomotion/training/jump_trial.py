@@ -7,12 +7,12 @@ import numpy as np
 
 from locomotion import controller as c
 from locomotion import jump
-from locomotion.clearing import plan_run_up
+from locomotion.clearing import RUN_UP, foot_distance, plan_run_up
 from locomotion.jump import jump_tick, start_jump
 from locomotion.jump_skill import Jump, JumpTables, jump_clip
 from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, person_spec
 from locomotion.route_smoothing import ObstacleAhead
-from locomotion.skill import RunSkill, reset_running
+from locomotion.skill import RunSkill, reset_running, reset_standing
 
 __all__ = ["JumpOutcome", "JumpSimulator", "StartState", "stair_model"]
 
@@ -159,9 +159,14 @@ class JumpSimulator:
         a, lag, b = np.linalg.lstsq(np.array(rows), np.array(lengths), rcond=None)[0]
         return float(a), float(lag), float(b)
 
-    def harvest(self, skill: Jump, distances: np.ndarray, rng: np.random.Generator) -> list[StartState]:
-        """Run up to the mark of ``skill`` at its least height from each of ``distances`` [m]; save the
-        states at which the jump begins, less those from which not even the run goes on."""
+    def harvest(
+        self, skill: Jump, distances: np.ndarray, rng: np.random.Generator, standing: bool = False
+    ) -> list[StartState]:
+        """Run up to the mark of ``skill`` at its least height from each of ``distances`` [m]; save the states
+        at which the jump begins, less those from which not even the run goes on.
+
+        The person starts in a running pose with noise, or ``standing``.
+        """
         height = skill.heights[0]
         ahead = ObstacleAhead(0.0, "jump", height, np.zeros(3), np.array([-1.0, 0.0, 0.0]))
         entry, _ = skill.approach(height)
@@ -170,7 +175,12 @@ class JumpSimulator:
         for distance in distances:
             noise = rng.normal(size=51) * np.r_[np.full(3, 0.1), np.full(3, 0.1), np.full(45, 0.02)]
             speed = rng.uniform(*np.clip([entry - 0.8, entry + 0.5], *self.run.speeds))
-            self.begin(float(distance), float(speed), noise=noise)
+            if standing:
+                start = np.array([-distance, rng.normal(0.0, 0.1), 0.0])
+                reset_standing(self.model, self.data, self.index, self.state, start, 0.0)
+                self.command[:] = 0.0, speed, 0.0
+            else:
+                self.begin(float(distance), float(speed), noise=noise)
             seen = -1.0
             for _ in range(3000):
                 before = np.empty(mujoco.mj_stateSize(self.model, _STATE))
@@ -186,7 +196,8 @@ class JumpSimulator:
                         planted = self.state[foot : foot + 2].copy()
                         found.append(StartState(before, control, planted, plan.takeoff_error))
                         break
-                    self.command[1] = plan.speeds[0]
+                    if foot_distance(self.state, ahead) < RUN_UP:
+                        self.command[1] = plan.speeds[0]
                 self._step()
                 if self.state[c.FALLEN] > 0.0:
                     break

@@ -1,0 +1,60 @@
+"""Trials that jumps are learned on: they repeat, start near the mark, and rank good jumps before bad."""
+
+import numpy as np
+import pytest
+
+from locomotion import jump
+from locomotion.errors import LocomotionError
+from locomotion.jump_skill import Jump, load_jump_skill, run_digest
+from locomotion.skill import load_run_skill
+from locomotion.training.jump import JumpProblem, cost, first_guess, scales, train_jump
+from locomotion.training.jump_trial import JumpSimulator
+from locomotion.training.loop import Stage
+from navmesh.archive import write_archive
+
+
+@pytest.fixture(scope="module")
+def problem():
+    run, skill = load_run_skill(), load_jump_skill()
+    rng = np.random.default_rng(1)
+    states = JumpSimulator(run).harvest(Jump(skill, run), rng.uniform(8.0, 12.0, 4), rng)
+    options = {"states": 3, "error": 0.05, "duration": 2.0, "pull": 0.1}
+    stage = Stage("trial", 1, 0.1, scales(True), options, 4)
+    height = float(skill.heights[0])
+    return JumpProblem(
+        run, height, float(skill.entries[0]), skill.table[0], skill.references[0], states, [stage]
+    )
+
+
+def test_run_ups_end_near_the_mark(problem):
+    assert len(problem.states) >= 3
+    assert all(abs(state.error) < 0.35 for state in problem.states)
+
+
+def test_trials_repeat(problem):
+    stage = problem.stages()[0]
+    scenarios = problem.scenarios(stage, 0, np.random.default_rng(5))
+    assert len(scenarios) == 3
+    first = problem.evaluate(stage, problem.start(), scenarios)
+    assert first == problem.evaluate(stage, problem.start(), scenarios)
+    assert first[1] >= 2 / 3
+
+
+def test_a_jump_costs_less_than_running_into_the_stair(problem):
+    still = first_guess()
+    still[jump.parameter_slices()["alpha"]] = 0.0
+    state = problem.states[0]
+    good = problem.outcome(problem.start(), 0, state.error, 2.0)
+    bad = problem.outcome(still, 0, state.error, 2.0)
+    assert good.cleared and not bad.cleared
+    assert cost(good, problem.entry) + 5.0 < cost(bad, problem.entry)
+
+
+def test_checkpoint_of_another_seed_is_refused(tmp_path, monkeypatch):
+    digest = run_digest(load_run_skill())
+    header = {"seed": 1, "run": digest, "effort": 1.0}
+    write_archive(tmp_path / "done-0.npz", "jump training", 1, header, {"x": np.zeros(1)})
+    monkeypatch.setattr(JumpSimulator, "fit_stride", lambda self, rng: (0.25, 0.0, 0.25))
+    with pytest.raises(LocomotionError, match="another training or seed"):
+        train_jump(tmp_path / "jump.npz", seed=0, checkpoint=tmp_path)
+    assert not (tmp_path / "jump.npz").exists()

@@ -69,7 +69,9 @@ _RUN_UP_SIZE = 3
 _LEVEL = 0.01  # [m] by which the ground may differ under the feet of a person that sets off
 _FALL_TICKS = 100  # a fallen body is simulated for this long, then held
 _SHARE_OF_TURNING = 0.8  # the rest of the skill's sideways acceleration is left for corrections
-_GAINS = np.array([0.35, 1.2, 0.15, 0.45, 0.5, 0.0])  # no sideways speed: the run was not learned with it
+_GAINS = np.array(
+    [0.35, 1.2, 0.15, 0.45, 0.5, 0.05]
+)  # hardly any sideways speed: the run was not learned with it
 _STATE = mujoco.mjtState.mjSTATE_INTEGRATION
 
 _models: weakref.WeakKeyDictionary[Ground, tuple[mujoco.MjModel, PersonIndex]] = weakref.WeakKeyDictionary()

@@ -12,7 +12,7 @@ from locomotion.errors import LocomotionError
 from locomotion.events import Cleared, TookOff
 from locomotion.ground import Ground
 from locomotion.jump_reference import wanted_offset
-from locomotion.jump_skill import Jump, jump_clip, load_jump_skill, tables_of
+from locomotion.jump_skill import Jump, jump_clip, load_jump_skill, run_digest, tables_of
 from locomotion.person import CONTROL_DT, JOINT_NAMES
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import load_run_skill, run_clip
@@ -170,7 +170,11 @@ def test_a_jump_repeats_and_is_restored_bit_for_bit():
     assert first.state_hash() == third.state_hash()
 
 
-def test_a_jump_from_another_run_still_plans(run, skill):
+def test_the_jump_belongs_to_the_run(run, skill):
+    assert skill.run == run_digest(run), "the run has changed: train_jump(start_from=...) refines the jump"
+
+
+def test_entry_and_mark_are_plausible(run, skill):
     entry, mark = Jump(skill, run).approach(0.4)
     assert run.speeds[0] <= entry <= run.speeds[1]
     assert 1.0 < mark < 3.5

@@ -18,7 +18,7 @@ from locomotion.approach import ApproachPlan, plan_approach
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill
 
-__all__ = ["RUN_UP", "ClearingSkill", "foot_distance", "plan_run_up", "skill_for"]
+__all__ = ["RUN_UP", "ClearingSkill", "foot_distance", "plan_run_up", "run_up_speeds", "skill_for"]
 
 RUN_UP = 15.0
 """[m] before an obstacle, along the path, from which the speed planner chooses the speed of each step."""
@@ -26,6 +26,8 @@ _ERROR_WEIGHT = 2000.0
 _CHANGE_WEIGHTS = (8.0, 4.0, 2.0, 1.0)
 # [1/m²], [s²/m²] from the last step backwards: of those tried, these bring the foot nearest to the mark
 # (error sd 0.05 m) and the speed nearest to the entry speed (sd 0.1 m/s)
+_SPREAD = 0.8
+# [m/s] by which a run-up may be slower or faster than the entry speed
 HEIGHT_TOLERANCE = 0.02
 """[m] that an obstacle may be lower or higher than what a skill has learned."""
 
@@ -87,13 +89,19 @@ def foot_distance(state: NDArray[np.float64], obstacle: ObstacleAhead) -> float:
     return float((state[foot] - x) * obstacle.normal[0] + (state[foot + 1] - y) * obstacle.normal[1])
 
 
+def run_up_speeds(entry: float, run: RunSkill) -> tuple[float, float]:
+    """Lowest and highest speed [m/s] of a run-up to the entry speed ``entry``."""
+    low, high = run.speeds
+    return max(low, entry - _SPREAD), min(high, entry + _SPREAD)
+
+
 def plan_run_up(
     state: NDArray[np.float64], obstacle: ObstacleAhead, skill: ClearingSkill, run: RunSkill
 ) -> ApproachPlan:
     """Speeds of the remaining steps, planned at a stance switch; none: start the skill at this step."""
     entry, mark = skill.approach(obstacle.height)
-    low, high = run.speeds
-    entry = min(max(entry, low), high)
+    entry = min(max(entry, run.speeds[0]), run.speeds[1])
+    low, high = run_up_speeds(entry, run)
     speed = min(max(float(state[controller.SPEED]), low), high)
     a, lag, b = skill.stride
     # over the steps to come the lag adds up to lag * (speed - entry)
@@ -104,7 +112,7 @@ def plan_run_up(
         entry,
         mark,
         (a, b),
-        bounds=run.speeds,
+        bounds=(low, high),
         error_weight=_ERROR_WEIGHT,
         change_weights=_CHANGE_WEIGHTS,
     )

@@ -195,8 +195,8 @@ def train_jump(
     folder = Path(checkpoint) if checkpoint is not None else None
     if folder is not None:
         folder.mkdir(parents=True, exist_ok=True)
-    stride = JumpSimulator(run).fit_stride(np.random.default_rng([seed, 1]))
     entry = float(np.clip(ENTRY_SPEED, *run.speeds))
+    stride = JumpSimulator(run).fit_stride(entry, np.random.default_rng([seed, 1]))
     course = _Course(run, stride, entry, seed, folder, workers, effort, on_progress)
     learned: list[tuple[np.ndarray, np.ndarray]] = []
     if start_from is None:

@@ -7,7 +7,7 @@ import numpy as np
 
 from locomotion import controller as c
 from locomotion import jump
-from locomotion.clearing import RUN_UP, foot_distance, plan_run_up
+from locomotion.clearing import RUN_UP, foot_distance, plan_run_up, run_up_speeds
 from locomotion.jump import jump_tick, start_jump
 from locomotion.jump_skill import Jump, JumpTables, jump_clip
 from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, person_spec
@@ -128,16 +128,16 @@ class JumpSimulator:
         data = self.data
         c.run_tick(*self.run.tables, self.state, self.command, data.qpos, data.qvel, data.ctrl)
 
-    def fit_stride(self, rng: np.random.Generator, runs: int = 8) -> tuple[float, float, float]:
+    def fit_stride(self, entry: float, rng: np.random.Generator, runs: int = 8) -> tuple[float, float, float]:
         """(a, lag, b) of step length = a v + lag (v' - v) + b [m] for a step asked for at v after one at
         v'.
 
         Least squares over ``runs`` runs of 12 s in which the speed that is asked for wanders from step to
-        step.
+        step, within what a run-up to ``entry`` [m/s] may ask for.
         """
         rows, lengths = [], []
         self.place_stair(1000.0, 0.0)
-        low, high = self.run.speeds
+        low, high = run_up_speeds(entry, self.run)
         for speed in np.linspace(low, high, runs):
             self.begin(0.0, float(speed))
             seen, last, asked = 0.0, None, [float(speed)] * 2

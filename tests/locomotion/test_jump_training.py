@@ -54,7 +54,7 @@ def test_checkpoint_of_another_seed_is_refused(tmp_path, monkeypatch):
     digest = run_digest(load_run_skill())
     header = {"seed": 1, "run": digest, "effort": 1.0}
     write_archive(tmp_path / "done-0.npz", "jump training", 1, header, {"x": np.zeros(1)})
-    monkeypatch.setattr(JumpSimulator, "fit_stride", lambda self, rng: (0.25, 0.0, 0.25))
+    monkeypatch.setattr(JumpSimulator, "fit_stride", lambda self, entry, rng: (0.25, 0.0, 0.25))
     with pytest.raises(LocomotionError, match="another training or seed"):
         train_jump(tmp_path / "jump.npz", seed=0, checkpoint=tmp_path)
     assert not (tmp_path / "jump.npz").exists()

@@ -28,6 +28,8 @@ _CHANGE_WEIGHTS = (8.0, 4.0, 2.0, 1.0)
 # (error sd 0.05 m) and the speed nearest to the entry speed (sd 0.1 m/s)
 _SPREAD = 0.8
 # [m/s] by which a run-up may be slower or faster than the entry speed
+_HASTE = 1.3
+# [m/s] by which the speed asked for may exceed that of the last step: more, soon after setting off, trips it
 HEIGHT_TOLERANCE = 0.02
 """[m] that an obstacle may be lower or higher than what a skill has learned."""
 
@@ -102,6 +104,8 @@ def plan_run_up(
     entry, mark = skill.approach(obstacle.height)
     entry = min(max(entry, run.speeds[0]), run.speeds[1])
     low, high = run_up_speeds(entry, run)
+    if state[controller.STEPS] >= 2.0:
+        high = max(entry, min(high, float(state[controller.STEP_SPEED]) + _HASTE))
     speed = min(max(float(state[controller.SPEED]), low), high)
     a, lag, b = skill.stride
     # over the steps to come the lag adds up to lag * (speed - entry)

@@ -166,8 +166,8 @@ def _refuse(message: str) -> int:
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line; leaves with exit code 0, 1 or 2, 130 when interrupted."""
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
-    command: Callable[..., Any] = typer.main.get_command(app)
     try:
+        command: Callable[..., Any] = typer.main.get_command(app)
         code = command(arguments, prog_name="surefoot", standalone_mode=False) or 0
     except (KeyboardInterrupt, typer.Abort):
         print("surefoot: interrupted; nothing half-written is left", file=sys.stderr)

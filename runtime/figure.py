@@ -48,9 +48,8 @@ class Figure:
     @classmethod
     def from_model(cls, model: Any) -> "Figure":
         """The capsules, spheres and ellipsoids of an ``mujoco.MjModel``; the world body is left out."""
-        import mujoco
+        from mujoco import mjtGeom as kinds  # type: ignore[attr-defined]
 
-        kinds = mujoco.mjtGeom
         drawn = np.isin(model.geom_type, [kinds.mjGEOM_CAPSULE, kinds.mjGEOM_SPHERE, kinds.mjGEOM_ELLIPSOID])
         drawn &= model.geom_bodyid > 0
         size = np.array(model.geom_size[drawn], dtype=np.float64)

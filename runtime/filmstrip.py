@@ -62,7 +62,7 @@ def _scene(trace: Trace) -> tuple[AgentTrace, float, float, str]:
 
 
 def _camera(agent: AgentTrace, trace: Trace, pick: int) -> Camera:
-    """From the right of the way that the figure moves, a little ahead of it and above."""
+    """From the right of the way that the figure moves, a little behind it and above."""
     root = agent.poses[:, 0, :3].astype(np.float64)
     before, after = max(pick - 20, 0), min(pick + 20, len(root) - 1)
     heading = root[after, :2] - root[before, :2]
@@ -70,5 +70,5 @@ def _camera(agent: AgentTrace, trace: Trace, pick: int) -> Camera:
     ahead = heading / length if length > 0.1 else np.array([1.0, 0.0])
     side = np.array([ahead[1], -ahead[0]])
     target = root[pick] + np.array([0.25 * ahead[0], 0.25 * ahead[1], -0.1])
-    aside = _DISTANCE * (0.95 * side + 0.25 * ahead)
+    aside = _DISTANCE * (0.9 * side - 0.45 * ahead)
     return Camera(eye=target + np.array([aside[0], aside[1], 0.75]), target=target, fov=0.62)

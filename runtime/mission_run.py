@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 import navmesh
+from navmesh.yamlfile import FileError
 from runtime.agent import Agent
 from runtime.events import Arrived, Event, Fell, SkillFinished
 from runtime.mission import AgentSpec, LoadedMission
@@ -63,12 +64,14 @@ def prepare_mission(loaded: LoadedMission, progress: Progress) -> World:
     """
     mission = loaded.mission
     with progress.stage(f"reading {loaded.level_path.name} and building its graph"):
+        rules, tags = loaded.rules(), _tags(loaded)
         try:
             terrain = navmesh.Terrain.load(loaded.level_path, up=mission.level.up, scale=mission.level.scale)
+            graph = navmesh.NodeGraph.build(terrain, rules, tags=tags)
+        except FileError:
+            raise
         except navmesh.NavmeshError as error:
             raise loaded.error(("level", "file"), f"level.file: {error}") from None
-        rules = loaded.rules()
-        graph = navmesh.NodeGraph.build(terrain, rules, tags=_tags(loaded))
     world = World(graph, seed=mission.seed)
     with progress.stage("placing the agents and checking their ways"):
         for index, spec in enumerate(mission.agents):

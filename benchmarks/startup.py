@@ -2,8 +2,8 @@
 
     python benchmarks/startup.py [--repeats 5] [--json startup.json]
 
-Kernels are compiled once by a first start that is not counted; each start is a process of its own. Wall time is
-what a user waits; CPU time says the same on a machine that others use, too.
+Kernels are compiled once by a first start that is not counted; each start is a process of its own. Wall time
+is what a user waits; CPU time says the same on a machine that others use, too.
 """
 
 import argparse

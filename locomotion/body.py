@@ -66,6 +66,7 @@ STUCK_TIME = 4.0
 _NEXT, _STEPS_SEEN, _PLANNED = range(3)
 _RUN_UP_SIZE = 3
 # number of the next obstacle, steps made when the run-up was last planned, speed planned for this step or 0
+_HASTE = 1.3  # [m/s] that the speed asked for may exceed the last step's: more trips it in setting off
 _LEVEL = 0.01  # [m] by which the ground may differ under the feet of a person that sets off
 _FALL_TICKS = 100  # a fallen body is simulated for this long, then held
 _SHARE_OF_TURNING = 0.8  # the rest of the skill's sideways acceleration is left for corrections
@@ -279,6 +280,8 @@ class Human:
                 self._path.table, self._path.length, _GAINS, self._memory, state[com], state[com + 1],
                 state[controller.SPEED], self._ticks, self._command,
             )  # fmt: skip
+            if state[controller.STEPS] >= 2.0:
+                self._command[1] = min(self._command[1], state[controller.STEP_SPEED] + _HASTE)
             if self._run_up[_PLANNED] > 0.0:
                 self._command[1] = self._run_up[_PLANNED]
         run_tick(*self.skill.tables, state, self._command, data.qpos, data.qvel, data.ctrl)

@@ -135,9 +135,7 @@ def main() -> int:
     if shared_folder() is None:
         print(f"skipped: {why_absent()}")
         return 0
-    rules = WalkRules(
-        max_slope=math.radians(45), max_step=0.9, headroom=2.0, resolution=options.resolution
-    )
+    rules = WalkRules(max_slope=math.radians(45), max_step=0.9, headroom=2.0, resolution=options.resolution)
     rng = np.random.default_rng(1)
     results = {name: measure(name, rules, options.samples, options.repeats, rng) for name in LEVELS}
     show(results)

@@ -1,4 +1,4 @@
-"""Where the measured levels, queries and peers lie, for benchmarks and tests (they are not part of the product).
+"""Where the measured levels, queries and peers lie, for benchmarks and tests; they are not in the product.
 
 The folder is named by the environment variable ``SUREFOOT_SHARED``; without it, ``shared`` beside the
 repository is taken.

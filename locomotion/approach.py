@@ -13,6 +13,7 @@ same programme through cvxpy. The planner is meant to be asked again at the begi
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numba import njit
@@ -326,7 +327,7 @@ def plan_approach_exact(
             changes = cvxpy.diff(cvxpy.hstack([np.array([speed]), v]))
             effort = cvxpy.sum(cvxpy.multiply(weights, cvxpy.square(changes)))
             objective = error_weight * cvxpy.square(error) + effort
-            constraints = [v[n - 1] == entry]
+            constraints: list[Any] = [v[n - 1] == entry]
             if np.isfinite(low):
                 constraints.append(v >= low)
             if np.isfinite(high):
@@ -337,7 +338,7 @@ def plan_approach_exact(
                 raise LocomotionError(f"the reference solver did not solve the plan: {problem.status}")
             speeds = np.asarray(v.value, dtype=np.float64)
             final = gap - n * b - a * float(speeds.sum())
-            plan = ApproachPlan(speeds, final, float(problem.value))
+            plan = ApproachPlan(speeds, final, float(np.asarray(problem.value)))
         if best is None or plan.cost < best.cost:
             best = plan
     assert best is not None

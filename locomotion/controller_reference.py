@@ -107,7 +107,8 @@ def pd_targets(skill: RunSkill, state: np.ndarray, sensed: np.ndarray, qpos: np.
         for row, name in enumerate(("hip_flexion", "knee_flexion", "ankle_flexion")):
             target[joint(f"{leg}_{name}")] += feed_forward(knots[row], at)
     stance, swing = ("left", "right") if side > 0 else ("right", "left")
-    a = dict(zip(c.CLIMB, actions(skill, state, sensed), strict=True))
+    a: dict[str, float] = {}
+    a.update(zip(c.CLIMB, actions(skill, state, sensed), strict=True))
     for name in ("hip_flexion", "hip_abduction", "hip_rotation"):
         target[joint(f"{swing}_{name}")] += a[f"swing_{name}"]
         target[joint(f"{stance}_{name}")] += a[f"stance_{name}"]

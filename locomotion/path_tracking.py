@@ -149,7 +149,7 @@ def _at(table, step, arc, column):
 
 @njit(cache=True)
 def track(table, length, gains, memory, x, y, speed, tick, command):
-    """One tick: find the body's foot point; write heading, speed, sideways speed and slope into ``command`` (4,).
+    """One tick: find the body's foot point; write heading, speed, side speed, slope into ``command`` (4,).
 
     table (n, 7), length: a `PathTable`. gains (6,): preview time [s], lateral rate [1/s], integral rate
     [1/s^2], largest correction [rad], sideways rate [1/s], largest sideways speed [m/s].

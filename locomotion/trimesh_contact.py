@@ -238,9 +238,7 @@ def capsule_contacts(
                     continue
                 for k in range(3):
                     if flag & (1 << k):
-                        count = _edge(
-                            row, k, ax, ay, az, bx, by, bz, length, radius, margin, out, count
-                        )
+                        count = _edge(row, k, ax, ay, az, bx, by, bz, length, radius, margin, out, count)
                     if flag & (8 << k):
                         count = _corner(
                             row, k, flags[t, 1 + k], vertex_start, vertex_edges,

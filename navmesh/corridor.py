@@ -23,6 +23,8 @@ __all__ = ["Corridor", "corridor_of"]
 
 _STRIDE = 0.1
 """[m]: a disc must take the path on by at least this, if any can."""
+_LEAST = 1e-3
+"""[m]: the least disc; where the body only just fits, such discs follow each other along the path."""
 _LONG = 0.6
 """[m]: a node's disc that takes the path on by this is taken without trying an own disc."""
 
@@ -140,13 +142,14 @@ def cover(net, path, start_cell, radius):
             for _ in range(4):
                 ax, ay, _ = _at(path, along, min(ahead, total), segment)
                 cell = _follow(net, path, along, k, x, y, s, segment, min(ahead, total))
-                exit_, cx, cy, cr, owner = _own_disc(
-                    net, cell, ax, ay, radius, path, along, s, segment, x, y
-                )
+                exit_, cx, cy, cr, owner = _own_disc(net, cell, ax, ay, radius, path, along, s, segment, x, y)
                 if exit_ > best + _STRIDE or best < 0.0:
                     best, bx, by, br = exit_, cx, cy, cr
                     bz = floor_at(net, owner, cx, cy)
                 ahead += _STRIDE
+        if best < min(s + _LEAST, total):
+            best, bx, by, br = min(s + _LEAST, total), x, y, _LEAST
+            bz = floor_at(net, k, x, y)
         if size == discs.shape[0]:
             more = np.empty((2 * size, 4))
             more[:size] = discs
@@ -155,9 +158,8 @@ def cover(net, path, start_cell, radius):
         size += 1
         if best >= total - 1e-9:
             return discs[:size].copy()
-        following = max(best, s + 1e-3)
-        k = _follow(net, path, along, k, x, y, s, segment, following)
-        s = following
+        k = _follow(net, path, along, k, x, y, s, segment, best)
+        s = best
         x, y, segment = _at(path, along, s, segment)
 
 

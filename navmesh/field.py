@@ -98,13 +98,19 @@ def cell_at(net, x, y, z):
 
 @njit(cache=True, inline="always")
 def same_place(net, k, other):
-    """Whether a point that lies in cell ``k`` by one reckoning and in ``other`` by another is one place: on the
-    border between two squares rounding decides, but the two are linked."""
+    """Whether a point that lies in cell ``k`` by one reckoning and in ``other`` by another is one place: on
+    the border between squares, or on a corner of four, rounding decides, but they are linked."""
     if k == other:
         return True
-    return (
-        net.link[k, 0] == other or net.link[k, 1] == other or net.link[k, 2] == other or net.link[k, 3] == other
-    )
+    for way in range(4):
+        beside = net.link[k, way]
+        if beside == other:
+            return True
+        if beside >= 0 and (
+            net.link[beside, (way + 1) % 4] == other or net.link[beside, (way + 3) % 4] == other
+        ):
+            return True
+    return False
 
 
 @njit(cache=True)
@@ -115,9 +121,9 @@ def floor_at(net, k, x, y):
 
 
 @njit(cache=True, inline="always")
-def _far_side(net, node, radius, ax, ay, dx, dy, length):
-    """Where (as a share of d, seen from a) the line a + d leaves the disc of ``node`` shrunk by
-    ``radius``."""
+def _far_side(net, node, radius, ax, ay, dx, dy, length, t):
+    """Where (as a share of d, seen from a) the line a + d leaves the disc of ``node`` shrunk by ``radius``;
+    0 where it is not in it at ``t``."""
     px = net.position[node, 0] - ax
     py = net.position[node, 1] - ay
     room = net.node_radius[node] - radius
@@ -126,7 +132,10 @@ def _far_side(net, node, radius, ax, ay, dx, dy, length):
     inside = room * room - off * off
     if room <= 0.0 or inside <= 0.0:
         return 0.0
-    return (along + sqrt(inside)) / length - 1e-9
+    half = sqrt(inside)
+    if along - half > t * length:
+        return 0.0
+    return (along + half) / length - 1e-9
 
 
 @njit(cache=True, inline="always")
@@ -202,7 +211,7 @@ def walk(net, k, ax, ay, bx, by, radius, through):
         if leave >= 1.0:
             return True, k, least, place, qx, qy
         if clearance > free + _OPEN * h and (1.0 - leave) * length > _OPEN * h:
-            ahead = _far_side(net, net.label[k], radius, ax, ay, dx, dy, length)
+            ahead = _far_side(net, net.label[k], radius, ax, ay, dx, dy, length, t)
             if ahead > leave:
                 if ahead >= 1.0:
                     cell, jx, jy = _only_cell(net, bx, by)

@@ -3,7 +3,7 @@
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
-from typing import Any
+from typing import Any, cast
 
 import networkx
 import numpy as np
@@ -159,12 +159,10 @@ class NodeGraph:
                 **{name: arrays.pop(f"surface_{name}") for name in _SURFACE_ARRAYS},
             )
             graph = cls(
-                terrain=Terrain(
-                    arrays.pop("terrain_vertices"), arrays.pop("terrain_faces"), header["level"]
-                ),
+                terrain=Terrain(arrays.pop("terrain_vertices"), arrays.pop("terrain_faces"), header["level"]),
                 rules=WalkRules.from_dict(header["rules"]),
                 surface=surface,
-                **{name: arrays.pop(name) for name in _GRAPH_ARRAYS},
+                **cast(dict[str, Any], {name: arrays.pop(name) for name in _GRAPH_ARRAYS}),
                 obstacles=Obstacles(**_unpacked(arrays, "obstacles_", Obstacles)),
                 links=Links(**_unpacked(arrays, "links_", Links)),
             )
@@ -211,7 +209,7 @@ class NodeGraph:
         node_costs: np.ndarray | None = None,
         workers: int = 1,
     ) -> Routes:
-        """The routes from ``starts`` to ``goals`` (q, 3) [m] each: the same, bit for bit, as `find_path` gives
+        """The routes from ``starts`` to ``goals`` (q, 3) [m] each: bit for bit what `find_path` gives
         one by one. ``workers`` threads share the work."""
         return pathfinding.find_paths(self, starts, goals, radius, skills, node_costs, workers)
 

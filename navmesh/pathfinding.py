@@ -66,9 +66,7 @@ def find_path(
         net_of(graph), doors, scratch, graph.surface.origin, sx, sy, sz, gx, gy, gz, reach, rise
     )
     graph.cache["scratch"].append(scratch)
-    return Route(
-        STATUSES[status], radius, nodes, waypoints, length, link_uses(graph, leaps), expanded, graph
-    )
+    return Route(STATUSES[status], radius, nodes, waypoints, length, link_uses(graph, leaps), expanded, graph)
 
 
 def _points(name: str, values: Any) -> np.ndarray:

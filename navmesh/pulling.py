@@ -2,10 +2,10 @@
 
 1. The funnel over the portals gives the corners that the line has to turn at.
 2. The line is walked through the clearance field. Where the body would not fit, the tightest place is pushed
-off
-   what blocks it, just so far that the body fits, and the two halves are walked again. Where nothing can be
-   pushed because walking ends on the line, the cells themselves are searched.
-3. Corners that the line of sight jumps over are dropped.
+   off what blocks it, just so far that the body fits, and the two halves are walked again. Where nothing can
+   be pushed because walking ends on the line, the cells themselves are searched.
+3. Corners that the line of sight jumps over are dropped; corners that stand further off than they need are
+   drawn in.
 
 What comes out has been walked: the body fits on all of it.
 """
@@ -25,6 +25,8 @@ _SLACK = 0.01
 _MARGIN = 0.03
 """Pushed corners keep this share of the radius more than it, so that straight lines between them clear round
 corners."""
+_LOOSE = 0.1
+"""A corner whose gap is above the radius by more than this share is drawn in."""
 _DEPTH = 12  # of pushes within pushes; scratch.stack holds two more
 
 
@@ -277,6 +279,39 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high):
 
 
 @njit(cache=True)
+def _draw_in(net, doors, scratch, first, count):
+    """Move loose corners towards the line between their neighbours, as far as the body fits: the ends of a
+    portal may stand off the wall that the line turns round."""
+    radius = doors.radius * (1.0 + _SLACK)
+    points, cells = scratch.points, scratch.cells
+    for i in range(first + 1, count - 1):
+        x, y = points[i, 0], points[i, 1]
+        if gap_at(net, cells[i], x, y)[0] <= radius * (1.0 + _LOOSE):
+            continue
+        ax, ay = points[i - 1, 0], points[i - 1, 1]
+        bx, by = points[i + 1, 0], points[i + 1, 1]
+        dx, dy = bx - ax, by - ay
+        length = dx * dx + dy * dy
+        s = ((x - ax) * dx + (y - ay) * dy) / length if length > 0.0 else 0.0
+        s = min(max(s, 0.0), 1.0)
+        dx, dy = ax + s * dx - x, ay + s * dy - y
+        low, high = 0.0, 1.0
+        for _ in range(9):
+            t = 0.5 * (low + high)
+            cx, cy = x + t * dx, y + t * dy
+            fits, cell, _, _, _, _ = walk(net, cells[i - 1], ax, ay, cx, cy, radius, False)
+            if fits:
+                fits, last, _, _, _, _ = walk(net, cell, cx, cy, bx, by, radius, False)
+                fits = fits and same_place(net, last, cells[i + 1])
+            if fits:
+                low = t
+                points[i, 0], points[i, 1] = cx, cy
+                cells[i] = cell
+            else:
+                high = t
+
+
+@njit(cache=True)
 def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell):
     """Pull one walked leg taut: from the last corner in ``scratch.points`` through the portals of
     edges[first:last].
@@ -306,6 +341,8 @@ def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell):
         count, fits = _mend(net, doors, scratch, leg, count, x, y, k, at[i - 1], at[i])
         if not fits:
             return count, False
+    if not doors.weighted:
+        _draw_in(net, doors, scratch, leg, count)
     for i in range(leg, count):
         scratch.points[i, 2] = floor_at(net, scratch.cells[i], scratch.points[i, 0], scratch.points[i, 1])
     return count, True

@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 from navmesh.errors import NavmeshError
 from navmesh.field import centre_of, floor_at, gap_at, walk
@@ -217,8 +217,9 @@ def nearest_node(graph: "NodeGraph", points: Any) -> Any:
     """The node whose centre is nearest to each of ``points`` in space: int32."""
     local, single = _local(graph, points)
     if "node_tree" not in graph.cache:
-        graph.cache["node_tree"] = cKDTree(graph.positions - graph.surface.origin)
-    return _answer(graph.cache["node_tree"].query(local)[1].astype(np.int32), single)
+        graph.cache["node_tree"] = KDTree(graph.positions - graph.surface.origin)
+    nodes = np.asarray(graph.cache["node_tree"].query(local)[1], dtype=np.int32)
+    return _answer(nodes, single)
 
 
 def containing_node(graph: "NodeGraph", points: Any) -> Any:

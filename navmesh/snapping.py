@@ -1,6 +1,5 @@
 """Where a route may begin and end: the place nearest to the one asked for at which the body fits."""
 
-
 import numpy as np
 from numba import njit
 

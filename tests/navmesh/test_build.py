@@ -257,7 +257,11 @@ def scanned_and_modelled() -> list:
     if folder is None:
         return [pytest.param(None, marks=pytest.mark.skip(reason=why_absent()))]
     files = [*sorted((folder / "levels" / "scans").glob("*.obj")), folder / "levels" / "glb" / "bridges.glb"]
-    return [pytest.param(file, id=file.stem) for file in files]
+    patchy = pytest.mark.xfail(strict=True, reason="cracks between the patches of this scan end its floor")
+    return [
+        pytest.param(file, id=file.stem, marks=patchy if file.stem.startswith("collabxr") else ())
+        for file in files
+    ]
 
 
 @pytest.mark.parametrize("file", scanned_and_modelled())

@@ -124,7 +124,8 @@ def test_tags_are_written_whole_and_read_back(tmp_path: Path) -> None:
         ),
         (
             "version: 1\nadd:\n"
-            "  - {name: a, affordance: vault, position: [0, 0, 0], run_towards_deg: 0, width: 1, height: 1}\n",
+            "  - {name: a, affordance: vault, position: [0, 0, 0], run_towards_deg: 0, width: 1, "
+            "height: 1}\n",
             "3:5: add[0]: a vault needs depth, above 0 [m]",
         ),
         ("version: 1\nchange:\n  - {at: [0, 0], set: {width: 1}}\n", "3:10: change[0].at: "),

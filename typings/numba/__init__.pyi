@@ -1,0 +1,4 @@
+# Numba's decorators hide the signatures, so for the type checker everything in it is Any.
+from typing import Any
+
+def __getattr__(name: str) -> Any: ...

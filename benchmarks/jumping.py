@@ -1,6 +1,6 @@
 """How well the person jumps from the run: the paper's test, with the take-off errors and what went wrong.
 
-    python benchmarks/jumping.py [--every 0.1] [--heights 0.3 0.4 0.5] [--json jumping.json] [--film out/jump]
+    python -m benchmarks.jumping [--every 0.1] [--heights 0.3 0.4 0.5] [--json jumping.json] [--film out/jump]
 
 For every height the person starts from standing at d = 10 to 30 m before a stair, runs up, jumps and runs
 on: the whole way that a mission takes (path tracking, speed planner, skill) on a triangle mesh. Cleared: both

@@ -1,6 +1,6 @@
 """Missions between random reachable points: does the person arrive, how far from its path, at what cost?
 
-    python benchmarks/missions.py [--levels undulating courtyard] [--missions 50] [--speed 3.0] [--json FILE]
+    python -m benchmarks.missions [--levels undulating courtyard] [--missions 50] [--speed 3.0] [--json FILE]
 
 For each level the graph is built with a person's rules (`locomotion.PERSON_RULES`), start and goal are drawn
 from its nodes, 10 to 60 m of route apart, and the person runs along the smoothed route from a held start. The
@@ -21,9 +21,9 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from shared_data import LEVELS, level_path, shared_folder, why_absent
 
 import navmesh
+from benchmarks.shared_data import LEVELS, level_path, shared_folder, why_absent
 from locomotion import PERSON_RULES, Ground, Human, smooth_route
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK
 

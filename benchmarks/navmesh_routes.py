@@ -1,6 +1,6 @@
 """Are routes found, short, clear of walls and fast? Prints a table and writes JSON.
 
-    python benchmarks/navmesh_routes.py [--json FILE] [--resolution 0.25] [--samples 4000] [--repeats 7]
+    python -m benchmarks.navmesh_routes [--json FILE] [--resolution 0.25] [--samples 4000] [--repeats 7]
 
 On the three shared levels and their 2,000 pairs each, for the body of the shared queries (radius 0.6 m,
 height 2.0 m, step 0.9 m, slope 45°): pairs answered "complete", length of the pulled path against the peer's,
@@ -20,11 +20,11 @@ import time
 from pathlib import Path
 
 import numpy as np
-from mesh_truth import MeshTruth
 from rich.console import Console
 from rich.table import Table
-from shared_data import LEVELS, level_path, queries_path, shared_folder, why_absent
 
+from benchmarks.mesh_truth import MeshTruth
+from benchmarks.shared_data import LEVELS, level_path, queries_path, shared_folder, why_absent
 from navmesh import NodeGraph, Terrain, WalkRules
 
 RADIUS = 0.6

@@ -1,6 +1,6 @@
 """How valid, how near the optimum and how fast is smoothing? Prints a table and writes JSON.
 
-    python benchmarks/smoothing.py [--json FILE] [--routes 1002] [--exact 1002] [--bounded 60] [--constructed
+    python -m benchmarks.smoothing [--json FILE] [--routes 1002] [--exact 1002] [--bounded 60] [--constructed
     40]
 
 On routes between the shared queries' pairs on the three shared levels (body radius 0.6 m), or on random
@@ -17,12 +17,12 @@ from collections import Counter
 from pathlib import Path
 
 import numpy as np
-from corridors import bounded_curve, disc_chain, sharp_corner, turn_on_the_spot
 from rich.console import Console
 from rich.table import Table
-from shared_data import LEVELS, level_path, queries_path, shared_folder
-from springs import DAMPINGS, simulate
 
+from benchmarks.corridors import bounded_curve, disc_chain, sharp_corner, turn_on_the_spot
+from benchmarks.shared_data import LEVELS, level_path, queries_path, shared_folder
+from benchmarks.springs import DAMPINGS, simulate
 from pathsmooth import PathSmoothError, Problem, curvature, kernels, reference, solve, solve_exact
 from pathsmooth.solver import CHECKS, MAX_ITERATIONS, RELAXATION
 

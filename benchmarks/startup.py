@@ -1,6 +1,6 @@
 """How long from starting Python to the first simulated step of a person on the courtyard?
 
-    python benchmarks/startup.py [--repeats 5] [--json startup.json]
+    python -m benchmarks.startup [--repeats 5] [--json startup.json]
 
 Kernels are compiled once by a first start that is not counted; each start is a process of its own. Wall time
 is what a user waits; CPU time says the same on a machine that others use, too.

@@ -163,6 +163,11 @@ class Human:
         return self._ticks * CONTROL_DT
 
     @property
+    def control(self) -> NDArray[np.float64]:
+        """What the running controller remembers (its fields: `locomotion.run_layout`); a view."""
+        return self._control
+
+    @property
     def com(self) -> NDArray[np.float64]:
         """Centre of mass, (3,) float64 [m]."""
         return self._control[controller.COM].copy()

@@ -26,7 +26,8 @@ The control law, in a frame mirrored so that the right leg is the stance leg (al
 change sign on the left): with phase p in [0, 1] of a step,
 
     PD target = reference(p) + rate(p) * damping / stiffness + learned feed-forward(p) + posture servo + da
-    da = M_ap · M_sp · (s - s_ref(p)) + a_hat + turn * turn rate + climb or descend * slope
+    da = M_ap · M_sp · (s - s_ref(p)) + a_hat + turn * turn rate + bend * (turn rate * speed)^2
+         + climb or descend * slope
 
 where M_ap·M_sp has rank 3.
 
@@ -122,6 +123,7 @@ _M_AP, _M_SP, _POSTURE, _A_HAT = (_SP[k].start for k in ("m_ap", "m_sp", "postur
 _FF, _TURN, _CLIMB, _TIMING = (_SP[k].start for k in ("feed_forward", "turn", "climb", "timing"))
 _ARMS, _DESCEND, _START = (_SP[k].start for k in ("arms", "descend", "start"))
 _CLIMB_LEGS, _DESCEND_LEGS = _SP["climb_legs"].start, _SP["descend_legs"].start
+_BEND = _SP["bend"].start
 _CLIMB_TIMING, _DESCEND_TIMING = _SP["climb_timing"].start, _SP["descend_timing"].start
 _WAIST, _CHEST, _NECK = (JOINT_NAMES.index(n) for n in ("waist_pitch", "chest_pitch", "neck_pitch"))
 _R_ARM, _L_ARM = (JOINT_NAMES.index(f"{s}_clavicle_elevation") for s in ("right", "left"))
@@ -270,12 +272,13 @@ def _sense(state, side, command, qpos, qvel, out):
 
 
 @njit(cache=True)
-def _feedback(p, delta, turn, slope, raw, out):
+def _feedback(p, delta, turn, speed, slope, raw, out):
     """Actions ``out`` (12,) [rad] as `CLIMB` names them, from the deviations ``delta`` (12,) and raw
-    sensors."""
+    sensors, while turning at ``turn`` [rad/s] at ``speed`` [m/s]."""
     by_slope = _CLIMB if slope >= 0.0 else _DESCEND
+    sideways = (turn * speed) ** 2
     for i in range(12):
-        out[i] = p[by_slope + i] * slope
+        out[i] = p[by_slope + i] * slope + p[_BEND + i] * sideways
     for i in range(9):
         out[i] += p[_A_HAT + i] + p[_TURN + i] * turn
     for r in range(RANK):
@@ -379,7 +382,7 @@ def run_tick(knots, table, reference, rates, mean, state_reference, limits, stat
         raw[j] = min(max(raw[j], -_CLIP[j]), _CLIP[j])
     action = np.empty(12)
     # turning left (positive) is towards the stance side on the left
-    _feedback(p, delta, state[TURN_RATE] * side, slope, raw, action)
+    _feedback(p, delta, state[TURN_RATE] * side, state[SPEED], slope, raw, action)
 
     share = 0.5 * phase + (0.5 if side > 0 else 0.0)
     pose, rate = np.empty(_N), np.empty(_N)

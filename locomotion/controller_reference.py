@@ -58,6 +58,7 @@ def actions(skill: RunSkill, state: np.ndarray, sensed: np.ndarray) -> np.ndarra
     side = state[c.STANCE]
     result = (p["climb"] if state[c.SLOPE] >= 0 else p["descend"]) * state[c.SLOPE]
     result[:9] += p["m_ap"].reshape(9, 3) @ p["m_sp"].reshape(3, 12) @ delta
+    result += p["bend"] * (state[c.TURN_RATE] * state[c.SPEED]) ** 2
     result[:9] += p["a_hat"] + p["turn"] * state[c.TURN_RATE] * side
     pitch, pitch_rate, roll, yaw, roll_rate, yaw_rate = sensed[[0, 1, 6, 7, 8, 9]]
     roll, yaw, roll_rate = np.clip([roll, yaw, roll_rate], [-0.6, -0.6, -5.0], [0.6, 0.6, 5.0])

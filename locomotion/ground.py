@@ -82,6 +82,12 @@ class Ground:
         return self._arrays
 
     @property
+    def lookup(self) -> tuple[NDArray[Any], ...]:
+        """What `locomotion.footholds.ground_at` looks the ground up in."""
+        a = self._arrays
+        return a.rows, a.cell_start, a.cell_triangles, a.grid, a.shape, self._origin
+
+    @property
     def origin(self) -> NDArray[np.float64]:
         """(3,) point [m] that the kernel's coordinates are relative to."""
         return self._origin

@@ -177,11 +177,12 @@ def run_digest(run: RunSkill) -> str:
     ground."""
     hasher = hashlib.sha256()
     knots, parameters, *rest, _ = run.tables
-    straight = parameters[1:].copy()  # the first row only serves setting off
+    part = controller.parameter_slices()
+    straight = parameters[1:, : part["bend"].start].copy()  # the first row only serves setting off
     for name in (
         "turn", "climb", "descend", "start", "climb_legs", "descend_legs", "climb_timing", "descend_timing",
     ):  # fmt: skip
-        straight[:, controller.parameter_slices()[name]] = 0.0
+        straight[:, part[name]] = 0.0
     for table in (knots, straight, *rest):
         hasher.update(np.round(table, 9).tobytes())
     return hasher.hexdigest()[:16]

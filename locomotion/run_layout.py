@@ -70,7 +70,7 @@ ACTIONS = (
     "waist_yaw",
 )
 CLIMB = (*ACTIONS, "swing_knee_flexion", "stance_knee_flexion", "stance_ankle_flexion")
-"""What the slope under the feet changes."""
+"""What the slope under the feet and the sharpness of a bend change."""
 RANK = 3
 N_KNOTS = 8
 MIN_PHASE = 0.6
@@ -92,6 +92,7 @@ PARAMETERS: dict[str, int] = {
     "descend_legs": 3 * N_KNOTS,  # the same downhill
     "climb_timing": 2,  # change of timing per unit of slope, uphill
     "descend_timing": 2,  # the same downhill
+    "bend": 12,  # rad per (m/s^2)^2 of sideways acceleration, whichever side is the inner one
 }
 """Blocks of a parameter vector, in order, with their lengths."""
 

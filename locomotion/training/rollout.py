@@ -11,7 +11,7 @@ from locomotion import controller as c
 from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, build_person
 from locomotion.skill import RunSkill, reset_running, reset_standing
 
-__all__ = ["FIGURES", "Scenario", "Simulator", "Trial"]
+__all__ = ["FIGURES", "Measures", "Scenario", "Simulator", "Trial"]
 
 FIGURES = (
     "time",
@@ -117,6 +117,41 @@ def _at(schedule: np.ndarray, time: float) -> float:
     return float(schedule[max(int(np.searchsorted(schedule[:, 0], time, side="right")) - 1, 0), 1])
 
 
+class Measures:
+    """Sums up what `FIGURES` name, tick by tick."""
+
+    def __init__(self, data: mujoco.MjData, index: PersonIndex) -> None:
+        self._sums, self._past = np.zeros(12), np.zeros(7)
+        self._head, self._chest = data.xpos[index.head], data.xmat[index.chest]
+        self._forces = data.actuator_force
+
+    def add(self, state: np.ndarray, turn_rate: float, wanted: float) -> None:
+        """Add a tick; ``turn_rate`` [rad/s] and ``wanted`` speed [m/s] were asked for."""
+        _measure(self._sums, state, self._head, self._past, self._forces, self._chest, turn_rate, wanted)
+
+    def figures(self, state: np.ndarray, ticks: int, turned: float = 0.0) -> dict[str, float]:
+        """The figures after ``ticks`` and ``turned`` [rad] in all."""
+        sums = self._sums
+        n, steps = max(sums[0], 1.0), max(sums[11], 1.0)
+        time = ticks * CONTROL_DT
+        if state[c.FALLEN] > 0.0:
+            time -= CONTROL_DT
+        return {
+            "time": time,
+            "speed_error": sums[9] / steps,
+            "heading_error": sums[8] / n + np.sqrt(sums[7] / n) * 0.5,
+            "side_drift": sums[2] / n,
+            "reaction": sums[3] / n,
+            "effort": sums[4] / n,
+            "head": sums[5] / n,
+            "step_rate": state[c.STEPS] / max(time, CONTROL_DT),
+            "trunk": sums[6] / n,
+            "speed": sums[1] / n,
+            "peak": sums[10],
+            "turn": turned / steps,
+        }
+
+
 class Simulator:
     """A person on a plane that trials are run with; one per process."""
 
@@ -170,10 +205,9 @@ class Simulator:
         model, data, state, index = self.model, self.data, self.state, self.index
         self.start(skill, scenario)
         command = np.array([scenario.yaw, 0.0, 0.0, 0.0])
-        sums, past = np.zeros(12), np.zeros(7)
-        head, chest = data.xpos[index.head], data.xmat[index.chest]
+        measures = Measures(data, index)
         ticks = round(scenario.duration / CONTROL_DT)
-        tables, qpos, qvel, ctrl, forces = skill.tables, data.qpos, data.qvel, data.ctrl, data.actuator_force
+        tables, qpos, qvel, ctrl = skill.tables, data.qpos, data.qvel, data.ctrl
         push, turned = data.xfrc_applied[index.chest], 0.0
         tick = 0
         events = np.unique(np.concatenate([scenario.speeds[:, 0], scenario.headings[:, 0]]))
@@ -195,31 +229,11 @@ class Simulator:
             c.run_tick(*tables, state, command, qpos, qvel, ctrl)
             mujoco.mj_step(model, data, STEPS_PER_TICK)
             c.observe(index, model, data, state)
-            _measure(sums, state, head, past, forces, chest, turn, command[1])
+            measures.add(state, turn, command[1])
             if on_tick is not None:
                 on_tick(self)
             if state[c.FALLEN] > 0.0:
                 break
         push[:2] = 0.0
-        return self._figures(sums, tick + 1, turned)
-
-    def _figures(self, sums: np.ndarray, ticks: int, turned: float) -> Trial:
-        n, steps = max(sums[0], 1.0), max(sums[11], 1.0)
-        time = ticks * CONTROL_DT
-        if self.state[c.FALLEN] > 0.0:
-            time -= CONTROL_DT
-        figures = {
-            "time": time,
-            "speed_error": sums[9] / steps,
-            "heading_error": sums[8] / n + np.sqrt(sums[7] / n) * 0.5,
-            "side_drift": sums[2] / n,
-            "reaction": sums[3] / n,
-            "effort": sums[4] / n,
-            "head": sums[5] / n,
-            "step_rate": self.state[c.STEPS] / max(time, CONTROL_DT),
-            "trunk": sums[6] / n,
-            "speed": sums[1] / n,
-            "peak": sums[10],
-            "turn": turned / steps,
-        }
-        return Trial(figures, np.concatenate([self.data.qpos, self.data.qvel, self.state]))
+        figures = measures.figures(state, tick + 1, turned)
+        return Trial(figures, np.concatenate([data.qpos, data.qvel, state]))

@@ -11,6 +11,7 @@ import numpy as np
 from locomotion import controller as c
 from locomotion.skill import RUN_SKILL, RunSkill, run_clip
 from locomotion.training.loop import Progress, Stage, learn
+from locomotion.training.path_trial import PathScenario, draw_path, follow_path
 from locomotion.training.rollout import Scenario, Simulator
 from locomotion.training.run_trials import MIDDLE, cost, draw_scenario
 
@@ -63,6 +64,7 @@ def scales() -> np.ndarray:
     x[part["climb"]] = 2.0
     x[part["descend"]] = 2.0
     x[part["climb_legs"]] = x[part["descend_legs"]] = 1.5
+    x[part["bend"]] = 0.1
     x[part["climb_timing"]] = x[part["descend_timing"]] = [0.2, 0.8]
     x[part["start"]] = [0.15, 0.15, 0.03, 0.15, 0.3]
     x[part["timing"]] = [0.06, 0.25]
@@ -111,7 +113,7 @@ def genes_scale(base: float, slope: float, bend: float, start: float) -> np.ndar
     lean[part["start"]] = one[part["start"]]
     running = one - lean
     shaped = np.zeros(SIZE)
-    for name in ("feed_forward", "a_hat", "timing", "arms", "turn", "climb", "descend"):
+    for name in ("feed_forward", "a_hat", "timing", "arms", "turn", "bend", "climb", "descend"):
         shaped[part[name]] = one[part[name]]
     return np.concatenate([base * running + start * lean, slope * running, bend * shaped, start * running])
 
@@ -264,19 +266,26 @@ class RunProblem:
         """The first guess."""
         return self.genes
 
-    def scenarios(self, stage: Stage, generation: int, rng: np.random.Generator) -> list[Scenario]:
-        """Random trials within the stage's options."""
+    def scenarios(self, stage: Stage, generation: int, rng: np.random.Generator) -> list[Any]:
+        """Random trials within the stage's options; kinds with ``length`` are paths to follow."""
         base, kinds = stage.options["trial"], stage.options["kinds"]
-        return [
-            draw_scenario(rng, **{**base, **kinds[i % len(kinds)]}) for i in range(stage.options["trials"])
-        ]
+        drawn: list[Any] = []
+        for i in range(stage.options["trials"]):
+            kind = kinds[i % len(kinds)]
+            drawn.append(
+                draw_path(rng, **kind) if "length" in kind else draw_scenario(rng, **{**base, **kind})
+            )
+        return drawn
 
-    def evaluate(self, stage: Stage, candidate: np.ndarray, scenarios: list[Scenario]) -> tuple[float, float]:
+    def evaluate(self, stage: Stage, candidate: np.ndarray, scenarios: list[Any]) -> tuple[float, float]:
         """Mean cost and mean share of the time survived."""
         skill = skill_of(candidate, self.reference)
         costs, survived = 0.0, 0.0
         for scenario in scenarios:
-            trial = _simulator().run(skill, scenario)
+            if isinstance(scenario, PathScenario):
+                trial = follow_path(skill, scenario)
+            else:
+                trial = _simulator().run(skill, scenario)
             costs += cost(trial, scenario, stage.options["style"])
             survived += trial.figures["time"] / scenario.duration
         return costs / len(scenarios), survived / len(scenarios)

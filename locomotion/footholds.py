@@ -1,0 +1,158 @@
+"""Where a walking person steps: capture-point footholds on the ground's triangles (numba kernels).
+
+The centre of mass is taken for an inverted pendulum of constant height h over the stance foot's centre of
+pressure p. Its divergent part, the capture point ξ = x + ẋ/ω with ω = sqrt(g/h), leaves p as
+ξ(t) = p + (ξ - p) exp(ωt). A walk of speed v, period T and width w repeats itself when at each touchdown the
+capture point is b = v T / (exp(ωT) - 1) ahead of the new foot and w / (1 + exp(ωT)) inside of it; the foothold
+that brings it there is the predicted ξ less b (J. Englsberger et al., "Three-dimensional bipedal walking control
+based on divergent component of motion", 2015; T. Koolen et al., "Capturability-based analysis and control of
+legged locomotion", 2012).
+"""
+
+import math
+
+from numba import njit
+
+from locomotion.walk_layout import (
+    CLOCK,
+    FOOTHOLD,
+    FOOTHOLD_NORMAL,
+    FOOTHOLD_YAW,
+    GAINS,
+    MISSED,
+    SIDEWAYS,
+    SWING_TIME,
+    WALK_HEADING,
+    WALK_SPEED,
+    WALK_STANCE,
+    WALK_TURN_RATE,
+)
+
+__all__ = ["foot_frame", "ground_at", "plan_foothold", "sway"]
+
+_I = {name: i for i, name in enumerate(GAINS)}
+_SWING, _TRANSFER, _WIDTH, _REST = _I["swing_time"], _I["transfer_time"], _I["width"], _I["pressure_rest"]
+_NARROWEST, _LONGEST, _PITCH = _I["narrowest"], _I["longest"], _I["foot_pitch"]
+_ROUGH, _STEEP = _I["roughness"], _I["steepness"]
+_SPOT, _NORMAL = FOOTHOLD.start, FOOTHOLD_NORMAL.start
+_SEARCH = 0.7  # [m] above and below the stance foot in which ground is looked for
+_TOE, _HEEL, _HALF = 0.12, -0.08, 0.035  # [m] corners of the sole around its middle
+_SHORTEST_SWING = 0.24  # [s]
+_STRIDE_BACK, _STRIDE, _STRADDLE = -0.45, 0.8, 0.5  # [m] what the legs reach
+_TILT_DOWN, _TILT_SIDE = 0.8, 0.45  # slopes downhill and sideways to which a foot turns
+
+
+@njit(cache=True)
+def ground_at(ground, px, py, pz):
+    """(z, nx, ny, nz) of the first upward face at or below (px, py, pz); z is NaN if there is none.
+
+    ground: rows, cell_start, cell_triangles, grid, shape of a `Ground`'s arrays, and its origin.
+    """
+    rows, cell_start, cell_triangles, grid, shape, origin = ground
+    x, y, z = px - origin[0], py - origin[1], pz - origin[2]
+    best, at = math.nan, -1
+    fx, fy = (x - grid[0]) * grid[2], (y - grid[1]) * grid[2]
+    if fx >= 0.0 and fy >= 0.0 and fx <= shape[0] and fy <= shape[1]:
+        cell = min(int(fx), shape[0] - 1) * shape[1] + min(int(fy), shape[1] - 1)
+        for i in range(cell_start[cell], cell_start[cell + 1]):
+            t = cell_triangles[i]
+            if rows[t, 2] < 1e-6:
+                continue
+            h = (rows[t, 3] - rows[t, 0] * x - rows[t, 1] * y) / rows[t, 2]
+            if h > z + 1e-9 or h <= best:
+                continue
+            inside = True
+            for k in range(4, 16, 4):
+                if rows[t, k] * x + rows[t, k + 1] * y + rows[t, k + 2] * h - rows[t, k + 3] > 1e-6:
+                    inside = False
+            if inside:
+                best, at = h, t
+    if at < 0:
+        return math.nan, 0.0, 0.0, 1.0
+    return best + origin[2], rows[at, 0], rows[at, 1], rows[at, 2]
+
+
+@njit(cache=True)
+def foot_frame(yaw, normal, out):
+    """Rotation ``out`` (3, 3) of a foot with its sole across ``normal`` (3,) and its toes towards ``yaw``."""
+    cx, cy = math.cos(yaw), math.sin(yaw)
+    d = cx * normal[0] + cy * normal[1]
+    x0, x1, x2 = cx - d * normal[0], cy - d * normal[1], -d * normal[2]
+    n = math.sqrt(x0 * x0 + x1 * x1 + x2 * x2)
+    out[0, 0], out[1, 0], out[2, 0] = x0 / n, x1 / n, x2 / n
+    out[0, 1] = normal[1] * out[2, 0] - normal[2] * out[1, 0]
+    out[1, 1] = normal[2] * out[0, 0] - normal[0] * out[2, 0]
+    out[2, 1] = normal[0] * out[1, 0] - normal[1] * out[0, 0]
+    out[:, 2] = normal
+
+
+@njit(cache=True)
+def sway(gains, omega, speed):
+    """(ahead, inside) [m]: where the capture point is from the new stance foot at touchdown in a steady walk."""
+    growth = math.exp(omega * (gains[_SWING] + gains[_TRANSFER]))
+    return speed * (gains[_SWING] + gains[_TRANSFER]) / (growth - 1.0), gains[_WIDTH] / (1.0 + growth)
+
+
+@njit(cache=True)
+def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole):
+    """Write `FOOTHOLD`, its normal and yaw, and `SWING_TIME` into ``walk``, for the present capture point.
+
+    sole (3,): middle of the stance foot's sole [m]. A step that would be too long is made sooner; one that the
+    legs cannot make is cut. Then the flattest place near it is taken.
+    """
+    g = gains
+    yaw = walk[WALK_HEADING] + 0.5 * walk[WALK_TURN_RATE] * (g[_SWING] + g[_TRANSFER])
+    ch, sh = math.cos(yaw), math.sin(yaw)
+    ahead, inside = sway(g, omega, walk[WALK_SPEED])
+    aside = sway(g, omega, walk[SIDEWAYS])[0]
+    side = -walk[WALK_STANCE]  # of the foot that lands
+    rest_x, rest_y = g[_REST] * ch, g[_REST] * sh
+    to_x, to_y = capture_x - sole[0] - rest_x, capture_y - sole[1] - rest_y
+    left = walk[SWING_TIME] - walk[CLOCK]
+    along = across = 0.0
+    while True:
+        growth = math.exp(omega * (left + 0.5 * g[_TRANSFER]))
+        along = (ch * to_x + sh * to_y) * growth - ahead
+        across = ((-sh * to_x + ch * to_y) * growth - aside) * side + inside
+        too_far = along > g[_LONGEST] or along < -0.3 or across > 0.42
+        if not (too_far and left > 0.04 and walk[CLOCK] + left > _SHORTEST_SWING):
+            break
+        left -= 0.02
+    walk[SWING_TIME] = walk[CLOCK] + left
+    along = min(max(along, _STRIDE_BACK), _STRIDE) - walk[MISSED]
+    across = min(max(across, g[_NARROWEST]), _STRADDLE) * side
+    walk[FOOTHOLD_YAW] = yaw
+    x, y = sole[0] + ch * along - sh * across, sole[1] + sh * along + ch * across
+    _settle(g, ground, walk, x, y, ch, sh, sole[2])
+
+
+@njit(cache=True)
+def _settle(g, ground, walk, x, y, ch, sh, level):
+    """The flattest place within a few centimetres of (x, y), and how the foot stands on it."""
+    walk[_SPOT], walk[_SPOT + 1], walk[_SPOT + 2] = x, y, level
+    least = math.inf
+    for i in range(-1, 2):
+        for k in range(-1, 2):
+            ox, oy = 0.06 * i, 0.05 * k
+            qx, qy = x + ch * ox - sh * oy, y + sh * ox + ch * oy
+            z, n0, n1, n2 = ground_at(ground, qx, qy, level + _SEARCH)
+            if not z > level - _SEARCH:
+                continue
+            rough = 0.0
+            for corner in range(4):
+                u = _TOE if corner < 2 else _HEEL
+                v = _HALF if corner % 2 else -_HALF
+                cx, cy = qx + ch * u - sh * v, qy + sh * u + ch * v
+                height = ground_at(ground, cx, cy, level + _SEARCH)[0]
+                flat = z - (n0 * (cx - qx) + n1 * (cy - qy)) / n2
+                rough = max(rough, abs(height - flat)) if height == height else 1.0
+            cost = g[_ROUGH] * rough + g[_STEEP] * (1.0 - n2) + 6.0 * (abs(ox) + abs(oy)) + abs(z - level)
+            if cost < least:
+                least = cost
+                walk[_SPOT], walk[_SPOT + 1], walk[_SPOT + 2] = qx, qy, z
+                uphill = min(max(-(n0 * ch + n1 * sh) / n2, -_TILT_DOWN), g[_PITCH])
+                leftward = min(max((n0 * sh - n1 * ch) / n2, -_TILT_SIDE), _TILT_SIDE)
+                m0, m1 = -(uphill * ch - leftward * sh), -(uphill * sh + leftward * ch)
+                m = math.sqrt(1.0 + m0 * m0 + m1 * m1)
+                walk[_NORMAL], walk[_NORMAL + 1], walk[_NORMAL + 2] = m0 / m, m1 / m, 1.0 / m
+

@@ -1,0 +1,78 @@
+"""What the walking controller is tuned by and what it remembers: names, first values, places in arrays."""
+
+import numpy as np
+
+__all__ = [
+    "CLOCK", "DOUBLE", "FOOTHOLD", "FOOTHOLD_NORMAL", "FOOTHOLD_YAW", "GAINS", "LIFT", "LIFT_NORMAL", "LIFT_YAW",
+    "MISSED", "PHASE", "SETTING_OFF", "SIDEWAYS", "SINGLE", "STANDING", "SWING_ANGLES", "SWING_TIME",
+    "WALK_HEADING", "WALK_SIZE", "WALK_SPEED", "WALK_STANCE", "WALK_STEPS", "WALK_TICKS", "WALK_TURN_RATE",
+    "first_gains", "gain_limits", "new_walk",
+]  # fmt: skip
+
+GAINS: dict[str, tuple[float, float, float]] = {
+    "swing_time": (0.42, 0.28, 0.6),  # [s] of single support, unless a step has to be made sooner
+    "transfer_time": (0.12, 0.04, 0.25),  # [s] in which the load goes over to the new stance foot
+    "width": (0.17, 0.08, 0.3),  # [m] between the lines of the feet
+    "height": (0.92, 0.82, 0.96),  # [m] of the centre of mass above the soles
+    "pressure_gain": (1.5, 0.0, 4.0),  # shift of the centre of pressure per error of the capture point
+    "pressure_along": (0.05, 0.01, 0.12),  # [m] by which the centre of pressure may move along the foot
+    "pressure_across": (0.02, 0.005, 0.04),  # [m] the same across the foot
+    "height_stiffness": (100.0, 30.0, 300.0),  # [1/s^2] of the vertical force
+    "height_damping": (18.0, 5.0, 50.0),  # [1/s]
+    "tilt_stiffness": (500.0, 100.0, 1500.0),  # [Nm/rad] that keeps the pelvis upright
+    "tilt_damping": (60.0, 10.0, 150.0),  # [Nm s/rad]
+    "tilt_moment": (50.0, 20.0, 150.0),  # [Nm] of both at most
+    "yaw_stiffness": (150.0, 20.0, 500.0),  # [Nm/rad]
+    "yaw_damping": (15.0, 2.0, 40.0),  # [Nm s/rad]
+    "clearance": (0.10, 0.05, 0.2),  # [m] of the swing foot above the straight line to its foothold
+    "lean": (0.05, -0.1, 0.25),  # forward lean of the pelvis
+    "leg_damping": (0.9, 0.3, 1.0),  # share of the servos' damping that is cancelled in a stance leg
+    "arm_swing": (0.4, 0.0, 1.0),  # of a shoulder per flexion of the other leg's hip
+    "pressure_rest": (0.0, -0.04, 0.06),  # [m] ahead of the sole's middle where the pressure rests
+    "reaction": (0.8, 0.0, 1.5),  # share of the swing hip's torques that the stance leg takes up
+    "moment": (90.0, 40.0, 180.0),  # [Nm] of the ground's force about the centre of mass at most
+    "drop": (0.0, -0.1, 0.2),  # [m] above the lower foot that the body's base may be
+    "swing_lead": (0.08, 0.0, 0.12),  # [s] by which the swing leg's targets lead
+    "narrowest": (0.09, -0.15, 0.12),  # [m] between the lines of the feet at least; below 0 they cross
+    "roughness": (30.0, 0.0, 80.0),  # cost of a foothold per [m] of unevenness under the sole
+    "steepness": (2.0, 0.0, 10.0),  # cost of a foothold that is not level
+    "foot_pitch": (0.5, 0.1, 0.8),  # slope [rise over run] up to which a foot turns uphill
+    "lean_slope": (0.3, -0.2, 0.8),  # lean per unit of slope uphill
+    "height_slope": (0.15, -0.1, 0.4),  # [m] that the body is lower per unit of slope
+    "longest": (0.6, 0.35, 0.8),  # [m] above which a step is made sooner instead
+}
+"""Gains by name, in the order of the kernel's array: first guess, least and greatest value."""
+
+
+def first_gains() -> np.ndarray:
+    """First guess, (len(GAINS),) float64."""
+    return np.array([first for first, _, _ in GAINS.values()])
+
+
+def gain_limits() -> tuple[np.ndarray, np.ndarray]:
+    """Least and greatest values, (len(GAINS),) float64 each."""
+    table = np.array(list(GAINS.values()))
+    return table[:, 1].copy(), table[:, 2].copy()
+
+
+# --- what the controller remembers -------------------------------------------------------------------------
+PHASE, CLOCK, WALK_STANCE, WALK_HEADING, WALK_TURN_RATE, WALK_SPEED, SIDEWAYS, SETTING_OFF = range(8)
+"""`STANDING`, `SINGLE` or `DOUBLE` support; time in it [s]; stance side (-1 right, +1 left); reference heading
+[rad], turn rate [rad/s], speed and sideways speed to the left [m/s]; 1 while the weight is shifted for the
+first step."""
+STANDING, SINGLE, DOUBLE = 0.0, 1.0, 2.0
+SWING_TIME, MISSED, WALK_STEPS, WALK_TICKS, FOOTHOLD_YAW, LIFT_YAW = range(8, 14)
+"""Planned time of this step's single support [s]; mean distance [m] by which feet land ahead of their
+footholds; steps and ticks made; yaw [rad] of the swing foot at its foothold and where it left the ground."""
+FOOTHOLD, FOOTHOLD_NORMAL, LIFT, LIFT_NORMAL = slice(14, 17), slice(17, 20), slice(20, 23), slice(23, 26)
+"""Where the swing foot's sole is to land and the foot's normal there; where it left the ground."""
+SWING_ANGLES = slice(26, 32)
+"""Angles [rad] of the swing leg asked for at the last tick."""
+WALK_SIZE = 32
+
+
+def new_walk(heading: float = 0.0) -> np.ndarray:
+    """A person standing on both feet, (WALK_SIZE,) float64; the left leg will be the first stance leg."""
+    walk = np.zeros(WALK_SIZE)
+    walk[WALK_STANCE], walk[WALK_HEADING] = 1.0, heading
+    return walk

@@ -2,11 +2,11 @@
 
     python -m benchmarks.startup [--repeats 5] [--json startup.json]
 
-Each start is a process of its own that runs the courtyard's mission through the command line and leaves after
-the first step. "to the first step" is counted from before Python is started; "whole process" goes on until it
-has ended. Wall time is what a user waits; CPU time says the same on a machine that others use, too. The peers'
-limit is a process that only imports NumPy, Numba and MuJoCo, in turns with the starts. Kernels are compiled
-by a first start that is not counted.
+Each start is a process of its own that runs the courtyard's mission through the command line and leaves
+after the first step. "to the first step" is counted from before Python is started; "whole process" goes on
+until it has ended. Wall time is what a user waits; CPU time says the same on a machine that others use, too.
+The peers' limit is a process that only imports NumPy, Numba and MuJoCo, in turns with the starts. Kernels are
+compiled by a first start that is not counted.
 """
 
 import argparse

@@ -53,7 +53,9 @@ class SmoothPath:
 
 
 def smooth_route(
-    route: Route, curvatures: Sequence[float] = (0.12, 0.18, 0.3, 0.5, 0.8), start_direction: ArrayLike | None = None
+    route: Route,
+    curvatures: Sequence[float] = (0.12, 0.18, 0.3, 0.5, 0.8),
+    start_direction: ArrayLike | None = None,
 ) -> SmoothPath:
     """Smooth a route of status "complete" or "partial".
 

@@ -2,6 +2,7 @@
 
 import gc
 import json
+import os
 import signal
 import sys
 from collections.abc import Callable
@@ -141,8 +142,10 @@ def _commands() -> Any:
     """The module `runtime.commands`, imported when a command needs it.
 
     What is imported stays to the end, and looking through it for garbage, again and again while it grows and
-    once more on leaving, takes as long as the imports themselves: so it is set aside.
+    once more on leaving, takes as long as the imports themselves: so it is set aside. MuJoCo need not look
+    for a display: no command draws with it.
     """
+    os.environ.setdefault("MUJOCO_GL", "disable")
     gc.disable()
     from runtime import commands
 

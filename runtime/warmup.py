@@ -9,8 +9,8 @@ from runtime.progress import Progress
 
 __all__ = ["compile_kernels", "is_compiled"]
 
-KERNEL_MODULES = (("navmesh", "search"), ("pathsmooth", "kernels"), ("locomotion", "controller"))
-"""Package and module of kernels that every run needs; the last ones that a first run compiles among them."""
+KERNEL_MODULES = (("navmesh", "search"), ("pathsmooth", "kernels"), ("locomotion", "jump"))
+"""Package and module of kernels that a first run compiles, the last ones among them."""
 
 
 def is_compiled() -> bool:

@@ -15,13 +15,10 @@ held.
 
 from __future__ import annotations
 
-import hashlib
 import math
 import threading
 import weakref
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Literal
 
 import mujoco
 import numpy as np
@@ -43,6 +40,7 @@ from locomotion.events import (
     TookOff,
 )  # fmt: skip
 from locomotion.ground import Ground
+from locomotion.human_state import HumanState, Status, hash_of, restore_physics, save_physics
 from locomotion.jump_skill import JUMP_SKILL, Jump, load_jump_skill
 from locomotion.path_tracking import PathTable, TrackingLimits, make_path, new_track, track
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK, PersonIndex, build_person
@@ -50,8 +48,6 @@ from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill, load_run_skill, reset_running, reset_standing
 
 __all__ = ["ARRIVAL_DISTANCE", "PERSON_RULES", "Human", "HumanState", "Status"]
-
-Status = Literal["standing", "running", "jumping", "fallen", "arrived", "lost", "stuck"]
 
 PERSON_RULES = {"radius": 0.3, "headroom": 1.9, "max_slope": math.radians(20.0), "max_step": 0.15}
 """Where a person can run: radius [m], headroom [m], steepest slope [rad], highest step under a foot [m]."""
@@ -73,7 +69,6 @@ _SHARE_OF_TURNING = 0.8  # the rest of the skill's sideways acceleration is left
 _GAINS = np.array(
     [0.35, 1.2, 0.15, 0.45, 0.5, 0.05]
 )  # hardly any sideways speed: the run was not learned with it
-_STATE = mujoco.mjtState.mjSTATE_INTEGRATION
 
 _models: weakref.WeakKeyDictionary[Ground, tuple[mujoco.MjModel, PersonIndex]] = weakref.WeakKeyDictionary()
 _plane: list[tuple[mujoco.MjModel, PersonIndex]] = []
@@ -99,23 +94,6 @@ def _model_on(ground: Ground | None) -> tuple[mujoco.MjModel, PersonIndex]:
 def _jump(run: RunSkill) -> tuple[ClearingSkill, ...]:
     """The package's jump on top of a run."""
     return (Jump(load_jump_skill(), run),) if JUMP_SKILL.exists() else ()
-
-
-@dataclass(frozen=True)
-class HumanState:
-    """Everything that a `Human` remembers; restoring it continues the run bit for bit on the same ground."""
-
-    physics: NDArray[np.float64]
-    control: NDArray[np.float64]
-    tracking: NDArray[np.float64]
-    run_up: NDArray[np.float64]
-    clearing: NDArray[np.float64] | None
-    path: PathTable | None
-    obstacles: tuple[ObstacleAhead, ...]
-    status: Status
-    ticks: int
-    fallen_at: int
-    events: tuple[Event, ...]
 
 
 class Human:
@@ -366,16 +344,14 @@ class Human:
     def save_state(self) -> HumanState:
         """Everything needed to continue from here."""
         return HumanState(
-            self._physics(), self._control.copy(), np.concatenate([self._memory, self._command]),
-            self._run_up.copy(), None if self._clearing is None else self._clearing.copy(), self._path,
-            self._obstacles, self.status, self._ticks, self._fallen_at, tuple(self.events),
+            save_physics(self.model, self.data), self._control.copy(),
+            np.concatenate([self._memory, self._command]), self._run_up.copy(),
+            None if self._clearing is None else self._clearing.copy(), self._path, self._obstacles, self.status, self._ticks, self._fallen_at, tuple(self.events),
         )  # fmt: skip
 
     def restore_state(self, state: HumanState) -> None:
         """Continue from a state of a person on the same ground with the same skill."""
-        if len(state.physics) != mujoco.mj_stateSize(self.model, _STATE):
-            raise LocomotionError("the saved state belongs to another model")
-        mujoco.mj_setState(self.model, self.data, state.physics, _STATE)
+        restore_physics(self.model, self.data, state.physics)
         self._control[:] = state.control
         self._memory[:] = state.tracking[: path_tracking.TRACK_SIZE]
         self._command[:] = state.tracking[path_tracking.TRACK_SIZE :]
@@ -387,16 +363,9 @@ class Human:
 
     def state_hash(self) -> str:
         """Hex digest of the physical and mental state; equal for equal runs."""
-        hasher = hashlib.sha256(self.status.encode())
-        parts = [self._physics(), self._control, self._memory, self._command, self._run_up]
-        for part in parts if self._clearing is None else [*parts, self._clearing]:
-            hasher.update(part.tobytes())
-        return hasher.hexdigest()[:16]
-
-    def _physics(self) -> NDArray[np.float64]:
-        state = np.empty(mujoco.mj_stateSize(self.model, _STATE))
-        mujoco.mj_getState(self.model, self.data, state, _STATE)
-        return state
+        physics = save_physics(self.model, self.data)
+        parts = [physics, self._control, self._memory, self._command, self._run_up]
+        return hash_of(self.status, parts if self._clearing is None else [*parts, self._clearing])
 
     def _point(self) -> tuple[float, float, float]:
         x, y, z = self.position

@@ -19,6 +19,7 @@ from locomotion.person import JOINT_NAMES
 
 __all__ = ["Clip", "load_clip"]
 
+_Loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # ten times as fast, where PyYAML was built with it
 _KEYS = {"name", "cyclic", "mirrored", "duration", "speed", "root", "channels"}
 
 
@@ -77,7 +78,7 @@ def load_clip(path: str | os.PathLike[str]) -> Clip:
     right."""
     source = Path(path)
     try:
-        data = yaml.safe_load(source.read_text(encoding="utf-8"))
+        data = yaml.load(source.read_text(encoding="utf-8"), _Loader)
     except OSError as error:
         raise LocomotionError(f"{source}: cannot be read: {error.strerror}") from error
     except (yaml.YAMLError, UnicodeDecodeError) as error:

@@ -15,6 +15,7 @@ trunk pitch bends forward, trunk roll leans to the right, trunk yaw turns to the
 
 import hashlib
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, Protocol
 
 import mujoco
@@ -311,6 +312,7 @@ def build_person(ground: GroundLike | None = None) -> mujoco.MjModel:
     return spec.compile()
 
 
+@lru_cache(maxsize=1)
 def person_digest() -> str:
     """Hex digest of everything in the person that a learned skill depends on."""
     hasher = hashlib.sha256()

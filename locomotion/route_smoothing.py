@@ -20,6 +20,7 @@ __all__ = ["ObstacleAhead", "SmoothPath", "smooth_route"]
 
 _SPACING = 0.25
 _COVER = 1e-5  # [m] by which the discs are let grow, so that rounding leaves no gap between them
+_ITERATIONS = 1000  # per bound on curvature, some milliseconds; to look for every last curve takes seconds
 _ROUNDNESS = 2.0  # smoothness [m^3] of a running body's path: corners are rounded over about 1.3 m
 
 
@@ -52,11 +53,14 @@ class SmoothPath:
 
 
 def smooth_route(
-    route: Route, curvatures: Sequence[float] = (0.12, 0.18, 0.3), start_direction: ArrayLike | None = None
+    route: Route,
+    curvatures: Sequence[float] = (0.12, 0.18, 0.3, 0.5, 0.8),
+    start_direction: ArrayLike | None = None,
 ) -> SmoothPath:
     """Smooth a route of status "complete" or "partial".
 
-    curvatures: [1/m] bounds to try in turn, tightest first; a leg that admits none is smoothed without.
+    curvatures: [1/m] bounds to try in turn, widest first, until one is not reached in a few milliseconds; a
+    leg on which none is reached is smoothed without.
     start_direction: (2,) or (3,) direction in which the body is moving, or None.
     Raises `LocomotionError` for a route without waypoints.
     """
@@ -90,18 +94,18 @@ def _smooth_leg(
     if length < 1e-3:
         return leg.waypoints, True
     for start, end in ((before, after), (None, after), (None, None)):
-        problem = None
-        for bound in (*curvatures, None):
+        best, held = None, False
+        for bound in (None, *sorted(curvatures, reverse=True)):
             problem = pathsmooth.Problem.from_corridor(
                 leg.waypoints, leg.centers, leg.radii + _COVER, spacing=_SPACING, start_tangent=start,
                 end_tangent=end, max_curvature=bound, smoothness=_ROUNDNESS,
             )  # fmt: skip
-            solution = pathsmooth.solve(problem)
-            if solution.status == "complete":
-                return solution.points, bound is not None
-        assert problem is not None
-        if not problem.obstruction:
-            return pathsmooth.solve(problem).points, False
+            solution = pathsmooth.solve(problem, None if bound is None else _ITERATIONS)
+            if solution.status == "infeasible" or (bound is not None and solution.status != "complete"):
+                break
+            best, held = solution, bound is not None
+        if best is not None:
+            return best.points, held
     return leg.waypoints, False
 
 

@@ -152,11 +152,12 @@ def _vertex_edges(
 ) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
     """Unit directions of the edges that leave each vertex: start (v + 1,), directions (e, 3)."""
     tail, head = corners.reshape(-1), np.roll(corners, -1, axis=1).reshape(-1)
-    pairs = np.unique(np.stack([np.append(tail, head), np.append(head, tail)], axis=1), axis=0)
-    along = points[pairs[:, 1]] - points[pairs[:, 0]]
+    count = len(points)
+    leaves, arrives = np.divmod(np.unique(np.append(tail * count + head, head * count + tail)), count)
+    along = points[arrives] - points[leaves]
     along /= np.linalg.norm(along, axis=1)[:, None]
-    start = np.zeros(len(points) + 1, np.int32)
-    np.cumsum(np.bincount(pairs[:, 0], minlength=len(points)), out=start[1:])
+    start = np.zeros(count + 1, np.int32)
+    np.cumsum(np.bincount(leaves, minlength=count), out=start[1:])
     return start, np.ascontiguousarray(along)
 
 
@@ -240,7 +241,8 @@ def _depth_limits(rows, flags, cell_start, cell_triangles, grid, shape):
                     s = cell_triangles[i]
                     if rows[s, 46] > rows[t, 49] or rows[s, 49] < rows[t, 46] - reach:
                         continue
-                    if np.dot(rows[t, 0:3], rows[s, 0:3]) > -0.1 or _share_corner(flags, s, t):
+                    facing = rows[t, 0] * rows[s, 0] + rows[t, 1] * rows[s, 1] + rows[t, 2] * rows[s, 2]
+                    if facing > -0.1 or _share_corner(flags, s, t):
                         continue
                     thickness = min(thickness, _depth_behind(rows[t], rows[s], thickness))
         rows[t, 25] = max(0.5 * thickness, DEPTH_FLOOR)

@@ -30,10 +30,12 @@ __all__ = ["MARK", "occupy", "release"]
 #: user_data[0] of a geom that stands for a ground; [1] is its slot, [2] its digest.
 MARK = 5.0e15 + 2012.0
 SLOTS = 1024
+CAPSULE = int(mujoco.mjtGeom.mjGEOM_CAPSULE)
 SYMBOL = "surefoot_ground_table"
 HEADER = 32
+_CHUNK = 512  # [bytes] of a structure looked at together; many fields follow those that are searched for
 
-# the process-wide table: 0-4 offsets in mjModel and mjData, 6-7 original functions, then digest and
+# the process-wide table: 0-5 offsets in mjModel and mjData, 6-7 original functions, then digest and
 # header address of each slot; compiled code finds it through a linker symbol, which survives caching
 _table = np.zeros(8 + 2 * SLOTS, np.int64)
 _cell = np.array([_table.ctypes.data], np.int64)
@@ -132,16 +134,12 @@ def _collide(table, model, data, contacts, g1, g2, margin, capsule):
 _signature = types.int32(types.int64, types.int64, types.int64, types.int32, types.int32, types.float64)
 
 
+# one function for both kinds: a second one would take as long again to load at every start
 @cfunc(_signature, cache=True)
-def _sphere_ground(model, data, contacts, g1, g2, margin):
+def _round_ground(model, data, contacts, g1, g2, margin):
     table = carray(_as_int64(_table_address()), (8 + 2 * SLOTS,))
-    return _collide(table, model, data, contacts, g1, g2, margin, 0)
-
-
-@cfunc(_signature, cache=True)
-def _capsule_ground(model, data, contacts, g1, g2, margin):
-    table = carray(_as_int64(_table_address()), (8 + 2 * SLOTS,))
-    return _collide(table, model, data, contacts, g1, g2, margin, 1)
+    kind = carray(_as_int32(carray(_as_int64(model + table[5]), (1,))[0] + 4 * g2), (1,))[0]
+    return _collide(table, model, data, contacts, g1, g2, margin, int(kind == CAPSULE))
 
 
 def occupy(arrays: TriangleArrays, origin: np.ndarray, digest: int) -> tuple[int, Any]:
@@ -186,6 +184,7 @@ def _install() -> None:
     _table[2] = _find(model, model.geom_size)
     _table[3] = _find(data, data.geom_xpos)
     _table[4] = _find(data, data.geom_xmat)
+    _table[5] = _find(model, model.geom_type)
     width = ctypes.c_int64.from_address(model._address + int(_table[0])).value
     if width != model.nuser_geom:
         raise LocomotionError(f"MuJoCo {mujoco.__version__} keeps its sizes elsewhere; use version 4.0")
@@ -193,11 +192,9 @@ def _install() -> None:
     kinds = int(mujoco.mjtGeom.mjGEOM_SDF) + 1
     functions = (ctypes.c_void_p * (kinds * kinds)).in_dll(library, "mjCOLLISIONFUNC")
     row = int(mujoco.mjtGeom.mjGEOM_HFIELD) * kinds
-    for i, (kind, ours) in enumerate(
-        ((mujoco.mjtGeom.mjGEOM_SPHERE, _sphere_ground), (mujoco.mjtGeom.mjGEOM_CAPSULE, _capsule_ground))
-    ):
-        _table[6 + i] = functions[row + int(kind)]
-        functions[row + int(kind)] = ours.address
+    for i, kind in enumerate((int(mujoco.mjtGeom.mjGEOM_SPHERE), CAPSULE)):
+        _table[6 + i] = functions[row + kind]
+        functions[row + kind] = _round_ground.address
     _installed.append((library, functions))
 
 
@@ -213,9 +210,11 @@ def _layout_probe() -> tuple[Any, Any]:
 
 def _find(owner: Any, array: np.ndarray) -> int:
     """Offset [bytes] of the pointer to `array` within MuJoCo's structure `owner`."""
-    for offset in range(0, 1 << 20, 8):
-        if ctypes.c_int64.from_address(owner._address + offset).value == array.ctypes.data:
-            return offset
+    for offset in range(0, 1 << 20, _CHUNK):
+        words = (ctypes.c_int64 * (_CHUNK // 8)).from_address(owner._address + offset)
+        found = np.flatnonzero(np.frombuffer(words, np.int64) == array.ctypes.data)
+        if len(found):
+            return offset + 8 * int(found[0])
     raise LocomotionError(f"MuJoCo {mujoco.__version__} keeps its arrays elsewhere; use version 4.0")
 
 

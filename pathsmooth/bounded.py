@@ -48,6 +48,7 @@ class _Trial:
 
     problem: Problem
     displacements: NDArray[np.float64]
+    state: NDArray[np.float64]
     objective: float
     bound: float
     worst: float
@@ -59,13 +60,20 @@ class _Trial:
         return self.worst <= 1.0 + SLACK_OF_BOUND
 
 
-def solve_with_bound(problem: Problem, limit: int | None, tolerance: float, without: Solution) -> Solution:
+def solve_with_bound(
+    problem: Problem,
+    limit: int | None,
+    tolerance: float,
+    without: Solution,
+    state: NDArray[np.float64] | None = None,
+) -> Solution:
     """Smooth a path under problem.max_curvature.
 
     limit: greatest number of iterations over all rounds; None: as many as it takes, and then the search.
     without: the solution of the problem without the bound, returned where there is none with it.
+    state: (4, n, 2) of an earlier solution, to start from.
     """
-    trial = _rounds(problem, limit, tolerance)
+    trial = _rounds(problem, limit, tolerance, state)
     if trial.complete or limit is not None:
         return _solution(trial)
     best = trial
@@ -82,7 +90,7 @@ def solve_with_bound(problem: Problem, limit: int | None, tolerance: float, with
             start = _from_curve(problem, curve, used)
         except PathSmoothError:  # the cells strayed from the corridor by more than their discs overlap
             continue
-        trial = _rounds(start, None, tolerance, free=True)
+        trial = _rounds(start, None, tolerance, None, free=True)
         if trial.complete:
             return _solution(trial)
         if trial.worst < best.worst:
@@ -90,8 +98,16 @@ def solve_with_bound(problem: Problem, limit: int | None, tolerance: float, with
     return _solution(best)
 
 
-def _rounds(problem: Problem, limit: int | None, tolerance: float, free: bool = False) -> _Trial:
+def _rounds(
+    problem: Problem,
+    limit: int | None,
+    tolerance: float,
+    state: NDArray[np.float64] | None,
+    free: bool = False,
+) -> _Trial:
     """Solve, spread the waypoints, tighten where the curvature is above the bound; until it holds.
+
+    Each round starts from the state of the one before it.
 
     free: each round has the last one's curve as its pulled path and stays near it, so that a loop is not
     pulled tight.
@@ -99,13 +115,13 @@ def _rounds(problem: Problem, limit: int | None, tolerance: float, free: bool = 
     bound = float(problem.max_curvature or np.inf)
     margin = np.ones(problem.count)
     left = ROUNDS * _ROUND_LIMIT if limit is None else limit
+    state = np.zeros((4, problem.count, 2)) if state is None else state.copy()
     best = None
     done = 0
     for _ in range(FREE_ROUNDS if free else ROUNDS):
         packed = with_bound(problem.packed, problem.first, problem.last)
         if free:
             keep_near(packed, FREE_REACH / bound)
-        state = np.zeros((4, problem.count, 2))
         displacements = np.zeros((problem.count, 2))
         code, count, value, low = bounded_kernels.solve_bounded(
             packed, bound * margin, problem.first, problem.last, RELAXATION,
@@ -116,7 +132,7 @@ def _rounds(problem: Problem, limit: int | None, tolerance: float, free: bool = 
         left -= count
         points = problem.targets + displacements
         excess = curvature(points) / bound
-        trial = _Trial(problem, displacements, value, low, float(excess.max()), done)
+        trial = _Trial(problem, displacements, state, value, low, float(excess.max()), done)
         if best is None or trial.worst < best.worst:
             best = trial
         if trial.complete or (code == bounded_kernels.IMPOSSIBLE and not free) or left <= 0:
@@ -129,12 +145,30 @@ def _rounds(problem: Problem, limit: int | None, tolerance: float, free: bool = 
         used = np.unique(problem.segment_disc)
         if free:
             problem = _from_curve(problem, np.column_stack([points, problem.heights]), used)
+            state = np.zeros((4, problem.count, 2))
         else:
             problem = problem.along(points, problem.source, used)
+            state = _carried(state, along, points, problem)
         margin = np.interp(problem.arc, along, margin)
     assert best is not None
     best.iterations = done
     return best
+
+
+def _carried(
+    state: NDArray[np.float64], along: NDArray[np.float64], points: NDArray[np.float64], problem: Problem
+) -> NDArray[np.float64]:
+    """The state (4, n, 2) of waypoints at `points` (n, 2), arc lengths `along` (n,), for those of a problem
+    that are spread along the same points."""
+    moved = np.zeros((4, problem.count, 2))
+    free = slice(problem.first, problem.last)
+    for axis in range(2):
+        place = np.interp(problem.arc, along, points[:, axis])
+        moved[0, free, axis] = (place - problem.targets[:, axis])[free]
+        for row in (1, 2):
+            moved[row, free, axis] = np.interp(problem.arc, along, state[row, :, axis])[free]
+        moved[3, 1:-1, axis] = np.interp(problem.arc, along, state[3, :, axis])[1:-1]
+    return moved
 
 
 def _from_curve(problem: Problem, curve: NDArray[np.float64], discs: NDArray[np.integer]) -> Problem:
@@ -149,15 +183,13 @@ def _from_curve(problem: Problem, curve: NDArray[np.float64], discs: NDArray[np.
 def _solution(trial: _Trial) -> Solution:
     problem = trial.problem
     points = np.column_stack([problem.targets + trial.displacements, problem.heights])
-    state = np.zeros((3, problem.count, 2))
-    state[0] = trial.displacements
     return Solution(
         points,
         trial.objective,
         max(trial.objective - trial.bound, 0.0),
         trial.iterations,
         COMPLETE if trial.complete else ITERATION_LIMIT,
-        state,
+        trial.state,
         problem,
     )
 

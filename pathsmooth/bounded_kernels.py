@@ -23,6 +23,7 @@ from pathsmooth.kernels import (
     EX,
     EY,
     GX,
+    GY,
     LEFT,
     NORM_STEP,
     PIVOT,
@@ -60,60 +61,87 @@ def _spread(packed, force, out, first, last):
             out[i, axis] = value
 
 
+@njit(cache=True, inline="always")
+def _curve_dual(packed, kappa, u, r, relaxation, back, here, ahead):
+    """Update u at inner waypoint r; back, here, ahead: 2 d' - d at r - 1, r, r + 1, as (x, y)."""
+    c = packed[CURVE_STEP, r]
+    left = packed[LEFT, r]
+    right = packed[RIGHT, r]
+    z0 = u[r, 0] + c * (packed[EX, r] + left * (back[0] - here[0]) + right * (ahead[0] - here[0]))
+    z1 = u[r, 1] + c * (packed[EY, r] + left * (back[1] - here[1]) + right * (ahead[1] - here[1]))
+    size = np.sqrt(z0 * z0 + z1 * z1)
+    f = 1.0 - c * kappa[r] / size if size > c * kappa[r] else 0.0
+    u[r, 0] += relaxation * (f * z0 - u[r, 0])
+    u[r, 1] += relaxation * (f * z1 - u[r, 1])
+
+
 @njit(cache=True)
-def _primal_step(packed, d, y, v, u, force, pull, new, first, last):
+def iterate(packed, kappa, first, last, relaxation, count, d, y, v, u, new):
+    """Do `count` iterations on d, y, v, u (n, 2) in place; the last primal step's result is left in new."""
     n = packed.shape[1]
-    for i in range(1, n - 1):
-        for axis in range(2):
-            force[i, axis] = packed[CURVE_STEP, i] * _bend(packed, d, i, axis) - u[i, axis]
-    _spread(packed, force, pull, first, last)
-    for axis in range(2):
-        for i in range(first, last):
+    for _ in range(count):
+        # primal step, forwards: its right-hand side with D^T (c D d - u), f at i - 1, i, i + 1
+        f0 = f1 = g0 = g1 = h0 = h1 = 0.0
+        a0 = a1 = b0 = b1 = 0.0
+        for i in range(max(first - 2, 0), last):
+            f0, f1, g0, g1 = g0, g1, h0, h1
+            h0 = h1 = 0.0
+            r = i + 1
+            if r < n - 1:
+                h0 = packed[CURVE_STEP, r] * _bend(packed, d, r, 0) - u[r, 0]
+                h1 = packed[CURVE_STEP, r] * _bend(packed, d, r, 1) - u[r, 1]
+            if i < first:
+                continue
             t = packed[NORM_STEP, i] + packed[DISC_STEP, i]
-            c = t * d[i, axis] - y[i, axis] - v[i, axis] - packed[GX + axis, i] + pull[i, axis]
-            if i - 1 >= first:
-                c -= packed[SUB1, i] * new[i - 1, axis]
-            if i - 2 >= first:
-                c -= packed[SUB2, i] * new[i - 2, axis]
-            new[i, axis] = c
+            middle = packed[LEFT, i] + packed[RIGHT, i]
+            c0 = t * d[i, 0] - y[i, 0] - v[i, 0] - packed[GX, i]
+            c1 = t * d[i, 1] - y[i, 1] - v[i, 1] - packed[GY, i]
+            c0 += packed[RIGHT, i - 1] * f0 - middle * g0 + packed[LEFT, i + 1] * h0
+            c1 += packed[RIGHT, i - 1] * f1 - middle * g1 + packed[LEFT, i + 1] * h1
+            c0 -= packed[SUB1, i] * b0 + packed[SUB2, i] * a0
+            c1 -= packed[SUB1, i] * b1 + packed[SUB2, i] * a1
+            new[i, 0] = c0
+            new[i, 1] = c1
+            a0, a1, b0, b1 = b0, b1, c0, c1
+        # backwards, with the dual steps; e: 2 d' - d at i, i + 1, i + 2
+        a0 = a1 = b0 = b1 = 0.0
+        l1 = l2 = m2 = 0.0  # SUB1[i + 1], SUB2[i + 2], SUB2[i + 1]
+        here = (0.0, 0.0)
+        ahead = (0.0, 0.0)
         for i in range(last - 1, first - 1, -1):
-            c = new[i, axis] * packed[PIVOT, i]
-            if i + 1 < last:
-                c -= packed[SUB1, i + 1] * new[i + 1, axis]
-            if i + 2 < last:
-                c -= packed[SUB2, i + 2] * new[i + 2, axis]
-            new[i, axis] = c
-
-
-@njit(cache=True)
-def _dual_step(packed, kappa, d, y, v, u, new, relaxation, first, last):
-    n = packed.shape[1]
-    for i in range(1, n - 1):
-        c = packed[CURVE_STEP, i]
-        z0 = u[i, 0] + c * (packed[EX, i] + 2.0 * _bend(packed, new, i, 0) - _bend(packed, d, i, 0))
-        z1 = u[i, 1] + c * (packed[EY, i] + 2.0 * _bend(packed, new, i, 1) - _bend(packed, d, i, 1))
-        size = np.sqrt(z0 * z0 + z1 * z1)
-        f = max(0.0, 1.0 - c * kappa[i] / size) if size > 0.0 else 0.0
-        u[i, 0] += relaxation * (f * z0 - u[i, 0])
-        u[i, 1] += relaxation * (f * z1 - u[i, 1])
-    for i in range(first, last):
-        s = packed[NORM_STEP, i]
-        r = packed[DISC_STEP, i]
-        e0 = 2.0 * new[i, 0] - d[i, 0]
-        e1 = 2.0 * new[i, 1] - d[i, 1]
-        y0 = y[i, 0] + s * e0
-        y1 = y[i, 1] + s * e1
-        f = packed[WEIGHT, i] / max(np.sqrt(y0 * y0 + y1 * y1), packed[WEIGHT, i])
-        z0 = v[i, 0] + r * e0
-        z1 = v[i, 1] + r * e1
-        x0, x1 = project(packed, i, z0 / r, z1 / r)
-        y[i, 0] += relaxation * (f * y0 - y[i, 0])
-        y[i, 1] += relaxation * (f * y1 - y[i, 1])
-        v[i, 0] += relaxation * (z0 - r * x0 - v[i, 0])
-        v[i, 1] += relaxation * (z1 - r * x1 - v[i, 1])
-    for i in range(first, last):
-        for axis in range(2):
-            d[i, axis] += relaxation * (new[i, axis] - d[i, axis])
+            c0 = new[i, 0] * packed[PIVOT, i] - l1 * b0 - l2 * a0
+            c1 = new[i, 1] * packed[PIVOT, i] - l1 * b1 - l2 * a1
+            new[i, 0] = c0
+            new[i, 1] = c1
+            a0, a1, b0, b1 = b0, b1, c0, c1
+            l1, l2, m2 = packed[SUB1, i], m2, packed[SUB2, i]
+            e0 = 2.0 * c0 - d[i, 0]
+            e1 = 2.0 * c1 - d[i, 1]
+            d[i, 0] += relaxation * (c0 - d[i, 0])
+            d[i, 1] += relaxation * (c1 - d[i, 1])
+            s = packed[NORM_STEP, i]
+            w = packed[WEIGHT, i]
+            y0 = y[i, 0] + s * e0
+            y1 = y[i, 1] + s * e1
+            size2 = y0 * y0 + y1 * y1
+            if size2 > w * w:
+                f = w / np.sqrt(size2)
+                y0 *= f
+                y1 *= f
+            s = packed[DISC_STEP, i]
+            z0 = v[i, 0] + s * e0
+            z1 = v[i, 1] + s * e1
+            x0, x1 = project(packed, i, z0 / s, z1 / s)
+            y[i, 0] += relaxation * (y0 - y[i, 0])
+            y[i, 1] += relaxation * (y1 - y[i, 1])
+            v[i, 0] += relaxation * (z0 - s * x0 - v[i, 0])
+            v[i, 1] += relaxation * (z1 - s * x1 - v[i, 1])
+            if i + 1 < n - 1:
+                _curve_dual(packed, kappa, u, i + 1, relaxation, (e0, e1), here, ahead)
+            here, ahead = (e0, e1), here
+        for r in range(first, 0, -1):
+            _curve_dual(packed, kappa, u, r, relaxation, (0.0, 0.0), here, ahead)
+            here, ahead = (0.0, 0.0), here
 
 
 @njit(cache=True)
@@ -167,9 +195,7 @@ def solve_bounded(packed, kappa, first, last, relaxation, limit, tolerance, slac
     bound = 0.0
     value = 0.0
     while done < limit:
-        for _ in range(check_every):
-            _primal_step(packed, d, y, v, u, force, pull, new, first, last)
-            _dual_step(packed, kappa, d, y, v, u, new, relaxation, first, last)
+        iterate(packed, kappa, first, last, relaxation, check_every, d, y, v, u, new)
         done += check_every
         for i in range(first, last):
             best[i, 0], best[i, 1] = project(packed, i, new[i, 0], new[i, 1])

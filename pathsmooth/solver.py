@@ -40,7 +40,8 @@ def solve(
     if not tolerance >= 0.0:
         raise PathSmoothError(f"tolerance must be 0 or more, not {tolerance}")
     n = len(problem.arc)
-    state = np.zeros((3, n, 2)) if warm is None else warm_state(problem, warm)
+    state = np.zeros((4, n, 2)) if warm is None else warm_state(problem, warm)
+    bounded_state = None if warm is None else state.copy()
     first_check, check_every = CHECKS if warm is None else WARM_CHECKS
     points = np.empty((n, 3))
     done, value, bound = kernels.solve(
@@ -57,7 +58,7 @@ def solve(
         or curvature(points).max() <= problem.max_curvature
     ):
         return solution
-    return solve_with_bound(problem, iterations, tolerance, solution)
+    return solve_with_bound(problem, iterations, tolerance, solution, bounded_state)
 
 
 def _status(value: float, bound: float, tolerance: float) -> str:
@@ -66,11 +67,11 @@ def _status(value: float, bound: float, tolerance: float) -> str:
 
 
 def warm_state(problem: Problem, warm: Solution) -> NDArray[np.float64]:
-    """(3, n, 2) the state of an earlier solution, carried over to the waypoints of this problem."""
+    """(4, n, 2) the state of an earlier solution, carried over to the waypoints of this problem."""
     old = warm.problem
     if old is problem:
         return warm.state.copy()
-    state = np.zeros((3, len(problem.arc), 2))
+    state = np.zeros((4, len(problem.arc), 2))
     _carry_over(
         old.targets, old.packed[kernels.WEIGHT], warm.state,
         problem.targets, problem.packed[kernels.WEIGHT], state, problem.first, problem.last,
@@ -98,7 +99,8 @@ def _carry_over(old_targets, old_weight, old_state, targets, weight, state, firs
         j = best
         state[0, i] = old_state[0, j]
         if old_weight[j] > 0.0:
-            state[1, i] = old_state[1, j] * (weight[i] / old_weight[j])
+            for row in (1, 3):
+                state[row, i] = old_state[row, j] * (weight[i] / old_weight[j])
         if j != taken:
             state[2, i] = old_state[2, j]
             taken = j

@@ -1,9 +1,23 @@
 """Worlds with agents, missions, and what a user sees of them."""
 
-from runtime.agent import Agent, Pose
-from runtime.errors import RuntimeInputError
-from runtime.events import Arrived, Blocked, Departed, Event, Fell, Lost, SkillFinished, SkillStarted, Stuck
-from runtime.world import World, WorldState
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from runtime.agent import Agent, Pose
+    from runtime.errors import RuntimeInputError
+    from runtime.events import (
+        Arrived,
+        Blocked,
+        Departed,
+        Event,
+        Fell,
+        Lost,
+        SkillFinished,
+        SkillStarted,
+        Stuck,
+    )
+    from runtime.world import World, WorldState
 
 __all__ = [
     "Agent",
@@ -21,3 +35,13 @@ __all__ = [
     "World",
     "WorldState",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    # imported when first asked for: `surefoot --help` needs neither physics nor kernels
+    if name in __all__:
+        for module in ("errors", "events", "agent", "world"):
+            found = getattr(import_module(f"runtime.{module}"), name, None)
+            if found is not None:
+                return found
+    raise AttributeError(f"module 'runtime' has no attribute {name!r}")

@@ -1,6 +1,8 @@
 """The ``surefoot`` command."""
 
+import gc
 import json
+import os
 import signal
 import sys
 from collections.abc import Callable
@@ -58,15 +60,13 @@ def bake(
     as_json: JsonOption = False,
 ) -> None:
     """Build a level's navigation graph, by default for a person, and write it to a file."""
-    from runtime.commands import bake_level
-
     rules = {
         "max_slope_deg": max_slope_deg,
         "max_step": max_step,
         "headroom": headroom,
         "resolution": resolution,
     }
-    _finish(bake_level(level, output, up.value, scale, tags, rules), as_json)
+    _finish(_commands().bake_level(level, output, up.value, scale, tags, rules), as_json)
 
 
 @app.command()
@@ -82,9 +82,7 @@ def path(
     as_json: JsonOption = False,
 ) -> None:
     """Find a path on a baked graph."""
-    from runtime.commands import find_path
-
-    _finish(find_path(graph, start, goal, radius, jump, smooth), as_json)
+    _finish(_commands().find_path(graph, start, goal, radius, jump, smooth), as_json)
 
 
 @app.command()
@@ -94,9 +92,7 @@ def run(
     as_json: JsonOption = False,
 ) -> None:
     """Run a mission as fast as possible and say what happened."""
-    from runtime.commands import run_mission_file
-
-    _finish(run_mission_file(mission, out), as_json)
+    _finish(_commands().run_mission_file(mission, out), as_json)
 
 
 @app.command()
@@ -108,9 +104,7 @@ def view(
     as_json: JsonOption = False,
 ) -> None:
     """Write a page that plays a run in a browser, without a server and without a network."""
-    from runtime.commands import write_view
-
-    _finish(write_view(source, output), as_json)
+    _finish(_commands().write_view(source, output), as_json)
 
 
 @app.command()
@@ -130,9 +124,7 @@ def train(
     ] = 1.0,
 ) -> None:
     """Learn a skill, with progress. Interrupted, it goes on from its checkpoint when started again."""
-    from runtime.commands import train_skill
-
-    train_skill(skill.value, output, seed, workers, checkpoint, effort)
+    _commands().train_skill(skill.value, output, seed, workers, checkpoint, effort)
 
 
 @app.command()
@@ -143,9 +135,23 @@ def evaluate(
     as_json: JsonOption = False,
 ) -> None:
     """Try a learned skill from many starts and say how often it holds."""
-    from runtime.commands import evaluate_skill
+    _finish(_commands().evaluate_skill(skill.value, trials, seed), as_json)
 
-    _finish(evaluate_skill(skill.value, trials, seed), as_json)
+
+def _commands() -> Any:
+    """The module `runtime.commands`, imported when a command needs it.
+
+    What is imported stays to the end, and looking through it for garbage, again and again while it grows and
+    once more on leaving, takes as long as the imports themselves: so it is set aside. MuJoCo need not look
+    for a display: no command draws with it.
+    """
+    os.environ.setdefault("MUJOCO_GL", "disable")
+    gc.disable()
+    from runtime import commands
+
+    gc.freeze()
+    gc.enable()
+    return commands
 
 
 def _finish(result: Any, as_json: bool) -> None:
@@ -177,9 +183,7 @@ def main(arguments: list[str] | None = None) -> None:
     except typer_exceptions.TyperException as error:
         code = _refuse(f"{error.format_message()} (see surefoot --help)")
     except ValueError as error:
-        from runtime.commands import INPUT_ERRORS
-
-        if not isinstance(error, INPUT_ERRORS):
+        if not isinstance(error, _commands().INPUT_ERRORS):
             raise
         code = _refuse(str(error))
     except OSError as error:

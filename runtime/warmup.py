@@ -9,19 +9,22 @@ from runtime.progress import Progress
 
 __all__ = ["compile_kernels", "is_compiled"]
 
-_KERNEL_MODULES = (("navmesh", "pathfinding"), ("pathsmooth", "kernels"), ("locomotion", "controller"))
+KERNEL_MODULES = (("navmesh", "search"), ("pathsmooth", "kernels"), ("locomotion", "jump"))
+"""Package and module of kernels that a first run compiles, the last ones among them."""
 
 
 def is_compiled() -> bool:
-    """Whether compiled kernels of the main packages lie in Numba's cache."""
+    """Whether compiled kernels of the main packages, as they are now, lie in Numba's cache."""
     import numba
 
     root = Path(navmesh.__file__).parent.parent
-    for package, module in _KERNEL_MODULES:
-        own = root / package / "__pycache__"
-        chosen = numba.config.CACHE_DIR  # type: ignore[attr-defined]
-        elsewhere = Path(chosen) if chosen else Path.home() / ".cache" / "numba"
-        if not any(own.glob(f"{module}.*.nbi")) and not any(elsewhere.rglob(f"{module}.*.nbi")):
+    chosen = numba.config.CACHE_DIR  # type: ignore[attr-defined]
+    elsewhere = Path(chosen) if chosen else Path.home() / ".cache" / "numba"
+    for package, module in KERNEL_MODULES:
+        made = (root / package / f"{module}.py").stat().st_mtime
+        kept = [*(root / package / "__pycache__").glob(f"{module}.*.nbi")]
+        kept = kept or [*elsewhere.rglob(f"{module}.*.nbi")]
+        if not any(index.stat().st_mtime >= made for index in kept):
             return False
     return True
 

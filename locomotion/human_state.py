@@ -1,0 +1,62 @@
+"""What a simulated person is made of at one moment, to be kept, restored and compared."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion.errors import LocomotionError
+from locomotion.events import Event
+from locomotion.path_tracking import PathTable
+from locomotion.route_smoothing import ObstacleAhead
+
+__all__ = ["HumanState", "Status", "hash_of", "restore_physics", "save_physics"]
+
+Status = Literal["standing", "running", "jumping", "fallen", "arrived", "lost", "stuck"]
+
+_STATE = mujoco.mjtState.mjSTATE_INTEGRATION
+
+
+@dataclass(frozen=True)
+class HumanState:
+    """Everything that a `Human` remembers; restoring it continues the run bit for bit on the same ground."""
+
+    physics: NDArray[np.float64]
+    control: NDArray[np.float64]
+    tracking: NDArray[np.float64]
+    run_up: NDArray[np.float64]
+    clearing: NDArray[np.float64] | None
+    path: PathTable | None
+    obstacles: tuple[ObstacleAhead, ...]
+    status: Status
+    ticks: int
+    fallen_at: int
+    events: tuple[Event, ...]
+
+
+def save_physics(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float64]:
+    """All that the next physics step depends on, (k,) float64."""
+    state = np.empty(mujoco.mj_stateSize(model, _STATE))
+    mujoco.mj_getState(model, data, state, _STATE)
+    return state
+
+
+def restore_physics(model: mujoco.MjModel, data: mujoco.MjData, physics: NDArray[np.float64]) -> None:
+    """Go back to what `save_physics` gave; raises `LocomotionError` when it was of another model."""
+    if len(physics) != mujoco.mj_stateSize(model, _STATE):
+        raise LocomotionError("the saved state belongs to another model")
+    mujoco.mj_setState(model, data, physics, _STATE)
+
+
+def hash_of(status: Status, parts: Iterable[NDArray[np.float64]]) -> str:
+    """Hex digest of a status and arrays; equal for equal ones."""
+    hasher = hashlib.sha256(status.encode())
+    for part in parts:
+        hasher.update(part.tobytes())
+    return hasher.hexdigest()[:16]

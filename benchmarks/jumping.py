@@ -18,7 +18,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from locomotion import Ground, Human, ObstacleAhead
+from locomotion import MOVING, Ground, Human, ObstacleAhead
 from locomotion import controller as c
 from locomotion.events import TookOff
 
@@ -83,7 +83,7 @@ def attempt(
     human.follow(path, 3.5, [ahead])
     jumped, landed, clean = False, [False, False], True
     done_at = np.inf
-    while human.status in ("running", "jumping") and human.time < min(done_at + AFTER, 40.0):
+    while human.status in MOVING and human.time < min(done_at + AFTER, 40.0):
         human.tick()
         jumped = jumped or human.status == "jumping"
         state = human._control

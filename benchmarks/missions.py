@@ -24,7 +24,7 @@ import numpy as np
 
 import navmesh
 from benchmarks.shared_data import LEVELS, level_path, shared_folder, why_absent
-from locomotion import PERSON_RULES, Ground, Human, smooth_route
+from locomotion import MOVING, PERSON_RULES, Ground, Human, smooth_route
 from locomotion.path_tracking import make_path
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK
 
@@ -71,7 +71,7 @@ def run_mission(human: Human, route: Any, speed: float) -> dict[str, Any]:
     human.reset(path.points[0], yaw)
     human.follow(path.points, speed)
     begun, lateral, steepest = human.time, [], 0.0
-    while human.status in ("running", "jumping") and human.time - begun < TIME_LIMIT:
+    while human.status in MOVING and human.time - begun < TIME_LIMIT:
         human.tick()
         lateral.append(abs(human.lateral_error))
     last = human.events[-1]

@@ -4,11 +4,13 @@ from locomotion.approach import ApproachPlan, plan_approach, plan_approach_exact
 from locomotion.body import ARRIVAL_DISTANCE, PERSON_RULES, Human, HumanState
 from locomotion.errors import LocomotionError
 from locomotion.ground import Ground
+from locomotion.human_state import MOVING
 from locomotion.route_smoothing import ObstacleAhead, SmoothPath, smooth_route
 from locomotion.skill import RunSkill, load_run_skill
 
 __all__ = [
     "ARRIVAL_DISTANCE",
+    "MOVING",
     "PERSON_RULES",
     "ApproachPlan",
     "Ground",

@@ -6,11 +6,10 @@
     while human.status == "running":
         human.tick()                                    # 10 ms
 
-What holds until there are skills for it: a person that stands (after `reset` with speed 0, or after it has
-arrived) is held still rather than balanced. When it is told to go it faces along its path and leans until it
-topples into its first step; on ground that is not level under its feet it is put into the running motion at
-`SET_OFF_SPEED` instead. On the last metres it slows down to its lowest speed; arrived, it is
-held.
+A person stands and walks by `locomotion.walking`, and runs by `locomotion.controller`: it walks from a stand until
+the rest of its path can be run and is long enough, then runs to the end (`PathTable.run_from`). Walking, it comes
+to a stand at its goal. What holds until there is a skill for it: a person that arrives running slows down to its
+lowest speed and is then held as it is; told to go on from there it is put on both feet first.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from locomotion import controller, path_tracking
-from locomotion.clearing import RUN_UP, ClearingSkill, foot_distance, plan_run_up, skill_for
+from locomotion.clearing import ClearingSkill, foot_distance, plan_run_up, skill_for
 from locomotion.controller import observe, run_tick
 from locomotion.errors import LocomotionError
 from locomotion.events import (
@@ -39,13 +38,26 @@ from locomotion.events import (
     StrayedFromPath,
     TookOff,
 )  # fmt: skip
-from locomotion.ground import Ground
-from locomotion.human_state import HumanState, Status, hash_of, restore_physics, save_physics
+from locomotion.ground import Ground, plane_lookup
+from locomotion.human_state import MOVING, HumanState, Status, hash_of, restore_physics, save_physics
 from locomotion.jump_skill import JUMP_SKILL, Jump, load_jump_skill
-from locomotion.path_tracking import PathTable, TrackingLimits, make_path, new_track, track
+from locomotion.path_tracking import RUN_UP, PathTable, TrackingLimits, make_path, new_track, track
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK, PersonIndex, build_person
 from locomotion.route_smoothing import ObstacleAhead
-from locomotion.skill import RunSkill, load_run_skill, reset_running, reset_standing
+from locomotion.skill import RunSkill, load_run_skill, reset_running, run_on
+from locomotion.walk_layout import (
+    CLOCK,
+    DOUBLE,
+    PHASE,
+    STANDING,
+    WALK_HEADING,
+    WALK_STANCE,
+    WALK_STEPS,
+    WALKS,
+    new_walk,
+)
+from locomotion.walk_skill import WalkSkill, load_walk_skill, plant
+from locomotion.walking import observe_walk, walk_tick
 
 __all__ = ["ARRIVAL_DISTANCE", "PERSON_RULES", "Human", "HumanState", "Status"]
 
@@ -53,8 +65,6 @@ PERSON_RULES = {"radius": 0.3, "headroom": 1.9, "max_slope": math.radians(20.0),
 """Where a person can run: radius [m], headroom [m], steepest slope [rad], highest step under a foot [m]."""
 ARRIVAL_DISTANCE = 0.5
 """A person has arrived when its centre of mass is within this horizontal distance of the goal [m]."""
-SET_OFF_SPEED = 3.0
-"""[m/s] at which a held person begins to run, within the range of its skill."""
 STRAYED = 2.0
 """[m] beside the path at which a person gives up following it."""
 STUCK_TIME = 4.0
@@ -62,13 +72,23 @@ STUCK_TIME = 4.0
 _NEXT, _STEPS_SEEN, _PLANNED = range(3)
 _RUN_UP_SIZE = 3
 # number of the next obstacle, steps made when the run-up was last planned, speed planned for this step or 0
+_WALK_ARRIVAL = 0.15  # [m] before the end of its path at which a walking person stops
+_WALK_SLOWEST, _WALK_SIDEWAYS = 0.25, 0.5  # [m/s], [m/s^2]
+_WALK_FASTER, _WALK_SLOWER = 0.7, 0.5  # [m/s^2]
+_WALK_UPHILL, _WALK_DOWNHILL = 0.8, 1.6  # [m/s per unit of slope]
+_RUN_SHARPEST, _RUN_STEEPEST = 0.3, 0.12  # [1/m], slope: where it would rather walk
+_RUN_ENTRY = 1.15  # [m/s] of walking from which it can begin to run
+_FIRST_STEPS = 3  # made walking before it runs
+_TURN_FIRST = 0.7  # [rad] off its way at which a walking person turns on the spot
+_SETTLING = 300  # ticks in which a person that has stopped walking comes to rest
+_STILL = 0.03  # [m/s] of the centre of mass at rest
 _HASTE = 1.3  # [m/s] that the speed asked for may exceed the last step's: more trips it in setting off
-_LEVEL = 0.01  # [m] by which the ground may differ under the feet of a person that sets off
 _FALL_TICKS = 100  # a fallen body is simulated for this long, then held
 _SHARE_OF_TURNING = 0.8  # the rest of the skill's sideways acceleration is left for corrections
 _GAINS = np.array(
     [0.35, 1.2, 0.15, 0.45, 0.5, 0.05]
 )  # hardly any sideways speed: the run was not learned with it
+_WALK_GAINS = np.array([0.5, 0.6, 0.05, 0.3, 0.8, 0.25])
 
 _models: weakref.WeakKeyDictionary[Ground, tuple[mujoco.MjModel, PersonIndex]] = weakref.WeakKeyDictionary()
 _plane: list[tuple[mujoco.MjModel, PersonIndex]] = []
@@ -100,8 +120,8 @@ class Human:
     """A person under physics. `tick` advances it by 10 ms.
 
     Attributes:
-        status: "standing" (held), "running", "jumping", "fallen", "arrived" (held), "lost" (strayed from
-            its path or missed its goal; held) or "stuck" (held).
+        status: "standing", "walking", "running", "jumping", "fallen", "arrived", "lost" (strayed from its path
+            or missed its goal) or "stuck". `held` tells whether it is simulated.
         events: list of `locomotion.events.Event` in order of time.
         model, data: the MuJoCo model (shared by all persons on the same ground) and this person's own data.
     """
@@ -111,17 +131,31 @@ class Human:
         ground: Ground | None = None,
         skill: RunSkill | None = None,
         clearing: Sequence[ClearingSkill] | None = None,
+        walk: WalkSkill | None = None,
     ) -> None:
         """``ground``: None is the endless plane z = 0. ``skill``: how it runs; None loads the package's.
-        ``clearing``: how it clears obstacles; None: as the package's jump does."""
+        ``clearing``: how it clears obstacles; None: as the package's jump does. ``walk``: how it walks; None
+        loads the package's."""
         self.ground = ground
         self.skill = load_run_skill() if skill is None else skill
         self.clearing = _jump(self.skill) if clearing is None else tuple(clearing)
         self.model, self.index = _model_on(ground)
         self.data = mujoco.MjData(self.model)
-        self.limits = TrackingLimits(self.skill.speeds, sideways=_SHARE_OF_TURNING * self.skill.max_lateral)
+        self.gait = load_walk_skill() if walk is None else walk
+        self.limits = TrackingLimits(
+            self.skill.speeds,
+            sideways=_SHARE_OF_TURNING * self.skill.max_lateral,
+            sharpest=_RUN_SHARPEST,
+            steepest=_RUN_STEEPEST,
+        )
+        self._walk_limits = TrackingLimits(
+            (_WALK_SLOWEST, self.gait.speed), _WALK_SIDEWAYS, _WALK_FASTER, _WALK_SLOWER, _WALK_UPHILL,
+            _WALK_DOWNHILL,
+        )  # fmt: skip
+        self._lookup = plane_lookup() if ground is None else ground.lookup
         self.events: list[Event] = []
         self._control = controller.new_state()
+        self._walk = new_walk()
         self._memory = new_track()
         self._command = np.zeros(4)
         self._path: PathTable | None = None
@@ -129,7 +163,7 @@ class Human:
         self._run_up = np.zeros(_RUN_UP_SIZE)
         self._clearing: NDArray[np.float64] | None = None
         self._ticks = 0
-        self._fallen_at = 0
+        self._ended_at = 0  # tick at which it fell or stopped
         self.status: Status = "standing"
         middle = np.zeros(3) if ground is None else 0.5 * (ground.low + ground.high)
         self._place(middle, 0.0, 0.0)
@@ -178,10 +212,15 @@ class Human:
 
     @property
     def held(self) -> bool:
-        """Whether the person is kept still: it stands, has arrived, is lost or stuck, or lay for a second."""
+        """Whether the person is kept still: it stands at rest, was stopped running, or lay for a second."""
+        if self.status in MOVING:
+            return False
+        stopped = self._ticks - self._ended_at
         if self.status == "fallen":
-            return self._ticks - self._fallen_at > _FALL_TICKS
-        return self.status not in ("running", "jumping")
+            return stopped > _FALL_TICKS
+        at_rest = self._walk[PHASE] == STANDING and self._walk[CLOCK] == 0.0
+        at_rest = at_rest and float(np.abs(self._control[controller.COM_VELOCITY]).max()) < _STILL
+        return self._walk[WALKS] == 0.0 or at_rest or stopped > _SETTLING
 
     @property
     def arc_length(self) -> float:
@@ -216,10 +255,10 @@ class Human:
         self.status = "standing" if speed == 0.0 else "running"
 
     def follow(self, path: ArrayLike, speed: float, obstacles: Sequence[ObstacleAhead] = ()) -> None:
-        """Run along ``path`` (n, 3) [m, on the ground] at up to ``speed`` [m/s]; slower in bends, on slopes
+        """Go along ``path`` (n, 3) [m, on the ground] at up to ``speed`` [m/s]; slower in bends, on slopes
         and before the end. ``obstacles``: what the path crosses, in order.
 
-        A held person sets off as the module's text says; a running one goes on as it is. Raises
+        It walks and runs as the module's text says; a running person runs all the way. Raises
         `LocomotionError` for a bad path or speed, a path that begins more than 2 m from the person, an
         obstacle that none of its skills clears, or a person that has fallen.
         """
@@ -231,22 +270,22 @@ class Human:
                 offered = [f"{s.affordance} {s.heights[0]:g} to {s.heights[1]:g} m" for s in self.clearing]
                 raise LocomotionError(f"no skill clears {wanted}; there are {offered or 'none'}")
         edges = [obstacle.arc_length for obstacle in obstacles]
-        table = make_path(path, speed, self.limits, float(np.linalg.norm(self.velocity[:2])), edges)
+        walk = None if self.status in ("running", "jumping") else self._walk_limits
+        table = make_path(path, speed, self.limits, float(np.linalg.norm(self.velocity[:2])), edges, walk)
         start, here = table.table[0, :3], self.position
         gap = float(np.linalg.norm(start[:2] - here[:2]))
         if gap > STRAYED or abs(start[2] - here[2]) > STRAYED:
             raise LocomotionError(f"the path begins at {start.round(2)}, the person is at {here.round(2)}")
-        if self.held:
-            low, high = self.skill.speeds
-            yaw = float(table.table[0, path_tracking.HEADING])
-            self._place(here, yaw, 0.0 if self._level(here, yaw) else min(max(SET_OFF_SPEED, low), high))
+        if walk is not None and self._walk[WALKS] == 0.0:
+            self._place(here, self.yaw, 0.0)
         self._path, self._obstacles = table, tuple(obstacles)
         self._run_up[:] = 0.0
         self._clearing = None
         self._memory[:] = new_track()
         self._memory[path_tracking.HEADWAY_TICK] = self._ticks
         self._memory[path_tracking.REMAINING] = table.length
-        self.status = "running"
+        if walk is not None:
+            self.status = "walking"
         goal = (float(table.goal[0]), float(table.goal[1]), float(table.goal[2]))
         self.events.append(SetOff(self.time, self._point(), goal, table.length))
 
@@ -257,29 +296,62 @@ class Human:
         if self.held:
             return
         state, data = self._control, self.data
+        walks = self._walk[WALKS] > 0.0
         if self._path is not None and self.status != "fallen":
-            com = controller.COM.start
-            track(
-                self._path.table, self._path.length, _GAINS, self._memory, state[com], state[com + 1],
-                state[controller.SPEED], self._ticks, self._command,
-            )  # fmt: skip
-            if state[controller.STEPS] >= 2.0:
-                self._command[1] = min(self._command[1], state[controller.STEP_SPEED] + _HASTE)
-            if self._run_up[_PLANNED] > 0.0:
-                self._command[1] = self._run_up[_PLANNED]
-        run_tick(*self.skill.tables, state, self._command, data.qpos, data.qvel, data.ctrl)
-        if self._obstacles and self.status != "fallen":
-            self._clear()
+            self._steer(self._path, walks)
+        if walks:
+            walk_tick(
+                self.gait.gains, self._lookup, self._walk, state, self._command, data.qpos, data.qvel, data.ctrl
+            )
+        else:
+            run_tick(*self.skill.tables, state, self._command, data.qpos, data.qvel, data.ctrl)
+            if self._obstacles and self.status != "fallen":
+                self._clear()
         mujoco.mj_step(self.model, data, STEPS_PER_TICK)
         observe(self.index, self.model, data, state)
+        if walks:
+            observe_walk(self.index, data, self._walk)
         if self.status == "fallen":
             return
         if state[controller.FALLEN] > 0.0:
-            self._fallen_at = self._ticks
             speed, slope = float(state[controller.SPEED]), float(self._memory[path_tracking.SLOPE_HERE])
             self._end("fallen", Fell(self.time, self._point(), speed, slope, self.arc_length))
-        elif self._path is not None:
+        elif self._path is not None and self.status in MOVING:
             self._notice()
+            if self.status == "walking":
+                self._run_if_possible(self._path)
+
+    def _steer(self, path: PathTable, walks: bool) -> None:
+        """Track the path: heading and speeds to ask of the controller."""
+        state = self._control
+        com = controller.COM.start
+        track(
+            path.table, path.length, _WALK_GAINS if walks else _GAINS, self._memory, state[com], state[com + 1],
+            state[controller.SPEED], self._ticks, self._command,
+        )  # fmt: skip
+        if walks:
+            off = self._command[0] - self._walk[WALK_HEADING]
+            if self.status not in MOVING or abs(math.remainder(off, 2.0 * math.pi)) > _TURN_FIRST:
+                self._command[1:3] = 0.0
+            self._command[1] = min(self._command[1], self.gait.speed)
+            return
+        if state[controller.STEPS] >= 2.0:
+            self._command[1] = min(self._command[1], state[controller.STEP_SPEED] + _HASTE)
+        if self._run_up[_PLANNED] > 0.0:
+            self._command[1] = self._run_up[_PLANNED]
+
+    def _run_if_possible(self, path: PathTable) -> None:
+        """Go over from walking to running, just after a foot was put down."""
+        walk = self._walk
+        if self._memory[path_tracking.ARC] < path.run_from or walk[PHASE] != DOUBLE or walk[CLOCK] > 0.0:
+            return
+        ahead = walk[WALK_HEADING]
+        speed = float(self.velocity[0] * math.cos(ahead) + self.velocity[1] * math.sin(ahead))
+        fast = speed >= _RUN_ENTRY and walk[WALK_STEPS] >= _FIRST_STEPS
+        if fast and abs(math.remainder(self._command[0] - ahead, 2.0 * math.pi)) < 0.2:
+            run_on(self._control, walk[WALK_STANCE], ahead, speed)
+            walk[WALKS] = 0.0
+            self.status = "running"
 
     def _clear(self) -> None:
         """After the run's tick: plan the run-up at each stance switch, start the skill at its mark, tick
@@ -324,7 +396,7 @@ class Human:
         assert self._path is not None
         memory, com = self._memory, self._control[controller.COM]
         remaining = memory[path_tracking.REMAINING]
-        if remaining < ARRIVAL_DISTANCE:
+        if remaining < (_WALK_ARRIVAL if self.status == "walking" else ARRIVAL_DISTANCE):
             goal = self._path.goal
             distance = math.hypot(goal[0] - com[0], goal[1] - com[1])
             if distance <= ARRIVAL_DISTANCE:
@@ -338,33 +410,35 @@ class Human:
 
     def _end(self, status: Status, event: Event) -> None:
         self.status = status
+        self._ended_at = self._ticks
         self.events.append(event)
 
     # --- saving
     def save_state(self) -> HumanState:
         """Everything needed to continue from here."""
         return HumanState(
-            save_physics(self.model, self.data), self._control.copy(),
+            save_physics(self.model, self.data), self._control.copy(), self._walk.copy(),
             np.concatenate([self._memory, self._command]), self._run_up.copy(),
-            None if self._clearing is None else self._clearing.copy(), self._path, self._obstacles, self.status, self._ticks, self._fallen_at, tuple(self.events),
+            None if self._clearing is None else self._clearing.copy(), self._path, self._obstacles, self.status, self._ticks, self._ended_at, tuple(self.events),
         )  # fmt: skip
 
     def restore_state(self, state: HumanState) -> None:
         """Continue from a state of a person on the same ground with the same skill."""
         restore_physics(self.model, self.data, state.physics)
         self._control[:] = state.control
+        self._walk[:] = state.walk
         self._memory[:] = state.tracking[: path_tracking.TRACK_SIZE]
         self._command[:] = state.tracking[path_tracking.TRACK_SIZE :]
         self._run_up[:] = state.run_up
         self._clearing = None if state.clearing is None else state.clearing.copy()
         self._path, self._obstacles, self.status = state.path, state.obstacles, state.status
-        self._ticks, self._fallen_at = state.ticks, state.fallen_at
+        self._ticks, self._ended_at = state.ticks, state.ended_at
         self.events[:] = state.events
 
     def state_hash(self) -> str:
         """Hex digest of the physical and mental state; equal for equal runs."""
         physics = save_physics(self.model, self.data)
-        parts = [physics, self._control, self._memory, self._command, self._run_up]
+        parts = [physics, self._control, self._walk, self._memory, self._command, self._run_up]
         return hash_of(self.status, parts if self._clearing is None else [*parts, self._clearing])
 
     def _point(self) -> tuple[float, float, float]:
@@ -378,22 +452,11 @@ class Human:
             raise LocomotionError(f"there is no ground within 0.5 m of {place.round(2)}")
         return np.array([place[0], place[1], z])
 
-    def _level(self, place: NDArray[np.float64], yaw: float) -> bool:
-        """Whether the ground is level under both feet, as `reset_standing` takes it to be."""
-        if self.ground is None:
-            return True
-        forward, left = (
-            np.array([math.cos(yaw), math.sin(yaw), 0.0]),
-            np.array([-math.sin(yaw), math.cos(yaw), 0.0]),
-        )
-        spots = [place + 0.12 * side * left + ahead * forward for side in (-1, 1) for ahead in (-0.05, 0.2)]
-        heights = self.ground.surface_below(np.add(spots, [0.0, 0.0, 0.5]))[0]
-        return bool(np.isfinite(heights).all() and np.ptp(heights) < _LEVEL)
-
     def _place(self, position: NDArray[np.float64], yaw: float, speed: float) -> None:
         if speed > 0.0:
             reset_running(self.skill, self.model, self.data, self.index, self._control, position, yaw, speed)
+            self._walk[WALKS] = 0.0
         else:
-            reset_standing(self.model, self.data, self.index, self._control, position, yaw)
+            plant(self.model, self.data, self.index, self._lookup, self._control, self._walk, position, yaw)
         self._command[:] = yaw, speed, 0.0, 0.0
         self._memory[:] = new_track()

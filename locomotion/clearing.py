@@ -18,10 +18,8 @@ from locomotion.approach import ApproachPlan, plan_approach
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill
 
-__all__ = ["RUN_UP", "ClearingSkill", "foot_distance", "plan_run_up", "run_up_speeds", "skill_for"]
+__all__ = ["ClearingSkill", "foot_distance", "plan_run_up", "run_up_speeds", "skill_for"]
 
-RUN_UP = 15.0
-"""[m] before an obstacle, along the path, from which the speed planner chooses the speed of each step."""
 _ERROR_WEIGHT = 2000.0
 _CHANGE_WEIGHTS = (8.0, 4.0, 2.0, 1.0)
 # [1/m²], [s²/m²] from the last step backwards: of those tried, these bring the foot nearest to the mark

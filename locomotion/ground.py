@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import hashlib
 import weakref
+from functools import lru_cache
 from typing import Any
 
 import mujoco
@@ -23,7 +24,7 @@ from locomotion.errors import LocomotionError
 from locomotion.trimesh_build import build_triangle_arrays
 from locomotion.trimesh_install import MARK, occupy, release
 
-__all__ = ["Ground"]
+__all__ = ["Ground", "plane_lookup"]
 
 _FRICTION = [0.9, 0.005, 0.0001]
 _MESH_FACES = 200_000  # MuJoCo's renderer draws larger meshes badly; only pictures are cut off
@@ -155,6 +156,15 @@ class Ground:
         a = self._arrays
         _surface_below(a.rows, a.cell_start, a.cell_triangles, a.grid, a.shape, wanted, heights, normals)
         return heights + self._origin[2], normals
+
+
+@lru_cache(maxsize=1)
+def plane_lookup() -> tuple[NDArray[Any], ...]:
+    """The endless plane z = 0 (a square of 20 km) as `Ground.lookup` would give it."""
+    half = 1e4
+    corners = np.array([[-half, -half, 0.0], [half, -half, 0.0], [half, half, 0.0], [-half, half, 0.0]])
+    a = build_triangle_arrays(corners, np.array([[0, 1, 2], [0, 2, 3]]))
+    return a.rows, a.cell_start, a.cell_triangles, a.grid, a.shape, np.zeros(3)
 
 
 def _release(slot: int, kept: Any) -> None:

@@ -16,9 +16,11 @@ from locomotion.events import Event
 from locomotion.path_tracking import PathTable
 from locomotion.route_smoothing import ObstacleAhead
 
-__all__ = ["HumanState", "Status", "hash_of", "restore_physics", "save_physics"]
+__all__ = ["MOVING", "HumanState", "Status", "hash_of", "restore_physics", "save_physics"]
 
-Status = Literal["standing", "running", "jumping", "fallen", "arrived", "lost", "stuck"]
+Status = Literal["standing", "walking", "running", "jumping", "fallen", "arrived", "lost", "stuck"]
+MOVING: tuple[Status, ...] = ("walking", "running", "jumping")
+"""What a person that is on its way does."""
 
 _STATE = mujoco.mjtState.mjSTATE_INTEGRATION
 
@@ -29,6 +31,7 @@ class HumanState:
 
     physics: NDArray[np.float64]
     control: NDArray[np.float64]
+    walk: NDArray[np.float64]
     tracking: NDArray[np.float64]
     run_up: NDArray[np.float64]
     clearing: NDArray[np.float64] | None
@@ -36,7 +39,7 @@ class HumanState:
     obstacles: tuple[ObstacleAhead, ...]
     status: Status
     ticks: int
-    fallen_at: int
+    ended_at: int
     events: tuple[Event, ...]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from locomotion.errors import LocomotionError
 
 __all__ = [
-    "ARC", "HEADWAY", "HEADWAY_TICK", "LATERAL", "REMAINING", "SLOPE_HERE", "SPEED_HERE", "TRACK_SIZE",
+    "ARC", "HEADWAY", "HEADWAY_TICK", "LATERAL", "REMAINING", "RUN_UP", "SLOPE_HERE", "SPEED_HERE", "TRACK_SIZE",
     "PathTable", "TrackingLimits", "make_path", "new_track", "track",
 ]  # fmt: skip
 
@@ -25,8 +26,11 @@ ARC, LATERAL, INTEGRAL, REMAINING, SPEED_HERE, SLOPE_HERE, HEADWAY, HEADWAY_TICK
 its integral [m s], length left [m], planned speed [m/s] and slope here, greatest arc length so far and the
 tick at which it grew last by `_STEP`."""
 TRACK_SIZE = 8
+RUN_UP = 15.0
+"""[m] before an obstacle, along the path, from which a body runs and the speed of each step is planned."""
 _STEP = 0.25
 _STEP_REACH = 0.7  # [m] around an obstacle's edge where its height would show as slope
+_WORTH_IT = 8.0  # [m] that are run at least
 _BACK, _AHEAD = 0.5, 1.5  # [m] search window around the last foot point
 
 
@@ -39,6 +43,7 @@ class TrackingLimits:
         sideways: [m/s^2] highest sideways acceleration in a bend.
         acceleration, deceleration: [m/s^2] of the planned speed along the path.
         uphill, downhill: [m/s per unit of slope] taken off the wished speed on a slope.
+        sharpest: curvature [1/m] and steepest: slope [rise over run] above which it does not go this way.
     """
 
     speeds: tuple[float, float]
@@ -47,6 +52,8 @@ class TrackingLimits:
     deceleration: float = 0.8
     uphill: float = 2.0
     downhill: float = 4.0
+    sharpest: float = math.inf
+    steepest: float = math.inf
 
 
 @dataclass(frozen=True)
@@ -58,19 +65,29 @@ class PathTable:
             (rise per length), planned speed [m/s].
         length: horizontal length [m].
         goal: (3,) float64, its last point.
+        run_from: arc length [m] from which to run; before that the body walks. inf: it walks all the way.
     """
 
     table: NDArray[np.float64]
     length: float
     goal: NDArray[np.float64]
+    run_from: float = 0.0
 
 
 def make_path(
-    points: ArrayLike, speed: float, limits: TrackingLimits, present_speed: float, edges: ArrayLike = ()
+    points: ArrayLike,
+    speed: float,
+    limits: TrackingLimits,
+    present_speed: float,
+    edges: ArrayLike = (),
+    walk: TrackingLimits | None = None,
 ) -> PathTable:
     """Resample ``points`` (n, 3) [m] and plan the speed along it: at most ``speed`` [m/s], slower in bends,
     on slopes and before the end, starting from ``present_speed`` [m/s]. ``edges`` (k,) are arc lengths [m] at
     which the path goes over an obstacle: the step in height there is no slope.
+
+    ``limits`` are those of running. With ``walk`` the body begins walking, and runs from where the rest of the
+    path can be run (`PathTable.run_from`) and a run is worth it; at the latest it runs `RUN_UP` before an edge.
 
     Raises `LocomotionError` for fewer than two distinct points, coordinates that are not finite, or a speed
     that is not above 0.
@@ -96,10 +113,28 @@ def make_path(
     for k in range(3):
         table[:, k] = np.interp(at, arc, distinct[:, k])
     _directions(table, length / (count - 1))
-    for edge in np.atleast_1d(np.asarray(edges, dtype=np.float64)):
+    crossed = np.atleast_1d(np.asarray(edges, dtype=np.float64))
+    for edge in crossed:
         table[np.abs(at - edge) < _STEP_REACH, SLOPE] = 0.0
-    _plan_speed(table, length / (count - 1), speed, limits, present_speed)
-    return PathTable(table, length, distinct[-1].copy())
+    run_from = 0.0 if walk is None else _run_from(table, at, limits, speed, crossed)
+    running = at >= run_from
+    _plan_speed(table, length / (count - 1), speed, [limits if r else walk or limits for r in running], present_speed)
+    return PathTable(table, length, distinct[-1].copy(), run_from)
+
+
+def _run_from(
+    table: NDArray[np.float64],
+    at: NDArray[np.float64],
+    limits: TrackingLimits,
+    speed: float,
+    edges: NDArray[np.float64],
+) -> float:
+    """Arc length from which all the rest can be run, inf if that is too short or slower than a run."""
+    hard = (np.abs(table[:, CURVATURE]) > limits.sharpest) | (np.abs(table[:, SLOPE]) > limits.steepest)
+    begin = float(at[np.flatnonzero(hard)[-1]]) + SPACING if hard.any() else 0.0
+    if at[-1] - begin < _WORTH_IT or speed < limits.speeds[0]:
+        begin = math.inf
+    return min(begin, max(float(edges[0]) - RUN_UP, 0.0)) if len(edges) else begin
 
 
 def _directions(table: NDArray[np.float64], step: float) -> None:
@@ -116,21 +151,25 @@ def _directions(table: NDArray[np.float64], step: float) -> None:
 
 
 def _plan_speed(
-    table: NDArray[np.float64], step: float, speed: float, limits: TrackingLimits, present: float
+    table: NDArray[np.float64], step: float, speed: float, gaits: Sequence[TrackingLimits], present: float
 ) -> None:
-    slowest, fastest = limits.speeds
+    """``gaits``: the limits at each point of the path."""
+    slowest, fastest = np.array([g.speeds for g in gaits]).T
+    sideways, faster, slower, uphill, downhill = np.array(
+        [(g.sideways, g.acceleration, g.deceleration, g.uphill, g.downhill) for g in gaits]
+    ).T
     bend = np.maximum(np.abs(table[:, CURVATURE]), 1e-6)
     slope = table[:, SLOPE]
-    wished = np.minimum(np.sqrt(limits.sideways / bend), min(speed, fastest))
-    wished = wished - limits.uphill * np.maximum(slope, 0.0) - limits.downhill * np.maximum(-slope, 0.0)
+    wished = np.minimum(np.sqrt(sideways / bend), np.minimum(speed, fastest))
+    wished = wished - uphill * np.maximum(slope, 0.0) - downhill * np.maximum(-slope, 0.0)
     wished = np.maximum(wished, slowest)
-    wished[-1] = slowest
+    wished[-1] = slowest[-1]
     squares = wished * wished
     for i in range(len(squares) - 2, -1, -1):
-        squares[i] = min(squares[i], squares[i + 1] + 2.0 * limits.deceleration * step)
-    squares[0] = min(squares[0], max(present, slowest) ** 2 + limits.acceleration * step)
+        squares[i] = min(squares[i], squares[i + 1] + 2.0 * slower[i] * step)
+    squares[0] = min(squares[0], max(present, slowest[0]) ** 2 + faster[0] * step)
     for i in range(1, len(squares)):
-        squares[i] = min(squares[i], squares[i - 1] + 2.0 * limits.acceleration * step)
+        squares[i] = min(squares[i], squares[i - 1] + 2.0 * faster[i - 1] * step)
     table[:, SPEED] = np.sqrt(squares)
 
 

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 import pathsmooth
 from locomotion.errors import LocomotionError
+from navmesh.draping import drape_curve
 from navmesh.route import Leg, Route
 
 __all__ = ["ObstacleAhead", "SmoothPath", "smooth_route"]
@@ -74,6 +75,7 @@ def smooth_route(
         before = _link_direction(route, i - 1) if i > 0 else start_direction
         after = _link_direction(route, i) if i < len(legs) - 1 else None
         points, held = _smooth_leg(leg, curvatures, before, after)
+        points = drape_curve(route.graph, points)
         bounded = bounded and held
         pieces.append(points)
         if i < len(legs) - 1:

@@ -22,6 +22,7 @@ __all__ = [
     "load_run_skill",
     "reset_running",
     "reset_standing",
+    "run_on",
     "run_clip",
 ]
 
@@ -182,6 +183,20 @@ def reset_standing(
     mujoco.mj_resetData(model, data)
     _place(model, data, index, controller.standing_pose(), position, yaw, 0.0)
     _fresh_state(model, data, index, state, yaw, 0.0, standing=True)
+
+
+def run_on(
+    state: np.ndarray, stance: float, heading: float, speed: float, phase: float = 0.1
+) -> None:
+    """Let the running controller take over a body that walks at ``speed`` [m/s] and has just put its foot of
+    side ``stance`` down; ``state`` holds what was observed, and the last targets."""
+    seen, targets = state[controller.OBSERVED].copy(), state[controller.LAST_TARGET].copy()
+    state[:] = controller.new_state()
+    state[controller.OBSERVED], state[controller.LAST_TARGET] = seen, targets
+    state[controller.STANCE], state[controller.HEADING] = stance, heading
+    state[controller.SPEED], state[controller.PHASE] = speed, phase
+    state[controller.PLANTED] = state[controller.FEET]
+    state[controller.COM_AT_SWITCH] = state[controller.COM]
 
 
 def _fresh_state(

@@ -4,7 +4,8 @@ import numpy as np
 
 __all__ = [
     "CLOCK", "DOUBLE", "FOOTHOLD", "FOOTHOLD_NORMAL", "FOOTHOLD_YAW", "GAINS", "LIFT", "LIFT_NORMAL", "LIFT_YAW",
-    "MISSED", "PHASE", "SETTING_OFF", "SIDEWAYS", "SINGLE", "STANDING", "SWING_ANGLES", "SWING_TIME",
+    "MISSED", "PHASE", "SEEN_ANCHORS", "SEEN_AXES", "SEEN_FEET", "SEEN_PELVIS", "SEEN_SOLES", "SEEN_TORQUES",
+    "SETTING_OFF", "SIDEWAYS", "SINGLE", "STANDING", "SWING_ANGLES", "SWING_TIME", "WALKS",
     "WALK_HEADING", "WALK_SIZE", "WALK_SPEED", "WALK_STANCE", "WALK_STEPS", "WALK_TICKS", "WALK_TURN_RATE",
     "first_gains", "gain_limits", "new_walk",
 ]  # fmt: skip
@@ -68,11 +69,19 @@ FOOTHOLD, FOOTHOLD_NORMAL, LIFT, LIFT_NORMAL = slice(14, 17), slice(17, 20), sli
 """Where the swing foot's sole is to land and the foot's normal there; where it left the ground."""
 SWING_ANGLES = slice(26, 32)
 """Angles [rad] of the swing leg asked for at the last tick."""
-WALK_SIZE = 32
+SEEN_SOLES, SEEN_FEET, SEEN_PELVIS = slice(32, 38), slice(38, 56), slice(56, 65)
+"""After the last physics step: middles of the right and the left sole [m]; rotations (2, 9) of the feet and (9,)
+of the pelvis."""
+SEEN_ANCHORS, SEEN_AXES, SEEN_TORQUES = slice(65, 101), slice(101, 137), slice(137, 149)
+"""The same for the six joints of the right and of the left leg: anchors [m] and axes, (2, 6, 3) in the world;
+torques, (2, 6) [Nm]."""
+WALKS = 149
+"""1 while this controller moves the body, 0 while it runs."""
+WALK_SIZE = 150
 
 
 def new_walk(heading: float = 0.0) -> np.ndarray:
     """A person standing on both feet, (WALK_SIZE,) float64; the left leg will be the first stance leg."""
     walk = np.zeros(WALK_SIZE)
-    walk[WALK_STANCE], walk[WALK_HEADING] = 1.0, heading
+    walk[WALKS], walk[WALK_STANCE], walk[WALK_HEADING] = 1.0, 1.0, heading
     return walk

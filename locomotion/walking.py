@@ -5,10 +5,12 @@ also holds what was observed::
 
     gains, walk = load_walk_gains(), new_walk(heading)
     each tick:
-        walk_tick(gains, ground, walk, state, command, data.qpos, data.qvel, data.xanchor, data.xaxis, data.xpos,
-                  data.xmat, feet, data.actuator_force, data.ctrl)
+        walk_tick(gains, ground, walk, state, command, data.qpos, data.qvel, data.ctrl)
         mujoco.mj_step(model, data, STEPS_PER_TICK)
         observe(index, model, data, state)
+        observe_walk(index, data, walk)
+
+A simulation is saved by copying ``mjSTATE_INTEGRATION``, ``state`` and ``walk``.
 
 ``command`` (4,) float64 = heading [rad], speed [m/s], sideways speed to the left [m/s], slope of the way
 [rise over run]; all may jump. A person told 0 m/s makes its steps small and then stands.
@@ -22,6 +24,7 @@ asked for as q + t / stiffness, with the servo's damping cancelled.
 
 import math
 
+import mujoco
 import numpy as np
 from numba import njit
 
@@ -29,7 +32,7 @@ from locomotion import run_layout
 from locomotion.anatomy import ANKLE, MASS, SIDE_JOINTS
 from locomotion.footholds import foot_frame, plan_foothold, sway
 from locomotion.leg_kinematics import solve_leg
-from locomotion.person import CONTROL_DT, JOINT_NAMES
+from locomotion.person import CONTROL_DT, JOINT_NAMES, PersonIndex
 from locomotion.walk_layout import (
     CLOCK,
     DOUBLE,
@@ -42,6 +45,12 @@ from locomotion.walk_layout import (
     LIFT_YAW,
     MISSED,
     PHASE,
+    SEEN_ANCHORS,
+    SEEN_AXES,
+    SEEN_FEET,
+    SEEN_PELVIS,
+    SEEN_SOLES,
+    SEEN_TORQUES,
     SETTING_OFF,
     SIDEWAYS,
     SINGLE,
@@ -56,7 +65,7 @@ from locomotion.walk_layout import (
     WALK_TURN_RATE,
 )
 
-__all__ = ["SOLE", "begin_swing", "sole_of", "walk_tick"]
+__all__ = ["SOLE", "begin_swing", "observe_walk", "walk_tick"]
 
 SOLE = 0.045
 """[m] from below the ankle forward to the middle of the sole."""
@@ -74,6 +83,8 @@ _CLEARANCE, _LEAD, _ARMS = _I["clearance"], _I["swing_lead"], _I["arm_swing"]
 _SPOT, _NORMAL, _LIFT, _LIFT_NORMAL, _ANGLES = (
     FOOTHOLD.start, FOOTHOLD_NORMAL.start, LIFT.start, LIFT_NORMAL.start, SWING_ANGLES.start,
 )  # fmt: skip
+_SOLES, _FEET, _PELVIS = SEEN_SOLES.start, SEEN_FEET.start, SEEN_PELVIS.start
+_ANCHORS, _AXES, _TORQUES = SEEN_ANCHORS.start, SEEN_AXES.start, SEEN_TORQUES.start
 _COM, _VEL, _CONTACT = run_layout.COM.start, run_layout.COM_VELOCITY.start, run_layout.CONTACT.start
 _TARGETS = run_layout.LAST_TARGET.start
 _R_HIP, _L_HIP = (JOINT_NAMES.index(f"{s}_hip_flexion") for s in ("right", "left"))
@@ -84,7 +95,7 @@ _SHOULDER, _ABDUCTION, _ELBOW = (
 _WAIST, _CHEST = JOINT_NAMES.index("waist_pitch"), JOINT_NAMES.index("chest_pitch")
 _STIFFNESS = np.array([j.stiffness for part in ("thigh", "shank", "foot") for j in SIDE_JOINTS[part]])
 _LEAD_TIME = 0.1  # servo damping per stiffness [s], as in locomotion.person
-_PELVIS = 1  # body of the root
+_PELVIS_BODY = 1
 _GRAVITY = 9.81
 _TOUCH = 40.0  # [N] under the swing foot that end the step
 _TURN_RATE, _TURN_CHANGE = 1.2, 6.0  # [rad/s], [rad/s^2]
@@ -109,20 +120,39 @@ def _wrap(angle):
 
 
 @njit(cache=True)
-def sole_of(position, rotation, out):
-    """Middle of the sole ``out`` (3,) of a foot with its ankle at ``position`` (3,), turned by ``rotation`` (9,)."""
-    for k in range(3):
-        out[k] = position[k] + SOLE * rotation[3 * k] - ANKLE * rotation[3 * k + 2]
+def _observe(walk, feet, positions, rotations, anchors, axes, torques):
+    for k in range(2):
+        foot = rotations[feet[k]]
+        for i in range(3):
+            sole = positions[feet[k], i] + SOLE * foot[3 * i] - ANKLE * foot[3 * i + 2]
+            walk[_SOLES + 3 * k + i] = sole
+        for i in range(9):
+            walk[_FEET + 9 * k + i] = foot[i]
+        hip = _L_HIP if k == 1 else _R_HIP
+        for j in range(6):
+            walk[_TORQUES + 6 * k + j] = torques[hip + j]
+            for i in range(3):
+                walk[_ANCHORS + 18 * k + 3 * j + i] = anchors[hip + 1 + j, i]
+                walk[_AXES + 18 * k + 3 * j + i] = axes[hip + 1 + j, i]
+    for i in range(9):
+        walk[_PELVIS + i] = rotations[_PELVIS_BODY, i]
+
+
+def observe_walk(index: PersonIndex, data: mujoco.MjData, walk: np.ndarray) -> None:
+    """Read the frames of feet, pelvis and leg joints and the legs' torques of ``data`` into ``walk``."""
+    _observe(walk, index.feet, data.xpos, data.xmat, data.xanchor, data.xaxis, data.actuator_force)
 
 
 @njit(cache=True)
-def begin_swing(gains, walk, sole, rotation, qpos):
-    """Single support begins: remember where the swing foot, with its middle at ``sole`` (3,), leaves the ground."""
+def begin_swing(gains, walk, qpos):
+    """Single support begins: remember where the swing foot leaves the ground and how its leg is bent."""
+    swing = 0 if walk[WALK_STANCE] > 0 else 1
+    foot = walk[_FEET + 9 * swing : _FEET + 9 * swing + 9]
     walk[PHASE], walk[CLOCK], walk[SWING_TIME] = SINGLE, 0.0, gains[_SWING]
     for k in range(3):
-        walk[_LIFT + k] = sole[k]
-        walk[_LIFT_NORMAL + k] = rotation[3 * k + 2]
-    walk[LIFT_YAW] = math.atan2(rotation[3], rotation[0])
+        walk[_LIFT + k] = walk[_SOLES + 3 * swing + k]
+        walk[_LIFT_NORMAL + k] = foot[3 * k + 2]
+    walk[LIFT_YAW] = math.atan2(foot[3], foot[0])
     hip = _R_HIP if walk[WALK_STANCE] > 0 else _L_HIP
     for k in range(6):
         walk[_ANGLES + k] = qpos[7 + hip + k]
@@ -143,7 +173,7 @@ def _follow(walk, command):
 
 
 @njit(cache=True)
-def _step(gains, walk, command, error, soles, rotations, feet, contact, capture, omega, qpos):
+def _step(gains, walk, command, error, soles, contact, capture, omega, qpos):
     """Which feet bear the person now: phases and their ends."""
     stance = 1 if walk[WALK_STANCE] > 0 else 0
     swing = 1 - stance
@@ -158,7 +188,7 @@ def _step(gains, walk, command, error, soles, rotations, feet, contact, capture,
         outside = -sh * (capture[0] - soles[stance, 0]) + ch * (capture[1] - soles[stance, 1])
         inside = sway(gains, omega, 0.0)[1]
         if -walk[WALK_STANCE] * outside < 2.0 * inside or walk[CLOCK] > _SET_OFF_LIMIT:
-            begin_swing(gains, walk, soles[swing], rotations[feet[swing]], qpos)
+            begin_swing(gains, walk, qpos)
     elif walk[PHASE] == SINGLE:
         if walk[CLOCK] > 0.5 * walk[SWING_TIME] and contact[swing] > _TOUCH:
             missed = ch * (soles[swing, 0] - walk[_SPOT]) + sh * (soles[swing, 1] - walk[_SPOT + 1])
@@ -171,11 +201,11 @@ def _step(gains, walk, command, error, soles, rotations, feet, contact, capture,
             walk[PHASE] = STANDING
             walk[CLOCK] = walk[SETTING_OFF] = 0.0
         else:
-            begin_swing(gains, walk, soles[swing], rotations[feet[swing]], qpos)
+            begin_swing(gains, walk, qpos)
 
 
 @njit(cache=True)
-def _pressures(gains, walk, soles, rotations, feet, capture, omega, cop, share):
+def _pressures(gains, walk, soles, feet, capture, omega, cop, share):
     """Centre of pressure ``cop`` (2, 3) under each foot and its ``share`` (2,) of the load."""
     stance = 1 if walk[WALK_STANCE] > 0 else 0
     ch, sh = math.cos(walk[WALK_HEADING]), math.sin(walk[WALK_HEADING])
@@ -190,7 +220,7 @@ def _pressures(gains, walk, soles, rotations, feet, capture, omega, cop, share):
         ahead, inside = ahead * growth + rest, inside * growth * walk[WALK_STANCE]
         ex = gains[_P_GAIN] * (capture[0] - soles[stance, 0] - ch * ahead - sh * inside)
         ey = gains[_P_GAIN] * (capture[1] - soles[stance, 1] - sh * ahead + ch * inside)
-        foot = rotations[feet[stance]]
+        foot = feet[stance]
         n = math.sqrt(foot[0] * foot[0] + foot[3] * foot[3])
         fx, fy = foot[0] / n, foot[3] / n
         along[stance] += _clamp(fx * ex + fy * ey, -gains[_P_ALONG], gains[_P_ALONG])
@@ -209,7 +239,7 @@ def _pressures(gains, walk, soles, rotations, feet, capture, omega, cop, share):
         share[0] = 1.0 - share[1]
         along += _clamp(ch * px + sh * py, -0.08, 0.09)
     for k in range(2):
-        foot = rotations[feet[k]]
+        foot = feet[k]
         for i in range(3):
             cop[k, i] = soles[k, i] + along[k] * foot[3 * i] + across[k] * foot[3 * i + 1]
 
@@ -235,7 +265,7 @@ def _upright(gains, walk, slope, pelvis, qvel, out):
 def _support(hip, damping, force, cop, yaw_moment, anchors, axes, qpos, qvel, ctrl):
     """A leg that makes the ground push with ``force`` (3,) at ``cop`` (3,): transposed Jacobian, as PD targets."""
     for j in range(6):
-        axis, anchor = axes[hip + 1 + j], anchors[hip + 1 + j]
+        axis, anchor = axes[j], anchors[j]
         rx, ry, rz = cop[0] - anchor[0], cop[1] - anchor[1], cop[2] - anchor[2]
         moment = axis[0] * (ry * force[2] - rz * force[1])
         moment += axis[1] * (rz * force[0] - rx * force[2])
@@ -278,34 +308,33 @@ def _swing(gains, walk, pelvis, hip_at, hip, side, ctrl):
 
 
 @njit(cache=True)
-def walk_tick(
-    gains, ground, walk, state, command, qpos, qvel, anchors, axes, positions, rotations, feet, torques, ctrl
-):
+def walk_tick(gains, ground, walk, state, command, qpos, qvel, ctrl):
     """One control tick: advance ``walk`` (WALK_SIZE,), write the PD targets ``ctrl`` (39,) [rad].
 
     gains (len(GAINS),); ground as in `footholds.ground_at`; state: a running controller's, with what was observed;
-    its heading, speed, stance and steps are kept up to date; anchors, axes (joints, 3), positions (bodies, 3),
-    rotations (bodies, 9): as in mujoco.MjData; feet (2,) bodies of the right and left foot; torques (39,) [Nm]
-    of the last physics step. All float64, feet int64.
+    its heading, speed, stance and steps are kept up to date. All float64.
     """
     error = _follow(walk, command)
     walk[WALK_TICKS] += 1.0
     walk[CLOCK] += CONTROL_DT
-    soles = np.empty((2, 3))
-    for k in range(2):
-        sole_of(positions[feet[k]], rotations[feet[k]], soles[k])
+    soles = walk[_SOLES : _SOLES + 6].reshape(2, 3)
+    feet = walk[_FEET : _FEET + 18].reshape(2, 9)
+    pelvis = walk[_PELVIS : _PELVIS + 9]
+    anchors = walk[_ANCHORS : _ANCHORS + 36].reshape(2, 6, 3)
+    axes = walk[_AXES : _AXES + 36].reshape(2, 6, 3)
+    torques = walk[_TORQUES : _TORQUES + 12].reshape(2, 6)
     stance = 1 if walk[WALK_STANCE] > 0 else 0
     omega = math.sqrt(_GRAVITY / max(state[_COM + 2] - soles[stance, 2], 0.5))
     capture = np.array([state[_COM] + state[_VEL] / omega, state[_COM + 1] + state[_VEL + 1] / omega])
     contact = state[_CONTACT : _CONTACT + 2]
-    _step(gains, walk, command, error, soles, rotations, feet, contact, capture, omega, qpos)
+    _step(gains, walk, command, error, soles, contact, capture, omega, qpos)
     stance = 1 if walk[WALK_STANCE] > 0 else 0
     swinging = walk[PHASE] == SINGLE
     planning = walk[CLOCK] < 0.8 * walk[SWING_TIME] and (walk[WALK_TICKS] % 3.0 == 0.0 or walk[CLOCK] == 0.0)
     if swinging and planning:
         plan_foothold(gains, ground, walk, capture[0], capture[1], omega, soles[stance])
     cop, share = np.empty((2, 3)), np.empty(2)
-    _pressures(gains, walk, soles, rotations, feet, capture, omega, cop, share)
+    _pressures(gains, walk, soles, feet, capture, omega, cop, share)
 
     # force of the ground: height, then the line from the centre of pressure past the centre of mass
     slope = _clamp(command[3], -_MAX_SLOPE, _MAX_SLOPE)
@@ -320,16 +349,14 @@ def walk_tick(
     lift = gains[_Z_STIFF] * (height - state[_COM + 2]) - gains[_Z_DAMP] * state[_VEL + 2]
     force, moment = np.empty(3), np.empty(3)
     force[2] = MASS * (_GRAVITY + _clamp(lift, -6.0, 8.0))
-    pelvis = rotations[_PELVIS]
     _upright(gains, walk, slope, pelvis, qvel, moment)
     hips = (_R_HIP, _L_HIP)
     if swinging:
         # the swing hip's torques push the pelvis the other way
-        hip = hips[1 - stance]
         for i in range(3):
             push = 0.0
             for j in range(3):
-                push += axes[hip + 1 + j, i] * torques[hip + j]
+                push += axes[1 - stance, j, i] * torques[1 - stance, j]
             moment[i] += gains[_REACTION] * push
     for i in range(2):
         moment[i] = _clamp(moment[i], -gains[_MOMENT], gains[_MOMENT])
@@ -349,11 +376,11 @@ def walk_tick(
         hip = hips[k]
         ctrl[hip + 6] = 0.0
         if swinging and k != stance:
-            _swing(gains, walk, pelvis, anchors[hip + 1].copy(), hip, 2.0 * k - 1.0, ctrl)
+            _swing(gains, walk, pelvis, anchors[k, 0].copy(), hip, 2.0 * k - 1.0, ctrl)
         else:
             _support(
-                hip, gains[_LEG_DAMPING], share[k] * force, cop[k], share[k] * moment[2], anchors, axes, qpos,
-                qvel, ctrl,
+                hip, gains[_LEG_DAMPING], share[k] * force, cop[k], share[k] * moment[2], anchors[k],
+                axes[k], qpos, qvel, ctrl,
             )  # fmt: skip
     for j in range(ctrl.shape[0]):
         state[_TARGETS + j] = ctrl[j]

@@ -12,7 +12,7 @@ from navmesh.structs import net_of
 if TYPE_CHECKING:
     from navmesh.graph import NodeGraph
 
-__all__ = ["drape"]
+__all__ = ["drape", "drape_curve"]
 
 
 @njit(cache=True)
@@ -49,3 +49,23 @@ def drape(graph: "NodeGraph", waypoints: np.ndarray, spacing: float) -> np.ndarr
     """
     origin = graph.surface.origin
     return _drape(net_of(graph), np.ascontiguousarray(waypoints - origin), spacing) + origin
+
+
+@njit(cache=True)
+def _drape_curve(net, curve, points):
+    x, y = curve[0, 0], curve[0, 1]
+    k = cell_at(net, x, y, curve[0, 2])
+    for i in range(1, curve.shape[0]):
+        px, py = curve[i, 0], curve[i, 1]
+        k = walk(net, k, x, y, px, py, 0.0, True)[1]
+        points[i, 2] = floor_at(net, k, px, py)
+        x, y = px, py
+
+
+def drape_curve(graph: "NodeGraph", curve: np.ndarray) -> np.ndarray:
+    """The points (n, 3) [m] of a ``curve`` (n, 3) that is walked from its first point, on the surface; only the
+    first one's height counts."""
+    origin = graph.surface.origin
+    points = np.ascontiguousarray(curve - origin)
+    _drape_curve(net_of(graph), points.copy(), points)
+    return points + origin

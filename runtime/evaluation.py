@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from locomotion import Ground, Human, LocomotionError, ObstacleAhead
+from locomotion import MOVING, Ground, Human, LocomotionError, ObstacleAhead
 from locomotion.person import CONTROL_DT
 from runtime.progress import Progress
 
@@ -72,7 +72,7 @@ def evaluate_jump(trials: int, seed: int, progress: Progress) -> list[Attempt]:
             human.reset(path[0], 0.0)
             ahead = ObstacleAhead(distance, "jump", height, edge, np.array([-1.0, 0.0, 0.0]))
             human.follow(path, human.skill.speeds[1], [ahead])
-            while human.status in ("running", "jumping") and human.time < (FARTHEST + _AFTER) / _SLOWEST:
+            while human.status in MOVING and human.time < (FARTHEST + _AFTER) / _SLOWEST:
                 human.tick()
             what = f"{height:.2f} m from {distance:.1f} m"
             attempts.append(Attempt(what, human.status, human.status == "arrived"))

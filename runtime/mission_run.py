@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 import navmesh
+from locomotion import MOVING
 from navmesh.yamlfile import FileError
 from runtime.agent import Agent
 from runtime.events import Arrived, Event, Fell, SkillFinished
@@ -26,7 +27,6 @@ SAMPLE = 0.03
 """[s] between recorded poses."""
 AFTERMATH = 1.0
 """[s] that a mission runs on after its last agent has come to an end."""
-_MOVING = ("running", "jumping")
 
 
 @dataclass(frozen=True)
@@ -117,7 +117,7 @@ def run_mission(loaded: LoadedMission, progress: Progress | None = None) -> Miss
         while world.time < ends - 1e-9:
             world.step(SAMPLE)
             recorder.sample()
-            if ends == mission.time_limit and not any(agent.status in _MOVING for _, agent in agents):
+            if ends == mission.time_limit and not any(agent.status in MOVING for _, agent in agents):
                 ends = min(ends, world.time + AFTERMATH)
             stage.update(max(_headway(agent) for _, agent in agents), f"{world.time:.1f} s simulated")
     wall = time.perf_counter() - begun

@@ -31,6 +31,7 @@ def is_compiled() -> bool:
 
 def compile_kernels(progress: Progress) -> None:
     """Run everything once on a level of a few metres: compiles every kernel and keeps it in the cache."""
+    from locomotion import MOVING
     from runtime.world import World
 
     with progress.stage("compiling kernels, once (a minute or two)") as stage:
@@ -42,7 +43,7 @@ def compile_kernels(progress: Progress) -> None:
         if agent.status == "blocked":
             agent.go_to((4.5, 2.0, 0.0), speed=3.0)
         stage.update(0.8, "running and jumping")
-        while agent.status in ("running", "jumping") and world.time < 6.0:
+        while agent.status in MOVING and world.time < 6.0:
             world.step(0.1)
 
 

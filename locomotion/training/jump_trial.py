@@ -7,9 +7,10 @@ import numpy as np
 
 from locomotion import controller as c
 from locomotion import jump
-from locomotion.clearing import RUN_UP, foot_distance, plan_run_up, run_up_speeds
+from locomotion.clearing import foot_distance, plan_run_up, run_up_speeds
 from locomotion.jump import jump_tick, start_jump
 from locomotion.jump_skill import Jump, JumpTables, jump_clip
+from locomotion.path_tracking import RUN_UP
 from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, person_spec
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill, reset_running, reset_standing

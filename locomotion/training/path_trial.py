@@ -9,6 +9,7 @@ import numpy as np
 from locomotion import controller as c
 from locomotion.body import Human
 from locomotion.ground import Ground
+from locomotion.human_state import MOVING
 from locomotion.person import CONTROL_DT
 from locomotion.skill import RunSkill
 from locomotion.training.rollout import Measures, Trial
@@ -107,7 +108,7 @@ def follow_path(skill: RunSkill, scenario: PathScenario) -> Trial:
     measures = Measures(human.data, human.index)
     push, state = human.data.xfrc_applied[human.index.chest], human.control
     aside, ticks = 0.0, 0
-    while human.status == "running" and ticks * CONTROL_DT < scenario.duration:
+    while human.status in MOVING and ticks * CONTROL_DT < scenario.duration:
         time = ticks * CONTROL_DT
         push[:2] = 0.0
         for start, fx, fy in scenario.pushes:

@@ -9,6 +9,7 @@ from locomotion.clearing import foot_distance
 from locomotion.errors import LocomotionError
 from locomotion.events import Arrived, Cleared, SetOff, TookOff
 from locomotion.ground import Ground
+from locomotion.human_state import MOVING
 from locomotion.route_smoothing import ObstacleAhead
 
 STRAIGHT = np.array([[0.0, 0, 0], [15, 0, 0]])
@@ -43,7 +44,7 @@ def flat_ground(half=30.0):
 
 def finish(human, limit=60.0):
     lateral = []
-    while human.status in ("running", "jumping") and human.time < limit:
+    while human.status in MOVING and human.time < limit:
         human.tick()
         lateral.append(abs(human.lateral_error))
     return np.array(lateral)
@@ -116,12 +117,30 @@ def test_run_up_ends_at_the_mark_and_the_skill_starts():
     assert human.events[1].takeoff_error == pytest.approx(skill.distances[0] - 0.6)
 
 
-def test_held_person_turns_to_its_path_and_a_fallen_one_must_be_reset():
+@pytest.mark.parametrize("yaw", [0.0, 1.5, 3.1])
+def test_walks_to_a_near_goal_turning_on_the_spot_first_and_comes_to_rest_there(yaw):
+    human = Human(flat_ground())
+    human.reset((3, 1, 0), yaw)
+    human.follow([[3, 1, 0], [3, -4, 0]], 3.0)
+    seen = set()
+    while human.status in MOVING and human.time < 30.0:
+        human.tick()
+        seen.add(human.status)
+        if abs(human.yaw + np.pi / 2) > 1.0:
+            assert np.linalg.norm(human.position[:2] - [3, 1]) < 0.4
+    assert human.status == "arrived" and seen == {"walking", "arrived"}
+    for _ in range(300):
+        human.tick()
+    assert human.held
+    assert np.linalg.norm(human.position[:2] - [3, -4]) < 0.25
+    assert human.data.xmat[1, 8] > 0.98  # upright
+
+
+def test_fallen_person_must_be_reset():
     human = Human(None)
     human.reset((3, 1, 0), 0.0)
     assert human.status == "standing" and human.held
     human.follow([[3, 1, 0], [3, 20, 0]], 3.0)
-    assert human.yaw == pytest.approx(np.pi / 2)
     human.data.qvel[:3] = [0, -6.0, 0]
     for _ in range(300):
         human.tick()

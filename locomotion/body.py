@@ -419,7 +419,8 @@ class Human:
         return HumanState(
             save_physics(self.model, self.data), self._control.copy(), self._walk.copy(),
             np.concatenate([self._memory, self._command]), self._run_up.copy(),
-            None if self._clearing is None else self._clearing.copy(), self._path, self._obstacles, self.status, self._ticks, self._ended_at, tuple(self.events),
+            None if self._clearing is None else self._clearing.copy(), self._path, self._obstacles,
+            self.status, self._ticks, self._ended_at, tuple(self.events),
         )  # fmt: skip
 
     def restore_state(self, state: HumanState) -> None:

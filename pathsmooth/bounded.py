@@ -91,6 +91,11 @@ def solve_with_bound(
         except PathSmoothError:  # the cells strayed from the corridor by more than their discs overlap
             continue
         trial = _rounds(start, None, tolerance, None, free=True)
+        if not trial.complete:  # along a curve that nearly holds, the convex problem is nearly the true one
+            points = trial.problem.targets + trial.displacements
+            curve = np.column_stack([points, trial.problem.heights])
+            start = _from_curve(trial.problem, curve, np.unique(trial.problem.segment_disc))
+            trial = _rounds(start, None, tolerance, None)
         if trial.complete:
             return _solution(trial)
         if trial.worst < best.worst:

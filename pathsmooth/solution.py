@@ -19,12 +19,20 @@ class Solution:
     """A smoothed path and how good it is.
 
     The status is one of
-        "complete"         the objective is within the tolerance of the optimum (and the curvature within its
-        bound) "iteration_limit"  stopped before that; the points are valid all the same: inside the corridor,
-                           ends and tangents exact, objective no higher than the pulled path's; only a bound
-                           on curvature may be missed, see `curvature`
-        "infeasible"       no path in the corridor has the wanted tangents and curvature; the points are then
-                           the best found without that bound
+        "complete"         without a bound on curvature: the objective is within the tolerance of the optimum.
+                           With one: the true curvature of the points, see `curvature`, is at most 3 % above
+                           it. The objective is then not the least one: `objective` and `gap` are those of the
+                           last convex problem, whose targets and spacing the solver has chosen (`problem`),
+                           and where the bound could only be held by another way through the corridor, of the
+                           path along that way.
+        "iteration_limit"  stopped before that; the points are valid all the same: inside the corridor, ends
+                           and tangents exact. Without a bound the objective is no higher than the pulled
+                           path's. With one, the curvature is above it: the points are the least bent that
+                           were found, and whether any path holds the bound is not known. Without a limit on
+                           the iterations this is rare: it takes a corridor that pinches to a small part of
+                           the tightest curve
+        "infeasible"       proven: no path in the corridor has the wanted tangents and curvature; the points
+                           are then the smoothest without that bound
     """
 
     points: NDArray[np.float64]
@@ -36,6 +44,7 @@ class Solution:
     iterations: int
     status: str
     state: NDArray[np.float64] = field(repr=False)
-    """(3, n, 2) displacements and the two dual variables, for a warm start."""
+    """(4, n, 2) displacements and the dual variables of the distances, the discs and the bound on curvature
+    (zero without one), for a warm start."""
     problem: Problem = field(repr=False)
     """What was solved."""

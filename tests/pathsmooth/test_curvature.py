@@ -106,3 +106,22 @@ def test_bound_by_speed():
     assert curvature_bound(4.0, 8.0) == pytest.approx(0.5)
     with pytest.raises(PathSmoothError, match="speed must be a positive number"):
         curvature_bound(0.0)
+
+
+def test_warm_start_under_a_bound_saves_iterations():
+    cold_total = warm_total = 0
+    for seed in range(6):
+        corridor = bounded_curve(np.random.default_rng(seed), 0.5, 0.2 + 0.05 * seed)
+        problem = problem_of(corridor, 0.5)
+        cold = solve(problem)
+        warm = solve(problem, warm=cold)
+        assert_holds(warm, 0.5, *corridor[3:])
+        cold_total, warm_total = cold_total + cold.iterations, warm_total + warm.iterations
+    assert 0 < warm_total < cold_total
+
+
+def test_warm_start_under_a_bound_takes_a_solution_without_one_and_the_other_way_round():
+    corridor = bounded_curve(np.random.default_rng(3), 0.5, 0.3)
+    free, bounded = problem_of(corridor, None), problem_of(corridor, 0.5)
+    assert_holds(solve(bounded, warm=solve(free)), 0.5, *corridor[3:])
+    assert solve(free, warm=solve(bounded)).objective <= 1.02 * solve(free).objective

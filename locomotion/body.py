@@ -6,10 +6,11 @@
     while human.status == "running":
         human.tick()                                    # 10 ms
 
-A person stands and walks by `locomotion.walking`, and runs by `locomotion.controller`: it walks from a stand until
-the rest of its path can be run and is long enough, then runs to the end (`PathTable.run_from`). Walking, it comes
-to a stand at its goal. What holds until there is a skill for it: a person that arrives running slows down to its
-lowest speed and is then held as it is; told to go on from there it is put on both feet first.
+A person stands and walks by `locomotion.walking`, and runs by `locomotion.controller`: it walks from a stand
+until the rest of its path can be run and is long enough, then runs to the end (`PathTable.run_from`).
+Walking, it comes to a stand at its goal. What holds until there is a skill for it: a person that arrives
+running slows down to its lowest speed and is then held as it is; told to go on from there it is put on both
+feet first.
 """
 
 from __future__ import annotations
@@ -120,8 +121,8 @@ class Human:
     """A person under physics. `tick` advances it by 10 ms.
 
     Attributes:
-        status: "standing", "walking", "running", "jumping", "fallen", "arrived", "lost" (strayed from its path
-            or missed its goal) or "stuck". `held` tells whether it is simulated.
+        status: "standing", "walking", "running", "jumping", "fallen", "arrived", "lost" (strayed from
+            its path or missed its goal) or "stuck". `held` tells whether it is simulated.
         events: list of `locomotion.events.Event` in order of time.
         model, data: the MuJoCo model (shared by all persons on the same ground) and this person's own data.
     """
@@ -301,7 +302,14 @@ class Human:
             self._steer(self._path, walks)
         if walks:
             walk_tick(
-                self.gait.gains, self._lookup, self._walk, state, self._command, data.qpos, data.qvel, data.ctrl
+                self.gait.gains,
+                self._lookup,
+                self._walk,
+                state,
+                self._command,
+                data.qpos,
+                data.qvel,
+                data.ctrl,
             )
         else:
             run_tick(*self.skill.tables, state, self._command, data.qpos, data.qvel, data.ctrl)
@@ -326,8 +334,8 @@ class Human:
         state = self._control
         com = controller.COM.start
         track(
-            path.table, path.length, _WALK_GAINS if walks else _GAINS, self._memory, state[com], state[com + 1],
-            state[controller.SPEED], self._ticks, self._command,
+            path.table, path.length, _WALK_GAINS if walks else _GAINS, self._memory, state[com],
+            state[com + 1], state[controller.SPEED], self._ticks, self._command,
         )  # fmt: skip
         if walks:
             off = self._command[0] - self._walk[WALK_HEADING]

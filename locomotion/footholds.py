@@ -3,10 +3,10 @@
 The centre of mass is taken for an inverted pendulum of constant height h over the stance foot's centre of
 pressure p. Its divergent part, the capture point ξ = x + ẋ/ω with ω = sqrt(g/h), leaves p as
 ξ(t) = p + (ξ - p) exp(ωt). A walk of speed v, period T and width w repeats itself when at each touchdown the
-capture point is b = v T / (exp(ωT) - 1) ahead of the new foot and w / (1 + exp(ωT)) inside of it; the foothold
-that brings it there is the predicted ξ less b (J. Englsberger et al., "Three-dimensional bipedal walking control
-based on divergent component of motion", 2015; T. Koolen et al., "Capturability-based analysis and control of
-legged locomotion", 2012).
+capture point is b = v T / (exp(ωT) - 1) ahead of the new foot and w / (1 + exp(ωT)) inside of it; the
+foothold that brings it there is the predicted ξ less b (J. Englsberger et al., "Three-dimensional bipedal
+walking control based on divergent component of motion", 2015; T. Koolen et al., "Capturability-based
+analysis and control of legged locomotion", 2012).
 """
 
 import math
@@ -19,6 +19,8 @@ from locomotion.walk_layout import (
     FOOTHOLD_NORMAL,
     FOOTHOLD_YAW,
     GAINS,
+    HUMP,
+    LIFT,
     MISSED,
     SIDEWAYS,
     SWING_TIME,
@@ -34,10 +36,11 @@ _I = {name: i for i, name in enumerate(GAINS)}
 _SWING, _TRANSFER, _WIDTH, _REST = _I["swing_time"], _I["transfer_time"], _I["width"], _I["pressure_rest"]
 _NARROWEST, _LONGEST, _PITCH = _I["narrowest"], _I["longest"], _I["foot_pitch"]
 _ROUGH, _STEEP = _I["roughness"], _I["steepness"]
-_SPOT, _NORMAL = FOOTHOLD.start, FOOTHOLD_NORMAL.start
+_SPOT, _NORMAL, _LIFT = FOOTHOLD.start, FOOTHOLD_NORMAL.start, LIFT.start
 _SEARCH = 0.7  # [m] above and below the stance foot in which ground is looked for
 _TOE, _HEEL, _HALF = 0.12, -0.08, 0.035  # [m] corners of the sole around its middle
 _SHORTEST_SWING = 0.24  # [s]
+_HIGHEST_HUMP = 0.3  # [m]
 _STRIDE_BACK, _STRIDE, _STRADDLE = -0.45, 0.8, 0.5  # [m] what the legs reach
 _TILT_DOWN, _TILT_SIDE = 0.8, 0.45  # slopes downhill and sideways to which a foot turns
 
@@ -88,7 +91,8 @@ def foot_frame(yaw, normal, out):
 
 @njit(cache=True)
 def sway(gains, omega, speed):
-    """(ahead, inside) [m]: where the capture point is from the new stance foot at touchdown in a steady walk."""
+    """(ahead, inside) [m]: where the capture point is from the new stance foot at touchdown in a steady
+    walk."""
     growth = math.exp(omega * (gains[_SWING] + gains[_TRANSFER]))
     return speed * (gains[_SWING] + gains[_TRANSFER]) / (growth - 1.0), gains[_WIDTH] / (1.0 + growth)
 
@@ -97,8 +101,8 @@ def sway(gains, omega, speed):
 def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole):
     """Write `FOOTHOLD`, its normal and yaw, and `SWING_TIME` into ``walk``, for the present capture point.
 
-    sole (3,): middle of the stance foot's sole [m]. A step that would be too long is made sooner; one that the
-    legs cannot make is cut. Then the flattest place near it is taken.
+    sole (3,): middle of the stance foot's sole [m]. A step that would be too long is made sooner; one that
+    the legs cannot make is cut. Then the flattest place near it is taken.
     """
     g = gains
     yaw = walk[WALK_HEADING] + 0.5 * walk[WALK_TURN_RATE] * (g[_SWING] + g[_TRANSFER])
@@ -124,6 +128,15 @@ def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole):
     walk[FOOTHOLD_YAW] = yaw
     x, y = sole[0] + ch * along - sh * across, sole[1] + sh * along + ch * across
     _settle(g, ground, walk, x, y, ch, sh, sole[2])
+    walk[HUMP] = 0.0
+    for i in range(1, 4):
+        share = 0.25 * i
+        px = walk[_LIFT] + share * (walk[_SPOT] - walk[_LIFT])
+        py = walk[_LIFT + 1] + share * (walk[_SPOT + 1] - walk[_LIFT + 1])
+        line = walk[_LIFT + 2] + share * (walk[_SPOT + 2] - walk[_LIFT + 2])
+        z = ground_at(ground, px, py, sole[2] + _SEARCH)[0]
+        if z == z:
+            walk[HUMP] = min(max(walk[HUMP], z - line), _HIGHEST_HUMP)
 
 
 @njit(cache=True)
@@ -155,4 +168,3 @@ def _settle(g, ground, walk, x, y, ch, sh, level):
                 m0, m1 = -(uphill * ch - leftward * sh), -(uphill * sh + leftward * ch)
                 m = math.sqrt(1.0 + m0 * m0 + m1 * m1)
                 walk[_NORMAL], walk[_NORMAL + 1], walk[_NORMAL + 2] = m0 / m, m1 / m, 1.0 / m
-

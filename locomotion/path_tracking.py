@@ -13,8 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 from locomotion.errors import LocomotionError
 
 __all__ = [
-    "ARC", "HEADWAY", "HEADWAY_TICK", "LATERAL", "REMAINING", "RUN_UP", "SLOPE_HERE", "SPEED_HERE", "TRACK_SIZE",
-    "PathTable", "TrackingLimits", "make_path", "new_track", "track",
+    "ARC", "HEADWAY", "HEADWAY_TICK", "LATERAL", "REMAINING", "RUN_UP", "SLOPE_HERE", "SPEED_HERE",
+    "TRACK_SIZE", "PathTable", "TrackingLimits", "make_path", "new_track", "track",
 ]  # fmt: skip
 
 SPACING = 0.1
@@ -86,8 +86,9 @@ def make_path(
     on slopes and before the end, starting from ``present_speed`` [m/s]. ``edges`` (k,) are arc lengths [m] at
     which the path goes over an obstacle: the step in height there is no slope.
 
-    ``limits`` are those of running. With ``walk`` the body begins walking, and runs from where the rest of the
-    path can be run (`PathTable.run_from`) and a run is worth it; at the latest it runs `RUN_UP` before an edge.
+    ``limits`` are those of running. With ``walk`` the body begins walking, and runs from where the rest of
+    the path can be run (`PathTable.run_from`) and a run is worth it; at the latest it runs `RUN_UP` before an
+    edge.
 
     Raises `LocomotionError` for fewer than two distinct points, coordinates that are not finite, or a speed
     that is not above 0.
@@ -118,7 +119,9 @@ def make_path(
         table[np.abs(at - edge) < _STEP_REACH, SLOPE] = 0.0
     run_from = 0.0 if walk is None else _run_from(table, at, limits, speed, crossed)
     running = at >= run_from
-    _plan_speed(table, length / (count - 1), speed, [limits if r else walk or limits for r in running], present_speed)
+    _plan_speed(
+        table, length / (count - 1), speed, [limits if r else walk or limits for r in running], present_speed
+    )
     return PathTable(table, length, distinct[-1].copy(), run_from)
 
 

@@ -22,8 +22,8 @@ __all__ = [
     "load_run_skill",
     "reset_running",
     "reset_standing",
-    "run_on",
     "run_clip",
+    "run_on",
 ]
 
 RUN_CLIP = Path(__file__).parent / "clips" / "run.yaml"
@@ -185,9 +185,7 @@ def reset_standing(
     _fresh_state(model, data, index, state, yaw, 0.0, standing=True)
 
 
-def run_on(
-    state: np.ndarray, stance: float, heading: float, speed: float, phase: float = 0.1
-) -> None:
+def run_on(state: np.ndarray, stance: float, heading: float, speed: float, phase: float = 0.1) -> None:
     """Let the running controller take over a body that walks at ``speed`` [m/s] and has just put its foot of
     side ``stance`` down; ``state`` holds what was observed, and the last targets."""
     seen, targets = state[controller.OBSERVED].copy(), state[controller.LAST_TARGET].copy()

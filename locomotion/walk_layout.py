@@ -3,9 +3,9 @@
 import numpy as np
 
 __all__ = [
-    "CLOCK", "DOUBLE", "FOOTHOLD", "FOOTHOLD_NORMAL", "FOOTHOLD_YAW", "GAINS", "LIFT", "LIFT_NORMAL", "LIFT_YAW",
-    "MISSED", "PHASE", "SEEN_ANCHORS", "SEEN_AXES", "SEEN_FEET", "SEEN_PELVIS", "SEEN_SOLES", "SEEN_TORQUES",
-    "SETTING_OFF", "SIDEWAYS", "SINGLE", "STANDING", "SWING_ANGLES", "SWING_TIME", "WALKS",
+    "CLOCK", "DOUBLE", "FOOTHOLD", "FOOTHOLD_NORMAL", "FOOTHOLD_YAW", "GAINS", "HUMP", "LIFT", "LIFT_NORMAL",
+    "LIFT_YAW", "MISSED", "PHASE", "SEEN_ANCHORS", "SEEN_AXES", "SEEN_FEET", "SEEN_PELVIS", "SEEN_SOLES",
+    "SEEN_TORQUES", "SETTING_OFF", "SIDEWAYS", "SINGLE", "STANDING", "SWING_ANGLES", "SWING_TIME", "WALKS",
     "WALK_HEADING", "WALK_SIZE", "WALK_SPEED", "WALK_STANCE", "WALK_STEPS", "WALK_TICKS", "WALK_TURN_RATE",
     "first_gains", "gain_limits", "new_walk",
 ]  # fmt: skip
@@ -58,9 +58,9 @@ def gain_limits() -> tuple[np.ndarray, np.ndarray]:
 
 # --- what the controller remembers -------------------------------------------------------------------------
 PHASE, CLOCK, WALK_STANCE, WALK_HEADING, WALK_TURN_RATE, WALK_SPEED, SIDEWAYS, SETTING_OFF = range(8)
-"""`STANDING`, `SINGLE` or `DOUBLE` support; time in it [s]; stance side (-1 right, +1 left); reference heading
-[rad], turn rate [rad/s], speed and sideways speed to the left [m/s]; 1 while the weight is shifted for the
-first step."""
+"""`STANDING`, `SINGLE` or `DOUBLE` support; time in it [s]; stance side (-1 right, +1 left); reference
+heading [rad], turn rate [rad/s], speed and sideways speed to the left [m/s]; 1 while the weight is shifted
+for the first step."""
 STANDING, SINGLE, DOUBLE = 0.0, 1.0, 2.0
 SWING_TIME, MISSED, WALK_STEPS, WALK_TICKS, FOOTHOLD_YAW, LIFT_YAW = range(8, 14)
 """Planned time of this step's single support [s]; mean distance [m] by which feet land ahead of their
@@ -70,14 +70,16 @@ FOOTHOLD, FOOTHOLD_NORMAL, LIFT, LIFT_NORMAL = slice(14, 17), slice(17, 20), sli
 SWING_ANGLES = slice(26, 32)
 """Angles [rad] of the swing leg asked for at the last tick."""
 SEEN_SOLES, SEEN_FEET, SEEN_PELVIS = slice(32, 38), slice(38, 56), slice(56, 65)
-"""After the last physics step: middles of the right and the left sole [m]; rotations (2, 9) of the feet and (9,)
-of the pelvis."""
+"""After the last physics step: middles of the right and the left sole [m]; rotations (2, 9) of the feet and
+(9,) of the pelvis."""
 SEEN_ANCHORS, SEEN_AXES, SEEN_TORQUES = slice(65, 101), slice(101, 137), slice(137, 149)
 """The same for the six joints of the right and of the left leg: anchors [m] and axes, (2, 6, 3) in the world;
 torques, (2, 6) [Nm]."""
 WALKS = 149
 """1 while this controller moves the body, 0 while it runs."""
-WALK_SIZE = 150
+HUMP = 150
+"""How far [m] the ground rises above the straight line from where the swing foot left it to its foothold."""
+WALK_SIZE = 151
 
 
 def new_walk(heading: float = 0.0) -> np.ndarray:

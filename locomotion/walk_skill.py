@@ -32,8 +32,8 @@ _ARMS = (("shoulder_abduction", 0.12), ("elbow_flexion", 0.35))
 
 @dataclass(frozen=True)
 class WalkSkill:
-    """How the person walks: ``gains`` (len(GAINS),) float64 by the order of `walk_layout.GAINS`; ``speed`` [m/s]
-    at which it walks at most; ``meta``: what made it."""
+    """How the person walks: ``gains`` (len(GAINS),) float64 by the order of `walk_layout.GAINS`; ``speed``
+    [m/s] at which it walks at most; ``meta``: what made it."""
 
     gains: np.ndarray
     speed: float = 1.4
@@ -46,7 +46,8 @@ class WalkSkill:
 
 
 def load_walk_skill(path: str | os.PathLike[str] = WALK_SKILL) -> WalkSkill:
-    """Read a walk skill; `LocomotionError` if it is missing, cut off, of another version or another person."""
+    """Read a walk skill; `LocomotionError` if it is missing, cut off, of another version or another
+    person."""
     try:
         header, arrays = read_archive(path, _KIND, _VERSION)
     except ArchiveError as error:
@@ -83,7 +84,9 @@ def plant(
         x, y = position[0] - 0.5 * side * _WIDTH * sh, position[1] + 0.5 * side * _WIDTH * ch
         z, *normal = ground_at(ground, x, y, position[2] + 0.5)
         found = z == z and abs(z - position[2]) < 0.5
-        spots.append((np.array([x, y, z if found else position[2]]), np.array(normal) if found else np.eye(3)[2]))
+        spots.append(
+            (np.array([x, y, z if found else position[2]]), np.array(normal) if found else np.eye(3)[2])
+        )
     low = min(spot[2] for spot, _ in spots)
     data.qpos[:3] = [position[0] - _HIPS_BACK * ch, position[1] - _HIPS_BACK * sh, low + _HIP_HEIGHT]
     data.qpos[3:7] = [math.cos(0.5 * yaw), 0.0, 0.0, math.sin(0.5 * yaw)]
@@ -97,7 +100,14 @@ def plant(
         normal /= np.linalg.norm(normal)
         foot, angles = np.empty((3, 3)), np.empty(6)
         foot_frame(yaw, normal, foot)
-        solve_leg(pelvis, data.xanchor[hip + 1].copy(), foot, spot - SOLE * foot[:, 0] + ANKLE * foot[:, 2], side, angles)
+        solve_leg(
+            pelvis,
+            data.xanchor[hip + 1].copy(),
+            foot,
+            spot - SOLE * foot[:, 0] + ANKLE * foot[:, 2],
+            side,
+            angles,
+        )
         data.qpos[7 + hip : 13 + hip] = angles
     mujoco.mj_forward(model, data)
     state[:] = controller.new_state()

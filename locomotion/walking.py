@@ -1,7 +1,8 @@
-"""The walking controller: capture-point steps, stance legs that make forces, a swing leg that is aimed (numba).
+"""The walking controller: capture-point steps, stance legs that make forces, a swing leg that is aimed
+(numba).
 
-Per control tick of 10 ms the order is *control, physics, observe*, as in `locomotion.controller`, whose ``state``
-also holds what was observed::
+Per control tick of 10 ms the order is *control, physics, observe*, as in `locomotion.controller`, whose
+``state`` also holds what was observed::
 
     gains, walk = load_walk_gains(), new_walk(heading)
     each tick:
@@ -16,10 +17,10 @@ A simulation is saved by copying ``mjSTATE_INTEGRATION``, ``state`` and ``walk``
 [rise over run]; all may jump. A person told 0 m/s makes its steps small and then stands.
 
 What the body does (S. Coros et al., "Generalized biped walking control", 2010, for the forces;
-`locomotion.footholds` for the steps): the stance leg pushes with the force that keeps height and trunk and that
-passes near the centre of mass from a centre of pressure chosen under the foot, by the transposed Jacobian of its
-joints; the swing foot is moved to its foothold by inverse kinematics. Servos are told angles: a torque t is
-asked for as q + t / stiffness, with the servo's damping cancelled.
+`locomotion.footholds` for the steps): the stance leg pushes with the force that keeps height and trunk and
+that passes near the centre of mass from a centre of pressure chosen under the foot, by the transposed
+Jacobian of its joints; the swing foot is moved to its foothold by inverse kinematics. Servos are told
+angles: a torque t is asked for as q + t / stiffness, with the servo's damping cancelled.
 """
 
 import math
@@ -40,6 +41,7 @@ from locomotion.walk_layout import (
     FOOTHOLD_NORMAL,
     FOOTHOLD_YAW,
     GAINS,
+    HUMP,
     LIFT,
     LIFT_NORMAL,
     LIFT_YAW,
@@ -75,7 +77,12 @@ _SWING, _TRANSFER, _WIDTH, _HEIGHT = _I["swing_time"], _I["transfer_time"], _I["
 _P_GAIN, _P_ALONG, _P_ACROSS, _P_REST = (
     _I["pressure_gain"], _I["pressure_along"], _I["pressure_across"], _I["pressure_rest"],
 )  # fmt: skip
-_Z_STIFF, _Z_DAMP, _DROP, _Z_SLOPE = _I["height_stiffness"], _I["height_damping"], _I["drop"], _I["height_slope"]
+_Z_STIFF, _Z_DAMP, _DROP, _Z_SLOPE = (
+    _I["height_stiffness"],
+    _I["height_damping"],
+    _I["drop"],
+    _I["height_slope"],
+)
 _TILT, _TILT_DAMP, _TILT_MOST = _I["tilt_stiffness"], _I["tilt_damping"], _I["tilt_moment"]
 _YAW, _YAW_DAMP, _REACTION, _MOMENT = _I["yaw_stiffness"], _I["yaw_damping"], _I["reaction"], _I["moment"]
 _LEAN, _LEAN_SLOPE, _LEG_DAMPING = _I["lean"], _I["lean_slope"], _I["leg_damping"]
@@ -98,6 +105,7 @@ _LEAD_TIME = 0.1  # servo damping per stiffness [s], as in locomotion.person
 _PELVIS_BODY = 1
 _GRAVITY = 9.81
 _TOUCH = 40.0  # [N] under the swing foot that end the step
+_LANDING, _NEAR = 0.8, 0.12  # share of the swing after which, or [m] from its foothold where it may land
 _TURN_RATE, _TURN_CHANGE = 1.2, 6.0  # [rad/s], [rad/s^2]
 _FASTER, _SLOWER, _SIDE_CHANGE = 0.8, 1.0, 0.5  # [m/s^2] of the reference speeds
 _STILL, _STRAIGHT, _AWRY = 0.02, 0.2, 0.3  # [m/s], [rad] below which it stands; [rad] above which it sets off
@@ -190,7 +198,10 @@ def _step(gains, walk, command, error, soles, contact, capture, omega, qpos):
         if -walk[WALK_STANCE] * outside < 2.0 * inside or walk[CLOCK] > _SET_OFF_LIMIT:
             begin_swing(gains, walk, qpos)
     elif walk[PHASE] == SINGLE:
-        if walk[CLOCK] > 0.5 * walk[SWING_TIME] and contact[swing] > _TOUCH:
+        # a foot that only brushes the ground on its way has not landed
+        dx, dy = soles[swing, 0] - walk[_SPOT], soles[swing, 1] - walk[_SPOT + 1]
+        there = walk[CLOCK] > _LANDING * walk[SWING_TIME] or dx * dx + dy * dy < _NEAR * _NEAR
+        if walk[CLOCK] > 0.5 * walk[SWING_TIME] and contact[swing] > _TOUCH and there:
             missed = ch * (soles[swing, 0] - walk[_SPOT]) + sh * (soles[swing, 1] - walk[_SPOT + 1])
             walk[MISSED] = _clamp(walk[MISSED] + 0.3 * missed, -0.1, 0.1)
             walk[PHASE], walk[CLOCK] = DOUBLE, 0.0
@@ -246,7 +257,8 @@ def _pressures(gains, walk, soles, feet, capture, omega, cop, share):
 
 @njit(cache=True)
 def _upright(gains, walk, slope, pelvis, qvel, out):
-    """Moment ``out`` (3,) [Nm] about the world's axes that turns the pelvis upright and towards the heading."""
+    """Moment ``out`` (3,) [Nm] about the world's axes that turns the pelvis upright and towards the
+    heading."""
     ch, sh = math.cos(walk[WALK_HEADING]), math.sin(walk[WALK_HEADING])
     gx = pelvis[0] * qvel[3] + pelvis[1] * qvel[4] + pelvis[2] * qvel[5]
     gy = pelvis[3] * qvel[3] + pelvis[4] * qvel[4] + pelvis[5] * qvel[5]
@@ -263,7 +275,8 @@ def _upright(gains, walk, slope, pelvis, qvel, out):
 
 @njit(cache=True)
 def _support(hip, damping, force, cop, yaw_moment, anchors, axes, qpos, qvel, ctrl):
-    """A leg that makes the ground push with ``force`` (3,) at ``cop`` (3,): transposed Jacobian, as PD targets."""
+    """A leg that makes the ground push with ``force`` (3,) at ``cop`` (3,): transposed Jacobian, as PD
+    targets."""
     for j in range(6):
         axis, anchor = axes[j], anchors[j]
         rx, ry, rz = cop[0] - anchor[0], cop[1] - anchor[1], cop[2] - anchor[2]
@@ -283,7 +296,7 @@ def _swing(gains, walk, pelvis, hip_at, hip, side, ctrl):
     spot, normal = np.empty(3), np.empty(3)
     for i in range(3):
         spot[i] = walk[_LIFT + i] + move * (walk[_SPOT + i] - walk[_LIFT + i])
-        turned = min(1.4 * share, 1.0)
+        turned = _clamp(2.0 * share - 0.7, 0.0, 1.0)
         normal[i] = walk[_LIFT_NORMAL + i] + turned * (walk[_NORMAL + i] - walk[_LIFT_NORMAL + i])
     normal /= math.sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2)
     # early up to a higher foothold, late down to a lower one
@@ -292,7 +305,9 @@ def _swing(gains, walk, pelvis, hip_at, hip, side, ctrl):
         done = math.sin(0.5 * math.pi * min(2.0 * share, 1.0))
     else:
         done = 1.0 - math.cos(0.5 * math.pi * _clamp(2.0 * share - 1.0, 0.0, 1.0))
-    spot[2] = walk[_LIFT + 2] + rise * done + gains[_CLEARANCE] * math.sin(math.pi * min(share, 1.0))
+    spot[2] = walk[_LIFT + 2] + rise * done + (gains[_CLEARANCE] + walk[HUMP]) * math.sin(
+        math.pi * min(share, 1.0)
+    )
     if share > 1.0:  # the ground is lower than thought: reach for it
         spot[2] -= 0.35 * (walk[CLOCK] - walk[SWING_TIME])
     foot = np.empty((3, 3))
@@ -311,8 +326,8 @@ def _swing(gains, walk, pelvis, hip_at, hip, side, ctrl):
 def walk_tick(gains, ground, walk, state, command, qpos, qvel, ctrl):
     """One control tick: advance ``walk`` (WALK_SIZE,), write the PD targets ``ctrl`` (39,) [rad].
 
-    gains (len(GAINS),); ground as in `footholds.ground_at`; state: a running controller's, with what was observed;
-    its heading, speed, stance and steps are kept up to date. All float64.
+    gains (len(GAINS),); ground as in `footholds.ground_at`; state: a running controller's, with what was
+    observed; its heading, speed, stance and steps are kept up to date. All float64.
     """
     error = _follow(walk, command)
     walk[WALK_TICKS] += 1.0

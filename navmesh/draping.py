@@ -63,8 +63,8 @@ def _drape_curve(net, curve, points):
 
 
 def drape_curve(graph: "NodeGraph", curve: np.ndarray) -> np.ndarray:
-    """The points (n, 3) [m] of a ``curve`` (n, 3) that is walked from its first point, on the surface; only the
-    first one's height counts."""
+    """The points (n, 3) [m] of a ``curve`` (n, 3) that is walked from its first point, on the surface; only
+    the first one's height counts."""
     origin = graph.surface.origin
     points = np.ascontiguousarray(curve - origin)
     _drape_curve(net_of(graph), points.copy(), points)

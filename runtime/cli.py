@@ -32,6 +32,7 @@ class Skill(StrEnum):
     """What can be learned."""
 
     run = "run"
+    walk = "walk"
     jump = "jump"
 
 

@@ -148,8 +148,9 @@ def train_skill(
     """Learn ``skill`` and write it to ``output`` (None: where the package keeps its own)."""
     from locomotion.training.jump import train_jump
     from locomotion.training.run import train_run
+    from locomotion.training.walk import train_walk
 
-    train = {"run": train_run, "jump": train_jump}[skill]
+    train = {"run": train_run, "walk": train_walk, "jump": train_jump}[skill]
     where = {} if output is None else {"out": output}
     if output is not None:
         _writable(output)
@@ -160,10 +161,11 @@ def train_skill(
 
 def evaluate_skill(skill: str, trials: int, seed: int) -> Result:
     """Try ``skill``; holds when at least nine of ten trials do."""
-    from runtime.evaluation import evaluate_jump, evaluate_run
+    from runtime.evaluation import evaluate_jump, evaluate_run, evaluate_walk
 
     progress = _ready()
-    attempts = (evaluate_run if skill == "run" else evaluate_jump)(trials, seed, progress)
+    evaluate = {"run": evaluate_run, "walk": evaluate_walk, "jump": evaluate_jump}[skill]
+    attempts = evaluate(trials, seed, progress)
     held = sum(attempt.held for attempt in attempts)
     values = {"skill": skill, "held": held, "trials": trials, "attempts": [asdict(each) for each in attempts]}
 

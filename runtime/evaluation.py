@@ -10,7 +10,7 @@ from locomotion import MOVING, Ground, Human, LocomotionError, ObstacleAhead
 from locomotion.person import CONTROL_DT
 from runtime.progress import Progress
 
-__all__ = ["Attempt", "evaluate_jump", "evaluate_run"]
+__all__ = ["Attempt", "evaluate_jump", "evaluate_run", "evaluate_walk"]
 
 RUN_LENGTH = 60.0
 """[m] of each run."""
@@ -48,9 +48,27 @@ def evaluate_run(trials: int, seed: int, progress: Progress) -> list[Attempt]:
             for force in _pushes(rng):
                 human.data.xfrc_applied[pelvis, :2] = force
                 human.tick()
-                if human.status != "running" or human.time > RUN_LENGTH / _SLOWEST:
+                if human.status not in MOVING or human.time > RUN_LENGTH / _SLOWEST:
                     break
             attempts.append(Attempt(f"{speed:.2f} m/s", human.status, human.status == "arrived"))
+            stage.update((k + 1) / trials, f"{sum(each.held for each in attempts)} of {k + 1} held")
+    return attempts
+
+
+def evaluate_walk(trials: int, seed: int, progress: Progress) -> list[Attempt]:
+    """Winding paths on level, rolling and bumpy ground and over ramps, with pushes of up to 80 N on the
+    level."""
+    from locomotion.training.path_trial import draw_path, follow_path
+    from locomotion.training.walk import walk_curriculum
+
+    kinds = walk_curriculum()[-1].options["kinds"]
+    attempts = []
+    with progress.stage("walking") as stage:
+        for k in range(trials):
+            scenario = draw_path(np.random.default_rng([seed, k]), **kinds[k % len(kinds)])
+            arrived = follow_path(scenario).figures["time"] >= scenario.duration
+            what = f"{scenario.ground}, {scenario.length:.1f} m at {scenario.speed:.2f} m/s"
+            attempts.append(Attempt(what, "arrived" if arrived else "did not arrive", arrived))
             stage.update((k + 1) / trials, f"{sum(each.held for each in attempts)} of {k + 1} held")
     return attempts
 

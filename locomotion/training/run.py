@@ -283,10 +283,10 @@ class RunProblem:
         costs, survived = 0.0, 0.0
         for scenario in scenarios:
             if isinstance(scenario, PathScenario):
-                trial = follow_path(skill, scenario)
+                trial = follow_path(scenario, skill)
             else:
                 trial = _simulator().run(skill, scenario)
-            costs += cost(trial, scenario, stage.options["style"])
+            costs += cost(trial, scenario.duration, stage.options["style"])
             survived += trial.figures["time"] / scenario.duration
         return costs / len(scenarios), survived / len(scenarios)
 

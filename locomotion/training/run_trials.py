@@ -59,10 +59,10 @@ def draw_scenario(
     )
 
 
-def cost(trial: Trial, scenario: Scenario, style: float) -> float:
-    """Objective of one trial; ``style`` in [0, 1] weighs looks against survival."""
+def cost(trial: Trial, duration: float, style: float) -> float:
+    """Objective of one trial of ``duration`` [s]; ``style`` in [0, 1] weighs looks against survival."""
     f = trial.figures
-    lost = 1.0 - f["time"] / scenario.duration
+    lost = 1.0 - f["time"] / duration
     wanted_rate = 2.75 * (0.2 * f["speed"] / 3.5 + 0.8)
     return (
         10.0 * lost

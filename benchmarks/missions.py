@@ -179,8 +179,8 @@ def main() -> None:
     options = parser.parse_args()
     report: dict[str, Any] = {"speed": options.speed, "seed": options.seed, "levels": {}}
     print(
-        f"{'level':12} {'arrive':>8} {'lateral p95':>12} {'control':>8} {'and planning':>13} {'real time':>10}"
-        "  stopped by"
+        f"{'level':12} {'arrive':>8} {'lateral p95':>12} {'control':>8} {'and planning':>13} "
+        f"{'real time':>10}  stopped by"
     )
     for name in options.levels:
         if name in LEVELS and shared_folder() is None:

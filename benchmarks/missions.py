@@ -144,6 +144,7 @@ def cost_of_control(human: Human, route: Any, speed: float, seconds: float = 6.0
         "tick_us": 1e6 * whole / ticks,
         "physics_us": 1e6 * bare / ticks,
         "planning_us": 1e6 * planning,
+        "control": whole / bare - 1.0,
         "share": (whole / ticks + planning) / (bare / ticks) - 1.0,
         "real_time": CONTROL_DT / (whole / ticks + planning),
     }
@@ -177,7 +178,10 @@ def main() -> None:
     parser.add_argument("--json", type=Path, help="write every mission here")
     options = parser.parse_args()
     report: dict[str, Any] = {"speed": options.speed, "seed": options.seed, "levels": {}}
-    print(f"{'level':12} {'arrive':>8} {'lateral p95':>12} {'control':>8} {'real time':>10}  stopped by")
+    print(
+        f"{'level':12} {'arrive':>8} {'lateral p95':>12} {'control':>8} {'and planning':>13} "
+        f"{'real time':>10}  stopped by"
+    )
     for name in options.levels:
         if name in LEVELS and shared_folder() is None:
             print(f"{name:12} skipped: {why_absent()}")
@@ -186,7 +190,8 @@ def main() -> None:
         report["levels"][name] = result
         arrived, cost = f"{result['arrived']}/{len(result['missions'])}", result["cost"]
         print(
-            f"{name:12} {arrived:>8} {result['lateral_p95']:10.2f} m {100 * cost['share']:6.1f} % "
+            f"{name:12} {arrived:>8} {result['lateral_p95']:10.2f} m {100 * cost['control']:6.1f} % "
+            f"{100 * cost['share']:11.1f} % "
             f"{cost['real_time']:8.0f} x  {result['stopped_by']}"
         )
     if options.json:

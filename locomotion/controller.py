@@ -438,7 +438,10 @@ def run_tick(knots, table, reference, rates, mean, state_reference, limits, stat
 
 
 @njit(cache=True)
-def _observe(state, com, right, left, up, ncon, geoms, addresses, forces, geom_side, fresh):
+def _observe(
+    state, coms, places, frames, root, feet, chest, ncon, geoms, addresses, forces, geom_side, fresh
+):  # fmt: skip
+    com, right, left = coms[root], places[feet[0]], places[feet[1]]
     for k in range(3):
         state[17 + k] = state[17 + k] if fresh else (com[k] - state[14 + k]) / CONTROL_DT
         state[14 + k] = com[k]
@@ -454,7 +457,7 @@ def _observe(state, com, right, left, up, ncon, geoms, addresses, forces, geom_s
                 total += forces[addresses[c] + k]
             state[26 if side < 0 else 27] += total
     lowest = min(right[2], left[2])
-    if com[2] - lowest < 0.45 or up < 0.35:
+    if com[2] - lowest < 0.45 or frames[chest, 8] < 0.35:
         state[FALLEN] = 1.0
 
 
@@ -469,10 +472,12 @@ def observe(
     contact = data.contact
     _observe(
         state,
-        data.subtree_com[index.root],
-        data.xpos[index.feet[0]],
-        data.xpos[index.feet[1]],
-        data.xmat[index.chest, 8],
+        data.subtree_com,
+        data.xpos,
+        data.xmat,
+        index.root,
+        index.feet,
+        index.chest,
         data.ncon,
         contact.geom,
         contact.efc_address,

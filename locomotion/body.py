@@ -68,15 +68,15 @@ ARRIVAL_DISTANCE = 0.5
 """A person has arrived when its centre of mass is within this horizontal distance of the goal [m]."""
 STRAYED = 2.0
 """[m] beside the path at which a person gives up following it."""
-STUCK_TIME = 4.0
+STUCK_TIME = 8.0
 """[s] without headway along the path after which a person counts as stuck."""
 _NEXT, _STEPS_SEEN, _PLANNED = range(3)
 _RUN_UP_SIZE = 3
 # number of the next obstacle, steps made when the run-up was last planned, speed planned for this step or 0
 _WALK_ARRIVAL = 0.15  # [m] before the end of its path at which a walking person stops
-_WALK_SLOWEST, _WALK_SIDEWAYS = 0.25, 0.5  # [m/s], [m/s^2]
+_WALK_SLOWEST, _WALK_SIDEWAYS = 0.3, 0.5  # [m/s], [m/s^2]
 _WALK_FASTER, _WALK_SLOWER = 0.7, 0.5  # [m/s^2]
-_WALK_UPHILL, _WALK_DOWNHILL = 1.2, 2.6  # [m/s per unit of slope]
+_WALK_UPHILL, _WALK_DOWNHILL = 0.8, 2.2  # [m/s per unit of slope]
 _RUN_SHARPEST, _RUN_STEEPEST = 0.3, 0.12  # [1/m], slope: where it would rather walk
 _RUN_ENTRY = 1.15  # [m/s] of walking from which it can begin to run
 _FIRST_STEPS = 3  # made walking before it runs

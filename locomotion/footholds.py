@@ -27,10 +27,11 @@ from locomotion.walk_layout import (
     WALK_HEADING,
     WALK_SPEED,
     WALK_STANCE,
+    WALK_TRIM,
     WALK_TURN_RATE,
 )
 
-__all__ = ["foot_frame", "ground_at", "plan_foothold", "sway"]
+__all__ = ["foot_frame", "ground_at", "plan_foothold", "stand_on", "sway"]
 
 _I = {name: i for i, name in enumerate(GAINS)}
 _SWING, _TRANSFER, _WIDTH, _REST = _I["swing_time"], _I["transfer_time"], _I["width"], _I["pressure_rest"]
@@ -41,6 +42,7 @@ _SEARCH = 0.7  # [m] above and below the stance foot in which ground is looked f
 _TOE, _HEEL, _HALF = 0.12, -0.08, 0.035  # [m] corners of the sole around its middle
 _SHORTEST_SWING = 0.24  # [s]
 _HIGHEST_HUMP = 0.3  # [m]
+_BURIED = 0.2  # [m] that a corner of the sole may be below the ground
 _STRIDE_BACK, _STRIDE, _STRADDLE = -0.45, 0.8, 0.5  # [m] what the legs reach
 _TILT_DOWN, _TILT_SIDE = 0.8, 0.45  # slopes downhill and sideways to which a foot turns
 
@@ -107,7 +109,7 @@ def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole):
     g = gains
     yaw = walk[WALK_HEADING] + 0.5 * walk[WALK_TURN_RATE] * (g[_SWING] + g[_TRANSFER])
     ch, sh = math.cos(yaw), math.sin(yaw)
-    ahead, inside = sway(g, omega, walk[WALK_SPEED])
+    ahead, inside = sway(g, omega, walk[WALK_SPEED] + walk[WALK_TRIM])
     aside = sway(g, omega, walk[SIDEWAYS])[0]
     side = -walk[WALK_STANCE]  # of the foot that lands
     rest_x, rest_y = g[_REST] * ch, g[_REST] * sh
@@ -163,8 +165,27 @@ def _settle(g, ground, walk, x, y, ch, sh, level):
             if cost < least:
                 least = cost
                 walk[_SPOT], walk[_SPOT + 1], walk[_SPOT + 2] = qx, qy, z
-                uphill = min(max(-(n0 * ch + n1 * sh) / n2, -_TILT_DOWN), g[_PITCH])
-                leftward = min(max((n0 * sh - n1 * ch) / n2, -_TILT_SIDE), _TILT_SIDE)
-                m0, m1 = -(uphill * ch - leftward * sh), -(uphill * sh + leftward * ch)
-                m = math.sqrt(1.0 + m0 * m0 + m1 * m1)
-                walk[_NORMAL], walk[_NORMAL + 1], walk[_NORMAL + 2] = m0 / m, m1 / m, 1.0 / m
+                walk[_NORMAL], walk[_NORMAL + 1], walk[_NORMAL + 2] = n0, n1, n2
+    if least < math.inf:
+        stand_on(ground, walk[_SPOT : _SPOT + 3], walk[_NORMAL : _NORMAL + 3], ch, sh, g[_PITCH])
+
+
+@njit(cache=True)
+def stand_on(ground, spot, normal, ch, sh, steepest):
+    """Turn a foot at ``spot`` (3,) as far towards the ground's ``normal`` (3,) as feet turn, uphill up to the
+    slope ``steepest``, and raise it until no corner of its sole is below the ground; both change in place.
+    (ch, sh): direction of the toes."""
+    n0, n1, n2 = normal
+    uphill = min(max(-(n0 * ch + n1 * sh) / n2, -_TILT_DOWN), steepest)
+    leftward = min(max((n0 * sh - n1 * ch) / n2, -_TILT_SIDE), _TILT_SIDE)
+    rise = 0.0
+    for corner in range(4):
+        u = _TOE if corner < 2 else _HEEL
+        v = _HALF if corner % 2 else -_HALF
+        z = ground_at(ground, spot[0] + ch * u - sh * v, spot[1] + sh * u + ch * v, spot[2] + _BURIED)[0]
+        if z == z:
+            rise = max(rise, z - spot[2] - uphill * u - leftward * v)
+    spot[2] += rise
+    m0, m1 = -(uphill * ch - leftward * sh), -(uphill * sh + leftward * ch)
+    m = math.sqrt(1.0 + m0 * m0 + m1 * m1)
+    normal[0], normal[1], normal[2] = m0 / m, m1 / m, 1.0 / m

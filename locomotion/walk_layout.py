@@ -5,9 +5,9 @@ import numpy as np
 __all__ = [
     "CLOCK", "DOUBLE", "FOOTHOLD", "FOOTHOLD_NORMAL", "FOOTHOLD_YAW", "GAINS", "HUMP", "LIFT", "LIFT_NORMAL",
     "LIFT_YAW", "MISSED", "PHASE", "SEEN_ANCHORS", "SEEN_AXES", "SEEN_FEET", "SEEN_PELVIS", "SEEN_SOLES",
-    "SEEN_TORQUES", "SETTING_OFF", "SIDEWAYS", "SINGLE", "STANDING", "SWING_ANGLES", "SWING_TIME", "WALKS",
-    "WALK_HEADING", "WALK_SIZE", "WALK_SPEED", "WALK_STANCE", "WALK_STEPS", "WALK_TICKS", "WALK_TURN_RATE",
-    "first_gains", "gain_limits", "new_walk",
+    "SEEN_TORQUES", "SETTING_OFF", "SIDEWAYS", "SINGLE", "STANDING", "STEPPED_AT", "STEPPED_FROM",
+    "SWING_ANGLES", "SWING_TIME", "WALKS", "WALK_HEADING", "WALK_SIZE", "WALK_SPEED", "WALK_STANCE",
+    "WALK_STEPS", "WALK_TICKS", "WALK_TRIM", "WALK_TURN_RATE", "first_gains", "gain_limits", "new_walk",
 ]  # fmt: skip
 
 GAINS: dict[str, tuple[float, float, float]] = {
@@ -79,7 +79,10 @@ WALKS = 149
 """1 while this controller moves the body, 0 while it runs."""
 HUMP = 150
 """How far [m] the ground rises above the straight line from where the swing foot left it to its foothold."""
-WALK_SIZE = 151
+WALK_TRIM, STEPPED_AT, STEPPED_FROM = 151, 152, slice(153, 155)
+"""Speed [m/s] asked for on top of the reference so that the steps are as fast as it; tick of the last
+touchdown, and centre of mass [m] at it."""
+WALK_SIZE = 155
 
 
 def new_walk(heading: float = 0.0) -> np.ndarray:

@@ -12,7 +12,7 @@ import numpy as np
 from locomotion import controller
 from locomotion.anatomy import ANKLE
 from locomotion.errors import LocomotionError
-from locomotion.footholds import foot_frame, ground_at
+from locomotion.footholds import foot_frame, ground_at, stand_on
 from locomotion.leg_kinematics import solve_leg
 from locomotion.person import JOINT_NAMES, PersonIndex, person_digest
 from locomotion.walk_layout import GAINS, gain_limits, new_walk
@@ -25,7 +25,7 @@ WALK_SKILL = Path(__file__).parent / "skills" / "walk.npz"
 _KIND, _VERSION = "walk skill", 1
 _WIDTH, _HIP_HEIGHT = 0.17, 0.83  # [m] of a stand: between the feet; of the hips above the lower sole
 _HIPS_BACK = 0.03  # [m] that the hips are behind the middle of the feet
-_STEEPEST = 0.62  # slope [rise over run] to which the feet of a stand turn
+_STEEPEST = 0.4  # slope [rise over run] to which the feet of a stand turn uphill
 _HIPS = tuple(JOINT_NAMES.index(f"{side}_hip_flexion") for side in ("right", "left"))
 _ARMS = (("shoulder_abduction", 0.12), ("elbow_flexion", 0.35))
 
@@ -96,8 +96,7 @@ def plant(
     mujoco.mj_kinematics(model, data)
     pelvis = data.xmat[index.root].reshape(3, 3).copy()
     for (spot, normal), hip, side in zip(spots, _HIPS, (-1.0, 1.0), strict=True):
-        normal[2] = max(normal[2], math.hypot(normal[0], normal[1]) / _STEEPEST)
-        normal /= np.linalg.norm(normal)
+        stand_on(ground, spot, normal, ch, sh, _STEEPEST)
         foot, angles = np.empty((3, 3)), np.empty(6)
         foot_frame(yaw, normal, foot)
         solve_leg(

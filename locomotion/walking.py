@@ -57,6 +57,8 @@ from locomotion.walk_layout import (
     SIDEWAYS,
     SINGLE,
     STANDING,
+    STEPPED_AT,
+    STEPPED_FROM,
     SWING_ANGLES,
     SWING_TIME,
     WALK_HEADING,
@@ -64,6 +66,7 @@ from locomotion.walk_layout import (
     WALK_STANCE,
     WALK_STEPS,
     WALK_TICKS,
+    WALK_TRIM,
     WALK_TURN_RATE,
 )
 
@@ -91,6 +94,7 @@ _SPOT, _NORMAL, _LIFT, _LIFT_NORMAL, _ANGLES = (
     FOOTHOLD.start, FOOTHOLD_NORMAL.start, LIFT.start, LIFT_NORMAL.start, SWING_ANGLES.start,
 )  # fmt: skip
 _SOLES, _FEET, _PELVIS = SEEN_SOLES.start, SEEN_FEET.start, SEEN_PELVIS.start
+_STEPPED = STEPPED_FROM.start
 _ANCHORS, _AXES, _TORQUES = SEEN_ANCHORS.start, SEEN_AXES.start, SEEN_TORQUES.start
 _COM, _VEL, _CONTACT = run_layout.COM.start, run_layout.COM_VELOCITY.start, run_layout.CONTACT.start
 _TARGETS = run_layout.LAST_TARGET.start
@@ -112,6 +116,7 @@ _STILL, _STRAIGHT, _AWRY = 0.02, 0.2, 0.3  # [m/s], [rad] below which it stands;
 _SETTLED = 0.05  # [m/s] of the reference speed below which it stands
 _SET_OFF_LIMIT = 3.0  # [s] after which the first step is made regardless
 _UNLOADED = 0.15  # share of the weight on the first stance leg while it is pushed over it
+_TRIM_RATE, _MOST_TRIM = 0.1, 0.4  # share of a step's error in speed; [m/s]
 _FRICTION = 0.75  # sideways per upward force at most
 _MAX_SLOPE = 0.8
 _YAW_MOMENT = 25.0  # [Nm]
@@ -181,7 +186,19 @@ def _follow(walk, command):
 
 
 @njit(cache=True)
-def _step(gains, walk, command, error, soles, contact, capture, omega, qpos):
+def _trim(walk, x, y, ch, sh):
+    """At a touchdown with the centre of mass at (x, y): correct the speed asked for by that of the last
+    step."""
+    if walk[WALK_STEPS] > 1.0:
+        time = (walk[WALK_TICKS] - walk[STEPPED_AT]) * CONTROL_DT
+        made = (ch * (x - walk[_STEPPED]) + sh * (y - walk[_STEPPED + 1])) / time
+        trim = walk[WALK_TRIM] + _TRIM_RATE * (walk[WALK_SPEED] - made)
+        walk[WALK_TRIM] = _clamp(trim, -_MOST_TRIM, _MOST_TRIM)
+    walk[STEPPED_AT], walk[_STEPPED], walk[_STEPPED + 1] = walk[WALK_TICKS], x, y
+
+
+@njit(cache=True)
+def _step(gains, walk, command, error, soles, contact, com, capture, omega, qpos):
     """Which feet bear the person now: phases and their ends."""
     stance = 1 if walk[WALK_STANCE] > 0 else 0
     swing = 1 - stance
@@ -207,9 +224,10 @@ def _step(gains, walk, command, error, soles, contact, capture, omega, qpos):
             walk[PHASE], walk[CLOCK] = DOUBLE, 0.0
             walk[WALK_STANCE] = -walk[WALK_STANCE]
             walk[WALK_STEPS] += 1.0
+            _trim(walk, com[0], com[1], ch, sh)
     elif walk[CLOCK] >= gains[_TRANSFER]:
         if still and abs(walk[WALK_SPEED]) < _SETTLED and abs(error) < _STRAIGHT:
-            walk[PHASE] = STANDING
+            walk[PHASE], walk[WALK_TRIM] = STANDING, 0.0
             walk[CLOCK] = walk[SETTING_OFF] = 0.0
         else:
             begin_swing(gains, walk, qpos)
@@ -227,7 +245,7 @@ def _pressures(gains, walk, soles, feet, capture, omega, cop, share):
         share[stance] = 1.0
         # where the capture point would be in a steady walk
         growth = math.exp(omega * (walk[CLOCK] + 0.5 * gains[_TRANSFER]))
-        ahead, inside = sway(gains, omega, walk[WALK_SPEED])
+        ahead, inside = sway(gains, omega, walk[WALK_SPEED] + walk[WALK_TRIM])
         ahead, inside = ahead * growth + rest, inside * growth * walk[WALK_STANCE]
         ex = gains[_P_GAIN] * (capture[0] - soles[stance, 0] - ch * ahead - sh * inside)
         ey = gains[_P_GAIN] * (capture[1] - soles[stance, 1] - sh * ahead + ch * inside)
@@ -305,8 +323,8 @@ def _swing(gains, walk, pelvis, hip_at, hip, side, ctrl):
         done = math.sin(0.5 * math.pi * min(2.0 * share, 1.0))
     else:
         done = 1.0 - math.cos(0.5 * math.pi * _clamp(2.0 * share - 1.0, 0.0, 1.0))
-    spot[2] = walk[_LIFT + 2] + rise * done + (gains[_CLEARANCE] + walk[HUMP]) * math.sin(
-        math.pi * min(share, 1.0)
+    spot[2] = (
+        walk[_LIFT + 2] + rise * done + (gains[_CLEARANCE] + walk[HUMP]) * math.sin(math.pi * min(share, 1.0))
     )
     if share > 1.0:  # the ground is lower than thought: reach for it
         spot[2] -= 0.35 * (walk[CLOCK] - walk[SWING_TIME])
@@ -342,7 +360,7 @@ def walk_tick(gains, ground, walk, state, command, qpos, qvel, ctrl):
     omega = math.sqrt(_GRAVITY / max(state[_COM + 2] - soles[stance, 2], 0.5))
     capture = np.array([state[_COM] + state[_VEL] / omega, state[_COM + 1] + state[_VEL + 1] / omega])
     contact = state[_CONTACT : _CONTACT + 2]
-    _step(gains, walk, command, error, soles, contact, capture, omega, qpos)
+    _step(gains, walk, command, error, soles, contact, state[_COM : _COM + 2], capture, omega, qpos)
     stance = 1 if walk[WALK_STANCE] > 0 else 0
     swinging = walk[PHASE] == SINGLE
     planning = walk[CLOCK] < 0.8 * walk[SWING_TIME] and (walk[WALK_TICKS] % 3.0 == 0.0 or walk[CLOCK] == 0.0)

@@ -1,0 +1,283 @@
+"""Walking: legs, footholds and forces against slow and independent versions; the whole person on rough
+ground."""
+
+import math
+
+import mujoco
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from locomotion import Human, LocomotionError
+from locomotion.anatomy import MASS
+from locomotion.controller import COM, COM_VELOCITY, new_state, observe
+from locomotion.footholds import foot_frame, ground_at, plan_foothold, sway
+from locomotion.ground import Ground, plane_lookup
+from locomotion.human_state import MOVING
+from locomotion.leg_kinematics import solve_leg
+from locomotion.person import JOINT_NAMES, STEPS_PER_TICK, PersonIndex, build_person
+from locomotion.training.grounds import KINDS, ground_height, training_ground
+from locomotion.training.path_trial import draw_path, follow_path
+from locomotion.training.walk import WalkProblem, walk_curriculum
+from locomotion.walk_layout import (
+    CLOCK,
+    FOOTHOLD,
+    FOOTHOLD_NORMAL,
+    GAINS,
+    PHASE,
+    SINGLE,
+    SWING_TIME,
+    WALK_SPEED,
+    WALK_STANCE,
+    first_gains,
+    gain_limits,
+    new_walk,
+)
+from locomotion.walk_skill import WALK_SKILL, WalkSkill, load_walk_skill, plant
+from locomotion.walking import observe_walk, walk_tick
+
+HIPS = [JOINT_NAMES.index(f"{side}_hip_flexion") for side in ("right", "left")]
+
+
+@pytest.fixture(scope="module")
+def person():
+    model = build_person()
+    return model, mujoco.MjData(model), PersonIndex.of(model)
+
+
+@given(seed=st.integers(0, 10_000))
+@settings(max_examples=60, deadline=None)
+def test_leg_angles_put_the_foot_where_forward_kinematics_had_it(person, seed):
+    model, data, index = person
+    rng = np.random.default_rng(seed)
+    data.qpos[3:7] = rng.normal(size=4)
+    data.qpos[3:7] /= np.linalg.norm(data.qpos[3:7])
+    for hip in HIPS:
+        low, high = model.jnt_range[hip + 1 : hip + 7].T
+        data.qpos[7 + hip : 13 + hip] = rng.uniform(0.8 * low, 0.8 * high)
+        data.qpos[10 + hip] = rng.uniform(0.2, 1.8)
+    mujoco.mj_kinematics(model, data)
+    wanted = data.xpos[index.feet].copy(), data.xmat[index.feet].copy()
+    for k, hip in enumerate(HIPS):
+        foot, angles = data.xmat[index.feet[k]].reshape(3, 3).copy(), np.empty(6)
+        pelvis = data.xmat[index.root].reshape(3, 3).copy()
+        at = data.xanchor[hip + 1].copy()
+        assert solve_leg(pelvis, at, foot, data.xpos[index.feet[k]].copy(), 2.0 * k - 1.0, angles)
+        data.qpos[7 + hip : 13 + hip] = angles
+    mujoco.mj_kinematics(model, data)
+    assert np.abs(data.xpos[index.feet] - wanted[0]).max() < 1e-9
+    assert np.abs(data.xmat[index.feet] - wanted[1]).max() < 1e-9
+
+
+def test_ankle_out_of_reach_is_approached_on_the_line_to_it(person):
+    model, data, index = person
+    mujoco.mj_resetData(model, data)
+    mujoco.mj_kinematics(model, data)
+    hip, angles = HIPS[1], np.empty(6)
+    at, far = data.xanchor[hip + 1].copy(), data.xanchor[hip + 1] + np.array([0.6, 0.1, -0.9])
+    assert not solve_leg(np.eye(3), at, np.eye(3), far, 1.0, angles)
+    data.qpos[7 + hip : 13 + hip] = angles
+    mujoco.mj_kinematics(model, data)
+    way = data.xpos[index.feet[1]] - at
+    assert np.dot(way, far - at) / np.linalg.norm(way) / np.linalg.norm(far - at) > 0.999
+    assert 0.82 < np.linalg.norm(way) < 0.84
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_ground_below_a_point_is_what_the_ground_itself_says(kind):
+    ground = training_ground(kind)
+    points = np.random.default_rng(0).uniform([-39, -39, 6], [39, 39, 9], (200, 3))
+    heights, normals = ground.surface_below(points)
+    found = np.array([ground_at(ground.lookup, *p) for p in points])
+    assert np.allclose(found[:, 0], heights, atol=1e-9) and np.allclose(found[:, 1:], normals, atol=1e-9)
+    assert (
+        np.abs(heights - ground_height(kind, points[:, 0], points[:, 1])).max() < 0.12
+    )  # flat within squares
+    assert math.isnan(ground_at(ground.lookup, 0.0, 0.0, -10.0)[0])
+
+
+def pendulum(x, v, pivot, omega, time, parts=20_000):
+    """Linear inverted pendulum integrated in small steps."""
+    dt = time / parts
+    for _ in range(parts):
+        v = v + omega * omega * (x - pivot) * dt
+        x = x + v * dt
+    return x, v
+
+
+@pytest.mark.parametrize("speed", [0.0, 0.6, 1.2])
+def test_steady_walk_of_the_pendulum_repeats_itself(speed):
+    """Starting `sway` ahead and inside of one foot, a pendulum is so of the next foot a step later."""
+    gains = first_gains()
+    omega = math.sqrt(9.81 / 0.92)
+    period, width = gains[list(GAINS).index("swing_time")], gains[list(GAINS).index("width")]
+    period += gains[list(GAINS).index("transfer_time")]
+    ahead, inside = sway(gains, omega, speed)
+    for start, foot, end in ((ahead, 0.0, speed * period + ahead), (-inside, 0.0, -width + inside)):
+        x, v = pendulum(start, 0.0, foot, omega, period)
+        assert x + v / omega == pytest.approx(end, abs=2e-4)
+
+
+def test_foothold_catches_a_pushed_pendulum():
+    """Where the plan says the foot goes, a pendulum pushed in any direction comes back to the steady walk."""
+    gains, walk, omega = first_gains(), new_walk(), math.sqrt(9.81 / 0.92)
+    period = gains[0] + gains[1]
+    for push in ((0.25, 0.0), (-0.15, 0.0), (0.0, -0.15)):
+        walk[WALK_SPEED], walk[WALK_STANCE], foot = 0.5, 1.0, np.array([0.0, 0.085, 0.0])
+        ahead, inside = sway(gains, omega, 0.5)
+        capture = foot[:2] + [ahead + push[0] * 0.3, -inside + push[1] * 0.3]
+        for _ in range(8):
+            walk[PHASE], walk[CLOCK], walk[SWING_TIME] = SINGLE, 0.0, gains[0]
+            plan_foothold(gains, plane_lookup(), walk, capture[0], capture[1], omega, foot)
+            time = walk[SWING_TIME] + 0.5 * gains[1]
+            capture = foot[:2] + (capture - foot[:2]) * math.exp(omega * time)
+            foot = walk[FOOTHOLD].copy()
+            walk[WALK_STANCE] = -walk[WALK_STANCE]
+        side = walk[WALK_STANCE]
+        assert capture[0] - foot[0] == pytest.approx(ahead, abs=0.06)
+        assert -side * (capture[1] - foot[1]) == pytest.approx(inside, abs=0.06)
+    assert period > 0.3
+
+
+def test_foothold_keeps_off_an_edge_and_lies_on_the_ground():
+    step = np.array([[-2, -2, 0], [0.32, -2, 0], [0.32, 2, 0], [-2, 2, 0], [0.32, -2, 0.12], [4, -2, 0.12]])
+    step = np.vstack([step, [[4, 2, 0.12], [0.32, 2, 0.12]]]).astype(float)
+    ground = Ground.from_arrays(step, [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7], [1, 4, 7], [1, 7, 2]])
+    gains, walk, omega = first_gains(), new_walk(), 3.3
+    walk[WALK_SPEED], walk[PHASE], walk[SWING_TIME] = 0.6, SINGLE, gains[0]
+    for reach in np.linspace(0.05, 0.16, 12):
+        plan_foothold(gains, ground.lookup, walk, reach, 0.03, omega, np.array([0.0, 0.085, 0.0]))
+        x, _, z = walk[FOOTHOLD]
+        toe, heel = x + 0.12, x - 0.08
+        assert z == pytest.approx(0.0 if toe < 0.32 else 0.12, abs=1e-9)
+        assert np.allclose(walk[FOOTHOLD_NORMAL], [0, 0, 1])
+        assert toe < 0.32 or heel > 0.32 or min(0.32 - heel, toe - 0.32) < 0.1
+
+
+def test_stance_legs_push_as_the_full_jacobian_says(person):
+    """The torques asked for balance the ground's force: compared with MuJoCo's Jacobian of the foot."""
+    model, data, index = person
+    state, walk = new_state(), new_walk()
+    plant(model, data, index, plane_lookup(), state, walk, np.zeros(3), 0.3)
+    ctrl = np.zeros(len(JOINT_NAMES))
+    gains = load_walk_skill().gains.copy()
+    gains[list(GAINS).index("leg_damping")] = 0.0
+    walk_tick(gains, plane_lookup(), walk, state, np.array([0.3, 0, 0, 0]), data.qpos, data.qvel, ctrl)
+    total = np.zeros(3)
+    for k, hip in enumerate(HIPS):
+        torque = (ctrl - data.qpos[7:])[hip : hip + 6] * -model.actuator_biasprm[hip : hip + 6, 1]
+        jacobian, dofs = np.zeros((3, model.nv)), slice(6 + hip, 12 + hip)
+        # the force at the sole that these torques balance: least squares over points of the sole
+        best = np.inf
+        for along in np.linspace(-0.1, 0.14, 121):
+            foot = data.xmat[index.feet[k]].reshape(3, 3)
+            point = data.xpos[index.feet[k]] + (along + 0.045) * foot[:, 0] - 0.064 * foot[:, 2]
+            mujoco.mj_jac(model, data, jacobian, None, point, index.feet[k])
+            force, rest, *_ = np.linalg.lstsq(-jacobian[:, dofs].T, torque, rcond=None)
+            if rest.size and rest[0] < best:
+                best, found = rest[0], force
+        assert best < 40.0  # [Nm]^2: the rest is the moment about the vertical
+        total += found
+    assert total[2] == pytest.approx(MASS * 9.81, rel=0.2)
+    assert np.abs(total[:2]).max() < 60.0
+
+
+@pytest.mark.parametrize("kind", ["level", "rolling", "ramps", "moguls"])
+def test_stand_is_on_the_ground_with_both_feet(kind):
+    human = Human(training_ground(kind), clearing=())
+    rng = np.random.default_rng(3)
+    for _ in range(10):
+        x, y = rng.uniform(-30, 30, 2)
+        human.reset((x, y, ground_height(kind, np.array([x]), np.array([y]))[0]), rng.uniform(-3, 3))
+        deepest = human.data.contact.dist.min() if human.data.ncon else 0.0
+        assert deepest > -0.02
+        assert np.linalg.norm(human.control[COM][:2] - [x, y]) < 0.08
+        assert not human.control[COM_VELOCITY].any()
+
+
+def test_stands_still_for_a_minute_and_stays_up_when_pushed():
+    human = Human(None, clearing=())
+    human.reset((0, 0, 0), 0.5)
+    command = np.array([0.5, 0.0, 0.0, 0.0])
+    gains, walk, state, data = human.gait.gains, new_walk(0.5), human.control, human.data
+    observe_walk(human.index, data, walk)
+    for tick in range(6000):
+        data.xfrc_applied[human.index.chest, :2] = (60.0, -40.0) if tick % 1500 in range(1000, 1010) else 0.0
+        walk_tick(gains, plane_lookup(), walk, state, command, data.qpos, data.qvel, data.ctrl)
+        mujoco.mj_step(human.model, data, STEPS_PER_TICK)
+        observe(human.index, human.model, data, state)
+        observe_walk(human.index, data, walk)
+    assert data.xmat[1, 8] > 0.97
+    assert np.linalg.norm(human.com[:2]) < 1.0
+
+
+@pytest.mark.parametrize("kind", ["level", "rolling", "ramps"])
+def test_walks_along_winding_paths(kind):
+    options = next(k for k in walk_curriculum()[-1].options["kinds"] if k["ground"] in (kind, "rolling"))
+    options = {**options, "ground": kind}
+    arrived = [
+        follow_path(draw_path(np.random.default_rng([7, seed]), **options)).figures for seed in range(6)
+    ]
+    done = [f["time"] > 6.0 and f["side_drift"] < 0.5 for f in arrived]
+    assert sum(done) >= 5
+
+
+def test_walking_person_goes_on_bit_for_bit_when_restored():
+    human, twin = (Human(training_ground("moguls"), clearing=()) for _ in range(2))
+    path = draw_path(np.random.default_rng(2), (4.0, 5.0), (0.6, 0.6), 1.0, "moguls").points
+    human.reset(path[0], 0.0)
+    human.follow(path, 0.6)
+    for _ in range(230):
+        human.tick()
+    saved = human.save_state()
+    human.body_transforms()
+    for _ in range(200):
+        human.tick()
+    twin.restore_state(saved)
+    for _ in range(200):
+        twin.tick()
+    assert twin.state_hash() == human.state_hash()
+
+
+def test_turns_round_on_the_spot():
+    human = Human(None, clearing=())
+    human.reset((0, 0, 0), 0.0)
+    human.follow([[0, 0, 0], [-3, 0, 0]], 0.8)
+    farthest = 0.0
+    while human.status in MOVING and human.time < 20.0:
+        human.tick()
+        farthest = max(farthest, human.position[0])
+    assert human.status == "arrived" and farthest < 0.3
+
+
+def test_foot_frame_stands_on_the_slope():
+    normal, frame = np.array([-0.3, 0.1, 1.0]) / np.linalg.norm([-0.3, 0.1, 1.0]), np.empty((3, 3))
+    foot_frame(0.7, normal, frame)
+    assert np.allclose(frame.T @ frame, np.eye(3)) and np.allclose(frame[:, 2], normal)
+    across = np.cross([math.cos(0.7), math.sin(0.7), 0.0], normal)
+    assert frame[:, 0] @ across == pytest.approx(0.0, abs=1e-12) and frame[0, 0] > 0.0
+
+
+def test_walk_file_that_is_cut_off_or_of_something_else_is_refused(tmp_path):
+    whole = WALK_SKILL.read_bytes()
+    file = tmp_path / "walk.npz"
+    for content in (whole[: len(whole) // 2], b"nothing"):
+        file.write_bytes(content)
+        with pytest.raises(LocomotionError, match="walk.npz"):
+            load_walk_skill(file)
+    wrong = first_gains()
+    wrong[0] = 3.0
+    WalkSkill(wrong).save(tmp_path / "wrong.npz")
+    with pytest.raises(LocomotionError, match="swing_time is outside 0.28 to 0.6"):
+        load_walk_skill(tmp_path / "wrong.npz")
+
+
+def test_learning_prefers_gains_that_stay_up():
+    stage = walk_curriculum(0.1)[0]
+    problem = WalkProblem((stage,), first_gains())
+    drawn = problem.scenarios(stage, 0, np.random.default_rng(0))[:1]
+    good, covered = problem.evaluate(stage, load_walk_skill().gains, drawn)
+    low, _ = gain_limits()
+    bad, less = problem.evaluate(stage, low, drawn)
+    assert good < bad and covered > less

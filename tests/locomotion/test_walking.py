@@ -126,7 +126,7 @@ def test_foothold_catches_a_pushed_pendulum():
     for push in ((0.25, 0.0), (-0.15, 0.0), (0.0, -0.15)):
         walk[WALK_SPEED], walk[WALK_STANCE], foot = 0.5, 1.0, np.array([0.0, 0.085, 0.0])
         ahead, inside = sway(gains, omega, 0.5)
-        capture = foot[:2] + [ahead + push[0] * 0.3, -inside + push[1] * 0.3]
+        capture = foot[:2] + np.array([ahead + 0.3 * push[0], 0.3 * push[1] - inside])
         for _ in range(8):
             walk[PHASE], walk[CLOCK], walk[SWING_TIME] = SINGLE, 0.0, gains[0]
             plan_foothold(gains, plane_lookup(), walk, capture[0], capture[1], omega, foot)
@@ -264,12 +264,12 @@ def test_walk_file_that_is_cut_off_or_of_something_else_is_refused(tmp_path):
     file = tmp_path / "walk.npz"
     for content in (whole[: len(whole) // 2], b"nothing"):
         file.write_bytes(content)
-        with pytest.raises(LocomotionError, match="walk.npz"):
+        with pytest.raises(LocomotionError, match=r"walk\.npz"):
             load_walk_skill(file)
     wrong = first_gains()
     wrong[0] = 3.0
     WalkSkill(wrong).save(tmp_path / "wrong.npz")
-    with pytest.raises(LocomotionError, match="swing_time is outside 0.28 to 0.6"):
+    with pytest.raises(LocomotionError, match=r"swing_time is outside 0\.28 to 0\.6"):
         load_walk_skill(tmp_path / "wrong.npz")
 
 

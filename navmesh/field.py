@@ -198,16 +198,18 @@ def walk(net, k, ax, ay, bx, by, radius, through):
         if clearance < free:
             cx = (ix + 0.5) * h
             cy = (iy + 0.5) * h
-            gap, s, px, py = stretch_gap(
-                net, k, ax + t * dx - cx, ay + t * dy - cy, ax + leave * dx - cx, ay + leave * dy - cy
-            )
-            if gap < least:
-                least = gap
-                place = t + s * (leave - t)
-                qx = cx + px
-                qy = cy + py
-                if gap < radius and not through:
-                    return False, k, least, place, qx, qy
+            ux, uy = ax + t * dx - cx, ay + t * dy - cy
+            vx, vy = ax + leave * dx - cx, ay + leave * dy - cy
+            spare = clearance - radius
+            if spare < 0.0 or max(ux * ux + uy * uy, vx * vx + vy * vy) > spare * spare:
+                gap, s, px, py = stretch_gap(net, k, ux, uy, vx, vy)
+                if gap < least:
+                    least = gap
+                    place = t + s * (leave - t)
+                    qx = cx + px
+                    qy = cy + py
+                    if gap < radius and not through:
+                        return False, k, least, place, qx, qy
         if leave >= 1.0:
             return True, k, least, place, qx, qy
         if clearance > free + _OPEN * h and (1.0 - leave) * length > _OPEN * h:

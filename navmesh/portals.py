@@ -1,8 +1,9 @@
 """The portals of the graph for one body radius: where the way from one disc to the next is crossed.
 
-A portal lies on the line of the chord in which two discs, shrunk by the body's radius, overlap, and reaches to
-both sides as far as the body fits in the clearance field: its ends lie where the shortest line turns. The part
-of it that lies in both shrunk discs, its *lens*, is kept beside: lines between lenses are free by construction.
+A portal lies on the line of the chord in which two discs, shrunk by the body's radius, overlap, and reaches
+to both sides as far as the body fits in the clearance field: its ends lie where the shortest line turns. The
+part of it that lies in both shrunk discs, its *lens*, is kept beside: lines between lenses are free by
+construction.
 """
 
 from math import sqrt
@@ -84,7 +85,8 @@ def open_portals(net, edge_width, edge_cells, radius):
 
     edge_width (e,) float64 and edge_cells (e, 2) int32: each edge's widest body, and the pair of cells, one
     of either node, where the border of its labels is widest. Returns the arrays of `make_doors`: start (m +
-    1,), target (p,) int32, portal (p, 6) float64, portal_cell (p, 2) int32, lens (p, 2), block (p, 4) float64.
+    1,), target (p,) int32, portal (p, 6) float64, portal_cell (p, 2) int32, lens (p, 2), block (p, 4)
+    float64.
     """
     nodes = net.node_radius.size
     count = 0

@@ -57,9 +57,9 @@ def _turn(ax, ay, bx, by, cx, cy):
 def _funnel(doors, edges, first, last, narrow, work, at, base, sx, sy, gx, gy):
     """Corners of the shortest line through the portals edges[first:last]; returns how many, ends included.
 
-    With ``narrow`` through their lenses only. From row ``base`` on it writes x, y into work (n, 2) and into at
-    (n,) twice the index of the portal that each corner is an end of, plus 1 for a right end (the start counts
-    as portal first - 1, the goal as last); last - first + 2 rows are enough.
+    With ``narrow`` through their lenses only. From row ``base`` on it writes x, y into work (n, 2) and into
+    at (n,) twice the index of the portal that each corner is an end of, plus 1 for a right end (the start
+    counts as portal first - 1, the goal as last); last - first + 2 rows are enough.
     """
     portal, lens = doors.portal, doors.lens
     work[base, 0], work[base, 1] = sx, sy
@@ -227,8 +227,8 @@ def _round(net, doors, scratch, low, high, ax, ay, bx, by, place):
 def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_try):
     """Add a walked line from the leg's last corner to g, through nodes[low:high].
 
-    Returns the new count and _FITS; _BLOCKED, with only a part of the line added, where walking ends on it and
-    this is not the ``last_try``; or _NO_WAY.
+    Returns the new count and _FITS; _BLOCKED, with only a part of the line added, where walking ends on it
+    and this is not the ``last_try``; or _NO_WAY.
     """
     radius = doors.radius
     enough = radius * (1.0 + _SLACK)

@@ -83,16 +83,6 @@ def _crossing(lx, ly, rx, ry, ax, ay, bx, by):
     return 0.0 if t < 0.0 else (1.0 if t > 1.0 else t)
 
 
-@njit(cache=True, inline="always")
-def _reach(scratch, stamp, node, source, via, cost, rest, x, y, z):
-    scratch.stamp[node] = stamp
-    scratch.cost[node] = cost
-    scratch.total[node] = cost + rest
-    scratch.entry[node, 0], scratch.entry[node, 1], scratch.entry[node, 2] = x, y, z
-    scratch.parent[node] = source
-    scratch.via[node] = via
-
-
 @njit(cache=True)
 def begin(net, doors, scratch, start_node, goal_node, sx, sy, sz, gx, gy, gz):
     """Set up a search from (sx, sy, sz) in ``start_node`` to (gx, gy, gz) in ``goal_node`` (or -1: as near as
@@ -112,7 +102,12 @@ def begin(net, doors, scratch, start_node, goal_node, sx, sy, sz, gx, gy, gz):
     ends[3], ends[4], ends[5] = gx, gy, gz
     rest = _distance(sx, sy, sz, gx, gy, gz)
     ends[6] = rest
-    _reach(scratch, numbers[_STAMP], start_node, -1, -1, 0.0, rest, sx, sy, sz)
+    scratch.stamp[start_node] = numbers[_STAMP]
+    scratch.cost[start_node] = 0.0
+    scratch.total[start_node] = rest
+    scratch.entry[start_node, 0], scratch.entry[start_node, 1], scratch.entry[start_node, 2] = sx, sy, sz
+    scratch.parent[start_node] = -1
+    scratch.via[start_node] = -1
     scratch.heap_key[0] = rest
     scratch.heap_node[0] = start_node
 
@@ -127,7 +122,10 @@ def advance(net, doors, scratch, budget):
     stamp = numbers[_STAMP]
     goal_node = numbers[_GOAL_NODE]
     gx, gy, gz = scratch.ends[3], scratch.ends[4], scratch.ends[5]
-    seen, totals, entry = scratch.stamp, scratch.total, scratch.entry
+    # arrays taken out of their bundle in a loop are counted as used each time
+    seen, costs, totals, entry = scratch.stamp, scratch.cost, scratch.total, scratch.entry
+    parent, via = scratch.parent, scratch.via
+    door_start, leap_start = doors.start, doors.leap_start
     keys, nodes, size = scratch.heap_key, scratch.heap_node, numbers[_HEAP]
     portal, targets, node_cost = doors.portal, doors.target, doors.node_cost
     nearest = scratch.ends[6]
@@ -147,7 +145,7 @@ def advance(net, doors, scratch, budget):
             break
         budget -= 1
         numbers[EXPANDED] += 1
-        cost = scratch.cost[node]
+        cost = costs[node]
         x, y, z = entry[node, 0], entry[node, 1], entry[node, 2]
         rest = _distance(x, y, z, gx, gy, gz)
         if rest < nearest:
@@ -155,7 +153,7 @@ def advance(net, doors, scratch, budget):
             numbers[BEST] = node
         factor = node_cost[node]
         # nothing that goes on from here costs less than the key: nodes with less are done with
-        for door in range(doors.start[node], doors.start[node + 1]):
+        for door in range(door_start[node], door_start[node + 1]):
             target = targets[door]
             if seen[target] == stamp and totals[target] <= key:
                 continue
@@ -168,10 +166,13 @@ def advance(net, doors, scratch, budget):
             if target == goal_node:
                 rest *= node_cost[target]
             if seen[target] != stamp or step + rest < totals[target] - 1e-9:
-                _reach(scratch, stamp, target, node, door, step, rest, ex, ey, ez)
+                seen[target] = stamp
+                costs[target], totals[target] = step, step + rest
+                entry[target, 0], entry[target, 1], entry[target, 2] = ex, ey, ez
+                parent[target], via[target] = node, door
                 _push(keys, nodes, size, step + rest, target)
                 size += 1
-        for leap in range(doors.leap_start[node], doors.leap_start[node + 1]):
+        for leap in range(leap_start[node], leap_start[node + 1]):
             target = net.label[doors.leap_to_cell[leap]]
             fx, fy, fz = doors.leap_from[leap, 0], doors.leap_from[leap, 1], doors.leap_from[leap, 2]
             tx, ty, tz = doors.leap_to[leap, 0], doors.leap_to[leap, 1], doors.leap_to[leap, 2]
@@ -180,7 +181,10 @@ def advance(net, doors, scratch, budget):
             if target == goal_node:
                 rest *= node_cost[target]
             if seen[target] != stamp or step + rest < totals[target] - 1e-9:
-                _reach(scratch, stamp, target, node, targets.size + leap, step, rest, tx, ty, tz)
+                seen[target] = stamp
+                costs[target], totals[target] = step, step + rest
+                entry[target, 0], entry[target, 1], entry[target, 2] = tx, ty, tz
+                parent[target], via[target] = node, targets.size + leap
                 _push(keys, nodes, size, step + rest, target)
                 size += 1
     numbers[_HEAP] = size

@@ -146,8 +146,9 @@ def make_doors(
     it (0 left, 1 right) that lies in both shrunk discs, all of it where they do not overlap; block (p, 4)
     float64: x, y of what ends walking at its left and at its right end, inf where nothing does; node_cost
     (m,) float64, at least 1: factor on the length walked in each node; weighted: whether any factor is not 1.
-    The leaps are the typed links on offer, grouped by the node they start from: leap_start (m+1,), leap_id (l,) int32,
-    leap_from, leap_to (l, 3) float64, leap_from_cell, leap_to_cell (l,) int32, leap_cost (l,) float64 [m].
+    The leaps are the typed links on offer, grouped by the node they start from: leap_start (m+1,), leap_id
+    (l,) int32, leap_from, leap_to (l, 3) float64, leap_from_cell, leap_to_cell (l,) int32, leap_cost (l,)
+    float64 [m].
     """
     return Doors(
         radius,
@@ -177,7 +178,8 @@ def make_scratch(nodes, edges):
     total, entry (3 coordinates and the cell's place is not kept), parent, via: per node; heap_key, heap_node:
     the open list; ends (8,) float64: start and goal; nodes, edges: the chain found; points, cells: the
     corners pulled; corner, corner_at: those of the funnel; arc: those that round one of them; stack,
-    stack_cell: corners still to be reached; cell_stamp, cell_best, cell_parent: per cell, once `navmesh.detour` needs them.
+    stack_cell: corners still to be reached; cell_stamp, cell_best, cell_parent: per cell, once
+    `navmesh.detour` needs them.
     """
     room = max(nodes, 16)
     return Scratch(

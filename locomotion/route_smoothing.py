@@ -19,7 +19,6 @@ from navmesh.route import Leg, Route
 __all__ = ["ObstacleAhead", "SmoothPath", "smooth_route"]
 
 _SPACING = 0.25
-_COVER = 1e-5  # [m] by which the discs are let grow, so that rounding leaves no gap between them
 _ROUNDNESS = 2.0  # smoothness [m^3] of a running body's path: corners are rounded over about 1.3 m
 
 
@@ -93,7 +92,7 @@ def _smooth_leg(
         problem = None
         for bound in (*curvatures, None):
             problem = pathsmooth.Problem.from_corridor(
-                leg.waypoints, leg.centers, leg.radii + _COVER, spacing=_SPACING, start_tangent=start,
+                leg.waypoints, leg.centers, leg.radii, spacing=_SPACING, start_tangent=start,
                 end_tangent=end, max_curvature=bound, smoothness=_ROUNDNESS,
             )  # fmt: skip
             solution = pathsmooth.solve(problem)

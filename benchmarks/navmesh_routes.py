@@ -126,7 +126,7 @@ def measure(name: str, rules: WalkRules, samples: int, repeats: int, rng: np.ran
     figures["ends_moved_most_m"] = float(np.hypot(*moved.T).max())
 
     mesh = MeshTruth(terrain, rules)
-    found = [routes[i] for i in np.flatnonzero(complete)]
+    found = [routes[i] for i in np.flatnonzero(complete).tolist()]
     points = np.concatenate([route.on_surface(0.1) for route in found])
     off, short = clearance_figures(mesh, points, samples, rng)
     figures |= {"samples_off_surface": off, "samples_short_share": short}

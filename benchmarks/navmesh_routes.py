@@ -4,9 +4,10 @@
 
 On the three shared levels and their 2,000 pairs each, for the body of the shared queries (radius 0.6 m,
 height 2.0 m, step 0.9 m, slope 45°): pairs answered "complete", length of the pulled path against the peer's,
-clearance along the pulled path, asked of the mesh itself (`mesh_truth`), and the time of a query in a batch
-and from Python against Detour's in the same run. Times are the least of all rounds, for each query (single
-calls; Detour: median of its passes) or batch of 100, so that other load on the machine counts little.
+clearance along the pulled and the smoothed path, asked of the mesh itself (`mesh_truth`), and the time of a
+query in a batch and from Python against Detour's in the same run. Times are the least of all rounds, for each
+query (single calls; Detour: median of its passes) or batch of 100, so that other load on the machine counts
+little.
 """
 
 import argparse
@@ -22,10 +23,14 @@ from pathlib import Path
 import numpy as np
 from rich.console import Console
 from rich.table import Table
+from scipy.spatial import KDTree
 
 from benchmarks.mesh_truth import MeshTruth
 from benchmarks.shared_data import LEVELS, level_path, queries_path, shared_folder, why_absent
 from navmesh import NodeGraph, Terrain, WalkRules
+from navmesh.draping import drape
+from navmesh.route import Route
+from pathsmooth import PathSmoothError, Problem, solve
 
 RADIUS = 0.6
 BATCH = 100
@@ -50,6 +55,37 @@ def batch_seconds(graph: NodeGraph, starts: np.ndarray, goals: np.ndarray) -> np
         graph.find_paths(first, last, radius=RADIUS)
         times.append(time.perf_counter() - begin)
     return np.array(times)
+
+
+def smoothed(route: Route) -> np.ndarray | None:
+    """Points (n, 3) on the surface along the route's legs, smoothed with the default stopping rule; None
+    where smoothing refuses a leg.
+
+    Smoothing knows no heights: a point of the curve stands for the floor nearest in height to the pulled path
+    beside it (nan where there is none).
+    """
+    parts = []
+    for leg in route.legs():
+        try:
+            corners = solve(Problem.from_corridor(leg.waypoints, leg.centers, leg.radii)).points
+        except PathSmoothError:
+            return None
+        curve = np.concatenate([corners, 0.5 * (corners[1:] + corners[:-1])])
+        pulled = drape(route.graph, leg.waypoints, 0.1)
+        curve[:, 2] = pulled[KDTree(pulled[:, :2]).query(curve[:, :2])[1], 2]
+        curve[:, 2] = route.graph.project(curve)[1]
+        parts.append(curve)
+    return np.concatenate(parts)
+
+
+def clearance_figures(
+    mesh: MeshTruth, points: np.ndarray, samples: int, rng: np.random.Generator
+) -> tuple[int, float]:
+    """Of ``samples`` of the points: how many are off the surface, and the share that is too close to its
+    end."""
+    points = points[rng.choice(len(points), min(samples, len(points)), replace=False)]
+    free = mesh.distance(points, np.full(len(points), RADIUS), directions=48, stride=0.04)
+    return int((free <= 0.0).sum()), float((free < RADIUS - SHORT).mean())
 
 
 def detour_microseconds(name: str) -> tuple[float, float]:
@@ -89,12 +125,15 @@ def measure(name: str, rules: WalkRules, samples: int, repeats: int, rng: np.ran
     figures["ends_moved_share"] = float((np.hypot(*moved.T) > 1e-9).mean())
     figures["ends_moved_most_m"] = float(np.hypot(*moved.T).max())
 
-    points = np.concatenate([routes[i].on_surface(0.1) for i in np.flatnonzero(complete)])
-    points = points[rng.choice(len(points), min(samples, len(points)), replace=False)]
     mesh = MeshTruth(terrain, rules)
-    free = mesh.distance(points, np.full(len(points), RADIUS), directions=48, stride=0.04)
-    figures["samples_off_surface"] = int((free <= 0.0).sum())
-    figures["samples_short_share"] = float((free < RADIUS - SHORT).mean())
+    found = [routes[i] for i in np.flatnonzero(complete).tolist()]
+    points = np.concatenate([route.on_surface(0.1) for route in found])
+    off, short = clearance_figures(mesh, points, samples, rng)
+    figures |= {"samples_off_surface": off, "samples_short_share": short}
+    curves = [curve for curve in map(smoothed, found) if curve is not None]
+    off, short = clearance_figures(mesh, np.concatenate(curves), samples, rng)
+    figures |= {"smoothed_off_surface": off, "smoothed_short_share": short}
+    figures["smoothing_refused"] = len(found) - len(curves)
 
     batch = []
     single = np.full((repeats, len(starts)), np.inf)
@@ -149,6 +188,12 @@ def main() -> int:
             ("over 2 % above 1.10", "length_ratio_above_1.10", figures["length_ratio_above_1.10"] <= 0.02),
             ("over 0.5 % too close", "samples_short_share", figures["samples_short_share"] <= 0.005),
             ("off the surface", "samples_off_surface", figures["samples_off_surface"] == 0),
+            (
+                "smoothed: over 0.5 % too close",
+                "smoothed_short_share",
+                figures["smoothed_short_share"] <= 0.005,
+            ),
+            ("smoothed: off the surface", "smoothed_off_surface", figures["smoothed_off_surface"] == 0),
             ("batch above 3 times Detour", "batch_ratio", figures["batch_ratio"] <= 3.0),
             ("single call above 15 µs", "single_us_median", figures["single_us_median"] <= 15.0),
         )

@@ -20,7 +20,6 @@ from navmesh.route import Leg, Route
 __all__ = ["ObstacleAhead", "SmoothPath", "smooth_route"]
 
 _SPACING = 0.25
-_COVER = 1e-5  # [m] by which the discs are let grow, so that rounding leaves no gap between them
 _ITERATIONS = 1000  # per bound on curvature, some milliseconds; to look for every last curve takes seconds
 _ROUNDNESS = 2.0  # smoothness [m^3] of a running body's path: corners are rounded over about 1.3 m
 
@@ -99,7 +98,7 @@ def _smooth_leg(
         best, held = None, False
         for bound in (None, *sorted(curvatures, reverse=True)):
             problem = pathsmooth.Problem.from_corridor(
-                leg.waypoints, leg.centers, leg.radii + _COVER, spacing=_SPACING, start_tangent=start,
+                leg.waypoints, leg.centers, leg.radii, spacing=_SPACING, start_tangent=start,
                 end_tangent=end, max_curvature=bound, smoothness=_ROUNDNESS,
             )  # fmt: skip
             solution = pathsmooth.solve(problem, None if bound is None else _ITERATIONS)

@@ -13,8 +13,8 @@ from numba import njit
 
 __all__ = ["cell_at", "centre_of", "floor_at", "gap_at", "same_place", "stretch_gap", "walk"]
 
-_OPEN = 1.0
-"""[cells] of clearance beyond the radius from which a walk takes a whole disc in one step."""
+_OPEN = 2.0
+"""[cells] of clearance beyond the radius and the cell's corners from which a walk takes it in one step."""
 
 
 @njit(cache=True, inline="always")
@@ -32,7 +32,7 @@ def _point_gap(vx, vy, ax, ay, bx, by):
     return sqrt(ex * ex + ey * ey), s
 
 
-@njit(cache=True)
+@njit(cache=True, inline="always")
 def stretch_gap(net, k, ax, ay, bx, by):
     """Least distance to where walking ends along a-b, a stretch inside cell ``k`` (relative to its centre).
 
@@ -121,24 +121,6 @@ def floor_at(net, k, x, y):
 
 
 @njit(cache=True, inline="always")
-def _far_side(net, node, radius, ax, ay, dx, dy, length, t):
-    """Where (as a share of d, seen from a) the line a + d leaves the disc of ``node`` shrunk by ``radius``;
-    0 where it is not in it at ``t``."""
-    px = net.position[node, 0] - ax
-    py = net.position[node, 1] - ay
-    room = net.node_radius[node] - radius
-    along = (px * dx + py * dy) / length
-    off = (px * dy - py * dx) / length
-    inside = room * room - off * off
-    if room <= 0.0 or inside <= 0.0:
-        return 0.0
-    half = sqrt(inside)
-    if along - half > t * length:
-        return 0.0
-    return (along + half) / length - 1e-9
-
-
-@njit(cache=True, inline="always")
 def _only_cell(net, x, y):
     """The cell under (x, y) and its place in the grid where there is one storey only, else -1."""
     ix = int(x / net.cell)
@@ -186,7 +168,9 @@ def walk(net, k, ax, ay, bx, by, radius, through):
         step_y = -h / dy
         next_y = (iy * h - ay) / dy
     length = sqrt(dx * dx + dy * dy)
+    inverse = 1.0 / length if length > 0.0 else 0.0
     free = radius + 0.7072 * h
+    open_ = free + _OPEN * h
     least = 1e300
     place = 0.0
     qx = 0.0
@@ -198,39 +182,38 @@ def walk(net, k, ax, ay, bx, by, radius, through):
         if clearance < free:
             cx = (ix + 0.5) * h
             cy = (iy + 0.5) * h
-            gap, s, px, py = stretch_gap(
-                net, k, ax + t * dx - cx, ay + t * dy - cy, ax + leave * dx - cx, ay + leave * dy - cy
-            )
-            if gap < least:
-                least = gap
-                place = t + s * (leave - t)
-                qx = cx + px
-                qy = cy + py
-                if gap < radius and not through:
-                    return False, k, least, place, qx, qy
+            ux, uy = ax + t * dx - cx, ay + t * dy - cy
+            vx, vy = ax + leave * dx - cx, ay + leave * dy - cy
+            spare = clearance - radius
+            if spare < 0.0 or max(ux * ux + uy * uy, vx * vx + vy * vy) > spare * spare:
+                gap, s, px, py = stretch_gap(net, k, ux, uy, vx, vy)
+                if gap < least:
+                    least = gap
+                    place = t + s * (leave - t)
+                    qx = cx + px
+                    qy = cy + py
+                    if gap < radius and not through:
+                        return False, k, least, place, qx, qy
         if leave >= 1.0:
             return True, k, least, place, qx, qy
-        if clearance > free + _OPEN * h and (1.0 - leave) * length > _OPEN * h:
-            ahead = _far_side(net, net.label[k], radius, ax, ay, dx, dy, length, t)
-            if ahead > leave:
+        if clearance > open_:
+            # nothing ends walking within the clearance: on to the end of what is free of it
+            ahead = min(t + (clearance - free) * inverse, 1.0)
+            cell, jx, jy = _only_cell(net, ax + ahead * dx, ay + ahead * dy)
+            if cell >= 0:
+                k, ix, iy = cell, jx, jy
                 if ahead >= 1.0:
-                    cell, jx, jy = _only_cell(net, bx, by)
-                else:
-                    cell, jx, jy = _only_cell(net, ax + ahead * dx, ay + ahead * dy)
-                if cell >= 0:
-                    k, ix, iy = cell, jx, jy
-                    if ahead >= 1.0:
-                        return True, k, least, place, qx, qy
-                    t = ahead
-                    if way_x == 0:
-                        next_x = ((ix + 1) * h - ax) / dx
-                    elif dx < 0.0:
-                        next_x = (ix * h - ax) / dx
-                    if way_y == 1:
-                        next_y = ((iy + 1) * h - ay) / dy
-                    elif dy < 0.0:
-                        next_y = (iy * h - ay) / dy
-                    continue
+                    return True, k, least, place, qx, qy
+                t = ahead
+                if way_x == 0:
+                    next_x = ((ix + 1) * h - ax) / dx
+                elif dx < 0.0:
+                    next_x = (ix * h - ax) / dx
+                if way_y == 1:
+                    next_y = ((iy + 1) * h - ay) / dy
+                elif dy < 0.0:
+                    next_y = (iy * h - ay) / dy
+                continue
         if next_x < next_y:
             t = next_x
             next_x += step_x

@@ -1,9 +1,9 @@
 """The portals of the graph for one body radius: where the way from one disc to the next is crossed.
 
-A portal lies on the chord of the lens in which two discs, shrunk by the body's radius, overlap. Where the
-lens is much narrower than the passage in the clearance field, or the shrunk discs do not overlap at all, it
-is as wide as the field allows: the line of the chord is walked from its middle to both sides until the body
-no longer fits.
+A portal lies on the line of the chord in which two discs, shrunk by the body's radius, overlap, and reaches
+to both sides as far as the body fits in the clearance field: its ends lie where the shortest line turns. The
+part of it that lies in both shrunk discs, its *lens*, is kept beside: lines between lenses are free by
+construction.
 """
 
 from math import sqrt
@@ -13,10 +13,13 @@ from numba import njit
 
 from navmesh.field import centre_of, floor_at, gap_at, walk
 
-__all__ = ["open_portals"]
+__all__ = ["MARGIN", "open_portals"]
 
-_NARROW = 0.5
-"""Share of the passage in the field below which a lens gives way to it."""
+MARGIN = 0.04
+"""Corners keep this share of the radius more than it where there is room, so that straight lines between them
+clear what is round."""
+_BESIDE = 1.1
+"""Share of the radius up to which the gap at an end says that what ends walking there bounds the portal."""
 
 
 @njit(cache=True)
@@ -39,10 +42,9 @@ def _side(net, k, mx, my, ux, uy, reach, radius):
 
 @njit(cache=True)
 def _portal(net, i, j, pair, radius):
-    """Middle, direction to the left, its cell and how far it goes to the left and right, from node i to node
-    j.
+    """The portal from node i to node j, seen from a middle point on it.
 
-    Returns (x, y, left x, left y, cell, to the left, to the right).
+    Returns (x, y, left x, left y, cell, half the lens, to the left, to the right).
     """
     dx = net.position[j, 0] - net.position[i, 0]
     dy = net.position[j, 1] - net.position[i, 1]
@@ -69,11 +71,12 @@ def _portal(net, i, j, pair, radius):
         k = pair[0] if net.clearance[pair[0]] > net.clearance[pair[1]] else pair[1]
         x, y = centre_of(net, k)
     reach = max(net.node_radius[i], net.node_radius[j])
-    to_left = _side(net, k, x, y, -uy, ux, reach, radius)
-    to_right = _side(net, k, x, y, uy, -ux, reach, radius)
-    if 2.0 * half >= _NARROW * (to_left + to_right):
-        to_left = to_right = half
-    return x, y, -uy, ux, k, to_left, to_right
+    to_left = _side(net, k, x, y, -uy, ux, reach, radius * (1.0 + MARGIN))
+    to_right = _side(net, k, x, y, uy, -ux, reach, radius * (1.0 + MARGIN))
+    if to_left + to_right <= 0.0:  # the body only just fits
+        to_left = max(_side(net, k, x, y, -uy, ux, reach, radius), half)
+        to_right = max(_side(net, k, x, y, uy, -ux, reach, radius), half)
+    return x, y, -uy, ux, k, half, to_left, to_right
 
 
 @njit(cache=True)
@@ -82,7 +85,8 @@ def open_portals(net, edge_width, edge_cells, radius):
 
     edge_width (e,) float64 and edge_cells (e, 2) int32: each edge's widest body, and the pair of cells, one
     of either node, where the border of its labels is widest. Returns the arrays of `make_doors`: start (m +
-    1,), target (p,) int32, portal (p, 6) float64, portal_cell (p, 2) int32.
+    1,), target (p,) int32, portal (p, 6) float64, portal_cell (p, 2) int32, lens (p, 2), block (p, 4)
+    float64.
     """
     nodes = net.node_radius.size
     count = 0
@@ -93,14 +97,20 @@ def open_portals(net, edge_width, edge_cells, radius):
     target = np.empty(count, np.int32)
     portal = np.empty((count, 6))
     cells = np.empty((count, 2), np.int32)
+    lens = np.empty((count, 2))
+    block = np.full((count, 4), np.inf)
     count = 0
     for i in range(nodes):
         for edge in range(net.edge_start[i], net.edge_start[i + 1]):
             if edge_width[edge] < radius:
                 continue
             j = net.edge_target[edge]
-            mx, my, lx, ly, k, to_left, to_right = _portal(net, i, j, edge_cells[edge], radius)
+            mx, my, lx, ly, k, half, to_left, to_right = _portal(net, i, j, edge_cells[edge], radius)
             target[count] = j
+            width = to_left + to_right
+            free = half > 0.0 and width > 0.0
+            lens[count, 0] = max((to_left - half) / width, 0.0) if free else 0.0
+            lens[count, 1] = min((to_left + half) / width, 1.0) if free else 1.0
             for side in range(2):
                 way = to_left if side == 0 else -to_right
                 x, y = mx + lx * way, my + ly * way
@@ -109,6 +119,10 @@ def open_portals(net, edge_width, edge_cells, radius):
                 portal[count, 3 * side + 1] = y
                 portal[count, 3 * side + 2] = floor_at(net, cell, x, y)
                 cells[count, side] = cell
+                gap, qx, qy = gap_at(net, cell, x, y)
+                if gap <= radius * _BESIDE:
+                    block[count, 2 * side] = qx
+                    block[count, 2 * side + 1] = qy
             count += 1
         start[i + 1] = count
-    return start, target, portal, cells
+    return start, target, portal, cells, lens, block

@@ -1,11 +1,12 @@
 """String pulling: from the chain of discs that A* chose to the line that a body walks.
 
-1. The funnel over the portals gives the corners that the line has to turn at.
+1. The funnel over the portals gives the corners that the line has to turn at. Each is rounded: put where the
+   line before it and the one after it touch the circle of the body's radius round what it turns about.
 2. The line is walked through the clearance field. Where the body would not fit, the tightest place is pushed
-   off what blocks it, just so far that the body fits, and the two halves are walked again. Where nothing can
-   be pushed because walking ends on the line, the cells themselves are searched.
-3. Corners that the line of sight jumps over are dropped; corners that stand further off than they need are
-   drawn in.
+   off what blocks it, just so far that the body fits, and the two halves are walked again. Where walking ends
+   on the line, it is pulled through the lenses of the portals instead, which lie in the discs; where discs do
+   not overlap either, the cells themselves are searched.
+3. Corners that the line of sight jumps over are dropped.
 
 What comes out has been walked: the body fits on all of it.
 """
@@ -16,17 +17,19 @@ import numpy as np
 from numba import njit
 
 from navmesh.detour import detour
-from navmesh.field import floor_at, gap_at, same_place, walk
+from navmesh.field import centre_of, floor_at, gap_at, same_place, walk
+from navmesh.portals import MARGIN
 
 __all__ = ["grow", "pull"]
 
 _SLACK = 0.01
 """Share of the radius kept on top of it where there is room: discs of the corridor hold the path inside."""
-_MARGIN = 0.03
-"""Pushed corners keep this share of the radius more than it, so that straight lines between them clear round
-corners."""
-_LOOSE = 0.1
-"""A corner whose gap is above the radius by more than this share is drawn in."""
+_FITS, _BLOCKED, _NO_WAY = range(3)
+"""What can come of mending a line."""
+_SHARP = 0.5
+"""Cosine of the turn up to which one corner rounds it; sharper turns get two."""
+_ROUNDS = 4
+"""Times that a line is led round what ends walking on it before it is pulled through the lenses."""
 _DEPTH = 12  # of pushes within pushes; scratch.stack holds two more
 
 
@@ -51,64 +54,67 @@ def _turn(ax, ay, bx, by, cx, cy):
 
 
 @njit(cache=True)
-def _funnel(doors, edges, first, last, work, cells, at, sx, sy, start_cell, gx, gy, goal_cell):
+def _funnel(doors, edges, first, last, narrow, work, at, base, sx, sy, gx, gy):
     """Corners of the shortest line through the portals edges[first:last]; returns how many, ends included.
 
-    Writes x, y into work (n, 2), cells (n,) and into at (n,) the index of the portal that each corner is an
-    end of (first - 1 for the start, last for the goal); all need last - first + 2 rows.
+    With ``narrow`` through their lenses only. From row ``base`` on it writes x, y into work (n, 2) and into
+    at (n,) twice the index of the portal that each corner is an end of, plus 1 for a right end (the start
+    counts as portal first - 1, the goal as last); last - first + 2 rows are enough.
     """
-    work[0, 0], work[0, 1] = sx, sy
-    cells[0] = start_cell
-    at[0] = first - 1
-    count = 1
+    portal, lens = doors.portal, doors.lens
+    work[base, 0], work[base, 1] = sx, sy
+    at[base] = 2 * (first - 1)
+    count = base + 1
     ax, ay = sx, sy
-    lx, ly, lcell, lat = sx, sy, start_cell, first - 1
-    rx, ry, rcell, rat = sx, sy, start_cell, first - 1
+    lx, ly, lat = sx, sy, first - 1
+    rx, ry, rat = sx, sy, first - 1
     i = first
     while i <= last:
+        nlx, nly, nrx, nry = gx, gy, gx, gy
         if i < last:
             door = edges[i]
-            nlx, nly, nlcell = doors.portal[door, 0], doors.portal[door, 1], doors.portal_cell[door, 0]
-            nrx, nry, nrcell = doors.portal[door, 3], doors.portal[door, 4], doors.portal_cell[door, 1]
-        else:
-            nlx, nly, nlcell = gx, gy, goal_cell
-            nrx, nry, nrcell = gx, gy, goal_cell
+            nlx, nly = portal[door, 0], portal[door, 1]
+            nrx, nry = portal[door, 3], portal[door, 4]
+            if narrow:
+                t, u = lens[door, 0], lens[door, 1]
+                dx, dy = nrx - nlx, nry - nly
+                nrx, nry = nlx + u * dx, nly + u * dy
+                nlx, nly = nlx + t * dx, nly + t * dy
         if _turn(ax, ay, rx, ry, nrx, nry) >= 0.0:
             if (ax == rx and ay == ry) or _turn(ax, ay, lx, ly, nrx, nry) < 0.0:
-                rx, ry, rcell, rat = nrx, nry, nrcell, i
+                rx, ry, rat = nrx, nry, i
             else:
                 ax, ay = lx, ly
-                work[count, 0], work[count, 1] = lx, ly
-                cells[count] = lcell
-                at[count] = lat
-                count += 1
-                rx, ry, rcell, rat = lx, ly, lcell, lat
+                if first <= lat < last:
+                    work[count, 0], work[count, 1] = lx, ly
+                    at[count] = 2 * lat
+                    count += 1
+                rx, ry, rat = lx, ly, lat
                 i = lat + 1
                 continue
         if _turn(ax, ay, lx, ly, nlx, nly) <= 0.0:
             if (ax == lx and ay == ly) or _turn(ax, ay, rx, ry, nlx, nly) > 0.0:
-                lx, ly, lcell, lat = nlx, nly, nlcell, i
+                lx, ly, lat = nlx, nly, i
             else:
                 ax, ay = rx, ry
-                work[count, 0], work[count, 1] = rx, ry
-                cells[count] = rcell
-                at[count] = rat
-                count += 1
-                lx, ly, lcell, lat = rx, ry, rcell, rat
+                if first <= rat < last:
+                    work[count, 0], work[count, 1] = rx, ry
+                    at[count] = 2 * rat + 1
+                    count += 1
+                lx, ly, lat = rx, ry, rat
                 i = rat + 1
                 continue
         i += 1
     work[count, 0], work[count, 1] = gx, gy
-    cells[count] = goal_cell
-    at[count] = last
-    return count + 1
+    at[count] = 2 * last
+    return count + 1 - base
 
 
 @njit(cache=True)
 def _push(net, k, x, y, qx, qy, radius):
     """Move (x, y) in cell ``k`` away from (qx, qy) until the body fits with a margin; returns (fits, x, y,
     cell)."""
-    target = radius * (1.0 + _MARGIN)
+    target = radius * (1.0 + MARGIN)
     enough = radius * (1.0 + _SLACK)
     gap = 0.0
     for _ in range(4):
@@ -218,12 +224,14 @@ def _round(net, doors, scratch, low, high, ax, ay, bx, by, place):
 
 
 @njit(cache=True)
-def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high):
+def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_try):
     """Add a walked line from the leg's last corner to g, through nodes[low:high].
 
-    Returns the new count and whether the body fits all along.
+    Returns the new count and _FITS; _BLOCKED, with only a part of the line added, where walking ends on it
+    and this is not the ``last_try``; or _NO_WAY.
     """
     radius = doors.radius
+    enough = radius * (1.0 + _SLACK)
     stack, stack_cell = scratch.stack, scratch.stack_cell
     stack[0, 0], stack[0, 1] = gx, gy
     stack_cell[0] = goal_cell
@@ -233,9 +241,9 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high):
         ax, ay = scratch.points[count - 1, 0], scratch.points[count - 1, 1]
         bx, by = stack[height - 1, 0], stack[height - 1, 1]
         target = stack_cell[height - 1]
-        reached, cell, gap, place, qx, qy = walk(net, k, ax, ay, bx, by, radius, True)
+        reached, cell, gap, place, qx, qy = walk(net, k, ax, ay, bx, by, enough, True)
         walked = reached and same_place(net, cell, target)
-        if walked and gap >= radius * (1.0 + _SLACK):
+        if walked and gap >= enough:
             count = _append(net, doors, scratch, first, count, bx, by, target)
             height -= 1
             continue
@@ -253,62 +261,85 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high):
             count = _append(net, doors, scratch, first, count, bx, by, target)
             height -= 1
             continue
-        if not walked and height <= _DEPTH:
+        if not walked and height <= _ROUNDS:
             found, x, y, at = _round(net, doors, scratch, low, high, ax, ay, bx, by, place)
             if found and (x - ax) ** 2 + (y - ay) ** 2 > 1e-6 and (x - bx) ** 2 + (y - by) ** 2 > 1e-6:
                 stack[height, 0], stack[height, 1] = x, y
                 stack_cell[height] = at
                 height += 1
                 continue
+        if not last_try:
+            return count, _BLOCKED
         cells = detour(net, scratch, k, target, radius)
         if cells.size == 0:
-            return count, False
+            return count, _NO_WAY
         for step in range(1, cells.size - 1):
             at = cells[step]
-            column = net.cell_column[at]
-            ix = column // net.ny
-            x = (ix + 0.5) * net.cell
-            y = (column - ix * net.ny + 0.5) * net.cell
+            x, y = centre_of(net, at)
             if net.clearance[at] < radius:
                 gap, qx, qy = gap_at(net, at, x, y)
                 pushed, x, y, at = _push(net, at, x, y, qx, qy, radius)
             count = _append(net, doors, scratch, first, count, x, y, at)
         count = _append(net, doors, scratch, first, count, bx, by, target)
         height -= 1
+    return count, _FITS
+
+
+@njit(cache=True)
+def _place_of(net, doors, door, side, x, y):
+    """The cell of (x, y), a place on a portal or beside its left (0) or right (1) end."""
+    ex, ey = doors.portal[door, 3 * side], doors.portal[door, 3 * side + 1]
+    return walk(net, doors.portal_cell[door, side], ex, ey, x, y, 0.0, True)[1]
+
+
+@njit(cache=True)
+def _through_lenses(net, doors, scratch, first, count, low, high, free, gx, gy, goal_cell):
+    """Add a walked line from the leg's last corner to g through the lenses of the portals edges[low:high].
+
+    ``free`` is the first free row of the funnel's memory. Returns the new count and whether the body fits.
+    """
+    work, at = scratch.corner, scratch.corner_at
+    sx, sy = scratch.points[count - 1, 0], scratch.points[count - 1, 1]
+    corners = _funnel(doors, scratch.edges, low, high, True, work, at, free, sx, sy, gx, gy)
+    for i in range(free + 1, free + corners):
+        x, y, k = work[i, 0], work[i, 1], goal_cell
+        if i < free + corners - 1:
+            k = _place_of(net, doors, scratch.edges[at[i] >> 1], at[i] & 1, x, y)
+        count, state = _mend(net, doors, scratch, first, count, x, y, k, at[i - 1] >> 1, at[i] >> 1, True)
+        if state != _FITS:
+            return count, False
     return count, True
 
 
 @njit(cache=True)
-def _draw_in(net, doors, scratch, first, count):
-    """Move loose corners towards the line between their neighbours, as far as the body fits: the ends of a
-    portal may stand off the wall that the line turns round."""
-    radius = doors.radius * (1.0 + _SLACK)
-    points, cells = scratch.points, scratch.cells
-    for i in range(first + 1, count - 1):
-        x, y = points[i, 0], points[i, 1]
-        if gap_at(net, cells[i], x, y)[0] <= radius * (1.0 + _LOOSE):
-            continue
-        ax, ay = points[i - 1, 0], points[i - 1, 1]
-        bx, by = points[i + 1, 0], points[i + 1, 1]
-        dx, dy = bx - ax, by - ay
-        length = dx * dx + dy * dy
-        s = ((x - ax) * dx + (y - ay) * dy) / length if length > 0.0 else 0.0
-        s = min(max(s, 0.0), 1.0)
-        dx, dy = ax + s * dx - x, ay + s * dy - y
-        low, high = 0.0, 1.0
-        for _ in range(9):
-            t = 0.5 * (low + high)
-            cx, cy = x + t * dx, y + t * dy
-            fits, cell, _, _, _, _ = walk(net, cells[i - 1], ax, ay, cx, cy, radius, False)
-            if fits:
-                fits, last, _, _, _, _ = walk(net, cell, cx, cy, bx, by, radius, False)
-                fits = fits and same_place(net, last, cells[i + 1])
-            if fits:
-                low = t
-                points[i, 0], points[i, 1] = cx, cy
-                cells[i] = cell
-            else:
-                high = t
+def _rounded(work, i, side, qx, qy, radius, arc):
+    """Corners that lead the funnel's line, at its corner ``i``, round q at the distance ``radius``.
+
+    Each is where the tangents to the circle before and after it meet. Writes them into arc (2, 2) and returns
+    how many: the sharper the turn, the more. 0 where q is not on the inner side of the turn.
+    """
+    ax, ay = work[i, 0] - work[i - 1, 0], work[i, 1] - work[i - 1, 1]
+    bx, by = work[i + 1, 0] - work[i, 0], work[i + 1, 1] - work[i, 1]
+    a, b = sqrt(ax * ax + ay * ay), sqrt(bx * bx + by * by)
+    if a < 1e-9 or b < 1e-9:
+        return 0
+    # unit normals of both lines, away from q
+    way = 1.0 if side == 0 else -1.0
+    ax, ay = way * ay / a, -way * ax / a
+    bx, by = way * by / b, -way * bx / b
+    dot = ax * bx + ay * by
+    if (work[i, 0] - qx) * (ax + bx) + (work[i, 1] - qy) * (ay + by) <= 0.0 or dot < -0.99:
+        return 0
+    if dot >= _SHARP:
+        share = radius / (1.0 + dot)
+        arc[0, 0], arc[0, 1] = qx + share * (ax + bx), qy + share * (ay + by)
+        return 1
+    half = 1.0 / sqrt(2.0 + 2.0 * dot)
+    mx, my = half * (ax + bx), half * (ay + by)
+    share = radius / (1.0 + ax * mx + ay * my)
+    arc[0, 0], arc[0, 1] = qx + share * (ax + mx), qy + share * (ay + my)
+    arc[1, 0], arc[1, 1] = qx + share * (bx + mx), qy + share * (by + my)
+    return 2
 
 
 @njit(cache=True)
@@ -319,30 +350,39 @@ def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell):
     Returns the new number of corners and whether the goal was reached.
     """
     leg = count - 1
-    room = last - first + 2
-    if scratch.corner_cell.size < room:
+    room = 2 * (last - first + 2)
+    if scratch.corner_at.size < room:
         scratch.corner = np.empty((2 * room, 2), np.float64)
-        scratch.corner_cell = np.empty(2 * room, np.int32)
         scratch.corner_at = np.empty(2 * room, np.int32)
-    work, cells, at = scratch.corner, scratch.corner_cell, scratch.corner_at
+    work, at, arc = scratch.corner, scratch.corner_at, scratch.arc
     sx, sy = scratch.points[leg, 0], scratch.points[leg, 1]
-    corners = _funnel(
-        doors, scratch.edges, first, last, work, cells, at, sx, sy, scratch.cells[leg], gx, gy, goal_cell
-    )
+    corners = _funnel(doors, scratch.edges, first, last, False, work, at, 0, sx, sy, gx, gy)
     radius = doors.radius
     for i in range(1, corners):
-        x, y, k = work[i, 0], work[i, 1], cells[i]
+        parts = 0
+        door, side = 0, at[i] & 1
         if i < corners - 1:
-            gap, qx, qy = gap_at(net, k, x, y)
-            if gap < radius * (1.0 + _MARGIN):
-                pushed, px, py, pk = _push(net, k, x, y, qx, qy, radius)
-                if pushed:
+            door = scratch.edges[at[i] >> 1]
+            qx, qy = doors.block[door, 2 * side], doors.block[door, 2 * side + 1]
+            if qx < np.inf:
+                parts = _rounded(work, i, side, qx, qy, radius * (1.0 + MARGIN), arc)
+        for part in range(max(parts, 1)):
+            x, y, k = work[i, 0], work[i, 1], goal_cell
+            if i < corners - 1:
+                k = doors.portal_cell[door, side]
+            if parts > 0:
+                px, py = arc[part, 0], arc[part, 1]
+                pk = _place_of(net, doors, door, side, px, py)
+                if gap_at(net, pk, px, py)[0] >= radius * (1.0 + _SLACK):
                     x, y, k = px, py, pk
-        count, fits = _mend(net, doors, scratch, leg, count, x, y, k, at[i - 1], at[i])
-        if not fits:
-            return count, False
-    if not doors.weighted:
-        _draw_in(net, doors, scratch, leg, count)
+            low, high = at[i - 1] >> 1, at[i] >> 1
+            count, state = _mend(net, doors, scratch, leg, count, x, y, k, low, high, False)
+            if state == _BLOCKED:
+                low, high = max(low, first), min(high + 1, last)
+                count, fits = _through_lenses(net, doors, scratch, leg, count, low, high, corners, x, y, k)
+                state = _FITS if fits else _NO_WAY
+            if state != _FITS:
+                return count, False
     for i in range(leg, count):
         scratch.points[i, 2] = floor_at(net, scratch.cells[i], scratch.points[i, 0], scratch.points[i, 1])
     return count, True

@@ -21,18 +21,9 @@ it."""
 _STAMP, _HEAP, _STATE, _GOAL_NODE, BEST, EXPANDED = 0, 1, 2, 3, 4, 5
 
 
-@njit(cache=True)
-def _push(scratch, key, node):
-    size = scratch.numbers[_HEAP]
-    if size == scratch.heap_key.size:
-        keys = np.empty(2 * size, np.float64)
-        keys[:size] = scratch.heap_key
-        scratch.heap_key = keys
-        nodes = np.empty(2 * size, np.int32)
-        nodes[:size] = scratch.heap_node
-        scratch.heap_node = nodes
-    keys = scratch.heap_key
-    nodes = scratch.heap_node
+@njit(cache=True, inline="always")
+def _push(keys, nodes, size, key, node):
+    """Add an entry to the ``size`` that are there."""
     i = size
     while i > 0:
         up = (i - 1) >> 1
@@ -43,19 +34,14 @@ def _push(scratch, key, node):
         i = up
     keys[i] = key
     nodes[i] = node
-    scratch.numbers[_HEAP] = size + 1
 
 
-@njit(cache=True)
-def _pop(scratch):
-    keys = scratch.heap_key
-    nodes = scratch.heap_node
-    size = scratch.numbers[_HEAP] - 1
-    scratch.numbers[_HEAP] = size
+@njit(cache=True, inline="always")
+def _take_first(keys, nodes, size):
+    """Remove the first of ``size`` entries, which leaves ``size - 1``."""
+    size -= 1
     key = keys[size]
     node = nodes[size]
-    top_key = keys[0]
-    top_node = nodes[0]
     i = 0
     while True:
         down = 2 * i + 1
@@ -73,7 +59,6 @@ def _pop(scratch):
         i = down
     keys[i] = key
     nodes[i] = node
-    return top_key, top_node
 
 
 @njit(cache=True, inline="always")
@@ -93,9 +78,8 @@ def _crossing(lx, ly, rx, ry, ax, ay, bx, by):
     along_b = (bx - lx) * px + (by - ly) * py
     off_a = abs((ax - lx) * py - (ay - ly) * px)
     off_b = abs((bx - lx) * py - (by - ly) * px)
-    both = off_a + off_b
-    along = along_a + (along_b - along_a) * (off_a / both if both > 0.0 else 0.5)
-    t = along / length
+    both = (off_a + off_b) * length
+    t = (along_a * off_b + along_b * off_a) / both if both > 0.0 else 0.5 * (along_a + along_b) / length
     return 0.0 if t < 0.0 else (1.0 if t > 1.0 else t)
 
 
@@ -105,7 +89,10 @@ def begin(net, doors, scratch, start_node, goal_node, sx, sy, sz, gx, gy, gz):
     can be)."""
     numbers = scratch.numbers
     numbers[_STAMP] += 1
-    numbers[_HEAP] = 0
+    numbers[_HEAP] = 1
+    if scratch.heap_key.size < doors.target.size + doors.leap_id.size + 2:  # every door is used once at most
+        scratch.heap_key = np.empty(doors.target.size + doors.leap_id.size + 2, np.float64)
+        scratch.heap_node = np.empty(doors.target.size + doors.leap_id.size + 2, np.int32)
     numbers[_STATE] = RUNNING
     numbers[_GOAL_NODE] = goal_node
     numbers[BEST] = start_node
@@ -118,28 +105,11 @@ def begin(net, doors, scratch, start_node, goal_node, sx, sy, sz, gx, gy, gz):
     scratch.stamp[start_node] = numbers[_STAMP]
     scratch.cost[start_node] = 0.0
     scratch.total[start_node] = rest
-    scratch.entry[start_node, 0] = sx
-    scratch.entry[start_node, 1] = sy
-    scratch.entry[start_node, 2] = sz
+    scratch.entry[start_node, 0], scratch.entry[start_node, 1], scratch.entry[start_node, 2] = sx, sy, sz
     scratch.parent[start_node] = -1
     scratch.via[start_node] = -1
-    _push(scratch, rest, start_node)
-
-
-@njit(cache=True, inline="always")
-def _reach(scratch, stamp, node, source, via, cost, rest, x, y, z):
-    total = cost + rest
-    if scratch.stamp[node] == stamp and total >= scratch.total[node] - 1e-9:
-        return
-    scratch.stamp[node] = stamp
-    scratch.cost[node] = cost
-    scratch.total[node] = total
-    scratch.entry[node, 0] = x
-    scratch.entry[node, 1] = y
-    scratch.entry[node, 2] = z
-    scratch.parent[node] = source
-    scratch.via[node] = via
-    _push(scratch, total, node)
+    scratch.heap_key[0] = rest
+    scratch.heap_node[0] = start_node
 
 
 @njit(cache=True)
@@ -152,54 +122,75 @@ def advance(net, doors, scratch, budget):
     stamp = numbers[_STAMP]
     goal_node = numbers[_GOAL_NODE]
     gx, gy, gz = scratch.ends[3], scratch.ends[4], scratch.ends[5]
-    doors_count = doors.target.size
-    portal = doors.portal
+    # arrays taken out of their bundle in a loop are counted as used each time
+    seen, costs, totals, entry = scratch.stamp, scratch.cost, scratch.total, scratch.entry
+    parent, via = scratch.parent, scratch.via
+    door_start, leap_start = doors.start, doors.leap_start
+    keys, nodes, size = scratch.heap_key, scratch.heap_node, numbers[_HEAP]
+    portal, targets, node_cost = doors.portal, doors.target, doors.node_cost
+    nearest = scratch.ends[6]
+    state = RUNNING
     while budget > 0:
-        if numbers[_HEAP] == 0:
-            numbers[_STATE] = EMPTY
-            return EMPTY
-        key, node = _pop(scratch)
-        if key > scratch.total[node]:
+        if size == 0:
+            state = EMPTY
+            break
+        key, node = keys[0], nodes[0]
+        _take_first(keys, nodes, size)
+        size -= 1
+        if key > totals[node]:
             continue  # reached more cheaply since
         if node == goal_node:
             numbers[BEST] = node
-            numbers[_STATE] = COMPLETE
-            return COMPLETE
+            state = COMPLETE
+            break
         budget -= 1
         numbers[EXPANDED] += 1
-        cost = scratch.cost[node]
-        x, y, z = scratch.entry[node, 0], scratch.entry[node, 1], scratch.entry[node, 2]
-        if goal_node < 0 or scratch.ends[6] > 0.0:
-            rest = _distance(x, y, z, gx, gy, gz)
-            if rest < scratch.ends[6]:
-                scratch.ends[6] = rest
-                numbers[BEST] = node
-        factor = doors.node_cost[node]
-        for door in range(doors.start[node], doors.start[node + 1]):
-            target = doors.target[door]
-            if target == scratch.parent[node]:
+        cost = costs[node]
+        x, y, z = entry[node, 0], entry[node, 1], entry[node, 2]
+        rest = _distance(x, y, z, gx, gy, gz)
+        if rest < nearest:
+            nearest = rest
+            numbers[BEST] = node
+        factor = node_cost[node]
+        # nothing that goes on from here costs less than the key: nodes with less are done with
+        for door in range(door_start[node], door_start[node + 1]):
+            target = targets[door]
+            if seen[target] == stamp and totals[target] <= key:
                 continue
             lx, ly, lz = portal[door, 0], portal[door, 1], portal[door, 2]
             rx, ry, rz = portal[door, 3], portal[door, 4], portal[door, 5]
             t = _crossing(lx, ly, rx, ry, x, y, gx, gy)
-            ex = lx + t * (rx - lx)
-            ey = ly + t * (ry - ly)
-            ez = lz + t * (rz - lz)
+            ex, ey, ez = lx + t * (rx - lx), ly + t * (ry - ly), lz + t * (rz - lz)
             step = cost + factor * _distance(x, y, z, ex, ey, ez)
             rest = _distance(ex, ey, ez, gx, gy, gz)
             if target == goal_node:
-                rest *= doors.node_cost[target]
-            _reach(scratch, stamp, target, node, door, step, rest, ex, ey, ez)
-        for leap in range(doors.leap_start[node], doors.leap_start[node + 1]):
+                rest *= node_cost[target]
+            if seen[target] != stamp or step + rest < totals[target] - 1e-9:
+                seen[target] = stamp
+                costs[target], totals[target] = step, step + rest
+                entry[target, 0], entry[target, 1], entry[target, 2] = ex, ey, ez
+                parent[target], via[target] = node, door
+                _push(keys, nodes, size, step + rest, target)
+                size += 1
+        for leap in range(leap_start[node], leap_start[node + 1]):
+            target = net.label[doors.leap_to_cell[leap]]
             fx, fy, fz = doors.leap_from[leap, 0], doors.leap_from[leap, 1], doors.leap_from[leap, 2]
             tx, ty, tz = doors.leap_to[leap, 0], doors.leap_to[leap, 1], doors.leap_to[leap, 2]
-            target = net.label[doors.leap_to_cell[leap]]
             step = cost + factor * _distance(x, y, z, fx, fy, fz) + doors.leap_cost[leap]
             rest = _distance(tx, ty, tz, gx, gy, gz)
             if target == goal_node:
-                rest *= doors.node_cost[target]
-            _reach(scratch, stamp, target, node, doors_count + leap, step, rest, tx, ty, tz)
-    return RUNNING
+                rest *= node_cost[target]
+            if seen[target] != stamp or step + rest < totals[target] - 1e-9:
+                seen[target] = stamp
+                costs[target], totals[target] = step, step + rest
+                entry[target, 0], entry[target, 1], entry[target, 2] = tx, ty, tz
+                parent[target], via[target] = node, targets.size + leap
+                _push(keys, nodes, size, step + rest, target)
+                size += 1
+    numbers[_HEAP] = size
+    numbers[_STATE] = state
+    scratch.ends[6] = nearest
+    return state
 
 
 @njit(cache=True)

@@ -54,13 +54,13 @@ _NET = (
     "label", "position", "node_cell", "node_radius", "edge_start", "edge_target",
 )  # fmt: skip
 _DOORS = (
-    "radius", "start", "target", "portal", "portal_cell", "node_cost", "weighted",
+    "radius", "start", "target", "portal", "portal_cell", "lens", "block", "node_cost", "weighted",
     "leap_start", "leap_id", "leap_from", "leap_from_cell", "leap_to", "leap_to_cell", "leap_cost",
 )  # fmt: skip
 _SCRATCH = (
     "numbers", "stamp", "cost", "total", "entry", "parent", "via", "heap_key", "heap_node", "ends", "nodes",
     "edges", "points", "cells",
-    "corner", "corner_cell", "corner_at", "stack", "stack_cell", "cell_stamp", "cell_best", "cell_parent",
+    "corner", "corner_at", "arc", "stack", "stack_cell", "cell_stamp", "cell_best", "cell_parent",
 )  # fmt: skip
 
 for _proxy, _type, _names in (
@@ -126,6 +126,8 @@ def make_doors(
     target,
     portal,
     portal_cell,
+    lens,
+    block,
     node_cost,
     weighted,
     leap_start,
@@ -140,10 +142,13 @@ def make_doors(
 
     radius [m]; the doors, edges that the body passes, of node i are start[i]:start[i + 1], start (m + 1,)
     int32; target (p,) int32: the node behind; portal (p, 6) float64: x, y, z of its left and of its right end
-    as seen walking through; portal_cell (p, 2) int32: the cells of the ends; node_cost (m,) float64, at least
-    1: factor on the length walked in each node; weighted: whether any factor is not 1. The leaps are the
-    typed links on offer, grouped by the node they start from: leap_start (m+1,), leap_id (l,) int32,
-    leap_from, leap_to (l, 3) float64, leap_from_cell, leap_to_cell (l,) int32, leap_cost (l,) float64 [m].
+    as seen walking through; portal_cell (p, 2) int32: the cells of the ends; lens (p, 2) float64: the part of
+    it (0 left, 1 right) that lies in both shrunk discs, all of it where they do not overlap; block (p, 4)
+    float64: x, y of what ends walking at its left and at its right end, inf where nothing does; node_cost
+    (m,) float64, at least 1: factor on the length walked in each node; weighted: whether any factor is not 1.
+    The leaps are the typed links on offer, grouped by the node they start from: leap_start (m+1,), leap_id
+    (l,) int32, leap_from, leap_to (l, 3) float64, leap_from_cell, leap_to_cell (l,) int32, leap_cost (l,)
+    float64 [m].
     """
     return Doors(
         radius,
@@ -151,6 +156,8 @@ def make_doors(
         target,
         portal,
         portal_cell,
+        lens,
+        block,
         node_cost,
         weighted,
         leap_start,
@@ -170,8 +177,9 @@ def make_scratch(nodes, edges):
     numbers (16,) int64: the stamp of the current search and its counters, see `navmesh.search`; stamp, cost,
     total, entry (3 coordinates and the cell's place is not kept), parent, via: per node; heap_key, heap_node:
     the open list; ends (8,) float64: start and goal; nodes, edges: the chain found; points, cells: the
-    corners pulled; corner, corner_cell, corner_at: those of the funnel; stack, stack_cell: corners still to
-    be reached; cell_stamp, cell_best, cell_parent: per cell, once `navmesh.detour` needs them.
+    corners pulled; corner, corner_at: those of the funnel; arc: those that round one of them; stack,
+    stack_cell: corners still to be reached; cell_stamp, cell_best, cell_parent: per cell, once
+    `navmesh.detour` needs them.
     """
     room = max(nodes, 16)
     return Scratch(
@@ -191,7 +199,7 @@ def make_scratch(nodes, edges):
         np.empty(64, np.int32),
         np.empty((64, 2), np.float64),
         np.empty(64, np.int32),
-        np.empty(64, np.int32),
+        np.empty((2, 2), np.float64),
         np.empty((14, 2), np.float64),
         np.empty(14, np.int32),
         np.zeros(0, np.int64),

@@ -89,7 +89,7 @@ def test_a_route_exists_where_networkx_finds_one(seed: int, radius: float) -> No
 def test_search_agrees_with_the_plain_one(seed: int) -> None:
     graph, rng = scene(seed, 9)
     net, origin = net_of(graph), graph.surface.origin
-    start, target, portal, _ = portals_of(graph, 0.3)
+    start, target, portal = portals_of(graph, 0.3)[:3]
     for _ in range(8):
         s, g = np.column_stack([rng.uniform(0.5, 13.5, (2, 2)), np.zeros(2)])
         route = graph.find_path(s, g, 0.3)
@@ -144,7 +144,7 @@ def test_round_a_corner_the_path_is_nearly_the_shortest() -> None:
             wall = [np.array(corner) for corner in ((10.0, 9.0), (10.0, 9.2))]
             shortest = rounded_shortest(start, goal, sum(wall) / 2, radius)
             assert route.status == "complete"
-            assert shortest * 0.99 < route.length < shortest * 1.07
+            assert shortest * 0.99 < route.length < shortest * 1.02
 
 
 def test_a_straight_way_has_two_waypoints() -> None:

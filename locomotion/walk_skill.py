@@ -36,7 +36,7 @@ class WalkSkill:
     [m/s] at which it walks at most; ``meta``: what made it."""
 
     gains: np.ndarray
-    speed: float = 1.4
+    speed: float = 1.25
     meta: dict[str, Any] = field(default_factory=dict)
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -62,7 +62,7 @@ def load_walk_skill(path: str | os.PathLike[str] = WALK_SKILL) -> WalkSkill:
     if not ((gains >= low_high[0]) & (gains <= low_high[1])).all():
         name = list(GAINS)[int(np.flatnonzero(~((gains >= low_high[0]) & (gains <= low_high[1])))[0])]
         raise LocomotionError(f"{path}: {name} is outside {GAINS[name][1]:g} to {GAINS[name][2]:g}")
-    return WalkSkill(gains, float(header.get("speed", 1.4)), header.get("meta", {}))
+    return WalkSkill(gains, float(header.get("speed", 1.25)), header.get("meta", {}))
 
 
 def plant(

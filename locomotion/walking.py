@@ -103,7 +103,7 @@ _SHOULDER, _ABDUCTION, _ELBOW = (
     np.array([JOINT_NAMES.index(f"{s}_{name}") for s in ("right", "left")])
     for name in ("shoulder_flexion", "shoulder_abduction", "elbow_flexion")
 )
-_WAIST, _CHEST = JOINT_NAMES.index("waist_pitch"), JOINT_NAMES.index("chest_pitch")
+_WAIST, _CHEST, _NECK = (JOINT_NAMES.index(f"{part}_pitch") for part in ("waist", "chest", "neck"))
 _STIFFNESS = np.array([j.stiffness for part in ("thigh", "shank", "foot") for j in SIDE_JOINTS[part]])
 _LEAD_TIME = 0.1  # servo damping per stiffness [s], as in locomotion.person
 _PELVIS_BODY = 1
@@ -117,6 +117,7 @@ _SETTLED = 0.05  # [m/s] of the reference speed below which it stands
 _SET_OFF_LIMIT = 3.0  # [s] after which the first step is made regardless
 _UNLOADED = 0.15  # share of the weight on the first stance leg while it is pushed over it
 _TRIM_RATE, _MOST_TRIM = 0.05, 0.2  # share of a step's error in speed; [m/s]
+_STRAIGHTEN = 0.4  # share of the pelvis's lean that waist and chest take back, each
 _FRICTION = 0.75  # sideways per upward force at most
 _MAX_SLOPE = 0.8
 _YAW_MOMENT = 25.0  # [Nm]
@@ -402,7 +403,12 @@ def walk_tick(gains, ground, walk, state, command, qpos, qvel, ctrl):
         force[:2] *= _FRICTION * force[2] / sideways
 
     ctrl[:_R_HIP] = 0.0
-    ctrl[_WAIST] = ctrl[_CHEST] = 0.02
+    # the trunk above a leaning pelvis is held upright, the head too
+    pitch = math.atan2(
+        math.cos(walk[WALK_HEADING]) * pelvis[2] + math.sin(walk[WALK_HEADING]) * pelvis[5], pelvis[8]
+    )
+    ctrl[_WAIST] = ctrl[_CHEST] = -_STRAIGHTEN * pitch
+    ctrl[_NECK] = -pitch - qpos[7 + _WAIST] - qpos[7 + _CHEST]
     for k in range(2):
         ctrl[_SHOULDER[k]] = gains[_ARMS] * (qpos[7 + hips[1 - k]] - 0.25)
         ctrl[_ABDUCTION[k]], ctrl[_ELBOW[k]] = 0.12, 0.35

@@ -15,7 +15,7 @@ from locomotion.walk_skill import WALK_SKILL, WalkSkill
 
 __all__ = ["WalkProblem", "train_walk", "walk_curriculum"]
 
-SPEED = 1.4
+SPEED = 1.25
 """Fastest walk [m/s]."""
 _STEPS_PER_S = 1.9  # of people who walk at 1.3 m/s; it grows with the root of the speed
 _UNIT = 0.08  # share of a gain's range that is one unit of the search
@@ -28,9 +28,9 @@ def _kind(ground: str, speeds: tuple[float, float], radius: float, **options: An
 
 def walk_curriculum(effort: float = 1.0) -> tuple[Stage, ...]:
     """From level ground to ramps and moguls; ``effort`` scales the number of generations."""
-    level, rolling = _kind("level", (0.6, 1.4), 0.8), _kind("rolling", (0.6, 1.3), 1.0)
-    ramps, moguls = _kind("ramps", (0.8, 1.4), 1.2), _kind("moguls", (0.4, 0.8), 1.0)
-    pushed = _kind("level", (0.6, 1.4), 1.0, push=80.0)
+    level, rolling = _kind("level", (0.6, 1.25), 0.8), _kind("rolling", (0.6, 1.25), 1.0)
+    ramps, moguls = _kind("ramps", (0.8, 1.25), 1.2), _kind("moguls", (0.4, 0.8), 1.0)
+    pushed = _kind("level", (0.6, 1.25), 1.0, push=80.0)
     low, high = gain_limits()
 
     def stage(name: str, generations: int, sigma: float, *kinds: dict[str, Any]) -> Stage:

@@ -1,0 +1,148 @@
+"""Feet: each stands where it came down until its turn comes, then swings to where it will be needed.
+
+A foot comes down where its place under the body will be in the middle of its stance: the body is asked where
+it will be then. So feet fall on the path, and do not slide, whatever path and speed do.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from locomotion.ground import height_below
+from locomotion.quadruped import layout as at
+from locomotion.quadruped.following import front_of, wanted_pose
+from locomotion.quadruped.gait import leg_phase
+from locomotion.quadruped.motion import travel
+from locomotion.quadruped.trail import trail_point
+
+__all__ = ["find_ground", "foot_place", "misplaced", "step_feet"]
+
+CLOSE = 0.012
+"""[m] A foot this near to its place stays."""
+_FREEZE = 0.72  # share of the swing after which its end is not changed any more
+_LATEST = 0.5  # share of the swing until which a foot may still begin it
+_SLACK = 0.12  # [m] above a step that a foot may find ground off the surface it is on
+
+
+@njit(cache=True, inline="always")
+def _smooth(u):
+    return u * u * u * (10.0 + u * (6.0 * u - 15.0))
+
+
+@njit(cache=True)
+def find_ground(ground, origin, x, y, z, reach):
+    """Height [m] of the ground at (x, y) within ``reach`` [m] of ``z``, or NaN."""
+    h = height_below(
+        ground[0], ground[1], ground[2], ground[3], ground[4], x - origin[0], y - origin[1],
+        z + reach - origin[2],
+    )[0]  # fmt: skip
+    h += origin[2]
+    return h if h >= z - reach else np.nan
+
+
+@njit(cache=True)
+def foot_place(st, pr, pool, leg, ahead):
+    """(x, y, z, direction) where ``leg`` stands under the body ``ahead`` [s] from now; z is the surface's
+    there as the motion knows it."""
+    arc = st[at.ARC]
+    on_trail = st[at.MODE] == at.ON_TRAIL
+    if on_trail and ahead > 0.0:
+        arc += st[at.WAY] * travel(st, pr, ahead)
+    x, y, z, yaw, bend, front = wanted_pose(st, pr, pool, arc, st[at.SCRIPT_TIME] + ahead)
+    if leg >= 2:
+        return x, y, z, yaw
+    x, y = front_of(x, y, yaw, bend, pr[at.BONES], pr[at.BONE] * math.cos(st[at.PITCH]))
+    if on_trail:
+        z = trail_point(pool, int(st[at.ROW_START]), int(st[at.ROW_COUNT]), st[at.ROW_STEP], front)[2]
+    return x, y, z, yaw + pr[at.BONES] * bend
+
+
+@njit(cache=True)
+def _aim(st, pr, pool, ground, origin, foot, leg, ahead):
+    """Write where ``leg`` is to come down, ``ahead`` [s] from the middle of its stance, as its TO."""
+    x, y, z, direction = foot_place(st, pr, pool, leg, ahead)
+    width = pr[at.WIDTH_FRONT] if leg < 2 else pr[at.WIDTH_REAR]
+    side = 0.5 * width if leg % 2 == 0 else -0.5 * width
+    reach = pr[at.STEP] + _SLACK
+    if st[at.MODE] != at.ON_TRAIL:
+        z = foot[at.FZ]
+    for narrower in (1.0, 0.5, 0.0):
+        fx = x - narrower * side * math.sin(direction)
+        fy = y + narrower * side * math.cos(direction)
+        h = find_ground(ground, origin, fx, fy, z, reach)
+        if not math.isnan(h):
+            foot[at.TO], foot[at.TO + 1], foot[at.TO + 2] = fx, fy, h
+            return True
+    foot[at.TO] = x - side * math.sin(direction)
+    foot[at.TO + 1] = y + side * math.cos(direction)
+    foot[at.TO + 2] = z
+    return False
+
+
+@njit(cache=True)
+def step_feet(st, pr, pool, ground, origin, feet):
+    """One tick of the four ``feet`` (4, FOOT) of one animal; returns whether all stand where they belong."""
+    cycle = 1.0 / st[at.FREQUENCY_NOW]
+    settled = True
+    for leg in range(4):
+        foot = feet[leg]
+        duty = st[at.DUTY_FRONT_NOW] if leg < 2 else st[at.DUTY_REAR_NOW]
+        phase = leg_phase(st, leg)
+        swing = (phase - duty) / (1.0 - duty)
+        if foot[at.IN_SWING] == 0.0:
+            if st[at.REST] > 0.0 or swing < 0.0 or swing > _LATEST:
+                continue
+            ahead = (1.0 - phase + 0.5 * duty) * cycle
+            found = _aim(st, pr, pool, ground, origin, foot, leg, ahead)
+            dx, dy = foot[at.TO] - foot[at.FX], foot[at.TO + 1] - foot[at.FY]
+            if dx * dx + dy * dy < CLOSE * CLOSE or not found:
+                if not found:
+                    st[at.NO_GROUND] = 1.0
+                foot[at.TO : at.TO + 3] = foot[at.FX : at.FX + 3]
+                continue
+            foot[at.FROM : at.FROM + 3] = foot[at.FX : at.FX + 3]
+            foot[at.IN_SWING], foot[at.SWING_FROM] = 1.0, swing
+        settled = False
+        if swing < 0.0:
+            foot[at.FX : at.FX + 3] = foot[at.TO : at.TO + 3]
+            foot[at.BASE] = foot[at.FZ]
+            foot[at.IN_SWING] = 0.0
+            continue
+        done = min((swing - foot[at.SWING_FROM]) / (1.0 - foot[at.SWING_FROM]), 1.0)
+        if done < _FREEZE and not _aim(
+            st, pr, pool, ground, origin, foot, leg, (1.0 - phase + 0.5 * duty) * cycle
+        ):
+            st[at.NO_GROUND] = 1.0
+        _swing(foot, max(done, 0.0), st[at.LIFT_NOW])
+    return settled
+
+
+@njit(cache=True)
+def _swing(foot, done, lift):
+    """Put a swinging foot at the share ``done`` of its way."""
+    along = _smooth(done)
+    for k in range(2):
+        foot[at.FX + k] = foot[at.FROM + k] + along * (foot[at.TO + k] - foot[at.FROM + k])
+    rise = foot[at.TO + 2] - foot[at.FROM + 2]
+    # up a step before going over it, down only behind it
+    early = min(done / 0.6, 1.0) if rise > 0.0 else max((done - 0.4) / 0.6, 0.0)
+    foot[at.BASE] = foot[at.FROM + 2] + rise * _smooth(early)
+    hump = 4.0 * done * (1.0 - done)
+    foot[at.FZ] = foot[at.BASE] + (lift + 0.3 * abs(rise)) * hump * hump * hump
+
+
+@njit(cache=True)
+def misplaced(st, pr, pool, feet):
+    """Whether a standing foot is not where it belongs when nothing moves any more."""
+    for leg in range(4):
+        x, y, _, direction = foot_place(st, pr, pool, leg, 0.0)
+        side = 0.5 * (pr[at.WIDTH_FRONT] if leg < 2 else pr[at.WIDTH_REAR])
+        side = side if leg % 2 == 0 else -side
+        dx = x - side * math.sin(direction) - feet[leg, at.FX]
+        dy = y + side * math.cos(direction) - feet[leg, at.FY]
+        if dx * dx + dy * dy > (2.0 * CLOSE) ** 2:
+            return True
+    return False

@@ -1,0 +1,53 @@
+"""Legs: analytic inverse kinematics of two bones and a foot bone, from the upper joint to the toe.
+
+Everything happens in the leg's plane, which contains the trunk's direction and the toe: x forwards, z up,
+from the upper joint. Angles of bones are counted from straight down, forwards positive.
+"""
+
+from __future__ import annotations
+
+import math
+
+from numba import njit
+
+__all__ = ["solve_leg", "two_bones"]
+
+
+@njit(cache=True, inline="always")
+def two_bones(x, z, upper, lower, side):
+    """Angles [rad] of two bones of lengths ``upper`` and ``lower`` [m] that end at (x, z); the joint between
+    them points forwards (side 1) or backwards (-1). Too far or too near places get the straight or folded leg.
+    """
+    far = math.sqrt(x * x + z * z)
+    d = min(max(far, abs(upper - lower) + 1e-6), upper + lower - 1e-6)
+    if far > 1e-9:
+        x, z = x * d / far, z * d / far
+    inner = (upper * upper + d * d - lower * lower) / (2.0 * upper * d)
+    first = math.atan2(x, -z) + side * math.acos(min(max(inner, -1.0), 1.0))
+    kx, kz = upper * math.sin(first), -upper * math.cos(first)
+    return first, math.atan2(x - kx, kz - z)
+
+
+@njit(cache=True)
+def solve_leg(x, z, upper, lower, foot, lean, side):
+    """(upper, lower, foot) angles [rad] of a leg whose toe is at (x, z) [m].
+
+    ``lean`` [rad] is how far the foot bone's upper end is behind the vertical over the toe; where the two
+    other bones do not reach it, the foot bone gives way.
+    """
+    hx, hz = x - foot * math.sin(lean), z + foot * math.cos(lean)
+    reach = 0.995 * (upper + lower)
+    if hx * hx + hz * hz > reach * reach:
+        far = math.sqrt(x * x + z * z)
+        # the joint on the circle of the foot bone around the toe that is just in reach, on the same side
+        cosine = (far * far + foot * foot - reach * reach) / (2.0 * far * foot)
+        turn = math.acos(min(max(cosine, -1.0), 1.0))
+        straight = math.atan2(x, -z)  # the way from the toe to the hip, as an angle from straight up
+        turn = turn if lean > straight else -turn
+        lean = straight + turn
+        hx, hz = x - foot * math.sin(lean), z + foot * math.cos(lean)
+    first, second = two_bones(hx, hz, upper, lower, side)
+    # where the leg is too short the toe comes off its place: measured by whoever asks, not hidden
+    ax = upper * math.sin(first) + lower * math.sin(second)
+    az = -upper * math.cos(first) - lower * math.cos(second)
+    return first, second, math.atan2(x - ax, az - z)

@@ -17,6 +17,7 @@ from locomotion.quadruped.trail import trail_point
 __all__ = ["advance_all"]
 
 _HEIGHT_HALF_LIFE = 0.07  # [s]
+_STRETCH = 0.95  # share of its length to which a standing leg is stretched
 _GAZE_HALF_LIFE = 0.10  # [s]
 _GAZE_NEAR = 0.12  # [m] nearer targets do not say where to look
 _STILL = 1e-4  # [m, rad] of an offset that counts as gone
@@ -97,7 +98,7 @@ def _carry(st, pr, feet):
         height = pr[at.HEIGHT_FRONT] if front else pr[at.HEIGHT_REAR]
         sizes = at.UPPER_FRONT if front else at.UPPER_REAR
         wanted = 0.5 * (feet[leg, at.BASE] + feet[leg + 1, at.BASE]) + height + bob + (rock if front else -rock)
-        reach = 0.985 * (pr[sizes] + pr[sizes + 1] + pr[sizes + 2])
+        reach = _STRETCH * (pr[sizes] + pr[sizes + 1] + pr[sizes + 2])
         if front:
             limit = _highest(
                 feet, st[at.FRONT_X], st[at.FRONT_Y], st[at.CHEST], pr[at.WIDTH_FRONT], leg, reach

@@ -23,7 +23,9 @@ __all__ = ["find_ground", "foot_place", "misplaced", "step_feet"]
 CLOSE = 0.012
 """[m] A foot this near to its place stays."""
 _FREEZE = 0.72  # share of the swing after which its end is not changed any more
-_LATEST = 0.5  # share of the swing until which a foot may still begin it
+_LATEST = 0.5  # share of the swing's time until which a foot may still begin it
+_STRETCH = 0.95  # share of its length to which a standing leg may be stretched
+_SINK = 0.84  # share of its height to which the trunk may sink for a standing foot
 _SLACK = 0.12  # [m] above a step that a foot may find ground off the surface it is on
 
 
@@ -91,11 +93,11 @@ def step_feet(st, pr, pool, ground, origin, feet):
         foot = feet[leg]
         duty = st[at.DUTY_FRONT_NOW] if leg < 2 else st[at.DUTY_REAR_NOW]
         phase = leg_phase(st, leg)
-        swing = (phase - duty) / (1.0 - duty)
+        ahead = (1.0 - phase + 0.5 * duty) * cycle
         if foot[at.IN_SWING] == 0.0:
-            if st[at.REST] > 0.0 or swing < 0.0 or swing > _LATEST:
+            due = duty <= phase <= duty + _LATEST * (1.0 - duty)
+            if st[at.REST] > 0.0 or not (due or (phase < duty and _overstretched(st, pr, foot, leg))):
                 continue
-            ahead = (1.0 - phase + 0.5 * duty) * cycle
             found = _aim(st, pr, pool, ground, origin, foot, leg, ahead)
             dx, dy = foot[at.TO] - foot[at.FX], foot[at.TO + 1] - foot[at.FY]
             if dx * dx + dy * dy < CLOSE * CLOSE or not found:
@@ -104,20 +106,35 @@ def step_feet(st, pr, pool, ground, origin, feet):
                 foot[at.TO : at.TO + 3] = foot[at.FX : at.FX + 3]
                 continue
             foot[at.FROM : at.FROM + 3] = foot[at.FX : at.FX + 3]
-            foot[at.IN_SWING], foot[at.SWING_FROM] = 1.0, swing
+            foot[at.IN_SWING], foot[at.SWING_FROM] = 1.0, phase
         settled = False
-        if swing < 0.0:
+        begun = foot[at.SWING_FROM]
+        if phase < begun:
             foot[at.FX : at.FX + 3] = foot[at.TO : at.TO + 3]
             foot[at.BASE] = foot[at.FZ]
             foot[at.IN_SWING] = 0.0
             continue
-        done = min((swing - foot[at.SWING_FROM]) / (1.0 - foot[at.SWING_FROM]), 1.0)
-        if done < _FREEZE and not _aim(
-            st, pr, pool, ground, origin, foot, leg, (1.0 - phase + 0.5 * duty) * cycle
-        ):
+        done = (phase - begun) / (1.0 - begun)
+        if done < _FREEZE and not _aim(st, pr, pool, ground, origin, foot, leg, ahead):
             st[at.NO_GROUND] = 1.0
-        _swing(foot, max(done, 0.0), st[at.LIFT_NOW])
+        _swing(foot, done, st[at.LIFT_NOW])
     return settled
+
+
+@njit(cache=True)
+def _overstretched(st, pr, foot, leg):
+    """Whether a standing leg is so far from its joint that the trunk would have to sink for it."""
+    if leg < 2:
+        x, y, direction, sizes = st[at.FRONT_X], st[at.FRONT_Y], st[at.CHEST], at.UPPER_FRONT
+        width, height = pr[at.WIDTH_FRONT], pr[at.HEIGHT_FRONT]
+    else:
+        x, y, direction, sizes = st[at.X], st[at.Y], st[at.YAW], at.UPPER_REAR
+        width, height = pr[at.WIDTH_REAR], pr[at.HEIGHT_REAR]
+    side = 0.5 * width if leg % 2 == 0 else -0.5 * width
+    dx = foot[at.FX] - x + side * math.sin(direction)
+    dy = foot[at.FY] - y - side * math.cos(direction)
+    reach = _STRETCH * (pr[sizes] + pr[sizes + 1] + pr[sizes + 2])
+    return dx * dx + dy * dy > reach * reach - (_SINK * height) ** 2
 
 
 @njit(cache=True)

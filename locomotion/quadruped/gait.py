@@ -13,7 +13,7 @@ __all__ = ["leg_phase", "step_gait"]
 
 _HYSTERESIS = 0.12  # share of the speed of the change by which it must be missed to change back
 _BLEND = math.exp(-DT * 0.69314718056 / 0.10)  # half of a change of gait in 0.10 s
-_SHIFT = 0.9 * DT  # [1/s] fastest change of a touchdown within the stride
+_SHIFT = 0.5  # share of the clock's pace at which a touchdown moves within the stride
 _SCRIPT_DUTY = 0.62
 
 
@@ -49,11 +49,12 @@ def step_gait(st, pr, gaits):
     st[at.LIFT_NOW] = _eased(st[at.LIFT_NOW], gait[at.LIFT])
     st[at.BOB_NOW] = _eased(st[at.BOB_NOW], gait[at.BOB] * min(speed, 1.0))
     st[at.ROCK_NOW] = _eased(st[at.ROCK_NOW], gait[at.ROCK] * min(speed, 1.0))
+    shift = _SHIFT * st[at.FREQUENCY_NOW] * DT
     for leg in range(4):
         k = at.TOUCHDOWN_NOW + leg
         off = gait[at.TOUCHDOWN + leg] - st[k]
         off -= math.floor(off + 0.5)
-        st[k] += min(max(0.1 * off, -_SHIFT), _SHIFT)
+        st[k] += min(max(0.1 * off, -shift), shift)
     if st[at.REST] == 0.0:
         st[at.CLOCK] += st[at.FREQUENCY_NOW] * DT
         st[at.CLOCK] -= math.floor(st[at.CLOCK])

@@ -129,7 +129,7 @@ FROM = 3
 TO = 6
 """Three columns: where it stands, or will."""
 IN_SWING, SWING_FROM = 9, 10
-"""1 in the swing; share of the swing at which it began."""
+"""1 in the swing; share of the stride at which it began."""
 BASE = 11
 """[m] height of the swing's way without its lift: the ground as the trunk feels it."""
 FOOT = 12

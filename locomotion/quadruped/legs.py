@@ -12,6 +12,10 @@ from numba import njit
 
 __all__ = ["solve_leg", "two_bones"]
 
+_EASY, _REACH = 0.93, 0.99
+"""Shares of the two bones' length: stretched to the first, a leg begins to give way; to the second, it never
+gets."""
+
 
 @njit(cache=True, inline="always")
 def two_bones(x, z, upper, lower, side):
@@ -36,15 +40,17 @@ def solve_leg(x, z, upper, lower, foot, lean, side):
     other bones do not reach it, the foot bone gives way.
     """
     hx, hz = x - foot * math.sin(lean), z + foot * math.cos(lean)
-    reach = 0.995 * (upper + lower)
-    if hx * hx + hz * hz > reach * reach:
+    d = math.sqrt(hx * hx + hz * hz)
+    easy, reach = _EASY * (upper + lower), _REACH * (upper + lower)
+    if d > easy:
+        # never quite straight: the last part of the way is taken ever more slowly
+        d = easy + (reach - easy) * (1.0 - math.exp(-(d - easy) / (reach - easy)))
         far = math.sqrt(x * x + z * z)
-        # the joint on the circle of the foot bone around the toe that is just in reach, on the same side
-        cosine = (far * far + foot * foot - reach * reach) / (2.0 * far * foot)
+        # the foot bone's upper end moves on its circle around the toe, on its own side, to be in reach
+        cosine = (far * far + foot * foot - d * d) / (2.0 * far * foot)
         turn = math.acos(min(max(cosine, -1.0), 1.0))
-        straight = math.atan2(x, -z)  # the way from the toe to the hip, as an angle from straight up
-        turn = turn if lean > straight else -turn
-        lean = straight + turn
+        straight = math.atan2(x, -z)
+        lean = straight + (turn if lean > straight else -turn)
         hx, hz = x - foot * math.sin(lean), z + foot * math.cos(lean)
     first, second = two_bones(hx, hz, upper, lower, side)
     # where the leg is too short the toe comes off its place: measured by whoever asks, not hidden

@@ -120,7 +120,7 @@ def _leg(st, pr, foot, out, joints, leg, x, y, z, yaw, width, sizes, curl, side)
     if foot[at.IN_SWING] > 0.0:
         lifted = (foot[at.FZ] - foot[at.BASE]) / max(st[at.LIFT_NOW], 1e-3)
         lean -= curl * min(lifted, 1.2)
-    lean += 0.8 * math.atan2(ahead, down)
+    lean += math.atan2(ahead, down)
     first, second, third = solve_leg(ahead, -down, upper, lower, last, lean, side)
     cy, sy = math.cos(0.5 * yaw), math.sin(0.5 * yaw)
     ca, sa = math.cos(0.5 * spread), math.sin(0.5 * spread)

@@ -2,12 +2,24 @@
 
 from runtime.agent import Agent, Pose
 from runtime.errors import RuntimeInputError
-from runtime.events import Arrived, Blocked, Departed, Event, Fell, Lost, SkillFinished, SkillStarted, Stuck
+from runtime.events import (
+    Arrived,
+    BackedOut,
+    Blocked,
+    Departed,
+    Event,
+    Fell,
+    Lost,
+    SkillFinished,
+    SkillStarted,
+    Stuck,
+)
 from runtime.world import World, WorldState
 
 __all__ = [
     "Agent",
     "Arrived",
+    "BackedOut",
     "Blocked",
     "Departed",
     "Event",

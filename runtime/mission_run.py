@@ -14,7 +14,7 @@ from navmesh.yamlfile import FileError
 from runtime.agent import Agent
 from runtime.events import Arrived, Event, Fell, SkillFinished
 from runtime.mission import AgentSpec, LoadedMission
-from runtime.planning import NoWay, make_plan
+from runtime.planning import NoWay
 from runtime.progress import Progress
 from runtime.recording import Recorder
 from runtime.trace import Trace
@@ -92,7 +92,7 @@ def _place(loaded: LoadedMission, world: World, index: int, spec: AgentSpec) -> 
         problem = f"agents[{index}].start: {spec.start} is not near a place where a {spec.body} fits"
         raise loaded.error(("agents", index, "start"), problem) from None
     try:
-        make_plan(world.graph, agent.position, _goals(spec), agent.radius, agent.skills)
+        agent.plan(np.array(_goals(spec)))
     except NoWay as error:
         address = ("agents", index, "goto", error.goal)
         problem = (
@@ -131,8 +131,7 @@ def _goals(spec: AgentSpec) -> list[np.ndarray]:
 
 
 def _headway(agent: Agent) -> float:
-    length = agent.plans[-1].length if agent.plans else 0.0
-    return agent.human.arc_length / length if length > 0.0 else 1.0
+    return agent.progress
 
 
 def _checks(spec: AgentSpec, events: Iterable[Event]) -> Iterable[Check]:

@@ -9,7 +9,7 @@ from runtime.progress import Progress
 
 __all__ = ["compile_kernels", "is_compiled"]
 
-_KERNEL_MODULES = (("navmesh", "pathfinding"), ("pathsmooth", "kernels"), ("locomotion", "controller"))
+_KERNEL_MODULES = (("navmesh", "pathfinding"), ("pathsmooth", "kernels"), ("locomotion", "controller"), ("locomotion/quadruped", "advance"))
 
 
 def is_compiled() -> bool:
@@ -41,6 +41,10 @@ def compile_kernels(progress: Progress) -> None:
         stage.update(0.8, "running and jumping")
         while agent.status in ("running", "jumping") and world.time < 6.0:
             world.step(0.1)
+        stage.update(0.9, "dogs")
+        dog = world.spawn("dog", (1.5, 1.0, 0.0))
+        dog.go_to((4.5, 1.0, 0.0), speed=1.5)
+        world.step(0.5)
 
 
 def _tiny_level() -> navmesh.Terrain:

@@ -21,6 +21,7 @@ from pydantic import BaseModel, ConfigDict, model_validator
 import navmesh
 from locomotion.errors import LocomotionError
 from locomotion.quadruped import layout as at
+from locomotion.route_smoothing import Smoothing
 from navmesh.yamlfile import FileError, read_yaml
 
 __all__ = ["BODY_NAMES", "Body", "Gait", "load_body"]
@@ -136,6 +137,35 @@ class Movement(_Strict):
     """[Hz] of the strides when it steps around on the spot."""
 
 
+class _Window(_Strict):
+    """During which share of the whole motion it plays."""
+
+    begin: Share
+    end: Share
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        if self.end < self.begin + 0.1:
+            raise ValueError(f"end {self.end:g} must be at least 0.1 behind begin {self.begin:g}")
+        return self
+
+
+class Move(_Window):
+    speed: Annotated[float, Gt(0.0), Le(5.0)]
+
+
+class Turn(_Window):
+    speed_deg: Annotated[float, Gt(0.0), Le(720.0)]
+
+
+class LocalMotions(_Strict):
+    """What is blended for short moves: to and fro, to the sides, and around."""
+
+    step: Move
+    sidestep: Move
+    turn: Turn
+
+
 class Gait(_Strict):
     """Footfalls at a range of speeds; two numbers are a value at rest and its change per m/s."""
 
@@ -192,6 +222,7 @@ class Body(_Strict):
     tail: Tail
     trunk: Trunk
     movement: Movement
+    local_motions: LocalMotions
     gaits: dict[str, Gait]
 
     @model_validator(mode="after")
@@ -235,9 +266,16 @@ class Body(_Strict):
             headroom=move.headroom, resolution=resolution, min_radius=min(0.1, self.radius),
         )  # fmt: skip
 
-    def stride_limits(self) -> tuple[float, float]:
-        """Slowest and fastest walk [m/s]: the range of the first gait."""
-        return 0.0, self.gaits[self.gait_order[0]].up_to
+    @property
+    def smoothing(self) -> Smoothing:
+        """What it wants of its paths: bends from four times its turning radius down to that."""
+        radius = self.movement.turn_radius
+        return Smoothing((0.25 / radius, 0.5 / radius, 1.0 / radius), 0.25 * radius, 2.0 * radius**3)
+
+    @property
+    def spine_reach(self) -> float:
+        """[rad] by which the spine alone can bring the front out of the rear's direction."""
+        return 0.5 * (self.spine.bones + 1) * math.radians(self.spine.max_bend_deg)
 
     def params(self) -> NDArray[np.float64]:
         """(PARAMS,) float64 for the kernels."""

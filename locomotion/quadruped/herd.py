@@ -28,22 +28,14 @@ from locomotion.quadruped.following import front_of, wanted_pose, wrap
 from locomotion.quadruped.motion import DT, begin_stop, stop_length
 from locomotion.quadruped.pool import Pool
 from locomotion.quadruped.pose import body_names, count_bodies, write_pose
+from locomotion.quadruped.script import Place, Script
 from locomotion.quadruped.trail import Trail, kernel_ground
 
-__all__ = ["AnimalState", "Herd", "Script"]
+__all__ = ["AnimalState", "Herd"]
 
 RING = 512
 """Crumbs that are kept: about 50 m of the way."""
 _DROP = 0.5  # [m] off the ground that an animal may be put
-
-
-@dataclass(frozen=True)
-class Script:
-    """A short motion: rows (k, ROW) float64 as in `layout`, evenly spaced over ``seconds``; it begins and
-    ends at rest."""
-
-    rows: NDArray[np.float64]
-    seconds: float
 
 
 @dataclass(frozen=True)
@@ -282,6 +274,11 @@ class Herd:
     def root(self, index: int) -> NDArray[np.float64]:
         """(4,) [m, m, m, rad]: point of the ground between the rear feet, and the body's direction there."""
         return self.state[index, [at.X, at.Y, at.HEIGHT, at.YAW]]
+
+    def place(self, index: int) -> Place:
+        """Where an animal stands, for scripts and footprint checks."""
+        x, y, z, yaw, bend = self.state[index, [at.X, at.Y, at.HEIGHT, at.YAW, at.BEND]].tolist()
+        return Place(x, y, z, yaw, bend)
 
     def front(self, index: int) -> NDArray[np.float64]:
         """(2,) [m]: the front feet's place under the shoulders."""

@@ -52,5 +52,5 @@ def walk_rules(
 def _needs(body: str) -> dict[str, float]:
     """Its walk rules, by name."""
     if body == "human":
-        return {**PERSON_RULES, "min_radius": navmesh.WalkRules.__dataclass_fields__["min_radius"].default}
+        return {**PERSON_RULES, "min_radius": navmesh.WalkRules().min_radius}
     return load_body(body).walk_rules().to_dict()

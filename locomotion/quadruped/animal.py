@@ -164,7 +164,7 @@ class Animal:
             if not self._move_locally(errand):
                 self._set_out(errand)
         else:
-            self.planner.way(self.position, np.array(rows), None)
+            self._way(errand, self.herd.place(self.index))
             self._errand, self._pending = errand, True
         self.status = "running" if self._phase != "resting" else self.status
 
@@ -218,15 +218,17 @@ class Animal:
             self.events.append(StrayedFromPath(self.time, self._point(), 0.0))
 
     # --- beginning
-    def _way(self, errand: _Errand, direction: float | None) -> Trail:
-        ahead = None if direction is None else np.array([math.cos(direction), math.sin(direction)])
-        points = self.planner.way(self.position, np.array(errand.goals), ahead)
+    def _way(self, errand: _Errand, place: Place) -> Trail:
+        """The path for one that stands or moves at ``place``; raises ValueError where there is none."""
+        ahead = np.array([math.cos(place.yaw), math.sin(place.yaw)])
+        here = np.array([place.x, place.y, place.z])
+        points = self.planner.way(here, np.array(errand.goals), ahead)
         return lay_trail(points, self.body, self.herd.ground)
 
     def _set_out(self, errand: _Errand) -> None:
         """From rest: turn onto the path if need be, else follow it."""
         place = self.herd.place(self.index)
-        trail = self._way(errand, place.yaw)
+        trail = self._way(errand, place)
         self._errand = errand
         turn = self._turn_onto(trail, place)
         if abs(turn) > self.body.spine_reach:
@@ -249,9 +251,9 @@ class Animal:
 
     def _redirect(self, errand: _Errand) -> None:
         """On the way: change over to the new path where it leads on, else stop first."""
-        direction = float(self.herd.root(self.index)[3])
-        trail = self._way(errand, direction)
-        if abs(self._turn_onto(trail, self.herd.place(self.index))) < self.body.spine_reach:
+        place = self.herd.place(self.index)
+        trail = self._way(errand, place)
+        if abs(self._turn_onto(trail, place)) < self.body.spine_reach:
             self._errand = errand
             self._follow(trail)
         else:
@@ -347,8 +349,7 @@ class Animal:
         row = trail_places(trail, self.body, arc, arc)[0]
         there = Place(*(float(value) for value in row))
         try:
-            points = self.planner.way(row[:3], np.array(self._errand.goals), None)
-            onward = lay_trail(points, self.body, self.herd.ground)
+            onward = self._way(self._errand, there)
         except ValueError:
             return False
         turn = self._turn_onto(onward, there)

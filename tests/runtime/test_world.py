@@ -103,7 +103,7 @@ def test_an_unreachable_goal_blocks(graph, goal, reason):
 @pytest.mark.parametrize(
     ("change", "says"),
     [
-        ({"body": "horse"}, "valid: 'human'"),
+        ({"body": "goose"}, "valid: 'human'"),
         ({"at": (50.0, 3.0, 0.0)}, "not near a place"),
         ({"at": (2.0, 3.0)}, "finite"),
         ({"facing": np.nan}, "finite"),

@@ -7,7 +7,7 @@ import math
 from numba import njit
 
 from locomotion.quadruped import layout as at
-from locomotion.quadruped.following import place_body, spring, wrap
+from locomotion.quadruped.following import front_of, place_body, spring, wrap
 from locomotion.quadruped.footfalls import misplaced, step_feet
 from locomotion.quadruped.gait import step_gait
 from locomotion.quadruped.motion import DT, advance_along
@@ -17,7 +17,9 @@ from locomotion.quadruped.trail import trail_point
 __all__ = ["advance_all"]
 
 _HEIGHT_HALF_LIFE = 0.07  # [s]
-_STRETCH = 0.95  # share of its length to which a standing leg is stretched
+_STRETCH, _TAUT = 0.93, 0.985  # shares of its length to which a standing leg should and can be stretched
+_CROUCH = 0.25  # [1/rad²] of slope by which a body goes lower on it
+_STEEPEST = 0.75  # of the spine's length by which the shoulders may be higher or lower than the hips
 _GAZE_HALF_LIFE = 0.10  # [s]
 _GAZE_NEAR = 0.12  # [m] nearer targets do not say where to look
 _STILL = 1e-4  # [m, rad] of an offset that counts as gone
@@ -92,25 +94,42 @@ def _carry(st, pr, feet):
     twice = 4.0 * math.pi * st[at.CLOCK]
     bob = st[at.BOB_NOW] * math.cos(twice)
     rock = st[at.ROCK_NOW] * math.cos(0.5 * twice)
+    crouch = 1.0 - _CROUCH * st[at.PITCH] * st[at.PITCH]
     for front in range(2):
         z = at.Z_FRONT if front else at.Z_REAR
         leg = 0 if front else 2
         height = pr[at.HEIGHT_FRONT] if front else pr[at.HEIGHT_REAR]
         sizes = at.UPPER_FRONT if front else at.UPPER_REAR
-        wanted = 0.5 * (feet[leg, at.BASE] + feet[leg + 1, at.BASE]) + height + bob + (rock if front else -rock)
-        reach = _STRETCH * (pr[sizes] + pr[sizes + 1] + pr[sizes + 2])
+        wanted = 0.5 * (feet[leg, at.BASE] + feet[leg + 1, at.BASE]) + crouch * height + bob + (rock if front else -rock)
+        reach = pr[sizes] + pr[sizes + 1] + pr[sizes + 2]
         if front:
-            limit = _highest(
-                feet, st[at.FRONT_X], st[at.FRONT_Y], st[at.CHEST], pr[at.WIDTH_FRONT], leg, reach
-            )
+            x, y, direction, width = st[at.FRONT_X], st[at.FRONT_Y], st[at.CHEST], pr[at.WIDTH_FRONT]
         else:
-            limit = _highest(feet, st[at.X], st[at.Y], st[at.YAW], pr[at.WIDTH_REAR], leg, reach)
-        wanted = min(wanted, limit)
+            x, y, direction, width = st[at.X], st[at.Y], st[at.YAW], pr[at.WIDTH_REAR]
+        wanted = min(wanted, _highest(feet, x, y, direction, width, leg, _STRETCH * reach))
         off, st[z + 1] = spring(st[z] - wanted, st[z + 1], _HEIGHT_HALF_LIFE)
-        st[z] = wanted + off
-    rise = st[at.Z_FRONT] - st[at.Z_REAR]
+        st[z] = min(wanted + off, _highest(feet, x, y, direction, width, leg, _TAUT * reach))
+    # the trunk tilts about the hips, which moves the shoulders, which may be too high there for their feet
+    reach = _TAUT * (pr[at.UPPER_FRONT] + pr[at.LOWER_FRONT] + pr[at.FOOT_FRONT])
+    for _ in range(2):
+        _tilt(st, pr)
+        highest = _highest(
+            feet, st[at.FRONT_X], st[at.FRONT_Y], st[at.CHEST], pr[at.WIDTH_FRONT], 0, reach
+        )
+        st[at.Z_FRONT] = min(st[at.Z_FRONT], highest)
+    _tilt(st, pr)
+
+
+@njit(cache=True)
+def _tilt(st, pr):
+    """Pitch of the trunk from the heights of hips and shoulders, and the place of the front under it."""
     length = pr[at.BONES] * pr[at.BONE]
-    st[at.PITCH] = math.asin(min(max(rise / length, -0.8), 0.8))
+    st[at.Z_FRONT] = min(st[at.Z_FRONT], st[at.Z_REAR] + _STEEPEST * length)
+    st[at.Z_REAR] = min(st[at.Z_REAR], st[at.Z_FRONT] + _STEEPEST * length)
+    st[at.PITCH] = math.asin((st[at.Z_FRONT] - st[at.Z_REAR]) / length)
+    st[at.FRONT_X], st[at.FRONT_Y] = front_of(
+        st[at.X], st[at.Y], st[at.YAW], st[at.BEND], pr[at.BONES], pr[at.BONE] * math.cos(st[at.PITCH])
+    )
 
 
 @njit(cache=True)

@@ -23,8 +23,12 @@ __all__ = ["find_ground", "foot_place", "misplaced", "step_feet"]
 CLOSE = 0.012
 """[m] A foot this near to its place stays."""
 _FREEZE = 0.72  # share of the swing after which its end is not changed any more
-_LATEST = 0.5  # share of the swing's time until which a foot may still begin it
-_STRETCH = 0.95  # share of its length to which a standing leg may be stretched
+_RAMP, _RAMP_SLOPE, _SHORTEST_RAMP = 0.36, 0.07, 0.14
+# share of the swing in which a foot speeds up, and in which it slows down: at rest, less by this times the
+# body's way in the swing over the leg's height, and at least
+_STEP_LIFT = 0.15  # of a step's height that its swing is lifted higher
+_LATEST = 0.3  # share of the swing's time until which a foot may still begin it
+_STRETCH = 0.96  # share of its length to which a standing leg may be stretched
 _SINK = 0.84  # share of its height to which the trunk may sink for a standing foot
 _SLACK = 0.12  # [m] above a step that a foot may find ground off the surface it is on
 
@@ -32,6 +36,24 @@ _SLACK = 0.12  # [m] above a step that a foot may find ground off the surface it
 @njit(cache=True, inline="always")
 def _smooth(u):
     return u * u * u * (10.0 + u * (6.0 * u - 15.0))
+
+
+@njit(cache=True, inline="always")
+def _ramp(u):
+    """Way made by a speed that rises to 1 by the smoothstep while ``u`` goes from 0 to 1."""
+    return u * u * u * (1.0 - 0.5 * u)
+
+
+@njit(cache=True, inline="always")
+def _stride(u, ramp):
+    """Share of its way that a foot has made at the share ``u`` of its swing: it speeds up over the share
+    ``ramp``, goes on evenly, and slows down as long; neither speed nor acceleration jumps."""
+    top = 1.0 / (1.0 - ramp)
+    if u < ramp:
+        return top * ramp * _ramp(u / ramp)
+    if u > 1.0 - ramp:
+        return 1.0 - top * ramp * _ramp((1.0 - u) / ramp)
+    return top * (u - 0.5 * ramp)
 
 
 @njit(cache=True)
@@ -117,7 +139,8 @@ def step_feet(st, pr, pool, ground, origin, feet):
         done = (phase - begun) / (1.0 - begun)
         if done < _FREEZE and not _aim(st, pr, pool, ground, origin, foot, leg, ahead):
             st[at.NO_GROUND] = 1.0
-        _swing(foot, done, st[at.LIFT_NOW])
+        way = st[at.SPEED] * (1.0 - duty) * cycle / pr[at.HEIGHT_REAR]
+        _swing(foot, done, st[at.LIFT_NOW], max(_RAMP - _RAMP_SLOPE * way, _SHORTEST_RAMP))
     return settled
 
 
@@ -125,22 +148,24 @@ def step_feet(st, pr, pool, ground, origin, feet):
 def _overstretched(st, pr, foot, leg):
     """Whether a standing leg is so far from its joint that the trunk would have to sink for it."""
     if leg < 2:
-        x, y, direction, sizes = st[at.FRONT_X], st[at.FRONT_Y], st[at.CHEST], at.UPPER_FRONT
+        x, y, z, direction, sizes = st[at.FRONT_X], st[at.FRONT_Y], st[at.Z_FRONT], st[at.CHEST], at.UPPER_FRONT
         width, height = pr[at.WIDTH_FRONT], pr[at.HEIGHT_FRONT]
     else:
-        x, y, direction, sizes = st[at.X], st[at.Y], st[at.YAW], at.UPPER_REAR
+        x, y, z, direction, sizes = st[at.X], st[at.Y], st[at.Z_REAR], st[at.YAW], at.UPPER_REAR
         width, height = pr[at.WIDTH_REAR], pr[at.HEIGHT_REAR]
     side = 0.5 * width if leg % 2 == 0 else -0.5 * width
     dx = foot[at.FX] - x + side * math.sin(direction)
     dy = foot[at.FY] - y - side * math.cos(direction)
     reach = _STRETCH * (pr[sizes] + pr[sizes + 1] + pr[sizes + 2])
-    return dx * dx + dy * dy > reach * reach - (_SINK * height) ** 2
+    # how far the joint would have to come down for this foot
+    over = z - foot[at.FZ]
+    return dx * dx + dy * dy > reach * reach - min(_SINK * height, over) ** 2
 
 
 @njit(cache=True)
-def _swing(foot, done, lift):
+def _swing(foot, done, lift, ramp):
     """Put a swinging foot at the share ``done`` of its way."""
-    along = _smooth(done)
+    along = _stride(done, ramp)
     for k in range(2):
         foot[at.FX + k] = foot[at.FROM + k] + along * (foot[at.TO + k] - foot[at.FROM + k])
     rise = foot[at.TO + 2] - foot[at.FROM + 2]
@@ -148,7 +173,7 @@ def _swing(foot, done, lift):
     early = min(done / 0.6, 1.0) if rise > 0.0 else max((done - 0.4) / 0.6, 0.0)
     foot[at.BASE] = foot[at.FROM + 2] + rise * _smooth(early)
     hump = 4.0 * done * (1.0 - done)
-    foot[at.FZ] = foot[at.BASE] + (lift + 0.3 * abs(rise)) * hump * hump * hump
+    foot[at.FZ] = foot[at.BASE] + (lift + _STEP_LIFT * abs(rise)) * hump * hump * hump
 
 
 @njit(cache=True)

@@ -15,6 +15,8 @@ _HYSTERESIS = 0.12  # share of the speed of the change by which it must be misse
 _BLEND = math.exp(-DT * 0.69314718056 / 0.10)  # half of a change of gait in 0.10 s
 _SHIFT = 0.5  # share of the clock's pace at which a touchdown moves within the stride
 _SCRIPT_DUTY = 0.62
+_FORESIGHT = 0.4  # [s] ahead for whose speed strides are quickened: a foot that stands now will be needed then
+_SHORTER = 0.8  # [1/rad] of slope by which strides become shorter and quicker
 
 
 @njit(cache=True, inline="always")
@@ -38,9 +40,11 @@ def step_gait(st, pr, gaits):
     st[at.GAIT_NOW] = now
     gait = gaits[now]
     on_the_spot = st[at.MODE] != at.ON_TRAIL or speed < 1e-3
-    frequency = gait[at.FREQUENCY] + gait[at.FREQUENCY_SLOPE] * speed
+    soon = speed + _FORESIGHT * max(st[at.PUSH], 0.0)
+    frequency = gait[at.FREQUENCY] + gait[at.FREQUENCY_SLOPE] * soon
     front = gait[at.DUTY_FRONT] + gait[at.DUTY_FRONT_SLOPE] * speed
     rear = gait[at.DUTY_REAR] + gait[at.DUTY_REAR_SLOPE] * speed
+    frequency *= 1.0 + _SHORTER * abs(st[at.PITCH])
     if on_the_spot:
         frequency, front, rear = pr[at.STEP_FREQUENCY], _SCRIPT_DUTY, _SCRIPT_DUTY
     st[at.FREQUENCY_NOW] = _eased(st[at.FREQUENCY_NOW], frequency)

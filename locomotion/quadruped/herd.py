@@ -121,7 +121,7 @@ class Herd:
             feet[leg, at.BASE] = feet[leg, at.FZ]
         st[at.Z_FRONT] = feet[:2, at.FZ].mean() + body.front_legs.height
         st[at.Z_REAR] = feet[2:, at.FZ].mean() + body.rear_legs.height
-        st[at.PITCH] = math.asin(np.clip((st[at.Z_FRONT] - st[at.Z_REAR]) / body.spine.length, -0.8, 0.8))
+        st[at.PITCH] = math.asin(np.clip((st[at.Z_FRONT] - st[at.Z_REAR]) / body.spine.length, -0.75, 0.75))
         self._write_pose(index)
 
     def _write_pose(self, index: int) -> None:
@@ -335,4 +335,4 @@ def _end_pitch(trail: Trail, body: Body) -> float:
     """[rad] of the trunk at the end of a trail."""
     back = max(len(trail.rows) - 1 - round(body.spine.length / trail.step), 0)
     rise = trail.rows[-1, at.PZ] - trail.rows[back, at.PZ]
-    return math.asin(np.clip(rise / body.spine.length, -0.8, 0.8))
+    return math.asin(np.clip(rise / body.spine.length, -0.75, 0.75))

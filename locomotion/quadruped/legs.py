@@ -33,27 +33,30 @@ def two_bones(x, z, upper, lower, side):
 
 
 @njit(cache=True)
-def solve_leg(x, z, upper, lower, foot, lean, side):
+def solve_leg(x, z, upper, lower, foot, lean, side, give):
     """(upper, lower, foot) angles [rad] of a leg whose toe is at (x, z) [m].
 
-    ``lean`` [rad] is how far the foot bone's upper end is behind the vertical over the toe; where the two
-    other bones do not reach it, the foot bone gives way.
+    ``lean`` [rad] is how far the foot bone's upper end is behind the vertical over the toe. Where the two other
+    bones do not reach it, the foot bone gives way by the share ``give``: 1 for a standing foot, whose toe must
+    stay; with less, a swinging toe stays behind where the leg is too short.
     """
     hx, hz = x - foot * math.sin(lean), z + foot * math.cos(lean)
     d = math.sqrt(hx * hx + hz * hz)
     easy, reach = _EASY * (upper + lower), _REACH * (upper + lower)
-    if d > easy:
+    if d > easy and give > 0.0:
         # never quite straight: the last part of the way is taken ever more slowly
         d = easy + (reach - easy) * (1.0 - math.exp(-(d - easy) / (reach - easy)))
         far = math.sqrt(x * x + z * z)
-        # the foot bone's upper end moves on its circle around the toe, on its own side, to be in reach
+        # the foot bone's upper end moves on its circle around the toe, on the rear side, to be in reach
         cosine = (far * far + foot * foot - d * d) / (2.0 * far * foot)
-        turn = math.acos(min(max(cosine, -1.0), 1.0))
-        straight = math.atan2(x, -z)
-        lean = straight + (turn if lean > straight else -turn)
+        bent = math.atan2(x, -z) + math.acos(min(max(cosine, -1.0), 1.0))
+        lean += give * (bent - lean)
         hx, hz = x - foot * math.sin(lean), z + foot * math.cos(lean)
+        d = math.sqrt(hx * hx + hz * hz)
+    if d > reach - 1e-9 or (d > easy and give < 1.0):
+        shorter = (easy + (reach - easy) * (1.0 - math.exp(-(d - easy) / (reach - easy)))) / d
+        shorter += give * (min(reach / d, 1.0) - shorter)
+        hx, hz = hx * shorter, hz * shorter
     first, second = two_bones(hx, hz, upper, lower, side)
     # where the leg is too short the toe comes off its place: measured by whoever asks, not hidden
-    ax = upper * math.sin(first) + lower * math.sin(second)
-    az = -upper * math.cos(first) - lower * math.cos(second)
-    return first, second, math.atan2(x - ax, az - z)
+    return first, second, lean if give < 1.0 else math.atan2(x - hx, hz - z)

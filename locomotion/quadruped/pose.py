@@ -15,6 +15,7 @@ from locomotion.quadruped.legs import solve_leg
 
 __all__ = ["body_names", "body_parents", "count_bodies", "write_pose"]
 
+_NEAREST = 0.3  # of the length of its two long bones that a swinging foot stays below its joint
 _LEG_BONES = ("upper", "lower", "foot")
 
 
@@ -114,14 +115,18 @@ def _leg(st, pr, foot, out, joints, leg, x, y, z, yaw, width, sizes, curl, side)
     across = 0.5 * width if leg % 2 == 0 else -0.5 * width
     jx, jy = x - across * s, y + across * c
     dx, dy, dz = foot[at.FX] - jx, foot[at.FY] - jy, foot[at.FZ] - z
+    if foot[at.IN_SWING] > 0.0:
+        dz = min(dz, -_NEAREST * (upper + lower))
     ahead, beside = c * dx + s * dy, c * dy - s * dx
     down = math.sqrt(beside * beside + dz * dz)
     spread = math.atan2(beside, -dz)
+    give = 1.0
     if foot[at.IN_SWING] > 0.0:
         lifted = (foot[at.FZ] - foot[at.BASE]) / max(st[at.LIFT_NOW], 1e-3)
         lean -= curl * min(lifted, 1.2)
+        give = max(1.0 - 4.0 * lifted, 0.0)
     lean += math.atan2(ahead, down)
-    first, second, third = solve_leg(ahead, -down, upper, lower, last, lean, side)
+    first, second, third = solve_leg(ahead, -down, upper, lower, last, lean, side, give)
     cy, sy = math.cos(0.5 * yaw), math.sin(0.5 * yaw)
     ca, sa = math.cos(0.5 * spread), math.sin(0.5 * spread)
     cs, ss = math.cos(spread), math.sin(spread)

@@ -25,6 +25,7 @@ SPACING = 0.05
 """[m] between rows, at most."""
 _KNOTS = 0.1  # [m] between the spline's knots, at most: keeps it at corners that nobody smoothed
 _CREEP = 0.25  # [m/s] slowest speed of a bend, however tight
+_STEEP = 12.0  # by which slopes slow down: a slope of 1 to a thirteenth of the top speed
 _CLIMB = 0.35  # [m] above the last row's ground from which the next is looked for
 
 
@@ -139,7 +140,9 @@ def _plan_speed(rows: NDArray[np.float64], step: float, body: Body) -> None:
     bend = uniform_filter1d(np.abs(rows[:, at.PCURVATURE]), max(round(0.15 / step), 1), mode="nearest")
     reach = max(round(body.spine.length / step), 1)
     bend = maximum_filter1d(bend, reach + 1, origin=-(reach // 2), mode="nearest")
-    squares = np.maximum(np.minimum(body.movement.sideways / np.maximum(bend, 1e-6), 1e4), _CREEP**2)
+    rise = np.abs(uniform_filter1d(np.gradient(rows[:, at.PZ], step), max(round(0.4 / step), 1), mode="nearest"))
+    steep = (body.top_speed / (1.0 + _STEEP * rise**2)) ** 2
+    squares = np.maximum(np.minimum(body.movement.sideways / np.maximum(bend, 1e-6), steep), _CREEP**2)
     brake = 1.2 * body.movement.braking * step
     for i in range(len(squares) - 2, -1, -1):
         squares[i] = min(squares[i], squares[i + 1] + brake)

@@ -115,20 +115,20 @@ def check_places(places: NDArray[np.float64], body: Body, ground: Ground) -> Foo
     reach = body.movement.step + body.spine.length * math.tan(math.radians(body.movement.slope_deg))
     root_z = _ground_at(ground, places[:, :2], places[:, 2], 0.5 * reach + body.movement.step)
     front_z = _ground_at(ground, fronts(places, body), places[:, 2], reach)
-    stands = np.isfinite(root_z) & np.isfinite(front_z)
-    places, front_z = places[stands], front_z[stands]
-    balls = key_balls(places, body, front_z)
-    index, part = _first_touch(
-        kernel_ground(ground), ground.arrays.cell_range, balls.centres - ground.origin, balls.radii
-    )
-    number = np.flatnonzero(stands)
-    lost = np.flatnonzero(~stands)
-    if len(lost) and (index < 0 or lost[0] < number[index]):
-        return Footprint(False, "ground", int(lost[0]))
-    if index < 0:
-        return Footprint(True)
-    x, y, z = balls.centres[index, part]
-    return Footprint(False, PARTS[part], int(number[index]), (float(x), float(y), float(z)))
+    lost = np.flatnonzero(~(np.isfinite(root_z) & np.isfinite(front_z)))
+    until = int(lost[0]) if len(lost) else len(places)
+    if until > 0:
+        balls = key_balls(places[:until], body, front_z[:until])
+        index, part = _first_touch(
+            kernel_ground(ground), ground.arrays.cell_range, balls.centres - ground.origin, balls.radii
+        )
+        if index >= 0:
+            x, y, z = balls.centres[index, part]
+            return Footprint(False, PARTS[part], int(index), (float(x), float(y), float(z)))
+    if until < len(places):
+        x, y, z = places[until, :3]
+        return Footprint(False, "ground", until, (float(x), float(y), float(z)))
+    return Footprint(True)
 
 
 def _ground_at(

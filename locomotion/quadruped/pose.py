@@ -15,7 +15,8 @@ from locomotion.quadruped.legs import solve_leg
 
 __all__ = ["body_names", "body_parents", "count_bodies", "write_pose"]
 
-_NEAREST = 0.3  # of the length of its two long bones that a swinging foot stays below its joint
+_NEAREST = 0.25  # of the length of its two long bones, on top of the foot's, that a swinging foot stays below
+# its joint
 _LEG_BONES = ("upper", "lower", "foot")
 
 
@@ -116,7 +117,7 @@ def _leg(st, pr, foot, out, joints, leg, x, y, z, yaw, width, sizes, curl, side)
     jx, jy = x - across * s, y + across * c
     dx, dy, dz = foot[at.FX] - jx, foot[at.FY] - jy, foot[at.FZ] - z
     if foot[at.IN_SWING] > 0.0:
-        dz = min(dz, -_NEAREST * (upper + lower))
+        dz = min(dz, -0.8 * last - _NEAREST * (upper + lower))
     ahead, beside = c * dx + s * dy, c * dy - s * dx
     down = math.sqrt(beside * beside + dz * dz)
     spread = math.atan2(beside, -dz)

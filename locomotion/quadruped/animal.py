@@ -19,7 +19,7 @@ from locomotion.errors import LocomotionError
 from locomotion.events import Arrived, BackedOut, Event, GotStuck, MissedGoal, SetOff, StrayedFromPath
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.following import wrap
-from locomotion.quadruped.footprint import at_place, check_places, check_script, trail_places
+from locomotion.quadruped.footprint import RESOLUTION, check_places, check_script, trail_places
 from locomotion.quadruped.herd import AnimalState, Herd
 from locomotion.quadruped.local_motion import REACH, local_motion
 from locomotion.quadruped.motion import DT
@@ -237,7 +237,7 @@ class Animal:
             bend = bend_for(turn, self.body.spine.bones)
             script = into_flex(self.body, place, float(bend))
             self.trail = trail
-            if check_script(script, self.body, self.herd.ground).free:
+            if self._free(script):
                 self._play(script, "flexing")
             else:
                 self._follow(trail)
@@ -283,6 +283,10 @@ class Animal:
                 return float(arc)
         return end
 
+    def _free(self, script: Script) -> bool:
+        """Whether nothing is in the way of a script, with the resolution of the check to spare."""
+        return check_script(script, self.body, self.herd.ground, RESOLUTION).free
+
     def _play(self, script: Script, phase: _Phase) -> None:
         self.herd.play(self.index, script)
         self._phase = phase
@@ -313,7 +317,7 @@ class Animal:
                 ahead = pivot * self.body.spine.length
                 wanted = (ahead * (1.0 - math.cos(turn)), -ahead * math.sin(turn), turn)
                 script = moves.script(place, wanted)
-                if check_script(script, self.body, self.herd.ground).free:
+                if self._free(script):
                     return script
         return None
 
@@ -372,7 +376,7 @@ class Animal:
             return False
         c, s = math.cos(place.yaw), math.sin(place.yaw)
         script = local_motion(self.body).script(place, (c * dx + s * dy, c * dy - s * dx, turn))
-        if not check_script(script, self.body, self.herd.ground).free:
+        if not self._free(script):
             return False
         self._errand = errand
         self._play(script, "moving")
@@ -387,7 +391,7 @@ class Animal:
         facing = place.chest(self.body) if facing is None else facing
         if abs(place.bend) > _EXACT or abs(wrap(facing - place.yaw)) > _EXACT:
             script = out_of_flex(self.body, place, float(facing))
-            if check_script(script, self.body, self.herd.ground).free:
+            if self._free(script):
                 self._play(script, "straightening")
                 return
         self._arrive()

@@ -126,8 +126,10 @@ class Movement(_Strict):
     braking: Annotated[float, Gt(0.0), Le(50.0)]
     sideways: Annotated[float, Gt(0.0), Le(50.0)]
     """[m/s²] in a bend."""
-    turn_radius: Length
-    """Tightest bend of a path that it likes to follow."""
+    path_rounding: Length
+    """Over which the corners of its paths are rounded."""
+    turn_radius: Length | None
+    """Tightest bend of its paths; null: it can turn anywhere, and paths are found faster."""
     back_speed: Annotated[float, Gt(0.0), Le(5.0)]
     step: Length
     """Highest step under a foot."""
@@ -268,9 +270,10 @@ class Body(_Strict):
 
     @property
     def smoothing(self) -> Smoothing:
-        """What it wants of its paths: bends from four times its turning radius down to that."""
-        radius = self.movement.turn_radius
-        return Smoothing((0.25 / radius, 0.5 / radius, 1.0 / radius), 0.25 * radius, 2.0 * radius**3)
+        """What it wants of its paths."""
+        rounding, radius = self.movement.path_rounding, self.movement.turn_radius
+        bounds = () if radius is None else (1.0 / radius,)
+        return Smoothing(bounds, 0.25 * rounding, 2.0 * rounding**3)
 
     @property
     def spine_reach(self) -> float:

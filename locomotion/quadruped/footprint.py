@@ -110,8 +110,10 @@ def key_balls(
     return _Balls(np.stack([head, shoulders, root], axis=1), radii)
 
 
-def check_places(places: NDArray[np.float64], body: Body, ground: Ground) -> Footprint:
-    """Whether the body fits at every one of ``places`` (k, 5): x, y, z, yaw, bend."""
+def check_places(
+    places: NDArray[np.float64], body: Body, ground: Ground, margin: float = 0.0
+) -> Footprint:
+    """Whether the body fits at every one of ``places`` (k, 5): x, y, z, yaw, bend, with ``margin`` [m] to spare."""
     reach = body.movement.step + body.spine.length * math.tan(math.radians(body.movement.slope_deg))
     root_z = _ground_at(ground, places[:, :2], places[:, 2], 0.5 * reach + body.movement.step)
     front_z = _ground_at(ground, fronts(places, body), places[:, 2], reach)
@@ -120,7 +122,7 @@ def check_places(places: NDArray[np.float64], body: Body, ground: Ground) -> Foo
     if until > 0:
         balls = key_balls(places[:until], body, front_z[:until])
         index, part = _first_touch(
-            kernel_ground(ground), ground.arrays.cell_range, balls.centres - ground.origin, balls.radii
+            kernel_ground(ground), ground.arrays.cell_range, balls.centres - ground.origin, balls.radii + margin
         )
         if index >= 0:
             x, y, z = balls.centres[index, part]
@@ -139,9 +141,9 @@ def _ground_at(
     return np.where(found >= z - reach, found, np.nan)
 
 
-def check_script(script: Script, body: Body, ground: Ground) -> Footprint:
-    """Whether a script can be played."""
-    return check_places(script_places(script, body), body, ground)
+def check_script(script: Script, body: Body, ground: Ground, margin: float = 0.0) -> Footprint:
+    """Whether a script can be played, with ``margin`` [m] to spare."""
+    return check_places(script_places(script, body), body, ground, margin)
 
 
 def check_trail(trail: Trail, body: Body, ground: Ground, start: float, end: float) -> Footprint:

@@ -10,7 +10,7 @@ import trimesh
 
 import navmesh
 from benchmarks.dog_walks import SCANS, load_level
-from locomotion import Ground, smooth_route
+from locomotion import Ground, SmoothPath, smooth_route
 from locomotion.events import BackedOut
 from locomotion.quadruped import Animal, Body, Herd, Place, check_script, lay_trail, load_body, local_motion
 from locomotion.quadruped import layout as at
@@ -33,11 +33,11 @@ class GraphPlanner:
     graph: navmesh.NodeGraph
     body: Body
 
-    def way(self, start: np.ndarray, goals: np.ndarray, direction: np.ndarray | None) -> np.ndarray:
-        route = self.graph.find_path(start, goals[-1], radius=self.body.radius)
+    def way(self, start: np.ndarray, goal: np.ndarray, direction: np.ndarray) -> SmoothPath:
+        route = self.graph.find_path(start, goal, radius=self.body.radius)
         if route.status != "complete":
             raise NavmeshError(f"no way: {route.status}")
-        return smooth_route(route, self.body.smoothing, direction).points
+        return smooth_route(route, self.body.smoothing, direction)
 
     def room_to_turn(self, points: np.ndarray, length: float) -> np.ndarray:
         return self.graph.room_to_turn(points, length)
@@ -46,8 +46,8 @@ class GraphPlanner:
 class Straight:
     """A planner for an open plane."""
 
-    def way(self, start: np.ndarray, goals: np.ndarray, direction: np.ndarray | None) -> np.ndarray:
-        return np.vstack([start, goals])
+    def way(self, start: np.ndarray, goal: np.ndarray, direction: np.ndarray) -> SmoothPath:
+        return SmoothPath(np.stack([start, goal]), (), True)
 
     def room_to_turn(self, points: np.ndarray, length: float) -> np.ndarray:
         return np.ones(len(points), bool)

@@ -9,7 +9,7 @@ from scipy.spatial import KDTree
 
 import navmesh
 from benchmarks.shared_data import LEVELS, level_path, shared_folder
-from locomotion import Ground, smooth_route
+from locomotion import Ground, SmoothPath, smooth_route
 from locomotion.errors import LocomotionError
 from locomotion.quadruped import Animal, Body, Herd, lay_trail, load_body
 from locomotion.quadruped import layout as at
@@ -40,7 +40,11 @@ def random_paths(graph: navmesh.NodeGraph, body: Body, count: int, lengths: tupl
     rng = np.random.default_rng(seed)
     paths = []
     for _ in range(60 * count):
-        start, goal = graph.random_points(rng, 2, radius=body.radius)
+        start = graph.random_points(rng, 1, radius=body.radius)[0]
+        try:
+            goal = graph.random_points(rng, 1, radius=body.radius, reachable_from=start)[0]
+        except navmesh.NavmeshError:
+            continue
         route = graph.find_path(start, goal, radius=body.radius)
         if route.status == "complete" and lengths[0] <= route.length <= lengths[1]:
             paths.append(smooth_route(route, body.smoothing).points)
@@ -130,8 +134,8 @@ class _Fixed:
     def __init__(self, path: np.ndarray) -> None:
         self.path = path
 
-    def way(self, start: np.ndarray, goals: np.ndarray, direction: np.ndarray | None) -> np.ndarray:
-        return self.path
+    def way(self, start: np.ndarray, goal: np.ndarray, direction: np.ndarray) -> SmoothPath:
+        return SmoothPath(self.path, (), True)
 
     def room_to_turn(self, points: np.ndarray, length: float) -> np.ndarray:
         return np.zeros(len(points), bool)

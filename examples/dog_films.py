@@ -5,7 +5,6 @@
 
 import math
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +21,7 @@ from runtime.render import Camera, Triangles, render
 from runtime.rules import walk_rules
 
 COLUMNS = 6
-SIZE = (300, 225)
+SIZE = (260, 195)
 TICK = 0.01
 
 
@@ -62,7 +61,7 @@ class Film:
         times = np.array([moment[0] for moment in self.moments])
         first, last = span or (times[0], times[-1])
         picks = np.searchsorted(times, np.linspace(first, last, COLUMNS)).clip(0, len(times) - 1)
-        sheet = Sheet(figsize=(COLUMNS * 2.6, 2 * 1.95 + 0.4), dpi=110, layout="constrained")
+        sheet = Sheet(figsize=(COLUMNS * 2.6, 2 * 1.95 + 0.4), dpi=100, layout="constrained")
         sheet.suptitle(self.title, fontsize=10)
         axes = sheet.subplots(2, COLUMNS)
         marks = dots(self.path[::2] + [0, 0, 0.004], (0.84, 0.15, 0.16), 0.014)
@@ -73,7 +72,7 @@ class Film:
             side = np.array([math.sin(along), -math.cos(along), 0.0])
             cameras = (
                 Camera(middle + self.reach * (side + [0, 0, 0.16]), middle, 0.5),
-                Camera(middle + self.reach * np.array([0.001, -0.001, 1.15]), middle, 0.5),
+                Camera(middle + self.reach * np.array([0.0, -0.001, 1.15]), middle, 0.5),
             )
             for row, camera in enumerate(cameras):
                 ax = axes[row, column]
@@ -155,8 +154,6 @@ def dead_end() -> trimesh.Trimesh:
 
 def films() -> dict:
     """Every strip: what makes (film, figure, span)."""
-    start = np.array([[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
-    del start
     return {
         "dog-walk": lambda: walk("dog", "walk", 1.0, 2.6),
         "dog-trot": lambda: walk("dog", "trot", 2.2, 2.6),
@@ -181,9 +178,6 @@ def films() -> dict:
 
 
 def _stop():
-    bend = np.linspace(0.0, 1.4, 30)
-    points = np.column_stack([3.0 + 1.2 * np.sin(bend), 1.2 - 1.2 * np.cos(bend), np.zeros(30)])
-    del points
     film, figure = world_film(
         "stop out of a bend: the front stays, the rear slides out", floor(6.0), (-3, 0, 0), 0.0,
         [[(0.0, 0.0, 0.0), (0.35, 0.8, 0.0)]], [1.2],
@@ -197,7 +191,6 @@ def _dead_end():
         "dead end of 0.5 m: backing out along the crumbs, turning where there is room", dead_end(), (-2, 0, 0),
         0.0, [(2.0, 0.0, 0.0), (-3.0, 0.5, 0.0)], [1.0, 1.0], 3.4,
     )  # fmt: skip
-    film.view = 0.0
     return film, figure, (3.5, film.moments[-1][0] - 1.0)
 
 

@@ -1,6 +1,5 @@
 """An agent: a body in a world that is told where to go."""
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -53,6 +52,7 @@ class AgentState:
     driver: Any
     blocked: bool
     reported: int
+    goal: tuple[float, float, float]
 
 
 class Agent:
@@ -153,10 +153,8 @@ class Agent:
             return self.status
         self._blocked = False
         here = _triple(self.position)
-        self._goal = goal if plan is None else _triple(plan.points[-1])
-        length = math.dist(here[:2], goal[:2]) if plan is None else plan.length
-        skills = () if plan is None else plan.skills
-        self._world.report(Departed(self._world.time, self.name, here, goal, length, skills))
+        self._goal = _triple(plan.points[-1])
+        self._world.report(Departed(self._world.time, self.name, here, goal, plan.length, plan.skills))
         self._reported = len(self._driver.events)
         return self.status
 
@@ -170,13 +168,12 @@ class Agent:
 
     def save(self) -> AgentState:
         """Everything needed to continue from here."""
-        return AgentState(self._driver.save(), self._blocked, self._reported)
+        return AgentState(self._driver.save(), self._blocked, self._reported, self._goal)
 
     def restore(self, state: AgentState) -> None:
         """Continue from a state of this agent."""
         self._driver.restore(state.driver)
-        self._blocked, self._reported = state.blocked, state.reported
-        self._goal = _triple(self.plans[-1].points[-1]) if self.plans else self._goal
+        self._blocked, self._reported, self._goal = state.blocked, state.reported, state.goal
 
     def state_hash(self) -> str:
         """Hexadecimal digest of everything that decides how it goes on."""

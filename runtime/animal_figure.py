@@ -50,8 +50,8 @@ def animal_figure(body: Body) -> Figure:
         capsule(f"tail_{k + 1}", body.tail.length / 3.0, (0.32 - 0.07 * k) * loin, _DARK if k == 2 else 1.0)
     for leg in LEGS:
         legs = body.front_legs if leg.startswith("front") else body.rear_legs
-        thick = 0.13 * legs.upper + 0.15 * loin
-        capsule(f"{leg}_upper", legs.upper, 1.5 * thick)
+        thick = 0.10 * legs.upper + 0.13 * loin
+        capsule(f"{leg}_upper", legs.upper, (1.3 if leg.startswith("front") else 1.7) * thick)
         capsule(f"{leg}_lower", legs.lower, 0.85 * thick)
         capsule(f"{leg}_foot", legs.foot, 0.65 * thick)
         ball(f"{leg}_foot", (legs.foot, 0.0, 0.0), (0.75 * thick,) * 3, _DARK)

@@ -58,9 +58,8 @@ class Driver(Protocol):
         """The way through ``goals`` (k, 3), not taken. Raises `runtime.planning.NoWay`."""
         ...
 
-    def go_to(self, goals: np.ndarray, speed: float, facing: float | None) -> Plan | None:
-        """Take the way through ``goals``; None for a short move without a path. Raises
-        `runtime.planning.NoWay`."""
+    def go_to(self, goals: np.ndarray, speed: float, facing: float | None) -> Plan:
+        """Take the way through ``goals``. Raises `runtime.planning.NoWay`."""
         ...
 
     def save(self) -> Any: ...
@@ -193,17 +192,18 @@ class Pack:
 
 
 class _Ways:
-    """`locomotion.quadruped.Planner` on a graph; remembers the plan it made last."""
+    """`locomotion.quadruped.Planner` on a graph."""
 
     def __init__(self, graph: navmesh.NodeGraph, body: Body) -> None:
         self._graph, self._body = graph, body
-        self.last: Plan | None = None
 
-    def way(self, start: np.ndarray, goals: np.ndarray, direction: np.ndarray | None) -> np.ndarray:
-        self.last = make_plan(
+    def through(self, start: np.ndarray, goals: np.ndarray, direction: np.ndarray | None = None) -> Plan:
+        return make_plan(
             self._graph, start, list(goals), self._body.radius, {}, direction, self._body.smoothing
         )
-        return self.last.points
+
+    def way(self, start: np.ndarray, goal: np.ndarray, direction: np.ndarray) -> Plan:
+        return self.through(start, goal[None], direction)
 
     def room_to_turn(self, points: np.ndarray, length: float) -> np.ndarray:
         return self._graph.room_to_turn(points, length)
@@ -248,18 +248,16 @@ class AnimalDriver:
         return self.animal.herd.pose(self.animal.index)
 
     def plan(self, goals: np.ndarray) -> Plan:
-        self._ways.way(self.animal.position, goals, None)
-        assert self._ways.last is not None
-        return self._ways.last
+        return self._ways.through(self.animal.position, goals)
 
-    def go_to(self, goals: np.ndarray, speed: float, facing: float | None) -> Plan | None:
-        self._ways.last = None
+    def go_to(self, goals: np.ndarray, speed: float, facing: float | None) -> Plan:
+        plan = self.plan(goals)
         try:
             self.animal.go_to(goals, speed, facing)
         except LocomotionError as error:
             raise RuntimeInputError(str(error)) from None
         self._take_note()
-        return self._ways.last
+        return plan
 
     def tick(self) -> None:
         """After the herd's."""
@@ -268,9 +266,12 @@ class AnimalDriver:
 
     def _take_note(self) -> None:
         """Keep the plan of a trail that has just been taken."""
-        if self.animal.trail is not self._followed and self._ways.last is not None:
-            self._followed = self.animal.trail
-            self.plans.append(self._ways.last)
+        trail = self.animal.trail
+        if trail is not None and trail is not self._followed:
+            self._followed = trail
+            plans = [way for way in self.animal.ways if isinstance(way, Plan)]
+            raw, pulled = (np.concatenate([getattr(p, name) for p in plans]) for name in ("raw", "pulled"))
+            self.plans.append(Plan(raw, pulled, trail.points, ()))
 
     def save(self) -> tuple[AnimalMemory, tuple[Plan, ...]]:
         return self.animal.save(), tuple(self.plans)

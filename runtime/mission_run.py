@@ -88,8 +88,8 @@ def _tags(loaded: LoadedMission) -> Any:
 def _place(loaded: LoadedMission, world: World, index: int, spec: AgentSpec) -> None:
     try:
         agent = world.spawn(spec.body, spec.start, math.radians(spec.facing_deg), spec.name)
-    except ValueError:
-        problem = f"agents[{index}].start: {spec.start} is not near a place where a {spec.body} fits"
+    except ValueError as error:
+        problem = f"agents[{index}].start: {error}"
         raise loaded.error(("agents", index, "start"), problem) from None
     try:
         agent.plan(np.array(_goals(spec)))

@@ -90,7 +90,7 @@ class World:
             raise RuntimeInputError(f"at and facing must be finite (3,) and (), not {at!r} and {facing!r}")
         here = self.graph.find_path(place, place, radius=radius_of(body))
         if here.status != "complete":
-            raise RuntimeInputError(f"at {place.tolist()}: not near a place where a {body} fits")
+            raise RuntimeInputError(f"{place.tolist()} is not near a place where a {body} fits")
         population = next(each for each in self._populations if body in each.bodies)
         driver = population.spawn(body, here.waypoints[0], facing)
         agent = self.agents[name] = Agent(self, name, body, driver)

@@ -8,6 +8,7 @@ back along its crumbs to where the graph knows room, turns, and goes on.
 
 from __future__ import annotations
 
+import hashlib
 import math
 from dataclasses import dataclass, replace
 from typing import Literal, Protocol
@@ -27,7 +28,7 @@ from locomotion.quadruped.script import Place, Script, into_flex, out_of_flex
 from locomotion.quadruped.spine import bend_for
 from locomotion.quadruped.trail import Trail, lay_trail
 
-__all__ = ["SHORT_OF_GOAL", "Animal", "AnimalMemory", "Planner", "Status"]
+__all__ = ["SHORT_OF_GOAL", "Animal", "AnimalMemory", "Planner", "Status", "Way"]
 
 Status = Literal["standing", "running", "arrived", "lost", "stuck"]
 _Phase = Literal["resting", "halting", "turning", "flexing", "following", "backing", "straightening", "moving"]
@@ -42,14 +43,21 @@ _LOOK_BACK = 40  # crumbs with room that are tried
 _SHORT_MOVE = 0.8  # [m] up to which local motion is used instead of a path
 
 
+class Way(Protocol):
+    """What a planner finds; the animal reads its points and keeps the rest for whoever asks."""
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """(k, 3) [m] the smoothed path."""
+        ...
+
+
 class Planner(Protocol):
     """Who knows the level: `way` for paths, `room_to_turn` for places."""
 
-    def way(
-        self, start: NDArray[np.float64], goals: NDArray[np.float64], direction: NDArray[np.float64] | None
-    ) -> NDArray[np.float64]:
-        """The smoothed path (k, 3) from ``start`` (3,) through ``goals`` (g, 3) [m] for one that moves or
-        looks in ``direction`` (2,). Raises ValueError where there is none."""
+    def way(self, start: NDArray[np.float64], goal: NDArray[np.float64], direction: NDArray[np.float64]) -> Way:
+        """The way from ``start`` to ``goal`` (3,) [m] for one that moves or looks in ``direction`` (2,).
+        Raises ValueError where there is none."""
         ...
 
     def room_to_turn(self, points: NDArray[np.float64], length: float) -> NDArray[np.bool_]:
@@ -79,6 +87,7 @@ class AnimalMemory:
     errand: _Errand
     pending: bool
     trail: Trail | None
+    ways: tuple[Way, ...]
     ticks: int
     events: tuple[Event, ...]
 
@@ -90,7 +99,7 @@ class Animal:
         herd, index: where its state lies. body: its kind. events: in order of time.
         status: "standing", "running" (on its way, whatever it does for it), "arrived", "stuck" (no room to
             turn and nowhere to back out to) or "lost" (the ground under its path has gone).
-        trail: the path that it follows or followed last, or None.
+        trail: the path that it follows or followed last, or None. ways: what it was made of.
     """
 
     def __init__(self, herd: Herd, index: int, planner: Planner) -> None:
@@ -99,6 +108,7 @@ class Animal:
         self.status: Status = "standing"
         self.events: list[Event] = []
         self.trail: Trail | None = None
+        self.ways: tuple[Way, ...] = ()
         self._phase: _Phase = "resting"
         self._errand = _Errand()
         self._pending = False
@@ -218,18 +228,37 @@ class Animal:
             self.events.append(StrayedFromPath(self.time, self._point(), 0.0))
 
     # --- beginning
-    def _way(self, errand: _Errand, place: Place) -> Trail:
-        """The path for one that stands or moves at ``place``; raises ValueError where there is none."""
-        ahead = np.array([math.cos(place.yaw), math.sin(place.yaw)])
+    def _way(self, errand: _Errand, place: Place) -> tuple[Trail, tuple[Way, ...]]:
+        """The path for one that stands or moves at ``place``, through as many goals as it can go without
+        turning back; raises ValueError where there is none."""
         here = np.array([place.x, place.y, place.z])
-        points = self.planner.way(here, np.array(errand.goals), ahead)
-        return lay_trail(points, self.body, self.herd.ground)
+        ahead = np.array([math.cos(place.yaw), math.sin(place.yaw)])
+        ways: list[Way] = []
+        for goal in errand.goals:
+            try:
+                way = self.planner.way(here, np.array(goal), ahead)
+            except ValueError:
+                if not ways:
+                    raise
+                break
+            if ways and self._turn_between(ways[-1].points, way.points) > self.body.spine_reach:
+                break
+            ways.append(way)
+            here, ahead = way.points[-1], (way.points[-1] - way.points[-2])[:2]
+        points = np.concatenate([way.points for way in ways])
+        return lay_trail(points, self.body, self.herd.ground), tuple(ways)
+
+    def _turn_between(self, before: NDArray[np.float64], after: NDArray[np.float64]) -> float:
+        """[rad] from the end of one path to the beginning of the next, each over the body's length."""
+        length = self.body.spine.length
+        out, on = before[-1] - _along(before[::-1], length), _along(after, length) - after[0]
+        return abs(float(wrap(math.atan2(on[1], on[0]) - math.atan2(out[1], out[0]))))
 
     def _set_out(self, errand: _Errand) -> None:
         """From rest: turn onto the path if need be, else follow it."""
         place = self.herd.place(self.index)
-        trail = self._way(errand, place)
-        self._errand = errand
+        trail, ways = self._way(errand, place)
+        self._errand, self.ways = errand, ways
         turn = self._turn_onto(trail, place)
         if abs(turn) > self.body.spine_reach:
             self._turn_around(trail, place)
@@ -252,9 +281,9 @@ class Animal:
     def _redirect(self, errand: _Errand) -> None:
         """On the way: change over to the new path where it leads on, else stop first."""
         place = self.herd.place(self.index)
-        trail = self._way(errand, place)
+        trail, ways = self._way(errand, place)
         if abs(self._turn_onto(trail, place)) < self.body.spine_reach:
-            self._errand = errand
+            self._errand, self.ways = errand, ways
             self._follow(trail)
         else:
             self._errand, self._pending = errand, True
@@ -353,7 +382,7 @@ class Animal:
         row = trail_places(trail, self.body, arc, arc)[0]
         there = Place(*(float(value) for value in row))
         try:
-            onward = self._way(self._errand, there)
+            onward, _ = self._way(self._errand, there)
         except ValueError:
             return False
         turn = self._turn_onto(onward, there)
@@ -386,6 +415,9 @@ class Animal:
     # --- the end
     def _straighten(self) -> None:
         """Slide the rear out; stay as it is where there is no room for that."""
+        if len(self.ways) < len(self._errand.goals):
+            self._next_goal()
+            return
         place = self.herd.place(self.index)
         facing = self._errand.facing
         facing = place.chest(self.body) if facing is None else facing
@@ -395,6 +427,11 @@ class Animal:
                 self._play(script, "straightening")
                 return
         self._arrive()
+
+    def _next_goal(self) -> None:
+        """At a goal from which the way turns back: set out for those that are left."""
+        self._errand = replace(self._errand, goals=self._errand.goals[len(self.ways) :], backed=0)
+        self._go_on("halting")
 
     def _arrive(self) -> None:
         goal = np.array(self._errand.goals[-1])
@@ -417,24 +454,24 @@ class Animal:
         """Everything needed to go on from here."""
         return AnimalMemory(
             self.herd.save(self.index), self._phase, self.status, self._errand, self._pending, self.trail,
-            self._ticks, tuple(self.events),
+            self.ways, self._ticks, tuple(self.events),
         )  # fmt: skip
 
     def restore(self, memory: AnimalMemory) -> None:
         """Go on from a state of this animal."""
         self.herd.restore(self.index, memory.herd)
         self._phase, self.status, self._errand = memory.phase, memory.status, memory.errand
-        self._pending, self.trail, self._ticks = memory.pending, memory.trail, memory.ticks
+        self._pending, self.trail, self.ways = memory.pending, memory.trail, memory.ways
+        self._ticks = memory.ticks
         self.events[:] = memory.events
 
     def state_hash(self) -> str:
         """Hex digest of everything that decides how it goes on."""
         mind = repr((self._phase, self.status, self._errand, self._pending))
-        return f"{self.herd.state_hash(self.index)}{hash_text(mind)}"
+        return f"{self.herd.state_hash(self.index)}{hashlib.sha256(mind.encode()).hexdigest()[:8]}"
 
 
-def hash_text(text: str) -> str:
-    """Short hex digest of a text."""
-    import hashlib
-
-    return hashlib.sha256(text.encode()).hexdigest()[:8]
+def _along(points: NDArray[np.float64], length: float) -> NDArray[np.float64]:
+    """The first of ``points`` (k, 3) that is ``length`` [m] or more from their beginning, or the last."""
+    arc = np.cumsum(np.linalg.norm(np.diff(points[:, :2], axis=0), axis=1))
+    return points[min(int(np.searchsorted(arc, length)) + 1, len(points) - 1)]

@@ -14,8 +14,8 @@ from locomotion import Ground, SmoothPath, smooth_route
 from locomotion.events import BackedOut
 from locomotion.quadruped import Animal, Body, Herd, Place, check_script, lay_trail, load_body, local_motion
 from locomotion.quadruped import layout as at
-from locomotion.quadruped.footprint import RESOLUTION, key_balls, script_places
 from locomotion.quadruped.following import wrap
+from locomotion.quadruped.footprint import RESOLUTION, key_balls, script_places
 from locomotion.quadruped.spine import bend_for, brute_force_bend
 from navmesh.errors import NavmeshError
 
@@ -111,7 +111,11 @@ def stops(quick: bool) -> dict[str, Any]:
             places.append(float(np.linalg.norm(front - goal[:2])))
             pointing = math.atan2(*(front - rear)[::-1])
             turns.append(abs(float(wrap(pointing - facing))))
-        result[gait] = {"place_worst": max(places), "facing_worst_deg": math.degrees(max(turns)), "stops": len(places)}
+        result[gait] = {
+            "place_worst": max(places),
+            "facing_worst_deg": math.degrees(max(turns)),
+            "stops": len(places),
+        }
     return result
 
 
@@ -188,8 +192,8 @@ def footprints(quick: bool) -> dict[str, Any]:
 
 
 def _depth(centres: np.ndarray, radii: np.ndarray, triangles: np.ndarray) -> float:
-    """[m] by which the balls (k, parts, 3) come deeper than the surface of the triangles, at most; below 0: how
-    far away they stay. By trimesh's closest points, on all triangles in the box of each ball's way."""
+    """[m] by which the balls (k, parts, 3) come deeper than the surface of the triangles, at most; below 0:
+    how far away they stay. By trimesh's closest points, on all triangles in the box of each ball's way."""
     worst = -math.inf
     low, high = triangles.min(axis=1), triangles.max(axis=1)
     for part, radius in enumerate(radii):
@@ -220,7 +224,7 @@ def _front_heights(places: np.ndarray, body: Body, ground: Ground) -> np.ndarray
 
 
 def dead_ends(quick: bool) -> dict[str, Any]:
-    """Random passages, narrower than the dog is long and closed at their end, off a room: into each and out."""
+    """Random passages, narrower than the dog is long, closed at their end, off a room: into each and out."""
     body = load_body("dog")
     rng = np.random.default_rng(11)
     out = touched = backed = stuck = 0
@@ -230,9 +234,7 @@ def dead_ends(quick: bool) -> dict[str, Any]:
         width = float(rng.uniform(0.42, 0.95 * body.length))
         depth, bend = float(rng.uniform(1.2, 3.5)), float(rng.uniform(-0.8, 0.8))
         terrain, walls, end = passage(width, depth, bend)
-        graph = navmesh.NodeGraph.build(
-            terrain, body.walk_rules(0.08), obstacle_rules=None
-        )
+        graph = navmesh.NodeGraph.build(terrain, body.walk_rules(0.08), obstacle_rules=None)
         ground = Ground.from_arrays(terrain.vertices, terrain.faces)
         herd = Herd(ground)
         planner = GraphPlanner(graph, body)
@@ -262,8 +264,8 @@ def dead_ends(quick: bool) -> dict[str, Any]:
 
 
 def passage(width: float, depth: float, bend: float) -> tuple[navmesh.Terrain, np.ndarray, np.ndarray]:
-    """A room x < 0 with a passage from its east side: terrain, walls as segments (k, 2, 2) [m], the place near
-    the passage's end."""
+    """A room x < 0 with a passage from its east side: terrain, walls as segments (k, 2, 2) [m], the place
+    near the passage's end."""
     half = 0.5 * width
     knee = 0.55 * depth
     first, second = np.array([1.0, 0.0]), np.array([math.cos(bend), math.sin(bend)])
@@ -294,12 +296,11 @@ def _gap_to_walls(herd: Herd, index: int, walls: np.ndarray) -> float:
     balls = key_balls(np.array([[place.x, place.y, place.z, place.yaw, place.bend]]), body)
     pose = herd.pose(index)
     bones = body.spine.bones
-    neck, skull = pose[1 + bones], pose[2 + bones]
+    skull = pose[2 + bones]
     w, i, j, k = skull[3:]
     along = np.array([1 - 2 * (j * j + k * k), 2 * (i * j + w * k)])
     centres = balls.centres[0, :, :2].copy()
     centres[0] = skull[:2] + 0.5 * body.head.length * along
-    del neck
     a, d = walls[:, 0], walls[:, 1] - walls[:, 0]
     off = centres[:, None] - a
     share = np.clip((off * d).sum(axis=2) / (d * d).sum(axis=1), 0.0, 1.0)

@@ -26,8 +26,8 @@ def contacts(toes: np.ndarray, pace: float) -> np.ndarray:
 
 
 def measure(stands: np.ndarray, cycle: int) -> dict[str, float]:
-    """Duty factors and diagonal phase of one cycle of ``cycle`` samples: (cycle, 4) bool, left and right front,
-    left and right rear."""
+    """Duty factors and diagonal phase of one cycle of ``cycle`` samples: (cycle, 4) bool, left and right
+    front, left and right rear."""
     stands = stands[:cycle]
     middle = []
     for leg in range(4):

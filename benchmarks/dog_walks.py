@@ -231,7 +231,14 @@ def many_at_once(count: int, ticks: int) -> dict[str, Any]:
     for k in range(count):
         trail = trails[k % len(trails)]
         start = float(rng.uniform(0.0, 5.0))
-        index = herd.add(body, [*trail.point(start), np.interp(start, trail.step * np.arange(len(trail.rows)), trail.rows[:, at.PZ])], trail.heading(start))
+        index = herd.add(
+            body,
+            [
+                *trail.point(start),
+                np.interp(start, trail.step * np.arange(len(trail.rows)), trail.rows[:, at.PZ]),
+            ],
+            trail.heading(start),
+        )
         herd.follow(index, trail, float(rng.uniform(0.8, 3.0)), start=start)
     for _ in range(150):
         herd.tick()

@@ -1,6 +1,6 @@
 """Makes the film strips of ``docs/dogs.md``: each motion in six moments, from the side and from above.
 
-    python examples/dog_films.py [folder] [name ...]
+python examples/dog_films.py [folder] [name ...]
 """
 
 import math
@@ -64,14 +64,14 @@ class Film:
         sheet = Sheet(figsize=(COLUMNS * 2.6, 2 * 1.95 + 0.4), dpi=100, layout="constrained")
         sheet.suptitle(self.title, fontsize=10)
         axes = sheet.subplots(2, COLUMNS)
-        marks = dots(self.path[::2] + [0, 0, 0.004], (0.84, 0.15, 0.16), 0.014)
+        marks = dots(self.path[::2] + np.array([0.0, 0.0, 0.004]), (0.84, 0.15, 0.16), 0.014)
         for column, pick in enumerate(picks):
             now, pose, middle, _ = self.moments[pick]
             shapes = figure.posed(pose)
             along = self.view
             side = np.array([math.sin(along), -math.cos(along), 0.0])
             cameras = (
-                Camera(middle + self.reach * (side + [0, 0, 0.16]), middle, 0.5),
+                Camera(middle + self.reach * (side + np.array([0.0, 0.0, 0.16])), middle, 0.5),
                 Camera(middle + self.reach * np.array([0.0, -0.001, 1.15]), middle, 0.5),
             )
             for row, camera in enumerate(cameras):
@@ -121,7 +121,9 @@ def s_curve() -> np.ndarray:
 
 def walk(name: str, gait: str, speed: float, reach: float) -> tuple[Film, object, tuple[float, float]]:
     """One stride at full speed."""
-    film, figure = follow(name, f"{name}: {gait} at {speed:g} m/s, one stride", straight(speed), speed, None, reach)
+    film, figure = follow(
+        name, f"{name}: {gait} at {speed:g} m/s, one stride", straight(speed), speed, None, reach
+    )
     body = load_body(name)
     frequency = body.gaits[gait].frequency[0] + body.gaits[gait].frequency[1] * speed
     middle = film.moments[-1][0] * 0.5
@@ -148,7 +150,12 @@ def world_film(title: str, level: trimesh.Trimesh, at, facing: float, goals, spe
 
 def dead_end() -> trimesh.Trimesh:
     """A room, and a passage of 0.5 m off it that is closed at its end."""
-    parts = [floor(6.0), wall(0.0, 2.6, 0.25, 0.45), wall(0.0, 2.6, -0.45, -0.25), wall(2.4, 2.6, -0.25, 0.25)]
+    parts = [
+        floor(6.0),
+        wall(0.0, 2.6, 0.25, 0.45),
+        wall(0.0, 2.6, -0.45, -0.25),
+        wall(2.4, 2.6, -0.25, 0.25),
+    ]
     return trimesh.util.concatenate(parts)
 
 
@@ -188,8 +195,8 @@ def _stop():
 
 def _dead_end():
     film, figure = world_film(
-        "dead end of 0.5 m: backing out along the crumbs, turning where there is room", dead_end(), (-2, 0, 0),
-        0.0, [(2.0, 0.0, 0.0), (-3.0, 0.5, 0.0)], [1.0, 1.0], 3.4,
+        "dead end of 0.5 m: backing out along the crumbs, turning where there is room", dead_end(),
+        (-2, 0, 0), 0.0, [(2.0, 0.0, 0.0), (-3.0, 0.5, 0.0)], [1.0, 1.0], 3.4,
     )  # fmt: skip
     return film, figure, (3.5, film.moments[-1][0] - 1.0)
 

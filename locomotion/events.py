@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 
 __all__ = [
-    "Arrived", "BackedOut", "Cleared", "Event", "Fell", "GotStuck", "MissedGoal", "SetOff", "StrayedFromPath", "TookOff",
+    "Arrived", "BackedOut", "Cleared", "Event", "Fell", "GotStuck", "MissedGoal", "SetOff",
+    "StrayedFromPath", "TookOff",
 ]  # fmt: skip
 
 

@@ -108,8 +108,8 @@ def _smooth_leg(
         problem = None
         for bound in (*smoothing.curvatures, None):
             problem = pathsmooth.Problem.from_corridor(
-                leg.waypoints, leg.centers, leg.radii + _COVER, spacing=smoothing.spacing, start_tangent=start,
-                end_tangent=end, max_curvature=bound, smoothness=smoothing.roundness,
+                leg.waypoints, leg.centers, leg.radii + _COVER, spacing=smoothing.spacing,
+                start_tangent=start, end_tangent=end, max_curvature=bound, smoothness=smoothing.roundness,
             )  # fmt: skip
             solution = pathsmooth.solve(problem)
             if solution.status == "complete":

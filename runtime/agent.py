@@ -205,7 +205,9 @@ class Agent:
 
 def _points(point: ArrayLike) -> np.ndarray:
     """``point`` as (k, 3) float64; raises `RuntimeInputError`."""
-    goals = np.asarray(point, dtype=np.float64).reshape(-1, 3) if np.size(point) % 3 == 0 else np.empty((0, 3))
+    goals = (
+        np.asarray(point, dtype=np.float64).reshape(-1, 3) if np.size(point) % 3 == 0 else np.empty((0, 3))
+    )
     if len(goals) == 0 or not np.isfinite(goals).all():
         raise RuntimeInputError(f"point must be finite numbers (3,) or (k, 3), not {point!r}")
     return goals

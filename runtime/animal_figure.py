@@ -23,9 +23,13 @@ def animal_figure(body: Body) -> Figure:
 
     def capsule(name: str, length: float, radius: float, shade: float = 1.0) -> None:
         half = max(0.5 * length, 1e-3)
-        shapes.append((names.index(name), (0.5 * length, 0.0, 0.0, *_ALONG), (radius, half, 0.0), False, shade))
+        shapes.append(
+            (names.index(name), (0.5 * length, 0.0, 0.0, *_ALONG), (radius, half, 0.0), False, shade)
+        )
 
-    def ball(name: str, at: tuple[float, float, float], size: tuple[float, float, float], shade: float) -> None:
+    def ball(
+        name: str, at: tuple[float, float, float], size: tuple[float, float, float], shade: float
+    ) -> None:
         shapes.append((names.index(name), (*at, 1.0, 0.0, 0.0, 0.0), size, True, shade))
 
     loin, chest = body.trunk.loin, body.trunk.chest
@@ -36,13 +40,25 @@ def animal_figure(body: Body) -> Figure:
         deep = -0.25 * radius * share
         size = (0.5 * body.spine.bone_length + 0.55 * radius, 0.85 * radius, radius)
         ball(f"spine_{k + 1}", (0.5 * body.spine.bone_length, 0.0, deep), size, 1.0)
-    ball(f"spine_{bones}", (body.spine.bone_length, 0.0, -0.1 * chest), (0.8 * chest, 0.8 * chest, 0.95 * chest), 1.0)
+    ball(
+        f"spine_{bones}",
+        (body.spine.bone_length, 0.0, -0.1 * chest),
+        (0.8 * chest, 0.8 * chest, 0.95 * chest),
+        1.0,
+    )
     head = body.head
     capsule("neck", body.neck.length, 0.85 * head.radius)
     ball("head", (0.3 * head.length, 0.0, 0.0), (0.42 * head.length, 0.9 * head.radius, head.radius), 1.0)
     capsule_at = (0.72 * head.length, 0.0, -0.25 * head.radius, *_ALONG)
-    shapes.append((names.index("head"), capsule_at, (0.45 * head.radius, 0.22 * head.length, 0.0), False, 1.0))
-    ball("head", (0.96 * head.length, 0.0, -0.1 * head.radius), (0.2 * head.radius,) * 3, 0.2)
+    shapes.append(
+        (names.index("head"), capsule_at, (0.45 * head.radius, 0.22 * head.length, 0.0), False, 1.0)
+    )
+    ball(
+        "head",
+        (0.96 * head.length, 0.0, -0.1 * head.radius),
+        (0.2 * head.radius, 0.2 * head.radius, 0.2 * head.radius),
+        0.2,
+    )
     for side in (-1.0, 1.0):
         ear = (0.08 * head.length, side * 0.7 * head.radius, 0.95 * head.radius)
         ball("head", ear, (0.25 * head.radius, 0.2 * head.radius, 0.6 * head.radius), _DARK)
@@ -54,7 +70,7 @@ def animal_figure(body: Body) -> Figure:
         capsule(f"{leg}_upper", legs.upper, (1.3 if leg.startswith("front") else 1.7) * thick)
         capsule(f"{leg}_lower", legs.lower, 0.85 * thick)
         capsule(f"{leg}_foot", legs.foot, 0.65 * thick)
-        ball(f"{leg}_foot", (legs.foot, 0.0, 0.0), (0.75 * thick,) * 3, _DARK)
+        ball(f"{leg}_foot", (legs.foot, 0.0, 0.0), (0.75 * thick, 0.75 * thick, 0.75 * thick), _DARK)
     colour = np.array(body.colour)
     return Figure(
         bodies=names,

@@ -81,13 +81,13 @@ class Population(Protocol):
 class People:
     """Simulated persons."""
 
-    bodies = ("human",)
+    bodies: tuple[str, ...] = ("human",)
 
     def __init__(self, graph: navmesh.NodeGraph, ground: Ground) -> None:
         self._graph, self._ground = graph, ground
         self._humans: list[Human] = []
 
-    def spawn(self, body: str, place: np.ndarray, facing: float) -> "HumanDriver":
+    def spawn(self, body: str, place: np.ndarray, facing: float) -> Driver:
         human = Human(self._ground)
         human.reset(place, facing)
         self._humans.append(human)
@@ -168,16 +168,20 @@ class HumanDriver:
 class Pack:
     """Dogs, cats and horses, in one herd."""
 
-    bodies = BODY_NAMES
+    bodies: tuple[str, ...] = BODY_NAMES
 
     def __init__(self, graph: navmesh.NodeGraph, ground: Ground) -> None:
         self._graph = graph
         self._herd = Herd(ground)
         self._drivers: list[AnimalDriver] = []
 
-    def spawn(self, body: str, place: np.ndarray, facing: float) -> "AnimalDriver":
+    def spawn(self, body: str, place: np.ndarray, facing: float) -> Driver:
         kind = load_body(body)
-        stands = check_places(at_place(Place(*place, facing)), kind, self._herd.ground)
+        stands = check_places(
+            at_place(Place(float(place[0]), float(place[1]), float(place[2]), facing)),
+            kind,
+            self._herd.ground,
+        )
         if not stands.free:
             what = "finds no ground" if stands.part == "ground" else f"has no room for its {stands.part}"
             raise RuntimeInputError(f"at {place.round(2).tolist()} facing {facing:.2f} a {body} {what}")

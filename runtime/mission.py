@@ -138,7 +138,9 @@ class LoadedMission:
     def rules(self) -> navmesh.WalkRules:
         """The walk rules of the mission, defaults filled in."""
         try:
-            return walk_rules({agent.body for agent in self.mission.agents}, **self.mission.rules.model_dump())
+            return walk_rules(
+                {agent.body for agent in self.mission.agents}, **self.mission.rules.model_dump()
+            )
         except navmesh.NavmeshError as error:
             raise self.error(("rules",), f"rules: {error}") from None
 

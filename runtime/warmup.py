@@ -9,7 +9,12 @@ from runtime.progress import Progress
 
 __all__ = ["compile_kernels", "is_compiled"]
 
-_KERNEL_MODULES = (("navmesh", "pathfinding"), ("pathsmooth", "kernels"), ("locomotion", "controller"), ("locomotion/quadruped", "advance"))
+_KERNEL_MODULES = (
+    ("navmesh", "pathfinding"),
+    ("pathsmooth", "kernels"),
+    ("locomotion", "controller"),
+    ("locomotion/quadruped", "advance"),
+)
 
 
 def is_compiled() -> bool:

@@ -100,7 +100,12 @@ def _carry(st, pr, feet):
         leg = 0 if front else 2
         height = pr[at.HEIGHT_FRONT] if front else pr[at.HEIGHT_REAR]
         sizes = at.UPPER_FRONT if front else at.UPPER_REAR
-        wanted = 0.5 * (feet[leg, at.BASE] + feet[leg + 1, at.BASE]) + crouch * height + bob + (rock if front else -rock)
+        wanted = (
+            0.5 * (feet[leg, at.BASE] + feet[leg + 1, at.BASE])
+            + crouch * height
+            + bob
+            + (rock if front else -rock)
+        )
         reach = pr[sizes] + pr[sizes + 1] + pr[sizes + 2]
         if front:
             x, y, direction, width = st[at.FRONT_X], st[at.FRONT_Y], st[at.CHEST], pr[at.WIDTH_FRONT]
@@ -113,9 +118,7 @@ def _carry(st, pr, feet):
     reach = _TAUT * (pr[at.UPPER_FRONT] + pr[at.LOWER_FRONT] + pr[at.FOOT_FRONT])
     for _ in range(2):
         _tilt(st, pr)
-        highest = _highest(
-            feet, st[at.FRONT_X], st[at.FRONT_Y], st[at.CHEST], pr[at.WIDTH_FRONT], 0, reach
-        )
+        highest = _highest(feet, st[at.FRONT_X], st[at.FRONT_Y], st[at.CHEST], pr[at.WIDTH_FRONT], 0, reach)
         st[at.Z_FRONT] = min(st[at.Z_FRONT], highest)
     _tilt(st, pr)
 
@@ -159,6 +162,7 @@ def _drop_crumb(st, ring):
     """Drop a crumb where the root is on its way forwards; on its way back take them up again."""
     size = ring.shape[0]
     last = int(st[at.CRUMB_LAST])
+    dx, dy = 0.0, 0.0
     if st[at.CRUMBS] > 0.0:
         dx, dy = st[at.X] - ring[last, 0], st[at.Y] - ring[last, 1]
         if dx * dx + dy * dy < CRUMB_SPACING * CRUMB_SPACING:

@@ -31,7 +31,9 @@ from locomotion.quadruped.trail import Trail, lay_trail
 __all__ = ["SHORT_OF_GOAL", "Animal", "AnimalMemory", "Planner", "Status", "Way"]
 
 Status = Literal["standing", "running", "arrived", "lost", "stuck"]
-_Phase = Literal["resting", "halting", "turning", "flexing", "following", "backing", "straightening", "moving"]
+_Phase = Literal[
+    "resting", "halting", "turning", "flexing", "following", "backing", "straightening", "moving"
+]
 
 SHORT_OF_GOAL = 0.6
 """[body lengths] from the goal within which an animal has arrived: it stops short of a goal at a wall, where
@@ -55,7 +57,9 @@ class Way(Protocol):
 class Planner(Protocol):
     """Who knows the level: `way` for paths, `room_to_turn` for places."""
 
-    def way(self, start: NDArray[np.float64], goal: NDArray[np.float64], direction: NDArray[np.float64]) -> Way:
+    def way(
+        self, start: NDArray[np.float64], goal: NDArray[np.float64], direction: NDArray[np.float64]
+    ) -> Way:
         """The way from ``start`` to ``goal`` (3,) [m] for one that moves or looks in ``direction`` (2,).
         Raises ValueError where there is none."""
         ...
@@ -153,8 +157,8 @@ class Animal:
     def go_to(
         self, goals: ArrayLike, speed: float = 1.5, facing: float | None = None, gait: str | None = None
     ) -> None:
-        """Go through ``goals`` (3,) or (k, 3) [m] at up to ``speed`` [m/s], until the front feet's midpoint is
-        at the last of them; then face ``facing`` [rad], by default as it arrives.
+        """Go through ``goals`` (3,) or (k, 3) [m] at up to ``speed`` [m/s], until the front feet's midpoint
+        is at the last of them; then face ``facing`` [rad], by default as it arrives.
 
         Raises ValueError (the planner's error) where there is no way; then it goes on with what it did.
         """
@@ -369,9 +373,7 @@ class Animal:
         for arc in roomy[:_LOOK_BACK]:
             if self._can_turn_at(trail, float(arc)):
                 x, y, _ = self._point()
-                self._errand = replace(
-                    self._errand, backed=self._errand.backed + 1, backed_from=(x, y)
-                )
+                self._errand = replace(self._errand, backed=self._errand.backed + 1, backed_from=(x, y))
                 speed = self.body.movement.back_speed
                 self.herd.follow(self.index, trail, speed, start=here, end=float(arc), backwards=True)
                 self._phase = "backing"
@@ -386,9 +388,10 @@ class Animal:
         except ValueError:
             return False
         turn = self._turn_onto(onward, there)
-        return abs(turn) < self.body.spine_reach or self._turn_script(
-            there, self._first_heading(onward)
-        ) is not None
+        return (
+            abs(turn) < self.body.spine_reach
+            or self._turn_script(there, self._first_heading(onward)) is not None
+        )
 
     # --- short moves
     def _move_locally(self, errand: _Errand) -> bool:

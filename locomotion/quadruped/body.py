@@ -55,7 +55,7 @@ class Spine(_Strict):
         whole = self.bones * self.bone_length
         if abs(whole - self.length) > 1e-6:
             raise ValueError(
-                f"{self.bones} bones of {self.bone_length:g} m make {whole:g} m, the spine is {self.length:g} m"
+                f"{self.bones} bones of {self.bone_length:g} m make {whole:g} m, the spine {self.length:g}"
             )
         if self.bones * self.max_bend_deg > 180.0:
             raise ValueError(f"{self.bones} bones that bend by {self.max_bend_deg:g}° close to a ring")
@@ -82,8 +82,8 @@ class Legs(_Strict):
         whole = self.upper + self.lower + self.foot
         if whole < 1.02 * self.height:
             raise ValueError(
-                f"bones of {self.upper:g}, {self.lower:g} and {self.foot:g} m make {whole:g} m: too short for "
-                f"a height of {self.height:g} m"
+                f"bones of {self.upper:g}, {self.lower:g} and {self.foot:g} m make {whole:g} m: too short "
+                f"for a height of {self.height:g} m"
             )
         if abs(self.upper - self.lower) > self.height - self.foot:
             raise ValueError(

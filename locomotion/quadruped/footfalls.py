@@ -148,7 +148,13 @@ def step_feet(st, pr, pool, ground, origin, feet):
 def _overstretched(st, pr, foot, leg):
     """Whether a standing leg is so far from its joint that the trunk would have to sink for it."""
     if leg < 2:
-        x, y, z, direction, sizes = st[at.FRONT_X], st[at.FRONT_Y], st[at.Z_FRONT], st[at.CHEST], at.UPPER_FRONT
+        x, y, z, direction, sizes = (
+            st[at.FRONT_X],
+            st[at.FRONT_Y],
+            st[at.Z_FRONT],
+            st[at.CHEST],
+            at.UPPER_FRONT,
+        )
         width, height = pr[at.WIDTH_FRONT], pr[at.HEIGHT_FRONT]
     else:
         x, y, z, direction, sizes = st[at.X], st[at.Y], st[at.Z_REAR], st[at.YAW], at.UPPER_REAR

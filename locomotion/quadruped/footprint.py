@@ -24,9 +24,19 @@ from locomotion.quadruped.script import Place, Script
 from locomotion.quadruped.trail import Trail, kernel_ground
 
 __all__ = [
-    "PARTS", "RESOLUTION", "Footprint", "at_place", "check_places", "check_script", "check_trail", "key_balls",
-    "stopping_distance", "script_places", "trail_places",
-]  # fmt: skip
+    "PARTS",
+    "RESOLUTION",
+    "Footprint",
+    "at_place",
+    "check_places",
+    "check_script",
+    "check_trail",
+    "fronts",
+    "key_balls",
+    "script_places",
+    "stopping_distance",
+    "trail_places",
+]
 
 PARTS = ("head", "shoulders", "root")
 """What is tested, in order."""
@@ -36,8 +46,8 @@ _ASSUMED_SPEED = 2.5  # of a ball over the root's own way, when samples are chos
 
 
 class Footprint(NamedTuple):
-    """``free``: whether nothing is touched. Else ``part`` of `PARTS`, or "ground" where there is none to stand
-    on, touches first, at ``place`` (3,) [m], in sample ``index``."""
+    """``free``: whether nothing is touched. Else ``part`` of `PARTS` touches first, or "ground": there is
+    none to stand on, at ``place`` (3,) [m], in sample ``index``."""
 
     free: bool
     part: str = ""
@@ -88,13 +98,11 @@ def fronts(places: NDArray[np.float64], body: Body) -> NDArray[np.float64]:
     return np.array([front_of(x, y, yaw, bend, bones, bone) for x, y, _, yaw, bend in places])
 
 
-def key_balls(
-    places: NDArray[np.float64], body: Body, front_z: NDArray[np.float64] | None = None
-) -> _Balls:
+def key_balls(places: NDArray[np.float64], body: Body, front_z: NDArray[np.float64] | None = None) -> _Balls:
     """The balls of `PARTS` at ``places`` (k, 5): x, y, z, yaw, bend; z is the ground's under the root [m],
     ``front_z`` (k,) that under the front feet, by default the same."""
     x, y, z, yaw, bend = places.T
-    front_z = z if front_z is None else front_z
+    own_z = z if front_z is None else front_z
     front = fronts(places, body)
     chest = yaw + body.spine.bones * bend
     rise, drop = math.radians(body.neck.rise_deg), math.radians(body.head.drop_deg)
@@ -102,27 +110,32 @@ def key_balls(
     up = body.neck.length * math.sin(rise) - 0.5 * body.head.length * math.sin(drop)
     height = body.front_legs.height
     head = np.stack(
-        [front[:, 0] + ahead * np.cos(chest), front[:, 1] + ahead * np.sin(chest), front_z + height + up], axis=1
+        [front[:, 0] + ahead * np.cos(chest), front[:, 1] + ahead * np.sin(chest), own_z + height + up],
+        axis=1,
     )
-    shoulders = np.column_stack([front, front_z + height])
+    shoulders = np.column_stack([front, own_z + height])
     root = np.stack([x, y, z + body.rear_legs.height], axis=1)
-    radii = np.array([body.head.radius, min(body.trunk.chest, body.radius), min(body.trunk.loin, body.radius)])
+    radii = np.array(
+        [body.head.radius, min(body.trunk.chest, body.radius), min(body.trunk.loin, body.radius)]
+    )
     return _Balls(np.stack([head, shoulders, root], axis=1), radii)
 
 
-def check_places(
-    places: NDArray[np.float64], body: Body, ground: Ground, margin: float = 0.0
-) -> Footprint:
-    """Whether the body fits at every one of ``places`` (k, 5): x, y, z, yaw, bend, with ``margin`` [m] to spare."""
+def check_places(places: NDArray[np.float64], body: Body, ground: Ground, margin: float = 0.0) -> Footprint:
+    """Whether the body fits at all ``places`` (k, 5): x, y, z, yaw, bend, with ``margin`` [m] to spare."""
     reach = body.movement.step + body.spine.length * math.tan(math.radians(body.movement.slope_deg))
     root_z = _ground_at(ground, places[:, :2], places[:, 2], 0.5 * reach + body.movement.step)
     front_z = _ground_at(ground, fronts(places, body), places[:, 2], reach)
     lost = np.flatnonzero(~(np.isfinite(root_z) & np.isfinite(front_z)))
     until = int(lost[0]) if len(lost) else len(places)
     if until > 0:
-        balls = key_balls(places[:until], body, front_z[:until])
+        standing = np.column_stack([places[:until, :2], root_z[:until], places[:until, 3:]])
+        balls = key_balls(standing, body, front_z[:until])
         index, part = _first_touch(
-            kernel_ground(ground), ground.arrays.cell_range, balls.centres - ground.origin, balls.radii + margin
+            kernel_ground(ground),
+            ground.arrays.cell_range,
+            balls.centres - ground.origin,
+            balls.radii + margin,
         )
         if index >= 0:
             x, y, z = balls.centres[index, part]
@@ -136,7 +149,7 @@ def check_places(
 def _ground_at(
     ground: Ground, points: NDArray[np.float64], z: NDArray[np.float64], reach: float
 ) -> NDArray[np.float64]:
-    """(k,) [m] height of the ground at ``points`` (k, 2) within ``reach`` of ``z`` (k,), NaN where none is."""
+    """(k,) [m] height of the ground at ``points`` (k, 2) within ``reach`` of ``z`` (k,), or NaN."""
     found = ground.surface_below(np.column_stack([points, z + reach]))[0]
     return np.where(found >= z - reach, found, np.nan)
 

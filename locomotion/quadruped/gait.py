@@ -15,7 +15,9 @@ _HYSTERESIS = 0.12  # share of the speed of the change by which it must be misse
 _BLEND = math.exp(-DT * 0.69314718056 / 0.10)  # half of a change of gait in 0.10 s
 _SHIFT = 0.5  # share of the clock's pace at which a touchdown moves within the stride
 _SCRIPT_DUTY = 0.62
-_FORESIGHT = 0.4  # [s] ahead for whose speed strides are quickened: a foot that stands now will be needed then
+_FORESIGHT = (
+    0.4  # [s] ahead for whose speed strides are quickened: a foot that stands now will be needed then
+)
 _SHORTER = 0.8  # [1/rad] of slope by which strides become shorter and quicker
 
 

@@ -35,6 +35,7 @@ __all__ = ["AnimalState", "Herd"]
 
 RING = 512
 """Crumbs that are kept: about 50 m of the way."""
+_CHANGE = 0.01  # [m] by which ground may change unnoticed
 _DROP = 0.5  # [m] off the ground that an animal may be put
 
 
@@ -103,7 +104,9 @@ class Herd:
         st[at.DUTY_FRONT_NOW] = st[at.DUTY_REAR_NOW] = 0.6
         st[at.LIFT_NOW] = gait[at.LIFT]
         st[at.TOUCHDOWN_NOW : at.TOUCHDOWN_NOW + 4] = gait[at.TOUCHDOWN : at.TOUCHDOWN + 4]
-        st[at.FRONT_X], st[at.FRONT_Y] = front_of(place[0], place[1], yaw, 0.0, body.spine.bones, body.spine.bone_length)
+        st[at.FRONT_X], st[at.FRONT_Y] = front_of(
+            place[0], place[1], yaw, 0.0, body.spine.bones, body.spine.bone_length
+        )
         st[at.CHEST] = yaw
         self._stand(index)
 
@@ -144,13 +147,13 @@ class Herd:
         place = np.asarray(position, dtype=np.float64)
         if place.shape != (3,) or not np.isfinite(place).all() or not math.isfinite(yaw):
             raise LocomotionError(f"position and yaw must be finite (3,) and (), not {position} and {yaw}")
-        z = float(self.ground.surface_below([place + [0.0, 0.0, _DROP]])[0][0])
+        z = float(self.ground.surface_below([[place[0], place[1], place[2] + _DROP]])[0][0])
         if not abs(z - place[2]) <= _DROP:
             raise LocomotionError(f"there is no ground within {_DROP:g} m of {place.round(2).tolist()}")
         return np.array([place[0], place[1], z])
 
     def ground_near(self, point: ArrayLike, body: Body) -> float:
-        """Height [m] of the ground under or over ``point`` (3,) as a foot finds it; its own z where none is."""
+        """Height [m] of the ground under or over ``point`` (3,) as a foot finds it; its own z if none is."""
         x, y, z = np.asarray(point, dtype=np.float64)
         reach = body.movement.step + 0.12
         found = float(self.ground.surface_below([[x, y, z + reach]])[0][0])
@@ -213,7 +216,9 @@ class Herd:
         """[m] where the root is when the front feet's midpoint is at the trail's end."""
         st = np.zeros(at.STATE)
         st[at.MODE], st[at.ROW_COUNT], st[at.ROW_STEP] = at.ON_TRAIL, len(trail.rows), trail.step
-        st[at.PITCH] = self.state[index, at.PITCH] if trail.length < 1.0 else _end_pitch(trail, self.bodies[index])
+        st[at.PITCH] = (
+            self.state[index, at.PITCH] if trail.length < 1.0 else _end_pitch(trail, self.bodies[index])
+        )
         reach = self.bodies[index].spine.length
         low, high = max(trail.length - 1.2 * reach, 0.0), trail.length
         pr = self._params[int(self.state[index, at.KIND])]
@@ -248,6 +253,25 @@ class Herd:
             st[at.OFFSET + k] = wrap(off) if channel == 3 else off
             st[at.OFFSET_RATE + k] = st[at.RATE + k] - rate if st[at.FIRST_TICK] == 0.0 else 0.0
         st[at.FRONT_ARC] = now[5]
+
+    def change_ground(self, ground: Ground) -> NDArray[np.int64]:
+        """Go on on another ground. Animals whose standing feet or way ahead are not on it any more, or more
+        than 1 cm off it, are returned: they are told so, and come to a stop where they stand."""
+        self.ground = ground
+        lost = [index for index in range(len(self)) if self._has_lost_ground(index)]
+        self.state[lost, at.NO_GROUND] = 1.0
+        return np.array(lost, dtype=np.int64)
+
+    def _has_lost_ground(self, index: int) -> bool:
+        st = self.state[index]
+        spots = self.feet[index, self.standing_feet(index), : at.FZ + 1]
+        if st[at.MODE] == at.ON_TRAIL and self.resting(index) is False:
+            rows = self._pool.table(index)
+            arcs = st[at.ROW_STEP] * np.arange(len(rows))
+            ahead = st[at.WAY] * (arcs - st[at.ARC]) >= 0.0
+            spots = np.vstack([spots, rows[ahead][:, [at.PX, at.PY, at.PZ]]])
+        found = self.ground.surface_below(spots + np.array([0.0, 0.0, _CHANGE]))[0]
+        return not np.all(np.abs(found - spots[:, 2]) <= _CHANGE)
 
     # --- time
     def tick(self) -> None:

@@ -20,7 +20,7 @@ gets."""
 @njit(cache=True, inline="always")
 def two_bones(x, z, upper, lower, side):
     """Angles [rad] of two bones of lengths ``upper`` and ``lower`` [m] that end at (x, z); the joint between
-    them points forwards (side 1) or backwards (-1). Too far or too near places get the straight or folded leg.
+    them points forwards (side 1) or backwards (-1). Places out of reach get the straight or folded leg.
     """
     far = math.sqrt(x * x + z * z)
     d = min(max(far, abs(upper - lower) + 1e-6), upper + lower - 1e-6)
@@ -36,9 +36,9 @@ def two_bones(x, z, upper, lower, side):
 def solve_leg(x, z, upper, lower, foot, lean, side, give):
     """(upper, lower, foot) angles [rad] of a leg whose toe is at (x, z) [m].
 
-    ``lean`` [rad] is how far the foot bone's upper end is behind the vertical over the toe. Where the two other
-    bones do not reach it, the foot bone gives way by the share ``give``: 1 for a standing foot, whose toe must
-    stay; with less, a swinging toe stays behind where the leg is too short.
+    ``lean`` [rad] is how far the foot bone's upper end is behind the vertical over the toe. Where the two
+    other bones do not reach it, the foot bone gives way by the share ``give``: 1 for a standing foot, whose
+    toe must stay; with less, a swinging toe stays behind where the leg is too short.
     """
     hx, hz = x - foot * math.sin(lean), z + foot * math.cos(lean)
     d = math.sqrt(hx * hx + hz * hz)

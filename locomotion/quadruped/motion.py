@@ -11,7 +11,16 @@ from numba import njit
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.trail import trail_speed
 
-__all__ = ["DT", "advance_along", "begin_stop", "script_at", "stop_length", "stop_place", "stop_time", "travel"]
+__all__ = [
+    "DT",
+    "advance_along",
+    "begin_stop",
+    "script_at",
+    "stop_length",
+    "stop_place",
+    "stop_time",
+    "travel",
+]
 
 DT = 0.01
 """[s] of a tick."""
@@ -123,5 +132,3 @@ def script_at(pool, first, count, share):
     yaw = pa * a[3] + pb * b[3] + ta * (b[3] - p[3]) + tb * (n[3] - a[3])
     bend = pa * a[4] + pb * b[4] + ta * (b[4] - p[4]) + tb * (n[4] - a[4])
     return x, y, v * a[2] + w * b[2], yaw, bend
-
-

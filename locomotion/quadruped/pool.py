@@ -9,7 +9,7 @@ __all__ = ["Pool"]
 
 
 class Pool:
-    """Rows of ``width`` float64 in one array ``rows``; an owner's table is ``rows[start : start + count]``."""
+    """Rows of ``width`` float64 in one array ``rows``; an owner's are ``rows[start : start + count]``."""
 
     def __init__(self, width: int) -> None:
         self.rows = np.zeros((1024, width))

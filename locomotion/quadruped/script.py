@@ -95,7 +95,10 @@ def out_of_flex(body: Body, place: Place, facing: float) -> Script:
     turn = wrap(facing - place.yaw)
     yaw = place.yaw + share * turn
     ahead = np.array(
-        [front_of(0.0, 0.0, a, b, body.spine.bones, body.spine.bone_length) for a, b in zip(yaw, bend, strict=True)]
+        [
+            front_of(0.0, 0.0, a, b, body.spine.bones, body.spine.bone_length)
+            for a, b in zip(yaw, bend, strict=True)
+        ]
     )
     seconds = 1.9 * max(abs(turn), abs(place.bend) * body.spine.bones) / _BEND_SPEED
     return make_script(front_x - ahead[:, 0], front_y - ahead[:, 1], place.z, yaw, bend, seconds)

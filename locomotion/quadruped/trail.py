@@ -6,6 +6,7 @@ onto the ground and given the speed at which each place may be passed.
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -97,7 +98,7 @@ def _subdivided(points: NDArray[np.float64]) -> NDArray[np.float64]:
     if len(keep) < 2:
         raise LocomotionError("a path needs at least two points that differ in x or y")
     pieces = [keep[:1]]
-    for a, b in zip(keep[:-1], keep[1:], strict=True):
+    for a, b in itertools.pairwise(keep):
         parts = int(np.ceil(np.linalg.norm((b - a)[:2]) / _KNOTS))
         share = np.arange(1, parts + 1)[:, None] / parts
         pieces.append(a + share * (b - a))
@@ -128,7 +129,9 @@ def _follow_ground(ground, rows, wanted, origin, heights):
         x, y = rows[i, at.PX] - origin[0], rows[i, at.PY] - origin[1]
         h = height_below(ground[0], ground[1], ground[2], ground[3], ground[4], x, y, last + _CLIMB)[0]
         if not abs(h - last) < 3.0 * _CLIMB:  # a crack in a scan, or a jump of the path: where it says
-            h = height_below(ground[0], ground[1], ground[2], ground[3], ground[4], x, y, wanted[i] + _CLIMB)[0]
+            h = height_below(ground[0], ground[1], ground[2], ground[3], ground[4], x, y, wanted[i] + _CLIMB)[
+                0
+            ]
             if not abs(h - wanted[i]) < 3.0 * _CLIMB:
                 h = wanted[i]
         heights[i] = h
@@ -140,7 +143,9 @@ def _plan_speed(rows: NDArray[np.float64], step: float, body: Body) -> None:
     bend = uniform_filter1d(np.abs(rows[:, at.PCURVATURE]), max(round(0.15 / step), 1), mode="nearest")
     reach = max(round(body.spine.length / step), 1)
     bend = maximum_filter1d(bend, reach + 1, origin=-(reach // 2), mode="nearest")
-    rise = np.abs(uniform_filter1d(np.gradient(rows[:, at.PZ], step), max(round(0.4 / step), 1), mode="nearest"))
+    rise = np.abs(
+        uniform_filter1d(np.gradient(rows[:, at.PZ], step), max(round(0.4 / step), 1), mode="nearest")
+    )
     steep = (body.top_speed / (1.0 + _STEEP * rise**2)) ** 2
     squares = np.maximum(np.minimum(body.movement.sideways / np.maximum(bend, 1e-6), steep), _CREEP**2)
     brake = 1.2 * body.movement.braking * step

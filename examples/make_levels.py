@@ -229,9 +229,9 @@ def courtyard() -> trimesh.Trimesh:
     return yard.mesh()
 
 
-def write_obj(mesh: trimesh.Trimesh, path: Path, title: str) -> None:
+def write_obj(mesh: trimesh.Trimesh, path: Path, title: str, maker: str = "make_levels.py") -> None:
     """Write a mesh as OBJ with nothing but vertices and faces (metres, Z up)."""
-    lines = [f"# {title}: metres, Z up; made by examples/make_levels.py"]
+    lines = [f"# {title}: metres, Z up; made by examples/{maker}"]
     lines += ["v " + " ".join(f"{value:.6g}" for value in vertex) for vertex in mesh.vertices]
     lines += ["f " + " ".join(str(index + 1) for index in face) for face in mesh.faces]
     path.write_text("\n".join(lines) + "\n")

@@ -5,7 +5,7 @@ from locomotion.body import ARRIVAL_DISTANCE, PERSON_RULES, Human, HumanState
 from locomotion.errors import LocomotionError
 from locomotion.ground import Ground
 from locomotion.human_state import MOVING
-from locomotion.route_smoothing import ObstacleAhead, SmoothPath, smooth_route
+from locomotion.route_smoothing import ObstacleAhead, Smoothing, SmoothPath, smooth_route
 from locomotion.skill import RunSkill, load_run_skill
 
 __all__ = [
@@ -20,6 +20,7 @@ __all__ = [
     "ObstacleAhead",
     "RunSkill",
     "SmoothPath",
+    "Smoothing",
     "load_run_skill",
     "plan_approach",
     "plan_approach_exact",

@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 
 __all__ = [
-    "Arrived", "Cleared", "Event", "Fell", "GotStuck", "MissedGoal", "SetOff", "StrayedFromPath", "TookOff",
+    "Arrived", "BackedOut", "Cleared", "Event", "Fell", "GotStuck", "MissedGoal", "SetOff",
+    "StrayedFromPath", "TookOff",
 ]  # fmt: skip
 
 
@@ -26,6 +27,13 @@ class SetOff(Event):
 @dataclass(frozen=True)
 class Arrived(Event):
     """The body is at its goal, this far from it [m, horizontally]."""
+
+    distance: float
+
+
+@dataclass(frozen=True)
+class BackedOut(Event):
+    """The body has gone backwards along its own trail, this far [m], to where it can turn around."""
 
     distance: float
 

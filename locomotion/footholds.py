@@ -13,6 +13,7 @@ import math
 
 from numba import njit
 
+from locomotion.ground import height_below
 from locomotion.walk_layout import (
     CLOCK,
     FOOTHOLD,
@@ -54,27 +55,12 @@ def ground_at(ground, px, py, pz):
     ground: rows, cell_start, cell_triangles, grid, shape of a `Ground`'s arrays, and its origin.
     """
     rows, cell_start, cell_triangles, grid, shape, origin = ground
-    x, y, z = px - origin[0], py - origin[1], pz - origin[2]
-    best, at = math.nan, -1
-    fx, fy = (x - grid[0]) * grid[2], (y - grid[1]) * grid[2]
-    if fx >= 0.0 and fy >= 0.0 and fx <= shape[0] and fy <= shape[1]:
-        cell = min(int(fx), shape[0] - 1) * shape[1] + min(int(fy), shape[1] - 1)
-        for i in range(cell_start[cell], cell_start[cell + 1]):
-            t = cell_triangles[i]
-            if rows[t, 2] < 1e-6:
-                continue
-            h = (rows[t, 3] - rows[t, 0] * x - rows[t, 1] * y) / rows[t, 2]
-            if h > z + 1e-9 or h <= best:
-                continue
-            inside = True
-            for k in range(4, 16, 4):
-                if rows[t, k] * x + rows[t, k + 1] * y + rows[t, k + 2] * h - rows[t, k + 3] > 1e-6:
-                    inside = False
-            if inside:
-                best, at = h, t
-    if at < 0:
+    z, t = height_below(
+        rows, cell_start, cell_triangles, grid, shape, px - origin[0], py - origin[1], pz - origin[2]
+    )
+    if t < 0:
         return math.nan, 0.0, 0.0, 1.0
-    return best + origin[2], rows[at, 0], rows[at, 1], rows[at, 2]
+    return z + origin[2], rows[t, 0], rows[t, 1], rows[t, 2]
 
 
 @njit(cache=True)

@@ -24,7 +24,7 @@ from locomotion.errors import LocomotionError
 from locomotion.trimesh_build import build_triangle_arrays
 from locomotion.trimesh_install import MARK, occupy, release
 
-__all__ = ["Ground", "plane_lookup"]
+__all__ = ["Ground", "height_below", "plane_lookup"]
 
 _FRICTION = [0.9, 0.005, 0.0001]
 _MESH_FACES = 200_000  # MuJoCo's renderer draws larger meshes badly; only pictures are cut off
@@ -173,24 +173,34 @@ def _release(slot: int, kept: Any) -> None:
 
 
 @njit(cache=True)
+def height_below(rows, cell_start, cell_triangles, grid, shape, x, y, z):
+    """Height of the first upward face at or below (x, y, z), NaN where there is none, and its row or -1."""
+    best, which = -np.inf, -1
+    fx, fy = (x - grid[0]) * grid[2], (y - grid[1]) * grid[2]
+    if not (fx >= 0.0 and fy >= 0.0 and fx <= shape[0] and fy <= shape[1]):
+        return np.nan, which
+    cell = min(int(fx), shape[0] - 1) * shape[1] + min(int(fy), shape[1] - 1)
+    for i in range(cell_start[cell], cell_start[cell + 1]):
+        row = rows[cell_triangles[i]]
+        if row[2] < 1e-6:
+            continue
+        h = (row[3] - row[0] * x - row[1] * y) / row[2]
+        if h > z + 1e-9 or best >= h:
+            continue
+        inside = True
+        for k in range(4, 16, 4):
+            if row[k] * x + row[k + 1] * y + row[k + 2] * h - row[k + 3] > 1e-6:
+                inside = False
+                break
+        if inside:
+            best, which = h, cell_triangles[i]
+    return (best if which >= 0 else np.nan), which
+
+
+@njit(cache=True)
 def _surface_below(rows, cell_start, cell_triangles, grid, shape, points, heights, normals):
     for p in range(len(points)):
         x, y, z = points[p]
-        fx, fy = (x - grid[0]) * grid[2], (y - grid[1]) * grid[2]
-        if not (fx >= 0.0 and fy >= 0.0 and fx <= shape[0] and fy <= shape[1]):
-            continue
-        cell = min(int(fx), shape[0] - 1) * shape[1] + min(int(fy), shape[1] - 1)
-        for i in range(cell_start[cell], cell_start[cell + 1]):
-            row = rows[cell_triangles[i]]
-            if row[2] < 1e-6:
-                continue
-            h = (row[3] - row[0] * x - row[1] * y) / row[2]
-            if h > z + 1e-9 or heights[p] >= h:
-                continue
-            inside = True
-            for k in range(4, 16, 4):
-                if row[k] * x + row[k + 1] * y + row[k + 2] * h - row[k + 3] > 1e-6:
-                    inside = False
-            if inside:
-                heights[p] = h
-                normals[p] = row[0:3]
+        heights[p], t = height_below(rows, cell_start, cell_triangles, grid, shape, x, y, z)
+        if t >= 0:
+            normals[p] = rows[t, 0:3]

@@ -6,7 +6,6 @@ between them, which the path meets at right angles.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,11 +16,30 @@ from locomotion.errors import LocomotionError
 from navmesh.draping import drape_curve
 from navmesh.route import Leg, Route
 
-__all__ = ["ObstacleAhead", "SmoothPath", "smooth_route"]
+__all__ = ["RUNNING", "ObstacleAhead", "SmoothPath", "Smoothing", "smooth_route"]
 
-_SPACING = 0.25
 _ITERATIONS = 1000  # per bound on curvature, some milliseconds; to look for every last curve takes seconds
-_ROUNDNESS = 2.0  # smoothness [m^3] of a running body's path: corners are rounded over about 1.3 m
+
+
+@dataclass(frozen=True)
+class Smoothing:
+    """What a kind of body wants of its path.
+
+    Attributes:
+        curvatures: [1/m] bounds to try in turn, widest first, until one is not reached in a few
+        milliseconds; a leg on which none
+            is reached is smoothed without.
+        spacing: [m] between waypoints, at most.
+        roundness: [m^3] smoothness of the path; corners are rounded over about its cube root.
+    """
+
+    curvatures: tuple[float, ...]
+    spacing: float
+    roundness: float
+
+
+RUNNING = Smoothing((0.12, 0.18, 0.3, 0.5, 0.8), 0.25, 2.0)
+"""A running person's: corners are rounded over about 1.3 m."""
 
 
 @dataclass(frozen=True)
@@ -53,14 +71,10 @@ class SmoothPath:
 
 
 def smooth_route(
-    route: Route,
-    curvatures: Sequence[float] = (0.12, 0.18, 0.3, 0.5, 0.8),
-    start_direction: ArrayLike | None = None,
+    route: Route, smoothing: Smoothing = RUNNING, start_direction: ArrayLike | None = None
 ) -> SmoothPath:
     """Smooth a route of status "complete" or "partial".
 
-    curvatures: [1/m] bounds to try in turn, widest first, until one is not reached in a few milliseconds; a
-    leg on which none is reached is smoothed without.
     start_direction: (2,) or (3,) direction in which the body is moving, or None.
     Raises `LocomotionError` for a route without waypoints.
     """
@@ -73,7 +87,7 @@ def smooth_route(
     for i, leg in enumerate(legs):
         before = _link_direction(route, i - 1) if i > 0 else start_direction
         after = _link_direction(route, i) if i < len(legs) - 1 else None
-        points, held = _smooth_leg(leg, curvatures, before, after)
+        points, held = _smooth_leg(leg, smoothing, before, after)
         points = drape_curve(route.graph, points)
         bounded = bounded and held
         pieces.append(points)
@@ -88,7 +102,7 @@ def smooth_route(
 
 
 def _smooth_leg(
-    leg: Leg, curvatures: Sequence[float], before: ArrayLike | None, after: ArrayLike | None
+    leg: Leg, smoothing: Smoothing, before: ArrayLike | None, after: ArrayLike | None
 ) -> tuple[NDArray[np.float64], bool]:
     """Points of one leg, and whether they keep one of the bounds; end tangents give way first."""
     length = float(np.linalg.norm(np.diff(leg.waypoints[:, :2], axis=0), axis=1).sum())
@@ -96,10 +110,10 @@ def _smooth_leg(
         return leg.waypoints, True
     for start, end in ((before, after), (None, after), (None, None)):
         best, held = None, False
-        for bound in (None, *sorted(curvatures, reverse=True)):
+        for bound in (None, *sorted(smoothing.curvatures, reverse=True)):
             problem = pathsmooth.Problem.from_corridor(
-                leg.waypoints, leg.centers, leg.radii, spacing=_SPACING, start_tangent=start,
-                end_tangent=end, max_curvature=bound, smoothness=_ROUNDNESS,
+                leg.waypoints, leg.centers, leg.radii, spacing=smoothing.spacing, start_tangent=start,
+                end_tangent=end, max_curvature=bound, smoothness=smoothing.roundness,
             )  # fmt: skip
             solution = pathsmooth.solve(problem, None if bound is None else _ITERATIONS)
             if solution.status == "infeasible" or (bound is not None and solution.status != "complete"):

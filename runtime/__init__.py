@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     from runtime.errors import RuntimeInputError
     from runtime.events import (
         Arrived,
+        BackedOut,
         Blocked,
         Departed,
         Event,
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Agent",
     "Arrived",
+    "BackedOut",
     "Blocked",
     "Departed",
     "Event",

@@ -7,13 +7,24 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from locomotion import PERSON_RULES, Human, HumanState
+from locomotion import MOVING, Human
 from locomotion import events as bodily
-from locomotion.clearing import HEIGHT_TOLERANCE
+from locomotion.quadruped import Animal
+from runtime.drivers import AnimalDriver, Driver, HumanDriver, radius_of
 from runtime.errors import RuntimeInputError
-from runtime.events import Arrived, Blocked, Departed, Event, Fell, Lost, SkillFinished, SkillStarted, Stuck
-from runtime.figure import Figure
-from runtime.planning import NoWay, Plan, make_plan
+from runtime.events import (
+    Arrived,
+    BackedOut,
+    Blocked,
+    Departed,
+    Event,
+    Fell,
+    Lost,
+    SkillFinished,
+    SkillStarted,
+    Stuck,
+)
+from runtime.planning import NoWay, Plan
 
 if TYPE_CHECKING:
     from runtime.world import World
@@ -38,84 +49,106 @@ class Pose:
 class AgentState:
     """What `World.save` keeps of an agent."""
 
-    human: HumanState
-    plans: tuple[Plan, ...]
+    driver: Any
     blocked: bool
     reported: int
+    goal: tuple[float, float, float]
 
 
 class Agent:
-    """One person in a world; made by `World.spawn`.
+    """One figure in a world; made by `World.spawn`.
 
-    ``name`` is unique in its world, ``body`` is "human". ``plans`` are the paths it has been given so far.
+    ``name`` is unique in its world, ``body`` is one of `runtime.drivers.BODIES`.
     """
 
-    def __init__(self, world: "World", name: str, human: Human) -> None:
+    def __init__(self, world: "World", name: str, body: str, driver: Driver) -> None:
         self.name = name
-        self.body = "human"
-        self.human = human
-        self.figure = Figure.from_model(human.model)
-        self.plans: list[Plan] = []
+        self.body = body
+        self.figure = driver.figure
+        self._driver = driver
         self._world = world
         self._blocked = False
-        self._born = world.time - human.time
-        self._reported = len(human.events)
+        self._born = world.time - driver.time
+        self._reported = len(driver.events)
+        self._goal = _triple(driver.position)
+
+    @property
+    def human(self) -> Human:
+        """The simulated person. Raises `RuntimeInputError` for other bodies."""
+        if not isinstance(self._driver, HumanDriver):
+            raise RuntimeInputError(f"{self.name} is a {self.body}, not a human")
+        return self._driver.human
+
+    @property
+    def animal(self) -> Animal:
+        """The quadruped. Raises `RuntimeInputError` for other bodies."""
+        if not isinstance(self._driver, AnimalDriver):
+            raise RuntimeInputError(f"{self.name} is a {self.body}, not a quadruped")
+        return self._driver.animal
+
+    @property
+    def plans(self) -> list[Plan]:
+        """The paths that it has been given so far."""
+        return self._driver.plans
 
     @property
     def status(self) -> str:
-        """What it does, as `locomotion.Human.status` says, or "blocked": the last goal cannot be reached."""
-        return "blocked" if self._blocked else self.human.status
+        """What it does: "standing", "walking", "running" (of a quadruped: on its way), "arrived", "lost",
+        "stuck", of a human also "jumping" and "fallen"; or "blocked": the last goal cannot be reached."""
+        return "blocked" if self._blocked else self._driver.status
+
+    @property
+    def moving(self) -> bool:
+        """Whether it is on its way: walking, running or clearing an obstacle."""
+        return self._driver.status in MOVING
 
     @property
     def position(self) -> np.ndarray:
-        """(3,) float64 [m]: the point of the ground under its centre of mass."""
-        return self.human.position
+        """(3,) float64 [m]: of a human the point of the ground under its centre of mass, of a quadruped the
+        middle between its front feet."""
+        return self._driver.position
 
     @property
     def facing(self) -> float:
         """[rad, -π to π] counter-clockwise from the X axis."""
-        return self.human.yaw
+        return self._driver.facing
 
     @property
     def radius(self) -> float:
         """[m] that the graph's queries keep free around it."""
-        return PERSON_RULES["radius"]
+        return radius_of(self.body)
+
+    @property
+    def progress(self) -> float:
+        """Share of its path that is behind it, 0 to 1."""
+        return self._driver.progress
 
     @property
     def skills(self) -> Mapping[str, tuple[float, float]]:
         """For each affordance that it can clear the least and the greatest height [m]."""
-        return {
-            skill.affordance: (skill.heights[0] - HEIGHT_TOLERANCE, skill.heights[1] + HEIGHT_TOLERANCE)
-            for skill in self.human.clearing
-        }
+        return self._driver.skills
 
     @property
     def pose(self) -> Pose:
         """Where its skeleton is now."""
-        transforms = self.human.body_transforms()[1:]
-        return Pose(self.figure.bodies, self.figure.parents, transforms)
+        return Pose(self.figure.bodies, self.figure.parents, self._driver.transforms())
 
-    def go_to(self, point: ArrayLike, speed: float = 3.5) -> str:
-        """Set out for ``point`` (3,) [m], or through several (k, 3) in order, at up to ``speed`` [m/s].
+    def plan(self, point: ArrayLike) -> Plan:
+        """The way that `go_to` would take, not taken. Raises `runtime.planning.NoWay`."""
+        return self._driver.plan(_points(point))
 
-        Returns the status: "running", or "blocked" when there is no way (an event says why; the agent then
-        keeps doing what it did). Raises `RuntimeInputError` for a point that is not finite numbers or
-        an agent that has fallen, and `locomotion.LocomotionError` for a speed that is not above 0.
+    def go_to(self, point: ArrayLike, speed: float = 3.5, facing: float | None = None) -> str:
+        """Set out for ``point`` (3,) [m], or through several (k, 3) in order, at up to ``speed`` [m/s]; a
+        quadruped can be told the ``facing`` [rad] in which to end.
+
+        Returns the status: "walking", "running", or "blocked" when there is no way (an event says why; the
+        agent then keeps doing what it did). Raises `RuntimeInputError` for a point that is not finite
+        numbers or an agent that has fallen, and `locomotion.LocomotionError` for a speed that is not above 0.
         """
-        goals = (
-            np.asarray(point, dtype=np.float64).reshape(-1, 3)
-            if np.size(point) % 3 == 0
-            else np.empty((0, 3))
-        )
-        if len(goals) == 0 or not np.isfinite(goals).all():
-            raise RuntimeInputError(f"point must be finite numbers (3,) or (k, 3), not {point!r}")
-        if self.human.status == "fallen":
-            raise RuntimeInputError(f"{self.name} has fallen and cannot go anywhere")
-        velocity = self.human.velocity[:2]
-        moving = velocity if np.linalg.norm(velocity) > 0.5 else None
+        goals = _points(point)
         goal = _triple(goals[-1])
         try:
-            plan = make_plan(self._world.graph, self.position, list(goals), self.radius, self.skills, moving)
+            plan = self._driver.go_to(goals, speed, facing)
         except NoWay as error:
             self._blocked = True
             here = _triple(self.position)
@@ -123,31 +156,33 @@ class Agent:
                 Blocked(self._world.time, self.name, here, _triple(goals[error.goal]), error.reason)
             )
             return self.status
-        self.human.follow(plan.points, speed, plan.obstacles)
-        self.plans.append(plan)
         self._blocked = False
         here = _triple(self.position)
+        self._goal = _triple(plan.points[-1])
         self._world.report(Departed(self._world.time, self.name, here, goal, plan.length, plan.skills))
-        self._reported = len(self.human.events)
+        self._reported = len(self._driver.events)
         return self.status
 
-    def tick(self) -> None:
-        """Advance by 10 ms; `World.step` calls this."""
-        self.human.tick()
-        for event in self.human.events[self._reported :]:
+    def notice(self) -> None:
+        """Report what has happened to the body; `World.step` calls this after every tick."""
+        for event in self._driver.events[self._reported :]:
             told = self._translated(event)
             if told is not None:
                 self._world.report(told)
-        self._reported = len(self.human.events)
+        self._reported = len(self._driver.events)
 
     def save(self) -> AgentState:
         """Everything needed to continue from here."""
-        return AgentState(self.human.save_state(), tuple(self.plans), self._blocked, self._reported)
+        return AgentState(self._driver.save(), self._blocked, self._reported, self._goal)
 
     def restore(self, state: AgentState) -> None:
         """Continue from a state of this agent."""
-        self.human.restore_state(state.human)
-        self.plans, self._blocked, self._reported = list(state.plans), state.blocked, state.reported
+        self._driver.restore(state.driver)
+        self._blocked, self._reported, self._goal = state.blocked, state.reported, state.goal
+
+    def state_hash(self) -> str:
+        """Hexadecimal digest of everything that decides how it goes on."""
+        return self._driver.state_hash()
 
     def _translated(self, event: bodily.Event) -> Event | None:
         """A body's event as one of the world's, None for what the world reports on its own."""
@@ -155,7 +190,7 @@ class Agent:
             "time": event.time + self._born, "agent": self.name, "position": _triple(event.position)
         }  # fmt: skip
         if isinstance(event, bodily.Arrived):
-            return Arrived(**base, goal=_triple(self.plans[-1].points[-1]))
+            return Arrived(**base, goal=self._goal)
         if isinstance(event, bodily.Fell):
             return Fell(**base)
         if isinstance(event, bodily.TookOff):
@@ -166,9 +201,21 @@ class Agent:
             return Stuck(**base)
         if isinstance(event, bodily.MissedGoal):
             return Lost(**base, reason=f"passed the goal at a distance of {event.distance:.1f} m")
+        if isinstance(event, bodily.BackedOut):
+            return BackedOut(**base, length=event.distance)
         if isinstance(event, bodily.StrayedFromPath):
             return Lost(**base, reason=f"is {event.distance:.1f} m beside its path")
         return None
+
+
+def _points(point: ArrayLike) -> np.ndarray:
+    """``point`` as (k, 3) float64; raises `RuntimeInputError`."""
+    goals = (
+        np.asarray(point, dtype=np.float64).reshape(-1, 3) if np.size(point) % 3 == 0 else np.empty((0, 3))
+    )
+    if len(goals) == 0 or not np.isfinite(goals).all():
+        raise RuntimeInputError(f"point must be finite numbers (3,) or (k, 3), not {point!r}")
+    return goals
 
 
 def _triple(point: ArrayLike) -> tuple[float, float, float]:

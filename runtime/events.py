@@ -5,6 +5,7 @@ from typing import Any
 
 __all__ = [
     "Arrived",
+    "BackedOut",
     "Blocked",
     "Departed",
     "Event",
@@ -74,6 +75,16 @@ class Blocked(Event):
 
     def _what(self) -> str:
         return f"cannot reach {_place(self.goal)}: {self.reason}"
+
+
+@dataclass(frozen=True)
+class BackedOut(Event):
+    """The agent went backwards along its own trail for ``length`` [m], to where it can turn around."""
+
+    length: float
+
+    def _what(self) -> str:
+        return f"has backed out {self.length:.1f} m to {_place(self.position)}"
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, StringConstraints
 
 import navmesh
 from navmesh.yamlfile import FileError, Located, read_yaml
-from runtime.rules import person_walk_rules
+from runtime.rules import walk_rules
 
 __all__ = ["AgentSpec", "Expectation", "LevelSpec", "LoadedMission", "Mission", "RulesSpec", "load_mission"]
 
@@ -64,7 +64,7 @@ class LevelSpec(_Strict):
 
 
 class RulesSpec(_Strict):
-    """Where a body can walk; what is left out is as a person needs it."""
+    """Where a body can walk; what is left out is as all the bodies of the mission need it."""
 
     max_slope_deg: Annotated[float, Gt(0.0), Le(89.0)] | None = None
     """[°] steeper faces end the walkable surface."""
@@ -91,7 +91,7 @@ class AgentSpec(_Strict):
     """One figure: where it starts and where it goes."""
 
     name: Name
-    body: Literal["human"] = "human"
+    body: Literal["human", "dog", "cat", "horse"] = "human"
     start: Point
     """[m] (x, y, z), Z up; snapped to the walkable surface below."""
     facing_deg: Annotated[float, Ge(-360.0), Le(360.0)] = 0.0
@@ -138,7 +138,9 @@ class LoadedMission:
     def rules(self) -> navmesh.WalkRules:
         """The walk rules of the mission, defaults filled in."""
         try:
-            return person_walk_rules(**self.mission.rules.model_dump())
+            return walk_rules(
+                {agent.body for agent in self.mission.agents}, **self.mission.rules.model_dump()
+            )
         except navmesh.NavmeshError as error:
             raise self.error(("rules",), f"rules: {error}") from None
 

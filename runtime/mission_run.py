@@ -10,12 +10,11 @@ from typing import Any
 import numpy as np
 
 import navmesh
-from locomotion import MOVING
 from navmesh.yamlfile import FileError
 from runtime.agent import Agent
 from runtime.events import Arrived, Event, Fell, SkillFinished
 from runtime.mission import AgentSpec, LoadedMission
-from runtime.planning import NoWay, make_plan
+from runtime.planning import NoWay
 from runtime.progress import Progress
 from runtime.recording import Recorder
 from runtime.trace import Trace
@@ -88,11 +87,11 @@ def _tags(loaded: LoadedMission) -> Any:
 def _place(loaded: LoadedMission, world: World, index: int, spec: AgentSpec) -> None:
     try:
         agent = world.spawn(spec.body, spec.start, math.radians(spec.facing_deg), spec.name)
-    except ValueError:
-        problem = f"agents[{index}].start: {spec.start} is not near a place where a {spec.body} fits"
+    except ValueError as error:
+        problem = f"agents[{index}].start: {error}"
         raise loaded.error(("agents", index, "start"), problem) from None
     try:
-        make_plan(world.graph, agent.position, _goals(spec), agent.radius, agent.skills)
+        agent.plan(np.array(_goals(spec)))
     except NoWay as error:
         address = ("agents", index, "goto", error.goal)
         problem = (
@@ -117,7 +116,7 @@ def run_mission(loaded: LoadedMission, progress: Progress | None = None) -> Miss
         while world.time < ends - 1e-9:
             world.step(SAMPLE)
             recorder.sample()
-            if ends == mission.time_limit and not any(agent.status in MOVING for _, agent in agents):
+            if ends == mission.time_limit and not any(agent.moving for _, agent in agents):
                 ends = min(ends, world.time + AFTERMATH)
             stage.update(max(_headway(agent) for _, agent in agents), f"{world.time:.1f} s simulated")
     wall = time.perf_counter() - begun
@@ -131,8 +130,7 @@ def _goals(spec: AgentSpec) -> list[np.ndarray]:
 
 
 def _headway(agent: Agent) -> float:
-    length = agent.plans[-1].length if agent.plans else 0.0
-    return agent.human.arc_length / length if length > 0.0 else 1.0
+    return agent.progress
 
 
 def _checks(spec: AgentSpec, events: Iterable[Event]) -> Iterable[Check]:

@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import navmesh
-from locomotion import LocomotionError, ObstacleAhead, smooth_route
+from locomotion import LocomotionError, ObstacleAhead, Smoothing, smooth_route
+from locomotion.route_smoothing import RUNNING
 from navmesh.route import Route
 
 __all__ = ["NoWay", "Plan", "make_plan"]
@@ -58,10 +59,12 @@ def make_plan(
     radius: float,
     skills: Mapping[str, tuple[float, float]],
     direction: np.ndarray | None = None,
+    smoothing: Smoothing = RUNNING,
 ) -> Plan:
     """Plan from ``start`` (3,) through ``goals``, each (3,), for a body of ``radius`` [m] with ``skills``.
 
-    ``direction`` (2,) is where the body is moving, None when it stands. Raises `NoWay`.
+    ``direction`` (2,) is where the body is moving, None when it stands; ``smoothing`` is what it wants of its
+    path. Raises `NoWay`.
     """
     raw, pulled, points, obstacles = [], [], [], []
     begun = 0.0
@@ -72,7 +75,7 @@ def make_plan(
         if len(route.waypoints) < 2:
             continue
         try:
-            smooth = smooth_route(route, start_direction=direction)
+            smooth = smooth_route(route, smoothing, direction)
         except LocomotionError as error:
             raise NoWay(index, str(error)) from error
         raw.append(graph.positions[route.nodes])

@@ -1,11 +1,13 @@
-"""Walk rules as people write them: degrees, and only what differs from a person's own."""
+"""Walk rules as people write them: degrees, and only what differs from what the bodies need."""
 
 import math
+from collections.abc import Iterable
 
 import navmesh
 from locomotion import PERSON_RULES
+from locomotion.quadruped import load_body
 
-__all__ = ["person_walk_rules"]
+__all__ = ["person_walk_rules", "walk_rules"]
 
 
 def person_walk_rules(
@@ -15,13 +17,40 @@ def person_walk_rules(
     resolution: float | None = None,
 ) -> navmesh.WalkRules:
     """Where a person can run [°, m, m, m]; what is None is as `locomotion.PERSON_RULES` has it."""
+    return walk_rules(
+        ["human"], max_slope_deg=max_slope_deg, max_step=max_step, headroom=headroom, resolution=resolution
+    )
+
+
+def walk_rules(
+    bodies: Iterable[str],
+    max_slope_deg: float | None = None,
+    max_step: float | None = None,
+    headroom: float | None = None,
+    resolution: float | None = None,
+) -> navmesh.WalkRules:
+    """Where every one of ``bodies`` can go [°, m, m, m]; what is None is as the most demanding of them needs
+    it."""
+    needs = [_needs(body) for body in bodies]
     given = {
         "max_slope": None if max_slope_deg is None else math.radians(max_slope_deg),
         "max_step": max_step,
         "headroom": headroom,
         "resolution": resolution,
     }
-    person = {name: PERSON_RULES[name] for name in ("headroom", "max_slope", "max_step")}
+    common = {
+        "headroom": max(each["headroom"] for each in needs),
+        "max_slope": min(each["max_slope"] for each in needs),
+        "max_step": min(each["max_step"] for each in needs),
+        "min_radius": min(each["min_radius"] for each in needs),
+    }
     return navmesh.WalkRules(
-        **{**person, **{name: value for name, value in given.items() if value is not None}}
+        **{**common, **{name: value for name, value in given.items() if value is not None}}
     )
+
+
+def _needs(body: str) -> dict[str, float]:
+    """Its walk rules, by name."""
+    if body == "human":
+        return {**PERSON_RULES, "min_radius": navmesh.WalkRules().min_radius}
+    return load_body(body).walk_rules().to_dict()

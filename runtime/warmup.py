@@ -9,8 +9,13 @@ from runtime.progress import Progress
 
 __all__ = ["compile_kernels", "is_compiled"]
 
-KERNEL_MODULES = (("navmesh", "search"), ("pathsmooth", "kernels"), ("locomotion", "jump"))
-"""Package and module of kernels that a first run compiles, the last ones among them."""
+KERNEL_MODULES = (
+    ("navmesh", "search"),
+    ("pathsmooth", "kernels"),
+    ("locomotion", "jump"),
+    ("locomotion/quadruped", "advance"),
+)
+"""Folder and module of kernels that a first run compiles, the last ones among them."""
 
 
 def is_compiled() -> bool:
@@ -31,7 +36,6 @@ def is_compiled() -> bool:
 
 def compile_kernels(progress: Progress) -> None:
     """Run everything once on a level of a few metres: compiles every kernel and keeps it in the cache."""
-    from locomotion import MOVING
     from runtime.world import World
 
     with progress.stage("compiling kernels, once (a minute or two)") as stage:
@@ -43,8 +47,12 @@ def compile_kernels(progress: Progress) -> None:
         if agent.status == "blocked":
             agent.go_to((4.5, 2.0, 0.0), speed=3.0)
         stage.update(0.8, "running and jumping")
-        while agent.status in MOVING and world.time < 6.0:
+        while agent.moving and world.time < 6.0:
             world.step(0.1)
+        stage.update(0.9, "dogs")
+        dog = world.spawn("dog", (1.5, 1.0, 0.0))
+        dog.go_to((4.5, 1.0, 0.0), speed=1.5)
+        world.step(0.5)
 
 
 def _tiny_level() -> navmesh.Terrain:

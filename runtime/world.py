@@ -10,17 +10,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 import navmesh
-from locomotion import PERSON_RULES, Ground, Human
+from locomotion import Ground
 from locomotion.person import CONTROL_DT
 from runtime.agent import Agent, AgentState
+from runtime.drivers import BODIES, Pack, People, Population, radius_of
 from runtime.errors import RuntimeInputError
 from runtime.events import Event
 from runtime.rules import person_walk_rules
 
 __all__ = ["BODIES", "World", "WorldState"]
-
-BODIES = ("human",)
-"""What `World.spawn` can make."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +54,8 @@ class World:
         self.agents: dict[str, Agent] = {}
         self.random = np.random.default_rng(seed)
         level = self.graph.terrain
-        self._ground = Ground.from_arrays(level.vertices, level.faces)
+        ground = Ground.from_arrays(level.vertices, level.faces)
+        self._populations: tuple[Population, ...] = (People(self.graph, ground), Pack(self.graph, ground))
         self._ticks = 0
         self._owed = 0.0
         self._events: list[Event] = []
@@ -75,9 +74,11 @@ class World:
     def spawn(self, body: str, at: ArrayLike, facing: float = 0.0, name: str | None = None) -> Agent:
         """Put a standing ``body`` on the walkable surface at ``at`` (3,) [m], facing ``facing`` [rad].
 
+        ``body`` is "human", "dog", "cat" or "horse"; a quadruped stands with its rear feet there.
         The place is moved to the nearest one where the body fits (see `NodeGraph.find_path`). ``name`` is
         its own in this world; by default "human1" and so on. Raises `RuntimeInputError` for an unknown body,
-        a taken name, or a place off the walkable surface.
+        a taken name, a place off the walkable surface, or a
+        quadruped without room for its head.
         """
         if body not in BODIES:
             raise RuntimeInputError(f"body {body!r}: valid: {', '.join(map(repr, BODIES))}")
@@ -87,12 +88,12 @@ class World:
         place = np.asarray(at, dtype=np.float64)
         if place.shape != (3,) or not np.isfinite(place).all() or not math.isfinite(facing):
             raise RuntimeInputError(f"at and facing must be finite (3,) and (), not {at!r} and {facing!r}")
-        here = self.graph.find_path(place, place, radius=PERSON_RULES["radius"])
+        here = self.graph.find_path(place, place, radius=radius_of(body))
         if here.status != "complete":
-            raise RuntimeInputError(f"at {place.tolist()}: not near a place where a {body} fits")
-        human = Human(self._ground)
-        human.reset(here.waypoints[0], facing)
-        agent = self.agents[name] = Agent(self, name, human)
+            raise RuntimeInputError(f"{place.tolist()} is not near a place where a {body} fits")
+        population = next(each for each in self._populations if body in each.bodies)
+        driver = population.spawn(body, here.waypoints[0], facing)
+        agent = self.agents[name] = Agent(self, name, body, driver)
         return agent
 
     def step(self, dt: float) -> int:
@@ -106,8 +107,10 @@ class World:
         due = math.floor(self._owed / CONTROL_DT + 1e-6)
         for _ in range(due):
             self._ticks += 1
+            for population in self._populations:
+                population.tick()
             for agent in self.agents.values():
-                agent.tick()
+                agent.notice()
         self._owed = max(self._owed - due * CONTROL_DT, 0.0)
         return due
 
@@ -120,7 +123,7 @@ class World:
         checksum = hashlib.sha256(repr((self._ticks, self._owed)).encode())
         checksum.update(repr(self.random.bit_generator.state).encode())
         for name, agent in self.agents.items():
-            checksum.update(f"{name}:{agent.human.state_hash()}".encode())
+            checksum.update(f"{name}:{agent.state_hash()}".encode())
         return checksum.hexdigest()[:32]
 
     def save(self) -> WorldState:

@@ -11,6 +11,7 @@ from locomotion.body import Human
 from locomotion.errors import LocomotionError
 from locomotion.events import Cleared, TookOff
 from locomotion.ground import Ground
+from locomotion.human_state import MOVING
 from locomotion.jump_reference import wanted_offset
 from locomotion.jump_skill import Jump, jump_clip, load_jump_skill, run_digest, tables_of
 from locomotion.person import CONTROL_DT, JOINT_NAMES
@@ -143,7 +144,7 @@ def test_jumps_onto_a_stair_and_runs_on(height):
     ground, cleared = stair(height), 0
     for distance in (11.3, 14.7, 18.2, 21.9):
         human = runner(ground, height, distance)
-        while human.status in ("running", "jumping") and human.position[0] < 12.0:
+        while human.status in MOVING and human.position[0] < 12.0:
             human.tick()
         onto = human.status == "running" and human.position[2] == pytest.approx(height, abs=1e-3)
         cleared += onto and any(isinstance(event, Cleared) for event in human.events)
@@ -155,7 +156,7 @@ def test_a_jump_repeats_and_is_restored_bit_for_bit():
     ground = stair(0.4)
     first, second = (runner(ground, 0.4, 10.0) for _ in range(2))
     saved = None
-    while first.position[0] < 3.0 and first.status in ("running", "jumping"):
+    while first.position[0] < 3.0 and first.status in MOVING:
         first.tick()
         if saved is None and first.status == "jumping":
             saved = first.save_state()

@@ -49,7 +49,7 @@ def test_help(surefoot, command):
         (["bake"], "argument"),
         (["bake", "level.obj", "-o", "graph.npz", "--up", "w"], "'x', 'y', 'z'"),
         (["path", "graph.npz", "--start", "1", "2"], "start"),
-        (["train", "swim"], "'run', 'jump'"),
+        (["train", "swim"], "'run', 'walk', 'jump'"),
     ],
 )
 def test_usage_errors(surefoot, arguments, says):

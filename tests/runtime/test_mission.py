@@ -37,7 +37,7 @@ def test_reads_a_mission(folder):
         ("speed: 3.0", "speed: fast", 11, 12, "agents[0].speed: Input should be a valid number, not 'fast'"),
         ("speed: 3.0", "speed: 99", 11, 12, "less than or equal to 6"),
         ("speed: 3.0", "speed: true", 11, 12, "valid number"),
-        ("body: human", "body: horse", 8, 11, "'human', not 'horse'"),
+        ("body: human", "body: goose", 8, 11, "'cat' or 'horse', not 'goose'"),
         ("up: z", "up: w", 3, 7, "'x', 'y' or 'z', not 'w'"),
         ("file: level.obj", "file: gone.obj", 2, 9, "no such level"),
         ("  file: level.obj\n", "", 2, 3, "level.file: missing"),

@@ -71,7 +71,7 @@ def test_pose_is_ready_for_a_skeleton(graph):
 def test_events_are_typed_and_drained(graph):
     world = World(graph)
     agent = world.spawn("human", (2.0, 3.0, 0.0), name="ada")
-    assert agent.go_to((9.0, 3.0, 0.0)) == "running"
+    assert agent.go_to((9.0, 3.0, 0.0)) == "walking"
     (event,) = world.events
     assert (
         isinstance(event, Departed) and event.agent == "ada" and event.length == pytest.approx(7.0, abs=0.5)
@@ -103,7 +103,7 @@ def test_an_unreachable_goal_blocks(graph, goal, reason):
 @pytest.mark.parametrize(
     ("change", "says"),
     [
-        ({"body": "horse"}, "valid: 'human'"),
+        ({"body": "goose"}, "valid: 'human'"),
         ({"at": (50.0, 3.0, 0.0)}, "not near a place"),
         ({"at": (2.0, 3.0)}, "finite"),
         ({"facing": np.nan}, "finite"),

@@ -1,0 +1,480 @@
+"""One animal with somewhere to go: which motions bring it there, one after the other.
+
+It turns its front onto the path (or the whole body, where the path begins behind it), follows the path, stops
+where its front feet are at the goal, and slides its rear out until it faces its target. Short moves are made
+by local motion. Before any of these plays, its footprint is checked. Where there is no room to turn, it goes
+back along its crumbs to where the graph knows room, turns, and goes on.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from dataclasses import dataclass, replace
+from typing import Literal, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from locomotion.errors import LocomotionError
+from locomotion.events import Arrived, BackedOut, Event, GotStuck, MissedGoal, SetOff, StrayedFromPath
+from locomotion.quadruped import layout as at
+from locomotion.quadruped.following import wrap
+from locomotion.quadruped.footprint import RESOLUTION, check_places, check_script, trail_places
+from locomotion.quadruped.herd import AnimalState, Herd
+from locomotion.quadruped.local_motion import REACH, local_motion
+from locomotion.quadruped.motion import DT
+from locomotion.quadruped.script import Place, Script, into_flex, out_of_flex
+from locomotion.quadruped.spine import bend_for
+from locomotion.quadruped.trail import Trail, lay_trail
+
+__all__ = ["SHORT_OF_GOAL", "Animal", "AnimalMemory", "Planner", "Status", "Way"]
+
+Status = Literal["standing", "running", "arrived", "lost", "stuck"]
+_Phase = Literal[
+    "resting", "halting", "turning", "flexing", "following", "backing", "straightening", "moving"
+]
+
+SHORT_OF_GOAL = 0.6
+"""[body lengths] from the goal within which an animal has arrived: it stops short of a goal at a wall, where
+its head has no room."""
+_LITTLE = math.radians(8.0)  # a turn onto the path that needs no motion of its own
+_EXACT = 1e-3  # [rad] of facing that is left as it is
+_MOST_BACKING = 4  # times that it backs out on its way to one goal
+_LOOK_BACK = 40  # crumbs with room that are tried
+_SHORT_MOVE = 0.8  # [m] up to which local motion is used instead of a path
+
+
+class Way(Protocol):
+    """What a planner finds; the animal reads its points and keeps the rest for whoever asks."""
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """(k, 3) [m] the smoothed path."""
+        ...
+
+
+class Planner(Protocol):
+    """Who knows the level: `way` for paths, `room_to_turn` for places."""
+
+    def way(
+        self, start: NDArray[np.float64], goal: NDArray[np.float64], direction: NDArray[np.float64]
+    ) -> Way:
+        """The way from ``start`` to ``goal`` (3,) [m] for one that moves or looks in ``direction`` (2,).
+        Raises ValueError where there is none."""
+        ...
+
+    def room_to_turn(self, points: NDArray[np.float64], length: float) -> NDArray[np.bool_]:
+        """(k,) whether there is room to turn around for a body of ``length`` [m] at ``points`` (k, 3)."""
+        ...
+
+
+@dataclass(frozen=True)
+class _Errand:
+    """What it was told."""
+
+    goals: tuple[tuple[float, float, float], ...] = ()
+    speed: float = 1.0
+    facing: float | None = None
+    gait: str | None = None
+    backed: int = 0
+    backed_from: tuple[float, float] = (0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class AnimalMemory:
+    """Everything needed to go on from here."""
+
+    herd: AnimalState
+    phase: _Phase
+    status: Status
+    errand: _Errand
+    pending: bool
+    trail: Trail | None
+    ways: tuple[Way, ...]
+    ticks: int
+    events: tuple[Event, ...]
+
+
+class Animal:
+    """A quadruped in a herd. `tick` is called after the herd's.
+
+    Attributes:
+        herd, index: where its state lies. body: its kind. events: in order of time.
+        status: "standing", "running" (on its way, whatever it does for it), "arrived", "stuck" (no room to
+            turn and nowhere to back out to) or "lost" (the ground under its path has gone).
+        trail: the path that it follows or followed last, or None. ways: what it was made of.
+    """
+
+    def __init__(self, herd: Herd, index: int, planner: Planner) -> None:
+        self.herd, self.index, self.planner = herd, index, planner
+        self.body = herd.bodies[index]
+        self.status: Status = "standing"
+        self.events: list[Event] = []
+        self.trail: Trail | None = None
+        self.ways: tuple[Way, ...] = ()
+        self._phase: _Phase = "resting"
+        self._errand = _Errand()
+        self._pending = False
+        self._ticks = 0
+
+    # --- where it is
+    @property
+    def time(self) -> float:
+        """[s] since it was made."""
+        return self._ticks * DT
+
+    @property
+    def position(self) -> NDArray[np.float64]:
+        """(3,) [m] the ground between its rear feet."""
+        return self.herd.root(self.index)[:3]
+
+    @property
+    def front(self) -> NDArray[np.float64]:
+        """(3,) [m] the ground between its front feet."""
+        z = self.herd.feet[self.index, :2, at.BASE].mean()
+        return np.array([*self.herd.front(self.index), z])
+
+    @property
+    def yaw(self) -> float:
+        """[rad, -π to π] direction of its chest."""
+        return float(wrap(self.herd.state[self.index, at.CHEST]))
+
+    @property
+    def speed(self) -> float:
+        """[m/s] along its trail."""
+        return float(self.herd.state[self.index, at.SPEED])
+
+    @property
+    def progress(self) -> float:
+        """Share of its trail that is behind it, 0 to 1."""
+        st = self.herd.state[self.index]
+        if self.trail is None or st[at.MODE] != at.ON_TRAIL:
+            return 1.0 if self.status == "arrived" else 0.0
+        return float(np.clip(st[at.FRONT_ARC] / self.trail.length, 0.0, 1.0))
+
+    # --- what it is told
+    def go_to(
+        self, goals: ArrayLike, speed: float = 1.5, facing: float | None = None, gait: str | None = None
+    ) -> None:
+        """Go through ``goals`` (3,) or (k, 3) [m] at up to ``speed`` [m/s], until the front feet's midpoint
+        is at the last of them; then face ``facing`` [rad], by default as it arrives.
+
+        Raises ValueError (the planner's error) where there is no way; then it goes on with what it did.
+        """
+        points = np.asarray(goals, dtype=np.float64)
+        if points.size == 0 or points.size % 3 or points.ndim > 2 or not np.isfinite(points).all():
+            raise LocomotionError(f"goals must be finite (3,) or (k, 3), not {goals!r}")
+        if not (math.isfinite(speed) and speed > 0.0):
+            raise LocomotionError(f"speed must be a finite number above 0 m/s, not {speed}")
+        if facing is not None and not math.isfinite(facing):
+            raise LocomotionError(f"facing must be a finite angle, not {facing}")
+        self.body.gait_index(gait)
+        rows = tuple((float(x), float(y), float(z)) for x, y, z in points.reshape(-1, 3))
+        errand = _Errand(rows, float(speed), facing, gait)
+        if self._phase == "following":
+            self._redirect(errand)
+        elif self._phase == "resting":
+            if not self._move_locally(errand):
+                self._set_out(errand)
+        else:
+            self._way(errand, self.herd.place(self.index))
+            self._errand, self._pending = errand, True
+        self.status = "running" if self._phase != "resting" else self.status
+
+    def stop(self) -> None:
+        """Come to a stop where it can, and stand."""
+        self._errand, self._pending = replace(self._errand, goals=()), False
+        if self._phase == "following":
+            self.herd.stop(self.index)
+            self._phase = "halting"
+
+    # --- time
+    def tick(self) -> None:
+        """Notice what has come to an end, and begin what is next; call it after `Herd.tick`."""
+        self._ticks += 1
+        if self.herd.state[self.index, at.NO_GROUND] > 0.0:
+            self._lose_ground()
+            return
+        if self._phase == "resting" or not self.herd.resting(self.index):
+            return
+        phase, self._phase = self._phase, "resting"
+        if phase in ("turning", "halting", "flexing", "backing") or self._pending:
+            self._go_on(phase)
+        elif phase == "following":
+            self._straighten()
+        else:
+            self._arrive()
+
+    def _go_on(self, phase: _Phase) -> None:
+        if phase == "backing":
+            x, y = self._errand.backed_from
+            gone = math.hypot(self.position[0] - x, self.position[1] - y)
+            self.events.append(BackedOut(self.time, self._point(), gone))
+        self._pending = False
+        if not self._errand.goals:
+            self.status = "standing"
+        elif phase == "flexing" and self.trail is not None:
+            self._follow(self.trail)
+        else:
+            try:
+                self._set_out(self._errand)
+            except ValueError:
+                self._end("stuck", GotStuck(self.time, self._point()))
+
+    def _lose_ground(self) -> None:
+        self.herd.state[self.index, at.NO_GROUND] = 0.0
+        self.herd.stop(self.index)
+        self._phase, self._pending = "halting", False
+        self._errand = replace(self._errand, goals=())
+        if self.status != "lost":
+            self.status = "lost"
+            self.events.append(StrayedFromPath(self.time, self._point(), 0.0))
+
+    # --- beginning
+    def _way(self, errand: _Errand, place: Place) -> tuple[Trail, tuple[Way, ...]]:
+        """The path for one that stands or moves at ``place``, through as many goals as it can go without
+        turning back; raises ValueError where there is none."""
+        here = np.array([place.x, place.y, place.z])
+        ahead = np.array([math.cos(place.yaw), math.sin(place.yaw)])
+        ways: list[Way] = []
+        for goal in errand.goals:
+            try:
+                way = self.planner.way(here, np.array(goal), ahead)
+            except ValueError:
+                if not ways:
+                    raise
+                break
+            if ways and self._turn_between(ways[-1].points, way.points) > self.body.spine_reach:
+                break
+            ways.append(way)
+            here, ahead = way.points[-1], (way.points[-1] - way.points[-2])[:2]
+        points = np.concatenate([way.points for way in ways])
+        return lay_trail(points, self.body, self.herd.ground), tuple(ways)
+
+    def _turn_between(self, before: NDArray[np.float64], after: NDArray[np.float64]) -> float:
+        """[rad] from the end of one path to the beginning of the next, each over the body's length."""
+        length = self.body.spine.length
+        out, on = before[-1] - _along(before[::-1], length), _along(after, length) - after[0]
+        return abs(float(wrap(math.atan2(on[1], on[0]) - math.atan2(out[1], out[0]))))
+
+    def _set_out(self, errand: _Errand) -> None:
+        """From rest: turn onto the path if need be, else follow it."""
+        place = self.herd.place(self.index)
+        trail, ways = self._way(errand, place)
+        self._errand, self.ways = errand, ways
+        turn = self._turn_onto(trail, place)
+        if abs(turn) > self.body.spine_reach:
+            self._turn_around(trail, place)
+        elif abs(turn) > _LITTLE:
+            bend = bend_for(turn, self.body.spine.bones)
+            script = into_flex(self.body, place, float(bend))
+            self.trail = trail
+            if self._free(script):
+                self._play(script, "flexing")
+            else:
+                self._follow(trail)
+        else:
+            self._follow(trail)
+
+    def _turn_onto(self, trail: Trail, place: Place) -> float:
+        """[rad] from the direction that it faces to where its front belongs on the trail."""
+        x, y = trail.point(self.body.spine.length)
+        return float(wrap(math.atan2(y - place.y, x - place.x) - place.yaw))
+
+    def _redirect(self, errand: _Errand) -> None:
+        """On the way: change over to the new path where it leads on, else stop first."""
+        place = self.herd.place(self.index)
+        trail, ways = self._way(errand, place)
+        if abs(self._turn_onto(trail, place)) < self.body.spine_reach:
+            self._errand, self.ways = errand, ways
+            self._follow(trail)
+        else:
+            self._errand, self._pending = errand, True
+            self.herd.stop(self.index)
+            self._phase = "halting"
+
+    def _follow(self, trail: Trail) -> None:
+        end = self._last_free_arc(trail)
+        self.trail = trail
+        if end <= 0.0:  # the goal is nearer than it is long
+            end = 0.0
+        self.herd.follow(self.index, trail, self._errand.speed, end=end, gait=self._errand.gait)
+        self.herd.look_at(self.index, None)
+        self._phase = "following"
+        goal = tuple(float(value) for value in trail.points[-1])
+        self.events.append(SetOff(self.time, self._point(), goal, trail.length))  # type: ignore[arg-type]
+
+    def _last_free_arc(self, trail: Trail) -> float:
+        """[m] where the root stops: the front at the trail's end, or before it where the head has no room."""
+        end = self.herd.last_arc(self.index, trail)
+        back = min(self.body.length, end)
+        places = trail_places(trail, self.body, end, end - back)
+        arcs = np.linspace(end, end - back, len(places))
+        for arc, place in zip(arcs, places, strict=True):
+            if check_places(place[None], self.body, self.herd.ground).free:
+                return float(arc)
+        return end
+
+    def _free(self, script: Script) -> bool:
+        """Whether nothing is in the way of a script, with the resolution of the check to spare."""
+        return check_script(script, self.body, self.herd.ground, RESOLUTION).free
+
+    def _play(self, script: Script, phase: _Phase) -> None:
+        self.herd.play(self.index, script)
+        self._phase = phase
+
+    # --- turning around
+    def _turn_around(self, trail: Trail, place: Place) -> None:
+        script = self._turn_script(place, self._first_heading(trail))
+        if script is not None:
+            self.herd.forget_crumbs(self.index)
+            self._play(script, "turning")
+        elif self._errand.backed >= _MOST_BACKING or not self._back_out():
+            self._end("stuck", GotStuck(self.time, self._point()))
+
+    def _first_heading(self, trail: Trail) -> float:
+        """[rad] from a trail's first point to where the front will be."""
+        x, y = trail.point(self.body.spine.length) - trail.point(0.0)
+        return math.atan2(y, x)
+
+    def _turn_script(self, place: Place, yaw: float) -> Script | None:
+        """A turn on the spot to ``yaw`` [rad] that touches nothing: around the middle, the rear or the front,
+        the short way or the long one."""
+        moves = local_motion(self.body)
+        short = float(wrap(yaw - place.yaw))
+        for turn in (short, short - math.copysign(2.0 * math.pi, short)):
+            if abs(turn) > math.pi:
+                continue
+            for pivot in (0.5, 0.0, 1.0, 0.25, 0.75):
+                ahead = pivot * self.body.spine.length
+                wanted = (ahead * (1.0 - math.cos(turn)), -ahead * math.sin(turn), turn)
+                script = moves.script(place, wanted)
+                if self._free(script):
+                    return script
+        return None
+
+    def _back_out(self) -> bool:
+        """Go back along the crumbs to the nearest place with room for a turn; False where there is none."""
+        crumbs = self.herd.trail_of_crumbs(self.index)
+        if len(crumbs) < 2:
+            return False
+        place = self.herd.place(self.index)
+        front = place.front(self.body)
+        points = np.vstack([crumbs, [place.x, place.y, place.z], [*front, place.z]])
+        trail = lay_trail(points, self.body, self.herd.ground)
+        here = trail.length - self.body.spine.length
+        arcs = np.arange(here - 0.1, 0.0, -0.1)
+        spots = np.array([[*trail.point(arc + 0.5 * self.body.spine.length), place.z] for arc in arcs])
+        if len(spots) == 0:
+            return False
+        spots[:, 2] = np.interp(arcs, trail.step * np.arange(len(trail.rows)), trail.rows[:, at.PZ])
+        roomy = arcs[self.planner.room_to_turn(spots, self.body.length)]
+        for arc in roomy[:_LOOK_BACK]:
+            if self._can_turn_at(trail, float(arc)):
+                x, y, _ = self._point()
+                self._errand = replace(self._errand, backed=self._errand.backed + 1, backed_from=(x, y))
+                speed = self.body.movement.back_speed
+                self.herd.follow(self.index, trail, speed, start=here, end=float(arc), backwards=True)
+                self._phase = "backing"
+                return True
+        return False
+
+    def _can_turn_at(self, trail: Trail, arc: float) -> bool:
+        row = trail_places(trail, self.body, arc, arc)[0]
+        there = Place(*(float(value) for value in row))
+        try:
+            onward, _ = self._way(self._errand, there)
+        except ValueError:
+            return False
+        turn = self._turn_onto(onward, there)
+        return (
+            abs(turn) < self.body.spine_reach
+            or self._turn_script(there, self._first_heading(onward)) is not None
+        )
+
+    # --- short moves
+    def _move_locally(self, errand: _Errand) -> bool:
+        """Make a short move by local motion, if the goal is near and nothing is in the way."""
+        if len(errand.goals) != 1:
+            return False
+        place = self.herd.place(self.index)
+        facing = place.yaw if errand.facing is None else errand.facing
+        x, y, z = errand.goals[0]
+        length = self.body.spine.length
+        dx, dy = x - length * math.cos(facing) - place.x, y - length * math.sin(facing) - place.y
+        turn = float(wrap(facing - place.yaw))
+        if math.hypot(dx, dy) > min(_SHORT_MOVE, REACH) or abs(z - place.z) > self.body.movement.step:
+            return False
+        c, s = math.cos(place.yaw), math.sin(place.yaw)
+        script = local_motion(self.body).script(place, (c * dx + s * dy, c * dy - s * dx, turn))
+        if not self._free(script):
+            return False
+        self._errand = errand
+        self._play(script, "moving")
+        self.events.append(SetOff(self.time, self._point(), errand.goals[0], math.hypot(dx, dy)))
+        return True
+
+    # --- the end
+    def _straighten(self) -> None:
+        """Slide the rear out; stay as it is where there is no room for that."""
+        if len(self.ways) < len(self._errand.goals):
+            self._next_goal()
+            return
+        place = self.herd.place(self.index)
+        facing = self._errand.facing
+        facing = place.chest(self.body) if facing is None else facing
+        if abs(place.bend) > _EXACT or abs(wrap(facing - place.yaw)) > _EXACT:
+            script = out_of_flex(self.body, place, float(facing))
+            if self._free(script):
+                self._play(script, "straightening")
+                return
+        self._arrive()
+
+    def _next_goal(self) -> None:
+        """At a goal from which the way turns back: set out for those that are left."""
+        self._errand = replace(self._errand, goals=self._errand.goals[len(self.ways) :], backed=0)
+        self._go_on("halting")
+
+    def _arrive(self) -> None:
+        goal = np.array(self._errand.goals[-1])
+        distance = float(np.linalg.norm(goal[:2] - self.front[:2]))
+        if distance <= SHORT_OF_GOAL * self.body.length:
+            self._end("arrived", Arrived(self.time, self._point(), distance))
+        else:
+            self._end("lost", MissedGoal(self.time, self._point(), distance))
+
+    def _end(self, status: Status, event: Event) -> None:
+        self.status, self._phase = status, "resting"
+        self.events.append(event)
+
+    def _point(self) -> tuple[float, float, float]:
+        x, y, z = self.position.tolist()
+        return x, y, z
+
+    # --- saving
+    def save(self) -> AnimalMemory:
+        """Everything needed to go on from here."""
+        return AnimalMemory(
+            self.herd.save(self.index), self._phase, self.status, self._errand, self._pending, self.trail,
+            self.ways, self._ticks, tuple(self.events),
+        )  # fmt: skip
+
+    def restore(self, memory: AnimalMemory) -> None:
+        """Go on from a state of this animal."""
+        self.herd.restore(self.index, memory.herd)
+        self._phase, self.status, self._errand = memory.phase, memory.status, memory.errand
+        self._pending, self.trail, self.ways = memory.pending, memory.trail, memory.ways
+        self._ticks = memory.ticks
+        self.events[:] = memory.events
+
+    def state_hash(self) -> str:
+        """Hex digest of everything that decides how it goes on."""
+        mind = repr((self._phase, self.status, self._errand, self._pending))
+        return f"{self.herd.state_hash(self.index)}{hashlib.sha256(mind.encode()).hexdigest()[:8]}"
+
+
+def _along(points: NDArray[np.float64], length: float) -> NDArray[np.float64]:
+    """The first of ``points`` (k, 3) that is ``length`` [m] or more from their beginning, or the last."""
+    arc = np.cumsum(np.linalg.norm(np.diff(points[:, :2], axis=0), axis=1))
+    return points[min(int(np.searchsorted(arc, length)) + 1, len(points) - 1)]

@@ -1,0 +1,196 @@
+"""Feet: each stands where it came down until its turn comes, then swings to where it will be needed.
+
+A foot comes down where its place under the body will be in the middle of its stance: the body is asked where
+it will be then. So feet fall on the path, and do not slide, whatever path and speed do.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from locomotion.ground import height_below
+from locomotion.quadruped import layout as at
+from locomotion.quadruped.following import front_of, wanted_pose
+from locomotion.quadruped.gait import leg_phase
+from locomotion.quadruped.motion import travel
+from locomotion.quadruped.trail import trail_point
+
+__all__ = ["find_ground", "foot_place", "misplaced", "step_feet"]
+
+CLOSE = 0.012
+"""[m] A foot this near to its place stays."""
+_FREEZE = 0.72  # share of the swing after which its end is not changed any more
+_RAMP, _RAMP_SLOPE, _SHORTEST_RAMP = 0.36, 0.07, 0.14
+# share of the swing in which a foot speeds up, and in which it slows down: at rest, less by this times the
+# body's way in the swing over the leg's height, and at least
+_STEP_LIFT = 0.15  # of a step's height that its swing is lifted higher
+_LATEST = 0.3  # share of the swing's time until which a foot may still begin it
+_STRETCH = 0.96  # share of its length to which a standing leg may be stretched
+_SINK = 0.84  # share of its height to which the trunk may sink for a standing foot
+_SLACK = 0.12  # [m] above a step that a foot may find ground off the surface it is on
+
+
+@njit(cache=True, inline="always")
+def _smooth(u):
+    return u * u * u * (10.0 + u * (6.0 * u - 15.0))
+
+
+@njit(cache=True, inline="always")
+def _ramp(u):
+    """Way made by a speed that rises to 1 by the smoothstep while ``u`` goes from 0 to 1."""
+    return u * u * u * (1.0 - 0.5 * u)
+
+
+@njit(cache=True, inline="always")
+def _stride(u, ramp):
+    """Share of its way that a foot has made at the share ``u`` of its swing: it speeds up over the share
+    ``ramp``, goes on evenly, and slows down as long; neither speed nor acceleration jumps."""
+    top = 1.0 / (1.0 - ramp)
+    if u < ramp:
+        return top * ramp * _ramp(u / ramp)
+    if u > 1.0 - ramp:
+        return 1.0 - top * ramp * _ramp((1.0 - u) / ramp)
+    return top * (u - 0.5 * ramp)
+
+
+@njit(cache=True)
+def find_ground(ground, origin, x, y, z, reach):
+    """Height [m] of the ground at (x, y) within ``reach`` [m] of ``z``, or NaN."""
+    h = height_below(
+        ground[0], ground[1], ground[2], ground[3], ground[4], x - origin[0], y - origin[1],
+        z + reach - origin[2],
+    )[0]  # fmt: skip
+    h += origin[2]
+    return h if h >= z - reach else np.nan
+
+
+@njit(cache=True)
+def foot_place(st, pr, pool, leg, ahead):
+    """(x, y, z, direction) where ``leg`` stands under the body ``ahead`` [s] from now; z is the surface's
+    there as the motion knows it."""
+    arc = st[at.ARC]
+    on_trail = st[at.MODE] == at.ON_TRAIL
+    if on_trail and ahead > 0.0:
+        arc += st[at.WAY] * travel(st, pr, ahead)
+    x, y, z, yaw, bend, front = wanted_pose(st, pr, pool, arc, st[at.SCRIPT_TIME] + ahead)
+    if leg >= 2:
+        return x, y, z, yaw
+    x, y = front_of(x, y, yaw, bend, pr[at.BONES], pr[at.BONE] * math.cos(st[at.PITCH]))
+    if on_trail:
+        z = trail_point(pool, int(st[at.ROW_START]), int(st[at.ROW_COUNT]), st[at.ROW_STEP], front)[2]
+    return x, y, z, yaw + pr[at.BONES] * bend
+
+
+@njit(cache=True)
+def _aim(st, pr, pool, ground, origin, foot, leg, ahead):
+    """Write where ``leg`` is to come down, ``ahead`` [s] from the middle of its stance, as its TO."""
+    x, y, z, direction = foot_place(st, pr, pool, leg, ahead)
+    width = pr[at.WIDTH_FRONT] if leg < 2 else pr[at.WIDTH_REAR]
+    side = 0.5 * width if leg % 2 == 0 else -0.5 * width
+    reach = pr[at.STEP] + _SLACK
+    if st[at.MODE] != at.ON_TRAIL:
+        z = foot[at.FZ]
+    for narrower in (1.0, 0.5, 0.0):
+        fx = x - narrower * side * math.sin(direction)
+        fy = y + narrower * side * math.cos(direction)
+        h = find_ground(ground, origin, fx, fy, z, reach)
+        if not math.isnan(h):
+            foot[at.TO], foot[at.TO + 1], foot[at.TO + 2] = fx, fy, h
+            return True
+    foot[at.TO] = x - side * math.sin(direction)
+    foot[at.TO + 1] = y + side * math.cos(direction)
+    foot[at.TO + 2] = z
+    return False
+
+
+@njit(cache=True)
+def step_feet(st, pr, pool, ground, origin, feet):
+    """One tick of the four ``feet`` (4, FOOT) of one animal; returns whether all stand where they belong."""
+    cycle = 1.0 / st[at.FREQUENCY_NOW]
+    settled = True
+    for leg in range(4):
+        foot = feet[leg]
+        duty = st[at.DUTY_FRONT_NOW] if leg < 2 else st[at.DUTY_REAR_NOW]
+        phase = leg_phase(st, leg)
+        ahead = (1.0 - phase + 0.5 * duty) * cycle
+        if foot[at.IN_SWING] == 0.0:
+            due = duty <= phase <= duty + _LATEST * (1.0 - duty)
+            if st[at.REST] > 0.0 or not (due or (phase < duty and _overstretched(st, pr, foot, leg))):
+                continue
+            found = _aim(st, pr, pool, ground, origin, foot, leg, ahead)
+            dx, dy = foot[at.TO] - foot[at.FX], foot[at.TO + 1] - foot[at.FY]
+            if dx * dx + dy * dy < CLOSE * CLOSE or not found:
+                if not found:
+                    st[at.NO_GROUND] = 1.0
+                foot[at.TO : at.TO + 3] = foot[at.FX : at.FX + 3]
+                continue
+            foot[at.FROM : at.FROM + 3] = foot[at.FX : at.FX + 3]
+            foot[at.IN_SWING], foot[at.SWING_FROM] = 1.0, phase
+        settled = False
+        begun = foot[at.SWING_FROM]
+        if phase < begun:
+            foot[at.FX : at.FX + 3] = foot[at.TO : at.TO + 3]
+            foot[at.BASE] = foot[at.FZ]
+            foot[at.IN_SWING] = 0.0
+            continue
+        done = (phase - begun) / (1.0 - begun)
+        if done < _FREEZE and not _aim(st, pr, pool, ground, origin, foot, leg, ahead):
+            st[at.NO_GROUND] = 1.0
+        way = st[at.SPEED] * (1.0 - duty) * cycle / pr[at.HEIGHT_REAR]
+        _swing(foot, done, st[at.LIFT_NOW], max(_RAMP - _RAMP_SLOPE * way, _SHORTEST_RAMP))
+    return settled
+
+
+@njit(cache=True)
+def _overstretched(st, pr, foot, leg):
+    """Whether a standing leg is so far from its joint that the trunk would have to sink for it."""
+    if leg < 2:
+        x, y, z, direction, sizes = (
+            st[at.FRONT_X],
+            st[at.FRONT_Y],
+            st[at.Z_FRONT],
+            st[at.CHEST],
+            at.UPPER_FRONT,
+        )
+        width, height = pr[at.WIDTH_FRONT], pr[at.HEIGHT_FRONT]
+    else:
+        x, y, z, direction, sizes = st[at.X], st[at.Y], st[at.Z_REAR], st[at.YAW], at.UPPER_REAR
+        width, height = pr[at.WIDTH_REAR], pr[at.HEIGHT_REAR]
+    side = 0.5 * width if leg % 2 == 0 else -0.5 * width
+    dx = foot[at.FX] - x + side * math.sin(direction)
+    dy = foot[at.FY] - y - side * math.cos(direction)
+    reach = _STRETCH * (pr[sizes] + pr[sizes + 1] + pr[sizes + 2])
+    # how far the joint would have to come down for this foot
+    over = z - foot[at.FZ]
+    return dx * dx + dy * dy > reach * reach - min(_SINK * height, over) ** 2
+
+
+@njit(cache=True)
+def _swing(foot, done, lift, ramp):
+    """Put a swinging foot at the share ``done`` of its way."""
+    along = _stride(done, ramp)
+    for k in range(2):
+        foot[at.FX + k] = foot[at.FROM + k] + along * (foot[at.TO + k] - foot[at.FROM + k])
+    rise = foot[at.TO + 2] - foot[at.FROM + 2]
+    # up a step before going over it, down only behind it
+    early = min(done / 0.6, 1.0) if rise > 0.0 else max((done - 0.4) / 0.6, 0.0)
+    foot[at.BASE] = foot[at.FROM + 2] + rise * _smooth(early)
+    hump = 4.0 * done * (1.0 - done)
+    foot[at.FZ] = foot[at.BASE] + (lift + _STEP_LIFT * abs(rise)) * hump * hump * hump
+
+
+@njit(cache=True)
+def misplaced(st, pr, pool, feet):
+    """Whether a standing foot is not where it belongs when nothing moves any more."""
+    for leg in range(4):
+        x, y, _, direction = foot_place(st, pr, pool, leg, 0.0)
+        side = 0.5 * (pr[at.WIDTH_FRONT] if leg < 2 else pr[at.WIDTH_REAR])
+        side = side if leg % 2 == 0 else -side
+        dx = x - side * math.sin(direction) - feet[leg, at.FX]
+        dy = y + side * math.cos(direction) - feet[leg, at.FY]
+        if dx * dx + dy * dy > (2.0 * CLOSE) ** 2:
+            return True
+    return False

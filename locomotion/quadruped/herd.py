@@ -1,0 +1,362 @@
+"""Many quadrupeds in flat arrays; one call advances all of them.
+
+    herd = Herd(ground)
+    rex = herd.add(load_body("dog"), (0.0, 0.0, 0.0), yaw=0.0)
+    herd.follow(rex, lay_trail(points, herd.bodies[rex], ground), speed=1.5)
+    while not herd.resting(rex):
+        herd.tick()
+
+A herd plays motions: trails and scripts. What an animal has to do to reach a goal is in
+`locomotion.quadruped.navigator`.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from locomotion.errors import LocomotionError
+from locomotion.ground import Ground
+from locomotion.quadruped import layout as at
+from locomotion.quadruped.advance import advance_all
+from locomotion.quadruped.body import Body
+from locomotion.quadruped.following import front_of, wanted_pose, wrap
+from locomotion.quadruped.motion import DT, begin_stop, stop_length
+from locomotion.quadruped.pool import Pool
+from locomotion.quadruped.pose import body_names, count_bodies, write_pose
+from locomotion.quadruped.script import Place, Script
+from locomotion.quadruped.trail import Trail, kernel_ground
+
+__all__ = ["AnimalState", "Herd"]
+
+RING = 512
+"""Crumbs that are kept: about 50 m of the way."""
+_CHANGE = 0.01  # [m] by which ground may change unnoticed
+_DROP = 0.5  # [m] off the ground that an animal may be put
+
+
+@dataclass(frozen=True)
+class AnimalState:
+    """Everything that a herd knows of one animal."""
+
+    row: NDArray[np.float64]
+    feet: NDArray[np.float64]
+    crumbs: NDArray[np.float64]
+    table: NDArray[np.float64]
+
+
+class Herd:
+    """Quadrupeds on one ground. ``bodies`` is the kind of each animal; animals are known by their index."""
+
+    def __init__(self, ground: Ground) -> None:
+        self.ground = ground
+        self.bodies: list[Body] = []
+        self.state = np.zeros((0, at.STATE))
+        self.feet = np.zeros((0, 4, at.FOOT))
+        self.crumbs = np.zeros((0, RING, 3))
+        self.joints = np.zeros((0, at.JOINTS))
+        self.poses = np.zeros((0, 7))
+        self.pose_start = np.zeros(1, np.int64)
+        self._kinds: list[Body] = []
+        self._params = np.zeros((0, at.PARAMS))
+        self._gaits = np.zeros((0, 1, at.GAIT))
+        self._pool = Pool(at.ROW)
+
+    def __len__(self) -> int:
+        return len(self.bodies)
+
+    # --- animals
+    def add(self, body: Body, position: ArrayLike, yaw: float) -> int:
+        """Put an animal with its rear feet at ``position`` (3,) [m], facing ``yaw`` [rad]; returns its index.
+
+        Raises `LocomotionError` for numbers that are not finite or a place more than 0.5 m off the ground.
+        """
+        index = len(self.bodies)
+        place = self._checked(position, yaw)
+        self.bodies.append(body)
+        kind = self._kind(body)
+        count = count_bodies(body.spine.bones)
+        self.state = np.vstack([self.state, np.zeros(at.STATE)])
+        self.feet = np.concatenate([self.feet, np.zeros((1, 4, at.FOOT))])
+        self.crumbs = np.concatenate([self.crumbs, np.zeros((1, RING, 3))])
+        self.joints = np.vstack([self.joints, np.zeros(at.JOINTS)])
+        self.poses = np.vstack([self.poses, np.zeros((count, 7))])
+        self.pose_start = np.append(self.pose_start, self.pose_start[-1] + count)
+        self.state[index, at.KIND] = kind
+        self.reset(index, place, yaw)
+        return index
+
+    def reset(self, index: int, position: ArrayLike, yaw: float) -> None:
+        """Put an animal down anew, standing; it forgets its motion and its crumbs. Raises as `add` does."""
+        place = self._checked(position, yaw)
+        body, st = self.bodies[index], self.state[index]
+        kind = st[at.KIND]
+        st[:] = 0.0
+        st[at.KIND], st[at.WAY], st[at.REST], st[at.FIRST_TICK] = kind, 1.0, 1.0, 1.0
+        st[at.X], st[at.Y], st[at.YAW], st[at.HEIGHT] = place[0], place[1], yaw, place[2]
+        st[at.GAIT_WISH], st[at.LOOK_X], st[at.LOOK_Y] = -1.0, math.nan, math.nan
+        gait = self._gaits[int(kind), 0]
+        st[at.FREQUENCY_NOW] = body.movement.step_frequency
+        st[at.DUTY_FRONT_NOW] = st[at.DUTY_REAR_NOW] = 0.6
+        st[at.LIFT_NOW] = gait[at.LIFT]
+        st[at.TOUCHDOWN_NOW : at.TOUCHDOWN_NOW + 4] = gait[at.TOUCHDOWN : at.TOUCHDOWN + 4]
+        st[at.FRONT_X], st[at.FRONT_Y] = front_of(
+            place[0], place[1], yaw, 0.0, body.spine.bones, body.spine.bone_length
+        )
+        st[at.CHEST] = yaw
+        self._stand(index)
+
+    def _stand(self, index: int) -> None:
+        """Put the feet where they belong, on the ground, and the trunk over them."""
+        body, st, feet = self.bodies[index], self.state[index], self.feet[index]
+        feet[:] = 0.0
+        left = np.array([-math.sin(st[at.YAW]), math.cos(st[at.YAW])])
+        for leg in range(4):
+            legs = body.front_legs if leg < 2 else body.rear_legs
+            middle = st[[at.FRONT_X, at.FRONT_Y]] if leg < 2 else st[[at.X, at.Y]]
+            spot = middle + (0.5 if leg % 2 == 0 else -0.5) * legs.track * left
+            feet[leg, at.FX : at.FZ + 1] = *spot, self.ground_near([*spot, st[at.HEIGHT]], body)
+            feet[leg, at.TO : at.TO + 3] = feet[leg, at.FX : at.FZ + 1]
+            feet[leg, at.BASE] = feet[leg, at.FZ]
+        st[at.Z_FRONT] = feet[:2, at.FZ].mean() + body.front_legs.height
+        st[at.Z_REAR] = feet[2:, at.FZ].mean() + body.rear_legs.height
+        st[at.PITCH] = math.asin(np.clip((st[at.Z_FRONT] - st[at.Z_REAR]) / body.spine.length, -0.75, 0.75))
+        self._write_pose(index)
+
+    def _write_pose(self, index: int) -> None:
+        st = self.state[index]
+        own = self.poses[self.pose_start[index] : self.pose_start[index + 1]]
+        write_pose(st, self._params[int(st[at.KIND])], self.feet[index], own, self.joints[index])
+
+    def _kind(self, body: Body) -> int:
+        """The row of params of a body, made when it is new."""
+        if body not in self._kinds:
+            self._kinds.append(body)
+            self._params = np.stack([each.params() for each in self._kinds])
+            most = max(len(each.gaits) for each in self._kinds)
+            self._gaits = np.zeros((len(self._kinds), most, at.GAIT))
+            for k, each in enumerate(self._kinds):
+                self._gaits[k, : len(each.gaits)] = each.gait_rows()
+        return self._kinds.index(body)
+
+    def _checked(self, position: ArrayLike, yaw: float) -> NDArray[np.float64]:
+        place = np.asarray(position, dtype=np.float64)
+        if place.shape != (3,) or not np.isfinite(place).all() or not math.isfinite(yaw):
+            raise LocomotionError(f"position and yaw must be finite (3,) and (), not {position} and {yaw}")
+        z = float(self.ground.surface_below([[place[0], place[1], place[2] + _DROP]])[0][0])
+        if not abs(z - place[2]) <= _DROP:
+            raise LocomotionError(f"there is no ground within {_DROP:g} m of {place.round(2).tolist()}")
+        return np.array([place[0], place[1], z])
+
+    def ground_near(self, point: ArrayLike, body: Body) -> float:
+        """Height [m] of the ground under or over ``point`` (3,) as a foot finds it; its own z if none is."""
+        x, y, z = np.asarray(point, dtype=np.float64)
+        reach = body.movement.step + 0.12
+        found = float(self.ground.surface_below([[x, y, z + reach]])[0][0])
+        return found if found >= z - reach else float(z)
+
+    # --- motions
+    def follow(
+        self, index: int, trail: Trail, speed: float, *, start: float = 0.0, end: float | None = None,
+        backwards: bool = False, gait: str | None = None,
+    ) -> None:  # fmt: skip
+        """Follow a trail with the root, from arc length ``start`` [m] until it stops at ``end`` [m]: by
+        default where the front feet reach the trail's end. ``backwards``: rear first, towards a smaller arc
+        length. ``gait``: by name, None by speed. An animal that is on its way goes on at its speed.
+
+        Raises `LocomotionError` for a speed that is not above 0, an unknown gait, or an end behind the start.
+        """
+        if not (math.isfinite(speed) and speed > 0.0):
+            raise LocomotionError(f"speed must be a finite number above 0 m/s, not {speed}")
+        body, st = self.bodies[index], self.state[index]
+        wish = body.gait_index(gait)
+        end = self.last_arc(index, trail) if end is None else end
+        way = -1.0 if backwards else 1.0
+        if not way * (end - start) >= 0.0:
+            raise LocomotionError(f"a trail cannot be followed from {start:g} to {end:g} m in that direction")
+        keeps = st[at.MODE] == at.ON_TRAIL and st[at.WAY] == way
+        pace = (st[at.SPEED], st[at.PUSH]) if keeps else (0.0, 0.0)
+        self._begin(index, at.ON_TRAIL, trail.rows, trail.step)
+        st[at.ARC], st[at.ARC_END], st[at.WAY] = start, end, way
+        st[at.FRONT_ARC] = start + body.spine.length
+        st[at.SPEED], st[at.PUSH] = pace
+        st[at.WISH], st[at.GAIT_WISH], st[at.STOPPING] = min(speed, body.top_speed), wish, 0.0
+        left = way * (end - start)
+        if left <= stop_length(st[at.SPEED], body.movement.braking):
+            begin_stop(st, left)
+        self._blend(index)
+
+    def play(self, index: int, script: Script) -> None:
+        """Play a script. The animal should be at rest."""
+        st = self.state[index]
+        self._begin(index, at.SCRIPTED, script.rows, 1.0 / (len(script.rows) - 1))
+        st[at.SCRIPT_TIME], st[at.SCRIPT_LENGTH], st[at.SPEED] = 0.0, script.seconds, 0.0
+        self._blend(index)
+
+    def stop(self, index: int) -> None:
+        """Come to a stop on the trail as soon as the body can."""
+        st = self.state[index]
+        if st[at.MODE] == at.ON_TRAIL and st[at.STOPPING] == 0.0:
+            left = stop_length(st[at.SPEED], self.bodies[index].movement.braking)
+            st[at.ARC_END] = st[at.ARC] + st[at.WAY] * left
+            begin_stop(st, left)
+
+    def look_at(self, index: int, point: ArrayLike | None) -> None:
+        """Turn the head to ``point`` (2,) or (3,) [m] from now on; None: where the animal goes."""
+        st = self.state[index]
+        st[at.FIXED_LOOK] = 0.0 if point is None else 1.0
+        if point is not None:
+            st[at.LOOK_X], st[at.LOOK_Y] = np.asarray(point, dtype=np.float64)[:2]
+
+    def last_arc(self, index: int, trail: Trail) -> float:
+        """[m] where the root is when the front feet's midpoint is at the trail's end."""
+        st = np.zeros(at.STATE)
+        st[at.MODE], st[at.ROW_COUNT], st[at.ROW_STEP] = at.ON_TRAIL, len(trail.rows), trail.step
+        st[at.PITCH] = (
+            self.state[index, at.PITCH] if trail.length < 1.0 else _end_pitch(trail, self.bodies[index])
+        )
+        reach = self.bodies[index].spine.length
+        low, high = max(trail.length - 1.2 * reach, 0.0), trail.length
+        pr = self._params[int(self.state[index, at.KIND])]
+        st[at.FRONT_ARC] = reach
+        if wanted_pose(st, pr, trail.rows, low, 0.0)[5] >= trail.length:
+            return low
+        for _ in range(40):
+            middle = 0.5 * (low + high)
+            st[at.ARC], st[at.FRONT_ARC] = middle, middle + reach
+            beyond = wanted_pose(st, pr, trail.rows, middle, 0.0)[5] >= trail.length
+            low, high = (low, middle) if beyond else (middle, high)
+        return 0.5 * (low + high)
+
+    def _begin(self, index: int, mode: float, rows: NDArray[np.float64], step: float) -> None:
+        st = self.state[index]
+        if self._pool.put(index, rows):
+            for other in range(len(self)):
+                self.state[other, at.ROW_START] = self._pool.region(other)[0]
+        st[at.ROW_START], st[at.ROW_COUNT] = self._pool.region(index)
+        st[at.ROW_STEP], st[at.MODE], st[at.REST], st[at.NO_GROUND] = step, mode, 0.0, 0.0
+
+    def _blend(self, index: int) -> None:
+        """Keep the difference between where the animal is and where its new motion begins, to let it die."""
+        st, pool = self.state[index], self._pool.rows
+        pr = self._params[int(st[at.KIND])]
+        now = wanted_pose(st, pr, pool, st[at.ARC], st[at.SCRIPT_TIME])
+        after = wanted_pose(
+            st, pr, pool, st[at.ARC] + st[at.WAY] * st[at.SPEED] * DT, st[at.SCRIPT_TIME] + DT
+        )
+        for k, channel in enumerate((0, 1, 3, 4)):
+            off, rate = st[at.X + k] - now[channel], (after[channel] - now[channel]) / DT
+            st[at.OFFSET + k] = wrap(off) if channel == 3 else off
+            st[at.OFFSET_RATE + k] = st[at.RATE + k] - rate if st[at.FIRST_TICK] == 0.0 else 0.0
+        st[at.FRONT_ARC] = now[5]
+
+    def change_ground(self, ground: Ground) -> NDArray[np.int64]:
+        """Go on on another ground. Animals whose standing feet or way ahead are not on it any more, or more
+        than 1 cm off it, are returned: they are told so, and come to a stop where they stand."""
+        self.ground = ground
+        lost = [index for index in range(len(self)) if self._has_lost_ground(index)]
+        self.state[lost, at.NO_GROUND] = 1.0
+        return np.array(lost, dtype=np.int64)
+
+    def _has_lost_ground(self, index: int) -> bool:
+        st = self.state[index]
+        spots = self.feet[index, self.standing_feet(index), : at.FZ + 1]
+        if st[at.MODE] == at.ON_TRAIL and self.resting(index) is False:
+            rows = self._pool.table(index)
+            arcs = st[at.ROW_STEP] * np.arange(len(rows))
+            ahead = st[at.WAY] * (arcs - st[at.ARC]) >= 0.0
+            spots = np.vstack([spots, rows[ahead][:, [at.PX, at.PY, at.PZ]]])
+        found = self.ground.surface_below(spots + np.array([0.0, 0.0, _CHANGE]))[0]
+        return not np.all(np.abs(found - spots[:, 2]) <= _CHANGE)
+
+    # --- time
+    def tick(self) -> None:
+        """Advance all animals by 10 ms."""
+        if len(self):
+            advance_all(
+                self.state, self._params, self._gaits, self._pool.rows, kernel_ground(self.ground),
+                self.ground.origin, self.feet, self.crumbs, self.poses, self.pose_start, self.joints,
+            )  # fmt: skip
+
+    # --- what can be asked
+    def resting(self, index: int) -> bool:
+        """Whether the motion is over and all feet stand where they belong."""
+        return bool(self.state[index, at.REST])
+
+    def pose(self, index: int) -> NDArray[np.float64]:
+        """(m, 7) float64: position [m] and quaternion (w, x, y, z) of each body, see `body_names`."""
+        return self.poses[self.pose_start[index] : self.pose_start[index + 1]].copy()
+
+    def names(self, index: int) -> tuple[str, ...]:
+        """Names of the bodies in `pose`."""
+        return body_names(self.bodies[index].spine.bones)
+
+    def root(self, index: int) -> NDArray[np.float64]:
+        """(4,) [m, m, m, rad]: point of the ground between the rear feet, and the body's direction there."""
+        return self.state[index, [at.X, at.Y, at.HEIGHT, at.YAW]]
+
+    def place(self, index: int) -> Place:
+        """Where an animal stands, for scripts and footprint checks."""
+        x, y, z, yaw, bend = self.state[index, [at.X, at.Y, at.HEIGHT, at.YAW, at.BEND]].tolist()
+        return Place(x, y, z, yaw, bend)
+
+    def front(self, index: int) -> NDArray[np.float64]:
+        """(2,) [m]: the front feet's place under the shoulders."""
+        return self.state[index, [at.FRONT_X, at.FRONT_Y]]
+
+    def toes(self, index: int) -> NDArray[np.float64]:
+        """(4, 3) [m] in the order of `LEGS`."""
+        return self.feet[index, :, : at.FZ + 1].copy()
+
+    def standing_feet(self, index: int) -> NDArray[np.bool_]:
+        """(4,) which feet are on the ground."""
+        return self.feet[index, :, at.IN_SWING] == 0.0
+
+    def trail_of_crumbs(self, index: int) -> NDArray[np.float64]:
+        """(k, 3) [m] where the root has come from, oldest first."""
+        st = self.state[index]
+        count, last = int(st[at.CRUMBS]), int(st[at.CRUMB_LAST])
+        return self.crumbs[index, (last - np.arange(count)[::-1]) % RING]
+
+    def forget_crumbs(self, index: int) -> None:
+        """Begin a new trail of crumbs here."""
+        self.state[index, at.CRUMBS] = 0.0
+
+    # --- saving
+    def save(self, index: int) -> AnimalState:
+        """Everything that is needed to go on from here."""
+        return AnimalState(
+            self.state[index].copy(), self.feet[index].copy(), self.crumbs[index].copy(),
+            self._pool.table(index),
+        )  # fmt: skip
+
+    def restore(self, index: int, saved: AnimalState) -> None:
+        """Go on from a state of this animal."""
+        if saved.row[at.KIND] != self.state[index, at.KIND]:
+            raise LocomotionError("the saved state belongs to another kind of body")
+        self.state[index], self.feet[index], self.crumbs[index] = saved.row, saved.feet, saved.crumbs
+        if len(saved.table):
+            moved = self._pool.put(index, saved.table)
+            for other in range(len(self)) if moved else (index,):
+                self.state[other, at.ROW_START] = self._pool.region(other)[0]
+        self._write_pose(index)
+
+    def state_hash(self, index: int) -> str:
+        """Hex digest of everything that decides how an animal goes on."""
+        row = self.state[index].copy()
+        row[at.ROW_START] = 0.0  # where its table lies in the pool is no part of it
+        hasher = hashlib.sha256(row.tobytes())
+        for part in (self.feet[index], self.trail_of_crumbs(index), self._pool.table(index)):
+            hasher.update(np.ascontiguousarray(part).tobytes())
+        return hasher.hexdigest()[:16]
+
+
+def _end_pitch(trail: Trail, body: Body) -> float:
+    """[rad] of the trunk at the end of a trail."""
+    back = max(len(trail.rows) - 1 - round(body.spine.length / trail.step), 0)
+    rise = trail.rows[-1, at.PZ] - trail.rows[back, at.PZ]
+    return math.asin(np.clip(rise / body.spine.length, -0.75, 0.75))

@@ -1,0 +1,145 @@
+"""From the state of an animal to where all its bones are.
+
+Bodies in order: pelvis, the spine's bones, neck, head, three of the tail, and three bones of each leg in the
+order of `layout.LEGS`. A body's frame sits at its upper or rear end, x along the bone.
+"""
+
+from __future__ import annotations
+
+import math
+
+from numba import njit
+
+from locomotion.quadruped import layout as at
+from locomotion.quadruped.legs import solve_leg
+
+__all__ = ["body_names", "body_parents", "count_bodies", "write_pose"]
+
+_NEAREST = 0.25  # of the length of its two long bones, on top of the foot's, that a swinging foot stays below
+# its joint
+_LEG_BONES = ("upper", "lower", "foot")
+
+
+def count_bodies(bones: int) -> int:
+    """How many bodies an animal of so many spine bones has."""
+    return 1 + bones + 2 + 3 + 12
+
+
+def body_names(bones: int) -> tuple[str, ...]:
+    """Names of the bodies in order."""
+    spine = [f"spine_{k + 1}" for k in range(bones)]
+    legs = [f"{leg}_{bone}" for leg in at.LEGS for bone in _LEG_BONES]
+    return ("pelvis", *spine, "neck", "head", "tail_1", "tail_2", "tail_3", *legs)
+
+
+def body_parents(bones: int) -> list[int]:
+    """Index of each body's parent, -1 for the root."""
+    chest, first_leg = bones, bones + 6
+    parents = [-1, *range(bones), chest, bones + 1, 0, bones + 3, bones + 4]
+    for leg in range(4):
+        parents += [chest if leg < 2 else 0, first_leg + 3 * leg, first_leg + 3 * leg + 1]
+    return parents
+
+
+@njit(cache=True, inline="always")
+def _frame(row, x, y, z, yaw, up):
+    """A frame at (x, y, z) whose x axis points to ``yaw`` and ``up`` [rad] over the horizontal."""
+    cy, sy = math.cos(0.5 * yaw), math.sin(0.5 * yaw)
+    cp, sp = math.cos(0.5 * up), -math.sin(0.5 * up)
+    row[0], row[1], row[2] = x, y, z
+    row[3], row[4], row[5], row[6] = cy * cp, -sy * sp, cy * sp, sy * cp
+
+
+@njit(cache=True, inline="always")
+def _leg_frame(row, x, y, z, cy, sy, ca, sa, angle):
+    """A frame at (x, y, z): turned by the half angles of yaw and abduction, x along a bone at ``angle``."""
+    half = 0.5 * (0.5 * math.pi - angle)
+    cb, sb = math.cos(half), math.sin(half)
+    w, i, j, k = cy * ca, cy * sa, sy * sa, sy * ca
+    row[0], row[1], row[2] = x, y, z
+    row[3], row[4], row[5], row[6] = w * cb - j * sb, i * cb - k * sb, w * sb + j * cb, k * cb + i * sb
+
+
+@njit(cache=True)
+def write_pose(st, pr, feet, out, joints):
+    """Write the bodies' frames (m, 7) and the joint angles (JOINTS,) of one animal."""
+    bones = int(pr[at.BONES])
+    bone, pitch, bend = pr[at.BONE], st[at.PITCH], st[at.BEND]
+    x, y, z, yaw = st[at.X], st[at.Y], st[at.Z_REAR], st[at.YAW]
+    rise, flat = bone * math.sin(pitch), bone * math.cos(pitch)
+    _frame(out[0], x, y, z, yaw, pitch)
+    for k in range(bones):
+        yaw += bend
+        _frame(out[1 + k], x, y, z, yaw, pitch)
+        x += flat * math.cos(yaw)
+        y += flat * math.sin(yaw)
+        z += rise
+    front_x, front_y, front_z, chest = x, y, z, yaw
+    up = pr[at.NECK_RISE] + 0.4 * pitch
+    yaw += 0.5 * st[at.GAZE]
+    _frame(out[1 + bones], x, y, z, yaw, up)
+    flat = pr[at.NECK] * math.cos(up)
+    _frame(
+        out[2 + bones], x + flat * math.cos(yaw), y + flat * math.sin(yaw), z + pr[at.NECK] * math.sin(up),
+        chest + st[at.GAZE], 0.4 * pitch - pr[at.HEAD_DROP],
+    )  # fmt: skip
+    x, y, z, yaw = st[at.X], st[at.Y], st[at.Z_REAR], st[at.YAW] + math.pi
+    up = pr[at.TAIL_RISE] - pitch
+    for k in range(3):
+        yaw += 0.6 * bend
+        up += 0.18
+        _frame(out[3 + bones + k], x, y, z, yaw, up)
+        flat = pr[at.TAIL] * math.cos(up)
+        x += flat * math.cos(yaw)
+        y += flat * math.sin(yaw)
+        z += pr[at.TAIL] * math.sin(up)
+    first = 6 + bones
+    for leg in range(4):
+        if leg < 2:
+            _leg(
+                st, pr, feet[leg], out[first + 3 * leg : first + 3 * leg + 3], joints, leg,
+                front_x, front_y, front_z, chest, pr[at.WIDTH_FRONT], at.UPPER_FRONT, pr[at.CURL_FRONT], -1.0,
+            )  # fmt: skip
+        else:
+            _leg(
+                st, pr, feet[leg], out[first + 3 * leg : first + 3 * leg + 3], joints, leg,
+                st[at.X], st[at.Y], st[at.Z_REAR], st[at.YAW], pr[at.WIDTH_REAR], at.UPPER_REAR,
+                pr[at.CURL_REAR], 1.0,
+            )  # fmt: skip
+    joints[at.JOINTS - 3], joints[at.JOINTS - 2], joints[at.JOINTS - 1] = bend, st[at.GAZE], pitch
+
+
+@njit(cache=True)
+def _leg(st, pr, foot, out, joints, leg, x, y, z, yaw, width, sizes, curl, side):
+    upper, lower, last, lean = pr[sizes], pr[sizes + 1], pr[sizes + 2], pr[sizes + 3]
+    c, s = math.cos(yaw), math.sin(yaw)
+    across = 0.5 * width if leg % 2 == 0 else -0.5 * width
+    jx, jy = x - across * s, y + across * c
+    dx, dy, dz = foot[at.FX] - jx, foot[at.FY] - jy, foot[at.FZ] - z
+    if foot[at.IN_SWING] > 0.0:
+        dz = min(dz, -0.8 * last - _NEAREST * (upper + lower))
+    ahead, beside = c * dx + s * dy, c * dy - s * dx
+    down = math.sqrt(beside * beside + dz * dz)
+    spread = math.atan2(beside, -dz)
+    give = 1.0
+    if foot[at.IN_SWING] > 0.0:
+        lifted = (foot[at.FZ] - foot[at.BASE]) / max(st[at.LIFT_NOW], 1e-3)
+        lean -= curl * min(lifted, 1.2)
+        give = max(1.0 - 4.0 * lifted, 0.0)
+    lean += math.atan2(ahead, down)
+    first, second, third = solve_leg(ahead, -down, upper, lower, last, lean, side, give)
+    cy, sy = math.cos(0.5 * yaw), math.sin(0.5 * yaw)
+    ca, sa = math.cos(0.5 * spread), math.sin(0.5 * spread)
+    cs, ss = math.cos(spread), math.sin(spread)
+    px, pz = 0.0, 0.0
+    for k in range(3):
+        angle = first if k == 0 else (second if k == 1 else third)
+        across = -pz * ss
+        _leg_frame(
+            out[k], jx + c * px - s * across, jy + s * px + c * across, z + pz * cs, cy, sy, ca, sa, angle
+        )
+        length = upper if k == 0 else lower
+        px += length * math.sin(angle)
+        pz -= length * math.cos(angle)
+    own = leg * at.JOINTS_PER_LEG
+    joints[own], joints[own + 1], joints[own + 2], joints[own + 3] = spread, first, second, third

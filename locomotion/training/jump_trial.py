@@ -7,13 +7,14 @@ import numpy as np
 
 from locomotion import controller as c
 from locomotion import jump
+from locomotion.body import Human
 from locomotion.clearing import foot_distance, plan_run_up, run_up_speeds
 from locomotion.jump import jump_tick, start_jump
 from locomotion.jump_skill import Jump, JumpTables, jump_clip
 from locomotion.path_tracking import RUN_UP
 from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, person_spec
 from locomotion.route_smoothing import ObstacleAhead
-from locomotion.skill import RunSkill, reset_running, reset_standing
+from locomotion.skill import RunSkill, reset_running
 
 __all__ = ["JumpOutcome", "JumpSimulator", "StartState", "stair_model"]
 
@@ -166,7 +167,7 @@ class JumpSimulator:
         """Run up to the mark of ``skill`` at its least height from each of ``distances`` [m]; save the states
         at which the jump begins, less those from which not even the run goes on.
 
-        The person starts in a running pose with noise, or ``standing``.
+        The person starts in a running pose with noise, or ``standing``, from which it walks first.
         """
         height = skill.heights[0]
         ahead = ObstacleAhead(0.0, "jump", height, np.zeros(3), np.array([-1.0, 0.0, 0.0]))
@@ -177,9 +178,7 @@ class JumpSimulator:
             noise = rng.normal(size=51) * np.r_[np.full(3, 0.1), np.full(3, 0.1), np.full(45, 0.02)]
             speed = rng.uniform(*np.clip([entry - 0.8, entry + 0.5], *self.run.speeds))
             if standing:
-                start = np.array([-distance, rng.normal(0.0, 0.1), 0.0])
-                reset_standing(self.model, self.data, self.index, self.state, start, 0.0)
-                self.command[:] = 0.0, speed, 0.0
+                self._set_off(np.array([-distance, rng.normal(0.0, 0.1), 0.0]), float(speed))
             else:
                 self.begin(float(distance), float(speed), noise=noise)
             seen = -1.0
@@ -203,6 +202,19 @@ class JumpSimulator:
                 if self.state[c.FALLEN] > 0.0:
                     break
         return [start for start in found if self.runs_on(start)]
+
+    def _set_off(self, start: np.ndarray, speed: float) -> None:
+        """Begin where a person that stood at ``start`` (3,) goes over from walking to running."""
+        human = Human(None, self.run, clearing=())
+        human.reset(start, 0.0)
+        human.follow(np.array([start, [_LENGTH / 2, start[1], 0.0]]), speed)
+        while human.status == "walking":
+            human.tick()
+        state = np.empty(mujoco.mj_stateSize(human.model, _STATE))
+        mujoco.mj_getState(human.model, human.data, state, _STATE)
+        mujoco.mj_setState(self.model, self.data, state, _STATE)
+        self.state[:] = human.control
+        self.command[:] = 0.0, speed, 0.0
 
     def runs_on(self, start: StartState, seconds: float = 1.5) -> bool:
         """Whether the run alone goes on from a harvested state; where it does not, no jump could."""

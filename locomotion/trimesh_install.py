@@ -212,7 +212,7 @@ def _find(owner: Any, array: np.ndarray) -> int:
     """Offset [bytes] of the pointer to `array` within MuJoCo's structure `owner`."""
     for offset in range(0, 1 << 20, _CHUNK):
         words = (ctypes.c_int64 * (_CHUNK // 8)).from_address(owner._address + offset)
-        found = np.flatnonzero(np.frombuffer(words, np.int64) == array.ctypes.data)
+        found = np.flatnonzero(np.ctypeslib.as_array(words) == array.ctypes.data)
         if len(found):
             return offset + 8 * int(found[0])
     raise LocomotionError(f"MuJoCo {mujoco.__version__} keeps its arrays elsewhere; use version 4.0")

@@ -1,0 +1,41 @@
+"""People find their way through a whole level: ramps, corners, storeys, walking and running."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import navmesh
+from runtime.events import Fell
+from runtime.rules import person_walk_rules
+from runtime.world import World
+
+
+LEVEL = Path(__file__).parents[2] / "examples" / "levels" / "courtyard.obj"
+
+
+@pytest.fixture(scope="module")
+def graph():
+    return navmesh.NodeGraph.build(navmesh.Terrain.load(LEVEL, up="z"), person_walk_rules())
+
+
+@pytest.mark.parametrize("speed", [1.2, 3.2])
+def test_most_random_ways_are_gone_to_their_end(graph, speed):
+    rng = np.random.default_rng(4)
+    places = graph.positions[np.flatnonzero(graph.radii > 0.5)]
+    arrived, tried, fell = 0, 0, 0
+    while tried < 8:
+        start, goal = places[rng.choice(len(places), 2)]
+        route = graph.find_path(start, goal, radius=0.3)
+        if route.status != "complete" or not 10.0 < route.length < 40.0 or len(route.links):
+            continue
+        tried += 1
+        world = World(graph, seed=tried)
+        person = world.spawn("human", start, facing=float(rng.uniform(-3, 3)))
+        person.go_to(goal, speed=speed)
+        while person.moving and world.time < 80.0:
+            world.step(0.1)
+        arrived += person.status == "arrived"
+        fell += any(isinstance(event, Fell) for event in world.events)
+    assert arrived >= 6
+    assert arrived + fell == tried  # nobody is lost or stuck

@@ -39,21 +39,20 @@ from locomotion.events import (
     StrayedFromPath,
     TookOff,
 )  # fmt: skip
+from locomotion.gaits import run_entry_speed, run_limits, walk_limits
 from locomotion.ground import Ground, plane_lookup
 from locomotion.human_state import MOVING, HumanState, Status, hash_of, restore_physics, save_physics
 from locomotion.jump_skill import JUMP_SKILL, Jump, load_jump_skill
-from locomotion.path_tracking import RUN_UP, PathTable, TrackingLimits, make_path, new_track, track
+from locomotion.path_tracking import RUN_UP, PathTable, make_path, new_track, track
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK, PersonIndex, build_person
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill, load_run_skill, reset_running, run_on
 from locomotion.walk_layout import (
     CLOCK,
-    DOUBLE,
     PHASE,
     STANDING,
     WALK_HEADING,
     WALK_STANCE,
-    WALK_STEPS,
     WALKS,
     new_walk,
 )
@@ -74,18 +73,11 @@ _NEXT, _STEPS_SEEN, _PLANNED = range(3)
 _RUN_UP_SIZE = 3
 # number of the next obstacle, steps made when the run-up was last planned, speed planned for this step or 0
 _WALK_ARRIVAL = 0.15  # [m] before the end of its path at which a walking person stops
-_WALK_SLOWEST, _WALK_SIDEWAYS = 0.3, 0.5  # [m/s], [m/s^2]
-_WALK_FASTER, _WALK_SLOWER = 0.7, 0.5  # [m/s^2]
-_WALK_UPHILL, _WALK_DOWNHILL = 0.8, 2.2  # [m/s per unit of slope]
-_RUN_SHARPEST, _RUN_STEEPEST = 0.3, 0.12  # [1/m], slope: where it would rather walk
-_RUN_ENTRY = 1.1  # [m/s] of walking from which it can begin to run
-_FIRST_STEPS = 3  # made walking before it runs
 _TURN_FIRST = 0.7  # [rad] off its way at which a walking person turns on the spot
 _SETTLING = 300  # ticks in which a person that has stopped walking comes to rest
 _STILL = 0.03  # [m/s] of the centre of mass at rest
 _HASTE = 1.3  # [m/s] that the speed asked for may exceed the last step's: more trips it in setting off
 _FALL_TICKS = 100  # a fallen body is simulated for this long, then held
-_SHARE_OF_TURNING = 0.8  # the rest of the skill's sideways acceleration is left for corrections
 _GAINS = np.array(
     [0.35, 1.2, 0.15, 0.45, 0.5, 0.05]
 )  # hardly any sideways speed: the run was not learned with it
@@ -143,16 +135,8 @@ class Human:
         self.model, self.index = _model_on(ground)
         self.data = mujoco.MjData(self.model)
         self.gait = load_walk_skill() if walk is None else walk
-        self.limits = TrackingLimits(
-            self.skill.speeds,
-            sideways=_SHARE_OF_TURNING * self.skill.max_lateral,
-            sharpest=_RUN_SHARPEST,
-            steepest=_RUN_STEEPEST,
-        )
-        self._walk_limits = TrackingLimits(
-            (_WALK_SLOWEST, self.gait.speed), _WALK_SIDEWAYS, _WALK_FASTER, _WALK_SLOWER, _WALK_UPHILL,
-            _WALK_DOWNHILL,
-        )  # fmt: skip
+        self.limits = run_limits(self.skill)
+        self._walk_limits = walk_limits(self.gait)
         self._lookup = plane_lookup() if ground is None else ground.lookup
         self.events: list[Event] = []
         self._control = controller.new_state()
@@ -351,13 +335,11 @@ class Human:
     def _run_if_possible(self, path: PathTable) -> None:
         """Go over from walking to running, just after a foot was put down."""
         walk = self._walk
-        if self._memory[path_tracking.ARC] < path.run_from or walk[PHASE] != DOUBLE or walk[CLOCK] > 0.0:
+        if self._memory[path_tracking.ARC] < path.run_from:
             return
-        ahead = walk[WALK_HEADING]
-        speed = float(self.velocity[0] * math.cos(ahead) + self.velocity[1] * math.sin(ahead))
-        fast = speed >= _RUN_ENTRY and walk[WALK_STEPS] >= _FIRST_STEPS
-        if fast and abs(math.remainder(self._command[0] - ahead, 2.0 * math.pi)) < 0.2:
-            run_on(self._control, walk[WALK_STANCE], ahead, speed)
+        speed = run_entry_speed(walk, self._control, float(self._command[0]))
+        if speed is not None:
+            run_on(self._control, walk[WALK_STANCE], walk[WALK_HEADING], speed)
             walk[WALKS] = 0.0
             self.status = "running"
 

@@ -85,13 +85,13 @@ def first_state_reference() -> np.ndarray:
 
 KNOTS = np.array([0.0, 2.5, 3.0, 3.5, 4.0, 4.5])
 """Speeds [m/s] of the rows of a learned table; the first serves the start from standing."""
-SPEED_RANGE = (1.4, 4.2)
+SPEED_RANGE = (1.5, 4.2)
 """Speeds [m/s] that may be asked for."""
 SIZE = sum(c.PARAMETERS.values())
 
 
 def skill_of(
-    genes: np.ndarray, reference: np.ndarray, max_lateral: float = 2.0, meta: dict | None = None
+    genes: np.ndarray, reference: np.ndarray, max_lateral: float = 1.6, meta: dict | None = None
 ) -> RunSkill:
     """The skill that ``genes`` (4 * SIZE,) stand for: parameters at `MIDDLE`, their change per m/s and per
     (m/s)^2, and the difference at speed 0 from the lowest speed."""
@@ -127,6 +127,36 @@ def terms_scale(*names: str) -> np.ndarray:
     return np.concatenate([free, np.zeros(3 * SIZE)])
 
 
+def ways_scale() -> np.ndarray:
+    """Scale of all genes for runs that begin walking: the middle row, how the shape of a step changes with
+    speed, and the row for setting off."""
+
+    def of(*names: str) -> np.ndarray:
+        one, part, free = scales(), c.parameter_slices(), np.zeros(SIZE)
+        for name in names:
+            free[part[name]] = one[part[name]]
+        return free
+
+    kept = ("start", "climb_legs", "descend_legs")
+    shape = ("feed_forward", "a_hat", "timing", "turn", "bend")
+    setting_off = ("m_ap", "m_sp", "posture", "climb", "descend", "start", *shape)
+    middle = of(*(name for name in c.PARAMETERS if name not in kept))
+    return np.concatenate([middle, 0.5 * of(*shape), np.zeros(SIZE), of(*setting_off)])
+
+
+WAY: dict[str, Any] = {"length": (10.0, 22.0), "radius": 3.4, "speeds": (2.6, 3.6)}
+"""A path that is run from where the person has walked a few steps."""
+_PUSHED = {"speeds": (3.3, 3.3), "push": 330.0, "noise": 0.3, "duration": 7.0}
+_ANY_SPEED = {"speeds": (2.6, 3.9), "steady": True, "push": 250.0, "noise": 0.3, "duration": 7.0}
+_FROM_STANDING = {"speeds": (3.0, 3.5), "standing": 0.5, "push": 240.0, "noise": 0.3, "duration": 10.0}
+WAYS = (
+    WAY, _FROM_STANDING, {**WAY, "ground": "gentle"}, _ANY_SPEED, {**WAY, "push": 60.0}, _FROM_STANDING,
+    {**WAY, "ground": "gentle"}, {**WAY, "length": (9.0, 12.0)},
+)  # fmt: skip
+HARD_PUSHES = (
+    WAY, _PUSHED, {**WAY, "ground": "gentle"}, _PUSHED, _ANY_SPEED, _PUSHED, {**WAY, "length": (9.0, 12.0)},
+    _PUSHED, {"speeds": (3.3, 3.3), "standing": 1.0, "noise": 0.2, "duration": 5.0},
+)  # fmt: skip
 FLAT, BENDS, SLOPES = {"lateral": 0.0, "tilt": 0.0}, {"tilt": 0.0}, {"lateral": 0.0}
 SLOW_KINDS = (
     {"standing": 1.0, "noise": 0.1},
@@ -195,6 +225,8 @@ def curriculum(effort: float = 1.0) -> tuple[Stage, ...]:
         ),
         stage("slow", 15, 0.08, slow, 6, SLOW_KINDS, style=0.2, speeds=(1.9, 2.6), **jog),
         stage("slower", 40, 0.08, slow, 8, SLOW_KINDS, style=0.2, speeds=(1.4, 2.6), **jog),
+        stage("ways", 130, 0.04, ways_scale(), len(WAYS), WAYS, style=0.3),
+        stage("hard pushes", 31, 0.025, ways_scale(), len(HARD_PUSHES), HARD_PUSHES, style=0.3),
     )
 
 

@@ -10,7 +10,6 @@ from runtime.events import Fell
 from runtime.rules import person_walk_rules
 from runtime.world import World
 
-
 LEVEL = Path(__file__).parents[2] / "examples" / "levels" / "courtyard.obj"
 
 

@@ -1,0 +1,46 @@
+"""What a person may do walking and running: limits along a path, and when it goes over from one to the
+other."""
+
+import math
+
+import numpy as np
+
+from locomotion.path_tracking import TrackingLimits
+from locomotion.run_layout import COM_VELOCITY
+from locomotion.skill import RunSkill
+from locomotion.walk_layout import CLOCK, DOUBLE, PHASE, WALK_HEADING, WALK_STEPS
+from locomotion.walk_skill import WalkSkill
+
+__all__ = ["run_entry_speed", "run_limits", "walk_limits"]
+
+_SHARE_OF_TURNING = 0.8  # the rest of the skill's sideways acceleration is left for corrections
+_SHARPEST, _STEEPEST = 0.3, 0.12  # [1/m], slope: where it would rather walk
+_SLOWEST, _SIDEWAYS = 0.3, 0.5  # [m/s], [m/s^2] of a walk
+_FASTER, _SLOWER = 0.7, 0.5  # [m/s^2] of a walk
+_UPHILL, _DOWNHILL = 0.8, 2.2  # [m/s per unit of slope] of a walk
+_ENTRY = 1.1  # [m/s] of walking from which it can begin to run
+_FIRST_STEPS = 3  # made walking before it runs
+_AHEAD = 0.2  # [rad] off its way at most when it begins to run
+
+
+def run_limits(skill: RunSkill) -> TrackingLimits:
+    """What a running person can follow."""
+    sideways = _SHARE_OF_TURNING * skill.max_lateral
+    return TrackingLimits(skill.speeds, sideways=sideways, sharpest=_SHARPEST, steepest=_STEEPEST)
+
+
+def walk_limits(skill: WalkSkill) -> TrackingLimits:
+    """What a walking person can follow."""
+    return TrackingLimits((_SLOWEST, skill.speed), _SIDEWAYS, _FASTER, _SLOWER, _UPHILL, _DOWNHILL)
+
+
+def run_entry_speed(walk: np.ndarray, state: np.ndarray, heading: float) -> float | None:
+    """Speed [m/s] with which a walking person can begin to run towards ``heading`` [rad] now, just after it
+    has put a foot down; None when it cannot."""
+    if walk[PHASE] != DOUBLE or walk[CLOCK] > 0.0 or walk[WALK_STEPS] < _FIRST_STEPS:
+        return None
+    now = walk[WALK_HEADING]
+    vx, vy = state[COM_VELOCITY][:2]
+    speed = float(vx * math.cos(now) + vy * math.sin(now))
+    straight = abs(math.remainder(heading - now, 2.0 * math.pi)) < _AHEAD
+    return speed if straight and speed >= _ENTRY else None

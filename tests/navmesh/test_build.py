@@ -237,7 +237,7 @@ def test_rotating_the_level_rotates_the_graph(seed, angle):
     wide = a.surface.clearance > 0.5  # the rim is sampled at other places
     difference = np.abs(a.clearance_at(points[wide]) - b.clearance_at(there[wide]))
     assert np.median(difference) < 0.02
-    assert np.quantile(difference, 0.97) < 0.2
+    assert np.quantile(difference, 0.97) < 0.15
     assert a.radii.max() == pytest.approx(b.radii.max(), abs=0.25)
 
 

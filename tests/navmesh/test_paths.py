@@ -27,8 +27,8 @@ from navmesh.structs import net_of
 
 RADII = st.sampled_from([0.15, 0.3, 0.6, 0.9])
 FIELD_ERROR = 0.05
-"""[m] by which the clearance field may read too wide: a cell knows a point of what ends walking, not its whole
-outline. It never reads too narrow."""
+"""[m] by which the clearance field may read too wide: a cell knows a point of what ends walking, not its
+whole outline. It never reads too narrow."""
 SEEDS = st.integers(0, 10_000)
 
 

@@ -1,8 +1,8 @@
 """The walking rule asked of the mesh itself, without anything of the builder: rays against triangles.
 
 A walker goes along a straight line in small strides. At each stride a vertical ray finds the floor (rule 1
-of `navmesh.WalkRules`), horizontal rays at many heights look for walls (rule 2), and the floor may be
-missing for at most one cell (rule 3). Slow and plain on purpose.
+of `navmesh.WalkRules`, risers included), horizontal rays at many heights look for walls (rule 2), and the
+floor may be missing for at most one cell (rule 3). Slow and plain on purpose.
 """
 
 import math
@@ -16,6 +16,7 @@ __all__ = ["MeshTruth"]
 
 _BIN = 0.5  # [m] side of the squares that triangles are sorted into, by their bounding boxes
 _RAYS = 12  # horizontal rays per stride, between step and headroom
+_DOWNHILL = 0.01  # [m] between the vertical rays along a fall line
 
 
 @njit
@@ -84,6 +85,89 @@ def _floor_near(corners, floors, start, member, frame, x, y, z, tolerance, headr
 
 
 @njit
+def _is_free(corners, start, member, frame, x, y, z, headroom):
+    """Whether no face is above (x, y, z) within the headroom."""
+    b = _bin_of(x, y, frame)
+    for k in range(start[b], start[b + 1]):
+        p = corners[member[k]]
+        ax, ay = p[1, 0] - p[0, 0], p[1, 1] - p[0, 1]
+        bx, by = p[2, 0] - p[0, 0], p[2, 1] - p[0, 1]
+        area = ax * by - ay * bx
+        if abs(area) < 1e-12:
+            continue
+        u = ((x - p[0, 0]) * by - (y - p[0, 1]) * bx) / area
+        v = (ax * (y - p[0, 1]) - ay * (x - p[0, 0])) / area
+        if u < -1e-7 or v < -1e-7 or u + v > 1 + 1e-7:
+            continue
+        height = p[0, 2] + u * (p[1, 2] - p[0, 2]) + v * (p[2, 2] - p[0, 2])
+        if z + 0.0101 < height < z + headroom - 1e-6:
+            return False
+    return True
+
+
+@njit
+def _steep_near(corners, floors, start, member, frame, x, y, z, tolerance):
+    """Height and gradient (p, q) of the steep upward face at (x, y) nearest to z; nan without one."""
+    b = _bin_of(x, y, frame)
+    best, p, q = np.nan, 0.0, 0.0
+    for k in range(start[b], start[b + 1]):
+        if floors[member[k]]:
+            continue
+        c = corners[member[k]]
+        ax, ay = c[1, 0] - c[0, 0], c[1, 1] - c[0, 1]
+        bx, by = c[2, 0] - c[0, 0], c[2, 1] - c[0, 1]
+        area = ax * by - ay * bx
+        if area < 1e-9:  # upright or facing down
+            continue
+        u = ((x - c[0, 0]) * by - (y - c[0, 1]) * bx) / area
+        v = (ax * (y - c[0, 1]) - ay * (x - c[0, 0])) / area
+        if u < -1e-7 or v < -1e-7 or u + v > 1 + 1e-7:
+            continue
+        az, bz = c[1, 2] - c[0, 2], c[2, 2] - c[0, 2]
+        height = c[0, 2] + u * az + v * bz
+        if abs(height - z) <= tolerance and not abs(best - z) <= abs(height - z):
+            best = height
+            p, q = (az * by - bz * ay) / area, (bz * ax - az * bx) / area
+    return best, p, q
+
+
+@njit
+def _riser_near(corners, floors, start, member, frame, x, y, z, tolerance, step, tangent, headroom):
+    """Height of the riser at (x, y) nearest to z, at most ``tolerance`` away; nan without one.
+
+    Vertical rays along the fall line, uphill and downhill, look for the floors at its head and foot.
+    """
+    begin, p0, q0 = _steep_near(corners, floors, start, member, frame, x, y, z, tolerance)
+    if np.isnan(begin):
+        return np.nan
+    apart = 0.0
+    for way in (1.0, -1.0):
+        px, py, height, p, q = x, y, begin, p0, q0
+        floor = np.nan
+        for _ in range(int(step / tangent / _DOWNHILL) + 2):
+            fall = math.hypot(p, q)
+            px += way * p / fall * _DOWNHILL
+            py += way * q / fall * _DOWNHILL
+            ahead = height + way * fall * _DOWNHILL
+            floor = _floor_near(
+                corners, floors, start, member, frame, px, py, height, step - abs(height - begin), headroom
+            )
+            if not np.isnan(floor):
+                break
+            slack = fall * _DOWNHILL + 0.005
+            height, p, q = _steep_near(corners, floors, start, member, frame, px, py, ahead, slack)
+            if np.isnan(height) or abs(height - begin) > step:
+                break
+        if np.isnan(floor):
+            return np.nan
+        apart += abs(floor - begin)
+    # samples of the fall line overshoot the edges of floors that slope by as much as a stride
+    if apart > step + 2.0 * _DOWNHILL * tangent:
+        return np.nan
+    return begin if _is_free(corners, start, member, frame, x, y, begin, headroom) else np.nan
+
+
+@njit
 def _wall_on_way(corners, start, member, frame, ax, ay, bx, by, low, high):
     """Whether a horizontal ray from a to b, at one of many heights from low to high, hits a triangle."""
     dx, dy = bx - ax, by - ay
@@ -127,6 +211,10 @@ def _walk(corners, floors, start, member, frame, x, y, z, ux, uy, length, stride
         qx, qy = x + ahead * ux, y + ahead * uy
         reach = step + (ahead - last) * tangent + 1e-6
         floor = _floor_near(corners, floors, start, member, frame, qx, qy, z, reach, headroom)
+        if np.isnan(floor):
+            floor = _riser_near(
+                corners, floors, start, member, frame, qx, qy, z, reach, step, tangent, headroom
+            )
         top = z if np.isnan(floor) else max(z, floor)
         bottom = z if np.isnan(floor) else min(z, floor)
         slack = (ahead - last) * tangent + 0.02

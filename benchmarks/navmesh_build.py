@@ -1,30 +1,25 @@
 """Is the graph right, and how fast is it built? Prints a table and writes JSON.
 
-    python -m benchmarks.navmesh_build [--json FILE] [--resolution 0.25] [--samples 20000] [--repeats 7]
+    python -m benchmarks.navmesh_build [--levels LEVEL ...] [--json FILE] [--resolution 0.25]
+        [--samples 20000] [--repeats 7]
 
 On the three shared levels, with the body of the shared queries (height 2.0 m, step 0.9 m, slope 45°): what
 the discs hold and leave out, asked of the mesh itself (`mesh_truth`), connections against a flood fill of
 the clearance field, the error of small radii, and the time of the build against Recast in the same run.
 """
 
-import argparse
 import json
 import math
-import os
-import subprocess
 import sys
-import tempfile
 import time
-from pathlib import Path
 
 import numpy as np
-from rich.console import Console
-from rich.table import Table
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from benchmarks.mesh_truth import MeshTruth
-from benchmarks.shared_data import LEVELS, level_path, queries_path, shared_folder, why_absent
+from benchmarks.navmesh_levels import Target, ask_peer, run
+from benchmarks.shared_data import level_path
 from navmesh import NodeGraph, Terrain, WalkRules
 
 RADII = (0.15, 0.3, 0.6, 0.9, 1.2)
@@ -74,16 +69,8 @@ def uncovered_cells(graph: NodeGraph) -> int:
 
 
 def recast_milliseconds(name: str, repeats: int) -> float:
-    """Least time of Recast's whole build of a level; compiles the peer on the first call."""
-    folder = shared_folder()
-    assert folder is not None
-    program = Path(os.environ.get("TMPDIR", "/tmp")) / "surefoot-peer" / "recast_bench"
-    if not program.exists():
-        script = folder / "bench" / "peer" / "run_native.sh"
-        subprocess.run([script, level_path(name), queries_path(name)], check=True, capture_output=True)
-    command = [program, "solo", level_path(name), str(repeats)]
-    answer = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    return float(json.loads(answer)["build_ms_min"])
+    """Least time of Recast's whole build of a level."""
+    return float(json.loads(ask_peer("solo", name, repeats))["build_ms_min"])
 
 
 def build_milliseconds(terrain: Terrain, rules: WalkRules, repeats: int, obstacles: bool) -> float:
@@ -136,57 +123,16 @@ def measure(name: str, rules: WalkRules, samples: int, repeats: int, rng: np.ran
     return figures
 
 
-def show(results: dict[str, dict]) -> None:
-    """Print the figures as a table, one column for each level."""
-    table = Table("figure", *results, title="Building the graph")
-    for key in next(iter(results.values())):
-        row = []
-        for figures in results.values():
-            value = figures[key]
-            if isinstance(value, dict):
-                row.append(" ".join(str(v) for v in value.values()))
-            else:
-                row.append(f"{value:.4g}" if isinstance(value, float) else str(value))
-        table.add_row(key, *row)
-    Console(width=120).print(table)
-
-
-def main() -> int:
-    """Run the benchmark; exit code 1 when a figure misses its target."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--json", type=Path, help="where to write the figures")
-    parser.add_argument("--resolution", type=float, default=0.25, help="[m] side of a cell")
-    parser.add_argument("--samples", type=int, default=20_000, help="points in discs per level")
-    parser.add_argument("--repeats", type=int, default=7, help="rounds of timing")
-    options = parser.parse_args()
-    if shared_folder() is None:
-        print(f"skipped: {why_absent()}")
-        return 0
-    rules = WalkRules(max_slope=math.radians(45), max_step=0.9, headroom=2.0, resolution=options.resolution)
-    rng = np.random.default_rng(1)
-    results = {name: measure(name, rules, options.samples, options.repeats, rng) for name in LEVELS}
-    show(results)
-    missed = [
-        f"{name}: {what}"
-        for name, figures in results.items()
-        for what, holds in (
-            ("unwalkable samples above 0.1 %", figures["unwalkable_share"] <= 0.001),
-            ("radius error above 0.05 m", figures["radius_error_mean_m"] <= 0.05),
-            ("uncovered cells", figures["uncovered_cells"] == 0),
-            ("connections lost", not any(figures["connections_lost"].values())),
-            ("slower than Recast", figures["build_ratio"] <= 1.0),
-        )
-        if not holds
-    ]
-    print("missed: " + "; ".join(missed) if missed else "every figure meets its target")
-    if options.json:
-        with tempfile.NamedTemporaryFile("w", dir=options.json.parent, delete=False) as file:
-            json.dump({"resolution": options.resolution, "levels": results, "missed": missed}, file, indent=1)
-        os.replace(file.name, options.json)
-    return 1 if missed else 0
+TARGETS: list[Target] = [
+    ("unwalkable samples above 0.1 %", "unwalkable_share", lambda share: share <= 0.001),
+    ("radius error above 0.05 m", "radius_error_mean_m", lambda error: error <= 0.05),
+    ("uncovered cells", "uncovered_cells", lambda cells: cells == 0),
+    ("connections lost", "connections_lost", lambda lost: not any(lost.values())),
+    ("slower than Recast", "build_ratio", lambda ratio: ratio <= 1.0),
+]
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(
+        run(__doc__, "Building the graph", measure, TARGETS, samples=20_000, samples_of="points in discs")
+    )

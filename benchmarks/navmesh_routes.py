@@ -1,6 +1,7 @@
 """Are routes found, short, clear of walls and fast? Prints a table and writes JSON.
 
-    python -m benchmarks.navmesh_routes [--json FILE] [--resolution 0.25] [--samples 4000] [--repeats 7]
+    python -m benchmarks.navmesh_routes [--levels LEVEL ...] [--json FILE] [--resolution 0.25]
+        [--samples 4000] [--repeats 7]
 
 On the three shared levels and their 2,000 pairs each, for the body of the shared queries (radius 0.6 m,
 height 2.0 m, step 0.9 m, slope 45°): pairs answered "complete", length of the pulled path against the peer's,
@@ -10,23 +11,16 @@ query (single calls; Detour: median of its passes) or batch of 100, so that othe
 little.
 """
 
-import argparse
 import json
-import math
-import os
-import subprocess
 import sys
-import tempfile
 import time
-from pathlib import Path
 
 import numpy as np
-from rich.console import Console
-from rich.table import Table
 from scipy.spatial import KDTree
 
 from benchmarks.mesh_truth import MeshTruth
-from benchmarks.shared_data import LEVELS, level_path, queries_path, shared_folder, why_absent
+from benchmarks.navmesh_levels import Target, ask_peer, run
+from benchmarks.shared_data import level_path, queries_path
 from navmesh import NodeGraph, Terrain, WalkRules
 from navmesh.draping import drape
 from navmesh.route import Route
@@ -89,16 +83,8 @@ def clearance_figures(
 
 
 def detour_microseconds(name: str) -> tuple[float, float]:
-    """Mean and median over the pairs of Detour's time for a query; compiles the peer on the first call."""
-    folder = shared_folder()
-    assert folder is not None
-    program = Path(os.environ.get("TMPDIR", "/tmp")) / "surefoot-peer" / "recast_bench"
-    if not program.exists():
-        script = folder / "bench" / "peer" / "run_native.sh"
-        subprocess.run([script, level_path(name), queries_path(name)], check=True, capture_output=True)
-    command = [program, "query", level_path(name), queries_path(name)]
-    answer = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    first = json.loads(answer.splitlines()[0])
+    """Mean and median over the pairs of Detour's time for a query."""
+    first = json.loads(ask_peer("query", name, queries_path(name)).splitlines()[0])
     return first["us_mean"], first["us_median"]
 
 
@@ -153,59 +139,20 @@ def measure(name: str, rules: WalkRules, samples: int, repeats: int, rng: np.ran
     return figures
 
 
-def show(results: dict[str, dict]) -> None:
-    """Print the figures as a table, one column for each level."""
-    table = Table("figure", *results, title=f"Routes for a body of {RADIUS} m")
-    for key in next(iter(results.values())):
-        table.add_row(key, *(f"{figures[key]:.5g}" for figures in results.values()))
-    Console(width=120).print(table)
-
-
-def main() -> int:
-    """Run the benchmark; exit code 1 when a figure misses its target."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--json", type=Path, help="where to write the figures")
-    parser.add_argument("--resolution", type=float, default=0.25, help="[m] side of a cell")
-    parser.add_argument("--samples", type=int, default=4_000, help="points of paths measured per level")
-    parser.add_argument("--repeats", type=int, default=7, help="rounds of timing")
-    options = parser.parse_args()
-    if shared_folder() is None:
-        print(f"skipped: {why_absent()}")
-        return 0
-    rules = WalkRules(max_slope=math.radians(45), max_step=0.9, headroom=2.0, resolution=options.resolution)
-    rng = np.random.default_rng(1)
-    results = {name: measure(name, rules, options.samples, options.repeats, rng) for name in LEVELS}
-    show(results)
-    missed = [
-        f"{name}: {what} ({figures[key]:.4g})"
-        for name, figures in results.items()
-        for what, key, holds in (
-            ("pairs complete below 99.5 %", "complete_share", figures["complete_share"] >= 0.995),
-            ("mean length above 1.01", "length_ratio_mean", figures["length_ratio_mean"] <= 1.01),
-            ("95th percentile above 1.04", "length_ratio_p95", figures["length_ratio_p95"] <= 1.04),
-            ("over 2 % above 1.10", "length_ratio_above_1.10", figures["length_ratio_above_1.10"] <= 0.02),
-            ("over 0.5 % too close", "samples_short_share", figures["samples_short_share"] <= 0.005),
-            ("off the surface", "samples_off_surface", figures["samples_off_surface"] == 0),
-            (
-                "smoothed: over 0.5 % too close",
-                "smoothed_short_share",
-                figures["smoothed_short_share"] <= 0.005,
-            ),
-            ("smoothed: off the surface", "smoothed_off_surface", figures["smoothed_off_surface"] == 0),
-            ("batch above 3 times Detour", "batch_ratio", figures["batch_ratio"] <= 3.0),
-            ("single call above 15 µs", "single_us_median", figures["single_us_median"] <= 15.0),
-        )
-        if not holds
-    ]
-    print("missed: " + "; ".join(missed) if missed else "every figure meets its target")
-    if options.json:
-        with tempfile.NamedTemporaryFile("w", dir=options.json.parent, delete=False) as file:
-            json.dump({"resolution": options.resolution, "levels": results, "missed": missed}, file, indent=1)
-        os.replace(file.name, options.json)
-    return 1 if missed else 0
+TARGETS: list[Target] = [
+    ("pairs complete below 99.5 %", "complete_share", lambda share: share >= 0.995),
+    ("mean length above 1.01", "length_ratio_mean", lambda ratio: ratio <= 1.01),
+    ("95th percentile above 1.04", "length_ratio_p95", lambda ratio: ratio <= 1.04),
+    ("over 2 % above 1.10", "length_ratio_above_1.10", lambda share: share <= 0.02),
+    ("over 0.5 % too close", "samples_short_share", lambda share: share <= 0.005),
+    ("off the surface", "samples_off_surface", lambda samples: samples == 0),
+    ("smoothed: over 0.5 % too close", "smoothed_short_share", lambda share: share <= 0.005),
+    ("smoothed: off the surface", "smoothed_off_surface", lambda samples: samples == 0),
+    ("batch above 3 times Detour", "batch_ratio", lambda ratio: ratio <= 3.0),
+    ("single call above 15 µs", "single_us_median", lambda time: time <= 15.0),
+]
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    title = f"Routes for a body of {RADIUS} m"
+    sys.exit(run(__doc__, title, measure, TARGETS, samples=4_000, samples_of="points of paths measured"))

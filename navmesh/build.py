@@ -36,7 +36,7 @@ def build_surface(terrain: Terrain, rules: WalkRules) -> Surface:
     )
     start, triangle = raster.columns_of_triangles(table, h, nx, ny)
     column_start, cell_column, height, gradient = floors.find_floors(
-        table, start, triangle, h, nx, ny, rules.headroom
+        table, start, triangle, h, nx, ny, math.tan(rules.max_slope), rules.max_step, rules.headroom
     )
     if len(cell_column) == 0:
         raise NavmeshError(

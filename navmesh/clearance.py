@@ -13,6 +13,9 @@ from navmesh.walls import clip_band, nearest_on_polygon, range_in_column, wall_b
 
 __all__ = ["seed_clearance", "spread_clearance"]
 
+_CORNERS = ((1, 1), (-1, 1), (-1, -1), (1, -1))
+"""Where one gets by direction d, then d + 1, of `navmesh.surface.DIRECTIONS`."""
+
 
 @njit(cache=True)
 def _nearest_on_edge(edge, x, y, cross_x, cross_y, reach):
@@ -47,6 +50,10 @@ def seed_clearance(
         for d in range(4):
             n = link[c, d]
             beside |= n < 0 or base[n] < np.inf
+            if not beside:
+                # the square at the corner: it may hold the end of a wall that no square to the sides knows
+                m = link[n, (d + 1) % 4]
+                beside = m < 0 or base[m] < np.inf
         if not beside:
             continue
         column = cell_column[c]
@@ -54,10 +61,15 @@ def seed_clearance(
         x = (ix + 0.5) * resolution
         y = (column - ix * ny + 0.5) * resolution
         best = np.inf
-        for d in range(-1, 4):
+        for d in range(-1, 8):
             dx = (1 if d == 0 else 0) - (1 if d == 2 else 0)
             dy = (1 if d == 1 else 0) - (1 if d == 3 else 0)
-            n = c if d < 0 else link[c, d]
+            n = c if d < 0 else link[c, d % 4]
+            if d >= 4:
+                if n < 0 or best <= 0.5 * resolution * resolution:
+                    continue
+                dx, dy = _CORNERS[d - 4]
+                n = link[n, (d + 1) % 4]
             there = column + dx * ny + dy
             if (n >= 0 and base[n] == np.inf) or start[there] == start[there + 1]:
                 continue

@@ -1,20 +1,24 @@
 """Cells of the surface: where the centre of a column's square is a floor point, and who neighbours whom."""
 
+import math
+
 import numpy as np
 from numba import njit
 
 from navmesh.raster import FLOOR, SAME_SURFACE, TOUCH, UPRIGHT, is_over
+from navmesh.risers import on_riser
 
 __all__ = ["find_floors", "neighbours_within_step"]
 
 
 @njit(cache=True)
-def find_floors(table, start, triangle, resolution, nx, ny, headroom):
+def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroom):
     """Rule 1 at the centre of every column.
 
-    ``table``, ``start``, ``triangle`` come from `navmesh.raster`. Returns ``column_start`` (nx·ny + 1,)
-    int32, ``cell_column`` (n,) int32, ``height`` (n,) and ``gradient`` (n, 2) float64; cells of a column go
-    upwards.
+    ``table``, ``start``, ``triangle`` come from `navmesh.raster`; ``slope`` is the tangent of the steepest
+    slope walked on. Returns ``column_start`` (nx·ny + 1,) int32, ``cell_column`` (n,) int32, ``height`` (n,)
+    and ``gradient`` (n, 2) float64; cells of a column go upwards. On a riser the gradient is cut to
+    ``slope``, so that neighbours on the floors at its foot and head meet it within a step.
     """
     columns = nx * ny
     most = 1
@@ -46,8 +50,15 @@ def find_floors(table, start, triangle, resolution, nx, ny, headroom):
             hit[hits, 1] = row[9]
             hit[hits, 2] = row[10]
             hit[hits, 3] = row[14]
+            if row[14] != FLOOR and on_riser(
+                table, start, triangle, resolution, ny, triangle[k], x, y, step, headroom
+            ):
+                cut = slope / math.hypot(row[9], row[10])
+                hit[hits, 1] *= cut
+                hit[hits, 2] *= cut
+                hit[hits, 3] = FLOOR
+            walkable |= hit[hits, 3] == FLOOR
             hits += 1
-            walkable |= row[14] == FLOOR
         if not walkable:
             continue
         first = cells

@@ -7,11 +7,11 @@ from numba import njit
 
 from navmesh.raster import FLOOR, SAME_SURFACE, TOUCH, UPRIGHT, is_over
 
-__all__ = ["floor_at", "floor_end"]
+__all__ = ["comes_first", "floor_at", "floor_end"]
 
 
 @njit(cache=True)
-def _comes_first(row, other):
+def comes_first(row, other):
     """A choice between two triangles that does not depend on their order in the mesh."""
     for k in range(12):
         if row[k] != other[k]:
@@ -32,7 +32,7 @@ def floor_at(table, start, triangle, resolution, ny, x, y, z, step, headroom):
         here = row[9] * x + row[10] * y + row[11]
         if abs(here - z) > step + TOUCH or here < at or not is_over(row, x, y):
             continue
-        if here == at and chosen >= 0 and not _comes_first(row, table[chosen]):
+        if here == at and chosen >= 0 and not comes_first(row, table[chosen]):
             continue
         chosen = triangle[k]
         at = here

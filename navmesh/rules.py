@@ -15,12 +15,14 @@ class WalkRules:
 
     The rule, on the mesh itself:
 
-    1. A *floor point* is a point of a face whose normal is within ``max_slope`` of straight up, with no
-       other part of the mesh above it within ``headroom`` (parts closer than 1 cm count as the same surface).
+    1. A *floor point* is a point of a face whose normal is within ``max_slope`` of straight up, or of the
+       *riser* of a step, with no other part of the mesh above it within ``headroom`` (parts closer than 1 cm
+       count as the same surface). A riser is made of steeper faces; the fall line through each of its points
+       leads over them to floor above and to floor below that are at most ``max_step`` apart in height.
     2. *Walls always count, however thin*: walking ends at any part of the mesh that is more than
        ``max_step`` and less than ``headroom`` above the floor at its foot.
     3. *Floor ends* where within ``max_step`` up or down there is no floor point beyond: at a ledge, a
-       steep face, a hole, or an obstacle that is lower than ``max_step`` but offers no floor on top.
+       steep face that is no riser, a hole, or an obstacle lower than ``max_step`` without floor on top.
 
     Floors are sampled at the centre of every square of ``resolution``: a strip of floor, or a gap in it,
     that holds no such centre can be missed, a wall cannot. The body's radius is not a rule of the build:
@@ -28,7 +30,7 @@ class WalkRules:
     """
 
     max_slope: float = math.radians(45.0)
-    """[rad], 0 to π/2 (exclusive). Steeper faces end the walkable surface."""
+    """[rad], 0 to π/2 (exclusive). Steeper faces end the walkable surface, but for risers of steps."""
     max_step: float = 0.2
     """[m], 0 up to half of `headroom`. Rises and drops up to this are walked over; higher ones are ledges."""
     headroom: float = 1.8

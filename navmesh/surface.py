@@ -33,7 +33,8 @@ class Surface:
     height: np.ndarray
     """(n,) float64 [m]: height of the floor at the cell's centre, above origin[2]."""
     gradient: np.ndarray
-    """(n, 2) float64: slope of the floor at the cell's centre, dz/dx and dz/dy."""
+    """(n, 2) float64: slope of the floor at the cell's centre, dz/dx and dz/dy; on a riser cut to what
+    `max_slope` allows."""
     link: np.ndarray
     """(n, 4) int32: the cell that one walks to in +x, +y, -x, -y, or -1 where walking ends. Symmetric."""
     clearance: np.ndarray

@@ -186,25 +186,9 @@ def find_walls(table, start, triangle, cell_column, height, gradient, resolution
 
 @njit(cache=True)
 def _wall_between(
-    table,
-    start,
-    triangle,
-    base,
-    height,
-    gradient,
-    c,
-    column,
-    x,
-    y,
-    ax,
-    ay,
-    bx,
-    by,
-    half,
-    headroom,
-    polygon,
-    spare,
-):
+    table, start, triangle, base, height, gradient, c, column, x, y, ax, ay, bx, by, half, headroom,
+    polygon, spare,
+):  # fmt: skip
     """Whether a wall in cell c's column crosses the segment a-b."""
     z = height[c]
     slope = (abs(gradient[c, 0]) + abs(gradient[c, 1])) * half
@@ -238,47 +222,14 @@ def cut_links_at_walls(
             ay = (column - ix * ny + 0.5) * resolution
             bx = ax + resolution if d == 0 else ax
             by = ay if d == 0 else ay + resolution
-            cut = base[c] < np.inf and _wall_between(
-                table,
-                start,
-                triangle,
-                base,
-                height,
-                gradient,
-                c,
-                column,
-                ax,
-                ay,
-                ax,
-                ay,
-                bx,
-                by,
-                half,
-                headroom,
-                polygon,
-                spare,
-            )
-            if not cut and base[n] < np.inf:
-                cut = _wall_between(
-                    table,
-                    start,
-                    triangle,
-                    base,
-                    height,
-                    gradient,
-                    n,
-                    cell_column[n],
-                    bx,
-                    by,
-                    ax,
-                    ay,
-                    bx,
-                    by,
-                    half,
-                    headroom,
-                    polygon,
-                    spare,
-                )
+            cut = False
+            for k in range(2):
+                side, x, y = (c, ax, ay) if k == 0 else (n, bx, by)
+                if not cut and base[side] < np.inf:
+                    cut = _wall_between(
+                        table, start, triangle, base, height, gradient, side, cell_column[side],
+                        x, y, ax, ay, bx, by, half, headroom, polygon, spare,
+                    )  # fmt: skip
             if cut:
                 link[c, d] = -1
                 link[n, d + 2] = -1

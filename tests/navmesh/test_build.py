@@ -121,6 +121,36 @@ def test_steps_end_at_the_limit(rise, passes, riser):
     assert at_border == pytest.approx([1.875, 1.875] if passes else [0.125, 0.125], abs=0.01)
 
 
+@pytest.mark.parametrize(("rise", "passes"), [(0.2, True), (0.4, True), (0.41, False)])
+@pytest.mark.parametrize("degrees", [46, 60, 85])
+def test_the_riser_of_a_step_may_slant(degrees, rise, passes):
+    run = rise / math.tan(math.radians(degrees))
+    middle = quad(
+        (4 + run / 3, 0, rise / 3), (4 + run, 0, rise), (4 + run, 4, rise), (4 + run / 3, 4, rise / 3)
+    )
+    level = [
+        plane(0, 4, 0, 4),
+        quad((4, 0, 0), (4 + run / 3, 0, rise / 3), (4 + run / 3, 4, rise / 3), (4, 4, 0)),
+        middle,
+        plane(4 + run, 8, 0, 4, rise),
+    ]
+    graph = build(*level)
+    a, b = parts(graph, 0.6, (2, 2, 0), (7, 2, rise))
+    assert (a == b) == passes
+    if passes:
+        assert graph.clearance_at((4.0, 2.0, 0.0)) > 1.7
+
+
+def test_a_hump_without_floor_on_top_is_no_step():
+    rise = 0.3
+    up = quad((3.8, 0, 0), (4, 0, rise), (4, 4, rise), (3.8, 4, 0))
+    down = quad((4, 0, rise), (4.2, 0, 0), (4.2, 4, 0), (4, 4, rise))
+    graph = build(plane(0, 3.8, 0, 4), up, down, plane(4.2, 8, 0, 4))
+    a, b = parts(graph, 0.3, (2, 2, 0), (6, 2, 0))
+    assert a != b
+    assert graph.clearance_at((2.9, 2, 0)) == pytest.approx(0.9, abs=0.03)
+
+
 def test_a_step_on_a_slope_is_not_made_higher_by_the_slope():
     slope = math.tan(math.radians(44))
     rules = WalkRules(max_step=0.2, headroom=2.0, resolution=0.25)
@@ -207,7 +237,7 @@ def test_rotating_the_level_rotates_the_graph(seed, angle):
     wide = a.surface.clearance > 0.5  # the rim is sampled at other places
     difference = np.abs(a.clearance_at(points[wide]) - b.clearance_at(there[wide]))
     assert np.median(difference) < 0.02
-    assert np.quantile(difference, 0.97) < 0.2
+    assert np.quantile(difference, 0.97) < 0.15
     assert a.radii.max() == pytest.approx(b.radii.max(), abs=0.25)
 
 

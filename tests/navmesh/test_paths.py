@@ -26,9 +26,9 @@ from navmesh.snapping import snap
 from navmesh.structs import net_of
 
 RADII = st.sampled_from([0.15, 0.3, 0.6, 0.9])
-FIELD_ERROR = 0.08
-"""[m] by which the clearance field may read too wide, at the outer corner of a wall: a cell knows a point of
-what ends walking, not its whole outline. It never reads too narrow."""
+FIELD_ERROR = 0.05
+"""[m] by which the clearance field may read too wide: a cell knows a point of what ends walking, not its
+whole outline. It never reads too narrow."""
 SEEDS = st.integers(0, 10_000)
 
 
@@ -234,7 +234,7 @@ def test_a_goal_in_another_part_is_approached() -> None:
     graph = two_plates()
     route = graph.find_path((1.0, 3.0, 0.0), (12.0, 3.0, 0.0), 0.3)
     assert route.status == "partial"
-    assert route.waypoints[-1, 0] > 5.0 and abs(route.waypoints[-1, 1] - 3.0) < 2.0
+    assert route.waypoints[-1, 0] > 5.0 and abs(route.waypoints[-1, 1] - 3.0) < 1.5
 
 
 def test_storeys_are_told_apart_by_height() -> None:
@@ -257,8 +257,8 @@ def test_ends_too_close_to_a_wall_are_moved_off_it() -> None:
     graph = build(*join(plane(0.0, 10.0, 0.0, 10.0), box(4.0, 6.0, 4.0, 6.0, 0.0, 3.0)))
     route = graph.find_path((3.9, 5.0, 0.0), (6.1, 5.0, 0.0), 0.5)
     assert route.status == "complete"
-    assert np.allclose(route.waypoints[0], (3.5, 5.0, 0.0), atol=0.15)
-    assert np.allclose(route.waypoints[-1], (6.5, 5.0, 0.0), atol=0.15)
+    assert np.allclose(route.waypoints[0], (3.5, 5.0, 0.0), atol=0.1)
+    assert np.allclose(route.waypoints[-1], (6.5, 5.0, 0.0), atol=0.1)
 
 
 def test_a_wide_body_does_not_fit_a_narrow_door() -> None:

@@ -1,0 +1,90 @@
+"""Rule 1 for steep faces: those of a step, however its riser slants, belong to the floor."""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from navmesh.ledges import comes_first, floor_at
+from navmesh.raster import FLOOR, SAME_SURFACE, TOUCH, UPRIGHT, is_over
+
+__all__ = ["on_riser"]
+
+_FACES = 6
+"""Most faces in a row that a riser has."""
+_BEYOND = 1e-4
+"""[m] by which the fall line is followed over an edge, to what lies beyond it."""
+
+
+@njit(cache=True)
+def _faces_up(row):
+    return (row[3] - row[0]) * (row[7] - row[1]) - (row[4] - row[1]) * (row[6] - row[0]) > 0.0
+
+
+@njit(cache=True)
+def _way_out(row, x, y, dx, dy):
+    """How far it is from (x, y), a point of an upward face, in direction (dx, dy) to the face's edge [m]."""
+    out = np.inf
+    for k in range(3):
+        j = 3 * k + 3 if k < 2 else 0
+        ex, ey = row[j] - row[3 * k], row[j + 1] - row[3 * k + 1]
+        leaving = dx * ey - dy * ex
+        if leaving > 1e-12:
+            out = min(out, ((row[3 * k] - x) * ey - (row[3 * k + 1] - y) * ex) / leaving)
+    return max(out, 0.0)
+
+
+@njit(cache=True)
+def _steep_at(table, start, triangle, resolution, ny, x, y, z):
+    """The steep face at (x, y, z) that faces up, or -1."""
+    column = math.floor(x / resolution) * ny + math.floor(y / resolution)
+    chosen = -1
+    for k in range(start[column], start[column + 1]):
+        t = triangle[k]
+        row = table[t]
+        if row[14] == FLOOR or row[14] == UPRIGHT or not _faces_up(row):
+            continue
+        if abs(row[9] * x + row[10] * y + row[11] - z) > SAME_SURFACE or not is_over(row, x, y):
+            continue
+        if chosen < 0 or comes_first(row, table[chosen]):
+            chosen = t
+    return chosen
+
+
+@njit(cache=True)
+def _height_to_floor(table, start, triangle, resolution, ny, t, x, y, way, step, headroom):
+    """Height from (x, y) on the steep face ``t`` along the fall line, up (way 1) or down (way -1), to the
+    first floor [m], or inf when that is more than ``step``."""
+    z = table[t, 9] * x + table[t, 10] * y + table[t, 11]
+    begin = z
+    for _ in range(_FACES):
+        row = table[t]
+        fall = math.hypot(row[9], row[10])
+        dx, dy = way * row[9] / fall, way * row[10] / fall
+        out = _way_out(row, x, y, dx, dy)
+        z += way * out * fall
+        left = step - abs(z - begin)
+        if left < -TOUCH:
+            return np.inf
+        x += (out + _BEYOND) * dx
+        y += (out + _BEYOND) * dy
+        floor = floor_at(table, start, triangle, resolution, ny, x, y, z, left, headroom)
+        if floor >= 0:
+            return abs(table[floor, 9] * x + table[floor, 10] * y + table[floor, 11] - begin)
+        t = _steep_at(table, start, triangle, resolution, ny, x, y, z)
+        if t < 0:
+            return np.inf
+    return np.inf
+
+
+@njit(cache=True)
+def on_riser(table, start, triangle, resolution, ny, t, x, y, step, headroom):
+    """Whether (x, y) on the steep face ``t`` is on a riser: the fall line through it leads over steep faces
+    to floor above and to floor below that are at most ``step`` apart in height."""
+    if not _faces_up(table[t]):
+        return False
+    up = _height_to_floor(table, start, triangle, resolution, ny, t, x, y, 1.0, step, headroom)
+    if up > step + TOUCH:
+        return False
+    down = _height_to_floor(table, start, triangle, resolution, ny, t, x, y, -1.0, step - up, headroom)
+    return up + down <= step + TOUCH

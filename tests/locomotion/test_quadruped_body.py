@@ -42,7 +42,7 @@ def test_a_body_that_does_not_add_up_is_refused(tmp_path, old, new, says):
     assert old in text
     path = tmp_path / "mutt.yaml"
     path.write_text(text.replace(old, new, 1))
-    with pytest.raises(LocomotionError, match="mutt.yaml:[0-9]+:[0-9]+: ") as caught:
+    with pytest.raises(LocomotionError, match=r"mutt\.yaml:[0-9]+:[0-9]+: ") as caught:
         load_body(path)
     assert says in str(caught.value)
 

@@ -179,8 +179,8 @@ def test_an_animal_does_not_care_about_the_others():
         herd = Herd(ground)
         for k in range(count):
             body = load_body(("dog", "cat", "horse")[k % 3])
-            index = herd.add(body, (0.0, float(k), 0.0), 0.0)
-            herd.follow(index, lay_trail(bend + np.array([0.0, k, 0.0]), body, ground), 0.8)
+            index = herd.add(body, (0.0, 0.5 * k, 0.0), 0.0)
+            herd.follow(index, lay_trail(bend + np.array([0.0, 0.5 * k, 0.0]), body, ground), 0.8)
         for _ in range(200):
             herd.tick()
         return [herd.state_hash(k) for k in chosen]

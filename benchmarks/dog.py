@@ -104,8 +104,8 @@ def _gait(found: dict[str, Any]) -> Lines:
 
 def _herd(found: dict[str, Any]) -> Lines:
     text = (
-        f"{found['ms_per_tick']:.2f} ms (p95 {found['ms_p95']:.2f}), {found['bodies']} bodies, "
-        f"{found['moving']} moving"
+        f"{found['ms_per_tick']:.2f} ms (p95 {found['ms_p95']:.2f}; wall {found['wall_ms']:.1f}), "
+        f"{found['bodies']} bodies, {found['moving']} moving"
     )
     return [(f"{found['dogs']} dogs on nav_test", text, "<= 10 ms a tick", found["ms_per_tick"] <= 10.0)]
 

@@ -55,6 +55,7 @@ class Film:
         self.moments: list[tuple[float, np.ndarray, np.ndarray, float]] = []
         self.path = np.empty((0, 3))
         self.view = 0.0
+        self.rise = 0.16
 
     def draw(self, figure, path: Path, span: tuple[float, float] | None = None) -> None:
         """Write the strip: six moments, evenly spaced between two times."""
@@ -71,7 +72,7 @@ class Film:
             along = self.view
             side = np.array([math.sin(along), -math.cos(along), 0.0])
             cameras = (
-                Camera(middle + self.reach * (side + np.array([0.0, 0.0, 0.16])), middle, 0.5),
+                Camera(middle + self.reach * (side + np.array([0.0, 0.0, self.rise])), middle, 0.5),
                 Camera(middle + self.reach * np.array([0.0, -0.001, 1.15]), middle, 0.5),
             )
             for row, camera in enumerate(cameras):
@@ -198,6 +199,7 @@ def _dead_end():
         "dead end of 0.5 m: backing out along the crumbs, turning where there is room", dead_end(),
         (-2, 0, 0), 0.0, [(2.0, 0.0, 0.0), (-3.0, 0.5, 0.0)], [1.0, 1.0], 3.4,
     )  # fmt: skip
+    film.rise = 0.8
     return film, figure, (3.5, film.moments[-1][0] - 1.0)
 
 

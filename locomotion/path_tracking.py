@@ -14,7 +14,7 @@ from locomotion.errors import LocomotionError
 
 __all__ = [
     "ARC", "HEADWAY", "HEADWAY_TICK", "LATERAL", "REMAINING", "RUN_UP", "SLOPE_HERE", "SPEED_HERE",
-    "TRACK_SIZE", "PathTable", "TrackingLimits", "make_path", "new_track", "track",
+    "TRACK_SIZE", "PathTable", "TrackingLimits", "checked_points", "make_path", "new_track", "track",
 ]  # fmt: skip
 
 SPACING = 0.1
@@ -74,6 +74,17 @@ class PathTable:
     run_from: float = 0.0
 
 
+def checked_points(points: ArrayLike) -> NDArray[np.float64]:
+    """``points`` as (n, 3) float64; raises `LocomotionError` for other shapes and numbers not finite."""
+    raw = np.asarray(points, dtype=np.float64)
+    if raw.ndim != 2 or raw.shape[1] != 3:
+        raise LocomotionError(f"a path has the shape (n, 3), not {raw.shape}")
+    if not np.isfinite(raw).all():
+        row = int(np.flatnonzero(~np.isfinite(raw).all(axis=1))[0])
+        raise LocomotionError(f"point {row} of the path is {raw[row]}; give finite coordinates")
+    return raw
+
+
 def make_path(
     points: ArrayLike,
     speed: float,
@@ -93,12 +104,7 @@ def make_path(
     Raises `LocomotionError` for fewer than two distinct points, coordinates that are not finite, or a speed
     that is not above 0.
     """
-    raw = np.asarray(points, dtype=np.float64)
-    if raw.ndim != 2 or raw.shape[1] != 3:
-        raise LocomotionError(f"a path has the shape (n, 3), not {raw.shape}")
-    if not np.isfinite(raw).all():
-        row = int(np.flatnonzero(~np.isfinite(raw).all(axis=1))[0])
-        raise LocomotionError(f"point {row} of the path is {raw[row]}; give finite coordinates")
+    raw = checked_points(points)
     if not (np.isfinite(speed) and speed > 0):
         raise LocomotionError(f"speed must be a finite number above 0 m/s, not {speed}")
     keep = np.ones(len(raw), dtype=bool)

@@ -14,7 +14,7 @@ __all__ = ["write_filmstrip"]
 _FRAMES, _COLUMNS = 8, 4
 _SIZE = (400, 330)
 _BEFORE, _AFTER = 0.25, 0.15  # [s] shown before a skill starts and after it has finished
-_DISTANCE = 4.2  # [m] from the camera to the figure
+_DISTANCE = 2.4  # [sizes of the figure] from the camera to it
 
 
 def write_filmstrip(trace: Trace, path: str | os.PathLike[str], progress: Progress | None = None) -> None:
@@ -35,7 +35,8 @@ def write_filmstrip(trace: Trace, path: str | os.PathLike[str], progress: Progre
             stage.update(k / _FRAMES)
             figures = [each.figure.posed(each.poses[pick]) for each in trace.agents]
             camera = _camera(agent, trace, int(pick))
-            axes.imshow(render(level, figures, camera, _SIZE, cutaway=_DISTANCE - 1.0))
+            away = float(np.linalg.norm(camera.eye - camera.target))
+            axes.imshow(render(level, figures, camera, _SIZE, cutaway=0.75 * away))
             axes.set_axis_off()
             axes.text(
                 0.03, 0.94, f"{trace.times[pick]:.2f} s", transform=axes.transAxes, va="top", fontsize=9
@@ -63,6 +64,7 @@ def _scene(trace: Trace) -> tuple[AgentTrace, float, float, str]:
 
 def _camera(agent: AgentTrace, trace: Trace, pick: int) -> Camera:
     """From the right of the way that the figure moves, a little behind it and above."""
+    distance = _DISTANCE * float(np.ptp(agent.figure.posed(agent.poses[0]).place[:, :3], axis=0).max())
     root = agent.poses[:, 0, :3].astype(np.float64)
     before, after = max(pick - 20, 0), min(pick + 20, len(root) - 1)
     heading = root[after, :2] - root[before, :2]
@@ -70,5 +72,5 @@ def _camera(agent: AgentTrace, trace: Trace, pick: int) -> Camera:
     ahead = heading / length if length > 0.1 else np.array([1.0, 0.0])
     side = np.array([ahead[1], -ahead[0]])
     target = root[pick] + np.array([0.25 * ahead[0], 0.25 * ahead[1], -0.1])
-    aside = _DISTANCE * (0.9 * side - 0.45 * ahead)
-    return Camera(eye=target + np.array([aside[0], aside[1], 0.75]), target=target, fov=0.62)
+    aside = distance * (0.9 * side - 0.45 * ahead)
+    return Camera(eye=target + np.array([aside[0], aside[1], 0.18 * distance]), target=target, fov=0.62)

@@ -213,7 +213,7 @@ class Animal:
             self.events.append(BackedOut(self.time, self._point(), gone))
         self._pending = False
         if not self._errand.goals:
-            self.status = "standing"
+            self.status = "standing" if self.status == "running" else self.status
         elif phase == "flexing" and self.trail is not None:
             self._follow(self.trail)
         else:

@@ -17,6 +17,7 @@ from scipy.ndimage import maximum_filter1d, uniform_filter1d
 
 from locomotion.errors import LocomotionError
 from locomotion.ground import Ground, height_below
+from locomotion.path_tracking import checked_points
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.body import Body
 
@@ -61,13 +62,7 @@ def lay_trail(points: ArrayLike, body: Body, ground: Ground) -> Trail:
     Raises `LocomotionError` for wrong shapes, coordinates that are not finite, fewer than two points that
     differ in x or y, or a path that leaves the ground.
     """
-    raw = np.asarray(points, dtype=np.float64)
-    if raw.ndim != 2 or raw.shape[1] != 3:
-        raise LocomotionError(f"a path has the shape (k, 3), not {raw.shape}")
-    if not np.isfinite(raw).all():
-        row = int(np.flatnonzero(~np.isfinite(raw).all(axis=1))[0])
-        raise LocomotionError(f"point {row} of the path is {raw[row]}; give finite coordinates")
-    knots = _subdivided(raw)
+    knots = _subdivided(checked_points(points))
     arc = _arc(knots)
     spline = CubicSpline(arc, knots[:, :2], bc_type="natural")
     fine = np.linspace(0.0, arc[-1], max(round(arc[-1] / 0.005), 16))

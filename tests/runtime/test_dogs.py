@@ -1,0 +1,103 @@
+"""Dogs, cats and horses in worlds and missions."""
+
+import numpy as np
+import pytest
+from conftest import MISSION
+
+import navmesh
+from runtime import Arrived, Blocked, Departed, RuntimeInputError, World
+from runtime.mission import load_mission
+from runtime.mission_run import run_mission
+from runtime.rules import walk_rules
+from runtime.trace import Trace
+from runtime.view import write_page
+
+
+def test_a_dog_goes_where_it_is_told(graph):
+    world = World(graph)
+    dog = world.spawn("dog", (2.0, 3.0, 0.0))
+    assert dog.go_to((9.0, 4.0, 0.0), speed=1.5, facing=1.0) == "running"
+    assert isinstance(world.events[0], Departed)
+    while dog.status == "running":
+        world.step(0.1)
+    assert dog.status == "arrived" and isinstance(world.events[-1], Arrived)
+    assert dog.position == pytest.approx([9.0, 4.0, 0.0], abs=0.02)
+    assert dog.facing == pytest.approx(1.0, abs=0.03)
+    assert dog.plans and dog.progress == pytest.approx(1.0, abs=0.01)
+
+
+def test_a_person_and_animals_share_a_world(graph):
+    world = World(graph)
+    agents = [
+        world.spawn(body, (2.0 + k, 3.0, 0.0)) for k, body in enumerate(("human", "dog", "cat", "horse"))
+    ]
+    assert [agent.name for agent in agents] == ["human1", "dog2", "cat3", "horse4"]
+    for agent in agents:
+        pose = agent.pose
+        assert pose.transforms.shape == (len(pose.names), 7) and pose.parents[0] == -1
+        assert np.linalg.norm(pose.transforms[:, 3:], axis=1) == pytest.approx(1.0)
+        assert len(agent.figure.posed(pose.transforms).size) > 10
+    with pytest.raises(RuntimeInputError, match="is a dog, not a human"):
+        _ = agents[1].human
+    assert agents[1].animal.body.name == "dog"
+
+
+def test_a_restored_world_with_a_dog_goes_on_the_same_way(graph):
+    world = World(graph, seed=5)
+    dog = world.spawn("dog", (2.0, 3.0, 0.0))
+    cat = world.spawn("cat", (2.0, 4.0, 0.0))
+    dog.go_to((9.0, 3.0, 0.0), speed=2.0)
+    world.step(1.0)
+    saved = world.save()
+    hashes = set()
+    for _ in range(2):
+        cat.go_to((6.0, 4.0, 0.0), speed=1.0)
+        world.step(1.0)
+        hashes.add((world.state_hash(), len(world.events)))
+        world.restore(saved)
+    assert len(hashes) == 1
+    assert World(graph, seed=5).state_hash() != world.state_hash()
+
+
+def test_a_goal_in_a_wall_or_off_the_level_blocks_it(graph):
+    world = World(graph)
+    dog = world.spawn("dog", (2.0, 3.0, 0.0))
+    for goal in ((18.0, 3.0, 0.0), (50.0, 3.0, 0.0)):
+        assert dog.go_to(goal) == "blocked"
+        assert isinstance(world.events[-1], Blocked)
+    before = dog.pose.transforms
+    world.step(0.5)
+    assert dog.pose.transforms == pytest.approx(before, abs=1e-3)
+    with pytest.raises(RuntimeInputError, match="speed"):
+        dog.go_to((6.0, 3.0, 0.0), speed=-1.0)
+
+
+def test_a_dog_needs_room_for_its_head():
+    corners = [(0, 0, 0), (6, 0, 0), (6, 4, 0), (0, 4, 0), (3, 0, 0), (3, 4, 0), (3, 4, 1.5), (3, 0, 1.5)]
+    faces = [(0, 1, 2), (0, 2, 3), (4, 5, 6), (4, 6, 7)]
+    terrain = navmesh.Terrain.from_arrays(np.array(corners, float), np.array(faces))
+    world = World(navmesh.NodeGraph.build(terrain, walk_rules(["dog"], resolution=0.1)))
+    with pytest.raises(RuntimeInputError, match="has no room for its head"):
+        world.spawn("dog", (2.3, 2.0, 0.0), facing=0.0)
+    world.spawn("dog", (2.2, 2.0, 0.0), facing=np.pi)
+
+
+def test_a_mission_with_a_dog_runs_and_is_drawn(folder):
+    text = MISSION.replace("body: human", "body: dog").replace("speed: 3.0", "speed: 2.0")
+    (folder / "mission.yaml").write_text(text)
+    loaded = load_mission(folder / "mission.yaml")
+    assert loaded.rules().headroom < 1.0
+    result = run_mission(loaded)
+    assert result.held, result.checks
+    result.trace.write(folder / "trace.npz")
+    trace = Trace.read(folder / "trace.npz")
+    assert trace.state_hash == result.trace.state_hash
+    write_page(trace, folder / "run.html")
+    assert (folder / "run.html").stat().st_size > 100_000
+
+
+def test_rules_suit_every_body_of_a_mission():
+    both, dog, person = walk_rules(["dog", "human"]), walk_rules(["dog"]), walk_rules(["human"])
+    assert both.headroom == max(dog.headroom, person.headroom)
+    assert both.max_slope == min(dog.max_slope, person.max_slope)
+    assert walk_rules(["dog"], headroom=2.0).headroom == 2.0

@@ -15,7 +15,8 @@ from typing import Any
 from benchmarks import dog_checks, dog_gait, dog_walks
 from benchmarks.shared_data import shared_folder, why_absent
 
-Lines = list[tuple[str, str, str, bool]]
+Lines = list[tuple[str, str, str, bool | None]]
+_VERDICT = {True: "yes", False: "NO", None: "-"}
 _SHARED = ("following", "footprint", "gait", "herd")
 
 
@@ -43,7 +44,7 @@ def _following(found: dict[str, Any]) -> Lines:
             f"speed {row['joint_speed']:.0f} rad/s, acceleration {row['joint_acceleration']:.0f} rad/s2, "
             f"jerk {row['joint_jerk']:.0f} rad/s3; p99 change per tick {row['joint_jump_p99']:.1f} rad/s"
         )
-        lines.append((f"joints, worst: {name}", joints, "printed", True))
+        lines.append((f"joints, worst: {name}", joints, "printed", None))
     return lines
 
 
@@ -154,7 +155,7 @@ def main() -> None:
         measure, lines = ROWS[name]
         report[name] = measure(options.quick)
         for what, found, wanted, held in lines(report[name]):
-            print(f"{what:46} {wanted:>16}  {'yes' if held else 'NO ':4}  {found}", flush=True)
+            print(f"{what:46} {wanted:>16}  {_VERDICT[held]:4}  {found}", flush=True)
     if options.json:
         options.json.write_text(json.dumps(report, indent=1, default=float))
 

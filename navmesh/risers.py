@@ -8,7 +8,7 @@ from numba import njit
 from navmesh.ledges import comes_first, floor_at
 from navmesh.raster import FLOOR, SAME_SURFACE, TOUCH, UPRIGHT, is_over
 
-__all__ = ["on_riser"]
+__all__ = ["faces_up", "on_riser"]
 
 _FACES = 6
 """Most faces in a row that a riser has."""
@@ -17,7 +17,8 @@ _BEYOND = 1e-4
 
 
 @njit(cache=True)
-def _faces_up(row):
+def faces_up(row):
+    """Whether a prepared triangle faces up."""
     return (row[3] - row[0]) * (row[7] - row[1]) - (row[4] - row[1]) * (row[6] - row[0]) > 0.0
 
 
@@ -42,7 +43,7 @@ def _steep_at(table, start, triangle, resolution, ny, x, y, z):
     for k in range(start[column], start[column + 1]):
         t = triangle[k]
         row = table[t]
-        if row[14] == FLOOR or row[14] == UPRIGHT or not _faces_up(row):
+        if row[14] == FLOOR or row[14] == UPRIGHT or not faces_up(row):
             continue
         if abs(row[9] * x + row[10] * y + row[11] - z) > SAME_SURFACE or not is_over(row, x, y):
             continue
@@ -79,12 +80,17 @@ def _height_to_floor(table, start, triangle, resolution, ny, t, x, y, way, step,
 
 @njit(cache=True)
 def on_riser(table, start, triangle, resolution, ny, t, x, y, step, headroom):
-    """Whether (x, y) on the steep face ``t`` is on a riser: the fall line through it leads over steep faces
-    to floor above and to floor below that are at most ``step`` apart in height."""
-    if not _faces_up(table[t]):
+    """Whether (x, y) on the steep face ``t``, which faces up, is on a riser: the fall line through it leads
+    over steep faces to floor above and to floor below that are at most ``step`` apart in height."""
+    row = table[t]
+    fall = math.hypot(row[9], row[10])
+    dx, dy = row[9] / fall, row[10] / fall
+    # most steep faces are too high, by themselves or with those above them
+    below = _way_out(row, x, y, -dx, -dy) * fall
+    if below + _way_out(row, x, y, dx, dy) * fall > step + TOUCH:
         return False
-    up = _height_to_floor(table, start, triangle, resolution, ny, t, x, y, 1.0, step, headroom)
-    if up > step + TOUCH:
+    up = _height_to_floor(table, start, triangle, resolution, ny, t, x, y, 1.0, step - below, headroom)
+    if up == np.inf:
         return False
     down = _height_to_floor(table, start, triangle, resolution, ny, t, x, y, -1.0, step - up, headroom)
     return up + down <= step + TOUCH

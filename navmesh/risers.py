@@ -36,20 +36,26 @@ def _way_out(row, x, y, dx, dy):
 
 
 @njit(cache=True)
-def _steep_at(table, start, triangle, resolution, ny, x, y, z):
-    """The steep face at (x, y, z) that faces up, or -1."""
+def _next_face(table, start, triangle, resolution, ny, x, y, z, left):
+    """The steep face at (x, y, z) that faces up, or -1, and whether a level enough one is within ``left``."""
     column = math.floor(x / resolution) * ny + math.floor(y / resolution)
     chosen = -1
+    level = False
     for k in range(start[column], start[column + 1]):
         t = triangle[k]
         row = table[t]
-        if row[14] == FLOOR or row[14] == UPRIGHT or not faces_up(row):
+        reach = left + TOUCH if row[14] == FLOOR else SAME_SURFACE
+        if (
+            row[14] == UPRIGHT
+            or abs(row[9] * x + row[10] * y + row[11] - z) > reach
+            or not is_over(row, x, y)
+        ):
             continue
-        if abs(row[9] * x + row[10] * y + row[11] - z) > SAME_SURFACE or not is_over(row, x, y):
-            continue
-        if chosen < 0 or comes_first(row, table[chosen]):
+        if row[14] == FLOOR:
+            level = True
+        elif faces_up(row) and (chosen < 0 or comes_first(row, table[chosen])):
             chosen = t
-    return chosen
+    return chosen, level
 
 
 @njit(cache=True)
@@ -69,10 +75,11 @@ def _height_to_floor(table, start, triangle, resolution, ny, t, x, y, way, step,
             return np.inf
         x += (out + _BEYOND) * dx
         y += (out + _BEYOND) * dy
-        floor = floor_at(table, start, triangle, resolution, ny, x, y, z, left, headroom)
-        if floor >= 0:
-            return abs(table[floor, 9] * x + table[floor, 10] * y + table[floor, 11] - begin)
-        t = _steep_at(table, start, triangle, resolution, ny, x, y, z)
+        t, level = _next_face(table, start, triangle, resolution, ny, x, y, z, left)
+        if level:
+            floor = floor_at(table, start, triangle, resolution, ny, x, y, z, left, headroom)
+            if floor >= 0:
+                return abs(table[floor, 9] * x + table[floor, 10] * y + table[floor, 11] - begin)
         if t < 0:
             return np.inf
     return np.inf

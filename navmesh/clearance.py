@@ -50,12 +50,13 @@ def seed_clearance(
         for d in range(4):
             n = link[c, d]
             beside |= n < 0 or base[n] < np.inf
-            if not beside:
-                # the square at the corner: it may hold the end of a wall that no square to the sides knows
-                m = link[n, (d + 1) % 4]
-                beside = m < 0 or base[m] < np.inf
         if not beside:
-            continue
+            # a square at a corner may hold the end of a wall that no square to the sides knows
+            for d in range(4):
+                m = link[link[c, d], (d + 1) % 4]
+                beside |= m < 0 or base[m] < np.inf
+            if not beside:
+                continue
         column = cell_column[c]
         ix = column // ny
         x = (ix + 0.5) * resolution
@@ -66,8 +67,9 @@ def seed_clearance(
             dy = (1 if d == 1 else 0) - (1 if d == 3 else 0)
             n = c if d < 0 else link[c, d % 4]
             if d >= 4:
-                if n < 0 or best <= 0.5 * resolution * resolution:
-                    continue
+                m = link[c, (d + 1) % 4]
+                if n < 0 or m < 0 or base[n] < np.inf or base[m] < np.inf:
+                    continue  # those know all of the wall
                 dx, dy = _CORNERS[d - 4]
                 n = link[n, (d + 1) % 4]
             there = column + dx * ny + dy

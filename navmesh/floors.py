@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit
 
 from navmesh.raster import FLOOR, SAME_SURFACE, TOUCH, UPRIGHT, is_over
-from navmesh.risers import on_riser
+from navmesh.risers import faces_up, on_riser
 
 __all__ = ["find_floors", "neighbours_within_step"]
 
@@ -30,6 +30,7 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
     gradient = np.empty((limit, 2), np.float64)
     column_start = np.empty(columns + 1, np.int32)
     hit = np.empty((most, 4), np.float64)
+    face = np.empty(most, np.int32)
     cells = 0
     for c in range(columns):
         column_start[c] = cells
@@ -50,20 +51,16 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
             hit[hits, 1] = row[9]
             hit[hits, 2] = row[10]
             hit[hits, 3] = row[14]
-            if row[14] != FLOOR and on_riser(
-                table, start, triangle, resolution, ny, triangle[k], x, y, step, headroom
-            ):
-                cut = slope / math.hypot(row[9], row[10])
-                hit[hits, 1] *= cut
-                hit[hits, 2] *= cut
-                hit[hits, 3] = FLOOR
-            walkable |= hit[hits, 3] == FLOOR
+            if row[14] != FLOOR and not faces_up(row):
+                hit[hits, 3] = UPRIGHT  # nobody stands on it either
+            walkable |= hit[hits, 3] != UPRIGHT
+            face[hits] = triangle[k]
             hits += 1
         if not walkable:
             continue
         first = cells
         for i in range(hits):
-            if hit[i, 3] != FLOOR:
+            if hit[i, 3] == UPRIGHT:
                 continue
             z = hit[i, 0]
             free = True
@@ -71,17 +68,23 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
                 if z + SAME_SURFACE < hit[j, 0] < z + headroom:
                     free = False
                     break
-                # of surfaces that coincide the highest stays, then the one with the greater gradient
-                if hit[j, 3] == FLOOR and j != i and abs(hit[j, 0] - z) <= SAME_SURFACE:
+                # of surfaces that coincide the highest stays, then the one with the greater gradient, but a
+                # steep one never where there is another
+                if hit[j, 3] >= hit[i, 3] and j != i and abs(hit[j, 0] - z) <= SAME_SURFACE:
                     later = hit[j, 0] == z and (
                         (hit[j, 1], hit[j, 2]) > (hit[i, 1], hit[i, 2])
                         or ((hit[j, 1], hit[j, 2]) == (hit[i, 1], hit[i, 2]) and j < i)
                     )
-                    if hit[j, 0] > z or later:
+                    if hit[j, 3] > hit[i, 3] or hit[j, 0] > z or later:
                         free = False
                         break
             if not free:
                 continue
+            cut = 1.0
+            if hit[i, 3] != FLOOR:
+                if not on_riser(table, start, triangle, resolution, ny, face[i], x, y, step, headroom):
+                    continue
+                cut = slope / math.hypot(hit[i, 1], hit[i, 2])
             at = cells
             while at > first and height[at - 1] > z:
                 height[at] = height[at - 1]
@@ -89,8 +92,8 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
                 gradient[at, 1] = gradient[at - 1, 1]
                 at -= 1
             height[at] = z
-            gradient[at, 0] = hit[i, 1]
-            gradient[at, 1] = hit[i, 2]
+            gradient[at, 0] = cut * hit[i, 1]
+            gradient[at, 1] = cut * hit[i, 2]
             cell_column[cells] = c
             cells += 1
     column_start[columns] = cells

@@ -8,7 +8,7 @@ from numba import njit
 from navmesh.ledges import comes_first, floor_at
 from navmesh.raster import FLOOR, SAME_SURFACE, TOUCH, UPRIGHT, is_over
 
-__all__ = ["on_riser"]
+__all__ = ["faces_up", "on_riser"]
 
 _FACES = 6
 """Most faces in a row that a riser has."""
@@ -17,7 +17,8 @@ _BEYOND = 1e-4
 
 
 @njit(cache=True)
-def _faces_up(row):
+def faces_up(row):
+    """Whether a prepared triangle faces up."""
     return (row[3] - row[0]) * (row[7] - row[1]) - (row[4] - row[1]) * (row[6] - row[0]) > 0.0
 
 
@@ -35,20 +36,26 @@ def _way_out(row, x, y, dx, dy):
 
 
 @njit(cache=True)
-def _steep_at(table, start, triangle, resolution, ny, x, y, z):
-    """The steep face at (x, y, z) that faces up, or -1."""
+def _next_face(table, start, triangle, resolution, ny, x, y, z, left):
+    """The steep face at (x, y, z) that faces up, or -1, and whether a level enough one is within ``left``."""
     column = math.floor(x / resolution) * ny + math.floor(y / resolution)
     chosen = -1
+    level = False
     for k in range(start[column], start[column + 1]):
         t = triangle[k]
         row = table[t]
-        if row[14] == FLOOR or row[14] == UPRIGHT or not _faces_up(row):
+        reach = left + TOUCH if row[14] == FLOOR else SAME_SURFACE
+        if (
+            row[14] == UPRIGHT
+            or abs(row[9] * x + row[10] * y + row[11] - z) > reach
+            or not is_over(row, x, y)
+        ):
             continue
-        if abs(row[9] * x + row[10] * y + row[11] - z) > SAME_SURFACE or not is_over(row, x, y):
-            continue
-        if chosen < 0 or comes_first(row, table[chosen]):
+        if row[14] == FLOOR:
+            level = True
+        elif faces_up(row) and (chosen < 0 or comes_first(row, table[chosen])):
             chosen = t
-    return chosen
+    return chosen, level
 
 
 @njit(cache=True)
@@ -68,10 +75,11 @@ def _height_to_floor(table, start, triangle, resolution, ny, t, x, y, way, step,
             return np.inf
         x += (out + _BEYOND) * dx
         y += (out + _BEYOND) * dy
-        floor = floor_at(table, start, triangle, resolution, ny, x, y, z, left, headroom)
-        if floor >= 0:
-            return abs(table[floor, 9] * x + table[floor, 10] * y + table[floor, 11] - begin)
-        t = _steep_at(table, start, triangle, resolution, ny, x, y, z)
+        t, level = _next_face(table, start, triangle, resolution, ny, x, y, z, left)
+        if level:
+            floor = floor_at(table, start, triangle, resolution, ny, x, y, z, left, headroom)
+            if floor >= 0:
+                return abs(table[floor, 9] * x + table[floor, 10] * y + table[floor, 11] - begin)
         if t < 0:
             return np.inf
     return np.inf
@@ -79,12 +87,17 @@ def _height_to_floor(table, start, triangle, resolution, ny, t, x, y, way, step,
 
 @njit(cache=True)
 def on_riser(table, start, triangle, resolution, ny, t, x, y, step, headroom):
-    """Whether (x, y) on the steep face ``t`` is on a riser: the fall line through it leads over steep faces
-    to floor above and to floor below that are at most ``step`` apart in height."""
-    if not _faces_up(table[t]):
+    """Whether (x, y) on the steep face ``t``, which faces up, is on a riser: the fall line through it leads
+    over steep faces to floor above and to floor below that are at most ``step`` apart in height."""
+    row = table[t]
+    fall = math.hypot(row[9], row[10])
+    dx, dy = row[9] / fall, row[10] / fall
+    # most steep faces are too high, by themselves or with those above them
+    below = _way_out(row, x, y, -dx, -dy) * fall
+    if below + _way_out(row, x, y, dx, dy) * fall > step + TOUCH:
         return False
-    up = _height_to_floor(table, start, triangle, resolution, ny, t, x, y, 1.0, step, headroom)
-    if up > step + TOUCH:
+    up = _height_to_floor(table, start, triangle, resolution, ny, t, x, y, 1.0, step - below, headroom)
+    if up == np.inf:
         return False
     down = _height_to_floor(table, start, triangle, resolution, ny, t, x, y, -1.0, step - up, headroom)
     return up + down <= step + TOUCH

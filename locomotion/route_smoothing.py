@@ -18,7 +18,7 @@ from navmesh.route import Leg, Route
 
 __all__ = ["RUNNING", "ObstacleAhead", "SmoothPath", "Smoothing", "smooth_route"]
 
-_ITERATIONS = 1000  # per bound on curvature, some milliseconds; to look for every last curve takes seconds
+_ITERATIONS = 600  # per bound on curvature, some milliseconds; to look for every last curve takes seconds
 
 
 @dataclass(frozen=True)

@@ -3,9 +3,8 @@
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
-import networkx
 import numpy as np
 
 from navmesh import archive, edges, nodes, pathfinding, queries
@@ -21,6 +20,9 @@ from navmesh.rules import WalkRules
 from navmesh.surface import Surface
 from navmesh.tagging import TagFile
 from navmesh.terrain import Terrain
+
+if TYPE_CHECKING:
+    import networkx
 
 __all__ = ["NodeGraph"]
 
@@ -262,9 +264,11 @@ class NodeGraph:
         """Whether a body of ``length`` can turn around at ``points`` (3,) or (k, 3)."""
         return queries.room_to_turn(self, points, length)
 
-    def to_networkx(self) -> networkx.Graph:
+    def to_networkx(self) -> "networkx.Graph":
         """The graph for analysis: nodes with ``position`` (x, y, z) and ``radius``, edges with ``width``
         and ``length`` (distance between centres), all in metres."""
+        import networkx  # takes a tenth of a second, which only analysis should
+
         graph = networkx.Graph()
         for i, (position, radius) in enumerate(
             zip(self.positions.tolist(), self.radii.tolist(), strict=True)

@@ -18,7 +18,8 @@ from locomotion.jump import jump_tick, start_jump
 from locomotion.person import person_digest
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill
-from navmesh.archive import ArchiveError, read_archive, write_archive
+from locomotion.skill_file import read_skill
+from navmesh.archive import write_archive
 
 __all__ = [
     "JUMP_CLIP", "JUMP_SKILL", "Jump", "JumpSkill", "JumpTables", "jump_clip", "load_jump_skill",
@@ -144,14 +145,7 @@ def _interpolate(heights: np.ndarray, values: np.ndarray, height: float) -> np.n
 def load_jump_skill(path: str | os.PathLike[str] = JUMP_SKILL) -> JumpSkill:
     """Read a jump skill; `LocomotionError` if it is missing, cut off, of another version or of another
     person."""
-    try:
-        header, arrays = read_archive(path, _KIND, _VERSION)
-    except ArchiveError as error:
-        raise LocomotionError(str(error)) from error
-    if header.get("person") != person_digest():
-        raise LocomotionError(
-            f"{path}: learned for another person's model; learn it anew (surefoot train jump)"
-        )
+    header, arrays = read_skill(path, _KIND, _VERSION)
     try:
         heights, table, entries = arrays["heights"], arrays["table"], arrays["entries"]
         references = arrays["references"]

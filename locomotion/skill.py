@@ -13,7 +13,8 @@ from locomotion import controller
 from locomotion.clip import Clip, load_clip
 from locomotion.errors import LocomotionError
 from locomotion.person import JOINT_NAMES, STANDING_HEIGHT, PersonIndex, person_digest
-from navmesh.archive import ArchiveError, read_archive, write_archive
+from locomotion.skill_file import read_skill
+from navmesh.archive import write_archive
 
 __all__ = [
     "RUN_CLIP",
@@ -95,14 +96,7 @@ class RunSkill:
 def load_run_skill(path: str | os.PathLike[str] = RUN_SKILL) -> RunSkill:
     """Read a run skill; `LocomotionError` if it is missing, cut off, of another version or of another
     person."""
-    try:
-        header, arrays = read_archive(path, _KIND, _VERSION)
-    except ArchiveError as error:
-        raise LocomotionError(str(error)) from error
-    if header.get("person") != person_digest():
-        raise LocomotionError(
-            f"{path}: learned for another person's model; learn it anew (surefoot train run)"
-        )
+    header, arrays = read_skill(path, _KIND, _VERSION)
     width = sum(controller.PARAMETERS.values())
     try:
         knots, table, reference = arrays["knots"], arrays["table"], arrays["state_reference"]

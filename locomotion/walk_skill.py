@@ -15,9 +15,10 @@ from locomotion.errors import LocomotionError
 from locomotion.footholds import foot_frame, ground_at, stand_on
 from locomotion.leg_kinematics import solve_leg
 from locomotion.person import JOINT_NAMES, PersonIndex, person_digest
+from locomotion.skill_file import read_skill
 from locomotion.walk_layout import GAINS, gain_limits, new_walk
 from locomotion.walking import SOLE, observe_walk
-from navmesh.archive import ArchiveError, read_archive, write_archive
+from navmesh.archive import write_archive
 
 __all__ = ["WALK_SKILL", "WalkSkill", "load_walk_skill", "plant"]
 
@@ -48,14 +49,7 @@ class WalkSkill:
 def load_walk_skill(path: str | os.PathLike[str] = WALK_SKILL) -> WalkSkill:
     """Read a walk skill; `LocomotionError` if it is missing, cut off, of another version or another
     person."""
-    try:
-        header, arrays = read_archive(path, _KIND, _VERSION)
-    except ArchiveError as error:
-        raise LocomotionError(str(error)) from error
-    if header.get("person") != person_digest():
-        raise LocomotionError(
-            f"{path}: learned for another person's model; learn it anew (surefoot train walk)"
-        )
+    header, arrays = read_skill(path, _KIND, _VERSION)
     gains, low_high = arrays.get("gains"), gain_limits()
     if gains is None or header.get("gains") != list(GAINS) or gains.shape != (len(GAINS),):
         raise LocomotionError(f"{path}: not a whole walk skill: it must name and hold {len(GAINS)} gains")

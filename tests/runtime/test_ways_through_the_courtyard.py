@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import navmesh
+from locomotion import Ground, smooth_route
 from runtime.events import Fell
 from runtime.rules import person_walk_rules
 from runtime.world import World
@@ -38,3 +39,14 @@ def test_most_random_ways_are_gone_to_their_end(graph, speed):
         fell += any(isinstance(event, Fell) for event in world.events)
     assert arrived >= 6
     assert arrived + fell == tried  # nobody is lost or stuck
+
+
+def test_smoothed_ways_lie_on_the_ground_between_their_corners(graph):
+    """Over the ramp, whose top and bottom are far from the corners of the pulled line."""
+    ground = Ground.from_arrays(graph.terrain.vertices, graph.terrain.faces)
+    route = graph.find_path((30.0, 38.0, 3.0), (56.0, 34.0, 0.0), radius=0.3)
+    assert route.status == "complete"
+    points = smooth_route(route).points
+    heights = ground.surface_below(points + np.array([0.0, 0.0, 0.3]))[0]
+    assert np.ptp(heights) > 2.5
+    assert np.abs(points[:, 2] - heights).max() < 0.05

@@ -86,7 +86,7 @@ def attempt(
     while human.status in MOVING and human.time < min(done_at + AFTER, 40.0):
         human.tick()
         jumped = jumped or human.status == "jumping"
-        state = human._control
+        state = human.control
         if frames is not None and jumped and round(human.time * 100) % 4 == 0:
             frames.append(human.qpos)
         if jumped and not all(landed):

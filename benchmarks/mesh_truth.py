@@ -51,6 +51,22 @@ def _bin_of(x, y, frame):
 
 
 @njit
+def _height_at(p, x, y):
+    """Height at which a vertical ray at (x, y) meets the face ``p`` (3, 3), by barycentric coordinates; nan
+    where it passes by or the face is upright."""
+    ax, ay = p[1, 0] - p[0, 0], p[1, 1] - p[0, 1]
+    bx, by = p[2, 0] - p[0, 0], p[2, 1] - p[0, 1]
+    area = ax * by - ay * bx
+    if abs(area) < 1e-12:
+        return np.nan
+    u = ((x - p[0, 0]) * by - (y - p[0, 1]) * bx) / area
+    v = (ax * (y - p[0, 1]) - ay * (x - p[0, 0])) / area
+    if u < -1e-7 or v < -1e-7 or u + v > 1 + 1e-7:
+        return np.nan
+    return p[0, 2] + u * (p[1, 2] - p[0, 2]) + v * (p[2, 2] - p[0, 2])
+
+
+@njit
 def _floor_near(corners, floors, start, member, frame, x, y, z, tolerance, headroom):
     """Height of the floor point at (x, y) nearest to z, at most ``tolerance`` away; nan without one."""
     b = _bin_of(x, y, frame)
@@ -58,18 +74,10 @@ def _floor_near(corners, floors, start, member, frame, x, y, z, tolerance, headr
     walkable = np.zeros(start[b + 1] - start[b], np.bool_)
     count = 0
     for k in range(start[b], start[b + 1]):
-        p = corners[member[k]]
-        # vertical ray by barycentric coordinates
-        ax, ay = p[1, 0] - p[0, 0], p[1, 1] - p[0, 1]
-        bx, by = p[2, 0] - p[0, 0], p[2, 1] - p[0, 1]
-        area = ax * by - ay * bx
-        if abs(area) < 1e-12:
+        height = _height_at(corners[member[k]], x, y)
+        if height != height:
             continue
-        u = ((x - p[0, 0]) * by - (y - p[0, 1]) * bx) / area
-        v = (ax * (y - p[0, 1]) - ay * (x - p[0, 0])) / area
-        if u < -1e-7 or v < -1e-7 or u + v > 1 + 1e-7:
-            continue
-        heights[count] = p[0, 2] + u * (p[1, 2] - p[0, 2]) + v * (p[2, 2] - p[0, 2])
+        heights[count] = height
         walkable[count] = floors[member[k]]
         count += 1
     best = np.nan
@@ -89,17 +97,7 @@ def _is_free(corners, start, member, frame, x, y, z, headroom):
     """Whether no face is above (x, y, z) within the headroom."""
     b = _bin_of(x, y, frame)
     for k in range(start[b], start[b + 1]):
-        p = corners[member[k]]
-        ax, ay = p[1, 0] - p[0, 0], p[1, 1] - p[0, 1]
-        bx, by = p[2, 0] - p[0, 0], p[2, 1] - p[0, 1]
-        area = ax * by - ay * bx
-        if abs(area) < 1e-12:
-            continue
-        u = ((x - p[0, 0]) * by - (y - p[0, 1]) * bx) / area
-        v = (ax * (y - p[0, 1]) - ay * (x - p[0, 0])) / area
-        if u < -1e-7 or v < -1e-7 or u + v > 1 + 1e-7:
-            continue
-        height = p[0, 2] + u * (p[1, 2] - p[0, 2]) + v * (p[2, 2] - p[0, 2])
+        height = _height_at(corners[member[k]], x, y)  # nan fails the comparison
         if z + 0.0101 < height < z + headroom - 1e-6:
             return False
     return True

@@ -269,8 +269,7 @@ class Human:
         self._memory[:] = new_track()
         self._memory[path_tracking.HEADWAY_TICK] = self._ticks
         self._memory[path_tracking.REMAINING] = table.length
-        if walk is not None:
-            self.status = "walking"
+        self.status = "running" if walk is None else "walking"
         goal = (float(table.goal[0]), float(table.goal[1]), float(table.goal[2]))
         self.events.append(SetOff(self.time, self._point(), goal, table.length))
 

@@ -121,27 +121,25 @@ def genes_scale(base: float, slope: float, bend: float, start: float) -> np.ndar
 def terms_scale(*names: str) -> np.ndarray:
     """Scale of all genes where only the blocks ``names`` of `controller.PARAMETERS` are free, at any
     speed."""
+    return np.concatenate([_blocks(*names), np.zeros(3 * SIZE)])
+
+
+def _blocks(*names: str) -> np.ndarray:
+    """Scale of one row's parameters where only the blocks ``names`` are free, (SIZE,)."""
     one, part, free = scales(), c.parameter_slices(), np.zeros(SIZE)
     for name in names:
         free[part[name]] = one[part[name]]
-    return np.concatenate([free, np.zeros(3 * SIZE)])
+    return free
 
 
 def ways_scale() -> np.ndarray:
     """Scale of all genes for runs that begin walking: the middle row, how the shape of a step changes with
     speed, and the row for setting off."""
-
-    def of(*names: str) -> np.ndarray:
-        one, part, free = scales(), c.parameter_slices(), np.zeros(SIZE)
-        for name in names:
-            free[part[name]] = one[part[name]]
-        return free
-
     kept = ("start", "climb_legs", "descend_legs")
     shape = ("feed_forward", "a_hat", "timing", "turn", "bend")
     setting_off = ("m_ap", "m_sp", "posture", "climb", "descend", "start", *shape)
-    middle = of(*(name for name in c.PARAMETERS if name not in kept))
-    return np.concatenate([middle, 0.5 * of(*shape), np.zeros(SIZE), of(*setting_off)])
+    middle = _blocks(*(name for name in c.PARAMETERS if name not in kept))
+    return np.concatenate([middle, 0.5 * _blocks(*shape), np.zeros(SIZE), _blocks(*setting_off)])
 
 
 WAY: dict[str, Any] = {"length": (10.0, 22.0), "radius": 3.4, "speeds": (2.6, 3.6)}

@@ -136,6 +136,18 @@ def test_walks_to_a_near_goal_turning_on_the_spot_first_and_comes_to_rest_there(
     assert human.data.xmat[1, 8] > 0.98  # upright
 
 
+def test_person_that_is_told_to_go_elsewhere_in_the_middle_of_a_skill_runs_on():
+    human = Human(None, clearing=[Recorder()])
+    human.reset((0, 0, 0), 0.0, speed=3.0)
+    obstacle = ObstacleAhead(10.0, "jump", 0.4, np.array([10.0, 0, 0.4]), np.array([-1.0, 0, 0]))
+    human.follow([[0, 0, 0], [25, 0, 0]], 3.0, [obstacle])
+    while human.status != "jumping":
+        assert human.time < 10.0
+        human.tick()
+    human.follow([human.position, [25, 0, 0]], 3.0)
+    assert human.status == "running"
+
+
 def test_fallen_person_must_be_reset():
     human = Human(None)
     human.reset((3, 1, 0), 0.0)

@@ -4,7 +4,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from runtime.agent import Agent, Pose
+    from runtime.agent import Agent
     from runtime.errors import RuntimeInputError
     from runtime.events import (
         Arrived,
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
         SkillStarted,
         Stuck,
     )
+    from runtime.pose import Pose
     from runtime.world import World, WorldState
 
 __all__ = [
@@ -42,7 +43,7 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     # imported when first asked for: `surefoot --help` needs neither physics nor kernels
     if name in __all__:
-        for module in ("errors", "events", "agent", "world"):
+        for module in ("errors", "events", "agent", "pose", "world"):
             found = getattr(import_module(f"runtime.{module}"), name, None)
             if found is not None:
                 return found

@@ -25,6 +25,7 @@ from runtime.events import (
     Stuck,
 )
 from runtime.planning import NoWay, Plan
+from runtime.pose import Pose
 
 if TYPE_CHECKING:
     from runtime.world import World
@@ -33,25 +34,13 @@ __all__ = ["Agent", "AgentState", "Pose"]
 
 
 @dataclass(frozen=True)
-class Pose:
-    """Where the bodies of an agent's skeleton are.
-
-    ``names`` of the n bodies, ``parents`` (n,) int32 (-1 for the root), ``transforms`` (n, 7) float64 in the
-    world: position [m] and quaternion (w, x, y, z).
-    """
-
-    names: tuple[str, ...]
-    parents: np.ndarray
-    transforms: np.ndarray
-
-
-@dataclass(frozen=True)
 class AgentState:
     """What `World.save` keeps of an agent."""
 
+    body: str
+    born: float
     driver: Any
     blocked: bool
-    reported: int
     goal: tuple[float, float, float]
 
 
@@ -69,7 +58,6 @@ class Agent:
         self._world = world
         self._blocked = False
         self._born = world.time - driver.time
-        self._reported = len(driver.events)
         self._goal = _triple(driver.position)
 
     @property
@@ -88,8 +76,8 @@ class Agent:
 
     @property
     def plans(self) -> list[Plan]:
-        """The paths that it has been given so far."""
-        return self._driver.plans
+        """The last paths that it was given or made, the present one at the end."""
+        return list(self._driver.plans)
 
     @property
     def status(self) -> str:
@@ -130,8 +118,15 @@ class Agent:
 
     @property
     def pose(self) -> Pose:
-        """Where its skeleton is now."""
+        """Where its skeleton is, at the last tick."""
         return Pose(self.figure.bodies, self.figure.parents, self._driver.transforms())
+
+    @property
+    def blended_pose(self) -> Pose:
+        """Where to draw its skeleton: `World.blend` of the way from the last tick but one to the last. Moves
+        evenly at any frame rate, one tick behind `pose`."""
+        transforms = self._driver.transforms_between(self._world.blend)
+        return Pose(self.figure.bodies, self.figure.parents, transforms)
 
     def plan(self, point: ArrayLike) -> Plan:
         """The way that `go_to` would take, not taken. Raises `runtime.planning.NoWay`."""
@@ -160,25 +155,39 @@ class Agent:
         here = _triple(self.position)
         self._goal = _triple(plan.points[-1])
         self._world.report(Departed(self._world.time, self.name, here, goal, plan.length, plan.skills))
-        self._reported = len(self._driver.events)
         return self.status
 
     def notice(self) -> None:
         """Report what has happened to the body; `World.step` calls this after every tick."""
-        for event in self._driver.events[self._reported :]:
+        if not self._driver.events:
+            return
+        for event in self._driver.events:
             told = self._translated(event)
             if told is not None:
                 self._world.report(told)
-        self._reported = len(self._driver.events)
+        self._driver.events.clear()
+
+    @property
+    def driver(self) -> Driver:
+        """What moves its body."""
+        return self._driver
+
+    def take(self, driver: Driver) -> None:
+        """Go on with another body of the same kind."""
+        self._driver = driver
+
+    def remove(self) -> None:
+        """Take it out of its world; it cannot be used any more."""
+        self._world.remove(self)
 
     def save(self) -> AgentState:
         """Everything needed to continue from here."""
-        return AgentState(self._driver.save(), self._blocked, self._reported, self._goal)
+        return AgentState(self.body, self._born, self._driver.save(), self._blocked, self._goal)
 
     def restore(self, state: AgentState) -> None:
         """Continue from a state of this agent."""
         self._driver.restore(state.driver)
-        self._blocked, self._reported, self._goal = state.blocked, state.reported, state.goal
+        self._born, self._blocked, self._goal = state.born, state.blocked, state.goal
 
     def state_hash(self) -> str:
         """Hexadecimal digest of everything that decides how it goes on."""

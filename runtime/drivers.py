@@ -4,9 +4,11 @@ A `Population` makes and advances all bodies of its kinds in a world: people one
 A `Driver` is one body of it.
 """
 
+from collections import deque
 from collections.abc import Mapping
 from typing import Any, Protocol
 
+import mujoco
 import numpy as np
 
 import navmesh
@@ -19,11 +21,14 @@ from runtime.animal_figure import animal_figure
 from runtime.errors import RuntimeInputError
 from runtime.figure import Figure
 from runtime.planning import Plan, make_plan
+from runtime.pose import between
 
 __all__ = ["BODIES", "AnimalDriver", "Driver", "HumanDriver", "Pack", "People", "Population", "radius_of"]
 
 BODIES = ("human", *BODY_NAMES)
 """What `World.spawn` can make."""
+PLANS_KEPT = 256
+"""Plans that an agent remembers; a pursuer makes many."""
 
 
 def radius_of(body: str) -> float:
@@ -32,11 +37,12 @@ def radius_of(body: str) -> float:
 
 
 class Driver(Protocol):
-    """One body. ``events`` is what happened to it, in order; ``plans`` the paths it was given or made."""
+    """One body. ``events`` is what happened to it, in order, until its agent takes them; ``plans`` the last
+    paths it was given or made."""
 
     figure: Figure
     events: list[Event]
-    plans: list[Plan]
+    plans: deque[Plan]
 
     @property
     def time(self) -> float: ...
@@ -54,6 +60,10 @@ class Driver(Protocol):
     @property
     def skills(self) -> Mapping[str, tuple[float, float]]: ...
     def transforms(self) -> np.ndarray: ...
+    def transforms_between(self, share: float) -> np.ndarray:
+        """A ``share`` (0 to 1) of the way from where it was when `Population.remember` was called last."""
+        ...
+
     def plan(self, goals: np.ndarray) -> Plan:
         """The way through ``goals`` (k, 3), not taken. Raises `runtime.planning.NoWay`."""
         ...
@@ -73,6 +83,15 @@ class Population(Protocol):
     bodies: tuple[str, ...]
 
     def spawn(self, body: str, place: np.ndarray, facing: float) -> Driver: ...
+    def revive(self, body: str, state: Any) -> Driver:
+        """A body where and as it was when its driver was saved."""
+        ...
+
+    def remove(self, driver: Driver) -> None: ...
+    def remember(self) -> None:
+        """Keep where all are, for `Driver.transforms_between`."""
+        ...
+
     def tick(self) -> None:
         """Advance all by 10 ms."""
         ...
@@ -85,27 +104,43 @@ class People:
 
     def __init__(self, graph: navmesh.NodeGraph, ground: Ground) -> None:
         self._graph, self._ground = graph, ground
-        self._humans: list[Human] = []
+        self._drivers: list[HumanDriver] = []
 
     def spawn(self, body: str, place: np.ndarray, facing: float) -> Driver:
         human = Human(self._ground)
         human.reset(place, facing)
-        self._humans.append(human)
-        return HumanDriver(self._graph, human)
+        return self._add(human)
+
+    def revive(self, body: str, state: Any) -> Driver:
+        driver = self._add(Human(self._ground))
+        driver.restore(state)
+        return driver
+
+    def _add(self, human: Human) -> "HumanDriver":
+        self._drivers.append(HumanDriver(self._graph, human))
+        return self._drivers[-1]
+
+    def remove(self, driver: Driver) -> None:
+        self._drivers = [each for each in self._drivers if each is not driver]
+
+    def remember(self) -> None:
+        for driver in self._drivers:
+            driver.before = driver.human.qpos
 
     def tick(self) -> None:
-        for human in self._humans:
-            human.tick()
+        for driver in self._drivers:
+            driver.human.tick()
 
 
 class HumanDriver:
-    """A person."""
+    """A person. ``before``: (46,) its joints as they were when `People.remember` was called, or None."""
 
     def __init__(self, graph: navmesh.NodeGraph, human: Human) -> None:
         self._graph, self.human = graph, human
         self.figure = Figure.from_model(human.model)
         self.events = human.events
-        self.plans: list[Plan] = []
+        self.plans: deque[Plan] = deque(maxlen=PLANS_KEPT)
+        self.before: np.ndarray | None = None
 
     @property
     def time(self) -> float:
@@ -138,6 +173,18 @@ class HumanDriver:
     def transforms(self) -> np.ndarray:
         return self.human.body_transforms()[1:]
 
+    def transforms_between(self, share: float) -> np.ndarray:
+        if self.before is None:
+            return self.transforms()
+        model, joints = self.human.model, self.human.data.qpos
+        now, change = joints.copy(), np.empty(model.nv)
+        mujoco.mj_differentiatePos(model, change, 1.0, self.before, now)
+        joints[:] = self.before
+        mujoco.mj_integratePos(model, joints, change, share)
+        transforms = self.transforms()
+        joints[:] = now
+        return transforms
+
     def plan(self, goals: np.ndarray) -> Plan:
         velocity = self.human.velocity[:2]
         moving = velocity if np.linalg.norm(velocity) > 0.5 else None
@@ -155,11 +202,12 @@ class HumanDriver:
         return plan
 
     def save(self) -> tuple[HumanState, tuple[Plan, ...]]:
-        return self.human.save_state(), tuple(self.plans)
+        return self.human.save_state(), tuple(self.plans)[-1:]
 
     def restore(self, state: tuple[HumanState, tuple[Plan, ...]]) -> None:
         self.human.restore_state(state[0])
-        self.plans[:] = state[1]
+        _recall(self.plans, state[1])
+        self.before = None
 
     def state_hash(self) -> str:
         return self.human.state_hash()
@@ -174,6 +222,7 @@ class Pack:
         self._graph = graph
         self._herd = Herd(ground)
         self._drivers: list[AnimalDriver] = []
+        self._before = _Remembered()
 
     def spawn(self, body: str, place: np.ndarray, facing: float) -> Driver:
         kind = load_body(body)
@@ -185,9 +234,27 @@ class Pack:
         if not stands.free:
             what = "finds no ground" if stands.part == "ground" else f"has no room for its {stands.part}"
             raise RuntimeInputError(f"at {place.round(2).tolist()} facing {facing:.2f} a {body} {what}")
-        driver = AnimalDriver(self._graph, self._herd, self._herd.add(kind, place, facing))
-        self._drivers.append(driver)
+        return self._add(self._herd.add(kind, place, facing))
+
+    def revive(self, body: str, state: Any) -> Driver:
+        driver = self._add(self._herd.adopt(load_body(body), state[0].herd))
+        driver.restore(state)
         return driver
+
+    def _add(self, index: int) -> "AnimalDriver":
+        self._drivers.append(AnimalDriver(self._graph, self._herd, index, self._before))
+        return self._drivers[-1]
+
+    def remove(self, driver: Driver) -> None:
+        index = self._drivers.index(driver)  # type: ignore[arg-type]
+        del self._drivers[index]
+        self._herd.remove(index)
+        for later in self._drivers[index:]:
+            later.animal.index -= 1
+        self._before.forget()
+
+    def remember(self) -> None:
+        self._before.poses = self._herd.poses.copy()
 
     def tick(self) -> None:
         self._herd.tick()
@@ -213,15 +280,26 @@ class _Ways:
         return self._graph.room_to_turn(points, length)
 
 
+class _Remembered:
+    """The herd's poses when `Pack.remember` was called; those of animals that came later are missing."""
+
+    def __init__(self) -> None:
+        self.forget()
+
+    def forget(self) -> None:
+        self.poses = np.zeros((0, 7))
+
+
 class AnimalDriver:
     """One animal of a herd."""
 
-    def __init__(self, graph: navmesh.NodeGraph, herd: Herd, index: int) -> None:
+    def __init__(self, graph: navmesh.NodeGraph, herd: Herd, index: int, before: _Remembered) -> None:
+        self._before = before
         self._ways = _Ways(graph, herd.bodies[index])
         self.animal = Animal(herd, index, self._ways)
         self.figure = animal_figure(self.animal.body)
         self.events = self.animal.events
-        self.plans: list[Plan] = []
+        self.plans: deque[Plan] = deque(maxlen=PLANS_KEPT)
         self._followed = self.animal.trail
 
     @property
@@ -251,6 +329,11 @@ class AnimalDriver:
     def transforms(self) -> np.ndarray:
         return self.animal.herd.pose(self.animal.index)
 
+    def transforms_between(self, share: float) -> np.ndarray:
+        now, end = self.transforms(), self.animal.herd.pose_start[self.animal.index + 1]
+        before = self._before.poses[end - len(now) : end]
+        return between(before, now, share) if len(before) == len(now) else now
+
     def plan(self, goals: np.ndarray) -> Plan:
         return self._ways.through(self.animal.position, goals)
 
@@ -278,12 +361,18 @@ class AnimalDriver:
             self.plans.append(Plan(raw, pulled, trail.points, ()))
 
     def save(self) -> tuple[AnimalMemory, tuple[Plan, ...]]:
-        return self.animal.save(), tuple(self.plans)
+        return self.animal.save(), tuple(self.plans)[-1:]
 
     def restore(self, state: tuple[AnimalMemory, tuple[Plan, ...]]) -> None:
         self.animal.restore(state[0])
-        self.plans[:] = state[1]
+        _recall(self.plans, state[1])
+        self._before.forget()
         self._followed = self.animal.trail
 
     def state_hash(self) -> str:
         return self.animal.state_hash()
+
+
+def _recall(plans: deque[Plan], saved: tuple[Plan, ...]) -> None:
+    plans.clear()
+    plans.extend(saved)

@@ -2,9 +2,10 @@
 
 import hashlib
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
+from collections import deque
+from collections.abc import Callable
+from itertools import count
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,24 +13,18 @@ from numpy.typing import ArrayLike
 import navmesh
 from locomotion import Ground
 from locomotion.person import CONTROL_DT
-from runtime.agent import Agent, AgentState
+from runtime.agent import Agent
 from runtime.drivers import BODIES, Pack, People, Population, radius_of
 from runtime.errors import RuntimeInputError
 from runtime.events import Event
 from runtime.rules import person_walk_rules
+from runtime.world_state import WorldState
 
 __all__ = ["BODIES", "World", "WorldState"]
 
-
-@dataclass(frozen=True)
-class WorldState:
-    """A moment of a world; `World.restore` goes back to it."""
-
-    ticks: int
-    owed: float
-    events: tuple[Event, ...]
-    random: Mapping[str, Any]
-    agents: dict[str, AgentState]
+_UNREAD = 100_000
+"""Events that are kept for one who does not read them; the oldest are forgotten first."""
+_E = TypeVar("_E", bound=Event)
 
 
 class World:
@@ -58,7 +53,16 @@ class World:
         self._populations: tuple[Population, ...] = (People(self.graph, ground), Pack(self.graph, ground))
         self._ticks = 0
         self._owed = 0.0
-        self._events: list[Event] = []
+        self._stepping = False
+        self._events: deque[Event] = deque(maxlen=_UNREAD)
+        self._untold: deque[Event] = deque()
+        self._listeners: list[tuple[type[Event], Callable[[Event], object]]] = []
+
+    @property
+    def level_digest(self) -> str:
+        """Hexadecimal digest of the level and the rules of its graph."""
+        rules = repr(sorted(self.graph.rules.to_dict().items()))
+        return hashlib.sha256(f"{self.graph.terrain.digest}{rules}".encode()).hexdigest()[:32]
 
     @property
     def time(self) -> float:
@@ -66,10 +70,34 @@ class World:
         return self._ticks * CONTROL_DT
 
     @property
+    def blend(self) -> float:
+        """How far between the last tick but one (0) and the last (towards 1) to draw: the share of a tick
+        that is owed."""
+        return min(self._owed / CONTROL_DT, 1.0)
+
+    @property
     def events(self) -> list[Event]:
-        """What has happened since this was last read, in order; reading empties it."""
-        events, self._events = self._events, []
+        """What has happened since this was last read, in order; reading empties it. Of more than 100,000 the
+        last ones."""
+        events = list(self._events)
+        self._events.clear()
         return events
+
+    def listen(self, callback: Callable[[_E], object], kind: type[_E] = Event) -> Callable[[], None]:
+        """Have ``callback(event)`` called for each event of type ``kind``; returns a function that ends it.
+
+        Callbacks are called by `step`, at the end of the tick, in order of the events and then of `listen`,
+        also for what happened between steps. What they cause themselves is told at the end of the next tick.
+        They may do with the world what they like, except step or restore it. An error in one comes out of
+        `step`, which can be called again.
+        """
+        entry: tuple[type[Event], Callable[[Event], object]] = (kind, callback)  # type: ignore[assignment]
+        self._listeners.append(entry)
+
+        def stop() -> None:
+            self._listeners = [each for each in self._listeners if each is not entry]
+
+        return stop
 
     def spawn(self, body: str, at: ArrayLike, facing: float = 0.0, name: str | None = None) -> Agent:
         """Put a standing ``body`` on the walkable surface at ``at`` (3,) [m], facing ``facing`` [rad].
@@ -82,7 +110,9 @@ class World:
         """
         if body not in BODIES:
             raise RuntimeInputError(f"body {body!r}: valid: {', '.join(map(repr, BODIES))}")
-        name = f"{body}{len(self.agents) + 1}" if name is None else name
+        if name is None:
+            numbered = (f"{body}{number}" for number in count(len(self.agents) + 1))
+            name = next(each for each in numbered if each not in self.agents)
         if name in self.agents:
             raise RuntimeInputError(f"name {name!r} is taken; names are unique in a world")
         place = np.asarray(at, dtype=np.float64)
@@ -91,10 +121,19 @@ class World:
         here = self.graph.find_path(place, place, radius=radius_of(body))
         if here.status != "complete":
             raise RuntimeInputError(f"{place.tolist()} is not near a place where a {body} fits")
-        population = next(each for each in self._populations if body in each.bodies)
-        driver = population.spawn(body, here.waypoints[0], facing)
+        driver = self._population(body).spawn(body, here.waypoints[0], facing)
         agent = self.agents[name] = Agent(self, name, body, driver)
         return agent
+
+    def remove(self, agent: Agent) -> None:
+        """Take an agent out of the world. Raises `RuntimeInputError` for one that is not in it."""
+        if self.agents.get(agent.name) is not agent:
+            raise RuntimeInputError(f"{agent.name} is not in this world")
+        self._population(agent.body).remove(agent.driver)
+        del self.agents[agent.name]
+
+    def _population(self, body: str) -> Population:
+        return next(each for each in self._populations if body in each.bodies)
 
     def step(self, dt: float) -> int:
         """Advance by ``dt`` [s] ≥ 0, in whole ticks of 10 ms; the rest is owed to later calls.
@@ -103,20 +142,43 @@ class World:
         """
         if not (math.isfinite(dt) and dt >= 0.0):
             raise RuntimeInputError(f"dt must be a finite number of seconds, 0 or more, not {dt!r}")
-        self._owed += dt
-        due = math.floor(self._owed / CONTROL_DT + 1e-6)
-        for _ in range(due):
-            self._ticks += 1
-            for population in self._populations:
-                population.tick()
-            for agent in self.agents.values():
-                agent.notice()
-        self._owed = max(self._owed - due * CONTROL_DT, 0.0)
+        self._refuse_in_callback("step")
+        total = self._owed + dt
+        due = math.floor(total / CONTROL_DT + 1e-6)
+        self._owed = total
+        self._stepping = True
+        try:
+            for made in range(1, due + 1):
+                if made == due:
+                    for population in self._populations:
+                        population.remember()
+                self._ticks += 1
+                self._owed = max(total - made * CONTROL_DT, 0.0)
+                for population in self._populations:
+                    population.tick()
+                for agent in self.agents.values():
+                    agent.notice()
+                self._tell()
+        finally:
+            self._stepping = False
         return due
 
     def report(self, event: Event) -> None:
-        """Add an event to `events`."""
+        """Add an event to `events`, and tell who listens at the end of the tick."""
         self._events.append(event)
+        if self._listeners:
+            self._untold.append(event)
+
+    def _tell(self) -> None:
+        for _ in range(len(self._untold)):
+            event = self._untold.popleft()
+            for kind, callback in tuple(self._listeners):
+                if isinstance(event, kind):
+                    callback(event)
+
+    def _refuse_in_callback(self, what: str) -> None:
+        if self._stepping:
+            raise RuntimeInputError(f"a callback may not {what} its world; do it when step has returned")
 
     def state_hash(self) -> str:
         """Hexadecimal digest of everything that decides how the world goes on; equal for equal runs."""
@@ -128,21 +190,57 @@ class World:
 
     def save(self) -> WorldState:
         """This moment, for `restore`."""
-        agents = {name: agent.save() for name, agent in self.agents.items()}
         return WorldState(
-            self._ticks, self._owed, tuple(self._events), self.random.bit_generator.state, agents
+            level=self.level_digest,
+            ticks=self._ticks,
+            owed=self._owed,
+            events=tuple(self._events),
+            untold=tuple(self._untold),
+            random=self.random.bit_generator.state,
+            agents={name: agent.save() for name, agent in self.agents.items()},
         )
 
     def restore(self, state: WorldState) -> None:
-        """Go back to a moment that `save` gave, in this world or one with the same level and agents.
+        """Go back to a moment that `save` gave, in this world or any other with the same level; the run then
+        goes on bit for bit as it did. Agents are made and removed as needed; those that were there by the
+        same name and body stay the same objects.
 
-        Raises `RuntimeInputError` when the agents are others.
+        Raises `RuntimeInputError` when the level or the release is another, or from within a callback; the
+        world is then as it was.
         """
-        if list(state.agents) != list(self.agents):
+        self._refuse_in_callback("restore")
+        if state.level != self.level_digest:
             raise RuntimeInputError(
-                f"the state is of agents {list(state.agents)}, here are {list(self.agents)}"
+                f"the state is of the level {state.level[:12]}…, this world's is {self.level_digest[:12]}…; "
+                "restore it in a world of the same mesh and walk rules"
             )
-        self._ticks, self._owed, self._events = state.ticks, state.owed, list(state.events)
-        self.random.bit_generator.state = state.random
+        before = self.save()
+        try:
+            self._become(state)
+        except (ValueError, TypeError, IndexError, KeyError) as error:
+            self._become(before)
+            raise RuntimeInputError(f"the state does not fit this release: {error}") from error
+
+    def _become(self, state: WorldState) -> None:
+        here = [(name, agent.body) for name, agent in self.agents.items()]
+        if here != [(name, saved.body) for name, saved in state.agents.items()]:
+            self._populate(state)
         for name, saved in state.agents.items():
             self.agents[name].restore(saved)
+        self.random.bit_generator.state = dict(state.random)
+        self._ticks, self._owed = state.ticks, state.owed
+        self._events, self._untold = deque(state.events, maxlen=_UNREAD), deque(state.untold)
+
+    def _populate(self, state: WorldState) -> None:
+        """Make the agents those of ``state``, in their order."""
+        before = dict(self.agents)
+        for agent in before.values():
+            self.remove(agent)
+        for name, saved in state.agents.items():
+            driver = self._population(saved.body).revive(saved.body, saved.driver)
+            agent = before.get(name)
+            if agent is not None and agent.body == saved.body:
+                agent.take(driver)
+            else:
+                agent = Agent(self, name, saved.body, driver)
+            self.agents[name] = agent

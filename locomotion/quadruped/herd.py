@@ -41,8 +41,9 @@ _DROP = 0.5  # [m] off the ground that an animal may be put
 
 @dataclass(frozen=True)
 class AnimalState:
-    """Everything that a herd knows of one animal."""
+    """Everything that a herd knows of one animal; ``body`` is the name of its kind."""
 
+    body: str
     row: NDArray[np.float64]
     feet: NDArray[np.float64]
     crumbs: NDArray[np.float64]
@@ -75,8 +76,32 @@ class Herd:
 
         Raises `LocomotionError` for numbers that are not finite or a place more than 0.5 m off the ground.
         """
-        index = len(self.bodies)
         place = self._checked(position, yaw)
+        index = self._grow(body)
+        self.reset(index, place, yaw)
+        return index
+
+    def adopt(self, body: Body, saved: AnimalState) -> int:
+        """Put an animal where and as it was when it was saved; returns its index."""
+        index = self._grow(body)
+        self.restore(index, saved)
+        return index
+
+    def remove(self, index: int) -> None:
+        """Take an animal away; the indices of those after it go down by one."""
+        first, last = self.pose_start[index : index + 2]
+        del self.bodies[index]
+        self.state, self.feet, self.crumbs, self.joints = (
+            np.delete(each, index, axis=0) for each in (self.state, self.feet, self.crumbs, self.joints)
+        )
+        self.poses = np.delete(self.poses, slice(first, last), axis=0)
+        self.pose_start = np.delete(self.pose_start, index + 1)
+        self.pose_start[index + 1 :] -= last - first
+        self._pool.remove(index)
+
+    def _grow(self, body: Body) -> int:
+        """Room for one more animal; its index."""
+        index = len(self.bodies)
         self.bodies.append(body)
         kind = self._kind(body)
         count = count_bodies(body.spine.bones)
@@ -87,7 +112,6 @@ class Herd:
         self.poses = np.vstack([self.poses, np.zeros((count, 7))])
         self.pose_start = np.append(self.pose_start, self.pose_start[-1] + count)
         self.state[index, at.KIND] = kind
-        self.reset(index, place, yaw)
         return index
 
     def reset(self, index: int, position: ArrayLike, yaw: float) -> None:
@@ -330,15 +354,19 @@ class Herd:
     def save(self, index: int) -> AnimalState:
         """Everything that is needed to go on from here."""
         return AnimalState(
-            self.state[index].copy(), self.feet[index].copy(), self.crumbs[index].copy(),
-            self._pool.table(index),
+            self.bodies[index].name, self.state[index].copy(), self.feet[index].copy(),
+            self.crumbs[index].copy(), self._pool.table(index),
         )  # fmt: skip
 
     def restore(self, index: int, saved: AnimalState) -> None:
         """Go on from a state of this animal."""
-        if saved.row[at.KIND] != self.state[index, at.KIND]:
-            raise LocomotionError("the saved state belongs to another kind of body")
+        if saved.body != self.bodies[index].name:
+            raise LocomotionError(
+                f"the saved state belongs to a {saved.body}, not to a {self.bodies[index].name}"
+            )
+        kind = self.state[index, at.KIND]  # is counted anew by each herd
         self.state[index], self.feet[index], self.crumbs[index] = saved.row, saved.feet, saved.crumbs
+        self.state[index, at.KIND] = kind
         if len(saved.table):
             moved = self._pool.put(index, saved.table)
             for other in range(len(self)) if moved else (index,):
@@ -348,8 +376,8 @@ class Herd:
     def state_hash(self, index: int) -> str:
         """Hex digest of everything that decides how an animal goes on."""
         row = self.state[index].copy()
-        row[at.ROW_START] = 0.0  # where its table lies in the pool is no part of it
-        hasher = hashlib.sha256(row.tobytes())
+        row[at.ROW_START] = row[at.KIND] = 0.0  # how the herd counts tables and kinds is no part of it
+        hasher = hashlib.sha256(self.bodies[index].name.encode() + row.tobytes())
         for part in (self.feet[index], self.trail_of_crumbs(index), self._pool.table(index)):
             hasher.update(np.ascontiguousarray(part).tobytes())
         return hasher.hexdigest()[:16]

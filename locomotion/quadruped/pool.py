@@ -27,6 +27,11 @@ class Pool:
         self._used += len(table)
         return moved
 
+    def remove(self, owner: int) -> None:
+        """Take the table of ``owner`` away; owners of greater numbers count one less from now on."""
+        self._regions.pop(owner, None)
+        self._regions = {each - (each > owner): region for each, region in self._regions.items()}
+
     def region(self, owner: int) -> tuple[int, int]:
         """(start, count) of an owner's table; (0, 0) for none."""
         return self._regions.get(owner, (0, 0))

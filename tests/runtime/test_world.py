@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from runtime import Blocked, Departed, RuntimeInputError, World
+from runtime import Blocked, Departed, Event, RuntimeInputError, World
+from runtime.figure import rotate, turn
 
 
 def test_steps_of_any_length_make_whole_ticks(graph):
@@ -53,8 +54,6 @@ def test_a_restored_world_goes_on_the_same_way(graph):
     world.random.random()
     world.step(0.5)
     assert (world.state_hash(), world.events) == first
-    with pytest.raises(RuntimeInputError, match="agents"):
-        World(graph).restore(saved)
 
 
 def test_pose_is_ready_for_a_skeleton(graph):
@@ -65,6 +64,11 @@ def test_pose_is_ready_for_a_skeleton(graph):
     assert pose.names[0] == "pelvis" and pose.parents[0] == -1
     assert all(0 <= parent < child for child, parent in enumerate(pose.parents) if child > 0)
     assert np.linalg.norm(pose.transforms[:, 3:], axis=1) == pytest.approx(1.0)
+    assert pose.local.shape == (n, 7) and pose.local[0] == pytest.approx(pose.transforms[0])
+    for child in range(1, n):  # parents first: the chain of local transforms gives the ones in the world
+        above, own = pose.transforms[pose.parents[child]], pose.local[child]
+        assert above[:3] + rotate(above[3:], own[:3]) == pytest.approx(pose.transforms[child, :3])
+        assert turn(above[3:], own[3:]) == pytest.approx(pose.transforms[child, 3:])
     assert pose.transforms[0, :2] == pytest.approx([2.0, 3.0], abs=0.2)
 
 
@@ -98,6 +102,139 @@ def test_an_unreachable_goal_blocks(graph, goal, reason):
     assert agent.go_to(goal) == "blocked" == agent.status
     (event,) = world.events
     assert isinstance(event, Blocked) and reason in event.reason and event.goal == goal
+
+
+@pytest.mark.parametrize("body", ["human", "dog"])
+def test_blended_poses_move_evenly_between_ticks(graph, body):
+    world = World(graph)
+    agent = world.spawn(body, (2.0, 3.0, 0.0))
+    agent.go_to((9.0, 3.0, 0.0), speed=1.2)
+    assert (agent.blended_pose.transforms == agent.pose.transforms).all()
+    world.step(2.0)
+    before = agent.pose
+    world.step(0.01)
+    after = agent.pose
+    assert world.blend == pytest.approx(0.0, abs=1e-6)
+    assert agent.blended_pose.transforms == pytest.approx(before.transforms, abs=1e-6)
+    moved = np.linalg.norm(after.transforms[:, :3] - before.transforms[:, :3], axis=1)
+    assert moved.max() > 1e-3
+    for share in (0.25, 0.5, 0.75):
+        world.step(0.0025)
+        assert world.blend == pytest.approx(share)
+        blend = agent.blended_pose.transforms
+        straight = before.transforms[:, :3] + share * (after.transforms[:, :3] - before.transforms[:, :3])
+        assert np.linalg.norm(blend[:, :3] - straight, axis=1).max() < 0.05 * moved.max()
+        assert np.linalg.norm(blend[:, 3:], axis=1) == pytest.approx(1.0)
+    assert (agent.pose.transforms == after.transforms).all()
+
+
+def test_looking_does_not_change_the_run(graph):
+    hashes = set()
+    for looks in (False, True):
+        world = World(graph)
+        agents = [world.spawn(body, (2.0, y, 0.0)) for body, y in (("human", 2.0), ("dog", 4.0))]
+        for agent in agents:
+            agent.go_to((9.0, 3.0, 0.0), speed=3.0)
+        for _ in range(120):
+            world.step(1 / 60)
+            if looks:
+                assert all(np.isfinite(a.pose.local).all() for a in agents)
+                assert all(np.isfinite(a.blended_pose.transforms).all() for a in agents)
+        hashes.add(world.state_hash())
+    assert len(hashes) == 1
+
+
+def test_removed_agents_are_gone_and_the_others_go_on_as_without_them(graph):
+    hashes = set()
+    for more in (False, True):
+        world = World(graph)
+        if more:
+            others = [world.spawn(body, (5.0, 1.0, 0.0), name=body) for body in ("dog", "human", "cat")]
+        dog = world.spawn("dog", (2.0, 3.0, 0.0), name="rex")
+        human = world.spawn("human", (2.0, 4.5, 0.0), name="ada")
+        if more:
+            others[0].go_to((9.0, 1.0, 0.0), speed=1.0)
+        for agent in (dog, human):
+            agent.go_to((9.0, 3.0, 0.0), speed=1.0)
+        world.step(0.5)
+        if more:
+            for other in others:
+                other.remove()
+            with pytest.raises(RuntimeInputError, match="not in this world"):
+                others[0].remove()
+        assert list(world.agents) == ["rex", "ada"]
+        assert np.isfinite(dog.blended_pose.transforms).all()
+        world.step(1.5)
+        hashes.add((world.state_hash(), dog.pose.transforms.tobytes()))
+        assert world.spawn("dog", (5.0, 1.0, 0.0)).name == "dog3"
+        assert world.spawn("dog", (6.0, 2.0, 0.0)).name == "dog4"
+    assert len(hashes) == 1
+
+
+def test_callbacks_hear_what_polling_tells(graph):
+    world = World(graph)
+    agent = world.spawn("human", (2.0, 3.0, 0.0))
+    heard: list[Event] = []
+    departures: list[Departed] = []
+    stop = world.listen(heard.append)
+    world.listen(departures.append, Departed)
+    agent.go_to((4.0, 3.0, 0.0), speed=1.2)
+    assert heard == []  # told by step, at the end of a tick
+    while agent.moving:
+        world.step(0.1)
+    polled = world.events
+    assert [event.kind for event in polled] == ["Departed", "Arrived"]
+    assert heard == polled and departures == polled[:1]
+    stop()
+    agent.go_to((6.0, 3.0, 0.0), speed=1.2)
+    world.step(0.1)
+    assert len(heard) == 2 and len(departures) == 2
+
+
+def test_a_callback_can_send_the_agent_on(graph):
+    world = World(graph)
+    agent = world.spawn("human", (2.0, 3.0, 0.0))
+    blocked: list[Blocked] = []
+
+    def again(event):
+        blocked.append(event)
+        agent.go_to((50.0, 3.0, 0.0))  # is blocked again, which is told in the next tick
+
+    world.listen(again, Blocked)
+    agent.go_to((50.0, 3.0, 0.0))
+    assert world.step(0.05) == 5
+    assert len(blocked) == 5
+
+
+def test_an_error_in_a_callback_comes_out_and_the_world_goes_on(graph):
+    world, quiet = World(graph), World(graph)
+    for each in (world, quiet):
+        agent = each.spawn("human", (2.0, 3.0, 0.0))
+        agent.go_to((9.0, 3.0, 0.0), speed=3.0)
+
+    def fail(event):
+        raise ZeroDivisionError
+
+    def misuse(event):
+        world.step(0.01)
+
+    heard: list[Event] = []
+    stop = world.listen(fail)
+    world.listen(heard.append)
+    agent = world.agents["human1"]
+    agent.go_to((8.0, 3.0, 0.0), speed=3.0)
+    quiet.agents["human1"].go_to((8.0, 3.0, 0.0), speed=3.0)
+    with pytest.raises(ZeroDivisionError):
+        world.step(0.1)
+    assert world.time == pytest.approx(0.01)
+    stop()
+    world.step(0.1)
+    quiet.step(0.2)
+    assert world.time == pytest.approx(0.2) and world.state_hash() == quiet.state_hash()
+    world.listen(misuse)
+    agent.go_to((7.0, 3.0, 0.0), speed=3.0)
+    with pytest.raises(RuntimeInputError, match="may not step"):
+        world.step(0.01)
 
 
 @pytest.mark.parametrize(

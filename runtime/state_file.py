@@ -1,0 +1,101 @@
+"""Saved states as files: a tree of frozen dataclasses, plain values and arrays, to the last bit.
+
+The tree goes into the JSON header of an archive, the numbers of its arrays behind one another into one array
+for each dtype. A dataclass of this distribution is written by its full name and made again from its fields.
+"""
+
+import dataclasses
+import sys
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from runtime.errors import RuntimeInputError
+
+__all__ = ["pack", "unpack"]
+
+_PACKAGES = ("navmesh.", "pathsmooth.", "locomotion.", "runtime.")
+
+
+def pack(value: Any) -> tuple[Any, dict[str, np.ndarray]]:
+    """``value`` as a tree that JSON can represent, and the arrays that `unpack` needs with it.
+
+    Raises `RuntimeInputError` for what is neither a frozen dataclass of this distribution nor an array, a
+    tuple, a list, a mapping with text for keys, or a plain value.
+    """
+    packer = _Packer()
+    tree = packer.tree(value)
+    return tree, {dtype: np.concatenate(parts) for dtype, parts in packer.parts.items()}
+
+
+def unpack(tree: Any, arrays: Mapping[str, np.ndarray]) -> Any:
+    """What was given to `pack`. Raises `RuntimeInputError` for a tree that is not from there, or from
+    another release."""
+    try:
+        return _value(tree, arrays)
+    except (KeyError, TypeError, ValueError, IndexError, AttributeError, RecursionError) as error:
+        raise RuntimeInputError(f"the state is damaged or of another release: {error}") from None
+
+
+class _Packer:
+    def __init__(self) -> None:
+        self.parts: dict[str, list[np.ndarray]] = {}
+        self._used: dict[str, int] = {}
+        self._known: dict[int, tuple[np.ndarray, Any]] = {}
+
+    def tree(self, value: Any) -> Any:
+        if value is None or isinstance(value, bool | int | float | str):
+            return value
+        if isinstance(value, np.ndarray):
+            return {"array": self._array(value)}
+        if isinstance(value, tuple):
+            return {"tuple": [self.tree(each) for each in value]}
+        if isinstance(value, list):
+            return [self.tree(each) for each in value]
+        if isinstance(value, Mapping):
+            return {"dict": [[_text(key), self.tree(each)] for key, each in value.items()]}
+        if dataclasses.is_dataclass(value) and _is_ours(type(value)):
+            fields = {each.name: self.tree(getattr(value, each.name)) for each in dataclasses.fields(value)}
+            return {"class": f"{type(value).__module__}:{type(value).__qualname__}", "fields": fields}
+        raise RuntimeInputError(f"a state file cannot hold a {type(value).__module__}.{type(value).__name__}")
+
+    def _array(self, array: np.ndarray) -> Any:
+        if id(array) not in self._known:
+            dtype = array.dtype.name
+            start = self._used.get(dtype, 0)
+            self.parts.setdefault(dtype, []).append(array.ravel())
+            self._used[dtype] = start + array.size
+            self._known[id(array)] = array, [dtype, start, list(array.shape)]
+        return self._known[id(array)][1]
+
+
+def _text(key: Any) -> str:
+    if not isinstance(key, str):
+        raise RuntimeInputError(f"a state file cannot hold the key {key!r}: keys must be text")
+    return key
+
+
+def _is_ours(kind: Any) -> bool:
+    own = f"{kind.__module__}.".startswith(_PACKAGES)
+    return own and dataclasses.is_dataclass(kind) and kind.__dataclass_params__.frozen  # type: ignore[attr-defined]
+
+
+def _value(tree: Any, arrays: Mapping[str, np.ndarray]) -> Any:
+    if isinstance(tree, list):
+        return [_value(each, arrays) for each in tree]
+    if not isinstance(tree, dict):
+        return tree
+    if "array" in tree:
+        dtype, start, shape = tree["array"]
+        size = int(np.prod(shape, dtype=np.int64))
+        return arrays[dtype][start : start + size].reshape(shape).copy()
+    if "tuple" in tree:
+        return tuple(_value(each, arrays) for each in tree["tuple"])
+    if "dict" in tree:
+        return {key: _value(each, arrays) for key, each in tree["dict"]}
+    module, _, name = tree["class"].partition(":")
+    kind = getattr(sys.modules[module], name)
+    if not _is_ours(kind):
+        raise TypeError(f"{tree['class']} is not part of a state")
+    return kind(**{key: _value(each, arrays) for key, each in tree["fields"].items()})

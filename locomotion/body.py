@@ -41,7 +41,16 @@ from locomotion.events import (
 )  # fmt: skip
 from locomotion.gaits import run_entry_speed, run_limits, walk_limits
 from locomotion.ground import Ground, plane_lookup
-from locomotion.human_state import MOVING, HumanState, Status, hash_of, restore_physics, save_physics
+from locomotion.hand_hold import let_go_both
+from locomotion.human_state import (
+    CLEARING,
+    MOVING,
+    HumanState,
+    Status,
+    hash_of,
+    restore_physics,
+    save_physics,
+)
 from locomotion.jump_skill import JUMP_SKILL, Jump, load_jump_skill
 from locomotion.path_tracking import RUN_UP, PathTable, make_path, new_track, track
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK, PersonIndex, build_person
@@ -113,7 +122,7 @@ class Human:
     """A person under physics. `tick` advances it by 10 ms.
 
     Attributes:
-        status: "standing", "walking", "running", "jumping", "fallen", "arrived", "lost" (strayed from
+        status: "standing", "walking", "running", "jumping", "vaulting", "dropping", "fallen", "arrived", "lost" (strayed from
             its path or missed its goal) or "stuck". `held` tells whether it is simulated.
         events: list of `locomotion.events.Event` in order of time.
         model, data: the MuJoCo model (shared by all persons on the same ground) and this person's own data.
@@ -255,7 +264,7 @@ class Human:
                 offered = [f"{s.affordance} {s.heights[0]:g} to {s.heights[1]:g} m" for s in self.clearing]
                 raise LocomotionError(f"no skill clears {wanted}; there are {offered or 'none'}")
         edges = [obstacle.arc_length for obstacle in obstacles]
-        walk = None if self.status in ("running", "jumping") else self._walk_limits
+        walk = None if self.status in ("running", *CLEARING.values()) else self._walk_limits
         table = make_path(path, speed, self.limits, float(np.linalg.norm(self.velocity[:2])), edges, walk)
         start, here = table.table[0, :3], self.position
         gap = float(np.linalg.norm(start[:2] - here[:2]))
@@ -266,6 +275,7 @@ class Human:
         self._path, self._obstacles = table, tuple(obstacles)
         self._run_up[:] = 0.0
         self._clearing = None
+        let_go_both(self.data)
         self._memory[:] = new_track()
         self._memory[path_tracking.HEADWAY_TICK] = self._ticks
         self._memory[path_tracking.REMAINING] = table.length
@@ -304,7 +314,10 @@ class Human:
             observe_walk(self.index, data, self._walk)
         if self.status == "fallen":
             return
+        if self._clearing is not None:
+            state[controller.FALLEN] = float(self._skill_ahead().fell(self._clearing, state))
         if state[controller.FALLEN] > 0.0:
+            let_go_both(data)
             speed, slope = float(state[controller.SPEED]), float(self._memory[path_tracking.SLOPE_HERE])
             self._end("fallen", Fell(self.time, self._point(), speed, slope, self.arc_length))
         elif self._path is not None and self.status in MOVING:
@@ -348,9 +361,7 @@ class Human:
         number = int(self._run_up[_NEXT])
         if number >= len(self._obstacles):
             return
-        state, obstacle = self._control, self._obstacles[number]
-        skill = skill_for(self.clearing, obstacle)
-        assert skill is not None
+        state, obstacle, skill = self._control, self._obstacles[number], self._skill_ahead()
         if self._clearing is None:
             ahead = obstacle.arc_length - self._memory[path_tracking.ARC]
             if ahead < 0.0:
@@ -358,11 +369,17 @@ class Human:
             elif ahead < RUN_UP and state[controller.STEPS] != self._run_up[_STEPS_SEEN]:
                 self._run_up[_STEPS_SEEN] = state[controller.STEPS]
                 self._plan_step(obstacle, skill)
-        if self._clearing is not None and skill.tick(obstacle.height, self._clearing, state, self.data.ctrl):
+        if self._clearing is not None and skill.tick(obstacle, self._clearing, state, self.data):
             self._clearing = None
             self._run_up[_NEXT], self._run_up[_PLANNED] = number + 1, 0.0
             self.status = "running"
             self.events.append(Cleared(self.time, self._point(), obstacle.affordance, obstacle.height))
+
+    def _skill_ahead(self) -> ClearingSkill:
+        """The skill for the next obstacle; `follow` has made sure that there is one."""
+        skill = skill_for(self.clearing, self._obstacles[int(self._run_up[_NEXT])])
+        assert skill is not None
+        return skill
 
     def _plan_step(self, obstacle: ObstacleAhead, skill: ClearingSkill) -> None:
         """At a stance switch: the speed of the step that begins, or the start of the skill."""
@@ -374,7 +391,7 @@ class Human:
         entry, mark = skill.approach(obstacle.height)
         self._clearing = skill.start(obstacle, state)
         self._run_up[_PLANNED] = entry
-        self.status = "jumping"
+        self.status = CLEARING[obstacle.affordance]
         early, fast = foot_distance(state, obstacle) - mark, float(state[controller.STEP_SPEED]) - entry
         self.events.append(
             TookOff(self.time, self._point(), obstacle.affordance, obstacle.height, early, fast)

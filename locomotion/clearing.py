@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Protocol
 
+import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -62,13 +63,19 @@ class ClearingSkill(Protocol):
 
     def tick(
         self,
-        height: float,
+        obstacle: ObstacleAhead,
         memory: NDArray[np.float64],
         state: NDArray[np.float64],
-        ctrl: NDArray[np.float64],
+        data: mujoco.MjData,
     ) -> bool:
-        """One control tick after the running controller's and before the physics: changes ``ctrl`` (39,),
-        ``memory`` and ``state`` in place. True when it is finished."""
+        """One control tick after the running controller's and before the physics: changes ``data.ctrl``
+        (39,), ``memory`` and ``state`` in place, and may let hands hold on (`locomotion.hand_hold`). Of
+        ``data`` it reads the state only, nothing derived from it. True when it is finished."""
+        ...
+
+    def fell(self, memory: NDArray[np.float64], state: NDArray[np.float64]) -> bool:
+        """Whether the body has fallen, asked after each tick's physics; ``state`` says what
+        `controller.observe` takes it for, which a body that lies over a wall or rolls is too."""
         ...
 
 

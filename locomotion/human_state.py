@@ -16,10 +16,16 @@ from locomotion.events import Event
 from locomotion.path_tracking import PathTable
 from locomotion.route_smoothing import ObstacleAhead
 
-__all__ = ["MOVING", "HumanState", "Status", "hash_of", "restore_physics", "save_physics"]
+__all__ = ["CLEARING", "MOVING", "HumanState", "Status", "hash_of", "restore_physics", "save_physics"]
 
-Status = Literal["standing", "walking", "running", "jumping", "fallen", "arrived", "lost", "stuck"]
-MOVING: tuple[Status, ...] = ("walking", "running", "jumping")
+Status = Literal[
+    "standing", "walking", "running", "jumping", "vaulting", "dropping", "fallen", "arrived", "lost", "stuck"
+]
+CLEARING: dict[str, Status] = {
+    "jump": "jumping", "vault": "vaulting", "drop": "dropping", "gap": "jumping",
+}  # fmt: skip
+"""What a person does that clears an obstacle of an affordance."""
+MOVING: tuple[Status, ...] = ("walking", "running", *dict.fromkeys(CLEARING.values()))
 """What a person that is on its way does."""
 
 _STATE = mujoco.mjtState.mjSTATE_INTEGRATION

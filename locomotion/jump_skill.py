@@ -8,6 +8,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -229,12 +230,16 @@ class Jump:
 
     def tick(
         self,
-        height: float,
+        obstacle: ObstacleAhead,
         memory: NDArray[np.float64],
         state: NDArray[np.float64],
-        ctrl: NDArray[np.float64],
+        data: mujoco.MjData,
     ) -> bool:
         """One control tick after `run_tick`'s and before the physics; True when the jump is over."""
-        tables = self.tables(height)
-        jump_tick(tables.parameters, *tables.rest, memory, state, ctrl)
+        tables = self.tables(obstacle.height)
+        jump_tick(tables.parameters, *tables.rest, memory, state, data.ctrl)
         return bool(memory[jump.ACTIVE] == 0.0)
+
+    def fell(self, memory: NDArray[np.float64], state: NDArray[np.float64]) -> bool:
+        """Whether the body has fallen: it jumps upright."""
+        return bool(state[controller.FALLEN] > 0.0)

@@ -38,6 +38,7 @@ from locomotion.anatomy import (
     Segment,
 )
 from locomotion.errors import LocomotionError
+from locomotion.hand_hold import add_hand_holds
 
 __all__ = [
     "BODY_NAMES",
@@ -272,6 +273,7 @@ def person_spec() -> mujoco.MjSpec:
         actuator.set_to_position(kp=joint.stiffness, kv=joint.stiffness * _DAMPING_RATIO)
         actuator.forcelimited = True
         actuator.forcerange = [-joint.torque, joint.torque]
+    add_hand_holds(spec)
     return spec
 
 
@@ -318,11 +320,12 @@ def person_digest() -> str:
     hasher = hashlib.sha256()
     hasher.update(repr((HEIGHT, MASS, TIMESTEP, STEPS_PER_TICK)).encode())
     model = person_spec().compile()
+    own = model.body_mocapid < 0
     fields = (
-        model.body_mass,
-        model.body_inertia,
-        model.body_ipos,
-        model.body_pos,
+        model.body_mass[own],
+        model.body_inertia[own],
+        model.body_ipos[own],
+        model.body_pos[own],
         model.jnt_axis,
         model.jnt_range,
         model.dof_armature,

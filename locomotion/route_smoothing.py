@@ -51,6 +51,7 @@ class ObstacleAhead:
         affordance: "jump", "vault", "drop" or "gap". height: [m] as in `NodeGraph.obstacles`.
         position: (3,) float64 [m], where the path crosses the edge, at its top.
         normal: (3,) float64, horizontal unit vector at right angles to the edge, towards the run-up side.
+        depth: [m] as in `NodeGraph.obstacles`: thickness of what is vaulted.
     """
 
     arc_length: float
@@ -58,6 +59,7 @@ class ObstacleAhead:
     height: float
     position: NDArray[np.float64]
     normal: NDArray[np.float64]
+    depth: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -163,5 +165,5 @@ def _obstacle(
     forward = float((edge - points[nearest])[:2] @ -normal[:2])
     return ObstacleAhead(
         float(arc[nearest]) + forward, str(obstacles.affordance[index]), float(obstacles.height[index]),
-        edge, normal.copy(),
+        edge, normal.copy(), float(obstacles.depth[index]),
     )  # fmt: skip

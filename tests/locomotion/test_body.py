@@ -4,11 +4,13 @@ do."""
 import numpy as np
 import pytest
 
+from locomotion.arm_reach import hand_place
 from locomotion.body import Human
 from locomotion.clearing import foot_distance
 from locomotion.errors import LocomotionError
 from locomotion.events import Arrived, Cleared, SetOff, TookOff
 from locomotion.ground import Ground
+from locomotion.hand_hold import hold, holding
 from locomotion.human_state import MOVING
 from locomotion.route_smoothing import ObstacleAhead
 
@@ -22,8 +24,8 @@ class Recorder:
     heights = (0.3, 0.5)
     stride = (0.25, 0.0, 0.25)
 
-    def __init__(self):
-        self.distances = []
+    def __init__(self, trips=False, holds=False):
+        self.distances, self.trips, self.holds = [], trips, holds
 
     def approach(self, height):
         return 3.0, 0.6
@@ -32,9 +34,14 @@ class Recorder:
         self.distances.append(foot_distance(state, obstacle))
         return np.zeros(1)
 
-    def tick(self, height, memory, state, ctrl):
+    def tick(self, obstacle, memory, state, data):
         memory[0] += 1
+        if self.holds:
+            hold(data, 1.0, hand_place(data.qpos, 1.0))
         return bool(memory[0] >= 50)
+
+    def fell(self, memory, state):
+        return self.trips and memory[0] > 20
 
 
 def flat_ground(half=30.0):
@@ -115,6 +122,20 @@ def test_run_up_ends_at_the_mark_and_the_skill_starts():
     assert kinds == [SetOff, TookOff, Cleared, Arrived]
     assert skill.distances == [pytest.approx(0.6, abs=0.25)]
     assert human.events[1].takeoff_error == pytest.approx(skill.distances[0] - 0.6)
+
+
+def test_a_skill_says_when_the_body_has_fallen_and_its_hands_let_go():
+    skill = Recorder(trips=True, holds=True)
+    human = Human(None, clearing=[skill])
+    human.reset((0, 0, 0), 0.0)
+    obstacle = ObstacleAhead(14.0, "jump", 0.4, np.array([14.0, 0, 0.4]), np.array([-1.0, 0, 0]))
+    human.follow([[0, 0, 0], [25, 0, 0]], 3.0, [obstacle])
+    held = False
+    while human.status in MOVING:
+        human.tick()
+        held = held or holding(human.data, 1.0)
+    assert held and human.status == "fallen"
+    assert not holding(human.data, 1.0)
 
 
 @pytest.mark.parametrize("yaw", [0.0, 1.5, 3.1])

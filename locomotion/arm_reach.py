@@ -94,7 +94,8 @@ def reach(qpos, side, target, rotation, out):
     """Angles [rad] of shoulder flexion, abduction, rotation and elbow flexion into ``out`` (4,) that bring
     the hand of ``side`` to ``target`` (3,) [m], or as near as the arm is long; the upper arm is turned
     inward by ``rotation`` [rad]. Points sideways of a strongly bent arm are out of reach too: without
-    turning the upper arm its hand lies in front. Returns the distance from the shoulder to the target over the arm's length."""
+    turning the upper arm its hand lies in front. Returns the distance from the shoulder to the target over
+    the arm's length."""
     p, f = shoulder_frame(qpos, side)
     t = np.zeros(3)
     for k in range(3):

@@ -122,8 +122,9 @@ class Human:
     """A person under physics. `tick` advances it by 10 ms.
 
     Attributes:
-        status: "standing", "walking", "running", "jumping", "vaulting", "dropping", "fallen", "arrived", "lost" (strayed from
-            its path or missed its goal) or "stuck". `held` tells whether it is simulated.
+        status: "standing", "walking", "running", "jumping", "vaulting", "dropping", "fallen", "arrived",
+            "lost" (strayed from its path or missed its goal) or "stuck". `held` tells whether it is
+            simulated.
         events: list of `locomotion.events.Event` in order of time.
         model, data: the MuJoCo model (shared by all persons on the same ground) and this person's own data.
     """

@@ -1,9 +1,9 @@
 """Hands that hold on to the world: a ball joint between a hand and a point that does not move.
 
-Each hand has a body without shape or mass that only marks the point ("mocap" in MuJoCo's words) and a `connect`
-constraint between the two, which is off until the hand holds on. Point and switch are part of the data, not
-of the model (as the constraint's own anchor would be), so they are saved with the state, and persons that
-share a model hold on to different points.
+Each hand has a body without shape or mass that only marks the point ("mocap" in MuJoCo's words) and a
+`connect` constraint between the two, which is off until the hand holds on. Point and switch are part of the
+data, not of the model (as the constraint's own anchor would be), so they are saved with the state, and
+persons that share a model hold on to different points.
 """
 
 from typing import Any

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from locomotion import MOVING, Human
 from locomotion import events as bodily
 from locomotion.quadruped import Animal
-from runtime.drivers import AnimalDriver, Driver, HumanDriver, radius_of
+from runtime.drivers import AnimalDriver, Driver, HumanDriver
 from runtime.errors import RuntimeInputError
 from runtime.events import (
     Arrived,
@@ -104,7 +104,7 @@ class Agent:
     @property
     def radius(self) -> float:
         """[m] that the graph's queries keep free around it."""
-        return radius_of(self.body)
+        return self._driver.radius
 
     @property
     def progress(self) -> float:
@@ -134,7 +134,7 @@ class Agent:
 
     def go_to(self, point: ArrayLike, speed: float = 3.5, facing: float | None = None) -> str:
         """Set out for ``point`` (3,) [m], or through several (k, 3) in order, at up to ``speed`` [m/s]; a
-        quadruped can be told the ``facing`` [rad] in which to end.
+        quadruped and a walker can be told the ``facing`` [rad] in which to end.
 
         Returns the status: "walking", "running", or "blocked" when there is no way (an event says why; the
         agent then keeps doing what it did). Raises `RuntimeInputError` for a point that is not finite

@@ -23,17 +23,28 @@ from runtime.figure import Figure
 from runtime.planning import Plan, make_plan
 from runtime.pose import between
 
-__all__ = ["BODIES", "AnimalDriver", "Driver", "HumanDriver", "Pack", "People", "Population", "radius_of"]
+__all__ = [
+    "BODIES",
+    "PLANS_KEPT",
+    "AnimalDriver",
+    "Driver",
+    "HumanDriver",
+    "Pack",
+    "People",
+    "Population",
+    "radius_of",
+    "recall",
+]
 
-BODIES = ("human", *BODY_NAMES)
+BODIES = ("human", "walker", *BODY_NAMES)
 """What `World.spawn` can make."""
 PLANS_KEPT = 256
 """Plans that an agent remembers; a pursuer makes many."""
 
 
 def radius_of(body: str) -> float:
-    """[m] that the graph's queries keep free around a body of `BODIES`."""
-    return PERSON_RULES["radius"] if body == "human" else load_body(body).radius
+    """[m] that the graph's queries keep free around a body of `BODIES`; of a walker, by default."""
+    return PERSON_RULES["radius"] if body in ("human", "walker") else load_body(body).radius
 
 
 class Driver(Protocol):
@@ -41,6 +52,7 @@ class Driver(Protocol):
     paths it was given or made."""
 
     figure: Figure
+    radius: float
     events: list[Event]
     plans: deque[Plan]
 
@@ -82,7 +94,10 @@ class Population(Protocol):
 
     bodies: tuple[str, ...]
 
-    def spawn(self, body: str, place: np.ndarray, facing: float) -> Driver: ...
+    def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> Driver:
+        """``radius`` [m] is `radius_of` the body, or what was asked for a walker."""
+        ...
+
     def revive(self, body: str, state: Any) -> Driver:
         """A body where and as it was when its driver was saved."""
         ...
@@ -106,7 +121,7 @@ class People:
         self._graph, self._ground = graph, ground
         self._drivers: list[HumanDriver] = []
 
-    def spawn(self, body: str, place: np.ndarray, facing: float) -> Driver:
+    def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> Driver:
         human = Human(self._ground)
         human.reset(place, facing)
         return self._add(human)
@@ -137,6 +152,7 @@ class HumanDriver:
 
     def __init__(self, graph: navmesh.NodeGraph, human: Human) -> None:
         self._graph, self.human = graph, human
+        self.radius = radius_of("human")
         self.figure = Figure.from_model(human.model)
         self.events = human.events
         self.plans: deque[Plan] = deque(maxlen=PLANS_KEPT)
@@ -206,7 +222,7 @@ class HumanDriver:
 
     def restore(self, state: tuple[HumanState, tuple[Plan, ...]]) -> None:
         self.human.restore_state(state[0])
-        _recall(self.plans, state[1])
+        recall(self.plans, state[1])
         self.before = None
 
     def state_hash(self) -> str:
@@ -224,7 +240,7 @@ class Pack:
         self._drivers: list[AnimalDriver] = []
         self._before = _Remembered()
 
-    def spawn(self, body: str, place: np.ndarray, facing: float) -> Driver:
+    def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> Driver:
         kind = load_body(body)
         stands = check_places(
             at_place(Place(float(place[0]), float(place[1]), float(place[2]), facing)),
@@ -297,6 +313,7 @@ class AnimalDriver:
         self._before = before
         self._ways = _Ways(graph, herd.bodies[index])
         self.animal = Animal(herd, index, self._ways)
+        self.radius = self.animal.body.radius
         self.figure = animal_figure(self.animal.body)
         self.events = self.animal.events
         self.plans: deque[Plan] = deque(maxlen=PLANS_KEPT)
@@ -365,7 +382,7 @@ class AnimalDriver:
 
     def restore(self, state: tuple[AnimalMemory, tuple[Plan, ...]]) -> None:
         self.animal.restore(state[0])
-        _recall(self.plans, state[1])
+        recall(self.plans, state[1])
         self._before.forget()
         self._followed = self.animal.trail
 
@@ -373,6 +390,7 @@ class AnimalDriver:
         return self.animal.state_hash()
 
 
-def _recall(plans: deque[Plan], saved: tuple[Plan, ...]) -> None:
+def recall(plans: deque[Plan], saved: tuple[Plan, ...]) -> None:
+    """Make ``plans`` those that were saved."""
     plans.clear()
     plans.extend(saved)

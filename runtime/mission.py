@@ -91,7 +91,7 @@ class AgentSpec(_Strict):
     """One figure: where it starts and where it goes."""
 
     name: Name
-    body: Literal["human", "dog", "cat", "horse"] = "human"
+    body: Literal["human", "walker", "dog", "cat", "horse"] = "human"
     start: Point
     """[m] (x, y, z), Z up; snapped to the walkable surface below."""
     facing_deg: Annotated[float, Ge(-360.0), Le(360.0)] = 0.0

@@ -10,7 +10,7 @@ from locomotion import LocomotionError, ObstacleAhead, Smoothing, smooth_route
 from locomotion.route_smoothing import RUNNING
 from navmesh.route import Route
 
-__all__ = ["NoWay", "Plan", "make_plan"]
+__all__ = ["NoWay", "Plan", "make_plan", "why_not"]
 
 _WHY = {
     "partial": "no way leads there on foot or with the skills at hand",
@@ -71,7 +71,7 @@ def make_plan(
     for index, goal in enumerate(goals):
         route = graph.find_path(start, goal, radius=radius, skills=skills)
         if route.status != "complete":
-            raise NoWay(index, _reason(graph, route, start, goal, radius))
+            raise NoWay(index, why_not(graph, route, start, radius))
         if len(route.waypoints) < 2:
             continue
         try:
@@ -90,9 +90,8 @@ def make_plan(
     return Plan(np.concatenate(raw), np.concatenate(pulled), np.concatenate(points), tuple(obstacles))
 
 
-def _reason(
-    graph: navmesh.NodeGraph, route: Route, start: np.ndarray, goal: np.ndarray, radius: float
-) -> str:
+def why_not(graph: navmesh.NodeGraph, route: Route, start: np.ndarray, radius: float) -> str:
+    """Why ``route``, found from ``start`` (3,) for a body of ``radius`` [m], does not lead to its goal."""
     if route.status == "off_graph" and graph.find_path(start, start, radius=radius).status == "off_graph":
         return "the way there begins at a place where the body does not fit"
     return _WHY[route.status]

@@ -51,6 +51,6 @@ def walk_rules(
 
 def _needs(body: str) -> dict[str, float]:
     """Its walk rules, by name."""
-    if body == "human":
+    if body in ("human", "walker"):
         return {**PERSON_RULES, "min_radius": navmesh.WalkRules().min_radius}
     return load_body(body).walk_rules().to_dict()

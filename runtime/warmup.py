@@ -14,6 +14,7 @@ KERNEL_MODULES = (
     ("pathsmooth", "kernels"),
     ("locomotion", "jump"),
     ("locomotion/quadruped", "advance"),
+    ("locomotion/crowd", "advance"),
 )
 """Folder and module of kernels that a first run compiles, the last ones among them."""
 
@@ -49,9 +50,11 @@ def compile_kernels(progress: Progress) -> None:
         stage.update(0.8, "running and jumping")
         while agent.moving and world.time < 6.0:
             world.step(0.1)
-        stage.update(0.9, "dogs")
+        stage.update(0.9, "dogs and walkers")
         dog = world.spawn("dog", (1.5, 1.0, 0.0))
         dog.go_to((4.5, 1.0, 0.0), speed=1.5)
+        walker = world.spawn("walker", (1.5, 3.0, 0.0))
+        walker.go_to((4.5, 3.0, 0.0), speed=1.5)
         world.step(0.5)
 
 

@@ -18,6 +18,7 @@ from runtime.drivers import BODIES, Pack, People, Population, radius_of
 from runtime.errors import RuntimeInputError
 from runtime.events import Event
 from runtime.rules import person_walk_rules
+from runtime.walkers import Walkers
 from runtime.world_state import WorldState
 
 __all__ = ["BODIES", "World", "WorldState"]
@@ -50,7 +51,11 @@ class World:
         self.random = np.random.default_rng(seed)
         level = self.graph.terrain
         ground = Ground.from_arrays(level.vertices, level.faces)
-        self._populations: tuple[Population, ...] = (People(self.graph, ground), Pack(self.graph, ground))
+        self._populations: tuple[Population, ...] = (
+            People(self.graph, ground),
+            Pack(self.graph, ground),
+            Walkers(self.graph),
+        )
         self._ticks = 0
         self._owed = 0.0
         self._stepping = False
@@ -99,10 +104,19 @@ class World:
 
         return stop
 
-    def spawn(self, body: str, at: ArrayLike, facing: float = 0.0, name: str | None = None) -> Agent:
+    def spawn(
+        self,
+        body: str,
+        at: ArrayLike,
+        facing: float = 0.0,
+        name: str | None = None,
+        radius: float | None = None,
+    ) -> Agent:
         """Put a standing ``body`` on the walkable surface at ``at`` (3,) [m], facing ``facing`` [rad].
 
-        ``body`` is "human", "dog", "cat" or "horse"; a quadruped stands with its rear feet there.
+        ``body`` is "human", "dog", "cat" or "horse", or "walker": a cheap body that slides over the surface
+        and avoids others, by the thousand; a quadruped stands with its rear feet there. ``radius`` [m] is
+        for walkers only, by default a person's.
         The place is moved to the nearest one where the body fits (see `NodeGraph.find_path`). ``name`` is
         its own in this world; by default "human1" and so on. Raises `RuntimeInputError` for an unknown body,
         a taken name, a place off the walkable surface, or a
@@ -118,10 +132,15 @@ class World:
         place = np.asarray(at, dtype=np.float64)
         if place.shape != (3,) or not np.isfinite(place).all() or not math.isfinite(facing):
             raise RuntimeInputError(f"at and facing must be finite (3,) and (), not {at!r} and {facing!r}")
-        here = self.graph.find_path(place, place, radius=radius_of(body))
+        if radius is not None and body != "walker":
+            raise RuntimeInputError(f"a {body} has a radius of its own; only a walker can be given one")
+        if radius is not None and not 0.0 < radius < math.inf:
+            raise RuntimeInputError(f"radius must be a finite number above 0 m, not {radius!r}")
+        size = radius_of(body) if radius is None else radius
+        here = self.graph.find_path(place, place, radius=size)
         if here.status != "complete":
             raise RuntimeInputError(f"{place.tolist()} is not near a place where a {body} fits")
-        driver = self._population(body).spawn(body, here.waypoints[0], facing)
+        driver = self._population(body).spawn(body, here.waypoints[0], facing, size)
         agent = self.agents[name] = Agent(self, name, body, driver)
         return agent
 

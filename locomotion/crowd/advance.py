@@ -1,0 +1,212 @@
+"""One tick of a crowd: wishes, velocities, steps."""
+
+from math import atan2, pi, sqrt
+
+import numpy as np
+from numba import njit
+
+from locomotion.crowd import layout as at
+from locomotion.crowd.avoidance import MOST_WALLS, body_plane, wall_planes
+from locomotion.crowd.moving import part, slide
+from locomotion.crowd.neighbours import MOST, find_neighbours
+from locomotion.crowd.program import choose_velocity
+from locomotion.crowd.steering import follow
+from navmesh.field import floor_at
+
+__all__ = ["advance_all"]
+
+_HORIZON = 1.0
+"""[s] that a body looks ahead for others."""
+_FARTHEST = 3.5
+"""[m] between the rims of two bodies that take notice of each other, at most."""
+_ROUNDS = 4
+"""Times that overlaps are taken away in a tick."""
+_TURN_RATE = 6.0
+"""[rad/s] of the figure."""
+_ASIDE = 0.4
+"""[m/s] at which one that stands makes way."""
+_TOUCH = 0.1
+"""[m] between two bodies that are in touch."""
+_PATIENCE_ALONE, _PATIENCE = 8.0, 90.0
+"""[s] without headway after which a body is stuck: with nobody in touch, and among others."""
+_SIGHTLESS = 0.5
+"""[s] without sight of its corner after which a body asks for another route."""
+
+
+@njit(cache=True)
+def _reaches(rows):
+    """How far each body looks for others [m], (n,)."""
+    widest = rows[:, at.RADIUS].max()
+    reach = np.empty(rows.shape[0])
+    for i in range(rows.shape[0]):
+        row = rows[i]
+        speed = max(row[at.WISH], sqrt(row[at.VX] * row[at.VX] + row[at.VY] * row[at.VY]))
+        reach[i] = row[at.RADIUS] + widest + min(2.0 * speed * _HORIZON, _FARTHEST)
+    return reach
+
+
+@njit(cache=True)
+def _settle(rows, i, neighbours, count):
+    """Whether a body has come as near to its goal as those that stand there let it."""
+    row = rows[i]
+    dx, dy = row[at.GOAL_X] - row[at.X], row[at.GOAL_Y] - row[at.Y]
+    if dx * dx + dy * dy > 400.0 * row[at.RADIUS] * row[at.RADIUS]:
+        return False
+    for k in range(count):
+        other = rows[neighbours[k]]
+        if other[at.MODE] != at.STANDING:
+            continue
+        px, py = other[at.X] - row[at.X], other[at.Y] - row[at.Y]
+        near = row[at.RADIUS] + other[at.RADIUS] + _TOUCH
+        if px * px + py * py > near * near:
+            continue
+        # it stands on the goal, or was on its way there too
+        gx, gy = other[at.GOAL_X] - row[at.GOAL_X], other[at.GOAL_Y] - row[at.GOAL_Y]
+        if (px - dx) * (px - dx) + (py - dy) * (py - dy) < near * near:
+            return True
+        if gx * gx + gy * gy < row[at.RADIUS] * row[at.RADIUS]:
+            return True
+    return False
+
+
+@njit(cache=True)
+def _make_way(rows, i, neighbours, count):
+    """The velocity at which one that stands steps aside for those who want to pass."""
+    wx = wy = 0.0
+    for k in range(count):
+        other = rows[neighbours[k]]
+        px, py = rows[i, at.X] - other[at.X], rows[i, at.Y] - other[at.Y]
+        near = rows[i, at.RADIUS] + other[at.RADIUS] + _TOUCH
+        if px * px + py * py > near * near:
+            break
+        gx, gy = other[at.GO_X], other[at.GO_Y]
+        size = sqrt(gx * gx + gy * gy)
+        if other[at.MODE] != at.WALKING or gx * px + gy * py <= 0.0 or size < _ASIDE:
+            continue
+        side = 1.0 if gx * py - gy * px >= 0.0 else -1.0
+        wx -= side * _ASIDE * gy / size
+        wy += side * _ASIDE * gx / size
+    return wx, wy
+
+
+@njit(cache=True)
+def _in_touch(rows, i, neighbours, count):
+    if count == 0:
+        return False
+    other = rows[neighbours[0]]
+    dx, dy = other[at.X] - rows[i, at.X], other[at.Y] - rows[i, at.Y]
+    near = rows[i, at.RADIUS] + other[at.RADIUS] + _TOUCH
+    return dx * dx + dy * dy < near * near
+
+
+@njit(cache=True)
+def _wish(net, rows, routes, i, neighbours, count, dt):
+    """The velocity that a body wishes, and notes for its owner."""
+    row = rows[i]
+    if row[at.NOTE] != at.QUIET:
+        return 0.0, 0.0
+    if row[at.MODE] == at.STANDING:
+        return _make_way(rows, i, neighbours, count)
+    wx, wy = follow(net, row, routes, i, dt, count > 0)
+    if row[at.NOTE] == at.QUIET and row[at.WAITED] > 0.5 and _settle(rows, i, neighbours, count):
+        row[at.NOTE] = at.ARRIVED
+    if not _in_touch(rows, i, neighbours, count):
+        row[at.ALONE] += dt
+    if row[at.NOTE] == at.QUIET:
+        if row[at.ALONE] > _PATIENCE_ALONE or row[at.WAITED] > _PATIENCE:
+            row[at.NOTE] = at.STUCK
+        elif row[at.BLIND] > _SIGHTLESS:
+            row[at.NOTE] = at.OFF_ROUTE
+    return wx, wy
+
+
+@njit(cache=True)
+def _turn(row, dt):
+    """Face where it goes; at rest, where it was told to."""
+    speed = sqrt(row[at.VX] * row[at.VX] + row[at.VY] * row[at.VY])
+    if row[at.MODE] == at.WALKING:
+        if speed < 0.15:
+            return
+        wanted = atan2(row[at.VY], row[at.VX])
+    else:
+        wanted = row[at.FACING]
+        if np.isnan(wanted):
+            return
+    turn = (wanted - row[at.YAW] + pi) % (2.0 * pi) - pi
+    most = _TURN_RATE * dt
+    row[at.YAW] = (row[at.YAW] + min(max(turn, -most), most) + pi) % (2.0 * pi) - pi
+
+
+@njit(cache=True)
+def advance_all(net, rows, routes, dt):
+    """Advance all bodies of ``rows`` (n, ROW) by ``dt`` [s]."""
+    n = rows.shape[0]
+    led = rows[:, at.MODE] == at.LED
+    order, neighbours, counts = find_neighbours(
+        rows[:, at.X].copy(), rows[:, at.Y].copy(), rows[:, at.Z].copy(), _reaches(rows), ~led
+    )
+    planes = np.empty((MOST + MOST_WALLS, 3))
+    work = np.empty((MOST + MOST_WALLS, 3))
+    velocity = np.zeros((n, 2))
+    for s in range(n):
+        i = order[s]
+        row = rows[i]
+        if led[i]:
+            continue
+        wx, wy = _wish(net, rows, routes, i, neighbours[i], counts[i], dt)
+        row[at.GO_X], row[at.GO_Y] = wx, wy
+        radius, top = row[at.RADIUS], max(row[at.WISH], 0.5)
+        walls = wall_planes(net, planes, int(row[at.CELL]), row[at.X], row[at.Y], radius, top)
+        used = walls
+        for k in range(counts[i]):
+            other = rows[neighbours[i, k]]
+            body_plane(
+                planes, used, other[at.X] - row[at.X], other[at.Y] - row[at.Y],
+                row[at.VX], row[at.VY], other[at.VX], other[at.VY], radius + other[at.RADIUS],
+                other[at.WEIGHT] / (row[at.WEIGHT] + other[at.WEIGHT]), _HORIZON,
+            )  # fmt: skip
+            used += 1
+        vx, vy = choose_velocity(planes, used, walls, top, wx, wy, work)
+        dx, dy = vx - row[at.VX], vy - row[at.VY]
+        change = sqrt(dx * dx + dy * dy)
+        most = row[at.ACCELERATION] * dt
+        if change > most:
+            vx, vy = row[at.VX] + dx * most / change, row[at.VY] + dy * most / change
+        velocity[i, 0], velocity[i, 1] = vx, vy
+    _move_all(net, rows, velocity, order, neighbours, counts, dt)
+
+
+@njit(cache=True)
+def _move_all(net, rows, velocity, order, neighbours, counts, dt):
+    """Take the steps, out of each other and along the walls."""
+    n = rows.shape[0]
+    x, y = rows[:, at.X].copy(), rows[:, at.Y].copy()
+    for i in range(n):
+        if rows[i, at.MODE] != at.LED:
+            x[i] += dt * velocity[i, 0]
+            y[i] += dt * velocity[i, 1]
+    cells = np.empty(n, np.int64)
+    for turn in range(_ROUNDS):
+        for s in range(n):
+            i = order[s]
+            if rows[i, at.MODE] == at.LED:
+                continue
+            part(rows, x, y, i, neighbours[i], counts[i])
+            if turn == _ROUNDS - 1 or net.clearance[int(rows[i, at.CELL])] < 2.0 * rows[i, at.RADIUS]:
+                cells[i], x[i], y[i] = slide(
+                    net, int(rows[i, at.CELL]), rows[i, at.X], rows[i, at.Y], x[i], y[i], rows[i, at.RADIUS]
+                )
+    for i in range(n):
+        row = rows[i]
+        row[at.AGE] += 1.0
+        if row[at.MODE] == at.LED:
+            continue
+        row[at.VX], row[at.VY] = (x[i] - row[at.X]) / dt, (y[i] - row[at.Y]) / dt
+        top = max(row[at.WISH], 0.5)
+        speed = sqrt(row[at.VX] * row[at.VX] + row[at.VY] * row[at.VY])
+        if speed > top:
+            row[at.VX] *= top / speed
+            row[at.VY] *= top / speed
+        row[at.X], row[at.Y], row[at.CELL] = x[i], y[i], cells[i]
+        row[at.Z] = floor_at(net, cells[i], x[i], y[i])
+        _turn(row, dt)

@@ -1,0 +1,222 @@
+"""A crowd: many bodies on one surface in flat arrays; one call advances all of them.
+
+crowd = Crowd(graph)
+ada = crowd.add((2.0, 3.0, 0.0), radius=0.3)
+ada.go_to([(9.0, 3.0, 0.0)], speed=1.4)
+while ada.status == "walking":
+    crowd.tick()
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+import navmesh
+from locomotion.crowd import layout as at
+from locomotion.crowd.advance import advance_all
+from locomotion.crowd.walker import NoRoute, Walker, WalkerState
+from locomotion.errors import LocomotionError
+from locomotion.quadruped.pool import Pool
+from navmesh.field import floor_at
+from navmesh.route import Route
+from navmesh.snapping import snap
+from navmesh.structs import net_of
+
+__all__ = ["Crowd"]
+
+_MOST_RADIUS = 10.0  # [m]
+
+
+class Crowd:
+    """Bodies that walk over the surface of ``graph`` and keep out of each other's way.
+
+    ``dt`` [s] is how far a tick goes. The same calls give the same run, bit for bit. ``walkers`` are the
+    bodies, in order of their making; ``routes`` holds their routes by index.
+    """
+
+    def __init__(self, graph: navmesh.NodeGraph, dt: float = 0.01) -> None:
+        if not (math.isfinite(dt) and 0.0 < dt <= 0.1):
+            raise LocomotionError(f"dt must be above 0 and at most 0.1 s, not {dt!r}")
+        self.graph, self.dt = graph, dt
+        self.walkers: list[Walker] = []
+        self._table = np.zeros((64, at.ROW))
+        self._count = 0
+        self.routes = Pool(at.POINT)
+        self._net = net_of(graph)
+        self._origin = graph.surface.origin
+
+    def __len__(self) -> int:
+        return self._count
+
+    @property
+    def rows(self) -> NDArray[np.float64]:
+        """(n, `layout.ROW`) the state of all bodies; a view."""
+        return self._table[: self._count]
+
+    @property
+    def positions(self) -> NDArray[np.float64]:
+        """(n, 3) float64 [m]: the points of the floor under the bodies."""
+        return self.rows[:, at.X : at.Z + 1] + self._origin
+
+    @property
+    def velocities(self) -> NDArray[np.float64]:
+        """(n, 2) float64 [m/s]."""
+        return self.rows[:, [at.VX, at.VY]]
+
+    @property
+    def yaws(self) -> NDArray[np.float64]:
+        """(n,) float64 [rad, -π to π]."""
+        return self.rows[:, at.YAW]
+
+    def add(
+        self, position: ArrayLike, radius: float = 0.3, yaw: float = 0.0, acceleration: float = 4.0
+    ) -> Walker:
+        """Put a standing body of ``radius`` [m] at ``position`` (3,) [m], facing ``yaw`` [rad].
+
+        ``acceleration`` [m/s²] is the most by which its velocity changes. Raises `LocomotionError` for
+        numbers out of range or a place with no room for it nearby.
+        """
+        place = np.asarray(position, dtype=np.float64)
+        if place.shape != (3,) or not np.isfinite(place).all() or not math.isfinite(yaw):
+            raise LocomotionError(
+                f"position and yaw must be finite (3,) and (), not {position!r} and {yaw!r}"
+            )
+        if not 0.0 < radius <= _MOST_RADIUS:
+            raise LocomotionError(f"radius must be above 0 and at most {_MOST_RADIUS:g} m, not {radius!r}")
+        if not (math.isfinite(acceleration) and acceleration > 0.0):
+            raise LocomotionError(f"acceleration must be a finite number above 0 m/s², not {acceleration!r}")
+        row = self._new_row()
+        row[at.RADIUS], row[at.ACCELERATION], row[at.WEIGHT], row[at.YAW] = radius, acceleration, 1.0, yaw
+        row[at.WISH], row[at.FACING] = 1.4, math.nan
+        row[at.X : at.Z + 1] = place - self._origin
+        row[at.GOAL_X : at.GOAL_Z + 1] = row[at.X : at.Z + 1]
+        if not self._put_down(row):
+            raise LocomotionError(
+                f"there is no room for a radius of {radius:g} m near {place.round(2).tolist()}"
+            )
+        return self._take_in()
+
+    def adopt(self, state: WalkerState) -> Walker:
+        """Put a body where and as it was when it was saved."""
+        self._new_row()
+        walker = self._take_in()
+        walker.restore(state)
+        return walker
+
+    def remove(self, index: int) -> None:
+        """Take a body away; the indices of those after it go down by one."""
+        self._table = np.delete(self._table, index, axis=0)
+        self._table = np.vstack([self._table, np.zeros(at.ROW)])
+        self._count -= 1
+        self.routes.remove(index)
+        del self.walkers[index]
+        for later in self.walkers[index:]:
+            later.index -= 1
+
+    def _take_in(self) -> Walker:
+        """Count the row that `_new_row` has given."""
+        self._count += 1
+        self.walkers.append(Walker(self, self._count - 1))
+        return self.walkers[-1]
+
+    def _new_row(self) -> NDArray[np.float64]:
+        """A row of zeros behind the last one, not counted yet."""
+        if self._count == len(self._table):
+            self._table = np.concatenate([self._table, np.zeros_like(self._table)])
+        self._table[self._count] = 0.0
+        return self._table[self._count]
+
+    def _put_down(self, row: NDArray[np.float64]) -> bool:
+        """Put a body on the place nearest to where it is at which it fits; False where there is none."""
+        radius = float(row[at.RADIUS])
+        reach = 2.0 * (radius + self.graph.surface.resolution)
+        x, y, z = row[at.X : at.Z + 1].tolist()
+        node, cell, x, y = snap(self._net, x, y, z, radius, reach, self.graph.rules.headroom)
+        if node < 0:
+            return False
+        row[at.X], row[at.Y], row[at.CELL] = x, y, cell
+        row[at.Z] = floor_at(self._net, cell, x, y)
+        return True
+
+    # --- routes
+    def find_routes(self, index: int, goals: NDArray[np.float64]) -> list[Route]:
+        """The routes from where a body is through ``goals`` (k, 3) [m], one for each. Raises `NoRoute`."""
+        here = self.positions[index]
+        radius = float(self.rows[index, at.RADIUS])
+        routes: list[Route] = []
+        for goal in goals:
+            route = self.graph.find_path(here, goal, radius=radius)
+            if route.status != "complete":
+                raise NoRoute(len(routes), route, here)
+            routes.append(route)
+            here = route.waypoints[-1]
+        return routes
+
+    def lay_routes(self, index: int, routes: list[Route]) -> None:
+        """Let a body follow ``routes``, the first of which begins where it is; it visits the end of each."""
+        row = self.rows[index]
+        counts = [max(len(route.waypoints) - 1, 1) for route in routes]
+        table = np.zeros((1 + sum(counts), at.POINT))
+        table[0, :3] = row[at.X : at.Z + 1]
+        table[1:, :3] = np.concatenate([r.waypoints[-n:] for r, n in zip(routes, counts, strict=True)])
+        table[1:, :3] -= self._origin
+        table[np.cumsum(counts), at.VIA] = 1.0
+        legs = np.hypot(*np.diff(table[:, :2], axis=0).T)
+        table[:-1, at.LEFT] = np.cumsum(legs[::-1])[::-1]
+        self._keep_route(index, table)
+        row[at.NEXT], row[at.BLIND] = 1.0, 0.0
+        row[at.BEST], row[at.WAITED], row[at.ALONE] = math.inf, 0.0, 0.0
+        row[at.MODE], row[at.NOTE] = at.WALKING, at.QUIET
+        row[at.GOAL_X : at.GOAL_Z + 1] = table[-1, :3]
+
+    def left(self, index: int) -> float:
+        """[m] of a body's route that are still before it."""
+        row = self.rows[index]
+        if row[at.MODE] != at.WALKING:
+            return 0.0
+        point = self.routes.rows[int(row[at.ROUTE_START] + row[at.NEXT])]
+        return float(np.hypot(point[0] - row[at.X], point[1] - row[at.Y]) + point[at.LEFT])
+
+    def goals_left(self, index: int) -> NDArray[np.float64]:
+        """(k, 3) [m]: the places that a walking body has still to visit."""
+        ahead = self.routes.table(index)[int(self.rows[index, at.NEXT]) :]
+        return ahead[ahead[:, at.VIA] > 0.0][:, :3] + self._origin
+
+    def restore(self, index: int, row: NDArray[np.float64], route: NDArray[np.float64]) -> None:
+        """Put back a row and a route."""
+        self.rows[index] = row
+        self._keep_route(index, route)
+
+    def _keep_route(self, index: int, table: NDArray[np.float64]) -> None:
+        if self.routes.put(index, table):
+            for other in range(len(self)):
+                self._table[other, at.ROUTE_START] = self.routes.region(other)[0]
+        self.rows[index, [at.ROUTE_START, at.ROUTE_COUNT]] = self.routes.region(index)
+
+    # --- time
+    def tick(self) -> None:
+        """Advance all bodies by `dt`."""
+        net = net_of(self.graph)
+        if net is not self._net:
+            self._take_graph(net)
+        if self._count:
+            advance_all(self._net, self.rows, self.routes.rows, self.dt)
+            for index in np.flatnonzero(self.rows[:, at.NOTE] != at.QUIET).tolist():
+                self.walkers[index].notice()
+
+    def _take_graph(self, net: object) -> None:
+        """Go on on a graph that has changed: everybody is put down anew and looks for its way again."""
+        shift = self._origin - self.graph.surface.origin
+        self._net, self._origin = net, self.graph.surface.origin
+        for index, row in enumerate(self.rows):
+            for first in (at.X, at.GOAL_X):
+                row[first : first + 3] += shift
+            if not self._put_down(row):
+                row[at.NOTE] = at.STUCK
+            elif row[at.MODE] == at.WALKING:
+                start, count = self.routes.region(index)
+                self.routes.rows[start : start + count, :3] += shift
+                row[at.NOTE] = at.OFF_ROUTE

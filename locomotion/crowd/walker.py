@@ -1,0 +1,177 @@
+"""One body of a crowd, with somewhere to go."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from locomotion.crowd import layout as at
+from locomotion.errors import LocomotionError
+from locomotion.events import Arrived, Event, GotStuck, SetOff
+from navmesh.route import Route
+
+if TYPE_CHECKING:
+    from locomotion.crowd.crowd import Crowd
+
+__all__ = ["NoRoute", "Walker", "WalkerState"]
+
+Status = Literal["standing", "walking", "arrived", "stuck"]
+
+_MOST_REPLANS = 3  # times that a route is planned anew without headway before the body is stuck
+
+
+class NoRoute(LocomotionError):
+    """There is no way to the goal of number ``goal``: ``route`` is the answer for it from ``start`` (3,)."""
+
+    def __init__(self, goal: int, route: Route, start: NDArray[np.float64]) -> None:
+        self.goal, self.route, self.start = goal, route, start
+        super().__init__(f"goal {goal} cannot be reached: {route.status}")
+
+
+@dataclass(frozen=True)
+class WalkerState:
+    """Everything that a crowd knows of one body."""
+
+    row: NDArray[np.float64]
+    route: NDArray[np.float64]
+    status: Status
+    goals: tuple[tuple[float, float, float], ...]
+    replans: int
+    events: tuple[Event, ...]
+
+
+class Walker:
+    """One body of a crowd; made by `Crowd.add`.
+
+    ``index`` is its row. ``status`` is "standing", "walking", "arrived" or "stuck" (no headway: for 8 s with
+    nobody near, for 90 s among others; or no way is left). ``events`` are in order of time.
+    """
+
+    def __init__(self, crowd: Crowd, index: int) -> None:
+        self.crowd, self.index = crowd, index
+        self.status: Status = "standing"
+        self.events: list[Event] = []
+        self._goals: tuple[tuple[float, float, float], ...] = ()
+        self._replans = 0
+
+    @property
+    def _row(self) -> NDArray[np.float64]:
+        return self.crowd.rows[self.index]
+
+    @property
+    def time(self) -> float:
+        """[s] since it was made."""
+        return float(self._row[at.AGE]) * self.crowd.dt
+
+    @property
+    def position(self) -> NDArray[np.float64]:
+        """(3,) float64 [m]: the point of the floor under it."""
+        return self.crowd.positions[self.index]
+
+    @property
+    def velocity(self) -> NDArray[np.float64]:
+        """(2,) float64 [m/s]."""
+        return self._row[[at.VX, at.VY]]
+
+    @property
+    def yaw(self) -> float:
+        """[rad, -π to π] where it faces."""
+        return float(self._row[at.YAW])
+
+    @property
+    def radius(self) -> float:
+        """[m]"""
+        return float(self._row[at.RADIUS])
+
+    @property
+    def left(self) -> float:
+        """[m] of its route that are still before it."""
+        return self.crowd.left(self.index)
+
+    def go_to(self, goals: ArrayLike, speed: float = 1.4, facing: float | None = None) -> list[Route]:
+        """Go through ``goals`` (k, 3) [m] at up to ``speed`` [m/s], then face ``facing`` [rad], by default
+        as it arrives. Returns the routes to them.
+
+        Raises `NoRoute` where there is none (it then goes on with what it did), and `LocomotionError` for
+        numbers that are not finite or a speed that is not above 0.
+        """
+        points = np.asarray(goals, dtype=np.float64)
+        if points.ndim != 2 or points.shape[1] != 3 or not len(points) or not np.isfinite(points).all():
+            raise LocomotionError(f"goals must be finite (k, 3), not {goals!r}")
+        if not (math.isfinite(speed) and speed > 0.0):
+            raise LocomotionError(f"speed must be a finite number above 0 m/s, not {speed!r}")
+        if facing is not None and not math.isfinite(facing):
+            raise LocomotionError(f"facing must be a finite angle, not {facing!r}")
+        routes = self.crowd.find_routes(self.index, points)
+        self._row[at.WISH], self._row[at.FACING] = speed, math.nan if facing is None else facing
+        self.crowd.lay_routes(self.index, routes)
+        self._goals = tuple((float(x), float(y), float(z)) for x, y, z in points)
+        self._replans, self.status = 0, "walking"
+        self.events.append(SetOff(self.time, self._point(), self._goals[-1], self.left))
+        return routes
+
+    def stop(self) -> None:
+        """Stand where it is."""
+        self._row[at.MODE], self._row[at.NOTE] = at.STANDING, at.QUIET
+        self.status = "standing"
+
+    def notice(self) -> None:
+        """Act on what the last tick has noted; `Crowd.tick` calls this."""
+        row = self._row
+        note, row[at.NOTE] = row[at.NOTE], at.QUIET
+        if note == at.OFF_ROUTE and self._replan():
+            return
+        self.stop()
+        if note == at.ARRIVED:
+            distance = float(np.hypot(row[at.GOAL_X] - row[at.X], row[at.GOAL_Y] - row[at.Y]))
+            self.status = "arrived"
+            self.events.append(Arrived(self.time, self._point(), distance))
+        else:
+            self.status = "stuck"
+            self.events.append(GotStuck(self.time, self._point()))
+
+    def _replan(self) -> bool:
+        """Another way through the goals that are left; False where there is none."""
+        row = self._row
+        self._replans = self._replans + 1 if row[at.WAITED] > 2.0 else 0
+        if self._replans > _MOST_REPLANS:
+            return False
+        waited, alone = row[[at.WAITED, at.ALONE]]
+        goals = self.crowd.goals_left(self.index)
+        try:
+            self.crowd.lay_routes(self.index, self.crowd.find_routes(self.index, goals))
+        except NoRoute:
+            return False
+        row[at.BEST], row[at.WAITED], row[at.ALONE] = self.left, waited, alone
+        return True
+
+    def _point(self) -> tuple[float, float, float]:
+        x, y, z = self.position.tolist()
+        return x, y, z
+
+    # --- saving
+    def save(self) -> WalkerState:
+        """Everything needed to go on from here."""
+        return WalkerState(
+            self._row.copy(), self.crowd.routes.table(self.index), self.status, self._goals, self._replans,
+            tuple(self.events),
+        )  # fmt: skip
+
+    def restore(self, state: WalkerState) -> None:
+        """Go on from a state of this body."""
+        self.crowd.restore(self.index, state.row, state.route)
+        self.status, self._goals, self._replans = state.status, state.goals, state.replans
+        self.events[:] = state.events
+
+    def state_hash(self) -> str:
+        """Hex digest of everything that decides how it goes on."""
+        row = self._row.copy()
+        row[at.ROUTE_START] = 0.0  # where its route lies in the pool is no part of it
+        hasher = hashlib.sha256(row.tobytes())
+        hasher.update(self.crowd.routes.table(self.index).tobytes())
+        return f"{hasher.hexdigest()[:16]}{self.status}{self._replans}"

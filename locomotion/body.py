@@ -51,7 +51,7 @@ from locomotion.human_state import (
     restore_physics,
     save_physics,
 )
-from locomotion.jump_skill import JUMP_SKILL, Jump, load_jump_skill
+from locomotion.library import learned_skills
 from locomotion.path_tracking import RUN_UP, PathTable, make_path, new_track, track
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK, PersonIndex, build_person
 from locomotion.route_smoothing import ObstacleAhead
@@ -65,7 +65,7 @@ from locomotion.walk_layout import (
     WALKS,
     new_walk,
 )
-from locomotion.walk_skill import WalkSkill, load_walk_skill, plant
+from locomotion.walk_skill import WalkSkill, load_walk_skill, plant, rise_walking
 from locomotion.walking import observe_walk, walk_tick
 
 __all__ = ["ARRIVAL_DISTANCE", "PERSON_RULES", "Human", "HumanState", "Status"]
@@ -113,11 +113,6 @@ def _model_on(ground: Ground | None) -> tuple[mujoco.MjModel, PersonIndex]:
         return found
 
 
-def _jump(run: RunSkill) -> tuple[ClearingSkill, ...]:
-    """The package's jump on top of a run."""
-    return (Jump(load_jump_skill(), run),) if JUMP_SKILL.exists() else ()
-
-
 class Human:
     """A person under physics. `tick` advances it by 10 ms.
 
@@ -137,11 +132,11 @@ class Human:
         walk: WalkSkill | None = None,
     ) -> None:
         """``ground``: None is the endless plane z = 0. ``skill``: how it runs; None loads the package's.
-        ``clearing``: how it clears obstacles; None: as the package's jump does. ``walk``: how it walks; None
-        loads the package's."""
+        ``clearing``: how it clears obstacles; None: by what comes with the package (`learned_skills`).
+        ``walk``: how it walks; None loads the package's."""
         self.ground = ground
         self.skill = load_run_skill() if skill is None else skill
-        self.clearing = _jump(self.skill) if clearing is None else tuple(clearing)
+        self.clearing = learned_skills(self.skill) if clearing is None else tuple(clearing)
         self.model, self.index = _model_on(ground)
         self.data = mujoco.MjData(self.model)
         self.gait = load_walk_skill() if walk is None else walk
@@ -311,7 +306,7 @@ class Human:
                 self._clear()
         mujoco.mj_step(self.model, data, STEPS_PER_TICK)
         observe(self.index, self.model, data, state)
-        if walks:
+        if self._walk[WALKS] > 0.0:
             observe_walk(self.index, data, self._walk)
         if self.status == "fallen":
             return
@@ -373,7 +368,9 @@ class Human:
         if self._clearing is not None and skill.tick(obstacle, self._clearing, state, self.data):
             self._clearing = None
             self._run_up[_NEXT], self._run_up[_PLANNED] = number + 1, 0.0
-            self.status = "running"
+            self.status = skill.ends
+            if skill.ends == "walking":
+                rise_walking(self._walk, state, self.yaw)
             self.events.append(Cleared(self.time, self._point(), obstacle.affordance, obstacle.height))
 
     def _skill_ahead(self) -> ClearingSkill:

@@ -8,7 +8,7 @@ the skill starts, and from then on changes the running controller's targets unti
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Protocol
+from typing import Literal, Protocol
 
 import mujoco
 import numpy as np
@@ -54,6 +54,11 @@ class ClearingSkill(Protocol):
     def stride(self) -> tuple[float, float, float]:
         """(a, lag, b): on the run under it a step asked for at speed v [m/s] after one at v' is
         a v + lag (v' - v) + b long [m]."""
+        ...
+
+    @property
+    def ends(self) -> Literal["running", "walking"]:
+        """How the body goes on when the skill is finished."""
         ...
 
     def start(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -6,7 +6,7 @@ import os
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import mujoco
 import numpy as np
@@ -187,6 +187,7 @@ class Jump:
     """Jumping onto stairs as a `locomotion.clearing.ClearingSkill`, on top of a given run."""
 
     affordance = "jump"
+    ends: Literal["running", "walking"] = "running"
 
     def __init__(self, skill: JumpSkill, run: RunSkill) -> None:
         """``skill``: the learned jumps; ``run``: the run under them."""

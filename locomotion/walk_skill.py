@@ -16,11 +16,19 @@ from locomotion.footholds import foot_frame, ground_at, stand_on
 from locomotion.leg_kinematics import solve_leg
 from locomotion.person import JOINT_NAMES, PersonIndex, person_digest
 from locomotion.skill_file import read_skill
-from locomotion.walk_layout import GAINS, gain_limits, new_walk
+from locomotion.walk_layout import (
+    DOUBLE,
+    GAINS,
+    PHASE,
+    WALK_SPEED,
+    WALK_STANCE,
+    gain_limits,
+    new_walk,
+)
 from locomotion.walking import SOLE, observe_walk
 from navmesh.archive import write_archive
 
-__all__ = ["WALK_SKILL", "WalkSkill", "load_walk_skill", "plant"]
+__all__ = ["WALK_SKILL", "WalkSkill", "load_walk_skill", "plant", "rise_walking"]
 
 WALK_SKILL = Path(__file__).parent / "skills" / "walk.npz"
 _KIND, _VERSION = "walk skill", 1
@@ -110,3 +118,14 @@ def plant(
     state[controller.PLANTED] = state[controller.FEET]
     walk[:] = new_walk(yaw)
     observe_walk(index, data, walk)
+
+
+def rise_walking(walk: np.ndarray, state: np.ndarray, heading: float) -> None:
+    """Let the walking controller take over a body that crouches on both feet and moves towards ``heading``
+    [rad], from the next tick on; ``state`` holds what was observed."""
+    walk[:] = new_walk(heading)
+    ch, sh = math.cos(heading), math.sin(heading)
+    ahead = (state[23] - state[20]) * ch + (state[24] - state[21]) * sh  # of the left foot
+    walk[PHASE], walk[WALK_STANCE] = DOUBLE, 1.0 if ahead > 0.0 else -1.0
+    vx, vy = state[controller.COM_VELOCITY][:2]
+    walk[WALK_SPEED] = min(max(vx * ch + vy * sh, 0.0), 1.2)

@@ -8,9 +8,9 @@ import numpy as np
 from locomotion import controller as c
 from locomotion import jump
 from locomotion.body import Human
-from locomotion.clearing import foot_distance, plan_run_up, run_up_speeds
+from locomotion.clearing import ClearingSkill, foot_distance, plan_run_up, run_up_speeds
 from locomotion.jump import jump_tick, start_jump
-from locomotion.jump_skill import Jump, JumpTables, jump_clip
+from locomotion.jump_skill import JumpTables, jump_clip
 from locomotion.path_tracking import RUN_UP
 from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, person_spec
 from locomotion.route_smoothing import ObstacleAhead
@@ -162,7 +162,7 @@ class JumpSimulator:
         return float(a), float(lag), float(b)
 
     def harvest(
-        self, skill: Jump, distances: np.ndarray, rng: np.random.Generator, standing: bool = False
+        self, skill: ClearingSkill, distances: np.ndarray, rng: np.random.Generator, standing: bool = False
     ) -> list[StartState]:
         """Run up to the mark of ``skill`` at its least height from each of ``distances`` [m]; save the states
         at which the jump begins, less those from which not even the run goes on.
@@ -170,7 +170,7 @@ class JumpSimulator:
         The person starts in a running pose with noise, or ``standing``, from which it walks first.
         """
         height = skill.heights[0]
-        ahead = ObstacleAhead(0.0, "jump", height, np.zeros(3), np.array([-1.0, 0.0, 0.0]))
+        ahead = ObstacleAhead(0.0, skill.affordance, height, np.zeros(3), np.array([-1.0, 0.0, 0.0]))
         entry, _ = skill.approach(height)
         found = []
         self.place_stair(1000.0, 0.0)

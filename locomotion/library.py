@@ -1,0 +1,12 @@
+"""The skills that come with the package, for a body to clear obstacles with."""
+
+from locomotion.clearing import ClearingSkill
+from locomotion.jump_skill import JUMP_SKILL, Jump, load_jump_skill
+from locomotion.skill import RunSkill
+
+__all__ = ["learned_skills"]
+
+
+def learned_skills(run: RunSkill) -> tuple[ClearingSkill, ...]:
+    """What the package has learned to clear, on top of a run."""
+    return (Jump(load_jump_skill(), run),) if JUMP_SKILL.exists() else ()

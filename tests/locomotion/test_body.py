@@ -20,7 +20,7 @@ STRAIGHT = np.array([[0.0, 0, 0], [15, 0, 0]])
 class Recorder:
     """A skill that notes where it starts and goes on running for 0.5 s."""
 
-    affordance = "jump"
+    affordance, ends = "jump", "running"
     heights = (0.3, 0.5)
     stride = (0.25, 0.0, 0.25)
 

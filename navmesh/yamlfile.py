@@ -7,14 +7,14 @@ import difflib
 import os
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, get_args, get_origin
 
 import yaml
 from pydantic import BaseModel, ValidationError
 
 from navmesh.errors import NavmeshError
 
-__all__ = ["MAX_BYTES", "FileError", "Located", "read_yaml"]
+__all__ = ["MAX_BYTES", "FileError", "Located", "dotted", "read_yaml"]
 
 MAX_BYTES = 1_000_000
 _SCALARS = ("null", "bool", "int", "float", "str")
@@ -82,7 +82,15 @@ def _compose(path: Path, what: str) -> yaml.Node:
         line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
         raise FileError(path, line, column, f"not YAML: {error.problem or error.context}") from None
     except yaml.reader.ReaderError as error:
-        raise FileError(path, 1, 1, f"not YAML: {error.reason} at byte {error.position}") from None
+        # the position counts characters once the text is decoded, and bytes where that fails
+        read = content if error.encoding != "unicode" else content.decode(errors="replace")
+        before = (
+            str(read[: error.position], "utf-8", "replace")
+            if isinstance(read, bytes)
+            else read[: error.position]
+        )
+        line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
+        raise FileError(path, line, column, f"not YAML: {error.reason}") from None
     except RecursionError:
         raise FileError(path, 1, 1, f"nested too deeply for a {what}") from None
     if root is None:
@@ -146,8 +154,9 @@ def _first_error(error: ValidationError, located: Located, model: type[BaseModel
     """The first of pydantic's findings as one line: address, problem, valid choices, how many more."""
     findings = sorted(error.errors(include_url=False), key=lambda one: one["type"] != "extra_forbidden")
     first = findings[0]
-    address: tuple[Key, ...] = tuple(first["loc"])
-    name = _dotted(address) or "the file"
+    address = tuple(step for step in first["loc"] if not _is_mark(step))
+    name = dotted(address) or "the file"
+    of_key = first["type"] == "extra_forbidden" or first["loc"][-1:] == ("[key]",)
     if first["type"] == "extra_forbidden":
         known = _fields_at(model, address[:-1])
         near = difflib.get_close_matches(str(address[-1]), known, n=1)
@@ -160,11 +169,19 @@ def _first_error(error: ValidationError, located: Located, model: type[BaseModel
         problem = f"{name}: a mapping is needed{_given(first['input'])}"
     elif first["type"] in ("too_short", "too_long"):
         problem = f"{name}: {first['msg']}"
+    elif first["type"] == "value_error" and isinstance(first["input"], dict):
+        problem = f"{name}: {first['msg'].removeprefix('Value error, ')}"
     else:
         problem = f"{name}: {first['msg'].removeprefix('Value error, ')}{_given(first['input'])}"
     if len(findings) > 1:
         problem += f" (and {len(findings) - 1} more)"
-    return located.error(address, problem, at_key=first["type"] == "extra_forbidden")
+    return located.error(address, problem, at_key=of_key)
+
+
+def _is_mark(step: Key) -> bool:
+    """Whether a step of pydantic's addresses stands for nothing in the file: "[key]", or the tag of a union,
+    which our models write in brackets."""
+    return isinstance(step, str) and (step == "[key]" or (step.startswith("(") and step.endswith(")")))
 
 
 def _given(value: Any) -> str:
@@ -178,7 +195,8 @@ def _given(value: Any) -> str:
     )
 
 
-def _dotted(address: Sequence[Key]) -> str:
+def dotted(address: Sequence[Key]) -> str:
+    """An address as a person writes it: ``agents[0].start``."""
     text = ""
     for step in address:
         text += f"[{step}]" if isinstance(step, int) else f".{step}" if text else str(step)
@@ -187,18 +205,16 @@ def _dotted(address: Sequence[Key]) -> str:
 
 def _fields_at(model: type[BaseModel], address: Sequence[Key]) -> list[str]:
     """Names of the keys that are valid in the mapping at ``address`` of ``model``."""
-    current = model
+    current: Any = model
     for step in address:
-        if isinstance(step, int):
-            continue
-        inner = _models_in(current.model_fields[step].annotation)
-        if not inner:
-            return []
-        current = inner[0]
+        if isinstance(step, str):
+            named = get_origin(current) is dict
+            current = _mapping_in(get_args(current)[1] if named else current.model_fields[step].annotation)
     return list(current.model_fields)
 
 
-def _models_in(annotation: Any) -> list[type[BaseModel]]:
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        return [annotation]
-    return [found for argument in getattr(annotation, "__args__", ()) for found in _models_in(argument)]
+def _mapping_in(annotation: Any) -> Any:
+    """The model, or the dict of named values, that ``annotation`` takes: itself or deeper inside."""
+    if get_origin(annotation) is dict or (isinstance(annotation, type) and issubclass(annotation, BaseModel)):
+        return annotation
+    return next((found for inner in get_args(annotation) if (found := _mapping_in(inner)) is not None), None)

@@ -97,6 +97,25 @@ def run(
 
 
 @app.command()
+def check(
+    mission: Annotated[Path, typer.Argument(help="Mission file (YAML).")],
+    as_json: JsonOption = False,
+) -> None:
+    """Check a mission without running it: the file, its level, and that every place can be reached."""
+    _finish(_commands().check_mission_file(mission), as_json)
+
+
+@app.command()
+def schema(
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="File for the schema; default: standard output.")
+    ] = None,
+) -> None:
+    """Write the JSON schema of mission files, which editors check them by while they are written."""
+    _commands().write_schema(output)
+
+
+@app.command()
 def view(
     source: Annotated[Path, typer.Argument(help="Trace (.npz), or a mission (.yaml) to be run first.")],
     output: Annotated[Path, typer.Option("--output", "-o", help="File for the page (.html).")] = Path(

@@ -1,7 +1,8 @@
 """What the commands of ``surefoot`` do, apart from reading their arguments."""
 
+import json
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -10,8 +11,10 @@ import navmesh
 from locomotion import LocomotionError, smooth_route
 from pathsmooth import PathSmoothError
 from runtime.errors import RuntimeInputError
-from runtime.files import check_output_folder
-from runtime.mission import load_mission
+from runtime.events import Departed, Event
+from runtime.files import check_output_folder, whole_file
+from runtime.mission import load_mission, mission_schema
+from runtime.mission_check import prepare_mission
 from runtime.mission_run import MissionResult, run_mission
 from runtime.progress import Progress
 from runtime.rules import person_walk_rules
@@ -22,10 +25,12 @@ __all__ = [
     "INPUT_ERRORS",
     "Result",
     "bake_level",
+    "check_mission_file",
     "evaluate_skill",
     "find_path",
     "run_mission_file",
     "train_skill",
+    "write_schema",
     "write_view",
 ]
 
@@ -118,6 +123,26 @@ def run_mission_file(mission: Path, out: Path | None) -> Result:
     return Result(values, result.held, lambda: _show_mission(mission, result, written))
 
 
+def check_mission_file(mission: Path) -> Result:
+    """Check a mission and its level; `navmesh.yamlfile.FileError` says what is wrong."""
+    loaded = load_mission(mission)
+    prepare_mission(loaded, _ready())
+    agents = [{"name": agent.name, "body": agent.body} for agent in loaded.mission.agents]
+    values = {"mission": str(mission), "level": str(loaded.level_path), "agents": agents}
+    return Result(values, True, lambda: print(f"{mission}: can be run ({len(agents)} agents)"))
+
+
+def write_schema(output: Path | None) -> None:
+    """Write the JSON schema of missions to ``output``, or print it."""
+    text = json.dumps(mission_schema(), indent=1) + "\n"
+    if output is None:
+        print(text, end="")
+        return
+    _writable(output)
+    with whole_file(output) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+
+
 def write_view(source: Path, output: Path) -> Result:
     """Write the page of a trace, or of a mission that is run for it."""
     from runtime.view import write_page
@@ -199,8 +224,9 @@ def _show_mission(mission: Path, result: MissionResult, written: list[Path]) -> 
 
     console = Console(highlight=False)
     happened = Table("time", "what happened", title=mission.name, title_justify="left")
-    for event in result.events:
-        happened.add_row(f"{event.time:6.2f} s", str(event))
+    for event, more in _in_short(result.events):
+        again = f" (and changes its way {more} times)" if more else ""
+        happened.add_row(f"{event.time:6.2f} s", f"{event}{again}")
     console.print(happened)
     checks = Table("agent", "expected", "found", "held")
     for check in result.checks:
@@ -211,6 +237,20 @@ def _show_mission(mission: Path, result: MissionResult, written: list[Path]) -> 
     console.print(f"{result.simulated:.1f} s simulated in {result.wall:.1f} s ({pace:.1f} x real time)")
     for path in written:
         console.print(f"wrote {path}", soft_wrap=True)
+
+
+def _in_short(events: Sequence[Event]) -> list[tuple[Event, int]]:
+    """The events, of departures in a row only the first, each with how many of its agent's were left out."""
+    shown: list[tuple[Event, int]] = []
+    latest: dict[str, int] = {}
+    for event in events:
+        last = latest.get(event.agent)
+        if last is not None and isinstance(event, Departed) and isinstance(shown[last][0], Departed):
+            shown[last] = shown[last][0], shown[last][1] + 1
+        else:
+            latest[event.agent] = len(shown)
+            shown.append((event, 0))
+    return shown
 
 
 def _ready() -> Progress:

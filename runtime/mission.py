@@ -1,15 +1,13 @@
-"""Mission files: a level, agents with a start and waypoints, and what is expected of them.
+"""Mission files: a level, agents with what they do, what is expected of them. See ``docs/missions.md``.
 
 ```yaml
 level: {file: ../levels/courtyard.obj, up: z, scale: 1.0}
-rules: {max_slope_deg: 45, max_step: 0.3}
 seed: 1
 time_limit: 60
 agents:
   - name: ada
     body: human
     start: [0, 0, 0]
-    facing_deg: 90
     speed: 3.5
     goto:
       - [12, 0, 0]
@@ -19,112 +17,37 @@ agents:
 Paths in a mission are relative to the mission's file.
 """
 
+import difflib
 import os
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Literal, Self
+from typing import Any, Self
 
-from annotated_types import Ge, Gt, Le, Len
-from pydantic import AfterValidator, BaseModel, ConfigDict, StringConstraints
+import numpy as np
+from pydantic.json_schema import GenerateJsonSchema
 
 import navmesh
-from navmesh.yamlfile import FileError, Located, read_yaml
+from navmesh.yamlfile import FileError, Located, dotted, read_yaml
+from runtime.mission_model import Mission, Step
 from runtime.rules import walk_rules
 
-__all__ = ["AgentSpec", "Expectation", "LevelSpec", "LoadedMission", "Mission", "RulesSpec", "load_mission"]
+__all__ = ["Address", "LoadedMission", "load_mission", "mission_schema", "places_in", "places_of", "steps_of"]
 
-MAX_COORDINATE = 1e6
-
-
-def _near(value: float) -> float:
-    if not -MAX_COORDINATE <= value <= MAX_COORDINATE:
-        raise ValueError(f"a coordinate is within ±{MAX_COORDINATE:g} m")
-    return value
-
-
-Coordinate = Annotated[float, AfterValidator(_near)]
-Point = Annotated[list[Coordinate], Len(3, 3)]
-Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_][A-Za-z0-9_-]{0,39}$")]
-
-
-class _Strict(BaseModel):
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
-
-
-class LevelSpec(_Strict):
-    """The mesh that the mission runs on."""
-
-    file: str
-    """Mesh file, relative to the mission's."""
-    up: Literal["x", "y", "z"] = "z"
-    """Axis of the file that points up; the coordinates in the mission are Z up in any case."""
-    scale: Annotated[float, Gt(0.0), Le(1e6)] = 1.0
-    """Metres per unit of the file."""
-    tags: str | None = None
-    """File with authored obstacle tags, relative to the mission's; by default the one beside the level."""
-
-
-class RulesSpec(_Strict):
-    """Where a body can walk; what is left out is as all the bodies of the mission need it."""
-
-    max_slope_deg: Annotated[float, Gt(0.0), Le(89.0)] | None = None
-    """[°] steeper faces end the walkable surface."""
-    max_step: Annotated[float, Ge(0.0), Le(10.0)] | None = None
-    """[m] higher steps end the walkable surface."""
-    headroom: Annotated[float, Gt(0.0), Le(100.0)] | None = None
-    """[m] free height above the floor that walking needs."""
-    resolution: Annotated[float, Ge(0.02), Le(2.0)] | None = None
-    """[m] width of a cell of the surface."""
-
-
-class Expectation(_Strict):
-    """What has to hold for the mission to succeed; what is left out is not looked at."""
-
-    arrives_within: Annotated[float, Gt(0.0), Le(86400.0)] | None = None
-    """[s] simulated time by which the last waypoint is reached."""
-    never_falls: bool | None = None
-    """Whether the agent stays on its feet for the whole mission."""
-    uses_skills: list[Literal["jump"]] | None = None
-    """Skills that the agent finishes at least once."""
-
-
-class AgentSpec(_Strict):
-    """One figure: where it starts and where it goes."""
-
-    name: Name
-    body: Literal["human", "walker", "dog", "cat", "horse"] = "human"
-    start: Point
-    """[m] (x, y, z), Z up; snapped to the walkable surface below."""
-    facing_deg: Annotated[float, Ge(-360.0), Le(360.0)] = 0.0
-    """[°] counter-clockwise from the X axis."""
-    speed: Annotated[float, Ge(0.5), Le(6.0)] = 3.5
-    """[m/s] along its path."""
-    goto: Annotated[list[Point], Len(1, 1000)]
-    """Waypoints [m], reached one after the other."""
-    expect: Expectation = Expectation()
-
-
-class Mission(_Strict):
-    """The content of a mission file."""
-
-    level: LevelSpec
-    rules: RulesSpec = RulesSpec()
-    seed: Annotated[int, Ge(0), Le(2**63 - 1)] = 0
-    time_limit: Annotated[float, Gt(0.0), Le(86400.0)] = 120.0
-    """[s] simulated time after which the mission ends in any case."""
-    agents: Annotated[list[AgentSpec], Len(1, 100)]
+Address = tuple[str | int, ...]
 
 
 class LoadedMission:
-    """A checked mission with the place of its file: resolves paths, and errors name the line.
+    """A checked mission with the place of its file: resolves paths and names, and errors name the line.
 
-    ``level_path`` and ``tags_path`` (or None) exist.
+    ``level_path`` and ``tags_path`` (or None) exist. Every name that the mission mentions stands in it.
     """
 
     def __init__(self, mission: Mission, located: Located) -> None:
         self.mission = mission
         self.path = located.path
         self._located = located
-        self._check_names()
+        self._check_unique()
+        self._check_mentions()
         self.level_path = self._existing(("level", "file"), mission.level.file, "level")
         tags = mission.level.tags
         self.tags_path = None if tags is None else self._existing(("level", "tags"), tags, "tags file")
@@ -142,32 +65,123 @@ class LoadedMission:
                 {agent.body for agent in self.mission.agents}, **self.mission.rules.model_dump()
             )
         except navmesh.NavmeshError as error:
-            raise self.error(("rules",), f"rules: {error}") from None
+            raise self.error(("rules",), str(error)) from None
 
-    def error(self, address: tuple[str | int, ...], problem: str) -> FileError:
+    def point(self, place: Sequence[float] | str) -> np.ndarray:
+        """The (3,) float64 [m] of a place: itself, or the waypoint of that name."""
+        return np.array(self.mission.waypoints[place] if isinstance(place, str) else place, dtype=np.float64)
+
+    def error(self, address: Address, problem: str) -> FileError:
         """An error whose message names the line and column of ``address`` in the file."""
-        return self._located.error(address, problem)
+        return self._located.error(address, f"{dotted(address)}: {problem}")
 
-    def _existing(self, address: tuple[str | int, ...], name: str, what: str) -> Path:
+    def unknown(self, address: Address, name: str, what: str, valid: Iterable[str]) -> FileError:
+        """The error that ``name`` at ``address`` is none of the ``valid`` ones."""
+        known = list(valid)
+        near = difflib.get_close_matches(name, known, n=1)
+        hint = f"did you mean {near[0]!r}? " if near else ""
+        return self.error(address, f"no {what} is called {name!r}; {hint}valid: {', '.join(known) or 'none'}")
+
+    def _existing(self, address: Address, name: str, what: str) -> Path:
         path = self.path.parent / name
         try:
             found = path.is_file()
         except (OSError, ValueError):
             found = False
         if not found:
-            raise self.error(address, f"{'.'.join(map(str, address))}: no such {what}: {str(path)!r}")
+            raise self.error(address, f"no such {what}: {str(path)!r}")
         return path
 
-    def _check_names(self) -> None:
+    def _check_unique(self) -> None:
         seen: set[str] = set()
         for i, agent in enumerate(self.mission.agents):
             if agent.name in seen:
-                raise self.error(
-                    ("agents", i, "name"), f"agents[{i}].name: {agent.name!r} is taken; names are unique"
-                )
+                raise self.error(("agents", i, "name"), f"{agent.name!r} is taken; names are unique")
             seen.add(agent.name)
+
+    def _check_mentions(self) -> None:
+        mission = self.mission
+        known: Mapping[str, Iterable[str]] = {
+            "agent": [agent.name for agent in mission.agents],
+            "waypoint": mission.waypoints,
+            "region": mission.regions,
+        }
+        for address, what, name, of in _mentions(mission):
+            if name not in known[what]:
+                raise self.unknown(address, name, what, known[what])
+            if name == of:
+                raise self.error(address, f"{name!r} is this agent itself; another one is needed")
 
 
 def load_mission(path: str | os.PathLike[str]) -> LoadedMission:
     """Read and check the mission at ``path``; raises `navmesh.yamlfile.FileError` naming line and column."""
     return LoadedMission.read(path)
+
+
+def mission_schema() -> dict[str, Any]:
+    """The JSON schema of mission files, for editors."""
+    schema = Mission.model_json_schema()
+    return {"$schema": GenerateJsonSchema.schema_dialect, "title": "Surefoot mission", **schema}
+
+
+def places_of(goto: Any) -> Iterator[tuple[Address, Any]]:
+    """The places of a ``goto``, one or several, each with its address below it."""
+    if isinstance(goto, str) or not isinstance(goto[0], list | str):
+        yield (), goto
+    else:
+        yield from (((k,), place) for k, place in enumerate(goto))
+
+
+def places_in(step: Step) -> Iterator[tuple[Address, Any]]:
+    """All places that a step mentions, with their addresses below it."""
+    if step.goto is not None:
+        yield from ((("goto", *address), place) for address, place in places_of(step.goto))
+    if step.patrol is not None:
+        yield from ((("patrol", "points", k), place) for k, place in enumerate(step.patrol.points))
+    if step.use is not None and step.use.near is not None:
+        yield ("use", "near"), step.use.near
+
+
+def steps_of(mission: Mission) -> Iterator[tuple[Address, str, list[tuple[Address, Step]]]]:
+    """Every script: address, name of the agent that performs it, its steps with their addresses."""
+    for i, agent in enumerate(mission.agents):
+        here: Address = ("agents", i)
+        if agent.goto is not None:
+            yield here, agent.name, [(here, agent.steps[0])]
+        elif agent.script is not None:
+            yield here, agent.name, [((*here, "script", k), step) for k, step in enumerate(agent.script)]
+    for t, trigger in enumerate(mission.triggers):
+        for o, order in enumerate(trigger.then):
+            here = ("triggers", t, "then", o)
+            yield here, order.agent, [((*here, "do", k), step) for k, step in enumerate(order.do)]
+
+
+def _mentions(mission: Mission) -> Iterator[tuple[Address, str, str, str | None]]:
+    """Address, kind and name of all that is mentioned by name, and the agent that it must not be."""
+    for i, agent in enumerate(mission.agents):
+        here: Address = ("agents", i)
+        if isinstance(agent.start, str):
+            yield (*here, "start"), "waypoint", agent.start, None
+        for k, region in enumerate(agent.expect.stays_out_of or ()):
+            yield (*here, "expect", "stays_out_of", k), "region", region, None
+        for k, distance in enumerate(agent.expect.keeps_distance or ()):
+            yield (*here, "expect", "keeps_distance", k, "to"), "agent", distance.to, agent.name
+    for t, trigger in enumerate(mission.triggers):
+        here, when = ("triggers", t, "when"), trigger.when
+        for event in ("arrives", "falls"):
+            if (name := getattr(when, event)) is not None:
+                yield (*here, event), "agent", name, None
+        for event, what in (("enters", when.enters), ("uses", when.uses)):
+            if what is not None:
+                yield (*here, event, "agent"), "agent", what.agent, None
+        if when.enters is not None:
+            yield (*here, "enters", "region"), "region", when.enters.region, None
+        for o, order in enumerate(trigger.then):
+            yield ("triggers", t, "then", o, "agent"), "agent", order.agent, None
+    for _, performer, steps in steps_of(mission):
+        for address, step in steps:
+            for below, place in places_in(step):
+                if isinstance(place, str):
+                    yield (*address, *below), "waypoint", place, None
+            if step.follow is not None:
+                yield (*address, "follow", "agent"), "agent", step.follow.agent, performer

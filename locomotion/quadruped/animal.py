@@ -211,10 +211,10 @@ class Animal:
             x, y = self._errand.backed_from
             gone = math.hypot(self.position[0] - x, self.position[1] - y)
             self.events.append(BackedOut(self.time, self._point(), gone))
-        self._pending = False
+        told_anew, self._pending = self._pending, False
         if not self._errand.goals:
             self.status = "standing" if self.status == "running" else self.status
-        elif phase == "flexing" and self.trail is not None:
+        elif phase == "flexing" and self.trail is not None and not told_anew:
             self._follow(self.trail)
         else:
             try:

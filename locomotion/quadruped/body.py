@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import os
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
@@ -321,9 +321,20 @@ def load_body(name: str | os.PathLike[str]) -> Body:
 
     Raises `LocomotionError` that names the file, line and column of what is wrong.
     """
-    path = _FOLDER / f"{name}.yaml" if name in BODY_NAMES else Path(name)
-    if name not in BODY_NAMES and path.suffix not in (".yaml", ".yml"):
+    if name in BODY_NAMES:
+        return _own_body(str(name))
+    path = Path(name)
+    if path.suffix not in (".yaml", ".yml"):
         raise LocomotionError(f"body {str(name)!r}: valid: {', '.join(BODY_NAMES)}, or a .yaml file")
+    return _read_body(path)
+
+
+@lru_cache
+def _own_body(name: str) -> Body:
+    return _read_body(_FOLDER / f"{name}.yaml")
+
+
+def _read_body(path: Path) -> Body:
     try:
         return read_yaml(path, Body, "quadruped's body")[0]
     except FileError as error:

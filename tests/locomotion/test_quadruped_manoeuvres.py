@@ -211,6 +211,19 @@ def test_into_flex_moves_the_front_alone():
     assert script.end().bend == pytest.approx(0.1)
 
 
+def test_told_anew_while_it_turns_onto_its_path_it_takes_the_new_one():
+    animal = animal_on(plane())
+    animal.go_to((3.0, 1.0, 0.0), 1.0)
+    assert animal._phase == "flexing"
+    for _ in range(5):
+        animal.herd.tick()
+        animal.tick()
+    animal.go_to((-1.0, 4.0, 0.0), 1.0)
+    run(animal)
+    assert animal.status == "arrived"
+    assert np.linalg.norm(animal.front[:2] - (-1.0, 4.0)) < 0.1
+
+
 @pytest.mark.parametrize("goals", [(), (1.0, 2.0), (0.0, math.nan, 0.0)])
 def test_a_goal_that_is_none_is_refused(goals):
     with pytest.raises(LocomotionError, match="goals must be finite"):

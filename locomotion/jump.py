@@ -19,13 +19,32 @@ Everything is mirrored when the take-off foot is the left one. The vector of par
 from radial basis functions over the learned heights (biharmonic spline with a linear term).
 """
 
-import math
-
 import numpy as np
 from numba import njit
 
 from locomotion import controller
-from locomotion.person import CONTROL_DT, JOINT_NAMES
+from locomotion.clearing_law import (
+    ACTIVE,
+    ENTRY,
+    ERROR_DISTANCE,
+    ERROR_SPEED,
+    FIRST_STEP,
+    LAST_STEP,
+    MIRROR,
+    MIRROR_SIGN,
+    RANK,
+    SHARED_MEMORY,
+    TRIM,
+    add_actions,
+    add_clip,
+    add_feedback,
+    advance_pace,
+    apply_offset,
+    measure_errors,
+    mirror,
+    sense_swing_foot,
+)  # fmt: skip
+from locomotion.person import JOINT_NAMES
 
 __all__ = [
     "ACTIVE", "BINS", "ERROR_DISTANCE", "ERROR_SPEED", "MEMORY_SIZE", "MIRROR", "MIRROR_SIGN",
@@ -36,7 +55,6 @@ __all__ = [
 STEPS = 4
 """Steps of a jump, from transIn to transOut."""
 KNOTS = 4
-RANK = 3
 SENSORS = 15
 BINS = 6
 SAGITTAL = ("swing_hip", "swing_knee", "stance_hip", "stance_knee", "stance_ankle", "waist_pitch")
@@ -70,69 +88,12 @@ def parameter_slices() -> dict[str, slice]:
 _SP = parameter_slices()
 _A_HAT, _LATERAL, _BETA, _ALPHA, _MARKS, _GAINS, _M_SP, _M_AP = (_SP[k].start for k in PARAMETERS)
 
-# --- what a jump remembers
-ACTIVE, FIRST_STEP, LAST_STEP, ENTRY, ERROR_DISTANCE, ERROR_SPEED, TRIM = range(7)
-"""1 while jumping; the run's step count when it began; step last seen; wanted entry speed [m/s]; errors
-of the distance [m, positive: too far] and of the speed [m/s] measured last; the run's speed correction,
-kept."""
-EDGE = slice(7, 11)
-"""A point of the edge (x, y) [m] and the unit direction of the approach (x, y)."""
-_OFFSET = 11
+# --- what a jump remembers, after what `locomotion.clearing_law` says
+_OFFSET = SHARED_MEMORY
 SENSED = slice(50, 50 + SENSORS)
 MEMORY_SIZE = 50 + SENSORS
 
 _N = len(JOINT_NAMES)
-_R_HIP, _L_HIP = (JOINT_NAMES.index(f"{side}_hip_flexion") for side in ("right", "left"))
-_WAIST, _CHEST = JOINT_NAMES.index("waist_pitch"), JOINT_NAMES.index("chest_pitch")
-_TIMING = controller.parameter_slices()["timing"].start
-_FILTER_TIME = 0.02  # [s]
-_LEAD = 0.1  # servo damping per stiffness [s], as in locomotion.person
-
-
-def _mirror_table() -> tuple[np.ndarray, np.ndarray]:
-    """Joint that takes each joint's place in the mirror, (39,) int64, and the sign of its angle, (39,)."""
-    swap = {"right_": "left_", "left_": "right_"}
-    index = np.arange(_N)
-    sign = np.ones(_N)
-    for i, name in enumerate(JOINT_NAMES):
-        side = next((s for s in swap if name.startswith(s)), None)
-        if side is not None:
-            index[i] = JOINT_NAMES.index(swap[side] + name[len(side) :])
-        elif name.endswith(("_roll", "_yaw")):
-            sign[i] = -1.0
-    return index, sign
-
-
-MIRROR, MIRROR_SIGN = _mirror_table()
-
-
-def mirror(poses: np.ndarray) -> np.ndarray:
-    """Joint angles (..., 39) of the mirror image."""
-    return poses[..., MIRROR] * MIRROR_SIGN
-
-
-@njit(cache=True)
-def _between(knots, values, x):
-    """Linear interpolation of ``values`` (k,) over ``knots`` (k,), held beyond the ends."""
-    k = knots.shape[0]
-    if x <= knots[0]:
-        return values[0]
-    for i in range(k - 1):
-        if x <= knots[i + 1]:
-            w = (x - knots[i]) / (knots[i + 1] - knots[i])
-            return (1.0 - w) * values[i] + w * values[i + 1]
-    return values[k - 1]
-
-
-@njit(cache=True)
-def _measure_errors(p, memory, state, mark):
-    """Errors of distance and speed when a step begins, into ``memory``."""
-    planted = 28 + (3 if state[controller.STANCE] > 0 else 0)
-    ax, ay = memory[9], memory[10]
-    distance = (memory[7] - state[planted]) * ax + (memory[8] - state[planted + 1]) * ay
-    speed = state[17] * ax + state[18] * ay
-    memory[ERROR_DISTANCE] = min(max(distance - p[_MARKS + mark], -0.5), 0.5)
-    memory[ERROR_SPEED] = min(max(speed - memory[ENTRY], -0.8), 0.8)
 
 
 @njit(cache=True)
@@ -149,7 +110,7 @@ def start_jump(p, memory, state, entry, edge_x, edge_y, ahead_x, ahead_y):
     memory[ENTRY] = entry
     memory[TRIM] = state[controller.TRIM]
     memory[7], memory[8], memory[9], memory[10] = edge_x, edge_y, ahead_x, ahead_y
-    _measure_errors(p, memory, state, 0)
+    measure_errors(p[_MARKS], memory, state)
 
 
 @njit(cache=True)
@@ -168,24 +129,14 @@ def jump_tick(p, knots, timing, difference, difference_rate, reference, mirror, 
     if step != int(memory[LAST_STEP]):
         memory[LAST_STEP] = step
         if step == 1:
-            _measure_errors(p, memory, state, 1)
+            measure_errors(p[_MARKS + 1], memory, state)
     side, phase = state[controller.STANCE], state[controller.PHASE]
     state[controller.TRIM] = memory[TRIM]
     state[controller.SLOPE] = 0.0
     wanted = np.zeros(_N)
-    # where the swing foot is, beside the run's sensors
-    ch, sh = math.cos(state[controller.HEADING]), math.sin(state[controller.HEADING])
-    foot = 20 + (0 if side > 0 else 3)
-    dx, dy = state[foot] - state[14], state[foot + 1] - state[15]
     sensed = memory[50 : 50 + SENSORS]
-    for j in range(12):
-        sensed[j] = state[37 + j]
-    sensed[12] = ch * dx + sh * dy
-    sensed[13] = state[foot + 2] - state[16]
-    sensed[14] = -side * (-sh * dx + ch * dy)
+    sense_swing_foot(state, sensed)
     if step < STEPS:
-        stance = _L_HIP if side > 0 else _R_HIP
-        swing = _R_HIP if side > 0 else _L_HIP
         at = phase * (KNOTS - 1)
         low = min(int(at), KNOTS - 2)
         weight = at - low
@@ -200,64 +151,19 @@ def jump_tick(p, knots, timing, difference, difference_rate, reference, mirror, 
         side_action = np.empty(6)
         for i in range(6):
             side_action[i] = p[_LATERAL + step * 6 + i]
-        # reduced-order feedback
-        b = phase * (BINS - 1)
-        bin_low = min(int(b), BINS - 2)
-        bw = b - bin_low
-        for r in range(RANK):
-            latent = 0.0
-            for j in range(SENSORS):
-                expected = (1.0 - bw) * reference[step, bin_low, j] + bw * reference[step, bin_low + 1, j]
-                latent += p[_M_SP + r * SENSORS + j] * (sensed[j] - expected)
-            latent = min(max(latent, -1.0), 1.0)
-            action[0] += p[_M_AP + r] * latent
-            side_action[0] += p[_M_AP + RANK + r] * latent
-            side_action[1] += p[_M_AP + 2 * RANK + r] * latent
-            action[2] += p[_M_AP + 3 * RANK + r] * latent
-            side_action[2] += p[_M_AP + 4 * RANK + r] * latent
-            side_action[3] += p[_M_AP + 5 * RANK + r] * latent
-            action[5] += p[_M_AP + 6 * RANK + r] * latent
-            side_action[4] += p[_M_AP + 7 * RANK + r] * latent
-            side_action[5] += p[_M_AP + 8 * RANK + r] * latent
-        wanted[swing] += action[0]
-        wanted[swing + 3] += action[1]
-        wanted[stance] += action[2]
-        wanted[stance + 3] += action[3]
-        wanted[stance + 4] += action[4]
-        wanted[_WAIST] += action[5]
-        wanted[_CHEST] += action[5]
-        wanted[swing + 1] += side_action[0]
-        wanted[swing + 2] += side_action[1]
-        wanted[stance + 1] += side_action[2]
-        wanted[stance + 2] += side_action[3]
-        for k in range(2):
-            wanted[_WAIST + 1 + k] -= side * side_action[4 + k]
-            wanted[_CHEST + 1 + k] -= side * side_action[4 + k]
+        m_sp, m_ap = p[_M_SP : _M_SP + RANK * SENSORS], p[_M_AP : _M_AP + 9 * RANK]
+        add_feedback(m_sp, m_ap, sensed, reference[step], phase, action, side_action)
+        add_actions(side, action, side_action, wanted)
         beta = p[_BETA + step]
         if step < 3:
             beta += p[gains + 6] * ed + p[gains + 13] * es
         beta = min(max(beta, 0.3), 2.0)
-        step_time = _between(knots, timing, state[controller.SPEED])
+        step_time = advance_pace(beta, knots, timing, state)
         if 1 <= step <= 2:
+            share, flip = 0.5 * (phase + (step - 1.0)), (side > 0) == (step == 1)  # taking off from the left
+            rate = 0.5 * beta / step_time if phase < 1.0 else 0.0
             alpha = p[_ALPHA + step - 1]
-            place = 0.5 * (phase + (step - 1.0)) * (difference.shape[0] - 1)
-            row_low = min(int(place), difference.shape[0] - 2)
-            w = place - row_low
-            lead = 0.5 * beta / step_time * _LEAD if phase < 1.0 else 0.0
-            flip = (side > 0) == (step == 1)  # taking off from the left foot
-            for j in range(_N):
-                value = (1.0 - w) * difference[row_low, j] + w * difference[row_low + 1, j]
-                value += lead * (
-                    (1.0 - w) * difference_rate[row_low, j] + w * difference_rate[row_low + 1, j]
-                )
-                if flip:
-                    wanted[mirror[j]] += alpha * sign[j] * value
-                else:
-                    wanted[j] += alpha * value
-        state[controller.PHASE] = min(phase + (beta - 1.0) * CONTROL_DT / step_time, 1.0)
-    keep = math.exp(-CONTROL_DT / _FILTER_TIME)
-    for j in range(_N):
-        memory[_OFFSET + j] = keep * memory[_OFFSET + j] + (1.0 - keep) * wanted[j]
-        ctrl[j] += memory[_OFFSET + j]
+            add_clip(share, alpha, rate, difference, difference_rate, flip, mirror, sign, wanted)
+    apply_offset(wanted, memory[_OFFSET : _OFFSET + _N], ctrl)
     if step >= STEPS and state[controller.STEP_TIME] > 0.12:
         memory[ACTIVE] = 0.0

@@ -23,8 +23,8 @@ from locomotion.skill_file import read_skill
 from navmesh.archive import write_archive
 
 __all__ = [
-    "JUMP_CLIP", "JUMP_SKILL", "Jump", "JumpSkill", "JumpTables", "jump_clip", "load_jump_skill",
-    "run_digest", "tables_of",
+    "JUMP_CLIP", "JUMP_SKILL", "Jump", "JumpSkill", "JumpTables", "clip_less_run", "jump_clip",
+    "load_jump_skill", "run_digest", "tables_of",
 ]  # fmt: skip
 
 JUMP_CLIP = Path(__file__).parent / "clips" / "jump.yaml"
@@ -61,7 +61,8 @@ class JumpTables:
 
 
 @lru_cache(maxsize=4)
-def _differences(run: Clip, clip: Clip) -> tuple[np.ndarray, np.ndarray]:
+def clip_less_run(run: Clip, clip: Clip) -> tuple[np.ndarray, np.ndarray]:
+    """A skill's clip less the run's over one cycle, (65, 39) [rad], and its rate per cycle."""
     shares = np.linspace(0.0, 1.0, 65)
     pose = clip.sample(shares) - run.sample(shares)
     rates = clip.rates(shares) * clip.duration - run.rates(shares) * run.duration
@@ -125,7 +126,7 @@ class JumpSkill:
 def tables_of(parameters: np.ndarray, entry: float, reference: np.ndarray, run: RunSkill) -> JumpTables:
     """Put the arguments of the kernels together."""
     timing = np.ascontiguousarray(run.table[:, _TIMING])
-    pose, rates = _differences(run.clip, jump_clip())
+    pose, rates = clip_less_run(run.clip, jump_clip())
     rest = (np.ascontiguousarray(run.knots), timing, pose, rates, reference, jump.MIRROR, jump.MIRROR_SIGN)
     return JumpTables(parameters, entry, float(parameters[_MARK]), rest)
 

@@ -3,10 +3,16 @@
 from locomotion.clearing import ClearingSkill
 from locomotion.jump_skill import JUMP_SKILL, Jump, load_jump_skill
 from locomotion.skill import RunSkill
+from locomotion.vault_skill import VAULT_SKILL, Vault, load_vault_skill
 
 __all__ = ["learned_skills"]
 
 
 def learned_skills(run: RunSkill) -> tuple[ClearingSkill, ...]:
     """What the package has learned to clear, on top of a run."""
-    return (Jump(load_jump_skill(), run),) if JUMP_SKILL.exists() else ()
+    skills: list[ClearingSkill] = []
+    if JUMP_SKILL.exists():
+        skills.append(Jump(load_jump_skill(), run))
+    if VAULT_SKILL.exists():
+        skills.append(Vault(load_vault_skill(), run))
+    return tuple(skills)

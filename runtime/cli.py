@@ -34,6 +34,7 @@ class Skill(StrEnum):
     run = "run"
     walk = "walk"
     jump = "jump"
+    vault = "vault"
 
 
 UpOption = Annotated[Up, typer.Option(help="Axis of the file that points up.")]

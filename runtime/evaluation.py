@@ -8,9 +8,10 @@ import numpy as np
 
 from locomotion import MOVING, Ground, Human, LocomotionError, ObstacleAhead
 from locomotion.person import CONTROL_DT
+from runtime.clearing_trials import vault_attempt
 from runtime.progress import Progress
 
-__all__ = ["Attempt", "evaluate_jump", "evaluate_run", "evaluate_walk"]
+__all__ = ["Attempt", "evaluate_jump", "evaluate_run", "evaluate_vault", "evaluate_walk"]
 
 RUN_LENGTH = 60.0
 """[m] of each run."""
@@ -94,6 +95,27 @@ def evaluate_jump(trials: int, seed: int, progress: Progress) -> list[Attempt]:
                 human.tick()
             what = f"{height:.2f} m from {distance:.1f} m"
             attempts.append(Attempt(what, human.status, human.status == "arrived"))
+            stage.update((k + 1) / trials, f"{sum(each.held for each in attempts)} of {k + 1} held")
+    return attempts
+
+
+def evaluate_vault(trials: int, seed: int, progress: Progress) -> list[Attempt]:
+    """Run-ups of 10 to 30 m to a wall of a height that the skill was learned for, 0.2 to 0.4 m thick, then
+    12 m behind it."""
+    attempts = []
+    skills = [skill for skill in Human().clearing if skill.affordance == "vault"]
+    if not skills:
+        raise LocomotionError("there is no vault for this run; learn one with: surefoot train vault")
+    with progress.stage("vaulting") as stage:
+        for k in range(trials):
+            rng = np.random.default_rng([seed, k])
+            height, depth = round(float(rng.uniform(*skills[0].heights)), 2), float(rng.uniform(0.2, 0.4))
+            result = vault_attempt(height, depth, float(rng.uniform(NEAREST, FARTHEST)))
+            status = (
+                result.ended if result.vaulted or result.ended != "arrived" else "arrived without its hand"
+            )
+            what = f"{height:.2f} m from {result.distance:.1f} m"
+            attempts.append(Attempt(what, status + ", touched the wall" * result.touched, result.vaulted))
             stage.update((k + 1) / trials, f"{sum(each.held for each in attempts)} of {k + 1} held")
     return attempts
 

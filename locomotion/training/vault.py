@@ -1,0 +1,263 @@
+"""Learning to vault: first over one wall with feed-forward alone, then with feedback over growing heights."""
+
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+from locomotion import jump, vault
+from locomotion.errors import LocomotionError
+from locomotion.jump_skill import load_jump_skill, run_digest
+from locomotion.skill import RunSkill, load_run_skill
+from locomotion.skill_family import SkillFamily
+from locomotion.training.jump_trial import StartState
+from locomotion.training.loop import Progress, Stage, learn
+from locomotion.training.vault_trial import VaultOutcome, VaultSimulator
+from locomotion.vault_skill import KIND, VAULT_SKILL, Vault, tables_of
+from navmesh.archive import read_archive, write_archive
+
+__all__ = ["ENTRY_SPEED", "HEIGHTS", "VaultProblem", "cost", "first_guess", "scales", "train_vault"]
+
+HEIGHTS = (0.6, 0.7, 0.8)
+"""Heights [m] learned one after the other, each from the one before."""
+ENTRY_SPEED = 3.3
+"""[m/s]"""
+DEPTHS = (0.2, 0.4)
+"""Least and greatest thickness [m] of the walls."""
+_STATES = 48
+_KIND, _VERSION = "vault training", 1
+_PART = vault.parameter_slices()
+_REFERENCE = (vault.STEPS, vault.BINS, vault.SENSORS)
+
+
+def first_guess() -> np.ndarray:
+    """Parameters (p,) from which learning starts: the highest jump with the vault's clip, the arm
+    reaching."""
+    x = np.zeros(sum(vault.PARAMETERS.values()))
+    jumped, part = load_jump_skill().table[-1], jump.parameter_slices()
+    a_hat = jumped[part["a_hat"]].reshape(jump.STEPS, jump.KNOTS, 6)
+    old, new = np.linspace(0.0, 1.0, jump.KNOTS), np.linspace(0.0, 1.0, vault.KNOTS)
+    spread = [[np.interp(new, old, column) for column in step.T] for step in a_hat]
+    x[_PART["a_hat"]] = np.array(spread).transpose(0, 2, 1).ravel()
+    x[_PART["lateral"]] = np.repeat(jumped[part["lateral"]].reshape(jump.STEPS, 1, 6), 3, axis=1).ravel()
+    for name in ("beta", "alpha", "marks", "gains"):
+        x[_PART[name]] = jumped[part[name]]
+    x[_PART["arm"]] = [0.22, 0.45, 0.06, 0.3, 0.4, 0.0, 0.0, 0.0]
+    m_ap = np.zeros((9, vault.RANK))
+    m_ap[0, 0] = m_ap[3, 1] = m_ap[1, 2] = 1.0
+    m_ap[6, 1] = 0.5
+    x[_PART["m_ap"]] = m_ap.ravel()
+    x[_PART["entry"]] = ENTRY_SPEED
+    return x
+
+
+def scales(what: str) -> np.ndarray:
+    """How far a parameter may reasonably move, (p,) float64; others stay. ``what``: "take-off" (what happens
+    from the push-off to the landing), "feed-forward" or "feedback" (everything)."""
+    x = np.zeros(sum(vault.PARAMETERS.values()))
+    a_hat = np.full((vault.STEPS, vault.KNOTS, 6), 0.35)
+    lateral = np.full((vault.STEPS, 3, 6), 0.15)
+    if what == "take-off":
+        a_hat[0, :3] = a_hat[2, 3:] = a_hat[3] = 0.0
+        lateral[[0, 3]] = 0.0
+    x[_PART["a_hat"]], x[_PART["lateral"]] = a_hat.ravel(), lateral.ravel()
+    x[_PART["beta"]] = 0.12
+    x[_PART["alpha"]] = 0.2
+    x[_PART["marks"]] = 0.12
+    x[_PART["arm"]] = [0.08, 0.1, 0.06, 0.3, 0.25, 0.2, 0.15, 0.1]
+    if what == "feedback":
+        x[_PART["gains"]] = np.tile(np.r_[np.full(6, 0.5), 0.4, np.full(6, 0.25), 0.2], 3)
+        run = [0.1, 1.0, 0.1, 0.4, 0.8, 0.15, 0.08, 0.15, 1.0, 1.0, 0.25, 0.05]
+        spread = np.array([*run, *(0.1, 0.1, 0.08), *(0.1, 0.1, 0.08)])  # ..., swing foot, hand
+        m_sp = np.tile(0.06 / spread, (vault.PHASES, vault.RANK, 1))
+        m_sp[1:, :, 15:] = 0.0  # the hand counts in the first phase only
+        x[_PART["m_sp"]] = m_sp.ravel()
+        x[_PART["m_ap"]] = 0.4
+    return x
+
+
+def cost(outcome: VaultOutcome, entry: float) -> float:
+    """Objective of one trial: equations 10 and 11 with terms for how long the hand holds and what it
+    bears."""
+    speed = abs(outcome.speed - entry) if outcome.steps >= 2 else 1.5
+    beside = max(abs(outcome.planted - 0.5) - 0.15, 0.0) if outcome.held else 0.5
+    return (
+        10.0 * (1.0 - outcome.time)
+        + (0.0 if outcome.cleared else 3.0)
+        + 15.0 * min(outcome.shortfall, 1.0)
+        + 0.25 * min(outcome.scrape, 12)
+        + 6.0 * outcome.missed
+        + 8.0 * beside
+        + 3.0 * (1.0 - min(outcome.held / 15.0, 1.0))
+        + 3.0 * (1.0 - min(max(outcome.impulse, 0.0) / 60.0, 1.0))
+        + 0.8 * speed
+        + 0.8 * min(outcome.drift, 1.0)
+        + 2.0 * outcome.reaction
+        + 0.03 * outcome.effort
+        + 3.0 * outcome.trunk
+        + 3.0 * outcome.pose
+    )
+
+
+@dataclass
+class VaultProblem:
+    """One stage: what `learn` needs.
+
+    initial: (p,) where learning starts; solutions are pulled towards it. reference: (4, 6, 18) expected
+    sensors. states: harvested from planned run-ups. stage: its options are ``heights`` [m] that it goes
+    through, ``states`` per generation, ``error`` [m] added to the distance, ``duration`` [s], ``pull``, and
+    ``same``: whether every generation has the same trials.
+    """
+
+    run: RunSkill
+    initial: np.ndarray
+    reference: np.ndarray
+    states: list[StartState]
+    stage: Stage
+    _simulator: VaultSimulator | None = None
+
+    def stages(self) -> Sequence[Stage]:
+        """The one stage."""
+        return [self.stage]
+
+    def start(self) -> np.ndarray:
+        """Where learning starts, (p,)."""
+        return self.initial
+
+    def scenarios(self, stage: Stage, generation: int, rng: np.random.Generator) -> list[tuple]:
+        """(start state, error of the distance [m], height [m], depth [m]) of each trial of a generation."""
+        options = stage.options
+        if options["same"]:
+            rng = np.random.default_rng(options["states"])
+        low, high = options["heights"]
+        height = low + (high - low) * min(generation / max(0.85 * stage.generations, 1.0), 1.0)
+        count = options["states"]
+        chosen = rng.permutation(len(self.states))[:count]
+        jitter = rng.permutation(
+            options["error"] * (2.0 * (np.arange(count) + rng.random(count)) / count - 1.0)
+        )
+        depths = rng.uniform(*DEPTHS, count)
+        return [
+            (int(i), self.states[i].error + float(e), float(height), float(d))
+            for i, e, d in zip(chosen, jitter, depths, strict=False)
+        ]
+
+    def evaluate(self, stage: Stage, candidate: np.ndarray, scenarios: list) -> tuple[float, float]:
+        """Mean cost with the pull towards the start, and the share that vaulted."""
+        if self._simulator is None:
+            self._simulator = VaultSimulator(self.run)
+        tables = tables_of(np.ascontiguousarray(candidate), self.reference, self.run)
+        total = vaulted = 0.0
+        for state, error, height, depth in scenarios:
+            result = self._simulator.vault_trial(
+                tables, height, depth, self.states[state], error, stage.options["duration"]
+            )
+            total += cost(result, tables.entry)
+            vaulted += result.vaulted
+        free = stage.scale > 0
+        away = (candidate[free] - self.initial[free]) / stage.scale[free]
+        n = len(scenarios)
+        return total / n + stage.options["pull"] * float(np.mean(away**2)), vaulted / n
+
+    def record(self, candidate: np.ndarray, height: float) -> np.ndarray:
+        """Mean sensors of the cleared vaults without errors, (4, 6, 18); the present reference where there is
+        none."""
+        sums = np.zeros((vault.STEPS, vault.BINS, vault.SENSORS + 1))
+        simulator = VaultSimulator(self.run)
+        tables = tables_of(np.ascontiguousarray(candidate), self.reference, self.run)
+        for state in self.states[:16]:
+            one = np.zeros_like(sums)
+            if simulator.vault_trial(tables, height, 0.3, state, state.error, 2.0, record=one).cleared:
+                sums += one
+        counts = sums[..., -1:]
+        return np.where(counts > 0, sums[..., :-1] / np.maximum(counts, 1.0), self.reference)
+
+
+def curriculum(effort: float = 1.0) -> list[Stage]:
+    """The stages; the last ones end at each of `HEIGHTS`."""
+    low = HEIGHTS[0]
+
+    def stage(name: str, count: int, sigma: float, what: str, population: int, **options) -> Stage:
+        shared = {"heights": (low, low), "error": 0.08, "duration": 2.0, "pull": 0.1, "same": False}
+        return Stage(
+            name, max(round(count * effort), 1), sigma, scales(what), {**shared, **options}, population
+        )
+
+    stages = [
+        stage(f"{low:g} m, take-off", 40, 0.2, "take-off", 16, states=3, error=0.04, duration=1.7, same=True),
+        stage(
+            f"{low:g} m, hand", 70, 0.15, "feed-forward", 16, states=4, error=0.04, duration=1.9, same=True
+        ),
+        stage(f"{low:g} m, feedback", 20, 0.12, "feedback", 20, states=6),
+    ]
+    for before, height in pairwise(HEIGHTS):
+        stages.append(stage(f"{height:g} m", 20, 0.12, "feedback", 20, states=5, heights=(before, height)))
+    return stages
+
+
+def train_vault(
+    out: str | os.PathLike[str] = VAULT_SKILL,
+    seed: int = 0,
+    checkpoint: str | os.PathLike[str] | None = None,
+    workers: int = 2,
+    effort: float = 1.0,
+    on_progress: Callable[[Progress], None] | None = None,
+) -> SkillFamily:
+    """Learn vaults over all of `HEIGHTS` on the package's run and write them to ``out``.
+
+    ``checkpoint``: folder for the state of learning; a run that was interrupted goes on from it and gives
+    the same result. ``effort``: scales the number of generations. The same seed gives the same skill with any
+    number of workers.
+    """
+    run = load_run_skill()
+    folder = Path(checkpoint) if checkpoint is not None else None
+    if folder is not None:
+        folder.mkdir(parents=True, exist_ok=True)
+    identity = {"seed": seed, "run": run_digest(run), "effort": effort}
+    stride = VaultSimulator(run).fit_stride(ENTRY_SPEED, np.random.default_rng([seed, 1]))
+    x, reference = first_guess(), np.zeros(_REFERENCE)
+    states = _harvest(run, x, stride, np.random.default_rng([seed, 2]))
+    learned = []
+    for number, stage in enumerate(curriculum(effort)):
+        done = None if folder is None else folder / f"done-{number}.npz"
+        if done is not None and done.exists():
+            header, arrays = read_archive(done, _KIND, _VERSION)
+            if {key: header.get(key) for key in identity} != identity:
+                raise LocomotionError(
+                    f"{done}: checkpoint of another training or seed; remove it to begin anew"
+                )
+            x, reference = arrays["x"], arrays["reference"]
+        else:
+            problem = VaultProblem(run, x, reference, states, stage)
+            file = None if folder is None else folder / f"search-{number}.npz"
+            found = learn(problem, seed + 1000 * number, file, workers, on_progress)
+            assert found is not None
+            x = found
+            reference = problem.record(x, stage.options["heights"][1])
+            if done is not None:
+                write_archive(done, _KIND, _VERSION, identity, {"x": x, "reference": reference})
+        if "feedback" in stage.name or stage.options["heights"][0] != stage.options["heights"][1]:
+            learned.append((stage.options["heights"][1], x, reference))
+    skill = SkillFamily(
+        KIND,
+        np.array([height for height, _, _ in learned]),
+        np.array([each for _, each, _ in learned]),
+        np.array([each.reshape(-1, vault.SENSORS) for _, _, each in learned]),
+        stride,
+        run_digest(run),
+        {"made by": "surefoot train vault", "seed": seed, "effort": effort},
+    )
+    skill.save(out)
+    return skill
+
+
+def _harvest(
+    run: RunSkill, x: np.ndarray, stride: tuple[float, float, float], rng: np.random.Generator
+) -> list[StartState]:
+    """States at the mark after planned run-ups from 8 to 16 m."""
+    reference = np.zeros((1, vault.STEPS * vault.BINS, vault.SENSORS))
+    guess = SkillFamily(KIND, np.array(HEIGHTS[:1]), x[None], reference, stride, "")
+    return VaultSimulator(run).harvest(Vault(guess, run), rng.uniform(8.0, 16.0, _STATES), rng)

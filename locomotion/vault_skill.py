@@ -1,0 +1,142 @@
+"""Learned vaults, and the vault as a skill that the body can use."""
+
+import os
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Literal
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion import controller, vault
+from locomotion.clearing_law import MIRROR, MIRROR_SIGN
+from locomotion.clip import Clip, load_clip
+from locomotion.hand_hold import hold, let_go
+from locomotion.jump_skill import clip_less_run
+from locomotion.route_smoothing import ObstacleAhead
+from locomotion.skill import RunSkill
+from locomotion.skill_family import SkillFamily, load_family
+from locomotion.vault import start_vault, vault_fell, vault_tick
+
+__all__ = [
+    "KIND", "VAULT_CLIP", "VAULT_SKILL", "Vault", "VaultTables", "grip", "load_vault_skill",
+    "tables_of", "vault_clip",
+]  # fmt: skip
+
+VAULT_CLIP = Path(__file__).parent / "clips" / "vault.yaml"
+VAULT_SKILL = Path(__file__).parent / "skills" / "vault.npz"
+KIND = "vault skill"
+_PART = vault.parameter_slices()
+_TIMING = controller.parameter_slices()["timing"].start
+_MARK, _ENTRY = _PART["marks"].start, _PART["entry"].start
+
+
+@lru_cache(maxsize=1)
+def vault_clip() -> Clip:
+    """The reference clip that comes with the package."""
+    return load_clip(VAULT_CLIP)
+
+
+@dataclass(frozen=True)
+class VaultTables:
+    """A vault at one height, ready for the kernels.
+
+    parameters: (p,) float64. entry: wanted entry speed [m/s]. mark: distance [m] from stance foot to edge at
+    which the vault begins. rest: the arguments of `vault.vault_tick` between ``p`` and ``memory``.
+    """
+
+    parameters: NDArray[np.float64]
+    entry: float
+    mark: float
+    rest: tuple[NDArray[np.float64], ...]
+
+
+def tables_of(parameters: NDArray[np.float64], reference: NDArray[np.float64], run: RunSkill) -> VaultTables:
+    """Put the arguments of the kernels together; ``reference`` (4, 6, 18): expected sensors."""
+    timing = np.ascontiguousarray(run.table[:, _TIMING])
+    pose, rates = clip_less_run(run.clip, vault_clip())
+    rest = (np.ascontiguousarray(run.knots), timing, pose, rates, reference, MIRROR, MIRROR_SIGN)
+    return VaultTables(parameters, float(parameters[_ENTRY]), float(parameters[_MARK]), rest)
+
+
+def load_vault_skill(path: str | os.PathLike[str] = VAULT_SKILL) -> SkillFamily:
+    """Read learned vaults; `LocomotionError` if the file is missing, cut off, of another version or of
+    another person."""
+    width = sum(vault.PARAMETERS.values())
+    return load_family(path, KIND, width, (vault.STEPS * vault.BINS, vault.SENSORS))
+
+
+class Vault:
+    """Vaulting over walls as a `locomotion.clearing.ClearingSkill`, on top of a given run."""
+
+    affordance = "vault"
+    ends: Literal["running", "walking"] = "running"
+
+    def __init__(self, skill: SkillFamily, run: RunSkill) -> None:
+        """``skill``: the learned vaults; ``run``: the run under them."""
+        self.skill, self.run = skill, run
+        self._tables: dict[float, VaultTables] = {}
+
+    @property
+    def heights(self) -> tuple[float, float]:
+        """Least and greatest height [m] that it clears."""
+        return self.skill.range
+
+    @property
+    def stride(self) -> tuple[float, float, float]:
+        """(a, lag, b) of the steps of the run-up; see `locomotion.clearing.ClearingSkill`."""
+        return self.skill.stride
+
+    def tables(self, height: float) -> VaultTables:
+        """The kernels' arguments for a wall of ``height`` [m]; the nearest learned height beyond the ends."""
+        low, high = self.heights
+        height = min(max(float(height), low), high)
+        if height not in self._tables:
+            parameters, reference = self.skill.at(height)
+            shape = vault.STEPS, vault.BINS, vault.SENSORS
+            self._tables[height] = tables_of(parameters, reference.reshape(shape), self.run)
+        return self._tables[height]
+
+    def approach(self, height: float) -> tuple[float, float]:
+        """(entry speed [m/s], distance [m] from the stance foot's ankle to the edge at which the vault
+        begins)."""
+        tables = self.tables(height)
+        return tables.entry, tables.mark
+
+    def start(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Begin a vault at a stance switch, before that tick's `tick`; gives all that it remembers, (k,)
+        float64."""
+        tables = self.tables(obstacle.height)
+        memory = np.zeros(vault.MEMORY_SIZE)
+        edge = np.ascontiguousarray(obstacle.position[:2], dtype=np.float64)
+        ahead = np.ascontiguousarray(-obstacle.normal[:2], dtype=np.float64)
+        top, height, depth = float(obstacle.position[2]), float(obstacle.height), float(obstacle.depth)
+        start_vault(tables.parameters, memory, state, edge, ahead, top, height, depth)
+        return memory
+
+    def tick(
+        self,
+        obstacle: ObstacleAhead,
+        memory: NDArray[np.float64],
+        state: NDArray[np.float64],
+        data: mujoco.MjData,
+    ) -> bool:
+        """One control tick after `run_tick`'s and before the physics; True when the vault is over."""
+        tables = self.tables(obstacle.height)
+        vault_tick(tables.parameters, *tables.rest, memory, state, data.qpos, data.ctrl)
+        grip(memory, data)
+        return bool(memory[vault.ACTIVE] == 0.0)
+
+    def fell(self, memory: NDArray[np.float64], state: NDArray[np.float64]) -> bool:
+        """Whether the body has fallen; over the wall it may lie and tuck its legs."""
+        return vault_fell(memory, state)
+
+
+def grip(memory: NDArray[np.float64], data: mujoco.MjData) -> None:
+    """Switch the supporting hand's joint as `vault_tick` has decided."""
+    if memory[vault.HOLD] == 1.0:
+        hold(data, memory[vault.SIDE], memory[vault.ANCHOR])
+    else:
+        let_go(data, memory[vault.SIDE])

@@ -1,0 +1,108 @@
+"""Trials that vaults are learned on: they repeat, begin near the mark, and rank good vaults before bad."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from locomotion import vault
+from locomotion.errors import LocomotionError
+from locomotion.skill import load_run_skill
+from locomotion.skill_family import SkillFamily
+from locomotion.training.loop import Stage
+from locomotion.training.vault import VaultProblem, cost, curriculum, first_guess, scales, train_vault
+from locomotion.training.vault_trial import VaultOutcome, VaultSimulator
+from locomotion.vault_skill import KIND, Vault, tables_of
+from navmesh.archive import write_archive
+
+GOOD = VaultOutcome(
+    cleared=True, time=1.0, shortfall=0.0, scrape=0, missed=0.0, planted=0.5, held=15, impulse=60.0, steps=3,
+    speed=3.3, drift=0.0, reaction=0.0, effort=8.0, trunk=0.02, pose=0.05, errors=(0.0, 0.0),
+)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def simulator():
+    return VaultSimulator(load_run_skill())
+
+
+@pytest.fixture(scope="module")
+def states(simulator):
+    reference = np.zeros((1, vault.STEPS * vault.BINS, vault.SENSORS))
+    guess = SkillFamily(KIND, np.array([0.6]), first_guess()[None], reference, (0.23, 0.09, 0.28), "")
+    rng = np.random.default_rng(1)
+    return simulator.harvest(Vault(guess, simulator.run), rng.uniform(8.0, 12.0, 3), rng)
+
+
+@pytest.fixture
+def tables(simulator):
+    reference = np.zeros((vault.STEPS, vault.BINS, vault.SENSORS))
+    return tables_of(first_guess(), reference, simulator.run)
+
+
+def test_states_are_harvested_near_the_mark(states):
+    assert states
+    assert all(abs(state.error) < 0.3 for state in states)
+
+
+def test_a_trial_repeats(simulator, states, tables):
+    trials = [
+        simulator.vault_trial(tables, 0.6, 0.3, states[0], states[0].error, 1.5, record=record)
+        for record in (np.zeros((4, 6, 19)), np.zeros((4, 6, 19)))
+    ]
+    assert repr(trials[0]) == repr(trials[1])
+
+
+def test_no_wall_is_touched_where_none_is_high_enough(simulator, states, tables):
+    outcome = simulator.vault_trial(tables, -1.0, 0.3, states[0], states[0].error, 1.0)
+    assert outcome.scrape == 0 and outcome.held == 0 and outcome.shortfall == 0.0
+
+
+def test_running_into_a_high_wall_is_seen(simulator, states, tables):
+    outcome = simulator.vault_trial(tables, 1.6, 0.3, states[0], states[0].error, 1.5)
+    assert outcome.scrape > 0 and not outcome.cleared and outcome.shortfall > 0.5
+
+
+@pytest.mark.parametrize(
+    "worse",
+    [
+        dict(cleared=False), dict(time=0.6), dict(shortfall=0.2), dict(scrape=3), dict(held=2),
+        dict(impulse=5.0), dict(planted=0.9), dict(held=0, missed=0.3, planted=np.nan), dict(speed=1.0),
+        dict(drift=0.8), dict(pose=0.4), dict(trunk=0.4),
+    ],
+)  # fmt: skip
+def test_worse_vaults_cost_more(worse):
+    assert cost(replace(GOOD, **worse), 3.3) > cost(GOOD, 3.3) + 0.3
+
+
+def test_scales_free_more_from_stage_to_stage():
+    free = [scales(what) > 0 for what in ("take-off", "feed-forward", "feedback")]
+    assert (free[0] <= free[1]).all() and (free[1] <= free[2]).all()
+    counts = [int(each.sum()) for each in free]
+    assert counts[0] < counts[1] < counts[2]
+    assert not free[2][vault.parameter_slices()["entry"]].any()
+
+
+def test_curriculum_reaches_every_height_with_feedback():
+    stages = curriculum()
+    assert stages[-1].options["heights"][1] > stages[0].options["heights"][1]
+    assert (stages[-1].scale[vault.parameter_slices()["gains"]] > 0).all()
+
+
+def test_scenarios_go_through_the_heights_and_may_stay_the_same(simulator, states):
+    options = {"heights": (0.6, 0.7), "states": 2, "error": 0.1, "duration": 1.0, "pull": 0.1, "same": False}
+    problems = []
+    for same in (False, True):
+        stage = Stage("test", 10, 0.1, scales("feedback"), {**options, "same": same}, 4)
+        reference = np.zeros((vault.STEPS, vault.BINS, vault.SENSORS))
+        problems.append(VaultProblem(simulator.run, first_guess(), reference, states, stage))
+    drawn = [[p.scenarios(p.stage, g, np.random.default_rng(g)) for g in (0, 9)] for p in problems]
+    assert drawn[0][0][0][2] == pytest.approx(0.6) and drawn[0][1][0][2] == pytest.approx(0.7)
+    assert [s[0] for s in drawn[1][0]] == [s[0] for s in drawn[1][1]]
+    assert all(0.2 <= depth <= 0.4 for *_, depth in drawn[0][0])
+
+
+def test_a_checkpoint_of_another_training_is_refused(tmp_path):
+    write_archive(tmp_path / "done-0.npz", "vault training", 1, {"seed": 7}, {"x": np.zeros(1)})
+    with pytest.raises(LocomotionError, match="another training"):
+        train_vault(tmp_path / "out.npz", seed=0, checkpoint=tmp_path, effort=0.01)

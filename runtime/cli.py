@@ -159,6 +159,26 @@ def evaluate(
     _finish(_commands().evaluate_skill(skill.value, trials, seed), as_json)
 
 
+@app.command()
+def clip(
+    source: Annotated[
+        Path, typer.Argument(help="Clip of keyframes (.yaml), captured motion (.bvh) or saved motion (.npz).")
+    ],
+    mapping: Annotated[
+        Path | None, typer.Option("--map", help="Joints of the capture by parts of the person (.yaml).")
+    ] = None,
+    units: Annotated[str, typer.Option(help="Units of length of a .bvh file: m, cm, mm, in or ft.")] = "cm",
+    up: UpOption = Up.y,
+    film: Annotated[Path | None, typer.Option(help="File for a film strip (.png).")] = None,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="File for the motion of the person (.npz).")
+    ] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Show a motion and say where it breaks the joints' ranges, sinks into the ground or floats."""
+    _finish(_commands().show_clip(source, mapping, units, up.value, film, output), as_json)
+
+
 def _commands() -> Any:
     """The module `runtime.commands`, imported when a command needs it.
 

@@ -29,6 +29,7 @@ __all__ = [
     "evaluate_skill",
     "find_path",
     "run_mission_file",
+    "show_clip",
     "train_skill",
     "write_schema",
     "write_view",
@@ -278,3 +279,34 @@ def _kinds(graph: navmesh.NodeGraph) -> list[str]:
 def _print_values(values: Mapping[str, Any]) -> None:
     for name, value in values.items():
         print(f"{name:15} {value}")
+
+
+def show_clip(
+    source: Path, mapping: Path | None, units: str, up: str, film: Path | None, output: Path | None
+) -> Result:
+    """Check a clip or a captured motion; draw it to ``film``, save it as the person's motion to
+    ``output``."""
+    from locomotion.motion_check import check_motion
+    from runtime.clips import read_motion, write_motion_film
+
+    motion = read_motion(source, mapping, units, up)
+    for path in (film, output):
+        if path is not None:
+            _writable(path)
+    faults = check_motion(motion)
+    if film is not None:
+        write_motion_film(motion, film, Progress())
+    if output is not None:
+        motion.save(output)
+    values = {
+        "name": motion.name,
+        "seconds": round(motion.duration, 3),
+        "rate": motion.rate,
+        "faults": [asdict(fault) for fault in faults],
+    }
+
+    def show() -> None:
+        print(f"{motion.name}: {motion.duration:.2f} s at {motion.rate:.0f} Hz")
+        print("\n".join(f"  {fault}" for fault in faults) or "  within its joints, on the ground")
+
+    return Result(values, not faults, show)

@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from conftest import MISSION
 
+from locomotion.motion import load_motion
+from locomotion.skill import RUN_CLIP
 from navmesh.archive import read_archive, write_archive
 from runtime.cli import main
 
@@ -35,7 +37,7 @@ def one_line(message):
     return message.startswith("surefoot: ") and message.count("\n") == 1 and "Traceback" not in message
 
 
-@pytest.mark.parametrize("command", ["", "bake", "path", "run", "train", "evaluate", "view"])
+@pytest.mark.parametrize("command", ["", "bake", "path", "run", "train", "evaluate", "view", "clip"])
 def test_help(surefoot, command):
     code, out, _ = surefoot(*command.split(), "--help")
     assert code == 0
@@ -207,3 +209,23 @@ def test_quiet_when_not_a_terminal(surefoot, folder):
     _, out, err = surefoot("bake", folder / "level.obj", "-o", folder / "graph.npz", "--json")
     assert err == "" and json.loads(out)
     assert not np.any([line.startswith("\x1b") for line in out.splitlines()])
+
+
+def test_clip_shows_a_motion_and_its_faults(surefoot, tmp_path):
+    film, saved = tmp_path / "run.png", tmp_path / "run.npz"
+    code, out, _ = surefoot("clip", RUN_CLIP, "--film", film, "-o", saved)
+    assert code == 0 and "within its joints" in out
+    assert film.read_bytes()[:4] == b"\x89PNG"
+    code, out, _ = surefoot("clip", saved, "--json")
+    assert code == 0 and json.loads(out)["faults"] == []
+    motion = load_motion(saved)
+    motion.qpos[:, 7:] = 3.0
+    motion.save(saved)
+    code, out, _ = surefoot("clip", saved)
+    assert code == 1 and "beyond its range" in out
+    for source, message in (
+        (tmp_path / "walk.bvh", "needs a mapping"),
+        (film, "is a .yaml, .bvh or .npz file"),
+    ):
+        code, _, err = surefoot("clip", source)
+        assert code == 2 and message in err and one_line(err)

@@ -1,0 +1,99 @@
+"""Recorded motion of the person: its coordinates, frame by frame, in memory and on disk."""
+
+import os
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion.clip import Clip
+from locomotion.errors import LocomotionError
+from locomotion.person import JOINT_NAMES, person_spec
+from navmesh.archive import ArchiveError, read_archive, write_archive
+
+__all__ = ["Motion", "load_motion", "lowest_points", "motion_of_clip", "place_on_ground"]
+
+_KIND, _VERSION = "motion", 1
+_RATE = 60.0  # [Hz] at which a clip of keyframes is played
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """A motion of the person.
+
+    Attributes:
+        name: what is shown. rate: frames per second.
+        qpos: (n, 46) float64 per frame: root position [m], quaternion (w, x, y, z), angles [rad] of
+            `person.JOINT_NAMES`; the ground is z = 0.
+        grounded: whether the height of the root was chosen so that the figure stands on the ground, and
+            therefore says nothing.
+    """
+
+    name: str
+    rate: float
+    qpos: NDArray[np.float64]
+    grounded: bool = False
+
+    @property
+    def duration(self) -> float:
+        """[s]"""
+        return (len(self.qpos) - 1) / self.rate
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the motion; the file appears whole or not at all."""
+        header = {"name": self.name, "rate": self.rate, "grounded": self.grounded}
+        header["joints"] = list(JOINT_NAMES)
+        write_archive(path, _KIND, _VERSION, header, {"qpos": self.qpos})
+
+
+def load_motion(path: str | os.PathLike[str]) -> Motion:
+    """Read a motion; `LocomotionError` if it is missing, cut off, of another version or another person."""
+    try:
+        header, arrays = read_archive(path, _KIND, _VERSION)
+    except ArchiveError as error:
+        raise LocomotionError(str(error)) from error
+    qpos = arrays.get("qpos")
+    if header.get("joints") != list(JOINT_NAMES):
+        raise LocomotionError(f"{path}: the motion of a person with other joints; import it again")
+    if qpos is None or qpos.ndim != 2 or qpos.shape[1] != 7 + len(JOINT_NAMES) or not len(qpos):
+        raise LocomotionError(f"{path}: not a whole motion: it must hold qpos (n, {7 + len(JOINT_NAMES)})")
+    if not np.isfinite(qpos).all():
+        raise LocomotionError(f"{path}: frame {int(np.argwhere(~np.isfinite(qpos))[0, 0])} is not finite")
+    return Motion(str(header["name"]), float(header["rate"]), qpos, bool(header["grounded"]))
+
+
+def motion_of_clip(clip: Clip) -> Motion:
+    """A clip of keyframes as a motion: one pass at 60 Hz, straight on at the clip's speed, standing on the
+    ground."""
+    count = max(round(clip.duration * _RATE), 1) + 1
+    shares = np.linspace(0.0, 1.0, count)
+    qpos = np.zeros((count, 7 + len(JOINT_NAMES)))
+    qpos[:, 0], qpos[:, 2] = clip.speed * clip.duration * shares, clip.root_height
+    qpos[:, 3], qpos[:, 5] = np.cos(0.5 * clip.root_pitch), np.sin(0.5 * clip.root_pitch)
+    qpos[:, 7:] = clip.sample(shares - 1e-9 * (shares == 1.0))
+    qpos[:, 2] -= lowest_points(qpos)
+    return Motion(clip.name, (count - 1) / clip.duration, qpos, grounded=True)
+
+
+def lowest_points(qpos: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Height [m], (n,), of the lowest point of the figure in each frame (n, 46)."""
+    model = person_spec().compile()
+    data = mujoco.MjData(model)
+    touching = model.geom_conaffinity > 0  # capsules and spheres
+    radius, half = model.geom_size[touching, 0], model.geom_size[touching, 1]
+    lowest = np.empty(len(qpos))
+    for i, frame in enumerate(qpos):
+        data.qpos[:] = frame
+        mujoco.mj_kinematics(model, data)
+        along = np.abs(data.geom_xmat[touching, 8])
+        lowest[i] = (data.geom_xpos[touching, 2] - half * along - radius).min()
+    return lowest
+
+
+def place_on_ground(qpos: NDArray[np.float64]) -> NDArray[np.float64]:
+    """``qpos`` (n, 46) raised or lowered as a whole, so that the figure's lowest point is below the ground
+    z = 0 in one frame of ten: at the push-off, where a foot that differs from the captured one digs in."""
+    placed = qpos.copy()
+    placed[:, 2] -= np.quantile(lowest_points(qpos), 0.1)
+    return placed

@@ -62,10 +62,12 @@ from locomotion.walk_layout import (
     STANDING,
     WALK_HEADING,
     WALK_STANCE,
+    WALK_STEPS,
+    WALK_TICKS,
     WALKS,
     new_walk,
 )
-from locomotion.walk_skill import WalkSkill, load_walk_skill, plant, rise_walking
+from locomotion.walk_skill import RISING, STEADYING_SPEED, WalkSkill, load_walk_skill, plant, rise_walking
 from locomotion.walking import observe_walk, walk_tick
 
 __all__ = ["ARRIVAL_DISTANCE", "PERSON_RULES", "Human", "HumanState", "Status"]
@@ -312,6 +314,8 @@ class Human:
             return
         if self._clearing is not None:
             state[controller.FALLEN] = float(self._skill_ahead().fell(self._clearing, state))
+        elif self._walk[WALKS] > 0.0 and self._walk[WALK_TICKS] < RISING:
+            state[controller.FALLEN] = 0.0  # after a roll it begins to walk from a crouch
         if state[controller.FALLEN] > 0.0:
             let_go_both(data)
             speed, slope = float(state[controller.SPEED]), float(self._memory[path_tracking.SLOPE_HERE])
@@ -329,6 +333,9 @@ class Human:
             path.table, path.length, _WALK_GAINS if walks else _GAINS, self._memory, state[com],
             state[com + 1], state[controller.SPEED], self._ticks, self._command,
         )  # fmt: skip
+        if walks and self._walk[WALK_STEPS] < 0.0:
+            self._command[:] = self._walk[WALK_HEADING], STEADYING_SPEED, 0.0, 0.0
+            return
         if walks:
             off = self._command[0] - self._walk[WALK_HEADING]
             if self.status not in MOVING or abs(math.remainder(off, 2.0 * math.pi)) > _TURN_FIRST:

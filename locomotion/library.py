@@ -1,6 +1,7 @@
 """The skills that come with the package, for a body to clear obstacles with."""
 
 from locomotion.clearing import ClearingSkill
+from locomotion.drop_roll_skill import DROP_ROLL_SKILL, DropRoll, load_drop_roll_skill
 from locomotion.jump_skill import JUMP_SKILL, Jump, load_jump_skill
 from locomotion.skill import RunSkill
 from locomotion.vault_skill import VAULT_SKILL, Vault, load_vault_skill
@@ -15,4 +16,6 @@ def learned_skills(run: RunSkill) -> tuple[ClearingSkill, ...]:
         skills.append(Jump(load_jump_skill(), run))
     if VAULT_SKILL.exists():
         skills.append(Vault(load_vault_skill(), run))
+    if DROP_ROLL_SKILL.exists():
+        skills.append(DropRoll(load_drop_roll_skill()))
     return tuple(skills)

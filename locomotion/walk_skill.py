@@ -22,15 +22,21 @@ from locomotion.walk_layout import (
     PHASE,
     WALK_SPEED,
     WALK_STANCE,
+    WALK_STEPS,
     gain_limits,
     new_walk,
 )
 from locomotion.walking import SOLE, observe_walk
 from navmesh.archive import write_archive
 
-__all__ = ["WALK_SKILL", "WalkSkill", "load_walk_skill", "plant", "rise_walking"]
+__all__ = ["RISING", "STEADYING_SPEED", "WALK_SKILL", "WalkSkill", "load_walk_skill", "plant", "rise_walking"]
 
 WALK_SKILL = Path(__file__).parent / "skills" / "walk.npz"
+RISING = 50
+"""Ticks in which a body that begins to walk from a crouch comes up."""
+STEADYING_SPEED = 1.0
+"""[m/s] at which such a body makes its first steps, straight on."""
+_STEADYING = 3  # steps of such a body that do not count yet
 _KIND, _VERSION = "walk skill", 1
 _WIDTH, _HIP_HEIGHT = 0.17, 0.83  # [m] of a stand: between the feet; of the hips above the lower sole
 _HIPS_BACK = 0.03  # [m] that the hips are behind the middle of the feet
@@ -122,8 +128,10 @@ def plant(
 
 def rise_walking(walk: np.ndarray, state: np.ndarray, heading: float) -> None:
     """Let the walking controller take over a body that crouches on both feet and moves towards ``heading``
-    [rad], from the next tick on; ``state`` holds what was observed."""
+    [rad], from the next tick on; ``state`` holds what was observed. The number of steps begins below 0: with
+    the first ones it steadies itself."""
     walk[:] = new_walk(heading)
+    walk[WALK_STEPS] = -_STEADYING
     ch, sh = math.cos(heading), math.sin(heading)
     ahead = (state[23] - state[20]) * ch + (state[24] - state[21]) * sh  # of the left foot
     walk[PHASE], walk[WALK_STANCE] = DOUBLE, 1.0 if ahead > 0.0 else -1.0

@@ -1,0 +1,135 @@
+"""Learned drop-rolls, and the drop-roll as a skill that the body can use."""
+
+import os
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Literal
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion import controller, drop_roll
+from locomotion.clip import Clip, load_clip
+from locomotion.drop_roll import drop_roll_tick, start_drop_roll
+from locomotion.jump import MIRROR, MIRROR_SIGN
+from locomotion.route_smoothing import ObstacleAhead
+from locomotion.skill_family import SkillFamily, load_family
+
+__all__ = [
+    "DROP_ROLL_CLIP",
+    "DROP_ROLL_SKILL",
+    "KIND",
+    "DropRoll",
+    "DropTables",
+    "drop_roll_clip",
+    "load_drop_roll_skill",
+    "tables_of",
+]  # fmt: skip
+
+DROP_ROLL_CLIP = Path(__file__).parent / "clips" / "drop_roll.yaml"
+DROP_ROLL_SKILL = Path(__file__).parent / "skills" / "drop_roll.npz"
+KIND = "drop-roll skill"
+_SAMPLES = 201
+_MARK = drop_roll.parameter_slices()["mark"].start
+
+
+@lru_cache(maxsize=1)
+def drop_roll_clip() -> Clip:
+    """The reference clip that comes with the package."""
+    return load_clip(DROP_ROLL_CLIP)
+
+
+@lru_cache(maxsize=1)
+def _poses() -> NDArray[np.float64]:
+    return np.ascontiguousarray(drop_roll_clip().sample(np.linspace(0.0, 1.0, _SAMPLES)))
+
+
+@dataclass(frozen=True)
+class DropTables:
+    """A drop-roll at one height, ready for the kernels.
+
+    parameters: (p,) float64. entry: wanted entry speed [m/s]. mark: distance [m] from the stance foot to the
+    edge at which it begins. rest: the arguments of `drop_roll.drop_roll_tick` between ``p`` and ``memory``.
+    """
+
+    parameters: NDArray[np.float64]
+    entry: float
+    mark: float
+    rest: tuple[NDArray[np.float64], ...]
+
+
+def tables_of(parameters: NDArray[np.float64], reference: NDArray[np.float64]) -> DropTables:
+    """Put the arguments of the kernels together."""
+    rest = (_poses(), reference, MIRROR, MIRROR_SIGN)
+    return DropTables(parameters, float(parameters[_MARK + 1]), float(parameters[_MARK]), rest)
+
+
+def load_drop_roll_skill(path: str | os.PathLike[str] = DROP_ROLL_SKILL) -> SkillFamily:
+    """Read a drop-roll skill; `LocomotionError` if it is missing, cut off, of another version or of another
+    person."""
+    width = sum(drop_roll.PARAMETERS.values())
+    return load_family(path, KIND, width, (drop_roll.BINS, len(drop_roll.SENSORS)))
+
+
+class DropRoll:
+    """Rolling off drops as a `locomotion.clearing.ClearingSkill`."""
+
+    affordance = "drop"
+    ends: Literal["running", "walking"] = "walking"
+
+    def __init__(self, skill: SkillFamily) -> None:
+        """``skill``: the learned drop-rolls."""
+        self.skill = skill
+        self._tables: dict[float, DropTables] = {}
+
+    @property
+    def heights(self) -> tuple[float, float]:
+        """Least and greatest height [m] that it clears."""
+        return self.skill.range
+
+    @property
+    def stride(self) -> tuple[float, float, float]:
+        """(a, lag, b) of the steps of the run-up; see `locomotion.clearing.ClearingSkill`."""
+        return self.skill.stride
+
+    def tables(self, height: float) -> DropTables:
+        """The kernels' arguments for a drop of ``height`` [m]; the nearest learned height beyond the ends."""
+        low, high = self.heights
+        height = min(max(float(height), low), high)
+        if height not in self._tables:
+            self._tables[height] = tables_of(*self.skill.at(height))
+        return self._tables[height]
+
+    def approach(self, height: float) -> tuple[float, float]:
+        """(entry speed [m/s], distance [m] from the stance foot's ankle to the edge at which it begins)."""
+        tables = self.tables(height)
+        return tables.entry, tables.mark
+
+    def start(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Begin at a stance switch, before that tick's `tick`; gives all that it remembers, (k,) float64. Who
+        takes off with the left foot rolls over the right shoulder."""
+        memory = np.zeros(drop_roll.MEMORY_SIZE)
+        side = 1.0 if state[controller.STANCE] > 0 else -1.0
+        x, y, z = (float(v) for v in obstacle.position)
+        ahead_x, ahead_y = -float(obstacle.normal[0]), -float(obstacle.normal[1])
+        start_drop_roll(memory, side, z - obstacle.height, x, y, ahead_x, ahead_y)
+        return memory
+
+    def tick(
+        self,
+        obstacle: ObstacleAhead,
+        memory: NDArray[np.float64],
+        state: NDArray[np.float64],
+        data: mujoco.MjData,
+    ) -> bool:
+        """One control tick after `run_tick`'s and before the physics; True when the feet carry it again."""
+        tables = self.tables(obstacle.height)
+        drop_roll_tick(tables.parameters, *tables.rest, memory, state, data.qpos, data.qvel, data.ctrl)
+        return bool(memory[drop_roll.ENDED] > 0.0)
+
+    def fell(self, memory: NDArray[np.float64], state: NDArray[np.float64]) -> bool:
+        """Whether the body has fallen: from the take-off until it is over it may lie on the ground."""
+        rolls = memory[drop_roll.ACTIVE] > 0.0 and memory[drop_roll.PHASE] != drop_roll.TAKE_OFF
+        return bool(state[controller.FALLEN] > 0.0 and not rolls)

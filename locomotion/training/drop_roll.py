@@ -1,0 +1,273 @@
+"""Learning to roll off drops: one law for all heights, feed-forward first, then feedback, then hard cases."""
+
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from locomotion import drop_roll
+from locomotion.drop_roll import ACTIONS, BINS, KNOTS, SENSORS
+from locomotion.drop_roll_skill import DROP_ROLL_SKILL, KIND, DropRoll, load_drop_roll_skill, tables_of
+from locomotion.errors import LocomotionError
+from locomotion.jump_skill import run_digest
+from locomotion.skill import RunSkill, load_run_skill
+from locomotion.skill_family import SkillFamily
+from locomotion.training.drop_trial import DropOutcome, DropSimulator
+from locomotion.training.jump_trial import JumpSimulator, StartState
+from locomotion.training.loop import Progress, Stage, learn
+from navmesh.archive import read_archive, write_archive
+
+__all__ = ["HEIGHTS", "DropProblem", "cost", "first_guess", "scales", "train_drop_roll"]
+
+HEIGHTS = (0.9, 2.0)
+"""Least and greatest height [m]; one set of parameters serves all in between."""
+_ENTRY = 3.2  # [m/s]
+_STATES = 48
+_REFINEMENTS = 2  # stages in which half of the trials are those that went worst before
+_PULL = 0.01
+_ROUNDS, _HARD = 2, 0.2  # trials per start state to find the hard ones; share of them that is hard
+_TRAINING, _VERSION = "drop-roll training", 1
+_ANGLE = 5.6  # [rad] turned when the feet are down again
+_SPREAD = np.array([3.0, 0.5, 0.7, 0.08, 0.12, 0.08, 0.25, 2.0, 0.3, 2.0, 0.4, 0.12])  # of the sensors
+
+
+def first_guess() -> np.ndarray:
+    """Parameters (p,) from which learning starts: the clip alone, which rolls."""
+    x = np.zeros(sum(drop_roll.PARAMETERS.values()))
+    part = drop_roll.parameter_slices()
+    x[part["landing"]] = [0.30, 0.05, 0.0, 0.15, 0.0, 0.0, 0.2]
+    x[part["timing"]] = [0.05, 0.1, 0.06, 0.12]
+    x[part["rise"]] = [5.2, 0.3, -0.02]
+    x[part["mark"]] = [0.25, _ENTRY]
+    m_ap = np.zeros((len(ACTIONS), drop_roll.RANK))
+    m_ap[0, 0] = m_ap[6, 1] = m_ap[7, 2] = 1.0
+    x[part["m_ap"]] = m_ap.ravel()
+    return x
+
+
+def scales(feedback: bool) -> np.ndarray:
+    """How far a parameter may reasonably move, (p,) float64; without ``feedback`` its parameters stay."""
+    x = np.zeros(sum(drop_roll.PARAMETERS.values()))
+    part = drop_roll.parameter_slices()
+    x[part["pose"]] = np.tile([0.4, 0.4, 0.3, 0.25, 0.4, 0.15, 0.12, 0.12, 0.12], KNOTS)
+    x[part["landing"]] = [0.15, 0.1, 0.1, 0.2, 0.1, 0.3, 0.2]
+    x[part["timing"]] = [0.05, 0.1, 0.05, 0.05]
+    x[part["rise"]] = [0.25, 0.06, 0.06]
+    x[part["mark"]] = [0.08, 0.15]
+    if feedback:
+        x[part["m_sp"]] = np.tile(0.1 / _SPREAD, 3 * drop_roll.RANK)
+        x[part["m_ap"]] = 0.4
+    return x
+
+
+def cost(o: DropOutcome) -> float:
+    """Objective of one trial."""
+    total = 0.0
+    if o.angle < _ANGLE or not o.rose:
+        total += 6.0 + 6.0 * (1.0 - min(o.angle / _ANGLE, 1.0))
+    else:
+        total += 4.0 * (1.0 - o.time) + 2.0 * (1.0 - min(max(o.upright, 0.0), 1.0))
+        total += (0.0 if o.rolled else 2.0) + 0.05 * min(o.lurch, 60.0) + 0.6 * abs(o.speed - 1.0)
+    return (
+        total
+        + 0.03 * o.reaction
+        + 0.15 * max(o.peak - 5.0, 0.0)
+        + 0.5 * min(o.head, 16)
+        + 0.08 * min(o.tilt, 30.0)
+        + 0.8 * min(o.aside, 2.0)
+    )
+
+
+@dataclass
+class DropProblem:
+    """A range of heights: what `learn` needs.
+
+    initial: (p,) where learning starts. reference: (11, 12) expected sensors. heights: least and greatest
+    [m]. hard: trials of which half of those of a generation are drawn.
+    """
+
+    run: RunSkill
+    heights: tuple[float, float]
+    initial: np.ndarray
+    reference: np.ndarray
+    states: list[StartState]
+    curriculum: Sequence[Stage]
+    hard: Sequence[tuple[int, float, float]] = ()
+    _simulator: DropSimulator | None = None
+
+    def stages(self) -> Sequence[Stage]:
+        """The curriculum."""
+        return self.curriculum
+
+    def start(self) -> np.ndarray:
+        """Where learning starts, (p,)."""
+        return self.initial
+
+    def scenarios(
+        self, stage: Stage, generation: int, rng: np.random.Generator
+    ) -> list[tuple[int, float, float]]:
+        """Start state, error of the distance [m] and height [m] of each trial of a generation."""
+        drawn = self.draw(stage.options["states"], stage.options["error"], rng)
+        hard = [self.hard[i] for i in rng.permutation(len(self.hard))[: len(drawn) // 2]]
+        return hard + drawn[len(hard) :]
+
+    def draw(self, count: int, error: float, rng: np.random.Generator) -> list[tuple[int, float, float]]:
+        """``count`` trials, evenly over the heights; the distance misses the mark by up to ``error`` [m]."""
+        chosen = rng.permutation(len(self.states))[:count]
+        jitter = error * (2.0 * rng.random(count) - 1.0)
+        shares = rng.permutation((np.arange(count) + rng.random(count)) / count)
+        low, high = self.heights
+        heights = low + (high - low) * shares
+        return [
+            (int(i), self.states[i].error + float(e), float(h))
+            for i, e, h in zip(chosen, jitter, heights, strict=True)
+        ]
+
+    def find_hard(self, candidate: np.ndarray, stage: Stage, rng: np.random.Generator) -> None:
+        """Remember the trials that go worst with a candidate: half of those of a generation are drawn from
+        them."""
+        error, duration = stage.options["error"], stage.options["duration"]
+        trials = [trial for _ in range(_ROUNDS) for trial in self.draw(len(self.states), error, rng)]
+        costs = [cost(self.outcome(candidate, *trial, duration)) for trial in trials]
+        self.hard = [trials[i] for i in np.argsort(costs)[-round(_HARD * len(trials)) :]]
+        self._simulator = None
+
+    def outcome(
+        self, candidate: np.ndarray, state: int, error: float, height: float, duration: float,
+        record: np.ndarray | None = None,
+    ) -> DropOutcome:  # fmt: skip
+        """One trial."""
+        if self._simulator is None:
+            self._simulator = DropSimulator(self.run)
+        tables = tables_of(np.ascontiguousarray(candidate), self.reference)
+        return self._simulator.trial(tables, height, self.states[state], error, duration, record=record)
+
+    def evaluate(self, stage: Stage, candidate: np.ndarray, scenarios: list) -> tuple[float, float]:
+        """Mean cost with the pull towards the start, and the share that rolled and walked on."""
+        total = rolled = 0.0
+        for state, error, height in scenarios:
+            result = self.outcome(candidate, state, error, height, stage.options["duration"])
+            total += cost(result)
+            rolled += result.rolled
+        free = stage.scale > 0
+        away = (candidate[free] - self.initial[free]) / stage.scale[free]
+        n = len(scenarios)
+        return total / n + _PULL * float(np.mean(away**2)), rolled / n
+
+    def record(self, candidate: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+        """Mean sensors of trials that went well, (11, 12); the present reference where none did."""
+        sums = np.zeros((BINS, len(SENSORS) + 1))
+        for state in range(len(self.states)):
+            one = np.zeros_like(sums)
+            height = float(rng.uniform(*self.heights))
+            if self.outcome(candidate, state, self.states[state].error, height, 3.6, one).rolled:
+                sums += one
+        counts = sums[:, -1:]
+        return np.where(counts > 0, sums[:, :-1] / np.maximum(counts, 1.0), self.reference)
+
+
+def family_of(
+    x: np.ndarray,
+    reference: np.ndarray,
+    stride: tuple[float, float, float],
+    run: RunSkill,
+    meta: dict[str, Any],
+) -> SkillFamily:
+    """A family with the same parameters (p,) and expected sensors (11, 12) at both ends of `HEIGHTS`."""
+    table, references = np.stack([x, x]), np.stack([reference, reference])
+    return SkillFamily(KIND, np.array(HEIGHTS), table, references, stride, run_digest(run), meta)
+
+
+@dataclass(frozen=True)
+class _Course:
+    """What stays the same over a whole learning run."""
+
+    run: RunSkill
+    stride: tuple[float, float, float]
+    seed: int
+    folder: Path | None
+    workers: int
+    effort: float
+    on_progress: Callable[[Progress], None] | None
+
+    def stage(
+        self, name: str, generations: int, sigma: float, feedback: bool, population: int, **options
+    ) -> Stage:
+        count = max(round(generations * self.effort), 1)
+        return Stage(name, count, sigma, scales(feedback), options, population)
+
+
+def train_drop_roll(
+    out: str | os.PathLike[str] = DROP_ROLL_SKILL,
+    seed: int = 0,
+    checkpoint: str | os.PathLike[str] | None = None,
+    workers: int = 2,
+    effort: float = 1.0,
+    start_from: str | os.PathLike[str] | None = None,
+    on_progress: Callable[[Progress], None] | None = None,
+) -> SkillFamily:
+    """Learn to roll off drops of `HEIGHTS` on the package's run and walk, and write it to ``out``.
+
+    ``checkpoint``: folder for the state of learning; a run that was interrupted goes on from it and gives
+    the same result. ``effort``: scales the number of generations. ``start_from``: a skill to refine (after
+    the run or the walk has changed) instead of beginning from nothing. The same seed gives the same skill
+    with any number of workers.
+    """
+    run = load_run_skill()
+    folder = Path(checkpoint) if checkpoint is not None else None
+    if folder is not None:
+        folder.mkdir(parents=True, exist_ok=True)
+    stride = JumpSimulator(run).fit_stride(_ENTRY, np.random.default_rng([seed, 1]))
+    course = _Course(run, stride, seed, folder, workers, effort, on_progress)
+    if start_from is None:
+        x, reference = first_guess(), np.zeros((BINS, len(SENSORS)))
+        few = course.stage("feed-forward", 50, 0.12, False, 18, states=8, error=0.1, duration=3.0)
+        x, reference = _learn(course, 0, few, x, reference)
+        many = course.stage("feedback", 40, 0.1, True, 20, states=10, error=0.1, duration=3.2)
+        x, reference = _learn(course, 1, many, x, reference)
+    else:
+        x, reference = load_drop_roll_skill(start_from).at(HEIGHTS[0])
+    for number in range(2, 2 + _REFINEMENTS):
+        finer = course.stage("refined", 20, 0.06, True, 16, states=8, error=0.1, duration=3.2)
+        x, reference = _learn(course, number, finer, x, reference)
+    made = {"made by": "surefoot train drop-roll", "seed": seed, "effort": effort}
+    skill = family_of(x, reference, stride, run, made)
+    skill.save(out)
+    return skill
+
+
+def _learn(
+    course: _Course, number: int, stage: Stage, x: np.ndarray, reference: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Go through a stage; what was done before is read from the checkpoint.
+
+    Start states are harvested from planned run-ups, half of them from standing. The expected sensors are
+    recorded anew after a stage without feedback; a refinement looks for trials that go wrong first.
+    """
+    identity = {"seed": course.seed, "run": run_digest(course.run), "effort": course.effort}
+    done = None if course.folder is None else course.folder / f"done-{number}.npz"
+    if done is not None and done.exists():
+        header, arrays = read_archive(done, _TRAINING, _VERSION)
+        if {key: header.get(key) for key in identity} != identity:
+            raise LocomotionError(f"{done}: checkpoint of another training or seed; remove it to begin anew")
+        return arrays["x"], arrays["reference"]
+    rng = np.random.default_rng([course.seed, number])
+    guess = DropRoll(family_of(x, reference, course.stride, course.run, {}))
+    runner, states = JumpSimulator(course.run), []
+    for standing in (False, True):
+        distances = rng.uniform(9.5, 30.0, _STATES // 2)
+        states += runner.harvest(guess, distances, rng, standing)
+    problem = DropProblem(course.run, HEIGHTS, x, reference, states, [stage])
+    if number >= 2:
+        problem.find_hard(x, stage, rng)
+    file = None if course.folder is None else course.folder / f"search-{number}.npz"
+    learned = learn(problem, course.seed + number, file, course.workers, course.on_progress)
+    assert learned is not None
+    if not (stage.scale[drop_roll.parameter_slices()["m_sp"]] > 0).any():
+        reference = problem.record(learned, rng)
+    if done is not None:
+        write_archive(done, _TRAINING, _VERSION, identity, {"x": learned, "reference": reference})
+    return learned, reference

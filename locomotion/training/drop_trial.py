@@ -1,0 +1,228 @@
+"""Trials of the drop-roll: a ledge under a running person, and what its landing, roll and rise were like."""
+
+import math
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numba import njit
+
+from locomotion import controller as c
+from locomotion import drop_roll as dr
+from locomotion.drop_roll_skill import DropTables
+from locomotion.ground import plane_lookup
+from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, person_spec
+from locomotion.skill import RunSkill
+from locomotion.training.jump_trial import StartState
+from locomotion.walk_layout import WALK_STEPS, new_walk
+from locomotion.walk_skill import RISING, STEADYING_SPEED, load_walk_skill, rise_walking
+from locomotion.walking import observe_walk, walk_tick
+
+__all__ = ["DropOutcome", "DropSimulator", "drop_model"]
+
+_STATE = mujoco.mjtState.mjSTATE_INTEGRATION
+_DEPTH, _LENGTH = 2.0, 60.0  # [m] half the height of the ledge's box; its length
+_UPRIGHT, _TALL = 0.8, 0.75  # of the chest's axis; [m] of the centre of mass: it stands
+_HARD = 4.0  # body weights above which the ground's reaction is summed up
+
+
+@dataclass(frozen=True)
+class DropOutcome:
+    """What a trial showed.
+
+    rolled: it came up and still walks at the end. rose: its feet carried it again. angle: by which the pelvis
+    turned forward [rad]. time: share of the trial that it lasted. upright: the chest's axis upwards at the
+    end. peak: highest reaction of the ground from the touchdown on, averaged over a tick's last physics step
+    [body weights]. reaction: sum over the ticks of the excess above 4 body weights. head: ticks in which the
+    head touched the ground. aside: sideways distance at the end [m]. tilt: sum over the roll's ticks of the
+    squares of the pelvis's tilt to the side and of its turn [rad^2]. lurch: sum over the ticks after the roll
+    of the squared tilt of the chest. entry, exit: forward speed [m/s] at the touchdown and at the roll's end.
+    speed: at the trial's end.
+    """
+
+    rolled: bool
+    rose: bool
+    angle: float
+    time: float
+    upright: float
+    peak: float
+    reaction: float
+    head: int
+    aside: float
+    tilt: float
+    lurch: float
+    entry: float
+    exit: float
+    speed: float
+
+
+def drop_model() -> mujoco.MjModel:
+    """The person, the lower ground (geom ``ground``) and a box (geom ``ledge``) that trials move."""
+    spec = person_spec()
+    friction = [0.9, 0.005, 0.0001]
+    spec.worldbody.add_geom(
+        name="ground", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], contype=1, conaffinity=0,
+        friction=friction, rgba=[0.82, 0.84, 0.86, 1],
+    )  # fmt: skip
+    spec.worldbody.add_geom(
+        name="ledge", type=mujoco.mjtGeom.mjGEOM_BOX, size=[_LENGTH / 2, 4.0, _DEPTH], contype=1,
+        conaffinity=0, friction=friction, rgba=[0.62, 0.55, 0.46, 1], pos=[1000.0, 0.0, -_DEPTH],
+    )  # fmt: skip
+    model = spec.compile()
+    model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_MIDPHASE  # the box moves in the world body
+    # so that moving the plane counts
+    model.geom_sameframe[model.geom("ground").id] = mujoco.mjtSameFrame.mjSAMEFRAME_NONE
+    return model
+
+
+@njit(cache=True)
+def _touches(ncon, geoms, addresses, forces, heads):
+    """Sum of the normal forces [N], and whether a geom marked in ``heads`` touches."""
+    total, head = 0.0, False
+    for k in range(ncon):
+        if addresses[k] >= 0:
+            for j in range(4):
+                total += forces[addresses[k] + j]
+            head = head or heads[geoms[k, 0]] or heads[geoms[k, 1]]
+    return total, head
+
+
+class DropSimulator:
+    """A person, a ledge and the ground below it that trials are run with; one per process."""
+
+    def __init__(self, run: RunSkill) -> None:
+        self.run, self.gait = run, load_walk_skill()
+        self.model = drop_model()
+        self.data = mujoco.MjData(self.model)
+        self.index = PersonIndex.of(self.model)
+        self.ledge, self.ground = self.model.geom("ledge").id, self.model.geom("ground").id
+        self.heads = self.model.geom_bodyid == self.index.head
+        self.state, self.walk = c.new_state(), new_walk()
+        self.command, self.memory = np.zeros(4), np.zeros(dr.MEMORY_SIZE)
+        self.place(0.0, 0.0)
+
+    def place(self, edge: float, height: float) -> None:
+        """The ledge, at z = 0, ends at x = ``edge`` [m]; the ground is ``height`` [m] below it."""
+        self.model.geom_pos[self.ledge] = [edge - _LENGTH / 2, 0.0, -_DEPTH]
+        self.model.geom_pos[self.ground] = [0.0, 0.0, -height]
+        self.height, self.lookup = height, (*plane_lookup()[:-1], np.array([0.0, 0.0, -height]))
+
+    def trial(
+        self,
+        tables: DropTables,
+        height: float,
+        start: StartState,
+        error: float,
+        duration: float,
+        on_tick=None,
+        record: np.ndarray | None = None,
+    ) -> DropOutcome:
+        """Roll off a ledge of ``height`` [m] from a harvested state; the edge is put so that the distance
+        misses the mark by ``error`` [m].
+
+        duration: [s]. on_tick(simulator) is called after each tick. record: (11, 13) sums of the sensors by
+        the share and their count, added to.
+        """
+        edge = float(start.planted[0]) + tables.mark + error
+        self.place(edge, height)
+        mujoco.mj_setState(self.model, self.data, start.physics, _STATE)
+        self.state[:] = start.control
+        self.command[:] = 0.0, tables.entry, 0.0, 0.0
+        self.memory[:] = 0.0
+        self.walk[:] = 0.0
+        data, state, memory, steps = self.data, self.state, self.memory, self.state[c.STEPS]
+        meter = _Meter(self, float(start.planted[1]))
+        begun = walks = False
+        ticks = round(duration / CONTROL_DT)
+        for _ in range(ticks):
+            if walks:
+                if self.walk[WALK_STEPS] >= 0.0:
+                    self.command[:2] = 0.0, self.gait.speed
+                walk_tick(
+                    self.gait.gains, self.lookup, self.walk, state, self.command, data.qpos, data.qvel,
+                    data.ctrl,
+                )  # fmt: skip
+            else:
+                c.run_tick(*self.run.tables, state, self.command, data.qpos, data.qvel, data.ctrl)
+                if not begun and state[c.STEPS] != steps:
+                    begun = True
+                    side = 1.0 if state[c.STANCE] > 0 else -1.0
+                    dr.start_drop_roll(memory, side, -height, edge, 0.0, 1.0, 0.0)
+                if begun:
+                    dr.drop_roll_tick(
+                        tables.parameters, *tables.rest, memory, state, data.qpos, data.qvel, data.ctrl
+                    )
+                if memory[dr.ENDED] > 0.0:
+                    walks = True
+                    w, x, y, z = data.qpos[3:7]
+                    yaw = math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+                    rise_walking(self.walk, state, yaw)
+                    self.command[:] = yaw, STEADYING_SPEED, 0.0, 0.0
+            mujoco.mj_step(self.model, data, STEPS_PER_TICK)
+            c.observe(self.index, self.model, data, state)
+            if walks:
+                observe_walk(self.index, data, self.walk)
+            meter.tick(walks)
+            if record is not None and memory[dr.ACTIVE] > 0.0 and memory[dr.PHASE] != dr.TAKE_OFF:
+                place = min(int(memory[dr.SHARE] * (dr.BINS - 1) + 0.5), dr.BINS - 1)
+                record[place, :-1] += memory[dr.SENSED]
+                record[place, -1] += 1.0
+            if on_tick is not None:
+                on_tick(self)
+            given_up = begun and memory[dr.ACTIVE] == 0.0 and not walks
+            on_feet = (memory[dr.PHASE] == dr.TAKE_OFF) or (walks and meter.walked >= RISING)
+            if given_up or (on_feet and state[c.FALLEN] > 0.0):
+                break
+            state[c.FALLEN] = 0.0
+        return meter.outcome(ticks)
+
+
+class _Meter:
+    """Collects the figures of a trial."""
+
+    def __init__(self, simulator: DropSimulator, line: float) -> None:
+        self.s, self.line = simulator, line
+        self.ticks = self.head = self.walked = 0
+        self.peak = self.reaction = self.tilt = self.lurch = self.angle = self.entry = self.exit = 0.0
+
+    def tick(self, walks: bool) -> None:
+        data, memory = self.s.data, self.s.memory
+        self.ticks += 1
+        self.walked += walks
+        if memory[dr.PHASE] not in (dr.ROLL, dr.RISE):
+            self.entry = float(self.s.state[c.COM_VELOCITY][0])
+            return
+        contact = data.contact
+        force, head = _touches(data.ncon, contact.geom, contact.efc_address, data.efc_force, self.s.heads)
+        weights = force / (MASS * 9.81)
+        self.peak = max(self.peak, weights)
+        self.reaction += max(weights - _HARD, 0.0)
+        self.head += head
+        if walks:
+            up = data.xmat[self.s.index.chest]
+            self.lurch += float((up[2] - 0.1) ** 2 + up[5] ** 2)
+        else:
+            sensed = memory[dr.SENSED]
+            self.tilt += float(sensed[6] ** 2 + sensed[8] ** 2)
+            self.angle = float(memory[dr.ANGLE])
+            self.exit = float(sensed[1])
+
+    def outcome(self, ticks: int) -> DropOutcome:
+        com, upright = self.s.state[c.COM], float(self.s.data.xmat[self.s.index.chest][8])
+        stands = upright > _UPRIGHT and float(com[2]) + self.s.height > _TALL
+        return DropOutcome(
+            rolled=bool(self.walked > 0 and self.ticks == ticks and stands),
+            rose=self.walked > 0,
+            angle=self.angle,
+            time=self.ticks / ticks,
+            upright=upright,
+            peak=self.peak,
+            reaction=self.reaction,
+            head=self.head,
+            aside=abs(float(com[1]) - self.line),
+            tilt=self.tilt,
+            lurch=self.lurch,
+            entry=self.entry,
+            exit=self.exit,
+            speed=float(self.s.state[c.COM_VELOCITY][0]),
+        )

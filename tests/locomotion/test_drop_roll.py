@@ -1,0 +1,169 @@
+"""The drop-roll: law against the reference, mirror image, refusals, saving, and rolls off ledges."""
+
+import numpy as np
+import pytest
+
+from locomotion import controller
+from locomotion import drop_roll as dr
+from locomotion.body import Human
+from locomotion.clip import load_clip
+from locomotion.drop_roll_reference import wanted_pose
+from locomotion.drop_roll_skill import (
+    DROP_ROLL_CLIP,
+    DropRoll,
+    drop_roll_clip,
+    load_drop_roll_skill,
+    tables_of,
+)
+from locomotion.errors import LocomotionError
+from locomotion.events import Cleared, TookOff
+from locomotion.ground import Ground
+from locomotion.human_state import MOVING
+from locomotion.jump import MIRROR, MIRROR_SIGN, mirror
+from locomotion.person import JOINT_NAMES, person_spec
+from locomotion.route_smoothing import ObstacleAhead
+from runtime.drop_trials import drop_attempt, ledge
+
+N = len(JOINT_NAMES)
+
+
+@pytest.fixture(scope="module")
+def skill():
+    return load_drop_roll_skill()
+
+
+def dropper(height, distance):
+    human = Human(Ground.from_arrays(*ledge(height)))
+    human.reset((-distance, 0.0, 0.0), 0.0)
+    path = [[-distance, 0, 0], [-1e-3, 0, 0], [1e-3, 0, -height], [15, 0, -height]]
+    human.follow(
+        path, 3.5, [ObstacleAhead(distance, "drop", height, np.zeros(3), np.array([-1.0, 0.0, 0.0]))]
+    )
+    return human
+
+
+def random_tables(seed):
+    rng = np.random.default_rng(seed)
+    parameters = 0.2 * rng.normal(size=sum(dr.PARAMETERS.values()))
+    parameters[dr.parameter_slices()["timing"]] = 0.05, 0.1, 0.06, 0.12
+    return tables_of(parameters, 0.3 * rng.normal(size=(dr.BINS, len(dr.SENSORS))))
+
+
+def random_tick(seed, phase, share):
+    """State, position, velocity and memory in the middle of a fall or a roll."""
+    rng = np.random.default_rng(seed)
+    state, memory = controller.new_state(), np.zeros(dr.MEMORY_SIZE)
+    state[controller.COM] = 1.0, 0.1, 1.2
+    state[controller.COM_VELOCITY] = 3.0, 0.2, -2.0
+    state[controller.FEET] = 1.1, -0.1, 0.4, 0.9, 0.2, 0.5
+    qpos, qvel = np.zeros(7 + N), 0.5 * rng.normal(size=6 + N)
+    qpos[3:7] = rng.normal(size=4) + np.array([4.0, 0.0, 1.0, 0.0])
+    qpos[3:7] /= np.linalg.norm(qpos[3:7])
+    dr.start_drop_roll(memory, 1.0, -1.0 if phase == dr.FALL else 0.1, 0.0, 0.0, 1.0, 0.0)
+    memory[dr.PHASE], memory[dr.SHARE], memory[dr.SHARE_RATE] = phase, share, 0.8
+    memory[dr.ANGLE], memory[dr.PHASE_TICKS] = 0.3, 4.0
+    return state, qpos, qvel, memory
+
+
+@pytest.mark.parametrize(
+    ("phase", "share"), [(dr.FALL, 0.02), (dr.FALL, 0.15), (dr.ROLL, 0.4), (dr.ROLL, 0.9)]
+)
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_kernel_agrees_with_the_reference(phase, share, side):
+    tables = random_tables(3)
+    state, qpos, qvel, memory = random_tick(11, phase, share)
+    memory[dr.SIDE] = side
+    before = np.random.default_rng(1).normal(size=N)
+    memory[14 : 14 + N] = before
+    ctrl = np.zeros(N)
+    dr.drop_roll_tick(tables.parameters, *tables.rest, memory, state, qpos, qvel, ctrl)
+    assert memory[dr.PHASE] == phase
+    np.testing.assert_allclose(ctrl, wanted_pose(tables, memory, state, before), atol=1e-12)
+
+
+def test_a_roll_over_the_left_shoulder_is_the_mirror_image():
+    tables = random_tables(5)
+    state, qpos, qvel, memory = random_tick(2, dr.ROLL, 0.5)
+    other, seen = memory.copy(), state.copy()
+    other[dr.SIDE] = -1.0
+    for part in (controller.COM, controller.COM_VELOCITY):
+        seen[part] *= [1.0, -1.0, 1.0]
+    feet = state[controller.FEET].reshape(2, 3)[::-1] * [1.0, -1.0, 1.0]
+    seen[controller.FEET] = feet.ravel()
+    place, speed = qpos.copy(), qvel.copy()
+    place[3:7] *= [1.0, -1.0, 1.0, -1.0]
+    speed[:6] *= [1.0, -1.0, 1.0, -1.0, 1.0, -1.0]
+    place[7:], speed[6:] = mirror(qpos[7:]), mirror(qvel[6:])
+    right, left = np.zeros(N), np.zeros(N)
+    dr.drop_roll_tick(tables.parameters, *tables.rest, memory, state, qpos, qvel, right)
+    dr.drop_roll_tick(tables.parameters, *tables.rest, other, seen, place, speed, left)
+    np.testing.assert_allclose(left, mirror(right), atol=1e-12)
+    assert (MIRROR[MIRROR] == np.arange(N)).all() and set(MIRROR_SIGN) == {1.0, -1.0}
+
+
+def test_the_clip_stays_within_the_joints_ranges():
+    clip = load_clip(DROP_ROLL_CLIP)
+    low, high = person_spec().compile().jnt_range[1:].T
+    poses = clip.sample(np.linspace(0.0, 1.0, 101))
+    assert (poses >= low - 1e-6).all() and (poses <= high + 1e-6).all()
+    assert not drop_roll_clip().cyclic
+
+
+def test_heights_that_were_not_learned_are_refused(skill):
+    low, high = skill.range
+    assert low <= 0.9 and high >= 2.0
+    for height in (low - 0.1, high + 0.1, np.nan):
+        with pytest.raises(LocomotionError, match="not learned"):
+            skill.at(height)
+    human = Human()
+    ahead = ObstacleAhead(10.0, "drop", 2.6, np.zeros(3), np.array([-1.0, 0.0, 0.0]))
+    with pytest.raises(LocomotionError, match=r"no skill clears drop 2.60 m.*drop 0.9 to 2 m"):
+        human.follow([[0, 0, 0], [20, 0, 0]], 3.5, [ahead])
+
+
+@pytest.mark.parametrize(("height", "distance"), [(0.9, 12.0), (1.5, 12.4), (2.0, 16.0)])
+def test_rolls_off_a_ledge_and_goes_on(height, distance):
+    human = dropper(height, distance)
+    turned, upside_down = 0.0, False
+    while human.status in MOVING and human.time < 40.0:
+        human.tick()
+        if human.status == "dropping":
+            upside_down = upside_down or human.data.xmat[human.index.root, 8] < -0.9
+            turned = max(turned, human.save_state().clearing[dr.ANGLE])
+    assert human.status == "arrived"
+    kinds = [type(event) for event in human.events]
+    assert kinds.index(TookOff) < kinds.index(Cleared)
+    assert upside_down and turned > 5.0
+
+
+def test_most_drops_succeed():
+    rng = np.random.default_rng(4)
+    results = [drop_attempt(float(rng.uniform(0.9, 2.0)), float(rng.uniform(10, 20))) for _ in range(12)]
+    assert sum(result.ended == "arrived" for result in results) >= 10
+    assert all(result.peak < 25.0 for result in results)
+
+
+def test_a_roll_goes_on_bit_for_bit_from_a_saved_state():
+    human = dropper(1.2, 11.0)
+    while human.status != "dropping":
+        human.tick()
+    for _ in range(90):
+        human.tick()
+    saved = human.save_state()
+
+    def later():
+        for _ in range(120):
+            human.tick()
+        return human.state_hash()
+
+    first = later()
+    human.restore_state(saved)
+    assert later() == first
+
+
+def test_a_body_that_does_not_come_up_has_fallen(skill):
+    never = skill.table.copy()
+    never[:, dr.parameter_slices()["rise"].start] = 20.0
+    stuck = type(skill)(skill.kind, skill.heights, never, skill.references, skill.stride, skill.run)
+    result = drop_attempt(1.2, 10.0, [DropRoll(stuck)])
+    assert result.ended == "fallen in the roll"

@@ -4,8 +4,8 @@ import numpy as np
 
 from locomotion import controller
 from locomotion import drop_roll as dr
+from locomotion.clearing_law import mirror
 from locomotion.drop_roll_skill import DropTables
-from locomotion.jump import mirror
 from locomotion.person import CONTROL_DT, JOINT_NAMES
 
 __all__ = ["wanted_pose"]

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from locomotion import controller, drop_roll
+from locomotion.clearing_law import MIRROR, MIRROR_SIGN
 from locomotion.clip import Clip, load_clip
 from locomotion.drop_roll import drop_roll_tick, start_drop_roll
-from locomotion.jump import MIRROR, MIRROR_SIGN
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill_family import SkillFamily, load_family
 

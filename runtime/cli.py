@@ -35,6 +35,7 @@ class Skill(StrEnum):
     walk = "walk"
     jump = "jump"
     vault = "vault"
+    drop_roll = "drop-roll"
 
 
 UpOption = Annotated[Up, typer.Option(help="Axis of the file that points up.")]

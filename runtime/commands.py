@@ -172,12 +172,16 @@ def train_skill(
     skill: str, output: Path | None, seed: int, workers: int, checkpoint: Path | None, effort: float
 ) -> None:
     """Learn ``skill`` and write it to ``output`` (None: where the package keeps its own)."""
+    from locomotion.training.drop_roll import train_drop_roll
     from locomotion.training.jump import train_jump
     from locomotion.training.run import train_run
     from locomotion.training.vault import train_vault
     from locomotion.training.walk import train_walk
 
-    train = {"run": train_run, "walk": train_walk, "jump": train_jump, "vault": train_vault}[skill]
+    train = {
+        "run": train_run, "walk": train_walk, "jump": train_jump, "vault": train_vault,
+        "drop-roll": train_drop_roll,
+    }[skill]  # fmt: skip
     where = {} if output is None else {"out": output}
     if output is not None:
         _writable(output)
@@ -188,11 +192,18 @@ def train_skill(
 
 def evaluate_skill(skill: str, trials: int, seed: int) -> Result:
     """Try ``skill``; holds when at least nine of ten trials do."""
-    from runtime.evaluation import evaluate_jump, evaluate_run, evaluate_vault, evaluate_walk
+    from runtime.evaluation import (
+        evaluate_drop_roll,
+        evaluate_jump,
+        evaluate_run,
+        evaluate_vault,
+        evaluate_walk,
+    )
 
     progress = _ready()
     evaluate = {
         "run": evaluate_run, "walk": evaluate_walk, "jump": evaluate_jump, "vault": evaluate_vault,
+        "drop-roll": evaluate_drop_roll,
     }[skill]  # fmt: skip
     attempts = evaluate(trials, seed, progress)
     held = sum(attempt.held for attempt in attempts)

@@ -9,9 +9,17 @@ import numpy as np
 from locomotion import MOVING, Ground, Human, LocomotionError, ObstacleAhead
 from locomotion.person import CONTROL_DT
 from runtime.clearing_trials import vault_attempt
+from runtime.drop_trials import drop_attempt
 from runtime.progress import Progress
 
-__all__ = ["Attempt", "evaluate_jump", "evaluate_run", "evaluate_vault", "evaluate_walk"]
+__all__ = [
+    "Attempt",
+    "evaluate_drop_roll",
+    "evaluate_jump",
+    "evaluate_run",
+    "evaluate_vault",
+    "evaluate_walk",
+]
 
 RUN_LENGTH = 60.0
 """[m] of each run."""
@@ -116,6 +124,24 @@ def evaluate_vault(trials: int, seed: int, progress: Progress) -> list[Attempt]:
             )
             what = f"{height:.2f} m from {result.distance:.1f} m"
             attempts.append(Attempt(what, status + ", touched the wall" * result.touched, result.vaulted))
+            stage.update((k + 1) / trials, f"{sum(each.held for each in attempts)} of {k + 1} held")
+    return attempts
+
+
+def evaluate_drop_roll(trials: int, seed: int, progress: Progress) -> list[Attempt]:
+    """Run-ups of 10 to 30 m to a ledge of a height that the skill was learned for, then 15 m below it."""
+    attempts = []
+    skills = [skill for skill in Human().clearing if skill.affordance == "drop"]
+    if not skills:
+        raise LocomotionError("there is no drop-roll for this run; learn one with: surefoot train drop-roll")
+    with progress.stage("rolling off drops") as stage:
+        for k in range(trials):
+            rng = np.random.default_rng([seed, k])
+            height = round(float(rng.uniform(*skills[0].heights)), 2)
+            result = drop_attempt(height, float(rng.uniform(NEAREST, FARTHEST)))
+            what = f"{height:.2f} m from {result.distance:.1f} m"
+            status = f"{result.ended}, {result.peak:.1f} body weights, head {result.head:.2f} s"
+            attempts.append(Attempt(what, status, result.ended == "arrived"))
             stage.update((k + 1) / trials, f"{sum(each.held for each in attempts)} of {k + 1} held")
     return attempts
 

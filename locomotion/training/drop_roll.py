@@ -30,6 +30,7 @@ _REFINEMENTS = 2  # stages in which half of the trials are those that went worst
 _PULL = 0.01
 _ROUNDS, _HARD = 2, 0.2  # trials per start state to find the hard ones; share of them that is hard
 _TRAINING, _VERSION = "drop-roll training", 1
+_EXIT = 2.3  # [m/s] at the roll's end, from which it comes up best
 _ANGLE = 5.6  # [rad] turned when the feet are down again
 _SPREAD = np.array([3.0, 0.5, 0.7, 0.08, 0.12, 0.08, 0.25, 2.0, 0.3, 2.0, 0.4, 0.12])  # of the sensors
 
@@ -73,6 +74,9 @@ def cost(o: DropOutcome) -> float:
         total += (0.0 if o.rolled else 2.0) + 0.05 * min(o.lurch, 60.0) + 0.6 * abs(o.speed - 1.0)
     return (
         total
+        + 0.6 * min(o.drift, 1.5)
+        + 0.25 * min(o.spin, 4.0)
+        + 0.5 * min(abs(o.exit - _EXIT), 1.5)
         + 0.03 * o.reaction
         + 0.15 * max(o.peak - 5.0, 0.0)
         + 0.5 * min(o.head, 16)

@@ -37,6 +37,7 @@ class DropOutcome:
     head touched the ground. aside: sideways distance at the end [m]. tilt: sum over the roll's ticks of the
     squares of the pelvis's tilt to the side and of its turn [rad^2]. lurch: sum over the ticks after the roll
     of the squared tilt of the chest. entry, exit: forward speed [m/s] at the touchdown and at the roll's end.
+    drift, spin: sideways speed [m/s] and turning rate about the vertical [rad/s] at the roll's end.
     speed: at the trial's end.
     """
 
@@ -53,6 +54,8 @@ class DropOutcome:
     lurch: float
     entry: float
     exit: float
+    drift: float
+    spin: float
     speed: float
 
 
@@ -184,6 +187,7 @@ class _Meter:
         self.s, self.line = simulator, line
         self.ticks = self.head = self.walked = 0
         self.peak = self.reaction = self.tilt = self.lurch = self.angle = self.entry = self.exit = 0.0
+        self.drift = self.spin = 0.0
 
     def tick(self, walks: bool) -> None:
         data, memory = self.s.data, self.s.memory
@@ -206,6 +210,7 @@ class _Meter:
             self.tilt += float(sensed[6] ** 2 + sensed[8] ** 2)
             self.angle = float(memory[dr.ANGLE])
             self.exit = float(sensed[1])
+            self.drift, self.spin = abs(float(sensed[10])), abs(float(sensed[9]))
 
     def outcome(self, ticks: int) -> DropOutcome:
         com, upright = self.s.state[c.COM], float(self.s.data.xmat[self.s.index.chest][8])
@@ -224,5 +229,7 @@ class _Meter:
             lurch=self.lurch,
             entry=self.entry,
             exit=self.exit,
+            drift=self.drift,
+            spin=self.spin,
             speed=float(self.s.state[c.COM_VELOCITY][0]),
         )

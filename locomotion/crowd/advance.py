@@ -10,6 +10,7 @@ from locomotion.crowd.avoidance import MOST_WALLS, body_plane, wall_planes
 from locomotion.crowd.moving import part, slide
 from locomotion.crowd.neighbours import MOST, find_neighbours
 from locomotion.crowd.program import choose_velocity
+from locomotion.crowd.queueing import direct, waiting_wish, waits_behind
 from locomotion.crowd.steering import follow
 from navmesh.field import floor_at
 
@@ -23,11 +24,13 @@ _ROUNDS = 4
 """Times that overlaps are taken away in a tick."""
 _TURN_RATE = 6.0
 """[rad/s] of the figure."""
-_ASIDE = 0.4
-"""[m/s] at which one that stands makes way."""
+_ASIDE, _EARLY = 0.5, 1.5
+"""[m/s] at which one that stands makes way, and [m] before it is touched by one that has the right of way."""
 _TOUCH = 0.1
 """[m] between two bodies that are in touch."""
-_PATIENCE_ALONE, _PATIENCE = 8.0, 90.0
+_COMPANY = 1.0
+"""[m] between two bodies that are near each other."""
+_PATIENCE_ALONE, _PATIENCE = 8.0, 300.0
 """[s] without headway after which a body is stuck: with nobody in touch, and among others."""
 _SIGHTLESS = 0.5
 """[s] without sight of its corner after which a body asks for another route."""
@@ -76,12 +79,15 @@ def _make_way(rows, i, neighbours, count):
     for k in range(count):
         other = rows[neighbours[k]]
         px, py = rows[i, at.X] - other[at.X], rows[i, at.Y] - other[at.Y]
-        near = rows[i, at.RADIUS] + other[at.RADIUS] + _TOUCH
-        if px * px + py * py > near * near:
-            break
+        wide = rows[i, at.RADIUS] + other[at.RADIUS] + _TOUCH
+        near = wide if other[at.WEIGHT] <= rows[i, at.WEIGHT] else wide + _EARLY
         gx, gy = other[at.GO_X], other[at.GO_Y]
         size = sqrt(gx * gx + gy * gy)
         if other[at.MODE] != at.WALKING or gx * px + gy * py <= 0.0 or size < _ASIDE:
+            continue
+        if px * px + py * py > near * near or abs(gx * py - gy * px) > wide * size:
+            continue
+        if rows[i, at.MODE] == at.WALKING and other[at.WEIGHT] <= rows[i, at.WEIGHT]:
             continue
         side = 1.0 if gx * py - gy * px >= 0.0 else -1.0
         wx -= side * _ASIDE * gy / size
@@ -90,17 +96,17 @@ def _make_way(rows, i, neighbours, count):
 
 
 @njit(cache=True)
-def _in_touch(rows, i, neighbours, count):
+def _in_company(rows, i, neighbours, count):
     if count == 0:
         return False
     other = rows[neighbours[0]]
     dx, dy = other[at.X] - rows[i, at.X], other[at.Y] - rows[i, at.Y]
-    near = rows[i, at.RADIUS] + other[at.RADIUS] + _TOUCH
+    near = rows[i, at.RADIUS] + other[at.RADIUS] + _COMPANY
     return dx * dx + dy * dy < near * near
 
 
 @njit(cache=True)
-def _wish(net, rows, routes, i, neighbours, count, dt):
+def _wish(net, rows, routes, crossings, i, neighbours, count, dt):
     """The velocity that a body wishes, and notes for its owner."""
     row = rows[i]
     if row[at.NOTE] != at.QUIET:
@@ -108,9 +114,17 @@ def _wish(net, rows, routes, i, neighbours, count, dt):
     if row[at.MODE] == at.STANDING:
         return _make_way(rows, i, neighbours, count)
     wx, wy = follow(net, row, routes, i, dt, count > 0)
+    if row[at.PASSAGE] == at.FAR and waits_behind(rows, crossings, i, neighbours, count):
+        row[at.PASSAGE] = at.WAITING
+    if row[at.PASSAGE] == at.WAITING or row[at.PASSAGE] == at.RETREATING:
+        row[at.WAITED] = row[at.ALONE] = row[at.BLIND] = 0.0
+        ax, ay = _make_way(rows, i, neighbours, count)
+        if ax * ax + ay * ay > 0.0:
+            return ax, ay
+        return waiting_wish(rows, crossings, i, neighbours, count)
     if row[at.NOTE] == at.QUIET and row[at.WAITED] > 0.5 and _settle(rows, i, neighbours, count):
         row[at.NOTE] = at.ARRIVED
-    if not _in_touch(rows, i, neighbours, count):
+    if not _in_company(rows, i, neighbours, count):
         row[at.ALONE] += dt
     if row[at.NOTE] == at.QUIET:
         if row[at.ALONE] > _PATIENCE_ALONE or row[at.WAITED] > _PATIENCE:
@@ -138,9 +152,11 @@ def _turn(row, dt):
 
 
 @njit(cache=True)
-def advance_all(net, rows, routes, dt):
-    """Advance all bodies of ``rows`` (n, ROW) by ``dt`` [s]."""
+def advance_all(net, rows, routes, crossings, gates, dt):
+    """Advance all bodies of ``rows`` (n, ROW) by ``dt`` [s]; ``gates``: how many there are."""
     n = rows.shape[0]
+    if gates > 0:
+        direct(rows, crossings, gates, dt)
     led = rows[:, at.MODE] == at.LED
     order, neighbours, counts = find_neighbours(
         rows[:, at.X].copy(), rows[:, at.Y].copy(), rows[:, at.Z].copy(), _reaches(rows), ~led
@@ -153,7 +169,7 @@ def advance_all(net, rows, routes, dt):
         row = rows[i]
         if led[i]:
             continue
-        wx, wy = _wish(net, rows, routes, i, neighbours[i], counts[i], dt)
+        wx, wy = _wish(net, rows, routes, crossings, i, neighbours[i], counts[i], dt)
         row[at.GO_X], row[at.GO_Y] = wx, wy
         radius, top = row[at.RADIUS], max(row[at.WISH], 0.5)
         walls = wall_planes(net, planes, int(row[at.CELL]), row[at.X], row[at.Y], radius, top)

@@ -17,6 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 import navmesh
 from locomotion.crowd import layout as at
 from locomotion.crowd.advance import advance_all
+from locomotion.crowd.gates import ABREAST, Gates, find_gates
+from locomotion.crowd.queueing import trace_gates
 from locomotion.crowd.walker import NoRoute, Walker, WalkerState
 from locomotion.errors import LocomotionError
 from locomotion.quadruped.pool import Pool
@@ -45,6 +47,9 @@ class Crowd:
         self._table = np.zeros((64, at.ROW))
         self._count = 0
         self.routes = Pool(at.POINT)
+        self._crossings = Pool(at.CROSSING)
+        self._gates: Gates | None = None
+        self._widest = 0.0
         self._net = net_of(graph)
         self._origin = graph.surface.origin
 
@@ -112,6 +117,7 @@ class Crowd:
         self._table = np.vstack([self._table, np.zeros(at.ROW)])
         self._count -= 1
         self.routes.remove(index)
+        self._crossings.remove(index)
         del self.walkers[index]
         for later in self.walkers[index:]:
             later.index -= 1
@@ -119,6 +125,7 @@ class Crowd:
     def _take_in(self) -> Walker:
         """Count the row that `_new_row` has given."""
         self._count += 1
+        self._heed(self._count - 1)
         self.walkers.append(Walker(self, self._count - 1))
         return self.walkers[-1]
 
@@ -167,7 +174,9 @@ class Crowd:
         legs = np.hypot(*np.diff(table[:, :2], axis=0).T)
         table[:-1, at.LEFT] = np.cumsum(legs[::-1])[::-1]
         self._keep_route(index, table)
-        row[at.NEXT], row[at.BLIND] = 1.0, 0.0
+        row[at.NEXT], row[at.BLIND], row[at.LEFT_NOW] = 1.0, 0.0, table[0, at.LEFT]
+        row[at.GATE_NEXT], row[at.PASSAGE], row[at.GATE_WAIT] = 0.0, at.FAR, 0.0
+        row[at.RIGHT_UNTIL] = math.inf
         row[at.BEST], row[at.WAITED], row[at.ALONE] = math.inf, 0.0, 0.0
         row[at.MODE], row[at.NOTE] = at.WALKING, at.QUIET
         row[at.GOAL_X : at.GOAL_Z + 1] = table[-1, :3]
@@ -188,6 +197,7 @@ class Crowd:
     def restore(self, index: int, row: NDArray[np.float64], route: NDArray[np.float64]) -> None:
         """Put back a row and a route."""
         self.rows[index] = row
+        self._heed(index)
         self._keep_route(index, route)
 
     def _keep_route(self, index: int, table: NDArray[np.float64]) -> None:
@@ -195,6 +205,32 @@ class Crowd:
             for other in range(len(self)):
                 self._table[other, at.ROUTE_START] = self.routes.region(other)[0]
         self.rows[index, [at.ROUTE_START, at.ROUTE_COUNT]] = self.routes.region(index)
+        if self._gates is not None:
+            self._trace_gates(index)
+
+    def _heed(self, index: int) -> None:
+        """Take notice of how wide a body is."""
+        if self.rows[index, at.RADIUS] > self._widest:
+            self._widest, self._gates = float(self.rows[index, at.RADIUS]), None
+
+    def _find_gates(self) -> Gates:
+        gates = self._gates = find_gates(self.graph.surface, self._net, ABREAST * self._widest)
+        for index in range(len(self)):
+            self._trace_gates(index)
+        return gates
+
+    def _trace_gates(self, index: int) -> None:
+        """Note which gates are on a body's route."""
+        assert self._gates is not None
+        table = self.routes.table(index)
+        crossings = np.zeros((0, at.CROSSING))
+        if len(table):
+            most = ABREAST * self.rows[index, at.RADIUS]
+            crossings = trace_gates(self._net, *self._gates, most, table)
+        if self._crossings.put(index, crossings):
+            for other in range(len(self)):
+                self._table[other, at.GATE_START] = self._crossings.region(other)[0]
+        self.rows[index, [at.GATE_START, at.GATE_COUNT]] = self._crossings.region(index)
 
     # --- time
     def tick(self) -> None:
@@ -203,14 +239,17 @@ class Crowd:
         if net is not self._net:
             self._take_graph(net)
         if self._count:
-            advance_all(self._net, self.rows, self.routes.rows, self.dt)
+            gates = self._gates or self._find_gates()
+            advance_all(
+                self._net, self.rows, self.routes.rows, self._crossings.rows, len(gates.width), self.dt
+            )
             for index in np.flatnonzero(self.rows[:, at.NOTE] != at.QUIET).tolist():
                 self.walkers[index].notice()
 
     def _take_graph(self, net: object) -> None:
         """Go on on a graph that has changed: everybody is put down anew and looks for its way again."""
         shift = self._origin - self.graph.surface.origin
-        self._net, self._origin = net, self.graph.surface.origin
+        self._net, self._origin, self._gates = net, self.graph.surface.origin, None
         for index, row in enumerate(self.rows):
             for first in (at.X, at.GOAL_X):
                 row[first : first + 3] += shift

@@ -1,7 +1,8 @@
 """Columns of the flat arrays that hold a crowd: what the kernels index, and nothing else.
 
 ``rows`` (n, ROW) float64 is one row per body; ``routes`` (points, POINT) float64 holds the corners of all
-routes, one route after the other. Coordinates are relative to the surface's origin, as in `navmesh.structs`.
+routes, one route after the other, and ``crossings`` (gates, CROSSING) float64 the gates on them. Coordinates
+are relative to the surface's origin, as in `navmesh.structs`.
 """
 
 __all__: list[str] = []
@@ -42,14 +43,33 @@ AGE = 24
 """Ticks since it was made."""
 GO_X, GO_Y = 25, 26
 """[m/s] velocity that it wished for in the last tick."""
-ROW = 27
+LEFT_NOW = 27
+"""[m] of the route that were left in the last tick."""
+GATE_START, GATE_COUNT, GATE_NEXT = 28, 29, 30
+"""Where the gates on its route lie in ``crossings``, and the next of them."""
+PASSAGE = 31
+"""How it stands with the next gate: one of `FAR`, `WAITING`, `PASSING`, `RETREATING`."""
+GATE_WAIT = 32
+"""[s] that it has waited since somebody was let in at its side of the gate."""
+RIGHT_UNTIL = 33
+"""[m] of the route that are left where its right of way ends."""
+ROW = 34
 
 STANDING, WALKING, LED = 0.0, 1.0, 2.0
 """What a body does. LED: others say where it is; it is only avoided."""
 QUIET, ARRIVED, STUCK, OFF_ROUTE = 0.0, 1.0, 2.0, 3.0
+FAR, WAITING, PASSING, RETREATING = 0.0, 1.0, 2.0, 3.0
 
 POINT_X, POINT_Y, POINT_Z, LEFT = 0, 1, 2, 3
 """[m] a corner of a route, and the length of the route from there on."""
 VIA = 4
 """1 for a corner that has to be visited, 0 for one that may be cut."""
 POINT = 5
+
+GATE, SIGN, LEFT_IN, LEFT_OUT = 0, 1, 2, 3
+"""A gate on a route: its number, -1 or 1 by the direction, and what is left of the route [m] where it begins
+and where it ends."""
+IN_X, IN_Y, INTO_X, INTO_Y = 4, 5, 6, 7
+"""[m] where the route enters it, and the unit vector along the passage there."""
+CROSSING = 8
+"""Columns of a gate on a route."""

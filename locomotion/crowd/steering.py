@@ -65,6 +65,7 @@ def follow(net, row, routes, number, dt, crowded):
     dx, dy = point[0] - row[at.X], point[1] - row[at.Y]
     far = sqrt(dx * dx + dy * dy)
     left = far + point[at.LEFT]
+    row[at.LEFT_NOW] = left
     if left < row[at.BEST] - HEADWAY:
         row[at.BEST], row[at.WAITED], row[at.ALONE] = left, 0.0, 0.0
     else:

@@ -171,7 +171,7 @@ class Walker:
     def state_hash(self) -> str:
         """Hex digest of everything that decides how it goes on."""
         row = self._row.copy()
-        row[at.ROUTE_START] = 0.0  # where its route lies in the pool is no part of it
+        row[at.ROUTE_START] = row[at.GATE_START] = 0.0  # where things lie in the pools is no part of it
         hasher = hashlib.sha256(row.tobytes())
         hasher.update(self.crowd.routes.table(self.index).tobytes())
         return f"{hasher.hexdigest()[:16]}{self.status}{self._replans}"

@@ -103,6 +103,10 @@ class Population(Protocol):
         ...
 
     def remove(self, driver: Driver) -> None: ...
+    def in_the_way(self) -> np.ndarray:
+        """Discs (k, 6) that cover them on the ground, as `locomotion.crowd.Crowd.lead` takes them."""
+        ...
+
     def remember(self) -> None:
         """Keep where all are, for `Driver.transforms_between`."""
         ...
@@ -137,6 +141,11 @@ class People:
 
     def remove(self, driver: Driver) -> None:
         self._drivers = [each for each in self._drivers if each is not driver]
+
+    def in_the_way(self) -> np.ndarray:
+        humans = [driver.human for driver in self._drivers]
+        rows = [[*each.position, *each.velocity[:2], PERSON_RULES["radius"]] for each in humans]
+        return np.array(rows).reshape(-1, 6)
 
     def remember(self) -> None:
         for driver in self._drivers:
@@ -268,6 +277,9 @@ class Pack:
         for later in self._drivers[index:]:
             later.animal.index -= 1
         self._before.forget()
+
+    def in_the_way(self) -> np.ndarray:
+        return self._herd.discs()
 
     def remember(self) -> None:
         self._before.poses = self._herd.poses.copy()

@@ -1,7 +1,7 @@
 """Walkers: cheap bodies of any radius that follow their routes and keep out of each other's way."""
 
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from locomotion.crowd import Crowd, NoRoute, Walker, WalkerState
 from locomotion.events import Event
 from navmesh.draping import drape
 from navmesh.route import Route
-from runtime.drivers import PLANS_KEPT, Driver, recall
+from runtime.drivers import PLANS_KEPT, Driver, Population, recall
 from runtime.errors import RuntimeInputError
 from runtime.figure import Figure, Shapes
 from runtime.planning import NoWay, Plan, why_not
@@ -45,12 +45,12 @@ def walker_figure(radius: float) -> Figure:
 
 
 class Walkers:
-    """All walkers of a world, in one crowd."""
+    """All walkers of a world, in one crowd. They avoid ``others``, who do not know of them."""
 
     bodies: tuple[str, ...] = ("walker",)
 
-    def __init__(self, graph: navmesh.NodeGraph) -> None:
-        self.crowd = Crowd(graph)
+    def __init__(self, graph: navmesh.NodeGraph, others: Sequence[Population]) -> None:
+        self.crowd, self._others = Crowd(graph), others
         self.before = np.zeros((0, 7))
 
     def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> Driver:
@@ -66,6 +66,10 @@ class Walkers:
         self.crowd.remove(driver.walker.index)
         self.forget()
 
+    def in_the_way(self) -> np.ndarray:
+        crowd = self.crowd
+        return np.column_stack([crowd.positions, crowd.velocities, crowd.radii])
+
     def remember(self) -> None:
         self.before = self.transforms()
 
@@ -80,7 +84,9 @@ class Walkers:
         return np.column_stack([self.crowd.positions, np.cos(half), zero, zero, np.sin(half)])
 
     def tick(self) -> None:
-        self.crowd.tick()
+        if len(self.crowd):
+            self.crowd.lead(np.concatenate([each.in_the_way() for each in self._others]))
+            self.crowd.tick()
 
 
 class WalkerDriver:

@@ -51,11 +51,8 @@ class World:
         self.random = np.random.default_rng(seed)
         level = self.graph.terrain
         ground = Ground.from_arrays(level.vertices, level.faces)
-        self._populations: tuple[Population, ...] = (
-            People(self.graph, ground),
-            Pack(self.graph, ground),
-            Walkers(self.graph),
-        )
+        others = People(self.graph, ground), Pack(self.graph, ground)
+        self._populations: tuple[Population, ...] = (*others, Walkers(self.graph, others))
         self._ticks = 0
         self._owed = 0.0
         self._stepping = False

@@ -16,7 +16,7 @@ from navmesh.field import floor_at
 
 __all__ = ["advance_all"]
 
-_HORIZON = 1.0
+_HORIZON = 0.6
 """[s] that a body looks ahead for others."""
 _FARTHEST = 3.5
 """[m] between the rims of two bodies that take notice of each other, at most."""
@@ -83,7 +83,7 @@ def _make_way(rows, i, neighbours, count):
         near = wide if other[at.WEIGHT] <= rows[i, at.WEIGHT] else wide + _EARLY
         gx, gy = other[at.GO_X], other[at.GO_Y]
         size = sqrt(gx * gx + gy * gy)
-        if other[at.MODE] != at.WALKING or gx * px + gy * py <= 0.0 or size < _ASIDE:
+        if other[at.MODE] == at.STANDING or gx * px + gy * py <= 0.0 or size < _ASIDE:
             continue
         if px * px + py * py > near * near or abs(gx * py - gy * px) > wide * size:
             continue

@@ -30,6 +30,7 @@ from navmesh.structs import net_of
 __all__ = ["Crowd"]
 
 _MOST_RADIUS = 10.0  # [m]
+_UNMOVED = 1e9  # weight of a body that others move
 
 
 class Crowd:
@@ -45,7 +46,7 @@ class Crowd:
         self.graph, self.dt = graph, dt
         self.walkers: list[Walker] = []
         self._table = np.zeros((64, at.ROW))
-        self._count = 0
+        self._count = self._led = 0
         self.routes = Pool(at.POINT)
         self._crossings = Pool(at.CROSSING)
         self._gates: Gates | None = None
@@ -70,6 +71,11 @@ class Crowd:
     def velocities(self) -> NDArray[np.float64]:
         """(n, 2) float64 [m/s]."""
         return self.rows[:, [at.VX, at.VY]]
+
+    @property
+    def radii(self) -> NDArray[np.float64]:
+        """(n,) float64 [m]."""
+        return self.rows[:, at.RADIUS]
 
     @property
     def yaws(self) -> NDArray[np.float64]:
@@ -116,6 +122,7 @@ class Crowd:
         self._table = np.delete(self._table, index, axis=0)
         self._table = np.vstack([self._table, np.zeros(at.ROW)])
         self._count -= 1
+        self._led = 0
         self.routes.remove(index)
         self._crossings.remove(index)
         del self.walkers[index]
@@ -132,9 +139,13 @@ class Crowd:
     def _new_row(self) -> NDArray[np.float64]:
         """A row of zeros behind the last one, not counted yet."""
         if self._count == len(self._table):
-            self._table = np.concatenate([self._table, np.zeros_like(self._table)])
+            self._double()
+        self._led = 0
         self._table[self._count] = 0.0
         return self._table[self._count]
+
+    def _double(self) -> None:
+        self._table = np.concatenate([self._table, np.zeros_like(self._table)])
 
     def _put_down(self, row: NDArray[np.float64]) -> bool:
         """Put a body on the place nearest to where it is at which it fits; False where there is none."""
@@ -232,6 +243,22 @@ class Crowd:
                 self._table[other, at.GATE_START] = self._crossings.region(other)[0]
         self.rows[index, [at.GATE_START, at.GATE_COUNT]] = self._crossings.region(index)
 
+    def lead(self, bodies: NDArray[np.float64]) -> None:
+        """Where the bodies are that others move and the crowd has to avoid, until the next call.
+
+        bodies: (k, 6) float64: x, y, z of the floor under each [m], its velocity in x and y [m/s], its
+        radius [m].
+        """
+        while len(self._table) < self._count + len(bodies):
+            self._double()
+        self._led = len(bodies)
+        rows = self._table[self._count : self._count + self._led]
+        rows[:] = 0.0
+        rows[:, at.X : at.Z + 1] = bodies[:, :3] - self._origin
+        rows[:, [at.VX, at.VY]] = rows[:, [at.GO_X, at.GO_Y]] = bodies[:, 3:5]
+        rows[:, at.RADIUS], rows[:, at.MODE] = bodies[:, 5], at.LED
+        rows[:, at.WEIGHT], rows[:, at.CELL] = _UNMOVED, -1.0
+
     # --- time
     def tick(self) -> None:
         """Advance all bodies by `dt`."""
@@ -241,8 +268,9 @@ class Crowd:
         if self._count:
             gates = self._gates or self._find_gates()
             advance_all(
-                self._net, self.rows, self.routes.rows, self._crossings.rows, len(gates.width), self.dt
-            )
+                self._net, self._table[: self._count + self._led], self.routes.rows,
+                self._crossings.rows, len(gates.width), self.dt,
+            )  # fmt: skip
             for index in np.flatnonzero(self.rows[:, at.NOTE] != at.QUIET).tolist():
                 self.walkers[index].notice()
 

@@ -100,6 +100,13 @@ def _joined(surface: Surface, throats: NDArray[np.int64]) -> coo_array:
     return coo_array((lengths, ends), shape=(len(throats), len(throats)))
 
 
+def _half_widths(surface: Surface, throats: NDArray[np.int64]) -> NDArray[np.float64]:
+    """(t,) [m]: the clearance of each throat or of the one across from it, whichever is nearer the middle."""
+    clearance = np.zeros(len(surface) + 1)
+    clearance[throats] = surface.clearance[throats]
+    return np.maximum(clearance[throats], clearance[surface.link[throats]].max(axis=1))
+
+
 def find_gates(surface: Surface, net: object, limit: float) -> Gates:
     """The gates narrower than ``limit`` [m] from the middle to the wall."""
     throats = _throats(surface, limit)
@@ -118,14 +125,13 @@ def find_gates(surface: Surface, net: object, limit: float) -> Gates:
     covered = of_cell >= 0
     of_cell[covered] = whole[of_cell[covered]]
     way = np.zeros(len(throats))
-    width = np.empty(count)
+    width, half = np.empty(count), _half_widths(surface, throats)
     across = surface.nearest[throats] / np.maximum(surface.clearance[throats], 1e-9)[:, None]
     axis, passage = np.zeros((len(surface), 2)), np.column_stack([-across[:, 1], across[:, 0]])
     for number in range(count):
         members = np.flatnonzero(gate == number)
-        clearance = surface.clearance[throats[members]]
-        width[number] = clearance.min()
-        against = passage[members] @ passage[members[np.argmin(clearance)]] < 0.0
+        width[number] = half[members].min()
+        against = passage[members] @ passage[members[np.argmin(half[members])]] < 0.0
         passage[members[against]] *= -1.0
     for number in range(part.max() + 1):  # how far along, from the farthest end
         members = np.flatnonzero(part == number)

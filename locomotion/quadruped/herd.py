@@ -332,6 +332,19 @@ class Herd:
         """(2,) [m]: the front feet's place under the shoulders."""
         return self.state[index, [at.FRONT_X, at.FRONT_Y]]
 
+    def discs(self) -> NDArray[np.float64]:
+        """(3 n, 6) discs that cover all animals on the ground, at the rear feet, the middle and the front
+        feet: x, y, z [m], velocity of the root in x and y [m/s], radius [m]."""
+        rows = np.zeros((len(self), 3, 6))
+        share = np.array([0.0, 0.5, 1.0])
+        rear, front = self.state[:, [at.X, at.Y]], self.state[:, [at.FRONT_X, at.FRONT_Y]]
+        rows[:, :, :2] = rear[:, None] + share[:, None] * (front - rear)[:, None]
+        rows[:, :, 2] = self.state[:, [at.HEIGHT]]
+        rows[:, :, 3:5] = self.state[:, None, at.RATE : at.RATE + 2]
+        quarter = [[max(body.radius, 0.25 * body.spine.length)] for body in self.bodies]
+        rows[:, :, 5] = np.array(quarter).reshape(-1, 1)
+        return rows.reshape(-1, 6)
+
     def toes(self, index: int) -> NDArray[np.float64]:
         """(4, 3) [m] in the order of `LEGS`."""
         return self.feet[index, :, : at.FZ + 1].copy()

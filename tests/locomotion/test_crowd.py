@@ -6,9 +6,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import navmesh
+from benchmarks.crowd import door_figures
 from locomotion import LocomotionError
 from locomotion.crowd import Crowd, NoRoute
+from locomotion.crowd.gates import find_gates
 from locomotion.events import Arrived, GotStuck, SetOff
+from navmesh.structs import net_of
 
 
 def level_of(*plates: tuple[float, float, float, float, float]) -> navmesh.Terrain:
@@ -201,3 +204,42 @@ def test_wrong_input_is_refused(hall):
     with pytest.raises(LocomotionError, match="speed"):
         walker.go_to([(3.0, 5.0, 0.0)], speed=-1.0)
     assert walker.status == "standing" and not walker.events
+
+
+def test_gates_are_the_narrow_passages(corner):
+    crowd = Crowd(corner)
+    crowd.add((2.0, 2.0, 0.0), radius=0.3)
+    gates = find_gates(corner.surface, net_of(corner), 3.25 * 0.3)
+    assert len(gates.width) == 1 and gates.width[0] == pytest.approx(0.5, abs=0.01)
+    centres = corner.surface.centers(np.flatnonzero(gates.of_cell >= 0))
+    assert 5.0 < centres[:, 0].min() < 6.5 and 11.5 < centres[:, 0].max() < 13.0
+    inside = (centres[:, 0] > 7.0) & (centres[:, 0] < 11.0)
+    assert np.abs(gates.axis[gates.of_cell >= 0][inside, 0]) == pytest.approx(1.0)
+    walls = find_gates(corner.surface, net_of(corner), 0.3)
+    assert len(walls.width) == 0
+
+
+def test_two_groups_take_turns_in_a_corridor(corner):
+    crowd = Crowd(corner, dt=1 / 30)
+    rows = [(x, 1.0 + 0.8 * k) for x in (1.0, 2.0, 3.0) for k in range(5)]
+    for x, y in rows:
+        crowd.add((x, y, 0.0)).go_to([(18.0 - x, y, 0.0)])
+        crowd.add((18.0 - x, y, 0.0)).go_to([(x, y, 0.0)])
+    assert run(crowd, 240.0) < 0.1
+    assert [walker.status for walker in crowd.walkers] == ["arrived"] * 30
+
+
+def test_two_who_meet_inside_a_corridor_give_way(corner):
+    crowd = Crowd(corner)
+    one, two = crowd.add((7.5, 2.5, 0.0)), crowd.add((10.0, 2.5, 0.0))
+    one.go_to([(15.0, 3.0, 0.0)])
+    two.go_to([(3.0, 3.0, 0.0)])
+    assert run(crowd, 60.0) < 0.1
+    assert one.status == two.status == "arrived"
+
+
+def test_a_crowd_changes_halls_through_a_door():
+    figures = door_figures(0.3, 40, np.random.default_rng(3), longest=120.0)
+    assert figures["through"] == figures["arrived"] == 40
+    assert figures["deepest_overlap"] < 0.1
+    assert figures["least_clearance"] > 0.99 * 0.3

@@ -104,3 +104,20 @@ def test_a_mission_with_a_walker_runs(folder):
     assert result.held, result.checks
     result.trace.write(folder / "trace.npz")
     assert Trace.read(folder / "trace.npz").state_hash == result.trace.state_hash
+
+
+@pytest.mark.parametrize(("body", "speed"), [("dog", 1.5), ("human", 1.2)])
+def test_walkers_keep_out_of_the_way_of_dogs_and_people(graph, body, speed):
+    world = World(graph)
+    other = world.spawn(body, (2.0, 3.0, 0.0))
+    other.go_to((10.0, 3.0, 0.0), speed=speed)
+    walkers = [world.spawn("walker", (4.0 + 2.0 * k, 3.0, 0.0), radius=0.25) for k in range(3)]
+    walkers[0].go_to((2.0, 3.0, 0.0), speed=1.2)
+    nearest = np.inf
+    while other.moving and world.time < 15.0:
+        world.step(0.01)
+        away = [np.hypot(*(walker.position - other.position)[:2]) for walker in walkers]
+        nearest = min(nearest, *away)
+    assert walkers[0].status == "arrived"
+    assert nearest > 0.25 + 0.12
+    assert other.status == "arrived"

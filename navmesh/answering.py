@@ -17,7 +17,7 @@ _WHOLE = 1 << 60
 _START_CELL, _GOAL_CELL = 8, 9  # places in scratch.numbers
 
 
-@njit(cache=True, nogil=True)
+@njit(error_model="numpy", cache=True, nogil=True)
 def start_search(net, doors, scratch, sx, sy, sz, gx, gy, gz, reach, rise):
     """Snap the ends and begin the search; False when one of them is off the graph."""
     start_node, start_cell, ax, ay = snap(net, sx, sy, sz, doors.radius, reach, rise)
@@ -34,7 +34,7 @@ def start_search(net, doors, scratch, sx, sy, sz, gx, gy, gz, reach, rise):
     return True
 
 
-@njit(cache=True, nogil=True)
+@njit(error_model="numpy", cache=True, nogil=True)
 def _last_place(net, doors, scratch, node):
     """Where a route that does not reach the goal ends: the place in its last node nearest to it; (x, y,
     cell)."""
@@ -48,11 +48,11 @@ def _last_place(net, doors, scratch, node):
     away = sqrt((gx - x) ** 2 + (gy - y) ** 2)
     share = min(shrunk / away, 1.0) if away > 0.0 else 0.0
     px, py = x + share * (gx - x), y + share * (gy - y)
-    reached, end, _, _, _, _ = walk(net, cell, x, y, px, py, doors.radius, False)
+    reached, end = walk(net, cell, x, y, px, py, doors.radius, False)[:2]
     return (px, py, end) if reached else (x, y, cell)
 
 
-@njit(cache=True, nogil=True)
+@njit(error_model="numpy", cache=True, nogil=True)
 def _finish(net, doors, scratch, leaps):
     """Turn the search's state into corners in ``scratch.points``.
 
@@ -69,12 +69,13 @@ def _finish(net, doors, scratch, leaps):
     used = 0
     first = 1
     doors_count = doors.target.size
+    edges = scratch.edges
     for i in range(1, count):
-        leap = scratch.edges[i] - doors_count
+        leap = edges[i] - doors_count
         if leap < 0:
             continue
-        x, y = doors.leap_from[leap, 0], doors.leap_from[leap, 1]
-        corners, reached = pull(net, doors, scratch, first, i, corners, x, y, doors.leap_from_cell[leap])
+        x, y, cell = doors.leap_from[leap, 0], doors.leap_from[leap, 1], np.int64(doors.leap_from_cell[leap])
+        corners, reached = pull(net, doors, scratch, first, i, corners, x, y, cell)
         if not reached:
             return _PARTIAL, i, corners, used
         leaps[used, 0] = doors.leap_id[leap]
@@ -97,16 +98,19 @@ def _finish(net, doors, scratch, leaps):
     return (_COMPLETE if done and reached else _PARTIAL), count, corners, used
 
 
-@njit(cache=True, nogil=True)
+@njit(error_model="numpy", cache=True, nogil=True)
 def _length(scratch, corners):
+    points = scratch.points
     total = 0.0
     for i in range(1, corners):
-        a, b = scratch.points[i - 1], scratch.points[i]
-        total += sqrt((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2 + (a[2] - b[2]) ** 2)
+        dx = points[i, 0] - points[i - 1, 0]
+        dy = points[i, 1] - points[i - 1, 1]
+        dz = points[i, 2] - points[i - 1, 2]
+        total += sqrt(dx * dx + dy * dy + dz * dz)
     return total
 
 
-@njit(cache=True, nogil=True)
+@njit(error_model="numpy", cache=True, nogil=True)
 def answer_search(net, doors, scratch, origin):
     """The route of a search: (status, length, expanded, nodes, waypoints in world coordinates, leaps)."""
     leaps = np.empty((net.node_radius.size if doors.leap_id.size else 0, 2), np.int32)
@@ -121,7 +125,7 @@ def answer_search(net, doors, scratch, origin):
     )
 
 
-@njit(cache=True, nogil=True)
+@njit(error_model="numpy", cache=True, nogil=True)
 def answer(net, doors, scratch, origin, sx, sy, sz, gx, gy, gz, reach, rise):
     """A whole query; `answer_search`'s tuple."""
     ox, oy, oz = origin[0], origin[1], origin[2]
@@ -133,7 +137,7 @@ def answer(net, doors, scratch, origin, sx, sy, sz, gx, gy, gz, reach, rise):
     return answer_search(net, doors, scratch, origin)
 
 
-@njit(cache=True, nogil=True)
+@njit(error_model="numpy", cache=True, nogil=True)
 def answer_all(net, doors, scratch, origin, starts, goals, reach, rise):
     """Queries one after another; the arrays of `Routes`, with leaps (l, 2) and starts beginning at 0."""
     count = starts.shape[0]
@@ -166,16 +170,20 @@ def answer_all(net, doors, scratch, origin, starts, goals, reach, rise):
             more = np.empty((2 * waypoints.shape[0] + corners, 3))
             more[:at] = waypoints[:at]
             waypoints = more
+        points = scratch.points
         for j in range(corners):
-            for axis in range(3):
-                waypoints[at + j, axis] = scratch.points[j, axis] + origin[axis]
+            waypoints[at + j, 0] = points[j, 0] + ox
+            waypoints[at + j, 1] = points[j, 1] + oy
+            waypoints[at + j, 2] = points[j, 2] + oz
         waypoint_start[i + 1] = at + corners
         at = node_start[i]
         if at + n > nodes.size:
             more_nodes = np.empty(2 * nodes.size + n, np.int32)
             more_nodes[:at] = nodes[:at]
             nodes = more_nodes
-        nodes[at : at + n] = scratch.nodes[:n]
+        chosen = scratch.nodes
+        for j in range(n):
+            nodes[at + j] = chosen[j]
         node_start[i + 1] = at + n
         at = leap_start[i]
         if at + used > leaps.shape[0]:

@@ -92,7 +92,7 @@ def _own_disc(net, k, x, y, radius, path, along, s, segment, px, py):
     away = 0.05
     while away < 4.0:
         cx, cy = x + away * ux, y + away * uy
-        reached, cell, _, _, _, _ = walk(net, k, x, y, cx, cy, radius, False)
+        reached, cell = walk(net, k, x, y, cx, cy, radius, False)[:2]
         if not reached:
             break
         size = gap_at(net, cell, cx, cy)[0] - radius

@@ -16,7 +16,7 @@ _TIGHT = 25.0
 way."""
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def _sift_up(keys, items, i):
     key, item = keys[i], items[i]
     while i > 0:
@@ -28,7 +28,7 @@ def _sift_up(keys, items, i):
     keys[i], items[i] = key, item
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def _take_first(keys, items, size):
     """Remove the first of ``size`` entries, which leaves ``size - 1``."""
     key, item = keys[size - 1], items[size - 1]
@@ -49,7 +49,7 @@ def _take_first(keys, items, size):
     keys[i], items[i] = key, item
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def detour(net, scratch, start, goal, radius):
     """Cells (k,) int32 from cell ``start`` to cell ``goal`` over links, shortest for a body of ``radius``;
     empty if none.
@@ -98,12 +98,8 @@ def detour(net, scratch, start, goal, radius):
                 best[other] = cost
                 parent[other] = k
                 if size == keys.size:
-                    more_keys = np.empty(2 * size, np.float64)
-                    more_keys[:size] = keys
-                    keys = more_keys
-                    more_items = np.empty(2 * size, np.int32)
-                    more_items[:size] = items
-                    items = more_items
+                    keys = np.concatenate((keys, np.empty_like(keys)))
+                    items = np.concatenate((items, np.empty_like(items)))
                 dx = net.cell_column[other] // net.ny - goal_x
                 dy = net.cell_column[other] % net.ny - goal_y
                 keys[size], items[size] = cost + h * sqrt(dx * dx + dy * dy), other

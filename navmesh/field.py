@@ -11,57 +11,52 @@ from math import sqrt
 
 from numba import njit
 
-__all__ = ["cell_at", "centre_of", "floor_at", "gap_at", "same_place", "stretch_gap", "walk"]
-
-_OPEN = 2.0
-"""[cells] of clearance beyond the radius and the cell's corners from which a walk takes it in one step."""
+__all__ = ["cell_at", "centre_of", "floor_at", "gap_at", "same_place", "walk"]
 
 
-@njit(cache=True, inline="always")
-def _point_gap(vx, vy, ax, ay, bx, by):
-    """Least distance from the stretch a-b to the point v, and where on the stretch (0 to 1) it is."""
-    dx = bx - ax
-    dy = by - ay
-    length = dx * dx + dy * dy
-    s = 0.0
-    if length > 0.0:
-        s = ((vx - ax) * dx + (vy - ay) * dy) / length
-        s = 0.0 if s < 0.0 else (1.0 if s > 1.0 else s)
-    ex = ax + s * dx - vx
-    ey = ay + s * dy - vy
-    return sqrt(ex * ex + ey * ey), s
+@njit(error_model="numpy", cache=True, inline="always")
+def _point_gap(vx, vy, ax, ay, ux, uy, low, high):
+    """Least squared distance from the point v to the line from a along the unit vector u, between ``low`` and
+    ``high`` [m] from a, and where on it that is."""
+    s = (vx - ax) * ux + (vy - ay) * uy
+    s = low if s < low else (high if s > high else s)
+    ex = ax + s * ux - vx
+    ey = ay + s * uy - vy
+    return ex * ex + ey * ey, s
 
 
-@njit(cache=True, inline="always")
-def stretch_gap(net, k, ax, ay, bx, by):
-    """Least distance to where walking ends along a-b, a stretch inside cell ``k`` (relative to its centre).
+@njit(error_model="numpy", cache=True, inline="always")
+def _stretch_gap(net, k, cx, cy, ax, ay, ux, uy, low, high):
+    """Least distance to where walking ends from the stretch of a line (`_point_gap`) inside cell ``k`` with
+    its centre at c.
 
-    Returns (gap, where on the stretch, the place where walking ends, relative to the cell's centre: x, y).
+    Returns (squared gap, where on the line, the place where walking ends: x, y).
     """
     h = net.cell
-    qx = net.nearest[k, 0]
-    qy = net.nearest[k, 1]
-    gap, where = _point_gap(qx, qy, ax, ay, bx, by)
-    mx = ax + bx
-    my = ay + by
-    side = net.link[k, 0 if mx > 0.0 else 2]
+    qx = cx + net.nearest[k, 0]
+    qy = cy + net.nearest[k, 1]
+    gap, where = _point_gap(qx, qy, ax, ay, ux, uy, low, high)
+    middle = 0.5 * (low + high)
+    right = ax + middle * ux > cx
+    up = ay + middle * uy > cy
+    side = net.link[k, 0 if right else 2]
     if side >= 0:
-        vx = net.nearest[side, 0] + (h if mx > 0.0 else -h)
-        vy = net.nearest[side, 1]
-        other, s = _point_gap(vx, vy, ax, ay, bx, by)
+        vx = cx + net.nearest[side, 0] + (h if right else -h)
+        vy = cy + net.nearest[side, 1]
+        other, s = _point_gap(vx, vy, ax, ay, ux, uy, low, high)
         if other < gap:
             gap, where, qx, qy = other, s, vx, vy
-    side = net.link[k, 1 if my > 0.0 else 3]
+    side = net.link[k, 1 if up else 3]
     if side >= 0:
-        vx = net.nearest[side, 0]
-        vy = net.nearest[side, 1] + (h if my > 0.0 else -h)
-        other, s = _point_gap(vx, vy, ax, ay, bx, by)
+        vx = cx + net.nearest[side, 0]
+        vy = cy + net.nearest[side, 1] + (h if up else -h)
+        other, s = _point_gap(vx, vy, ax, ay, ux, uy, low, high)
         if other < gap:
             gap, where, qx, qy = other, s, vx, vy
     return gap, where, qx, qy
 
 
-@njit(cache=True, inline="always")
+@njit(error_model="numpy", cache=True, inline="always")
 def centre_of(net, k):
     """x and y of the centre of cell ``k``."""
     column = net.cell_column[k]
@@ -69,16 +64,16 @@ def centre_of(net, k):
     return (ix + 0.5) * net.cell, (column - ix * net.ny + 0.5) * net.cell
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def gap_at(net, k, x, y):
     """Distance [m] from (x, y), a point in cell ``k``, to the nearest place where walking ends, and that
     place."""
     cx, cy = centre_of(net, k)
-    gap, _, qx, qy = stretch_gap(net, k, x - cx, y - cy, x - cx, y - cy)
-    return gap, cx + qx, cy + qy
+    square, _, qx, qy = _stretch_gap(net, k, cx, cy, x, y, 0.0, 0.0, 0.0, 0.0)
+    return sqrt(square), qx, qy
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def cell_at(net, x, y, z):
     """The cell of the column under (x, y) whose floor is nearest to height ``z``, or -1."""
     ix = int(x // net.cell)
@@ -96,7 +91,7 @@ def cell_at(net, x, y, z):
     return best
 
 
-@njit(cache=True, inline="always")
+@njit(error_model="numpy", cache=True, inline="always")
 def same_place(net, k, other):
     """Whether a point that lies in cell ``k`` by one reckoning and in ``other`` by another is one place: on
     the border between squares, or on a corner of four, rounding decides, but they are linked."""
@@ -113,24 +108,38 @@ def same_place(net, k, other):
     return False
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def floor_at(net, k, x, y):
     """Height [m] of the floor at (x, y) in cell ``k``: the plane through its centre."""
     cx, cy = centre_of(net, k)
     return net.height[k] + net.gradient[k, 0] * (x - cx) + net.gradient[k, 1] * (y - cy)
 
 
-@njit(cache=True, inline="always")
-def _only_cell(net, x, y):
-    """The cell under (x, y) and its place in the grid where there is one storey only, else -1."""
-    ix = int(x / net.cell)
-    iy = int(y / net.cell)
-    column = ix * net.ny + iy
-    first = net.column_start[column]
-    return (first if net.column_start[column + 1] == first + 1 else -1), ix, iy
+@njit(error_model="numpy", cache=True, inline="always")
+def _leaves(cx, cy, room, ax, ay, ux, uy, s):
+    """How far [m] from a the line along the unit vector u leaves the disc of radius ``room`` about c; -1
+    where it is not in it at ``s``."""
+    dx = ax + s * ux - cx
+    dy = ay + s * uy - cy
+    along = dx * ux + dy * uy
+    spare = room * room - dx * dx - dy * dy
+    return s - along + sqrt(along * along + spare) if spare >= 0.0 and room > 0.0 else -1.0
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True, inline="always")
+def _landing(column_start, label, column, node):
+    """The cell of the column that a line inside a disc about a cell of ``node`` comes to, or -1 where that is
+    not clear: the only one, or the one that the node owns, which is the only one on the disc's floor."""
+    first, last = column_start[column], column_start[column + 1]
+    landing = first if last == first + 1 else -1
+    if landing < 0 and node >= 0:
+        for other in range(first, last):
+            if label[other] == node:
+                landing = other
+    return landing
+
+
+@njit(error_model="numpy", cache=True)
 def walk(net, k, ax, ay, bx, by, radius, through):
     """Walk the straight line from a, a point in cell ``k``, to b over linked cells.
 
@@ -138,92 +147,84 @@ def walk(net, k, ax, ay, bx, by, radius, through):
     does not fit, to find the tightest place, and ends only where no link leads on (gap -1).
 
     Returns (reached, cell where it ended, least gap [m], its place on the line (0 to 1), the place where
-    walking ends there: x, y). Gaps are measured only where a cell's clearance is close to the radius; where
-    none was measured the least gap is 1e300.
+    walking ends there: x, y, the cell in which it is tightest). Gaps are measured only where
+    no disc proves that the body fits; where none was measured the least gap is 1e300.
     """
-    h = net.cell
+    h, ny = net.cell, net.ny
+    link, clearance, label = net.link, net.clearance, net.label
+    position, node_radius, column_start = net.position, net.node_radius, net.column_start
     dx = bx - ax
     dy = by - ay
-    column = net.cell_column[k]
-    ix = column // net.ny
-    iy = column - ix * net.ny
-    step_x = 1e300
-    step_y = 1e300
-    next_x = 1e300
-    next_y = 1e300
-    way_x = 2
-    way_y = 3
-    if dx > 0.0:
-        step_x = h / dx
-        next_x = ((ix + 1) * h - ax) / dx
-        way_x = 0
-    elif dx < 0.0:
-        step_x = -h / dx
-        next_x = (ix * h - ax) / dx
-    if dy > 0.0:
-        step_y = h / dy
-        next_y = ((iy + 1) * h - ay) / dy
-        way_y = 1
-    elif dy < 0.0:
-        step_y = -h / dy
-        next_y = (iy * h - ay) / dy
     length = sqrt(dx * dx + dy * dy)
-    inverse = 1.0 / length if length > 0.0 else 0.0
-    free = radius + 0.7072 * h
-    open_ = free + _OPEN * h
+    per_length = 1.0 / length if length > 0.0 else 0.0
+    ux = dx * per_length
+    uy = dy * per_length
+    column = net.cell_column[k]
+    ix = column // ny
+    iy = column - ix * ny
+    # the line crosses into the next square on a side at (ix + side) * h
+    way_x, side_x, turn_x = (0, 1, 1) if dx > 0.0 else (2, 0, -1)
+    way_y, side_y, turn_y = (1, 1, 1) if dy > 0.0 else (3, 0, -1)
+    per_x = 1.0 / ux if ux != 0.0 else 0.0
+    per_y = 1.0 / uy if uy != 0.0 else 0.0
+    next_x = ((ix + side_x) * h - ax) * per_x if ux != 0.0 else 1e300
+    next_y = ((iy + side_y) * h - ay) * per_y if uy != 0.0 else 1e300
+    step_x = h * abs(per_x)
+    step_y = h * abs(per_y)
+    margin = max(radius, 0.7072 * h)  # so much inside a disc, the middle of the square is inside it too
     least = 1e300
-    place = 0.0
-    qx = 0.0
-    qy = 0.0
-    t = 0.0
+    place = qx = qy = 0.0
+    tight = k
+    s = 0.0  # [m] walked
+    free = -1.0  # [m]: as far as a disc on the way proves that the body fits
     while True:
-        leave = min(next_x, next_y, 1.0)
-        clearance = net.clearance[k]
-        if clearance < free:
+        leave = min(next_x, next_y, length)
+        if free < leave:
+            room = clearance[k] - margin
             cx = (ix + 0.5) * h
             cy = (iy + 0.5) * h
-            ux, uy = ax + t * dx - cx, ay + t * dy - cy
-            vx, vy = ax + leave * dx - cx, ay + leave * dy - cy
-            spare = clearance - radius
-            if spare < 0.0 or max(ux * ux + uy * uy, vx * vx + vy * vy) > spare * spare:
-                gap, s, px, py = stretch_gap(net, k, ux, uy, vx, vy)
-                if gap < least:
-                    least = gap
-                    place = t + s * (leave - t)
-                    qx = cx + px
-                    qy = cy + py
-                    if gap < radius and not through:
-                        return False, k, least, place, qx, qy
-        if leave >= 1.0:
-            return True, k, least, place, qx, qy
-        if clearance > open_:
-            # nothing ends walking within the clearance: on to the end of what is free of it
-            ahead = min(t + (clearance - free) * inverse, 1.0)
-            cell, jx, jy = _only_cell(net, ax + ahead * dx, ay + ahead * dy)
-            if cell >= 0:
-                k, ix, iy = cell, jx, jy
-                if ahead >= 1.0:
-                    return True, k, least, place, qx, qy
-                t = ahead
-                if way_x == 0:
-                    next_x = ((ix + 1) * h - ax) / dx
-                elif dx < 0.0:
-                    next_x = (ix * h - ax) / dx
-                if way_y == 1:
-                    next_y = ((iy + 1) * h - ay) / dy
-                elif dy < 0.0:
-                    next_y = (iy * h - ay) / dy
-                continue
+            free = _leaves(cx, cy, room, ax, ay, ux, uy, s)
+            node = label[k]
+            if node >= 0:
+                room = node_radius[node] - margin
+                free = max(free, _leaves(position[node, 0], position[node, 1], room, ax, ay, ux, uy, s))
+            if free < leave:
+                if radius > 0.0:
+                    square, where, px, py = _stretch_gap(net, k, cx, cy, ax, ay, ux, uy, s, leave)
+                    if square < least * least:
+                        least, place, qx, qy, tight = sqrt(square), where, px, py, k
+                        if least < radius and not through:
+                            return False, k, least, place * per_length, qx, qy, tight
+            elif free > leave + h and leave < length:
+                ahead = min(free, length)
+                jx, jy = int((ax + ahead * ux) / h), int((ay + ahead * uy) / h)
+                landing = _landing(column_start, label, jx * ny + jy, node)
+                if landing < 0 and 0.5 * (s + ahead) > leave + h:
+                    ahead = 0.5 * (s + ahead)
+                    jx, jy = int((ax + ahead * ux) / h), int((ay + ahead * uy) / h)
+                    landing = _landing(column_start, label, jx * ny + jy, node)
+                if landing >= 0:
+                    k, ix, iy, s = landing, jx, jy, ahead
+                    if ahead == length:
+                        return True, k, least, place * per_length, qx, qy, tight
+                    if ux != 0.0:
+                        next_x = ((ix + side_x) * h - ax) * per_x
+                    if uy != 0.0:
+                        next_y = ((iy + side_y) * h - ay) * per_y
+                    free = -1.0
+                    continue
+        if leave >= length:
+            return True, k, least, place * per_length, qx, qy, tight
         if next_x < next_y:
-            t = next_x
+            s = next_x
             next_x += step_x
-            following = net.link[k, way_x]
-            ix += 1 - way_x
+            following = link[k, way_x]
+            ix += turn_x
         else:
-            t = next_y
+            s = next_y
             next_y += step_y
-            following = net.link[k, way_y]
-            iy += 2 - way_y
+            following = link[k, way_y]
+            iy += turn_y
         if following < 0:
-            return False, k, -1.0, t, ax + t * dx, ay + t * dy
+            return False, k, -1.0, s * per_length, ax + s * ux, ay + s * uy, tight
         k = following

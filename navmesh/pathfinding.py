@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 __all__ = ["PathSearch", "find_path", "find_paths"]
 
+_STATUSES = np.array(STATUSES)
+
 
 def _scratch_for(graph: "NodeGraph") -> Any:
     """Memory for one search, taken from the graph's stock; give it back with
@@ -38,8 +40,7 @@ def _limits(graph: "NodeGraph", radius: float) -> tuple[float, float]:
 
 def _point(name: str, value: Any) -> tuple[float, float, float]:
     try:
-        x, y, z = value
-        x, y, z = float(x), float(y), float(z)
+        x, y, z = map(float, value.tolist() if type(value) is np.ndarray else value)
     except (TypeError, ValueError):
         raise NavmeshError(f"{name}: expected three numbers x, y, z [m], not {value!r}") from None
     if not isfinite(x + y + z):
@@ -73,9 +74,10 @@ def _points(name: str, values: Any) -> np.ndarray:
     points = np.ascontiguousarray(values, dtype=np.float64)
     if points.ndim != 2 or points.shape[1] != 3:
         raise NavmeshError(f"{name}: expected shape (q, 3), not {points.shape}")
-    bad = np.flatnonzero(~np.isfinite(points).all(axis=1))
-    if len(bad):
-        raise NavmeshError(f"{name}[{bad[0]}]: expected finite coordinates [m], not {points[bad[0]]}")
+    finite = np.isfinite(points)
+    if not finite.all():
+        bad = np.flatnonzero(~finite.all(axis=1))[0]
+        raise NavmeshError(f"{name}[{bad}]: expected finite coordinates [m], not {points[bad]}")
     return points
 
 
@@ -98,11 +100,9 @@ def find_paths(
     doors = doors_of(graph, radius, skills, node_costs)
     net = net_of(graph)
     reach, rise = _limits(graph, radius)
-    bounds = np.linspace(0, len(first), min(workers, max(len(first), 1)) + 1).astype(int)
 
-    def run(part: int) -> tuple:
+    def run(low: int, high: int) -> tuple:
         scratch = _scratch_for(graph)
-        low, high = bounds[part], bounds[part + 1]
         try:
             return answer_all(
                 net, doors, scratch, graph.surface.origin, first[low:high], second[low:high], reach, rise
@@ -110,30 +110,36 @@ def find_paths(
         finally:
             graph.cache["scratch"].append(scratch)
 
-    if len(bounds) == 2:
-        parts = [run(0)]
+    workers = min(workers, len(first))
+    if workers <= 1:
+        arrays = run(0, len(first))
     else:
-        with ThreadPoolExecutor(len(bounds) - 1) as pool:
-            parts = list(pool.map(run, range(len(bounds) - 1)))
+        bounds = [len(first) * part // workers for part in range(workers + 1)]
+        with ThreadPoolExecutor(workers) as pool:
+            arrays = _joined(list(pool.map(run, bounds[:-1], bounds[1:])))
+    status, length, expanded, waypoints, waypoint_start, nodes, node_start, leaps, leap_start = arrays
     return Routes(
-        status=np.array(STATUSES)[np.concatenate([part[0] for part in parts])],
-        length=np.concatenate([part[1] for part in parts]),
+        status=_STATUSES[status],
+        length=length,
         radius=radius,
-        expanded=np.concatenate([part[2] for part in parts]),
-        waypoints=np.concatenate([part[3] for part in parts]),
-        waypoint_start=_joined([part[4] for part in parts]),
-        nodes=np.concatenate([part[5] for part in parts]),
-        node_start=_joined([part[6] for part in parts]),
-        leaps=np.concatenate([part[7] for part in parts]),
-        leap_start=_joined([part[8] for part in parts]),
+        expanded=expanded,
+        waypoints=waypoints,
+        waypoint_start=waypoint_start,
+        nodes=nodes,
+        node_start=node_start,
+        leaps=leaps,
+        leap_start=leap_start,
         graph=graph,
     )
 
 
-def _joined(starts: list[np.ndarray]) -> np.ndarray:
-    """One array of group starts from those of consecutive parts."""
-    sizes = np.concatenate([np.diff(part) for part in starts])
-    return np.concatenate([[0], np.cumsum(sizes)])
+def _joined(parts: list[tuple]) -> list[np.ndarray]:
+    """The arrays of `answer_all` for all queries from those for consecutive parts of them."""
+    arrays = [np.concatenate(column) for column in zip(*parts, strict=True)]
+    for at in (4, 6, 8):  # starts of groups: each part's begin at 0
+        sizes = [np.diff(part[at]) for part in parts]
+        arrays[at] = np.concatenate([[0], np.cumsum(np.concatenate(sizes))])
+    return arrays
 
 
 class PathSearch:

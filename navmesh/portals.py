@@ -26,7 +26,7 @@ _BESIDE = 1.1
 def _side(net, k, mx, my, ux, uy, reach, radius):
     """How far a body of ``radius`` gets from m, in cell ``k``, along the unit vector u, at most ``reach``
     [m]."""
-    reached, cell, _, place, _, _ = walk(net, k, mx, my, mx + ux * reach, my + uy * reach, radius, False)
+    reached, cell, _, place, _, _, _ = walk(net, k, mx, my, mx + ux * reach, my + uy * reach, radius, False)
     if reached:
         return reach
     far = place * reach
@@ -60,9 +60,7 @@ def _portal(net, i, j, pair, radius):
         half = sqrt(max(ri * ri - along * along, 0.0))
         x = net.position[i, 0] + along * ux
         y = net.position[i, 1] + along * uy
-        reached, k, _, _, _, _ = walk(
-            net, net.node_cell[i], net.position[i, 0], net.position[i, 1], x, y, 0.0, True
-        )
+        reached, k = walk(net, net.node_cell[i], net.position[i, 0], net.position[i, 1], x, y, 0.0, True)[:2]
         if not reached:
             k = -1
     if k < 0 or half <= 0.0:

@@ -33,27 +33,27 @@ _ROUNDS = 4
 _DEPTH = 12  # of pushes within pushes; scratch.stack holds two more
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def grow(scratch, count):
     """Make room for one more corner after ``count``."""
     if count < scratch.cells.size:
         return
     room = 2 * scratch.cells.size
-    points = np.empty((room, 3), np.float64)
-    points[:count] = scratch.points[:count]
-    scratch.points = points
-    cells = np.empty(room, np.int32)
-    cells[:count] = scratch.cells[:count]
-    scratch.cells = cells
+    old_points, old_cells = scratch.points, scratch.cells
+    points, cells = np.empty((room, 3), np.float64), np.empty(room, np.int32)
+    for i in range(count):
+        points[i, 0], points[i, 1], points[i, 2] = old_points[i, 0], old_points[i, 1], old_points[i, 2]
+        cells[i] = old_cells[i]
+    scratch.points, scratch.cells = points, cells
 
 
-@njit(cache=True, inline="always")
+@njit(error_model="numpy", cache=True, inline="always")
 def _turn(ax, ay, bx, by, cx, cy):
     """Twice the area of a-b-c, positive where c lies to the left of a-b."""
     return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def _funnel(doors, edges, first, last, narrow, work, at, base, sx, sy, gx, gy):
     """Corners of the shortest line through the portals edges[first:last]; returns how many, ends included.
 
@@ -110,7 +110,7 @@ def _funnel(doors, edges, first, last, narrow, work, at, base, sx, sy, gx, gy):
     return count + 1 - base
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def _push(net, k, x, y, qx, qy, radius):
     """Move (x, y) in cell ``k`` away from (qx, qy) until the body fits with a margin; returns (fits, x, y,
     cell)."""
@@ -125,7 +125,7 @@ def _push(net, k, x, y, qx, qy, radius):
             return False, x, y, k
         nx = qx + dx / d * target
         ny = qy + dy / d * target
-        reached, cell, _, _, _, _ = walk(net, k, x, y, nx, ny, 0.0, True)
+        reached, cell = walk(net, k, x, y, nx, ny, 0.0, True)[:2]
         if not reached:
             return False, x, y, k
         x, y, k = nx, ny, cell
@@ -135,7 +135,7 @@ def _push(net, k, x, y, qx, qy, radius):
     return gap >= radius, x, y, k
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def _cost_along(net, doors, k, ax, ay, bx, by):
     """Length of the line from a, in cell ``k``, to b, weighted by the costs of the nodes that it crosses."""
     length = sqrt((bx - ax) ** 2 + (by - ay) ** 2)
@@ -151,7 +151,7 @@ def _cost_along(net, doors, k, ax, ay, bx, by):
     return total
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def _append(net, doors, scratch, first, count, x, y, k):
     """Add a corner to the leg that begins at ``first``, dropping corners that the line of sight jumps
     over."""
@@ -161,7 +161,7 @@ def _append(net, doors, scratch, first, count, x, y, k):
     while count - first >= 2:
         vx, vy = points[count - 1, 0], points[count - 1, 1]
         ax, ay = points[count - 2, 0], points[count - 2, 1]
-        _, qx, qy = gap_at(net, cells[count - 1], vx, vy)
+        _, qx, qy = gap_at(net, np.int64(cells[count - 1]), vx, vy)
         dx = x - ax
         dy = y - ay
         length = dx * dx + dy * dy
@@ -171,13 +171,13 @@ def _append(net, doors, scratch, first, count, x, y, k):
         ey = ay + s * dy - qy
         if ex * ex + ey * ey < radius * radius:
             break
-        reached, cell, _, _, _, _ = walk(net, cells[count - 2], ax, ay, x, y, radius, False)
+        reached, cell = walk(net, np.int64(cells[count - 2]), ax, ay, x, y, radius, False)[:2]
         if not reached or not same_place(net, cell, k):
             break
         if doors.weighted:
-            a = cells[count - 2]
+            a = np.int64(cells[count - 2])
             bent = _cost_along(net, doors, a, ax, ay, vx, vy) + _cost_along(
-                net, doors, cells[count - 1], vx, vy, x, y
+                net, doors, np.int64(cells[count - 1]), vx, vy, x, y
             )
             if _cost_along(net, doors, a, ax, ay, x, y) > bent * (1.0 + 1e-9):
                 break
@@ -189,7 +189,7 @@ def _append(net, doors, scratch, first, count, x, y, k):
     return count + 1
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def _round(net, doors, scratch, low, high, ax, ay, bx, by, place):
     """A corner inside a disc that leads the line a-b round what ends walking at ``place`` on it.
 
@@ -219,11 +219,11 @@ def _round(net, doors, scratch, low, high, ax, ay, bx, by, place):
     room = net.node_radius[node] - doors.radius
     share = room / d if d > room else 1.0
     x, y = cx + share * dx, cy + share * dy
-    reached, cell, _, _, _, _ = walk(net, net.node_cell[node], cx, cy, x, y, 0.0, True)
+    reached, cell = walk(net, np.int64(net.node_cell[node]), cx, cy, x, y, 0.0, True)[:2]
     return reached, x, y, cell
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_try):
     """Add a walked line from the leg's last corner to g, through nodes[low:high].
 
@@ -237,11 +237,12 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_
     stack_cell[0] = goal_cell
     height = 1
     while height > 0:
-        k = scratch.cells[count - 1]
-        ax, ay = scratch.points[count - 1, 0], scratch.points[count - 1, 1]
+        points = scratch.points
+        k = np.int64(scratch.cells[count - 1])
+        ax, ay = points[count - 1, 0], points[count - 1, 1]
         bx, by = stack[height - 1, 0], stack[height - 1, 1]
-        target = stack_cell[height - 1]
-        reached, cell, gap, place, qx, qy = walk(net, k, ax, ay, bx, by, enough, True)
+        target = np.int64(stack_cell[height - 1])
+        reached, cell, gap, place, qx, qy, tight = walk(net, k, ax, ay, bx, by, enough, True)
         walked = reached and same_place(net, cell, target)
         if walked and gap >= enough:
             count = _append(net, doors, scratch, first, count, bx, by, target)
@@ -250,8 +251,7 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_
         if walked and height <= _DEPTH:
             x = ax + place * (bx - ax)
             y = ay + place * (by - ay)
-            at = walk(net, k, ax, ay, x, y, 0.0, True)[1]
-            pushed, x, y, at = _push(net, at, x, y, qx, qy, radius)
+            pushed, x, y, at = _push(net, tight, x, y, qx, qy, radius)
             if pushed and (x - ax) ** 2 + (y - ay) ** 2 > 1e-12 and (x - bx) ** 2 + (y - by) ** 2 > 1e-12:
                 stack[height, 0], stack[height, 1] = x, y
                 stack_cell[height] = at
@@ -274,7 +274,7 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_
         if cells.size == 0:
             return count, _NO_WAY
         for step in range(1, cells.size - 1):
-            at = cells[step]
+            at = np.int64(cells[step])
             x, y = centre_of(net, at)
             if net.clearance[at] < radius:
                 gap, qx, qy = gap_at(net, at, x, y)
@@ -285,14 +285,14 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_
     return count, _FITS
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def _place_of(net, doors, door, side, x, y):
     """The cell of (x, y), a place on a portal or beside its left (0) or right (1) end."""
     ex, ey = doors.portal[door, 3 * side], doors.portal[door, 3 * side + 1]
-    return walk(net, doors.portal_cell[door, side], ex, ey, x, y, 0.0, True)[1]
+    return walk(net, np.int64(doors.portal_cell[door, side]), ex, ey, x, y, 0.0, True)[1]
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def _through_lenses(net, doors, scratch, first, count, low, high, free, gx, gy, goal_cell):
     """Add a walked line from the leg's last corner to g through the lenses of the portals edges[low:high].
 
@@ -311,7 +311,7 @@ def _through_lenses(net, doors, scratch, first, count, low, high, free, gx, gy, 
     return count, True
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def _rounded(work, i, side, qx, qy, radius, arc):
     """Corners that lead the funnel's line, at its corner ``i``, round q at the distance ``radius``.
 
@@ -342,7 +342,7 @@ def _rounded(work, i, side, qx, qy, radius, arc):
     return 2
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell):
     """Pull one walked leg taut: from the last corner in ``scratch.points`` through the portals of
     edges[first:last].
@@ -358,18 +358,19 @@ def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell):
     sx, sy = scratch.points[leg, 0], scratch.points[leg, 1]
     corners = _funnel(doors, scratch.edges, first, last, False, work, at, 0, sx, sy, gx, gy)
     radius = doors.radius
+    edges = scratch.edges
     for i in range(1, corners):
         parts = 0
         door, side = 0, at[i] & 1
         if i < corners - 1:
-            door = scratch.edges[at[i] >> 1]
+            door = edges[at[i] >> 1]
             qx, qy = doors.block[door, 2 * side], doors.block[door, 2 * side + 1]
             if qx < np.inf:
                 parts = _rounded(work, i, side, qx, qy, radius * (1.0 + MARGIN), arc)
         for part in range(max(parts, 1)):
             x, y, k = work[i, 0], work[i, 1], goal_cell
             if i < corners - 1:
-                k = doors.portal_cell[door, side]
+                k = np.int64(doors.portal_cell[door, side])
             if parts > 0:
                 px, py = arc[part, 0], arc[part, 1]
                 pk = _place_of(net, doors, door, side, px, py)
@@ -383,6 +384,7 @@ def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell):
                 state = _FITS if fits else _NO_WAY
             if state != _FITS:
                 return count, False
+    points, cells = scratch.points, scratch.cells
     for i in range(leg, count):
-        scratch.points[i, 2] = floor_at(net, scratch.cells[i], scratch.points[i, 0], scratch.points[i, 1])
+        points[i, 2] = floor_at(net, np.int64(cells[i]), points[i, 0], points[i, 1])
     return count, True

@@ -117,16 +117,14 @@ def _cast_all(net, starts, ends, cells, radius):
             continue
         last[i] = k
         dx, dy = ends[i, 0] - ax, ends[i, 1] - ay
-        reached, cell, _, place, _, _ = walk(net, k, ax, ay, ax + dx, ay + dy, radius, False)
+        reached, cell, _, place, _, _, _ = walk(net, k, ax, ay, ax + dx, ay + dy, radius, False)
         if reached:
             clear[i], share[i], last[i] = True, 1.0, cell
             continue
         low, high = 0.0, place
         for _ in range(24):
             middle = 0.5 * (low + high)
-            reached, cell, _, _, _, _ = walk(
-                net, k, ax, ay, ax + middle * dx, ay + middle * dy, radius, False
-            )
+            reached, cell = walk(net, k, ax, ay, ax + middle * dx, ay + middle * dy, radius, False)[:2]
             if reached:
                 low = middle
                 last[i] = cell

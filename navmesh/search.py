@@ -21,7 +21,7 @@ it."""
 _STAMP, _HEAP, _STATE, _GOAL_NODE, BEST, EXPANDED = 0, 1, 2, 3, 4, 5
 
 
-@njit(cache=True, inline="always")
+@njit(error_model="numpy", cache=True, inline="always")
 def _push(keys, nodes, size, key, node):
     """Add an entry to the ``size`` that are there."""
     i = size
@@ -36,7 +36,7 @@ def _push(keys, nodes, size, key, node):
     nodes[i] = node
 
 
-@njit(cache=True, inline="always")
+@njit(error_model="numpy", cache=True, inline="always")
 def _take_first(keys, nodes, size):
     """Remove the first of ``size`` entries, which leaves ``size - 1``."""
     size -= 1
@@ -61,12 +61,12 @@ def _take_first(keys, nodes, size):
     nodes[i] = node
 
 
-@njit(cache=True, inline="always")
+@njit(error_model="numpy", cache=True, inline="always")
 def _distance(ax, ay, az, bx, by, bz):
     return sqrt((ax - bx) * (ax - bx) + (ay - by) * (ay - by) + (az - bz) * (az - bz))
 
 
-@njit(cache=True, inline="always")
+@njit(error_model="numpy", cache=True, inline="always")
 def _crossing(lx, ly, rx, ry, ax, ay, bx, by):
     """Where on the portal (0 left, 1 right) the shortest way from a over the portal to b crosses it."""
     px = rx - lx
@@ -83,7 +83,7 @@ def _crossing(lx, ly, rx, ry, ax, ay, bx, by):
     return 0.0 if t < 0.0 else (1.0 if t > 1.0 else t)
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def begin(net, doors, scratch, start_node, goal_node, sx, sy, sz, gx, gy, gz):
     """Set up a search from (sx, sy, sz) in ``start_node`` to (gx, gy, gz) in ``goal_node`` (or -1: as near as
     can be)."""
@@ -112,7 +112,7 @@ def begin(net, doors, scratch, start_node, goal_node, sx, sy, sz, gx, gy, gz):
     scratch.heap_node[0] = start_node
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def advance(net, doors, scratch, budget):
     """Expand at most ``budget`` nodes; returns RUNNING, COMPLETE or EMPTY. The slices do not change the
     result."""
@@ -193,19 +193,20 @@ def advance(net, doors, scratch, budget):
     return state
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def chain(net, scratch):
     """Write the chain of nodes to the best node and the doors between them; returns the number of nodes."""
+    nodes, edges, parent, via = scratch.nodes, scratch.edges, scratch.parent, scratch.via
     count = 0
     node = scratch.numbers[BEST]
     while node >= 0:
-        scratch.nodes[count] = node
-        scratch.edges[count] = scratch.via[node]
+        nodes[count] = node
+        edges[count] = via[node]
         count += 1
-        node = scratch.parent[node]
+        node = parent[node]
     for i in range(count // 2):
         j = count - 1 - i
-        scratch.nodes[i], scratch.nodes[j] = scratch.nodes[j], scratch.nodes[i]
-        scratch.edges[i], scratch.edges[j] = scratch.edges[j], scratch.edges[i]
+        nodes[i], nodes[j] = nodes[j], nodes[i]
+        edges[i], edges[j] = edges[j], edges[i]
     # edges[i] leads into nodes[i]; edges[0] is -1; from the number of doors on they are leaps
     return count

@@ -10,7 +10,7 @@ __all__ = ["roomy_cell", "snap"]
 _MARGIN = 0.015  # share of the radius: a little more than what string pulling keeps
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def _floor_near(net, x, y, z, rise):
     """The cell with a node under (x, y) whose floor is nearest to ``z`` and within ``rise``, or -1."""
     ix = int(x // net.cell)
@@ -28,7 +28,7 @@ def _floor_near(net, x, y, z, rise):
     return best
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def _sees(net, k, x, y):
     """Whether (x, y) is on this side of what ends walking nearest to the centre of ``k``."""
     cx, cy = centre_of(net, k)
@@ -37,7 +37,7 @@ def _sees(net, k, x, y):
     return far > 0.0 and (x - cx) * vx + (y - cy) * vy < far
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def _seeing_cell(net, x, y, z, rise):
     """The cell nearest to (x, y), at most two squares away, that sees it, or -1: beside a thin wall, the
     square under a point may have its centre, and so its cell, on the other side."""
@@ -58,7 +58,7 @@ def _seeing_cell(net, x, y, z, rise):
     return best
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def _nearest_cell(net, x, y, z, reach, rise):
     """The cell with a node whose centre is nearest to (x, y) horizontally, within ``reach``, or -1."""
     h = net.cell
@@ -79,7 +79,7 @@ def _nearest_cell(net, x, y, z, reach, rise):
     return best
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def roomy_cell(net, k, x, y, radius, reach):
     """The cell nearest to (x, y), reached over links from ``k`` within ``reach``, whose centre has ``radius``
     free, or -1."""
@@ -121,7 +121,7 @@ def roomy_cell(net, k, x, y, radius, reach):
     return best
 
 
-@njit(cache=True)
+@njit(error_model="numpy", cache=True)
 def snap(net, x, y, z, radius, reach, rise):
     """The place for a body of ``radius`` nearest to (x, y, z).
 
@@ -148,7 +148,7 @@ def snap(net, x, y, z, radius, reach, rise):
         nx = qx + (x - qx) * push
         ny = qy + (y - qy) * push
         if radius - gap <= reach:
-            reached, cell, _, _, _, _ = walk(net, k, x, y, nx, ny, 0.0, True)
+            reached, cell = walk(net, k, x, y, nx, ny, 0.0, True)[:2]
             if reached:
                 after = gap_at(net, cell, nx, ny)[0]
                 if after >= radius:
@@ -164,7 +164,7 @@ def snap(net, x, y, z, radius, reach, rise):
     ix = column // net.ny
     cx = (ix + 0.5) * net.cell
     cy = (column - ix * net.ny + 0.5) * net.cell
-    reached, end, _, _, _, _ = walk(net, k, x, y, cx, cy, 0.0, True)
+    reached, end = walk(net, k, x, y, cx, cy, 0.0, True)[:2]
     if reached and end == cell:
         low, high = 0.0, 1.0
         for _ in range(8):

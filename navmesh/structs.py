@@ -3,13 +3,18 @@
 Passing an array to a compiled function costs about 0.1 µs; a Numba structref costs 0.7 µs however many arrays
 it holds. `Net` is the graph with its field of clearances, `Doors` is what one body radius makes of it, and
 `Scratch` is the memory of one search at a time. All coordinates are relative to the surface's origin.
+
+`Net` and `Doors` hold each array twice: as a view that kernels read, whose uses are not counted, and among
+their ``owners``, which keep its memory.
 """
 
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numba import njit, types
+from numba.core import cgutils
 from numba.experimental import structref
+from numba.extending import intrinsic
 
 if TYPE_CHECKING:
     from navmesh.graph import NodeGraph
@@ -51,11 +56,11 @@ class Scratch(structref.StructRefProxy):
 
 _NET = (
     "cell", "nx", "ny", "column_start", "cell_column", "height", "gradient", "link", "clearance", "nearest",
-    "label", "position", "node_cell", "node_radius", "edge_start", "edge_target",
+    "label", "position", "node_cell", "node_radius", "edge_start", "edge_target", "owners",
 )  # fmt: skip
 _DOORS = (
     "radius", "start", "target", "portal", "portal_cell", "lens", "block", "node_cost", "weighted",
-    "leap_start", "leap_id", "leap_from", "leap_from_cell", "leap_to", "leap_to_cell", "leap_cost",
+    "leap_start", "leap_id", "leap_from", "leap_from_cell", "leap_to", "leap_to_cell", "leap_cost", "owners",
 )  # fmt: skip
 _SCRATCH = (
     "numbers", "stamp", "cost", "total", "entry", "parent", "via", "heap_key", "heap_node", "ends", "nodes",
@@ -73,25 +78,31 @@ for _proxy, _type, _names in (
     structref.define_boxing(_type, _proxy)
 
 
+@intrinsic
+def _uncounted(typingctx, values):
+    """The tuple ``values`` with views of its arrays that do not count as uses of their memory.
+
+    Numba counts a use whenever it takes an array out of a struct, which costs more than what most kernels do
+    with it.
+    """
+
+    def code(context, builder, signature, arguments):
+        parts = []
+        for i, kind in enumerate(signature.args[0]):
+            part = builder.extract_value(arguments[0], i)
+            if isinstance(kind, types.Array):
+                view = context.make_array(kind)(context, builder, part)
+                view.meminfo = cgutils.get_null_value(view.meminfo.type)
+                view.parent = cgutils.get_null_value(view.parent.type)
+                part = view._getvalue()
+            parts.append(part)
+        return context.make_tuple(builder, signature.return_type, parts)
+
+    return values(values), code
+
+
 @njit(cache=True)
-def make_net(
-    cell,
-    nx,
-    ny,
-    column_start,
-    cell_column,
-    height,
-    gradient,
-    link,
-    clearance,
-    nearest,
-    label,
-    position,
-    node_cell,
-    node_radius,
-    edge_start,
-    edge_target,
-):
+def make_net(*values):
     """Bundle the surface and the graph.
 
     cell: side of a grid square [m]; nx, ny: columns; column_start (nx*ny+1,) int32; cell_column (n,) int32;
@@ -99,45 +110,11 @@ def make_net(
     (n,) int32; position (m, 3) float64, node_cell (m,) int32, node_radius (m,) float64; edge_start (m+1,),
     edge_target (e,) int32.
     """
-    return Net(
-        cell,
-        nx,
-        ny,
-        column_start,
-        cell_column,
-        height,
-        gradient,
-        link,
-        clearance,
-        nearest,
-        label,
-        position,
-        node_cell,
-        node_radius,
-        edge_start,
-        edge_target,
-    )
+    return Net(*_uncounted(values), values)
 
 
 @njit(cache=True)
-def make_doors(
-    radius,
-    start,
-    target,
-    portal,
-    portal_cell,
-    lens,
-    block,
-    node_cost,
-    weighted,
-    leap_start,
-    leap_id,
-    leap_from,
-    leap_from_cell,
-    leap_to,
-    leap_to_cell,
-    leap_cost,
-):
+def make_doors(*values):
     """Bundle what one body radius makes of the graph.
 
     radius [m]; the doors, edges that the body passes, of node i are start[i]:start[i + 1], start (m + 1,)
@@ -150,24 +127,7 @@ def make_doors(
     (l,) int32, leap_from, leap_to (l, 3) float64, leap_from_cell, leap_to_cell (l,) int32, leap_cost (l,)
     float64 [m].
     """
-    return Doors(
-        radius,
-        start,
-        target,
-        portal,
-        portal_cell,
-        lens,
-        block,
-        node_cost,
-        weighted,
-        leap_start,
-        leap_id,
-        leap_from,
-        leap_from_cell,
-        leap_to,
-        leap_to_cell,
-        leap_cost,
-    )
+    return Doors(*_uncounted(values), values)
 
 
 @njit(cache=True)

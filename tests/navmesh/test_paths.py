@@ -103,9 +103,14 @@ def test_search_agrees_with_the_plain_one(seed: int) -> None:
         assert cost == pytest.approx(found[0], abs=1e-6)  # the nodes may differ where two ways are as long
 
 
+@pytest.mark.parametrize("storeys", [1, 2])
 @pytest.mark.parametrize("seed", range(3))
-def test_walking_the_field_agrees_with_tiny_steps(seed: int) -> None:
-    graph, rng = scene(seed)
+def test_walking_the_field_agrees_with_tiny_steps(seed: int, storeys: int) -> None:
+    rng = np.random.default_rng(seed)
+    level = pillars_level(pillars(rng, 7))
+    if storeys == 2:  # another floor under a part of this one: discs end over it and beside it
+        level = join(level, plane(0.0, 9.0, 0.0, 14.0, -4.0))
+    graph = build(*level)
     surface, net = graph.surface, net_of(graph)
     for _ in range(20):
         cell = int(rng.integers(len(surface)))
@@ -121,6 +126,13 @@ def test_walking_the_field_agrees_with_tiny_steps(seed: int) -> None:
                 assert fast[2] == pytest.approx(gap, abs=0.03)
             else:
                 assert fast[2] > 0.27
+            x, y = a + fast[3] * (b - a)
+            if fast[2] < 0.3:
+                assert fast[2] == pytest.approx(math.hypot(x - fast[4], y - fast[5]), abs=1e-9)
+                assert divmod(int(surface.cell_column[fast[6]]), surface.shape[1]) == (
+                    int(x // surface.resolution),
+                    int(y // surface.resolution),
+                )
 
 
 def test_the_gap_to_a_wall_is_right_off_the_centres() -> None:

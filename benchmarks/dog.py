@@ -17,6 +17,8 @@ from benchmarks.shared_data import shared_folder, why_absent
 
 Lines = list[tuple[str, str, str, bool | None]]
 _VERDICT = {True: "yes", False: "NO", None: "-"}
+_CHANGE = 25.0
+"""[rad/s] by which a joint's speed may change from one tick to the next, see docs/dogs.md."""
 _SHARED = ("following", "footprint", "gait", "herd")
 
 
@@ -41,10 +43,10 @@ def _following(found: dict[str, Any]) -> Lines:
         off = f"worst {100 * row['height_worst']:.2f} cm"
         lines.append((f"foot over ground: {name}", off, "<= 1 cm", row["heights_above_1cm"] == 0))
         joints = (
-            f"speed {row['joint_speed']:.0f} rad/s, acceleration {row['joint_acceleration']:.0f} rad/s2, "
-            f"jerk {row['joint_jerk']:.0f} rad/s3; p99 change per tick {row['joint_jump_p99']:.1f} rad/s"
+            f"worst change per tick {row['joint_change']:.1f} rad/s (p99 {row['joint_change_p99']:.1f}); "
+            f"speed {row['joint_speed']:.0f} rad/s, jerk {row['joint_jerk']:.0f} rad/s3"
         )
-        lines.append((f"joints, worst: {name}", joints, "printed", None))
+        lines.append((f"joints: {name}", joints, f"<= {_CHANGE:.0f} rad/s", row["joint_change"] <= _CHANGE))
     return lines
 
 

@@ -215,7 +215,8 @@ def following(quick: bool) -> dict[str, Any]:
             "joint_speed": walked.speed,
             "joint_acceleration": walked.acceleration,
             "joint_jerk": walked.jerk,
-            "joint_jump_p99": float(np.max(walked.jump)),
+            "joint_change": 0.01 * walked.acceleration,
+            "joint_change_p99": float(np.max(walked.jump)),
         }
     return result
 

@@ -17,7 +17,8 @@ from locomotion.quadruped.trail import trail_point
 __all__ = ["advance_all"]
 
 _HEIGHT_HALF_LIFE = 0.07  # [s]
-_STRETCH, _TAUT = 0.93, 0.985  # shares of its length to which a standing leg should and can be stretched
+_STRETCH, _TAUT = 0.90, 0.95  # shares of its length to which a standing leg should and can be stretched
+_SOFT = 0.03  # share of a leg's length over which its reach begins to pull the trunk down
 _CROUCH = 0.25  # [1/rad²] of slope by which a body goes lower on it
 _STEEPEST = 0.75  # of the spine's length by which the shoulders may be higher or lower than the hips
 _GAZE_HALF_LIFE = 0.10  # [s]
@@ -75,16 +76,16 @@ def _is_over(st):
 
 @njit(cache=True)
 def _highest(feet, joint_x, joint_y, direction, width, first, reach):
-    """Height [m] at which both legs of a pair, ``first`` and the next, still reach their standing feet."""
+    """Height [m] at which both legs of a pair, ``first`` and the next, still reach their feet: those that swing
+    too, so that nothing jumps when they come down."""
     highest = math.inf
     for k in range(2):
         foot = feet[first + k]
-        if foot[at.IN_SWING] == 0.0:
-            side = 0.5 * width if k == 0 else -0.5 * width
-            dx = foot[at.FX] - (joint_x - side * math.sin(direction))
-            dy = foot[at.FY] - (joint_y + side * math.cos(direction))
-            left = reach * reach - dx * dx - dy * dy
-            highest = min(highest, foot[at.FZ] + math.sqrt(max(left, 0.01 * reach * reach)))
+        side = 0.5 * width if k == 0 else -0.5 * width
+        dx = foot[at.FX] - (joint_x - side * math.sin(direction))
+        dy = foot[at.FY] - (joint_y + side * math.cos(direction))
+        left = reach * reach - dx * dx - dy * dy
+        highest = min(highest, foot[at.FZ] + math.sqrt(max(left, 0.01 * reach * reach)))
     return highest
 
 
@@ -113,14 +114,24 @@ def _carry(st, pr, feet):
             x, y, direction, width = st[at.X], st[at.Y], st[at.YAW], pr[at.WIDTH_REAR]
         wanted = min(wanted, _highest(feet, x, y, direction, width, leg, _STRETCH * reach))
         off, st[z + 1] = spring(st[z] - wanted, st[z + 1], _HEIGHT_HALF_LIFE)
-        st[z] = min(wanted + off, _highest(feet, x, y, direction, width, leg, _TAUT * reach))
+        st[z] = _below(wanted + off, _highest(feet, x, y, direction, width, leg, _TAUT * reach), reach)
     # the trunk tilts about the hips, which moves the shoulders, which may be too high there for their feet
-    reach = _TAUT * (pr[at.UPPER_FRONT] + pr[at.LOWER_FRONT] + pr[at.FOOT_FRONT])
+    reach = pr[at.UPPER_FRONT] + pr[at.LOWER_FRONT] + pr[at.FOOT_FRONT]
+    wanted = st[at.Z_FRONT]
     for _ in range(2):
         _tilt(st, pr)
-        highest = _highest(feet, st[at.FRONT_X], st[at.FRONT_Y], st[at.CHEST], pr[at.WIDTH_FRONT], 0, reach)
-        st[at.Z_FRONT] = min(st[at.Z_FRONT], highest)
+        highest = _highest(
+            feet, st[at.FRONT_X], st[at.FRONT_Y], st[at.CHEST], pr[at.WIDTH_FRONT], 0, _TAUT * reach
+        )
+        st[at.Z_FRONT] = _below(wanted, highest, reach)
     _tilt(st, pr)
+
+
+@njit(cache=True, inline="always")
+def _below(height, limit, reach):
+    """``height`` [m] kept under a limit, without a kink where it comes near it."""
+    soft = _SOFT * reach
+    return limit - soft * math.log1p(math.exp(min((limit - height) / soft, 60.0)))
 
 
 @njit(cache=True)

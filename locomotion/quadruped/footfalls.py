@@ -15,7 +15,7 @@ from locomotion.ground import height_below
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.following import front_of, wanted_pose
 from locomotion.quadruped.gait import leg_phase
-from locomotion.quadruped.motion import travel
+from locomotion.quadruped.motion import DT, travel
 from locomotion.quadruped.trail import trail_point
 
 __all__ = ["find_ground", "foot_place", "misplaced", "step_feet"]
@@ -26,16 +26,11 @@ _FREEZE = 0.72  # share of the swing after which its end is not changed any more
 _RAMP, _RAMP_SLOPE, _SHORTEST_RAMP = 0.36, 0.07, 0.14
 # share of the swing in which a foot speeds up, and in which it slows down: at rest, less by this times the
 # body's way in the swing over the leg's height, and at least
-_STEP_LIFT = 0.15  # of a step's height that its swing is lifted higher
+_HASTE = 4.0  # how much faster than evenly a swing follows a change of where it is to come down
 _LATEST = 0.3  # share of the swing's time until which a foot may still begin it
 _STRETCH = 0.96  # share of its length to which a standing leg may be stretched
 _SINK = 0.84  # share of its height to which the trunk may sink for a standing foot
 _SLACK = 0.12  # [m] above a step that a foot may find ground off the surface it is on
-
-
-@njit(cache=True, inline="always")
-def _smooth(u):
-    return u * u * u * (10.0 + u * (6.0 * u - 15.0))
 
 
 @njit(cache=True, inline="always")
@@ -86,7 +81,7 @@ def foot_place(st, pr, pool, leg, ahead):
 
 @njit(cache=True)
 def _aim(st, pr, pool, ground, origin, foot, leg, ahead):
-    """Write where ``leg`` is to come down, ``ahead`` [s] from the middle of its stance, as its TO."""
+    """Write where ``leg`` is to come down, ``ahead`` [s] from the middle of its stance, as its AIM."""
     x, y, z, direction = foot_place(st, pr, pool, leg, ahead)
     width = pr[at.WIDTH_FRONT] if leg < 2 else pr[at.WIDTH_REAR]
     side = 0.5 * width if leg % 2 == 0 else -0.5 * width
@@ -98,12 +93,27 @@ def _aim(st, pr, pool, ground, origin, foot, leg, ahead):
         fy = y + narrower * side * math.cos(direction)
         h = find_ground(ground, origin, fx, fy, z, reach)
         if not math.isnan(h):
-            foot[at.TO], foot[at.TO + 1], foot[at.TO + 2] = fx, fy, h
+            foot[at.AIM], foot[at.AIM + 1], foot[at.AIM + 2] = fx, fy, h
             return True
-    foot[at.TO] = x - side * math.sin(direction)
-    foot[at.TO + 1] = y + side * math.cos(direction)
-    foot[at.TO + 2] = z
+    foot[at.AIM] = x - side * math.sin(direction)
+    foot[at.AIM + 1] = y + side * math.cos(direction)
+    foot[at.AIM + 2] = z
     return False
+
+
+@njit(cache=True)
+def _arch(foot, ground, origin, reach):
+    """[m] by which a straight way from FROM to AIM has to be raised in its middle to clear the ground."""
+    arch = 0.0
+    for k in range(1, 4):
+        share = 0.25 * k
+        x = foot[at.FROM] + share * (foot[at.AIM] - foot[at.FROM])
+        y = foot[at.FROM + 1] + share * (foot[at.AIM + 1] - foot[at.FROM + 1])
+        z = foot[at.FROM + 2] + share * (foot[at.AIM + 2] - foot[at.FROM + 2])
+        h = find_ground(ground, origin, x, y, z, reach)
+        if h > z:
+            arch = max(arch, (h - z) / (4.0 * share * (1.0 - share)))
+    return arch
 
 
 @njit(cache=True)
@@ -121,13 +131,15 @@ def step_feet(st, pr, pool, ground, origin, feet):
             if st[at.REST] > 0.0 or not (due or (phase < duty and _overstretched(st, pr, foot, leg))):
                 continue
             found = _aim(st, pr, pool, ground, origin, foot, leg, ahead)
-            dx, dy = foot[at.TO] - foot[at.FX], foot[at.TO + 1] - foot[at.FY]
+            dx, dy = foot[at.AIM] - foot[at.FX], foot[at.AIM + 1] - foot[at.FY]
             if dx * dx + dy * dy < CLOSE * CLOSE or not found:
                 if not found:
                     st[at.NO_GROUND] = 1.0
                 foot[at.TO : at.TO + 3] = foot[at.FX : at.FX + 3]
                 continue
             foot[at.FROM : at.FROM + 3] = foot[at.FX : at.FX + 3]
+            foot[at.TO : at.TO + 3] = foot[at.AIM : at.AIM + 3]
+            foot[at.ARCH] = _arch(foot, ground, origin, pr[at.STEP] + _SLACK)
             foot[at.IN_SWING], foot[at.SWING_FROM] = 1.0, phase
         settled = False
         begun = foot[at.SWING_FROM]
@@ -139,6 +151,9 @@ def step_feet(st, pr, pool, ground, origin, feet):
         done = (phase - begun) / (1.0 - begun)
         if done < _FREEZE and not _aim(st, pr, pool, ground, origin, foot, leg, ahead):
             st[at.NO_GROUND] = 1.0
+        pull = min(_HASTE * DT / ((1.0 - phase) * cycle), 1.0)
+        for k in range(3):
+            foot[at.TO + k] += pull * (foot[at.AIM + k] - foot[at.TO + k])
         way = st[at.SPEED] * (1.0 - duty) * cycle / pr[at.HEIGHT_REAR]
         _swing(foot, done, st[at.LIFT_NOW], max(_RAMP - _RAMP_SLOPE * way, _SHORTEST_RAMP))
     return settled
@@ -174,12 +189,9 @@ def _swing(foot, done, lift, ramp):
     along = _stride(done, ramp)
     for k in range(2):
         foot[at.FX + k] = foot[at.FROM + k] + along * (foot[at.TO + k] - foot[at.FROM + k])
-    rise = foot[at.TO + 2] - foot[at.FROM + 2]
-    # up a step before going over it, down only behind it
-    early = min(done / 0.6, 1.0) if rise > 0.0 else max((done - 0.4) / 0.6, 0.0)
-    foot[at.BASE] = foot[at.FROM + 2] + rise * _smooth(early)
+    foot[at.BASE] = foot[at.FROM + 2] + along * (foot[at.TO + 2] - foot[at.FROM + 2])
     hump = 4.0 * done * (1.0 - done)
-    foot[at.FZ] = foot[at.BASE] + (lift + _STEP_LIFT * abs(rise)) * hump * hump * hump
+    foot[at.FZ] = foot[at.BASE] + 4.0 * along * (1.0 - along) * foot[at.ARCH] + lift * hump * hump
 
 
 @njit(cache=True)

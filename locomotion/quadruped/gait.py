@@ -18,7 +18,7 @@ _SCRIPT_DUTY = 0.62
 _FORESIGHT = (
     0.4  # [s] ahead for whose speed strides are quickened: a foot that stands now will be needed then
 )
-_SHORTER = 0.8  # [1/rad] of slope by which strides become shorter and quicker
+_SHORTER = 0.6  # [1/rad] of slope by which strides become shorter and quicker
 
 
 @njit(cache=True, inline="always")

@@ -132,7 +132,11 @@ IN_SWING, SWING_FROM = 9, 10
 """1 in the swing; share of the stride at which it began."""
 BASE = 11
 """[m] height of the swing's way without its lift: the ground as the trunk feels it."""
-FOOT = 12
+ARCH = 12
+"""[m] by which the middle of the swing's way is raised over ground that bulges between its ends."""
+AIM = 13
+"""Three columns: where it is wanted to come down now; TO follows."""
+FOOT = 16
 
 # --- joints, for whoever wants angles: (n, JOINTS)
 JOINTS_PER_LEG = 4

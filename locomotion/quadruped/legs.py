@@ -12,9 +12,13 @@ from numba import njit
 
 __all__ = ["solve_leg", "two_bones"]
 
-_EASY, _REACH = 0.93, 0.99
-"""Shares of the two bones' length: stretched to the first, a leg begins to give way; to the second, it never
-gets."""
+_REACH = 0.97
+"""Share of the two bones' length to which they are stretched at most: the foot bone gives way before. A knee
+that is nearly straight turns ever faster for a centimetre of way."""
+_FOLD = 0.36
+"""Share of the two bones' length to which they fold: the foot bone turns down for a toe that comes nearer."""
+_SOFT = 0.35  # of the foot bone's length over which it begins to turn down
+_UNCURL = 1.2  # of the foot bone's length over which a paw gives up its curl, around the same place
 
 
 @njit(cache=True, inline="always")
@@ -33,30 +37,21 @@ def two_bones(x, z, upper, lower, side):
 
 
 @njit(cache=True)
-def solve_leg(x, z, upper, lower, foot, lean, side, give):
+def solve_leg(x, z, upper, lower, foot, lean, curl, side):
     """(upper, lower, foot) angles [rad] of a leg whose toe is at (x, z) [m].
 
-    ``lean`` [rad] is how far the foot bone's upper end is behind the vertical over the toe. Where the two
-    other bones do not reach it, the foot bone gives way by the share ``give``: 1 for a standing foot, whose
-    toe must stay; with less, a swinging toe stays behind where the leg is too short.
+    ``lean`` [rad] is how far the foot bone's upper end is behind the line from the toe to the joint,
+    ``curl`` [rad] what a swinging paw folds back from that. The foot bone gives way where the two others would
+    be stretched too straight or folded too far, smoothly, so that no joint has to turn ever faster there.
     """
-    hx, hz = x - foot * math.sin(lean), z + foot * math.cos(lean)
-    d = math.sqrt(hx * hx + hz * hz)
-    easy, reach = _EASY * (upper + lower), _REACH * (upper + lower)
-    if d > easy and give > 0.0:
-        # never quite straight: the last part of the way is taken ever more slowly
-        d = easy + (reach - easy) * (1.0 - math.exp(-(d - easy) / (reach - easy)))
-        far = math.sqrt(x * x + z * z)
-        # the foot bone's upper end moves on its circle around the toe, on the rear side, to be in reach
-        cosine = (far * far + foot * foot - d * d) / (2.0 * far * foot)
-        bent = math.atan2(x, -z) + math.acos(min(max(cosine, -1.0), 1.0))
-        lean += give * (bent - lean)
-        hx, hz = x - foot * math.sin(lean), z + foot * math.cos(lean)
-        d = math.sqrt(hx * hx + hz * hz)
-    if d > reach - 1e-9 or (d > easy and give < 1.0):
-        shorter = (easy + (reach - easy) * (1.0 - math.exp(-(d - easy) / (reach - easy)))) / d
-        shorter += give * (min(reach / d, 1.0) - shorter)
-        hx, hz = hx * shorter, hz * shorter
-    first, second = two_bones(hx, hz, upper, lower, side)
+    far = math.sqrt(x * x + z * z)
+    nearer = (_FOLD * (upper + lower) + foot - far) / foot
+    u = min(max(0.5 - nearer / _UNCURL, 0.0), 1.0)
+    bent = lean - curl * u * u * (3.0 - 2.0 * u) + _SOFT * math.log1p(math.exp(min(nearer / _SOFT, 60.0)))
+    # as far as the foot bone may be bent for the two others to reach it
+    cosine = (far * far + foot * foot - (_REACH * (upper + lower)) ** 2) / (2.0 * far * foot)
+    most = max(math.acos(min(max(cosine, -1.0), 1.0)), 1e-6)
+    lean = most * math.tanh(bent / most) + math.atan2(x, -z)
     # where the leg is too short the toe comes off its place: measured by whoever asks, not hidden
-    return first, second, lean if give < 1.0 else math.atan2(x - hx, hz - z)
+    first, second = two_bones(x - foot * math.sin(lean), z + foot * math.cos(lean), upper, lower, side)
+    return first, second, lean

@@ -15,8 +15,9 @@ from locomotion.quadruped.legs import solve_leg
 
 __all__ = ["body_names", "body_parents", "count_bodies", "write_pose"]
 
-_NEAREST = 0.25  # of the length of its two long bones, on top of the foot's, that a swinging foot stays below
-# its joint
+_NEAREST = 0.25  # of the length of its two long bones, on top of most of the foot's, that a swinging foot is
+# kept below its joint
+_LEAST_LIFT = 0.1  # of a lift that is made even there
 _LEG_BONES = ("upper", "lower", "foot")
 
 
@@ -116,18 +117,16 @@ def _leg(st, pr, foot, out, joints, leg, x, y, z, yaw, width, sizes, curl, side)
     across = 0.5 * width if leg % 2 == 0 else -0.5 * width
     jx, jy = x - across * s, y + across * c
     dx, dy, dz = foot[at.FX] - jx, foot[at.FY] - jy, foot[at.FZ] - z
+    curled = 0.0
     if foot[at.IN_SWING] > 0.0:
-        dz = min(dz, -0.8 * last - _NEAREST * (upper + lower))
+        lift = foot[at.FZ] - foot[at.BASE]
+        room = max(-0.8 * last - _NEAREST * (upper + lower) - dz + lift, _LEAST_LIFT * st[at.LIFT_NOW])
+        dz += room * (1.0 - math.exp(-lift / room)) - lift
+        curled = curl * math.tanh(lift / max(st[at.LIFT_NOW], 1e-3))
     ahead, beside = c * dx + s * dy, c * dy - s * dx
     down = math.sqrt(beside * beside + dz * dz)
     spread = math.atan2(beside, -dz)
-    give = 1.0
-    if foot[at.IN_SWING] > 0.0:
-        lifted = (foot[at.FZ] - foot[at.BASE]) / max(st[at.LIFT_NOW], 1e-3)
-        lean -= curl * min(lifted, 1.2)
-        give = max(1.0 - 4.0 * lifted, 0.0)
-    lean += math.atan2(ahead, down)
-    first, second, third = solve_leg(ahead, -down, upper, lower, last, lean, side, give)
+    first, second, third = solve_leg(ahead, -down, upper, lower, last, lean, curled, side)
     cy, sy = math.cos(0.5 * yaw), math.sin(0.5 * yaw)
     ca, sa = math.cos(0.5 * spread), math.sin(0.5 * spread)
     cs, ss = math.cos(spread), math.sin(spread)

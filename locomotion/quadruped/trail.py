@@ -26,8 +26,9 @@ __all__ = ["Trail", "kernel_ground", "lay_trail", "trail_at", "trail_point", "tr
 SPACING = 0.05
 """[m] between rows, at most."""
 _KNOTS = 0.1  # [m] between the spline's knots, at most: keeps it at corners that nobody smoothed
+_GRAVITY = 9.81  # [m/s²]
 _CREEP = 0.25  # [m/s] slowest speed of a bend, however tight
-_STEEP = 12.0  # by which slopes slow down: a slope of 1 to a thirteenth of the top speed
+_CLIMBING = 0.25  # of √(g · height of the hips): the fastest change of height on a slope, up or down
 _CLIMB = 0.35  # [m] above the last row's ground from which the next is looked for
 
 
@@ -141,7 +142,8 @@ def _plan_speed(rows: NDArray[np.float64], step: float, body: Body) -> None:
     rise = np.abs(
         uniform_filter1d(np.gradient(rows[:, at.PZ], step), max(round(0.4 / step), 1), mode="nearest")
     )
-    steep = (body.top_speed / (1.0 + _STEEP * rise**2)) ** 2
+    climbing = _CLIMBING * np.sqrt(_GRAVITY * body.rear_legs.height)
+    steep = (climbing / np.maximum(rise, climbing / body.top_speed)) ** 2
     squares = np.maximum(np.minimum(body.movement.sideways / np.maximum(bend, 1e-6), steep), _CREEP**2)
     brake = 1.2 * body.movement.braking * step
     for i in range(len(squares) - 2, -1, -1):

@@ -64,6 +64,29 @@ def test_standing_feet_do_not_move(gait):
 
 
 @pytest.mark.parametrize(
+    ("ground", "begin", "end"),
+    [
+        (stairs(), (0.0, 0.0, 0.0), (6.0, 0.0, 0.9)),
+        (stairs(), (6.0, 0.0, 0.9), (0.0, 0.0, 0.0)),
+        (Ground.from_arrays(*quads(floor(slope=0.5))), (0.0, 0.0, 0.0), (6.0, 0.0, 3.0)),
+        (Ground.from_arrays(*quads(floor(slope=0.5))), (6.0, 0.0, 3.0), (0.0, 0.0, 0.0)),
+    ],
+    ids=["upstairs", "downstairs", "uphill", "downhill"],
+)
+@pytest.mark.parametrize("name", ["dog", "cat"])
+def test_joints_do_not_jump(name, ground, begin, end):
+    line = np.array([begin, end])
+    yaw = math.atan2(0.0, end[0] - begin[0])
+    animal = animal_on(ground, load_body(name), begin, yaw, line)
+    joints = []
+    animal.go_to(end, 2.0)
+    run(animal, each=lambda: joints.append(animal.herd.joints[animal.index].copy()))
+    assert animal.status == "arrived"
+    speeds = np.diff(np.unwrap(joints, axis=0), axis=0) / DT
+    assert np.abs(np.diff(speeds, axis=0)).max() < 25.0
+
+
+@pytest.mark.parametrize(
     ("ground", "top"),
     [(stairs(), 0.9), (Ground.from_arrays(*quads(floor(slope=0.45))), 0.45 * 6.0)],
     ids=["stairs", "slope"],

@@ -1,5 +1,6 @@
 """From a level's mesh to routes: the walkable surface as a graph of discs."""
 
+from navmesh.chunks import chunks_of, join_chunks, split_terrain
 from navmesh.errors import NavmeshError
 from navmesh.graph import NodeGraph
 from navmesh.obstacle_rules import ObstacleRules
@@ -14,7 +15,10 @@ __all__ = [
     "ObstacleRules",
     "Terrain",
     "WalkRules",
+    "chunks_of",
+    "join_chunks",
     "load_tags",
     "save_tags",
+    "split_terrain",
     "tags_path",
 ]

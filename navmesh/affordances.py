@@ -14,15 +14,15 @@ from navmesh.measuring import DROP, GAP, JUMP, VAULT, Limits, measure
 from navmesh.obstacle_rules import AFFORDANCES, ObstacleRules
 from navmesh.obstacles import Obstacles
 from navmesh.probes import ProbeGrid
-from navmesh.rims import Rims, find_rims
+from navmesh.rims import Rims
 from navmesh.rules import WalkRules
+from navmesh.soundings import Soundings, take_soundings
 from navmesh.stretches import Samples, Stretch, join_samples
 from navmesh.surface import Surface
 from navmesh.terrain import Terrain
 
-__all__ = ["detect_obstacles", "tag_names"]
+__all__ = ["detect_obstacles", "obstacles_at", "tag_names"]
 
-_SPACING = 0.2  # [m] distance between samples along a rim
 _SLOT = {JUMP: 0, VAULT: 0, DROP: 1, GAP: 2}
 
 
@@ -35,18 +35,20 @@ def detect_obstacles(
     walk over is no obstacle.
     """
     rules = rules or ObstacleRules()
-    rims = find_rims(terrain.vertices - surface.origin, terrain.faces, walking.max_slope)
-    if not len(rims):
-        return Obstacles.empty()
     grid = ProbeGrid(terrain.vertices, terrain.faces, surface.origin, walking.max_slope)
-    limits = Limits.of(rules, walking)
+    return obstacles_at(take_soundings(terrain, surface, walking, rules, grid), surface, walking, rules, grid)
+
+
+def obstacles_at(
+    soundings: Soundings, surface: Surface, walking: WalkRules, rules: ObstacleRules, grid: ProbeGrid
+) -> Obstacles:
+    """The obstacles that ``soundings`` show."""
+    rims, first = soundings.rims, soundings.first
     along = rims.end - rims.start
     length = np.linalg.norm(along, axis=1)
-    parts = np.maximum(1, np.ceil(length / _SPACING - 1e-9)).astype(np.int64)
-    first = np.concatenate(([0], np.cumsum(parts)))
-    near = max(rules.run_up, rules.landing) + surface.resolution
+    parts = np.diff(first)
+    limits = Limits.of(rules, walking)
     cells = cells_of(surface)
-    kind, size = measure(grid.arrays, cells, rims.start, rims.end, rims.outward, first, limits, near)
 
     def again(points: np.ndarray, outward: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         every = np.arange(len(points) + 1)
@@ -55,10 +57,11 @@ def detect_obstacles(
     found = []
     for code, name in enumerate(AFFORDANCES, start=1):
         slot = _SLOT[code]
-        hits = np.flatnonzero(kind[:, slot] == code)
-        if not len(hits):
+        there = soundings.kind[:, slot] == code
+        if not there.any():
             continue
-        samples = _samples(rims, along / length[:, None], length / parts, first, hits, size[hits, slot], code)
+        hits, size = soundings.sample[there], soundings.size[there, slot]
+        samples = _samples(rims, along / length[:, None], length / parts, first, hits, size, code)
         stretches = join_samples(samples, 2.0 * rules.body_radius)
         if stretches:
             found.append(_frames(name, code, stretches, samples, rules.body_radius, again))

@@ -1,15 +1,16 @@
 """The node-radius graph: discs on the walkable surface, joined where a body can pass from one to the next."""
 
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
 from navmesh import archive, edges, nodes, pathfinding, queries
-from navmesh.affordances import detect_obstacles
-from navmesh.build import build_surface
+from navmesh.affordances import obstacles_at
+from navmesh.build import Cells, Grid, find_cells, surface_of
+from navmesh.chunks import change_chunks
 from navmesh.errors import NavmeshError
 from navmesh.links import Links, make_links
 from navmesh.obstacle_rules import ObstacleRules
@@ -17,9 +18,11 @@ from navmesh.obstacles import Obstacles
 from navmesh.pathfinding import PathSearch
 from navmesh.route import Route, Routes
 from navmesh.rules import WalkRules
+from navmesh.stages import Stages, all_soundings, grid_for, renew_cells
 from navmesh.surface import Surface
 from navmesh.tagging import TagFile
-from navmesh.terrain import Terrain
+from navmesh.tags import Tags
+from navmesh.terrain import Chunk, Terrain
 
 if TYPE_CHECKING:
     import networkx
@@ -27,7 +30,7 @@ if TYPE_CHECKING:
 __all__ = ["NodeGraph"]
 
 _KIND = "surefoot navigation graph"
-_VERSION = 3
+_VERSION = 4
 _OBSTACLE_RULES = ObstacleRules()
 
 
@@ -69,6 +72,12 @@ class NodeGraph:
     """What a skill can clear, found in the mesh and corrected by the author's tags."""
     links: Links = field(default_factory=Links.empty)
     """The ways over the obstacles that a route can take; see `find_path`'s skills."""
+    obstacle_rules: ObstacleRules | None = None
+    """What `build` was given."""
+    tags: TagFile | None = None
+    """What `build` was given."""
+    stages: Stages | None = field(default=None, repr=False)
+    """What `update` needs of the build; never saved."""
     cache: dict[str, Any] = field(default_factory=dict, repr=False)
     """What queries have worked out and want to keep; never saved, and may be emptied at any time."""
 
@@ -79,15 +88,62 @@ class NodeGraph:
         rules: WalkRules | None = None,
         obstacle_rules: ObstacleRules | None = _OBSTACLE_RULES,
         tags: TagFile | None = None,
+        extent: Any = None,
     ) -> "NodeGraph":
         """The graph of ``terrain`` under ``rules`` (default: `WalkRules()`).
 
         ``obstacle_rules`` say what counts as clearable; None leaves the search for obstacles out. ``tags``
-        (`navmesh.load_tags`) are the author's additions, changes and removals. Raises `NavmeshError` when
-        nothing is walkable, or when the tags do not fit the level.
+        (`navmesh.load_tags`) are the author's additions, changes and removals. ``extent`` (2, 3) [m] are the
+        least
+        and the greatest corner of the room that a level which grows (`update`) is going to fill; by default
+        its
+        bounds. Raises `NavmeshError` when nothing is walkable, or when the tags do not fit the level.
         """
         rules = rules or WalkRules()
-        surface = build_surface(terrain, rules)
+        grid = grid_for(terrain, rules, extent)
+        return cls._made(terrain, rules, obstacle_rules, tags, grid, find_cells(terrain, rules, grid))
+
+    def update(self, changes: Mapping[str, Terrain | None]) -> "NodeGraph":
+        """The graph after ``changes`` to the level's chunks: by name, a `Terrain` to be added or to replace
+        the
+        one of that name, None to remove it. This graph stays as it is.
+
+        Bit for bit what `build` gives for the changed terrain with this graph's `extent`. Only the
+        neighbourhood of the chunks is looked at again, see docs/navmesh.md; where they reach beyond the
+        extent,
+        or this graph was loaded and not yet updated, the whole is built anew. Raises `NavmeshError` for the
+        removal of a chunk that is not there, when nothing walkable is left, and for tags that fit no more.
+        """
+        terrain, changed = change_chunks(self.terrain, changes)
+        if not changed:
+            return self
+        rules, stages = self.rules, self.stages
+        grid = grid_for(terrain, rules, self.extent, grown=True)
+        if (
+            stages is not None
+            and grid.shape == stages.grid.shape
+            and (grid.origin == stages.grid.origin).all()
+        ):
+            cells = renew_cells(stages.cells, stages.grid, changed, terrain, rules)
+        else:
+            cells, stages = find_cells(terrain, rules, grid), None
+        return self._made(terrain, rules, self.obstacle_rules, self.tags, grid, cells, stages, changed)
+
+    @classmethod
+    def _made(
+        cls,
+        terrain: Terrain,
+        rules: WalkRules,
+        obstacle_rules: ObstacleRules | None,
+        tags: TagFile | None,
+        grid: Grid,
+        cells: Cells,
+        before: Stages | None = None,
+        changed: Sequence[np.ndarray] = (),
+    ) -> "NodeGraph":
+        """The graph of ``cells``; soundings as ``before``, where it is given, but around ``changed``
+        bounds."""
+        surface = surface_of(cells, grid)
         h, ny = surface.resolution, surface.shape[1]
         order = nodes.order_by_clearance(surface.clearance, h / 64)
         node_cell, label = nodes.select_nodes(order, surface.clearance, surface.link, h, rules.min_radius)
@@ -101,9 +157,10 @@ class NodeGraph:
         start, target, width, portal, border = edges.join_nodes(
             label, surface.link, surface.clearance, x, y, radii
         )
-        obstacles = Obstacles.empty()
+        obstacles, soundings = Obstacles.empty(), None
         if obstacle_rules is not None:
-            obstacles = detect_obstacles(terrain, surface, rules, obstacle_rules)
+            soundings, probes = all_soundings(before, changed, terrain, surface, rules, obstacle_rules)
+            obstacles = obstacles_at(soundings, surface, rules, obstacle_rules, probes)
         if tags is not None:
             obstacles = tags.apply(obstacles, surface, rules)
         return cls(
@@ -121,7 +178,16 @@ class NodeGraph:
             edge_cells=border,
             obstacles=obstacles,
             links=make_links(obstacles, surface, rules, (obstacle_rules or _OBSTACLE_RULES).body_radius),
+            obstacle_rules=obstacle_rules,
+            tags=tags,
+            stages=Stages(grid, cells, soundings),
         )
+
+    @property
+    def extent(self) -> np.ndarray:
+        """(2, 3) float64 [m]: the room that `update` can fill without building everything anew."""
+        surface = self.surface
+        return Grid(surface.origin, surface.resolution, surface.shape).extent
 
     def __len__(self) -> int:
         return len(self.radii)
@@ -140,6 +206,9 @@ class NodeGraph:
             "rules": self.rules.to_dict(),
             "resolution": surface.resolution,
             "shape": list(surface.shape),
+            "chunks": [list(chunk) for chunk in self.terrain.chunks],
+            "obstacle_rules": None if self.obstacle_rules is None else self.obstacle_rules.to_dict(),
+            "tags": None if self.tags is None else self.tags.tags.model_dump(mode="json", exclude_none=True),
         }
         archive.write_archive(path, _KIND, _VERSION, header, arrays)
 
@@ -161,12 +230,19 @@ class NodeGraph:
                 **{name: arrays.pop(f"surface_{name}") for name in _SURFACE_ARRAYS},
             )
             graph = cls(
-                terrain=Terrain(arrays.pop("terrain_vertices"), arrays.pop("terrain_faces"), header["level"]),
+                terrain=Terrain(
+                    arrays.pop("terrain_vertices"),
+                    arrays.pop("terrain_faces"),
+                    header["level"],
+                    tuple(Chunk(*chunk) for chunk in header["chunks"]),
+                ),
                 rules=WalkRules.from_dict(header["rules"]),
                 surface=surface,
                 **cast(dict[str, Any], {name: arrays.pop(name) for name in _GRAPH_ARRAYS}),
                 obstacles=Obstacles(**_unpacked(arrays, "obstacles_", Obstacles)),
                 links=Links(**_unpacked(arrays, "links_", Links)),
+                obstacle_rules=_read(header["obstacle_rules"], ObstacleRules.from_dict),
+                tags=_read(header["tags"], lambda tags: TagFile(Tags.model_validate(tags))),
             )
         except KeyError as error:
             raise archive.ArchiveError(f"{path}: the navigation graph lacks {error}; bake it anew") from error
@@ -286,6 +362,10 @@ class NodeGraph:
             if a < b:
                 graph.add_edge(a, b, width=width, length=length)
         return graph
+
+
+def _read(value: Any, make: Callable[[Any], Any]) -> Any:
+    return None if value is None else make(value)
 
 
 def _unpacked(arrays: dict[str, np.ndarray], prefix: str, kind: type) -> dict[str, np.ndarray]:

@@ -27,7 +27,9 @@ class ProbeGrid:
         self.size = max(0.5, float(high.max()) / 1000.0)
         """[m], side of a square."""
         self.shape = (int(high[0] / self.size) + 1, int(high[1] / self.size) + 1)
-        self.start, self.member = columns_of_triangles(self.triangles, self.size, *self.shape)
+        self.start, self.member = columns_of_triangles(
+            self.triangles, self.size, *self.shape, (0, 0, *self.shape)
+        )
 
     @property
     def arrays(self) -> tuple:

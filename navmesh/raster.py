@@ -79,19 +79,23 @@ def prepare_triangles(vertices, faces, origin, steepest):
 
 
 @njit(cache=True)
-def columns_of_triangles(table, resolution, nx, ny):
+def columns_of_triangles(table, resolution, nx, ny, window):
     """The triangles that touch each column, as lists: ``start`` (nx·ny + 1,) and ``triangle`` (k,) int32.
 
     ``table`` comes from `prepare_triangles`. Column ix·ny + iy is the square
-    [ix, ix + 1] × [iy, iy + 1] in units of ``resolution``.
+    [ix, ix + 1] × [iy, iy + 1] in units of ``resolution``. Only columns from (window[0], window[1]) up to,
+    not
+    including, (window[2], window[3]) get any.
     """
     count = table.shape[0]
     inverse = 1.0 / resolution
     strips = 0
     for t in range(count):
-        low = min(table[t, 0], table[t, 3], table[t, 6])
-        high = max(table[t, 0], table[t, 3], table[t, 6])
-        strips += int((high - low + 4 * TOUCH) * inverse) + 3
+        low = min(table[t, 0], table[t, 3], table[t, 6]) - TOUCH
+        high = max(table[t, 0], table[t, 3], table[t, 6]) + TOUCH
+        strips += max(
+            min(window[2] - 1, math.floor(high * inverse)) - max(window[0], math.floor(low * inverse)) + 1, 0
+        )
     span = np.empty((strips, 3), np.int32)
     start = np.zeros(nx * ny + 2, np.int32)
     spans = 0
@@ -99,8 +103,8 @@ def columns_of_triangles(table, resolution, nx, ny):
         row = table[t]
         low = min(row[0], row[3], row[6]) - TOUCH
         high = max(row[0], row[3], row[6]) + TOUCH
-        first = max(0, math.floor(low * inverse))
-        last = min(nx - 1, math.floor(high * inverse))
+        first = max(window[0], math.floor(low * inverse))
+        last = min(window[2] - 1, math.floor(high * inverse))
         for ix in range(first, last + 1):
             x0 = ix * resolution - TOUCH
             x1 = (ix + 1) * resolution + TOUCH
@@ -125,8 +129,8 @@ def columns_of_triangles(table, resolution, nx, ny):
                 top = max(top, ay, by)
             if bottom > top:
                 continue
-            iy0 = max(0, math.floor((bottom - TOUCH) * inverse))
-            iy1 = min(ny - 1, math.floor((top + TOUCH) * inverse))
+            iy0 = max(window[1], math.floor((bottom - TOUCH) * inverse))
+            iy1 = min(window[3] - 1, math.floor((top + TOUCH) * inverse))
             if iy1 < iy0:
                 continue
             span[spans, 0] = t

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 from numba import njit
 
-__all__ = ["Rims", "find_rims"]
+__all__ = ["WELD", "Rims", "find_rims", "order_of"]
 
-_WELD = 5e-4  # [m] vertices closer than this are one
+WELD = 5e-4
+"""[m] Vertices closer than this are one."""
 _LEVEL = math.tan(math.radians(20.0))  # steepest edge that counts as a rim, rise over horizontal length
 _SHORTEST = 0.02  # [m] shorter edges (horizontally) are left out
 _LEFT, _RIGHT, _RISES, _HANGS = 1, 2, 4, 8  # what lies at an edge
@@ -114,7 +115,8 @@ def _half_edges(vertices, faces, place, places, steepest):
 
 def _weld(vertices: np.ndarray) -> tuple[np.ndarray, int]:
     """The number of each vertex's place (v,) int64, and how many places there are."""
-    grid = np.rint((vertices - vertices.min(axis=0)) / _WELD).astype(np.int64)
+    grid = np.rint(vertices / WELD).astype(np.int64)
+    grid -= grid.min(axis=0)
     span = grid.max(axis=0) + 1
     if float(span[0]) * float(span[1]) * float(span[2]) < 2.0**62:
         _, index = np.unique((grid[:, 0] * span[1] + grid[:, 1]) * span[2] + grid[:, 2], return_inverse=True)
@@ -123,14 +125,20 @@ def _weld(vertices: np.ndarray) -> tuple[np.ndarray, int]:
     return index.reshape(-1).astype(np.int64), int(index.max()) + 1
 
 
+def order_of(start: np.ndarray, end: np.ndarray) -> np.ndarray:
+    """Indices of the edges ``start`` to ``end`` (n, 3) by place and without repetitions, so that the order of
+    the triangles does not show."""
+    if not len(start):
+        return np.empty(0, np.int64)
+    place = np.rint(np.column_stack((start, end)) / WELD)
+    order = np.lexsort(place.T[::-1])
+    return order[np.concatenate(([True], (np.diff(place[order], axis=0) != 0).any(axis=1)))]
+
+
 def _in_order(start: np.ndarray, end: np.ndarray) -> Rims:
-    """Sort by place and drop repetitions, so that the order of the triangles does not show."""
     if not len(start):
         return Rims(np.empty((0, 3)), np.empty((0, 3)), np.empty((0, 2)))
-    place = np.rint(np.column_stack((start, end)) / _WELD)
-    order = np.lexsort(place.T[::-1])
-    fresh = np.concatenate(([True], (np.diff(place[order], axis=0) != 0).any(axis=1)))
-    order = order[fresh]
+    order = order_of(start, end)
     start, end = start[order], end[order]
     along = end[:, :2] - start[:, :2]
     along /= np.linalg.norm(along, axis=1, keepdims=True)

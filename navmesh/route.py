@@ -9,6 +9,7 @@ import numpy as np
 from navmesh.corridor import Corridor, corridor_of
 from navmesh.draping import drape
 from navmesh.errors import NavmeshError
+from navmesh.holding import route_holds
 
 if TYPE_CHECKING:
     from navmesh.graph import NodeGraph
@@ -97,6 +98,12 @@ class Route:
             raise NavmeshError(f"spacing = {spacing!r}: expected a distance [m] above 0")
         parts = [drape(self.graph, leg.waypoints, spacing) for leg in self.legs()]
         return np.concatenate(parts) if parts else np.empty((0, 3))
+
+    def holds(self, graph: "NodeGraph") -> bool:
+        """Whether its body can still go this way, waypoint by waypoint, on ``graph``: what `NodeGraph.update`
+        gave after the level changed. False for a route without waypoints. A shorter way may be there as well.
+        """
+        return route_holds(self, graph)
 
     @property
     def corridor(self) -> Corridor:

@@ -2,23 +2,33 @@
 
 import hashlib
 import os
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from navmesh.errors import NavmeshError
 
-__all__ = ["Terrain"]
+__all__ = ["Chunk", "Terrain"]
 
 _AXES = {"x": (1, 2, 0), "y": (0, 2, 1), "z": (0, 1, 2)}
 _SIGNS = {"x": (1.0, 1.0, 1.0), "y": (1.0, -1.0, 1.0), "z": (1.0, 1.0, 1.0)}
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+class Chunk(NamedTuple):
+    """A named part of a terrain: the next ``vertices`` and ``faces`` of its arrays."""
+
+    name: str
+    vertices: int
+    faces: int
+
+
+@dataclass(frozen=True, eq=False)
 class Terrain:
-    """Triangles of a level. Make one with `load` or `from_arrays`; both check their input.
+    """Triangles of a level. Make one with `load` or `from_arrays`, which check their input, or of named
+    chunks with `navmesh.join_chunks`.
 
     Degenerate and duplicate triangles, open edges, overlaps and unreferenced vertices are tolerated.
     """
@@ -29,19 +39,29 @@ class Terrain:
     """(f, 3) int32 into `vertices`, f ≥ 1, counter-clockwise seen from outside (from above for a floor)."""
     name: str = "terrain"
     """What error messages call it: the file's name."""
-    digest: str = field(init=False)
-    """SHA-256 of vertices and faces (hexadecimal): names the geometry that a baked graph was made from."""
-    bounds: np.ndarray = field(init=False)
-    """(2, 3) float64 [m]: least and greatest coordinates of the vertices that triangles use."""
+    chunks: tuple[Chunk, ...] = ()
+    """What it is made of, by rising name; a level that was loaded whole is one chunk, called "level"."""
 
     def __post_init__(self) -> None:
+        if not self.chunks:
+            whole = (Chunk("level", len(self.vertices), len(self.faces)),)
+            object.__setattr__(self, "chunks", whole)
+
+    @cached_property
+    def digest(self) -> str:
+        """SHA-256 of vertices and faces (hexadecimal): names the geometry that a baked graph was made
+        from."""
         checksum = hashlib.sha256(np.ascontiguousarray(self.vertices).tobytes())
         checksum.update(np.ascontiguousarray(self.faces).tobytes())
-        object.__setattr__(self, "digest", checksum.hexdigest())
+        return checksum.hexdigest()
+
+    @cached_property
+    def bounds(self) -> np.ndarray:
+        """(2, 3) float64 [m]: least and greatest coordinates of the vertices that triangles use."""
         used = np.zeros(len(self.vertices), dtype=bool)
         used[self.faces.ravel()] = True
         points = self.vertices[used]
-        object.__setattr__(self, "bounds", np.stack([points.min(axis=0), points.max(axis=0)]))
+        return np.stack([points.min(axis=0), points.max(axis=0)])
 
     @classmethod
     def from_arrays(

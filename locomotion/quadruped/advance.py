@@ -76,7 +76,8 @@ def _is_over(st):
 
 @njit(cache=True)
 def _highest(feet, joint_x, joint_y, direction, width, first, reach):
-    """Height [m] at which both legs of a pair, ``first`` and the next, still reach their feet: those that swing
+    """Height [m] at which both legs of a pair, ``first`` and the next, still reach their feet: those that
+    swing
     too, so that nothing jumps when they come down."""
     highest = math.inf
     for k in range(2):

@@ -1,0 +1,118 @@
+"""Levels in named chunks: put together, taken apart, changed."""
+
+import bisect
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from navmesh.errors import NavmeshError
+from navmesh.terrain import Chunk, Terrain
+
+__all__ = ["change_chunks", "chunks_of", "join_chunks", "split_terrain"]
+
+
+def join_chunks(chunks: Mapping[str, Terrain], name: str = "terrain") -> Terrain:
+    """One terrain of named ``chunks``: the same whatever their order. Raises `NavmeshError` for none."""
+    for key, chunk in chunks.items():
+        if not isinstance(key, str) or not isinstance(chunk, Terrain):
+            raise NavmeshError(f"chunk {key!r} is a {type(chunk).__name__}; expected names and Terrains")
+    if not chunks:
+        raise NavmeshError(f"{name}: no chunks; a level needs at least one")
+    names = sorted(chunks)
+    counts = [len(chunks[key].vertices) for key in names]
+    shift = np.concatenate(([0], np.cumsum(counts)))
+    faces = [chunks[key].faces + np.int32(at) for key, at in zip(names, shift[:-1], strict=True)]
+    return Terrain(
+        np.concatenate([chunks[key].vertices for key in names]),
+        np.concatenate(faces).astype(np.int32),
+        name,
+        tuple(Chunk(key, len(chunks[key].vertices), len(chunks[key].faces)) for key in names),
+    )
+
+
+def chunks_of(terrain: Terrain) -> dict[str, Terrain]:
+    """The chunks of ``terrain`` by name."""
+    found, vertex, face = {}, 0, 0
+    for chunk in terrain.chunks:
+        vertices = terrain.vertices[vertex : vertex + chunk.vertices]
+        faces = terrain.faces[face : face + chunk.faces] - np.int32(vertex)
+        found[chunk.name] = Terrain(vertices, faces, chunk.name)
+        vertex, face = vertex + chunk.vertices, face + chunk.faces
+    return found
+
+
+def split_terrain(terrain: Terrain, side: float) -> dict[str, Terrain]:
+    """``terrain`` in chunks by squares of ``side`` [m], called "ix,iy": each has the triangles with their
+    middle in its square. Raises `NavmeshError` for a side that is not above 0."""
+    if not (math.isfinite(side) and side > 0.0):
+        raise NavmeshError(f"side = {side!r}: expected a length [m] above 0")
+    middle = terrain.vertices[terrain.faces].mean(axis=1)
+    square = np.floor(middle[:, :2] / side).astype(np.int64)
+    squares, owner = np.unique(square, axis=0, return_inverse=True)
+    found = {}
+    for k, (ix, iy) in enumerate(squares.tolist()):
+        used, faces = np.unique(terrain.faces[owner.reshape(-1) == k], return_inverse=True)
+        name = f"{ix},{iy}"
+        found[name] = Terrain(terrain.vertices[used], faces.reshape(-1, 3).astype(np.int32), name)
+    return found
+
+
+def change_chunks(
+    terrain: Terrain, changes: Mapping[str, Terrain | None]
+) -> tuple[Terrain, list[np.ndarray]]:
+    """``terrain`` after ``changes``: chunks by name, to be added or replaced, or None to be removed.
+
+    Returns it and, for each chunk that is another than before, the bounds (2, 3) [m] of what it was and is.
+    Raises `NavmeshError` for the removal of a chunk that is not there, and when none is left.
+    """
+    for name, chunk in changes.items():
+        if not isinstance(name, str) or not (chunk is None or isinstance(chunk, Terrain)):
+            raise NavmeshError(
+                f"chunk {name!r} is a {type(chunk).__name__}; expected a Terrain, or None to remove it"
+            )
+    names = [chunk.name for chunk in terrain.chunks]
+    corner = np.concatenate(([0], np.cumsum([chunk.vertices for chunk in terrain.chunks])))
+    face = np.concatenate(([0], np.cumsum([chunk.faces for chunk in terrain.chunks])))
+    vertices, faces, chunks, changed = [], [], [], []
+    count, after = 0, 0  # vertices so far; the first old chunk that is still to come
+
+    def keep(until: int) -> None:
+        nonlocal count, after
+        vertices.append(terrain.vertices[corner[after] : corner[until]])
+        faces.append(terrain.faces[face[after] : face[until]] + np.int32(count - corner[after]))
+        chunks.extend(terrain.chunks[after:until])
+        count, after = count + len(vertices[-1]), until
+
+    for name in sorted(changes):
+        at, new = bisect.bisect_left(names, name), changes[name]
+        keep(at)
+        bounds = []
+        if at < len(names) and names[at] == name:
+            old = terrain.vertices[corner[at] : corner[at + 1]]
+            old_faces = terrain.faces[face[at] : face[at + 1]] - np.int32(corner[at])
+            if new is not None and np.array_equal(new.vertices, old) and np.array_equal(new.faces, old_faces):
+                continue
+            after = at + 1
+            bounds.append(_bounds(old))
+        elif new is None:
+            raise NavmeshError(
+                f"there is no chunk {name!r} to remove; there are {', '.join(names[:20]) or 'none'}"
+            )
+        if new is not None:
+            vertices.append(new.vertices)
+            faces.append(new.faces + np.int32(count))
+            chunks.append(Chunk(name, len(new.vertices), len(new.faces)))
+            count += len(new.vertices)
+            bounds.append(_bounds(new.vertices))
+        changed.append(np.stack([np.min(bounds, axis=0)[0], np.max(bounds, axis=0)[1]]))
+    keep(len(names))
+    if not chunks:
+        raise NavmeshError(f"{terrain.name}: the change removes all chunks; a level needs at least one")
+    if not changed:
+        return terrain, []
+    return Terrain(np.concatenate(vertices), np.concatenate(faces), terrain.name, tuple(chunks)), changed
+
+
+def _bounds(vertices: np.ndarray) -> np.ndarray:
+    return np.stack([vertices.min(axis=0), vertices.max(axis=0)])

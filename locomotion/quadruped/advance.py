@@ -19,6 +19,7 @@ __all__ = ["advance_all"]
 _HEIGHT_HALF_LIFE = 0.07  # [s]
 _STRETCH, _TAUT = 0.90, 0.95  # shares of its length to which a standing leg should and can be stretched
 _SOFT = 0.03  # share of a leg's length over which its reach begins to pull the trunk down
+_FAR = math.log1p(math.exp(-4.0))  # so that nothing pulls four times as far from it
 _CROUCH = 0.25  # [1/rad²] of slope by which a body goes lower on it
 _STEEPEST = 0.75  # of the spine's length by which the shoulders may be higher or lower than the hips
 _GAZE_HALF_LIFE = 0.10  # [s]
@@ -132,7 +133,9 @@ def _carry(st, pr, feet):
 def _below(height, limit, reach):
     """``height`` [m] kept under a limit, without a kink where it comes near it."""
     soft = _SOFT * reach
-    return limit - soft * math.log1p(math.exp(min((limit - height) / soft, 60.0)))
+    over = (height - limit) / soft
+    down = math.log1p(math.exp(over)) if over < 30.0 else over
+    return height - soft * max(down - _FAR, 0.0)
 
 
 @njit(cache=True)

@@ -84,7 +84,7 @@ def make_plan(
         obstacles += [replace(each, arc_length=each.arc_length + begun) for each in smooth.obstacles]
         begun += _length(smooth.points)
         start = smooth.points[-1]
-        direction = (smooth.points[-1] - smooth.points[-2])[:2]
+        direction = _heading(smooth.points)
     if not points:
         raise NoWay(len(goals) - 1, "it is where the body already is")
     return Plan(np.concatenate(raw), np.concatenate(pulled), np.concatenate(points), tuple(obstacles))
@@ -95,6 +95,13 @@ def why_not(graph: navmesh.NodeGraph, route: Route, start: np.ndarray, radius: f
     if route.status == "off_graph" and graph.find_path(start, start, radius=radius).status == "off_graph":
         return "the way there begins at a place where the body does not fit"
     return _WHY[route.status]
+
+
+def _heading(points: np.ndarray) -> np.ndarray | None:
+    """(2,) where a path leads at its end; None for one that goes nowhere."""
+    steps = np.diff(points[:, :2], axis=0)
+    onward = np.flatnonzero(np.linalg.norm(steps, axis=1) > 1e-6)
+    return steps[onward[-1]] if len(onward) else None
 
 
 def _length(points: np.ndarray) -> float:

@@ -66,6 +66,13 @@ def test_waits_then_goes_through_waypoints(graph, tmp_path):
     assert [round(event.time, 1) for event in departures] == [1.5]
 
 
+@pytest.mark.parametrize("apart", [0.0, 1e-13, 1e-6, 1e-3])
+def test_places_may_all_but_coincide(graph, tmp_path, apart):
+    east = [9 + apart, 3, 0]
+    loaded = load(tmp_path, REX + f"goto: [[9, 3, 0], {east}, [9, 3, 0], north]}}\n")
+    prepare_mission(loaded, Progress(shown=False), graph)
+
+
 def test_patrols_as_often_as_it_is_told(graph, tmp_path):
     result = run(graph, tmp_path, REX + "script: [{patrol: {points: [north, west], rounds: 2}}]}\n")
     assert [event.goal[0] for event in result.events if isinstance(event, Arrived)] == pytest.approx(

@@ -41,6 +41,9 @@ class Skill(StrEnum):
 UpOption = Annotated[Up, typer.Option(help="Axis of the file that points up.")]
 ScaleOption = Annotated[float, typer.Option(help="Metres per unit of the file.")]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print the result as JSON on standard output.")]
+FollowOption = Annotated[
+    str | None, typer.Option(help="Agent that the camera goes with; default: the first.")
+]
 SlopeOption = Annotated[float | None, typer.Option(help="[°] Steeper faces end the walkable surface.")]
 StepOption = Annotated[float | None, typer.Option(help="[m] Higher steps end the walkable surface.")]
 HeadroomOption = Annotated[float | None, typer.Option(help="[m] Free height that walking needs.")]
@@ -127,6 +130,27 @@ def view(
 ) -> None:
     """Write a page that plays a run in a browser, without a server and without a network."""
     _finish(_commands().write_view(source, output), as_json)
+
+
+@app.command()
+def export(
+    source: Annotated[Path, typer.Argument(help="Trace (.npz), or a mission (.yaml) to be run first.")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="File to write (.glb).")] = Path("run.glb"),
+    as_json: JsonOption = False,
+) -> None:
+    """Write a run as animated glTF, which Blender, Godot, three.js and other engines open."""
+    _finish(_commands().export_gltf(source, output), as_json)
+
+
+@app.command()
+def film(
+    source: Annotated[Path, typer.Argument(help="Trace (.npz), or a mission (.yaml) to be run first.")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="File to write (.mp4).")] = Path("run.mp4"),
+    follow: FollowOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Draw a run as a video: needs no GPU and no display, but about half a second for each frame."""
+    _finish(_commands().write_video(source, output, follow), as_json)
 
 
 @app.command()

@@ -27,11 +27,13 @@ __all__ = [
     "bake_level",
     "check_mission_file",
     "evaluate_skill",
+    "export_gltf",
     "find_path",
     "run_mission_file",
     "show_clip",
     "train_skill",
     "write_schema",
+    "write_video",
     "write_view",
 ]
 
@@ -149,23 +151,51 @@ def write_view(source: Path, output: Path) -> Result:
     from runtime.view import write_page
 
     _writable(output)
+    trace, progress = _trace_of(source)
+    with progress.stage("writing the page"):
+        write_page(trace, output)
+    return _written(output, trace, "open it in a browser")
+
+
+def export_gltf(source: Path, output: Path) -> Result:
+    """Write a trace, or a mission that is run for it, as animated glTF."""
+    from runtime.gltf import write_gltf
+
+    _writable(output)
+    if output.suffix.lower() != ".glb":
+        raise RuntimeInputError(f"{output}: glTF is written as one binary file; name it .glb")
+    trace, progress = _trace_of(source)
+    with progress.stage("writing the animation"):
+        write_gltf(trace, output)
+    return _written(output, trace, "open it in Blender, Godot or three.js")
+
+
+def write_video(source: Path, output: Path, of: str | None) -> Result:
+    """Draw a trace, or a mission that is run for it, as a video."""
+    from runtime.film import agent_named, write_film
+
+    _writable(output)
+    if output.suffix.lower() != ".mp4":
+        raise RuntimeInputError(f"{output}: a video is written as .mp4; name it so")
+    trace, progress = _trace_of(source)
+    agent_named(trace, of)
+    write_film(trace, output, of, progress)
+    return _written(output, trace, "play it")
+
+
+def _trace_of(source: Path) -> tuple[Trace, Progress]:
+    """The trace at ``source``, or of the mission there, which is run for it."""
     if source.suffix.lower() in (".yaml", ".yml"):
         loaded = load_mission(source)
         progress = _ready()
-        trace = run_mission(loaded, progress).trace
-    else:
-        progress = Progress()
-        trace = Trace.read(source)
-    with progress.stage("writing the page"):
-        write_page(trace, output)
-    values = {
-        "output": str(output),
-        "seconds": round(float(trace.times[-1]), 2),
-        "bytes": output.stat().st_size,
-    }
-    return Result(
-        values, True, lambda: print(f"{output}: open it in a browser ({values['bytes'] / 1e6:.1f} MB)")
-    )
+        return run_mission(loaded, progress).trace, progress
+    return Trace.read(source), Progress()
+
+
+def _written(output: Path, trace: Trace, what_next: str) -> Result:
+    size = output.stat().st_size
+    values = {"output": str(output), "seconds": round(float(trace.times[-1]), 2), "bytes": size}
+    return Result(values, True, lambda: print(f"{output}: {what_next} ({size / 1e6:.1f} MB)"))
 
 
 def train_skill(

@@ -1,15 +1,18 @@
-"""A small ray caster for pictures of a level and its figures: NumPy only, no GPU, no display, no driver."""
+"""A small ray caster for pictures of a level and its figures: no GPU, no display, no driver."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from runtime.figure import Shapes, rotate
+from runtime.ray_kernel import cast_faces
 
 __all__ = ["Camera", "Triangles", "render"]
 
 SUN = np.array([0.35, -0.5, 0.8]) / np.linalg.norm([0.35, -0.5, 0.8])
 SKY_LOW, SKY_HIGH = np.array([0.93, 0.95, 0.97]), np.array([0.66, 0.78, 0.90])
+FLAT = 0.6
+"""Faces whose normal has at least this z are floor, the others wall."""
 FLOOR, FLOOR_DARK, WALL = (
     np.array([0.80, 0.79, 0.76]),
     np.array([0.73, 0.72, 0.69]),
@@ -122,25 +125,16 @@ def _draw_level(frame: _Frame, triangles: Triangles, reach: float, cutaway: floa
     towards = np.einsum("fc,fc->f", triangles.corners[:, 0] - eye, triangles.normals)
     low, high = triangles.corners.min(axis=1), triangles.corners.max(axis=1)
     gap = np.maximum(np.maximum(low - eye, eye - high), 0.0)
-    for f in np.nonzero((towards < 0.0) & (np.linalg.norm(gap, axis=1) < reach))[0]:
-        corners, normal = triangles.corners[f], triangles.normals[f]
-        window = frame.window(corners, 0.0)
-        if window is None:
-            continue
-        rays = frame.rays[window]
-        nearest = 0.02 if normal[2] > 0.6 else max(0.02, cutaway)
-        first, second = corners[1] - corners[0], corners[2] - corners[0]
-        # Moeller and Trumbore's test, for all rays of the window at once
-        p = np.cross(rays, second)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            inverse = 1.0 / (p @ first)
-            offset = eye - corners[0]
-            u = (p @ offset) * inverse
-            q = np.cross(offset, first)
-            v = (rays @ q) * inverse
-            distance = (second @ q) * inverse
-            hit = (u >= -1e-9) & (v >= -1e-9) & (u + v <= 1.0 + 1e-9) & (distance > nearest)
-        frame.put(window, np.where(hit, distance, np.inf), normal, FLOOR if normal[2] > 0.6 else WALL)
+    seen = np.nonzero((towards < 0.0) & (np.linalg.norm(gap, axis=1) < reach))[0]
+    normals = triangles.normals[seen]
+    level = normals[:, 2] > FLAT
+    nearest = np.where(level, 0.02, max(0.02, cutaway))
+    face = cast_faces(
+        eye, frame.axes, frame.scale, frame.rays, triangles.corners[seen], nearest, frame.distance
+    )
+    hit = face >= 0
+    frame.normal[hit] = normals[face[hit]]
+    frame.colour[hit] = np.where(level[face[hit], None], FLOOR, WALL)
 
 
 def _draw_shape(frame: _Frame, shapes: Shapes, k: int) -> None:

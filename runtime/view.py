@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from runtime.figure import Figure, Shapes
+from runtime.figure import Figure
 from runtime.files import whole_file
+from runtime.meshes import shape_mesh
 from runtime.trace import LevelTrace, PathTrace, Trace
 
 __all__ = ["write_page"]
@@ -124,7 +125,7 @@ def _draw_figure(scene: Any, name: str, figure: Figure) -> list[tuple[int, Any]]
             continue
         handle = scene.add_frame(f"/figures/{name}/{label}", show_axes=False)
         for k in own:
-            mesh = _shape_mesh(figure.shapes, int(k))
+            mesh = shape_mesh(figure.shapes, int(k))
             scene.add_mesh_simple(
                 f"/figures/{name}/{label}/{k}",
                 mesh.vertices.astype(np.float32), mesh.faces.astype(np.uint32),
@@ -133,16 +134,3 @@ def _draw_figure(scene: Any, name: str, figure: Figure) -> list[tuple[int, Any]]
             )  # fmt: skip
         handles.append((body, handle))
     return handles
-
-
-def _shape_mesh(shapes: Shapes, k: int) -> Any:
-    import trimesh
-
-    size = shapes.size[k]
-    if not shapes.round[k]:
-        mesh = trimesh.creation.capsule(height=2.0 * size[1], radius=size[0], count=[12, 12])
-        mesh.vertices -= mesh.bounds.mean(axis=0)
-        return mesh
-    mesh = trimesh.creation.icosphere(subdivisions=2)
-    mesh.vertices *= size
-    return mesh

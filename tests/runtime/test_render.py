@@ -7,6 +7,7 @@ import pytest
 from runtime.figure import Shapes, rotate, turn
 from runtime.filmstrip import write_filmstrip
 from runtime.plot import plot_from_above
+from runtime.ray_kernel import cast_faces
 from runtime.render import Camera, Triangles, render
 
 FLOOR = Triangles(
@@ -82,3 +83,36 @@ def test_film_strip_and_plot_are_pictures(trace, tmp_path):
         assert image.shape[0] > 300 and image.shape[1] > 600
         assert np.unique(image.reshape(-1, image.shape[2]), axis=0).shape[0] > 100
     assert sorted(each.name for each in tmp_path.iterdir()) == ["film.png", "level.png"]
+
+
+def first_faces(eye, rays, corners, nearest):
+    """`cast_faces` without windows: every ray against every face."""
+    distance, face = np.full(rays.shape[:2], np.inf), np.full(rays.shape[:2], -1)
+    for f, (a, b, c) in enumerate(corners):
+        u, v = b - a, c - a
+        with np.errstate(divide="ignore", invalid="ignore"):
+            det = np.cross(rays, v) @ u
+            first = np.cross(rays, v) @ (eye - a) / det
+            second = rays @ np.cross(eye - a, u) / det
+            t = v @ np.cross(eye - a, u) / det
+            hit = (first >= -1e-9) & (second >= -1e-9) & (first + second <= 1.0 + 1e-9) & (t > nearest[f])
+        hit &= t < distance
+        distance[hit], face[hit] = t[hit], f
+    return distance, face
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_rays_meet_the_same_faces_as_without_windows(seed):
+    random = np.random.default_rng(seed)
+    corners = random.normal(size=(60, 1, 3)) * 3.0 + random.normal(size=(60, 3, 3)) * random.choice(
+        [0.3, 5.0]
+    )
+    nearest = random.choice([0.02, 2.0], 60)
+    camera = Camera(random.normal(size=3), random.normal(size=3), 0.9)
+    rays, axes = camera.rays(90, 60), np.stack(camera.axes())
+    distance = np.full((60, 90), np.inf)
+    face = cast_faces(camera.eye, axes, 30.0 / np.tan(0.45), rays, corners, nearest, distance)
+    expected, expected_face = first_faces(camera.eye, rays, corners, nearest)
+    assert (face >= 0).mean() > 0.01
+    np.testing.assert_array_equal(face, expected_face)
+    np.testing.assert_allclose(distance, expected, rtol=1e-9)

@@ -126,10 +126,13 @@ def view(
     output: Annotated[Path, typer.Option("--output", "-o", help="File for the page (.html).")] = Path(
         "view.html"
     ),
+    follow: Annotated[
+        str | None, typer.Option(help="Agent that the camera goes with; default: it stands still.")
+    ] = None,
     as_json: JsonOption = False,
 ) -> None:
     """Write a page that plays a run in a browser, without a server and without a network."""
-    _finish(_commands().write_view(source, output), as_json)
+    _finish(_commands().write_view(source, output, follow), as_json)
 
 
 @app.command()

@@ -146,14 +146,14 @@ def write_schema(output: Path | None) -> None:
         temporary.write_text(text, encoding="utf-8")
 
 
-def write_view(source: Path, output: Path) -> Result:
-    """Write the page of a trace, or of a mission that is run for it."""
+def write_view(source: Path, output: Path, follow: str | None) -> Result:
+    """Write the page of a trace, or of a mission that is run for it; the camera goes with ``follow``."""
     from runtime.view import write_page
 
     _writable(output)
     trace, progress = _trace_of(source)
     with progress.stage("writing the page"):
-        write_page(trace, output)
+        write_page(trace, output, follow)
     return _written(output, trace, "open it in a browser")
 
 
@@ -172,7 +172,8 @@ def export_gltf(source: Path, output: Path) -> Result:
 
 def write_video(source: Path, output: Path, of: str | None) -> Result:
     """Draw a trace, or a mission that is run for it, as a video."""
-    from runtime.film import agent_named, write_film
+    from runtime.camera import agent_named
+    from runtime.film import write_film
 
     _writable(output)
     if output.suffix.lower() != ".mp4":

@@ -5,8 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from runtime.camera import follow, size_of
-from runtime.errors import RuntimeInputError
+from runtime.camera import agent_named, follow, size_of
 from runtime.figure import Shapes
 from runtime.files import whole_file
 from runtime.meshes import optional
@@ -15,7 +14,7 @@ from runtime.progress import Progress
 from runtime.render import Triangles, render
 from runtime.trace import AgentTrace, Trace
 
-__all__ = ["RATE", "agent_named", "frames", "write_film"]
+__all__ = ["RATE", "frames", "write_film"]
 
 RATE = 25
 """Frames per second."""
@@ -59,15 +58,6 @@ def frames(trace: Trace, agent: AgentTrace, size: tuple[int, int]) -> Iterator[n
     distance = _AWAY * size_of(agent)
     for moment, camera in zip(moments, follow(agent, trace.times, moments, distance), strict=True):
         yield render(level, _posed(trace, moment), camera, size, cutaway=0.75 * distance)
-
-
-def agent_named(trace: Trace, name: str | None) -> AgentTrace:
-    """The agent called ``name``, the first for None; `RuntimeInputError` names the valid ones."""
-    found = next((agent for agent in trace.agents if name in (None, agent.name)), None)
-    if found is None:
-        valid = ", ".join(agent.name for agent in trace.agents)
-        raise RuntimeInputError(f"no agent is called {name!r}; valid: {valid}")
-    return found
 
 
 def _moments(trace: Trace) -> np.ndarray:

@@ -6,9 +6,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from runtime.camera import follow
+from runtime.camera import agent_named, follow
 from runtime.errors import RuntimeInputError
-from runtime.film import RATE, agent_named, frames, write_film
+from runtime.film import RATE, frames, write_film
 
 av = pytest.importorskip("av", reason="PyAV is not there: pip install 'surefoot[video]'")
 SIZE = (96, 64)

@@ -28,3 +28,18 @@ def test_page_draws_in_a_browser(trace, tmp_path):
 
     picture = screenshot(tmp_path / "run.html", tmp_path / "profile", (480, 320), is_drawn, seconds=100.0)
     assert picture is not None, "nothing was drawn within 100 s"
+
+
+@pytest.mark.skipif(BROWSER is None, reason="no Chromium here to open the page in")
+def test_the_camera_goes_with_an_agent(trace, tmp_path):
+    write_page(trace, tmp_path / "run.html", follow="ada")
+
+    def is_drawn(picture):
+        """The person's blue shirt is in the middle of the window, and takes up some of it."""
+        blue = (picture[..., 2] - picture[..., 0]) > 0.15
+        height, width = blue.shape
+        middle = blue[height // 4 : -height // 4, width // 3 : -width // 3]
+        return middle.sum() > 40
+
+    picture = screenshot(tmp_path / "run.html", tmp_path / "profile", (480, 320), is_drawn, seconds=200.0)
+    assert picture is not None, "the person was not drawn in the middle within 200 s"

@@ -33,7 +33,7 @@ from benchmarks.shared_data import level_path, shared_folder, why_absent
 from locomotion.crowd import Crowd
 from navmesh import NodeGraph, Terrain, WalkRules
 
-__all__ = ["deepest_overlap", "door_figures", "halls_with_a_door", "open_figures", "overlapping_pairs"]
+__all__ = ["door_crowd", "door_figures", "open_figures"]
 
 BODY = {"radius": 0.6, "acceleration": 8.0}
 SPEED = 3.5
@@ -166,21 +166,27 @@ def apart(rng: np.random.Generator, count: int, low: tuple, high: tuple, gap: fl
     return np.array(found)
 
 
-def door_figures(
-    radius: float, agents: int, rng: np.random.Generator, dt: float = TICK, longest: float = LONGEST
-) -> dict[str, float]:
-    """A crowd that changes halls through the doorway."""
-    crowd = Crowd(halls_with_a_door(DOOR), dt=dt)
+def door_crowd(radius: float, agents: int, rng: np.random.Generator) -> Crowd:
+    """Two halves of a crowd, on their way to each other's hall through the doorway."""
+    crowd = Crowd(halls_with_a_door(DOOR), dt=TICK)
     half, gap = agents // 2, 2.1 * radius
     left = apart(rng, half, (0.5, 0.5), (10.5, 13.5), gap)
     right = apart(rng, half, (13.7, 0.5), (23.7, 13.5), gap)
     for place, goal in zip(np.concatenate([left, right]), np.concatenate([right, left]), strict=True):
         crowd.add(place, radius).go_to([goal])
+    return crowd
+
+
+def door_figures(
+    radius: float, agents: int, rng: np.random.Generator, longest: float = LONGEST
+) -> dict[str, float]:
+    """What becomes of `door_crowd`."""
+    crowd = door_crowd(radius, agents, rng)
     deepest = 0.0
     while any(walker.status == "walking" for walker in crowd.walkers) and crowd.walkers[0].time < longest:
         crowd.tick()
         deepest = max(deepest, deepest_overlap(crowd))
-    sides = np.repeat([1.0, -1.0], half)
+    sides = np.repeat([1.0, -1.0], agents // 2)
     return {
         "through": int(((crowd.positions[:, 0] - 12.1) * sides > radius).sum()),
         "arrived": sum(walker.status == "arrived" for walker in crowd.walkers),

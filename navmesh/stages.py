@@ -5,8 +5,7 @@ Local stages are those that look at triangles: cells, links, the clearance besid
 and the soundings at rims. After a change they are done again for a window of columns around it, and spliced
 in.
 The rest, clearances carried over the cells, discs, edges and the joining of soundings to obstacles, can
-change
-far away; it is done again for the whole level, which takes a few hundredths of a build.
+change far away; it is done again for the whole level.
 """
 
 from collections.abc import Sequence

@@ -47,14 +47,15 @@ class AgentState:
 class Agent:
     """One figure in a world; made by `World.spawn`.
 
-    ``name`` is unique in its world, ``body`` is one of `runtime.drivers.BODIES`.
+    ``name`` is unique in its world, ``body`` is one of `runtime.drivers.BODIES`; ``news`` are its body's
+    events that the world has not been told of.
     """
 
     def __init__(self, world: "World", name: str, body: str, driver: Driver) -> None:
         self.name = name
         self.body = body
         self.figure = driver.figure
-        self._driver = driver
+        self.take(driver)
         self._world = world
         self._blocked = False
         self._born = world.time - driver.time
@@ -158,14 +159,15 @@ class Agent:
         return self.status
 
     def notice(self) -> None:
-        """Report what has happened to the body; `World.step` calls this after every tick."""
-        if not self._driver.events:
-            return
-        for event in self._driver.events:
+        """Report what has happened to the body; `World.step` calls this after every tick in which there is
+        `news`."""
+        if isinstance(self._driver, AnimalDriver):
+            self._driver.take_note()
+        for event in self.news:
             told = self._translated(event)
             if told is not None:
                 self._world.report(told)
-        self._driver.events.clear()
+        self.news.clear()
 
     @property
     def driver(self) -> Driver:
@@ -175,6 +177,7 @@ class Agent:
     def take(self, driver: Driver) -> None:
         """Go on with another body of the same kind."""
         self._driver = driver
+        self.news = driver.events
 
     def remove(self) -> None:
         """Take it out of its world; it cannot be used any more."""

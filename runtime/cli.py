@@ -157,6 +157,24 @@ def film(
 
 
 @app.command()
+def serve(
+    levels: Annotated[list[Path], typer.Argument(help="Mesh files, or graphs that `surefoot bake` wrote.")],
+    host: Annotated[
+        str, typer.Option(help="Address to listen on; other than this machine: with a token.")
+    ] = ("127.0.0.1"),
+    port: Annotated[int, typer.Option(min=0, max=65535, help="0: any that is free.")] = 8765,
+    token: Annotated[
+        str, typer.Option(envvar="SUREFOOT_TOKEN", help="What clients must say to be let in.")
+    ] = "",
+    pages: Annotated[Path | None, typer.Option(help="Folder whose files are served over HTTP.")] = None,
+    up: UpOption = Up.z,
+    scale: ScaleOption = 1.0,
+) -> None:
+    """Run worlds for engines in other languages, over WebSockets. Ctrl-C ends it."""
+    _commands().serve_worlds(levels, up.value, scale, host, port, token, pages)
+
+
+@app.command()
 def train(
     skill: Annotated[Skill, typer.Argument(help="What to learn.")],
     output: Annotated[

@@ -30,6 +30,7 @@ __all__ = [
     "export_gltf",
     "find_path",
     "run_mission_file",
+    "serve_worlds",
     "show_clip",
     "train_skill",
     "write_schema",
@@ -197,6 +198,35 @@ def _written(output: Path, trace: Trace, what_next: str) -> Result:
     size = output.stat().st_size
     values = {"output": str(output), "seconds": round(float(trace.times[-1]), 2), "bytes": size}
     return Result(values, True, lambda: print(f"{output}: {what_next} ({size / 1e6:.1f} MB)"))
+
+
+def serve_worlds(
+    levels: list[Path], up: str, scale: float, host: str, port: int, token: str, pages: Path | None
+) -> None:
+    """Serve worlds on ``levels``, meshes or baked graphs, until interrupted."""
+    import asyncio
+
+    try:
+        from runtime.server.server import SurefootServer
+    except ImportError as error:
+        raise RuntimeInputError(f"{error}; install the extra: pip install 'surefoot[serve]'") from None
+
+    if pages is not None and not pages.is_dir():
+        raise RuntimeInputError(f"{pages}: is no folder; pages are served from one")
+    graphs: dict[str, navmesh.NodeGraph] = {}
+    progress = _ready()
+    for level in levels:
+        if level.stem in graphs:
+            raise RuntimeInputError(f"{level}: there is another level called {level.stem!r}")
+        with progress.stage(f"reading {level.name}"):
+            if level.suffix == ".npz":
+                graphs[level.stem] = navmesh.NodeGraph.load(level)
+            else:
+                terrain = navmesh.Terrain.load(level, up=up, scale=scale)
+                graphs[level.stem] = navmesh.NodeGraph.build(terrain, person_walk_rules())
+    server = SurefootServer(graphs, host, port, token, pages)
+    where = f"[{host}]" if ":" in host else host
+    asyncio.run(server.run(lambda port: print(f"serving on ws://{where}:{port}", flush=True)))
 
 
 def train_skill(

@@ -196,7 +196,7 @@ class HumanDriver:
         }
 
     def transforms(self) -> np.ndarray:
-        return self.human.body_transforms()[1:]
+        return self.human.body_transforms()[1 : 1 + len(self.figure.bodies)]
 
     def transforms_between(self, share: float) -> np.ndarray:
         if self.before is None:
@@ -287,7 +287,7 @@ class Pack:
     def tick(self) -> None:
         self._herd.tick()
         for driver in self._drivers:
-            driver.tick()
+            driver.animal.tick()
 
 
 class _Ways:
@@ -372,16 +372,11 @@ class AnimalDriver:
             self.animal.go_to(goals, speed, facing)
         except LocomotionError as error:
             raise RuntimeInputError(str(error)) from None
-        self._take_note()
+        self.take_note()
         return plan
 
-    def tick(self) -> None:
-        """After the herd's."""
-        self.animal.tick()
-        self._take_note()
-
-    def _take_note(self) -> None:
-        """Keep the plan of a trail that has just been taken."""
+    def take_note(self) -> None:
+        """Keep the plan of a trail that has just been taken, if there is one; an event says that it has."""
         trail = self.animal.trail
         if trail is not None and trail is not self._followed:
             self._followed = trail

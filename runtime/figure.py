@@ -47,17 +47,19 @@ class Figure:
 
     @classmethod
     def from_model(cls, model: Any) -> "Figure":
-        """The capsules, spheres and ellipsoids of an ``mujoco.MjModel``; the world body is left out."""
+        """The capsules, spheres and ellipsoids of an ``mujoco.MjModel``; the world body is left out, and so
+        are mocap bodies, which come last: they are handles, not limbs."""
         from mujoco import mjtGeom as kinds  # type: ignore[attr-defined]
 
         drawn = np.isin(model.geom_type, [kinds.mjGEOM_CAPSULE, kinds.mjGEOM_SPHERE, kinds.mjGEOM_ELLIPSOID])
         drawn &= model.geom_bodyid > 0
+        count = 1 + int((model.body_mocapid[1:] < 0).sum())
         size = np.array(model.geom_size[drawn], dtype=np.float64)
         kind = model.geom_type[drawn]
         size[kind == kinds.mjGEOM_SPHERE, 1:] = size[kind == kinds.mjGEOM_SPHERE, :1]
         return cls(
-            bodies=tuple(model.body(b).name for b in range(1, model.nbody)),
-            parents=np.array(model.body_parentid[1:], dtype=np.int32) - 1,
+            bodies=tuple(model.body(b).name for b in range(1, count)),
+            parents=np.array(model.body_parentid[1:count], dtype=np.int32) - 1,
             owner=np.array(model.geom_bodyid[drawn], dtype=np.int32) - 1,
             shapes=Shapes(
                 place=np.hstack([model.geom_pos[drawn], model.geom_quat[drawn]]),

@@ -71,7 +71,8 @@ class Walkers:
         return np.column_stack([crowd.positions, crowd.velocities, crowd.radii])
 
     def remember(self) -> None:
-        self.before = self.transforms()
+        if len(self.crowd):
+            self.before = self.transforms()
 
     def forget(self) -> None:
         """Draw all where they are now."""

@@ -173,7 +173,8 @@ class World:
                 for population in self._populations:
                     population.tick()
                 for agent in self.agents.values():
-                    agent.notice()
+                    if agent.news:
+                        agent.notice()
                 self._tell()
         finally:
             self._stepping = False

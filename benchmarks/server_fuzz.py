@@ -1,0 +1,197 @@
+"""Wrong messages by the million, and fifty clients at once: does the server keep its word?
+
+    python -m benchmarks.server_fuzz [--messages 1000000] [--clients 50] [--seconds 20] [--json server.json]
+
+The server is a process of its own on a small floor. First fifty clients each ask at 60 Hz for a step of a
+world of their own with a dog on its way; the time to each answer is printed, and that answers and events came
+whole and in order is checked by their numbers. Then eight clients send malformed, cut, oversized and
+out-of-order messages (one in 500 is too long and ends the connection, which is opened again), while a ninth
+steps a world and counts. Exit code 0 when nothing was lost, the ninth was served all along and the server's
+memory did not grow by more than 64 MB.
+"""
+
+import argparse
+import asyncio
+import json
+import os
+import random
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+from websockets.asyncio.client import connect
+from websockets.exceptions import ConnectionClosed
+
+ROOT = Path(__file__).resolve().parents[1]
+FLOOR = "v 0 0 0\nv 12 0 0\nv 12 6 0\nv 0 6 0\nf 1 2 3\nf 1 3 4\n"
+START = "import runtime.cli; runtime.cli.main()"
+GROWTH = 64.0  # [MB]
+GOOD = [
+    {"type": "spawn", "id": 1, "world": "world1", "body": "dog", "at": [2, 3, 0], "facing": 0.1},
+    {"type": "go_to", "id": 2, "world": "world1", "agent": "rex", "points": [[3, 3, 0]], "speed": 1},
+    {"type": "join", "id": 3, "world": "world2", "states": "local"},
+    {"type": "restore", "id": 4, "world": "world999"},
+    {"type": "hello", "id": 5, "version": 1},
+    {"type": "step", "id": 6, "world": "world999", "dt": 0.01},
+]
+
+
+class Client:
+    """Asks, and checks that no answer or event is missing or out of order."""
+
+    def __init__(self, socket) -> None:
+        self.socket, self.seq, self.id = socket, 0, 0
+
+    async def ask(self, kind: str, **fields) -> dict:
+        self.id += 1
+        await self.socket.send(json.dumps({"type": kind, "id": self.id, **fields}))
+        while True:
+            message = json.loads(await asyncio.wait_for(self.socket.recv(), 60))
+            if "seq" in message:
+                self.seq += 1
+                if message["seq"] != self.seq:
+                    raise SystemExit(f"message {self.seq} came as {message['seq']}")
+            if message.get("id") == self.id:
+                return message
+
+
+async def greeted(address: str) -> Client:
+    client = Client(await connect(address, compression=None, max_size=None))
+    await client.ask("hello", version=1)
+    return client
+
+
+def malformed(rng: random.Random, number: int) -> str | bytes:
+    """A message that is wrong in some way, or comes at a wrong time."""
+    if number % 500 == 499:
+        return "x" * 70_000
+    text = bytearray(json.dumps(rng.choice(GOOD)).encode())
+    way = rng.randrange(6)
+    if way == 0:
+        return bytes(text[: rng.randrange(len(text))]).decode(errors="ignore")
+    if way == 1:
+        return rng.randbytes(rng.randrange(200))
+    if way == 2:
+        for _ in range(rng.randrange(1, 6)):
+            text[rng.randrange(len(text))] = rng.randrange(256)
+        return bytes(text).decode(errors="ignore")
+    if way == 3:
+        return rng.choice(['{"id":1' * 300, "[" * 5000, "null", "", '{"id":NaN}', '{"type":[]}', "1e999"])
+    if way == 4:
+        return json.dumps({**rng.choice(GOOD[3:]), "id": rng.randrange(2**40)})
+    return json.dumps({**rng.choice(GOOD), **rng.choice(GOOD), "id": rng.choice([-1, "x", None, 1e300])})
+
+
+async def latencies(address: str, clients: int, seconds: float) -> np.ndarray:
+    """[ms] from asking for a step to its answer, of all clients."""
+
+    async def one(number: int) -> list[float]:
+        client = await greeted(address)
+        world = (await client.ask("create", level="floor", clock="manual", states="world"))["result"]["world"]
+        await client.ask("spawn", world=world, body="dog", at=[2, 3, 0], name="rex")
+        await client.ask("go_to", world=world, agent="rex", points=[[10, 3, 0]])
+        taken, due = [], time.perf_counter() + number / clients / 60
+        for _ in range(round(60 * seconds)):
+            await asyncio.sleep(max(due - time.perf_counter(), 0.0))
+            begun = time.perf_counter()
+            await client.ask("step", world=world, dt=1 / 60)
+            taken.append(1e3 * (time.perf_counter() - begun))
+            due = max(due + 1 / 60, begun)
+        await client.ask("close", world=world)
+        await client.socket.close()
+        return taken
+
+    return np.concatenate(await asyncio.gather(*(one(number) for number in range(clients))))
+
+
+async def flood(address: str, count: int, seed: int, done: list[int]) -> None:
+    """Send wrong messages, each answered by an error or the end of the connection."""
+    rng, client, unanswered = random.Random(seed), await greeted(address), 0
+    for number in range(count):
+        try:
+            await client.socket.send(malformed(rng, number))
+            unanswered += 1
+            if unanswered >= 64:
+                while unanswered:
+                    unanswered -= "seq" in json.loads(await asyncio.wait_for(client.socket.recv(), 60))
+        except ConnectionClosed:
+            client, unanswered = await greeted(address), 0
+        done[0] += 1
+    await client.socket.close()
+
+
+async def fuzz(address: str, messages: int, pid: int) -> dict:
+    other = await greeted(address)
+    world = (await other.ask("create", level="floor", clock="manual", states="places"))["result"]["world"]
+    done, ticks, slowest, sizes = [0], 0, 0.0, []
+    floods = [asyncio.ensure_future(flood(address, messages // 8, seed, done)) for seed in range(8)]
+    while not all(each.done() for each in floods):
+        begun = time.perf_counter()
+        ticks += (await other.ask("step", world=world, dt=0.01))["result"]["ticks"]
+        slowest = max(slowest, time.perf_counter() - begun)
+        if done[0] > len(sizes) * messages // 10:
+            sizes.append(memory(pid))
+            print(f"{done[0]:9} messages, {sizes[-1]:6.1f} MB", flush=True)
+        await asyncio.sleep(0.05)
+    await asyncio.gather(*floods)
+    served = round((await other.ask("step", world=world, dt=0.01))["result"]["time"] / 0.01) == ticks + 1
+    sizes.append(memory(pid))
+    return {
+        "messages": done[0], "memory_mb": sizes, "other_served": served, "other_steps": ticks,
+        "other_slowest_ms": 1e3 * slowest,
+    }  # fmt: skip
+
+
+def memory(pid: int) -> float:
+    """Resident memory of a process [MB]."""
+    return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--messages", type=int, default=1_000_000)
+    parser.add_argument("--clients", type=int, default=50)
+    parser.add_argument("--seconds", type=float, default=20.0)
+    parser.add_argument("--json", type=Path, help="file to write")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        level = Path(folder) / "floor.obj"
+        level.write_text(FLOOR)
+        environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+        server = subprocess.Popen(
+            [sys.executable, "-c", START, "serve", str(level), "--port", "0"],
+            env=environment, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+        )  # fmt: skip
+        try:
+            assert server.stdout is not None
+            address = server.stdout.readline().split()[-1]
+            taken = asyncio.run(latencies(address, options.clients, options.seconds))
+            p50, p99 = np.percentile(taken, [50, 99])
+            print(
+                f"{options.clients} clients at 60 Hz: {len(taken)} answers, none lost or out of order; ",
+                end="",
+            )
+            print(f"p50 {p50:.1f} ms, p99 {p99:.1f} ms, slowest {taken.max():.1f} ms", flush=True)
+            found = asyncio.run(fuzz(address, options.messages, server.pid))
+            alive = server.poll() is None
+        finally:
+            server.terminate()
+            server.wait(30)
+    growth = found["memory_mb"][-1] - found["memory_mb"][0]
+    print(
+        f"{found['messages']} wrong messages: memory grew by {growth:.1f} MB; the other client was served ",
+        end="",
+    )
+    print(f"{found['other_steps']} times, at the slowest in {found['other_slowest_ms']:.0f} ms")
+    held = alive and found["other_served"] and growth <= GROWTH
+    if options.json:
+        result = {"p50_ms": p50, "p99_ms": p99, "answers": len(taken), **found, "held": held}
+        options.json.write_text(json.dumps(result, indent=1) + "\n")
+    sys.exit(not held)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""A local WebSocket server for engines that are not written in Python."""

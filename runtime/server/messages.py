@@ -1,0 +1,263 @@
+"""What clients and server say to each other: one JSON object for each WebSocket text message.
+
+    python -m runtime.server.messages docs/server.schema.json     writes the JSON schema of all of them
+
+Metres, seconds, radians; Z up; quaternions (w, x, y, z). A client sends requests, each with an ``id`` of its
+choice that the reply repeats, `Hello` first. Replies, errors and events carry ``seq``, which counts up by 1
+for each client: none is lost or overtakes another. States carry none: a client that is slow gets the newest.
+"""
+
+import json
+import sys
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
+
+from runtime.files import whole_file
+
+__all__ = [
+    "PROTOCOL",
+    "REQUEST",
+    "Close",
+    "Create",
+    "GoTo",
+    "Hello",
+    "Join",
+    "Leave",
+    "Level",
+    "Remove",
+    "Request",
+    "Restore",
+    "Save",
+    "Spawn",
+    "States",
+    "Step",
+    "write_schema",
+]
+
+PROTOCOL = 1
+"""Version of the messages; `Hello` must name it."""
+
+_Name = Annotated[str, Field(min_length=1, max_length=40, pattern=r"^[\w .-]+$")]
+_Metres = Annotated[float, Field(ge=-1e6, le=1e6)]
+_Point = tuple[_Metres, _Metres, _Metres]
+_Angle = Annotated[float, Field(ge=-100.0, le=100.0)]
+States = Literal["none", "places", "world", "local"]
+"""What a client is told after each step: nothing; where each agent is and what it does; also its skeleton's
+transforms in the world, or each in its parent's frame."""
+
+
+class _Message(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+class _Request(_Message):
+    id: Annotated[int, Field(ge=0, le=2**53 - 1, description="Repeated in the reply.")]
+
+
+class Hello(_Request):
+    """The first message of a client."""
+
+    type: Literal["hello"]
+    version: int
+    token: Annotated[str, Field(max_length=256)] = ""
+
+
+class Level(_Request):
+    """Ask for the vertices and triangles of a level."""
+
+    type: Literal["level"]
+    level: _Name
+
+
+class Create(_Request):
+    """Make a world and join it. ``clock``: "real" runs by itself, "manual" by `Step`."""
+
+    type: Literal["create"]
+    level: _Name
+    seed: Annotated[int, Field(ge=0, le=2**53 - 1)] = 0
+    clock: Literal["real", "manual"] = "real"
+    states: States = "places"
+
+
+class Join(_Request):
+    """Take part in a world that somebody made; sent again it changes ``states``."""
+
+    type: Literal["join"]
+    world: _Name
+    states: States = "places"
+
+
+class Leave(_Request):
+    """Hear no more of a world."""
+
+    type: Literal["leave"]
+    world: _Name
+
+
+class Close(_Request):
+    """End a world for all."""
+
+    type: Literal["close"]
+    world: _Name
+
+
+class Spawn(_Request):
+    """Put an agent into a world; all who joined are told of its skeleton."""
+
+    type: Literal["spawn"]
+    world: _Name
+    body: _Name
+    at: _Point
+    facing: _Angle = 0.0
+    name: _Name | None = None
+
+
+class GoTo(_Request):
+    """Send an agent through points, in order."""
+
+    type: Literal["go_to"]
+    world: _Name
+    agent: _Name
+    points: Annotated[list[_Point], Field(min_length=1, max_length=64)]
+    speed: Annotated[float, Field(gt=0.0, le=20.0)] = 1.5
+    facing: _Angle | None = None
+
+
+class Remove(_Request):
+    """Take an agent out of its world."""
+
+    type: Literal["remove"]
+    world: _Name
+    agent: _Name
+
+
+class Step(_Request):
+    """Advance a world with a manual clock by ``dt`` [s]."""
+
+    type: Literal["step"]
+    world: _Name
+    dt: Annotated[float, Field(ge=0.0, le=1.0)]
+
+
+class Save(_Request):
+    """Keep the present moment of a world in the server, in place of the one kept before."""
+
+    type: Literal["save"]
+    world: _Name
+
+
+class Restore(_Request):
+    """Go back to the moment that was saved."""
+
+    type: Literal["restore"]
+    world: _Name
+
+
+Request = Annotated[
+    Hello | Level | Create | Join | Leave | Close | Spawn | GoTo | Remove | Step | Save | Restore,
+    Field(discriminator="type"),
+]
+REQUEST: TypeAdapter[Any] = TypeAdapter(Request)
+
+
+class _Ordered(_Message):
+    seq: Annotated[int, Field(ge=1, description="Counts up by 1 for each client.")]
+
+
+class Reply(_Ordered):
+    """What a request led to; which fields ``result`` has is in docs/embedding.md."""
+
+    type: Literal["reply"]
+    id: int
+    result: dict[str, Any]
+
+
+class Error(_Ordered):
+    """A request that was refused. ``id`` is null where the message had none."""
+
+    type: Literal["error"]
+    id: int | None
+    code: Literal["invalid", "refused", "internal"]
+    message: str
+
+
+class Event(_Ordered):
+    """Something that happened in a world: `runtime.events` as plain values."""
+
+    type: Literal["event"]
+    world: str
+    event: dict[str, Any]
+
+
+class Joined(_Ordered):
+    """An agent has come into a world."""
+
+    type: Literal["agent"]
+    world: str
+    agent: "Skeleton"
+
+
+class Gone(_Ordered):
+    """An agent (or with ``agent`` null the whole world) is no more."""
+
+    type: Literal["gone"]
+    world: str
+    agent: str | None
+
+
+class Skeleton(_Message):
+    """``parents``: -1 for the root. ``owner``: of each shape the body that carries it; ``place``: its
+    position and quaternion there; ``size``: as `runtime.figure.Shapes` has it; ``round``: an ellipsoid, else
+    a capsule along z; ``colour``: red, green, blue, 0 to 1."""
+
+    name: str
+    body: str
+    bodies: list[str]
+    parents: list[int]
+    owner: list[int]
+    place: list[list[float]]
+    size: list[list[float]]
+    round: list[bool]
+    colour: list[list[float]]
+
+
+class AgentState(_Message):
+    """``transforms``: 7 numbers for each body, as `States` says."""
+
+    name: str
+    status: str
+    position: tuple[float, float, float]
+    facing: float
+    transforms: list[float] | None = None
+
+
+class State(_Message):
+    """Where everybody is, after a step."""
+
+    type: Literal["state"]
+    world: str
+    time: float
+    agents: list[AgentState]
+
+
+Answer = Annotated[
+    Reply | Error | Event | Joined | Gone | State,
+    Field(discriminator="type"),
+]
+
+
+def write_schema(path: Path) -> None:
+    """Write the JSON schema of all messages to ``path``."""
+    both = {
+        "title": f"Messages of surefoot serve, version {PROTOCOL}",
+        "from_client": REQUEST.json_schema(),
+        "from_server": TypeAdapter(Answer).json_schema(),
+    }
+    with whole_file(path) as file:
+        file.write_text(json.dumps(both, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    write_schema(Path(sys.argv[1]))

@@ -32,6 +32,8 @@ from runtime.server.pages import page_of
 __all__ = ["Limits", "SurefootServer"]
 
 _log = logging.getLogger("surefoot.serve")
+_connection_log = logging.getLogger("surefoot.serve.connections")
+_connection_log.setLevel(logging.CRITICAL)  # what strangers send is not worth a traceback
 _FRAME = 1 / 60  # [s] between steps of worlds with a real clock
 _LONGEST = 0.1  # [s] that such a world makes up for at once
 
@@ -103,7 +105,7 @@ class SurefootServer:
             if not self._token
             else None,
             server_header=None,
-            logger=logging.getLogger("surefoot.serve.websockets"),
+            logger=_connection_log,
         ) as server:
             ready(_port_of(server))
             await self._keep_time()

@@ -50,7 +50,8 @@ class Page:
         return self.call("Runtime.evaluate", expression=expression).get("result", {}).get("value")
 
     def click(self, x: float, y: float, modifiers: int = 0) -> None:
-        """Press and release the left button; ``modifiers``: 8 is shift."""
+        """Go there, press and release the left button; ``modifiers``: 8 is shift."""
+        self.call("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y)
         for kind in ("mousePressed", "mouseReleased"):
             self.call(
                 "Input.dispatchMouseEvent",

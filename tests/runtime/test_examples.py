@@ -41,7 +41,7 @@ def test_the_dogs_in_panda3d_come_near_the_ball(tmp_path):
 @pytest.mark.skipif(BROWSER is None, reason="no Chromium here to open the page in")
 @pytest.mark.skipif(not THREE.is_file(), reason="no three.js: run npm install in examples/web")
 @pytest.mark.skipif(importlib.util.find_spec("websockets") is None, reason="needs the extra 'serve'")
-def test_clicking_in_the_page_spawns_dogs_that_go_where_they_are_sent(tmp_path):
+def test_clicking_in_the_page_spawns_agents_that_go_where_they_are_sent(tmp_path):
     command = [
         sys.executable,
         "-c",
@@ -62,9 +62,10 @@ def test_clicking_in_the_page_spawns_dogs_that_go_where_they_are_sent(tmp_path):
             assert page is not None
             _until(lambda: "on room" in (page.value("document.body.innerText") or ""))
             empty = page.picture()
+            page.value("document.getElementById('body').value = 'walker'")
             page.click(320, 250)
             _until(lambda: _new(page.picture(), empty) > 60)
-            page.click(430, 140, modifiers=8)
+            page.click(250, 190, modifiers=8)
             _until(lambda: "Departed" in page.value("document.body.innerText"))
             _until(lambda: "Arrived" in page.value("document.body.innerText"))
             assert _new(page.picture(), empty) > 60

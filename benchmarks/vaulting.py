@@ -5,7 +5,7 @@
 For every height the person starts from standing at d = 10 to 30 m before a wall 0.3 m thick, runs up, vaults
 and runs on to a goal 12 m behind it: the whole way that a mission takes (path tracking, speed planner,
 skill) on a triangle mesh, with noise of 0.02 m/s and rad/s in the start. Vaulted: it arrives and its hand
-has held on to the top. Clean: nothing but the supporting arm has touched the wall. Middle: the hand held
+has held on to the top. Clean: nothing but hands and forearms has touched the wall. Middle: the hand held
 within the middle half of the top. Without the joint: the same starts that vaulted, with the hand's joint
 switched off. The film strips (--film) need MuJoCo's renderer, with MUJOCO_GL=egl where there is no display.
 """

@@ -28,7 +28,7 @@ class VaultAttempt:
     distance: from the start to the wall [m]. ended: "arrived", or the status at the end; "fallen in the
     run-up", "fallen in the vault", "fallen afterwards". planted: where the hand held, as share of the
     thickness from the near edge, NaN if it did not. held: time that the hand held [s]. touched: whether
-    anything but the supporting arm touched the wall. takeoff_error [m], speed_error [m/s]: as in
+    anything but hands and forearms touched the wall. takeoff_error [m], speed_error [m/s]: as in
     `locomotion.events.TookOff`, NaN before it.
     """
 
@@ -85,9 +85,10 @@ def vault_attempt(
     edge, normal = np.array([0.0, 0.0, height]), np.array([-1.0, 0.0, 0.0])
     ahead = ObstacleAhead(distance, "vault", height, edge, normal, depth)
     human.follow([[-distance, 0, 0], [AFTER, 0, 0]], SPEED, [ahead])
-    arm = {side: _arm_bodies(human, side) for side in (-1.0, 1.0)}
+    parts = ("left_hand", "left_forearm", "right_hand", "right_forearm")
+    arms = {human.index.bodies[part] for part in parts}
     took_off = cleared = None
-    planted, held, touched, side = np.nan, 0, False, 0.0
+    planted, held, touched = np.nan, 0, False
     while human.status in MOVING and human.time < _LONGEST:
         human.tick()
         if frames is not None:
@@ -99,9 +100,9 @@ def vault_attempt(
             continue
         for each in (-1.0, 1.0):
             if holding(human.data, each):
-                side, held = each, held + 1
+                held += 1
                 planted = float(human.data.mocap_pos[int(each > 0), 0]) / depth
-        touched = touched or _touches(human, depth, arm.get(side, set()))
+        touched = touched or _touches(human, depth, arms)
     ended = human.status
     if ended == "fallen":
         ended += (
@@ -111,18 +112,13 @@ def vault_attempt(
     return VaultAttempt(height, depth, distance, ended, planted, held * 0.01, touched, *errors)
 
 
-def _arm_bodies(human: Human, side: float) -> set[int]:
-    name = "left" if side > 0 else "right"
-    return {human.index.bodies[f"{name}_{part}"] for part in ("hand", "forearm")}
-
-
-def _touches(human: Human, depth: float, arm: set[int]) -> bool:
-    """Whether anything but the supporting ``arm`` touches the wall."""
+def _touches(human: Human, depth: float, arms: set[int]) -> bool:
+    """Whether anything but hands and forearms touches the wall."""
     data = human.data
     for k in range(data.ncon):
         contact = data.contact[k]
         if -0.05 < contact.pos[0] < depth + 0.05 and contact.pos[2] > _SOLES:
             bodies = {int(human.model.geom_bodyid[g]) for g in contact.geom} - {0}
-            if not bodies & arm:
+            if not bodies & arms:
                 return True
     return False

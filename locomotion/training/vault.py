@@ -1,8 +1,9 @@
-"""Learning to vault: first over one wall with feed-forward alone, then with feedback over growing heights."""
+"""Learning to vault: first over one wall with feed-forward alone, then with feedback over growing heights, at
+last all heights together."""
 
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -21,8 +22,9 @@ from navmesh.archive import read_archive, write_archive
 
 __all__ = ["ENTRY_SPEED", "HEIGHTS", "VaultProblem", "cost", "first_guess", "scales", "train_vault"]
 
-HEIGHTS = (0.6, 0.7, 0.8)
-"""Heights [m] learned one after the other, each from the one before."""
+HEIGHTS = (0.6, 0.8, 0.86)
+"""Heights [m] learned one after the other: each search begins at the one before and raises the wall as it
+goes."""
 ENTRY_SPEED = 3.3
 """[m/s]"""
 DEPTHS = (0.2, 0.4)
@@ -106,15 +108,15 @@ def cost(outcome: VaultOutcome, entry: float) -> float:
 class VaultProblem:
     """One stage: what `learn` needs.
 
-    initial: (p,) where learning starts; solutions are pulled towards it. reference: (4, 6, 18) expected
-    sensors. states: harvested from planned run-ups. stage: its options are ``heights`` [m] that it goes
-    through, ``states`` per generation, ``error`` [m] added to the distance, ``duration`` [s], ``pull``, and
-    ``same``: whether every generation has the same trials.
+    family: what was learned before; what is learned is one change (p,) of all its members. states:
+    harvested from planned run-ups. stage: its options are ``heights`` (2,) [m], ``how``: "same" (every
+    generation has the same trials, at the first height), "through" (from the first to the second height) or
+    "between" (all over the range); ``states`` per generation, ``error`` [m] added to the distance,
+    ``duration`` [s] and ``pull`` towards no change.
     """
 
     run: RunSkill
-    initial: np.ndarray
-    reference: np.ndarray
+    family: SkillFamily
     states: list[StartState]
     stage: Stage
     _simulator: VaultSimulator | None = None
@@ -124,77 +126,68 @@ class VaultProblem:
         return [self.stage]
 
     def start(self) -> np.ndarray:
-        """Where learning starts, (p,)."""
-        return self.initial
+        """No change, (p,)."""
+        return np.zeros(self.family.table.shape[1])
 
     def scenarios(self, stage: Stage, generation: int, rng: np.random.Generator) -> list[tuple]:
         """(start state, error of the distance [m], height [m], depth [m]) of each trial of a generation."""
         options = stage.options
-        if options["same"]:
-            rng = np.random.default_rng(options["states"])
-        low, high = options["heights"]
-        height = low + (high - low) * min(generation / max(0.85 * stage.generations, 1.0), 1.0)
-        count = options["states"]
+        count, (low, high) = options["states"], options["heights"]
+        if options["how"] == "same":
+            rng = np.random.default_rng(count)
         chosen = rng.permutation(len(self.states))[:count]
-        jitter = rng.permutation(
-            options["error"] * (2.0 * (np.arange(count) + rng.random(count)) / count - 1.0)
-        )
+        even = (np.arange(count) + rng.random(count)) / count
+        errors = options["error"] * rng.permutation(2.0 * even - 1.0)
         depths = rng.uniform(*DEPTHS, count)
+        reached = min(generation / max(0.85 * stage.generations, 1.0), 1.0)
+        heights = low + (high - low) * (even if options["how"] == "between" else np.full(count, reached))
         return [
-            (int(i), self.states[i].error + float(e), float(height), float(d))
-            for i, e, d in zip(chosen, jitter, depths, strict=False)
+            (int(i), self.states[i].error + float(e), float(h), float(d))
+            for i, e, h, d in zip(chosen, errors, heights, depths, strict=False)
         ]
 
     def evaluate(self, stage: Stage, candidate: np.ndarray, scenarios: list) -> tuple[float, float]:
-        """Mean cost with the pull towards the start, and the share that vaulted."""
+        """Mean cost with the pull towards no change, and the share that vaulted."""
         if self._simulator is None:
             self._simulator = VaultSimulator(self.run)
-        tables = tables_of(np.ascontiguousarray(candidate), self.reference, self.run)
         total = vaulted = 0.0
         for state, error, height, depth in scenarios:
+            parameters, reference = self.family.at(float(np.clip(height, *self.family.range)))
+            tables = tables_of(parameters + candidate, reference.reshape(_REFERENCE), self.run)
             result = self._simulator.vault_trial(
                 tables, height, depth, self.states[state], error, stage.options["duration"]
             )
             total += cost(result, tables.entry)
             vaulted += result.vaulted
         free = stage.scale > 0
-        away = (candidate[free] - self.initial[free]) / stage.scale[free]
+        away = candidate[free] / stage.scale[free]
         n = len(scenarios)
         return total / n + stage.options["pull"] * float(np.mean(away**2)), vaulted / n
 
-    def record(self, candidate: np.ndarray, height: float) -> np.ndarray:
-        """Mean sensors of the cleared vaults without errors, (4, 6, 18); the present reference where there is
-        none."""
-        sums = np.zeros((vault.STEPS, vault.BINS, vault.SENSORS + 1))
-        simulator = VaultSimulator(self.run)
-        tables = tables_of(np.ascontiguousarray(candidate), self.reference, self.run)
-        for state in self.states[:16]:
-            one = np.zeros_like(sums)
-            if simulator.vault_trial(tables, height, 0.3, state, state.error, 2.0, record=one).cleared:
-                sums += one
-        counts = sums[..., -1:]
-        return np.where(counts > 0, sums[..., :-1] / np.maximum(counts, 1.0), self.reference)
-
 
 def curriculum(effort: float = 1.0) -> list[Stage]:
-    """The stages; the last ones end at each of `HEIGHTS`."""
+    """The stages: those up to a height end with a member of the family there, the last changes all
+    members."""
     low = HEIGHTS[0]
 
-    def stage(name: str, count: int, sigma: float, what: str, population: int, **options) -> Stage:
-        shared = {"heights": (low, low), "error": 0.08, "duration": 2.0, "pull": 0.1, "same": False}
+    def stage(name: str, count: int, sigma: float, what: str, how: str, **options) -> Stage:
+        shared = {"heights": (low, low), "error": 0.08, "duration": 2.0, "pull": 0.1, "how": how}
+        population = 16 if how == "same" else 20
         return Stage(
             name, max(round(count * effort), 1), sigma, scales(what), {**shared, **options}, population
         )
 
+    few = {"error": 0.04, "duration": 1.8}
     stages = [
-        stage(f"{low:g} m, take-off", 40, 0.2, "take-off", 16, states=3, error=0.04, duration=1.7, same=True),
-        stage(
-            f"{low:g} m, hand", 70, 0.15, "feed-forward", 16, states=4, error=0.04, duration=1.9, same=True
-        ),
-        stage(f"{low:g} m, feedback", 20, 0.12, "feedback", 20, states=6),
+        stage(f"{low:g} m, take-off", 40, 0.2, "take-off", "same", states=3, **few),
+        stage(f"{low:g} m, hand", 70, 0.15, "feed-forward", "same", states=4, **few),
+        stage(f"{low:g} m, feedback", 10, 0.15, "feedback", "through", states=6),
     ]
-    for before, height in pairwise(HEIGHTS):
-        stages.append(stage(f"{height:g} m", 20, 0.12, "feedback", 20, states=5, heights=(before, height)))
+    for pair in pairwise(HEIGHTS):
+        name = f"{pair[0]:g} to {pair[1]:g} m"
+        stages.append(stage(name, 40, 0.12, "feedback", "through", states=5, heights=pair))
+    every = (low, HEIGHTS[-1])
+    stages.append(stage("all heights", 24, 0.08, "feedback", "between", states=6, heights=every))
     return stages
 
 
@@ -218,9 +211,12 @@ def train_vault(
         folder.mkdir(parents=True, exist_ok=True)
     identity = {"seed": seed, "run": run_digest(run), "effort": effort}
     stride = VaultSimulator(run).fit_stride(ENTRY_SPEED, np.random.default_rng([seed, 1]))
-    x, reference = first_guess(), np.zeros(_REFERENCE)
-    states = _harvest(run, x, stride, np.random.default_rng([seed, 2]))
-    learned = []
+    meta = {"made by": "surefoot train vault", "seed": seed, "effort": effort}
+    blank = np.zeros((1, vault.STEPS * vault.BINS, vault.SENSORS))
+    guess = first_guess()[None]
+    family = SkillFamily(KIND, np.array(HEIGHTS[:1]), guess, blank, stride, identity["run"], meta)
+    rng = np.random.default_rng([seed, 2])
+    states = VaultSimulator(run).harvest(Vault(family, run), rng.uniform(8.0, 16.0, _STATES), rng)
     for number, stage in enumerate(curriculum(effort)):
         done = None if folder is None else folder / f"done-{number}.npz"
         if done is not None and done.exists():
@@ -229,35 +225,49 @@ def train_vault(
                 raise LocomotionError(
                     f"{done}: checkpoint of another training or seed; remove it to begin anew"
                 )
-            x, reference = arrays["x"], arrays["reference"]
-        else:
-            problem = VaultProblem(run, x, reference, states, stage)
-            file = None if folder is None else folder / f"search-{number}.npz"
-            found = learn(problem, seed + 1000 * number, file, workers, on_progress)
-            assert found is not None
-            x = found
-            reference = problem.record(x, stage.options["heights"][1])
-            if done is not None:
-                write_archive(done, _KIND, _VERSION, identity, {"x": x, "reference": reference})
-        if "feedback" in stage.name or stage.options["heights"][0] != stage.options["heights"][1]:
-            learned.append((stage.options["heights"][1], x, reference))
-    skill = SkillFamily(
-        KIND,
-        np.array([height for height, _, _ in learned]),
-        np.array([each for _, each, _ in learned]),
-        np.array([each.reshape(-1, vault.SENSORS) for _, _, each in learned]),
-        stride,
-        run_digest(run),
-        {"made by": "surefoot train vault", "seed": seed, "effort": effort},
+            family = replace(family, **arrays)
+            continue
+        problem = VaultProblem(run, family, states, stage)
+        file = None if folder is None else folder / f"search-{number}.npz"
+        change = learn(problem, seed + 1000 * number, file, workers, on_progress)
+        assert change is not None
+        family = changed(family, change, stage, run, states)
+        if done is not None:
+            arrays = {"heights": family.heights, "table": family.table, "references": family.references}
+            write_archive(done, _KIND, _VERSION, identity, arrays)
+    family.save(out)
+    return family
+
+
+def changed(
+    family: SkillFamily, change: np.ndarray, stage: Stage, run: RunSkill, states: list[StartState]
+) -> SkillFamily:
+    """The family after a stage that has found ``change`` (p,): up to a height, the last member with the
+    change becomes the member there, with its sensors recorded anew; in the stage "between" all members
+    change."""
+    if stage.options["how"] == "between":
+        return replace(family, table=family.table + change)
+    height = stage.options["heights"][1]
+    parameters, before = family.table[-1] + change, family.references[-1]
+    reference = _record(run, parameters, before.reshape(_REFERENCE), height, states).reshape(before.shape)
+    keep = family.heights < height - 1e-9
+    return replace(
+        family,
+        heights=np.append(family.heights[keep], height),
+        table=np.append(family.table[keep], parameters[None], axis=0),
+        references=np.append(family.references[keep], reference[None], axis=0),
     )
-    skill.save(out)
-    return skill
 
 
-def _harvest(
-    run: RunSkill, x: np.ndarray, stride: tuple[float, float, float], rng: np.random.Generator
-) -> list[StartState]:
-    """States at the mark after planned run-ups from 8 to 16 m."""
-    reference = np.zeros((1, vault.STEPS * vault.BINS, vault.SENSORS))
-    guess = SkillFamily(KIND, np.array(HEIGHTS[:1]), x[None], reference, stride, "")
-    return VaultSimulator(run).harvest(Vault(guess, run), rng.uniform(8.0, 16.0, _STATES), rng)
+def _record(
+    run: RunSkill, parameters: np.ndarray, reference: np.ndarray, height: float, states: list[StartState]
+) -> np.ndarray:
+    """Mean sensors of the cleared vaults without errors, (4, 6, 18); ``reference`` where there is none."""
+    sums = np.zeros((vault.STEPS, vault.BINS, vault.SENSORS + 1))
+    simulator, tables = VaultSimulator(run), tables_of(parameters, reference, run)
+    for state in states[:16]:
+        one = np.zeros_like(sums)
+        if simulator.vault_trial(tables, height, 0.3, state, state.error, 2.0, record=one).cleared:
+            sums += one
+    counts = sums[..., -1:]
+    return np.where(counts > 0, sums[..., :-1] / np.maximum(counts, 1.0), reference)

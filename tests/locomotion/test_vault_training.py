@@ -10,7 +10,15 @@ from locomotion.errors import LocomotionError
 from locomotion.skill import load_run_skill
 from locomotion.skill_family import SkillFamily
 from locomotion.training.loop import Stage
-from locomotion.training.vault import VaultProblem, cost, curriculum, first_guess, scales, train_vault
+from locomotion.training.vault import (
+    VaultProblem,
+    changed,
+    cost,
+    curriculum,
+    first_guess,
+    scales,
+    train_vault,
+)
 from locomotion.training.vault_trial import VaultOutcome, VaultSimulator
 from locomotion.vault_skill import KIND, Vault, tables_of
 from navmesh.archive import write_archive
@@ -27,11 +35,15 @@ def simulator():
 
 
 @pytest.fixture(scope="module")
-def states(simulator):
+def family():
     reference = np.zeros((1, vault.STEPS * vault.BINS, vault.SENSORS))
-    guess = SkillFamily(KIND, np.array([0.6]), first_guess()[None], reference, (0.23, 0.09, 0.28), "")
+    return SkillFamily(KIND, np.array([0.6]), first_guess()[None], reference, (0.23, 0.09, 0.28), "")
+
+
+@pytest.fixture(scope="module")
+def states(simulator, family):
     rng = np.random.default_rng(1)
-    return simulator.harvest(Vault(guess, simulator.run), rng.uniform(8.0, 12.0, 3), rng)
+    return simulator.harvest(Vault(family, simulator.run), rng.uniform(8.0, 12.0, 3), rng)
 
 
 @pytest.fixture
@@ -89,17 +101,42 @@ def test_curriculum_reaches_every_height_with_feedback():
     assert (stages[-1].scale[vault.parameter_slices()["gains"]] > 0).all()
 
 
-def test_scenarios_go_through_the_heights_and_may_stay_the_same(simulator, states):
-    options = {"heights": (0.6, 0.7), "states": 2, "error": 0.1, "duration": 1.0, "pull": 0.1, "same": False}
-    problems = []
-    for same in (False, True):
-        stage = Stage("test", 10, 0.1, scales("feedback"), {**options, "same": same}, 4)
-        reference = np.zeros((vault.STEPS, vault.BINS, vault.SENSORS))
-        problems.append(VaultProblem(simulator.run, first_guess(), reference, states, stage))
-    drawn = [[p.scenarios(p.stage, g, np.random.default_rng(g)) for g in (0, 9)] for p in problems]
-    assert drawn[0][0][0][2] == pytest.approx(0.6) and drawn[0][1][0][2] == pytest.approx(0.7)
-    assert [s[0] for s in drawn[1][0]] == [s[0] for s in drawn[1][1]]
-    assert all(0.2 <= depth <= 0.4 for *_, depth in drawn[0][0])
+def stage_of(how, **options):
+    shared = {"heights": (0.6, 0.8), "states": 2, "error": 0.1, "duration": 1.0, "pull": 0.1, "how": how}
+    return Stage("test", 10, 0.1, scales("feedback"), {**shared, **options}, 4)
+
+
+def test_scenarios_stay_the_same_go_through_the_heights_or_lie_between_them(simulator, states, family):
+    drawn = {}
+    for how in ("same", "through", "between"):
+        problem = VaultProblem(simulator.run, family, states, stage_of(how))
+        drawn[how] = [problem.scenarios(problem.stage, g, np.random.default_rng(g)) for g in (0, 9)]
+    assert [s[0] for s in drawn["same"][0]] == [s[0] for s in drawn["same"][1]]
+    assert drawn["through"][0][0][2] == pytest.approx(0.6) and drawn["through"][1][0][2] == pytest.approx(0.8)
+    low, high = (s[2] for s in drawn["between"][0])
+    assert 0.6 <= low <= 0.7 <= high <= 0.8
+    assert all(0.2 <= depth <= 0.4 for *_, depth in drawn["between"][0])
+
+
+def test_cost_grows_with_the_change(simulator, states, family):
+    stage = stage_of("same", pull=1e6)
+    problem = VaultProblem(simulator.run, family, states, stage)
+    scenario = problem.scenarios(stage, 0, np.random.default_rng(0))[:1]
+    assert (
+        problem.evaluate(stage, 0.01 * stage.scale, scenario)[0]
+        > problem.evaluate(stage, problem.start(), scenario)[0]
+    )
+
+
+def test_a_stage_adds_a_member_or_changes_all(simulator, states, family):
+    change = 0.01 * np.ones(family.table.shape[1])
+    grown = changed(family, change, stage_of("through"), simulator.run, [])
+    assert grown.heights.tolist() == [0.6, 0.8]
+    np.testing.assert_array_equal(grown.table, [family.table[0], family.table[0] + change])
+    moved = changed(grown, change, stage_of("between"), simulator.run, [])
+    np.testing.assert_array_equal(moved.table, grown.table + change)
+    again = changed(grown, change, stage_of("through"), simulator.run, [])
+    assert again.heights.tolist() == [0.6, 0.8]
 
 
 def test_a_checkpoint_of_another_training_is_refused(tmp_path):

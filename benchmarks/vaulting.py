@@ -39,16 +39,20 @@ class Handless(Vault):
         return done
 
 
+def start_noise(distance: float) -> np.ndarray:
+    """Of the velocities at the start, (45,) [m/s, rad/s]; always the same for a distance."""
+    return NOISE * np.random.default_rng([17, round(1000 * distance)]).normal(size=45)
+
+
 def attempts_at(height: float, every: float) -> tuple[list[VaultAttempt], list[VaultAttempt]]:
     """All starts, and those that vaulted once more without the joint."""
     without = Handless(load_vault_skill(), load_run_skill())
     tried, handless = [], []
     for k in range(round((FARTHEST - NEAREST) / every) + 1):
-        noise = NOISE * np.random.default_rng([17, k]).normal(size=45)
         distance = NEAREST + k * every
-        tried.append(vault_attempt(height, DEPTH, distance, noise=noise))
+        tried.append(vault_attempt(height, DEPTH, distance, noise=start_noise(distance)))
         if tried[-1].vaulted:
-            handless.append(vault_attempt(height, DEPTH, distance, [without], noise))
+            handless.append(vault_attempt(height, DEPTH, distance, [without], start_noise(distance)))
     return tried, handless
 
 
@@ -80,7 +84,7 @@ def film(path: Path, height: float, distance: float) -> None:
     from locomotion.training.vault_trial import VaultSimulator
 
     frames: list[np.ndarray] = []
-    vault_attempt(height, DEPTH, distance, frames=frames)
+    vault_attempt(height, DEPTH, distance, noise=start_noise(distance), frames=frames)
     simulator = VaultSimulator(load_run_skill())
     simulator.place_wall(0.0, height, DEPTH)
     model, data = simulator.model, simulator.data

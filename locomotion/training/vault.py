@@ -1,5 +1,5 @@
-"""Learning to vault: first over one wall with feed-forward alone, then with feedback over growing heights, at
-last all heights together."""
+"""Learning to vault: first over one wall with feed-forward alone, then with feedback over growing
+heights."""
 
 import os
 from collections.abc import Callable, Sequence
@@ -22,7 +22,7 @@ from navmesh.archive import read_archive, write_archive
 
 __all__ = ["ENTRY_SPEED", "HEIGHTS", "VaultProblem", "cost", "first_guess", "scales", "train_vault"]
 
-HEIGHTS = (0.6, 0.8, 0.86)
+HEIGHTS = (0.6, 0.8)
 """Heights [m] learned one after the other: each search begins at the one before and raises the wall as it
 goes."""
 ENTRY_SPEED = 3.3
@@ -108,11 +108,10 @@ def cost(outcome: VaultOutcome, entry: float) -> float:
 class VaultProblem:
     """One stage: what `learn` needs.
 
-    family: what was learned before; what is learned is one change (p,) of all its members. states:
-    harvested from planned run-ups. stage: its options are ``heights`` (2,) [m], ``how``: "same" (every
-    generation has the same trials, at the first height), "through" (from the first to the second height) or
-    "between" (all over the range); ``states`` per generation, ``error`` [m] added to the distance,
-    ``duration`` [s] and ``pull`` towards no change.
+    family: what was learned before; what is learned is a change (p,) of its last member. states: harvested from
+    planned run-ups. stage: its options are ``heights`` (2,) [m], from the first to the second of which the wall
+    rises, ``same``: whether every generation has the same trials, ``states`` per generation, ``error`` [m]
+    added to the distance, ``duration`` [s] and ``pull`` towards no change.
     """
 
     run: RunSkill
@@ -133,27 +132,26 @@ class VaultProblem:
         """(start state, error of the distance [m], height [m], depth [m]) of each trial of a generation."""
         options = stage.options
         count, (low, high) = options["states"], options["heights"]
-        if options["how"] == "same":
+        if options["same"]:
             rng = np.random.default_rng(count)
         chosen = rng.permutation(len(self.states))[:count]
         even = (np.arange(count) + rng.random(count)) / count
         errors = options["error"] * rng.permutation(2.0 * even - 1.0)
         depths = rng.uniform(*DEPTHS, count)
-        reached = min(generation / max(0.85 * stage.generations, 1.0), 1.0)
-        heights = low + (high - low) * (even if options["how"] == "between" else np.full(count, reached))
+        height = low + (high - low) * min(generation / max(0.85 * stage.generations, 1.0), 1.0)
         return [
-            (int(i), self.states[i].error + float(e), float(h), float(d))
-            for i, e, h, d in zip(chosen, errors, heights, depths, strict=False)
+            (int(i), self.states[i].error + float(e), height, float(d))
+            for i, e, d in zip(chosen, errors, depths, strict=False)
         ]
 
     def evaluate(self, stage: Stage, candidate: np.ndarray, scenarios: list) -> tuple[float, float]:
         """Mean cost with the pull towards no change, and the share that vaulted."""
         if self._simulator is None:
             self._simulator = VaultSimulator(self.run)
+        reference = self.family.references[-1].reshape(_REFERENCE)
+        tables = tables_of(self.family.table[-1] + candidate, reference, self.run)
         total = vaulted = 0.0
         for state, error, height, depth in scenarios:
-            parameters, reference = self.family.at(float(np.clip(height, *self.family.range)))
-            tables = tables_of(parameters + candidate, reference.reshape(_REFERENCE), self.run)
             result = self._simulator.vault_trial(
                 tables, height, depth, self.states[state], error, stage.options["duration"]
             )
@@ -166,28 +164,25 @@ class VaultProblem:
 
 
 def curriculum(effort: float = 1.0) -> list[Stage]:
-    """The stages: those up to a height end with a member of the family there, the last changes all
-    members."""
+    """The stages: each ends with a member of the family at its last height."""
     low = HEIGHTS[0]
 
-    def stage(name: str, count: int, sigma: float, what: str, how: str, **options) -> Stage:
-        shared = {"heights": (low, low), "error": 0.08, "duration": 2.0, "pull": 0.1, "how": how}
-        population = 16 if how == "same" else 20
+    def stage(name: str, count: int, sigma: float, what: str, same: bool, **options) -> Stage:
+        shared = {"heights": (low, low), "error": 0.08, "duration": 2.0, "pull": 0.1, "same": same}
+        population = 16 if same else 20
         return Stage(
             name, max(round(count * effort), 1), sigma, scales(what), {**shared, **options}, population
         )
 
     few = {"error": 0.04, "duration": 1.8}
     stages = [
-        stage(f"{low:g} m, take-off", 40, 0.2, "take-off", "same", states=3, **few),
-        stage(f"{low:g} m, hand", 70, 0.15, "feed-forward", "same", states=4, **few),
-        stage(f"{low:g} m, feedback", 10, 0.15, "feedback", "through", states=6),
+        stage(f"{low:g} m, take-off", 40, 0.2, "take-off", True, states=3, **few),
+        stage(f"{low:g} m, hand", 70, 0.15, "feed-forward", True, states=4, **few),
+        stage(f"{low:g} m, feedback", 10, 0.15, "feedback", False, states=6),
     ]
     for pair in pairwise(HEIGHTS):
         name = f"{pair[0]:g} to {pair[1]:g} m"
-        stages.append(stage(name, 40, 0.12, "feedback", "through", states=5, heights=pair))
-    every = (low, HEIGHTS[-1])
-    stages.append(stage("all heights", 24, 0.08, "feedback", "between", states=6, heights=every))
+        stages.append(stage(name, 40, 0.12, "feedback", False, states=5, heights=pair))
     return stages
 
 
@@ -242,11 +237,8 @@ def train_vault(
 def changed(
     family: SkillFamily, change: np.ndarray, stage: Stage, run: RunSkill, states: list[StartState]
 ) -> SkillFamily:
-    """The family after a stage that has found ``change`` (p,): up to a height, the last member with the
-    change becomes the member there, with its sensors recorded anew; in the stage "between" all members
-    change."""
-    if stage.options["how"] == "between":
-        return replace(family, table=family.table + change)
+    """The family after a stage that has found ``change`` (p,): the last member with the change becomes the
+    member at the stage's last height, with its sensors recorded anew."""
     height = stage.options["heights"][1]
     parameters, before = family.table[-1] + change, family.references[-1]
     reference = _record(run, parameters, before.reshape(_REFERENCE), height, states).reshape(before.shape)

@@ -108,10 +108,10 @@ def cost(outcome: VaultOutcome, entry: float) -> float:
 class VaultProblem:
     """One stage: what `learn` needs.
 
-    family: what was learned before; what is learned is a change (p,) of its last member. states: harvested from
-    planned run-ups. stage: its options are ``heights`` (2,) [m], from the first to the second of which the wall
-    rises, ``same``: whether every generation has the same trials, ``states`` per generation, ``error`` [m]
-    added to the distance, ``duration`` [s] and ``pull`` towards no change.
+    family: what was learned before; what is learned is a change (p,) of its last member. states: harvested
+    from planned run-ups. stage: its options are ``heights`` (2,) [m], from the first to the second of which
+    the wall rises, ``same``: whether every generation has the same trials, ``states`` per generation,
+    ``error`` [m] added to the distance, ``duration`` [s] and ``pull`` towards no change.
     """
 
     run: RunSkill

@@ -116,7 +116,7 @@ def test_a_person_uses_a_skill_by_name(tmp_path):
     result = run_mission(load_mission(tmp_path / "mission.yaml"))
     assert verdicts(result)["ada", "uses skill jump"]
     for use, says in (
-        ("{skill: vault, obstacle: ledge}", "has no skill 'vault'; valid: 'jump'"),
+        ("{skill: vault, obstacle: ledge}", "obstacle to vault"),
         ("{skill: jump, obstacle: leedge}", "did you mean 'ledge'? valid: ledge"),
         ("{skill: jump, near: [3, 3, 0]}", "no obstacle to jump lies within 3 m"),
     ):

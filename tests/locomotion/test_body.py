@@ -188,13 +188,13 @@ def test_wrong_input_is_refused_and_changes_nothing():
     human = Human(flat_ground())
     human.reset((0, 0, 0), 0.0)
     before = human.state_hash()
-    far = ObstacleAhead(5.0, "vault", 0.8, np.zeros(3), np.array([-1.0, 0, 0]))
+    far = ObstacleAhead(5.0, "vault", 1.8, np.zeros(3), np.array([-1.0, 0, 0]))
     for call, message in (
         (lambda: human.follow([[0, 0, 0]], 3.0), "at least two points"),
         (lambda: human.follow([[0, 0, 0], [np.nan, 0, 0]], 3.0), "finite"),
         (lambda: human.follow(STRAIGHT, -1.0), "speed"),
         (lambda: human.follow(STRAIGHT + np.array([0, 9, 0]), 3.0), "the path begins at"),
-        (lambda: human.follow(STRAIGHT, 3.0, [far]), "no skill clears vault 0.80 m"),
+        (lambda: human.follow(STRAIGHT, 3.0, [far]), "no skill clears vault 1.80 m"),
         (lambda: human.reset((0, 0, np.inf), 0.0), "finite"),
         (lambda: human.reset((0, 0, 0), 0.0, -1.0), "speed"),
         (lambda: human.reset((0, 0, 7.0), 0.0), "no ground within"),

@@ -293,7 +293,7 @@ class Human:
             self._steer(self._path, walks)
         if walks:
             walk_tick(
-                self.gait.gains,
+                self.gait.tables,
                 self._lookup,
                 self._walk,
                 state,

@@ -11,8 +11,10 @@ analysis and control of legged locomotion", 2012).
 
 import math
 
+import numpy as np
 from numba import njit
 
+from locomotion.anatomy import ANKLE, SHANK, THIGH
 from locomotion.ground import height_below
 from locomotion.walk_layout import (
     CLOCK,
@@ -24,28 +26,39 @@ from locomotion.walk_layout import (
     LIFT,
     MISSED,
     SIDEWAYS,
+    STEEPNESS,
     SWING_TIME,
     WALK_HEADING,
     WALK_SPEED,
     WALK_STANCE,
     WALK_TRIM,
     WALK_TURN_RATE,
+    steep_share,
 )
 
-__all__ = ["foot_frame", "ground_at", "plan_foothold", "stand_on", "sway"]
+__all__ = ["SOLE", "bearing", "foot_frame", "ground_at", "plan_foothold", "stand_on", "sway", "turn_out"]
+
+SOLE = 0.045
+"""[m] from below the ankle forward to the middle of the sole."""
 
 _I = {name: i for i, name in enumerate(GAINS)}
 _SWING, _TRANSFER, _WIDTH, _REST = _I["swing_time"], _I["transfer_time"], _I["width"], _I["pressure_rest"]
 _NARROWEST, _LONGEST, _PITCH = _I["narrowest"], _I["longest"], _I["foot_pitch"]
-_ROUGH, _STEEP = _I["roughness"], _I["steepness"]
+_ROUGH, _STEEP, _ROLL = _I["roughness"], _I["steepness"], _I["foot_roll"]
+_TURN, _SPARE = _I["foot_turn"], _I["ankle_spare"]
 _SPOT, _NORMAL, _LIFT = FOOTHOLD.start, FOOTHOLD_NORMAL.start, LIFT.start
 _SEARCH = 0.7  # [m] above and below the stance foot in which ground is looked for
 _TOE, _HEEL, _HALF = 0.12, -0.08, 0.035  # [m] corners of the sole around its middle
+_BALL = 0.11  # [m] from the sole's middle forward to the ball, and back to the heel: what bears a foot
+_BORNE = 0.02  # [m] above the lowest corner at which a corner of a foot bears nothing
+_DORSIFLEXION, _HEEL_UP = 0.52, 0.8  # [rad] that an ankle bends; that a foot is turned at most
+_UPHILL = 2.2  # [rad] off the way downhill from which a foot is rather turned uphill
+_NOTED = 0.1  # share by which the steepness follows that of a foothold, each time it is planned
 _SHORTEST_SWING = 0.24  # [s]
 _HIGHEST_HUMP = 0.3  # [m]
 _BURIED = 0.2  # [m] that a corner of the sole may be below the ground
 _STRIDE_BACK, _STRIDE, _STRADDLE = -0.45, 0.8, 0.5  # [m] what the legs reach
-_TILT_DOWN, _TILT_SIDE = 0.8, 0.45  # slopes downhill and sideways to which a foot turns
+_TILT_DOWN = 0.8  # slope downhill to which a foot turns
 
 
 @njit(cache=True)
@@ -78,6 +91,39 @@ def foot_frame(yaw, normal, out):
 
 
 @njit(cache=True)
+def bearing(ground, sole, foot, out):
+    """Where a foot stands on the ground: ``out`` (4,) = how far its bearing point is ahead of the sole's
+    middle and to the left of it [m], and how much of the sole's length and of its width bears, in [0, 1].
+
+    sole (3,) [m]: middle of the sole; foot (9,): the foot's rotation, by rows. Heel, ball, left and right
+    bear by how near they are to the ground, next to the nearest.
+    """
+    gap = np.empty(4)
+    for corner in range(4):
+        u = _BALL if corner < 2 else -_BALL
+        v = _HALF if corner % 2 else -_HALF
+        x = sole[0] + u * foot[0] + v * foot[1]
+        y = sole[1] + u * foot[3] + v * foot[4]
+        z = sole[2] + u * foot[6] + v * foot[7]
+        floor = ground_at(ground, x, y, z + _BURIED)[0]
+        gap[corner] = z - floor if floor == floor else math.inf
+    low = gap.min()
+    if low == math.inf:
+        out[0] = out[1] = 0.0
+        out[2] = out[3] = 1.0
+        return
+    total = ahead = left = 0.0
+    for corner in range(4):
+        weight = max(1.0 - (gap[corner] - low) / _BORNE, 0.0)
+        total += weight
+        ahead += weight if corner < 2 else -weight
+        left += weight if corner % 2 else -weight
+    ahead, left = ahead / total, left / total
+    out[0], out[1] = _BALL * ahead, _HALF * left
+    out[2], out[3] = math.sqrt(max(1.0 - ahead * ahead, 0.0)), math.sqrt(max(1.0 - left * left, 0.0))
+
+
+@njit(cache=True)
 def sway(gains, omega, speed):
     """(ahead, inside) [m]: where the capture point is from the new stance foot at touchdown in a steady
     walk."""
@@ -86,11 +132,12 @@ def sway(gains, omega, speed):
 
 
 @njit(cache=True)
-def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole):
+def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole, hip):
     """Write `FOOTHOLD`, its normal and yaw, and `SWING_TIME` into ``walk``, for the present capture point.
 
-    sole (3,): middle of the stance foot's sole [m]. A step that would be too long is made sooner; one that
-    the legs cannot make is cut. Then the flattest place near it is taken.
+    sole (3,): bearing point of the stance foot [m]; hip (3,): where the swing leg's hip will be [m]. A step
+    that would be too long is made sooner; one that the legs cannot make is cut. Then the flattest place near
+    it is taken.
     """
     g = gains
     yaw = walk[WALK_HEADING] + 0.5 * walk[WALK_TURN_RATE] * (g[_SWING] + g[_TRANSFER])
@@ -113,9 +160,16 @@ def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole):
     walk[SWING_TIME] = walk[CLOCK] + left
     along = min(max(along, _STRIDE_BACK), _STRIDE) - walk[MISSED]
     across = min(max(across, g[_NARROWEST]), _STRADDLE) * side
-    walk[FOOTHOLD_YAW] = yaw
     x, y = sole[0] + ch * along - sh * across, sole[1] + sh * along + ch * across
-    _settle(g, ground, walk, x, y, ch, sh, sole[2])
+    _settle(g, ground, walk, x, y, yaw, sole[2], hip)
+    # it is the bearing point that should be there
+    foot, bears = np.empty((3, 3)), np.empty(4)
+    foot_frame(walk[FOOTHOLD_YAW], walk[_NORMAL : _NORMAL + 3], foot)
+    bearing(ground, walk[_SPOT : _SPOT + 3], foot.ravel(), bears)
+    ox = foot[0, 0] * bears[0] + foot[0, 1] * bears[1]
+    oy = foot[1, 0] * bears[0] + foot[1, 1] * bears[1]
+    if bears[0] != 0.0 or bears[1] != 0.0:
+        _settle(g, ground, walk, x - ox, y - oy, yaw, sole[2], hip)
     walk[HUMP] = 0.0
     for i in range(1, 4):
         share = 0.25 * i
@@ -128,8 +182,11 @@ def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole):
 
 
 @njit(cache=True)
-def _settle(g, ground, walk, x, y, ch, sh, level):
-    """The flattest place within a few centimetres of (x, y), and how the foot stands on it."""
+def _settle(g, ground, walk, x, y, yaw, level, hip):
+    """The flattest place within a few centimetres of (x, y), and how a foot of a body that goes towards
+    ``yaw`` stands on it."""
+    walk[FOOTHOLD_YAW] = yaw
+    ch, sh = math.cos(yaw), math.sin(yaw)
     walk[_SPOT], walk[_SPOT + 1], walk[_SPOT + 2] = x, y, level
     least = math.inf
     for i in range(-1, 2):
@@ -153,17 +210,54 @@ def _settle(g, ground, walk, x, y, ch, sh, level):
                 walk[_SPOT], walk[_SPOT + 1], walk[_SPOT + 2] = qx, qy, z
                 walk[_NORMAL], walk[_NORMAL + 1], walk[_NORMAL + 2] = n0, n1, n2
     if least < math.inf:
-        stand_on(ground, walk[_SPOT : _SPOT + 3], walk[_NORMAL : _NORMAL + 3], ch, sh, g[_PITCH])
+        n0, n1, n2 = walk[_NORMAL], walk[_NORMAL + 1], walk[_NORMAL + 2]
+        walk[STEEPNESS] += _NOTED * (math.sqrt(max(1.0 - n2 * n2, 0.0)) / n2 - walk[STEEPNESS])
+        steep = steep_share(walk[STEEPNESS])
+        walk[FOOTHOLD_YAW] = yaw + turn_out(n0, n1, n2, yaw, g[_ROLL], g[_TURN])
+        ch, sh = math.cos(walk[FOOTHOLD_YAW]), math.sin(walk[FOOTHOLD_YAW])
+        spot = walk[_SPOT : _SPOT + 3]
+        pitch = within_ankle(spot, ch, sh, hip, g[_SPARE])
+        # on level ground the heel may come up later
+        pitch = g[_PITCH] + steep * (min(g[_PITCH], pitch) - g[_PITCH])
+        stand_on(ground, spot, walk[_NORMAL : _NORMAL + 3], ch, sh, pitch, g[_ROLL])
 
 
 @njit(cache=True)
-def stand_on(ground, spot, normal, ch, sh, steepest):
+def turn_out(n0, n1, n2, yaw, roll, most):
+    """Angle [rad] by which a foot towards ``yaw`` is turned on ground of the normal (n0, n1, n2), so that it
+    stands no steeper to the side than ``roll``: downhill, or uphill if that is much nearer; ``most`` at
+    most."""
+    steep = math.sqrt(n0 * n0 + n1 * n1) / n2
+    if steep <= roll:
+        return 0.0
+    downhill = math.atan2(n1, n0)
+    off = (downhill - yaw + math.pi) % (2.0 * math.pi) - math.pi
+    if abs(off) > _UPHILL:
+        off = (off + math.pi + math.pi) % (2.0 * math.pi) - math.pi
+    needed = max(abs(off) - math.asin(roll / steep), 0.0)
+    return math.copysign(min(needed, most), off)
+
+
+@njit(cache=True)
+def within_ankle(spot, ch, sh, hip, spare):
+    """Slope uphill to which a foot at ``spot`` (3,) can turn under a leg from ``hip`` (3,): what the ankle
+    bends less the lean of the shank, less ``spare`` [rad]. (ch, sh): direction of the toes."""
+    x, y = hip[0] - spot[0] + SOLE * ch, hip[1] - spot[1] + SOLE * sh
+    z = hip[2] - spot[2] - ANKLE
+    reach = min(max(math.sqrt(x * x + y * y + z * z), 0.35), 0.998 * (THIGH + SHANK))
+    between = (SHANK * SHANK + reach * reach - THIGH * THIGH) / (2.0 * SHANK * reach)
+    lean = math.atan2(x * ch + y * sh, z) + math.acos(min(max(between, -1.0), 1.0))
+    return math.tan(min(max(_DORSIFLEXION - spare - lean, -_HEEL_UP), _HEEL_UP))
+
+
+@njit(cache=True)
+def stand_on(ground, spot, normal, ch, sh, pitch, roll):
     """Turn a foot at ``spot`` (3,) as far towards the ground's ``normal`` (3,) as feet turn, uphill up to the
-    slope ``steepest``, and raise it until no corner of its sole is below the ground; both change in place.
-    (ch, sh): direction of the toes."""
+    slope ``pitch`` (toes down if that is below 0) and sideways up to ``roll``, and raise it until no corner
+    of its sole is below the ground; both change in place. (ch, sh): direction of the toes."""
     n0, n1, n2 = normal
-    uphill = min(max(-(n0 * ch + n1 * sh) / n2, -_TILT_DOWN), steepest)
-    leftward = min(max((n0 * sh - n1 * ch) / n2, -_TILT_SIDE), _TILT_SIDE)
+    uphill = min(max(-(n0 * ch + n1 * sh) / n2, -_TILT_DOWN), pitch)
+    leftward = min(max((n0 * sh - n1 * ch) / n2, -roll), roll)
     rise = 0.0
     for corner in range(4):
         u = _TOE if corner < 2 else _HEEL

@@ -11,6 +11,7 @@ is. Faces are one-sided: a body is pushed out on the side from which the corners
 from __future__ import annotations
 
 import hashlib
+import math
 import weakref
 from functools import lru_cache
 from typing import Any
@@ -24,9 +25,12 @@ from locomotion.errors import LocomotionError
 from locomotion.trimesh_build import build_triangle_arrays
 from locomotion.trimesh_install import MARK, occupy, release
 
-__all__ = ["Ground", "height_below", "plane_lookup"]
+__all__ = ["FRICTION", "Ground", "friction_for", "height_below", "plane_lookup"]
 
-_FRICTION = [0.9, 0.005, 0.0001]
+FRICTION = 0.9
+"""Friction of shoes on a usual ground."""
+_HOLD = 1.3  # friction per slope with which a foot on a floor still has force to spare
+_TORSIONAL, _ROLLING = 0.005, 0.0001
 _MESH_FACES = 200_000  # MuJoCo's renderer draws larger meshes badly; only pictures are cut off
 
 
@@ -40,10 +44,13 @@ class Ground:
         vertices: (v, 3) float64, faces: (f, 3) int64, as given.
         low, high: (3,) float64, bounds [m].
         digest: hex digest of the mesh.
+        friction: coefficient of friction.
     """
 
-    def __init__(self, vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> None:
-        self.vertices, self.faces = vertices, faces
+    def __init__(
+        self, vertices: NDArray[np.float64], faces: NDArray[np.int64], friction: float = FRICTION
+    ) -> None:
+        self.vertices, self.faces, self.friction = vertices, faces, friction
         used = vertices[np.unique(faces)]
         self.low, self.high = used.min(axis=0), used.max(axis=0)
         self._origin = np.ascontiguousarray(0.5 * (self.low + self.high))
@@ -57,10 +64,12 @@ class Ground:
         weakref.finalize(self, _release, self._slot, kept)
 
     @classmethod
-    def from_arrays(cls, vertices: ArrayLike, faces: ArrayLike) -> Ground:
-        """vertices (v, 3) [m], faces (f, 3) indices of corners, counter-clockwise seen from outside.
+    def from_arrays(cls, vertices: ArrayLike, faces: ArrayLike, friction: float = FRICTION) -> Ground:
+        """vertices (v, 3) [m], faces (f, 3) indices of corners, counter-clockwise seen from outside;
+        friction: its coefficient.
 
-        Raises `LocomotionError` for wrong shapes, coordinates that are not finite and indices out of range.
+        Raises `LocomotionError` for wrong shapes, coordinates that are not finite, indices out of range, and
+        a friction that is not a positive number.
         """
         points = np.ascontiguousarray(vertices, dtype=np.float64)
         triangles = np.asarray(faces)
@@ -75,7 +84,9 @@ class Ground:
             raise LocomotionError(f"vertex {row} is {points[row]}; give finite coordinates")
         if triangles.min() < 0 or triangles.max() >= len(points):
             raise LocomotionError(f"faces name vertices outside 0 to {len(points) - 1}")
-        return cls(points, np.ascontiguousarray(triangles, dtype=np.int64))
+        if not (np.isfinite(friction) and friction > 0.0):
+            raise LocomotionError(f"friction must be a finite number above 0, not {friction}")
+        return cls(points, np.ascontiguousarray(triangles, dtype=np.int64), float(friction))
 
     @property
     def arrays(self):
@@ -109,7 +120,8 @@ class Ground:
         user[:3] = MARK, self._slot, self._number
         geom = spec.worldbody.add_geom(
             name="ground", type=mujoco.mjtGeom.mjGEOM_HFIELD, hfieldname="ground", pos=self._origin,
-            contype=1, conaffinity=0, friction=_FRICTION, rgba=[0, 0, 0, 0], group=4, userdata=user,
+            contype=1, conaffinity=0, friction=[self.friction, _TORSIONAL, _ROLLING], rgba=[0, 0, 0, 0],
+            group=4, userdata=user,
         )  # fmt: skip
         if visual:
             self._add_visual(spec)
@@ -156,6 +168,12 @@ class Ground:
         a = self._arrays
         _surface_below(a.rows, a.cell_start, a.cell_triangles, a.grid, a.shape, wanted, heights, normals)
         return heights + self._origin[2], normals
+
+
+def friction_for(max_slope: float) -> float:
+    """Friction of a level whose rules call floors up to ``max_slope`` [rad] walkable: on ground that is
+    steeper than the usual friction holds, nobody could stand."""
+    return max(FRICTION, _HOLD * math.tan(max_slope))
 
 
 @lru_cache(maxsize=1)

@@ -1,14 +1,20 @@
 """What the walking controller is tuned by and what it remembers: names, first values, places in arrays."""
 
+import math
+
 import numpy as np
+from numba import njit
 
 __all__ = [
-    "CLOCK", "DOUBLE", "FOOTHOLD", "FOOTHOLD_NORMAL", "FOOTHOLD_YAW", "GAINS", "HUMP", "LIFT", "LIFT_NORMAL",
-    "LIFT_YAW", "MISSED", "PHASE", "SEEN_ANCHORS", "SEEN_AXES", "SEEN_FEET", "SEEN_PELVIS", "SEEN_SOLES",
-    "SEEN_TORQUES", "SETTING_OFF", "SIDEWAYS", "SINGLE", "STANDING", "STEPPED_AT", "STEPPED_FROM",
-    "SWING_ANGLES", "SWING_TIME", "WALKS", "WALK_HEADING", "WALK_SIZE", "WALK_SPEED", "WALK_STANCE",
-    "WALK_STEPS", "WALK_TICKS", "WALK_TRIM", "WALK_TURN_RATE", "first_gains", "gain_limits", "new_walk",
+    "ATTITUDES", "BODY_HEIGHT", "CLOCK", "DOUBLE", "FOOTHOLD", "FOOTHOLD_NORMAL", "FOOTHOLD_YAW", "GAINS",
+    "HUMP", "LIFT", "LIFT_NORMAL", "LIFT_YAW", "MISSED", "PHASE", "SEEN_ANCHORS", "SEEN_AXES",
+    "SEEN_FEET", "SEEN_PELVIS", "SEEN_SOLES", "SEEN_TORQUES", "SETTING_OFF", "SIDEWAYS", "SINGLE", "STANDING",
+    "STEEPNESS", "STEPPED_AT", "STEPPED_FROM", "SWING_ANGLES", "SWING_TIME", "WALKS", "WALK_HEADING",
+    "WALK_SIZE", "WALK_SPEED", "WALK_STANCE", "WALK_STEPS", "WALK_TICKS", "WALK_TRIM", "WALK_TURN_RATE",
+    "clamp", "first_gains", "gain_limits", "new_walk", "steep_share", "wrap",
 ]  # fmt: skip
+
+_LEVEL, _STEEP = 0.1, 0.3  # slopes up to which a person goes as on level ground; from which as on steep
 
 GAINS: dict[str, tuple[float, float, float]] = {
     "swing_time": (0.42, 0.28, 0.6),  # [s] of single support, unless a step has to be made sooner
@@ -37,10 +43,26 @@ GAINS: dict[str, tuple[float, float, float]] = {
     "narrowest": (0.09, -0.15, 0.12),  # [m] between the lines of the feet at least; below 0 they cross
     "roughness": (30.0, 0.0, 80.0),  # cost of a foothold per [m] of unevenness under the sole
     "steepness": (2.0, 0.0, 10.0),  # cost of a foothold that is not level
-    "foot_pitch": (0.5, 0.1, 0.8),  # slope [rise over run] up to which a foot turns uphill
+    "foot_pitch": (0.15, 0.0, 0.6),  # slope [rise over run] up to which a foot turns uphill
+    "foot_roll": (0.4, 0.1, 0.5),  # slope up to which it turns sideways
+    "ankle_spare": (0.05, -0.1, 0.4),  # [rad] that an ankle bends less than it could when a foot is put down
+    "foot_turn": (0.5, 0.0, 0.7),  # [rad] by which a foot turns off its way to stand less steep sideways
     "lean_slope": (0.3, -0.2, 0.8),  # lean per unit of slope uphill
-    "height_slope": (0.15, -0.1, 0.4),  # [m] that the body is lower per unit of slope
+    "foot_hold": (
+        0.5,
+        0.0,
+        2.0,
+    ),  # share of its servos' stiffness that keeps a foot on its edge as put
+    "height_slope": (0.15, -0.1, 0.4),  # [m] that the body is lower per unit of slope downhill
+    "height_uphill": (0.1, -0.1, 0.4),  # [m] the same uphill
     "longest": (0.6, 0.35, 0.8),  # [m] above which a step is made sooner instead
+    "trim_rate": (
+        0.1,
+        0.0,
+        0.3,
+    ),  # correction of the speed asked for per step's error in speed
+    "most_trim": (0.3, 0.0, 0.8),  # [m/s] by which it is corrected at most
+    "climb_rate": (1.0, 0.3, 2.0),  # [m/s] up and down at which the body is asked to go at most
 }
 """Gains by name, in the order of the kernel's array: first guess, least and greatest value."""
 
@@ -82,11 +104,37 @@ HUMP = 150
 WALK_TRIM, STEPPED_AT, STEPPED_FROM = 151, 152, slice(153, 155)
 """Speed [m/s] asked for on top of the reference so that the steps are as fast as it; tick of the last
 touchdown, and centre of mass [m] at it."""
-WALK_SIZE = 155
+STEEPNESS = 155
+"""Slope [rise over run] of the ground stepped on, of late."""
+BODY_HEIGHT = 156
+"""Height [m] at which the centre of mass is to be now; NaN before the first tick."""
+ATTITUDES = slice(157, 163)
+"""Normals (2, 3) of the right and the left foot as they were last put down."""
+WALK_SIZE = 163
 
 
 def new_walk(heading: float = 0.0) -> np.ndarray:
     """A person standing on both feet, (WALK_SIZE,) float64; the left leg will be the first stance leg."""
     walk = np.zeros(WALK_SIZE)
     walk[WALKS], walk[WALK_STANCE], walk[WALK_HEADING] = 1.0, 1.0, heading
+    walk[BODY_HEIGHT] = np.nan
+    walk[ATTITUDES] = 0.0, 0.0, 1.0, 0.0, 0.0, 1.0
     return walk
+
+
+@njit(cache=True)
+def clamp(x, low, high):
+    """``x`` within ``low`` to ``high``."""
+    return min(max(x, low), high)
+
+
+@njit(cache=True)
+def wrap(angle):
+    """``angle`` [rad] within -π to π."""
+    return (angle + math.pi) % (2.0 * math.pi) - math.pi
+
+
+@njit(cache=True)
+def steep_share(steepness):
+    """How much a slope [rise over run] counts as steep, 0 (gone as level ground) to 1."""
+    return clamp((steepness - _LEVEL) / (_STEEP - _LEVEL), 0.0, 1.0)

@@ -12,21 +12,23 @@ import numpy as np
 from locomotion import controller
 from locomotion.anatomy import ANKLE
 from locomotion.errors import LocomotionError
-from locomotion.footholds import foot_frame, ground_at, stand_on
+from locomotion.footholds import SOLE, bearing, foot_frame, ground_at, stand_on, within_ankle
 from locomotion.leg_kinematics import solve_leg
 from locomotion.person import JOINT_NAMES, PersonIndex, person_digest
 from locomotion.skill_file import read_skill
 from locomotion.walk_layout import (
+    ATTITUDES,
     DOUBLE,
     GAINS,
     PHASE,
+    STEEPNESS,
     WALK_SPEED,
     WALK_STANCE,
     WALK_STEPS,
     gain_limits,
     new_walk,
 )
-from locomotion.walking import SOLE, observe_walk
+from locomotion.walking import observe_walk
 from navmesh.archive import write_archive
 
 __all__ = ["RISING", "STEADYING_SPEED", "WALK_SKILL", "WalkSkill", "load_walk_skill", "plant", "rise_walking"]
@@ -37,40 +39,43 @@ RISING = 50
 STEADYING_SPEED = 1.0
 """[m/s] at which such a body makes its first steps, straight on."""
 _STEADYING = 3  # steps of such a body that do not count yet
-_KIND, _VERSION = "walk skill", 1
+_KIND, _VERSION = "walk skill", 2
 _WIDTH, _HIP_HEIGHT = 0.17, 0.83  # [m] of a stand: between the feet; of the hips above the lower sole
-_HIPS_BACK = 0.03  # [m] that the hips are behind the middle of the feet
-_STEEPEST = 0.4  # slope [rise over run] to which the feet of a stand turn uphill
+_LOWER = 0.15  # [m] that the hips are lower per unit of slope
+_HIPS_BACK = 0.03  # [m] that the hips are behind the middle of where the feet bear
+_PITCH, _ROLL = 0.15, 0.4  # slopes to which the feet of a stand turn, uphill and sideways
 _HIPS = tuple(JOINT_NAMES.index(f"{side}_hip_flexion") for side in ("right", "left"))
 _ARMS = (("shoulder_abduction", 0.12), ("elbow_flexion", 0.35))
 
 
 @dataclass(frozen=True)
 class WalkSkill:
-    """How the person walks: ``gains`` (len(GAINS),) float64 by the order of `walk_layout.GAINS`; ``speed``
-    [m/s] at which it walks at most; ``meta``: what made it."""
+    """How the person walks: ``tables`` (2, len(GAINS)) float64, gains by the order of `walk_layout.GAINS` for
+    level and for steep ground; ``speed`` [m/s] at which it walks at most;
+    ``meta``: what made it."""
 
-    gains: np.ndarray
+    tables: np.ndarray
     speed: float = 1.25
     meta: dict[str, Any] = field(default_factory=dict)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the skill for the present person; the file appears whole or not at all."""
         header = {"person": person_digest(), "gains": list(GAINS), "speed": self.speed, "meta": self.meta}
-        write_archive(path, _KIND, _VERSION, header, {"gains": self.gains})
+        write_archive(path, _KIND, _VERSION, header, {"tables": self.tables})
 
 
 def load_walk_skill(path: str | os.PathLike[str] = WALK_SKILL) -> WalkSkill:
     """Read a walk skill; `LocomotionError` if it is missing, cut off, of another version or another
     person."""
     header, arrays = read_skill(path, _KIND, _VERSION)
-    gains, low_high = arrays.get("gains"), gain_limits()
-    if gains is None or header.get("gains") != list(GAINS) or gains.shape != (len(GAINS),):
-        raise LocomotionError(f"{path}: not a whole walk skill: it must name and hold {len(GAINS)} gains")
-    if not ((gains >= low_high[0]) & (gains <= low_high[1])).all():
-        name = list(GAINS)[int(np.flatnonzero(~((gains >= low_high[0]) & (gains <= low_high[1])))[0])]
+    tables, (low, high) = arrays.get("tables"), gain_limits()
+    if tables is None or header.get("gains") != list(GAINS) or tables.shape != (2, len(GAINS)):
+        raise LocomotionError(f"{path}: not a whole walk skill: it must name and hold 2 x {len(GAINS)} gains")
+    outside = ~((tables >= low) & (tables <= high))
+    if outside.any():
+        name = list(GAINS)[int(np.argwhere(outside)[0, 1])]
         raise LocomotionError(f"{path}: {name} is outside {GAINS[name][1]:g} to {GAINS[name][2]:g}")
-    return WalkSkill(gains, float(header.get("speed", 1.25)), header.get("meta", {}))
+    return WalkSkill(tables, float(header.get("speed", 1.25)), header.get("meta", {}))
 
 
 def plant(
@@ -87,34 +92,29 @@ def plant(
     fills ``state`` and ``walk``."""
     mujoco.mj_resetData(model, data)
     ch, sh = math.cos(yaw), math.sin(yaw)
-    spots = []
-    for side in (-1.0, 1.0):
-        x, y = position[0] - 0.5 * side * _WIDTH * sh, position[1] + 0.5 * side * _WIDTH * ch
-        z, *normal = ground_at(ground, x, y, position[2] + 0.5)
-        found = z == z and abs(z - position[2]) < 0.5
-        spots.append(
-            (np.array([x, y, z if found else position[2]]), np.array(normal) if found else np.eye(3)[2])
-        )
-    low = min(spot[2] for spot, _ in spots)
-    data.qpos[:3] = [position[0] - _HIPS_BACK * ch, position[1] - _HIPS_BACK * sh, low + _HIP_HEIGHT]
+    spots, feet, attitudes = np.empty((2, 3)), np.empty((2, 3, 3)), np.empty((2, 3))
+    steepness = 0.0
+    for k, side in enumerate((-1.0, 1.0)):
+        at = position[:2] + 0.5 * side * _WIDTH * np.array([-sh, ch])
+        off = np.zeros(2)  # from the middle of the sole to where the foot bears
+        for _ in range(2):
+            steep = _put_foot(ground, [*(at - off), position[2]], yaw, spots[k], attitudes[k], feet[k])
+            bears = np.empty(4)
+            bearing(ground, spots[k], feet[k].ravel(), bears)
+            off = feet[k, :2, :2] @ bears[:2]
+        steepness += 0.5 * steep
+    data.qpos[:2] = position[:2] - _HIPS_BACK * np.array([ch, sh])
+    data.qpos[2] = spots[:, 2].min() + _HIP_HEIGHT - _LOWER * steepness
     data.qpos[3:7] = [math.cos(0.5 * yaw), 0.0, 0.0, math.sin(0.5 * yaw)]
     for name, angle in _ARMS:
         for side in ("right", "left"):
             data.qpos[7 + JOINT_NAMES.index(f"{side}_{name}")] = angle
     mujoco.mj_kinematics(model, data)
     pelvis = data.xmat[index.root].reshape(3, 3).copy()
-    for (spot, normal), hip, side in zip(spots, _HIPS, (-1.0, 1.0), strict=True):
-        stand_on(ground, spot, normal, ch, sh, _STEEPEST)
-        foot, angles = np.empty((3, 3)), np.empty(6)
-        foot_frame(yaw, normal, foot)
-        solve_leg(
-            pelvis,
-            data.xanchor[hip + 1].copy(),
-            foot,
-            spot - SOLE * foot[:, 0] + ANKLE * foot[:, 2],
-            side,
-            angles,
-        )
+    for spot, foot, hip, side in zip(spots, feet, _HIPS, (-1.0, 1.0), strict=True):
+        at, ankle = data.xanchor[hip + 1].copy(), spot - SOLE * foot[:, 0] + ANKLE * foot[:, 2]
+        angles = np.empty(6)
+        solve_leg(pelvis, at, foot, ankle, side, angles)
         data.qpos[7 + hip : 13 + hip] = angles
     mujoco.mj_forward(model, data)
     state[:] = controller.new_state()
@@ -123,7 +123,30 @@ def plant(
     controller.observe(index, model, data, state, fresh=True)
     state[controller.PLANTED] = state[controller.FEET]
     walk[:] = new_walk(yaw)
+    walk[STEEPNESS], walk[ATTITUDES] = steepness, attitudes.ravel()
     observe_walk(index, data, walk)
+
+
+def _put_foot(
+    ground: tuple[np.ndarray, ...],
+    at: list[float],
+    yaw: float,
+    spot: np.ndarray,
+    normal: np.ndarray,
+    foot: np.ndarray,
+) -> float:
+    """Stand a foot on the ground near ``at`` (3,): middle of its sole ``spot`` (3,), its ``normal`` (3,) and
+    rotation ``foot`` (3, 3); gives the ground's slope there."""
+    ch, sh = math.cos(yaw), math.sin(yaw)
+    z, *up = ground_at(ground, at[0], at[1], at[2] + 0.5)
+    found = z == z and abs(z - at[2]) < 0.5
+    spot[:], normal[:] = [at[0], at[1], z if found else at[2]], up if found else [0.0, 0.0, 1.0]
+    steep = math.hypot(normal[0], normal[1]) / normal[2]
+    hip = spot + np.array([0.0, 0.0, _HIP_HEIGHT - _LOWER * steep])
+    pitch = within_ankle(spot, ch, sh, hip, 0.0)
+    stand_on(ground, spot, normal, ch, sh, min(_PITCH, pitch), _ROLL)
+    foot_frame(yaw, normal, foot)
+    return steep
 
 
 def rise_walking(walk: np.ndarray, state: np.ndarray, heading: float) -> None:

@@ -65,18 +65,19 @@ def evaluate_run(trials: int, seed: int, progress: Progress) -> list[Attempt]:
 
 
 def evaluate_walk(trials: int, seed: int, progress: Progress) -> list[Attempt]:
-    """Winding paths on level, rolling and bumpy ground and over ramps, with pushes of up to 80 N on the
-    level."""
+    """Winding paths on level, rolling, bumpy and steep ground and over ramps, with pushes of up to 80 N on
+    the level."""
     from locomotion.training.path_trial import draw_path, follow_path
-    from locomotion.training.walk import walk_curriculum
+    from locomotion.training.walk import KINDS
 
-    kinds = walk_curriculum()[-1].options["kinds"]
+    kinds = list(KINDS.items())
     attempts = []
     with progress.stage("walking") as stage:
         for k in range(trials):
-            scenario = draw_path(np.random.default_rng([seed, k]), **kinds[k % len(kinds)])
+            name, kind = kinds[k % len(kinds)]
+            scenario = draw_path(np.random.default_rng([seed, k]), **kind)
             arrived = follow_path(scenario).figures["time"] >= scenario.duration
-            what = f"{scenario.ground}, {scenario.length:.1f} m at {scenario.speed:.2f} m/s"
+            what = f"{name}, {scenario.length:.1f} m at {scenario.speed:.2f} m/s"
             attempts.append(Attempt(what, "arrived" if arrived else "did not arrive", arrived))
             stage.update((k + 1) / trials, f"{sum(each.held for each in attempts)} of {k + 1} held")
     return attempts

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 import navmesh
-from locomotion import Ground
+from locomotion import Ground, friction_for
 from locomotion.person import CONTROL_DT
 from runtime.agent import Agent
 from runtime.drivers import BODIES, Pack, People, Population, radius_of
@@ -50,7 +50,7 @@ class World:
         self.agents: dict[str, Agent] = {}
         self.random = np.random.default_rng(seed)
         level = self.graph.terrain
-        ground = Ground.from_arrays(level.vertices, level.faces)
+        ground = Ground.from_arrays(level.vertices, level.faces, friction_for(self.graph.rules.max_slope))
         others = People(self.graph, ground), Pack(self.graph, ground)
         self._populations: tuple[Population, ...] = (*others, Walkers(self.graph, others))
         self._ticks = 0

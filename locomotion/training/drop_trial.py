@@ -142,7 +142,7 @@ class DropSimulator:
                 if self.walk[WALK_STEPS] >= 0.0:
                     self.command[:2] = 0.0, self.gait.speed
                 walk_tick(
-                    self.gait.gains, self.lookup, self.walk, state, self.command, data.qpos, data.qvel,
+                    self.gait.tables, self.lookup, self.walk, state, self.command, data.qpos, data.qvel,
                     data.ctrl,
                 )  # fmt: skip
             else:

@@ -1,4 +1,4 @@
-"""The grounds that people learn to go on: level, waves, ramps and moguls, 80 m by 80 m."""
+"""The grounds that people learn to go on: level, waves, ramps, moguls and crags, 80 m by 80 m."""
 
 import math
 from functools import lru_cache
@@ -6,26 +6,49 @@ from functools import lru_cache
 import numpy as np
 from scipy.ndimage import map_coordinates
 
-from locomotion.ground import Ground
+from locomotion.ground import Ground, friction_for
 
 __all__ = ["HALF", "KINDS", "ground_height", "training_ground"]
 
 HALF = 40.0
 """Half the side [m] of a training ground."""
-KINDS = ("level", "gentle", "rolling", "ramps", "moguls")
+KINDS = ("level", "gentle", "rolling", "ramps", "moguls", "crags", "cliffs")
 """Waves with slopes up to 0.1 and up to 0.35; plateaus joined by ramps of a slope of 0.3, 12 m long; random
-heights every 1.5 m, with a median slope of about 0.3."""
+heights every 1.5 m, with a median slope of about 0.3; random heights every 2.2 m, as crags with
+slopes up to 0.65, as cliffs up to 1."""
 _MESH = 0.5  # [m] side of the squares
 _WAVES = ((0.9, 0.35, 0.4), (-0.4, 0.8, 1.9), (0.55, -0.65, 3.1))  # (wave numbers x, y [1/m], phase)
 _ALONG = (0.9, 0.43)  # direction in which the ramps rise
 _PLATEAU, _RAMP, _STEEP = 3.0, 12.0, 0.3
-_SPACING, _ROUGH = 1.5, 0.3  # [m] between the moguls' random heights; [m] of those
+_SPACING = {"moguls": 1.5, "crags": 2.2, "cliffs": 2.2}  # [m] between random heights
+_ROUGH = {"moguls": 0.3, "crags": 5.0, "cliffs": 8.0}  # [m] of those
+_STEEPEST = {"crags": 0.65, "cliffs": 1.0}  # their slopes
 
 
-@lru_cache(maxsize=1)
-def _random_heights() -> np.ndarray:
-    count = math.ceil(2.0 * HALF / _SPACING) + 2
-    return np.random.default_rng(5).uniform(-_ROUGH, _ROUGH, (count, count))
+@lru_cache(maxsize=len(_SPACING))
+def _random_heights(kind: str) -> np.ndarray:
+    count = math.ceil(2.0 * HALF / _SPACING[kind]) + 2
+    heights = np.random.default_rng(5).uniform(-_ROUGH[kind], _ROUGH[kind], (count, count))
+    if kind in _STEEPEST:
+        _limit_slopes(heights, _STEEPEST[kind] * _SPACING[kind] / math.sqrt(2.0))
+    return heights
+
+
+def _limit_slopes(heights: np.ndarray, most: float) -> None:
+    """Level ``heights`` (n, n) in place until no two neighbours in a row or column differ by more than
+    ``most``."""
+    while True:
+        excess = 0.0
+        for axis in (0, 1):
+            lines = np.moveaxis(heights, axis, 0)
+            for start in (0, 1):
+                low, high = lines[start:-1:2], lines[start + 1 :: 2]
+                over = high - low - np.clip(high - low, -most, most)
+                excess = max(excess, float(np.abs(over).max()))
+                low += 0.5 * over
+                high -= 0.5 * over
+        if excess < 1e-6:
+            return
 
 
 def ground_height(kind: str, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -36,8 +59,9 @@ def ground_height(kind: str, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     if kind == "ramps":
         u = np.mod(_ALONG[0] * x + _ALONG[1] * y, 2.0 * (_PLATEAU + _RAMP))
         return _STEEP * np.clip(np.minimum(u - _PLATEAU, 2.0 * (_PLATEAU + _RAMP) - u), 0.0, _RAMP)
-    if kind == "moguls":
-        return map_coordinates(_random_heights(), [(x + HALF) / _SPACING, (y + HALF) / _SPACING], order=1)
+    if kind in _SPACING:
+        cells = [(x + HALF) / _SPACING[kind], (y + HALF) / _SPACING[kind]]
+        return map_coordinates(_random_heights(kind), cells, order=1)
     return np.zeros_like(x)
 
 
@@ -50,4 +74,5 @@ def training_ground(kind: str) -> Ground:
     corner = (np.arange(n - 1)[:, None] * n + np.arange(n - 1)).ravel()
     a, b, d, e = corner, corner + n, corner + n + 1, corner + 1
     faces = np.concatenate([np.stack([a, b, d], axis=1), np.stack([a, d, e], axis=1)])
-    return Ground.from_arrays(np.stack([x, y, ground_height(kind, x, y)], axis=1), faces)
+    friction = friction_for(math.atan(_STEEPEST.get(kind, 0.0)))
+    return Ground.from_arrays(np.stack([x, y, ground_height(kind, x, y)], axis=1), faces, friction)

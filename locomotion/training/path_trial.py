@@ -19,6 +19,7 @@ __all__ = ["PathScenario", "draw_path", "follow_path"]
 _PACE = 0.25  # [m] between a path's points
 _TURN_IN = 1.0  # [m] along which a path goes over from one curvature to the next
 _SLOWEST = 0.6  # share of the wished speed that is allowed on the mean
+_STANDS = 150  # ticks that it has to stay up at its goal
 _MARGIN = 2.0  # [m] from the ground's border
 
 
@@ -77,9 +78,8 @@ def draw_path(
     times = np.arange(rng.uniform(1.0, 3.0), 20.0, 3.0)
     angle, force = rng.uniform(0, 2 * np.pi, len(times)), push * np.sqrt(rng.random(len(times)))
     pushes = np.stack([times, force * np.cos(angle), force * np.sin(angle)], axis=1)
-    return PathScenario(
-        ground, points, float(rng.uniform(*speeds)), pushes[: len(times) if push > 0.0 else 0]
-    )
+    pushes = pushes[: len(times) if push > 0.0 else 0]
+    return PathScenario(ground, points, float(rng.uniform(*speeds)), pushes)
 
 
 def follow_path(scenario: PathScenario, run: RunSkill | None = None, walk: WalkSkill | None = None) -> Trial:
@@ -90,7 +90,8 @@ def follow_path(scenario: PathScenario, run: RunSkill | None = None, walk: WalkS
     """
     human = Human(training_ground(scenario.ground), run, clearing=(), walk=walk)
     points = scenario.points
-    human.reset(points[0], math.atan2(points[1, 1] - points[0, 1], points[1, 0] - points[0, 0]))
+    yaw = math.atan2(points[1, 1] - points[0, 1], points[1, 0] - points[0, 0])
+    human.reset(points[0], yaw)
     human.follow(points, scenario.speed)
     measures = Measures(human.data, human.index)
     push, state = human.data.xfrc_applied[human.index.chest], human.control
@@ -105,6 +106,8 @@ def follow_path(scenario: PathScenario, run: RunSkill | None = None, walk: WalkS
         ticks += 1
         aside += min(abs(human.lateral_error), 1.0)
         measures.add(state, float(state[c.TURN_RATE]), float(state[c.SPEED]))
+    for _ in range(_STANDS if human.status == "arrived" else 0):
+        human.tick()
     done = 1.0 if human.status == "arrived" else min(human.arc_length / scenario.length, 0.99)
     figures = measures.figures(state, ticks)
     figures["time"] = done * scenario.duration

@@ -1,5 +1,5 @@
 """Learning to walk: the gains of the walking controller, from a first guess on level ground to rough
-ground."""
+ground, and then how those for steep ground differ."""
 
 import os
 from collections.abc import Callable
@@ -13,7 +13,7 @@ from locomotion.training.path_trial import PathScenario, draw_path, follow_path
 from locomotion.walk_layout import GAINS, first_gains, gain_limits
 from locomotion.walk_skill import WALK_SKILL, WalkSkill
 
-__all__ = ["WalkProblem", "train_walk", "walk_curriculum"]
+__all__ = ["KINDS", "WalkProblem", "train_walk", "walk_curriculum", "walk_tables"]
 
 SPEED = 1.25
 """Fastest walk [m/s]."""
@@ -21,37 +21,57 @@ _STEPS_PER_S = 1.9  # of people who walk at 1.3 m/s; it grows with the root of t
 _UNIT = 0.08  # share of a gain's range that is one unit of the search
 
 
-def _kind(ground: str, speeds: tuple[float, float], radius: float, **options: Any) -> dict[str, Any]:
-    length = (9.0, 15.0) if ground == "ramps" else (4.0, 9.0)
+def _kind(
+    ground: str,
+    speeds: tuple[float, float],
+    radius: float,
+    length: tuple[float, float] = (4.0, 9.0),
+    **options: Any,
+) -> dict[str, Any]:
     return {"ground": ground, "speeds": speeds, "radius": radius, "length": length, **options}
 
 
-def walk_curriculum(effort: float = 1.0) -> tuple[Stage, ...]:
-    """From level ground to ramps and moguls; ``effort`` scales the number of generations."""
-    level, rolling = _kind("level", (0.6, 1.25), 0.8), _kind("rolling", (0.6, 1.25), 1.0)
-    ramps, moguls = _kind("ramps", (0.8, 1.25), 1.2), _kind("moguls", (0.4, 0.8), 1.0)
-    pushed = _kind("level", (0.6, 1.25), 1.0, push=80.0)
-    low, high = gain_limits()
+KINDS: dict[str, dict[str, Any]] = {
+    "level": _kind("level", (0.6, SPEED), 0.8),
+    "pushed": _kind("level", (0.6, SPEED), 1.0, push=80.0),
+    "rolling": _kind("rolling", (0.6, SPEED), 1.0),
+    "ramps": _kind("ramps", (0.8, SPEED), 1.2, length=(9.0, 15.0)),
+    "moguls": _kind("moguls", (0.4, 0.8), 1.0),
+    "crags": _kind("crags", (0.4, 0.8), 2.0),
+    "cliffs": _kind("cliffs", (0.4, 0.8), 2.0),
+}
+"""What is walked, as arguments of `draw_path`."""
 
-    def stage(name: str, generations: int, sigma: float, *kinds: dict[str, Any]) -> Stage:
+
+def walk_curriculum(effort: float = 1.0) -> tuple[Stage, ...]:
+    """From level ground to ramps and moguls, then steep ground; ``effort`` scales the
+    number of generations."""
+    low, high = gain_limits()
+    unit = _UNIT * (high - low)
+
+    def stage(name: str, generations: int, sigma: float, kinds: str, table: int = 0) -> Stage:
         rounds = max(round(generations * effort), 1)
-        return Stage(name, rounds, sigma, _UNIT * (high - low), {"kinds": kinds}, population=16)
+        scale = np.concatenate([unit if k == table else np.zeros(len(GAINS)) for k in range(2)])
+        options = {"kinds": tuple(KINDS[kind] for kind in kinds.split())}
+        return Stage(name, rounds, sigma, scale, options, population=16)
 
     return (
-        stage("level", 20, 1.0, level, level, level, rolling),
-        stage("rolling", 30, 0.6, level, rolling, rolling, rolling, ramps),
-        stage("ramps", 40, 0.5, pushed, rolling, ramps, ramps, ramps, moguls),
-        stage("moguls", 40, 0.4, pushed, rolling, ramps, ramps, moguls, moguls),
+        stage("level", 20, 1.0, "level level level rolling"),
+        stage("rolling", 30, 0.6, "level rolling rolling rolling ramps"),
+        stage("ramps", 40, 0.5, "pushed rolling ramps ramps ramps moguls"),
+        stage("moguls", 40, 0.4, "pushed rolling ramps ramps moguls moguls"),
+        stage("crags", 30, 1.0, " ".join(["crags"] * 8), table=1),
+        stage("cliffs", 60, 0.7, " ".join(["crags"] * 4 + ["cliffs"] * 6), table=1),
     )
 
 
 @dataclass(frozen=True)
 class WalkProblem:
     """Learning of the walk for `locomotion.training.loop.learn`: its stages and the first guess of the
-    gains."""
+    parameters: the gains for level ground, then what is added to them on steep ground."""
 
     curriculum: tuple[Stage, ...]
-    gains: np.ndarray
+    parameters: np.ndarray
 
     def stages(self) -> tuple[Stage, ...]:
         """The curriculum."""
@@ -59,7 +79,7 @@ class WalkProblem:
 
     def start(self) -> np.ndarray:
         """The first guess."""
-        return self.gains
+        return self.parameters
 
     def scenarios(self, stage: Stage, generation: int, rng: np.random.Generator) -> list[PathScenario]:
         """One random path of each of the stage's kinds."""
@@ -69,10 +89,9 @@ class WalkProblem:
         self, stage: Stage, candidate: np.ndarray, scenarios: list[PathScenario]
     ) -> tuple[float, float]:
         """Mean cost and mean share of the way covered; gains outside their limits cost and are cut."""
-        low, high = gain_limits()
-        outside = np.maximum(low - candidate, 0.0) + np.maximum(candidate - high, 0.0)
-        walk = WalkSkill(np.clip(candidate, low, high), SPEED)
-        cost, covered = 4.0 * float((outside / (high - low)).sum()), 0.0
+        tables, outside = walk_tables(candidate)
+        walk = WalkSkill(tables, SPEED)
+        cost, covered = 4.0 * outside, 0.0
         for scenario in scenarios:
             f = follow_path(scenario, walk=walk).figures
             done = f["time"] / scenario.duration
@@ -87,6 +106,16 @@ class WalkProblem:
         return cost, covered
 
 
+def walk_tables(parameters: np.ndarray) -> tuple[np.ndarray, float]:
+    """Gains (2, len(GAINS)) for ``parameters`` (2 len(GAINS),), cut at their limits, and how far they were
+    outside in all, in shares of their ranges."""
+    low, high = gain_limits()
+    level, steep = parameters.reshape(2, len(GAINS))
+    wanted = np.stack([level, level + steep])
+    tables = np.clip(wanted, low, high)
+    return tables, float((np.abs(wanted - tables) / (high - low)).sum())
+
+
 def train_walk(
     out: str | os.PathLike[str] = WALK_SKILL,
     seed: int = 0,
@@ -96,10 +125,10 @@ def train_walk(
     on_progress: Callable[[Progress], None] | None = None,
 ) -> WalkSkill:
     """Learn to walk and write the skill to ``out``; arguments as for `locomotion.training.run.train_run`."""
-    problem = WalkProblem(walk_curriculum(effort), first_gains())
-    learned = learn(problem, seed, checkpoint, workers, on_progress)
-    assert learned is not None and len(learned) == len(GAINS)
+    start = np.concatenate([first_gains(), np.zeros(len(GAINS))])
+    learned = learn(WalkProblem(walk_curriculum(effort), start), seed, checkpoint, workers, on_progress)
+    assert learned is not None
     meta = {"made by": "surefoot train walk", "seed": seed, "effort": effort}
-    skill = WalkSkill(np.clip(learned, *gain_limits()), SPEED, meta)
+    skill = WalkSkill(walk_tables(learned)[0], SPEED, meta)
     skill.save(out)
     return skill

@@ -1,0 +1,134 @@
+"""The steps of a walking person: what it was told, which feet bear it, when steps begin and end (numba)."""
+
+import math
+
+from numba import njit
+
+from locomotion.footholds import sway
+from locomotion.person import CONTROL_DT, JOINT_NAMES
+from locomotion.walk_layout import (
+    CLOCK,
+    DOUBLE,
+    FOOTHOLD,
+    GAINS,
+    LIFT,
+    LIFT_NORMAL,
+    LIFT_YAW,
+    MISSED,
+    PHASE,
+    SEEN_FEET,
+    SEEN_SOLES,
+    SETTING_OFF,
+    SIDEWAYS,
+    SINGLE,
+    STANDING,
+    STEPPED_AT,
+    STEPPED_FROM,
+    SWING_ANGLES,
+    SWING_TIME,
+    WALK_HEADING,
+    WALK_SPEED,
+    WALK_STANCE,
+    WALK_STEPS,
+    WALK_TICKS,
+    WALK_TRIM,
+    WALK_TURN_RATE,
+    clamp,
+    wrap,
+)  # fmt: skip
+
+__all__ = ["advance_step", "begin_swing", "follow"]
+
+_I = {name: i for i, name in enumerate(GAINS)}
+_SWING, _TRANSFER = _I["swing_time"], _I["transfer_time"]
+_TRIM_RATE, _MOST_TRIM = _I["trim_rate"], _I["most_trim"]
+_SPOT, _LIFT, _LIFT_NORMAL, _ANGLES = FOOTHOLD.start, LIFT.start, LIFT_NORMAL.start, SWING_ANGLES.start
+_SOLES, _FEET, _STEPPED = SEEN_SOLES.start, SEEN_FEET.start, STEPPED_FROM.start
+_R_HIP, _L_HIP = (JOINT_NAMES.index(f"{side}_hip_flexion") for side in ("right", "left"))
+_TOUCH = 40.0  # [N] under the swing foot that end the step
+_LANDING, _NEAR = 0.8, 0.12  # share of the swing after which, or [m] from its foothold where it may land
+_TURN_RATE, _TURN_CHANGE = 1.2, 6.0  # [rad/s], [rad/s^2]
+_FASTER, _SLOWER, _SIDE_CHANGE = 0.8, 1.0, 0.5  # [m/s^2] of the reference speeds
+_STILL, _STRAIGHT, _AWRY = 0.02, 0.2, 0.3  # [m/s], [rad] below which it stands; [rad] above which it sets off
+_SETTLED = 0.05  # [m/s] of the reference speed below which it stands
+_FOOTED = 0.5  # share of a sole's length on which it can stand
+_SET_OFF_LIMIT = 3.0  # [s] after which the first step is made regardless
+
+
+@njit(cache=True)
+def begin_swing(gains, walk, qpos):
+    """Single support begins: remember where the swing foot leaves the ground and how its leg is bent."""
+    swing = 0 if walk[WALK_STANCE] > 0 else 1
+    foot = walk[_FEET + 9 * swing : _FEET + 9 * swing + 9]
+    walk[PHASE], walk[CLOCK], walk[SWING_TIME] = SINGLE, 0.0, gains[_SWING]
+    for k in range(3):
+        walk[_LIFT + k] = walk[_SOLES + 3 * swing + k]
+        walk[_LIFT_NORMAL + k] = foot[3 * k + 2]
+    walk[LIFT_YAW] = math.atan2(foot[3], foot[0])
+    hip = _R_HIP if walk[WALK_STANCE] > 0 else _L_HIP
+    for k in range(6):
+        walk[_ANGLES + k] = qpos[7 + hip + k]
+
+
+@njit(cache=True)
+def follow(walk, command):
+    """Let the reference heading and speeds follow the command; gives what is left of the heading [rad]."""
+    error = wrap(command[0] - walk[WALK_HEADING])
+    rate = clamp(error / 0.3, -_TURN_RATE, _TURN_RATE)
+    change = _TURN_CHANGE * CONTROL_DT
+    walk[WALK_TURN_RATE] += clamp(rate - walk[WALK_TURN_RATE], -change, change)
+    walk[WALK_HEADING] = wrap(walk[WALK_HEADING] + walk[WALK_TURN_RATE] * CONTROL_DT)
+    walk[WALK_SPEED] += clamp(command[1] - walk[WALK_SPEED], -_SLOWER * CONTROL_DT, _FASTER * CONTROL_DT)
+    change = _SIDE_CHANGE * CONTROL_DT
+    walk[SIDEWAYS] += clamp(command[2] - walk[SIDEWAYS], -change, change)
+    return error
+
+
+@njit(cache=True)
+def _trim(gains, walk, x, y, ch, sh):
+    """At a touchdown with the centre of mass at (x, y): correct the speed asked for by that of the last
+    step."""
+    if walk[WALK_STEPS] > 1.0:
+        time = (walk[WALK_TICKS] - walk[STEPPED_AT]) * CONTROL_DT
+        made = (ch * (x - walk[_STEPPED]) + sh * (y - walk[_STEPPED + 1])) / time
+        trim = walk[WALK_TRIM] + gains[_TRIM_RATE] * (walk[WALK_SPEED] - made)
+        walk[WALK_TRIM] = clamp(trim, -gains[_MOST_TRIM], gains[_MOST_TRIM])
+    walk[STEPPED_AT], walk[_STEPPED], walk[_STEPPED + 1] = walk[WALK_TICKS], x, y
+
+
+@njit(cache=True)
+def advance_step(gains, walk, command, error, soles, points, spans, contact, com, capture, omega, qpos):
+    """Which feet bear the person now: phases and their ends."""
+    stance = 1 if walk[WALK_STANCE] > 0 else 0
+    swing = 1 - stance
+    ch, sh = math.cos(walk[WALK_HEADING]), math.sin(walk[WALK_HEADING])
+    still = abs(command[1]) < _STILL and abs(command[2]) < _STILL
+    # on its toes on a slope, a person stays up only by stepping
+    shaky = max(spans[0, 0], spans[1, 0]) < _FOOTED
+    if walk[PHASE] == STANDING:
+        if still and abs(error) < _AWRY and not shaky:
+            walk[CLOCK] = walk[SETTING_OFF] = 0.0
+            return
+        # push the capture point over to the first stance foot
+        walk[SETTING_OFF] = 1.0
+        outside = -sh * (capture[0] - points[stance, 0]) + ch * (capture[1] - points[stance, 1])
+        inside = sway(gains, omega, 0.0)[1]
+        if shaky or -walk[WALK_STANCE] * outside < 2.0 * inside or walk[CLOCK] > _SET_OFF_LIMIT:
+            begin_swing(gains, walk, qpos)
+    elif walk[PHASE] == SINGLE:
+        # a foot that only brushes the ground on its way has not landed
+        dx, dy = soles[swing, 0] - walk[_SPOT], soles[swing, 1] - walk[_SPOT + 1]
+        there = walk[CLOCK] > _LANDING * walk[SWING_TIME] or dx * dx + dy * dy < _NEAR * _NEAR
+        if walk[CLOCK] > 0.5 * walk[SWING_TIME] and contact[swing] > _TOUCH and there:
+            missed = ch * (soles[swing, 0] - walk[_SPOT]) + sh * (soles[swing, 1] - walk[_SPOT + 1])
+            walk[MISSED] = clamp(walk[MISSED] + 0.3 * missed, -0.1, 0.1)
+            walk[PHASE], walk[CLOCK] = DOUBLE, 0.0
+            walk[WALK_STANCE] = -walk[WALK_STANCE]
+            walk[WALK_STEPS] += 1.0
+            _trim(gains, walk, com[0], com[1], ch, sh)
+    elif walk[CLOCK] >= gains[_TRANSFER]:
+        if still and abs(walk[WALK_SPEED]) < _SETTLED and abs(error) < _STRAIGHT and not shaky:
+            walk[PHASE], walk[WALK_TRIM] = STANDING, 0.0
+            walk[CLOCK] = walk[SETTING_OFF] = 0.0
+        else:
+            begin_swing(gains, walk, qpos)

@@ -85,7 +85,7 @@ _RUN_UP_SIZE = 3
 # number of the next obstacle, steps made when the run-up was last planned, speed planned for this step or 0
 _WALK_ARRIVAL = 0.15  # [m] before the end of its path at which a walking person stops
 _TURN_FIRST = 0.7  # [rad] off its way at which a walking person turns on the spot
-_SETTLING = 300  # ticks in which a person that has stopped walking comes to rest
+_SETTLING = 600  # ticks in which a person that has stopped walking comes to rest
 _STILL = 0.03  # [m/s] of the centre of mass at rest
 _HASTE = 1.3  # [m/s] that the speed asked for may exceed the last step's: more trips it in setting off
 _FALL_TICKS = 100  # a fallen body is simulated for this long, then held

@@ -50,8 +50,10 @@ _LANDING, _NEAR = 0.8, 0.12  # share of the swing after which, or [m] from its f
 _TURN_RATE, _TURN_CHANGE = 1.2, 6.0  # [rad/s], [rad/s^2]
 _FASTER, _SLOWER, _SIDE_CHANGE = 0.8, 1.0, 0.5  # [m/s^2] of the reference speeds
 _STILL, _STRAIGHT, _AWRY = 0.02, 0.2, 0.3  # [m/s], [rad] below which it stands; [rad] above which it sets off
+_SLOW, _STOPPING = 0.1, 0.3  # [m/s] below which steps are corrected faster: share of their error in speed
 _SETTLED = 0.05  # [m/s] of the reference speed below which it stands
 _FOOTED = 0.5  # share of a sole's length on which it can stand
+_TOES, _HEELS = 0.1, -0.08  # [m] ahead of the feet's middles between which the capture point can be held
 _SET_OFF_LIMIT = 3.0  # [s] after which the first step is made regardless
 
 
@@ -91,7 +93,8 @@ def _trim(gains, walk, x, y, ch, sh):
     if walk[WALK_STEPS] > 1.0:
         time = (walk[WALK_TICKS] - walk[STEPPED_AT]) * CONTROL_DT
         made = (ch * (x - walk[_STEPPED]) + sh * (y - walk[_STEPPED + 1])) / time
-        trim = walk[WALK_TRIM] + gains[_TRIM_RATE] * (walk[WALK_SPEED] - made)
+        rate = gains[_TRIM_RATE] if walk[WALK_SPEED] > _SLOW else _STOPPING
+        trim = walk[WALK_TRIM] + rate * (walk[WALK_SPEED] - made)
         walk[WALK_TRIM] = clamp(trim, -gains[_MOST_TRIM], gains[_MOST_TRIM])
     walk[STEPPED_AT], walk[_STEPPED], walk[_STEPPED + 1] = walk[WALK_TICKS], x, y
 
@@ -103,8 +106,10 @@ def advance_step(gains, walk, command, error, soles, points, spans, contact, com
     swing = 1 - stance
     ch, sh = math.cos(walk[WALK_HEADING]), math.sin(walk[WALK_HEADING])
     still = abs(command[1]) < _STILL and abs(command[2]) < _STILL
-    # on its toes on a slope, a person stays up only by stepping
-    shaky = max(spans[0, 0], spans[1, 0]) < _FOOTED
+    # on its toes, or with the capture point before or behind its feet, a person stays up only by stepping
+    mx, my = 0.5 * (points[0, 0] + points[1, 0]), 0.5 * (points[0, 1] + points[1, 1])
+    ahead = ch * (capture[0] - mx) + sh * (capture[1] - my)
+    shaky = max(spans[0, 0], spans[1, 0]) < _FOOTED or ahead > _TOES or ahead < _HEELS
     if walk[PHASE] == STANDING:
         if still and abs(error) < _AWRY and not shaky:
             walk[CLOCK] = walk[SETTING_OFF] = 0.0

@@ -106,6 +106,7 @@ def follow_path(scenario: PathScenario, run: RunSkill | None = None, walk: WalkS
         ticks += 1
         aside += min(abs(human.lateral_error), 1.0)
         measures.add(state, float(state[c.TURN_RATE]), float(state[c.SPEED]))
+    push[:2] = 0.0
     for _ in range(_STANDS if human.status == "arrived" else 0):
         human.tick()
     done = 1.0 if human.status == "arrived" else min(human.arc_length / scenario.length, 0.99)

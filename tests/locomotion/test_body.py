@@ -150,7 +150,7 @@ def test_walks_to_a_near_goal_turning_on_the_spot_first_and_comes_to_rest_there(
         if abs(human.yaw + np.pi / 2) > 1.0:
             assert np.linalg.norm(human.position[:2] - [3, 1]) < 0.4
     assert human.status == "arrived" and seen == {"walking", "arrived"}
-    for _ in range(300):
+    for _ in range(700):
         human.tick()
     assert human.held
     assert np.linalg.norm(human.position[:2] - [3, -4]) < 0.25

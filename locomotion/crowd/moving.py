@@ -39,8 +39,7 @@ def part(rows, x, y, i, neighbours, count):
 @njit(cache=True)
 def _reach(net, k, x, y, tx, ty):
     """(reached, cell) of a step over linked cells."""
-    reached, cell, _, _, _, _ = walk(net, k, x, y, tx, ty, 1e-3, False)
-    return reached, cell
+    return walk(net, k, x, y, tx, ty, 1e-3, False)[:2]
 
 
 @njit(cache=True)

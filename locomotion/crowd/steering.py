@@ -30,9 +30,9 @@ _SIDESTEP = 0.05
 @njit(cache=True)
 def _sees(net, row, point):
     """Whether a body can go straight to ``point`` (x, y, z)."""
-    reached, cell, _, _, _, _ = walk(
+    reached, cell = walk(
         net, int(row[at.CELL]), row[at.X], row[at.Y], point[0], point[1], _THIN * row[at.RADIUS], False
-    )
+    )[:2]
     return reached and abs(floor_at(net, cell, point[0], point[1]) - point[2]) < _SEEN_STEP
 
 

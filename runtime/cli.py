@@ -175,6 +175,52 @@ def serve(
 
 
 @app.command()
+def playtest(
+    level: Annotated[Path, typer.Argument(help="Mesh file: OBJ, PLY, STL, OFF, GLB or glTF.")],
+    bots: Annotated[int, typer.Option(min=0, help="How many bots.")] = 64,
+    seconds: Annotated[float, typer.Option(help="[s] that each of them plays.")] = 300.0,
+    seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same report.")] = 0,
+    body: Annotated[str, typer.Option(help="walker (quick), human, dog, cat or horse.")] = "walker",
+    plan: Annotated[
+        Path | None, typer.Option(help="Spawns, places, expectations; default: LEVEL.playtest.yaml.")
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for report.html, report.json and junit.xml.")
+    ] = None,
+    before: Annotated[Path | None, typer.Option(help="An earlier report.json to compare with.")] = None,
+    processes: Annotated[int, typer.Option(min=1, help="Processes; the report is the same.")] = 1,
+    up: UpOption = Up.z,
+    scale: ScaleOption = 1.0,
+    as_json: JsonOption = False,
+) -> None:
+    """Send bots through a level and say what is wrong with it: exit code 1 when there are faults."""
+    options = {
+        "bots": bots, "seconds": seconds, "seed": seed, "body": body, "plan": plan, "up": up.value,
+        "scale": scale, "processes": processes,
+    }  # fmt: skip
+    _commands()
+    from runtime.playtest.command import playtest_level
+
+    _finish(playtest_level(level, options, out, before), as_json)
+
+
+@app.command()
+def replay(
+    report: Annotated[Path, typer.Argument(help="report.json of `surefoot playtest --out`.")],
+    number: Annotated[int, typer.Argument(help="Number of the finding.")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="File for the page (.html).")] = Path(
+        "replay.html"
+    ),
+    as_json: JsonOption = False,
+) -> None:
+    """Write a page that plays a finding of a playtest: the bot that met it runs again."""
+    _commands()
+    from runtime.playtest.command import replay_finding
+
+    _finish(replay_finding(report, number, output), as_json)
+
+
+@app.command()
 def train(
     skill: Annotated[Skill, typer.Argument(help="What to learn.")],
     output: Annotated[

@@ -26,9 +26,11 @@ __all__ = [
     "Result",
     "bake_level",
     "check_mission_file",
+    "check_output",
     "evaluate_skill",
     "export_gltf",
     "find_path",
+    "ready",
     "run_mission_file",
     "serve_worlds",
     "show_clip",
@@ -55,8 +57,8 @@ def bake_level(
     level: Path, output: Path, up: str, scale: float, tags: Path | None, rules: Mapping[str, float | None]
 ) -> Result:
     """Build and save the graph of ``level``."""
-    _writable(output)
-    progress = _ready()
+    check_output(output)
+    progress = ready()
     walk_rules = person_walk_rules(**rules)
     with progress.stage(f"building the graph of {level.name}"):
         begun = time.perf_counter()
@@ -91,7 +93,7 @@ def find_path(
 ) -> Result:
     """A path on a baked graph; holds when it is complete."""
     graph = navmesh.NodeGraph.load(graph_file)
-    _ready()
+    ready()
     route = graph.find_path(start, goal, radius=radius, skills={"jump": jump} if jump[1] > 0.0 else None)
     points = route.waypoints
     if smooth and len(points) > 1:
@@ -116,7 +118,7 @@ def run_mission_file(mission: Path, out: Path | None) -> Result:
     """Run a mission; with ``out`` leave trace, plot, film strip and page there."""
     loaded = load_mission(mission)
     folder = None if out is None else check_output_folder(out)
-    progress = _ready()
+    progress = ready()
     result = run_mission(loaded, progress)
     written = [] if folder is None else _write_results(result.trace, folder, progress)
     values = {
@@ -130,7 +132,7 @@ def run_mission_file(mission: Path, out: Path | None) -> Result:
 def check_mission_file(mission: Path) -> Result:
     """Check a mission and its level; `navmesh.yamlfile.FileError` says what is wrong."""
     loaded = load_mission(mission)
-    prepare_mission(loaded, _ready())
+    prepare_mission(loaded, ready())
     agents = [{"name": agent.name, "body": agent.body} for agent in loaded.mission.agents]
     values = {"mission": str(mission), "level": str(loaded.level_path), "agents": agents}
     return Result(values, True, lambda: print(f"{mission}: can be run ({len(agents)} agents)"))
@@ -142,7 +144,7 @@ def write_schema(output: Path | None) -> None:
     if output is None:
         print(text, end="")
         return
-    _writable(output)
+    check_output(output)
     with whole_file(output) as temporary:
         temporary.write_text(text, encoding="utf-8")
 
@@ -151,7 +153,7 @@ def write_view(source: Path, output: Path, follow: str | None) -> Result:
     """Write the page of a trace, or of a mission that is run for it; the camera goes with ``follow``."""
     from runtime.view import write_page
 
-    _writable(output)
+    check_output(output)
     trace, progress = _trace_of(source)
     with progress.stage("writing the page"):
         write_page(trace, output, follow)
@@ -162,7 +164,7 @@ def export_gltf(source: Path, output: Path) -> Result:
     """Write a trace, or a mission that is run for it, as animated glTF."""
     from runtime.gltf import write_gltf
 
-    _writable(output)
+    check_output(output)
     if output.suffix.lower() != ".glb":
         raise RuntimeInputError(f"{output}: glTF is written as one binary file; name it .glb")
     trace, progress = _trace_of(source)
@@ -176,7 +178,7 @@ def write_video(source: Path, output: Path, of: str | None) -> Result:
     from runtime.camera import agent_named
     from runtime.film import write_film
 
-    _writable(output)
+    check_output(output)
     if output.suffix.lower() != ".mp4":
         raise RuntimeInputError(f"{output}: a video is written as .mp4; name it so")
     trace, progress = _trace_of(source)
@@ -189,7 +191,7 @@ def _trace_of(source: Path) -> tuple[Trace, Progress]:
     """The trace at ``source``, or of the mission there, which is run for it."""
     if source.suffix.lower() in (".yaml", ".yml"):
         loaded = load_mission(source)
-        progress = _ready()
+        progress = ready()
         return run_mission(loaded, progress).trace, progress
     return Trace.read(source), Progress()
 
@@ -214,7 +216,7 @@ def serve_worlds(
     if pages is not None and not pages.is_dir():
         raise RuntimeInputError(f"{pages}: is no folder; pages are served from one")
     graphs: dict[str, navmesh.NodeGraph] = {}
-    progress = _ready()
+    progress = ready()
     for level in levels:
         if level.stem in graphs:
             raise RuntimeInputError(f"{level}: there is another level called {level.stem!r}")
@@ -245,7 +247,7 @@ def train_skill(
     }[skill]  # fmt: skip
     where = {} if output is None else {"out": output}
     if output is not None:
-        _writable(output)
+        check_output(output)
     kept = checkpoint or Path(f"{skill}.checkpoint")
     train(**where, seed=seed, checkpoint=kept, workers=workers, effort=effort)
     print(f"learned to {skill}; the checkpoint {kept} is not needed any more")
@@ -261,7 +263,7 @@ def evaluate_skill(skill: str, trials: int, seed: int) -> Result:
         evaluate_walk,
     )
 
-    progress = _ready()
+    progress = ready()
     evaluate = {
         "run": evaluate_run, "walk": evaluate_walk, "jump": evaluate_jump, "vault": evaluate_vault,
         "drop-roll": evaluate_drop_roll,
@@ -329,7 +331,7 @@ def _in_short(events: Sequence[Event]) -> list[tuple[Event, int]]:
     return shown
 
 
-def _ready() -> Progress:
+def ready() -> Progress:
     """Progress bars, and compiled kernels."""
     progress = Progress()
     if not is_compiled():
@@ -337,7 +339,8 @@ def _ready() -> Progress:
     return progress
 
 
-def _writable(output: Path) -> None:
+def check_output(output: Path) -> None:
+    """Raises `RuntimeInputError` when ``output`` cannot be a file."""
     if not output.parent.is_dir():
         raise RuntimeInputError(f"{output}: there is no folder {str(output.parent)!r} to write to")
     if output.is_dir():
@@ -364,7 +367,7 @@ def show_clip(
     motion = read_motion(source, mapping, units, up)
     for path in (film, output):
         if path is not None:
-            _writable(path)
+            check_output(path)
     faults = check_motion(motion)
     if film is not None:
         write_motion_film(motion, film, Progress())

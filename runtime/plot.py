@@ -8,7 +8,7 @@ import numpy as np
 from runtime.files import whole_file
 from runtime.trace import LevelTrace, Trace
 
-__all__ = ["plot_from_above"]
+__all__ = ["draw_floors", "plot_from_above"]
 
 _AFFORDANCE_COLOURS = {"jump": "#d1495b", "vault": "#8e44ad", "drop": "#edae49", "gap": "#00798c"}
 _LONG_SIDE = 15.0  # [in]
@@ -23,7 +23,7 @@ def plot_from_above(trace: Trace, path: str | os.PathLike[str]) -> None:
     width, height = (high - low) * _LONG_SIDE / max(high - low)
     figure = Figure(figsize=(max(width, 5.0), max(height, 3.0) + 1.0), dpi=130, layout="constrained")
     axes = figure.subplots()
-    colours = _draw_floors(axes, level)
+    colours = draw_floors(axes, level)
     _draw_graph(axes, level)
     _draw_obstacles(axes, level)
     for agent in trace.agents:
@@ -47,7 +47,7 @@ def plot_from_above(trace: Trace, path: str | os.PathLike[str]) -> None:
         figure.savefig(temporary, format="png")
 
 
-def _draw_floors(axes: Any, level: LevelTrace) -> Any:
+def draw_floors(axes: Any, level: LevelTrace) -> Any:
     """Faces that look up, coloured by height, and the outlines of what is steep."""
     from matplotlib.collections import LineCollection, PolyCollection
 

@@ -1,0 +1,104 @@
+"""What ``surefoot playtest`` and ``surefoot replay`` do."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from runtime.commands import Result, check_output, ready
+from runtime.files import check_output_folder
+from runtime.playtest.diff import Difference, compare
+from runtime.playtest.fault import Fault
+from runtime.playtest.junit import write_junit
+from runtime.playtest.page import write_page
+from runtime.playtest.replay import replay
+from runtime.playtest.report import read_report, write_report
+from runtime.playtest.run import Outcome, playtest
+
+__all__ = ["playtest_level", "replay_finding"]
+
+
+def playtest_level(level: Path, options: Mapping[str, Any], out: Path | None, before: Path | None) -> Result:
+    """Playtest ``level``; holds when nothing fails. With ``out`` leave report.html, report.json and
+    junit.xml there.
+
+    ``options`` are those of `playtest`; ``before`` is an earlier report to compare with.
+    """
+    folder = None if out is None else check_output_folder(out)
+    earlier = None if before is None else read_report(before)
+    progress = ready()
+    outcome = playtest(level, **options, progress=progress)
+    difference = None if earlier is None else compare(earlier, outcome.report)
+    written: list[Path] = []
+    if folder is not None:
+        folder.mkdir(parents=True, exist_ok=True)
+        written = [folder / name for name in ("report.json", "junit.xml", "report.html")]
+        write_report(outcome.report, written[0])
+        write_junit(outcome.report, written[1])
+        write_page(outcome, written[2], difference, progress)
+    values = {**outcome.report.to_dict(), "files": [str(each) for each in written]}
+    if difference is not None:
+        values["new"] = [fault.to_dict() for fault in difference.new]
+        values["gone"] = [fault.to_dict() for fault in difference.gone]
+    return Result(values, outcome.report.held, lambda: _show(outcome, difference, written))
+
+
+def replay_finding(report: Path, number: int, output: Path) -> Result:
+    """Write a page that plays finding ``number`` of ``report``."""
+    from runtime.view import write_page as write_view
+
+    check_output(output)
+    found = read_report(report)
+    progress = ready()
+    with progress.stage("running the bot again"):
+        trace = replay(found, number)
+    with progress.stage("writing the page"):
+        write_view(trace, output)
+    text = found.faults[number - 1].text
+    values = {
+        "output": str(output),
+        "finding": number,
+        "text": text,
+        "seconds": round(float(trace.times[-1]), 2),
+    }
+    return Result(values, True, lambda: print(f"{number}: {text}\n{output}: open it in a browser"))
+
+
+def _show(outcome: Outcome, difference: Difference | None, written: list[Path]) -> None:
+    from rich.console import Console
+    from rich.markup import escape
+    from rich.table import Table
+
+    report = outcome.report
+    console = Console(highlight=False)
+    table = Table(
+        "", "", "what", title=Path(report.setup.level).name, title_justify="left", show_header=False
+    )
+    for number, fault in enumerate(report.faults, start=1):
+        colour = "red" if fault.fails else "yellow"
+        table.add_row(str(number), f"[{colour}]{fault.title}[/]", escape(_sentence(fault)))
+    if report.faults:
+        console.print(table)
+    fails = len(report.failures)
+    verdict = "[green]held[/]" if report.held else f"[red]{fails} fault{'s' * (fails != 1)}[/]"
+    notes = len(report.faults) - fails
+    covered = 100.0 * (report.coverage[-1][1] if report.coverage else 0.0)
+    console.print(
+        f"{verdict}, {notes} note{'s' * (notes != 1)}; {covered:.0f} % of {report.reachable:.0f} m² visited"
+    )
+    if difference is not None:
+        new, gone, kept = len(difference.new), len(difference.gone), len(difference.kept)
+        console.print(f"since the earlier report: {new} new, {gone} gone, {kept} as before")
+    total = sum(run.seconds for run in outcome.runs)
+    if total:
+        pace = total / max(outcome.wall, 1e-9)
+        console.print(
+            f"{len(outcome.runs)} bots, {total:.0f} s in {outcome.wall:.1f} s ({pace:.0f} x real time)"
+        )
+    for path in written:
+        console.print(f"wrote {path}", soft_wrap=True)
+
+
+def _sentence(fault: Fault) -> str:
+    bots = len({each.bot for each in fault.sightings})
+    met = f" (met by {bots} bot{'s' * (bots != 1)})" if bots and fault.found_by == "analysis" else ""
+    return fault.text + met

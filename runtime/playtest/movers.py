@@ -1,0 +1,163 @@
+"""How a bot's body gets about: the walker on the triangles, or a body of a world that runs for it alone."""
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from navmesh.route import Route
+from runtime.events import SkillFinished, SkillStarted
+from runtime.playtest import feet
+from runtime.playtest.site import Site
+from runtime.world import World
+
+__all__ = ["Leg", "Mover", "WalkerMover", "WorldMover", "mover_of", "planned_time"]
+
+STATUSES = ("arrived", "stuck", "fell", "bumped", "out of time")
+_MOST = 4096  # samples of a leg's track
+_SAMPLE = 0.25  # [s] between samples of a track
+_STRAIGHT = 3.0  # [s] that a body of a world goes straight on, where it can
+_WORDS = {"arrived": "arrived", "stuck": "stuck", "fallen": "fell", "lost": "lost", "blocked": "no way"}
+
+
+@dataclass(frozen=True)
+class Leg:
+    """How one way went.
+
+    ``status``: "arrived", "stuck", "fell", "bumped" (against the level, in a leap), "lost" (left its
+    path), "no
+    way" or "out of time"; ``seconds`` it took, ``planned`` [s] it should have taken (0 for wandering);
+    ``track`` (n, 4) float64: time since its beginning [s] and place [m]; ``place`` (3,) where it ended;
+    ``obstacle`` the one that a leap ended at, or -1.
+    """
+
+    status: str
+    seconds: float
+    planned: float
+    track: np.ndarray
+    place: np.ndarray
+    obstacle: int = -1
+
+
+class Mover(Protocol):
+    """A bot's body. ``place`` (3,) float64 [m]."""
+
+    place: np.ndarray
+
+    def appear(self, place: np.ndarray, heading: float) -> None:
+        """Stand at ``place`` (3,), as new, facing ``heading`` [rad]."""
+        ...
+
+    def travel(self, route: Route, time_limit: float) -> Leg:
+        """Follow ``route``, which begins where it is."""
+        ...
+
+    def wander(self, headings: np.ndarray, time_limit: float) -> Leg:
+        """Go straight on, in the next of ``headings`` (h,) [rad] where it cannot."""
+        ...
+
+
+def planned_time(route: Route, speed: float) -> float:
+    """[s] that ``route`` takes at ``speed`` [m/s]."""
+    return route.length / speed + 0.3 * len(route.links)
+
+
+class WalkerMover:
+    """The walker of `runtime.playtest.feet`."""
+
+    def __init__(self, site: Site) -> None:
+        self._site = site
+        character, rules = site.character, site.graph.rules
+        self._limits = np.array([character.radius, rules.max_step, rules.headroom, character.reach("drop")])
+        self.place = np.zeros(3)
+        self._heading = 0.0
+
+    def appear(self, place: np.ndarray, heading: float) -> None:
+        self.place, self._heading = np.array(place, dtype=np.float64), heading
+
+    def travel(self, route: Route, time_limit: float) -> Leg:
+        site = self._site
+        origin, links = site.graph.surface.origin, site.graph.links
+        points = route.waypoints - origin
+        leaps = np.zeros(len(points), dtype=bool)
+        edges = np.zeros((len(points), 3))
+        over = np.full(len(points), -1)
+        for use in route.links:
+            leaps[use.last] = True
+            edges[use.last] = links.edge[use.link] - origin
+            over[use.last] = use.obstacle
+        here, track = self.place - origin, np.empty((_MOST, 4))
+        end, seconds, self._heading, count, reached = feet.follow(
+            site.probe.arrays, here, self._heading, points, leaps, edges, site.character.speed, self._limits,
+            time_limit, track,
+        )  # fmt: skip
+        obstacle = int(over[reached]) if reached < len(points) else -1
+        return self._leg(
+            STATUSES[end], seconds, planned_time(route, site.character.speed), track[:count], here, obstacle
+        )
+
+    def wander(self, headings: np.ndarray, time_limit: float) -> Leg:
+        site = self._site
+        here, track = self.place - site.graph.surface.origin, np.empty((_MOST, 4))
+        end, seconds, count = feet.roam(
+            site.probe.arrays, here, headings, site.character.speed, self._limits, time_limit, track
+        )
+        return self._leg(STATUSES[end], seconds, 0.0, track[:count], here, -1)
+
+    def _leg(self, status, seconds, planned, track, here, obstacle) -> Leg:
+        origin = self._site.graph.surface.origin
+        self.place = here + origin
+        track = track.copy()
+        track[:, 1:] += origin
+        return Leg(status, float(seconds), planned, track, self.place.copy(), obstacle)
+
+
+class WorldMover:
+    """A body of `runtime.World` that has a world to itself."""
+
+    def __init__(self, site: Site) -> None:
+        self._site = site
+        self.place = np.zeros(3)
+        self.world: World | None = None
+
+    def appear(self, place: np.ndarray, heading: float) -> None:
+        self.world = World(self._site.graph)
+        self._agent = self.world.spawn(self._site.character.body, place, heading)
+        self.place = self._agent.position
+
+    def travel(self, route: Route, time_limit: float) -> Leg:
+        assert self.world is not None
+        world, agent, speed = self.world, self._agent, self._site.character.speed
+        begun, before = world.time, agent.position
+        agent.go_to(route.waypoints[-1], speed=speed)
+        planned = agent.plans[-1].length / speed if agent.status != "blocked" else 0.0
+        track = [(0.0, *before)]
+        cleared = -1
+        while agent.moving and world.time - begun < time_limit:
+            world.step(_SAMPLE)
+            track.append((world.time - begun, *agent.position))
+        for event in world.events:
+            if isinstance(event, SkillStarted):
+                cleared = self._site.graph.obstacles.near(np.array(event.position), event.skill)[0]
+            elif isinstance(event, SkillFinished):
+                cleared = -1
+        self.place = agent.position
+        status = _WORDS.get(agent.status, "out of time")
+        return Leg(status, world.time - begun, planned, np.array(track), self.place.copy(), cleared)
+
+    def wander(self, headings: np.ndarray, time_limit: float) -> Leg:
+        # a body that follows paths wanders from place to place straight ahead of it
+        site, here = self._site, self.place
+        far = site.character.speed * min(time_limit, _STRAIGHT)
+        ahead = here + far * np.array([math.cos(headings[0]), math.sin(headings[0]), 0.0])
+        end = site.graph.cast_ray(here, ahead, radius=site.character.radius).end
+        route = site.graph.find_path(here, end, radius=site.character.radius)
+        if route.status != "complete" or route.length < 1.0:
+            return Leg("arrived", _SAMPLE, 0.0, np.empty((0, 4)), here.copy())
+        return self.travel(route, time_limit)
+
+
+def mover_of(site: Site) -> Mover:
+    """A body of the site's character."""
+    return WalkerMover(site) if site.character.body == "walker" else WorldMover(site)

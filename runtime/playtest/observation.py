@@ -1,0 +1,157 @@
+"""What the bots met, gathered: troubles in clusters, obstacles that nobody cleared, journeys against plan."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from runtime.playtest.bots import BotRun, Trouble
+from runtime.playtest.fault import Fault, Sighting
+from runtime.playtest.site import Site
+from runtime.playtest.wording import place, triple
+
+__all__ = ["Crossing", "Journey", "crossings", "journeys", "observed", "with_sightings"]
+
+_NEAR = 2.0  # [m] troubles of one kind nearer to each other than this are one
+_CLAIMED = 2.5  # [m] a trouble this near to what the analysis found is a sighting of it
+_CHANCE = 2  # sightings below which a trouble may be chance: a note
+_TRIES = 2  # attempts at an obstacle after which never having cleared it counts
+_SLOW = 2.0  # times the planned time
+_KIND = {"fell": "fell", "stuck": "stuck", "lost": "stuck", "bumped": "never_cleared", "no way": "blocked",
+         "trapped": "trap"}  # fmt: skip
+_MET = {
+    "fell": "fall", "stuck": "make no headway", "never_cleared": "hit the level in the middle of a leap",
+    "blocked": "stand where they do not fit and find no way on", "trap": "get in and find no way out",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """How an obstacle fared: its name, affordance, height [m], place, attempts, and how many cleared it."""
+
+    tag: str
+    affordance: str
+    height: float
+    position: tuple[float, float, float]
+    attempts: int
+    cleared: int
+
+
+@dataclass(frozen=True)
+class Journey:
+    """A way from a spawn to a place: how often tried and arrived, planned and median time [s] (0: never)."""
+
+    start: str
+    goal: str
+    attempts: int
+    arrived: int
+    planned: float
+    seconds: float
+
+
+def crossings(site: Site, runs: Sequence[BotRun], obstacles: Sequence[int]) -> list[Crossing]:
+    """What bots made of each of ``obstacles`` (indices)."""
+    found = site.graph.obstacles
+    passings = [each for run in runs for each in run.passings]
+    table = []
+    for index in obstacles:
+        mine = [each.cleared for each in passings if each.obstacle == index]
+        size = found.depth[index] if found.affordance[index] == "gap" else found.height[index]
+        table.append(
+            Crossing(str(found.tag[index]), str(found.affordance[index]), round(float(size), 3),
+                     triple(found.position[index]), len(mine), sum(mine))
+        )  # fmt: skip
+    return table
+
+
+def journeys(runs: Sequence[BotRun]) -> list[Journey]:
+    """The travellers' ways, by start and goal."""
+    visits = [each for run in runs for each in run.visits]
+    table = []
+    for start, goal in sorted({(each.start, each.goal) for each in visits}):
+        mine = [each for each in visits if (each.start, each.goal) == (start, goal)]
+        times = [each.seconds for each in mine if each.arrived]
+        seconds = float(np.median(times)) if times else 0.0
+        planned = float(np.median([each.planned for each in mine]))
+        table.append(Journey(start, goal, len(mine), len(times), round(planned, 2), round(seconds, 2)))
+    return table
+
+
+def observed(
+    site: Site, runs: Sequence[BotRun], ways: Sequence[Crossing], trips: Sequence[Journey]
+) -> list[Fault]:
+    """The faults that bots met."""
+    noun = site.character.noun
+    troubles = [(run.number, each) for run in runs for each in run.troubles]
+    faults = []
+    for kind in dict.fromkeys(_KIND.values()):
+        for cluster in _clusters([each for each in troubles if _KIND[each[1].kind] == kind]):
+            sightings = _sightings(cluster)
+            middle = _middle(cluster)
+            bots = len({bot for bot, _ in cluster})
+            text = f"at {place(middle)} {bots} bot{'s' * (bots > 1)} {_MET[kind]} ({len(cluster)} times)"
+            if kind == "fell":
+                text += f": the {noun} leaves the level or loses its feet here"
+            fails = len(cluster) >= _CHANCE or kind == "fell"
+            faults.append(Fault(kind, triple(middle), text, fails, "bots", sightings=sightings))
+    for each in ways:
+        if each.attempts >= _TRIES and each.cleared == 0:
+            text = (
+                f"the {each.affordance} {each.tag!r} of {each.height:.2f} m at {place(each.position)} was "
+                f"tried {each.attempts} times and never cleared"
+            )
+            faults.append(Fault("never_cleared", each.position, text, True, "bots"))
+    for trip in trips:
+        if trip.arrived and trip.seconds > _SLOW * trip.planned:
+            took = f"bots take {trip.seconds:.1f} s; planned are {trip.planned:.1f} s"
+            text = f"from {trip.start} to {trip.goal} {took}"
+            faults.append(Fault("slow", (0.0, 0.0, 0.0), text, False, "bots"))
+    return faults
+
+
+def with_sightings(analysed: Sequence[Fault], met: Sequence[Fault]) -> list[Fault]:
+    """All findings, those of the bots as sightings of what the analysis has found at the same place."""
+    known = list(analysed)
+    for fault in met:
+        at = next(
+            (k for k, each in enumerate(known) if each.found_by == "analysis" and _same(each, fault)), None
+        )
+        if at is None:
+            known.append(fault)
+        else:
+            known[at] = replace(known[at], sightings=(*known[at].sightings, *fault.sightings))
+    return known
+
+
+def _same(analysed: Fault, met: Fault) -> bool:
+    reach = _CLAIMED + (analysed.extent / np.pi) ** 0.5
+    near = np.linalg.norm(np.subtract(analysed.position, met.position)) <= reach
+    fits = {
+        "hole": ("fell",),
+        "open_edge": ("fell",),
+        "trap": ("trap", "blocked"),
+        "one_way": ("trap", "blocked"),
+    }
+    return bool(near) and met.kind in fits.get(analysed.kind, ())
+
+
+def _clusters(troubles: list[tuple[int, Trouble]]) -> Iterator[list[tuple[int, Trouble]]]:
+    """Troubles around the same places: each joins the first cluster whose first member is near."""
+    clusters: list[list[tuple[int, Trouble]]] = []
+    for each in troubles:
+        where = np.array(each[1].place)
+        near = (c for c in clusters if np.linalg.norm(np.subtract(c[0][1].place, where)) <= _NEAR)
+        home = next(near, None)
+        if home is None:
+            clusters.append([each])
+        else:
+            home.append(each)
+    return iter(clusters)
+
+
+def _middle(cluster: list[tuple[int, Trouble]]) -> np.ndarray:
+    return np.median([each.place for _, each in cluster], axis=0)
+
+
+def _sightings(cluster: list[tuple[int, Trouble]]) -> tuple[Sighting, ...]:
+    return tuple(Sighting(bot, round(each.time, 2), triple(each.place)) for bot, each in cluster)

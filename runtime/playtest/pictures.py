@@ -1,0 +1,155 @@
+"""The pictures of a report: the level from above, where bots have been, and each finding seen close by."""
+
+import base64
+import io
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from runtime.figure import Figure, Shapes
+from runtime.playtest.character import Character
+from runtime.playtest.fault import Fault
+from runtime.playtest.goals import PATCH
+from runtime.playtest.site import Site
+from runtime.plot import draw_floors
+from runtime.recording import level_trace
+from runtime.render import Camera, Triangles, render
+
+__all__ = ["capsule", "close_up", "film_strip", "heat_map", "level_map"]
+
+_LONG_SIDE = 1400  # pixels of a map
+_DPI = 100
+_SIZE = (320, 240)  # pixels of a close-up
+_FRAME = (200, 170)  # pixels of a film strip's frame
+_FRAMES = 5
+_FAR = 7.0  # [m] from the camera of a close-up to what it shows
+_ORANGE, _RED = (0.93, 0.55, 0.16), (0.83, 0.18, 0.20)
+
+
+def capsule(character: Character) -> Figure:
+    """What a bot looks like in pictures: a capsule with a nose, its only body at its feet."""
+    radius, height = character.radius, 0.9 * character.rules.headroom
+    half = max(0.5 * height - radius, 1e-3)
+    nose = 0.4 * radius
+    place = np.array(
+        [
+            (0.0, 0.0, radius + half, 1.0, 0.0, 0.0, 0.0),
+            (radius, 0.0, 1.6 * half + radius, 1.0, 0.0, 0.0, 0.0),
+        ]
+    )
+    shapes = Shapes(
+        place=place, size=np.array([(radius, half, 0.0), (nose, nose, nose)]), round=np.array([False, True]),
+        colour=np.array([_ORANGE, (0.25, 0.25, 0.28)]),
+    )  # fmt: skip
+    return Figure(("body",), np.array([-1], np.int32), np.zeros(2, np.int32), shapes)
+
+
+def level_map(site: Site) -> tuple[str, list[float]]:
+    """The level from above as a PNG in a data address, and what it shows: x0, y0, x1, y1 [m]."""
+
+    def draw(axes: Any) -> None:
+        draw_floors(axes, level_trace(site.graph))
+
+    return _map(site, draw)
+
+
+def heat_map(site: Site, patches: Sequence[tuple[float, float, float, int]]) -> str:
+    """Where bots have been, the more often the hotter, as a transparent PNG on the same scale as `level_map`;
+    reachable floor that none has been to is blue."""
+    from matplotlib.collections import PolyCollection
+
+    table = np.array(patches, dtype=np.float64).reshape(-1, 4)
+    half = 0.5 * PATCH
+    corner = np.array([(-half, -half), (half, -half), (half, half), (-half, half)])
+    most = max(float(table[:, 3].max(initial=1.0)), 2.0)
+
+    def draw(axes: Any) -> None:
+        been = table[:, 3] > 0
+        looks: tuple[tuple[np.ndarray, dict[str, Any]], ...] = (
+            (
+                been,
+                {
+                    "array": np.log(table[been, 3]),
+                    "cmap": "inferno",
+                    "clim": (-0.3 * np.log(most), np.log(most)),
+                },
+            ),
+            (~been, {"facecolors": "#3b82f6"}),
+        )
+        for chosen, options in looks:
+            squares = table[chosen][:, None, :2] + corner
+            axes.add_collection(PolyCollection(list(squares), alpha=0.75, linewidths=0, **options))
+
+    return _map(site, draw)[0]
+
+
+def close_up(site: Site, triangles: Triangles, fault: Fault) -> str:
+    """The place of a finding from above and aside, with a body beside it, as a PNG in a data address."""
+    at = np.array(fault.position)
+    far = _FAR + 0.8 * fault.extent**0.5
+    camera = Camera(
+        eye=at + far * np.array([-0.42, -0.62, 0.66]), target=at + np.array([0.0, 0.0, 0.3]), fov=0.75
+    )
+    shapes = [_marker(at)]
+    return _address(render(triangles, shapes, camera, _SIZE, reach=far + 15.0, cutaway=0.55 * far))
+
+
+def film_strip(site: Site, triangles: Triangles, track: np.ndarray) -> str:
+    """The last moments of a bot, side by side, from its ``track`` (n, 4) [s, m], as a PNG in a data
+    address."""
+    picks = np.linspace(max(len(track) - 4 * _FRAMES, 0), len(track) - 1, _FRAMES).round().astype(int)
+    body = capsule(site.character)
+    end = track[-1, 1:]
+    ahead = end[:2] - track[picks[0], 1:3]
+    length = float(np.linalg.norm(ahead))
+    ahead = ahead / length if length > 0.3 else np.array([1.0, 0.0])
+    away = 1.1 * _FAR * np.array([0.75 * ahead[1] - 0.5 * ahead[0], -0.75 * ahead[0] - 0.5 * ahead[1], 0.6])
+    frames = []
+    for pick in picks:
+        here = track[pick, 1:]
+        before, after = track[max(pick - 1, 0), 1:3], track[min(pick + 1, len(track) - 1), 1:3]
+        yaw = float(np.arctan2(*(after - before)[::-1]))
+        pose = np.array([[*here, np.cos(0.5 * yaw), 0.0, 0.0, np.sin(0.5 * yaw)]])
+        camera = Camera(
+            eye=0.5 * (here + end) + away, target=0.5 * (here + end) + np.array([0.0, 0.0, 0.7]), fov=0.62
+        )
+        frames.append(render(triangles, [body.posed(pose)], camera, _FRAME, reach=25.0, cutaway=0.6 * _FAR))
+    gap = np.full((_FRAME[1], 4, 3), 255, np.uint8)
+    return _address(np.hstack([part for frame in frames for part in (frame, gap)][:-1]))
+
+
+def _marker(at: np.ndarray) -> Shapes:
+    """A red pin at a place."""
+    place = np.tile([*at, 1.0, 0.0, 0.0, 0.0], (2, 1))
+    place[:, 2] += (1.05, 2.0)
+    size = np.array([(0.05, 0.95, 0.0), (0.28, 0.28, 0.28)])
+    return Shapes(place, size, np.array([False, True]), np.array([_RED, _RED]))
+
+
+def _map(site: Site, draw: Any) -> tuple[str, list[float]]:
+    from matplotlib.figure import Figure as Sheet
+
+    low, high = site.graph.terrain.bounds[:, :2] + np.array([[-1.0], [1.0]])
+    width, height = _LONG_SIDE * (high - low) / max(high - low) / _DPI
+    sheet = Sheet(figsize=(max(width, 0.5), max(height, 0.5)), dpi=_DPI)
+    axes = sheet.add_axes((0.0, 0.0, 1.0, 1.0))
+    draw(axes)
+    axes.set_xlim(low[0], high[0])
+    axes.set_ylim(low[1], high[1])
+    axes.set_axis_off()
+    content = io.BytesIO()
+    sheet.savefig(content, format="png", transparent=True)
+    return _data_address(content), [*low.tolist(), *high.tolist()]
+
+
+def _address(pixels: np.ndarray) -> str:
+    from matplotlib.image import imsave
+
+    content = io.BytesIO()
+    imsave(content, pixels, format="png")
+    return _data_address(content)
+
+
+def _data_address(content: io.BytesIO) -> str:
+    return "data:image/png;base64," + base64.b64encode(content.getvalue()).decode()

@@ -1,0 +1,189 @@
+"""Running a playtest: the level read, its faults proved, the bots sent through it, the report made."""
+
+import math
+import multiprocessing
+import os
+import signal
+import tempfile
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from scipy.spatial import KDTree
+
+import navmesh
+from runtime.errors import RuntimeInputError
+from runtime.playtest.analysis import analyse
+from runtime.playtest.bots import BotRun, Goals, run_bot
+from runtime.playtest.character import Character, character_of
+from runtime.playtest.expectations import broken_expectations
+from runtime.playtest.fault import numbered
+from runtime.playtest.goals import make_goals, patches_of, place_parts, spawn_parts
+from runtime.playtest.observation import crossings, journeys, observed, with_sightings
+from runtime.playtest.plan import LoadedPlan, plan_path
+from runtime.playtest.report import Report, Setup
+from runtime.playtest.site import Site
+from runtime.progress import Progress
+
+__all__ = ["MOST_BOTS", "Outcome", "Stage", "open_stage", "playtest"]
+
+MOST_BOTS = 100_000
+_MOMENTS = 60  # points of the curve of coverage
+_SEEN = 1.0  # [m] a patch is covered when a bot has been this near to it
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A level that is ready to be played: the site, the plan, where bots go, and what was asked for."""
+
+    setup: Setup
+    site: Site
+    plan: LoadedPlan
+    goals: Goals
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A report, with what it does not say because it must not differ from run to run: ``runs`` of the
+    bots, and the ``wall`` time [s] that they took together."""
+
+    report: Report
+    runs: tuple[BotRun, ...]
+    stage: Stage
+    wall: float
+
+
+def playtest(
+    level: str | os.PathLike[str],
+    *,
+    bots: int = 16,
+    seconds: float = 60.0,
+    seed: int = 0,
+    body: str = "walker",
+    plan: str | os.PathLike[str] | None = None,
+    up: str = "z",
+    scale: float = 1.0,
+    processes: int = 1,
+    progress: Progress | None = None,
+) -> Outcome:
+    """Playtest ``level`` (a mesh file) with ``bots`` bots of ``body`` for ``seconds`` [s] each.
+
+    ``plan`` is the playtest file; by default LEVEL.playtest.yaml where there is one. ``up`` and ``scale`` as
+    for `navmesh.Terrain.load`. The same arguments give the same report, whatever ``processes`` is. Raises
+    `RuntimeInputError`, `navmesh.NavmeshError` and its `FileError` for wrong input.
+    """
+    if not 0 <= bots <= MOST_BOTS:
+        raise RuntimeInputError(f"bots = {bots}: expected 0 to {MOST_BOTS}")
+    if not (math.isfinite(seconds) and 0.0 < seconds <= 86400.0):
+        raise RuntimeInputError(f"seconds = {seconds!r}: expected more than 0 and at most a day (86400)")
+    if seed < 0:
+        raise RuntimeInputError(f"seed = {seed}: expected 0 or more")
+    if processes < 1:
+        raise RuntimeInputError(f"processes = {processes}: expected 1 or more")
+    progress = progress or Progress(shown=False)
+    beside = plan_path(level)
+    plan = plan or (beside if beside.is_file() else None)
+    setup = Setup(str(level), up, scale, None if plan is None else str(plan), body, bots, seconds, seed)
+    with progress.stage(f"reading {Path(level).name} and building its graph"):
+        stage = open_stage(setup)
+    site = stage.site
+    with progress.stage("looking for faults in its geometry"):
+        starts = spawn_parts(site, stage.plan)
+        at = place_parts(site, stage.plan, "places")
+        meant = np.array([each.reachable for each in stage.plan.plan.places], dtype=bool)
+        proved = analyse(site, starts, at[~meant], at[meant])
+        proved += broken_expectations(site, stage.plan, starts, at)
+    begun = time.perf_counter()
+    runs = []
+    with progress.stage(f"{bots} bots play") as bar:
+        for run in _all_runs(stage, processes):
+            runs.append(run)
+            pace = sum(each.seconds for each in runs) / max(time.perf_counter() - begun, 1e-9)
+            bar.update(len(runs) / bots, f"{len(runs)} done, {pace:.0f} x real time")
+    wall = time.perf_counter() - begun
+    reached = site.reached(starts)
+    ways, trips = crossings(site, runs, stage.goals.obstacles), journeys(runs)
+    faults = numbered(with_sightings(proved, observed(site, runs, ways, trips)))
+    coverage, patches = _coverage(site, reached, runs, seconds)
+    report = Report(
+        setup=setup,
+        digest=site.graph.terrain.digest,
+        character=site.character.to_dict(),
+        faults=tuple(faults),
+        crossings=tuple(ways),
+        journeys=tuple(trips),
+        coverage=coverage,
+        patches=patches,
+        reachable=round(float(site.areas[reached].sum()), 2),
+    )
+    return Outcome(report, tuple(runs), stage, wall)
+
+
+def open_stage(setup: Setup, graph: navmesh.NodeGraph | None = None) -> Stage:
+    """The stage of ``setup``; ``graph`` is its level's, where it is there already."""
+    plan = LoadedPlan.read(setup.plan)
+    character = plan.character(character_of(setup.body))
+    if graph is None:
+        graph = _build(setup, character)
+    site = Site(graph, character)
+    return Stage(setup, site, plan, make_goals(site, plan, np.random.default_rng(setup.seed)))
+
+
+def _build(setup: Setup, character: Character) -> navmesh.NodeGraph:
+    terrain = navmesh.Terrain.load(setup.level, up=setup.up, scale=setup.scale)
+    beside = navmesh.tags_path(setup.level)
+    tags = navmesh.load_tags(beside) if beside.is_file() else None
+    return navmesh.NodeGraph.build(terrain, character.rules, character.obstacle_rules(), tags=tags)
+
+
+def _all_runs(stage: Stage, processes: int) -> Iterator[BotRun]:
+    """The runs in the order of the bots' numbers."""
+    setup = stage.setup
+    if processes == 1:
+        for number in range(setup.bots):
+            yield run_bot(stage.site, stage.goals, setup.seed, number, setup.seconds)
+        return
+    with tempfile.TemporaryDirectory(prefix="surefoot-") as folder:
+        graph = Path(folder) / "graph.npz"
+        stage.site.graph.save(graph)
+        context = multiprocessing.get_context("spawn")
+        with context.Pool(min(processes, max(setup.bots, 1)), _begin, (setup, graph)) as pool:
+            yield from pool.imap(_run_one, range(setup.bots))
+
+
+_stage: Stage | None = None  # of a worker process
+
+
+def _begin(setup: Setup, graph: Path) -> None:
+    global _stage
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent ends its workers
+    _stage = open_stage(setup, navmesh.NodeGraph.load(graph))
+
+
+def _run_one(number: int) -> BotRun:
+    assert _stage is not None
+    setup = _stage.setup
+    return run_bot(_stage.site, _stage.goals, setup.seed, number, setup.seconds)
+
+
+def _coverage(site: Site, reached: np.ndarray, runs: Sequence[BotRun], seconds: float) -> tuple[tuple, tuple]:
+    """The curve of coverage and the patches of floor with their visits."""
+    patches, _ = patches_of(site, reached)
+    first = np.full(len(patches), np.inf)
+    visits = np.zeros(len(patches), dtype=np.int64)
+    tree = KDTree(patches)
+    for run in runs:
+        track = run.track
+        if not len(track):
+            continue
+        away, nearest = (np.asarray(each) for each in tree.query(track[:, 1:]))
+        near = away <= _SEEN
+        np.minimum.at(first, nearest[near], track[near, 0])
+        np.add.at(visits, nearest[near], 1)
+    moments = np.linspace(0.0, seconds, _MOMENTS + 1)
+    share = np.searchsorted(np.sort(first), moments, side="right") / max(len(patches), 1)
+    curve = tuple((round(float(t), 2), round(float(s), 4)) for t, s in zip(moments, share, strict=True))
+    places = np.round(patches, 2).tolist()
+    return curve, tuple((x, y, z, int(n)) for (x, y, z), n in zip(places, visits, strict=True))

@@ -1,0 +1,114 @@
+"""A level as one character meets it: walkable parts, and the ways over obstacles from part to part."""
+
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import coo_array, csr_array
+from scipy.sparse.csgraph import connected_components, dijkstra
+
+import navmesh
+from navmesh.probes import ProbeGrid
+from runtime.playtest.character import Character
+
+__all__ = ["Site"]
+
+
+class Site:
+    """A graph and a character. A *part* is what can be walked from one of its places to any other.
+
+    ``node_part`` (m,) int: the part of each node, -1 where the body does not fit. ``areas`` (p,) float64
+    [m²]: room for the body's middle in each part. ``ways`` (k,) int: the typed links that the body can take;
+    ``way_from`` and ``way_to`` (k,) int: the parts that they join.
+    """
+
+    def __init__(self, graph: navmesh.NodeGraph, character: Character) -> None:
+        self.graph = graph
+        self.character = character
+        radius = character.radius
+        source = np.repeat(np.arange(len(graph)), np.diff(graph.edge_start))
+        fits = graph.radii >= radius
+        passes = (graph.edge_width >= radius) & fits[source] & fits[graph.edge_target]
+        self.node_part = _numbered(source[passes], graph.edge_target[passes], fits)
+        part = self.node_part[graph.label]
+        self.cell_part = np.where((graph.label >= 0) & (graph.surface.clearance >= radius), part, -1)
+        inside = self.cell_part[self.cell_part >= 0]
+        count = int(self.node_part.max(initial=-1)) + 1
+        self.areas = np.bincount(inside, minlength=count) * graph.surface.resolution**2
+        self.ways = self._usable()
+        links = graph.links
+        self.way_from = self.node_part[graph.label[links.start_cell[self.ways]]]
+        self.way_to = self.node_part[graph.label[links.end_cell[self.ways]]]
+
+    def _usable(self) -> np.ndarray:
+        links, graph = self.graph.links, self.graph
+        chosen = np.zeros(len(links), dtype=bool)
+        for name, (low, high) in self.character.skills.items():
+            chosen |= (links.affordance == name) & (links.height >= low) & (links.height <= high)
+        chosen &= links.radius >= self.character.radius
+        for cell in (links.start_cell, links.end_cell):
+            chosen &= (graph.label[cell] >= 0) & (self.node_part[graph.label[cell]] >= 0)
+        return np.flatnonzero(chosen)
+
+    @cached_property
+    def arcs(self) -> csr_array:
+        """(p, p) sparse: 1 where a link leads from one part to another."""
+        count = len(self.areas)
+        across = self.way_from != self.way_to
+        ends = (self.way_from[across], self.way_to[across])
+        return coo_array((np.ones(len(ends[0])), ends), shape=(count, count)).tocsr()
+
+    @cached_property
+    def loops(self) -> np.ndarray:
+        """(p,) int: parts with the same number can be reached from each other."""
+        return connected_components(self.arcs, directed=True, connection="strong")[1]
+
+    def reached(self, parts: np.ndarray) -> np.ndarray:
+        """(p,) bool: which parts can be reached from any of ``parts`` (indices)."""
+        return _reached(self.arcs, parts)
+
+    def returning(self, parts: np.ndarray) -> np.ndarray:
+        """(p,) bool: from which parts any of ``parts`` (indices) can be reached."""
+        return _reached(self.arcs.T.tocsr(), parts)
+
+    def part_at(self, points: np.ndarray) -> np.ndarray:
+        """(k,) int: the part at or nearest to ``points`` (k, 3) where the body fits; -1 where there is
+        none."""
+        found = np.full(len(points), -1)
+        for k, point in enumerate(points):
+            here = self.graph.find_path(point, point, radius=self.character.radius)
+            if here.status == "complete":
+                found[k] = self.node_part[here.nodes[0]]
+        return found
+
+    def cells_of(self, part: int) -> np.ndarray:
+        """(c,) int: the cells where the body's middle can be, of ``part``."""
+        return np.flatnonzero(self.cell_part == part)
+
+    def centre_of(self, part: int) -> np.ndarray:
+        """(3,) float64 [m]: the roomiest place of ``part``."""
+        nodes = np.flatnonzero(self.node_part == part)
+        return self.graph.positions[nodes[np.argmax(self.graph.radii[nodes])]]
+
+    @cached_property
+    def probe(self) -> ProbeGrid:
+        """The level's triangles, relative to the surface's origin."""
+        terrain = self.graph.terrain
+        return ProbeGrid(
+            terrain.vertices, terrain.faces, self.graph.surface.origin, self.graph.rules.max_slope
+        )
+
+
+def _numbered(source: np.ndarray, target: np.ndarray, fits: np.ndarray) -> np.ndarray:
+    count = len(fits)
+    joined = coo_array((np.ones(len(source), dtype=bool), (source, target)), shape=(count, count))
+    label = connected_components(joined, directed=False)[1]
+    part = np.full(count, -1)
+    part[fits] = np.unique(label[fits], return_inverse=True)[1]
+    return part
+
+
+def _reached(arcs: csr_array, parts: np.ndarray) -> np.ndarray:
+    if len(parts) == 0:
+        return np.zeros(len(arcs.indptr) - 1, dtype=bool)
+    steps = np.asarray(dijkstra(arcs, indices=np.unique(parts), unweighted=True, min_only=True))
+    return np.isfinite(steps)

@@ -1,0 +1,107 @@
+"""The sentences of a report: where, what, and why, with the numbers that a designer needs to mend it."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from navmesh.obstacles import Obstacles
+from runtime.playtest.barriers import Barrier
+from runtime.playtest.character import Character
+
+__all__ = ["Wording", "place", "triple"]
+
+
+def triple(point: ArrayLike) -> tuple[float, float, float]:
+    """A place to the centimetre, as plain numbers."""
+    x, y, z = (round(float(value), 2) + 0.0 for value in np.asarray(point))
+    return x, y, z
+
+
+def place(point: ArrayLike) -> str:
+    """A place in a sentence."""
+    x, y, z = (round(float(value), 1) + 0.0 for value in np.asarray(point))
+    return f"({x:.1f}, {y:.1f}, {z:.1f})"
+
+
+class Wording:
+    """Sentences about what ``character`` meets."""
+
+    def __init__(self, character: Character) -> None:
+        self.character = character
+        self.noun = character.noun
+
+    def abilities(self) -> str:
+        """As in "a person steps 0.15 m and jumps 0.70 m"."""
+        jump = self.character.reach("jump")
+        steps = f"a {self.noun} steps {self.character.rules.max_step:.2f} m"
+        return f"{steps} and jumps {jump:.2f} m" if jump else f"{steps} and does not jump"
+
+    def unreachable(self, kind: str, centre: np.ndarray, area: float, barrier: Barrier | None) -> str:
+        """Why a part of the level cannot be reached."""
+        what = f"the part of {area:.0f} m² around {place(centre)} cannot be reached"
+        if barrier is None:
+            return f"{what}: nothing that can be reached is near it"
+        at, size = place(barrier.place), abs(barrier.size)
+        if kind == "narrow":
+            need = 2.0 * self.character.radius
+            return f"{what}: the passage at {at} is {size:.2f} m wide; a {self.noun} needs {need:.2f} m"
+        if kind == "step":
+            return (
+                f"{what}: the step at {at} is {size:.2f} m high; {self.abilities()}, with room for a run-up"
+            )
+        if kind == "ledge":
+            edge = f"its lowest edge, at {at}, is {size:.2f} m above the floor beside it"
+            return f"{what}: {edge}; {self.abilities()}"
+        if barrier.kind == "gap":
+            leap = self.character.reach("gap")
+            able = f"leaps {leap:.2f} m" if leap else "does not leap gaps"
+            return f"{what}: the gap at {at} is {size:.2f} m wide; a {self.noun} {able}"
+        if kind == "walled_off":
+            return f"{what}: a wall stands between it and the floor beside it at {at}"
+        if barrier.size > 0.0:
+            return f"{what}: it is {size:.2f} m above the floor at {at}; {self.abilities()}"
+        drop = self.character.reach("drop")
+        able = f"drops {drop:.2f} m" if drop else "does not drop"
+        return f"{what}: it is {size:.2f} m below the floor at {at}; a {self.noun} {able}"
+
+    def no_return(self, kind: str, centre: np.ndarray, area: float, entry, out: Barrier | None) -> str:
+        """What is entered but not left."""
+        way = f"the {entry['affordance']} of {entry['height']:.2f} m at {place(entry['place'])}"
+        what = "is a trap" if kind == "trap" else "is one-way"
+        text = (
+            f"the part of {area:.0f} m² around {place(centre)} {what}: {way} leads in and nothing leads back"
+        )
+        if out is None:
+            return text
+        if out.size > 0.0:
+            edge = f"its lowest edge, at {place(out.place)}, is {out.size:.2f} m high"
+            return f"{text}; {edge}; {self.abilities()}"
+        drop = self.character.reach("drop")
+        return f"{text}; at {place(out.place)} it is {-out.size:.2f} m down; a {self.noun} drops {drop:.2f} m"
+
+    def hole(self, centre: np.ndarray, area: float) -> str:
+        """A place without floor."""
+        where = f"the floor has a hole of {area:.1f} m² at {place(centre)}"
+        return f"{where}: who walks there falls out of the level"
+
+    def open_edge(self, at: np.ndarray, cells: int) -> str:
+        """The outer edge of a level."""
+        where = f"the level ends at {place(at)} and at {cells - 1} places like it without a wall"
+        return f"{where}: who walks on falls out of it"
+
+    def passage(self, at: np.ndarray, width: float, through: float, around: float) -> str:
+        """A door that does not let the body in."""
+        need = 2.0 * self.character.radius
+        return (
+            f"the passage at {place(at)} is {width:.2f} m wide and a {self.noun} needs {need:.2f} m: "
+            f"the way around is {around:.0f} m instead of {through:.1f} m"
+        )
+
+    def unusable(self, obstacles: Obstacles, index: int) -> str:
+        """An obstacle without a link."""
+        name, need = obstacles.affordance[index], 2.0 * self.character.radius
+        text = (
+            f"the {name} {str(obstacles.tag[index])!r} at {place(obstacles.position[index])} cannot be used"
+        )
+        if obstacles.width[index] < need:
+            return f"{text}: it is {obstacles.width[index]:.2f} m wide and a {self.noun} needs {need:.2f} m"
+        return f"{text}: there is no room for a {self.noun} before it or behind it"

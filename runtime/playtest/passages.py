@@ -38,12 +38,16 @@ def narrow_passages(site: Site, reached: np.ndarray) -> list[Passage]:
     roomy = np.flatnonzero(np.append(reached, False)[site.node_part])
     if not len(doors) or len(roomy) < 2:
         return []
-    tree = KDTree(graph.positions[roomy])
-    walks = _walks(site)
+    tree = KDTree(graph.positions)
+    wide, narrow = _walks(site, radius), _walks(site, thin)
+    fits = np.zeros(len(graph), dtype=bool)
+    fits[roomy] = True
     starts, goals = [], []
     for door in doors:
-        near = roomy[tree.query_ball_point(graph.positions[door], _AROUND)]
-        pair = _sides(walks, near, np.linalg.norm(graph.positions[near] - graph.positions[door], axis=1))
+        near = np.array(tree.query_ball_point(graph.positions[door], _AROUND), dtype=np.int64)
+        joined = connected_components(narrow[near][:, near], directed=False)[1]
+        near = near[(joined == joined[near == door]) & fits[near]]
+        pair = _sides(wide, near, np.linalg.norm(graph.positions[near] - graph.positions[door], axis=1))
         if pair is not None:
             starts.append(graph.positions[pair[0]])
             goals.append(graph.positions[pair[1]])
@@ -68,12 +72,12 @@ def narrow_passages(site: Site, reached: np.ndarray) -> list[Passage]:
     return found
 
 
-def _walks(site: Site) -> csr_array:
-    """(m, m) sparse: the edges that the body passes."""
+def _walks(site: Site, radius: float) -> csr_array:
+    """(m, m) sparse: the edges that a body of ``radius`` [m] passes."""
     graph = site.graph
     source = np.repeat(np.arange(len(graph)), np.diff(graph.edge_start))
-    passes = graph.edge_width >= site.character.radius
-    passes &= (site.node_part[source] >= 0) & (site.node_part[graph.edge_target] >= 0)
+    passes = (graph.edge_width >= radius) & (graph.radii[source] >= radius)
+    passes &= graph.radii[graph.edge_target] >= radius
     ends = (source[passes], graph.edge_target[passes])
     return coo_array((np.ones(len(ends[0])), ends), shape=(len(graph),) * 2).tocsr()
 

@@ -10,7 +10,6 @@ import numpy as np
 from numba import njit
 from scipy.spatial import KDTree
 
-import navmesh
 from navmesh.affordances import detect_obstacles
 from navmesh.free_length import cells_of
 from navmesh.links import make_links
@@ -75,7 +74,7 @@ class Barriers:
             return None
         pair = ends[at]
         place = graph.positions[pair[np.argmin(graph.radii[pair])]]
-        return Barrier("narrow", width_at(graph, place), place)
+        return Barrier("narrow", max(width_at(self.site, place), 2.0 * float(wide[at])), place)
 
     def gap(self, of: np.ndarray, to: np.ndarray) -> Barrier | None:
         """The narrowest gap to leap from nodes ``of`` to nodes ``to``."""
@@ -126,13 +125,36 @@ class Barriers:
         return np.stack([source, target], axis=1)[order], rises[order]
 
 
-def width_at(graph: navmesh.NodeGraph, place: np.ndarray) -> float:
-    """[m] from the nearest side of a passage at ``place`` (3,) to the opposite one."""
+def width_at(site: Site, place: np.ndarray) -> float:
+    """[m] from the nearest side of a passage at ``place`` (3,) to the opposite one, on the level's triangles.
+
+    The graph knows a width that is up to a cell too small; where no wall confirms a wider one it stands.
+    """
+    graph = site.graph
     edge = graph.nearest_edge(place)
     away = place[:2] - edge.place
     away = away / max(float(np.linalg.norm(away)), 1e-9)
-    ray = graph.cast_ray(place, place + 2.0 * _WIDEST_GAP * np.append(away, 0.0))
-    return float(edge.distance + np.linalg.norm((ray.end - place)[:2]))
+    ray = graph.cast_ray(place, place + _WIDEST_GAP * np.append(away, 0.0))
+    least = float(edge.distance + np.linalg.norm((ray.end - place)[:2]))
+    x, y, z = place - graph.surface.origin
+    knee = z + graph.rules.max_step + 0.05
+    walls = [_to_wall(site.probe.arrays, x, y, knee, sign * away[0], sign * away[1]) for sign in (1.0, -1.0)]
+    return sum(walls) if sum(walls) <= least + graph.surface.resolution else least
+
+
+@njit(cache=True)
+def _to_wall(grid, x, y, z, dx, dy):
+    """[m] from (x, y, z) in the direction (dx, dy) to the first triangle, at most `_WIDEST_GAP`."""
+    if not crossed(grid, x, y, z, x + _WIDEST_GAP * dx, y + _WIDEST_GAP * dy, z):
+        return _WIDEST_GAP
+    low, high = 0.0, _WIDEST_GAP
+    while high - low > 1e-3:
+        middle = 0.5 * (low + high)
+        if crossed(grid, x, y, z, x + middle * dx, y + middle * dy, z):
+            high = middle
+        else:
+            low = middle
+    return low
 
 
 @njit(cache=True)

@@ -129,8 +129,8 @@ def _same(analysed: Fault, met: Fault) -> bool:
     fits = {
         "hole": ("fell",),
         "open_edge": ("fell",),
-        "trap": ("trap", "blocked"),
-        "one_way": ("trap", "blocked"),
+        "trap": ("trap", "blocked", "stuck"),
+        "one_way": ("trap", "blocked", "stuck"),
     }
     return bool(near) and met.kind in fits.get(analysed.kind, ())
 

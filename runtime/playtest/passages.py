@@ -63,7 +63,7 @@ def narrow_passages(site: Site, reached: np.ndarray) -> list[Passage]:
     for k in np.flatnonzero(worth)[np.argsort(-extra[worth], kind="stable")]:
         points = through[int(k)].on_surface(0.05)
         place = points[np.argmin(graph.clearance_at(points))]
-        width = width_at(graph, place)
+        width = width_at(site, place)
         if not _SLIT <= width < 2.0 * radius or any(
             np.linalg.norm(each.place - place) < _APART for each in found
         ):

@@ -49,7 +49,7 @@ def _met_again(stage: Stage, fault: Fault) -> np.ndarray:
     if not same:
         raise RuntimeInputError("the bot does not do what the report says; was it made by another version?")
     track = run.track
-    return track[(track[:, 0] > first.time - _BEFORE) & (track[:, 0] <= first.time + 0.5)]
+    return track[(track[:, 0] > first.time - _BEFORE) & (track[:, 0] <= first.time + 0.01)]
 
 
 def _shown(stage: Stage, fault: Fault) -> np.ndarray:

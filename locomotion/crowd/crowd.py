@@ -36,8 +36,9 @@ _UNMOVED = 1e9  # weight of a body that others move
 class Crowd:
     """Bodies that walk over the surface of ``graph`` and keep out of each other's way.
 
-    ``dt`` [s] is how far a tick goes. The same calls give the same run, bit for bit. ``walkers`` are the
-    bodies, in order of their making; ``routes`` holds their routes by index.
+    ``graph`` may be replaced by a later version of it at any time. ``dt`` [s] is how far a tick goes. The
+    same calls give the same run, bit for bit. ``walkers`` are the bodies, in order of their making;
+    ``routes`` holds their routes by index.
     """
 
     def __init__(self, graph: navmesh.NodeGraph, dt: float = 0.01) -> None:

@@ -243,3 +243,25 @@ def test_a_crowd_changes_halls_through_a_door():
     assert figures["through"] == figures["arrived"] == 40
     assert figures["deepest_overlap"] < 0.1
     assert figures["least_clearance"] > 0.99 * 0.3
+
+
+def test_walkers_go_on_when_the_level_has_changed(corner):
+    crowd = Crowd(corner)
+    walker, idle = crowd.add((2.0, 2.5, 0.0)), crowd.add((0.5, 0.5, 0.0))
+    walker.go_to([(15.0, 2.5, 0.0)])
+    for _ in range(100):
+        crowd.tick()
+    here = walker.position
+    crowd.graph = graph_of(  # the corridor is elsewhere, and so is the grid's corner
+        (-1.0, -1.0, 6.0, 6.0, 0.0), (6.0, 4.5, 12.0, 5.5, 0.0), (12.0, 0.0, 18.0, 6.0, 0.0)
+    )
+    crowd.tick()
+    assert walker.position == pytest.approx(here, abs=0.05)
+    assert idle.position == pytest.approx([0.5, 0.5, 0.0], abs=0.01)
+    run(crowd, 30.0)
+    assert walker.status == "arrived"
+    assert walker.position == pytest.approx([15.0, 2.5, 0.0], abs=0.2)
+    walker.go_to([(2.0, 2.5, 0.0)])
+    crowd.graph = graph_of((0.0, 0.0, 6.0, 6.0, 0.0), (12.0, 0.0, 18.0, 6.0, 0.0))
+    run(crowd, 30.0)
+    assert walker.status == "stuck"

@@ -2,8 +2,8 @@
 
     python examples/panda3d_chase.py [--seconds 20] [--headless] [--picture chase.png]
 
-Needs the extra 'panda3d'. ``--headless`` draws into memory with Panda's software renderer. Prints how far the
-dogs are from the ball at the end.
+Needs the extra 'panda3d'. ``--headless`` draws into memory with Panda's software renderer. Prints how near
+each dog has come to the ball.
 """
 
 import argparse
@@ -105,6 +105,7 @@ class Chase(ShowBase):
         self.figures = [Figure(dog, self.render, sphere) for dog in self.dogs]
         self.since_orders = math.inf
         self.place_ball()
+        self.nearest = self.distances()
         self.task_mgr.add(self.frame, "frame")
 
     def _light(self) -> None:
@@ -136,13 +137,14 @@ class Chase(ShowBase):
             for dog in self.dogs:
                 dog.go_to(tuple(self.ball.get_pos()), speed=2.2)
         self.world.step(dt)
+        self.nearest = np.minimum(self.nearest, self.distances())
         for figure in self.figures:
             figure.draw()
 
-    def distances(self) -> list[float]:
+    def distances(self) -> np.ndarray:
         """[m] of each dog from the ball."""
         ball = np.array(self.ball.get_pos())[:2]
-        return [float(np.linalg.norm(dog.position[:2] - ball)) for dog in self.dogs]
+        return np.array([np.linalg.norm(dog.position[:2] - ball) for dog in self.dogs])
 
 
 def main() -> None:
@@ -162,7 +164,7 @@ def main() -> None:
     else:
         while chase.world.time < options.seconds:
             chase.task_mgr.step()
-    print("at the end:", ", ".join(f"{d:.1f} m" for d in chase.distances()))
+    print("at the nearest:", ", ".join(f"{d:.1f} m" for d in chase.nearest))
     if options.picture:
         chase.win.save_screenshot(Filename.from_os_specific(options.picture))
 

@@ -7,13 +7,15 @@ import math
 from numba import njit
 
 from locomotion.quadruped import layout as at
+from locomotion.quadruped.following import spring
 from locomotion.quadruped.motion import DT
 
 __all__ = ["leg_phase", "step_gait"]
 
 _HYSTERESIS = 0.12  # share of the speed of the change by which it must be missed to change back
 _BLEND = math.exp(-DT * 0.69314718056 / 0.10)  # half of a change of gait in 0.10 s
-_SHIFT = 0.5  # share of the clock's pace at which a touchdown moves within the stride
+_SHIFT = 0.5  # share of the clock's pace at which a touchdown moves within the stride at most
+_SHIFT_HALF_LIFE = 0.15  # [s] of its way there: a paw in its swing then speeds up, or slows down, over ticks
 _SCRIPT_DUTY = 0.62
 _FORESIGHT = (
     0.4  # [s] ahead for whose speed strides are quickened: a foot that stands now will be needed then
@@ -55,12 +57,14 @@ def step_gait(st, pr, gaits):
     st[at.LIFT_NOW] = _eased(st[at.LIFT_NOW], gait[at.LIFT])
     st[at.BOB_NOW] = _eased(st[at.BOB_NOW], gait[at.BOB] * min(speed, 1.0))
     st[at.ROCK_NOW] = _eased(st[at.ROCK_NOW], gait[at.ROCK] * min(speed, 1.0))
-    shift = _SHIFT * st[at.FREQUENCY_NOW] * DT
+    shift = _SHIFT * st[at.FREQUENCY_NOW]
     for leg in range(4):
         k = at.TOUCHDOWN_NOW + leg
         off = gait[at.TOUCHDOWN + leg] - st[k]
         off -= math.floor(off + 0.5)
-        st[k] += min(max(0.1 * off, -shift), shift)
+        _, rate = spring(-off, st[at.TOUCHDOWN_RATE + leg], _SHIFT_HALF_LIFE)
+        st[at.TOUCHDOWN_RATE + leg] = min(max(rate, -shift), shift)
+        st[k] += st[at.TOUCHDOWN_RATE + leg] * DT
     if st[at.REST] == 0.0:
         st[at.CLOCK] += st[at.FREQUENCY_NOW] * DT
         st[at.CLOCK] -= math.floor(st[at.CLOCK])

@@ -12,6 +12,7 @@ from locomotion.events import Arrived, MissedGoal, SetOff
 from locomotion.quadruped import Herd, lay_trail, load_body, stopping_distance
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.following import wrap
+from locomotion.quadruped.gait import leg_phase
 from locomotion.quadruped.motion import DT
 
 BEND = np.column_stack([
@@ -115,6 +116,24 @@ def test_gaits_change_with_speed_and_diagonals_trot():
             together.append(down[0] == down[3] and down[1] == down[2])
     assert seen == {0, 1}
     assert np.mean(together) > 0.7
+
+
+def test_paws_change_their_pace_over_ticks_when_the_gait_changes():
+    herd, index, _ = follow(load_body("dog"), 2.0, np.array([[0.0, 0, 0], [15.0, 0, 0]]))
+    state, phases, paces, seen = herd.state[index], [], [], []
+    while not herd.resting(index):
+        herd.tick()
+        phases.append([leg_phase(state, leg) for leg in range(4)])
+        paces.append(0.01 * state[at.FREQUENCY_NOW])
+        seen.append(int(state[at.GAIT_NOW]))
+    turned = np.diff(phases, axis=0) % 1.0
+    assert (np.abs(np.diff(turned, axis=0)) / np.array(paces)[2:, None]).max() < 0.15
+    # and they are there within a second
+    touchdown = np.array([herd.bodies[index].gaits["trot"].touchdown[leg] for leg in at.LEGS])
+    settled = np.array(phases)[seen.index(1) + 100]
+    apart = (settled - settled[0] + touchdown - touchdown[0] + 0.5) % 1.0 - 0.5
+    assert np.abs(apart).max() < 0.01
+    assert seen[-1] == 0
 
 
 @pytest.mark.parametrize("speed", [0.6, 1.2, 2.4])

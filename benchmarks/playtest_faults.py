@@ -152,11 +152,10 @@ def pit(mesh: trimesh.Trimesh, at: Rectangle, z: float, deep: float) -> trimesh.
 
 
 def look(mesh: trimesh.Trimesh, folder: Path, bots: int, seconds: float) -> list[Fault]:
-    """What fails a playtest of ``mesh`` with the courtyard's own tags and plan beside it."""
-    level = folder / "courtyard.obj"
+    """What fails a playtest of ``mesh`` with the courtyard's own plan beside it."""
+    level, plan = folder / "courtyard.obj", "courtyard.playtest.yaml"
     mesh.export(level)
-    for extra in ("courtyard.playtest.yaml",):
-        (folder / extra).write_bytes(COURTYARD.with_name(extra).read_bytes())
+    (folder / plan).write_bytes(COURTYARD.with_name(plan).read_bytes())
     return list(playtest(level, bots=bots, seconds=seconds, seed=7).report.failures)
 
 

@@ -127,7 +127,7 @@ def test_bakes_a_graph_and_finds_paths(surefoot, folder):
     code, out, _ = surefoot("bake", folder / "level.obj", "-o", graph, "--max-step", 0.3, "--json")
     values = json.loads(out)
     assert code == 0 and values["triangles"] == 4 and values["nodes"] > 10
-    header, _ = read_archive(graph, "surefoot navigation graph", 3)
+    header, _ = read_archive(graph, "surefoot navigation graph", 4)
     assert header["rules"]["max_step"] == 0.3
 
     ends = ["--start", 2, 3, 0, "--goal", 9, 3, 0]
@@ -146,7 +146,7 @@ def test_bad_graphs(surefoot, folder):
     ends = ["--start", 2, 3, 0, "--goal", 9, 3, 0]
     surefoot("bake", folder / "level.obj", "-o", graph)
     whole = graph.read_bytes()
-    header, arrays = read_archive(graph, "surefoot navigation graph", 3)
+    header, arrays = read_archive(graph, "surefoot navigation graph", 4)
     graph.write_bytes(whole[: len(whole) // 2])
     code, _, err = surefoot("path", graph, *ends)
     assert code == 2 and one_line(err) and "cut off or damaged" in err
@@ -154,7 +154,7 @@ def test_bad_graphs(surefoot, folder):
     code, _, err = surefoot("path", graph, *ends)
     assert code == 2 and one_line(err) and "version 1" in err
     moved = {**arrays, "terrain_vertices": arrays["terrain_vertices"] + 1.0}
-    write_archive(graph, "surefoot navigation graph", 3, header, moved)
+    write_archive(graph, "surefoot navigation graph", 4, header, moved)
     code, _, err = surefoot("path", graph, *ends)
     assert code == 2 and one_line(err) and "terrain" in err
     code, _, err = surefoot("path", folder / "gone.npz", *ends)

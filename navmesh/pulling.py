@@ -31,6 +31,7 @@ _SHARP = 0.5
 _ROUNDS = 4
 """Times that a line is led round what ends walking on it before it is pulled through the lenses."""
 _DEPTH = 12  # of pushes within pushes; scratch.stack holds two more
+_SPLITS = 64  # of one line: corners that fall away when the next is added could take turns for ever
 
 
 @njit(error_model="numpy", cache=True)
@@ -236,6 +237,7 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_
     stack[0, 0], stack[0, 1] = gx, gy
     stack_cell[0] = goal_cell
     height = 1
+    splits = 0
     while height > 0:
         points = scratch.points
         k = np.int64(scratch.cells[count - 1])
@@ -248,7 +250,7 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_
             count = _append(net, doors, scratch, first, count, bx, by, target)
             height -= 1
             continue
-        if walked and height <= _DEPTH:
+        if walked and height <= _DEPTH and splits < _SPLITS:
             x = ax + place * (bx - ax)
             y = ay + place * (by - ay)
             pushed, x, y, at = _push(net, tight, x, y, qx, qy, radius)
@@ -256,17 +258,19 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_
                 stack[height, 0], stack[height, 1] = x, y
                 stack_cell[height] = at
                 height += 1
+                splits += 1
                 continue
         if walked and gap >= radius:
             count = _append(net, doors, scratch, first, count, bx, by, target)
             height -= 1
             continue
-        if not walked and height <= _ROUNDS:
+        if not walked and height <= _ROUNDS and splits < _SPLITS:
             found, x, y, at = _round(net, doors, scratch, low, high, ax, ay, bx, by, place)
             if found and (x - ax) ** 2 + (y - ay) ** 2 > 1e-6 and (x - bx) ** 2 + (y - by) ** 2 > 1e-6:
                 stack[height, 0], stack[height, 1] = x, y
                 stack_cell[height] = at
                 height += 1
+                splits += 1
                 continue
         if not last_try:
             return count, _BLOCKED

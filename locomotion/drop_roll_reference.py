@@ -5,13 +5,13 @@ import numpy as np
 from locomotion import controller
 from locomotion import drop_roll as dr
 from locomotion.clearing_law import mirror
-from locomotion.drop_roll_skill import DropTables
+from locomotion.learned_skill import LawTables
 from locomotion.person import CONTROL_DT, JOINT_NAMES
 
 __all__ = ["wanted_pose"]
 
 
-def wanted_pose(tables: DropTables, memory: np.ndarray, state: np.ndarray, before: np.ndarray) -> np.ndarray:
+def wanted_pose(tables: LawTables, memory: np.ndarray, state: np.ndarray, before: np.ndarray) -> np.ndarray:
     """PD targets (39,) [rad] of a tick, from what ``memory`` and ``state`` hold after it.
 
     ``before`` (39,): the targets with which the fall began.

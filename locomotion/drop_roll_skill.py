@@ -1,7 +1,6 @@
 """Learned drop-rolls, and the drop-roll as a skill that the body can use."""
 
 import os
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Literal
@@ -14,6 +13,7 @@ from locomotion import controller, drop_roll
 from locomotion.clearing_law import MIRROR, MIRROR_SIGN
 from locomotion.clip import Clip, load_clip
 from locomotion.drop_roll import drop_roll_tick, start_drop_roll
+from locomotion.learned_skill import LawTables, LearnedSkill
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill_family import SkillFamily, load_family
 
@@ -22,7 +22,6 @@ __all__ = [
     "DROP_ROLL_SKILL",
     "KIND",
     "DropRoll",
-    "DropTables",
     "drop_roll_clip",
     "load_drop_roll_skill",
     "tables_of",
@@ -46,24 +45,10 @@ def _poses() -> NDArray[np.float64]:
     return np.ascontiguousarray(drop_roll_clip().sample(np.linspace(0.0, 1.0, _SAMPLES)))
 
 
-@dataclass(frozen=True)
-class DropTables:
-    """A drop-roll at one height, ready for the kernels.
-
-    parameters: (p,) float64. entry: wanted entry speed [m/s]. mark: distance [m] from the stance foot to the
-    edge at which it begins. rest: the arguments of `drop_roll.drop_roll_tick` between ``p`` and ``memory``.
-    """
-
-    parameters: NDArray[np.float64]
-    entry: float
-    mark: float
-    rest: tuple[NDArray[np.float64], ...]
-
-
-def tables_of(parameters: NDArray[np.float64], reference: NDArray[np.float64]) -> DropTables:
+def tables_of(parameters: NDArray[np.float64], reference: NDArray[np.float64]) -> LawTables:
     """Put the arguments of the kernels together."""
     rest = (_poses(), reference, MIRROR, MIRROR_SIGN)
-    return DropTables(parameters, float(parameters[_MARK + 1]), float(parameters[_MARK]), rest)
+    return LawTables(parameters, float(parameters[_MARK + 1]), float(parameters[_MARK]), rest)
 
 
 def load_drop_roll_skill(path: str | os.PathLike[str] = DROP_ROLL_SKILL) -> SkillFamily:
@@ -73,7 +58,7 @@ def load_drop_roll_skill(path: str | os.PathLike[str] = DROP_ROLL_SKILL) -> Skil
     return load_family(path, KIND, width, (drop_roll.BINS, len(drop_roll.SENSORS)))
 
 
-class DropRoll:
+class DropRoll(LearnedSkill):
     """Rolling off drops as a `locomotion.clearing.ClearingSkill`."""
 
     affordance = "drop"
@@ -81,31 +66,7 @@ class DropRoll:
 
     def __init__(self, skill: SkillFamily) -> None:
         """``skill``: the learned drop-rolls."""
-        self.skill = skill
-        self._tables: dict[float, DropTables] = {}
-
-    @property
-    def heights(self) -> tuple[float, float]:
-        """Least and greatest height [m] that it clears."""
-        return self.skill.range
-
-    @property
-    def stride(self) -> tuple[float, float, float]:
-        """(a, lag, b) of the steps of the run-up; see `locomotion.clearing.ClearingSkill`."""
-        return self.skill.stride
-
-    def tables(self, height: float) -> DropTables:
-        """The kernels' arguments for a drop of ``height`` [m]; the nearest learned height beyond the ends."""
-        low, high = self.heights
-        height = min(max(float(height), low), high)
-        if height not in self._tables:
-            self._tables[height] = tables_of(*self.skill.at(height))
-        return self._tables[height]
-
-    def approach(self, height: float) -> tuple[float, float]:
-        """(entry speed [m/s], distance [m] from the stance foot's ankle to the edge at which it begins)."""
-        tables = self.tables(height)
-        return tables.entry, tables.mark
+        super().__init__(skill, lambda height: tables_of(*skill.at(height)))
 
     def start(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> NDArray[np.float64]:
         """Begin at a stance switch, before that tick's `tick`; gives all that it remembers, (k,) float64. Who

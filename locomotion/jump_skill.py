@@ -16,14 +16,16 @@ from locomotion import controller, jump
 from locomotion.clip import Clip, load_clip
 from locomotion.errors import LocomotionError
 from locomotion.jump import jump_tick, start_jump
+from locomotion.learned_skill import LawTables, LearnedSkill
 from locomotion.person import person_digest
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill
+from locomotion.skill_family import smoothest
 from locomotion.skill_file import read_skill
 from navmesh.archive import write_archive
 
 __all__ = [
-    "JUMP_CLIP", "JUMP_SKILL", "Jump", "JumpSkill", "JumpTables", "clip_less_run", "jump_clip",
+    "JUMP_CLIP", "JUMP_SKILL", "Jump", "JumpSkill", "clip_less_run", "jump_clip",
     "load_jump_skill", "run_digest", "tables_of",
 ]  # fmt: skip
 
@@ -34,30 +36,10 @@ _TIMING = controller.parameter_slices()["timing"].start
 _MARK = jump.parameter_slices()["marks"].start
 
 
-KernelTables = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]
-"""Arguments of `jump.jump_tick` after the parameters: the run's speeds and step times, clip less run and its
-rate, expected sensors, mirror and its signs."""
-
-
 @lru_cache(maxsize=1)
 def jump_clip() -> Clip:
     """The reference clip that comes with the package."""
     return load_clip(JUMP_CLIP)
-
-
-@dataclass(frozen=True)
-class JumpTables:
-    """A jump at one height, ready for the kernels.
-
-    parameters: (241,) float64. entry: wanted entry speed [m/s]. mark: distance [m] from stance foot to
-    edge at which the jump begins. rest: the other arguments of `jump.jump_tick` between ``p`` and
-    ``memory``.
-    """
-
-    parameters: np.ndarray
-    entry: float
-    mark: float
-    rest: KernelTables
 
 
 @lru_cache(maxsize=4)
@@ -96,7 +78,7 @@ class JumpSkill:
         """Lowest and highest stair [m] that may be jumped."""
         return float(self.heights[0]), float(self.heights[-1])
 
-    def at(self, height: float, run: RunSkill) -> JumpTables:
+    def at(self, height: float, run: RunSkill) -> LawTables:
         """The jump onto a stair of ``height`` [m]; `LocomotionError` outside of `range` (2 cm are let
         pass)."""
         low, high = self.range
@@ -107,7 +89,7 @@ class JumpSkill:
         flat = np.concatenate(
             [self.table, self.entries[:, None], self.references.reshape(len(self.heights), -1)], 1
         )
-        values = _interpolate(self.heights, flat, min(max(height, low), high))
+        values = smoothest(self.heights, flat, min(max(height, low), high))
         width = self.table.shape[1]
         reference = np.ascontiguousarray(values[width + 1 :].reshape(jump.STEPS, jump.BINS, jump.SENSORS))
         parameters = np.ascontiguousarray(values[:width])
@@ -123,25 +105,12 @@ class JumpSkill:
         write_archive(path, _KIND, _VERSION, header, arrays)
 
 
-def tables_of(parameters: np.ndarray, entry: float, reference: np.ndarray, run: RunSkill) -> JumpTables:
+def tables_of(parameters: np.ndarray, entry: float, reference: np.ndarray, run: RunSkill) -> LawTables:
     """Put the arguments of the kernels together."""
     timing = np.ascontiguousarray(run.table[:, _TIMING])
     pose, rates = clip_less_run(run.clip, jump_clip())
     rest = (np.ascontiguousarray(run.knots), timing, pose, rates, reference, jump.MIRROR, jump.MIRROR_SIGN)
-    return JumpTables(parameters, entry, float(parameters[_MARK]), rest)
-
-
-def _interpolate(heights: np.ndarray, values: np.ndarray, height: float) -> np.ndarray:
-    """Rows of ``values`` (k, m) at ``height``: biharmonic spline r plus a linear term (equation 7)."""
-    k = len(heights)
-    if k == 1:
-        return values[0].copy()
-    distance = np.abs(heights[:, None] - heights[None, :])
-    ones = np.stack([np.ones(k), heights], 1)
-    system = np.block([[distance, ones], [ones.T, np.zeros((2, 2))]])
-    weights = np.linalg.solve(system, np.concatenate([values, np.zeros((2, values.shape[1]))]))
-    basis = np.concatenate([np.abs(height - heights), [1.0, height]])
-    return basis @ weights
+    return LawTables(parameters, entry, float(parameters[_MARK]), rest)
 
 
 def load_jump_skill(path: str | os.PathLike[str] = JUMP_SKILL) -> JumpSkill:
@@ -184,7 +153,7 @@ def run_digest(run: RunSkill) -> str:
     return hasher.hexdigest()[:16]
 
 
-class Jump:
+class Jump(LearnedSkill):
     """Jumping onto stairs as a `locomotion.clearing.ClearingSkill`, on top of a given run."""
 
     affordance = "jump"
@@ -192,33 +161,7 @@ class Jump:
 
     def __init__(self, skill: JumpSkill, run: RunSkill) -> None:
         """``skill``: the learned jumps; ``run``: the run under them."""
-        self.skill, self.run = skill, run
-        self._tables: dict[float, JumpTables] = {}
-
-    @property
-    def heights(self) -> tuple[float, float]:
-        """Least and greatest height [m] that it clears."""
-        return self.skill.range
-
-    @property
-    def stride(self) -> tuple[float, float, float]:
-        """(a, lag, b) of the steps of the run-up; see `locomotion.clearing.ClearingSkill`."""
-        return self.skill.stride
-
-    def tables(self, height: float) -> JumpTables:
-        """The kernels' arguments for a stair of ``height`` [m]; the nearest learned height beyond the
-        ends."""
-        low, high = self.heights
-        height = min(max(float(height), low), high)
-        if height not in self._tables:
-            self._tables[height] = self.skill.at(height, self.run)
-        return self._tables[height]
-
-    def approach(self, height: float) -> tuple[float, float]:
-        """(entry speed [m/s], distance [m] from the stance foot's ankle to the edge at which the jump
-        begins)."""
-        tables = self.tables(height)
-        return tables.entry, tables.mark
+        super().__init__(skill, lambda height: skill.at(height, run))
 
     def start(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> NDArray[np.float64]:
         """Begin a jump at a stance switch, before that tick's `tick`; gives all that it remembers, (k,)

@@ -3,14 +3,13 @@
 import numpy as np
 
 from locomotion import controller, vault
-from locomotion.clearing_law import mirror
-from locomotion.person import JOINT_NAMES
-from locomotion.vault_skill import VaultTables
+from locomotion.clearing_law_reference import clip_offset, placed_actions
+from locomotion.learned_skill import LawTables
 
 __all__ = ["wanted_offset"]
 
 
-def wanted_offset(tables: VaultTables, memory: np.ndarray, state: np.ndarray) -> tuple[np.ndarray, float]:
+def wanted_offset(tables: LawTables, memory: np.ndarray, state: np.ndarray) -> tuple[np.ndarray, float]:
     """Offset (39,) [rad] of the PD targets before the filter, and the pace beta, in the present tick.
 
     ``memory`` holds the phase, the errors and the sensors (``vault.SENSED``) as the kernel has measured them.
@@ -19,7 +18,6 @@ def wanted_offset(tables: VaultTables, memory: np.ndarray, state: np.ndarray) ->
     knots, timing, difference, rate, reference, _, _ = tables.rest
     step = int(state[controller.STEPS] - memory[vault.FIRST_STEP])
     left, phase = state[controller.STANCE] > 0, state[controller.PHASE]
-    stance, swing = ("left", "right") if left else ("right", "left")
     errors = memory[[vault.ERROR_DISTANCE, vault.ERROR_SPEED]]
 
     def between(rows: np.ndarray) -> np.ndarray:
@@ -40,27 +38,8 @@ def wanted_offset(tables: VaultTables, memory: np.ndarray, state: np.ndarray) ->
     lateral += feedback[[1, 2, 4, 5, 7, 8]]
     beta = float(np.clip(beta, 0.3, 2.0))
 
-    offset = dict.fromkeys(JOINT_NAMES, 0.0)
-    offset[f"{swing}_hip_flexion"] += sagittal[0]
-    offset[f"{swing}_knee_flexion"] += sagittal[1]
-    offset[f"{stance}_hip_flexion"] += sagittal[2]
-    offset[f"{stance}_knee_flexion"] += sagittal[3]
-    offset[f"{stance}_ankle_flexion"] += sagittal[4]
-    offset[f"{swing}_hip_abduction"] += lateral[0]
-    offset[f"{swing}_hip_rotation"] += lateral[1]
-    offset[f"{stance}_hip_abduction"] += lateral[2]
-    offset[f"{stance}_hip_rotation"] += lateral[3]
-    for part in ("waist", "chest"):
-        offset[f"{part}_pitch"] += sagittal[5]
-        offset[f"{part}_roll"] += lateral[4] * (-1.0 if left else 1.0)
-        offset[f"{part}_yaw"] += lateral[5] * (-1.0 if left else 1.0)
-    result = np.array([offset[name] for name in JOINT_NAMES])
+    result = placed_actions(bool(left), sagittal, lateral)
     if step in (1, 2):
-        step_time = np.interp(state[controller.SPEED], knots, timing)
-        lead = 0.1 * 0.5 * beta / step_time if phase < 1.0 else 0.0
-        share = 0.5 * (phase + step - 1)
-        table, shares = difference + lead * rate, np.linspace(0, 1, len(difference))
-        pose = np.array([np.interp(share, shares, column) for column in table.T])
-        takes_off_left = left == (step == 1)
-        result += p["alpha"][step - 1] * (mirror(pose) if takes_off_left else pose)
+        pace = beta / np.interp(state[controller.SPEED], knots, timing)
+        result += p["alpha"][step - 1] * clip_offset(difference, rate, step, phase, pace, bool(left))
     return result, beta

@@ -1,7 +1,6 @@
 """Learned vaults, and the vault as a skill that the body can use."""
 
 import os
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Literal
@@ -15,13 +14,14 @@ from locomotion.clearing_law import MIRROR, MIRROR_SIGN
 from locomotion.clip import Clip, load_clip
 from locomotion.hand_hold import hold, let_go
 from locomotion.jump_skill import clip_less_run
+from locomotion.learned_skill import LawTables, LearnedSkill
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill
 from locomotion.skill_family import SkillFamily, load_family
 from locomotion.vault import start_vault, vault_fell, vault_tick
 
 __all__ = [
-    "KIND", "VAULT_CLIP", "VAULT_SKILL", "Vault", "VaultTables", "grip", "load_vault_skill",
+    "KIND", "VAULT_CLIP", "VAULT_SKILL", "Vault", "grip", "load_vault_skill",
     "tables_of", "vault_clip",
 ]  # fmt: skip
 
@@ -39,26 +39,12 @@ def vault_clip() -> Clip:
     return load_clip(VAULT_CLIP)
 
 
-@dataclass(frozen=True)
-class VaultTables:
-    """A vault at one height, ready for the kernels.
-
-    parameters: (p,) float64. entry: wanted entry speed [m/s]. mark: distance [m] from stance foot to edge at
-    which the vault begins. rest: the arguments of `vault.vault_tick` between ``p`` and ``memory``.
-    """
-
-    parameters: NDArray[np.float64]
-    entry: float
-    mark: float
-    rest: tuple[NDArray[np.float64], ...]
-
-
-def tables_of(parameters: NDArray[np.float64], reference: NDArray[np.float64], run: RunSkill) -> VaultTables:
+def tables_of(parameters: NDArray[np.float64], reference: NDArray[np.float64], run: RunSkill) -> LawTables:
     """Put the arguments of the kernels together; ``reference`` (4, 6, 18): expected sensors."""
     timing = np.ascontiguousarray(run.table[:, _TIMING])
     pose, rates = clip_less_run(run.clip, vault_clip())
     rest = (np.ascontiguousarray(run.knots), timing, pose, rates, reference, MIRROR, MIRROR_SIGN)
-    return VaultTables(parameters, float(parameters[_ENTRY]), float(parameters[_MARK]), rest)
+    return LawTables(parameters, float(parameters[_ENTRY]), float(parameters[_MARK]), rest)
 
 
 def load_vault_skill(path: str | os.PathLike[str] = VAULT_SKILL) -> SkillFamily:
@@ -68,7 +54,7 @@ def load_vault_skill(path: str | os.PathLike[str] = VAULT_SKILL) -> SkillFamily:
     return load_family(path, KIND, width, (vault.STEPS * vault.BINS, vault.SENSORS))
 
 
-class Vault:
+class Vault(LearnedSkill):
     """Vaulting over walls as a `locomotion.clearing.ClearingSkill`, on top of a given run."""
 
     affordance = "vault"
@@ -76,34 +62,12 @@ class Vault:
 
     def __init__(self, skill: SkillFamily, run: RunSkill) -> None:
         """``skill``: the learned vaults; ``run``: the run under them."""
-        self.skill, self.run = skill, run
-        self._tables: dict[float, VaultTables] = {}
 
-    @property
-    def heights(self) -> tuple[float, float]:
-        """Least and greatest height [m] that it clears."""
-        return self.skill.range
+        def law(height: float) -> LawTables:
+            parameters, reference = skill.at(height)
+            return tables_of(parameters, reference.reshape(vault.STEPS, vault.BINS, vault.SENSORS), run)
 
-    @property
-    def stride(self) -> tuple[float, float, float]:
-        """(a, lag, b) of the steps of the run-up; see `locomotion.clearing.ClearingSkill`."""
-        return self.skill.stride
-
-    def tables(self, height: float) -> VaultTables:
-        """The kernels' arguments for a wall of ``height`` [m]; the nearest learned height beyond the ends."""
-        low, high = self.heights
-        height = min(max(float(height), low), high)
-        if height not in self._tables:
-            parameters, reference = self.skill.at(height)
-            shape = vault.STEPS, vault.BINS, vault.SENSORS
-            self._tables[height] = tables_of(parameters, reference.reshape(shape), self.run)
-        return self._tables[height]
-
-    def approach(self, height: float) -> tuple[float, float]:
-        """(entry speed [m/s], distance [m] from the stance foot's ankle to the edge at which the vault
-        begins)."""
-        tables = self.tables(height)
-        return tables.entry, tables.mark
+        super().__init__(skill, law)
 
     def start(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> NDArray[np.float64]:
         """Begin a vault at a stance switch, before that tick's `tick`; gives all that it remembers, (k,)

@@ -9,8 +9,8 @@ from numba import njit
 
 from locomotion import controller as c
 from locomotion import drop_roll as dr
-from locomotion.drop_roll_skill import DropTables
 from locomotion.ground import plane_lookup
+from locomotion.learned_skill import LawTables
 from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, person_spec
 from locomotion.skill import RunSkill
 from locomotion.training.jump_trial import StartState
@@ -112,7 +112,7 @@ class DropSimulator:
 
     def trial(
         self,
-        tables: DropTables,
+        tables: LawTables,
         height: float,
         start: StartState,
         error: float,

@@ -10,7 +10,8 @@ from locomotion import jump
 from locomotion.body import Human
 from locomotion.clearing import ClearingSkill, foot_distance, plan_run_up, run_up_speeds
 from locomotion.jump import jump_tick, start_jump
-from locomotion.jump_skill import JumpTables, jump_clip
+from locomotion.jump_skill import jump_clip
+from locomotion.learned_skill import LawTables
 from locomotion.path_tracking import RUN_UP
 from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, person_spec
 from locomotion.route_smoothing import ObstacleAhead
@@ -233,7 +234,7 @@ class JumpSimulator:
 
     def trial(
         self,
-        tables: JumpTables,
+        tables: LawTables,
         height: float,
         start: StartState,
         error: float,

@@ -9,11 +9,12 @@ from locomotion import controller as c
 from locomotion import vault
 from locomotion.clearing_law import mirror
 from locomotion.hand_hold import let_go_both
+from locomotion.learned_skill import LawTables
 from locomotion.person import CONTROL_DT, MASS
 from locomotion.skill import RunSkill
 from locomotion.training.jump_trial import JumpSimulator, StartState
 from locomotion.vault import start_vault, vault_fell, vault_tick
-from locomotion.vault_skill import VaultTables, grip, vault_clip
+from locomotion.vault_skill import grip, vault_clip
 
 __all__ = ["VaultOutcome", "VaultSimulator"]
 
@@ -80,7 +81,7 @@ class VaultSimulator(JumpSimulator):
 
     def vault_trial(
         self,
-        tables: VaultTables,
+        tables: LawTables,
         height: float,
         depth: float,
         start: StartState,

@@ -88,6 +88,7 @@ _TURN_FIRST = 0.7  # [rad] off its way at which a walking person turns on the sp
 _SETTLING = 600  # ticks in which a person that has stopped walking comes to rest
 _STILL = 0.03  # [m/s] of the centre of mass at rest
 _HASTE = 1.3  # [m/s] that the speed asked for may exceed the last step's: more trips it in setting off
+_CHANGE = 0.01  # [m] by which the ground under a person at rest may change unnoticed
 _FALL_TICKS = 100  # a fallen body is simulated for this long, then held
 _GAINS = np.array(
     [0.35, 1.2, 0.15, 0.45, 0.5, 0.05]
@@ -281,6 +282,34 @@ class Human:
         goal = (float(table.goal[0]), float(table.goal[1]), float(table.goal[2]))
         self.events.append(SetOff(self.time, self._point(), goal, table.length))
 
+    def stop(self) -> None:
+        """Give up the path: one that walks comes to a stand, one that runs is held as it is."""
+        if self.status in MOVING:
+            self.status, self._ended_at = "standing", self._ticks
+
+    def change_ground(self, ground: Ground) -> None:
+        """Go on as it is on another ground. One at rest whose footing has changed by more than 1 cm is
+        simulated again; one with no ground at all below it counts as fallen from now on, and so does one
+        that was held in a run whose footing has changed."""
+        before, state = self._footing(), self.save_state()
+        self.ground, self._lookup = ground, ground.lookup
+        self.model, self.index = _model_on(ground)
+        self.data = mujoco.MjData(self.model)
+        self.restore_state(state)
+        now = self._footing()
+        bottomless = bool(np.isnan(now).all() and not np.isnan(before).all())
+        if bottomless or (self.held and not np.all(np.abs(now - before) <= _CHANGE)):
+            if self.status != "fallen" and (bottomless or self._walk[WALKS] == 0.0):
+                let_go_both(self.data)
+                self._end("fallen", Fell(self.time, self._point(), 0.0, 0.0, self.arc_length))
+            self._ended_at = self._ticks
+            self._control[controller.COM_VELOCITY] = 0.0, 0.0, -_STILL  # not at rest any more
+
+    def _footing(self) -> NDArray[np.float64]:
+        """(2,) heights of the ground under the feet [m], NaN where there is none."""
+        assert self.ground is not None
+        return self.ground.surface_below(self._control[controller.FEET].reshape(2, 3))[0]
+
     # --- time
     def tick(self) -> None:
         """Advance by 10 ms: track the path, control, physics, observe, notice what happened."""
@@ -302,6 +331,7 @@ class Human:
                 data.qvel,
                 data.ctrl,
             )
+            np.nan_to_num(data.ctrl, copy=False)  # in the air, with no ground to put a foot on
         else:
             run_tick(*self.skill.tables, state, self._command, data.qpos, data.qvel, data.ctrl)
             if self._obstacles and self.status != "fallen":

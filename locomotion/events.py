@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 __all__ = [
-    "Arrived", "BackedOut", "Cleared", "Event", "Fell", "GotStuck", "MissedGoal", "SetOff",
+    "Arrived", "BackedOut", "Cleared", "Event", "Fell", "GotStuck", "LostGround", "MissedGoal", "SetOff",
     "StrayedFromPath", "TookOff",
 ]  # fmt: skip
 
@@ -50,6 +50,11 @@ class StrayedFromPath(Event):
     """The body is this far beside its path [m] and does not follow it any more."""
 
     distance: float
+
+
+@dataclass(frozen=True)
+class LostGround(Event):
+    """The ground under the body, or just ahead of it on its path, is not there any more."""
 
 
 @dataclass(frozen=True)

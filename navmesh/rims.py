@@ -43,6 +43,8 @@ def find_rims(vertices: np.ndarray, faces: np.ndarray, max_slope: float) -> Rims
     Candidates only: whether there is a fall and how deep is for the caller to measure, since floors that
     meet without sharing vertices look like rims here.
     """
+    if not len(faces):
+        return _in_order(np.empty((0, 3)), np.empty((0, 3)))
     index, count = _weld(vertices)
     kept, key, flags = _half_edges(vertices, faces, index, count, math.cos(max_slope) - 1e-9)
     if not len(key):

@@ -1,14 +1,15 @@
 """An agent: a body in a world that is told where to go."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from locomotion import MOVING, Human
+from locomotion import MOVING, Human, LocomotionError
 from locomotion import events as bodily
+from locomotion.human_state import CLEARING
 from locomotion.quadruped import Animal
 from runtime.drivers import AnimalDriver, Driver, HumanDriver
 from runtime.errors import RuntimeInputError
@@ -34,6 +35,17 @@ __all__ = ["Agent", "AgentState", "Pose"]
 
 
 @dataclass(frozen=True)
+class Errand:
+    """What an agent was told: `Agent.go_to`'s arguments. ``doubtful``: the level has changed while it could
+    not look for another way."""
+
+    goals: tuple[tuple[float, float, float], ...] = ()
+    speed: float = 0.0
+    facing: float | None = None
+    doubtful: bool = False
+
+
+@dataclass(frozen=True)
 class AgentState:
     """What `World.save` keeps of an agent."""
 
@@ -42,6 +54,7 @@ class AgentState:
     driver: Any
     blocked: bool
     goal: tuple[float, float, float]
+    errand: Errand
 
 
 class Agent:
@@ -60,6 +73,7 @@ class Agent:
         self._blocked = False
         self._born = world.time - driver.time
         self._goal = _triple(driver.position)
+        self._errand = Errand()
 
     @property
     def human(self) -> Human:
@@ -146,17 +160,37 @@ class Agent:
         try:
             plan = self._driver.go_to(goals, speed, facing)
         except NoWay as error:
-            self._blocked = True
-            here = _triple(self.position)
-            self._world.report(
-                Blocked(self._world.time, self.name, here, _triple(goals[error.goal]), error.reason)
-            )
+            self._report_blocked(goals[error.goal], error.reason)
             return self.status
         self._blocked = False
+        self._errand = Errand(tuple(_triple(each) for each in goals), speed, facing)
         here = _triple(self.position)
         self._goal = _triple(plan.points[-1])
         self._world.report(Departed(self._world.time, self.name, here, goal, plan.length, plan.skills))
         return self.status
+
+    def _report_blocked(self, goal: np.ndarray, reason: str) -> None:
+        self._blocked = True
+        here = _triple(self.position)
+        self._world.report(Blocked(self._world.time, self.name, here, _triple(goal), reason))
+
+    def look_at_way(self) -> None:
+        """After a change of the level: go on where the way holds, look for another one where it does not, and
+        stop where there is none. One that is clearing an obstacle first does that."""
+        if self.status in CLEARING.values():
+            self._errand = replace(self._errand, doubtful=True)
+            return
+        self._errand = replace(self._errand, doubtful=False)
+        if not self.moving or self._driver.way_holds():
+            return
+        goals = np.array(self._errand.goals[-self._driver.goals_left :])
+        try:
+            status = self.go_to(goals, self._errand.speed, self._errand.facing)
+        except (RuntimeInputError, LocomotionError) as error:  # a ground that the graph does not tell of
+            self._report_blocked(goals[0], str(error))
+            status = self.status
+        if status == "blocked":
+            self._driver.stop()
 
     def notice(self) -> None:
         """Report what has happened to the body; `World.step` calls this after every tick in which there is
@@ -165,9 +199,13 @@ class Agent:
             self._driver.take_note()
         for event in self.news:
             told = self._translated(event)
+            if isinstance(told, Fell | Lost):
+                self._blocked = False
             if told is not None:
                 self._world.report(told)
         self.news.clear()
+        if self._errand.doubtful:
+            self.look_at_way()
 
     @property
     def driver(self) -> Driver:
@@ -185,12 +223,13 @@ class Agent:
 
     def save(self) -> AgentState:
         """Everything needed to continue from here."""
-        return AgentState(self.body, self._born, self._driver.save(), self._blocked, self._goal)
+        return AgentState(self.body, self._born, self._driver.save(), self._blocked, self._goal, self._errand)
 
     def restore(self, state: AgentState) -> None:
         """Continue from a state of this agent."""
         self._driver.restore(state.driver)
         self._born, self._blocked, self._goal = state.born, state.blocked, state.goal
+        self._errand = state.errand
 
     def state_hash(self) -> str:
         """Hexadecimal digest of everything that decides how it goes on."""
@@ -215,6 +254,8 @@ class Agent:
             return Lost(**base, reason=f"passed the goal at a distance of {event.distance:.1f} m")
         if isinstance(event, bodily.BackedOut):
             return BackedOut(**base, length=event.distance)
+        if isinstance(event, bodily.LostGround):
+            return Lost(**base, reason="there is no ground under it or ahead of it any more")
         if isinstance(event, bodily.StrayedFromPath):
             return Lost(**base, reason=f"is {event.distance:.1f} m beside its path")
         return None

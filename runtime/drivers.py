@@ -11,16 +11,17 @@ from typing import Any, Protocol
 import mujoco
 import numpy as np
 
-import navmesh
-from locomotion import PERSON_RULES, Ground, Human, HumanState, LocomotionError
+from locomotion import PERSON_RULES, Human, HumanState, LocomotionError
 from locomotion.clearing import HEIGHT_TOLERANCE
 from locomotion.events import Event
 from locomotion.quadruped import BODY_NAMES, Animal, AnimalMemory, Body, Herd, Place, check_places, load_body
+from locomotion.quadruped import layout as at
 from locomotion.quadruped.footprint import at_place
 from runtime.animal_figure import animal_figure
 from runtime.errors import RuntimeInputError
 from runtime.figure import Figure
-from runtime.planning import Plan, make_plan
+from runtime.level import Level
+from runtime.planning import Plan, make_plan, way_holds
 from runtime.pose import between
 
 __all__ = [
@@ -84,6 +85,20 @@ class Driver(Protocol):
         """Take the way through ``goals``. Raises `runtime.planning.NoWay`."""
         ...
 
+    @property
+    def goals_left(self) -> int:
+        """How many of the goals of `go_to` are still before it, at least one while it is on its way."""
+        ...
+
+    def way_holds(self) -> bool:
+        """Of one on its way: whether the rest of it can be gone on the level as it is now. True for one that
+        has lost its footing: another way is no help."""
+        ...
+
+    def stop(self) -> None:
+        """Give up its way and come to a stand."""
+        ...
+
     def save(self) -> Any: ...
     def restore(self, state: Any) -> None: ...
     def state_hash(self) -> str: ...
@@ -111,6 +126,10 @@ class Population(Protocol):
         """Keep where all are, for `Driver.transforms_between`."""
         ...
 
+    def change_level(self) -> None:
+        """Go on on the level as it is now, where all are."""
+        ...
+
     def tick(self) -> None:
         """Advance all by 10 ms."""
         ...
@@ -121,22 +140,22 @@ class People:
 
     bodies: tuple[str, ...] = ("human",)
 
-    def __init__(self, graph: navmesh.NodeGraph, ground: Ground) -> None:
-        self._graph, self._ground = graph, ground
+    def __init__(self, level: Level) -> None:
+        self._level = level
         self._drivers: list[HumanDriver] = []
 
     def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> Driver:
-        human = Human(self._ground)
+        human = Human(self._level.ground)
         human.reset(place, facing)
         return self._add(human)
 
     def revive(self, body: str, state: Any) -> Driver:
-        driver = self._add(Human(self._ground))
+        driver = self._add(Human(self._level.ground))
         driver.restore(state)
         return driver
 
     def _add(self, human: Human) -> "HumanDriver":
-        self._drivers.append(HumanDriver(self._graph, human))
+        self._drivers.append(HumanDriver(self._level, human))
         return self._drivers[-1]
 
     def remove(self, driver: Driver) -> None:
@@ -151,6 +170,10 @@ class People:
         for driver in self._drivers:
             driver.before = driver.human.qpos
 
+    def change_level(self) -> None:
+        for driver in self._drivers:
+            driver.human.change_ground(self._level.ground)
+
     def tick(self) -> None:
         for driver in self._drivers:
             driver.human.tick()
@@ -159,8 +182,8 @@ class People:
 class HumanDriver:
     """A person. ``before``: (46,) its joints as they were when `People.remember` was called, or None."""
 
-    def __init__(self, graph: navmesh.NodeGraph, human: Human) -> None:
-        self._graph, self.human = graph, human
+    def __init__(self, level: Level, human: Human) -> None:
+        self._level, self.human = level, human
         self.radius = radius_of("human")
         self.figure = Figure.from_model(human.model)
         self.events = human.events
@@ -214,7 +237,7 @@ class HumanDriver:
         velocity = self.human.velocity[:2]
         moving = velocity if np.linalg.norm(velocity) > 0.5 else None
         radius = PERSON_RULES["radius"]
-        return make_plan(self._graph, self.position, list(goals), radius, self.skills, moving)
+        return make_plan(self._level.graph, self.position, list(goals), radius, self.skills, moving)
 
     def go_to(self, goals: np.ndarray, speed: float, facing: float | None) -> Plan:
         if facing is not None:
@@ -225,6 +248,16 @@ class HumanDriver:
         self.human.follow(plan.points, speed, plan.obstacles)
         self.plans.append(plan)
         return plan
+
+    @property
+    def goals_left(self) -> int:
+        return max(sum(end > self.human.arc_length for end in self.plans[-1].ends), 1)
+
+    def way_holds(self) -> bool:
+        return way_holds(self._level.graph, self.plans[-1], self.radius, self.human.arc_length)
+
+    def stop(self) -> None:
+        self.human.stop()
 
     def save(self) -> tuple[HumanState, tuple[Plan, ...]]:
         return self.human.save_state(), tuple(self.plans)[-1:]
@@ -243,9 +276,9 @@ class Pack:
 
     bodies: tuple[str, ...] = BODY_NAMES
 
-    def __init__(self, graph: navmesh.NodeGraph, ground: Ground) -> None:
-        self._graph = graph
-        self._herd = Herd(ground)
+    def __init__(self, level: Level) -> None:
+        self._level = level
+        self._herd = Herd(level.ground)
         self._drivers: list[AnimalDriver] = []
         self._before = _Remembered()
 
@@ -267,7 +300,7 @@ class Pack:
         return driver
 
     def _add(self, index: int) -> "AnimalDriver":
-        self._drivers.append(AnimalDriver(self._graph, self._herd, index, self._before))
+        self._drivers.append(AnimalDriver(self._level, self._herd, index, self._before))
         return self._drivers[-1]
 
     def remove(self, driver: Driver) -> None:
@@ -284,6 +317,9 @@ class Pack:
     def remember(self) -> None:
         self._before.poses = self._herd.poses.copy()
 
+    def change_level(self) -> None:
+        self._herd.change_ground(self._level.ground)
+
     def tick(self) -> None:
         self._herd.tick()
         for driver in self._drivers:
@@ -293,19 +329,19 @@ class Pack:
 class _Ways:
     """`locomotion.quadruped.Planner` on a graph."""
 
-    def __init__(self, graph: navmesh.NodeGraph, body: Body) -> None:
-        self._graph, self._body = graph, body
+    def __init__(self, level: Level, body: Body) -> None:
+        self._level, self._body = level, body
 
     def through(self, start: np.ndarray, goals: np.ndarray, direction: np.ndarray | None = None) -> Plan:
         return make_plan(
-            self._graph, start, list(goals), self._body.radius, {}, direction, self._body.smoothing
+            self._level.graph, start, list(goals), self._body.radius, {}, direction, self._body.smoothing
         )
 
     def way(self, start: np.ndarray, goal: np.ndarray, direction: np.ndarray) -> Plan:
         return self.through(start, goal[None], direction)
 
     def room_to_turn(self, points: np.ndarray, length: float) -> np.ndarray:
-        return self._graph.room_to_turn(points, length)
+        return self._level.graph.room_to_turn(points, length)
 
 
 class _Remembered:
@@ -321,9 +357,10 @@ class _Remembered:
 class AnimalDriver:
     """One animal of a herd."""
 
-    def __init__(self, graph: navmesh.NodeGraph, herd: Herd, index: int, before: _Remembered) -> None:
+    def __init__(self, level: Level, herd: Herd, index: int, before: _Remembered) -> None:
         self._before = before
-        self._ways = _Ways(graph, herd.bodies[index])
+        self._level = level
+        self._ways = _Ways(level, herd.bodies[index])
         self.animal = Animal(herd, index, self._ways)
         self.radius = self.animal.body.radius
         self.figure = animal_figure(self.animal.body)
@@ -374,6 +411,22 @@ class AnimalDriver:
             raise RuntimeInputError(str(error)) from None
         self.take_note()
         return plan
+
+    @property
+    def goals_left(self) -> int:
+        return self.animal.goals_left
+
+    def way_holds(self) -> bool:
+        animal = self.animal
+        if not animal.herd.stands_on_ground(animal.index) or not animal.following:
+            return True
+        st = animal.herd.state[animal.index]
+        return st[at.NO_GROUND] == 0.0 and way_holds(
+            self._level.graph, self.plans[-1], self.radius, st[at.FRONT_ARC]
+        )
+
+    def stop(self) -> None:
+        self.animal.stop()
 
     def take_note(self) -> None:
         """Keep the plan of a trail that has just been taken, if there is one; an event says that it has."""

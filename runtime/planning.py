@@ -8,10 +8,13 @@ import numpy as np
 import navmesh
 from locomotion import LocomotionError, ObstacleAhead, Smoothing, smooth_route
 from locomotion.route_smoothing import RUNNING
+from navmesh.holding import line_holds
 from navmesh.route import Route
 
-__all__ = ["NoWay", "Plan", "make_plan", "why_not"]
+__all__ = ["NoWay", "Plan", "make_plan", "way_holds", "why_not"]
 
+_SHORT = 0.05  # [m] by which a smoothed path may be nearer to a wall than its radius
+_SAME = 0.01  # [m] by which a link's ends and height may differ
 _WHY = {
     "partial": "no way leads there on foot or with the skills at hand",
     "no_path": "no way leads there on foot or with the skills at hand",
@@ -34,12 +37,14 @@ class Plan:
     ``raw`` (a, 3) are the centres of the discs that A* chose, ``pulled`` (b, 3) the shortest line through
     them, ``points`` (n, 3) the smoothed path that a body follows. ``obstacles`` are what it crosses, in
     order; their arc lengths count from the beginning of ``points``. ``skills`` are their affordances.
+    ``ends`` are the arc lengths at which it is at its goals, where that is known.
     """
 
     raw: np.ndarray
     pulled: np.ndarray
     points: np.ndarray
     obstacles: tuple[ObstacleAhead, ...]
+    ends: tuple[float, ...] = ()
 
     @property
     def length(self) -> float:
@@ -66,13 +71,14 @@ def make_plan(
     ``direction`` (2,) is where the body is moving, None when it stands; ``smoothing`` is what it wants of its
     path. Raises `NoWay`.
     """
-    raw, pulled, points, obstacles = [], [], [], []
+    raw, pulled, points, obstacles, ends = [], [], [], [], []
     begun = 0.0
     for index, goal in enumerate(goals):
         route = graph.find_path(start, goal, radius=radius, skills=skills)
         if route.status != "complete":
             raise NoWay(index, why_not(graph, route, start, radius))
         if len(route.waypoints) < 2:
+            ends.append(begun)
             continue
         try:
             smooth = smooth_route(route, smoothing, direction)
@@ -83,11 +89,47 @@ def make_plan(
         points.append(smooth.points)
         obstacles += [replace(each, arc_length=each.arc_length + begun) for each in smooth.obstacles]
         begun += _length(smooth.points)
+        ends.append(begun)
         start = smooth.points[-1]
         direction = _heading(smooth.points)
     if not points:
         raise NoWay(len(goals) - 1, "it is where the body already is")
-    return Plan(np.concatenate(raw), np.concatenate(pulled), np.concatenate(points), tuple(obstacles))
+    return Plan(
+        np.concatenate(raw), np.concatenate(pulled), np.concatenate(points), tuple(obstacles), tuple(ends)
+    )
+
+
+def way_holds(graph: navmesh.NodeGraph, plan: Plan, radius: float, arc: float) -> bool:
+    """Whether a body of ``radius`` [m] that is ``arc`` [m] along ``plan`` can go the rest of it on ``graph``:
+    as `navmesh.Route.holds`, but of the smoothed path, which may be a little short of the radius."""
+    points = plan.points
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points[:, :2], axis=0), axis=1))])
+    first = max(int(np.searchsorted(along, arc, side="right")) - 1, 0)
+    for obstacle in plan.obstacles:
+        # the points just before and behind the edge lie between the ends of the link
+        edge = int(np.argmin(np.abs(along - obstacle.arc_length)))
+        before = edge if along[edge] <= obstacle.arc_length else edge - 1
+        if obstacle.arc_length <= arc:
+            first = max(first, before + 2)
+            continue
+        walked = points[min(first, before - 1) : before]
+        if not line_holds(graph, walked, radius - _SHORT):
+            return False
+        if not _link_holds(graph, obstacle, points[before - 1], points[before + 2]):
+            return False
+        first = before + 2
+    return line_holds(graph, points[first:], radius - _SHORT)
+
+
+def _link_holds(
+    graph: navmesh.NodeGraph, obstacle: ObstacleAhead, start: np.ndarray, end: np.ndarray
+) -> bool:
+    """Whether ``graph`` has a link over ``obstacle`` from ``start`` to ``end`` (3,)."""
+    links = graph.links
+    alike = (links.affordance == obstacle.affordance) & (np.abs(links.height - obstacle.height) <= _SAME)
+    alike &= (np.abs(links.start - start) <= _SAME).all(axis=1)
+    alike &= (np.abs(links.end - end) <= _SAME).all(axis=1)
+    return bool(alike.any())
 
 
 def why_not(graph: navmesh.NodeGraph, route: Route, start: np.ndarray, radius: float) -> str:

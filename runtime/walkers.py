@@ -6,15 +6,16 @@ from typing import Any
 
 import numpy as np
 
-import navmesh
 from locomotion import LocomotionError
 from locomotion.crowd import Crowd, NoRoute, Walker, WalkerState
 from locomotion.events import Event
 from navmesh.draping import drape
+from navmesh.holding import line_holds
 from navmesh.route import Route
 from runtime.drivers import PLANS_KEPT, Driver, Population, recall
 from runtime.errors import RuntimeInputError
 from runtime.figure import Figure, Shapes
+from runtime.level import Level
 from runtime.planning import NoWay, Plan, why_not
 from runtime.pose import between
 
@@ -49,8 +50,8 @@ class Walkers:
 
     bodies: tuple[str, ...] = ("walker",)
 
-    def __init__(self, graph: navmesh.NodeGraph, others: Sequence[Population]) -> None:
-        self.crowd, self._others = Crowd(graph), others
+    def __init__(self, level: Level, others: Sequence[Population]) -> None:
+        self._level, self.crowd, self._others = level, Crowd(level.graph), others
         self.before = np.zeros((0, 7))
 
     def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> Driver:
@@ -83,6 +84,9 @@ class Walkers:
         half = 0.5 * self.crowd.yaws
         zero = np.zeros_like(half)
         return np.column_stack([self.crowd.positions, np.cos(half), zero, zero, np.sin(half)])
+
+    def change_level(self) -> None:
+        self.crowd.change_graph(self._level.graph)
 
     def tick(self) -> None:
         if len(self.crowd):
@@ -151,6 +155,17 @@ class WalkerDriver:
             raise RuntimeInputError(str(error)) from None
         self.plans.append(plan)
         return plan
+
+    @property
+    def goals_left(self) -> int:
+        return len(self.walker.crowd.goals_left(self.walker.index))
+
+    def way_holds(self) -> bool:
+        crowd = self.walker.crowd
+        return line_holds(crowd.graph, crowd.way_left(self.walker.index), self.radius)
+
+    def stop(self) -> None:
+        self.walker.stop()
 
     def _plan_of(self, routes: list[Route]) -> Plan:
         graph = self.walker.crowd.graph

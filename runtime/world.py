@@ -3,7 +3,7 @@
 import hashlib
 import math
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from itertools import count
 from typing import TypeVar
 
@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 import navmesh
-from locomotion import Ground, friction_for
 from locomotion.person import CONTROL_DT
 from runtime.agent import Agent
 from runtime.drivers import BODIES, Pack, People, Population, radius_of
 from runtime.errors import RuntimeInputError
 from runtime.events import Event
+from runtime.level import Level
 from runtime.rules import person_walk_rules
 from runtime.walkers import Walkers
 from runtime.world_state import WorldState
@@ -34,31 +34,35 @@ class World:
     ``terrain`` is the level; or a graph that was built or loaded, whose rules should suit a person. The same
     seed and the same calls give the same run, bit for bit.
 
-    ``graph``: the `navmesh.NodeGraph`. ``agents``: by name, in order of their making. ``random``: the
+    ``agents``: by name, in order of their making. ``random``: the
     `numpy.random.Generator` for whatever chance the host needs, saved, restored and hashed with the rest.
     """
 
     def __init__(self, terrain: navmesh.Terrain | navmesh.NodeGraph, seed: int = 0) -> None:
         if isinstance(terrain, navmesh.NodeGraph):
-            self.graph = terrain
+            graph = terrain
         elif isinstance(terrain, navmesh.Terrain):
-            self.graph = navmesh.NodeGraph.build(terrain, person_walk_rules())
+            graph = navmesh.NodeGraph.build(terrain, person_walk_rules())
         else:
             raise RuntimeInputError(
                 f"a world is made of a Terrain or a NodeGraph, not of a {type(terrain).__name__}"
             )
         self.agents: dict[str, Agent] = {}
         self.random = np.random.default_rng(seed)
-        level = self.graph.terrain
-        ground = Ground.from_arrays(level.vertices, level.faces, friction_for(self.graph.rules.max_slope))
-        others = People(self.graph, ground), Pack(self.graph, ground)
-        self._populations: tuple[Population, ...] = (*others, Walkers(self.graph, others))
+        self._level = Level.of(graph)
+        others = People(self._level), Pack(self._level)
+        self._populations: tuple[Population, ...] = (*others, Walkers(self._level, others))
         self._ticks = 0
         self._owed = 0.0
         self._stepping = False
         self._events: deque[Event] = deque(maxlen=_UNREAD)
         self._untold: deque[Event] = deque()
         self._listeners: list[tuple[type[Event], Callable[[Event], object]]] = []
+
+    @property
+    def graph(self) -> navmesh.NodeGraph:
+        """The graph of the level as it is now."""
+        return self._level.graph
 
     @property
     def level_digest(self) -> str:
@@ -147,6 +151,28 @@ class World:
             raise RuntimeInputError(f"{agent.name} is not in this world")
         self._population(agent.body).remove(agent.driver)
         del self.agents[agent.name]
+
+    def change_level(self, changes: Mapping[str, navmesh.Terrain | None]) -> None:
+        """Change the level's chunks, between two ticks: by name, a `navmesh.Terrain` to be added or to
+        replace the one of that name, None to remove it; see `navmesh.NodeGraph.update`.
+
+        Nobody is moved. Who is on a way that still holds goes on; the others look for another to the same
+        goals, and stop, with `Blocked`, where there is none. Whose ground has gone: a dog stands still and a
+        walker stays where it is (both with `Lost`), a person falls. Raises `navmesh.NavmeshError` for the
+        removal of a chunk that is not there and when nothing walkable is left, `RuntimeInputError` for what
+        is no mapping; the world is then as it was.
+        """
+        if not isinstance(changes, Mapping):
+            raise RuntimeInputError(f"changes are a {type(changes).__name__}; give {{chunk's name: Terrain}}")
+        graph = self.graph.update(changes)
+        if graph is self.graph:
+            return
+        level = Level.of(graph)
+        self._level.graph, self._level.ground = level.graph, level.ground
+        for population in self._populations:
+            population.change_level()
+        for agent in self.agents.values():
+            agent.look_at_way()
 
     def _population(self, body: str) -> Population:
         return next(each for each in self._populations if body in each.bodies)

@@ -15,7 +15,7 @@ from runtime.state_file import pack, unpack
 __all__ = ["WorldState"]
 
 KIND = "surefoot world state"
-VERSION = 1
+VERSION = 2
 
 
 @dataclass(frozen=True)

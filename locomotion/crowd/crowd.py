@@ -23,6 +23,7 @@ from locomotion.crowd.walker import NoRoute, Walker, WalkerState
 from locomotion.errors import LocomotionError
 from locomotion.quadruped.pool import Pool
 from navmesh.field import floor_at
+from navmesh.queries import project
 from navmesh.route import Route
 from navmesh.snapping import snap
 from navmesh.structs import net_of
@@ -36,9 +37,9 @@ _UNMOVED = 1e9  # weight of a body that others move
 class Crowd:
     """Bodies that walk over the surface of ``graph`` and keep out of each other's way.
 
-    ``graph`` may be replaced by a later version of it at any time. ``dt`` [s] is how far a tick goes. The
-    same calls give the same run, bit for bit. ``walkers`` are the bodies, in order of their making;
-    ``routes`` holds their routes by index.
+    ``graph`` is replaced by `change_graph`. ``dt`` [s] is how far a tick goes. The same calls give the same
+    run, bit for bit. ``walkers`` are the bodies, in order of their making; ``routes`` holds their routes by
+    index.
     """
 
     def __init__(self, graph: navmesh.NodeGraph, dt: float = 0.01) -> None:
@@ -176,13 +177,18 @@ class Crowd:
 
     def lay_routes(self, index: int, routes: list[Route]) -> None:
         """Let a body follow ``routes``, the first of which begins where it is; it visits the end of each."""
-        row = self.rows[index]
         counts = [max(len(route.waypoints) - 1, 1) for route in routes]
         table = np.zeros((1 + sum(counts), at.POINT))
-        table[0, :3] = row[at.X : at.Z + 1]
         table[1:, :3] = np.concatenate([r.waypoints[-n:] for r, n in zip(routes, counts, strict=True)])
         table[1:, :3] -= self._origin
         table[np.cumsum(counts), at.VIA] = 1.0
+        self._lay(index, table)
+        self.rows[index, at.GOAL_X : at.GOAL_Z + 1] = table[-1, :3]
+
+    def _lay(self, index: int, table: NDArray[np.float64]) -> None:
+        """Let a body follow the corners of ``table`` but the first, which becomes the place where it is."""
+        row = self.rows[index]
+        table[0, :3] = row[at.X : at.Z + 1]
         legs = np.hypot(*np.diff(table[:, :2], axis=0).T)
         table[:-1, at.LEFT] = np.cumsum(legs[::-1])[::-1]
         self._keep_route(index, table)
@@ -191,7 +197,6 @@ class Crowd:
         row[at.RIGHT_UNTIL] = math.inf
         row[at.BEST], row[at.WAITED], row[at.ALONE] = math.inf, 0.0, 0.0
         row[at.MODE], row[at.NOTE] = at.WALKING, at.QUIET
-        row[at.GOAL_X : at.GOAL_Z + 1] = table[-1, :3]
 
     def left(self, index: int) -> float:
         """[m] of a body's route that are still before it."""
@@ -205,6 +210,11 @@ class Crowd:
         """(k, 3) [m]: the places that a walking body has still to visit."""
         ahead = self.routes.table(index)[int(self.rows[index, at.NEXT]) :]
         return ahead[ahead[:, at.VIA] > 0.0][:, :3] + self._origin
+
+    def way_left(self, index: int) -> NDArray[np.float64]:
+        """(k, 3) [m]: where a walking body is, and the corners of its route that are before it."""
+        ahead = self.routes.table(index)[int(self.rows[index, at.NEXT]) :, :3]
+        return np.vstack([self.rows[index, at.X : at.Z + 1], ahead]) + self._origin
 
     def restore(self, index: int, row: NDArray[np.float64], route: NDArray[np.float64]) -> None:
         """Put back a row and a route."""
@@ -260,12 +270,32 @@ class Crowd:
         rows[:, at.RADIUS], rows[:, at.MODE] = bodies[:, 5], at.LED
         rows[:, at.WEIGHT], rows[:, at.CELL] = _UNMOVED, -1.0
 
+    def change_graph(self, graph: navmesh.NodeGraph) -> None:
+        """Go on on another graph. Everybody stays where it is and keeps its route, whether that holds or not
+        (`way_left`). One whose floor has gone, or is more than a step higher or lower now, stands still and
+        is stuck until a floor comes back."""
+        shift = self._origin - graph.surface.origin
+        cells, floors = project(graph, self.positions)
+        self.graph, self._net, self._gates = graph, net_of(graph), None
+        self._origin = graph.surface.origin
+        self._table[: self._count + self._led, at.X : at.Z + 1] += shift
+        self.rows[:, at.GOAL_X : at.GOAL_Z + 1] += shift
+        floors -= self._origin[2]
+        for index, row in enumerate(self.rows):
+            start, count = self.routes.region(index)
+            self.routes.rows[start : start + count, :3] += shift
+            if cells[index] < 0 or abs(floors[index] - row[at.Z]) > graph.rules.max_step:
+                self.walkers[index].lose_ground()
+                continue
+            row[at.CELL], row[at.Z] = cells[index], floors[index]
+            if row[at.MODE] == at.LED:
+                row[at.MODE] = at.STANDING
+            elif row[at.MODE] == at.WALKING:
+                self._lay(index, self.routes.table(index)[int(row[at.NEXT]) - 1 :])
+
     # --- time
     def tick(self) -> None:
         """Advance all bodies by `dt`."""
-        net = net_of(self.graph)
-        if net is not self._net:
-            self._take_graph(net)
         if self._count:
             gates = self._gates or self._find_gates()
             advance_all(
@@ -274,17 +304,3 @@ class Crowd:
             )  # fmt: skip
             for index in np.flatnonzero(self.rows[:, at.NOTE] != at.QUIET).tolist():
                 self.walkers[index].notice()
-
-    def _take_graph(self, net: object) -> None:
-        """Go on on a graph that has changed: everybody is put down anew and looks for its way again."""
-        shift = self._origin - self.graph.surface.origin
-        self._net, self._origin, self._gates = net, self.graph.surface.origin, None
-        for index, row in enumerate(self.rows):
-            for first in (at.X, at.GOAL_X):
-                row[first : first + 3] += shift
-            if not self._put_down(row):
-                row[at.NOTE] = at.STUCK
-            elif row[at.MODE] == at.WALKING:
-                start, count = self.routes.region(index)
-                self.routes.rows[start : start + count, :3] += shift
-                row[at.NOTE] = at.OFF_ROUTE

@@ -10,7 +10,7 @@ __all__: list[str] = []
 X, Y, Z = 0, 1, 2
 """[m] the point of the floor under the body."""
 CELL = 3
-"""Cell of the surface that holds it; -1 for a body that others move."""
+"""Cell of the surface that holds it; -1 for a body that others move, or whose floor has gone."""
 VX, VY = 4, 5
 """[m/s]"""
 YAW = 6
@@ -56,7 +56,7 @@ RIGHT_UNTIL = 33
 ROW = 34
 
 STANDING, WALKING, LED = 0.0, 1.0, 2.0
-"""What a body does. LED: others say where it is; it is only avoided."""
+"""What a body does. LED: others say where it is, or its floor has gone; it is only avoided."""
 QUIET, ARRIVED, STUCK, OFF_ROUTE = 0.0, 1.0, 2.0, 3.0
 FAR, WAITING, PASSING, RETREATING = 0.0, 1.0, 2.0, 3.0
 

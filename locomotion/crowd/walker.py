@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from locomotion.crowd import layout as at
 from locomotion.errors import LocomotionError
-from locomotion.events import Arrived, Event, GotStuck, SetOff
+from locomotion.events import Arrived, Event, GotStuck, LostGround, SetOff
 from navmesh.route import Route
 
 if TYPE_CHECKING:
@@ -107,6 +107,8 @@ class Walker:
             raise LocomotionError(f"speed must be a finite number above 0 m/s, not {speed!r}")
         if facing is not None and not math.isfinite(facing):
             raise LocomotionError(f"facing must be a finite angle, not {facing!r}")
+        if self._row[at.MODE] == at.LED:
+            raise LocomotionError("there is no floor under it; it cannot go anywhere")
         routes = self.crowd.find_routes(self.index, points)
         self._row[at.WISH], self._row[at.FACING] = speed, math.nan if facing is None else facing
         self.crowd.lay_routes(self.index, routes)
@@ -115,8 +117,20 @@ class Walker:
         self.events.append(SetOff(self.time, self._point(), self._goals[-1], self.left))
         return routes
 
+    def lose_ground(self) -> None:
+        """There is no floor under it any more: be stuck where it is, without moving; `Crowd.change_graph`
+        calls this."""
+        row = self._row
+        if row[at.MODE] != at.LED:
+            row[[at.VX, at.VY, at.GO_X, at.GO_Y]] = 0.0
+            row[at.MODE], row[at.CELL], row[at.NOTE] = at.LED, -1.0, at.QUIET
+            self.status = "stuck"
+            self.events.append(LostGround(self.time, self._point()))
+
     def stop(self) -> None:
         """Stand where it is."""
+        if self._row[at.MODE] == at.LED:
+            return
         self._row[at.MODE], self._row[at.NOTE] = at.STANDING, at.QUIET
         self.status = "standing"
 

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from locomotion.errors import LocomotionError
-from locomotion.events import Arrived, BackedOut, Event, GotStuck, MissedGoal, SetOff, StrayedFromPath
+from locomotion.events import Arrived, BackedOut, Event, GotStuck, LostGround, MissedGoal, SetOff
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.following import wrap
 from locomotion.quadruped.footprint import RESOLUTION, check_places, check_script, trail_places
@@ -153,6 +153,21 @@ class Animal:
             return 1.0 if self.status == "arrived" else 0.0
         return float(np.clip(st[at.FRONT_ARC] / self.trail.length, 0.0, 1.0))
 
+    @property
+    def following(self) -> bool:
+        """Whether it goes along its trail, or will as soon as it has bent onto it."""
+        return self._phase in ("following", "flexing")
+
+    @property
+    def goals_left(self) -> int:
+        """How many of the goals that it was told are still before it."""
+        left = len(self._errand.goals)
+        if self._phase == "following":
+            steps = [np.diff(way.points[:, :2], axis=0) for way in self.ways[:-1]]
+            ends = np.cumsum([np.linalg.norm(each, axis=1).sum() for each in steps])
+            left -= int((ends <= self.herd.state[self.index, at.FRONT_ARC]).sum())
+        return left
+
     # --- what it is told
     def go_to(
         self, goals: ArrayLike, speed: float = 1.5, facing: float | None = None, gait: str | None = None
@@ -185,6 +200,7 @@ class Animal:
     def stop(self) -> None:
         """Come to a stop where it can, and stand."""
         self._errand, self._pending = replace(self._errand, goals=()), False
+        self.herd.state[self.index, at.NO_GROUND] = 0.0
         if self._phase == "following":
             self.herd.stop(self.index)
             self._phase = "halting"
@@ -199,7 +215,7 @@ class Animal:
         if self._phase == "resting" or not self.herd.resting(self.index):
             return
         phase, self._phase = self._phase, "resting"
-        if phase in ("turning", "halting", "flexing", "backing") or self._pending:
+        if phase in ("turning", "halting", "flexing", "backing") or self._pending or not self._errand.goals:
             self._go_on(phase)
         elif phase == "following":
             self._straighten()
@@ -229,7 +245,7 @@ class Animal:
         self._errand = replace(self._errand, goals=())
         if self.status != "lost":
             self.status = "lost"
-            self.events.append(StrayedFromPath(self.time, self._point(), 0.0))
+            self.events.append(LostGround(self.time, self._point()))
 
     # --- beginning
     def _way(self, errand: _Errand, place: Place) -> tuple[Trail, tuple[Way, ...]]:
@@ -291,6 +307,7 @@ class Animal:
             self._follow(trail)
         else:
             self._errand, self._pending = errand, True
+            self.herd.state[self.index, at.NO_GROUND] = 0.0  # of the old path; its feet look for themselves
             self.herd.stop(self.index)
             self._phase = "halting"
 

@@ -288,14 +288,22 @@ class Herd:
 
     def _has_lost_ground(self, index: int) -> bool:
         st = self.state[index]
-        spots = self.feet[index, self.standing_feet(index), : at.FZ + 1]
+        if not self.stands_on_ground(index):
+            return True
         if st[at.MODE] == at.ON_TRAIL and self.resting(index) is False:
             rows = self._pool.table(index)
             arcs = st[at.ROW_STEP] * np.arange(len(rows))
             ahead = st[at.WAY] * (arcs - st[at.ARC]) >= 0.0
-            spots = np.vstack([spots, rows[ahead][:, [at.PX, at.PY, at.PZ]]])
+            return not self._on_ground(rows[ahead][:, [at.PX, at.PY, at.PZ]])
+        return False
+
+    def stands_on_ground(self, index: int) -> bool:
+        """Whether there is ground under all standing feet, to within 1 cm."""
+        return self._on_ground(self.feet[index, self.standing_feet(index), : at.FZ + 1])
+
+    def _on_ground(self, spots: NDArray[np.float64]) -> bool:
         found = self.ground.surface_below(spots + np.array([0.0, 0.0, _CHANGE]))[0]
-        return not np.all(np.abs(found - spots[:, 2]) <= _CHANGE)
+        return bool(np.all(np.abs(found - spots[:, 2]) <= _CHANGE))
 
     # --- time
     def tick(self) -> None:

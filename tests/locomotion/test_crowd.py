@@ -252,9 +252,10 @@ def test_walkers_go_on_when_the_level_has_changed(corner):
     for _ in range(100):
         crowd.tick()
     here = walker.position
-    crowd.graph = graph_of(  # the corridor is elsewhere, and so is the grid's corner
+    changed = graph_of(  # the corridor is elsewhere, and so is the grid's corner
         (-1.0, -1.0, 6.0, 6.0, 0.0), (6.0, 4.5, 12.0, 5.5, 0.0), (12.0, 0.0, 18.0, 6.0, 0.0)
     )
+    crowd.change_graph(changed)
     crowd.tick()
     assert walker.position == pytest.approx(here, abs=0.05)
     assert idle.position == pytest.approx([0.5, 0.5, 0.0], abs=0.01)
@@ -262,6 +263,6 @@ def test_walkers_go_on_when_the_level_has_changed(corner):
     assert walker.status == "arrived"
     assert walker.position == pytest.approx([15.0, 2.5, 0.0], abs=0.2)
     walker.go_to([(2.0, 2.5, 0.0)])
-    crowd.graph = graph_of((0.0, 0.0, 6.0, 6.0, 0.0), (12.0, 0.0, 18.0, 6.0, 0.0))
+    crowd.change_graph(graph_of((0.0, 0.0, 6.0, 6.0, 0.0), (12.0, 0.0, 18.0, 6.0, 0.0)))
     run(crowd, 30.0)
     assert walker.status == "stuck"

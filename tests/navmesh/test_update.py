@@ -119,6 +119,13 @@ def test_a_level_grows_beyond_its_grid():
     assert_same(more, rebuilt(more))
 
 
+def test_a_chunk_with_nothing_around_it_is_removed():
+    chunks = {"here": piece("platform", (0, 0)), "there": piece("platform", (3, 3))}
+    graph = NodeGraph.build(join_chunks(chunks))
+    alone = join_chunks({"here": chunks["here"]})
+    assert_same(graph.update({"there": None}), NodeGraph.build(alone, extent=graph.extent))
+
+
 def test_the_graph_before_stays_as_it_is():
     graph = NodeGraph.build(join_chunks({"a": piece("floor", (0, 0)), "b": piece("floor", (1, 0))}))
     before = graph.positions.copy(), graph.surface.nearest.copy(), graph.stages.cells.seed.copy()

@@ -331,7 +331,6 @@ class Human:
                 data.qvel,
                 data.ctrl,
             )
-            np.nan_to_num(data.ctrl, copy=False)  # in the air, with no ground to put a foot on
         else:
             run_tick(*self.skill.tables, state, self._command, data.qpos, data.qvel, data.ctrl)
             if self._obstacles and self.status != "fallen":

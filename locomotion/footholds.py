@@ -188,6 +188,7 @@ def _settle(g, ground, walk, x, y, yaw, level, hip):
     walk[FOOTHOLD_YAW] = yaw
     ch, sh = math.cos(yaw), math.sin(yaw)
     walk[_SPOT], walk[_SPOT + 1], walk[_SPOT + 2] = x, y, level
+    walk[_NORMAL], walk[_NORMAL + 1], walk[_NORMAL + 2] = 0.0, 0.0, 1.0  # unless there is ground
     least = math.inf
     for i in range(-1, 2):
         for k in range(-1, 2):

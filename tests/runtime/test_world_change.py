@@ -158,6 +158,7 @@ def test_where_the_ground_has_gone_a_person_falls(whole, seconds, below):
     assert agent.status == "fallen"
     assert any(isinstance(event, Fell) for event in world.events)
     assert lowest[-1] < qpos[2] - 1.0
+    assert not any(warning.number for warning in agent.human.data.warning)  # what it was told is finite
     if below is not None:
         assert lowest[-1] > below
     assert lowest[-1] == lowest[-2]  # held, not falling for ever

@@ -14,6 +14,7 @@ from locomotion.walk_skill import WalkSkill
 __all__ = ["run_entry_speed", "run_limits", "walk_limits"]
 
 _SHARE_OF_TURNING = 0.8  # the rest of the skill's sideways acceleration is left for corrections
+_SLOWEST_RUN = 2.0  # [m/s] told less it walks: so slow a run crosses its legs, and one in five falls
 _SHARPEST, _STEEPEST = 0.3, 0.12  # [1/m], slope: where it would rather walk
 _SLOWEST, _SIDEWAYS = 0.3, 0.5  # [m/s], [m/s^2] of a walk
 _FASTER, _SLOWER = 0.7, 0.5  # [m/s^2] of a walk
@@ -26,7 +27,8 @@ _AHEAD = 0.2  # [rad] off its way at most when it begins to run
 def run_limits(skill: RunSkill) -> TrackingLimits:
     """What a running person can follow."""
     sideways = _SHARE_OF_TURNING * skill.max_lateral
-    return TrackingLimits(skill.speeds, sideways=sideways, sharpest=_SHARPEST, steepest=_STEEPEST)
+    speeds = max(skill.speeds[0], _SLOWEST_RUN), skill.speeds[1]
+    return TrackingLimits(speeds, sideways=sideways, sharpest=_SHARPEST, steepest=_STEEPEST)
 
 
 def walk_limits(skill: WalkSkill) -> TrackingLimits:

@@ -157,6 +157,22 @@ def test_walks_to_a_near_goal_turning_on_the_spot_first_and_comes_to_rest_there(
     assert human.data.xmat[1, 8] > 0.98  # upright
 
 
+def test_stopped_anywhere_it_stands_and_when_told_again_goes_on_to_its_goal():
+    human, goal = Human(None, clearing=()), (13.0, 2.0, 0.0)
+    for seconds in np.arange(0.7, 2.25, 0.1):
+        human.reset((2.0, 2.0, 0.0), 0.0)
+        human.follow([(2.0, 2.0, 0.0), goal], 1.5)
+        for _ in range(round(100 * seconds)):
+            human.tick()
+        human.stop()
+        for _ in range(600):
+            human.tick()
+        assert human.status == "standing"
+        human.follow([human.position, goal], 1.5)
+        finish(human, human.time + 30.0)
+        assert human.status == "arrived", seconds
+
+
 def test_person_that_is_told_to_go_elsewhere_in_the_middle_of_a_skill_runs_on():
     human = Human(None, clearing=[Recorder()])
     human.reset((0, 0, 0), 0.0, speed=3.0)

@@ -1,16 +1,16 @@
 """Mission files mutated at random: does each run, or is it refused with a message that names the place?
 
-    python -m benchmarks.mission_fuzz [--files 10000] [--seed 0] [--seconds 0.3] [--json fuzz.json]
+    python -m benchmarks.mission_fuzz [--files 10000] [--seed 0] [--seconds 0.3] [--kept fuzz.json]
 
 A mission that uses everything is mutated: a third of the time as text (bytes removed, inserted, doubled,
 cut off), a third as data (keys and values removed, exchanged, renamed, replaced by odd ones), and a third
 so mildly that it may still be right (other numbers, other names, steps left out or exchanged). What is
 accepted is run for the first `--seconds` of its simulated time. A file counts as wrong when anything but a
 one-line message ``file:line:column: ...`` about a place in the file comes of it. Exit code 1 when any is.
+With `--kept` what was found so far is kept in a file, and a run with the same seed goes on from there.
 """
 
 import argparse
-import collections
 import copy
 import json
 import re
@@ -25,6 +25,7 @@ import yaml
 
 import navmesh
 from navmesh.yamlfile import FileError
+from runtime.files import whole_file
 from runtime.mission import LoadedMission, load_mission
 from runtime.mission_check import build_graph, prepare_mission
 from runtime.mission_run import run_mission
@@ -239,38 +240,54 @@ class Fuzz:
         return self._graphs[key]
 
 
+def kept_so_far(file: Path | None, asked: dict[str, Any]) -> dict[str, Any]:
+    """What an earlier run of the same kind has left in ``file``, or a beginning."""
+    if file is not None and file.is_file():
+        found = json.loads(file.read_text())
+        if found["asked"] != asked:
+            raise SystemExit(f"{file}: is of another run: {found['asked']}; this one: {asked}")
+        return found
+    return {"asked": asked, "tried": 0, "counts": {}, "wrong": [], "seconds": 0.0, "slowest": 0.0}
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--files", type=int, default=10_000)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--seconds", type=float, default=0.3, help="of each mission that is accepted")
-    parser.add_argument("--json", type=Path, help="file to write")
+    parser.add_argument("--kept", type=Path, help="file for what was found, to go on from")
     options = parser.parse_args()
-    random = np.random.default_rng(options.seed)
-    counts: collections.Counter[str] = collections.Counter()
-    wrong: list[dict[str, str]] = []
-    begun = slowest = time.perf_counter()
-    slowest = 0.0
+    found = kept_so_far(options.kept, {"seed": options.seed, "seconds": options.seconds})
+
+    def keep() -> None:
+        if options.kept is not None:
+            with whole_file(options.kept) as temporary:
+                temporary.write_text(json.dumps(found, indent=1) + "\n")
+
     with tempfile.TemporaryDirectory() as folder:
         fuzz = Fuzz(Path(folder), options.seconds)
         assert fuzz.attempt(MISSION.encode())[0] == "ran"
         with Progress().stage("trying mission files") as stage:
-            for k in range(options.files):
-                content = mutated(random)
+            for number in range(found["tried"], options.files):
+                content = mutated(np.random.default_rng([options.seed, number]))
                 at = time.perf_counter()
                 outcome, said = fuzz.attempt(content)
-                slowest = max(slowest, time.perf_counter() - at)
-                counts[outcome] += 1
+                took = time.perf_counter() - at
+                found["counts"][outcome] = found["counts"].get(outcome, 0) + 1
+                found["slowest"] = max(found["slowest"], took)
+                found["seconds"] += took
+                found["tried"] = number + 1
                 if outcome == "wrong":
-                    wrong.append({"file": content.decode(errors="replace"), "said": said})
+                    found["wrong"].append({"file": content.decode(errors="replace"), "said": said})
                     print(said)
-                stage.update((k + 1) / options.files, f"{k + 1} files")
+                if number % 100 == 99:
+                    keep()
+                stage.update((number + 1) / options.files, f"{number + 1} files")
+    keep()
     for outcome in ("ran", "refused on reading", "refused on the level", "wrong"):
-        print(f"{outcome:22} {counts[outcome]:6}")
-    print(f"{time.perf_counter() - begun:.0f} s, slowest {slowest:.1f} s")
-    if options.json:
-        options.json.write_text(json.dumps({"counts": counts, "wrong": wrong}, indent=1) + "\n")
-    return 1 if wrong else 0
+        print(f"{outcome:22} {found['counts'].get(outcome, 0):6}")
+    print(f"{found['tried']} files in {found['seconds']:.0f} s, slowest {found['slowest']:.1f} s")
+    return 1 if found["wrong"] else 0
 
 
 if __name__ == "__main__":

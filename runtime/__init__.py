@@ -18,6 +18,7 @@ if TYPE_CHECKING:
         SkillStarted,
         Stuck,
     )
+    from runtime.live import LiveView
     from runtime.pose import Pose
     from runtime.world import World, WorldState
 
@@ -29,6 +30,7 @@ __all__ = [
     "Departed",
     "Event",
     "Fell",
+    "LiveView",
     "Lost",
     "Pose",
     "RuntimeInputError",
@@ -43,7 +45,7 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     # imported when first asked for: `surefoot --help` needs neither physics nor kernels
     if name in __all__:
-        for module in ("errors", "events", "agent", "pose", "world"):
+        for module in ("errors", "events", "agent", "pose", "world", "live"):
             found = getattr(import_module(f"runtime.{module}"), name, None)
             if found is not None:
                 return found

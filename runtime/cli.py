@@ -129,10 +129,16 @@ def view(
     follow: Annotated[
         str | None, typer.Option(help="Agent that the camera goes with; default: it stands still.")
     ] = None,
+    live: Annotated[bool, typer.Option(help="Run the mission in real time and show it as it goes.")] = False,
+    port: Annotated[int, typer.Option(min=0, max=65535, help="Of the live page; 0: any that is free.")] = 0,
     as_json: JsonOption = False,
 ) -> None:
     """Write a page that plays a run in a browser, without a server and without a network."""
-    _finish(_commands().write_view(source, output, follow), as_json)
+    commands = _view_commands()
+    if live:
+        _finish(commands.watch_mission(source, port), as_json)
+    else:
+        _finish(commands.write_view(source, output, follow), as_json)
 
 
 @app.command()
@@ -142,7 +148,7 @@ def export(
     as_json: JsonOption = False,
 ) -> None:
     """Write a run as animated glTF, which Blender, Godot, three.js and other engines open."""
-    _finish(_commands().export_gltf(source, output), as_json)
+    _finish(_view_commands().export_gltf(source, output), as_json)
 
 
 @app.command()
@@ -153,7 +159,7 @@ def film(
     as_json: JsonOption = False,
 ) -> None:
     """Draw a run as a video: needs no GPU and no display, but about half a second for each frame."""
-    _finish(_commands().write_video(source, output, follow), as_json)
+    _finish(_view_commands().write_video(source, output, follow), as_json)
 
 
 @app.command()
@@ -285,6 +291,14 @@ def _commands() -> Any:
     gc.freeze()
     gc.enable()
     return commands
+
+
+def _view_commands() -> Any:
+    """The module `runtime.view_commands`, as `_commands`."""
+    _commands()
+    from runtime import view_commands
+
+    return view_commands
 
 
 def _finish(result: Any, as_json: bool) -> None:

@@ -28,16 +28,14 @@ __all__ = [
     "check_mission_file",
     "check_output",
     "evaluate_skill",
-    "export_gltf",
     "find_path",
     "ready",
     "run_mission_file",
     "serve_worlds",
     "show_clip",
+    "show_mission",
     "train_skill",
     "write_schema",
-    "write_video",
-    "write_view",
 ]
 
 INPUT_ERRORS = (navmesh.NavmeshError, PathSmoothError, LocomotionError, RuntimeInputError)
@@ -126,7 +124,7 @@ def run_mission_file(mission: Path, out: Path | None) -> Result:
         "events": list(result.trace.events),
         "files": [str(each) for each in written],
     }
-    return Result(values, result.held, lambda: _show_mission(mission, result, written))
+    return Result(values, result.held, lambda: show_mission(mission, result, written))
 
 
 def check_mission_file(mission: Path) -> Result:
@@ -147,59 +145,6 @@ def write_schema(output: Path | None) -> None:
     check_output(output)
     with whole_file(output) as temporary:
         temporary.write_text(text, encoding="utf-8")
-
-
-def write_view(source: Path, output: Path, follow: str | None) -> Result:
-    """Write the page of a trace, or of a mission that is run for it; the camera goes with ``follow``."""
-    from runtime.view import write_page
-
-    check_output(output)
-    trace, progress = _trace_of(source)
-    with progress.stage("writing the page"):
-        write_page(trace, output, follow)
-    return _written(output, trace, "open it in a browser")
-
-
-def export_gltf(source: Path, output: Path) -> Result:
-    """Write a trace, or a mission that is run for it, as animated glTF."""
-    from runtime.gltf import write_gltf
-
-    check_output(output)
-    if output.suffix.lower() != ".glb":
-        raise RuntimeInputError(f"{output}: glTF is written as one binary file; name it .glb")
-    trace, progress = _trace_of(source)
-    with progress.stage("writing the animation"):
-        write_gltf(trace, output)
-    return _written(output, trace, "open it in Blender, Godot or three.js")
-
-
-def write_video(source: Path, output: Path, of: str | None) -> Result:
-    """Draw a trace, or a mission that is run for it, as a video."""
-    from runtime.camera import agent_named
-    from runtime.film import write_film
-
-    check_output(output)
-    if output.suffix.lower() != ".mp4":
-        raise RuntimeInputError(f"{output}: a video is written as .mp4; name it so")
-    trace, progress = _trace_of(source)
-    agent_named(trace, of)
-    write_film(trace, output, of, progress)
-    return _written(output, trace, "play it")
-
-
-def _trace_of(source: Path) -> tuple[Trace, Progress]:
-    """The trace at ``source``, or of the mission there, which is run for it."""
-    if source.suffix.lower() in (".yaml", ".yml"):
-        loaded = load_mission(source)
-        progress = ready()
-        return run_mission(loaded, progress).trace, progress
-    return Trace.read(source), Progress()
-
-
-def _written(output: Path, trace: Trace, what_next: str) -> Result:
-    size = output.stat().st_size
-    values = {"output": str(output), "seconds": round(float(trace.times[-1]), 2), "bytes": size}
-    return Result(values, True, lambda: print(f"{output}: {what_next} ({size / 1e6:.1f} MB)"))
 
 
 def serve_worlds(
@@ -296,7 +241,8 @@ def _write_results(trace: Trace, folder: Path, progress: Progress) -> list[Path]
     return files
 
 
-def _show_mission(mission: Path, result: MissionResult, written: list[Path]) -> None:
+def show_mission(mission: Path, result: MissionResult, written: list[Path]) -> None:
+    """Print what happened in a mission, and what held."""
     from rich.console import Console
     from rich.table import Table
 

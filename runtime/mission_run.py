@@ -1,6 +1,7 @@
 """Running a mission as fast as the machine can, and saying what happened."""
 
 import time
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 
 from runtime.director import Director
@@ -11,6 +12,7 @@ from runtime.mission_check import Prepared, prepare_mission
 from runtime.progress import Progress
 from runtime.recording import Recorder
 from runtime.trace import Trace
+from runtime.world import World
 
 __all__ = ["MissionResult", "run_mission"]
 
@@ -38,34 +40,40 @@ class MissionResult:
 
 
 def run_mission(
-    loaded: LoadedMission, progress: Progress | None = None, prepared: Prepared | None = None
+    loaded: LoadedMission,
+    progress: Progress | None = None,
+    prepared: Prepared | None = None,
+    watch: Callable[[World], object] = lambda world: None,
 ) -> MissionResult:
     """Run the mission to its end: nobody has anything left to do, or the time limit is over.
 
-    ``prepared`` is what `prepare_mission` made of it, and is used up; by default it is made here. Raises
-    `navmesh.yamlfile.FileError` as `prepare_mission` does.
+    ``prepared`` is what `prepare_mission` made of it, and is used up; by default it is made here. ``watch``
+    is called with the world at the beginning and after every step. Raises `navmesh.yamlfile.FileError` as
+    `prepare_mission` does.
     """
     progress = progress or Progress(shown=False)
     world, clearings = prepared or prepare_mission(loaded, progress)
-    recorder, watch = Recorder(world), Watch(world)
+    recorder, noted = Recorder(world), Watch(world)
     director = Director(loaded, world, clearings)
     begun = time.perf_counter()
     with progress.stage("running") as stage:
         director.begin()
         recorder.sample()
-        watch.sample()
+        noted.sample()
+        watch(world)
         limit = ends = loaded.mission.time_limit
         while world.time < ends - 1e-9:
             world.step(SAMPLE)
             director.go_on(recorder.sample())
-            watch.sample()
+            noted.sample()
+            watch(world)
             if not director.over:
                 ends = limit
             elif ends == limit:
                 ends = min(limit, world.time + AFTERMATH)
             stage.update(max(director.share, world.time / limit), f"{world.time:.1f} s simulated")
     wall = time.perf_counter() - begun
-    found = checks(loaded, director, watch, recorder.events)
+    found = checks(loaded, director, noted, recorder.events)
     report = {
         "mission": loaded.path.name,
         "held": all(check.held for check in found),

@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit
 
 from navmesh.field import cell_at, floor_at, walk
-from navmesh.pulling import grow, pull
+from navmesh.pulling import pull
 from navmesh.search import COMPLETE, EXPANDED, advance, begin, chain
 from navmesh.snapping import snap
 
@@ -81,7 +81,8 @@ def _finish(net, doors, scratch, leaps):
         leaps[used, 0] = doors.leap_id[leap]
         leaps[used, 1] = corners - 1
         used += 1
-        grow(scratch, corners + 1)
+        if corners + 1 >= scratch.cells.size:
+            return _PARTIAL, i, corners, used
         scratch.points[corners] = doors.leap_to[leap]
         scratch.cells[corners] = doors.leap_to_cell[leap]
         corners += 1

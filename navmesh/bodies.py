@@ -46,8 +46,8 @@ def portals_of(graph: "NodeGraph", radius: float) -> tuple:
     return kept[radius]
 
 
-def _leaps_for(graph: "NodeGraph", radius: float, skills: tuple) -> tuple:
-    """The links on offer, grouped by the node they start from: the ``leap`` arrays of `make_doors`."""
+def _leaps_for(graph: "NodeGraph", radius: float, skills: tuple) -> dict[str, np.ndarray]:
+    """The links on offer, grouped by the node they start from: the ``leap`` arrays of `DOORS`."""
     count = len(graph.radii)
     links = graph.links
     chosen = []
@@ -55,10 +55,6 @@ def _leaps_for(graph: "NodeGraph", radius: float, skills: tuple) -> tuple:
         of_kind = (links.affordance == name) & (links.height >= low) & (links.height <= high)
         chosen.append(np.flatnonzero(of_kind & (links.radius >= radius)))
     index = np.sort(np.concatenate(chosen)) if chosen else np.empty(0, np.int64)
-    if len(index) == 0:
-        nothing = np.empty((0, 3))
-        none = np.empty(0, np.int32)
-        return np.zeros(count + 1, np.int32), none, nothing, none, nothing, none, np.empty(0)
     index = index[(graph.label[links.start_cell[index]] >= 0) & (graph.label[links.end_cell[index]] >= 0)]
     origin = graph.surface.origin
     start, end = links.start[index] - origin, links.end[index] - origin
@@ -67,15 +63,15 @@ def _leaps_for(graph: "NodeGraph", radius: float, skills: tuple) -> tuple:
     order = np.lexsort((index, node))
     starts = np.searchsorted(node[order], np.arange(count + 1)).astype(np.int32)
     cost = np.maximum(links.cost[index], np.linalg.norm(end - start, axis=1))
-    return (
-        starts,
-        index[order].astype(np.int32),
-        np.ascontiguousarray(start[order]),
-        start_cell[order],
-        np.ascontiguousarray(end[order]),
-        end_cell[order],
-        cost[order],
-    )
+    return {
+        "leap_start": starts,
+        "leap_id": index[order].astype(np.int32),
+        "leap_from": np.ascontiguousarray(start[order]),
+        "leap_from_cell": start_cell[order],
+        "leap_to": np.ascontiguousarray(end[order]),
+        "leap_to_cell": end_cell[order],
+        "leap_cost": cost[order],
+    }
 
 
 def doors_of(graph: "NodeGraph", radius: float, skills: Any, node_costs: np.ndarray | None) -> Any:
@@ -96,7 +92,7 @@ def doors_of(graph: "NodeGraph", radius: float, skills: Any, node_costs: np.ndar
         if costs.shape != (count,) or not np.all(costs >= 1.0) or not np.all(np.isfinite(costs)):
             raise NavmeshError(f"node_costs: expected {count} finite factors of at least 1, one per node")
     doors = make_doors(
-        radius, *portals_of(graph, radius), costs, node_costs is not None, *_leaps_for(graph, radius, offered)
+        radius, portals_of(graph, radius), costs, node_costs is not None, _leaps_for(graph, radius, offered)
     )
     if node_costs is None:
         if len(kept) >= _KEPT:

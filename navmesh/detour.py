@@ -56,11 +56,6 @@ def detour(net, scratch, start, goal, radius):
 
     Cells whose centre is short of the radius by less than 0.75 cells count 25 times their length.
     """
-    count = net.cell_column.size
-    if scratch.cell_stamp.size != count:
-        scratch.cell_stamp = np.zeros(count, np.int64)
-        scratch.cell_best = np.empty(count, np.float64)
-        scratch.cell_parent = np.empty(count, np.int32)
     scratch.numbers[DETOURS] += 1
     stamp = scratch.numbers[DETOURS]
     seen = scratch.cell_stamp

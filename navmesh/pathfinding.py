@@ -30,7 +30,7 @@ def _scratch_for(graph: "NodeGraph") -> Any:
     """Memory for one search, taken from the graph's stock; give it back with
     ``graph.cache["scratch"].append``."""
     stock = graph.cache.setdefault("scratch", [])
-    return stock.pop() if stock else make_scratch(len(graph.radii), len(graph.edge_target))
+    return stock.pop() if stock else make_scratch(graph)
 
 
 def _limits(graph: "NodeGraph", radius: float) -> tuple[float, float]:
@@ -164,7 +164,7 @@ class PathSearch:
         self._radius = float(radius)
         self._doors = doors_of(graph, self._radius, skills, node_costs)
         self._net = net_of(graph)
-        self._scratch = make_scratch(len(graph.radii), len(graph.edge_target))
+        self._scratch = make_scratch(graph)
         reach, rise = _limits(graph, self._radius)
         self._on_graph = start_search(
             self._net, self._doors, self._scratch, sx, sy, sz, gx, gy, gz, reach, rise

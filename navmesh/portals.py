@@ -82,7 +82,7 @@ def open_portals(net, edge_width, edge_cells, radius):
     """The portals for a body of ``radius`` [m].
 
     edge_width (e,) float64 and edge_cells (e, 2) int32: each edge's widest body, and the pair of cells, one
-    of either node, where the border of its labels is widest. Returns the arrays of `make_doors`: start (m +
+    of either node, where the border of its labels is widest. Returns the arrays of `DOORS`: start (m +
     1,), target (p,) int32, portal (p, 6) float64, portal_cell (p, 2) int32, lens (p, 2), block (p, 4)
     float64.
     """

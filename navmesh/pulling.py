@@ -2,10 +2,11 @@
 
 1. The funnel over the portals gives the corners that the line has to turn at. Each is rounded: put where the
    line before it and the one after it touch the circle of the body's radius round what it turns about.
-2. The line is walked through the clearance field. Where the body would not fit, the tightest place is pushed
-   off what blocks it, just so far that the body fits, and the two halves are walked again. Where walking ends
-   on the line, it is pulled through the lenses of the portals instead, which lie in the discs; where discs do
-   not overlap either, the cells themselves are searched.
+2. The line is walked through the clearance field. Where the body would not fit, the line is led round what
+   blocks it, along the tangents to the circle of the body's radius about that, or its tightest place is
+   pushed off, just so far that the body fits; the parts are walked again. Where walking ends on the line, it
+   is pulled through the lenses of the portals instead, which lie in the discs; where discs do not overlap
+   either, the cells themselves are searched.
 3. Corners that the line of sight jumps over are dropped.
 
 What comes out has been walked: the body fits on all of it.
@@ -18,97 +19,19 @@ from numba import njit
 
 from navmesh.detour import detour
 from navmesh.field import centre_of, floor_at, gap_at, same_place, walk
+from navmesh.funnel import funnel, round_corner, tangents
 from navmesh.portals import MARGIN
 
-__all__ = ["grow", "pull"]
+__all__ = ["pull"]
 
 _SLACK = 0.01
 """Share of the radius kept on top of it where there is room: discs of the corridor hold the path inside."""
 _FITS, _BLOCKED, _NO_WAY = range(3)
 """What can come of mending a line."""
-_SHARP = 0.5
-"""Cosine of the turn up to which one corner rounds it; sharper turns get two."""
 _ROUNDS = 4
 """Times that a line is led round what ends walking on it before it is pulled through the lenses."""
 _DEPTH = 12  # of pushes within pushes; scratch.stack holds two more
 _SPLITS = 64  # of one line: corners that fall away when the next is added could take turns for ever
-
-
-@njit(error_model="numpy", cache=True)
-def grow(scratch, count):
-    """Make room for one more corner after ``count``."""
-    if count < scratch.cells.size:
-        return
-    room = 2 * scratch.cells.size
-    old_points, old_cells = scratch.points, scratch.cells
-    points, cells = np.empty((room, 3), np.float64), np.empty(room, np.int32)
-    for i in range(count):
-        points[i, 0], points[i, 1], points[i, 2] = old_points[i, 0], old_points[i, 1], old_points[i, 2]
-        cells[i] = old_cells[i]
-    scratch.points, scratch.cells = points, cells
-
-
-@njit(error_model="numpy", cache=True, inline="always")
-def _turn(ax, ay, bx, by, cx, cy):
-    """Twice the area of a-b-c, positive where c lies to the left of a-b."""
-    return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-
-
-@njit(error_model="numpy", cache=True)
-def _funnel(doors, edges, first, last, narrow, work, at, base, sx, sy, gx, gy):
-    """Corners of the shortest line through the portals edges[first:last]; returns how many, ends included.
-
-    With ``narrow`` through their lenses only. From row ``base`` on it writes x, y into work (n, 2) and into
-    at (n,) twice the index of the portal that each corner is an end of, plus 1 for a right end (the start
-    counts as portal first - 1, the goal as last); last - first + 2 rows are enough.
-    """
-    portal, lens = doors.portal, doors.lens
-    work[base, 0], work[base, 1] = sx, sy
-    at[base] = 2 * (first - 1)
-    count = base + 1
-    ax, ay = sx, sy
-    lx, ly, lat = sx, sy, first - 1
-    rx, ry, rat = sx, sy, first - 1
-    i = first
-    while i <= last:
-        nlx, nly, nrx, nry = gx, gy, gx, gy
-        if i < last:
-            door = edges[i]
-            nlx, nly = portal[door, 0], portal[door, 1]
-            nrx, nry = portal[door, 3], portal[door, 4]
-            if narrow:
-                t, u = lens[door, 0], lens[door, 1]
-                dx, dy = nrx - nlx, nry - nly
-                nrx, nry = nlx + u * dx, nly + u * dy
-                nlx, nly = nlx + t * dx, nly + t * dy
-        if _turn(ax, ay, rx, ry, nrx, nry) >= 0.0:
-            if (ax == rx and ay == ry) or _turn(ax, ay, lx, ly, nrx, nry) < 0.0:
-                rx, ry, rat = nrx, nry, i
-            else:
-                ax, ay = lx, ly
-                if first <= lat < last:
-                    work[count, 0], work[count, 1] = lx, ly
-                    at[count] = 2 * lat
-                    count += 1
-                rx, ry, rat = lx, ly, lat
-                i = lat + 1
-                continue
-        if _turn(ax, ay, lx, ly, nlx, nly) <= 0.0:
-            if (ax == lx and ay == ly) or _turn(ax, ay, rx, ry, nlx, nly) > 0.0:
-                lx, ly, lat = nlx, nly, i
-            else:
-                ax, ay = rx, ry
-                if first <= rat < last:
-                    work[count, 0], work[count, 1] = rx, ry
-                    at[count] = 2 * rat + 1
-                    count += 1
-                lx, ly, lat = rx, ry, rat
-                i = rat + 1
-                continue
-        i += 1
-    work[count, 0], work[count, 1] = gx, gy
-    at[count] = 2 * last
-    return count + 1 - base
 
 
 @njit(error_model="numpy", cache=True)
@@ -134,6 +57,39 @@ def _push(net, k, x, y, qx, qy, radius):
         if gap >= enough:
             return True, x, y, k
     return gap >= radius, x, y, k
+
+
+@njit(error_model="numpy", cache=True)
+def _free_place(net, k, x, y, px, py, enough):
+    """The cell of p, reached straight from (x, y) in cell ``k``; -1 where it is not, or the gap at p is not
+    ``enough``."""
+    reached, cell = walk(net, k, x, y, px, py, 0.0, True)[:2]
+    return cell if reached and gap_at(net, cell, px, py)[0] >= enough else np.int64(-1)
+
+
+@njit(error_model="numpy", cache=True)
+def _lead_round(net, scratch, height, k, ax, ay, x, y, bx, by, qx, qy, radius):
+    """Put corners on the stack, of ``height``, that lead the line a-b round q, which it is too close to at
+    (x, y) in cell ``k``; returns how many.
+
+    They lie on the tangents where the body fits there; else (x, y) is pushed.
+    """
+    bend, stack, stack_cell = scratch.bend, scratch.stack, scratch.stack_cell
+    enough = radius * (1.0 + _SLACK)
+    parts = tangents(ax, ay, x, y, bx, by, qx, qy, radius * (1.0 + MARGIN), bend)
+    for part in range(parts):
+        cell = _free_place(net, k, x, y, bend[part, 0], bend[part, 1], enough)
+        if cell < 0:
+            parts = 0
+            break
+        at = height + parts - 1 - part
+        stack[at, 0], stack[at, 1], stack_cell[at] = bend[part, 0], bend[part, 1], cell
+    if parts == 0:
+        pushed, x, y, k = _push(net, k, x, y, qx, qy, radius)
+        if pushed and (x - ax) ** 2 + (y - ay) ** 2 > 1e-12 and (x - bx) ** 2 + (y - by) ** 2 > 1e-12:
+            stack[height, 0], stack[height, 1], stack_cell[height] = x, y, k
+            parts = 1
+    return parts
 
 
 @njit(error_model="numpy", cache=True)
@@ -183,10 +139,9 @@ def _append(net, doors, scratch, first, count, x, y, k):
             if _cost_along(net, doors, a, ax, ay, x, y) > bent * (1.0 + 1e-9):
                 break
         count -= 1
-    grow(scratch, count + 1)
-    scratch.points[count, 0] = x
-    scratch.points[count, 1] = y
-    scratch.cells[count] = k
+    points[count, 0] = x
+    points[count, 1] = y
+    cells[count] = k
     return count + 1
 
 
@@ -233,13 +188,15 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_
     """
     radius = doors.radius
     enough = radius * (1.0 + _SLACK)
-    stack, stack_cell = scratch.stack, scratch.stack_cell
+    points, stack, stack_cell = scratch.points, scratch.stack, scratch.stack_cell
     stack[0, 0], stack[0, 1] = gx, gy
     stack_cell[0] = goal_cell
     height = 1
     splits = 0
+    room = scratch.cells.size
     while height > 0:
-        points = scratch.points
+        if count >= room:
+            return count, _NO_WAY
         k = np.int64(scratch.cells[count - 1])
         ax, ay = points[count - 1, 0], points[count - 1, 1]
         bx, by = stack[height - 1, 0], stack[height - 1, 1]
@@ -253,12 +210,10 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_
         if walked and height <= _DEPTH and splits < _SPLITS:
             x = ax + place * (bx - ax)
             y = ay + place * (by - ay)
-            pushed, x, y, at = _push(net, tight, x, y, qx, qy, radius)
-            if pushed and (x - ax) ** 2 + (y - ay) ** 2 > 1e-12 and (x - bx) ** 2 + (y - by) ** 2 > 1e-12:
-                stack[height, 0], stack[height, 1] = x, y
-                stack_cell[height] = at
-                height += 1
-                splits += 1
+            more = _lead_round(net, scratch, height, tight, ax, ay, x, y, bx, by, qx, qy, radius)
+            if more > 0:
+                height += more
+                splits += more
                 continue
         if walked and gap >= radius:
             count = _append(net, doors, scratch, first, count, bx, by, target)
@@ -275,14 +230,14 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_
         if not last_try:
             return count, _BLOCKED
         cells = detour(net, scratch, k, target, radius)
-        if cells.size == 0:
+        if cells.size == 0 or count + cells.size > room:
             return count, _NO_WAY
         for step in range(1, cells.size - 1):
             at = np.int64(cells[step])
             x, y = centre_of(net, at)
             if net.clearance[at] < radius:
                 gap, qx, qy = gap_at(net, at, x, y)
-                pushed, x, y, at = _push(net, at, x, y, qx, qy, radius)
+                _, x, y, at = _push(net, at, x, y, qx, qy, radius)
             count = _append(net, doors, scratch, first, count, x, y, at)
         count = _append(net, doors, scratch, first, count, bx, by, target)
         height -= 1
@@ -304,7 +259,7 @@ def _through_lenses(net, doors, scratch, first, count, low, high, free, gx, gy, 
     """
     work, at = scratch.corner, scratch.corner_at
     sx, sy = scratch.points[count - 1, 0], scratch.points[count - 1, 1]
-    corners = _funnel(doors, scratch.edges, low, high, True, work, at, free, sx, sy, gx, gy)
+    corners = funnel(doors, scratch.edges, low, high, True, work, at, free, sx, sy, gx, gy)
     for i in range(free + 1, free + corners):
         x, y, k = work[i, 0], work[i, 1], goal_cell
         if i < free + corners - 1:
@@ -316,37 +271,6 @@ def _through_lenses(net, doors, scratch, first, count, low, high, free, gx, gy, 
 
 
 @njit(error_model="numpy", cache=True)
-def _rounded(work, i, side, qx, qy, radius, arc):
-    """Corners that lead the funnel's line, at its corner ``i``, round q at the distance ``radius``.
-
-    Each is where the tangents to the circle before and after it meet. Writes them into arc (2, 2) and returns
-    how many: the sharper the turn, the more. 0 where q is not on the inner side of the turn.
-    """
-    ax, ay = work[i, 0] - work[i - 1, 0], work[i, 1] - work[i - 1, 1]
-    bx, by = work[i + 1, 0] - work[i, 0], work[i + 1, 1] - work[i, 1]
-    a, b = sqrt(ax * ax + ay * ay), sqrt(bx * bx + by * by)
-    if a < 1e-9 or b < 1e-9:
-        return 0
-    # unit normals of both lines, away from q
-    way = 1.0 if side == 0 else -1.0
-    ax, ay = way * ay / a, -way * ax / a
-    bx, by = way * by / b, -way * bx / b
-    dot = ax * bx + ay * by
-    if (work[i, 0] - qx) * (ax + bx) + (work[i, 1] - qy) * (ay + by) <= 0.0 or dot < -0.99:
-        return 0
-    if dot >= _SHARP:
-        share = radius / (1.0 + dot)
-        arc[0, 0], arc[0, 1] = qx + share * (ax + bx), qy + share * (ay + by)
-        return 1
-    half = 1.0 / sqrt(2.0 + 2.0 * dot)
-    mx, my = half * (ax + bx), half * (ay + by)
-    share = radius / (1.0 + ax * mx + ay * my)
-    arc[0, 0], arc[0, 1] = qx + share * (ax + mx), qy + share * (ay + my)
-    arc[1, 0], arc[1, 1] = qx + share * (bx + mx), qy + share * (by + my)
-    return 2
-
-
-@njit(error_model="numpy", cache=True)
 def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell):
     """Pull one walked leg taut: from the last corner in ``scratch.points`` through the portals of
     edges[first:last].
@@ -354,13 +278,9 @@ def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell):
     Returns the new number of corners and whether the goal was reached.
     """
     leg = count - 1
-    room = 2 * (last - first + 2)
-    if scratch.corner_at.size < room:
-        scratch.corner = np.empty((2 * room, 2), np.float64)
-        scratch.corner_at = np.empty(2 * room, np.int32)
     work, at, arc = scratch.corner, scratch.corner_at, scratch.arc
     sx, sy = scratch.points[leg, 0], scratch.points[leg, 1]
-    corners = _funnel(doors, scratch.edges, first, last, False, work, at, 0, sx, sy, gx, gy)
+    corners = funnel(doors, scratch.edges, first, last, False, work, at, 0, sx, sy, gx, gy)
     radius = doors.radius
     edges = scratch.edges
     for i in range(1, corners):
@@ -370,7 +290,7 @@ def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell):
             door = edges[at[i] >> 1]
             qx, qy = doors.block[door, 2 * side], doors.block[door, 2 * side + 1]
             if qx < np.inf:
-                parts = _rounded(work, i, side, qx, qy, radius * (1.0 + MARGIN), arc)
+                parts = round_corner(work, i, side, qx, qy, radius * (1.0 + MARGIN), arc)
         for part in range(max(parts, 1)):
             x, y, k = work[i, 0], work[i, 1], goal_cell
             if i < corners - 1:

@@ -8,7 +8,6 @@ estimated by the straight line to the goal, which never overestimates because no
 
 from math import sqrt
 
-import numpy as np
 from numba import njit
 
 __all__ = ["BEST", "COMPLETE", "EMPTY", "EXPANDED", "RUNNING", "advance", "begin", "chain"]
@@ -90,9 +89,6 @@ def begin(net, doors, scratch, start_node, goal_node, sx, sy, sz, gx, gy, gz):
     numbers = scratch.numbers
     numbers[_STAMP] += 1
     numbers[_HEAP] = 1
-    if scratch.heap_key.size < doors.target.size + doors.leap_id.size + 2:  # every door is used once at most
-        scratch.heap_key = np.empty(doors.target.size + doors.leap_id.size + 2, np.float64)
-        scratch.heap_node = np.empty(doors.target.size + doors.leap_id.size + 2, np.int32)
     numbers[_STATE] = RUNNING
     numbers[_GOAL_NODE] = goal_node
     numbers[BEST] = start_node

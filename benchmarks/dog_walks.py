@@ -17,21 +17,25 @@ from locomotion.quadruped.pose import body_names
 from navmesh.probes import ProbeGrid, surface_below
 
 SCANS = ("IPproj_ClassRoomSpatialMapping", "collabxr_SpatialMapping")
+GLB_LEVELS = ("proto-level", "bridges")
 _EXPANSE = 5000.0  # [m] farther up or down than any level
+_LONG, _SHORT = (4.0, 25.0), (1.3, 12.0)  # [m] of routes; in the levels that are small, what there is
+_SMALL = (*SCANS, "bridges")
 
 
 def load_level(name: str) -> navmesh.Terrain:
     """One of the shared levels or scans."""
-    if name in SCANS:
-        folder = shared_folder()
-        assert folder is not None
-        return navmesh.Terrain.load(folder / "levels" / "scans" / f"{name}.obj", up="y")
-    return navmesh.Terrain.load(level_path(name), up="y")
+    if name in LEVELS:
+        return navmesh.Terrain.load(level_path(name), up="y")
+    folder = shared_folder()
+    assert folder is not None
+    kind, suffix = ("scans", "obj") if name in SCANS else ("glb", "glb")
+    return navmesh.Terrain.load(folder / "levels" / kind / f"{name}.{suffix}", up="y")
 
 
 def dog_graph(name: str, body: Body) -> navmesh.NodeGraph:
     """The graph of a level for a body; finer in the scans of rooms."""
-    rules = body.walk_rules(0.1 if name in SCANS else 0.25)
+    rules = body.walk_rules(0.1 if name in SCANS else None)
     return navmesh.NodeGraph.build(load_level(name), rules, obstacle_rules=None)
 
 
@@ -190,8 +194,8 @@ def _walk(
 def following(quick: bool) -> dict[str, Any]:
     """Row by level: how far from the path, how the feet stand, how the joints move."""
     result: dict[str, Any] = {}
-    for name in (*LEVELS, *SCANS):
-        lengths = (4.0, 25.0) if name in LEVELS else (1.3, 12.0)
+    for name in (*LEVELS, *GLB_LEVELS, *SCANS):
+        lengths = _SHORT if name in _SMALL else _LONG
         walked = walk_paths(name, 3 if quick else 12, (1.0, 2.0), 0, lengths)
         if not walked.front:
             result[name] = {"paths": 0}

@@ -43,6 +43,7 @@ def walk_rules(
         "max_slope": min(each["max_slope"] for each in needs),
         "max_step": min(each["max_step"] for each in needs),
         "min_radius": min(each["min_radius"] for each in needs),
+        "resolution": min(each["resolution"] for each in needs),
     }
     return navmesh.WalkRules(
         **{**common, **{name: value for name, value in given.items() if value is not None}}
@@ -52,5 +53,5 @@ def walk_rules(
 def _needs(body: str) -> dict[str, float]:
     """Its walk rules, by name."""
     if body in ("human", "walker"):
-        return {**PERSON_RULES, "min_radius": navmesh.WalkRules().min_radius}
+        return {**navmesh.WalkRules().to_dict(), **PERSON_RULES}
     return load_body(body).walk_rules().to_dict()

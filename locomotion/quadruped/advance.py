@@ -43,7 +43,7 @@ def advance_all(state, params, gaits, pool, ground, origin, feet, crumbs, poses,
         pr = params[kind]
         _move(st, pr, pool)
         place_body(st, pr, pool)
-        step_gait(st, pr, gaits[kind])
+        step_gait(st, pr, gaits[kind], feet[i])
         settled = step_feet(st, pr, pool, ground, origin, feet[i])
         st[at.REST] = 1.0 if settled and _is_over(st) and not misplaced(st, pr, pool, feet[i]) else 0.0
         _carry(st, pr, feet[i])

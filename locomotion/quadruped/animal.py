@@ -38,7 +38,7 @@ _Phase = Literal[
 SHORT_OF_GOAL = 0.6
 """[body lengths] from the goal within which an animal has arrived: it stops short of a goal at a wall, where
 its head has no room."""
-_LITTLE = math.radians(8.0)  # a turn onto the path that needs no motion of its own
+_LITTLE = math.radians(3.5)  # a turn onto the path without a motion of its own: 3 cm beside it, for a dog
 _EXACT = 1e-3  # [rad] of facing that is left as it is
 _MOST_BACKING = 4  # times that it backs out on its way to one goal
 _LOOK_BACK = 40  # crumbs with room that are tried

@@ -260,9 +260,11 @@ class Body(_Strict):
         """Names of the gaits as the kernels number them: by speed, then those on request."""
         return tuple(sorted(self.gaits, key=lambda name: self.gaits[name].on_request))
 
-    def walk_rules(self, resolution: float = 0.25) -> navmesh.WalkRules:
-        """Where this body can walk, for `navmesh.NodeGraph.build`."""
+    def walk_rules(self, resolution: float | None = None) -> navmesh.WalkRules:
+        """Where this body can walk, for `navmesh.NodeGraph.build`. ``resolution`` [m] is by default no more
+        than its radius: what is narrower than a cell can be missed."""
         move = self.movement
+        resolution = min(0.25, self.radius) if resolution is None else resolution
         return navmesh.WalkRules(
             max_slope=math.radians(move.slope_deg), max_step=min(move.step, move.headroom / 2),
             headroom=move.headroom, resolution=resolution, min_radius=min(0.1, self.radius),

@@ -7,7 +7,6 @@ import math
 from numba import njit
 
 from locomotion.quadruped import layout as at
-from locomotion.quadruped.following import spring
 from locomotion.quadruped.motion import DT
 
 __all__ = ["leg_phase", "step_gait"]
@@ -15,7 +14,6 @@ __all__ = ["leg_phase", "step_gait"]
 _HYSTERESIS = 0.12  # share of the speed of the change by which it must be missed to change back
 _BLEND = math.exp(-DT * 0.69314718056 / 0.10)  # half of a change of gait in 0.10 s
 _SHIFT = 0.5  # share of the clock's pace at which a touchdown moves within the stride at most
-_SHIFT_HALF_LIFE = 0.15  # [s] of its way there: a paw in its swing then speeds up, or slows down, over ticks
 _SCRIPT_DUTY = 0.62
 _FORESIGHT = (
     0.4  # [s] ahead for whose speed strides are quickened: a foot that stands now will be needed then
@@ -29,8 +27,10 @@ def _eased(now, goal):
 
 
 @njit(cache=True)
-def step_gait(st, pr, gaits):
-    """One tick: choose the gait by speed, ease its numbers into the row ``st``, turn the clock."""
+def step_gait(st, pr, gaits, feet):
+    """One tick: choose the gait by speed, ease its numbers into the row ``st``, turn the clock. When one gait
+    gives way to another, a foot's touchdown moves within the stride only while that foot of ``feet`` (4,
+    FOOT) stands: a paw ends its swing as it began it."""
     speed = st[at.SPEED]
     now = int(st[at.GAIT_NOW])
     if st[at.GAIT_WISH] >= 0.0:
@@ -57,14 +57,13 @@ def step_gait(st, pr, gaits):
     st[at.LIFT_NOW] = _eased(st[at.LIFT_NOW], gait[at.LIFT])
     st[at.BOB_NOW] = _eased(st[at.BOB_NOW], gait[at.BOB] * min(speed, 1.0))
     st[at.ROCK_NOW] = _eased(st[at.ROCK_NOW], gait[at.ROCK] * min(speed, 1.0))
-    shift = _SHIFT * st[at.FREQUENCY_NOW]
+    shift = _SHIFT * st[at.FREQUENCY_NOW] * DT
     for leg in range(4):
-        k = at.TOUCHDOWN_NOW + leg
-        off = gait[at.TOUCHDOWN + leg] - st[k]
-        off -= math.floor(off + 0.5)
-        _, rate = spring(-off, st[at.TOUCHDOWN_RATE + leg], _SHIFT_HALF_LIFE)
-        st[at.TOUCHDOWN_RATE + leg] = min(max(rate, -shift), shift)
-        st[k] += st[at.TOUCHDOWN_RATE + leg] * DT
+        if feet[leg, at.IN_SWING] == 0.0:
+            k = at.TOUCHDOWN_NOW + leg
+            off = gait[at.TOUCHDOWN + leg] - st[k]
+            off -= math.floor(off + 0.5)
+            st[k] += min(max(off, -shift), shift)
     if st[at.REST] == 0.0:
         st[at.CLOCK] += st[at.FREQUENCY_NOW] * DT
         st[at.CLOCK] -= math.floor(st[at.CLOCK])

@@ -119,9 +119,7 @@ FIXED_LOOK = 65
 """1: LOOK_X, LOOK_Y are given, 0: worked out from the trail."""
 CRUMBS, CRUMB_LAST = 66, 67
 """How many crumbs lie on the trail behind; index of the last one in the ring."""
-TOUCHDOWN_RATE = 68
-"""Four columns: [1/s] by which the touchdowns move within the stride."""
-STATE = 72
+STATE = 68
 
 # --- feet
 FX, FY, FZ = 0, 1, 2

@@ -7,7 +7,9 @@ import pytest
 from quadruped_scenes import animal_on, bone_toes, floor, plane, quads, run, stairs
 from scipy.spatial import KDTree
 
-from locomotion import Ground, LocomotionError
+import navmesh
+from benchmarks.shared_data import level_path, shared_folder, why_absent
+from locomotion import Ground, LocomotionError, smooth_route
 from locomotion.events import Arrived, MissedGoal, SetOff
 from locomotion.quadruped import Herd, lay_trail, load_body, stopping_distance
 from locomotion.quadruped import layout as at
@@ -118,22 +120,52 @@ def test_gaits_change_with_speed_and_diagonals_trot():
     assert np.mean(together) > 0.7
 
 
-def test_paws_change_their_pace_over_ticks_when_the_gait_changes():
+def test_a_paw_ends_its_swing_as_it_began_it_when_the_gait_changes():
     herd, index, _ = follow(load_body("dog"), 2.0, np.array([[0.0, 0, 0], [15.0, 0, 0]]))
-    state, phases, paces, seen = herd.state[index], [], [], []
+    state, phases, paces, swings, seen = herd.state[index], [], [], [], []
     while not herd.resting(index):
+        swings.append(~herd.standing_feet(index))
         herd.tick()
         phases.append([leg_phase(state, leg) for leg in range(4)])
         paces.append(0.01 * state[at.FREQUENCY_NOW])
         seen.append(int(state[at.GAIT_NOW]))
-    turned = np.diff(phases, axis=0) % 1.0
-    assert (np.abs(np.diff(turned, axis=0)) / np.array(paces)[2:, None]).max() < 0.15
+    turned = np.diff(phases, axis=0) % 1.0 / np.array(paces)[1:, None]
+    assert np.abs(turned - 1.0)[np.array(swings)[1:]].max() < 1e-9
+    assert np.abs(turned - 1.0).max() > 0.2  # it is done by those that stand
     # and they are there within a second
     touchdown = np.array([herd.bodies[index].gaits["trot"].touchdown[leg] for leg in at.LEGS])
     settled = np.array(phases)[seen.index(1) + 100]
     apart = (settled - settled[0] + touchdown - touchdown[0] + 0.5) % 1.0 - 0.5
     assert np.abs(apart).max() < 0.01
     assert seen[-1] == 0
+
+
+@pytest.mark.parametrize("degrees", [1.0, 3.0, 6.0, 15.0])
+def test_the_front_is_on_the_path_from_the_first_step(degrees):
+    turn = math.radians(degrees)
+    animal = animal_on(plane())
+    animal.go_to((3.0 * math.cos(turn), 3.0 * math.sin(turn), 0.0), 1.0)
+    beside = []
+
+    def look():
+        if animal.speed > 0.0:
+            x, y = animal.herd.front(animal.index)
+            beside.append(abs(y * math.cos(turn) - x * math.sin(turn)))
+
+    run(animal, each=look)
+    assert max(beside) < 0.03
+
+
+@pytest.mark.skipif(shared_folder() is None, reason=why_absent())
+def test_its_own_rules_keep_its_path_on_the_ground():
+    """Around this corner of a pit, cells twice as wide as the dog led over the void."""
+    body = load_body("dog")
+    terrain = navmesh.Terrain.load(level_path("nav_test"), up="y")
+    graph = navmesh.NodeGraph.build(terrain, body.walk_rules(), obstacle_rules=None)
+    route = graph.find_path((-8.9, -21.9, -2.4), (-5.6, -3.1, -2.4), radius=body.radius)
+    points = smooth_route(route, body.smoothing).points
+    ground = Ground.from_arrays(terrain.vertices, terrain.faces)
+    assert np.abs(ground.surface_below(points + np.array([0.0, 0.0, 0.3]))[0] - points[:, 2]).max() < 0.1
 
 
 @pytest.mark.parametrize("speed", [0.6, 1.2, 2.4])

@@ -228,7 +228,10 @@ def replay(
 
 @app.command()
 def train(
-    skill: Annotated[Skill, typer.Argument(help="What to learn.")],
+    skill: Annotated[Skill | None, typer.Argument(help="What to learn.")] = None,
+    everything: Annotated[
+        bool, typer.Option("--all", help="Learn the whole library, for the package, one skill after another.")
+    ] = False,
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="File for the skill; default: the package's.")
     ] = None,
@@ -243,18 +246,29 @@ def train(
     ] = 1.0,
 ) -> None:
     """Learn a skill, with progress. Interrupted, it goes on from its checkpoint when started again."""
-    _commands().train_skill(skill.value, output, seed, workers, checkpoint, effort)
+    if (skill is None) is not everything or (everything and (output or checkpoint)):
+        raise typer.BadParameter("name one skill, or --all without --output and --checkpoint")
+    _commands()
+    from runtime import skill_commands
+
+    if skill is None:
+        skill_commands.train_library(seed, workers, effort)
+    else:
+        skill_commands.train_skill(skill.value, output, seed, workers, checkpoint, effort)
 
 
 @app.command()
 def evaluate(
     skill: Annotated[Skill, typer.Argument(help="What to try.")],
-    trials: Annotated[int, typer.Option(min=1, help="How many trials.")] = 20,
+    trials: Annotated[int, typer.Option(min=1, help="How many trials of each test.")] = 20,
     seed: Annotated[int, typer.Option(min=0, help="Of the trials.")] = 0,
     as_json: JsonOption = False,
 ) -> None:
     """Try a learned skill from many starts and say how often it holds."""
-    _finish(_commands().evaluate_skill(skill.value, trials, seed), as_json)
+    _commands()
+    from runtime.skill_commands import evaluate_skill
+
+    _finish(evaluate_skill(skill.value, trials, seed), as_json)
 
 
 @app.command()
@@ -274,7 +288,10 @@ def clip(
     as_json: JsonOption = False,
 ) -> None:
     """Show a motion and say where it breaks the joints' ranges, sinks into the ground or floats."""
-    _finish(_commands().show_clip(source, mapping, units, up.value, film, output), as_json)
+    _commands()
+    from runtime.skill_commands import show_clip
+
+    _finish(show_clip(source, mapping, units, up.value, film, output), as_json)
 
 
 def _commands() -> Any:

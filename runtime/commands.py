@@ -3,7 +3,7 @@
 import json
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -27,14 +27,11 @@ __all__ = [
     "bake_level",
     "check_mission_file",
     "check_output",
-    "evaluate_skill",
     "find_path",
     "ready",
     "run_mission_file",
     "serve_worlds",
-    "show_clip",
     "show_mission",
-    "train_skill",
     "write_schema",
 ]
 
@@ -176,55 +173,6 @@ def serve_worlds(
     asyncio.run(server.run(lambda port: print(f"serving on ws://{where}:{port}", flush=True)))
 
 
-def train_skill(
-    skill: str, output: Path | None, seed: int, workers: int, checkpoint: Path | None, effort: float
-) -> None:
-    """Learn ``skill`` and write it to ``output`` (None: where the package keeps its own)."""
-    from locomotion.training.drop_roll import train_drop_roll
-    from locomotion.training.jump import train_jump
-    from locomotion.training.run import train_run
-    from locomotion.training.vault import train_vault
-    from locomotion.training.walk import train_walk
-
-    train = {
-        "run": train_run, "walk": train_walk, "jump": train_jump, "vault": train_vault,
-        "drop-roll": train_drop_roll,
-    }[skill]  # fmt: skip
-    where = {} if output is None else {"out": output}
-    if output is not None:
-        check_output(output)
-    kept = checkpoint or Path(f"{skill}.checkpoint")
-    train(**where, seed=seed, checkpoint=kept, workers=workers, effort=effort)
-    print(f"learned to {skill}; the checkpoint {kept} is not needed any more")
-
-
-def evaluate_skill(skill: str, trials: int, seed: int) -> Result:
-    """Try ``skill``; holds when at least nine of ten trials do."""
-    from runtime.evaluation import (
-        evaluate_drop_roll,
-        evaluate_jump,
-        evaluate_run,
-        evaluate_vault,
-        evaluate_walk,
-    )
-
-    progress = ready()
-    evaluate = {
-        "run": evaluate_run, "walk": evaluate_walk, "jump": evaluate_jump, "vault": evaluate_vault,
-        "drop-roll": evaluate_drop_roll,
-    }[skill]  # fmt: skip
-    attempts = evaluate(trials, seed, progress)
-    held = sum(attempt.held for attempt in attempts)
-    values = {"skill": skill, "held": held, "trials": trials, "attempts": [asdict(each) for each in attempts]}
-
-    def show() -> None:
-        for attempt in attempts:
-            print(f"{attempt.what:24} {attempt.status}")
-        print(f"{skill}: {held} of {trials} held ({100.0 * held / trials:.0f} %)")
-
-    return Result(values, held >= 0.9 * trials, show)
-
-
 def _write_results(trace: Trace, folder: Path, progress: Progress) -> list[Path]:
     from runtime.filmstrip import write_filmstrip
     from runtime.plot import plot_from_above
@@ -300,34 +248,3 @@ def _kinds(graph: navmesh.NodeGraph) -> list[str]:
 def _print_values(values: Mapping[str, Any]) -> None:
     for name, value in values.items():
         print(f"{name:15} {value}")
-
-
-def show_clip(
-    source: Path, mapping: Path | None, units: str, up: str, film: Path | None, output: Path | None
-) -> Result:
-    """Check a clip or a captured motion; draw it to ``film``, save it as the person's motion to
-    ``output``."""
-    from locomotion.motion_check import check_motion
-    from runtime.clips import read_motion, write_motion_film
-
-    motion = read_motion(source, mapping, units, up)
-    for path in (film, output):
-        if path is not None:
-            check_output(path)
-    faults = check_motion(motion)
-    if film is not None:
-        write_motion_film(motion, film, Progress())
-    if output is not None:
-        motion.save(output)
-    values = {
-        "name": motion.name,
-        "seconds": round(motion.duration, 3),
-        "rate": motion.rate,
-        "faults": [asdict(fault) for fault in faults],
-    }
-
-    def show() -> None:
-        print(f"{motion.name}: {motion.duration:.2f} s at {motion.rate:.0f} Hz")
-        print("\n".join(f"  {fault}" for fault in faults) or "  within its joints, on the ground")
-
-    return Result(values, not faults, show)

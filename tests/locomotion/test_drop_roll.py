@@ -18,11 +18,10 @@ from locomotion.drop_roll_skill import (
 )
 from locomotion.errors import LocomotionError
 from locomotion.events import Cleared, TookOff
-from locomotion.ground import Ground
 from locomotion.human_state import MOVING
 from locomotion.person import JOINT_NAMES, person_spec
 from locomotion.route_smoothing import ObstacleAhead
-from runtime.drop_trials import drop_attempt, ledge
+from runtime.courses import enter_course, make_course, run_course
 
 N = len(JOINT_NAMES)
 
@@ -33,13 +32,7 @@ def skill():
 
 
 def dropper(height, distance):
-    human = Human(Ground.from_arrays(*ledge(height)))
-    human.reset((-distance, 0.0, 0.0), 0.0)
-    path = [[-distance, 0, 0], [-1e-3, 0, 0], [1e-3, 0, -height], [15, 0, -height]]
-    human.follow(
-        path, 3.5, [ObstacleAhead(distance, "drop", height, np.zeros(3), np.array([-1.0, 0.0, 0.0]))]
-    )
-    return human
+    return enter_course(make_course([("drop", height, 0.0)], [distance]))
 
 
 def random_tables(seed):
@@ -141,32 +134,15 @@ def test_rolls_off_a_ledge_and_goes_on(height):
 
 def test_most_drops_succeed():
     rng = np.random.default_rng(4)
-    results = [drop_attempt(float(rng.uniform(0.9, 2.0)), float(rng.uniform(10, 20))) for _ in range(12)]
+    starts = [(float(rng.uniform(0.9, 2.0)), float(rng.uniform(10, 20))) for _ in range(12)]
+    results = [run_course(make_course([("drop", height, 0.0)], [distance])) for height, distance in starts]
     assert sum(result.ended == "arrived" for result in results) >= 8
-    assert all(result.peak < 25.0 for result in results)
-
-
-def test_a_roll_goes_on_bit_for_bit_from_a_saved_state():
-    human = dropper(1.2, 11.0)
-    while human.status != "dropping":
-        human.tick()
-    for _ in range(90):
-        human.tick()
-    saved = human.save_state()
-
-    def later():
-        for _ in range(120):
-            human.tick()
-        return human.state_hash()
-
-    first = later()
-    human.restore_state(saved)
-    assert later() == first
+    assert all(result.passages[0].peak < 25.0 for result in results)
 
 
 def test_a_body_that_does_not_come_up_has_fallen(skill):
     never = skill.table.copy()
     never[:, dr.parameter_slices()["rise"].start] = 20.0
     stuck = type(skill)(skill.kind, skill.heights, never, skill.references, skill.stride, skill.run)
-    result = drop_attempt(1.2, 10.0, [DropRoll(stuck)])
-    assert result.ended == "fallen in the roll"
+    result = run_course(make_course([("drop", 1.2, 0.0)], [10.0]), [DropRoll(stuck)])
+    assert result.ended == "fallen in the skill"

@@ -7,15 +7,10 @@ import numpy as np
 import pytest
 
 from locomotion import controller, jump
-from locomotion.body import Human
 from locomotion.errors import LocomotionError
-from locomotion.events import Cleared, TookOff
-from locomotion.ground import Ground
-from locomotion.human_state import MOVING
 from locomotion.jump_reference import wanted_offset
 from locomotion.jump_skill import Jump, jump_clip, load_jump_skill, run_digest, tables_of
 from locomotion.person import CONTROL_DT, JOINT_NAMES
-from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import load_run_skill, run_clip
 
 
@@ -27,28 +22,6 @@ def run():
 @pytest.fixture(scope="module")
 def skill():
     return load_jump_skill()
-
-
-def stair(height, side=6.0):
-    corners, faces = [], []
-    for quad in (
-        [(-40, -side, 0), (0, -side, 0), (0, side, 0), (-40, side, 0)],
-        [(0, side, 0), (0, -side, 0), (0, -side, height), (0, side, height)],
-        [(0, -side, height), (30, -side, height), (30, side, height), (0, side, height)],
-    ):
-        first = len(corners)
-        corners += quad
-        faces += [(first, first + 1, first + 2), (first, first + 2, first + 3)]
-    return Ground.from_arrays(np.array(corners, dtype=float), np.array(faces))
-
-
-def runner(ground, height, distance):
-    human = Human(ground)
-    human.reset((-distance, 0.0, 0.0), 0.0)
-    path = [[-distance, 0, 0], [-1e-3, 0, 0], [1e-3, 0, height], [25, 0, height]]
-    edge, normal = np.array([0.0, 0.0, height]), np.array([-1.0, 0.0, 0.0])
-    human.follow(path, 3.5, [ObstacleAhead(distance, "jump", height, edge, normal)])
-    return human
 
 
 def random_tables(run, seed):
@@ -137,38 +110,6 @@ def test_learned_heights_are_met_and_between_them_lines(run, skill):
 def test_heights_that_were_not_learned_are_refused(run, skill, height):
     with pytest.raises(LocomotionError, match="was not learned"):
         skill.at(height, run)
-
-
-@pytest.mark.parametrize("height", [0.3, 0.4, 0.5])
-def test_jumps_onto_a_stair_and_runs_on(height):
-    ground, cleared = stair(height), 0
-    for distance in (11.3, 14.7, 18.2, 21.9):
-        human = runner(ground, height, distance)
-        while human.status in MOVING and human.position[0] < 12.0:
-            human.tick()
-        onto = human.status == "running" and human.position[2] == pytest.approx(height, abs=1e-3)
-        cleared += onto and any(isinstance(event, Cleared) for event in human.events)
-        assert any(isinstance(event, TookOff) for event in human.events)
-    assert cleared >= 3
-
-
-def test_a_jump_repeats_and_is_restored_bit_for_bit():
-    ground = stair(0.4)
-    first, second = (runner(ground, 0.4, 10.0) for _ in range(2))
-    saved = None
-    while first.position[0] < 3.0 and first.status in MOVING:
-        first.tick()
-        if saved is None and first.status == "jumping":
-            saved = first.save_state()
-    while second.time < first.time:
-        second.tick()
-    assert first.state_hash() == second.state_hash()
-    assert saved is not None
-    third = Human(ground)
-    third.restore_state(saved)
-    while third.time < first.time:
-        third.tick()
-    assert first.state_hash() == third.state_hash()
 
 
 def test_the_jump_belongs_to_the_run(run, skill):

@@ -5,16 +5,10 @@ import pytest
 
 from locomotion import controller, vault
 from locomotion.arm_reach import ARM_START, hand_place
-from locomotion.body import Human
 from locomotion.clearing_law import MIRROR, MIRROR_SIGN, mirror
 from locomotion.errors import LocomotionError
-from locomotion.events import Cleared, TookOff
-from locomotion.ground import Ground
-from locomotion.hand_hold import holding
-from locomotion.human_state import MOVING
 from locomotion.jump_skill import run_digest
 from locomotion.person import CONTROL_DT, JOINT_NAMES, STANDING_HEIGHT
-from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import load_run_skill, run_clip
 from locomotion.vault_reference import wanted_offset
 from locomotion.vault_skill import Vault, load_vault_skill, tables_of, vault_clip
@@ -208,73 +202,6 @@ def test_clip_tucks_both_legs_and_stretches_the_arm():
 def test_mirror_tables():
     assert (MIRROR[MIRROR] == np.arange(len(JOINT_NAMES))).all()
     assert (MIRROR_SIGN[MIRROR] == MIRROR_SIGN).all()
-
-
-def wall(height, depth=0.3, side=4.0):
-    corners, faces = [], []
-    for quad in (
-        [(-40, -side, 0), (0, -side, 0), (0, side, 0), (-40, side, 0)],
-        [(0, side, 0), (0, -side, 0), (0, -side, height), (0, side, height)],
-        [(0, -side, height), (depth, -side, height), (depth, side, height), (0, side, height)],
-        [(depth, -side, 0), (depth, side, 0), (depth, side, height), (depth, -side, height)],
-        [(depth, -side, 0), (30, -side, 0), (30, side, 0), (depth, side, 0)],
-    ):
-        first = len(corners)
-        corners += quad
-        faces += [(first, first + 1, first + 2), (first, first + 2, first + 3)]
-    return Ground.from_arrays(np.array(corners, dtype=float), np.array(faces))
-
-
-def runner(ground, height, distance):
-    human = Human(ground)
-    human.reset((-distance, 0.0, 0.0), 0.0)
-    edge, normal = np.array([0.0, 0.0, height]), np.array([-1.0, 0.0, 0.0])
-    human.follow(
-        [[-distance, 0, 0], [20, 0, 0]], 3.5, [ObstacleAhead(distance, "vault", height, edge, normal, 0.3)]
-    )
-    return human
-
-
-def test_vaults_over_walls_with_a_hand_on_them_and_runs_on():
-    over = 0
-    low, high = load_vault_skill().range
-    for height in (low, 0.5 * (low + high)):
-        ground = wall(height)
-        for distance in (11.0, 13.0, 15.0, 17.0):
-            human, held = runner(ground, height, distance), False
-            while human.status in MOVING and human.position[0] < 3.5:
-                human.tick()
-                held = held or holding(human.data, 1.0) or holding(human.data, -1.0)
-                assert not (human.status != "vaulting" and human.data.eq_active.any())
-            kinds = [type(event) for event in human.events]
-            assert TookOff in kinds
-            over += held and human.status == "running" and Cleared in kinds
-    assert over >= 5
-
-
-def test_a_vault_repeats_and_is_restored_bit_for_bit_while_the_hand_holds():
-    ground = wall(0.7)
-    first, second = (runner(ground, 0.7, 10.0) for _ in range(2))
-    saved = None
-    while first.position[0] < 1.0 and first.status in MOVING:
-        first.tick()
-        if saved is None and first.data.eq_active.any():
-            saved = first.save_state()
-    while second.time < first.time:
-        second.tick()
-    assert first.state_hash() == second.state_hash()
-    assert saved is not None
-    third = Human(ground)
-    third.restore_state(saved)
-    while third.time < first.time:
-        third.tick()
-    assert first.state_hash() == third.state_hash()
-
-
-@pytest.mark.parametrize("height", [0.4, 1.3])
-def test_a_wall_out_of_range_is_refused_before_the_run_up(height):
-    with pytest.raises(LocomotionError, match=f"no skill clears vault {height:.2f} m; there are .*vault"):
-        runner(wall(height), height, 12.0)
 
 
 def test_the_vault_belongs_to_the_run(run):

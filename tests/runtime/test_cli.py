@@ -52,6 +52,9 @@ def test_help(surefoot, command):
         (["bake", "level.obj", "-o", "graph.npz", "--up", "w"], "'x', 'y', 'z'"),
         (["path", "graph.npz", "--start", "1", "2"], "start"),
         (["train", "swim"], "'run', 'walk', 'jump'"),
+        (["train"], "one skill"),
+        (["train", "run", "--all"], "one skill"),
+        (["train", "--all", "--checkpoint", "kept"], "one skill"),
     ],
 )
 def test_usage_errors(surefoot, arguments, says):

@@ -1,0 +1,126 @@
+"""How well the person clears an obstacle from the run, height by height, and what went wrong.
+
+    python -m benchmarks.clearing jump [--heights 0.3 0.4 0.5] [--every 0.1] [--json jumping.json]
+
+For every height the person starts from standing at d = 10 to 30 m before the obstacle (a stair up, a wall
+0.3 m thick, a ledge), runs up, clears it and goes on to a goal 15 m behind: the whole way that a mission
+takes (path tracking, speed planner, skill) on a triangle mesh, with noise of 0.02 m/s and rad/s in the
+start. Held: it arrives, and if it vaults its hand has held on. Clean: of these, nothing but the feet
+(vault: hands and forearms; drop: anything but the head) has touched. Middle: a vaulting hand held within
+the middle half of the top. No joint: the starts that vaulted, once more with the hand's joint switched off.
+"""
+
+import argparse
+import json
+from collections import Counter
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from locomotion import Human
+from locomotion.clearing import ClearingSkill
+from locomotion.hand_hold import let_go_both
+from locomotion.skill import load_run_skill
+from locomotion.vault_skill import Vault, load_vault_skill
+from runtime.courses import CourseRun, make_course, run_course
+from runtime.evaluation import WALL, start_noise
+
+NEAREST, FARTHEST = 10.0, 30.0
+
+
+class Handless(Vault):
+    """A vault whose hand's joint never closes."""
+
+    def tick(self, obstacle, memory, state, data):
+        done = super().tick(obstacle, memory, state, data)
+        let_go_both(data)
+        return done
+
+
+def run_up(
+    affordance: str, height: float, distance: float, clearing: list[ClearingSkill] | None = None
+) -> CourseRun:
+    """One start."""
+    course = make_course([(affordance, height, WALL)], [distance])
+    return run_course(course, clearing, start_noise(17, distance))
+
+
+def held(affordance: str, run: CourseRun) -> bool:
+    """Whether it arrived, by the skill."""
+    if run.ended != "arrived" or not run.passages:
+        return False
+    return affordance != "vault" or run.passages[0].held > 0.0
+
+
+def summary(affordance: str, height: float, distances: np.ndarray) -> dict[str, Any]:
+    """The figures of one height."""
+    runs = [run_up(affordance, height, d) for d in distances]
+    good = [run.passages[0] for run in runs if held(affordance, run)]
+    taken = [run.passages[0] for run in runs if run.passages]
+
+    def mean(values: list) -> float:
+        return float(np.mean(values)) if values else np.nan
+
+    figures = {
+        "height": height,
+        "starts": len(runs),
+        "held": mean([held(affordance, run) for run in runs]),
+        "clean": mean([not p.touched and p.head == 0.0 for p in good]),
+        "takeoff_error_rms": mean([p.takeoff_error**2 for p in taken]) ** 0.5,
+        "speed_error_mean": mean([p.speed_error for p in taken]),
+        "peak_median": float(np.median([p.peak for p in good])) if good else np.nan,
+        "ends": dict(Counter(run.ended for run in runs)),
+        "runs": [{"ended": run.ended, "passages": [asdict(p) for p in run.passages]} for run in runs],
+    }
+    if affordance == "vault":
+        without: list[ClearingSkill] = [Handless(load_vault_skill(), load_run_skill())]
+        again = [d for d, run in zip(distances, runs, strict=True) if held(affordance, run)]
+        figures["middle"] = mean([abs(p.planted - 0.5) <= 0.25 for p in good])
+        figures["hand_held"] = mean([p.held for p in good])
+        figures["without_joint"] = mean(
+            [run_up(affordance, height, d, without).ended == "arrived" for d in again]
+        )
+    return figures
+
+
+def show(figures: dict[str, Any]) -> None:
+    """Print one height."""
+    line = (
+        f"{figures['height']:6.2f} m  {figures['starts']:4d}  {100 * figures['held']:5.1f} %"
+        f"  {100 * figures['clean']:5.1f} %  {figures['takeoff_error_rms']:.3f} m"
+        f"  {figures['speed_error_mean']:+.2f} m/s  {figures['peak_median']:4.1f}"
+    )
+    if "middle" in figures:
+        line += (
+            f"  {100 * figures['middle']:5.1f} %  {figures['hand_held']:.2f} s"
+            f"  {100 * figures['without_joint']:5.1f} %"
+        )
+    print(f"{line}  {figures['ends']}", flush=True)
+
+
+def main() -> None:
+    """Try every start, print a table, write JSON."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("affordance", choices=["jump", "vault", "drop"])
+    parser.add_argument("--heights", type=float, nargs="+", help="[m]; default: lowest, middle and highest")
+    parser.add_argument("--every", type=float, default=0.1, help="step of the distance [m]")
+    parser.add_argument("--json", type=Path, help="file to write")
+    options = parser.parse_args()
+    low, high = next(s.heights for s in Human().clearing if s.affordance == options.affordance)
+    distances = np.arange(round((FARTHEST - NEAREST) / options.every) + 1) * options.every + NEAREST
+    more = "  middle  hand held  no joint" if options.affordance == "vault" else ""
+    print(f"height  starts  held  clean  d error  v error  peak [body weights]{more}  ends")
+    result = []
+    for height in options.heights or (low, 0.5 * (low + high), high):
+        result.append(summary(options.affordance, height, distances))
+        show(result[-1])
+    if options.json:
+        options.json.write_text(json.dumps(result, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,66 @@
+"""Ten obstacles in a row: how many courses does the person run to the end, and where do the others end?
+
+    python -m benchmarks.courses [--courses 200] [--obstacles 10] [--kinds jump vault drop]
+
+Kinds and heights are drawn evenly (heights from what each skill has learned), 8 to 15 m apart, on a level
+of triangles; from standing, with noise of 0.02 m/s and rad/s. Nothing is authored for it: path tracking,
+speed planner and skills as in a mission.
+"""
+
+import argparse
+import json
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+
+from locomotion import Human
+from runtime.courses import Course, make_course, run_course
+from runtime.evaluation import start_noise
+
+APART = (8.0, 15.0)
+WALLS = (0.2, 0.4)
+"""Thickness [m]."""
+
+
+def draw_course(rng: np.random.Generator, count: int, kinds: list[str]) -> Course:
+    """A random course."""
+    heights = {skill.affordance: skill.heights for skill in Human().clearing}
+    chosen = [str(rng.choice(kinds)) for _ in range(count)]
+    obstacles = [(k, round(float(rng.uniform(*heights[k])), 2), float(rng.uniform(*WALLS))) for k in chosen]
+    return make_course(obstacles, rng.uniform(*APART, count).tolist())
+
+
+def main() -> None:
+    """Run the courses, print a table, write JSON."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--courses", type=int, default=200)
+    parser.add_argument("--obstacles", type=int, default=10)
+    parser.add_argument("--kinds", nargs="+", default=["jump", "vault", "drop"])
+    parser.add_argument("--json", type=Path, help="file to write")
+    options = parser.parse_args()
+    rows, last, met = [], Counter(), Counter()
+    for number in range(options.courses):
+        course = draw_course(np.random.default_rng([5, number]), options.obstacles, options.kinds)
+        run = run_course(course, noise=start_noise(5, number))
+        kinds = [obstacle.affordance for obstacle in course.obstacles]
+        rows.append({"kinds": kinds, "ended": run.ended, "cleared": sum(p.cleared for p in run.passages)})
+        met.update(kinds[: len(run.passages)])
+        if run.ended != "arrived":
+            at = kinds[len(run.passages) - 1] if run.passages else "no obstacle yet"
+            last[f"{run.ended}, {at}"] += 1
+        if (number + 1) % 20 == 0:
+            print(f"{number + 1} courses", flush=True)
+    whole = np.mean([row["ended"] == "arrived" for row in rows])
+    print(f"{100 * whole:.1f} % of {len(rows)} courses of {options.obstacles} obstacles whole;"
+          f" {np.mean([row['cleared'] for row in rows]):.1f} cleared on average")  # fmt: skip
+    print("taken off for:", dict(met))
+    print("ended (where, last obstacle):", dict(last.most_common()))
+    if options.json:
+        options.json.write_text(json.dumps(rows, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,185 @@
+"""Straight courses of obstacles as levels of triangles, and what happens when a person runs over one."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion import MOVING, Ground, Human, ObstacleAhead
+from locomotion.clearing import ClearingSkill
+from locomotion.events import Cleared, TookOff
+from locomotion.hand_hold import holding
+from locomotion.person import MASS
+
+__all__ = ["AFTER", "Course", "CourseRun", "Passage", "enter_course", "make_course", "run_course"]
+
+AFTER = 15.0
+"""[m] from the last obstacle to the goal."""
+SPEED = 3.5
+"""[m/s] asked for on the way."""
+_SLOWEST = 1.0  # [m/s]: who is slower over the whole course has not made it
+_HALF = 5.0  # [m] of the course's width
+_EDGE = 1e-3  # [m] of the path on both sides of an edge
+_STAIR = 1.0  # [m] behind the edge of what is jumped onto that only feet may touch
+_SOLES = 0.02  # [m] above the floor before it from which a contact is one with the obstacle
+_MAY_TOUCH = {
+    "jump": ("foot", "toes"),
+    "vault": ("hand", "forearm"),
+}
+_FALLEN = ("in the run-up", "in the skill", "afterwards")
+
+
+@dataclass(frozen=True)
+class Course:
+    """A course along x. vertices (v, 3), faces (f, 3): the level. path (n, 3) [m]: along its middle, from the
+    start to the goal. obstacles: what the path crosses, in order."""
+
+    vertices: NDArray[np.float64]
+    faces: NDArray[np.int64]
+    path: NDArray[np.float64]
+    obstacles: tuple[ObstacleAhead, ...]
+
+
+@dataclass
+class Passage:
+    """How one obstacle was cleared.
+
+    takeoff_error [m], speed_error [m/s]: as in `locomotion.events.TookOff`; NaN where there was none.
+    cleared: whether the skill came to its end. touched: whether anything but feet touched what is jumped
+    onto, or anything but hands and forearms what is vaulted. held: time that a hand held on [s]. planted:
+    where it did, as share of the thickness from the near edge. head: time that the head touched the ground
+    [s]. peak: highest reaction of the ground, after a physics step [body weights].
+    """
+
+    takeoff_error: float = np.nan
+    speed_error: float = np.nan
+    cleared: bool = False
+    touched: bool = False
+    held: float = 0.0
+    planted: float = np.nan
+    head: float = 0.0
+    peak: float = 0.0
+
+
+@dataclass
+class CourseRun:
+    """A run over a course. ended: "arrived", or the status at the end, "fallen" with where; passages: of the
+    obstacles that the person took off for, in order. frames: qpos (46,) of each tick, if they were asked
+    for."""
+
+    ended: str = ""
+    passages: list[Passage] = field(default_factory=list)
+    frames: list[NDArray[np.float64]] = field(default_factory=list)
+
+
+def make_course(
+    obstacles: Sequence[tuple[str, float, float]], distances: Sequence[float], margin: float = 5.0
+) -> Course:
+    """A course of ``obstacles``, each (affordance, height [m], thickness [m]), ``distances`` [m] after the
+    start and after each other. Thickness is that of a wall ("vault"); elsewhere it does not count."""
+    x = z = 0.0
+    profile, path, ahead = [(-margin, 0.0)], [(0.0, 0.0)], []
+    for (affordance, height, depth), distance in zip(obstacles, distances, strict=True):
+        x += distance
+        path.append((x - _EDGE, z))
+        top = z + height if affordance != "drop" else z
+        edge = np.array([x, 0.0, top])
+        thickness = depth if affordance == "vault" else 0.0
+        ahead.append(ObstacleAhead(x, affordance, height, edge, np.array([-1.0, 0.0, 0.0]), thickness))
+        profile.append((x, z))
+        if affordance == "vault":
+            profile += [(x, top), (x + depth, top), (x + depth, z)]
+        else:
+            z += height if affordance == "jump" else -height
+            profile.append((x, z))
+        path.append((x + _EDGE, z))
+    path.append((x + AFTER, z))
+    profile.append((x + AFTER + margin, z))
+    vertices, faces = _extruded(np.array(profile))
+    points = np.array([[x, 0.0, z] for x, z in path])
+    return Course(vertices, faces, points, tuple(ahead))
+
+
+def enter_course(
+    course: Course,
+    clearing: Sequence[ClearingSkill] | None = None,
+    noise: NDArray[np.float64] | None = None,
+) -> Human:
+    """A person that stands at the start of a course and is told to run over it.
+
+    clearing: skills to use, None for the package's. noise: (45,) added to the velocities at the start [m/s,
+    rad/s].
+    """
+    human = Human(Ground.from_arrays(course.vertices, course.faces), clearing=clearing)
+    human.reset(course.path[0], 0.0)
+    if noise is not None:
+        human.data.qvel[:] += noise
+    human.follow(course.path, SPEED, course.obstacles)
+    return human
+
+
+def run_course(
+    course: Course,
+    clearing: Sequence[ClearingSkill] | None = None,
+    noise: NDArray[np.float64] | None = None,
+    keep_frames: bool = False,
+) -> CourseRun:
+    """Run over a course from standing, on the level's triangles; arguments as of `enter_course`."""
+    human = enter_course(course, clearing, noise)
+    longest = float(course.path[-1, 0]) / _SLOWEST
+    run, seen, where = CourseRun(), 0, 0
+    passage: Passage | None = None
+    while human.status in MOVING and human.time < longest:
+        human.tick()
+        if keep_frames:
+            run.frames.append(human.qpos)
+        for event in human.events[seen:]:
+            if isinstance(event, TookOff):
+                passage, where = Passage(event.takeoff_error, event.speed_error), 1
+                run.passages.append(passage)
+            elif isinstance(event, Cleared) and passage is not None:
+                passage.cleared, where = True, 2
+        seen = len(human.events)
+        if passage is not None and not passage.cleared:
+            _watch(human, course.obstacles[len(run.passages) - 1], passage)
+    run.ended = human.status if human.status not in MOVING else "too slow"
+    if run.ended == "fallen":
+        run.ended += f" {_FALLEN[where]}"
+    return run
+
+
+def _watch(human: Human, obstacle: ObstacleAhead, passage: Passage) -> None:
+    """Note what touches what in this tick."""
+    data, model = human.data, human.model
+    contact = data.contact
+    pushes = contact.efc_address >= 0
+    force = data.efc_force[contact.efc_address[pushes][:, None] + np.arange(4)].sum()
+    passage.peak = max(passage.peak, float(force) / (MASS * 9.81))
+    bodies = model.geom_bodyid[contact.geom].max(axis=1)  # the level's geoms belong to body 0
+    passage.head += 0.01 * bool((bodies[pushes] == human.index.head).any())
+    for side in (-1.0, 1.0):
+        if holding(data, side):
+            passage.held += 0.01
+            behind = float(data.mocap_pos[int(side > 0), 0]) - obstacle.position[0]
+            passage.planted = behind / max(obstacle.depth, 1e-9)
+    if obstacle.affordance in _MAY_TOUCH:
+        names = _MAY_TOUCH[obstacle.affordance]
+        allowed = [human.index.bodies[f"{side}_{name}"] for side in ("left", "right") for name in names]
+        deep = obstacle.depth + 0.05 if obstacle.affordance == "vault" else _STAIR
+        x = contact.pos[:, 0] - obstacle.position[0]
+        floor = obstacle.position[2] - obstacle.height + _SOLES
+        with_it = (x > -0.1) & (x < deep) & (contact.pos[:, 2] > floor)
+        passage.touched |= bool((with_it & ~np.isin(bodies, allowed)).any())
+
+
+def _extruded(profile: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Vertices and faces of the surface over a line (n, 2) of x and z, facing its left."""
+    n = len(profile)
+    y = np.repeat([-_HALF, _HALF], n)
+    vertices = np.column_stack([np.tile(profile[:, 0], 2), y, np.tile(profile[:, 1], 2)])
+    right, left = np.arange(n - 1), np.arange(n - 1) + n
+    faces = np.concatenate(
+        [np.column_stack([right, right + 1, left + 1]), np.column_stack([right, left + 1, left])]
+    )
+    return vertices, faces

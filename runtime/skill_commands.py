@@ -1,0 +1,148 @@
+"""What the commands on skills and clips do, apart from reading their arguments."""
+
+import os
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from filelock import FileLock, Timeout
+
+from runtime.commands import Result, check_output, ready
+from runtime.errors import RuntimeInputError
+from runtime.progress import Progress
+
+if TYPE_CHECKING:
+    from runtime.evaluation import Attempt
+
+__all__ = ["evaluate_skill", "show_clip", "train_library", "train_skill"]
+
+
+def _trainers() -> Mapping[str, Callable[..., Any]]:
+    """What learns each skill, in the order in which they build on one another."""
+    from locomotion.training.drop_roll import train_drop_roll
+    from locomotion.training.jump import train_jump
+    from locomotion.training.run import train_run
+    from locomotion.training.vault import train_vault
+    from locomotion.training.walk import train_walk
+
+    return {
+        "walk": train_walk, "run": train_run, "jump": train_jump, "vault": train_vault,
+        "drop-roll": train_drop_roll,
+    }  # fmt: skip
+
+
+def train_skill(
+    skill: str, output: Path | None, seed: int, workers: int, checkpoint: Path | None, effort: float
+) -> float:
+    """Learn ``skill`` and write it to ``output`` (None: where the package keeps its own); gives the CPU time
+    that it took [min]. Raises `RuntimeInputError` while another process learns with the same checkpoint."""
+    where = {} if output is None else {"out": output}
+    if output is not None:
+        check_output(output)
+    kept = checkpoint or Path(f"{skill}.checkpoint")
+    if not kept.parent.is_dir():
+        raise RuntimeInputError(f"{kept}: there is no folder {str(kept.parent)!r} to keep checkpoints in")
+    begun = sum(os.times()[:4])
+    try:
+        with FileLock(f"{kept}.lock", timeout=0):
+            _trainers()[skill](**where, seed=seed, checkpoint=kept, workers=workers, effort=effort)
+    except Timeout:
+        raise RuntimeInputError(
+            f"{kept}: another process learns with this checkpoint; wait for it, or name another --checkpoint"
+        ) from None
+    minutes = (sum(os.times()[:4]) - begun) / 60.0
+    print(f"learned to {skill} in {minutes:.1f} core-minutes; the checkpoint {kept} is not needed any more")
+    return minutes
+
+
+def train_library(seed: int, workers: int, effort: float) -> None:
+    """Learn all skills, one after the other, and say what each has cost."""
+    minutes = {skill: train_skill(skill, None, seed, workers, None, effort) for skill in _trainers()}
+    for skill, each in minutes.items():
+        print(f"{skill:12} {each:7.1f} core-minutes")
+    print(f"{'in all':12} {sum(minutes.values()):7.1f} core-minutes")
+
+
+def evaluate_skill(skill: str, trials: int, seed: int) -> Result:
+    """Try ``skill``; holds when at least nine of ten trials of each test do."""
+    from runtime.evaluation import evaluate_clearing, evaluate_run, evaluate_walk
+
+    evaluate: Mapping[str, Callable[..., Sequence[Attempt]]] = {
+        "run": evaluate_run, "walk": evaluate_walk,
+        "jump": partial(evaluate_clearing, "jump"), "vault": partial(evaluate_clearing, "vault"),
+        "drop-roll": partial(evaluate_clearing, "drop"),
+    }  # fmt: skip
+    attempts = evaluate[skill](trials, seed, ready())
+    tests = [
+        {
+            "test": test,
+            "trials": len(tried),
+            "held": sum(each.held for each in tried),
+            "ends": dict(Counter(each.status for each in tried)),
+            "means": _means(tried),
+        }
+        for test, tried in _by_test(attempts).items()
+    ]
+    values = {"skill": skill, "seed": seed, "tests": tests, "attempts": [asdict(each) for each in attempts]}
+
+    def show() -> None:
+        for attempt in attempts:
+            if not attempt.held:
+                print(f"{attempt.test}: {attempt.what}: {attempt.status}")
+        print(f"| {skill} | held | of those |")
+        print("| --- | --- | --- |")
+        for test in tests:
+            share = 100.0 * test["held"] / test["trials"]
+            means = ", ".join(f"{name} {value:.3g}" for name, value in test["means"].items())
+            print(f"| {test['test']} | {share:.1f} % of {test['trials']} | {means} |")
+
+    return Result(values, all(test["held"] >= 0.9 * test["trials"] for test in tests), show)
+
+
+def _by_test(attempts: Sequence["Attempt"]) -> dict[str, list["Attempt"]]:
+    """The attempts of each test, in order."""
+    return {test: [a for a in attempts if a.test == test] for test in dict.fromkeys(a.test for a in attempts)}
+
+
+def _means(attempts: Sequence["Attempt"]) -> dict[str, float]:
+    """Means of the figures, each over the attempts that have it."""
+    names = dict.fromkeys(name for each in attempts for name in each.figures)
+    return {
+        name: float(np.mean([each.figures[name] for each in attempts if name in each.figures]))
+        for name in names
+    }
+
+
+def show_clip(
+    source: Path, mapping: Path | None, units: str, up: str, film: Path | None, output: Path | None
+) -> Result:
+    """Check a clip or a captured motion; draw it to ``film``, save it as the person's motion to
+    ``output``."""
+    from locomotion.motion_check import check_motion
+    from runtime.clips import read_motion, write_motion_film
+
+    motion = read_motion(source, mapping, units, up)
+    for path in (film, output):
+        if path is not None:
+            check_output(path)
+    faults = check_motion(motion)
+    if film is not None:
+        write_motion_film(motion, film, Progress())
+    if output is not None:
+        motion.save(output)
+    values = {
+        "name": motion.name,
+        "seconds": round(motion.duration, 3),
+        "rate": motion.rate,
+        "faults": [asdict(fault) for fault in faults],
+    }
+
+    def show() -> None:
+        print(f"{motion.name}: {motion.duration:.2f} s at {motion.rate:.0f} Hz")
+        print("\n".join(f"  {fault}" for fault in faults) or "  within its joints, on the ground")
+
+    return Result(values, not faults, show)

@@ -1,0 +1,96 @@
+"""Skills on levels of triangles: the person runs up, clears the obstacle and goes on."""
+
+import numpy as np
+import pytest
+
+from locomotion import MOVING, Ground, Human, LocomotionError
+from locomotion.events import Cleared, TookOff
+from runtime.courses import AFTER, enter_course, make_course, run_course
+
+
+def one(affordance, height, distance):
+    return make_course([(affordance, height, 0.3)], [distance])
+
+
+def test_a_course_is_the_level_that_it_says():
+    course = make_course([("jump", 0.4, 0.0), ("vault", 0.7, 0.2), ("drop", 1.5, 0.0)], [10.0, 9.0, 8.0])
+    ground = Ground.from_arrays(course.vertices, course.faces)
+    for x, height in ((9.9, 0.0), (10.1, 0.4), (19.1, 1.1), (19.3, 0.4), (26.9, 0.4), (27.1, -1.1)):
+        assert ground.surface_below([[x, 0.3, 5.0]])[0][0] == pytest.approx(height)
+    assert course.path[-1] == pytest.approx([27.0 + AFTER, 0.0, -1.1])
+    assert [obstacle.arc_length for obstacle in course.obstacles] == [10.0, 19.0, 27.0]
+
+
+@pytest.mark.parametrize(
+    ("affordance", "heights", "least"), [("jump", (0.3, 0.4, 0.5), 10), ("vault", (0.6, 0.7), 5)]
+)
+def test_clears_obstacles_and_goes_on(affordance, heights, least):
+    arrived = 0
+    for height in heights:
+        for distance in (11.3, 14.7, 18.2, 21.9):
+            run = run_course(one(affordance, height, distance))
+            assert run.passages
+            passage = run.passages[0]
+            by_hand = affordance != "vault" or 0.0 <= passage.planted <= 1.0
+            arrived += run.ended == "arrived" and passage.cleared and by_hand
+    assert arrived >= least
+
+
+def test_several_obstacles_one_after_another():
+    course = make_course([("jump", 0.4, 0.0), ("jump", 0.3, 0.0)], [12.0, 12.0])
+    human = enter_course(course)
+    while human.status in MOVING and human.time < 30.0:
+        human.tick()
+    kinds = [type(event) for event in human.events if isinstance(event, TookOff | Cleared)]
+    assert kinds == [TookOff, Cleared, TookOff, Cleared]
+    assert human.status == "arrived"
+
+
+@pytest.mark.parametrize(
+    ("affordance", "height", "status"),
+    [("jump", 0.4, "jumping"), ("vault", 0.7, "vaulting"), ("drop", 1.2, "dropping")],
+)
+def test_a_skill_repeats_and_is_restored_bit_for_bit(affordance, height, status):
+    course = one(affordance, height, 11.0)
+    first, second = enter_course(course), enter_course(course)
+    while first.status != status or (affordance == "vault" and not first.data.eq_active.any()):
+        first.tick()
+        assert first.status in MOVING
+    for _ in range(10):
+        first.tick()
+    saved = first.save_state()
+    for _ in range(120):
+        first.tick()
+    while second.time < first.time:
+        second.tick()
+    third = Human(Ground.from_arrays(course.vertices, course.faces))
+    third.restore_state(saved)
+    while third.time < first.time:
+        third.tick()
+    assert first.state_hash() == second.state_hash() == third.state_hash()
+
+
+def test_a_hand_holds_on_only_in_a_vault():
+    human = enter_course(one("vault", 0.7, 13.0))
+    held = False
+    while human.status in MOVING and human.position[0] < 16.0:
+        human.tick()
+        held = held or human.data.eq_active.any()
+        assert human.status == "vaulting" or not human.data.eq_active.any()
+    assert held
+
+
+@pytest.mark.parametrize(
+    ("affordance", "height"), [("jump", 0.9), ("vault", 0.4), ("vault", 1.3), ("drop", 2.5), ("gap", 0.0)]
+)
+def test_an_obstacle_out_of_range_is_refused_before_the_run_up(affordance, height):
+    course = one(affordance, height, 12.0)
+    with pytest.raises(LocomotionError, match=f"no skill clears {affordance} {height:.2f} m; there are"):
+        enter_course(course)
+
+
+def test_noise_changes_the_start_only():
+    course = one("jump", 0.4, 11.0)
+    quiet, noisy = enter_course(course), enter_course(course, noise=np.full(45, 0.01))
+    assert quiet.qpos.tolist() == noisy.qpos.tolist()
+    assert (noisy.data.qvel == quiet.data.qvel + 0.01).all()

@@ -154,7 +154,8 @@ def _walk(
         return
     line = KDTree(dense(path))
     herd = Herd(ground)
-    index = herd.add(body, trail.rows[0, [at.PX, at.PY, at.PZ]], trail.heading(0.0))
+    x, y = trail.point(body.spine.length) - trail.point(0.0)  # as one stands that has just come there
+    index = herd.add(body, trail.rows[0, [at.PX, at.PY, at.PZ]], float(np.arctan2(y, x)))
     animal = Animal(herd, index, _Fixed(path))
     animal.go_to(path[-1], speed)
     joints, fronts, roots, middles = [], [], [], []

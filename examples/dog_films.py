@@ -65,10 +65,11 @@ class Film:
         sheet = Sheet(figsize=(COLUMNS * 2.6, 2 * 1.95 + 0.4), dpi=100, layout="constrained")
         sheet.suptitle(self.title, fontsize=10)
         axes = sheet.subplots(2, COLUMNS)
-        marks = dots(self.path[::2] + np.array([0.0, 0.0, 0.004]), (0.84, 0.15, 0.16), 0.014)
         for column, pick in enumerate(picks):
             now, pose, middle, _ = self.moments[pick]
             shapes = figure.posed(pose)
+            near = self.path[::2][np.linalg.norm(self.path[::2] - middle, axis=1) < 1.1 * self.reach]
+            marks = dots(near + np.array([0.0, 0.0, 0.004]), (0.84, 0.15, 0.16), 0.014)
             along = self.view
             side = np.array([math.sin(along), -math.cos(along), 0.0])
             cameras = (

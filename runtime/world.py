@@ -5,13 +5,16 @@ import math
 from collections import deque
 from collections.abc import Callable, Mapping
 from itertools import count
+from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 import navmesh
+from locomotion import LocomotionError
 from locomotion.person import CONTROL_DT
+from locomotion.quadruped import is_body_file, load_body
 from runtime.agent import Agent
 from runtime.drivers import BODIES, Pack, People, Population, radius_of
 from runtime.errors import RuntimeInputError
@@ -116,17 +119,24 @@ class World:
         """Put a standing ``body`` on the walkable surface at ``at`` (3,) [m], facing ``facing`` [rad].
 
         ``body`` is "human", "dog", "cat" or "horse", or "walker": a cheap body that slides over the surface
-        and avoids others, by the thousand; a quadruped stands with its rear feet there. ``radius`` [m] is
+        and avoids others, by the thousand; or the path of a YAML file with a quadruped of your own (see
+        `locomotion.quadruped.load_body`). A quadruped stands with its rear feet there. ``radius`` [m] is
         for walkers only, by default a person's.
         The place is moved to the nearest one where the body fits (see `NodeGraph.find_path`). ``name`` is
         its own in this world; by default "human1" and so on. Raises `RuntimeInputError` for an unknown body,
-        a taken name, a place off the walkable surface, or a
-        quadruped without room for its head.
+        a body file with a mistake, a taken name, a place off the walkable surface, or a quadruped without
+        room for its head.
         """
-        if body not in BODIES:
-            raise RuntimeInputError(f"body {body!r}: valid: {', '.join(map(repr, BODIES))}")
+        if is_body_file(body):
+            try:
+                load_body(body)
+            except LocomotionError as error:
+                raise RuntimeInputError(str(error)) from None
+        elif body not in BODIES:
+            known = ", ".join(map(repr, BODIES))
+            raise RuntimeInputError(f"body {body!r}: valid: {known}, or a quadruped's .yaml file")
         if name is None:
-            numbered = (f"{body}{number}" for number in count(len(self.agents) + 1))
+            numbered = (f"{Path(body).stem}{number}" for number in count(len(self.agents) + 1))
             name = next(each for each in numbered if each not in self.agents)
         if name in self.agents:
             raise RuntimeInputError(f"name {name!r} is taken; names are unique in a world")
@@ -175,7 +185,8 @@ class World:
             agent.look_at_way()
 
     def _population(self, body: str) -> Population:
-        return next(each for each in self._populations if body in each.bodies)
+        kind = "dog" if is_body_file(body) else body
+        return next(each for each in self._populations if kind in each.bodies)
 
     def step(self, dt: float) -> int:
         """Advance by ``dt`` [s] ≥ 0, in whole ticks of 10 ms; the rest is owed to later calls.

@@ -1,7 +1,7 @@
 """Quadrupeds: dogs, cats, horses that follow a path with a bending spine and planted feet."""
 
-from locomotion.quadruped.animal import Animal, AnimalMemory, Planner
-from locomotion.quadruped.body import BODY_NAMES, Body, load_body
+from locomotion.quadruped.animal import Animal, AnimalMemory
+from locomotion.quadruped.body import BODY_NAMES, Body, is_body_file, load_body
 from locomotion.quadruped.footprint import (
     Footprint,
     check_places,
@@ -14,6 +14,7 @@ from locomotion.quadruped.layout import LEGS
 from locomotion.quadruped.local_motion import LocalMotion, local_motion
 from locomotion.quadruped.script import Place, Script
 from locomotion.quadruped.trail import Trail, lay_trail
+from locomotion.quadruped.ways import Planner
 
 __all__ = [
     "BODY_NAMES",
@@ -31,6 +32,7 @@ __all__ = [
     "check_places",
     "check_script",
     "check_trail",
+    "is_body_file",
     "lay_trail",
     "load_body",
     "local_motion",

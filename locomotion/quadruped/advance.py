@@ -18,10 +18,11 @@ __all__ = ["advance_all"]
 
 _HEIGHT_HALF_LIFE = 0.07  # [s]
 _STRETCH, _TAUT = 0.90, 0.95  # shares of its length to which a standing leg should and can be stretched
-_SOFT = 0.03  # share of a leg's length over which its reach begins to pull the trunk down
+_SOFT = 0.03  # share of a length over which a limit begins to pull the trunk down
 _FAR = math.log1p(math.exp(-4.0))  # so that nothing pulls four times as far from it
 _CROUCH = 0.25  # [1/rad²] of slope by which a body goes lower on it
-_STEEPEST = 0.75  # of the spine's length by which the shoulders may be higher or lower than the hips
+_STEEPEST = 0.75  # of the spine's length between the heights of hips and shoulders; the higher ones come down
+# for it, so that no foot leaves the ground
 _GAZE_HALF_LIFE = 0.10  # [s]
 _GAZE_NEAR = 0.12  # [m] nearer targets do not say where to look
 _STILL = 1e-4  # [m, rad] of an offset that counts as gone
@@ -78,8 +79,7 @@ def _is_over(st):
 @njit(cache=True)
 def _highest(feet, joint_x, joint_y, direction, width, first, reach):
     """Height [m] at which both legs of a pair, ``first`` and the next, still reach their feet: those that
-    swing
-    too, so that nothing jumps when they come down."""
+    swing too, so that nothing jumps when they come down."""
     highest = math.inf
     for k in range(2):
         foot = feet[first + k]
@@ -130,9 +130,9 @@ def _carry(st, pr, feet):
 
 
 @njit(cache=True, inline="always")
-def _below(height, limit, reach):
-    """``height`` [m] kept under a limit, without a kink where it comes near it."""
-    soft = _SOFT * reach
+def _below(height, limit, size):
+    """``height`` [m] kept under a limit, without a kink where it comes near it; ``size`` [m] of the body."""
+    soft = _SOFT * size
     over = (height - limit) / soft
     down = math.log1p(math.exp(over)) if over < 30.0 else over
     return height - soft * max(down - _FAR, 0.0)
@@ -142,8 +142,8 @@ def _below(height, limit, reach):
 def _tilt(st, pr):
     """Pitch of the trunk from the heights of hips and shoulders, and the place of the front under it."""
     length = pr[at.BONES] * pr[at.BONE]
-    st[at.Z_FRONT] = min(st[at.Z_FRONT], st[at.Z_REAR] + _STEEPEST * length)
-    st[at.Z_REAR] = min(st[at.Z_REAR], st[at.Z_FRONT] + _STEEPEST * length)
+    st[at.Z_FRONT] = _below(st[at.Z_FRONT], st[at.Z_REAR] + _STEEPEST * length, length)
+    st[at.Z_REAR] = _below(st[at.Z_REAR], st[at.Z_FRONT] + _STEEPEST * length, length)
     st[at.PITCH] = math.asin((st[at.Z_FRONT] - st[at.Z_REAR]) / length)
     st[at.FRONT_X], st[at.FRONT_Y] = front_of(
         st[at.X], st[at.Y], st[at.YAW], st[at.BEND], pr[at.BONES], pr[at.BONE] * math.cos(st[at.PITCH])

@@ -11,7 +11,7 @@ from __future__ import annotations
 import hashlib
 import math
 from dataclasses import dataclass, replace
-from typing import Literal, Protocol
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,15 +20,17 @@ from locomotion.errors import LocomotionError
 from locomotion.events import Arrived, BackedOut, Event, GotStuck, LostGround, MissedGoal, SetOff
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.following import wrap
-from locomotion.quadruped.footprint import RESOLUTION, check_places, check_script, trail_places
+from locomotion.quadruped.footprint import RESOLUTION, check_script
 from locomotion.quadruped.herd import AnimalState, Herd
 from locomotion.quadruped.local_motion import REACH, local_motion
 from locomotion.quadruped.motion import DT
 from locomotion.quadruped.script import Place, Script, into_flex, out_of_flex
 from locomotion.quadruped.spine import bend_for
-from locomotion.quadruped.trail import Trail, lay_trail
+from locomotion.quadruped.trail import Trail
+from locomotion.quadruped.turning import turn_script, way_back
+from locomotion.quadruped.ways import Planner, Way, find_way, first_heading, last_free_arc, turn_onto
 
-__all__ = ["SHORT_OF_GOAL", "Animal", "AnimalMemory", "Planner", "Status", "Way"]
+__all__ = ["SHORT_OF_GOAL", "Animal", "AnimalMemory", "Status"]
 
 Status = Literal["standing", "running", "arrived", "lost", "stuck"]
 _Phase = Literal[
@@ -41,32 +43,7 @@ its head has no room."""
 _LITTLE = math.radians(3.5)  # a turn onto the path without a motion of its own: 3 cm beside it, for a dog
 _EXACT = 1e-3  # [rad] of facing that is left as it is
 _MOST_BACKING = 4  # times that it backs out on its way to one goal
-_LOOK_BACK = 40  # crumbs with room that are tried
 _SHORT_MOVE = 0.8  # [m] up to which local motion is used instead of a path
-
-
-class Way(Protocol):
-    """What a planner finds; the animal reads its points and keeps the rest for whoever asks."""
-
-    @property
-    def points(self) -> NDArray[np.float64]:
-        """(k, 3) [m] the smoothed path."""
-        ...
-
-
-class Planner(Protocol):
-    """Who knows the level: `way` for paths, `room_to_turn` for places."""
-
-    def way(
-        self, start: NDArray[np.float64], goal: NDArray[np.float64], direction: NDArray[np.float64]
-    ) -> Way:
-        """The way from ``start`` to ``goal`` (3,) [m] for one that moves or looks in ``direction`` (2,).
-        Raises ValueError where there is none."""
-        ...
-
-    def room_to_turn(self, points: NDArray[np.float64], length: float) -> NDArray[np.bool_]:
-        """(k,) whether there is room to turn around for a body of ``length`` [m] at ``points`` (k, 3)."""
-        ...
 
 
 @dataclass(frozen=True)
@@ -193,7 +170,7 @@ class Animal:
             if not self._move_locally(errand):
                 self._set_out(errand)
         else:
-            self._way(errand, self.herd.place(self.index))
+            self._way(errand)
             self._errand, self._pending = errand, True
         self.status = "running" if self._phase != "resting" else self.status
 
@@ -248,38 +225,16 @@ class Animal:
             self.events.append(LostGround(self.time, self._point()))
 
     # --- beginning
-    def _way(self, errand: _Errand, place: Place) -> tuple[Trail, tuple[Way, ...]]:
-        """The path for one that stands or moves at ``place``, through as many goals as it can go without
-        turning back; raises ValueError where there is none."""
-        here = np.array([place.x, place.y, place.z])
-        ahead = np.array([math.cos(place.yaw), math.sin(place.yaw)])
-        ways: list[Way] = []
-        for goal in errand.goals:
-            try:
-                way = self.planner.way(here, np.array(goal), ahead)
-            except ValueError:
-                if not ways:
-                    raise
-                break
-            if ways and self._turn_between(ways[-1].points, way.points) > self.body.spine_reach:
-                break
-            ways.append(way)
-            here, ahead = way.points[-1], (way.points[-1] - way.points[-2])[:2]
-        points = np.concatenate([way.points for way in ways])
-        return lay_trail(points, self.body, self.herd.ground), tuple(ways)
-
-    def _turn_between(self, before: NDArray[np.float64], after: NDArray[np.float64]) -> float:
-        """[rad] from the end of one path to the beginning of the next, each over the body's length."""
-        length = self.body.spine.length
-        out, on = before[-1] - _along(before[::-1], length), _along(after, length) - after[0]
-        return abs(float(wrap(math.atan2(on[1], on[0]) - math.atan2(out[1], out[0]))))
+    def _way(self, errand: _Errand) -> tuple[Trail, tuple[Way, ...]]:
+        """The path from where it is; raises ValueError where there is none."""
+        return find_way(self.planner, self.body, self.herd.ground, errand.goals, self.herd.place(self.index))
 
     def _set_out(self, errand: _Errand) -> None:
         """From rest: turn onto the path if need be, else follow it."""
         place = self.herd.place(self.index)
-        trail, ways = self._way(errand, place)
+        trail, ways = self._way(errand)
         self._errand, self.ways = errand, ways
-        turn = self._turn_onto(trail, place)
+        turn = turn_onto(trail, self.body, place)
         if abs(turn) > self.body.spine_reach:
             self._turn_around(trail, place)
         elif abs(turn) > _LITTLE:
@@ -293,16 +248,11 @@ class Animal:
         else:
             self._follow(trail)
 
-    def _turn_onto(self, trail: Trail, place: Place) -> float:
-        """[rad] from the direction that it faces to where its front belongs on the trail."""
-        x, y = trail.point(self.body.spine.length)
-        return float(wrap(math.atan2(y - place.y, x - place.x) - place.yaw))
-
     def _redirect(self, errand: _Errand) -> None:
         """On the way: change over to the new path where it leads on, else stop first."""
         place = self.herd.place(self.index)
-        trail, ways = self._way(errand, place)
-        if abs(self._turn_onto(trail, place)) < self.body.spine_reach:
+        trail, ways = self._way(errand)
+        if abs(turn_onto(trail, self.body, place)) < self.body.spine_reach:
             self._errand, self.ways = errand, ways
             self._follow(trail)
         else:
@@ -312,7 +262,7 @@ class Animal:
             self._phase = "halting"
 
     def _follow(self, trail: Trail) -> None:
-        end = self._last_free_arc(trail)
+        end = last_free_arc(trail, self.body, self.herd.ground, self.herd.last_arc(self.index, trail))
         self.trail = trail
         if end <= 0.0:  # the goal is nearer than it is long
             end = 0.0
@@ -321,17 +271,6 @@ class Animal:
         self._phase = "following"
         goal = tuple(float(value) for value in trail.points[-1])
         self.events.append(SetOff(self.time, self._point(), goal, trail.length))  # type: ignore[arg-type]
-
-    def _last_free_arc(self, trail: Trail) -> float:
-        """[m] where the root stops: the front at the trail's end, or before it where the head has no room."""
-        end = self.herd.last_arc(self.index, trail)
-        back = min(self.body.length, end)
-        places = trail_places(trail, self.body, end, end - back)
-        arcs = np.linspace(end, end - back, len(places))
-        for arc, place in zip(arcs, places, strict=True):
-            if check_places(place[None], self.body, self.herd.ground).free:
-                return float(arc)
-        return end
 
     def _free(self, script: Script) -> bool:
         """Whether nothing is in the way of a script, with the resolution of the check to spare."""
@@ -343,72 +282,24 @@ class Animal:
 
     # --- turning around
     def _turn_around(self, trail: Trail, place: Place) -> None:
-        script = self._turn_script(place, self._first_heading(trail))
+        script = turn_script(self.body, self.herd.ground, place, first_heading(trail, self.body))
         if script is not None:
             self.herd.forget_crumbs(self.index)
             self._play(script, "turning")
         elif self._errand.backed >= _MOST_BACKING or not self._back_out():
             self._end("stuck", GotStuck(self.time, self._point()))
 
-    def _first_heading(self, trail: Trail) -> float:
-        """[rad] from a trail's first point to where the front will be."""
-        x, y = trail.point(self.body.spine.length) - trail.point(0.0)
-        return math.atan2(y, x)
-
-    def _turn_script(self, place: Place, yaw: float) -> Script | None:
-        """A turn on the spot to ``yaw`` [rad] that touches nothing: around the middle, the rear or the front,
-        the short way or the long one."""
-        moves = local_motion(self.body)
-        short = float(wrap(yaw - place.yaw))
-        for turn in (short, short - math.copysign(2.0 * math.pi, short)):
-            if abs(turn) > math.pi:
-                continue
-            for pivot in (0.5, 0.0, 1.0, 0.25, 0.75):
-                ahead = pivot * self.body.spine.length
-                wanted = (ahead * (1.0 - math.cos(turn)), -ahead * math.sin(turn), turn)
-                script = moves.script(place, wanted)
-                if self._free(script):
-                    return script
-        return None
-
     def _back_out(self) -> bool:
         """Go back along the crumbs to the nearest place with room for a turn; False where there is none."""
-        crumbs = self.herd.trail_of_crumbs(self.index)
-        if len(crumbs) < 2:
+        place, crumbs = self.herd.place(self.index), self.herd.trail_of_crumbs(self.index)
+        back = way_back(self.planner, self.body, self.herd.ground, self._errand.goals, place, crumbs)
+        if back is None:
             return False
-        place = self.herd.place(self.index)
-        front = place.front(self.body)
-        points = np.vstack([crumbs, [place.x, place.y, place.z], [*front, place.z]])
-        trail = lay_trail(points, self.body, self.herd.ground)
-        here = trail.length - self.body.spine.length
-        arcs = np.arange(here - 0.1, 0.0, -0.1)
-        spots = np.array([[*trail.point(arc + 0.5 * self.body.spine.length), place.z] for arc in arcs])
-        if len(spots) == 0:
-            return False
-        spots[:, 2] = np.interp(arcs, trail.step * np.arange(len(trail.rows)), trail.rows[:, at.PZ])
-        roomy = arcs[self.planner.room_to_turn(spots, self.body.length)]
-        for arc in roomy[:_LOOK_BACK]:
-            if self._can_turn_at(trail, float(arc)):
-                x, y, _ = self._point()
-                self._errand = replace(self._errand, backed=self._errand.backed + 1, backed_from=(x, y))
-                speed = self.body.movement.back_speed
-                self.herd.follow(self.index, trail, speed, start=here, end=float(arc), backwards=True)
-                self._phase = "backing"
-                return True
-        return False
-
-    def _can_turn_at(self, trail: Trail, arc: float) -> bool:
-        row = trail_places(trail, self.body, arc, arc)[0]
-        there = Place(*(float(value) for value in row))
-        try:
-            onward, _ = self._way(self._errand, there)
-        except ValueError:
-            return False
-        turn = self._turn_onto(onward, there)
-        return (
-            abs(turn) < self.body.spine_reach
-            or self._turn_script(there, self._first_heading(onward)) is not None
-        )
+        self._errand = replace(self._errand, backed=self._errand.backed + 1, backed_from=(place.x, place.y))
+        speed = self.body.movement.back_speed
+        self.herd.follow(self.index, back.trail, speed, start=back.start, end=back.end, backwards=True)
+        self._phase = "backing"
+        return True
 
     # --- short moves
     def _move_locally(self, errand: _Errand) -> bool:
@@ -489,9 +380,3 @@ class Animal:
         """Hex digest of everything that decides how it goes on."""
         mind = repr((self._phase, self.status, self._errand, self._pending))
         return f"{self.herd.state_hash(self.index)}{hashlib.sha256(mind.encode()).hexdigest()[:8]}"
-
-
-def _along(points: NDArray[np.float64], length: float) -> NDArray[np.float64]:
-    """The first of ``points`` (k, 3) that is ``length`` [m] or more from their beginning, or the last."""
-    arc = np.cumsum(np.linalg.norm(np.diff(points[:, :2], axis=0), axis=1))
-    return points[min(int(np.searchsorted(arc, length)) + 1, len(points) - 1)]

@@ -24,7 +24,7 @@ from locomotion.quadruped import layout as at
 from locomotion.route_smoothing import Smoothing
 from navmesh.yamlfile import FileError, read_yaml
 
-__all__ = ["BODY_NAMES", "Body", "Gait", "load_body"]
+__all__ = ["BODY_NAMES", "Body", "Gait", "is_body_file", "load_body"]
 
 BODY_NAMES = ("dog", "cat", "horse")
 """Bodies that come with the package."""
@@ -325,10 +325,14 @@ def load_body(name: str | os.PathLike[str]) -> Body:
     """
     if name in BODY_NAMES:
         return _own_body(str(name))
-    path = Path(name)
-    if path.suffix not in (".yaml", ".yml"):
+    if not is_body_file(name):
         raise LocomotionError(f"body {str(name)!r}: valid: {', '.join(BODY_NAMES)}, or a .yaml file")
-    return _read_body(path)
+    return _read_body(Path(name))
+
+
+def is_body_file(name: str | os.PathLike[str]) -> bool:
+    """Whether `load_body` takes ``name`` for a file."""
+    return Path(name).suffix in (".yaml", ".yml")
 
 
 @lru_cache

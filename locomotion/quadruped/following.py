@@ -9,14 +9,16 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.motion import DT, script_at
 from locomotion.quadruped.spine import bend_for, chord
 from locomotion.quadruped.trail import trail_at, trail_point
 
-__all__ = ["front_of", "on_trail", "place_body", "spring", "wanted_pose", "wrap"]
+__all__ = ["front_of", "on_trail", "place_body", "root_behind", "spring", "wanted_pose", "wrap"]
 
 _HALF_LIFE = 0.16  # [s] of an offset
 
@@ -106,3 +108,23 @@ def place_body(st, pr, pool):
     bone = pr[at.BONE] * math.cos(st[at.PITCH])
     st[at.FRONT_X], st[at.FRONT_Y] = front_of(x, y, yaw, bend, pr[at.BONES], bone)
     st[at.CHEST] = yaw + pr[at.BONES] * bend
+
+
+def root_behind(rows: NDArray[np.float64], step: float, params: NDArray[np.float64], pitch: float) -> float:
+    """[m] of the root along a trail (rows (n, ROW), ``step`` [m] apart) when the front feet's midpoint is at
+    its end, the trunk tilted by ``pitch`` [rad]; by halving."""
+    st = np.zeros(at.STATE)
+    st[at.MODE], st[at.ROW_COUNT], st[at.ROW_STEP], st[at.PITCH] = at.ON_TRAIL, len(rows), step, pitch
+    reach, length = params[at.BONES] * params[at.BONE], step * (len(rows) - 1)
+
+    def front(arc: float) -> float:
+        st[at.ARC], st[at.FRONT_ARC] = arc, arc + reach
+        return wanted_pose(st, params, rows, arc, 0.0)[5]
+
+    low, high = max(length - 1.2 * reach, 0.0), length
+    if front(low) >= length:
+        return low
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if front(middle) >= length else (middle, high)
+    return 0.5 * (low + high)

@@ -7,7 +7,7 @@
         herd.tick()
 
 A herd plays motions: trails and scripts. What an animal has to do to reach a goal is in
-`locomotion.quadruped.navigator`.
+`locomotion.quadruped.animal`.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from locomotion.ground import Ground
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.advance import advance_all
 from locomotion.quadruped.body import Body
-from locomotion.quadruped.following import front_of, wanted_pose, wrap
+from locomotion.quadruped.following import front_of, root_behind, wanted_pose, wrap
 from locomotion.quadruped.motion import DT, begin_stop, stop_length
 from locomotion.quadruped.pool import Pool
 from locomotion.quadruped.pose import body_names, count_bodies, write_pose
@@ -238,23 +238,10 @@ class Herd:
 
     def last_arc(self, index: int, trail: Trail) -> float:
         """[m] where the root is when the front feet's midpoint is at the trail's end."""
-        st = np.zeros(at.STATE)
-        st[at.MODE], st[at.ROW_COUNT], st[at.ROW_STEP] = at.ON_TRAIL, len(trail.rows), trail.step
-        st[at.PITCH] = (
-            self.state[index, at.PITCH] if trail.length < 1.0 else _end_pitch(trail, self.bodies[index])
-        )
-        reach = self.bodies[index].spine.length
-        low, high = max(trail.length - 1.2 * reach, 0.0), trail.length
+        body = self.bodies[index]
+        pitch = float(self.state[index, at.PITCH]) if trail.length < 1.0 else _end_pitch(trail, body)
         pr = self._params[int(self.state[index, at.KIND])]
-        st[at.FRONT_ARC] = reach
-        if wanted_pose(st, pr, trail.rows, low, 0.0)[5] >= trail.length:
-            return low
-        for _ in range(40):
-            middle = 0.5 * (low + high)
-            st[at.ARC], st[at.FRONT_ARC] = middle, middle + reach
-            beyond = wanted_pose(st, pr, trail.rows, middle, 0.0)[5] >= trail.length
-            low, high = (low, middle) if beyond else (middle, high)
-        return 0.5 * (low + high)
+        return root_behind(trail.rows, trail.step, pr, pitch)
 
     def _begin(self, index: int, mode: float, rows: NDArray[np.float64], step: float) -> None:
         st = self.state[index]

@@ -42,8 +42,8 @@ def solve_leg(x, z, upper, lower, foot, lean, curl, side):
 
     ``lean`` [rad] is how far the foot bone's upper end is behind the line from the toe to the joint,
     ``curl`` [rad] what a swinging paw folds back from that. The foot bone gives way where the two others
-    would
-    be stretched too straight or folded too far, smoothly, so that no joint has to turn ever faster there.
+    would be stretched too straight or folded too far, smoothly, so that no joint has to turn ever faster
+    there.
     """
     far = math.sqrt(x * x + z * z)
     nearer = (_FOLD * (upper + lower) + foot - far) / foot

@@ -1,5 +1,7 @@
 """Dogs, cats and horses in worlds and missions."""
 
+from importlib.resources import files
+
 import numpy as np
 import pytest
 from conftest import MISSION
@@ -94,6 +96,37 @@ def test_a_mission_with_a_dog_runs_and_is_drawn(folder):
     assert trace.state_hash == result.trace.state_hash
     write_page(trace, folder / "run.html")
     assert (folder / "run.html").stat().st_size > 100_000
+
+
+def mutt(folder, old, new):
+    """The path of a dog's file with one change."""
+    text = (files("locomotion.quadruped") / "bodies" / "dog.yaml").read_text()
+    assert old in text
+    (folder / "mutt.yaml").write_text(text.replace(old, new, 1))
+    return str(folder / "mutt.yaml")
+
+
+def test_a_body_of_ones_own_lives_in_a_world(graph, tmp_path):
+    path = mutt(tmp_path, "look_ahead: 0.6", "look_ahead: 0.9")
+    world = World(graph)
+    dog = world.spawn(path, (2.0, 3.0, 0.0))
+    assert dog.name == "mutt1" and dog.animal.body.head.look_ahead == 0.9
+    saved = world.save()
+    dog.go_to((4.0, 3.0, 0.0))
+    world.step(0.5)
+    world.remove(dog)
+    world.restore(saved)
+    assert world.agents["mutt1"].animal.body.head.look_ahead == 0.9
+
+
+def test_a_body_that_does_not_add_up_names_its_line(graph, tmp_path):
+    world = World(graph)
+    with pytest.raises(RuntimeInputError, match=r"mutt\.yaml:[0-9]+:[0-9]+: .*4 bones of 0.11 m make 0.44 m"):
+        world.spawn(mutt(tmp_path, "length: 0.44, bones: 4", "length: 0.50, bones: 4"), (2.0, 3.0, 0.0))
+    for body in ("mutt", str(tmp_path / "none.yaml")):
+        with pytest.raises(RuntimeInputError, match=r"valid: .*\.yaml|none\.yaml"):
+            world.spawn(body, (2.0, 3.0, 0.0))
+    assert not world.agents
 
 
 def test_rules_suit_every_body_of_a_mission():

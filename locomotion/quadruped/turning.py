@@ -1,0 +1,91 @@
+"""Turning around: on the spot where nothing is in the way, else back along the crumbs to where room is."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion.ground import Ground
+from locomotion.quadruped import layout as at
+from locomotion.quadruped.body import Body
+from locomotion.quadruped.following import wrap
+from locomotion.quadruped.footprint import RESOLUTION, check_script, trail_places
+from locomotion.quadruped.local_motion import local_motion
+from locomotion.quadruped.script import Place, Script
+from locomotion.quadruped.trail import Trail, lay_trail
+from locomotion.quadruped.ways import Planner, find_way, first_heading, turn_onto
+
+__all__ = ["WayBack", "turn_script", "way_back"]
+
+_LOOK_BACK = 40  # places with room that are tried
+_PIVOTS = (0.5, 0.0, 1.0, 0.25, 0.75)  # shares of the spine from the rear on
+_STEP = 0.1  # [m] between places
+
+
+class WayBack(NamedTuple):
+    """Rear first along ``trail``, from arc length ``start`` to ``end`` [m]."""
+
+    trail: Trail
+    start: float
+    end: float
+
+
+def turn_script(body: Body, ground: Ground, place: Place, yaw: float) -> Script | None:
+    """A turn on the spot to ``yaw`` [rad] that touches nothing, with the resolution of the check to spare:
+    around the middle, the rear or the front, the short way or the long one. None where there is none."""
+    moves = local_motion(body)
+    short = float(wrap(yaw - place.yaw))
+    for turn in (short, short - math.copysign(2.0 * math.pi, short)):
+        if abs(turn) > math.pi:
+            continue
+        for pivot in _PIVOTS:
+            ahead = pivot * body.spine.length
+            script = moves.script(place, (ahead * (1.0 - math.cos(turn)), -ahead * math.sin(turn), turn))
+            if check_script(script, body, ground, RESOLUTION).free:
+                return script
+    return None
+
+
+def way_back(
+    planner: Planner,
+    body: Body,
+    ground: Ground,
+    goals: Sequence[tuple[float, float, float]],
+    place: Place,
+    crumbs: NDArray[np.float64],
+) -> WayBack | None:
+    """The way back along ``crumbs`` (k, 3) [m], oldest first, from ``place`` to the nearest place with room
+    for a turn towards ``goals``; None where there is none."""
+    if len(crumbs) < 2:
+        return None
+    points = np.vstack([crumbs, [place.x, place.y, place.z], [*place.front(body), place.z]])
+    trail = lay_trail(points, body, ground)
+    here = trail.length - body.spine.length
+    arcs = np.arange(here - _STEP, 0.0, -_STEP)
+    if len(arcs) == 0:
+        return None
+    heights = np.interp(arcs, trail.step * np.arange(len(trail.rows)), trail.rows[:, at.PZ])
+    middles = np.array([trail.point(arc + 0.5 * body.spine.length) for arc in arcs])
+    roomy = arcs[planner.room_to_turn(np.column_stack([middles, heights]), body.length)]
+    for arc in roomy[:_LOOK_BACK]:
+        there = Place(*trail_places(trail, body, arc, arc)[0].tolist())
+        if _can_turn(planner, body, ground, goals, there):
+            return WayBack(trail, here, float(arc))
+    return None
+
+
+def _can_turn(
+    planner: Planner, body: Body, ground: Ground, goals: Sequence[tuple[float, float, float]], there: Place
+) -> bool:
+    """Whether one at ``there`` could set out for ``goals``."""
+    try:
+        onward, _ = find_way(planner, body, ground, goals, there)
+    except ValueError:
+        return False
+    if abs(turn_onto(onward, body, there)) < body.spine_reach:
+        return True
+    return turn_script(body, ground, there, first_heading(onward, body)) is not None

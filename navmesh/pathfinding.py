@@ -4,19 +4,21 @@ The stages: the ends are snapped to places where the body fits (`navmesh.snappin
 discs (`navmesh.search`), string pulling turns it into the line to walk (`navmesh.pulling`).
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from functools import cache
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numba import float64
 
 from navmesh.answering import answer, answer_all, answer_search, start_search
 from navmesh.bodies import doors_of
 from navmesh.errors import NavmeshError
 from navmesh.route import STATUSES, Route, Routes, link_uses
 from navmesh.search import RUNNING, advance
-from navmesh.structs import make_scratch, net_of
+from navmesh.structs import DOORS, NET, SCRATCH, make_scratch, net_of
 
 if TYPE_CHECKING:
     from navmesh.graph import NodeGraph
@@ -31,6 +33,12 @@ def _scratch_for(graph: "NodeGraph") -> Any:
     ``graph.cache["scratch"].append``."""
     stock = graph.cache.setdefault("scratch", [])
     return stock.pop() if stock else make_scratch(graph)
+
+
+@cache
+def _compiled_answer() -> Callable:
+    """`answer` without Numba's choice by the types of the arguments, which takes longer than passing them."""
+    return answer.compile((NET, DOORS, SCRATCH, float64[::1], *[float64] * 8))
 
 
 def _limits(graph: "NodeGraph", radius: float) -> tuple[float, float]:
@@ -63,7 +71,7 @@ def find_path(
     doors = doors_of(graph, radius, skills, node_costs)
     scratch = _scratch_for(graph)
     reach, rise = _limits(graph, radius)
-    status, length, expanded, nodes, waypoints, leaps = answer(
+    status, length, expanded, nodes, waypoints, leaps = _compiled_answer()(
         net_of(graph), doors, scratch, graph.surface.origin, sx, sy, sz, gx, gy, gz, reach, rise
     )
     graph.cache["scratch"].append(scratch)

@@ -6,6 +6,8 @@ from math import sqrt
 import numpy as np
 from numba import njit
 
+from navmesh.heap import push, take_first
+
 __all__ = ["DETOURS", "detour"]
 
 DETOURS = 6
@@ -14,39 +16,6 @@ DETOURS = 6
 _TIGHT = 25.0
 """Cost factor of cells whose centre is short of the radius by less than a cell: only where there is no other
 way."""
-
-
-@njit(error_model="numpy", cache=True)
-def _sift_up(keys, items, i):
-    key, item = keys[i], items[i]
-    while i > 0:
-        up = (i - 1) >> 1
-        if keys[up] < key or (keys[up] == key and items[up] <= item):
-            break
-        keys[i], items[i] = keys[up], items[up]
-        i = up
-    keys[i], items[i] = key, item
-
-
-@njit(error_model="numpy", cache=True)
-def _take_first(keys, items, size):
-    """Remove the first of ``size`` entries, which leaves ``size - 1``."""
-    key, item = keys[size - 1], items[size - 1]
-    size -= 1
-    i = 0
-    while True:
-        down = 2 * i + 1
-        if down >= size:
-            break
-        if down + 1 < size and (
-            keys[down + 1] < keys[down] or (keys[down + 1] == keys[down] and items[down + 1] < items[down])
-        ):
-            down += 1
-        if key < keys[down] or (key == keys[down] and item <= items[down]):
-            break
-        keys[i], items[i] = keys[down], items[down]
-        i = down
-    keys[i], items[i] = key, item
 
 
 @njit(error_model="numpy", cache=True)
@@ -73,7 +42,7 @@ def detour(net, scratch, start, goal, radius):
     size = 1
     while size > 0:
         k = items[0]
-        _take_first(keys, items, size)
+        take_first(keys, items, size)
         size -= 1
         if k == goal:
             found = True
@@ -97,8 +66,7 @@ def detour(net, scratch, start, goal, radius):
                     items = np.concatenate((items, np.empty_like(items)))
                 dx = net.cell_column[other] // net.ny - goal_x
                 dy = net.cell_column[other] % net.ny - goal_y
-                keys[size], items[size] = cost + h * sqrt(dx * dx + dy * dy), other
-                _sift_up(keys, items, size)
+                push(keys, items, size, cost + h * sqrt(dx * dx + dy * dy), other)
                 size += 1
     if not found:
         return np.empty(0, np.int32)

@@ -153,6 +153,7 @@ def walk(net, k, ax, ay, bx, by, radius, through):
     h, ny = net.cell, net.ny
     link, clearance, label = net.link, net.clearance, net.label
     position, node_radius, column_start = net.position, net.node_radius, net.column_start
+    per_h = 1.0 / h
     dx = bx - ax
     dy = by - ay
     length = sqrt(dx * dx + dy * dy)
@@ -180,14 +181,14 @@ def walk(net, k, ax, ay, bx, by, radius, through):
     while True:
         leave = min(next_x, next_y, length)
         if free < leave:
-            room = clearance[k] - margin
-            cx = (ix + 0.5) * h
-            cy = (iy + 0.5) * h
-            free = _leaves(cx, cy, room, ax, ay, ux, uy, s)
             node = label[k]
             if node >= 0:
                 room = node_radius[node] - margin
-                free = max(free, _leaves(position[node, 0], position[node, 1], room, ax, ay, ux, uy, s))
+                free = _leaves(position[node, 0], position[node, 1], room, ax, ay, ux, uy, s)
+            if free < leave:
+                cx = (ix + 0.5) * h
+                cy = (iy + 0.5) * h
+                free = max(free, _leaves(cx, cy, clearance[k] - margin, ax, ay, ux, uy, s))
             if free < leave:
                 if radius > 0.0:
                     square, where, px, py = _stretch_gap(net, k, cx, cy, ax, ay, ux, uy, s, leave)
@@ -197,11 +198,11 @@ def walk(net, k, ax, ay, bx, by, radius, through):
                             return False, k, least, place * per_length, qx, qy, tight
             elif free > leave + h and leave < length:
                 ahead = min(free, length)
-                jx, jy = int((ax + ahead * ux) / h), int((ay + ahead * uy) / h)
+                jx, jy = int((ax + ahead * ux) * per_h), int((ay + ahead * uy) * per_h)
                 landing = _landing(column_start, label, jx * ny + jy, node)
                 if landing < 0 and 0.5 * (s + ahead) > leave + h:
                     ahead = 0.5 * (s + ahead)
-                    jx, jy = int((ax + ahead * ux) / h), int((ay + ahead * uy) / h)
+                    jx, jy = int((ax + ahead * ux) * per_h), int((ay + ahead * uy) * per_h)
                     landing = _landing(column_start, label, jx * ny + jy, node)
                 if landing >= 0:
                     k, ix, iy, s = landing, jx, jy, ahead

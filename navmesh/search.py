@@ -10,6 +10,8 @@ from math import sqrt
 
 from numba import njit
 
+from navmesh.heap import push, take_first
+
 __all__ = ["BEST", "COMPLETE", "EMPTY", "EXPANDED", "RUNNING", "advance", "begin", "chain"]
 
 RUNNING, COMPLETE, EMPTY = 0, 1, 2
@@ -18,46 +20,6 @@ it."""
 
 # Places in scratch.numbers
 _STAMP, _HEAP, _STATE, _GOAL_NODE, BEST, EXPANDED = 0, 1, 2, 3, 4, 5
-
-
-@njit(error_model="numpy", cache=True, inline="always")
-def _push(keys, nodes, size, key, node):
-    """Add an entry to the ``size`` that are there."""
-    i = size
-    while i > 0:
-        up = (i - 1) >> 1
-        if keys[up] < key or (keys[up] == key and nodes[up] <= node):
-            break
-        keys[i] = keys[up]
-        nodes[i] = nodes[up]
-        i = up
-    keys[i] = key
-    nodes[i] = node
-
-
-@njit(error_model="numpy", cache=True, inline="always")
-def _take_first(keys, nodes, size):
-    """Remove the first of ``size`` entries, which leaves ``size - 1``."""
-    size -= 1
-    key = keys[size]
-    node = nodes[size]
-    i = 0
-    while True:
-        down = 2 * i + 1
-        if down >= size:
-            break
-        right = down + 1
-        if right < size and (
-            keys[right] < keys[down] or (keys[right] == keys[down] and nodes[right] < nodes[down])
-        ):
-            down = right
-        if key < keys[down] or (key == keys[down] and node <= nodes[down]):
-            break
-        keys[i] = keys[down]
-        nodes[i] = nodes[down]
-        i = down
-    keys[i] = key
-    nodes[i] = node
 
 
 @njit(error_model="numpy", cache=True, inline="always")
@@ -131,7 +93,7 @@ def advance(net, doors, scratch, budget):
             state = EMPTY
             break
         key, node = keys[0], nodes[0]
-        _take_first(keys, nodes, size)
+        take_first(keys, nodes, size)
         size -= 1
         if key > totals[node]:
             continue  # reached more cheaply since
@@ -166,7 +128,7 @@ def advance(net, doors, scratch, budget):
                 costs[target], totals[target] = step, step + rest
                 entry[target, 0], entry[target, 1], entry[target, 2] = ex, ey, ez
                 parent[target], via[target] = node, door
-                _push(keys, nodes, size, step + rest, target)
+                push(keys, nodes, size, step + rest, target)
                 size += 1
         for leap in range(leap_start[node], leap_start[node + 1]):
             target = net.label[doors.leap_to_cell[leap]]
@@ -181,7 +143,7 @@ def advance(net, doors, scratch, budget):
                 costs[target], totals[target] = step, step + rest
                 entry[target, 0], entry[target, 1], entry[target, 2] = tx, ty, tz
                 parent[target], via[target] = node, targets.size + leap
-                _push(keys, nodes, size, step + rest, target)
+                push(keys, nodes, size, step + rest, target)
                 size += 1
     numbers[_HEAP] = size
     numbers[_STATE] = state

@@ -189,10 +189,10 @@ def films() -> dict:
 def _stop():
     film, figure = world_film(
         "stop out of a bend: the front stays, the rear slides out", floor(6.0), (-3, 0, 0), 0.0,
-        [[(0.0, 0.0, 0.0), (0.35, 0.8, 0.0)]], [1.2],
+        [[(0.0, 0.0, 0.0), (0.1, 0.4, 0.0)]], [1.2],
     )  # fmt: skip
     end = film.moments[-1][0]
-    return film, figure, (end - 1.8, end)
+    return film, figure, (end - 1.2, end)
 
 
 def _dead_end():
@@ -200,7 +200,7 @@ def _dead_end():
         "dead end of 0.5 m: backing out along the crumbs, turning where there is room", dead_end(),
         (-2, 0, 0), 0.0, [(2.0, 0.0, 0.0), (-3.0, 0.5, 0.0)], [1.0, 1.0], 3.4,
     )  # fmt: skip
-    film.rise = 0.8
+    film.rise = 1.5
     return film, figure, (3.5, film.moments[-1][0] - 1.0)
 
 

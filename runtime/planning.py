@@ -15,11 +15,6 @@ __all__ = ["NoWay", "Plan", "make_plan", "way_holds", "why_not"]
 
 _SHORT = 0.05  # [m] by which a smoothed path may be nearer to a wall than its radius
 _SAME = 0.01  # [m] by which a link's ends and height may differ
-_WHY = {
-    "partial": "no way leads there on foot or with the skills at hand",
-    "no_path": "no way leads there on foot or with the skills at hand",
-    "off_graph": "it is not near a place where the body fits",
-}
 
 
 class NoWay(ValueError):
@@ -76,7 +71,7 @@ def make_plan(
     for index, goal in enumerate(goals):
         route = graph.find_path(start, goal, radius=radius, skills=skills)
         if route.status != "complete":
-            raise NoWay(index, why_not(graph, route, start, radius))
+            raise NoWay(index, why_not(graph, route, start, goal, radius, skills))
         if len(route.waypoints) < 2:
             ends.append(begun)
             continue
@@ -132,11 +127,39 @@ def _link_holds(
     return bool(alike.any())
 
 
-def why_not(graph: navmesh.NodeGraph, route: Route, start: np.ndarray, radius: float) -> str:
-    """Why ``route``, found from ``start`` (3,) for a body of ``radius`` [m], does not lead to its goal."""
-    if route.status == "off_graph" and graph.find_path(start, start, radius=radius).status == "off_graph":
-        return "the way there begins at a place where the body does not fit"
-    return _WHY[route.status]
+def why_not(
+    graph: navmesh.NodeGraph,
+    route: Route,
+    start: np.ndarray,
+    goal: np.ndarray,
+    radius: float,
+    skills: Mapping[str, tuple[float, float]],
+) -> str:
+    """Why ``route``, found from ``start`` to ``goal`` (3,) for a body of ``radius`` [m] with ``skills``, does
+    not lead there: over what a way would lead is named."""
+    if route.status == "off_graph":
+        if graph.find_path(start, start, radius=radius).status == "off_graph":
+            return "the way there begins at a place where the body does not fit"
+        return "it is not near a place where the body fits"
+    links = graph.links
+    every = dict.fromkeys(np.unique(links.affordance).tolist(), (0.0, float(links.height.max(initial=0.0))))
+    over = graph.find_path(start, goal, radius=radius, skills=every)
+    reason = "no way leads there on foot or with the skills at hand"
+    if over.status != "complete":
+        return reason
+    kinds, heights = graph.obstacles.affordance, graph.obstacles.height
+    beyond = [
+        f"{kinds[use.obstacle]} {heights[use.obstacle]:.2f} m"
+        for use in over.links
+        if not _offered(skills, str(kinds[use.obstacle]), float(heights[use.obstacle]))
+    ]
+    offer = ", ".join(f"{kind} {low:g} to {high:g} m" for kind, (low, high) in skills.items())
+    return f"{reason}: a way would lead over {', '.join(beyond)}; there are {offer or 'no skills'}"
+
+
+def _offered(skills: Mapping[str, tuple[float, float]], kind: str, height: float) -> bool:
+    low, high = skills.get(kind, (np.inf, -np.inf))
+    return low <= height <= high
 
 
 def _heading(points: np.ndarray) -> np.ndarray | None:

@@ -144,13 +144,13 @@ class WalkerDriver:
         try:
             return self._plan_of(self.walker.crowd.find_routes(self.walker.index, goals))
         except NoRoute as error:
-            raise self._no_way(error) from None
+            raise self._no_way(error, goals) from None
 
     def go_to(self, goals: np.ndarray, speed: float, facing: float | None) -> Plan:
         try:
             plan = self._plan_of(self.walker.go_to(goals, speed, facing))
         except NoRoute as error:
-            raise self._no_way(error) from None
+            raise self._no_way(error, goals) from None
         except LocomotionError as error:
             raise RuntimeInputError(str(error)) from None
         self.plans.append(plan)
@@ -174,9 +174,10 @@ class WalkerDriver:
         points = np.concatenate([drape(graph, route.waypoints, _SPACING) for route in routes])
         return Plan(graph.positions[nodes], pulled, points, ())
 
-    def _no_way(self, error: NoRoute) -> NoWay:
-        graph = self.walker.crowd.graph
-        return NoWay(error.goal, why_not(graph, error.route, error.start, self.radius))
+    def _no_way(self, error: NoRoute, goals: np.ndarray) -> NoWay:
+        graph, goal = self.walker.crowd.graph, goals[error.goal]
+        reason = why_not(graph, error.route, error.start, goal, self.radius, self.skills)
+        return NoWay(error.goal, reason)
 
     def save(self) -> tuple[WalkerState, tuple[Plan, ...]]:
         return self.walker.save(), tuple(self.plans)[-1:]

@@ -3,8 +3,11 @@
 import numpy as np
 import pytest
 
+import navmesh
 from runtime import Blocked, Departed, Event, RuntimeInputError, World
+from runtime.courses import make_course
 from runtime.figure import rotate, turn
+from runtime.rules import person_walk_rules
 
 
 def test_steps_of_any_length_make_whole_ticks(graph):
@@ -102,6 +105,17 @@ def test_an_unreachable_goal_blocks(graph, goal, reason):
     assert agent.go_to(goal) == "blocked" == agent.status
     (event,) = world.events
     assert isinstance(event, Blocked) and reason in event.reason and event.goal == goal
+
+
+@pytest.mark.parametrize(("body", "offer"), [("human", "jump "), ("walker", "no skills")])
+def test_an_obstacle_that_no_skill_clears_is_named(body, offer):
+    course = make_course([("jump", 0.65, 0.0)], [8.0])
+    terrain = navmesh.Terrain.from_arrays(course.vertices, course.faces)
+    world = World(navmesh.NodeGraph.build(terrain, person_walk_rules()))
+    agent = world.spawn(body, (1.0, 0.0, 0.0))
+    assert agent.go_to((12.0, 0.0, 0.65)) == "blocked"
+    event = world.events[-1]
+    assert isinstance(event, Blocked) and f"lead over jump 0.65 m; there are {offer}" in event.reason
 
 
 @pytest.mark.parametrize("body", ["human", "dog"])

@@ -4,8 +4,9 @@
 
 A hundred agents are on their way over a floor. From one saved moment, in turns, the world is stepped
 by frames of 1/60 s with its events read, and its bodies are ticked directly as often: each person, the herd,
-each animal. CPU time; the fastest of the repeats counts, so that what else runs on the machine does not. Both
-must end with the same hash. "blended" is the world's step with every pose asked for at every frame.
+each animal, and those who give way. CPU time; the fastest of the repeats counts, so that what else runs on
+the machine does not. Both must end with the same hash. "blended" is the world's step with every pose asked
+for at every frame.
 """
 
 import argparse
@@ -17,6 +18,7 @@ import numpy as np
 
 import navmesh
 from runtime import Agent, World
+from runtime.traffic import EVERY
 
 SIDE = 60.0  # [m]
 FRAMES = 30
@@ -49,12 +51,15 @@ def step_and_draw(world: World) -> None:
             _ = agent.blended_pose
 
 
-def tick_parts(agents: list[Agent], ticks: int) -> None:
-    """What a world's step is made of, without the world."""
+def tick_parts(world: World, agents: list[Agent], ticks: int) -> None:
+    """What a world's step is made of, without the world's own doing."""
+    begun = round(world.time / 0.01)
     humans = [agent.human for agent in agents if agent.body == "human"]
     animals = [agent.animal for agent in agents if agent.body != "human"]
     herds = {id(animal.herd): animal.herd for animal in animals}.values()
-    for _ in range(ticks):
+    for tick in range(begun, begun + ticks):
+        if tick % EVERY == 0:
+            world._traffic.direct()
         for human in humans:
             human.tick()
         for herd in herds:
@@ -68,7 +73,7 @@ def measure(world: World, repeats: int) -> dict[str, float]:
     saved, ticks = world.save(), round(FRAMES / 60 / 0.01)
     agents = list(world.agents.values())
     ways = {
-        "parts": lambda: tick_parts(agents, ticks),
+        "parts": lambda: tick_parts(world, agents, ticks),
         "world": lambda: step_world(world),
         "blended": lambda: step_and_draw(world),
     }

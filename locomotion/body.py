@@ -24,7 +24,7 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from locomotion import controller, path_tracking
+from locomotion import controller, giving_way, path_tracking
 from locomotion.clearing import ClearingSkill, foot_distance, plan_run_up, skill_for
 from locomotion.controller import observe, run_tick
 from locomotion.errors import LocomotionError
@@ -40,6 +40,7 @@ from locomotion.events import (
     TookOff,
 )  # fmt: skip
 from locomotion.gaits import run_entry_speed, run_limits, walk_limits
+from locomotion.giving_way import Course
 from locomotion.ground import Ground, plane_lookup
 from locomotion.hand_hold import let_go_both
 from locomotion.human_state import (
@@ -52,7 +53,7 @@ from locomotion.human_state import (
     save_physics,
 )
 from locomotion.library import learned_skills
-from locomotion.path_tracking import RUN_UP, PathTable, make_path, new_track, track
+from locomotion.path_tracking import RUN_UP, PathTable, make_path, new_track, shifted, track
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK, PersonIndex, build_person
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill, load_run_skill, reset_running, run_on
@@ -87,8 +88,12 @@ _WALK_ARRIVAL = 0.15  # [m] before the end of its path at which a walking person
 _TURN_FIRST = 0.7  # [rad] off its way at which a walking person turns on the spot
 _SETTLING = 600  # ticks in which a person that has stopped walking comes to rest
 _STILL = 0.03  # [m/s] of the centre of mass at rest
+_WALK_BEND, _RUN_BEND = 1.0, 0.2  # [1/m] in which it goes out of somebody's way
+_SWAY = 0.07  # [m] that it is beside its path now and then
+_FORESEEN = 2.0 * giving_way.HORIZON  # [s] of its way that others are told of
 _HASTE = 1.3  # [m/s] that the speed asked for may exceed the last step's: more trips it in setting off
 _CHANGE = 0.01  # [m] by which the ground under a person at rest may change unnoticed
+_PATIENCE = 0.9  # of the time that it gives way does not count as being stuck
 _FALL_TICKS = 100  # a fallen body is simulated for this long, then held
 _GAINS = np.array(
     [0.35, 1.2, 0.15, 0.45, 0.5, 0.05]
@@ -310,6 +315,54 @@ class Human:
         assert self.ground is not None
         return self.ground.surface_below(self._control[controller.FEET].reshape(2, 3))[0]
 
+    @property
+    def pace(self) -> float:
+        """Share of its planned speed at which it goes."""
+        return float(self._memory[path_tracking.PACE])
+
+    @property
+    def path(self) -> NDArray[np.float64]:
+        """(n, 3) float64 [m]: the path that it follows or followed last."""
+        return np.empty((0, 3)) if self._path is None else self._path.table[:, :3].copy()
+
+    def course(self) -> Course | None:
+        """What it is about to do; None for one that is not on its way, or clears an obstacle."""
+        path, memory = self._path, self._memory
+        if path is None or self.status not in ("walking", "running"):
+            return None
+        walks = self.status == "walking"
+        limits = self._walk_limits if walks else self.limits
+        arc, step = float(memory[path_tracking.ARC]), path.length / (len(path.table) - 1)
+        along = np.arange(
+            arc, min(path.length, arc + _FORESEEN * limits.speeds[1]) + 1e-9, giving_way.SPACING
+        )
+        rows = np.empty((len(along), path.table.shape[1]))
+        for k in range(rows.shape[1]):
+            rows[:, k] = np.interp(along / step, np.arange(len(path.table)), path.table[:, k])
+        return Course(
+            points=rows[:, :3],
+            speeds=np.minimum(rows[:, path_tracking.SPEED], limits.speeds[1]),
+            speed=float(np.linalg.norm(self.velocity[:2])),
+            pace=float(memory[path_tracking.PACE]),
+            length=0.0,
+            radius=PERSON_RULES["radius"] + _SWAY,
+            acceleration=limits.acceleration,
+            braking=limits.deceleration,
+            slowest=0.0 if walks else limits.speeds[0],
+            sharpest=_WALK_BEND if walks else _RUN_BEND,
+            begins=0.5 if walks else 1.0,
+            aside=int(self._run_up[_NEXT]) >= len(self._obstacles),
+        )
+
+    def give_way(self, pace: float, shift: NDArray[np.float64] | None) -> None:
+        """Go at a share of the planned speed; with ``shift`` (k, 2) [m] change the path by it, one row for
+        every 0.1 m from where it is."""
+        assert self._path is not None
+        self._memory[path_tracking.PACE] = pace
+        if shift is not None:
+            walk = self._walk_limits if self.status == "walking" else None
+            self._path = shifted(self._path, self.arc_length, shift, self.limits, walk)
+
     # --- time
     def tick(self) -> None:
         """Advance by 10 ms: track the path, control, physics, observe, notice what happened."""
@@ -357,6 +410,7 @@ class Human:
     def _steer(self, path: PathTable, walks: bool) -> None:
         """Track the path: heading and speeds to ask of the controller."""
         state = self._control
+        pace = float(self._memory[path_tracking.PACE])
         com = controller.COM.start
         track(
             path.table, path.length, _WALK_GAINS if walks else _GAINS, self._memory, state[com],
@@ -369,17 +423,19 @@ class Human:
             off = self._command[0] - self._walk[WALK_HEADING]
             if self.status not in MOVING or abs(math.remainder(off, 2.0 * math.pi)) > _TURN_FIRST:
                 self._command[1:3] = 0.0
-            self._command[1] = min(self._command[1], self.gait.speed)
+            self._command[1] = pace * min(self._command[1], self.gait.speed)
             return
         if state[controller.STEPS] >= 2.0:
             self._command[1] = min(self._command[1], state[controller.STEP_SPEED] + _HASTE)
         if self._run_up[_PLANNED] > 0.0:
             self._command[1] = self._run_up[_PLANNED]
+        else:
+            self._command[1] = max(pace * self._command[1], min(self._command[1], self.limits.speeds[0]))
 
     def _run_if_possible(self, path: PathTable) -> None:
         """Go over from walking to running, just after a foot was put down."""
         walk = self._walk
-        if self._memory[path_tracking.ARC] < path.run_from:
+        if self._memory[path_tracking.ARC] < path.run_from or self._memory[path_tracking.PACE] < 1.0:
             return
         speed = run_entry_speed(walk, self._control, float(self._command[0]))
         if speed is not None:
@@ -445,6 +501,8 @@ class Human:
                 self._end("lost", MissedGoal(self.time, self._point(), distance))
         elif abs(memory[path_tracking.LATERAL]) > STRAYED:
             self._end("lost", StrayedFromPath(self.time, self._point(), abs(self.lateral_error)))
+        elif memory[path_tracking.PACE] < 1.0:
+            memory[path_tracking.HEADWAY_TICK] += _PATIENCE
         elif (self._ticks - memory[path_tracking.HEADWAY_TICK]) * CONTROL_DT > STUCK_TIME:
             self._end("stuck", GotStuck(self.time, self._point()))
 

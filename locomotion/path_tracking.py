@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numba import njit
@@ -13,19 +13,20 @@ from numpy.typing import ArrayLike, NDArray
 from locomotion.errors import LocomotionError
 
 __all__ = [
-    "ARC", "HEADWAY", "HEADWAY_TICK", "LATERAL", "REMAINING", "RUN_UP", "SLOPE_HERE", "SPEED_HERE",
-    "TRACK_SIZE", "PathTable", "TrackingLimits", "checked_points", "make_path", "new_track", "track",
+    "ARC", "HEADWAY", "HEADWAY_TICK", "LATERAL", "PACE", "REMAINING", "RUN_UP", "SLOPE_HERE", "SPEED_HERE",
+    "TRACK_SIZE", "PathTable", "TrackingLimits", "checked_points", "make_path", "new_track",
+    "shifted", "track",
 ]  # fmt: skip
 
 SPACING = 0.1
 """Spacing of a path's table [m]."""
 X, Y, Z, HEADING, CURVATURE, SLOPE, SPEED = range(7)
 """Columns of a path's table."""
-ARC, LATERAL, INTEGRAL, REMAINING, SPEED_HERE, SLOPE_HERE, HEADWAY, HEADWAY_TICK = range(8)
+ARC, LATERAL, INTEGRAL, REMAINING, SPEED_HERE, SLOPE_HERE, HEADWAY, HEADWAY_TICK, PACE = range(9)
 """What the tracker remembers: arc length of the body's foot point [m], distance to the left of the path [m],
 its integral [m s], length left [m], planned speed [m/s] and slope here, greatest arc length so far and the
-tick at which it grew last by `_STEP`."""
-TRACK_SIZE = 8
+tick at which it grew last by `_STEP`, share of the planned speed at which it goes to give way."""
+TRACK_SIZE = 9
 RUN_UP = 15.0
 """[m] before an obstacle, along the path, from which a body runs and the speed of each step is planned."""
 _STEP = 0.25
@@ -182,9 +183,38 @@ def _plan_speed(
     table[:, SPEED] = np.sqrt(squares)
 
 
+def shifted(
+    path: PathTable, arc: float, shift: ArrayLike, limits: TrackingLimits, walk: TrackingLimits | None = None
+) -> PathTable:
+    """``path`` with what comes after ``arc`` [m] moved by ``shift`` (k, 2) [m], one row for every 0.1 m; no
+    faster than the new bends allow. Arc lengths are still those of the path before. ``limits`` and ``walk``
+    as for `make_path`."""
+    move = np.asarray(shift, dtype=np.float64)
+    table = path.table.copy()
+    step = path.length / (len(table) - 1)
+    along = np.asarray(step * np.arange(len(table)), dtype=np.float64)
+    given = arc + SPACING * np.arange(len(move))
+    for column in (X, Y):
+        table[:, column] += np.interp(along, given, move[:, column], left=0.0, right=0.0)
+    _directions(table, step)
+    table[:, SLOPE] = path.table[:, SLOPE]
+    present = walk or limits
+    bend = np.sqrt(present.sideways / np.maximum(np.abs(table[:, CURVATURE]), 1e-6))
+    squares = np.minimum(table[:, SPEED], np.maximum(bend, present.speeds[0])) ** 2
+    for i in range(len(squares) - 2, -1, -1):
+        squares[i] = min(squares[i], squares[i + 1] + 2.0 * present.deceleration * step)
+    table[:, SPEED] = np.sqrt(squares)
+    begin = path.run_from
+    if walk is not None:
+        begin = max(begin, _run_from(table, along, limits, math.inf, np.empty(0)))
+    return replace(path, table=table, run_from=begin)
+
+
 def new_track() -> NDArray[np.float64]:
     """What the tracker remembers at the beginning of a path, (TRACK_SIZE,) float64."""
-    return np.zeros(TRACK_SIZE)
+    memory = np.zeros(TRACK_SIZE)
+    memory[PACE] = 1.0
+    return memory
 
 
 @njit(cache=True)

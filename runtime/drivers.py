@@ -5,7 +5,8 @@ A `Driver` is one body of it.
 """
 
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any, Protocol
 
 import mujoco
@@ -14,6 +15,7 @@ import numpy as np
 from locomotion import PERSON_RULES, Human, HumanState, LocomotionError
 from locomotion.clearing import HEIGHT_TOLERANCE
 from locomotion.events import Event
+from locomotion.giving_way import Course
 from locomotion.quadruped import BODY_NAMES, Animal, AnimalMemory, Body, Herd, Place, check_places, load_body
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.footprint import at_place
@@ -104,6 +106,23 @@ class Driver(Protocol):
     def state_hash(self) -> str: ...
 
 
+class Follower(Protocol):
+    """A body that follows a path and gives way to others."""
+
+    @property
+    def pace(self) -> float:
+        """Share of its speed at which it goes at present."""
+        ...
+
+    def course(self) -> Course | None:
+        """What it is about to do, None where that cannot be changed."""
+        ...
+
+    def give_way(self, pace: float, shift: np.ndarray | None) -> None:
+        """Go at another pace; with ``shift`` (k, 2) [m] change its path by it, as its course tells it."""
+        ...
+
+
 class Population(Protocol):
     """All bodies of some kinds in a world."""
 
@@ -119,7 +138,12 @@ class Population(Protocol):
 
     def remove(self, driver: Driver) -> None: ...
     def in_the_way(self) -> np.ndarray:
-        """Discs (k, 6) that cover them on the ground, as `locomotion.crowd.Crowd.lead` takes them."""
+        """Discs (k, 6) that cover them on the ground, as `locomotion.crowd.Crowd.lead` takes them; as many
+        for each."""
+        ...
+
+    def followers(self) -> Sequence[Follower]:
+        """All of them, if they follow paths; nobody otherwise."""
         ...
 
     def remember(self) -> None:
@@ -165,6 +189,9 @@ class People:
         humans = [driver.human for driver in self._drivers]
         rows = [[*each.position, *each.velocity[:2], PERSON_RULES["radius"]] for each in humans]
         return np.array(rows).reshape(-1, 6)
+
+    def followers(self) -> Sequence[Follower]:
+        return self._drivers
 
     def remember(self) -> None:
         for driver in self._drivers:
@@ -259,6 +286,18 @@ class HumanDriver:
     def stop(self) -> None:
         self.human.stop()
 
+    @property
+    def pace(self) -> float:
+        return self.human.pace
+
+    def course(self) -> Course | None:
+        return self.human.course()
+
+    def give_way(self, pace: float, shift: np.ndarray | None) -> None:
+        self.human.give_way(pace, shift)
+        if shift is not None:
+            self.plans[-1] = replace(self.plans[-1], points=self.human.path)
+
     def save(self) -> tuple[HumanState, tuple[Plan, ...]]:
         return self.human.save_state(), tuple(self.plans)[-1:]
 
@@ -313,6 +352,9 @@ class Pack:
 
     def in_the_way(self) -> np.ndarray:
         return self._herd.discs()
+
+    def followers(self) -> Sequence[Follower]:
+        return self._drivers
 
     def remember(self) -> None:
         self._before.poses = self._herd.poses.copy()
@@ -427,6 +469,17 @@ class AnimalDriver:
 
     def stop(self) -> None:
         self.animal.stop()
+
+    @property
+    def pace(self) -> float:
+        return float(self.animal.herd.state[self.animal.index, at.PACE])
+
+    def course(self) -> Course | None:
+        return self.animal.course()
+
+    def give_way(self, pace: float, shift: np.ndarray | None) -> None:
+        self.animal.give_way(pace, shift)
+        self.take_note()
 
     def take_note(self) -> None:
         """Keep the plan of a trail that has just been taken, if there is one; an event says that it has."""

@@ -12,7 +12,7 @@ from locomotion.events import Event
 from navmesh.draping import drape
 from navmesh.holding import line_holds
 from navmesh.route import Route
-from runtime.drivers import PLANS_KEPT, Driver, Population, recall
+from runtime.drivers import PLANS_KEPT, Driver, Follower, Population, recall
 from runtime.errors import RuntimeInputError
 from runtime.figure import Figure, Shapes
 from runtime.level import Level
@@ -46,7 +46,7 @@ def walker_figure(radius: float) -> Figure:
 
 
 class Walkers:
-    """All walkers of a world, in one crowd. They avoid ``others``, who do not know of them."""
+    """All walkers of a world, in one crowd. They avoid ``others``, who give way themselves."""
 
     bodies: tuple[str, ...] = ("walker",)
 
@@ -70,6 +70,9 @@ class Walkers:
     def in_the_way(self) -> np.ndarray:
         crowd = self.crowd
         return np.column_stack([crowd.positions, crowd.velocities, crowd.radii])
+
+    def followers(self) -> Sequence[Follower]:
+        return ()
 
     def remember(self) -> None:
         if len(self.crowd):

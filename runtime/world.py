@@ -21,6 +21,7 @@ from runtime.errors import RuntimeInputError
 from runtime.events import Event
 from runtime.level import Level
 from runtime.rules import person_walk_rules
+from runtime.traffic import EVERY, Traffic
 from runtime.walkers import Walkers
 from runtime.world_state import WorldState
 
@@ -55,6 +56,7 @@ class World:
         self._level = Level.of(graph)
         others = People(self._level), Pack(self._level)
         self._populations: tuple[Population, ...] = (*others, Walkers(self._level, others))
+        self._traffic = Traffic(self._level, self._populations)
         self._ticks = 0
         self._owed = 0.0
         self._stepping = False
@@ -205,6 +207,8 @@ class World:
                 if made == due:
                     for population in self._populations:
                         population.remember()
+                if self._ticks % EVERY == 0:
+                    self._traffic.direct()
                 self._ticks += 1
                 self._owed = max(total - made * CONTROL_DT, 0.0)
                 for population in self._populations:

@@ -18,7 +18,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from locomotion.errors import LocomotionError
 from locomotion.events import Arrived, BackedOut, Event, GotStuck, LostGround, MissedGoal, SetOff
+from locomotion.giving_way import Course
 from locomotion.quadruped import layout as at
+from locomotion.quadruped.course import course_on, shifted_points
 from locomotion.quadruped.following import wrap
 from locomotion.quadruped.footprint import RESOLUTION, check_script
 from locomotion.quadruped.herd import AnimalState, Herd
@@ -26,7 +28,7 @@ from locomotion.quadruped.local_motion import REACH, local_motion
 from locomotion.quadruped.motion import DT
 from locomotion.quadruped.script import Place, Script, into_flex, out_of_flex
 from locomotion.quadruped.spine import bend_for
-from locomotion.quadruped.trail import Trail
+from locomotion.quadruped.trail import Trail, lay_trail
 from locomotion.quadruped.turning import turn_script, way_back
 from locomotion.quadruped.ways import Planner, Way, find_way, first_heading, last_free_arc, turn_onto
 
@@ -181,6 +183,29 @@ class Animal:
         if self._phase == "following":
             self.herd.stop(self.index)
             self._phase = "halting"
+
+    def course(self) -> Course | None:
+        """What it is about to do on its trail; None for one that does not follow one, or comes to a stop."""
+        st = self.herd.state[self.index]
+        if self._phase != "following" or self.trail is None or st[at.STOPPING] > 0.0:
+            return None
+        return course_on(self.trail, st, self.body)
+
+    def give_way(self, pace: float, shift: NDArray[np.float64] | None) -> None:
+        """Go at a share of its speed; with ``shift`` (k, 2) [m] change its trail by it, as its course tells
+        it, where there is ground."""
+        self.herd.state[self.index, at.PACE] = pace
+        if shift is not None and self.trail is not None:
+            arc = float(self.herd.state[self.index, at.ARC])
+            try:
+                trail = lay_trail(shifted_points(self.trail, arc, shift), self.body, self.herd.ground)
+            except LocomotionError:  # a step in the ground beside its path
+                return
+            end = last_free_arc(trail, self.body, self.herd.ground, self.herd.last_arc(self.index, trail))
+            self.trail = trail
+            self.herd.follow(
+                self.index, trail, self._errand.speed, start=arc, end=max(end, arc), gait=self._errand.gait
+            )
 
     # --- time
     def tick(self) -> None:

@@ -120,7 +120,7 @@ class Herd:
         body, st = self.bodies[index], self.state[index]
         kind = st[at.KIND]
         st[:] = 0.0
-        st[at.KIND], st[at.WAY], st[at.REST], st[at.FIRST_TICK] = kind, 1.0, 1.0, 1.0
+        st[at.KIND], st[at.WAY], st[at.REST], st[at.FIRST_TICK], st[at.PACE] = kind, 1.0, 1.0, 1.0, 1.0
         st[at.X], st[at.Y], st[at.YAW], st[at.HEIGHT] = place[0], place[1], yaw, place[2]
         st[at.GAIT_WISH], st[at.LOOK_X], st[at.LOOK_Y] = -1.0, math.nan, math.nan
         gait = self._gaits[int(kind), 0]

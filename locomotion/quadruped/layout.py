@@ -119,7 +119,9 @@ FIXED_LOOK = 65
 """1: LOOK_X, LOOK_Y are given, 0: worked out from the trail."""
 CRUMBS, CRUMB_LAST = 66, 67
 """How many crumbs lie on the trail behind; index of the last one in the ring."""
-STATE = 68
+PACE = 68
+"""Share of its speed at which it goes, to give way to others."""
+STATE = 69
 
 # --- feet
 FX, FY, FZ = 0, 1, 2

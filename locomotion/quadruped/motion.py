@@ -72,7 +72,7 @@ def advance_along(st, pr, pool):
     speed, way = st[at.SPEED], st[at.WAY]
     first, count, step = int(st[at.ROW_START]), int(st[at.ROW_COUNT]), st[at.ROW_STEP]
     ahead = st[at.ARC] + way * speed * _FORESIGHT
-    wished = min(st[at.WISH], trail_speed(pool, first, count, step, ahead))
+    wished = st[at.PACE] * min(st[at.WISH], trail_speed(pool, first, count, step, ahead))
     push = min(max(_EAGERNESS * (wished - speed), -2.0 * pr[at.BRAKING]), pr[at.ACCELERATION])
     change = _JERK * DT
     push = min(max(push, st[at.PUSH] - change), st[at.PUSH] + change)

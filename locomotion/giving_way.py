@@ -1,0 +1,186 @@
+"""Giving way: how a body that follows a path keeps out of the way of others.
+
+A body that needs room to turn cannot take any velocity at any time, as optimal reciprocal collision
+avoidance wants it (`locomotion.crowd`). It chooses among what it can do: paces, and ways that leave its path
+to one side ahead of it, as curved as it can turn, and come back. Each is foretold for `HORIZON` seconds
+beside what is foretold of the others, and the one that costs least is taken; of equal ones that to the right.
+Bodies choose one after the other, knowing what the others have chosen, so that two do not step aside to the
+same side.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+__all__ = ["HORIZON", "SPACING", "Course", "Options", "first_meeting", "foretell", "meetings", "options"]
+
+HORIZON = 4.5
+"""[s] that bodies are foretold."""
+STEP = 0.1
+"""[s] between the places that are foretold."""
+SPACING = 0.1
+"""[m] between the points of a course."""
+COUNT = round(HORIZON / STEP)
+_ASIDE = (0.4, 0.8, 1.2, 1.6)
+"""[m] to each side that a way leads."""
+_PACES = (1.0, 0.6, 0.3, 0.0)
+_LEFT_COSTS, _SLOW_COSTS, _MEETING_COSTS, _SOONER_COSTS = 1.2, 2.0, 4.0, 6.0
+"""For each metre to the left in place of the right; for standing; for meeting somebody, and for that at once
+rather than at the end of what is foretold."""
+_QUINTIC = 5.7735  # most second derivative of the step from 0 to 1 whose ends are smooth to the second order
+_AFTERWARDS = 1.0  # [m] that a body stays aside behind the place where it would have met somebody
+
+
+@dataclass(frozen=True)
+class Course:
+    """What a body that follows a path is about to do.
+
+    Attributes:
+        points: (k, 3) float64 [m] the path from the body on, every `SPACING`.
+        speeds: (k,) float64 [m/s] at which it wants to pass them, if nobody is in the way.
+        speed: [m/s] now. pace: share of ``speeds`` at which it goes at present.
+        length: [m] from its rearmost point, which follows the path, to its front. radius: [m].
+        acceleration, braking: [m/s²].
+        slowest: [m/s] that it can go; 0: it can stop.
+        sharpest: [1/m] of a curve that it can take. begins: [m] ahead where a change of its path may begin.
+        aside: whether its path may be changed.
+    """
+
+    points: NDArray[np.float64]
+    speeds: NDArray[np.float64]
+    speed: float
+    pace: float
+    length: float
+    radius: float
+    acceleration: float
+    braking: float
+    slowest: float
+    sharpest: float
+    begins: float
+    aside: bool
+
+
+@njit(cache=True)
+def foretell(points, speeds, speed, pace, slowest, acceleration, braking, length, places):
+    """Write where a body is every `STEP` from now on into ``places`` (COUNT, discs, 2): its discs lie from
+    its rear to its front. points (k, 2+), speeds (k,): as in `Course`."""
+    count, discs = places.shape[0], places.shape[1]
+    last = points.shape[0] - 1
+    arc = 0.0
+    for k in range(count):
+        for d in range(discs):
+            ahead = arc + (length * d / (discs - 1) if discs > 1 else 0.0)
+            at = min(max(ahead / SPACING, 0.0), float(last))
+            i = min(int(at), max(last - 1, 0))
+            w = at - i
+            j = min(i + 1, last)
+            places[k, d, 0] = (1.0 - w) * points[i, 0] + w * points[j, 0]
+            places[k, d, 1] = (1.0 - w) * points[i, 1] + w * points[j, 1]
+        wanted = max(pace * speeds[min(int(arc / SPACING), last)], slowest)
+        change = min(max(wanted - speed, -braking * STEP), acceleration * STEP)
+        speed = max(speed + change, 0.0)
+        arc = min(arc + speed * STEP, max(last * SPACING - length, 0.0))
+
+
+@njit(cache=True)
+def first_meeting(own, own_radius, others, other_radius):
+    """The number of the first step at which a disc of ``own`` (n, d, 2) comes nearer to one of ``others``
+    (n, m, 2) than both radii [m], and nearer than before; n when none does."""
+    count = own.shape[0]
+    for k in range(1, count):
+        for d in range(own.shape[1]):
+            for m in range(others.shape[1]):
+                x, y = own[k, d, 0] - others[k, m, 0], own[k, d, 1] - others[k, m, 1]
+                wide = own_radius + other_radius[m]
+                far = x * x + y * y
+                if far >= wide * wide:
+                    continue
+                x, y = own[k - 1, d, 0] - others[k - 1, m, 0], own[k - 1, d, 1] - others[k - 1, m, 1]
+                if far < x * x + y * y - 1e-9:
+                    return k
+    return count
+
+
+@njit(cache=True)
+def meetings(places, velocities, heights, followers, slack, storey):
+    """Which of the bodies at ``places`` (n, 2) [m] come near to each of ``followers`` (f,) if all go straight
+    on: (f, n) bool."""
+    n = places.shape[0]
+    near = np.zeros((followers.size, n), np.bool_)
+    for f in range(followers.size):
+        i = followers[f]
+        for j in range(n):
+            if j == i or abs(heights[j] - heights[i]) > storey:
+                continue
+            x, y = places[j, 0] - places[i, 0], places[j, 1] - places[i, 1]
+            vx, vy = velocities[j, 0] - velocities[i, 0], velocities[j, 1] - velocities[i, 1]
+            speed = vx * vx + vy * vy
+            when = 0.0
+            if speed > 1e-9:
+                when = min(max(-(x * vx + y * vy) / speed, 0.0), HORIZON)
+            x, y = x + when * vx, y + when * vy
+            near[f, j] = x * x + y * y < slack * slack
+    return near
+
+
+@dataclass(frozen=True)
+class Options:
+    """Something that a body could do: a ``pace``, and ``shift`` (k, 2) [m] that its course is moved by, None
+    for not at all; ``cost`` without meetings."""
+
+    pace: float
+    shift: NDArray[np.float64] | None
+    cost: float
+
+
+def cost_of_meeting(step: int) -> float:
+    """What it costs to meet somebody at a step of what is foretold; 0 for nobody."""
+    return 0.0 if step >= COUNT else _MEETING_COSTS + _SOONER_COSTS * (1.0 - step / COUNT)
+
+
+def options(course: Course, meeting: int) -> list[Options]:
+    """What a body can do that would meet somebody at step ``meeting``, the cheapest first."""
+    found = [
+        Options(pace, None, _SLOW_COSTS * (1.0 - pace))
+        for pace in _PACES
+        if pace == 1.0 or _slows(course, pace)
+    ]
+    if course.aside:
+        arcs = SPACING * np.arange(len(course.points))
+        ahead = course.points[np.minimum(np.arange(len(arcs)) + 1, len(arcs) - 1), :2]
+        behind = course.points[np.maximum(np.arange(len(arcs)) - 1, 0), :2]
+        along = (ahead - behind) / np.maximum(np.linalg.norm(ahead - behind, axis=1), 1e-9)[:, None]
+        left = np.column_stack([-along[:, 1], along[:, 0]])
+        reach = float(np.interp(meeting * STEP, [0.0, HORIZON], [0.0, HORIZON * course.speeds.max()]))
+        for aside in _ASIDE:
+            bend = math.sqrt(_QUINTIC * aside / course.sharpest)
+            until = max(course.length + reach + _AFTERWARDS, course.begins + bend)
+            if until + bend > arcs[-1]:
+                until = arcs[-1] - bend
+            if until < course.begins + bend:
+                continue
+            profile = _quintic((arcs - course.begins) / bend) - _quintic((arcs - until) / bend)
+            for side, dear in ((-1.0, 1.0), (1.0, _LEFT_COSTS)):
+                shift = (side * aside * profile)[:, None] * left
+                found += [
+                    Options(pace, shift, dear * aside + _SLOW_COSTS * (1.0 - pace))
+                    for pace in _PACES[:-1]
+                    if pace == 1.0 or _slows(course, pace)
+                ]
+    return sorted(found, key=lambda option: option.cost)
+
+
+def _slows(course: Course, pace: float) -> bool:
+    """Whether a pace makes a difference."""
+    return pace * float(course.speeds[0]) >= course.slowest or course.slowest < 0.8 * float(course.speeds[0])
+
+
+def _quintic(share: NDArray[Any]) -> NDArray[np.float64]:
+    u = np.clip(share, 0.0, 1.0)
+    return u * u * u * (10.0 + u * (-15.0 + 6.0 * u))

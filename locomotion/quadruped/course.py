@@ -1,0 +1,52 @@
+"""What a quadruped on a trail tells of its way, and that way changed to one side."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion.giving_way import HORIZON, SPACING, Course
+from locomotion.quadruped import layout as at
+from locomotion.quadruped.body import Body
+from locomotion.quadruped.trail import Trail
+
+__all__ = ["course_on", "shifted_points"]
+
+_BEND = 1.0  # radius of a curve that it takes to go out of somebody's way, in body lengths
+_BEGINS = 0.1  # [m] before the front feet
+
+
+def course_on(trail: Trail, state: NDArray[np.float64], body: Body) -> Course:
+    """The course of a body whose row of the herd's state is ``state`` (STATE,)."""
+    arc, fastest = float(state[at.ARC]), float(min(state[at.WISH], body.top_speed))
+    far = arc + 2.0 * HORIZON * fastest + body.length
+    along = np.arange(arc, max(min(trail.length, far), arc + SPACING) + 1e-9, SPACING)
+    rows = np.minimum(along / trail.step, len(trail.rows) - 1.0)
+    known = np.arange(len(trail.rows))
+    ahead = np.empty((len(rows), 4))
+    for k, column in enumerate((at.PX, at.PY, at.PZ, at.PSPEED)):
+        ahead[:, k] = np.interp(rows, known, trail.rows[:, column])
+    return Course(
+        points=ahead[:, :3],
+        speeds=np.minimum(ahead[:, 3], fastest),
+        speed=float(state[at.SPEED]),
+        pace=float(state[at.PACE]),
+        length=body.length - body.trunk.loin,
+        radius=max(body.radius, 0.25 * body.spine.length),
+        acceleration=body.movement.acceleration,
+        braking=body.movement.braking,
+        slowest=0.0,
+        sharpest=1.0 / (_BEND * body.length),
+        begins=body.spine.length + _BEGINS,
+        aside=True,
+    )
+
+
+def shifted_points(trail: Trail, arc: float, shift: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n, 3) [m] the points of ``trail``, those behind ``arc`` [m] moved by ``shift`` (k, 2) [m], one row for
+    every 0.1 m."""
+    points = trail.points.copy()
+    along, given = trail.step * np.arange(len(points)) - arc, SPACING * np.arange(len(shift))
+    for axis in range(2):
+        points[:, axis] += np.interp(along, given, shift[:, axis], left=0.0, right=0.0)
+    return points

@@ -1,0 +1,74 @@
+"""Foretelling, meetings and what a body can do about them."""
+
+import numpy as np
+import pytest
+
+from locomotion.giving_way import COUNT, STEP, Course, first_meeting, foretell, meetings, options
+
+ALONG = np.column_stack([0.1 * np.arange(200), np.zeros(200), np.zeros(200)])
+
+
+def course(**changes):
+    usual = {
+        "points": ALONG, "speeds": np.full(200, 1.5), "speed": 1.5, "pace": 1.0, "length": 0.5,
+        "radius": 0.12,
+        "acceleration": 2.0, "braking": 2.0, "slowest": 0.0, "sharpest": 1.0, "begins": 0.6, "aside": True,
+    }  # fmt: skip
+    return Course(**{**usual, **changes})
+
+
+def places(of, pace, discs=3):
+    found = np.empty((COUNT, discs, 2))
+    foretell(of.points, of.speeds, of.speed, pace, of.slowest, of.acceleration, of.braking, of.length, found)
+    return found
+
+
+def test_a_body_is_foretold_on_its_path():
+    at_speed = places(course(), 1.0)
+    assert at_speed[:, 0, 0] == pytest.approx(1.5 * STEP * np.arange(COUNT), abs=1e-9)
+    assert at_speed[:, 2, 0] - at_speed[:, 0, 0] == pytest.approx(0.5, abs=1e-9)
+    stopping = places(course(), 0.0)
+    assert (
+        stopping[-1, 0, 0] == pytest.approx(1.5**2 / (2.0 * 2.0), abs=0.1)
+        and stopping[-1, 0, 0] == stopping[-9, 0, 0]
+    )
+    running = places(course(slowest=1.0), 0.0)
+    assert np.diff(running[:, 0, 0])[-1] == pytest.approx(1.0 * STEP)
+    short = places(course(points=ALONG[:21]), 1.0)
+    assert short[-1, 2] == pytest.approx([2.0, 0.0])
+
+
+def test_the_first_meeting_is_that_of_every_pair():
+    random = np.random.default_rng(3)
+    for _ in range(200):
+        own = np.cumsum(random.normal(0.0, 0.1, (COUNT, 3, 2)), axis=0)
+        others = np.cumsum(random.normal(0.0, 0.1, (COUNT, 4, 2)), axis=0)
+        others[:, :, 0] += 1.0
+        radii = random.uniform(0.1, 0.4, 4)
+        away = np.linalg.norm(own[:, :, None] - others[:, None], axis=3)
+        meets = (away < 0.2 + radii) & (np.vstack([np.full((1, 3, 4), -1.0), away[:-1]]) > away)
+        steps = np.flatnonzero(meets.any(axis=(1, 2)))
+        assert first_meeting(own, 0.2, others, radii) == (steps[0] if len(steps) else COUNT)
+
+
+def test_who_comes_near():
+    spots = np.array([[0.0, 0.0], [6.0, 0.0], [0.0, 9.0], [1.0, 0.0]])
+    velocities = np.array([[1.5, 0.0], [-1.5, 0.0], [0.0, 1.0], [1.5, 0.0]])
+    near = meetings(spots, velocities, np.array([0.0, 0.0, 0.0, 5.0]), np.array([0]), 2.0, 1.5)
+    assert near.tolist() == [[False, True, False, False]]
+
+
+def test_ways_aside_leave_and_come_back_as_curved_as_may_be():
+    found = options(course(), 15)
+    assert [each.cost for each in found] == sorted(each.cost for each in found)
+    assert {each.pace for each in found if each.shift is None} == {1.0, 0.6, 0.3, 0.0}
+    aside = [each for each in found if each.shift is not None]
+    assert {np.sign(each.shift[:, 1].sum()) for each in aside} == {-1.0, 1.0}
+    for each in aside:
+        y = each.shift[:, 1]
+        assert np.abs(y[:6]).max() == 0.0 and abs(y[-1]) < 1e-9
+        assert np.abs(np.diff(y, 2)).max() / 0.01 <= 1.05
+    right = next(each for each in aside if each.pace == 1.0)
+    assert right.shift[:, 1].min() < 0.0  # along x, the right is -y
+    assert all(each.shift is None for each in options(course(aside=False), 15))
+    assert all(each.shift is None for each in options(course(points=ALONG[:20]), 15))

@@ -1,0 +1,115 @@
+"""Dogs and people give way."""
+
+import numpy as np
+import pytest
+
+import navmesh
+from navmesh.holding import line_holds
+from runtime import World
+from runtime.rules import person_walk_rules
+
+
+def floor(*parts):
+    corners, faces = [], []
+    for x0, y0, x1, y1 in parts:
+        n = len(corners)
+        corners += [(x0, y0, 0.0), (x1, y0, 0.0), (x1, y1, 0.0), (x0, y1, 0.0)]
+        faces += [(n, n + 1, n + 2), (n, n + 2, n + 3)]
+    return navmesh.NodeGraph.build(
+        navmesh.Terrain.from_arrays(np.array(corners), np.array(faces)), person_walk_rules()
+    )
+
+
+@pytest.fixture(scope="module")
+def hall():
+    return floor((0.0, 0.0, 20.0, 8.0))
+
+
+@pytest.fixture(scope="module")
+def door():
+    return floor((0.0, 0.0, 9.8, 8.0), (9.8, 3.4, 10.2, 4.6), (10.2, 0.0, 20.0, 8.0))
+
+
+def facing_each_other(graph, bodies, seed):
+    """Two bodies that go to where about the other is."""
+    world = World(graph, seed=seed)
+    (x0, x1), (y0, y1) = world.random.uniform(-0.8, 0.8, (2, 2))
+    starts = (4.0 + x0, 4.0 + 0.3 * y0, 0.0), (16.0 + x1, 4.0 + 0.3 * y1, 0.0)
+    for body, start, goal, facing in zip(bodies, starts, reversed(starts), (0.0, np.pi), strict=True):
+        world.spawn(body, start, facing).go_to(goal, speed=1.4)
+    return world
+
+
+def gap(world):
+    """[m] between the two bodies' rims."""
+    first, second = (
+        discs
+        for population in world._populations
+        for discs in np.split(population.in_the_way(), max(len(population.followers()), 1))
+        if len(discs)
+    )
+    away = np.linalg.norm(first[:, None, :2] - second[None, :, :2], axis=2)
+    return float((away - first[:, None, 5] - second[None, :, 5]).min())
+
+
+@pytest.mark.parametrize("bodies", [("dog", "dog"), ("human", "dog"), ("human", "human"), ("dog", "walker")])
+@pytest.mark.parametrize("level", ["hall", "door"])
+def test_two_who_meet_pass_each_other(bodies, level, request):
+    graph = request.getfixturevalue(level)
+    for seed in range(3):
+        world = facing_each_other(graph, bodies, seed)
+        nearest = np.inf
+        while world.time < 40.0 and any(agent.moving for agent in world.agents.values()):
+            world.step(0.05)
+            nearest = min(nearest, gap(world))
+        assert [agent.status for agent in world.agents.values()] == ["arrived"] * 2
+        assert nearest > -0.01
+
+
+def test_ways_aside_stay_on_the_surface(door):
+    world = facing_each_other(door, ("dog", "dog"), 1)
+    before = [agent.plans[-1].points for agent in world.agents.values()]
+    while any(agent.moving for agent in world.agents.values()):
+        world.step(0.1)
+        for agent in world.agents.values():
+            assert line_holds(door, agent.plans[-1].points, agent.radius - 0.03)
+    after = [agent.plans[-1].points for agent in world.agents.values()]
+    assert any(len(a) != len(b) or not np.array_equal(a, b) for a, b in zip(before, after, strict=True))
+
+
+def test_who_meets_nobody_goes_as_if_alone(hall):
+    ends = []
+    for company in (False, True):
+        world = World(hall)
+        agents = [world.spawn(body, (3.0, y, 0.0)) for body, y in (("dog", 1.0), ("human", 3.0))]
+        for agent, y in zip(agents, (1.0, 3.0), strict=True):
+            agent.go_to((17.0, y, 0.0), speed=1.4)
+        if company:
+            world.spawn("walker", (10.0, 7.0, 0.0))
+        world.step(6.0)
+        ends.append([agent.state_hash() for agent in agents])
+    assert ends[0] == ends[1]
+
+
+def test_a_restored_meeting_goes_on_the_same_way(hall):
+    world = facing_each_other(hall, ("human", "dog"), 2)
+    paces = set()
+    while not paces & {0.0, 0.3, 0.6} and world.time < 8.0:
+        world.step(0.1)
+        paces |= {follower.pace for p in world._populations for follower in p.followers()}
+    saved = world.save()
+    world.step(6.0)
+    end = world.state_hash()
+    other = World(hall)
+    other.restore(saved)
+    other.step(6.0)
+    assert other.state_hash() == end
+
+
+def test_a_body_at_rest_on_the_goal_does_not_keep_others_away(hall):
+    world = World(hall)
+    world.spawn("dog", (10.0, 4.0, 0.0))
+    late = world.spawn("dog", (4.0, 4.0, 0.0))
+    late.go_to((10.2, 4.0, 0.0), speed=1.4)
+    world.step(15.0)
+    assert late.status == "arrived"

@@ -38,6 +38,7 @@ RISING = 50
 """Ticks in which a body that begins to walk from a crouch comes up."""
 STEADYING_SPEED = 1.0
 """[m/s] at which such a body makes its first steps, straight on."""
+_PASSING = 0.1  # [s] after which such a body is over its feet
 _STEADYING = 3  # steps of such a body that do not count yet
 _KIND, _VERSION = "walk skill", 2
 _WIDTH, _HIP_HEIGHT = 0.17, 0.83  # [m] of a stand: between the feet; of the hips above the lower sole
@@ -156,7 +157,10 @@ def rise_walking(walk: np.ndarray, state: np.ndarray, heading: float) -> None:
     walk[:] = new_walk(heading)
     walk[WALK_STEPS] = -_STEADYING
     ch, sh = math.cos(heading), math.sin(heading)
-    ahead = (state[23] - state[20]) * ch + (state[24] - state[21]) * sh  # of the left foot
-    walk[PHASE], walk[WALK_STANCE] = DOUBLE, 1.0 if ahead > 0.0 else -1.0
+    # the foot that the body passes nearest to bears it first: it does not tip away over the outside
+    left = np.array([-sh, ch])
+    passing = left @ (state[controller.COM] + _PASSING * state[controller.COM_VELOCITY])[:2]
+    aside = np.abs(state[controller.FEET].reshape(2, 3)[:, :2] @ left - passing)
+    walk[PHASE], walk[WALK_STANCE] = DOUBLE, -1.0 if aside[0] < aside[1] else 1.0
     vx, vy = state[controller.COM_VELOCITY][:2]
     walk[WALK_SPEED] = min(max(vx * ch + vy * sh, 0.0), 1.2)

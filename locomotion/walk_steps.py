@@ -47,6 +47,7 @@ _SOLES, _FEET, _STEPPED = SEEN_SOLES.start, SEEN_FEET.start, STEPPED_FROM.start
 _R_HIP, _L_HIP = (JOINT_NAMES.index(f"{side}_hip_flexion") for side in ("right", "left"))
 _TOUCH = 40.0  # [N] under the swing foot that end the step
 _LANDING, _NEAR = 0.8, 0.12  # share of the swing after which, or [m] from its foothold where it may land
+_OVERDUE = 0.12  # [s] after which a foot that has not landed is swung anew: the capture point has moved on
 _TURN_RATE, _TURN_CHANGE = 1.2, 6.0  # [rad/s], [rad/s^2]
 _FASTER, _SLOWER, _SIDE_CHANGE = 0.8, 1.0, 0.5  # [m/s^2] of the reference speeds
 _STILL, _STRAIGHT, _AWRY = 0.02, 0.2, 0.3  # [m/s], [rad] below which it stands; [rad] above which it sets off
@@ -131,6 +132,8 @@ def advance_step(gains, walk, command, error, soles, points, spans, contact, com
             walk[WALK_STANCE] = -walk[WALK_STANCE]
             walk[WALK_STEPS] += 1.0
             _trim(gains, walk, com[0], com[1], ch, sh)
+        elif walk[CLOCK] > walk[SWING_TIME] + _OVERDUE:
+            begin_swing(gains, walk, qpos)  # where it is to land now
     elif walk[CLOCK] >= gains[_TRANSFER]:
         if still and abs(walk[WALK_SPEED]) < _SETTLED and abs(error) < _STRAIGHT and not shaky:
             walk[PHASE], walk[WALK_TRIM] = STANDING, 0.0

@@ -214,7 +214,8 @@ def _lift(gains, walk, steep, slope, soles, state, hip):
     height -= max(gains[_Z_UPHILL] * slope, -gains[_Z_SLOPE] * slope)
     if walk[PHASE] == SINGLE:
         reach = height_in_reach(walk, state[_COM : _COM + 3], state[_VEL : _VEL + 2], hip)
-        height += steep * min(reach - height, 0.0)
+        late = walk[CLOCK] > walk[SWING_TIME]
+        height += (1.0 if late else steep) * min(reach - height, 0.0)
     if walk[BODY_HEIGHT] != walk[BODY_HEIGHT]:
         walk[BODY_HEIGHT] = state[_COM + 2]
     climb = clamp((height - walk[BODY_HEIGHT]) / CONTROL_DT, -gains[_CLIMB], gains[_CLIMB])

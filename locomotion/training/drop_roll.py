@@ -1,5 +1,6 @@
 """Learning to roll off drops: one law for all heights, feed-forward first, then feedback, then hard cases."""
 
+import math
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -17,6 +18,7 @@ from locomotion.skill import RunSkill, load_run_skill
 from locomotion.skill_family import SkillFamily
 from locomotion.training.drop_trial import DropOutcome, DropSimulator
 from locomotion.training.jump_trial import JumpSimulator, StartState
+from locomotion.training.least_squares import fit
 from locomotion.training.loop import Progress, Stage, learn
 from navmesh.archive import read_archive, write_archive
 
@@ -26,12 +28,19 @@ HEIGHTS = (0.9, 2.0)
 """Least and greatest height [m]; one set of parameters serves all in between."""
 _ENTRY = 3.2  # [m/s]
 _STATES = 48
+_ROLLS, _BALANCING = 24, 4  # trials and rounds of least squares on how the roll ends
 _REFINEMENTS = 2  # stages in which half of the trials are those that went worst before
 _PULL = 0.01
 _ROUNDS, _HARD = 2, 0.2  # trials per start state to find the hard ones; share of them that is hard
 _TRAINING, _VERSION = "drop-roll training", 1
-_EXIT = 2.3  # [m/s] at the roll's end, from which it comes up best
+_ERROR = 0.1  # [m] by which the distance misses the mark at most
+_LONGEST = 3.2  # [s] of a trial up to the roll's end
+_HEAD = 0.03  # [m] of the head above the ground in a roll
+_EXIT = 2.45  # [m/s] at the roll's end, from which it comes up best
 _ANGLE = 5.6  # [rad] turned when the feet are down again
+_SIDEWAYS, _SIDE_KNOTS = ("hip_split", "trunk_roll", "trunk_yaw", "legs_side"), slice(1, 6)
+_FORWARD, _KNOTS = ("hips", "knees", "trunk_pitch"), slice(2, 5)
+_ASLANT = ("tilt", "tilt_rate", "yaw", "yaw_rate", "vy", "aside")  # of the sensors
 _SPREAD = np.array([3.0, 0.5, 0.7, 0.08, 0.12, 0.08, 0.25, 2.0, 0.3, 2.0, 0.4, 0.12])  # of the sensors
 
 
@@ -64,6 +73,22 @@ def scales(feedback: bool) -> np.ndarray:
     return x
 
 
+def roll_scales() -> np.ndarray:
+    """The same for what decides how a roll ends, (p,): the pose about the landing, and the feedback of the
+    fall and of the roll on what is aslant."""
+    every, x, part = scales(True), np.zeros(sum(drop_roll.PARAMETERS.values())), drop_roll.parameter_slices()
+    x[part["landing"]] = every[part["landing"]]
+    pose = every[part["pose"]].reshape(KNOTS, len(ACTIONS)).copy()
+    for name in ACTIONS:
+        knots = _SIDE_KNOTS if name in _SIDEWAYS else _KNOTS if name in _FORWARD else slice(0)
+        x[part["pose"]].reshape(pose.shape)[knots, ACTIONS.index(name)] = pose[knots, ACTIONS.index(name)]
+    shape = (3, drop_roll.RANK, len(SENSORS))
+    m_sp = every[part["m_sp"]].reshape(shape)
+    sensed = [SENSORS.index(name) for name in _ASLANT]
+    x[part["m_sp"]].reshape(shape)[:2, :, sensed] = m_sp[:2][:, :, sensed]
+    return x
+
+
 def cost(o: DropOutcome) -> float:
     """Objective of one trial."""
     total = 0.0
@@ -71,15 +96,16 @@ def cost(o: DropOutcome) -> float:
         total += 6.0 + 6.0 * (1.0 - min(o.angle / _ANGLE, 1.0))
     else:
         total += 4.0 * (1.0 - o.time) + 2.0 * (1.0 - min(max(o.upright, 0.0), 1.0))
-        total += (0.0 if o.rolled else 2.0) + 0.05 * min(o.lurch, 60.0) + 0.6 * abs(o.speed - 1.0)
+        total += (0.0 if o.rolled else 2.0) + 0.05 * min(o.lurch, 60.0)
     return (
         total
-        + 0.6 * min(o.drift, 1.5)
-        + 0.25 * min(o.spin, 4.0)
+        + 0.6 * min(abs(o.drift), 1.5)
+        + 0.15 * min(math.hypot(o.momentum[0], o.momentum[2]), 8.0)
         + 0.5 * min(abs(o.exit - _EXIT), 1.5)
         + 0.03 * o.reaction
         + 0.15 * max(o.peak - 5.0, 0.0)
-        + 0.5 * min(o.head, 16)
+        + 0.4 * (o.head > 0)
+        + 0.3 * min(o.head, 16)
         + 0.08 * min(o.tilt, 30.0)
         + 0.8 * min(o.aside, 2.0)
     )
@@ -141,13 +167,15 @@ class DropProblem:
 
     def outcome(
         self, candidate: np.ndarray, state: int, error: float, height: float, duration: float,
-        record: np.ndarray | None = None,
+        record: np.ndarray | None = None, rise: bool = True,
     ) -> DropOutcome:  # fmt: skip
         """One trial."""
         if self._simulator is None:
             self._simulator = DropSimulator(self.run)
         tables = tables_of(np.ascontiguousarray(candidate), self.reference)
-        return self._simulator.trial(tables, height, self.states[state], error, duration, record=record)
+        return self._simulator.trial(
+            tables, height, self.states[state], error, duration, record=record, rise=rise
+        )
 
     def evaluate(self, stage: Stage, candidate: np.ndarray, scenarios: list) -> tuple[float, float]:
         """Mean cost with the pull towards the start, and the share that rolled and walked on."""
@@ -160,6 +188,20 @@ class DropProblem:
         away = (candidate[free] - self.initial[free]) / stage.scale[free]
         n = len(scenarios)
         return total / n + _PULL * float(np.mean(away**2)), rolled / n
+
+    def trials(self, rng: np.random.Generator) -> list[tuple[int, float, float]]:
+        """Those of a round of least squares: one from every start state."""
+        return self.draw(len(self.states), _ERROR, rng)
+
+    def residuals(self, candidate: np.ndarray, trial: tuple[int, float, float]) -> np.ndarray:
+        """How the roll's end differs from the wanted one, in units of what the rise can stand."""
+        o = self.outcome(candidate, *trial, _LONGEST, rise=False)
+        if not o.rose:
+            return np.full(6, np.nan)
+        around, turning = o.momentum[0], o.momentum[2]
+        head = max(_HEAD - o.low, 0.0)
+        off = [around, turning, o.drift, o.tilted, o.exit - _EXIT, head]
+        return np.array(off) / [2.0, 1.0, 0.5, 0.08, 0.3, 0.02]
 
     def record(self, candidate: np.ndarray, rng: np.random.Generator) -> np.ndarray:
         """Mean sensors of trials that went well, (11, 12); the present reference where none did."""
@@ -228,14 +270,15 @@ def train_drop_roll(
     course = _Course(run, stride, seed, folder, workers, effort, on_progress)
     if start_from is None:
         x, reference = first_guess(), np.zeros((BINS, len(SENSORS)))
-        few = course.stage("feed-forward", 50, 0.12, False, 18, states=8, error=0.1, duration=3.0)
+        few = course.stage("feed-forward", 50, 0.12, False, 18, states=8, error=_ERROR, duration=3.0)
         x, reference = _learn(course, 0, few, x, reference)
-        many = course.stage("feedback", 40, 0.1, True, 20, states=10, error=0.1, duration=3.2)
+        many = course.stage("feedback", 40, 0.1, True, 20, states=10, error=_ERROR, duration=3.2)
         x, reference = _learn(course, 1, many, x, reference)
     else:
         x, reference = load_drop_roll_skill(start_from).at(HEIGHTS[0])
-    for number in range(2, 2 + _REFINEMENTS):
-        finer = course.stage("refined", 20, 0.06, True, 16, states=8, error=0.1, duration=3.2)
+    x = _learn_to_end(course, 2, x, reference)
+    for number in range(3, 3 + _REFINEMENTS):
+        finer = course.stage("refined", 20, 0.06, True, 16, states=8, error=_ERROR, duration=5.0)
         x, reference = _learn(course, number, finer, x, reference)
     made = {"made by": "surefoot train drop-roll", "seed": seed, "effort": effort}
     skill = family_of(x, reference, stride, run, made)
@@ -259,11 +302,7 @@ def _learn(
             raise LocomotionError(f"{done}: checkpoint of another training or seed; remove it to begin anew")
         return arrays["x"], arrays["reference"]
     rng = np.random.default_rng([course.seed, number])
-    guess = DropRoll(family_of(x, reference, course.stride, course.run, {}))
-    runner, states = JumpSimulator(course.run), []
-    for standing in (False, True):
-        distances = rng.uniform(9.5, 30.0, _STATES // 2)
-        states += runner.harvest(guess, distances, rng, standing)
+    states = _harvest(course, x, reference, _STATES, rng)
     problem = DropProblem(course.run, HEIGHTS, x, reference, states, [stage])
     if number >= 2:
         problem.find_hard(x, stage, rng)
@@ -275,3 +314,26 @@ def _learn(
     if done is not None:
         write_archive(done, _TRAINING, _VERSION, identity, {"x": learned, "reference": reference})
     return learned, reference
+
+
+def _learn_to_end(course: _Course, number: int, x: np.ndarray, reference: np.ndarray) -> np.ndarray:
+    """Least squares on how the roll ends; what was done before is read from the checkpoint."""
+    rng = np.random.default_rng([course.seed, number])
+    states = _harvest(course, x, reference, _ROLLS, rng)
+    problem = DropProblem(course.run, HEIGHTS, x, reference, states, [])
+    rounds = max(round(_BALANCING * course.effort), 1)
+    file = None if course.folder is None else course.folder / f"search-{number}.npz"
+    return fit(
+        problem, x, roll_scales(), rounds, course.seed + number, file, course.workers, course.on_progress
+    )
+
+
+def _harvest(
+    course: _Course, x: np.ndarray, reference: np.ndarray, count: int, rng: np.random.Generator
+) -> list[StartState]:
+    """``count`` start states from planned run-ups, half of them from standing."""
+    guess = DropRoll(family_of(x, reference, course.stride, course.run, {}))
+    runner, states = JumpSimulator(course.run), []
+    for standing in (False, True):
+        states += runner.harvest(guess, rng.uniform(9.5, 30.0, count // 2), rng, standing)
+    return states

@@ -136,7 +136,7 @@ def test_most_drops_succeed():
     rng = np.random.default_rng(4)
     starts = [(float(rng.uniform(0.9, 2.0)), float(rng.uniform(10, 20))) for _ in range(12)]
     results = [run_course(make_course([("drop", height, 0.0)], [distance])) for height, distance in starts]
-    assert sum(result.ended == "arrived" for result in results) >= 8
+    assert sum(result.ended == "arrived" for result in results) >= 10
     assert all(result.passages[0].peak < 25.0 for result in results)
 
 

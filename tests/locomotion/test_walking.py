@@ -35,7 +35,7 @@ from locomotion.walk_layout import (
     gain_limits,
     new_walk,
 )
-from locomotion.walk_skill import WALK_SKILL, WalkSkill, load_walk_skill, plant
+from locomotion.walk_skill import WALK_SKILL, WalkSkill, load_walk_skill, plant, rise_walking
 from locomotion.walking import observe_walk, walk_tick
 
 HIPS = [JOINT_NAMES.index(f"{side}_hip_flexion") for side in ("right", "left")]
@@ -259,6 +259,35 @@ def test_bearing_point_is_where_a_rigid_foot_touches(seed):
         math.sqrt(max(weights @ (w / w.max()) ** 2 - (weights @ (w / w.max())) ** 2, 0)) for w in (u, v)
     ]
     assert np.allclose(out[2:], spread, atol=1e-6)
+
+
+def test_a_foot_that_finds_no_ground_is_led_to_where_the_body_is_now(person):
+    model, _, index = person
+    data, state, walk = mujoco.MjData(model), new_state(), new_walk()
+    plant(model, data, index, plane_lookup(), state, walk, np.zeros(3), 0.0)
+    tables, command = load_walk_skill().tables, np.array([0.0, 1.0, 0.0, 0.0])
+    state[COM_VELOCITY] = 0.0, 0.2, 0.0  # towards the left foot, which bears it
+    led = []
+    for tick in range(150):  # the swing foot hangs in the air, the body is carried on at 1 m/s after a second
+        state[COM][0] += 0.01 * (tick > 100)
+        state[26:28] = 0.0, 600.0
+        walk_tick(tables, plane_lookup(), walk, state, command, data.qpos, data.qvel, data.ctrl)
+        led.append(walk[FOOTHOLD][0])
+    assert walk[PHASE] == SINGLE and led[-1] > led[100] + 0.2
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_a_crouching_body_rises_on_the_foot_that_it_passes_nearest_to(side):
+    state, walk = new_state(), new_walk()
+    state[COM], state[COM_VELOCITY] = (0.0, 0.0, 0.4), (2.4, 0.0, 0.5)
+    state[20:26] = 0.3, -0.09 + 0.06 * side, 0.06, 0.3, 0.09 + 0.06 * side, 0.06
+    rise_walking(walk, state, 0.0)
+    assert walk[WALK_STANCE] == -side
+    turned = 0.5 * math.pi
+    for part in (slice(14, 17), slice(17, 20), slice(20, 23), slice(23, 26)):
+        state[part] = [-state[part][1], state[part][0], state[part][2]]
+    rise_walking(walk, state, turned)
+    assert walk[WALK_STANCE] == -side
 
 
 def test_walking_person_goes_on_bit_for_bit_when_restored():

@@ -6,7 +6,6 @@ The header says what the file is (``kind``), the version of its format, and what
 
 import json
 import os
-import tempfile
 import zipfile
 import zlib
 from collections.abc import Mapping
@@ -16,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from navmesh.errors import NavmeshError
+from navmesh.whole_file import whole_file
 
 __all__ = ["ArchiveError", "read_archive", "write_archive"]
 
@@ -45,18 +45,9 @@ def write_archive(
     if not target.parent.is_dir():
         raise ArchiveError(f"{target}: there is no folder {target.parent} to write into")
     text = json.dumps({**header, "kind": kind, "version": version}, sort_keys=True)
-    handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            payload: dict[str, Any] = {_HEADER: np.frombuffer(text.encode(), dtype=np.uint8), **arrays}
-            np.savez_compressed(file, **payload)
-            file.flush()
-            os.fsync(file.fileno())
-        os.chmod(temporary, 0o644)  # mkstemp makes it private; baked data is meant to be shared
-        os.replace(temporary, target)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
+    payload: dict[str, Any] = {_HEADER: np.frombuffer(text.encode(), dtype=np.uint8), **arrays}
+    with whole_file(target) as temporary, temporary.open("wb") as file:
+        np.savez_compressed(file, **payload)
 
 
 def read_archive(

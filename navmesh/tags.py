@@ -24,13 +24,14 @@ remove:
 """
 
 import os
-import tempfile
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
 import yaml
 from annotated_types import Ge, Gt, Le, Len
 from pydantic import AfterValidator, BaseModel, ConfigDict, StringConstraints, model_validator
+
+from navmesh.whole_file import whole_file
 
 __all__ = ["Addition", "Change", "NewValues", "Reference", "Tags", "save_tags", "tags_path"]
 
@@ -147,16 +148,5 @@ def save_tags(path: str | os.PathLike[str], tags: Tags) -> None:
     target = Path(path)
     content = tags.model_dump(exclude_defaults=True)
     text = yaml.safe_dump({"version": tags.version, **content}, sort_keys=False, allow_unicode=True)
-    handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        umask = os.umask(0)
-        os.umask(umask)
-        os.chmod(temporary, 0o666 & ~umask)
-        os.replace(temporary, target)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
+    with whole_file(target) as temporary:
+        temporary.write_text(text, encoding="utf-8")

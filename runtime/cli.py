@@ -20,6 +20,10 @@ app = typer.Typer(
 )  # fmt: skip
 
 
+_INTERRUPTED = 130
+"""Exit code after Ctrl-C."""
+
+
 class Up(StrEnum):
     """The axis of a mesh file that points up."""
 
@@ -340,8 +344,7 @@ def main(arguments: list[str] | None = None) -> None:
         command: Callable[..., Any] = typer.main.get_command(app)
         code = command(arguments, prog_name="surefoot", standalone_mode=False) or 0
     except (KeyboardInterrupt, typer.Abort):
-        print("surefoot: interrupted; nothing half-written is left", file=sys.stderr)
-        code = 130
+        code = _INTERRUPTED
     except typer.Exit as leave:
         code = leave.exit_code
     except typer_exceptions.TyperException as error:
@@ -352,4 +355,6 @@ def main(arguments: list[str] | None = None) -> None:
         code = _refuse(str(error))
     except OSError as error:
         code = _refuse(f"{error.filename}: {error.strerror}" if error.filename else str(error))
+    if code == _INTERRUPTED:  # typer makes it an exit of its own
+        print("surefoot: interrupted; nothing half-written is left", file=sys.stderr)
     sys.exit(code)

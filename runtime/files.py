@@ -1,31 +1,12 @@
 """Files that appear whole or not at all."""
 
 import os
-import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
+from navmesh.whole_file import whole_file
 from runtime.errors import RuntimeInputError
 
 __all__ = ["check_output_folder", "whole_file"]
-
-
-@contextmanager
-def whole_file(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """A file beside ``path`` to write to: takes its place when the block ends well, vanishes otherwise."""
-    target = Path(path)
-    handle, name = tempfile.mkstemp(dir=target.parent, prefix=".", suffix=target.suffix)
-    os.close(handle)
-    temporary = Path(name)
-    try:
-        yield temporary
-        umask = os.umask(0)
-        os.umask(umask)
-        temporary.chmod(0o666 & ~umask)
-        temporary.replace(target)
-    finally:
-        temporary.unlink(missing_ok=True)
 
 
 def check_output_folder(path: str | os.PathLike[str]) -> Path:

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 import navmesh
 from locomotion import LocomotionError
+from locomotion.library import skills_digest
 from locomotion.person import CONTROL_DT
 from locomotion.quadruped import is_body_file, load_body
 from runtime.agent import Agent
@@ -250,6 +251,7 @@ class World:
         """This moment, for `restore`."""
         return WorldState(
             level=self.level_digest,
+            skills=skills_digest() if any(each.body == "human" for each in self.agents.values()) else "",
             ticks=self._ticks,
             owed=self._owed,
             events=tuple(self._events),
@@ -271,6 +273,11 @@ class World:
             raise RuntimeInputError(
                 f"the state is of the level {state.level[:12]}…, this world's is {self.level_digest[:12]}…; "
                 "restore it in a world of the same mesh and walk rules"
+            )
+        if state.skills not in ("", skills_digest()):
+            raise RuntimeInputError(
+                f"the state is of people with other skills ({state.skills}) than these ({skills_digest()}), "
+                "who would go on in another way; restore it with the learned skills that it was saved with"
             )
         before = self.save()
         try:

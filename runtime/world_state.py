@@ -15,17 +15,19 @@ from runtime.state_file import pack, unpack
 __all__ = ["WorldState"]
 
 KIND = "surefoot world state"
-VERSION = 2
+VERSION = 3
 
 
 @dataclass(frozen=True)
 class WorldState:
     """A moment of a world, from `World.save`; `World.restore` goes back to it.
 
-    ``level`` is `World.level_digest` of the level that it belongs to. The level itself is not kept.
+    ``level`` is `World.level_digest` of the level that it belongs to, ``skills`` the digest of what its
+    people have learned, empty without any. Neither level nor skills are kept.
     """
 
     level: str
+    skills: str
     ticks: int
     owed: float
     events: tuple[Event, ...]

@@ -136,6 +136,20 @@ def test_refuses_a_state_of_another_level(graph, stair):
         World(navmesh.NodeGraph.load(stair)).restore(World(graph).save())
 
 
+def test_refuses_people_who_have_learned_something_else(graph, tmp_path):
+    world = World(graph)
+    world.spawn("dog", (3.0, 3.0, 0.0))
+    assert world.save().skills == ""
+    world.spawn("human", (2.0, 2.0, 0.0))
+    world.save().write(tmp_path / "state.npz")
+    state = WorldState.read(tmp_path / "state.npz")
+    world.restore(state)
+    before = world.state_hash()
+    with pytest.raises(RuntimeInputError, match="with other skills"):
+        world.restore(dataclasses.replace(state, skills="0123456789abcdef"))
+    assert world.state_hash() == before
+
+
 def test_a_state_that_does_not_fit_leaves_the_world_as_it_was(graph):
     world = World(graph)
     world.spawn("dog", (5.0, 3.0, 0.0))

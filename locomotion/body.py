@@ -6,11 +6,9 @@
     while human.status == "running":
         human.tick()                                    # 10 ms
 
-A person stands and walks by `locomotion.walking`, and runs by `locomotion.controller`: it walks from a stand
-until the rest of its path can be run and is long enough, then runs to the end (`PathTable.run_from`).
-Walking, it comes to a stand at its goal. What holds until there is a skill for it: a person that arrives
-running slows down to its lowest speed and is then held as it is; told to go on from there it is put on both
-feet first.
+A person stands and walks by `locomotion.walking`, and runs by `locomotion.controller`: it runs where its path
+allows it and a run is worth it, slows down (`locomotion.slow_down`) and walks elsewhere (`make_path`), and
+comes to a stand at its goal.
 """
 
 from __future__ import annotations
@@ -46,6 +44,7 @@ from locomotion.hand_hold import let_go_both
 from locomotion.human_state import (
     CLEARING,
     MOVING,
+    Gait,
     HumanState,
     Status,
     hash_of,
@@ -57,7 +56,9 @@ from locomotion.path_tracking import RUN_UP, PathTable, make_path, new_track, sh
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK, PersonIndex, build_person
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill, load_run_skill, reset_running, run_on
+from locomotion.slow_down import SLOWING, SlowDownSkill, can_walk_on, load_slow_down_skill, walk_on
 from locomotion.walk_layout import (
+    CAUGHT,
     CLOCK,
     PHASE,
     STANDING,
@@ -81,9 +82,10 @@ STRAYED = 2.0
 """[m] beside the path at which a person gives up following it."""
 STUCK_TIME = 8.0
 """[s] without headway along the path after which a person counts as stuck."""
-_NEXT, _STEPS_SEEN, _PLANNED = range(3)
-_RUN_UP_SIZE = 3
-# number of the next obstacle, steps made when the run-up was last planned, speed planned for this step or 0
+_NEXT, _STEPS_SEEN, _PLANNED, _SLOWS = range(4)
+_RUN_UP_SIZE = 4
+# number of the next obstacle, steps made when the run-up was last planned, speed planned for this step or 0,
+# 1 while it slows down to a walk
 _WALK_ARRIVAL = 0.15  # [m] before the end of its path at which a walking person stops
 _TURN_FIRST = 0.7  # [rad] off its way at which a walking person turns on the spot
 _SETTLING = 600  # ticks in which a person that has stopped walking comes to rest
@@ -138,16 +140,20 @@ class Human:
         skill: RunSkill | None = None,
         clearing: Sequence[ClearingSkill] | None = None,
         walk: WalkSkill | None = None,
+        slow_down: SlowDownSkill | None = None,
     ) -> None:
         """``ground``: None is the endless plane z = 0. ``skill``: how it runs; None loads the package's.
         ``clearing``: how it clears obstacles; None: by what comes with the package (`learned_skills`).
-        ``walk``: how it walks; None loads the package's."""
+        ``walk``, ``slow_down``: how it walks, and how it comes to it from a run; None loads the package's."""
         self.ground = ground
         self.skill = load_run_skill() if skill is None else skill
         self.clearing = learned_skills(self.skill) if clearing is None else tuple(clearing)
         self.model, self.index = _model_on(ground)
         self.data = mujoco.MjData(self.model)
         self.gait = load_walk_skill() if walk is None else walk
+        slow_down = load_slow_down_skill() if slow_down is None else slow_down
+        self._slow_run = slow_down.run_tables(self.skill)
+        self._first_steps = slow_down.walk_tables(self.gait)
         self.limits = run_limits(self.skill)
         self._walk_limits = walk_limits(self.gait)
         self._lookup = plane_lookup() if ground is None else ground.lookup
@@ -210,7 +216,7 @@ class Human:
 
     @property
     def held(self) -> bool:
-        """Whether the person is kept still: it stands at rest, was stopped running, or lay for a second."""
+        """Whether the person is kept still: it stands at rest, did not come to rest, or lay for a second."""
         if self.status in MOVING:
             return False
         stopped = self._ticks - self._ended_at
@@ -218,7 +224,14 @@ class Human:
             return stopped > _FALL_TICKS
         at_rest = self._walk[PHASE] == STANDING and self._walk[CLOCK] == 0.0
         at_rest = at_rest and float(np.abs(self._control[controller.COM_VELOCITY]).max()) < _STILL
-        return self._walk[WALKS] == 0.0 or at_rest or stopped > _SETTLING
+        return (self._walk[WALKS] > 0.0 and at_rest) or stopped > _SETTLING
+
+    @property
+    def gait_now(self) -> Gait:
+        """How it moves now: "walk" (or stand), "run", or "slow run" on its way from a run to a walk."""
+        if self._walk[WALKS] > 0.0:
+            return "walk"
+        return "slow run" if self._run_up[_SLOWS] > 0.0 else "run"
 
     @property
     def arc_length(self) -> float:
@@ -256,7 +269,7 @@ class Human:
         """Go along ``path`` (n, 3) [m, on the ground] at up to ``speed`` [m/s]; slower in bends, on slopes
         and before the end. ``obstacles``: what the path crosses, in order.
 
-        It walks and runs as the module's text says; a running person runs all the way. Raises
+        It walks and runs as the module's text says. Raises
         `LocomotionError` for a bad path or speed, a path that begins more than 2 m from the person, an
         obstacle that none of its skills clears, or a person that has fallen.
         """
@@ -268,29 +281,32 @@ class Human:
                 offered = [f"{s.affordance} {s.heights[0]:g} to {s.heights[1]:g} m" for s in self.clearing]
                 raise LocomotionError(f"no skill clears {wanted}; there are {offered or 'none'}")
         edges = [obstacle.arc_length for obstacle in obstacles]
-        walk = None if self.status in ("running", *CLEARING.values()) else self._walk_limits
-        table = make_path(path, speed, self.limits, float(np.linalg.norm(self.velocity[:2])), edges, walk)
+        running = self._walk[WALKS] == 0.0 and not self.held
+        pace = float(np.linalg.norm(self.velocity[:2]))
+        table = make_path(path, speed, self.limits, pace, edges, self._walk_limits, running)
         start, here = table.table[0, :3], self.position
         gap = float(np.linalg.norm(start[:2] - here[:2]))
         if gap > STRAYED or abs(start[2] - here[2]) > STRAYED:
             raise LocomotionError(f"the path begins at {start.round(2)}, the person is at {here.round(2)}")
-        if walk is not None and self._walk[WALKS] == 0.0:
+        if self._walk[WALKS] == 0.0 and not running:
             self._place(here, self.yaw, 0.0)
         self._path, self._obstacles = table, tuple(obstacles)
-        self._run_up[:] = 0.0
+        self._run_up[:_SLOWS] = 0.0
         self._clearing = None
         let_go_both(self.data)
         self._memory[:] = new_track()
         self._memory[path_tracking.HEADWAY_TICK] = self._ticks
         self._memory[path_tracking.REMAINING] = table.length
-        self.status = "running" if walk is None else "walking"
+        self.status = "running" if running else "walking"
         goal = (float(table.goal[0]), float(table.goal[1]), float(table.goal[2]))
         self.events.append(SetOff(self.time, self._point(), goal, table.length))
 
     def stop(self) -> None:
-        """Give up the path: one that walks comes to a stand, one that runs is held as it is."""
+        """Give up the path and come to a stand; what is being cleared is cleared first."""
         if self.status in MOVING:
             self.status, self._ended_at = "standing", self._ticks
+            if self._clearing is None:
+                self._obstacles = ()
 
     def change_ground(self, ground: Ground) -> None:
         """Go on as it is on another ground. One at rest whose footing has changed by more than 1 cm is
@@ -375,18 +391,13 @@ class Human:
             self._steer(self._path, walks)
         if walks:
             walk_tick(
-                self.gait.tables,
-                self._lookup,
-                self._walk,
-                state,
-                self._command,
-                data.qpos,
-                data.qvel,
+                self._walk_tables(), self._lookup, self._walk, state, self._command, data.qpos, data.qvel,
                 data.ctrl,
-            )
+            )  # fmt: skip
         else:
-            run_tick(*self.skill.tables, state, self._command, data.qpos, data.qvel, data.ctrl)
-            if self._obstacles and self.status != "fallen":
+            tables = self._slow_run if self.gait_now == "slow run" else self.skill.tables
+            run_tick(*tables, state, self._command, data.qpos, data.qvel, data.ctrl)
+            if self._obstacles and self.status != "fallen" and self.gait_now == "run":
                 self._clear()
         mujoco.mj_step(self.model, data, STEPS_PER_TICK)
         observe(self.index, self.model, data, state)
@@ -404,8 +415,18 @@ class Human:
             self._end("fallen", Fell(self.time, self._point(), speed, slope, self.arc_length))
         elif self._path is not None and self.status in MOVING:
             self._notice()
-            if self.status == "walking":
-                self._run_if_possible(self._path)
+        if self._path is not None and self._clearing is None and self.status != "fallen":
+            if self._walk[WALKS] > 0.0:
+                self._run_if_due(self._path)
+            else:
+                self._walk_if_due(self._path)
+
+    def _walk_tables(self) -> NDArray[np.float64]:
+        """The gains with which it walks now."""
+        steps = int(self._walk[WALK_STEPS])
+        if self._walk[CAUGHT] > 0.0 and steps < len(self._first_steps):
+            return self._first_steps[steps]
+        return self.gait.tables
 
     def _steer(self, path: PathTable, walks: bool) -> None:
         """Track the path: heading and speeds to ask of the controller."""
@@ -425,6 +446,9 @@ class Human:
                 self._command[1:3] = 0.0
             self._command[1] = pace * min(self._command[1], self.gait.speed)
             return
+        if self._run_up[_SLOWS] > 0.0:
+            self._command[1:3] = state[controller.SPEED] - SLOWING * CONTROL_DT, 0.0
+            return
         if state[controller.STEPS] >= 2.0:
             self._command[1] = min(self._command[1], state[controller.STEP_SPEED] + _HASTE)
         if self._run_up[_PLANNED] > 0.0:
@@ -432,16 +456,27 @@ class Human:
         else:
             self._command[1] = max(pace * self._command[1], min(self._command[1], self.limits.speeds[0]))
 
-    def _run_if_possible(self, path: PathTable) -> None:
+    def _run_if_due(self, path: PathTable) -> None:
         """Go over from walking to running, just after a foot was put down."""
         walk = self._walk
-        if self._memory[path_tracking.ARC] < path.run_from or self._memory[path_tracking.PACE] < 1.0:
+        runs = path.runs(self._memory[path_tracking.ARC])
+        if self.status not in MOVING or not runs or self._memory[path_tracking.PACE] < 1.0:
             return
         speed = run_entry_speed(walk, self._control, float(self._command[0]))
         if speed is not None:
             run_on(self._control, walk[WALK_STANCE], walk[WALK_HEADING], speed)
             walk[WALKS] = 0.0
             self.status = "running"
+
+    def _walk_if_due(self, path: PathTable) -> None:
+        """Where the path is not run, slow down, and go over to walking just after a foot was put down."""
+        state = self._control
+        if self.status not in MOVING or not path.runs(self._memory[path_tracking.ARC]):
+            self._run_up[_SLOWS] = 1.0
+        if self._run_up[_SLOWS] > 0.0 and can_walk_on(state):
+            walk_on(self.data, self.index, self._first_steps[0], self.gait.speed, state, self._walk)
+            self._run_up[_SLOWS] = 0.0
+            self.status = "walking" if self.status in MOVING else self.status
 
     def _clear(self) -> None:
         """After the run's tick: plan the run-up at each stance switch, start the skill at its mark, tick
@@ -460,7 +495,10 @@ class Human:
         if self._clearing is not None and skill.tick(obstacle, self._clearing, state, self.data):
             self._clearing = None
             self._run_up[_NEXT], self._run_up[_PLANNED] = number + 1, 0.0
-            self.status = skill.ends
+            if self.status in MOVING:
+                self.status = skill.ends
+            else:
+                self._obstacles = ()  # it was told to stop meanwhile
             if skill.ends == "walking":
                 rise_walking(self._walk, state, self.yaw)
             self.events.append(Cleared(self.time, self._point(), obstacle.affordance, obstacle.height))
@@ -558,4 +596,5 @@ class Human:
         else:
             plant(self.model, self.data, self.index, self._lookup, self._control, self._walk, position, yaw)
         self._command[:] = yaw, speed, 0.0, 0.0
+        self._run_up[:] = 0.0
         self._memory[:] = new_track()

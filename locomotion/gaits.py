@@ -14,8 +14,8 @@ from locomotion.walk_skill import WalkSkill
 __all__ = ["run_entry_speed", "run_limits", "walk_limits"]
 
 _SHARE_OF_TURNING = 0.8  # the rest of the skill's sideways acceleration is left for corrections
-_SLOWEST_RUN = 2.0  # [m/s] told less it walks: so slow a run crosses its legs, and one in five falls
-_SHARPEST, _STEEPEST = 0.3, 0.12  # [1/m], slope: where it would rather walk
+_SLOWEST_RUN = 2.5  # [m/s]: told less it is not slower, but crosses its legs
+_SHARPEST, _STEEPEST = 0.2, 0.12  # [1/m], slope: where it would rather walk
 _SLOWEST, _SIDEWAYS = 0.3, 0.5  # [m/s], [m/s^2] of a walk
 _FASTER, _SLOWER = 0.7, 0.5  # [m/s^2] of a walk
 _UPHILL, _DOWNHILL = 0.8, 2.2  # [m/s per unit of slope] of a walk

@@ -16,11 +16,12 @@ from locomotion.events import Event
 from locomotion.path_tracking import PathTable
 from locomotion.route_smoothing import ObstacleAhead
 
-__all__ = ["CLEARING", "MOVING", "HumanState", "Status", "hash_of", "restore_physics", "save_physics"]
+__all__ = ["CLEARING", "MOVING", "Gait", "HumanState", "Status", "hash_of", "restore_physics", "save_physics"]
 
 Status = Literal[
     "standing", "walking", "running", "jumping", "vaulting", "dropping", "fallen", "arrived", "lost", "stuck"
 ]
+Gait = Literal["walk", "run", "slow run"]
 CLEARING: dict[str, Status] = {
     "jump": "jumping", "vault": "vaulting", "drop": "dropping", "gap": "jumping",
 }  # fmt: skip

@@ -13,15 +13,15 @@ from numpy.typing import ArrayLike, NDArray
 from locomotion.errors import LocomotionError
 
 __all__ = [
-    "ARC", "HEADWAY", "HEADWAY_TICK", "LATERAL", "PACE", "REMAINING", "RUN_UP", "SLOPE_HERE", "SPEED_HERE",
-    "TRACK_SIZE", "PathTable", "TrackingLimits", "checked_points", "make_path", "new_track",
+    "ARC", "HEADWAY", "HEADWAY_TICK", "LATERAL", "PACE", "REMAINING", "RUNS", "RUN_UP", "SLOPE_HERE",
+    "SPEED_HERE", "TRACK_SIZE", "PathTable", "TrackingLimits", "checked_points", "make_path", "new_track",
     "shifted", "track",
 ]  # fmt: skip
 
 SPACING = 0.1
 """Spacing of a path's table [m]."""
-X, Y, Z, HEADING, CURVATURE, SLOPE, SPEED = range(7)
-"""Columns of a path's table."""
+X, Y, Z, HEADING, CURVATURE, SLOPE, SPEED, RUNS = range(8)
+"""Columns of a path's table; `RUNS` is 1 where the body runs and 0 where it walks, or slows down to it."""
 ARC, LATERAL, INTEGRAL, REMAINING, SPEED_HERE, SLOPE_HERE, HEADWAY, HEADWAY_TICK, PACE = range(9)
 """What the tracker remembers: arc length of the body's foot point [m], distance to the left of the path [m],
 its integral [m s], length left [m], planned speed [m/s] and slope here, greatest arc length so far and the
@@ -31,7 +31,10 @@ RUN_UP = 15.0
 """[m] before an obstacle, along the path, from which a body runs and the speed of each step is planned."""
 _STEP = 0.25
 _STEP_REACH = 0.7  # [m] around an obstacle's edge where its height would show as slope
-_WORTH_IT = 8.0  # [m] that are run at least
+_WORTH_IT = 4.0  # [m] that are run at least, before it slows down
+_BEFORE, _COME_TO_REST = 1.0, 2.0  # [m] that are walked before what cannot be run, and before the end
+_BETWEEN = 4.0  # [m] that are walked between two runs at least
+_LANDED = 5.0  # [m] behind an obstacle's edge that are run
 _BACK, _AHEAD = 0.5, 1.5  # [m] search window around the last foot point
 
 
@@ -45,6 +48,7 @@ class TrackingLimits:
         acceleration, deceleration: [m/s^2] of the planned speed along the path.
         uphill, downhill: [m/s per unit of slope] taken off the wished speed on a slope.
         sharpest: curvature [1/m] and steepest: slope [rise over run] above which it does not go this way.
+        slowing: [m/s^2] at which it slows down from a run to a walk.
     """
 
     speeds: tuple[float, float]
@@ -55,6 +59,7 @@ class TrackingLimits:
     downhill: float = 4.0
     sharpest: float = math.inf
     steepest: float = math.inf
+    slowing: float = 0.6
 
 
 @dataclass(frozen=True)
@@ -62,17 +67,20 @@ class PathTable:
     """A path resampled every 0.1 m of horizontal length.
 
     Attributes:
-        table: (n, 7) float64: x, y, z [m], heading [rad, unwrapped], curvature [1/m, left positive], slope
-            (rise per length), planned speed [m/s].
+        table: (n, 8) float64: x, y, z [m], heading [rad, unwrapped], curvature [1/m, left positive], slope
+            (rise per length), planned speed [m/s], whether to run.
         length: horizontal length [m].
         goal: (3,) float64, its last point.
-        run_from: arc length [m] from which to run; before that the body walks. inf: it walks all the way.
     """
 
     table: NDArray[np.float64]
     length: float
     goal: NDArray[np.float64]
-    run_from: float = 0.0
+
+    def runs(self, arc: float) -> bool:
+        """Whether the body is to run at this arc length [m]."""
+        last = len(self.table) - 1
+        return bool(self.table[min(max(round(arc / self.length * last), 0), last), RUNS])
 
 
 def checked_points(points: ArrayLike) -> NDArray[np.float64]:
@@ -93,14 +101,15 @@ def make_path(
     present_speed: float,
     edges: ArrayLike = (),
     walk: TrackingLimits | None = None,
+    running: bool = False,
 ) -> PathTable:
     """Resample ``points`` (n, 3) [m] and plan the speed along it: at most ``speed`` [m/s], slower in bends,
     on slopes and before the end, starting from ``present_speed`` [m/s]. ``edges`` (k,) are arc lengths [m] at
     which the path goes over an obstacle: the step in height there is no slope.
 
-    ``limits`` are those of running. With ``walk`` the body begins walking, and runs from where the rest of
-    the path can be run (`PathTable.run_from`) and a run is worth it; at the latest it runs `RUN_UP` before an
-    edge.
+    ``limits`` are those of running; without ``walk`` the body runs all the way. With ``walk`` it runs where
+    bends and slopes allow it and where a run is worth it (or it is ``running`` already), and over an edge,
+    from `RUN_UP` before it; it walks elsewhere and before the end, and slows down to that in time.
 
     Raises `LocomotionError` for fewer than two distinct points, coordinates that are not finite, or a speed
     that is not above 0.
@@ -117,34 +126,59 @@ def make_path(
     length = float(arc[-1])
     count = max(int(np.ceil(length / SPACING)), 1) + 1
     at = np.linspace(0.0, length, count)
-    table = np.empty((count, 7))
+    table = np.empty((count, 8))
     for k in range(3):
         table[:, k] = np.interp(at, arc, distinct[:, k])
     _directions(table, length / (count - 1))
     crossed = np.atleast_1d(np.asarray(edges, dtype=np.float64))
     for edge in crossed:
         table[np.abs(at - edge) < _STEP_REACH, SLOPE] = 0.0
-    run_from = 0.0 if walk is None else _run_from(table, at, limits, speed, crossed)
-    running = at >= run_from
-    _plan_speed(
-        table, length / (count - 1), speed, [limits if r else walk or limits for r in running], present_speed
-    )
-    return PathTable(table, length, distinct[-1].copy(), run_from)
+    table[:, RUNS] = 1.0
+    gaits = [limits] * count
+    if walk is not None:
+        slowing = _length_of_slowing(speed, limits, walk)
+        slowest = 0.5 * (walk.speeds[1] + limits.speeds[0])  # below it is nearer to a walk
+        runs = _where_to_run(table, at, limits, speed, crossed, running, slowest, slowing)
+        table[:, RUNS] = runs
+        last = np.maximum.accumulate(np.where(runs, at, -math.inf))  # run point before each
+        gaits = [limits if near else walk for near in at - last <= slowing]
+    _plan_speed(table, length / (count - 1), speed, gaits, present_speed)
+    return PathTable(table, length, distinct[-1].copy())
 
 
-def _run_from(
+def _length_of_slowing(speed: float, limits: TrackingLimits, walk: TrackingLimits) -> float:
+    """[m] in which a body that runs at up to ``speed`` slows down to a walk."""
+    fastest = min(max(speed, limits.speeds[0]), limits.speeds[1])
+    return max(fastest**2 - walk.speeds[1] ** 2, 0.0) / (2.0 * limits.slowing)
+
+
+def _where_to_run(
     table: NDArray[np.float64],
     at: NDArray[np.float64],
     limits: TrackingLimits,
     speed: float,
     edges: NDArray[np.float64],
-) -> float:
-    """Arc length from which all the rest can be run, inf if that is too short or slower than a run."""
+    running: bool,
+    slowest: float,
+    slowing: float,
+) -> NDArray[np.bool_]:
+    """(n,) bool: where the body runs, if ``speed`` is at least ``slowest`` [m/s]; behind that it needs
+    ``slowing`` [m] to slow down."""
     hard = (np.abs(table[:, CURVATURE]) > limits.sharpest) | (np.abs(table[:, SLOPE]) > limits.steepest)
-    begin = float(at[np.flatnonzero(hard)[-1]]) + SPACING if hard.any() else 0.0
-    if at[-1] - begin < _WORTH_IT or speed < limits.speeds[0]:
-        begin = math.inf
-    return min(begin, max(float(edges[0]) - RUN_UP, 0.0)) if len(edges) else begin
+    runs = ~hard & (at <= at[-1] - _COME_TO_REST - slowing) & (speed >= slowest)
+    for each in at[hard]:
+        runs[(at >= each - _BEFORE - slowing) & (at <= each)] = False
+    ends = np.flatnonzero(np.diff(runs.astype(np.int8), prepend=0, append=0))
+    for begin, end in ends.reshape(-1, 2):
+        if at[end - 1] - at[begin] < _WORTH_IT and not (running and begin == 0):
+            runs[begin:end] = False
+    for edge in edges:
+        runs[(at >= edge - RUN_UP) & (at <= edge + _LANDED)] = True
+    ends = np.flatnonzero(np.diff(runs.astype(np.int8), prepend=0, append=0))
+    for end, begin in ends[1:-1].reshape(-1, 2):
+        if at[begin] - at[end] < slowing + _BETWEEN and not hard[end:begin].any():
+            runs[end:begin] = True
+    return runs
 
 
 def _directions(table: NDArray[np.float64], step: float) -> None:

@@ -6,8 +6,8 @@ import numpy as np
 from numba import njit
 
 __all__ = [
-    "ATTITUDES", "BODY_HEIGHT", "CLOCK", "DOUBLE", "FOOTHOLD", "FOOTHOLD_NORMAL", "FOOTHOLD_YAW", "GAINS",
-    "HUMP", "LIFT", "LIFT_NORMAL", "LIFT_YAW", "MISSED", "PHASE", "SEEN_ANCHORS", "SEEN_AXES",
+    "ATTITUDES", "BODY_HEIGHT", "CAUGHT", "CLOCK", "DOUBLE", "FOOTHOLD", "FOOTHOLD_NORMAL", "FOOTHOLD_YAW",
+    "GAINS", "HUMP", "LIFT", "LIFT_NORMAL", "LIFT_YAW", "MISSED", "PHASE", "SEEN_ANCHORS", "SEEN_AXES",
     "SEEN_FEET", "SEEN_PELVIS", "SEEN_SOLES", "SEEN_TORQUES", "SETTING_OFF", "SIDEWAYS", "SINGLE", "STANDING",
     "STEEPNESS", "STEPPED_AT", "STEPPED_FROM", "SWING_ANGLES", "SWING_TIME", "WALKS", "WALK_HEADING",
     "WALK_SIZE", "WALK_SPEED", "WALK_STANCE", "WALK_STEPS", "WALK_TICKS", "WALK_TRIM", "WALK_TURN_RATE",
@@ -110,7 +110,9 @@ BODY_HEIGHT = 156
 """Height [m] at which the centre of mass is to be now; NaN before the first tick."""
 ATTITUDES = slice(157, 163)
 """Normals (2, 3) of the right and the left foot as they were last put down."""
-WALK_SIZE = 163
+CAUGHT = 163
+"""1 if the walk began out of a run, 0 if from a stand."""
+WALK_SIZE = 164
 
 
 def new_walk(heading: float = 0.0) -> np.ndarray:

@@ -37,6 +37,7 @@ class Skill(StrEnum):
 
     run = "run"
     walk = "walk"
+    slow_down = "slow-down"
     jump = "jump"
     vault = "vault"
     drop_roll = "drop-roll"

@@ -19,8 +19,8 @@ from runtime.courses import CourseRun, make_course, run_course
 from runtime.progress import Progress
 
 __all__ = [
-    "DEFAULT_HEIGHTS", "HEIGHTS", "Attempt", "evaluate_clearing", "evaluate_run", "evaluate_walk",
-    "start_noise",
+    "DEFAULT_HEIGHTS", "HEIGHTS", "Attempt", "evaluate_clearing", "evaluate_run", "evaluate_slow_down",
+    "evaluate_walk", "start_noise",
 ]  # fmt: skip
 
 DEFAULT_HEIGHTS = {"jump": 0.4, "vault": 0.7, "drop": 1.5}
@@ -174,6 +174,25 @@ def evaluate_walk(trials: int, seed: int, progress: Progress) -> list[Attempt]:
 
     each = [(name, kind, k) for name, kind in KINDS.items() for k in range(trials)]
     return _tried("walk", [lambda one=one: attempt(*one) for one in each], progress)
+
+
+def evaluate_slow_down(trials: int, seed: int, progress: Progress) -> list[Attempt]:
+    """Runs over straight ways, and over ways with bends, that end at a goal or are called off: does the
+    person stand in the end?"""
+    from locomotion.slow_down import load_slow_down_skill
+    from locomotion.training.slow_down import BENDS, draw_halt, halt
+
+    run, slow_down = load_run_skill(), load_slow_down_skill()
+
+    def attempt(name: str, radii: tuple[float, ...], k: int) -> Attempt:
+        trial = draw_halt(np.random.default_rng([seed, k]), radii)
+        stood = halt(trial, run, slow_down)[1]
+        what = f"{trial.speed:.2f} m/s, {'at its goal' if trial.told == math.inf else 'told to stop'}"
+        return Attempt(name, what, "stands" if stood else "fallen", stood)
+
+    ways = {"straight": (math.inf,), "bends": BENDS}
+    each = [(name, radii, k) for name, radii in ways.items() for k in range(trials)]
+    return _tried("slow-down", [lambda one=one: attempt(*one) for one in each], progress)
 
 
 def _tried(name: str, todo: list[Callable[[], Attempt]], progress: Progress) -> list[Attempt]:

@@ -84,6 +84,53 @@ def test_speed_slows_in_bends_on_slopes_and_before_the_end():
     assert table[300, pt.SPEED] < 3.5
 
 
+WALK = pt.TrackingLimits(speeds=(0.3, 1.25), sideways=0.5)
+GENTLE = pt.TrackingLimits(speeds=(2.0, 4.0), sharpest=0.3, steepest=0.12, slowing=0.8)
+SLOWING = (3.0**2 - 1.25**2) / 1.6
+"""[m] in which a run at 3 m/s becomes a walk."""
+
+
+def stretches(path):
+    """(begin, end) [m] of what is run."""
+    runs = path.table[:, pt.RUNS] > 0
+    at = np.linspace(0.0, path.length, len(runs))
+    ends = np.flatnonzero(np.diff(runs.astype(int), prepend=0, append=0)).reshape(-1, 2)
+    return [(at[a], at[b - 1]) for a, b in ends]
+
+
+def test_runs_where_the_way_is_straight_and_level_and_slows_down_in_time_before_the_rest():
+    bend = np.concatenate([[[-15.0, 0, 0]], circle(2.0, 0.25), [[2.0, 20.0, 0]]])
+    path = pt.make_path(bend, 3.0, GENTLE, 0.0, walk=WALK)
+    first, second = stretches(path)
+    assert first == (0.0, pytest.approx(15.0 - 1.0 - SLOWING, abs=0.4))
+    assert second == (
+        pytest.approx(15.0 + np.pi, abs=0.4),
+        pytest.approx(path.length - 2.0 - SLOWING, abs=0.2),
+    )
+    assert path.runs(5.0) and not path.runs(16.0) and not path.runs(1e9)
+    at = np.linspace(0.0, path.length, len(path.table))
+    walked = (at > 15.0 - 1.0) & (at < 15.0 + np.pi - 0.5)
+    assert path.table[walked, pt.SPEED].max() <= 1.25
+    assert path.table[at < first[1], pt.SPEED].max() > 2.9  # slows down only behind it
+    assert stretches(pt.make_path(bend, 1.5, GENTLE, 0.0, walk=WALK)) == []
+
+
+def test_a_stretch_too_short_is_walked_unless_the_body_runs_already():
+    straight = [[0, 0, 0], [10, 0, 0]]
+    assert stretches(pt.make_path(straight, 3.0, GENTLE, 0.0, walk=WALK)) == []
+    path = pt.make_path(straight, 3.0, GENTLE, 3.0, walk=WALK, running=True)
+    assert stretches(path) == [(0.0, pytest.approx(8.0 - SLOWING, abs=0.1))]
+
+
+def test_obstacles_are_run_up_to_whatever_the_way_and_one_after_another_without_a_walk_between():
+    way = [[0, 0, 0], [8, 0, 0], [8, 10, 0], [8, 18, 0]]
+    path = pt.make_path(way, 3.0, GENTLE, 0.0, edges=[18.0], walk=WALK)
+    assert stretches(path) == [(pytest.approx(3.0, abs=0.1), pytest.approx(23.0, abs=0.1))]
+    straight = [[0, 0, 0], [80, 0, 0]]
+    path = pt.make_path(straight, 1.9, GENTLE, 0.0, edges=[18.0, 40.0], walk=WALK)
+    assert stretches(path) == [(pytest.approx(3.0, abs=0.1), pytest.approx(45.0, abs=0.1))]
+
+
 @pytest.mark.parametrize(
     ("points", "speed", "message"),
     [

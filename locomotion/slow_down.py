@@ -1,0 +1,133 @@
+"""Slowing down from a run to a walk: the run's parameters at low speeds while it slows down, and how the walk
+that catches it begins.
+
+An ordinary run below 2.5 m/s crosses its legs: where a foot comes down, the centre of mass is outside of it,
+and the walk would have to cross its legs, too. Hence slow running has parameters of its own here, that serve
+only to slow down, and the runs of the skills above that stay as they are.
+"""
+
+import math
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from locomotion import controller
+from locomotion.errors import LocomotionError
+from locomotion.person import PersonIndex, person_digest
+from locomotion.skill import RunSkill
+from locomotion.skill_file import read_skill
+from locomotion.walk_layout import CAUGHT, GAINS, WALK_SPEED, WALK_STANCE, gain_limits, new_walk
+from locomotion.walk_skill import WalkSkill
+from locomotion.walk_steps import begin_swing
+from locomotion.walking import observe_walk
+from navmesh.archive import write_archive
+
+__all__ = [
+    "SLOWING", "SLOW_DOWN_SKILL", "SlowDownSkill", "can_walk_on", "load_slow_down_skill", "walk_on",
+]  # fmt: skip
+
+SLOW_DOWN_SKILL = Path(__file__).parent / "skills" / "slow_down.npz"
+SLOWING = 1.0
+"""[m/s^2] by which the run's reference speed is lowered."""
+_STEP_TIMES = (0.25, 0.5)  # [s] shortest and longest step of a slow run
+_CATCHABLE, _WITHIN_REACH = 1.9, 0.45
+# [m/s] at a touchdown below which a running person can walk on; [m] that its capture point is ahead of the
+# foot at most, for it to do so when it is faster
+_OMEGA = 3.3  # [1/s] of the capture point
+_FIRST_STEPS = 4  # of the walk in which its gains become those of a walk on level ground
+_KIND, _VERSION = "slow-down skill", 1
+
+
+@dataclass(frozen=True)
+class SlowDownSkill:
+    """How a running person comes to walk.
+
+    Attributes:
+        knots: (k,) float64, increasing speeds [m/s]; at the last and above it runs as always.
+        change: (k, p) float64, what is added there to the parameters of the run
+            (`run_layout.PARAMETERS`); zeros in the last row.
+        gains: (len(GAINS),) float64, added to the walk's gains for level ground in its first step.
+        meta: what made it.
+    """
+
+    knots: np.ndarray
+    change: np.ndarray
+    gains: np.ndarray
+    meta: dict[str, Any] = field(default_factory=dict)
+
+    def run_tables(self, run: RunSkill) -> tuple[np.ndarray, ...]:
+        """The first arguments of `controller.run_tick` while slowing down from ``run``."""
+        above = run.knots > self.knots[-1]
+        knots = np.concatenate([self.knots, run.knots[above]])
+        table = np.stack([np.interp(knots, run.knots, column) for column in run.table.T], axis=1)
+        table[: len(self.knots)] += self.change
+        timing = controller.parameter_slices()["timing"].start
+        table[:, timing] = np.clip(table[:, timing], *_STEP_TIMES)
+        limits = np.array([self.knots[0], run.speeds[1], run.max_lateral])
+        return (knots, np.ascontiguousarray(table), *run.tables[2:-1], limits)
+
+    def walk_tables(self, walk: WalkSkill) -> tuple[np.ndarray, ...]:
+        """``walk.tables`` for each of the first steps out of a run."""
+        low, high = gain_limits()
+        first = np.clip(walk.tables[0] + self.gains, low, high)
+        result = []
+        for step in range(_FIRST_STEPS):
+            tables = walk.tables.copy()
+            tables[0] += (1.0 - step / _FIRST_STEPS) * (first - tables[0])
+            result.append(tables)
+        return tuple(result)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the skill for the present person; the file appears whole or not at all."""
+        header = {"person": person_digest(), "gains": list(GAINS), "meta": self.meta}
+        arrays = {"knots": self.knots, "change": self.change, "gains": self.gains}
+        write_archive(path, _KIND, _VERSION, header, arrays)
+
+
+def load_slow_down_skill(path: str | os.PathLike[str] = SLOW_DOWN_SKILL) -> SlowDownSkill:
+    """Read a slow-down skill; `LocomotionError` if it is missing, cut off, of another version or another
+    person."""
+    header, arrays = read_skill(path, _KIND, _VERSION)
+    knots, change, gains = (arrays.get(name, np.empty(0)) for name in ("knots", "change", "gains"))
+    width = sum(controller.PARAMETERS.values())
+    whole = knots.ndim == 1 and len(knots) > 1 and change.shape == (len(knots), width)
+    if not (whole and gains.shape == (len(GAINS),) and header.get("gains") == list(GAINS)):
+        raise LocomotionError(f"{path}: not a whole slow-down skill")
+    if not (all(np.isfinite(each).all() for each in (knots, change, gains)) and (np.diff(knots) > 0).all()):
+        raise LocomotionError(f"{path}: holds numbers that are not finite or speeds that do not grow")
+    return SlowDownSkill(knots, change, gains, header.get("meta", {}))
+
+
+def can_walk_on(state: np.ndarray) -> bool:
+    """Whether a running person can go over to walking now: it has just put a foot down, and either it is slow
+    or the foot is so far ahead that it will be. Another running step would brake too much then."""
+    if state[controller.STEP_TIME] != 0.0:
+        return False
+    along = np.array([math.cos(state[controller.HEADING]), math.sin(state[controller.HEADING])])
+    foot = state[controller.FEET].reshape(2, 3)[1 if state[controller.STANCE] > 0.0 else 0]
+    speed = float(along @ state[controller.COM_VELOCITY][:2])
+    ahead = float(along @ (state[controller.COM] - foot)[:2]) + speed / _OMEGA
+    return speed < _CATCHABLE or ahead < _WITHIN_REACH
+
+
+def walk_on(
+    data: mujoco.MjData,
+    index: PersonIndex,
+    tables: np.ndarray,
+    speed: float,
+    state: np.ndarray,
+    walk: np.ndarray,
+) -> None:
+    """Let the walking controller take over a running body that has just put a foot down; ``state`` is the
+    running controller's, ``walk`` is filled. tables (2, len(GAINS)): gains of its first step; speed: at
+    which it walks at most [m/s]."""
+    heading, (vx, vy) = float(state[controller.HEADING]), state[controller.COM_VELOCITY][:2]
+    walk[:] = new_walk(heading)
+    observe_walk(index, data, walk)
+    walk[CAUGHT], walk[WALK_STANCE] = 1.0, state[controller.STANCE]
+    walk[WALK_SPEED] = min(math.cos(heading) * vx + math.sin(heading) * vy, speed)
+    begin_swing(tables[0], walk, data.qpos)

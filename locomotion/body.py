@@ -311,7 +311,7 @@ class Human:
     def change_ground(self, ground: Ground) -> None:
         """Go on as it is on another ground. One at rest whose footing has changed by more than 1 cm is
         simulated again; one with no ground at all below it counts as fallen from now on, and so does one
-        that was held in a run whose footing has changed."""
+        that is held though it did not come to rest from a run and whose footing has changed."""
         before, state = self._footing(), self.save_state()
         self.ground, self._lookup = ground, ground.lookup
         self.model, self.index = _model_on(ground)

@@ -69,6 +69,10 @@ def test_runs_a_straight_path_and_arrives(on_mesh):
     assert np.percentile(lateral, 95) < 0.3
     assert np.linalg.norm(human.position[:2] - [15, 0]) <= 0.5
     assert human.position[2] == pytest.approx(0.0, abs=1e-6)
+    while not human.held:  # it comes to rest
+        assert human.time < 30.0
+        human.tick()
+    assert np.linalg.norm(human.position[:2] - [15, 0]) <= 0.5
     held = human.qpos
     human.tick()
     assert np.array_equal(held, human.qpos) and not human.velocity.any()

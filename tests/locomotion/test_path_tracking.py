@@ -127,7 +127,7 @@ def test_obstacles_are_run_up_to_whatever_the_way_and_one_after_another_without_
     path = pt.make_path(way, 3.0, GENTLE, 0.0, edges=[18.0], walk=WALK)
     assert stretches(path) == [(pytest.approx(3.0, abs=0.1), pytest.approx(23.0, abs=0.1))]
     straight = [[0, 0, 0], [80, 0, 0]]
-    path = pt.make_path(straight, 1.9, GENTLE, 0.0, edges=[18.0, 40.0], walk=WALK)
+    path = pt.make_path(straight, 1.5, GENTLE, 0.0, edges=[18.0, 40.0], walk=WALK)
     assert stretches(path) == [(pytest.approx(3.0, abs=0.1), pytest.approx(45.0, abs=0.1))]
 
 

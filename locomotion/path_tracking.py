@@ -164,10 +164,8 @@ def _where_to_run(
 ) -> NDArray[np.bool_]:
     """(n,) bool: where the body runs, if ``speed`` is at least ``slowest`` [m/s]; behind that it needs
     ``slowing`` [m] to slow down."""
-    hard = (np.abs(table[:, CURVATURE]) > limits.sharpest) | (np.abs(table[:, SLOPE]) > limits.steepest)
-    runs = ~hard & (at <= at[-1] - _COME_TO_REST - slowing) & (speed >= slowest)
-    for each in at[hard]:
-        runs[(at >= each - _BEFORE - slowing) & (at <= each)] = False
+    hard = _too_hard(table, limits)
+    runs = _can_run(hard, at, slowing) & (at <= at[-1] - _COME_TO_REST - slowing) & (speed >= slowest)
     ends = np.flatnonzero(np.diff(runs.astype(np.int8), prepend=0, append=0))
     for begin, end in ends.reshape(-1, 2):
         if at[end - 1] - at[begin] < _WORTH_IT and not (running and begin == 0):
@@ -178,6 +176,19 @@ def _where_to_run(
     for end, begin in ends[1:-1].reshape(-1, 2):
         if at[begin] - at[end] < slowing + _BETWEEN and not hard[end:begin].any():
             runs[end:begin] = True
+    return runs
+
+
+def _too_hard(table: NDArray[np.float64], limits: TrackingLimits) -> NDArray[np.bool_]:
+    """(n,) bool: where bends or slopes are too much for these limits."""
+    return (np.abs(table[:, CURVATURE]) > limits.sharpest) | (np.abs(table[:, SLOPE]) > limits.steepest)
+
+
+def _can_run(hard: NDArray[np.bool_], at: NDArray[np.float64], slowing: float) -> NDArray[np.bool_]:
+    """(n,) bool: where nothing ``hard`` is, nor so near before the body that it has to slow down."""
+    runs = ~hard
+    for each in at[hard]:
+        runs[(at >= each - _BEFORE - slowing) & (at <= each)] = False
     return runs
 
 
@@ -238,10 +249,10 @@ def shifted(
     for i in range(len(squares) - 2, -1, -1):
         squares[i] = min(squares[i], squares[i + 1] + 2.0 * present.deceleration * step)
     table[:, SPEED] = np.sqrt(squares)
-    begin = path.run_from
     if walk is not None:
-        begin = max(begin, _run_from(table, along, limits, math.inf, np.empty(0)))
-    return replace(path, table=table, run_from=begin)
+        slowing = _length_of_slowing(float(table[:, SPEED].max()), limits, walk)
+        table[~_can_run(_too_hard(table, limits), along, slowing), RUNS] = 0.0
+    return replace(path, table=table)
 
 
 def new_track() -> NDArray[np.float64]:

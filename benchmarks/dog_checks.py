@@ -192,21 +192,22 @@ def footprints(quick: bool) -> dict[str, Any]:
 
 
 def _depth(centres: np.ndarray, radii: np.ndarray, triangles: np.ndarray) -> float:
-    """[m] by which the balls (k, parts, 3) come deeper than the surface of the triangles, at most; below 0:
-    how far away they stay. By trimesh's closest points, on all triangles in the box of each ball's way."""
+    """[m] by which the balls (k, parts, 3) come deeper than the surface of the triangles, at most; -inf where
+    they touch none. By trimesh's closest points, on the triangles whose box each ball meets."""
     worst = -math.inf
     low, high = triangles.min(axis=1), triangles.max(axis=1)
     for part, radius in enumerate(radii):
         points = centres[:, part]
-        near = np.all(low < points.max(axis=0) + radius + 0.05, axis=1)
-        near &= np.all(high > points.min(axis=0) - radius - 0.05, axis=1)
-        candidates = triangles[near]
-        if len(candidates) == 0:
-            continue
-        for some in np.array_split(points, max(len(points) * len(candidates) // 400_000, 1)):
-            pairs = np.repeat(some, len(candidates), axis=0)
-            closest = trimesh.triangles.closest_point(np.tile(candidates, (len(some), 1, 1)), pairs)
-            worst = max(worst, radius - float(np.linalg.norm(closest - pairs, axis=1).min()))
+        near = np.flatnonzero(
+            np.all((low < points.max(axis=0) + radius) & (high > points.min(axis=0) - radius), axis=1)
+        )
+        for some in np.array_split(points, len(points) * len(near) // 200_000 + 1):
+            meets = (low[near] < some[:, None] + radius) & (high[near] > some[:, None] - radius)
+            ball, triangle = np.nonzero(meets.all(axis=2))
+            if len(ball) == 0:
+                continue
+            closest = trimesh.triangles.closest_point(triangles[near[triangle]], some[ball])
+            worst = max(worst, radius - float(np.linalg.norm(closest - some[ball], axis=1).min()))
     return worst
 
 

@@ -27,6 +27,8 @@ import numpy as np
 from pydantic.json_schema import GenerateJsonSchema
 
 import navmesh
+from locomotion import LocomotionError
+from locomotion.quadruped import is_body_file, load_body
 from navmesh.yamlfile import FileError, Located, dotted, read_yaml
 from runtime.mission_model import Mission, Step
 from runtime.rules import walk_rules
@@ -39,7 +41,9 @@ Address = tuple[str | int, ...]
 class LoadedMission:
     """A checked mission with the place of its file: resolves paths and names, and errors name the line.
 
-    ``level_path`` and ``tags_path`` (or None) exist. Every name that the mission mentions stands in it.
+    ``level_path`` and ``tags_path`` (or None) exist. ``bodies`` are the agents' in order, as
+    `runtime.World.spawn` takes them: files of one's own are sound, and their paths resolved. Every name that
+    the mission mentions stands in it.
     """
 
     def __init__(self, mission: Mission, located: Located) -> None:
@@ -49,6 +53,7 @@ class LoadedMission:
         self._check_unique()
         self._check_mentions()
         self.level_path = self._existing(("level", "file"), mission.level.file, "level")
+        self.bodies = [self._body(i, agent.body) for i, agent in enumerate(mission.agents)]
         tags = mission.level.tags
         self.tags_path = None if tags is None else self._existing(("level", "tags"), tags, "tags file")
 
@@ -61,9 +66,7 @@ class LoadedMission:
     def rules(self) -> navmesh.WalkRules:
         """The walk rules of the mission, defaults filled in."""
         try:
-            return walk_rules(
-                {agent.body for agent in self.mission.agents}, **self.mission.rules.model_dump()
-            )
+            return walk_rules(set(self.bodies), **self.mission.rules.model_dump())
         except navmesh.NavmeshError as error:
             raise self.error(("rules",), str(error)) from None
 
@@ -91,6 +94,17 @@ class LoadedMission:
         if not found:
             raise self.error(address, f"no such {what}: {str(path)!r}")
         return path
+
+    def _body(self, i: int, body: str) -> str:
+        if not is_body_file(body):
+            return body
+        address: Address = ("agents", i, "body")
+        path = self._existing(address, body, "body file")
+        try:
+            load_body(path)
+        except LocomotionError as error:
+            raise self.error(address, str(error)) from None
+        return str(path)
 
     def _check_unique(self) -> None:
         seen: set[str] = set()

@@ -71,7 +71,7 @@ def build_graph(loaded: LoadedMission) -> navmesh.NodeGraph:
 
 def _place(loaded: LoadedMission, world: World, index: int, spec: AgentSpec) -> None:
     try:
-        world.spawn(spec.body, loaded.point(spec.start), math.radians(spec.facing_deg), spec.name)
+        world.spawn(loaded.bodies[index], loaded.point(spec.start), math.radians(spec.facing_deg), spec.name)
     except ValueError as error:
         raise loaded.error(("agents", index, "start"), str(error)) from None
 

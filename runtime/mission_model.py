@@ -14,6 +14,7 @@ from pydantic import (
     model_validator,
 )
 
+from locomotion.quadruped import is_body_file
 from runtime.drivers import BODIES
 
 __all__ = [
@@ -50,6 +51,10 @@ def _kind_of_places(value: Any) -> str:
     return "(point)" if flat else "(list)"
 
 
+def _kind_of_body(value: Any) -> str:
+    return "(file)" if isinstance(value, str) and is_body_file(value) else "(name)"
+
+
 # The tags in brackets show up in the addresses of pydantic's errors; navmesh.yamlfile leaves them out.
 Coordinate = Annotated[float, AfterValidator(_near)]
 Point = Annotated[list[Coordinate], Len(3, 3)]
@@ -71,7 +76,11 @@ Skill = Literal["jump", "vault", "drop"]
 if TYPE_CHECKING:
     Body = str
 else:
-    Body = Literal[BODIES]
+    _BodyFile = Annotated[str, Field(json_schema_extra={"pattern": r"\.ya?ml$"})]
+    Body = Annotated[
+        Annotated[Literal[BODIES], Tag("(name)")] | Annotated[_BodyFile, Tag("(file)")],
+        Discriminator(_kind_of_body),
+    ]
 
 
 class _Strict(BaseModel):
@@ -253,6 +262,7 @@ class AgentSpec(_Strict):
 
     name: Name
     body: Body = "human"
+    """One of ours, or the .yaml file of a quadruped of one's own, relative to the mission's."""
     start: Place
     """(x, y, z) [m], Z up, or a waypoint; snapped to the walkable surface below."""
     facing_deg: Annotated[float, Ge(-360.0), Le(360.0)] = 0.0

@@ -7,9 +7,12 @@ import pytest
 from conftest import MISSION
 
 import navmesh
+from navmesh.yamlfile import FileError
 from runtime import Arrived, Blocked, Departed, RuntimeInputError, World
 from runtime.mission import load_mission
+from runtime.mission_check import prepare_mission
 from runtime.mission_run import run_mission
+from runtime.progress import Progress
 from runtime.rules import walk_rules
 from runtime.trace import Trace
 from runtime.view import write_page
@@ -127,6 +130,31 @@ def test_a_body_that_does_not_add_up_names_its_line(graph, tmp_path):
         with pytest.raises(RuntimeInputError, match=r"valid: .*\.yaml|none\.yaml"):
             world.spawn(body, (2.0, 3.0, 0.0))
     assert not world.agents
+
+
+def test_a_mission_names_a_body_file_beside_it(folder, monkeypatch):
+    mutt(folder, "look_ahead: 0.6", "look_ahead: 0.9")
+    mission = folder / "mission.yaml"
+    mission.write_text(MISSION.replace("body: human", "body: mutt.yaml").replace("speed: 3.0", "speed: 2.0"))
+    monkeypatch.chdir(folder.parent)
+    loaded = load_mission(mission)
+    assert loaded.rules() == walk_rules([str(folder / "mutt.yaml")])
+    world = prepare_mission(loaded, Progress(shown=False)).world
+    assert world.agents["ada"].animal.body.head.look_ahead == 0.9
+
+
+@pytest.mark.parametrize(
+    ("body", "says"),
+    [
+        ("none.yaml", r"no such body file: .*none\.yaml"),
+        ("mutt.yaml", r"mutt\.yaml:[0-9]+:[0-9]+: .*4 bones of 0.11 m make 0.44 m"),
+    ],
+)
+def test_a_mission_with_a_body_file_that_does_not_hold_is_refused(folder, body, says):
+    mutt(folder, "length: 0.44, bones: 4", "length: 0.50, bones: 4")
+    (folder / "mission.yaml").write_text(MISSION.replace("body: human", f"body: {body}"))
+    with pytest.raises(FileError, match=rf"mission\.yaml:8:11: agents\[0\]\.body: .*{says}"):
+        load_mission(folder / "mission.yaml")
 
 
 def test_rules_suit_every_body_of_a_mission():

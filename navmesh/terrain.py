@@ -118,12 +118,16 @@ class Terrain:
         holds no usable triangle.
         """
         import trimesh
+        from trimesh.visual import ColorVisuals
 
         file = Path(path)
         if not file.is_file():
             raise NavmeshError(f"{file}: no such file; expected a mesh (OBJ, PLY, STL, OFF, GLB or glTF)")
         try:
             loaded = trimesh.load_scene(file, process=False)
+            for part in loaded.geometry.values():
+                if isinstance(part, trimesh.Trimesh):  # else trimesh packs all textures into one: gigabytes
+                    part.visual = ColorVisuals()
             mesh = loaded.to_mesh()
             vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
         except MemoryError:

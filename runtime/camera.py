@@ -1,17 +1,27 @@
-"""A camera that goes with a figure."""
+"""A camera that goes with a figure, and one that sees it."""
+
+import itertools
+import math
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
 from runtime.errors import RuntimeInputError
-from runtime.render import Camera
+from runtime.ray_kernel import cast_faces
+from runtime.render import Camera, Triangles
 from runtime.trace import AgentTrace, Trace
 
-__all__ = ["agent_named", "calm_track", "follow", "size_of"]
+__all__ = ["agent_named", "calm_track", "clearest", "follow", "size_of"]
 
 _CALM = 0.6  # [s] over which the camera evens out what the figure does
 _GRID = 0.05  # [s] between the moments at which it is evened out
 _STANDING = 0.15  # [m/s] below this the camera keeps its side
+_TURNS = np.radians([0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180])
+_RISES = np.radians([0, 20, 40])
+_NEARER = (1.0, 0.8, 0.6)
+_STEEPEST = np.radians(70)  # that it looks down
+_NARROW = 0.01  # [rad] of a picture of one ray
+_SHORT = 0.98  # share of the way to a point on which nothing may stand: it may lie on a face itself
 
 
 def agent_named(trace: Trace, name: str | None) -> AgentTrace:
@@ -63,3 +73,46 @@ def follow(agent: AgentTrace, times: np.ndarray, moments: np.ndarray, distance: 
         eye = at + np.array([aside[0], aside[1], 0.3 * distance])
         cameras.append(Camera(eye=eye, target=at, fov=0.62))
     return cameras
+
+
+def clearest(level: Triangles, camera: Camera, points: np.ndarray) -> tuple[Camera, bool]:
+    """A camera that sees ``points`` (n, 3) [m], and whether it sees all: ``camera``, or one that is turned
+    about its target, raised, or nearer, in this order of preference; the first from which the level hides the
+    fewest points."""
+    aside = camera.eye - camera.target
+    around, away = math.hypot(aside[0], aside[1]), float(np.linalg.norm(aside))
+    yaw, pitch = math.atan2(aside[1], aside[0]), math.atan2(aside[2], around)
+    low, high = (
+        np.minimum(points.min(axis=0), camera.target - away),
+        np.maximum(points.max(axis=0), camera.target + away),
+    )
+    corners = level.corners
+    near = np.all((corners.max(axis=1) > low) & (corners.min(axis=1) < high), axis=1)
+    best, fewest = camera, len(points) + 1
+    for nearer, rise, turn in itertools.product(_NEARER, _RISES, _TURNS):
+        up, to = min(pitch + rise, _STEEPEST), yaw + turn
+        arm = np.array([math.cos(up) * math.cos(to), math.cos(up) * math.sin(to), math.sin(up)])
+        tried = Camera(camera.target + nearer * away * arm, camera.target, camera.fov)
+        count = _hidden(corners[near], tried.eye, points, fewest)
+        if count < fewest:
+            best, fewest = tried, count
+        if fewest == 0:
+            break
+    return best, fewest == 0
+
+
+def _hidden(corners: np.ndarray, eye: np.ndarray, points: np.ndarray, enough: int) -> int:
+    """How many of ``points`` (n, 3) faces (f, 3, 3) hide from ``eye``, whichever way these face; not counted
+    beyond ``enough``."""
+    count = 0
+    for point in points:
+        sight = Camera(eye, point, _NARROW)
+        distance = np.full((1, 1), _SHORT * np.linalg.norm(point - eye))
+        scale = 0.5 / math.tan(0.5 * _NARROW)
+        found = cast_faces(
+            eye, np.stack(sight.axes()), scale, sight.rays(1, 1), corners, np.zeros(len(corners)), distance
+        )
+        count += int(found[0, 0] >= 0)
+        if count >= enough:
+            break
+    return count

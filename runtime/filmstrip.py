@@ -4,6 +4,7 @@ import os
 
 import numpy as np
 
+from runtime.camera import clearest, size_of
 from runtime.files import whole_file
 from runtime.progress import Progress
 from runtime.render import Camera, Triangles, render
@@ -34,9 +35,10 @@ def write_filmstrip(trace: Trace, path: str | os.PathLike[str], progress: Progre
         for k, (axes, pick) in enumerate(zip(figure.subplots(rows, _COLUMNS).flat, picks, strict=True)):
             stage.update(k / _FRAMES)
             figures = [each.figure.posed(each.poses[pick]) for each in trace.agents]
-            camera = _camera(agent, trace, int(pick))
+            shown = agent.figure.posed(agent.poses[pick]).place[:, :3]
+            camera, clear = clearest(level, _camera(agent, trace, int(pick)), shown)
             away = float(np.linalg.norm(camera.eye - camera.target))
-            axes.imshow(render(level, figures, camera, _SIZE, cutaway=0.75 * away))
+            axes.imshow(render(level, figures, camera, _SIZE, cutaway=0.0 if clear else 0.75 * away))
             axes.set_axis_off()
             axes.text(
                 0.03, 0.94, f"{trace.times[pick]:.2f} s", transform=axes.transAxes, va="top", fontsize=9
@@ -64,7 +66,7 @@ def _scene(trace: Trace) -> tuple[AgentTrace, float, float, str]:
 
 def _camera(agent: AgentTrace, trace: Trace, pick: int) -> Camera:
     """From the right of the way that the figure moves, a little behind it and above."""
-    distance = _DISTANCE * float(np.ptp(agent.figure.posed(agent.poses[0]).place[:, :3], axis=0).max())
+    distance = _DISTANCE * size_of(agent)
     root = agent.poses[:, 0, :3].astype(np.float64)
     before, after = max(pick - 20, 0), min(pick + 20, len(root) - 1)
     heading = root[after, :2] - root[before, :2]

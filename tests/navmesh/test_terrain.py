@@ -1,10 +1,13 @@
 """Reading meshes: axes, units, scenes, and every kind of wrong input."""
 
 import math
+import tracemalloc
 
 import numpy as np
 import pytest
 import trimesh
+from PIL import Image
+from trimesh.visual import TextureVisuals
 
 from navmesh import NavmeshError, NodeGraph, Terrain, WalkRules
 
@@ -29,6 +32,21 @@ def test_scene_is_flattened_with_its_transforms(tmp_path):
     terrain = Terrain.load(tmp_path / "scene.glb")
     assert len(terrain.faces) == 4
     np.testing.assert_allclose(terrain.bounds, [[0, 0, 0], [14, 4, 2]], atol=1e-6)
+
+
+def test_textures_are_left_alone(tmp_path):
+    scene = trimesh.Scene()
+    for k in range(3):
+        mesh = trimesh.Trimesh(*FLOOR, process=False)
+        mesh.visual = TextureVisuals(FLOOR[0][:, :2], image=Image.new("RGB", (1024, 1024), (k, 0, 0)))
+        scene.add_geometry(mesh, transform=trimesh.transformations.translation_matrix([10 * k, 0, 0]))
+    scene.export(tmp_path / "scene.glb")
+    tracemalloc.start()
+    try:
+        assert len(Terrain.load(tmp_path / "scene.glb").faces) == 6
+        assert tracemalloc.get_traced_memory()[1] < 4e6  # packed together they are 12 MB and more
+    finally:
+        tracemalloc.stop()
 
 
 def test_axes_and_scale():

@@ -1,9 +1,13 @@
 """The ray caster against shapes that can be computed, and the pictures made with it."""
 
+import dataclasses
+
 import matplotlib.image
 import numpy as np
 import pytest
+import trimesh
 
+from runtime.camera import clearest
 from runtime.figure import Shapes, rotate, turn
 from runtime.filmstrip import write_filmstrip
 from runtime.plot import plot_from_above
@@ -73,6 +77,41 @@ def test_quaternions_compose():
     p, q = (v / np.linalg.norm(v) for v in rng.normal(size=(2, 4)))
     vector = rng.normal(size=3)
     assert rotate(turn(p, q), vector) == pytest.approx(rotate(p, rotate(q, vector)))
+
+
+def test_a_film_strip_in_a_narrow_room_is_taken_from_inside(trace, tmp_path, monkeypatch):
+    inside = trace.agents[0].poses[:, :, :3].reshape(-1, 3)
+    low, high = inside.min(axis=0) - (1.0, 0.5, 0.3), inside.max(axis=0) + np.array([1.0, 3.5, 1.5])
+    room = trimesh.creation.box(bounds=[low, high])
+    room.invert()
+    level = dataclasses.replace(trace.level, vertices=np.asarray(room.vertices), faces=np.asarray(room.faces))
+    eyes = []
+
+    def spy(level, figures, camera, size, **_):
+        eyes.append(camera.eye)
+        return np.zeros((size[1], size[0], 3), np.uint8)
+
+    monkeypatch.setattr("runtime.filmstrip.render", spy)
+    write_filmstrip(dataclasses.replace(trace, level=level), tmp_path / "film.png")
+    assert len(eyes) == 8 and (np.array(eyes) > low).all() and (np.array(eyes) < high).all()
+
+
+def test_a_camera_goes_round_what_stands_before_it_and_stays_where_nothing_does():
+    points = np.array([[0.0, 0.0, 0.4], [0.5, 0.0, 0.4], [-0.5, 0.0, 1.0]])
+    camera = Camera(np.array([0.0, -4.0, 1.5]), np.array([0.0, 0.0, 0.6]))
+    unmoved, clear = clearest(FLOOR, camera, points)
+    assert clear and unmoved.eye == pytest.approx(camera.eye)
+    for flip in (1, -1):  # whichever way the wall's faces look
+        wall = np.array([[-1.5, -2, 0], [1.5, -2, 0], [1.5, -2, 5], [-1.5, -2, 5]])
+        moved, clear = clearest(Triangles(wall, np.array([[0, 1, 2], [0, 2, 3]])[:, ::flip]), camera, points)
+        assert clear
+        for point in points:  # where the line of sight comes through y = -2
+            eye = moved.eye
+            share = (-2.0 - eye[1]) / (point[1] - eye[1])
+            x, _, z = eye + share * (point - eye)
+            assert not (0.0 < share < 1.0 and abs(x) < 1.5 and 0.0 < z < 5.0)
+    shut = trimesh.creation.box(extents=[2.0, 1.0, 3.0])
+    assert not clearest(Triangles(shut.vertices, shut.faces), camera, points)[1]
 
 
 def test_film_strip_and_plot_are_pictures(trace, tmp_path):

@@ -17,7 +17,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from locomotion.errors import LocomotionError
-from locomotion.training.loop import Progress
+from locomotion.training.loop import Progress, show
 from navmesh.archive import read_archive, write_archive
 
 __all__ = ["Outcomes", "fit"]
@@ -76,7 +76,7 @@ def fit(
 
     ``scale`` (p,): how far a parameter may reasonably move; 0 keeps it. ``checkpoint``: file that each round
     is written to; one of another start or seed is refused with `LocomotionError`. ``on_progress``: told after
-    each round; ``survival`` is the share of trials that showed residuals.
+    each round instead of a line on the terminal; ``survival`` is the share of trials that showed residuals.
     """
     free = np.flatnonzero(scale > 0)
     parts = f"{seed} {rounds}".encode() + start.tobytes() + scale.tobytes()
@@ -99,8 +99,8 @@ def fit(
                 write_archive(checkpoint, _KIND, _VERSION, header, {"x": x})
             elapsed, made = time.monotonic() - begun, number + 1 - first
             left = elapsed / made * (rounds - number - 1)
-            if on_progress is not None:
-                on_progress(Progress("least squares", number + 1, rounds, loss, shown, elapsed, left))
+            told = Progress("least squares", number + 1, rounds, loss, shown, elapsed, left)
+            (on_progress or show)(told)
     return x
 
 

@@ -22,7 +22,7 @@ from locomotion.errors import LocomotionError
 from locomotion.training.cma_es import CmaEs
 from navmesh.archive import ArchiveError, read_archive, write_archive
 
-__all__ = ["Problem", "Progress", "Stage", "learn"]
+__all__ = ["Problem", "Progress", "Stage", "learn", "show"]
 
 _KIND, _VERSION = "training checkpoint", 1
 
@@ -137,7 +137,7 @@ def learn(
                 report = Progress(
                     stage.name, search.generation, stage.generations, cost, survival, elapsed, remaining
                 )
-                (on_progress or _show)(report)
+                (on_progress or show)(report)
             parameters = parameters.copy()
             parameters[free] = search.best_guess
             search = None
@@ -197,7 +197,7 @@ def _resume(
     return int(header["stage"]), arrays["parameters"], search
 
 
-def _show(p: Progress) -> None:
+def show(p: Progress) -> None:
     """One line that is rewritten on a terminal; elsewhere a line per ten generations."""
     line = (
         f"{p.stage}: generation {p.generation}/{p.generations}  cost {p.cost:.2f}"

@@ -59,7 +59,7 @@ def tick_parts(world: World, agents: list[Agent], ticks: int) -> None:
     herds = {id(animal.herd): animal.herd for animal in animals}.values()
     for tick in range(begun, begun + ticks):
         if tick % EVERY == 0:
-            world._traffic.direct()
+            world._traffic.direct(tick)
         for human in humans:
             human.tick()
         for herd in herds:

@@ -65,7 +65,7 @@ def ways(scene: str, random: np.random.Generator) -> list[tuple[np.ndarray, np.n
 def play(graph: navmesh.NodeGraph, pair: tuple[str, str], scene: str, seed: int, without: bool) -> dict:
     world = World(graph, seed=seed)
     if without:
-        world._traffic.direct = lambda: None
+        world._traffic.direct = lambda tick: None
     agents = []
     for kind, (start, goal) in zip(itertools.cycle(pair), ways(scene, np.random.default_rng([seed, 7]))):
         body, speed = KINDS[kind]

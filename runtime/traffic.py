@@ -21,8 +21,9 @@ from runtime.level import Level
 
 __all__ = ["EVERY", "Traffic"]
 
-EVERY = 20
+EVERY = 4
 """Ticks between choices."""
+_TURNS = 5  # choices in which everybody has its turn once, so that no tick has to bear all of them
 _ROOM = 0.08  # [m] that bodies keep between each other besides
 _SLACK = 3.5  # [m] between two that go straight on, from which what they do is looked at closely
 _STOREY = 1.5  # [m] of height from which bodies are on different storeys
@@ -38,8 +39,8 @@ class Traffic:
     def __init__(self, level: Level, populations: Sequence[Population]) -> None:
         self._level, self._populations = level, populations
 
-    def direct(self) -> None:
-        """Let everybody choose; called before every `EVERY`th tick."""
+    def direct(self, tick: int) -> None:
+        """Let those choose whose turn it is; called before every `EVERY`th ``tick``."""
         followers, rows, discs = self._gather()
         if not followers or len(rows) < 2:
             return
@@ -53,6 +54,7 @@ class Traffic:
         )
         wanted = near.any(axis=1)
         wanted |= np.array([each.pace < 1.0 for each in followers])
+        wanted &= np.arange(len(followers)) % _TURNS == tick // EVERY % _TURNS
         told: dict[int, np.ndarray] = {}
         courses: dict[int, Course | None] = {}
 

@@ -209,7 +209,7 @@ class World:
                     for population in self._populations:
                         population.remember()
                 if self._ticks % EVERY == 0:
-                    self._traffic.direct()
+                    self._traffic.direct(self._ticks)
                 self._ticks += 1
                 self._owed = max(total - made * CONTROL_DT, 0.0)
                 for population in self._populations:

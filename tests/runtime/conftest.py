@@ -1,5 +1,6 @@
 """A small level and what can be made of it, shared by the tests of the runtime."""
 
+import signal
 import textwrap
 
 import numpy as np
@@ -72,3 +73,11 @@ def trace(graph):
         world.step(0.09)
     assert np.isfinite(agent.position).all()
     return recorder.trace({"held": True})
+
+
+@pytest.fixture(scope="session", autouse=True)
+def heed_interrupts():
+    """A shell lets its background jobs ignore Ctrl-C, and their children inherit that; the commands that the
+    tests interrupt must not."""
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -65,7 +65,7 @@ def test_an_interrupted_command_leaves_no_half_result(command, number, folder, t
 
 def test_control_c_says_so(folder):
     code, said = interrupted(folder, signal.SIGINT, 1, *COMMANDS["bake"])
-    assert code == 130 and said.startswith("surefoot: interrupted") and said.count("\n") == 1
+    assert code == 130 and said.startswith("surefoot: interrupted") and said.count("\n") == 1, said
     assert not (folder / "result.npz").exists()
 
 

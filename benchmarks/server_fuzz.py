@@ -19,6 +19,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -64,12 +65,10 @@ async def greeted(address: str) -> Client:
     return client
 
 
-def malformed(rng: random.Random, number: int) -> str | bytes:
-    """A message that is wrong in some way, or comes at a wrong time."""
-    if number % 500 == 499:
-        return "x" * 70_000
-    text = bytearray(json.dumps(rng.choice(GOOD)).encode())
-    way = rng.randrange(6)
+def malformed(rng: random.Random, good: Sequence[Mapping]) -> str | bytes:
+    """A message that is wrong in some way, made of ``good`` ones."""
+    text = bytearray(json.dumps(rng.choice(good)).encode())
+    way = rng.randrange(5)
     if way == 0:
         return bytes(text[: rng.randrange(len(text))]).decode(errors="ignore")
     if way == 1:
@@ -80,9 +79,16 @@ def malformed(rng: random.Random, number: int) -> str | bytes:
         return bytes(text).decode(errors="ignore")
     if way == 3:
         return rng.choice(['{"id":1' * 300, "[" * 5000, "null", "", '{"id":NaN}', '{"type":[]}', "1e999"])
-    if way == 4:
+    return json.dumps({**rng.choice(good), **rng.choice(good), "id": rng.choice([-1, "x", None, 1e300])})
+
+
+def wrong(rng: random.Random, number: int) -> str | bytes:
+    """A malformed message; or one that comes at a wrong time; or, one in 500, one that is too long."""
+    if number % 500 == 499:
+        return "x" * 70_000
+    if rng.randrange(6) == 0:
         return json.dumps({**rng.choice(GOOD[3:]), "id": rng.randrange(2**40)})
-    return json.dumps({**rng.choice(GOOD), **rng.choice(GOOD), "id": rng.choice([-1, "x", None, 1e300])})
+    return malformed(rng, GOOD)
 
 
 async def latencies(address: str, clients: int, seconds: float) -> np.ndarray:
@@ -112,7 +118,7 @@ async def flood(address: str, count: int, seed: int, done: list[int]) -> None:
     rng, client, unanswered = random.Random(seed), await greeted(address), 0
     for number in range(count):
         try:
-            await client.socket.send(malformed(rng, number))
+            await client.socket.send(wrong(rng, number))
             unanswered += 1
             if unanswered >= 64:
                 while unanswered:

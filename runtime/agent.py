@@ -11,7 +11,7 @@ from locomotion import MOVING, Human, LocomotionError
 from locomotion import events as bodily
 from locomotion.human_state import CLEARING
 from locomotion.quadruped import Animal
-from runtime.drivers import AnimalDriver, Driver, HumanDriver
+from runtime.drivers import Driver
 from runtime.errors import RuntimeInputError
 from runtime.events import (
     Arrived,
@@ -25,6 +25,8 @@ from runtime.events import (
     SkillStarted,
     Stuck,
 )
+from runtime.pack import AnimalDriver
+from runtime.people import HumanDriver
 from runtime.planning import NoWay, Plan
 from runtime.pose import Pose
 

@@ -17,10 +17,12 @@ from locomotion.library import skills_digest
 from locomotion.person import CONTROL_DT
 from locomotion.quadruped import is_body_file, load_body
 from runtime.agent import Agent
-from runtime.drivers import BODIES, Pack, People, Population, radius_of
+from runtime.drivers import BODIES, Population, radius_of
 from runtime.errors import RuntimeInputError
 from runtime.events import Event
 from runtime.level import Level
+from runtime.pack import Pack
+from runtime.people import People
 from runtime.rules import person_walk_rules
 from runtime.traffic import EVERY, Traffic
 from runtime.walkers import Walkers

@@ -24,7 +24,7 @@ from locomotion.quadruped.course import course_on, shifted_points
 from locomotion.quadruped.following import wrap
 from locomotion.quadruped.footprint import RESOLUTION, check_script
 from locomotion.quadruped.herd import AnimalState, Herd
-from locomotion.quadruped.local_motion import REACH, local_motion
+from locomotion.quadruped.local_motion import short_move
 from locomotion.quadruped.motion import DT
 from locomotion.quadruped.script import Place, Script, into_flex, out_of_flex
 from locomotion.quadruped.spine import bend_for
@@ -45,7 +45,6 @@ its head has no room."""
 _LITTLE = math.radians(3.5)  # a turn onto the path without a motion of its own: 3 cm beside it, for a dog
 _EXACT = 1e-3  # [rad] of facing that is left as it is
 _MOST_BACKING = 4  # times that it backs out on its way to one goal
-_SHORT_MOVE = 0.8  # [m] up to which local motion is used instead of a path
 
 
 @dataclass(frozen=True)
@@ -331,21 +330,12 @@ class Animal:
         """Make a short move by local motion, if the goal is near and nothing is in the way."""
         if len(errand.goals) != 1:
             return False
-        place = self.herd.place(self.index)
-        facing = place.yaw if errand.facing is None else errand.facing
-        x, y, z = errand.goals[0]
-        length = self.body.spine.length
-        dx, dy = x - length * math.cos(facing) - place.x, y - length * math.sin(facing) - place.y
-        turn = float(wrap(facing - place.yaw))
-        if math.hypot(dx, dy) > min(_SHORT_MOVE, REACH) or abs(z - place.z) > self.body.movement.step:
-            return False
-        c, s = math.cos(place.yaw), math.sin(place.yaw)
-        script = local_motion(self.body).script(place, (c * dx + s * dy, c * dy - s * dx, turn))
-        if not self._free(script):
+        script, length = short_move(self.body, self.herd.place(self.index), errand.goals[0], errand.facing)
+        if script is None or not self._free(script):
             return False
         self._errand = errand
         self._play(script, "moving")
-        self.events.append(SetOff(self.time, self._point(), errand.goals[0], math.hypot(dx, dy)))
+        self.events.append(SetOff(self.time, self._point(), errand.goals[0], length))
         return True
 
     # --- the end

@@ -17,12 +17,14 @@ from scipy.interpolate import RegularGridInterpolator
 
 from locomotion.errors import LocomotionError
 from locomotion.quadruped.body import Body
+from locomotion.quadruped.following import wrap
 from locomotion.quadruped.script import ROWS, Place, Script, make_script, smooth_shares
 
-__all__ = ["REACH", "LocalMotion", "local_motion", "play_blends"]
+__all__ = ["REACH", "LocalMotion", "local_motion", "play_blends", "short_move"]
 
 REACH = 1.25
 """[m] ahead, behind and to the sides that the table covers; every facing."""
+_SHORT_MOVE = 0.8  # [m] up to which local motion is used instead of a path; within `REACH`
 _PLACES, _FACINGS = 11, 37
 _BEND = 0.5  # share of its greatest bend with which the spine leads into a turn of a quarter
 _PEAK = 1.875  # of the speed of a smooth share over its mean
@@ -116,3 +118,20 @@ def _table_for(body_json: str) -> LocalMotion:
 def local_motion(body: Body) -> LocalMotion:
     """The table of a body, built when it is first asked for."""
     return _table_for(body.model_dump_json())
+
+
+def short_move(
+    body: Body, place: Place, goal: tuple[float, float, float], facing: float | None
+) -> tuple[Script | None, float]:
+    """The motion that brings the front feet to ``goal`` [m] and ends in ``facing`` [rad], by default that of
+    ``place``; None where that is too far or not on the same floor. And how far the root has to go [m]."""
+    facing = place.yaw if facing is None else facing
+    x, y, z = goal
+    length = body.spine.length
+    dx, dy = x - length * math.cos(facing) - place.x, y - length * math.sin(facing) - place.y
+    distance = math.hypot(dx, dy)
+    if distance > _SHORT_MOVE or abs(z - place.z) > body.movement.step:
+        return None, distance
+    c, s = math.cos(place.yaw), math.sin(place.yaw)
+    turn = float(wrap(facing - place.yaw))
+    return local_motion(body).script(place, (c * dx + s * dy, c * dy - s * dx, turn)), distance

@@ -18,6 +18,7 @@ from serving import Client, serving
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
+from benchmarks.server_fuzz import malformed
 from runtime import RuntimeInputError, World
 from runtime.server import messages
 from runtime.server.outbox import Outbox, TooSlow
@@ -228,23 +229,6 @@ def test_a_client_that_does_not_read_harms_nobody(graph):
         return other.told
 
     talk(graph, conversation, limits=Limits(waiting=20_000))
-
-
-def malformed(rng, good):
-    """A message that is wrong in some way."""
-    text = bytearray(json.dumps(rng.choice(good)).encode())
-    way = rng.randrange(5)
-    if way == 0:
-        return bytes(text[: rng.randrange(len(text))]).decode(errors="ignore")
-    if way == 1:
-        return rng.randbytes(rng.randrange(200))
-    if way == 2:
-        for _ in range(rng.randrange(1, 6)):
-            text[rng.randrange(len(text))] = rng.randrange(256)
-        return bytes(text).decode(errors="ignore")
-    if way == 3:
-        return rng.choice(['{"id":1' * 300, "[" * 5000, "null", "", '{"id":NaN}', '{"type":[]}', "1e999"])
-    return json.dumps({**rng.choice(good), **rng.choice(good), "id": rng.choice([-1, "x", None, 1e300, 3])})
 
 
 def test_thousands_of_wrong_messages_change_nothing(graph):

@@ -1,0 +1,171 @@
+"""Simulated persons in a world, each with a simulation of its own."""
+
+from collections import deque
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from locomotion import PERSON_RULES, Human, HumanState
+from locomotion.clearing import HEIGHT_TOLERANCE
+from locomotion.giving_way import Course
+from runtime.drivers import PLANS_KEPT, Driver, Follower, radius_of, recall
+from runtime.errors import RuntimeInputError
+from runtime.figure import Figure
+from runtime.level import Level
+from runtime.planning import Plan, make_plan, way_holds
+
+__all__ = ["HumanDriver", "People"]
+
+
+class People:
+    """Simulated persons."""
+
+    bodies: tuple[str, ...] = ("human",)
+
+    def __init__(self, level: Level) -> None:
+        self._level = level
+        self._drivers: list[HumanDriver] = []
+
+    def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> Driver:
+        human = Human(self._level.ground)
+        human.reset(place, facing)
+        return self._add(human)
+
+    def revive(self, body: str, state: Any) -> Driver:
+        driver = self._add(Human(self._level.ground))
+        driver.restore(state)
+        return driver
+
+    def _add(self, human: Human) -> "HumanDriver":
+        self._drivers.append(HumanDriver(self._level, human))
+        return self._drivers[-1]
+
+    def remove(self, driver: Driver) -> None:
+        self._drivers = [each for each in self._drivers if each is not driver]
+
+    def in_the_way(self) -> np.ndarray:
+        humans = [driver.human for driver in self._drivers]
+        rows = [[*each.position, *each.velocity[:2], PERSON_RULES["radius"]] for each in humans]
+        return np.array(rows).reshape(-1, 6)
+
+    def followers(self) -> Sequence[Follower]:
+        return self._drivers
+
+    def remember(self) -> None:
+        for driver in self._drivers:
+            driver.before = driver.human.qpos
+
+    def change_level(self) -> None:
+        for driver in self._drivers:
+            driver.human.change_ground(self._level.ground)
+
+    def tick(self) -> None:
+        for driver in self._drivers:
+            driver.human.tick()
+
+
+class HumanDriver:
+    """A person. ``before``: (46,) its joints as they were when `People.remember` was called, or None."""
+
+    def __init__(self, level: Level, human: Human) -> None:
+        self._level, self.human = level, human
+        self.radius = radius_of("human")
+        self.figure = Figure.from_model(human.model)
+        self.events = human.events
+        self.plans: deque[Plan] = deque(maxlen=PLANS_KEPT)
+        self.before: np.ndarray | None = None
+
+    @property
+    def time(self) -> float:
+        return self.human.time
+
+    @property
+    def status(self) -> str:
+        return self.human.status
+
+    @property
+    def position(self) -> np.ndarray:
+        return self.human.position
+
+    @property
+    def facing(self) -> float:
+        return self.human.yaw
+
+    @property
+    def progress(self) -> float:
+        length = self.plans[-1].length if self.plans else 0.0
+        return self.human.arc_length / length if length > 0.0 else 1.0
+
+    @property
+    def skills(self) -> Mapping[str, tuple[float, float]]:
+        return {
+            skill.affordance: (skill.heights[0] - HEIGHT_TOLERANCE, skill.heights[1] + HEIGHT_TOLERANCE)
+            for skill in self.human.clearing
+        }
+
+    def transforms(self) -> np.ndarray:
+        return self.human.body_transforms()[1 : 1 + len(self.figure.bodies)]
+
+    def transforms_between(self, share: float) -> np.ndarray:
+        if self.before is None:
+            return self.transforms()
+        model, joints = self.human.model, self.human.data.qpos
+        now, change = joints.copy(), np.empty(model.nv)
+        mujoco.mj_differentiatePos(model, change, 1.0, self.before, now)
+        joints[:] = self.before
+        mujoco.mj_integratePos(model, joints, change, share)
+        transforms = self.transforms()
+        joints[:] = now
+        return transforms
+
+    def plan(self, goals: np.ndarray) -> Plan:
+        velocity = self.human.velocity[:2]
+        moving = velocity if np.linalg.norm(velocity) > 0.5 else None
+        radius = PERSON_RULES["radius"]
+        return make_plan(self._level.graph, self.position, list(goals), radius, self.skills, moving)
+
+    def go_to(self, goals: np.ndarray, speed: float, facing: float | None) -> Plan:
+        if facing is not None:
+            raise RuntimeInputError("a human cannot turn to a facing at its goal yet; leave it out")
+        if self.human.status == "fallen":
+            raise RuntimeInputError("it has fallen and cannot go anywhere")
+        plan = self.plan(goals)
+        self.human.follow(plan.points, speed, plan.obstacles)
+        self.plans.append(plan)
+        return plan
+
+    @property
+    def goals_left(self) -> int:
+        return max(sum(end > self.human.arc_length for end in self.plans[-1].ends), 1)
+
+    def way_holds(self) -> bool:
+        return way_holds(self._level.graph, self.plans[-1], self.radius, self.human.arc_length)
+
+    def stop(self) -> None:
+        self.human.stop()
+
+    @property
+    def pace(self) -> float:
+        return self.human.pace
+
+    def course(self) -> Course | None:
+        return self.human.course()
+
+    def give_way(self, pace: float, shift: np.ndarray | None) -> None:
+        self.human.give_way(pace, shift)
+        if shift is not None:
+            self.plans[-1] = replace(self.plans[-1], points=self.human.path)
+
+    def save(self) -> tuple[HumanState, tuple[Plan, ...]]:
+        return self.human.save_state(), tuple(self.plans)[-1:]
+
+    def restore(self, state: tuple[HumanState, tuple[Plan, ...]]) -> None:
+        self.human.restore_state(state[0])
+        recall(self.plans, state[1])
+        self.before = None
+
+    def state_hash(self) -> str:
+        return self.human.state_hash()

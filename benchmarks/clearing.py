@@ -24,7 +24,7 @@ from locomotion.clearing import ClearingSkill
 from locomotion.hand_hold import let_go_both
 from locomotion.skill import load_run_skill
 from locomotion.vault_skill import Vault, load_vault_skill
-from runtime.courses import CourseRun, make_course, run_course
+from runtime.courses import CourseRun, held, make_course, run_course
 from runtime.evaluation import WALL, start_noise
 
 NEAREST, FARTHEST = 10.0, 30.0
@@ -45,13 +45,6 @@ def run_up(
     """One start."""
     course = make_course([(affordance, height, WALL)], [distance])
     return run_course(course, clearing, start_noise(17, distance))
-
-
-def held(affordance: str, run: CourseRun) -> bool:
-    """Whether it arrived, by the skill."""
-    if run.ended != "arrived" or not run.passages:
-        return False
-    return affordance != "vault" or run.passages[0].held > 0.0
 
 
 def summary(affordance: str, height: float, distances: np.ndarray) -> dict[str, Any]:

@@ -15,19 +15,18 @@ from pathlib import Path
 import numpy as np
 
 from locomotion import Human
+from locomotion.training.vault import DEPTHS
 from runtime.courses import Course, make_course, run_course
 from runtime.evaluation import start_noise
 
 APART = (8.0, 15.0)
-WALLS = (0.2, 0.4)
-"""Thickness [m]."""
 
 
 def draw_course(rng: np.random.Generator, count: int, kinds: list[str]) -> Course:
     """A random course."""
     heights = {skill.affordance: skill.heights for skill in Human().clearing}
     chosen = [str(rng.choice(kinds)) for _ in range(count)]
-    obstacles = [(k, round(float(rng.uniform(*heights[k])), 2), float(rng.uniform(*WALLS))) for k in chosen]
+    obstacles = [(k, round(float(rng.uniform(*heights[k])), 2), float(rng.uniform(*DEPTHS))) for k in chosen]
     return make_course(obstacles, rng.uniform(*APART, count).tolist())
 
 

@@ -83,43 +83,14 @@ from locomotion.run_layout import (
     new_state,
     parameter_slices,
     standing_pose,
-)
+)  # fmt: skip
 
 __all__ = [
-    "ACTIONS",
-    "CLIMB",
-    "COM",
-    "COM_AT_SWITCH",
-    "COM_VELOCITY",
-    "CONTACT",
-    "FALLEN",
-    "FEET",
-    "HEADING",
-    "LAST_TARGET",
-    "MIN_PHASE",
-    "OBSERVED",
-    "PARAMETERS",
-    "PHASE",
-    "PLANTED",
-    "SENSORS",
-    "SENSOR_VALUES",
-    "SLOPE",
-    "SPEED",
-    "STANCE",
-    "STATE_SIZE",
-    "STEPS",
-    "STEP_LENGTH",
-    "STEP_SPEED",
-    "STEP_TIME",
-    "TICKS",
-    "TRIM",
-    "TURN_RATE",
-    "new_state",
-    "observe",
-    "parameter_slices",
-    "run_tick",
-    "standing_pose",
-]
+    "ACTIONS", "CLIMB", "COM", "COM_AT_SWITCH", "COM_VELOCITY", "CONTACT", "FALLEN", "FEET", "HEADING",
+    "LAST_TARGET", "MIN_PHASE", "OBSERVED", "PARAMETERS", "PHASE", "PLANTED", "SENSORS", "SENSOR_VALUES",
+    "SLOPE", "SPEED", "STANCE", "STATE_SIZE", "STEPS", "STEP_LENGTH", "STEP_SPEED", "STEP_TIME", "TICKS",
+    "TRIM", "TURN_RATE", "new_state", "observe", "parameter_slices", "run_tick", "standing_pose",
+]  # fmt: skip
 _SP = parameter_slices()
 _M_AP, _M_SP, _POSTURE, _A_HAT = (_SP[k].start for k in ("m_ap", "m_sp", "posture", "a_hat"))
 _FF, _TURN, _CLIMB, _TIMING = (_SP[k].start for k in ("feed_forward", "turn", "climb", "timing"))
@@ -128,9 +99,8 @@ _CLIMB_LEGS, _DESCEND_LEGS = _SP["climb_legs"].start, _SP["descend_legs"].start
 _BEND = _SP["bend"].start
 _CLIMB_TIMING, _DESCEND_TIMING = _SP["climb_timing"].start, _SP["descend_timing"].start
 _WAIST, _CHEST, _NECK = (JOINT_NAMES.index(n) for n in ("waist_pitch", "chest_pitch", "neck_pitch"))
-_R_ARM, _L_ARM = (JOINT_NAMES.index(f"{s}_clavicle_elevation") for s in ("right", "left"))
+_R_ARM = JOINT_NAMES.index("right_clavicle_elevation")
 _R_HIP, _L_HIP = (JOINT_NAMES.index(f"{s}_hip_flexion") for s in ("right", "left"))
-_ARM_DOF, _LEG_DOF = 8, 7
 _N = len(JOINT_NAMES)
 _RATE_LEAD = 0.1  # servo damping per stiffness [s], as in locomotion.person
 _BLEND_TIME = 0.03  # [s] within which a jump of the targets at a switch decays
@@ -138,10 +108,8 @@ _ACCELERATION = 1.5  # [m/s^2] of the reference speed
 _MAX_SIDE = 0.4  # [m/s]
 _MAX_SLOPE = 0.4
 _TOUCH = 20.0  # [N] under a foot that counts as contact
-_LEAN_RAMP, _LEAN_LIMIT = (
-    0.25,
-    1.0,
-)  # [s] in which the lean is taken; after which the first step is made regardless
+_LEAN_RAMP, _LEAN_LIMIT = 0.25, 1.0
+# [s] in which the lean is taken; after which the first step is made regardless
 _CLIP = np.array([0.6, 5.0, 0.2, 1.5, 2.0, 0.5, 0.6, 0.6, 5.0, 5.0, 1.5, 0.4])
 _TARGETS = LAST_TARGET.start
 _STAND = standing_pose()
@@ -471,17 +439,6 @@ def observe(
     """
     contact = data.contact
     _observe(
-        state,
-        data.subtree_com,
-        data.xpos,
-        data.xmat,
-        index.root,
-        index.feet,
-        index.chest,
-        data.ncon,
-        contact.geom,
-        contact.efc_address,
-        data.efc_force,
-        index.geom_side,
-        fresh,
-    )
+        state, data.subtree_com, data.xpos, data.xmat, index.root, index.feet, index.chest, data.ncon,
+        contact.geom, contact.efc_address, data.efc_force, index.geom_side, fresh,
+    )  # fmt: skip

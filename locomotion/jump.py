@@ -72,6 +72,7 @@ PARAMETERS: dict[str, int] = {
     "gains": 3 * 2 * 7,          # (3, 2, 7) per step: change of the sagittal actions and of beta per error
     "m_sp": RANK * SENSORS,      # (3, 15)
     "m_ap": 9 * RANK,            # (9, 3), actions in the order of `controller.ACTIONS`
+    "entry": 1,                  # wanted entry speed [m/s]
 }  # fmt: skip
 """Blocks of a parameter vector, in order, with their lengths."""
 
@@ -86,7 +87,7 @@ def parameter_slices() -> dict[str, slice]:
 
 
 _SP = parameter_slices()
-_A_HAT, _LATERAL, _BETA, _ALPHA, _MARKS, _GAINS, _M_SP, _M_AP = (_SP[k].start for k in PARAMETERS)
+_A_HAT, _LATERAL, _BETA, _ALPHA, _MARKS, _GAINS, _M_SP, _M_AP, _ENTRY = (_SP[k].start for k in PARAMETERS)
 
 # --- what a jump remembers, after what `locomotion.clearing_law` says
 _OFFSET = SHARED_MEMORY
@@ -97,17 +98,17 @@ _N = len(JOINT_NAMES)
 
 
 @njit(cache=True)
-def start_jump(p, memory, state, entry, edge_x, edge_y, ahead_x, ahead_y):
+def start_jump(p, memory, state, edge_x, edge_y, ahead_x, ahead_y):
     """Begin a jump at the stance switch that has just been made (its tick's `jump_tick` comes next).
 
-    p (241,): parameters. memory (MEMORY_SIZE,). state: the run's. entry: wanted speed [m/s]. edge: a
-    point of the edge [m]; ahead: unit vector towards the obstacle.
+    p (243,): parameters. memory (MEMORY_SIZE,). state: the run's. edge: a point of the edge [m]; ahead: unit
+    vector towards the obstacle.
     """
     memory[:] = 0.0
     memory[ACTIVE] = 1.0
     memory[FIRST_STEP] = state[controller.STEPS]
     memory[LAST_STEP] = 0.0
-    memory[ENTRY] = entry
+    memory[ENTRY] = p[_ENTRY]
     memory[TRIM] = state[controller.TRIM]
     memory[7], memory[8], memory[9], memory[10] = edge_x, edge_y, ahead_x, ahead_y
     measure_errors(p[_MARKS], memory, state)
@@ -118,7 +119,7 @@ def jump_tick(p, knots, timing, difference, difference_rate, reference, mirror, 
     """One tick of a jump, after `run_tick` and before the physics: adds to ``ctrl`` (39,), changes the
     pace.
 
-    p (241,): parameters at this height. knots, timing (k,): the run's speeds [m/s] and step times [s].
+    p (243,): parameters at this height. knots, timing (k,): the run's speeds [m/s] and step times [s].
     difference, difference_rate (n, 39): clip less run reference over a cycle that begins with the right
     foot's take-off step, and its rate per cycle. reference (4, 6, 15): expected sensors. mirror, sign
     (39,). memory (MEMORY_SIZE,), state: changed.

@@ -3,11 +3,18 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Protocol
 
+import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["LawTables", "LearnedSkill"]
+from locomotion import controller
+from locomotion.clearing_law import MIRROR, MIRROR_SIGN
+from locomotion.clip import Clip
+from locomotion.skill import RunSkill
+
+__all__ = ["LawTables", "LearnedSkill", "tables_over_run"]
 
 
 @dataclass(frozen=True)
@@ -23,6 +30,31 @@ class LawTables:
     entry: float
     mark: float
     rest: tuple[NDArray, ...]
+
+
+@lru_cache(maxsize=4)
+def _clip_less_run(run: Clip, clip: Clip) -> tuple[np.ndarray, np.ndarray]:
+    """A skill's clip less the run's over one cycle, (65, 39) [rad], and its rate per cycle."""
+    shares = np.linspace(0.0, 1.0, 65)
+    pose = clip.sample(shares) - run.sample(shares)
+    rates = clip.rates(shares) * clip.duration - run.rates(shares) * run.duration
+    return np.ascontiguousarray(pose), np.ascontiguousarray(rates)
+
+
+def tables_over_run(
+    parameters: NDArray[np.float64],
+    part: dict[str, slice],
+    reference: NDArray[np.float64],
+    clip: Clip,
+    run: RunSkill,
+) -> LawTables:
+    """The arguments of a skill's kernels on top of the run. part: where its blocks lie in ``parameters``;
+    reference (steps, bins, sensors): expected sensors; clip: followed instead of the run's."""
+    timing = np.ascontiguousarray(run.table[:, controller.parameter_slices()["timing"].start])
+    pose, rates = _clip_less_run(run.clip, clip)
+    rest = (np.ascontiguousarray(run.knots), timing, pose, rates, reference, MIRROR, MIRROR_SIGN)
+    entry, mark = parameters[part["entry"].start], parameters[part["marks"].start]
+    return LawTables(parameters, float(entry), float(mark), rest)
 
 
 class _Family(Protocol):

@@ -27,7 +27,8 @@ from locomotion.walking import observe_walk
 from navmesh.archive import write_archive
 
 __all__ = [
-    "SLOWING", "SLOW_DOWN_SKILL", "SlowDownSkill", "can_walk_on", "load_slow_down_skill", "walk_on",
+    "SLOWING", "SLOW_DOWN_SKILL", "SlowDownSkill", "can_walk_on", "load_slow_down_skill", "touchdown",
+    "walk_on",
 ]  # fmt: skip
 
 SLOW_DOWN_SKILL = Path(__file__).parent / "skills" / "slow_down.npz"
@@ -107,11 +108,20 @@ def can_walk_on(state: np.ndarray) -> bool:
     or the foot is so far ahead that it will be. Another running step would brake too much then."""
     if state[controller.STEP_TIME] != 0.0:
         return False
-    along = np.array([math.cos(state[controller.HEADING]), math.sin(state[controller.HEADING])])
-    foot = state[controller.FEET].reshape(2, 3)[1 if state[controller.STANCE] > 0.0 else 0]
-    speed = float(along @ state[controller.COM_VELOCITY][:2])
-    ahead = float(along @ (state[controller.COM] - foot)[:2]) + speed / _OMEGA
+    ahead, _, speed = touchdown(state)
     return speed < _CATCHABLE or ahead < _WITHIN_REACH
+
+
+def touchdown(state: np.ndarray) -> tuple[float, float, float]:
+    """Where the capture point of a running person is ahead and inside of the foot that has come down [m], and
+    its speed [m/s]. ``state``: the running controller's."""
+    heading, side = state[controller.HEADING], state[controller.STANCE]
+    along = np.array([math.cos(heading), math.sin(heading)])
+    inwards = side * np.array([math.sin(heading), -math.cos(heading)])
+    foot = state[controller.FEET].reshape(2, 3)[1 if side > 0.0 else 0]
+    velocity = state[controller.COM_VELOCITY][:2]
+    capture = state[controller.COM][:2] + velocity / _OMEGA - foot[:2]
+    return float(along @ capture), float(inwards @ capture), float(along @ velocity)
 
 
 def walk_on(

@@ -9,12 +9,10 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion import controller, vault
-from locomotion.clearing_law import MIRROR, MIRROR_SIGN
+from locomotion import vault
 from locomotion.clip import Clip, load_clip
 from locomotion.hand_hold import hold, let_go
-from locomotion.jump_skill import clip_less_run
-from locomotion.learned_skill import LawTables, LearnedSkill
+from locomotion.learned_skill import LawTables, LearnedSkill, tables_over_run
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill
 from locomotion.skill_family import SkillFamily, load_family
@@ -28,9 +26,6 @@ __all__ = [
 VAULT_CLIP = Path(__file__).parent / "clips" / "vault.yaml"
 VAULT_SKILL = Path(__file__).parent / "skills" / "vault.npz"
 KIND = "vault skill"
-_PART = vault.parameter_slices()
-_TIMING = controller.parameter_slices()["timing"].start
-_MARK, _ENTRY = _PART["marks"].start, _PART["entry"].start
 
 
 @lru_cache(maxsize=1)
@@ -41,10 +36,7 @@ def vault_clip() -> Clip:
 
 def tables_of(parameters: NDArray[np.float64], reference: NDArray[np.float64], run: RunSkill) -> LawTables:
     """Put the arguments of the kernels together; ``reference`` (4, 6, 18): expected sensors."""
-    timing = np.ascontiguousarray(run.table[:, _TIMING])
-    pose, rates = clip_less_run(run.clip, vault_clip())
-    rest = (np.ascontiguousarray(run.knots), timing, pose, rates, reference, MIRROR, MIRROR_SIGN)
-    return LawTables(parameters, float(parameters[_ENTRY]), float(parameters[_MARK]), rest)
+    return tables_over_run(parameters, vault.parameter_slices(), reference, vault_clip(), run)
 
 
 def load_vault_skill(path: str | os.PathLike[str] = VAULT_SKILL) -> SkillFamily:

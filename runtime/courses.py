@@ -12,7 +12,7 @@ from locomotion.events import Cleared, TookOff
 from locomotion.hand_hold import holding
 from locomotion.person import MASS
 
-__all__ = ["AFTER", "Course", "CourseRun", "Passage", "enter_course", "make_course", "run_course"]
+__all__ = ["AFTER", "Course", "CourseRun", "Passage", "enter_course", "held", "make_course", "run_course"]
 
 AFTER = 15.0
 """[m] from the last obstacle to the goal."""
@@ -147,6 +147,13 @@ def run_course(
     if run.ended == "fallen":
         run.ended += f" {_FALLEN[where]}"
     return run
+
+
+def held(affordance: str, run: CourseRun) -> bool:
+    """Whether a course with one obstacle ended at its goal, by the skill: who vaults has held on."""
+    if run.ended != "arrived" or not run.passages:
+        return False
+    return affordance != "vault" or run.passages[0].held > 0.0
 
 
 def _watch(human: Human, obstacle: ObstacleAhead, passage: Passage) -> None:

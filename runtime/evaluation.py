@@ -15,7 +15,7 @@ from locomotion import MOVING, Human, controller
 from locomotion.person import CONTROL_DT
 from locomotion.skill import load_run_skill
 from locomotion.training.rollout import Scenario, Simulator
-from runtime.courses import CourseRun, make_course, run_course
+from runtime.courses import CourseRun, held, make_course, run_course
 from runtime.progress import Progress
 
 __all__ = [
@@ -87,7 +87,7 @@ def _judged(test: str, what: str, affordance: str, run: CourseRun) -> Attempt:
     if not run.passages:
         return Attempt(test, what, run.ended, False)
     passage = run.passages[0]
-    status, held = run.ended, run.ended == "arrived"
+    status, good = run.ended, held(affordance, run)
     figures = {"peak reaction [body weights]": passage.peak}
     if affordance == "drop":
         figures["touches with the head"] = float(passage.head > 0.0)
@@ -96,10 +96,9 @@ def _judged(test: str, what: str, affordance: str, run: CourseRun) -> Attempt:
         figures["touches it"] = float(passage.touched)
         status += ", touched it" * passage.touched
     if affordance == "vault":
-        held = held and passage.held > 0.0
         figures["hand in the middle half"] = float(abs(passage.planted - 0.5) <= 0.25)
         status += ", without its hand" * (passage.held == 0.0)
-    return Attempt(test, what, status, held, figures if held else {})
+    return Attempt(test, what, status, good, figures if good else {})
 
 
 def evaluate_run(trials: int, seed: int, progress: Progress) -> list[Attempt]:

@@ -9,8 +9,9 @@ import numpy as np
 
 from locomotion import jump
 from locomotion.errors import LocomotionError
-from locomotion.jump_skill import JUMP_SKILL, Jump, JumpSkill, load_jump_skill, run_digest, tables_of
+from locomotion.jump_skill import JUMP_SKILL, KIND, Jump, load_jump_skill, run_digest, tables_of
 from locomotion.skill import RunSkill, load_run_skill
+from locomotion.skill_family import SkillFamily
 from locomotion.training.jump_trial import JumpOutcome, JumpSimulator, StartState
 from locomotion.training.loop import Progress, Stage, learn
 from navmesh.archive import read_archive, write_archive
@@ -22,8 +23,10 @@ HEIGHTS = (0.3, 0.4, 0.5)
 ENTRY_SPEED = 3.3
 """[m/s]"""
 _STATES = 48
+_REFERENCE = (jump.STEPS, jump.BINS, jump.SENSORS)
 _SECOND_PASS = 100
-_KIND, _VERSION = "jump training", 1
+_ENTRY = jump.parameter_slices()["entry"].start
+_TRAINING, _VERSION = "jump training", 1
 
 
 def first_guess() -> np.ndarray:
@@ -38,6 +41,7 @@ def first_guess() -> np.ndarray:
     m_ap[0, 0] = m_ap[3, 1] = m_ap[1, 2] = 1.0
     m_ap[6, 1] = 0.5
     x[part["m_ap"]] = m_ap.ravel()
+    x[part["entry"]] = ENTRY_SPEED
     return x
 
 
@@ -88,7 +92,6 @@ class JumpProblem:
 
     run: RunSkill
     height: float
-    entry: float
     initial: np.ndarray
     reference: np.ndarray
     states: list[StartState]
@@ -114,7 +117,7 @@ class JumpProblem:
         """One trial."""
         if self._simulator is None:
             self._simulator = JumpSimulator(self.run)
-        tables = tables_of(np.ascontiguousarray(candidate), self.entry, self.reference, self.run)
+        tables = tables_of(np.ascontiguousarray(candidate), self.reference, self.run)
         return self._simulator.trial(tables, self.height, self.states[state], error, duration)
 
     def evaluate(self, stage: Stage, candidate: np.ndarray, scenarios: list) -> tuple[float, float]:
@@ -122,7 +125,7 @@ class JumpProblem:
         total = cleared = 0.0
         for state, error in scenarios:
             result = self.outcome(candidate, state, error, stage.options["duration"])
-            total += cost(result, self.entry)
+            total += cost(result, float(candidate[_ENTRY]))
             cleared += result.cleared
         free = stage.scale > 0
         away = (candidate[free] - self.initial[free]) / stage.scale[free]
@@ -135,7 +138,7 @@ class JumpProblem:
         is."""
         sums = np.zeros((jump.STEPS, jump.BINS, jump.SENSORS + 1))
         simulator = JumpSimulator(self.run)
-        tables = tables_of(np.ascontiguousarray(candidate), self.entry, self.reference, self.run)
+        tables = tables_of(np.ascontiguousarray(candidate), self.reference, self.run)
         for state in self.states[:16]:
             one = np.zeros_like(sums)
             if simulator.trial(tables, self.height, state, state.error, 2.0, record=one).cleared:
@@ -150,7 +153,6 @@ class _Course:
 
     run: RunSkill
     stride: tuple[float, float, float]
-    entry: float
     seed: int
     folder: Path | None
     workers: int
@@ -183,7 +185,7 @@ def train_jump(
     effort: float = 1.0,
     start_from: str | os.PathLike[str] | None = None,
     on_progress: Callable[[Progress], None] | None = None,
-) -> JumpSkill:
+) -> SkillFamily:
     """Learn jumps onto all of `HEIGHTS` on the package's run and write them to ``out``.
 
     ``checkpoint``: folder for the state of learning; a run that was interrupted goes on from it and gives
@@ -195,12 +197,11 @@ def train_jump(
     folder = Path(checkpoint) if checkpoint is not None else None
     if folder is not None:
         folder.mkdir(parents=True, exist_ok=True)
-    entry = float(np.clip(ENTRY_SPEED, *run.speeds))
-    stride = JumpSimulator(run).fit_stride(entry, np.random.default_rng([seed, 1]))
-    course = _Course(run, stride, entry, seed, folder, workers, effort, on_progress)
+    stride = JumpSimulator(run).fit_stride(ENTRY_SPEED, np.random.default_rng([seed, 1]))
+    course = _Course(run, stride, seed, folder, workers, effort, on_progress)
     learned: list[tuple[np.ndarray, np.ndarray]] = []
     if start_from is None:
-        x, reference = first_guess(), np.zeros((jump.STEPS, jump.BINS, jump.SENSORS))
+        x, reference = first_guess(), np.zeros(_REFERENCE)
         for number, height in enumerate(HEIGHTS):
             x, reference = _learn_height(course, height, number, course.first_pass(height), x, reference)
             learned.append((x, reference))
@@ -208,20 +209,25 @@ def train_jump(
     else:
         old = load_jump_skill(start_from)
         heights = tuple(float(h) for h in old.heights)
-        learned = list(zip(old.table, old.references, strict=True))
+        learned = [(x, r.reshape(_REFERENCE)) for x, r in zip(old.table, old.references, strict=True)]
     for k, height in enumerate(heights):
         learned[k] = _learn_height(course, height, _SECOND_PASS + k, course.second_pass(height), *learned[k])
-    skill = JumpSkill(
-        np.array(heights),
-        np.array([x for x, _ in learned]),
-        np.full(len(heights), entry),
-        np.array([reference for _, reference in learned]),
-        stride,
-        run_digest(run),
-        {"made by": "surefoot train jump", "seed": seed, "effort": effort},
+    skill = _family(
+        course, heights, learned, {"made by": "surefoot train jump", "seed": seed, "effort": effort}
     )
     skill.save(out)
     return skill
+
+
+def _family(
+    course: _Course, heights: Sequence[float], learned: list[tuple[np.ndarray, np.ndarray]], meta: dict
+) -> SkillFamily:
+    """The family of parameters and expected sensors (4, 6, 15) at ``heights``."""
+    table = np.array([x for x, _ in learned])
+    references = np.array([reference.reshape(-1, jump.SENSORS) for _, reference in learned])
+    return SkillFamily(
+        KIND, np.array(heights), table, references, course.stride, run_digest(course.run), meta
+    )
 
 
 def _learn_height(
@@ -234,19 +240,17 @@ def _learn_height(
     identity = {"seed": course.seed, "run": run_digest(course.run), "effort": course.effort}
     done = None if course.folder is None else course.folder / f"done-{number}.npz"
     if done is not None and done.exists():
-        header, arrays = read_archive(done, _KIND, _VERSION)
+        header, arrays = read_archive(done, _TRAINING, _VERSION)
         if {key: header.get(key) for key in identity} != identity:
             raise LocomotionError(f"{done}: checkpoint of another training or seed; remove it to begin anew")
         return arrays["x"], arrays["reference"]
     rng = np.random.default_rng([course.seed, number])
-    guess = JumpSkill(
-        np.array([height]), x[None], np.array([course.entry]), reference[None], course.stride, ""
-    )
+    guess = _family(course, [height], [(x, reference)], {})
     standing = number >= _SECOND_PASS
     distances = rng.uniform(*((9.5, 30.0) if standing else (8.0, 16.0)), _STATES)
     states = JumpSimulator(course.run).harvest(Jump(guess, course.run), distances, rng, standing)
     for place, stage in enumerate(stages):
-        problem = JumpProblem(course.run, height, course.entry, x, reference, states, [stage])
+        problem = JumpProblem(course.run, height, x, reference, states, [stage])
         file = None if course.folder is None else course.folder / f"search-{number}-{place}.npz"
         seed = course.seed + 1000 * number + place
         learned = learn(problem, seed, file, course.workers, course.on_progress)
@@ -255,5 +259,5 @@ def _learn_height(
         if not (stage.scale[jump.parameter_slices()["m_sp"]] > 0).any():
             reference = problem.record(x)
     if done is not None:
-        write_archive(done, _KIND, _VERSION, identity, {"x": x, "reference": reference})
+        write_archive(done, _TRAINING, _VERSION, identity, {"x": x, "reference": reference})
     return x, reference

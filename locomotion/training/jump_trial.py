@@ -262,7 +262,7 @@ class JumpSimulator:
             self.run_tick()
             if not begun and self.state[c.STEPS] != steps:
                 begun = True
-                start_jump(tables.parameters, self.memory, self.state, tables.entry, edge, 0.0, 1.0, 0.0)
+                start_jump(tables.parameters, self.memory, self.state, edge, 0.0, 1.0, 0.0)
             if begun:
                 jump_tick(tables.parameters, *tables.rest, self.memory, self.state, self.data.ctrl)
             self._step()

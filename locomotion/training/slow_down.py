@@ -11,7 +11,7 @@ import numpy as np
 from locomotion import controller as c
 from locomotion.body import Human
 from locomotion.skill import RunSkill, load_run_skill
-from locomotion.slow_down import SLOW_DOWN_SKILL, SlowDownSkill
+from locomotion.slow_down import SLOW_DOWN_SKILL, SlowDownSkill, touchdown
 from locomotion.training.loop import Progress, Stage, learn
 from locomotion.training.path_trial import draw_path
 from locomotion.training.run import scales
@@ -34,7 +34,6 @@ _KNOTS = np.array([1.2, 2.0, 2.8])
 _SIZE = sum(c.PARAMETERS.values())
 _LATE, _SETTLES = 250, 350  # ticks in which it should have slowed down; in which it should stand then
 _INSIDE = (0.02, 0.15)  # [m] inside of a foot that comes down where the capture point should be
-_OMEGA = 3.3  # [1/s] of the capture point
 _SIDEWAYS = 1.2  # [m/s^2] in bends at most
 _FREE = ("posture", "a_hat", "feed_forward", "timing")
 
@@ -82,7 +81,7 @@ def halt(trial: Halt, run: RunSkill, slow_down: SlowDownSkill) -> tuple[float, b
             begun = human.com if slow == 1 else begun
             far = float(np.linalg.norm(human.com - begun))
             if state[c.STEP_TIME] == 0.0:
-                inside, pace = _touchdown(state)
+                _, inside, pace = touchdown(state)
                 crossed.append(max(_INSIDE[0] - inside, inside - _INSIDE[1], 0.0))
     fell = human.status == "fallen"
     cost = 15.0 * float(np.mean(crossed)) if crossed else 0.5
@@ -90,19 +89,6 @@ def halt(trial: Halt, run: RunSkill, slow_down: SlowDownSkill) -> tuple[float, b
         return cost + (12.0 + 4.0 * max(1.0 - slow / _LATE, 0.0) if fell else 9.0 + 2.0 * pace), False
     cost += 0.5 * pace + 0.25 * far + 5.0 * tilt / walked
     return cost + (2.0 + 5.0 * max(1.0 - walked / _SETTLES, 0.0) if fell else 0.0), not fell
-
-
-def _touchdown(state: np.ndarray) -> tuple[float, float]:
-    """Where the capture point is inside of the foot that has come down [m], and the speed [m/s]."""
-    heading, side = state[c.HEADING], state[c.STANCE]
-    along, left = (
-        np.array([math.cos(heading), math.sin(heading)]),
-        side * np.array([math.sin(heading), -math.cos(heading)]),
-    )
-    foot = state[c.FEET].reshape(2, 3)[1 if side > 0 else 0]
-    velocity = state[c.COM_VELOCITY][:2]
-    capture = state[c.COM][:2] + velocity / _OMEGA - foot[:2]
-    return float(left @ capture), float(along @ velocity)
 
 
 def first_guess() -> np.ndarray:

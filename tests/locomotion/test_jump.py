@@ -29,7 +29,7 @@ def random_tables(run, seed):
     width = sum(jump.PARAMETERS.values())
     parameters = 0.2 * rng.normal(size=width)
     parameters[jump.parameter_slices()["beta"]] += 1.0
-    return tables_of(parameters, 3.3, rng.normal(size=(jump.STEPS, jump.BINS, jump.SENSORS)), run)
+    return tables_of(parameters, rng.normal(size=(jump.STEPS, jump.BINS, jump.SENSORS)), run)
 
 
 def random_state(rng, step, side):
@@ -99,17 +99,17 @@ def test_clip_lifts_both_knees():
     assert angles[:, JOINT_NAMES.index("right_knee_flexion")].max() > 100
 
 
-def test_learned_heights_are_met_and_between_them_lines(run, skill):
+def test_learned_heights_are_met_and_between_them_lines(skill):
     for k, height in enumerate(skill.heights):
-        np.testing.assert_allclose(skill.at(height, run).parameters, skill.table[k], atol=1e-9)
-    middle = skill.at(0.5 * (skill.heights[0] + skill.heights[1]), run)
-    np.testing.assert_allclose(middle.parameters, 0.5 * (skill.table[0] + skill.table[1]), atol=1e-9)
+        np.testing.assert_allclose(skill.at(height)[0], skill.table[k], atol=1e-9)
+    middle, _ = skill.at(0.5 * (skill.heights[0] + skill.heights[1]))
+    np.testing.assert_allclose(middle, 0.5 * (skill.table[0] + skill.table[1]), atol=1e-9)
 
 
 @pytest.mark.parametrize("height", [0.1, 0.9, np.nan])
-def test_heights_that_were_not_learned_are_refused(run, skill, height):
+def test_heights_that_were_not_learned_are_refused(skill, height):
     with pytest.raises(LocomotionError, match="was not learned"):
-        skill.at(height, run)
+        skill.at(height)
 
 
 def test_the_jump_belongs_to_the_run(run, skill):
@@ -146,7 +146,7 @@ def test_truncated(tmp_path, skill):
     "change, message",
     [
         (dict(table=np.zeros((3, 5))), "do not fit"),
-        (dict(entries=np.array([3.0, np.nan, 3.0])), "not finite"),
+        (dict(table=np.full((3, sum(jump.PARAMETERS.values())), np.nan)), "not finite"),
         (dict(heights=np.array([0.5, 0.4, 0.3])), "do not grow"),
     ],
 )
@@ -157,7 +157,7 @@ def test_contents_that_do_not_fit(tmp_path, skill, change, message):
 
 
 def test_of_another_person(tmp_path, skill, monkeypatch):
-    monkeypatch.setattr("locomotion.jump_skill.person_digest", lambda: "another")
+    monkeypatch.setattr("locomotion.skill_family.person_digest", lambda: "another")
     skill.save(tmp_path / "jump.npz")
     monkeypatch.undo()
     with pytest.raises(LocomotionError, match="another person"):

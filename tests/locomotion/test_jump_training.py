@@ -7,7 +7,7 @@ from locomotion import jump
 from locomotion.errors import LocomotionError
 from locomotion.jump_skill import Jump, load_jump_skill, run_digest
 from locomotion.skill import load_run_skill
-from locomotion.training.jump import JumpProblem, cost, first_guess, scales, train_jump
+from locomotion.training.jump import ENTRY_SPEED, JumpProblem, cost, first_guess, scales, train_jump
 from locomotion.training.jump_trial import JumpSimulator
 from locomotion.training.loop import Stage
 from navmesh.archive import write_archive
@@ -21,9 +21,8 @@ def problem():
     options = {"states": 3, "error": 0.05, "duration": 2.0, "pull": 0.1}
     stage = Stage("trial", 1, 0.1, scales(True), options, 4)
     height = float(skill.heights[0])
-    return JumpProblem(
-        run, height, float(skill.entries[0]), skill.table[0], skill.references[0], states, [stage]
-    )
+    reference = skill.references[0].reshape(jump.STEPS, jump.BINS, jump.SENSORS)
+    return JumpProblem(run, height, skill.table[0], reference, states, [stage])
 
 
 def test_run_ups_end_near_the_mark(problem):
@@ -47,7 +46,7 @@ def test_a_jump_costs_less_than_running_into_the_stair(problem):
     good = problem.outcome(problem.start(), 0, state.error, 2.0)
     bad = problem.outcome(still, 0, state.error, 2.0)
     assert good.cleared and not bad.cleared
-    assert cost(good, problem.entry) + 5.0 < cost(bad, problem.entry)
+    assert cost(good, ENTRY_SPEED) + 5.0 < cost(bad, ENTRY_SPEED)
 
 
 def test_checkpoint_of_another_seed_is_refused(tmp_path, monkeypatch):

@@ -97,6 +97,11 @@ class Agent:
         return list(self._driver.plans)
 
     @property
+    def way(self) -> Plan | None:
+        """The path that it is on, None while it is not on its way."""
+        return self._driver.plans[-1] if self.moving and self._driver.plans else None
+
+    @property
     def status(self) -> str:
         """What it does: "standing", "walking", "running" (of a quadruped: on its way), "arrived", "lost",
         "stuck", of a human also "jumping" and "fallen"; or "blocked": the last goal cannot be reached."""

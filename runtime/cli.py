@@ -127,7 +127,10 @@ def schema(
 
 @app.command()
 def view(
-    source: Annotated[Path, typer.Argument(help="Trace (.npz), or a mission (.yaml) to be run first.")],
+    source: Annotated[
+        str,
+        typer.Argument(help="Trace (.npz), mission (.yaml) to be run first, or a server's address (ws://…)."),
+    ],
     output: Annotated[Path, typer.Option("--output", "-o", help="File for the page (.html).")] = Path(
         "view.html"
     ),
@@ -135,15 +138,22 @@ def view(
         str | None, typer.Option(help="Agent that the camera goes with; default: it stands still.")
     ] = None,
     live: Annotated[bool, typer.Option(help="Run the mission in real time and show it as it goes.")] = False,
+    world: Annotated[
+        str | None, typer.Option(help="Of a server: the world to watch; default: the only one.")
+    ] = None,
+    token: Annotated[str, typer.Option(envvar="SUREFOOT_TOKEN", help="Of a server, if it wants one.")] = "",
     port: Annotated[int, typer.Option(min=0, max=65535, help="Of the live page; 0: any that is free.")] = 0,
     as_json: JsonOption = False,
 ) -> None:
-    """Write a page that plays a run in a browser, without a server and without a network."""
+    """Write a page that plays a run in a browser, without a server and without a network; or show a world of
+    `surefoot serve` as it goes."""
     commands = _view_commands()
-    if live:
-        _finish(commands.watch_mission(source, port), as_json)
+    if source.startswith(("ws://", "wss://")):
+        _finish(commands.watch_served(source, world, token, port), as_json)
+    elif live:
+        _finish(commands.watch_mission(Path(source), port), as_json)
     else:
-        _finish(commands.write_view(source, output, follow), as_json)
+        _finish(commands.write_view(Path(source), output, follow), as_json)
 
 
 @app.command()

@@ -78,7 +78,7 @@ class LiveView:
         """The paths of those who are on their way; the same objects as long as they are the same paths."""
         ways = {}
         for name, agent in self._world.agents.items():
-            plan = agent.plans[-1] if agent.moving and agent.plans else None
+            plan = agent.way
             if plan is not None:
                 known = self._ways.get(name)
                 same = known is not None and known[0] is plan

@@ -12,7 +12,7 @@ from runtime.progress import Progress
 from runtime.trace import Trace
 from runtime.world import World
 
-__all__ = ["export_gltf", "watch_mission", "write_video", "write_view"]
+__all__ = ["export_gltf", "watch_mission", "watch_served", "write_video", "write_view"]
 
 
 def write_view(source: Path, output: Path, follow: str | None) -> Result:
@@ -49,6 +49,22 @@ def watch_mission(mission: Path, port: int) -> Result:
         while view.watched:
             time.sleep(0.2)
     return Result({}, result.held, lambda: None)
+
+
+def watch_served(address: str, name: str | None, token: str, port: int) -> Result:
+    """Show a world of `surefoot serve` on a page, until it is closed or the command is interrupted."""
+    from runtime.served import ServedWorld
+    from runtime.window import Window
+
+    with ServedWorld(address, name, token) as served:
+        window = Window(served.level, port=port)
+        try:
+            print(f"open {window.address} in a browser to see {served.name}", flush=True)
+            while (moment := served.moment()) is not None:
+                window.show(moment)
+        finally:
+            window.close()
+    return Result({}, True, lambda: print(f"{served.name} is closed"))
 
 
 def export_gltf(source: Path, output: Path) -> Result:

@@ -22,6 +22,7 @@ __all__ = [
     "Close",
     "Create",
     "GoTo",
+    "Graph",
     "Hello",
     "Join",
     "Leave",
@@ -33,6 +34,7 @@ __all__ = [
     "Spawn",
     "States",
     "Step",
+    "Way",
     "write_schema",
 ]
 
@@ -68,6 +70,13 @@ class Level(_Request):
     """Ask for the vertices and triangles of a level."""
 
     type: Literal["level"]
+    level: _Name
+
+
+class Graph(_Request):
+    """Ask for a level's graph and its obstacles, to be drawn."""
+
+    type: Literal["graph"]
     level: _Name
 
 
@@ -125,6 +134,14 @@ class GoTo(_Request):
     facing: _Angle | None = None
 
 
+class Way(_Request):
+    """Ask for the path that an agent is on."""
+
+    type: Literal["way"]
+    world: _Name
+    agent: _Name
+
+
 class Remove(_Request):
     """Take an agent out of its world."""
 
@@ -156,7 +173,20 @@ class Restore(_Request):
 
 
 Request = Annotated[
-    Hello | Level | Create | Join | Leave | Close | Spawn | GoTo | Remove | Step | Save | Restore,
+    Hello
+    | Level
+    | Graph
+    | Create
+    | Join
+    | Leave
+    | Close
+    | Spawn
+    | GoTo
+    | Way
+    | Remove
+    | Step
+    | Save
+    | Restore,
     Field(discriminator="type"),
 ]
 REQUEST: TypeAdapter[Any] = TypeAdapter(Request)
@@ -224,12 +254,14 @@ class Skeleton(_Message):
 
 
 class AgentState(_Message):
-    """``transforms``: 7 numbers for each body, as `States` says."""
+    """``way``: the number of the path that it is on, another one when that has changed; null for none.
+    ``transforms``: 7 numbers for each body, as `States` says."""
 
     name: str
     status: str
     position: tuple[float, float, float]
     facing: float
+    way: int | None
     transforms: list[float] | None = None
 
 

@@ -25,7 +25,7 @@ import navmesh
 from runtime.errors import RuntimeInputError
 from runtime.events import Event
 from runtime.server import messages as m
-from runtime.server.hosted import HostedWorld, level_message, skeleton
+from runtime.server.hosted import HostedWorld, graph_message, level_message, skeleton, way_message
 from runtime.server.outbox import Outbox, TooSlow
 from runtime.server.pages import page_of
 
@@ -268,11 +268,14 @@ class SurefootServer:
     def _do_level(self, client: _Client, request: m.Level) -> Any:
         return level_message(self._level(request.level))
 
+    def _do_graph(self, client: _Client, request: m.Graph) -> Any:
+        return graph_message(self._level(request.level))
+
     def _do_create(self, client: _Client, request: m.Create) -> Any:
         if len(self.worlds) >= self.limits.worlds:
             raise RuntimeInputError(f"there are {self.limits.worlds} worlds already; close one")
         graph, name = self._level(request.level), f"world{next(self._numbers)}"
-        self.worlds[name] = HostedWorld(name, graph, request.seed, request.clock == "manual")
+        self.worlds[name] = HostedWorld(name, request.level, graph, request.seed, request.clock == "manual")
         return self._join(client, self.worlds[name], request.states)
 
     def _do_join(self, client: _Client, request: m.Join) -> Any:
@@ -282,7 +285,9 @@ class SurefootServer:
         client.worlds[hosted.name] = states
         client.outbox.mark(hosted.name)
         agents = [skeleton(agent) for agent in hosted.world.agents.values()]
-        return {"world": hosted.name, "time": hosted.world.time, "agents": agents}
+        return {
+            "world": hosted.name, "level": hosted.level, "time": hosted.world.time, "agents": agents
+        }  # fmt: skip
 
     def _do_leave(self, client: _Client, request: m.Leave) -> Any:
         return {"left": client.worlds.pop(request.world, None) is not None}
@@ -311,6 +316,9 @@ class SurefootServer:
         hosted = self._hosted(request.world)
         status = hosted.agent(request.agent).go_to(request.points, request.speed, request.facing)
         return {"status": status}
+
+    def _do_way(self, client: _Client, request: m.Way) -> Any:
+        return way_message(self._hosted(request.world).agent(request.agent))
 
     def _do_remove(self, client: _Client, request: m.Remove) -> Any:
         hosted = self._hosted(request.world)

@@ -1,9 +1,11 @@
-"""Learning to jump: heights by continuation, feed-forward first, then feedback on many start states."""
+"""Learning to jump: heights by continuation, feed-forward first, then feedback on many start states; beyond
+these heights by prediction from the learned ones and correction."""
 
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -16,15 +18,19 @@ from locomotion.training.jump_trial import JumpOutcome, JumpSimulator, StartStat
 from locomotion.training.loop import Progress, Stage, learn
 from navmesh.archive import read_archive, write_archive
 
-__all__ = ["ENTRY_SPEED", "HEIGHTS", "JumpProblem", "cost", "train_jump"]
+__all__ = ["ENTRY_SPEED", "FURTHER", "HEIGHTS", "JumpProblem", "cost", "train_jump"]
 
 HEIGHTS = (0.3, 0.4, 0.5)
 """Heights [m] learned one after the other, each from the one before."""
+FURTHER = (0.6, 0.7, 0.2, 0.15, 0.1)
+"""Heights [m] learned after these, each predicted from the two learned ones that are nearest to it."""
 ENTRY_SPEED = 3.3
 """[m/s]"""
 _STATES = 48
+_SHARES = (0.0, 0.3, 0.6, 1.0)
+# of the way that extrapolation over the height suggests: the best of them is where learning starts
 _REFERENCE = (jump.STEPS, jump.BINS, jump.SENSORS)
-_SECOND_PASS = 100
+_SECOND_PASS, _FURTHER = 100, 200
 _ENTRY = jump.parameter_slices()["entry"].start
 _TRAINING, _VERSION = "jump training", 1
 
@@ -133,6 +139,13 @@ class JumpProblem:
             scenarios
         )
 
+    def predict(self, beyond: np.ndarray) -> None:
+        """Start from the best of some steps from ``initial`` towards ``beyond`` (p,)."""
+        stage, every = self.curriculum[0], [(i, state.error) for i, state in enumerate(self.states)]
+        guesses = [self.initial + share * (beyond - self.initial) for share in _SHARES]
+        self.initial = min(guesses, key=lambda guess: self.evaluate(stage, guess, every)[0])
+        self._simulator = None
+
     def record(self, candidate: np.ndarray) -> np.ndarray:
         """Mean sensors of the cleared jumps without errors, (4, 6, 15); the present reference where none
         is."""
@@ -176,6 +189,11 @@ class _Course:
         most = {"states": 10, "error": 0.1, "duration": 4.0, "pull": 0.15}
         return [Stage(f"{height:g} m, refined", self.generations(14), 0.1, scales(True), most, 20)]
 
+    def correction(self, height: float) -> list[Stage]:
+        """Of what was predicted for a height."""
+        several = {"states": 6, "error": 0.1, "duration": 3.0, "pull": 0.1}
+        return [Stage(f"{height:g} m, corrected", self.generations(24), 0.1, scales(True), several, 16)]
+
 
 def train_jump(
     out: str | os.PathLike[str] = JUMP_SKILL,
@@ -186,12 +204,12 @@ def train_jump(
     start_from: str | os.PathLike[str] | None = None,
     on_progress: Callable[[Progress], None] | None = None,
 ) -> SkillFamily:
-    """Learn jumps onto all of `HEIGHTS` on the package's run and write them to ``out``.
+    """Learn jumps onto all of `HEIGHTS` and `FURTHER` on the package's run and write them to ``out``.
 
     ``checkpoint``: folder for the state of learning; a run that was interrupted goes on from it and gives
     the same result. ``effort``: scales the number of generations. ``start_from``: a jump skill to refine
-    (after the run has changed) instead of beginning from nothing. The same seed gives the same skill with
-    any number of workers.
+    (after the run has changed) instead of beginning from nothing; of `FURTHER` only what it has not is
+    learned. The same seed gives the same skill with any number of workers.
     """
     run = load_run_skill()
     folder = Path(checkpoint) if checkpoint is not None else None
@@ -199,43 +217,61 @@ def train_jump(
         folder.mkdir(parents=True, exist_ok=True)
     stride = JumpSimulator(run).fit_stride(ENTRY_SPEED, np.random.default_rng([seed, 1]))
     course = _Course(run, stride, seed, folder, workers, effort, on_progress)
-    learned: list[tuple[np.ndarray, np.ndarray]] = []
+    learned: dict[float, tuple[np.ndarray, np.ndarray]] = {}
     if start_from is None:
         x, reference = first_guess(), np.zeros(_REFERENCE)
         for number, height in enumerate(HEIGHTS):
             x, reference = _learn_height(course, height, number, course.first_pass(height), x, reference)
-            learned.append((x, reference))
-        heights = HEIGHTS
+            learned[height] = x, reference
     else:
         old = load_jump_skill(start_from)
-        heights = tuple(float(h) for h in old.heights)
-        learned = [(x, r.reshape(_REFERENCE)) for x, r in zip(old.table, old.references, strict=True)]
-    for k, height in enumerate(heights):
-        learned[k] = _learn_height(course, height, _SECOND_PASS + k, course.second_pass(height), *learned[k])
-    skill = _family(
-        course, heights, learned, {"made by": "surefoot train jump", "seed": seed, "effort": effort}
-    )
+        for height, x, reference in zip(old.heights, old.table, old.references, strict=True):
+            learned[round(float(height), 3)] = x, reference.reshape(_REFERENCE)
+    for number, height in enumerate(tuple(learned), _SECOND_PASS):
+        stages = course.second_pass(height)
+        learned[height] = _learn_height(course, height, number, stages, *learned[height])
+    for number, height in enumerate(FURTHER, _FURTHER):
+        if height not in learned:
+            learned[height] = _learn_further(course, height, number, learned)
+    skill = _family(course, learned, {"made by": "surefoot train jump", "seed": seed, "effort": effort})
     skill.save(out)
     return skill
 
 
+def _learn_further(
+    course: _Course, height: float, number: int, learned: dict[float, tuple[np.ndarray, np.ndarray]]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Predict the parameters at a height from the two learned ones nearest to it, and correct them."""
+    near, far = sorted(learned, key=lambda other: abs(other - height))[:2]
+    (x, reference), slope = learned[near], (learned[near][0] - learned[far][0]) / (near - far)
+    beyond = x + (height - near) * slope
+    return _learn_height(course, height, number, course.correction(height), x, reference, beyond)
+
+
 def _family(
-    course: _Course, heights: Sequence[float], learned: list[tuple[np.ndarray, np.ndarray]], meta: dict
+    course: _Course, learned: dict[float, tuple[np.ndarray, np.ndarray]], meta: dict[str, Any]
 ) -> SkillFamily:
-    """The family of parameters and expected sensors (4, 6, 15) at ``heights``."""
-    table = np.array([x for x, _ in learned])
-    references = np.array([reference.reshape(-1, jump.SENSORS) for _, reference in learned])
-    return SkillFamily(
-        KIND, np.array(heights), table, references, course.stride, run_digest(course.run), meta
-    )
+    """The family of parameters and expected sensors (4, 6, 15), by height [m]."""
+    heights = sorted(learned)
+    table = np.array([learned[height][0] for height in heights])
+    references = np.array([learned[height][1].reshape(-1, jump.SENSORS) for height in heights])
+    digest = run_digest(course.run)
+    return SkillFamily(KIND, np.array(heights), table, references, course.stride, digest, meta)
 
 
 def _learn_height(
-    course: _Course, height: float, number: int, stages: list[Stage], x: np.ndarray, reference: np.ndarray
+    course: _Course,
+    height: float,
+    number: int,
+    stages: list[Stage],
+    x: np.ndarray,
+    reference: np.ndarray,
+    beyond: np.ndarray | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Go through stages at a height; what was done before is read from the checkpoint.
 
-    The expected sensors are recorded anew after a stage of feed-forward.
+    The expected sensors are recorded anew after a stage of feed-forward. ``beyond``: (p,) where extrapolation
+    suggests the solution.
     """
     identity = {"seed": course.seed, "run": run_digest(course.run), "effort": course.effort}
     done = None if course.folder is None else course.folder / f"done-{number}.npz"
@@ -245,12 +281,14 @@ def _learn_height(
             raise LocomotionError(f"{done}: checkpoint of another training or seed; remove it to begin anew")
         return arrays["x"], arrays["reference"]
     rng = np.random.default_rng([course.seed, number])
-    guess = _family(course, [height], [(x, reference)], {})
+    guess = _family(course, {height: (x, reference)}, {})
     standing = number >= _SECOND_PASS
     distances = rng.uniform(*((9.5, 30.0) if standing else (8.0, 16.0)), _STATES)
     states = JumpSimulator(course.run).harvest(Jump(guess, course.run), distances, rng, standing)
     for place, stage in enumerate(stages):
         problem = JumpProblem(course.run, height, x, reference, states, [stage])
+        if beyond is not None:
+            problem.predict(beyond)
         file = None if course.folder is None else course.folder / f"search-{number}-{place}.npz"
         seed = course.seed + 1000 * number + place
         learned = learn(problem, seed, file, course.workers, course.on_progress)

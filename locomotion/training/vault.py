@@ -36,10 +36,10 @@ _REFERENCE = (vault.STEPS, vault.BINS, vault.SENSORS)
 
 
 def first_guess() -> np.ndarray:
-    """Parameters (p,) from which learning starts: the highest jump with the vault's clip, the arm
+    """Parameters (p,) from which learning starts: the jump onto 0.5 m with the vault's clip, the arm
     reaching."""
     x = np.zeros(sum(vault.PARAMETERS.values()))
-    jumped, part = load_jump_skill().table[-1], jump.parameter_slices()
+    jumped, part = load_jump_skill().at(0.5)[0], jump.parameter_slices()
     a_hat = jumped[part["a_hat"]].reshape(jump.STEPS, jump.KNOTS, 6)
     old, new = np.linspace(0.0, 1.0, jump.KNOTS), np.linspace(0.0, 1.0, vault.KNOTS)
     spread = [[np.interp(new, old, column) for column in step.T] for step in a_hat]

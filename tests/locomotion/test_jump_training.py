@@ -1,5 +1,7 @@
 """Trials that jumps are learned on: they repeat, start near the mark, and rank good jumps before bad."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -47,6 +49,16 @@ def test_a_jump_costs_less_than_running_into_the_stair(problem):
     bad = problem.outcome(still, 0, state.error, 2.0)
     assert good.cleared and not bad.cleared
     assert cost(good, ENTRY_SPEED) + 5.0 < cost(bad, ENTRY_SPEED)
+
+
+def test_a_prediction_is_followed_only_as_far_as_it_helps(problem):
+    away = problem.start() + 3.0 * scales(True)
+    guess = replace(problem, _simulator=None)
+    guess.predict(away)
+    np.testing.assert_array_equal(guess.start(), problem.start())
+    start = replace(problem, initial=away, _simulator=None)
+    start.predict(problem.start())
+    np.testing.assert_allclose(start.start(), problem.start())
 
 
 def test_checkpoint_of_another_seed_is_refused(tmp_path, monkeypatch):

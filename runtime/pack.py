@@ -8,14 +8,24 @@ import numpy as np
 
 from locomotion import LocomotionError
 from locomotion.giving_way import Course
-from locomotion.quadruped import BODY_NAMES, Animal, AnimalMemory, Body, Herd, Place, check_places, load_body
+from locomotion.quadruped import (
+    BODY_NAMES,
+    Animal,
+    AnimalMemory,
+    Body,
+    Herd,
+    NoTrail,
+    Place,
+    check_places,
+    load_body,
+)
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.footprint import at_place
 from runtime.animal_figure import animal_figure
 from runtime.drivers import PLANS_KEPT, Driver, Follower, recall
 from runtime.errors import RuntimeInputError
 from runtime.level import Level
-from runtime.planning import Plan, make_plan, way_holds
+from runtime.planning import NoWay, Plan, make_plan, way_holds
 from runtime.pose import between
 
 __all__ = ["AnimalDriver", "Pack"]
@@ -160,6 +170,8 @@ class AnimalDriver:
         plan = self.plan(goals)
         try:
             self.animal.go_to(goals, speed, facing)
+        except NoTrail as error:
+            raise NoWay(len(goals) - 1, str(error)) from None
         except LocomotionError as error:
             raise RuntimeInputError(str(error)) from None
         self.take_note()

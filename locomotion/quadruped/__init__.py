@@ -13,7 +13,7 @@ from locomotion.quadruped.herd import Herd
 from locomotion.quadruped.layout import LEGS
 from locomotion.quadruped.local_motion import LocalMotion, local_motion
 from locomotion.quadruped.script import Place, Script
-from locomotion.quadruped.trail import Trail, lay_trail
+from locomotion.quadruped.trail import NoTrail, Trail, lay_trail
 from locomotion.quadruped.ways import Planner
 
 __all__ = [
@@ -25,6 +25,7 @@ __all__ = [
     "Footprint",
     "Herd",
     "LocalMotion",
+    "NoTrail",
     "Place",
     "Planner",
     "Script",

@@ -21,7 +21,7 @@ from locomotion.path_tracking import checked_points
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.body import Body
 
-__all__ = ["Trail", "kernel_ground", "lay_trail", "trail_at", "trail_point", "trail_speed"]
+__all__ = ["NoTrail", "Trail", "kernel_ground", "lay_trail", "trail_at", "trail_point", "trail_speed"]
 
 SPACING = 0.05
 """[m] between rows, at most."""
@@ -30,6 +30,10 @@ _GRAVITY = 9.81  # [m/s²]
 _CREEP = 0.25  # [m/s] slowest speed of a bend, however tight
 _CLIMBING = 0.25  # of √(g · height of the hips): the fastest change of height on a slope, up or down
 _CLIMB = 0.35  # [m] above the last row's ground from which the next is looked for
+
+
+class NoTrail(LocomotionError):
+    """A path that no animal can follow."""
 
 
 @dataclass(frozen=True)
@@ -92,7 +96,7 @@ def _subdivided(points: NDArray[np.float64]) -> NDArray[np.float64]:
     apart = np.linalg.norm(np.diff(points[:, :2], axis=0), axis=1) > 1e-4
     keep = points[np.concatenate([[True], apart])]
     if len(keep) < 2:
-        raise LocomotionError("a path needs at least two points that differ in x or y")
+        raise NoTrail("a path needs at least two points that differ in x or y")
     pieces = [keep[:1]]
     for a, b in itertools.pairwise(keep):
         parts = int(np.ceil(np.linalg.norm((b - a)[:2]) / _KNOTS))
@@ -108,7 +112,7 @@ def _drape(rows: NDArray[np.float64], wanted: NDArray[np.float64], ground: Groun
     lost = np.flatnonzero(~np.isfinite(heights))
     if len(lost):
         x, y = rows[lost[0], at.PX : at.PY + 1]
-        raise LocomotionError(f"there is no ground under the path at ({x:.2f}, {y:.2f})")
+        raise NoTrail(f"there is no ground under the path at ({x:.2f}, {y:.2f})")
     return heights + ground.origin[2]
 
 

@@ -14,7 +14,7 @@ from locomotion.quadruped import layout as at
 from locomotion.quadruped.body import Body
 from locomotion.quadruped.following import wrap
 from locomotion.quadruped.footprint import RESOLUTION, check_script, trail_places
-from locomotion.quadruped.local_motion import local_motion
+from locomotion.quadruped.local_motion import REACH, local_motion
 from locomotion.quadruped.script import Place, Script
 from locomotion.quadruped.trail import Trail, lay_trail
 from locomotion.quadruped.ways import Planner, find_way, first_heading, turn_onto
@@ -44,7 +44,10 @@ def turn_script(body: Body, ground: Ground, place: Place, yaw: float) -> Script 
             continue
         for pivot in _PIVOTS:
             ahead = pivot * body.spine.length
-            script = moves.script(place, (ahead * (1.0 - math.cos(turn)), -ahead * math.sin(turn), turn))
+            wanted = ahead * (1.0 - math.cos(turn)), -ahead * math.sin(turn), turn
+            if max(abs(wanted[0]), abs(wanted[1])) > REACH:  # of a long body, around its front
+                continue
+            script = moves.script(place, wanted)
             if check_script(script, body, ground, RESOLUTION).free:
                 return script
     return None

@@ -9,6 +9,7 @@ from runtime.playtest.fault import Fault
 from runtime.playtest.holes import find_holes
 from runtime.playtest.passages import narrow_passages
 from runtime.playtest.site import Site
+from runtime.playtest.solids import is_inside_solid
 from runtime.playtest.wording import Wording, triple
 
 __all__ = ["LEAST_AREA", "analyse", "core_parts"]
@@ -54,7 +55,9 @@ def _unreachable(site: Site, spawns: np.ndarray, forbidden: set[int], wanted: se
         area = float(site.areas[parts].sum())
         if area < LEAST_AREA or forbidden & set(parts.tolist()):
             continue
-        faults.append(_explained(site, barriers, words, reached, parts, bool(wanted & set(parts.tolist()))))
+        is_wanted = bool(wanted & set(parts.tolist()))
+        if is_wanted or not is_inside_solid(site, site.centre_of(int(parts[0]))):
+            faults.append(_explained(site, barriers, words, reached, parts, is_wanted))
     return faults
 
 

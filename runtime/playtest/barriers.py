@@ -95,7 +95,8 @@ class Barriers:
         return Barrier("gap", float(links.height[best]), links.edge[best])
 
     def wall(self, of: np.ndarray, to: np.ndarray) -> Barrier | None:
-        """Where the two sets of cells are nearest to each other at about the same height."""
+        """The wall where the two sets of cells are nearest to each other at about the same height, if one
+        stands there."""
         surface = self.site.graph.surface
         here, there = np.flatnonzero(of), np.flatnonzero(to)
         if not len(here) or not len(there):
@@ -108,7 +109,18 @@ class Barriers:
         if not near.any():
             return None
         best = int(np.flatnonzero(near)[np.argmin(away[near])])
+        if not self._is_wall(a[best] - surface.origin, b[nearest[best]] - surface.origin):
+            return None
         return Barrier("wall", float(away[best]), 0.5 * (a[best] + b[nearest[best]]))
+
+    def _is_wall(self, here: np.ndarray, there: np.ndarray) -> bool:
+        """Whether anything stands between two places, at the height of a body."""
+        rules = self.site.graph.rules
+        heights = np.linspace(rules.max_step + 0.05, 0.95 * rules.headroom, 4)
+        return any(
+            crossed(self.site.probe.arrays, *here[:2], here[2] + up, *there[:2], there[2] + up)
+            for up in heights
+        )
 
     def _all_steps(self) -> tuple[np.ndarray, np.ndarray]:
         """Pairs (k, 2) of neighbouring cells, lower first, and the rise [m] of each, 0 where one walks; in

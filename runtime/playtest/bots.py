@@ -41,13 +41,14 @@ class Goals:
 @dataclass(frozen=True)
 class Trouble:
     """What went wrong: ``kind`` of `Leg.status` or "trapped", when [s], where [m], over which obstacle
-    (-1: none), and the last seconds of the track (n, 4)."""
+    (-1: none), and the last seconds: the track (n, 4) and `Mover.poses`."""
 
     kind: str
     time: float
     place: tuple[float, float, float]
     obstacle: int
     track: np.ndarray
+    poses: np.ndarray | None
 
 
 @dataclass(frozen=True)
@@ -157,7 +158,7 @@ class _Bot:
     def _trouble(self, kind: str, place: np.ndarray, obstacle: int = -1) -> None:
         recent = self.run.track[-24:]
         where = (float(place[0]), float(place[1]), float(place[2]))
-        self.run.troubles.append(Trouble(kind, self.run.seconds, where, obstacle, recent))
+        self.run.troubles.append(Trouble(kind, self.run.seconds, where, obstacle, recent, self.mover.poses))
 
     def _reach(self, goal: np.ndarray) -> Leg | None:
         """Go to a place that can be reached from a spawn; None when there is no way from here."""

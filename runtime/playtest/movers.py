@@ -1,14 +1,17 @@
 """How a bot's body gets about: the walker on the triangles, or a body of a world that runs for it alone."""
 
 import math
+from collections import deque
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
 from navmesh.route import Route
+from runtime.errors import RuntimeInputError
 from runtime.events import SkillFinished, SkillStarted
 from runtime.playtest import feet
+from runtime.playtest.looks import POSED
 from runtime.playtest.site import Site
 from runtime.world import World
 
@@ -16,7 +19,10 @@ __all__ = ["Leg", "Mover", "WalkerMover", "WorldMover", "mover_of", "planned_tim
 
 STATUSES = ("arrived", "stuck", "fell", "bumped", "out of time")
 _MOST = 4096  # samples of a leg's track
-_SAMPLE = 0.25  # [s] between samples of a track
+_POSES = 5  # in each of them
+_SAMPLE = _POSES * POSED  # [s] between samples of a track
+_SHOWN = 6.0  # [s] of which the poses are remembered
+_TURNS, _ROOM = 12, 2.0  # headings in which a body might appear, and [m] of room that is enough before it
 _STRAIGHT = 3.0  # [s] that a body of a world goes straight on, where it can
 _WORDS = {"arrived": "arrived", "stuck": "stuck", "fallen": "fell", "lost": "lost", "blocked": "no way"}
 
@@ -45,8 +51,14 @@ class Mover(Protocol):
 
     place: np.ndarray
 
+    @property
+    def poses(self) -> np.ndarray | None:
+        """(k, b, 7) float32: the transforms of its bodies in its last seconds, every `POSED` s; None where
+        they follow from its track."""
+        ...
+
     def appear(self, place: np.ndarray, heading: float) -> None:
-        """Stand at ``place`` (3,), as new, facing ``heading`` [rad]."""
+        """Stand at ``place`` (3,), as new, facing ``heading`` [rad], or another way where it needs room."""
         ...
 
     def travel(self, route: Route, time_limit: float) -> Leg:
@@ -65,6 +77,8 @@ def planned_time(route: Route, speed: float) -> float:
 
 class WalkerMover:
     """The walker of `runtime.playtest.feet`."""
+
+    poses: np.ndarray | None = None
 
     def __init__(self, site: Site) -> None:
         self._site = site
@@ -120,22 +134,48 @@ class WorldMover:
         self._site = site
         self.place = np.zeros(3)
         self.world: World | None = None
+        self._poses: deque[np.ndarray] = deque(maxlen=round(_SHOWN / POSED))
+
+    @property
+    def poses(self) -> np.ndarray | None:
+        return np.array(self._poses, dtype=np.float32)
 
     def appear(self, place: np.ndarray, heading: float) -> None:
         self.world = World(self._site.graph)
-        self._agent = self.world.spawn(self._site.character.body, place, heading)
+        headings = self._headings(place, heading)
+        for each in headings:
+            try:
+                self._agent = self.world.spawn(self._site.character.body, place, each)
+                break
+            except RuntimeInputError:  # no room for its head beside a wall
+                if each == headings[-1]:
+                    raise
         self.place = self._agent.position
+        self._poses.clear()
+
+    def _headings(self, place: np.ndarray, wanted: float) -> list[float]:
+        """Headings for one who appears, who has no trail to back out along: first those with room ahead, the
+        nearest to the ``wanted`` one first."""
+        aside = 2.0 * math.pi * np.arange(_TURNS) / _TURNS
+        rays = _ROOM * np.column_stack([np.cos(wanted + aside), np.sin(wanted + aside), np.zeros(_TURNS)])
+        radius = self._site.character.radius
+        ends = [self._site.graph.cast_ray(place, place + ray, radius=radius).end for ray in rays]
+        room = np.linalg.norm(np.array(ends) - place, axis=1).round(2)
+        order = np.lexsort((np.minimum(aside, 2.0 * math.pi - aside), -room))
+        return (wanted + aside[order]).tolist()
 
     def travel(self, route: Route, time_limit: float) -> Leg:
         assert self.world is not None
         world, agent, speed = self.world, self._agent, self._site.character.speed
         begun, before = world.time, agent.position
         agent.go_to(route.waypoints[-1], speed=speed)
-        planned = agent.plans[-1].length / speed if agent.status != "blocked" else 0.0
+        planned = planned_time(route, speed) if agent.status != "blocked" else 0.0
         track = [(0.0, *before)]
         cleared = -1
         while agent.moving and world.time - begun < time_limit:
-            world.step(_SAMPLE)
+            for _ in range(_POSES):
+                world.step(POSED)
+                self._poses.append(agent.pose.transforms)
             track.append((world.time - begun, *agent.position))
         for event in world.events:
             if isinstance(event, SkillStarted):

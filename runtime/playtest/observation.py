@@ -10,7 +10,7 @@ from runtime.playtest.fault import Fault, Sighting
 from runtime.playtest.site import Site
 from runtime.playtest.wording import place, triple
 
-__all__ = ["Crossing", "Journey", "crossings", "journeys", "observed", "with_sightings"]
+__all__ = ["Crossing", "Journey", "crossings", "journeys", "observed", "sighted", "with_sightings"]
 
 _NEAR = 2.0  # [m] troubles of one kind nearer to each other than this are one
 _CLAIMED = 2.5  # [m] a trouble this near to what the analysis found is a sighting of it
@@ -153,5 +153,14 @@ def _middle(cluster: list[tuple[int, Trouble]]) -> np.ndarray:
     return np.median([each.place for _, each in cluster], axis=0)
 
 
+def sighted(run: BotRun, sighting: Sighting) -> Trouble | None:
+    """The trouble of a bot's ``run`` that a sighting tells of."""
+    return next((each for each in run.troubles if _sighting(run.number, each) == sighting), None)
+
+
 def _sightings(cluster: list[tuple[int, Trouble]]) -> tuple[Sighting, ...]:
-    return tuple(Sighting(bot, round(each.time, 2), triple(each.place)) for bot, each in cluster)
+    return tuple(_sighting(bot, each) for bot, each in cluster)
+
+
+def _sighting(bot: int, trouble: Trouble) -> Sighting:
+    return Sighting(bot, round(trouble.time, 2), triple(trouble.place))

@@ -9,6 +9,7 @@ from runtime.files import whole_file
 from runtime.playtest.bots import Trouble
 from runtime.playtest.diff import Difference
 from runtime.playtest.fault import Fault
+from runtime.playtest.observation import sighted
 from runtime.playtest.pictures import close_up, film_strip, heat_map, level_map
 from runtime.playtest.run import Outcome
 from runtime.progress import Progress
@@ -47,7 +48,7 @@ def _values(outcome: Outcome, difference: Difference | None, stage: Any) -> dict
         shown = {"close": close_up(site, triangles, fault)}
         trouble = _first_trouble(outcome, fault)
         if trouble is not None and len(trouble.track) > 1:
-            shown["film"] = film_strip(site, triangles, trouble.track)
+            shown["film"] = film_strip(site.character, triangles, trouble)
         pictures.append(shown)
     values = report.to_dict()
     titles = [fault.title for fault in report.faults]
@@ -80,5 +81,4 @@ def _first_trouble(outcome: Outcome, fault: Fault) -> Trouble | None:
     if not fault.sightings:
         return None
     first = fault.sightings[0]
-    run = next(run for run in outcome.runs if run.number == first.bot)
-    return next((each for each in run.troubles if round(each.time, 2) == first.time), None)
+    return sighted(next(run for run in outcome.runs if run.number == first.bot), first)

@@ -7,42 +7,28 @@ from typing import Any
 
 import numpy as np
 
-from runtime.figure import Figure, Shapes
+from runtime.camera import clearest
+from runtime.figure import Shapes
+from runtime.playtest.bots import Trouble
 from runtime.playtest.character import Character
 from runtime.playtest.fault import Fault
 from runtime.playtest.goals import PATCH
+from runtime.playtest.looks import POSED, figure_of, poses_along
 from runtime.playtest.site import Site
 from runtime.plot import draw_floors
 from runtime.recording import level_trace
 from runtime.render import Camera, Triangles, render
 
-__all__ = ["capsule", "close_up", "film_strip", "heat_map", "level_map"]
+__all__ = ["close_up", "film_strip", "heat_map", "level_map"]
 
 _LONG_SIDE = 1400  # pixels of a map
 _DPI = 100
 _SIZE = (320, 240)  # pixels of a close-up
 _FRAME = (200, 170)  # pixels of a film strip's frame
 _FRAMES = 5
+_FILMED = 5.0  # [s] that a film strip shows
 _FAR = 7.0  # [m] from the camera of a close-up to what it shows
-_ORANGE, _RED = (0.93, 0.55, 0.16), (0.83, 0.18, 0.20)
-
-
-def capsule(character: Character) -> Figure:
-    """What a bot looks like in pictures: a capsule with a nose, its only body at its feet."""
-    radius, height = character.radius, 0.9 * character.rules.headroom
-    half = max(0.5 * height - radius, 1e-3)
-    nose = 0.4 * radius
-    place = np.array(
-        [
-            (0.0, 0.0, radius + half, 1.0, 0.0, 0.0, 0.0),
-            (radius, 0.0, 1.6 * half + radius, 1.0, 0.0, 0.0, 0.0),
-        ]
-    )
-    shapes = Shapes(
-        place=place, size=np.array([(radius, half, 0.0), (nose, nose, nose)]), round=np.array([False, True]),
-        colour=np.array([_ORANGE, (0.25, 0.25, 0.28)]),
-    )  # fmt: skip
-    return Figure(("body",), np.array([-1], np.int32), np.zeros(2, np.int32), shapes)
+_RED = (0.83, 0.18, 0.20)
 
 
 def level_map(site: Site) -> tuple[str, list[float]]:
@@ -95,26 +81,24 @@ def close_up(site: Site, triangles: Triangles, fault: Fault) -> str:
     return _address(render(triangles, shapes, camera, _SIZE, reach=far + 15.0, cutaway=0.55 * far))
 
 
-def film_strip(site: Site, triangles: Triangles, track: np.ndarray) -> str:
-    """The last moments of a bot, side by side, from its ``track`` (n, 4) [s, m], as a PNG in a data
-    address."""
-    picks = np.linspace(max(len(track) - 4 * _FRAMES, 0), len(track) - 1, _FRAMES).round().astype(int)
-    body = capsule(site.character)
-    end = track[-1, 1:]
-    ahead = end[:2] - track[picks[0], 1:3]
+def film_strip(character: Character, triangles: Triangles, trouble: Trouble) -> str:
+    """A bot's last moments before ``trouble``, side by side, as a PNG in a data address."""
+    figure = figure_of(character)
+    poses = poses_along(trouble.track) if trouble.poses is None else trouble.poses
+    poses = poses[-round(_FILMED / POSED) :]
+    picks = np.linspace(0, len(poses) - 1, _FRAMES).round().astype(int)
+    feet = np.column_stack([poses[:, 0, :2], poses[:, :, 2].min(axis=1)]).astype(np.float64)
+    ahead = feet[-1, :2] - feet[0, :2]
     length = float(np.linalg.norm(ahead))
     ahead = ahead / length if length > 0.3 else np.array([1.0, 0.0])
     away = 1.1 * _FAR * np.array([0.75 * ahead[1] - 0.5 * ahead[0], -0.75 * ahead[0] - 0.5 * ahead[1], 0.6])
     frames = []
     for pick in picks:
-        here = track[pick, 1:]
-        before, after = track[max(pick - 1, 0), 1:3], track[min(pick + 1, len(track) - 1), 1:3]
-        yaw = float(np.arctan2(*(after - before)[::-1]))
-        pose = np.array([[*here, np.cos(0.5 * yaw), 0.0, 0.0, np.sin(0.5 * yaw)]])
-        camera = Camera(
-            eye=0.5 * (here + end) + away, target=0.5 * (here + end) + np.array([0.0, 0.0, 0.7]), fov=0.62
-        )
-        frames.append(render(triangles, [body.posed(pose)], camera, _FRAME, reach=25.0, cutaway=0.6 * _FAR))
+        shapes = figure.posed(poses[pick])
+        camera = Camera(eye=feet[pick] + away, target=feet[pick] + np.array([0.0, 0.0, 0.7]), fov=0.5)
+        camera, clear = clearest(triangles, camera, shapes.place[:, :3])
+        cutaway = 0.0 if clear else 0.6 * _FAR
+        frames.append(render(triangles, [shapes], camera, _FRAME, reach=25.0, cutaway=cutaway))
     gap = np.full((_FRAME[1], 4, 3), 255, np.uint8)
     return _address(np.hstack([part for frame in frames for part in (frame, gap)][:-1]))
 

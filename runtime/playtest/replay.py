@@ -3,10 +3,12 @@
 import numpy as np
 
 from runtime.errors import RuntimeInputError
+from runtime.figure import Figure
 from runtime.playtest.bots import run_bot
 from runtime.playtest.fault import Fault
+from runtime.playtest.looks import POSED, capsule, figure_of, poses_along
 from runtime.playtest.movers import WalkerMover
-from runtime.playtest.pictures import capsule
+from runtime.playtest.observation import sighted
 from runtime.playtest.report import Report
 from runtime.playtest.run import Stage, open_stage
 from runtime.recording import level_trace
@@ -16,8 +18,6 @@ __all__ = ["replay"]
 
 _BEFORE = 8.0
 """[s] shown before a bot meets trouble."""
-_FRAME = 0.05
-"""[s] between the frames of a replay."""
 
 
 def replay(report: Report, number: int) -> Trace:
@@ -35,21 +35,24 @@ def replay(report: Report, number: int) -> Trace:
             f"{report.setup.level}: is not the level of the report any more; playtest it again"
         )
     if fault.sightings:
-        track = _met_again(stage, fault)
+        track, poses = _met_again(stage, fault)
     else:
-        track = _shown(stage, fault)
-    return _trace(stage, fault, number, track)
+        track, poses = _shown(stage, fault), None
+    if poses is None:
+        return _trace(stage, fault, number, track, capsule(stage.site.character), poses_along(track))
+    return _trace(stage, fault, number, track, figure_of(stage.site.character), poses)
 
 
-def _met_again(stage: Stage, fault: Fault) -> np.ndarray:
-    """The last seconds of the bot's track before it met ``fault``."""
+def _met_again(stage: Stage, fault: Fault) -> tuple[np.ndarray, np.ndarray | None]:
+    """The last seconds of the bot's track before it met ``fault``, and its poses."""
     first, setup = fault.sightings[0], stage.setup
     run = run_bot(stage.site, stage.goals, setup.seed, first.bot, setup.seconds)
-    same = [each for each in run.troubles if round(each.time, 2) == first.time]
-    if not same:
+    trouble = sighted(run, first)
+    if trouble is None:
         raise RuntimeInputError("the bot does not do what the report says; was it made by another version?")
     track = run.track
-    return track[(track[:, 0] > first.time - _BEFORE) & (track[:, 0] <= first.time + 0.01)]
+    recent = (track[:, 0] > first.time - _BEFORE) & (track[:, 0] <= first.time + 0.01)
+    return track[recent], trouble.poses
 
 
 def _shown(stage: Stage, fault: Fault) -> np.ndarray:
@@ -68,25 +71,21 @@ def _shown(stage: Stage, fault: Fault) -> np.ndarray:
     return np.vstack([still[:1], mover.travel(route, 600.0).track])
 
 
-def _trace(stage: Stage, fault: Fault, number: int, track: np.ndarray) -> Trace:
-    times = np.arange(track[0, 0], track[-1, 0] + 1e-9, _FRAME)
-    place = np.column_stack([np.interp(times, track[:, 0], track[:, k]) for k in (1, 2, 3)])
-    ahead = np.gradient(place[:, :2], axis=0) if len(place) > 1 else np.zeros((len(place), 2))
-    yaw = np.unwrap(np.arctan2(ahead[:, 1], ahead[:, 0]))
-    poses = np.zeros((len(times), 1, 7), np.float32)
-    poses[:, 0, :3] = place
-    poses[:, 0, 3], poses[:, 0, 6] = np.cos(0.5 * yaw), np.sin(0.5 * yaw)
+def _trace(
+    stage: Stage, fault: Fault, number: int, track: np.ndarray, figure: Figure, poses: np.ndarray
+) -> Trace:
+    times = POSED * np.arange(len(poses))
     event = {
         "kind": fault.kind,
-        "time": float(times[-1] - times[0]),
+        "time": float(times[-1]),
         "agent": "bot",
         "position": list(fault.position),
     }
-    line = PathTrace(raw=place[:1], pulled=place[:1], smooth=place)
+    line = PathTrace(raw=track[:1, 1:], pulled=track[:1, 1:], smooth=track[:, 1:])
     return Trace(
         level=level_trace(stage.site.graph),
-        times=times - times[0],
-        agents=(AgentTrace("bot", capsule(stage.site.character), poses, (line,)),),
+        times=times,
+        agents=(AgentTrace("bot", figure, poses, (line,)),),
         events=(event,),
         state_hash="",
         report={"finding": number, "text": fault.text},

@@ -134,7 +134,8 @@ def open_stage(setup: Setup, graph: navmesh.NodeGraph | None = None) -> Stage:
 def _build(setup: Setup, character: Character) -> navmesh.NodeGraph:
     terrain = navmesh.Terrain.load(setup.level, up=setup.up, scale=setup.scale)
     beside = navmesh.tags_path(setup.level)
-    tags = navmesh.load_tags(beside) if beside.is_file() else None
+    # tags are of obstacles; what a body without skills steps over may be none
+    tags = navmesh.load_tags(beside) if character.skills and beside.is_file() else None
     return navmesh.NodeGraph.build(terrain, character.rules, character.obstacle_rules(), tags=tags)
 
 

@@ -29,11 +29,30 @@ class Wording:
         self.character = character
         self.noun = character.noun
 
-    def abilities(self) -> str:
-        """As in "a person steps 0.15 m and jumps 0.70 m"."""
-        jump = self.character.reach("jump")
-        steps = f"a {self.noun} steps {self.character.rules.max_step:.2f} m"
-        return f"{steps} and jumps {jump:.2f} m" if jump else f"{steps} and does not jump"
+    def ups(self, rise: float) -> str:
+        """What the body does about ``rise`` [m]: "a person steps 0.15 m and jumps 0.28 to 0.52 m"."""
+        step = self.character.rules.max_step
+        if step < rise and self._in_range("jump", rise):
+            return f"a {self.noun} jumps that only where there is room to run up and to land"
+        return f"a {self.noun} steps {step:.2f} m and {self._range('jump')}"
+
+    def downs(self, fall: float) -> str:
+        """What the body does about a ``fall`` [m]."""
+        if self._in_range("drop", fall):
+            return f"a {self.noun} drops that only where there is room before it and to land"
+        return f"a {self.noun} {self._range('drop')}"
+
+    def _in_range(self, skill: str, size: float) -> bool:
+        low, high = self.character.skills.get(skill, (1.0, 0.0))
+        return low <= size <= high
+
+    def _range(self, skill: str) -> str:
+        """As in "jumps 0.28 to 0.52 m", or "jumps 0.70 m" where what is less is no obstacle."""
+        low, high = self.character.skills.get(skill, (0.0, 0.0))
+        if not high:
+            return f"does not {skill}"
+        least = f"{low:.2f} to " if low > self.character.rules.max_step else ""
+        return f"{skill}s {least}{high:.2f} m"
 
     def unreachable(self, kind: str, centre: np.ndarray, area: float, barrier: Barrier | None) -> str:
         """Why a part of the level cannot be reached."""
@@ -45,12 +64,10 @@ class Wording:
             need = 2.0 * self.character.radius
             return f"{what}: the passage at {at} is {size:.2f} m wide; a {self.noun} needs {need:.2f} m"
         if kind == "step":
-            return (
-                f"{what}: the step at {at} is {size:.2f} m high; {self.abilities()}, with room for a run-up"
-            )
+            return f"{what}: the step at {at} is {size:.2f} m high; {self.ups(size)}"
         if kind == "ledge":
             edge = f"its lowest edge, at {at}, is {size:.2f} m above the floor beside it"
-            return f"{what}: {edge}; {self.abilities()}"
+            return f"{what}: {edge}; {self.ups(size)}"
         if barrier.kind == "gap":
             leap = self.character.reach("gap")
             able = f"leaps {leap:.2f} m" if leap else "does not leap gaps"
@@ -58,10 +75,8 @@ class Wording:
         if kind == "walled_off":
             return f"{what}: a wall stands between it and the floor beside it at {at}"
         if barrier.size > 0.0:
-            return f"{what}: it is {size:.2f} m above the floor at {at}; {self.abilities()}"
-        drop = self.character.reach("drop")
-        able = f"drops {drop:.2f} m" if drop else "does not drop"
-        return f"{what}: it is {size:.2f} m below the floor at {at}; a {self.noun} {able}"
+            return f"{what}: it is {size:.2f} m above the floor at {at}; {self.ups(size)}"
+        return f"{what}: it is {size:.2f} m below the floor at {at}; {self.downs(size)}"
 
     def no_return(self, kind: str, centre: np.ndarray, area: float, entry, out: Barrier | None) -> str:
         """What is entered but not left."""
@@ -74,9 +89,8 @@ class Wording:
             return text
         if out.size > 0.0:
             edge = f"its lowest edge, at {place(out.place)}, is {out.size:.2f} m high"
-            return f"{text}; {edge}; {self.abilities()}"
-        drop = self.character.reach("drop")
-        return f"{text}; at {place(out.place)} it is {-out.size:.2f} m down; a {self.noun} drops {drop:.2f} m"
+            return f"{text}; {edge}; {self.ups(out.size)}"
+        return f"{text}; at {place(out.place)} it is {-out.size:.2f} m down; {self.downs(-out.size)}"
 
     def hole(self, centre: np.ndarray, area: float) -> str:
         """A place without floor."""

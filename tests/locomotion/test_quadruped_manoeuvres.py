@@ -23,6 +23,7 @@ from locomotion.quadruped.following import wrap
 from locomotion.quadruped.footprint import key_balls, script_places
 from locomotion.quadruped.local_motion import play_blends
 from locomotion.quadruped.script import into_flex
+from locomotion.quadruped.turning import turn_script
 
 DOG = load_body("dog")
 
@@ -228,3 +229,12 @@ def test_told_anew_while_it_turns_onto_its_path_it_takes_the_new_one():
 def test_a_goal_that_is_none_is_refused(goals):
     with pytest.raises(LocomotionError, match="goals must be finite"):
         animal_on(plane()).go_to(goals)
+
+
+def test_a_long_body_without_room_is_not_turned():
+    horse = load_body("horse")
+    ground = Ground.from_arrays(*quads(floor(x0=-1.5, x1=3.0)))
+    for yaw in np.linspace(-3.0, 3.0, 13):
+        place = Place(0.0, 0.0, 0.0, 0.0)
+        script = turn_script(horse, ground, place, yaw)
+        assert script is None or check_script(script, horse, ground).free

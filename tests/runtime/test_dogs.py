@@ -77,6 +77,27 @@ def test_a_goal_in_a_wall_or_off_the_level_blocks_it(graph):
         dog.go_to((6.0, 3.0, 0.0), speed=-1.0)
 
 
+def test_a_horse_that_is_told_to_go_where_its_rear_feet_are_says_that_it_cannot(graph):
+    world = World(graph)
+    horse = world.spawn("horse", (4.0, 3.0, 0.0))
+    assert horse.go_to((4.0, 3.0, 0.0)) == "blocked"
+    assert isinstance(world.events[-1], Blocked)
+    assert horse.go_to((9.0, 3.0, 0.0)) == "running"
+
+
+def test_a_horse_beside_walls_turns_or_says_that_it_cannot():
+    corners = np.array([(0.0, 0.0, 0.0), (8.0, 0.0, 0.0), (8.0, 2.6, 0.0), (0.0, 2.6, 0.0)])
+    lane = navmesh.Terrain.from_arrays(corners, np.array([(0, 1, 2), (0, 2, 3)]))
+    world = World(navmesh.NodeGraph.build(lane, walk_rules(["horse"])))
+    for place in ((4.0, 1.3), (4.0, 0.7), (4.0, 1.9)):
+        horse = world.spawn("horse", (*place, 0.0))
+        assert horse.go_to((1.0, 1.3, 0.0)) in ("running", "blocked")  # that is behind it
+        while horse.moving:
+            world.step(0.1)
+        assert horse.status in ("arrived", "stuck")
+        horse.remove()
+
+
 def test_a_dog_needs_room_for_its_head():
     corners = [(0, 0, 0), (6, 0, 0), (6, 4, 0), (0, 4, 0), (3, 0, 0), (3, 4, 0), (3, 4, 1.5), (3, 0, 1.5)]
     faces = [(0, 1, 2), (0, 2, 3), (4, 5, 6), (4, 6, 7)]

@@ -18,11 +18,13 @@ import navmesh
 from benchmarks.playtest_faults import COURTYARD, plants
 from navmesh.yamlfile import FileError
 from runtime.cli import main
-from runtime.playtest import compare, playtest, read_report, write_report
+from runtime.playtest import bots, compare, playtest, read_report, write_report
 from runtime.playtest.analysis import analyse, core_parts
 from runtime.playtest.bots import run_bot
 from runtime.playtest.character import character_of
-from runtime.playtest.movers import WalkerMover
+from runtime.playtest.looks import figure_of
+from runtime.playtest.movers import WalkerMover, WorldMover
+from runtime.playtest.observation import sighted
 from runtime.playtest.page import write_page
 from runtime.playtest.plan import LoadedPlan
 from runtime.playtest.replay import replay
@@ -31,10 +33,10 @@ from runtime.playtest.site import Site
 NOBODY = np.empty(0, dtype=np.int64)
 
 
-def site_of(mesh, tags=None):
-    walker = character_of("walker")
+def site_of(mesh, tags=None, body="walker"):
+    player = character_of(body)
     terrain = navmesh.Terrain.from_arrays(mesh.vertices, mesh.faces)
-    return Site(navmesh.NodeGraph.build(terrain, walker.rules, walker.obstacle_rules(), tags=tags), walker)
+    return Site(navmesh.NodeGraph.build(terrain, player.rules, player.obstacle_rules(), tags=tags), player)
 
 
 def slab(x0, x1, y0, y1, z0, z1):
@@ -90,6 +92,40 @@ def test_the_pit_is_a_trap_and_bots_meet_it(outcome):
     assert outcome.report.coverage[-1][1] > 0.5
 
 
+def unreached(mesh, body="walker"):
+    """What cannot be reached, or not be left again, from the largest part of a level."""
+    site = site_of(mesh, body=body)
+    return analyse(site, core_parts(site), NOBODY, NOBODY)
+
+
+def test_floor_inside_a_block_is_no_fault_but_floor_inside_a_room_is():
+    floor, block = slab(0, 20, 0, 12, -1, 0), slab(2, 5, 4, 8, 0, 3)
+    assert [fault for fault in unreached(trimesh.util.concatenate([floor, block])) if fault.fails] == []
+    bottomless = block.copy()
+    bottomless.update_faces(bottomless.face_normals[:, 2] > -0.5)
+    assert [each for each in unreached(trimesh.util.concatenate([floor, bottomless])) if each.fails] == []
+    inside = slab(13, 16, 4, 8, 0, 3)  # the block in the room is nobody's either
+    walls = [slab(10, 10.3, 1, 11, 0, 4), slab(18.7, 19, 1, 11, 0, 4)]
+    walls += [slab(10, 19, 1, 1.3, 0, 4), slab(10, 19, 10.7, 11, 0, 4)]
+    faults = [fault for fault in unreached(trimesh.util.concatenate([floor, block, inside, *walls]))]
+    (fault,) = (each for each in faults if each.fails)
+    assert fault.kind == "walled_off" and 10 < fault.position[0] < 19
+
+
+def test_a_gap_is_not_called_a_wall():
+    gap = trimesh.util.concatenate([slab(0, 12, 0, 6, -0.3, 0), slab(13, 20, 0, 6, -0.3, 0)])
+    (fault,) = (each for each in unreached(gap, body="human") if each.kind != "open_edge")
+    assert fault.kind == "unreachable"
+    assert "the gap at" in fault.text and "1.00 m wide; a person does not leap gaps" in fault.text
+
+
+def test_what_is_too_low_for_a_skill_is_said_with_its_range():
+    low = trimesh.util.concatenate([slab(0, 20, 0, 12, -1, 0), slab(12, 20, 0, 12, 0, 0.45)])
+    (fault,) = (each for each in unreached(low, body="human") if each.kind == "one_way")
+    least, most = character_of("human").skills["drop"]
+    assert f"0.45 m down; a person drops {least:.2f} to {most:.2f} m" in fault.text
+
+
 def test_obstacles_are_tried_and_cleared(outcome):
     jumps = [each for each in outcome.report.crossings if each.affordance == "jump"]
     assert len(jumps) == 3 and all(each.cleared > 0 for each in jumps)
@@ -124,6 +160,39 @@ def test_a_roamer_falls_through_a_hole():
 def test_a_body_of_a_world_plays_too(level):
     report = playtest(level, bots=2, seconds=6.0, seed=1, body="dog").report
     assert report.character["body"] == "dog" and report.coverage[-1][1] > 0.0
+
+
+def test_a_body_beside_a_wall_appears_as_there_is_room(level):
+    mover = WorldMover(playtest(level, bots=0, body="dog").stage.site)
+    for heading in np.linspace(-np.pi, np.pi, 5):  # the wall is at x = 0, its head 0.7 m before its rear feet
+        mover.appear(np.array([0.4, 6.0, 0.0]), heading)
+        assert np.linalg.norm(mover.place[:2] - [0.4, 6.0]) < 0.8
+
+
+def test_people_give_the_same_report_in_two_processes(level):
+    reports = [
+        playtest(level, bots=4, seconds=12.0, seed=3, body="human", processes=number).report
+        for number in (1, 2)
+    ]
+    one, two = (json.dumps(report.to_dict()) for report in reports)
+    assert one == two and reports[0].coverage[-1][1] > 0.0
+
+
+def test_the_replay_of_a_body_of_a_world_shows_its_figure(level, monkeypatch):
+    monkeypatch.setattr(bots, "_MARGIN", 0.2)  # it gives up long before it is there
+    outcome = playtest(level, bots=1, seconds=30.0, seed=1, body="dog")
+    fault = next(each for each in outcome.report.faults if each.sightings)
+    trace = replay(outcome.report, outcome.report.faults.index(fault) + 1)
+    (agent,) = trace.agents
+    assert agent.figure.bodies == figure_of(character_of("dog")).bodies
+    assert agent.poses.shape[1:] == (len(agent.figure.bodies), 7)
+    assert np.linalg.norm(agent.poses[-1, 0, :2] - fault.sightings[0].position[:2]) < 1.0
+    trouble = sighted(outcome.runs[0], fault.sightings[0])
+    assert trouble is not None and np.array_equal(agent.poses, trouble.poses)
+
+
+def test_a_horse_plays_a_level_whose_tagged_obstacles_it_steps_over():
+    assert playtest(COURTYARD, bots=1, seconds=3.0, body="horse").report.coverage[-1][1] > 0.0
 
 
 def test_a_report_is_read_as_it_was_written(outcome, tmp_path):

@@ -16,13 +16,15 @@ from __future__ import annotations
 import math
 import threading
 import weakref
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import TypeVar
 
 import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from locomotion import controller, giving_way, path_tracking
+from locomotion.approach import ApproachPlan
 from locomotion.clearing import ClearingSkill, foot_distance, plan_run_up, skill_for
 from locomotion.controller import observe, run_tick
 from locomotion.errors import LocomotionError
@@ -54,6 +56,7 @@ from locomotion.human_state import (
 from locomotion.library import learned_skills
 from locomotion.path_tracking import RUN_UP, PathTable, make_path, new_track, shifted, track
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK, PersonIndex, build_person
+from locomotion.rehearsal import RUN_UPS, SLOWINGS, clears, first_good, runs_on, walks_on
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill, load_run_skill, reset_running, run_on
 from locomotion.slow_down import SLOWING, SlowDownSkill, can_walk_on, load_slow_down_skill, walk_on
@@ -82,10 +85,11 @@ STRAYED = 2.0
 """[m] beside the path at which a person gives up following it."""
 STUCK_TIME = 8.0
 """[s] without headway along the path after which a person counts as stuck."""
-_NEXT, _STEPS_SEEN, _PLANNED, _SLOWS = range(4)
-_RUN_UP_SIZE = 4
+_NEXT, _STEPS_SEEN, _PLANNED, _SLOWS, _FARTHER, _FASTER, _REHEARSED, _SLOWING = range(8)
+_RUN_UP_SIZE = 8
 # number of the next obstacle, steps made when the run-up was last planned, speed planned for this step or 0,
-# 1 while it slows down to a walk
+# 1 while it slows down to a walk; chosen in rehearsal: [m] that the mark is farther from the obstacle, [m/s]
+# that the entry is faster, 1 once that is done and nothing has disturbed it since; deceleration [m/s^2]
 _WALK_ARRIVAL = 0.15  # [m] before the end of its path at which a walking person stops
 _TURN_FIRST = 0.7  # [rad] off its way at which a walking person turns on the spot
 _SETTLING = 600  # ticks in which a person that has stopped walking comes to rest
@@ -101,6 +105,8 @@ _GAINS = np.array(
     [0.35, 1.2, 0.15, 0.45, 0.5, 0.05]
 )  # hardly any sideways speed: the run was not learned with it
 _WALK_GAINS = np.array([0.5, 0.6, 0.05, 0.3, 0.8, 0.25])
+
+_T = TypeVar("_T")
 
 _models: weakref.WeakKeyDictionary[Ground, tuple[mujoco.MjModel, PersonIndex]] = weakref.WeakKeyDictionary()
 _plane: list[tuple[mujoco.MjModel, PersonIndex]] = []
@@ -141,10 +147,13 @@ class Human:
         clearing: Sequence[ClearingSkill] | None = None,
         walk: WalkSkill | None = None,
         slow_down: SlowDownSkill | None = None,
+        rehearsals: int = 16,
     ) -> None:
         """``ground``: None is the endless plane z = 0. ``skill``: how it runs; None loads the package's.
         ``clearing``: how it clears obstacles; None: by what comes with the package (`learned_skills`).
-        ``walk``, ``slow_down``: how it walks, and how it comes to it from a run; None loads the package's."""
+        ``walk``, ``slow_down``: how it walks, and how it comes to it from a run; None loads the package's.
+        ``rehearsals``: how many variations of a take-off it tries out at most before it takes off
+        (`locomotion.rehearsal`); 0: none."""
         self.ground = ground
         self.skill = load_run_skill() if skill is None else skill
         self.clearing = learned_skills(self.skill) if clearing is None else tuple(clearing)
@@ -152,6 +161,9 @@ class Human:
         self.data = mujoco.MjData(self.model)
         self.gait = load_walk_skill() if walk is None else walk
         slow_down = load_slow_down_skill() if slow_down is None else slow_down
+        self._rehearsals = rehearsals
+        self._slow_down = slow_down
+        self._understudy: Human | None = None
         self._slow_run = slow_down.run_tables(self.skill)
         self._first_steps = slow_down.walk_tables(self.gait)
         self.limits = run_limits(self.skill)
@@ -420,6 +432,8 @@ class Human:
                 self._run_if_due(self._path)
             else:
                 self._walk_if_due(self._path)
+                if self._rehearsals and self._obstacles and self.gait_now == "run":
+                    self._rehearse_take_off()
 
     def _walk_tables(self) -> NDArray[np.float64]:
         """The gains with which it walks now."""
@@ -447,7 +461,7 @@ class Human:
             self._command[1] = pace * min(self._command[1], self.gait.speed)
             return
         if self._run_up[_SLOWS] > 0.0:
-            self._command[1:3] = state[controller.SPEED] - SLOWING * CONTROL_DT, 0.0
+            self._command[1:3] = state[controller.SPEED] - self._run_up[_SLOWING] * CONTROL_DT, 0.0
             return
         if state[controller.STEPS] >= 2.0:
             self._command[1] = min(self._command[1], state[controller.STEP_SPEED] + _HASTE)
@@ -464,19 +478,30 @@ class Human:
             return
         speed = run_entry_speed(walk, self._control, float(self._command[0]))
         if speed is not None:
-            run_on(self._control, walk[WALK_STANCE], walk[WALK_HEADING], speed)
-            walk[WALKS] = 0.0
-            self.status = "running"
+            speed, went = self._rehearse((speed, 1.1 * speed, 0.9 * speed), Human.run, runs_on)
+            if went > 0.0 or not self._rehearsals:
+                self.run(speed)
+
+    def run(self, speed: float) -> None:
+        """Go over from walking to running at ``speed`` [m/s]."""
+        run_on(self._control, self._walk[WALK_STANCE], self._walk[WALK_HEADING], speed)
+        self._walk[WALKS] = 0.0
+        self.status = "running"
 
     def _walk_if_due(self, path: PathTable) -> None:
         """Where the path is not run, slow down, and go over to walking just after a foot was put down."""
         state = self._control
-        if self.status not in MOVING or not path.runs(self._memory[path_tracking.ARC]):
-            self._run_up[_SLOWS] = 1.0
+        due = self.status not in MOVING or not path.runs(self._memory[path_tracking.ARC])
+        if due and self._run_up[_SLOWS] == 0.0:
+            self.slow_down(self._rehearse(SLOWINGS, Human.slow_down, walks_on)[0])
         if self._run_up[_SLOWS] > 0.0 and can_walk_on(state):
             walk_on(self.data, self.index, self._first_steps[0], self.gait.speed, state, self._walk)
             self._run_up[_SLOWS] = 0.0
             self.status = "walking" if self.status in MOVING else self.status
+
+    def slow_down(self, deceleration: float) -> None:
+        """Begin to slow down from the run to a walk [m/s^2]."""
+        self._run_up[[_SLOWS, _SLOWING]] = 1.0, deceleration
 
     def _clear(self) -> None:
         """After the run's tick: plan the run-up at each stance switch, start the skill at its mark, tick
@@ -488,13 +513,13 @@ class Human:
         if self._clearing is None:
             ahead = obstacle.arc_length - self._memory[path_tracking.ARC]
             if ahead < 0.0:
-                self._run_up[_NEXT], self._run_up[_PLANNED] = number + 1, 0.0
+                self._next_obstacle()
             elif ahead < RUN_UP and state[controller.STEPS] != self._run_up[_STEPS_SEEN]:
                 self._run_up[_STEPS_SEEN] = state[controller.STEPS]
                 self._plan_step(obstacle, skill)
         if self._clearing is not None and skill.tick(obstacle, self._clearing, state, self.data):
             self._clearing = None
-            self._run_up[_NEXT], self._run_up[_PLANNED] = number + 1, 0.0
+            self._next_obstacle()
             if self.status in MOVING:
                 self.status = skill.ends
             else:
@@ -502,6 +527,55 @@ class Human:
             if skill.ends == "walking":
                 rise_walking(self._walk, state, self.yaw)
             self.events.append(Cleared(self.time, self._point(), obstacle.affordance, obstacle.height))
+
+    @property
+    def obstacle_ahead(self) -> ObstacleAhead | None:
+        """The next obstacle on its path, or the one that it clears now."""
+        number = int(self._run_up[_NEXT])
+        return self._obstacles[number] if number < len(self._obstacles) else None
+
+    def _rehearse_take_off(self) -> None:
+        """Just after the last but one step of a run-up has begun: choose among its variations."""
+        state, obstacle = self._control, self.obstacle_ahead
+        just_planned = state[controller.STEP_TIME] == 0.0 and self._run_up[_PLANNED] > 0.0
+        if obstacle is None or not just_planned or self._run_up[_REHEARSED] > 0.0:
+            return
+        if 1 <= len(self._plan(obstacle).speeds) <= 3:
+            choice, went = self._rehearse(RUN_UPS, Human.vary_run_up, clears)
+            self._run_up[_REHEARSED] = float(went > 0.0)
+            self.vary_run_up(choice)
+
+    def _rehearse(
+        self, choices: Sequence[_T], choose: Callable[[Human, _T], None], goes_well: Callable[[Human], float]
+    ) -> tuple[_T, float]:
+        """The best of ``choices``, see `rehearsal.first_good`."""
+        if not self._rehearsals:
+            return choices[0], 0.0
+        if self._understudy is None or self._understudy.model is not self.model:
+            self._understudy = Human(
+                self.ground, self.skill, self.clearing, self.gait, self._slow_down, rehearsals=0
+            )
+        return first_good(self, self._understudy, choices[: self._rehearsals], choose, goes_well)
+
+    def vary_run_up(self, choice: tuple[float, ...]) -> None:
+        """Plan the step of the run-up that has begun with a mark that is farther from the obstacle [m], and an
+        entry that is faster [m/s]."""
+        self._run_up[[_FARTHER, _FASTER]] = choice
+        obstacle = self.obstacle_ahead
+        assert obstacle is not None
+        plan = self._plan(obstacle)
+        if len(plan.speeds):
+            self._run_up[_PLANNED] = plan.speeds[0]
+
+    def _next_obstacle(self) -> None:
+        number = self._run_up[_NEXT]
+        self._run_up[[_PLANNED, _FARTHER, _FASTER, _REHEARSED]] = 0.0
+        self._run_up[_NEXT] = number + 1.0
+
+    def _plan(self, obstacle: ObstacleAhead) -> ApproachPlan:
+        """The rest of the run-up."""
+        farther, faster = self._run_up[[_FARTHER, _FASTER]]
+        return plan_run_up(self._control, obstacle, self._skill_ahead(), self.skill, farther, faster)
 
     def _skill_ahead(self) -> ClearingSkill:
         """The skill for the next obstacle; `follow` has made sure that there is one."""
@@ -512,7 +586,7 @@ class Human:
     def _plan_step(self, obstacle: ObstacleAhead, skill: ClearingSkill) -> None:
         """At a stance switch: the speed of the step that begins, or the start of the skill."""
         state = self._control
-        plan = plan_run_up(state, obstacle, skill, self.skill)
+        plan = self._plan(obstacle)
         if len(plan.speeds):
             self._run_up[_PLANNED] = plan.speeds[0]
             return

@@ -108,11 +108,18 @@ def run_up_speeds(entry: float, run: RunSkill) -> tuple[float, float]:
 
 
 def plan_run_up(
-    state: NDArray[np.float64], obstacle: ObstacleAhead, skill: ClearingSkill, run: RunSkill
+    state: NDArray[np.float64],
+    obstacle: ObstacleAhead,
+    skill: ClearingSkill,
+    run: RunSkill,
+    farther: float = 0.0,
+    faster: float = 0.0,
 ) -> ApproachPlan:
-    """Speeds of the remaining steps, planned at a stance switch; none: start the skill at this step."""
+    """Speeds of the remaining steps, planned at a stance switch; none: start the skill at this step.
+
+    farther [m], faster [m/s]: changes of the skill's mark and entry speed."""
     entry, mark = skill.approach(obstacle.height)
-    entry = min(max(entry, run.speeds[0]), run.speeds[1])
+    entry, mark = min(max(entry + faster, run.speeds[0]), run.speeds[1]), mark + farther
     low, high = run_up_speeds(entry, run)
     if state[controller.STEPS] >= 2.0:
         high = max(entry, min(high, float(state[controller.STEP_SPEED]) + _HASTE))

@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 from locomotion import MOVING, Ground, Human, ObstacleAhead
 from locomotion.clearing import ClearingSkill
 from locomotion.events import Cleared, TookOff
-from locomotion.hand_hold import holding
-from locomotion.person import MASS
+from locomotion.passage import Passage, watch
 
 __all__ = ["AFTER", "Course", "CourseRun", "Passage", "enter_course", "held", "make_course", "run_course"]
 
@@ -21,12 +20,6 @@ SPEED = 3.5
 _SLOWEST = 1.0  # [m/s]: who is slower over the whole course has not made it
 _HALF = 5.0  # [m] of the course's width
 _EDGE = 1e-3  # [m] of the path on both sides of an edge
-_STAIR = 1.0  # [m] behind the edge of what is jumped onto that only feet may touch
-_SOLES = 0.02  # [m] above the floor before it from which a contact is one with the obstacle
-_MAY_TOUCH = {
-    "jump": ("foot", "toes"),
-    "vault": ("hand", "forearm"),
-}
 _FALLEN = ("in the run-up", "in the skill", "afterwards")
 
 
@@ -39,27 +32,6 @@ class Course:
     faces: NDArray[np.int64]
     path: NDArray[np.float64]
     obstacles: tuple[ObstacleAhead, ...]
-
-
-@dataclass
-class Passage:
-    """How one obstacle was cleared.
-
-    takeoff_error [m], speed_error [m/s]: as in `locomotion.events.TookOff`; NaN where there was none.
-    cleared: whether the skill came to its end. touched: whether anything but feet touched what is jumped
-    onto, or anything but hands and forearms what is vaulted. held: time that a hand held on [s]. planted:
-    where it did, as share of the thickness from the near edge. head: time that the head touched the ground
-    [s]. peak: highest reaction of the ground, after a physics step [body weights].
-    """
-
-    takeoff_error: float = np.nan
-    speed_error: float = np.nan
-    cleared: bool = False
-    touched: bool = False
-    held: float = 0.0
-    planted: float = np.nan
-    head: float = 0.0
-    peak: float = 0.0
 
 
 @dataclass
@@ -142,7 +114,7 @@ def run_course(
                 passage.cleared, where = True, 2
         seen = len(human.events)
         if passage is not None and not passage.cleared:
-            _watch(human, course.obstacles[len(run.passages) - 1], passage)
+            watch(human.index, human.model, human.data, course.obstacles[len(run.passages) - 1], passage)
     run.ended = human.status if human.status not in MOVING else "too slow"
     if run.ended == "fallen":
         run.ended += f" {_FALLEN[where]}"
@@ -154,30 +126,6 @@ def held(affordance: str, run: CourseRun) -> bool:
     if run.ended != "arrived" or not run.passages:
         return False
     return affordance != "vault" or run.passages[0].held > 0.0
-
-
-def _watch(human: Human, obstacle: ObstacleAhead, passage: Passage) -> None:
-    """Note what touches what in this tick."""
-    data, model = human.data, human.model
-    contact = data.contact
-    pushes = contact.efc_address >= 0
-    force = data.efc_force[contact.efc_address[pushes][:, None] + np.arange(4)].sum()
-    passage.peak = max(passage.peak, float(force) / (MASS * 9.81))
-    bodies = model.geom_bodyid[contact.geom].max(axis=1)  # the level's geoms belong to body 0
-    passage.head += 0.01 * bool((bodies[pushes] == human.index.head).any())
-    for side in (-1.0, 1.0):
-        if holding(data, side):
-            passage.held += 0.01
-            behind = float(data.mocap_pos[int(side > 0), 0]) - obstacle.position[0]
-            passage.planted = behind / max(obstacle.depth, 1e-9)
-    if obstacle.affordance in _MAY_TOUCH:
-        names = _MAY_TOUCH[obstacle.affordance]
-        allowed = [human.index.bodies[f"{side}_{name}"] for side in ("left", "right") for name in names]
-        deep = obstacle.depth + 0.05 if obstacle.affordance == "vault" else _STAIR
-        x = contact.pos[:, 0] - obstacle.position[0]
-        floor = obstacle.position[2] - obstacle.height + _SOLES
-        with_it = (x > -0.1) & (x < deep) & (contact.pos[:, 2] > floor)
-        passage.touched |= bool((with_it & ~np.isin(bodies, allowed)).any())
 
 
 def _extruded(profile: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:

@@ -22,6 +22,7 @@ import numpy as np
 from locomotion import Human
 from locomotion.clearing import ClearingSkill
 from locomotion.hand_hold import let_go_both
+from locomotion.rehearsal import REHEARSALS
 from locomotion.skill import load_run_skill
 from locomotion.vault_skill import Vault, load_vault_skill
 from runtime.courses import CourseRun, held, make_course, run_course
@@ -40,16 +41,20 @@ class Handless(Vault):
 
 
 def run_up(
-    affordance: str, height: float, distance: float, clearing: list[ClearingSkill] | None = None
+    affordance: str,
+    height: float,
+    distance: float,
+    rehearsals: int,
+    clearing: list[ClearingSkill] | None = None,
 ) -> CourseRun:
     """One start."""
     course = make_course([(affordance, height, WALL)], [distance])
-    return run_course(course, clearing, start_noise(17, distance))
+    return run_course(course, clearing, start_noise(17, distance), rehearsals=rehearsals)
 
 
-def summary(affordance: str, height: float, distances: np.ndarray) -> dict[str, Any]:
+def summary(affordance: str, height: float, distances: np.ndarray, rehearsals: int) -> dict[str, Any]:
     """The figures of one height."""
-    runs = [run_up(affordance, height, d) for d in distances]
+    runs = [run_up(affordance, height, d, rehearsals) for d in distances]
     good = [run.passages[0] for run in runs if held(affordance, run)]
     taken = [run.passages[0] for run in runs if run.passages]
 
@@ -73,7 +78,7 @@ def summary(affordance: str, height: float, distances: np.ndarray) -> dict[str, 
         figures["middle"] = mean([abs(p.planted - 0.5) <= 0.25 for p in good])
         figures["hand_held"] = mean([p.held for p in good])
         figures["without_joint"] = mean(
-            [run_up(affordance, height, d, without).ended == "arrived" for d in again]
+            [run_up(affordance, height, d, rehearsals, without).ended == "arrived" for d in again]
         )
     return figures
 
@@ -101,6 +106,7 @@ def main() -> None:
     parser.add_argument("affordance", choices=["jump", "vault", "drop"])
     parser.add_argument("--heights", type=float, nargs="+", help="[m]; default: lowest, middle and highest")
     parser.add_argument("--every", type=float, default=0.1, help="step of the distance [m]")
+    parser.add_argument("--rehearsals", type=int, default=REHEARSALS, help="0: the bare skill")
     parser.add_argument("--json", type=Path, help="file to write")
     options = parser.parse_args()
     low, high = next(s.heights for s in Human().clearing if s.affordance == options.affordance)
@@ -109,7 +115,7 @@ def main() -> None:
     print(f"height  starts  held  clean  d error  v error  peak [body weights]{more}  ends")
     result = []
     for height in options.heights or (low, 0.5 * (low + high), high):
-        result.append(summary(options.affordance, height, distances))
+        result.append(summary(options.affordance, height, distances, options.rehearsals))
         show(result[-1])
     if options.json:
         options.json.write_text(json.dumps(result, indent=1) + "\n")

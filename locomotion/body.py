@@ -14,8 +14,6 @@ comes to a stand at its goal.
 from __future__ import annotations
 
 import math
-import threading
-import weakref
 from collections.abc import Callable, Sequence
 from typing import TypeVar
 
@@ -23,9 +21,8 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from locomotion import controller, giving_way, path_tracking
-from locomotion.approach import ApproachPlan
-from locomotion.clearing import ClearingSkill, foot_distance, plan_run_up, skill_for
+from locomotion import controller, path_tracking
+from locomotion.clearing import ClearingSkill, skill_for
 from locomotion.controller import observe, run_tick
 from locomotion.errors import LocomotionError
 from locomotion.events import (
@@ -39,9 +36,9 @@ from locomotion.events import (
     StrayedFromPath,
     TookOff,
 )  # fmt: skip
-from locomotion.gaits import run_entry_speed, run_limits, walk_limits
+from locomotion.gaits import PERSON_RULES, run_entry_speed, run_limits, walk_limits
 from locomotion.giving_way import Course
-from locomotion.ground import Ground, plane_lookup
+from locomotion.ground import Ground
 from locomotion.hand_hold import let_go_both
 from locomotion.human_state import (
     CLEARING,
@@ -54,12 +51,15 @@ from locomotion.human_state import (
     save_physics,
 )
 from locomotion.library import learned_skills
-from locomotion.path_tracking import RUN_UP, PathTable, make_path, new_track, shifted, track
-from locomotion.person import CONTROL_DT, STEPS_PER_TICK, PersonIndex, build_person
-from locomotion.rehearsal import RUN_UPS, SLOWINGS, clears, first_good, runs_on, walks_on
+from locomotion.obstacle_run import ObstacleRun, TakeOff
+from locomotion.path_tracking import PathTable, make_path, new_track, shifted, track
+from locomotion.person import CONTROL_DT, STEPS_PER_TICK
+from locomotion.person_course import course_on_path
+from locomotion.rehearsal import REHEARSALS, RUN_UPS, SLOWINGS, clears, first_good, walks_on
 from locomotion.route_smoothing import ObstacleAhead
+from locomotion.simulated_person import SimulatedPerson
 from locomotion.skill import RunSkill, load_run_skill, reset_running, run_on
-from locomotion.slow_down import SLOWING, SlowDownSkill, can_walk_on, load_slow_down_skill, walk_on
+from locomotion.slow_down import SlowDownSkill, can_walk_on, load_slow_down_skill, walk_on
 from locomotion.walk_layout import (
     CAUGHT,
     CLOCK,
@@ -77,26 +77,16 @@ from locomotion.walking import observe_walk, walk_tick
 
 __all__ = ["ARRIVAL_DISTANCE", "PERSON_RULES", "Human", "HumanState", "Status"]
 
-PERSON_RULES = {"radius": 0.3, "headroom": 1.9, "max_slope": math.radians(20.0), "max_step": 0.15}
-"""Where a person can run: radius [m], headroom [m], steepest slope [rad], highest step under a foot [m]."""
 ARRIVAL_DISTANCE = 0.5
 """A person has arrived when its centre of mass is within this horizontal distance of the goal [m]."""
 STRAYED = 2.0
 """[m] beside the path at which a person gives up following it."""
 STUCK_TIME = 8.0
 """[s] without headway along the path after which a person counts as stuck."""
-_NEXT, _STEPS_SEEN, _PLANNED, _SLOWS, _FARTHER, _FASTER, _REHEARSED, _SLOWING = range(8)
-_RUN_UP_SIZE = 8
-# number of the next obstacle, steps made when the run-up was last planned, speed planned for this step or 0,
-# 1 while it slows down to a walk; chosen in rehearsal: [m] that the mark is farther from the obstacle, [m/s]
-# that the entry is faster, 1 once that is done and nothing has disturbed it since; deceleration [m/s^2]
 _WALK_ARRIVAL = 0.15  # [m] before the end of its path at which a walking person stops
 _TURN_FIRST = 0.7  # [rad] off its way at which a walking person turns on the spot
 _SETTLING = 600  # ticks in which a person that has stopped walking comes to rest
 _STILL = 0.03  # [m/s] of the centre of mass at rest
-_WALK_BEND, _RUN_BEND = 1.0, 0.2  # [1/m] in which it goes out of somebody's way
-_SWAY = 0.07  # [m] that it is beside its path now and then
-_FORESEEN = 2.0 * giving_way.HORIZON  # [s] of its way that others are told of
 _HASTE = 1.3  # [m/s] that the speed asked for may exceed the last step's: more trips it in setting off
 _CHANGE = 0.01  # [m] by which the ground under a person at rest may change unnoticed
 _PATIENCE = 0.9  # of the time that it gives way does not count as being stuck
@@ -108,28 +98,8 @@ _WALK_GAINS = np.array([0.5, 0.6, 0.05, 0.3, 0.8, 0.25])
 
 _T = TypeVar("_T")
 
-_models: weakref.WeakKeyDictionary[Ground, tuple[mujoco.MjModel, PersonIndex]] = weakref.WeakKeyDictionary()
-_plane: list[tuple[mujoco.MjModel, PersonIndex]] = []
-_lock = threading.Lock()
 
-
-def _model_on(ground: Ground | None) -> tuple[mujoco.MjModel, PersonIndex]:
-    """The compiled person on a ground, made once for each ground."""
-    with _lock:
-        found = _models.get(ground) if ground is not None else (_plane[0] if _plane else None)
-        if found is None:
-            model = build_person(ground)
-            if ground is not None:
-                ground.check(model)
-            found = (model, PersonIndex.of(model))
-            if ground is None:
-                _plane.append(found)
-            else:
-                _models[ground] = found
-        return found
-
-
-class Human:
+class Human(SimulatedPerson):
     """A person under physics. `tick` advances it by 10 ms.
 
     Attributes:
@@ -147,18 +117,15 @@ class Human:
         clearing: Sequence[ClearingSkill] | None = None,
         walk: WalkSkill | None = None,
         slow_down: SlowDownSkill | None = None,
-        rehearsals: int = 16,
+        rehearsals: int = REHEARSALS,
     ) -> None:
         """``ground``: None is the endless plane z = 0. ``skill``: how it runs; None loads the package's.
         ``clearing``: how it clears obstacles; None: by what comes with the package (`learned_skills`).
         ``walk``, ``slow_down``: how it walks, and how it comes to it from a run; None loads the package's.
         ``rehearsals``: how many variations of a take-off it tries out at most before it takes off
         (`locomotion.rehearsal`); 0: none."""
-        self.ground = ground
+        super().__init__(ground)
         self.skill = load_run_skill() if skill is None else skill
-        self.clearing = learned_skills(self.skill) if clearing is None else tuple(clearing)
-        self.model, self.index = _model_on(ground)
-        self.data = mujoco.MjData(self.model)
         self.gait = load_walk_skill() if walk is None else walk
         slow_down = load_slow_down_skill() if slow_down is None else slow_down
         self._rehearsals = rehearsals
@@ -168,16 +135,14 @@ class Human:
         self._first_steps = slow_down.walk_tables(self.gait)
         self.limits = run_limits(self.skill)
         self._walk_limits = walk_limits(self.gait)
-        self._lookup = plane_lookup() if ground is None else ground.lookup
         self.events: list[Event] = []
-        self._control = controller.new_state()
         self._walk = new_walk()
         self._memory = new_track()
         self._command = np.zeros(4)
         self._path: PathTable | None = None
-        self._obstacles: tuple[ObstacleAhead, ...] = ()
-        self._run_up = np.zeros(_RUN_UP_SIZE)
-        self._clearing: NDArray[np.float64] | None = None
+        skills = learned_skills(self.skill) if clearing is None else clearing
+        self._obstacle_run = ObstacleRun(skills, self.skill)
+        self._slowing = 0.0  # [m/s^2] at which it slows down to a walk; 0: it does not
         self._ticks = 0
         self._ended_at = 0  # tick at which it fell or stopped
         self.status: Status = "standing"
@@ -186,45 +151,19 @@ class Human:
 
     # --- where it is
     @property
+    def clearing(self) -> tuple[ClearingSkill, ...]:
+        """How it clears obstacles."""
+        return self._obstacle_run.skills
+
+    @property
     def time(self) -> float:
         """Simulation time [s] since the person was made."""
         return self._ticks * CONTROL_DT
 
     @property
-    def control(self) -> NDArray[np.float64]:
-        """What the running controller remembers (its fields: `locomotion.run_layout`); a view."""
-        return self._control
-
-    @property
-    def com(self) -> NDArray[np.float64]:
-        """Centre of mass, (3,) float64 [m]."""
-        return self._control[controller.COM].copy()
-
-    @property
     def velocity(self) -> NDArray[np.float64]:
         """Velocity of the centre of mass, (3,) float64 [m/s]; zero while held."""
         return np.zeros(3) if self.held else self._control[controller.COM_VELOCITY].copy()
-
-    @property
-    def position(self) -> NDArray[np.float64]:
-        """The point of the ground under the centre of mass, (3,) float64 [m]."""
-        com, feet = self._control[controller.COM], self._control[controller.FEET]
-        x, y, z = float(com[0]), float(com[1]), float(min(feet[2], feet[5]))
-        if self.ground is None:
-            return np.array([x, y, 0.0])
-        below = float(self.ground.surface_below([[x, y, float(com[2])]])[0][0])
-        return np.array([x, y, below if np.isfinite(below) else z])
-
-    @property
-    def yaw(self) -> float:
-        """Direction that the pelvis faces [rad, -π to π]."""
-        w, x, y, z = self.data.qpos[3:7]
-        return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
-
-    @property
-    def qpos(self) -> NDArray[np.float64]:
-        """(46,) float64: root position [m], quaternion (w, x, y, z), angles [rad] of `person.JOINT_NAMES`."""
-        return self.data.qpos.copy()
 
     @property
     def held(self) -> bool:
@@ -243,7 +182,7 @@ class Human:
         """How it moves now: "walk" (or stand), "run", or "slow run" on its way from a run to a walk."""
         if self._walk[WALKS] > 0.0:
             return "walk"
-        return "slow run" if self._run_up[_SLOWS] > 0.0 else "run"
+        return "slow run" if self._slowing > 0.0 else "run"
 
     @property
     def arc_length(self) -> float:
@@ -254,11 +193,6 @@ class Human:
     def lateral_error(self) -> float:
         """Distance of the centre of mass to the left of the path [m]."""
         return float(self._memory[path_tracking.LATERAL])
-
-    def body_transforms(self) -> NDArray[np.float64]:
-        """Position [m] and quaternion (w, x, y, z) of each body of the model, (nbody, 7) float64."""
-        mujoco.mj_kinematics(self.model, self.data)
-        return np.hstack([self.data.xpos, self.data.xquat])
 
     # --- what it is told
     def reset(self, position: ArrayLike, yaw: float, speed: float = 0.0) -> None:
@@ -274,7 +208,8 @@ class Human:
         if not (np.isfinite(speed) and speed >= 0.0):
             raise LocomotionError(f"speed must be a finite number >= 0 m/s, not {speed}")
         self._place(place if self.ground is None else self._on_ground(place), yaw, speed)
-        self._path, self._obstacles, self._clearing = None, (), None
+        self._path = None
+        self._obstacle_run.begin(())
         self.status = "standing" if speed == 0.0 else "running"
 
     def follow(self, path: ArrayLike, speed: float, obstacles: Sequence[ObstacleAhead] = ()) -> None:
@@ -302,9 +237,8 @@ class Human:
             raise LocomotionError(f"the path begins at {start.round(2)}, the person is at {here.round(2)}")
         if self._walk[WALKS] == 0.0 and not running:
             self._place(here, self.yaw, 0.0)
-        self._path, self._obstacles = table, tuple(obstacles)
-        self._run_up[:_SLOWS] = 0.0
-        self._clearing = None
+        self._path = table
+        self._obstacle_run.begin(obstacles)
         let_go_both(self.data)
         self._memory[:] = new_track()
         self._memory[path_tracking.HEADWAY_TICK] = self._ticks
@@ -317,17 +251,15 @@ class Human:
         """Give up the path and come to a stand; what is being cleared is cleared first."""
         if self.status in MOVING:
             self.status, self._ended_at = "standing", self._ticks
-            if self._clearing is None:
-                self._obstacles = ()
+            if not self._obstacle_run.clearing:
+                self._obstacle_run.begin(())
 
     def change_ground(self, ground: Ground) -> None:
         """Go on as it is on another ground. One at rest whose footing has changed by more than 1 cm is
         simulated again; one with no ground at all below it counts as fallen from now on, and so does one
         that is held though it did not come to rest from a run and whose footing has changed."""
         before, state = self._footing(), self.save_state()
-        self.ground, self._lookup = ground, ground.lookup
-        self.model, self.index = _model_on(ground)
-        self.data = mujoco.MjData(self.model)
+        self._stand_on(ground)
         self.restore_state(state)
         now = self._footing()
         bottomless = bool(np.isnan(now).all() and not np.isnan(before).all())
@@ -337,11 +269,6 @@ class Human:
                 self._end("fallen", Fell(self.time, self._point(), 0.0, 0.0, self.arc_length))
             self._ended_at = self._ticks
             self._control[controller.COM_VELOCITY] = 0.0, 0.0, -_STILL  # not at rest any more
-
-    def _footing(self) -> NDArray[np.float64]:
-        """(2,) heights of the ground under the feet [m], NaN where there is none."""
-        assert self.ground is not None
-        return self.ground.surface_below(self._control[controller.FEET].reshape(2, 3))[0]
 
     @property
     def pace(self) -> float:
@@ -355,32 +282,12 @@ class Human:
 
     def course(self) -> Course | None:
         """What it is about to do; None for one that is not on its way, or clears an obstacle."""
-        path, memory = self._path, self._memory
-        if path is None or self.status not in ("walking", "running"):
+        if self._path is None or self.status not in ("walking", "running"):
             return None
         walks = self.status == "walking"
-        limits = self._walk_limits if walks else self.limits
-        arc, step = float(memory[path_tracking.ARC]), path.length / (len(path.table) - 1)
-        along = np.arange(
-            arc, min(path.length, arc + _FORESEEN * limits.speeds[1]) + 1e-9, giving_way.SPACING
-        )
-        rows = np.empty((len(along), path.table.shape[1]))
-        for k in range(rows.shape[1]):
-            rows[:, k] = np.interp(along / step, np.arange(len(path.table)), path.table[:, k])
-        return Course(
-            points=rows[:, :3],
-            speeds=np.minimum(rows[:, path_tracking.SPEED], limits.speeds[1]),
-            speed=float(np.linalg.norm(self.velocity[:2])),
-            pace=float(memory[path_tracking.PACE]),
-            length=0.0,
-            radius=PERSON_RULES["radius"] + _SWAY,
-            acceleration=limits.acceleration,
-            braking=limits.deceleration,
-            slowest=0.0 if walks else limits.speeds[0],
-            sharpest=_WALK_BEND if walks else _RUN_BEND,
-            begins=0.5 if walks else 1.0,
-            aside=int(self._run_up[_NEXT]) >= len(self._obstacles),
-        )
+        limits, aside = self._walk_limits if walks else self.limits, self._obstacle_run.ahead is None
+        speed = float(np.linalg.norm(self.velocity[:2]))
+        return course_on_path(self._path, self._memory, limits, speed, walks, aside)
 
     def give_way(self, pace: float, shift: NDArray[np.float64] | None) -> None:
         """Go at a share of the planned speed; with ``shift`` (k, 2) [m] change the path by it, one row for
@@ -388,6 +295,7 @@ class Human:
         assert self._path is not None
         self._memory[path_tracking.PACE] = pace
         if shift is not None:
+            self._obstacle_run.disturb()
             walk = self._walk_limits if self.status == "walking" else None
             self._path = shifted(self._path, self.arc_length, shift, self.limits, walk)
 
@@ -409,16 +317,18 @@ class Human:
         else:
             tables = self._slow_run if self.gait_now == "slow run" else self.skill.tables
             run_tick(*tables, state, self._command, data.qpos, data.qvel, data.ctrl)
-            if self._obstacles and self.status != "fallen" and self.gait_now == "run":
+            if self.status != "fallen" and self.gait_now == "run":
                 self._clear()
+        if data.xfrc_applied.any():
+            self._obstacle_run.disturb()
         mujoco.mj_step(self.model, data, STEPS_PER_TICK)
         observe(self.index, self.model, data, state)
         if self._walk[WALKS] > 0.0:
             observe_walk(self.index, data, self._walk)
         if self.status == "fallen":
             return
-        if self._clearing is not None:
-            state[controller.FALLEN] = float(self._skill_ahead().fell(self._clearing, state))
+        if self._obstacle_run.clearing:
+            state[controller.FALLEN] = float(self._obstacle_run.fell(state))
         elif self._walk[WALKS] > 0.0 and self._walk[WALK_TICKS] < RISING:
             state[controller.FALLEN] = 0.0  # after a roll it begins to walk from a crouch
         if state[controller.FALLEN] > 0.0:
@@ -427,13 +337,12 @@ class Human:
             self._end("fallen", Fell(self.time, self._point(), speed, slope, self.arc_length))
         elif self._path is not None and self.status in MOVING:
             self._notice()
-        if self._path is not None and self._clearing is None and self.status != "fallen":
+        if self._path is not None and not self._obstacle_run.clearing and self.status != "fallen":
             if self._walk[WALKS] > 0.0:
                 self._run_if_due(self._path)
             else:
                 self._walk_if_due(self._path)
-                if self._rehearsals and self._obstacles and self.gait_now == "run":
-                    self._rehearse_take_off()
+                self._rehearse_take_off()
 
     def _walk_tables(self) -> NDArray[np.float64]:
         """The gains with which it walks now."""
@@ -460,13 +369,13 @@ class Human:
                 self._command[1:3] = 0.0
             self._command[1] = pace * min(self._command[1], self.gait.speed)
             return
-        if self._run_up[_SLOWS] > 0.0:
-            self._command[1:3] = state[controller.SPEED] - self._run_up[_SLOWING] * CONTROL_DT, 0.0
+        if self._slowing > 0.0:
+            self._command[1:3] = state[controller.SPEED] - self._slowing * CONTROL_DT, 0.0
             return
         if state[controller.STEPS] >= 2.0:
             self._command[1] = min(self._command[1], state[controller.STEP_SPEED] + _HASTE)
-        if self._run_up[_PLANNED] > 0.0:
-            self._command[1] = self._run_up[_PLANNED]
+        if self._obstacle_run.planned > 0.0:
+            self._command[1] = self._obstacle_run.planned
         else:
             self._command[1] = max(pace * self._command[1], min(self._command[1], self.limits.speeds[0]))
 
@@ -478,77 +387,65 @@ class Human:
             return
         speed = run_entry_speed(walk, self._control, float(self._command[0]))
         if speed is not None:
-            speed, went = self._rehearse((speed, 1.1 * speed, 0.9 * speed), Human.run, runs_on)
-            if went > 0.0 or not self._rehearsals:
-                self.run(speed)
-
-    def run(self, speed: float) -> None:
-        """Go over from walking to running at ``speed`` [m/s]."""
-        run_on(self._control, self._walk[WALK_STANCE], self._walk[WALK_HEADING], speed)
-        self._walk[WALKS] = 0.0
-        self.status = "running"
+            run_on(self._control, walk[WALK_STANCE], walk[WALK_HEADING], speed)
+            walk[WALKS] = 0.0
+            self.status = "running"
 
     def _walk_if_due(self, path: PathTable) -> None:
         """Where the path is not run, slow down, and go over to walking just after a foot was put down."""
         state = self._control
         due = self.status not in MOVING or not path.runs(self._memory[path_tracking.ARC])
-        if due and self._run_up[_SLOWS] == 0.0:
+        if due and self._slowing == 0.0:
             self.slow_down(self._rehearse(SLOWINGS, Human.slow_down, walks_on)[0])
-        if self._run_up[_SLOWS] > 0.0 and can_walk_on(state):
+        if self._slowing > 0.0 and can_walk_on(state):
             walk_on(self.data, self.index, self._first_steps[0], self.gait.speed, state, self._walk)
-            self._run_up[_SLOWS] = 0.0
+            self._slowing = 0.0
             self.status = "walking" if self.status in MOVING else self.status
 
     def slow_down(self, deceleration: float) -> None:
         """Begin to slow down from the run to a walk [m/s^2]."""
-        self._run_up[[_SLOWS, _SLOWING]] = 1.0, deceleration
+        self._slowing = deceleration
 
     def _clear(self) -> None:
-        """After the run's tick: plan the run-up at each stance switch, start the skill at its mark, tick
-        it."""
-        number = int(self._run_up[_NEXT])
-        if number >= len(self._obstacles):
-            return
-        state, obstacle, skill = self._control, self._obstacles[number], self._skill_ahead()
-        if self._clearing is None:
-            ahead = obstacle.arc_length - self._memory[path_tracking.ARC]
-            if ahead < 0.0:
-                self._next_obstacle()
-            elif ahead < RUN_UP and state[controller.STEPS] != self._run_up[_STEPS_SEEN]:
-                self._run_up[_STEPS_SEEN] = state[controller.STEPS]
-                self._plan_step(obstacle, skill)
-        if self._clearing is not None and skill.tick(obstacle, self._clearing, state, self.data):
-            self._clearing = None
-            self._next_obstacle()
+        """After the run's tick: what has to be done for the obstacle ahead."""
+        happened = self._obstacle_run.tick(self.arc_length, self._control, self.data)
+        obstacle = self._obstacle_run.ahead
+        if isinstance(happened, TakeOff):
+            assert obstacle is not None
+            kind, height = obstacle.affordance, obstacle.height
+            self.status = CLEARING[kind]
+            self.events.append(TookOff(self.time, self._point(), kind, height, happened.early, happened.fast))
+        elif happened is not None:
+            ends = self._obstacle_run.skill_for(happened).ends
             if self.status in MOVING:
-                self.status = skill.ends
+                self.status = ends
             else:
-                self._obstacles = ()  # it was told to stop meanwhile
-            if skill.ends == "walking":
-                rise_walking(self._walk, state, self.yaw)
-            self.events.append(Cleared(self.time, self._point(), obstacle.affordance, obstacle.height))
+                self._obstacle_run.begin(())  # it was told to stop meanwhile
+            if ends == "walking":
+                rise_walking(self._walk, self._control, self.yaw)
+            self.events.append(Cleared(self.time, self._point(), happened.affordance, happened.height))
 
+    # --- trying out
     @property
     def obstacle_ahead(self) -> ObstacleAhead | None:
         """The next obstacle on its path, or the one that it clears now."""
-        number = int(self._run_up[_NEXT])
-        return self._obstacles[number] if number < len(self._obstacles) else None
+        return self._obstacle_run.ahead
 
     def _rehearse_take_off(self) -> None:
-        """Just after the last but one step of a run-up has begun: choose among its variations."""
-        state, obstacle = self._control, self.obstacle_ahead
-        just_planned = state[controller.STEP_TIME] == 0.0 and self._run_up[_PLANNED] > 0.0
-        if obstacle is None or not just_planned or self._run_up[_REHEARSED] > 0.0:
-            return
-        if 1 <= len(self._plan(obstacle).speeds) <= 3:
+        """Just after one of the last steps of a run-up has begun: choose among its variations."""
+        if self._rehearsals and self.gait_now == "run" and self._obstacle_run.to_rehearse(self._control):
             choice, went = self._rehearse(RUN_UPS, Human.vary_run_up, clears)
-            self._run_up[_REHEARSED] = float(went > 0.0)
-            self.vary_run_up(choice)
+            self._obstacle_run.vary(choice, self._control, went > 0.0)
+
+    def vary_run_up(self, choice: Sequence[float]) -> None:
+        """Plan the step of the run-up that has just begun with a mark that is farther from the obstacle [m],
+        and an entry that is faster [m/s]."""
+        self._obstacle_run.vary(choice, self._control, True)
 
     def _rehearse(
         self, choices: Sequence[_T], choose: Callable[[Human, _T], None], goes_well: Callable[[Human], float]
     ) -> tuple[_T, float]:
-        """The best of ``choices``, see `rehearsal.first_good`."""
+        """The best of ``choices`` and how well it went, see `rehearsal.first_good`."""
         if not self._rehearsals:
             return choices[0], 0.0
         if self._understudy is None or self._understudy.model is not self.model:
@@ -556,48 +453,6 @@ class Human:
                 self.ground, self.skill, self.clearing, self.gait, self._slow_down, rehearsals=0
             )
         return first_good(self, self._understudy, choices[: self._rehearsals], choose, goes_well)
-
-    def vary_run_up(self, choice: tuple[float, ...]) -> None:
-        """Plan the step of the run-up that has begun with a mark that is farther from the obstacle [m], and an
-        entry that is faster [m/s]."""
-        self._run_up[[_FARTHER, _FASTER]] = choice
-        obstacle = self.obstacle_ahead
-        assert obstacle is not None
-        plan = self._plan(obstacle)
-        if len(plan.speeds):
-            self._run_up[_PLANNED] = plan.speeds[0]
-
-    def _next_obstacle(self) -> None:
-        number = self._run_up[_NEXT]
-        self._run_up[[_PLANNED, _FARTHER, _FASTER, _REHEARSED]] = 0.0
-        self._run_up[_NEXT] = number + 1.0
-
-    def _plan(self, obstacle: ObstacleAhead) -> ApproachPlan:
-        """The rest of the run-up."""
-        farther, faster = self._run_up[[_FARTHER, _FASTER]]
-        return plan_run_up(self._control, obstacle, self._skill_ahead(), self.skill, farther, faster)
-
-    def _skill_ahead(self) -> ClearingSkill:
-        """The skill for the next obstacle; `follow` has made sure that there is one."""
-        skill = skill_for(self.clearing, self._obstacles[int(self._run_up[_NEXT])])
-        assert skill is not None
-        return skill
-
-    def _plan_step(self, obstacle: ObstacleAhead, skill: ClearingSkill) -> None:
-        """At a stance switch: the speed of the step that begins, or the start of the skill."""
-        state = self._control
-        plan = self._plan(obstacle)
-        if len(plan.speeds):
-            self._run_up[_PLANNED] = plan.speeds[0]
-            return
-        entry, mark = skill.approach(obstacle.height)
-        self._clearing = skill.start(obstacle, state)
-        self._run_up[_PLANNED] = entry
-        self.status = CLEARING[obstacle.affordance]
-        early, fast = foot_distance(state, obstacle) - mark, float(state[controller.STEP_SPEED]) - entry
-        self.events.append(
-            TookOff(self.time, self._point(), obstacle.affordance, obstacle.height, early, fast)
-        )
 
     def _notice(self) -> None:
         """Arrived, lost, stuck?"""
@@ -628,9 +483,8 @@ class Human:
         """Everything needed to continue from here."""
         return HumanState(
             save_physics(self.model, self.data), self._control.copy(), self._walk.copy(),
-            np.concatenate([self._memory, self._command]), self._run_up.copy(),
-            None if self._clearing is None else self._clearing.copy(), self._path, self._obstacles,
-            self.status, self._ticks, self._ended_at, tuple(self.events),
+            np.concatenate([self._memory, self._command]), self._slowing, self._path,
+            self._obstacle_run.save_state(), self.status, self._ticks, self._ended_at, tuple(self.events),
         )  # fmt: skip
 
     def restore_state(self, state: HumanState) -> None:
@@ -640,28 +494,16 @@ class Human:
         self._walk[:] = state.walk
         self._memory[:] = state.tracking[: path_tracking.TRACK_SIZE]
         self._command[:] = state.tracking[path_tracking.TRACK_SIZE :]
-        self._run_up[:] = state.run_up
-        self._clearing = None if state.clearing is None else state.clearing.copy()
-        self._path, self._obstacles, self.status = state.path, state.obstacles, state.status
+        self._slowing, self._path, self.status = state.slowing, state.path, state.status
+        self._obstacle_run.restore_state(state.obstacle_run)
         self._ticks, self._ended_at = state.ticks, state.ended_at
         self.events[:] = state.events
 
     def state_hash(self) -> str:
         """Hex digest of the physical and mental state; equal for equal runs."""
         physics = save_physics(self.model, self.data)
-        parts = [physics, self._control, self._walk, self._memory, self._command, self._run_up]
-        return hash_of(self.status, parts if self._clearing is None else [*parts, self._clearing])
-
-    def _point(self) -> tuple[float, float, float]:
-        x, y, z = self.position
-        return float(x), float(y), float(z)
-
-    def _on_ground(self, place: NDArray[np.float64]) -> NDArray[np.float64]:
-        assert self.ground is not None
-        z = float(self.ground.surface_below([[place[0], place[1], place[2] + 0.5]])[0][0])
-        if not abs(z - place[2]) <= 0.5:
-            raise LocomotionError(f"there is no ground within 0.5 m of {place.round(2)}")
-        return np.array([place[0], place[1], z])
+        parts = [physics, self._control, self._walk, self._memory, self._command, np.array(self._slowing)]
+        return hash_of(self.status, [*parts, *self._obstacle_run.save_state().arrays])
 
     def _place(self, position: NDArray[np.float64], yaw: float, speed: float) -> None:
         if speed > 0.0:
@@ -670,5 +512,5 @@ class Human:
         else:
             plant(self.model, self.data, self.index, self._lookup, self._control, self._walk, position, yaw)
         self._command[:] = yaw, speed, 0.0, 0.0
-        self._run_up[:] = 0.0
+        self._slowing = 0.0
         self._memory[:] = new_track()

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from locomotion.errors import LocomotionError
 from locomotion.events import Event
+from locomotion.obstacle_run import ObstacleRunState
 from locomotion.path_tracking import PathTable
-from locomotion.route_smoothing import ObstacleAhead
 
 __all__ = ["CLEARING", "MOVING", "Gait", "HumanState", "Status", "hash_of", "restore_physics", "save_physics"]
 
@@ -40,10 +40,9 @@ class HumanState:
     control: NDArray[np.float64]
     walk: NDArray[np.float64]
     tracking: NDArray[np.float64]
-    run_up: NDArray[np.float64]
-    clearing: NDArray[np.float64] | None
+    slowing: float
     path: PathTable | None
-    obstacles: tuple[ObstacleAhead, ...]
+    obstacle_run: ObstacleRunState
     status: Status
     ticks: int
     ended_at: int

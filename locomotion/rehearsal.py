@@ -2,8 +2,8 @@
 
 Whether a landing holds is nearly a matter of chance: a foot set down 4 cm earlier or an entry 0.1 m/s faster
 decides it. But the simulation is exact, so a second body, the understudy, can go ahead from the present state
-and tell. A person rehearses its take-offs, and how it goes over from one gait to another: it tries variations,
-the smallest first, until one goes well, and does that. Without disturbance it then comes as foreseen.
+and tell. A person rehearses its take-offs, and how it slows down from a run to a walk: it tries variations,
+the smallest first, until one goes well, and does that. Undisturbed, it then comes as foreseen.
 """
 
 from __future__ import annotations
@@ -11,6 +11,8 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, TypeVar
+
+import numpy as np
 
 from locomotion.events import Cleared, TookOff
 from locomotion.human_state import MOVING
@@ -20,7 +22,7 @@ from locomotion.person import CONTROL_DT
 if TYPE_CHECKING:
     from locomotion.body import Human
 
-__all__ = ["RUN_UPS", "SLOWINGS", "clears", "first_good", "runs_on", "walks_on"]
+__all__ = ["REHEARSALS", "RUN_UPS", "SLOWINGS", "clears", "first_good", "walks_on"]
 
 _AFTERWARDS = round(2.2 / CONTROL_DT)  # ticks that it must stay up behind an obstacle
 _SETTLED = round(3.0 / CONTROL_DT)  # ticks that it must stay up after going over to another gait
@@ -32,11 +34,13 @@ _T = TypeVar("_T")
 
 def _nearest_first(*spans: Sequence[float]) -> tuple[tuple[float, ...], ...]:
     """All combinations of numbers, those of the smallest changes first."""
-    return tuple(
-        sorted(itertools.product(*spans), key=lambda each: sum((x / max(s)) ** 2 for x, s in zip(each, spans)))
-    )
+    greatest = [max(span) for span in spans]
+    choices = itertools.product(*spans)
+    return tuple(sorted(choices, key=lambda choice: float(np.hypot.reduce(np.divide(choice, greatest)))))
 
 
+REHEARSALS = 16
+"""Variations that are tried at one time at most, unless told otherwise."""
 RUN_UPS = _nearest_first(_MARKS, _ENTRIES)
 """Variations of a run-up: [m] that the mark is farther from the obstacle, [m/s] that the entry is faster."""
 SLOWINGS = (1.0, 0.92, 1.08, 0.84, 1.16, 0.76, 1.24, 0.68, 1.32, 0.6, 1.4)
@@ -72,6 +76,7 @@ def first_good(
 def clears(body: Human) -> float:
     """Whether it clears the obstacle ahead and stays up behind it: 1 without touching what it should not."""
     obstacle, seen = body.obstacle_ahead, len(body.events)
+    assert obstacle is not None
     passage, cleared_at = Passage(), 0
     took_off = False
     for tick in range(_LONGEST):
@@ -104,12 +109,3 @@ def walks_on(body: Human) -> float:
         if body.held or walked >= _SETTLED:
             return 1.0
     return 0.0
-
-
-def runs_on(body: Human) -> float:
-    """Whether a body that has begun to run stays up."""
-    for _ in range(_SETTLED):
-        body.tick()
-        if body.status in ("fallen", "lost", "stuck"):
-            return 0.0
-    return 1.0

@@ -10,6 +10,7 @@ from locomotion import MOVING, Ground, Human, ObstacleAhead
 from locomotion.clearing import ClearingSkill
 from locomotion.events import Cleared, TookOff
 from locomotion.passage import Passage, watch
+from locomotion.rehearsal import REHEARSALS
 
 __all__ = ["AFTER", "Course", "CourseRun", "Passage", "enter_course", "held", "make_course", "run_course"]
 
@@ -77,13 +78,15 @@ def enter_course(
     course: Course,
     clearing: Sequence[ClearingSkill] | None = None,
     noise: NDArray[np.float64] | None = None,
+    rehearsals: int = REHEARSALS,
 ) -> Human:
     """A person that stands at the start of a course and is told to run over it.
 
     clearing: skills to use, None for the package's. noise: (45,) added to the velocities at the start [m/s,
-    rad/s].
+    rad/s]. rehearsals: as of `Human`.
     """
-    human = Human(Ground.from_arrays(course.vertices, course.faces), clearing=clearing)
+    ground = Ground.from_arrays(course.vertices, course.faces)
+    human = Human(ground, clearing=clearing, rehearsals=rehearsals)
     human.reset(course.path[0], 0.0)
     if noise is not None:
         human.data.qvel[:] += noise
@@ -96,9 +99,10 @@ def run_course(
     clearing: Sequence[ClearingSkill] | None = None,
     noise: NDArray[np.float64] | None = None,
     keep_frames: bool = False,
+    rehearsals: int = REHEARSALS,
 ) -> CourseRun:
     """Run over a course from standing, on the level's triangles; arguments as of `enter_course`."""
-    human = enter_course(course, clearing, noise)
+    human = enter_course(course, clearing, noise, rehearsals)
     longest = float(course.path[-1, 0]) / _SLOWEST
     run, seen, where = CourseRun(), 0, 0
     passage: Passage | None = None

@@ -13,6 +13,7 @@ import numpy as np
 
 from locomotion import MOVING, Human, controller
 from locomotion.person import CONTROL_DT
+from locomotion.rehearsal import REHEARSALS
 from locomotion.skill import load_run_skill
 from locomotion.training.rollout import Scenario, Simulator
 from runtime.courses import CourseRun, held, make_course, run_course
@@ -185,7 +186,7 @@ def evaluate_slow_down(trials: int, seed: int, progress: Progress) -> list[Attem
 
     def attempt(name: str, radii: tuple[float, ...], k: int) -> Attempt:
         trial = draw_halt(np.random.default_rng([seed, k]), radii)
-        stood = halt(trial, run, slow_down)[1]
+        stood = halt(trial, run, slow_down, REHEARSALS)[1]
         what = f"{trial.speed:.2f} m/s, {'at its goal' if trial.told == math.inf else 'told to stop'}"
         return Attempt(name, what, "stands" if stood else "fallen", stood)
 

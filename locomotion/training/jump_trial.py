@@ -206,7 +206,7 @@ class JumpSimulator:
 
     def _set_off(self, start: np.ndarray, speed: float) -> None:
         """Begin where a person that stood at ``start`` (3,) goes over from walking to running."""
-        human = Human(None, self.run, clearing=())
+        human = Human(None, self.run, clearing=(), rehearsals=0)
         human.reset(start, 0.0)
         human.follow(np.array([start, [_LENGTH / 2, start[1], 0.0]]), speed)
         while human.status == "walking":

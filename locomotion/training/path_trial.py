@@ -88,7 +88,7 @@ def follow_path(scenario: PathScenario, run: RunSkill | None = None, walk: WalkS
     Among the figures ``time`` is the share of the path covered, times the scenario's duration, and
     ``side_drift`` twice the mean distance from the path [m], at most 1 m.
     """
-    human = Human(training_ground(scenario.ground), run, clearing=(), walk=walk)
+    human = Human(training_ground(scenario.ground), run, clearing=(), walk=walk, rehearsals=0)
     points = scenario.points
     yaw = math.atan2(points[1, 1] - points[0, 1], points[1, 0] - points[0, 0])
     human.reset(points[0], yaw)

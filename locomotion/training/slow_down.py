@@ -58,9 +58,9 @@ def draw_halt(rng: np.random.Generator, radii: tuple[float, ...] = BENDS) -> Hal
     return Halt(path.points, path.speed, told, rng.normal(size=45) * np.repeat([0.1, 0.02], [6, 39]))
 
 
-def halt(trial: Halt, run: RunSkill, slow_down: SlowDownSkill) -> tuple[float, bool]:
-    """Cost of a trial, and whether the person stood in the end."""
-    human = Human(None, run, clearing=(), slow_down=slow_down)
+def halt(trial: Halt, run: RunSkill, slow_down: SlowDownSkill, rehearsals: int = 0) -> tuple[float, bool]:
+    """Cost of a trial, and whether the person stood in the end. rehearsals: as of `Human`."""
+    human = Human(None, run, clearing=(), slow_down=slow_down, rehearsals=rehearsals)
     x, y, _ = trial.points[1] - trial.points[0]
     human.reset(trial.points[0], math.atan2(y, x), trial.speed)
     human.data.qvel[:6] += trial.noise[:6]

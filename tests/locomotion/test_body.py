@@ -116,7 +116,7 @@ def test_saved_person_goes_on_bit_for_bit():
 
 def test_run_up_ends_at_the_mark_and_the_skill_starts():
     skill = Recorder()
-    human = Human(None, clearing=[skill])
+    human = Human(None, clearing=[skill], rehearsals=0)
     human.reset((0, 0, 0), 0.0)
     obstacle = ObstacleAhead(14.0, "jump", 0.4, np.array([14.0, 0, 0.4]), np.array([-1.0, 0, 0]))
     human.follow([[0, 0, 0], [25, 0, 0]], 3.0, [obstacle])

@@ -117,19 +117,19 @@ def test_heights_that_were_not_learned_are_refused(skill):
 @pytest.mark.parametrize("height", [0.9, 1.5, 2.0])
 def test_rolls_off_a_ledge_and_goes_on(height):
     arrived = 0
-    for distance in np.arange(12.0, 22.0):  # at 2.0 m about seven of ten arrive
+    for distance in np.arange(12.0, 22.0):
         human = dropper(height, distance)
         turned, upside_down = 0.0, False
         while human.status in MOVING and human.time < 40.0:
             human.tick()
             if human.status == "dropping":
                 upside_down = upside_down or human.data.xmat[human.index.root, 8] < -0.9
-                turned = max(turned, human.save_state().clearing[dr.ANGLE])
+                turned = max(turned, human.save_state().obstacle_run.skill[dr.ANGLE])
         assert upside_down and turned > 5.0
         kinds = [type(event) for event in human.events]
         assert kinds.index(TookOff) < kinds.index(Cleared)
         arrived += human.status == "arrived"
-    assert arrived >= 5
+    assert arrived >= 9
 
 
 def test_most_drops_succeed():

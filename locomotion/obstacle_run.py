@@ -1,0 +1,173 @@
+"""Running up to the obstacles of a path and clearing them, one after the other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion import controller
+from locomotion.approach import ApproachPlan
+from locomotion.clearing import ClearingSkill, foot_distance, plan_run_up, skill_for
+from locomotion.path_tracking import RUN_UP
+from locomotion.route_smoothing import ObstacleAhead
+from locomotion.skill import RunSkill
+
+__all__ = ["ObstacleRun", "ObstacleRunState", "TakeOff"]
+
+_NEXT, _STEPS_SEEN, _PLANNED, _FARTHER, _FASTER, _REHEARSED = range(6)
+# number of the next obstacle, steps made when the run-up was last planned, speed planned for this step or 0;
+# chosen in rehearsal: [m] that the mark is farther from the obstacle, [m/s] that the entry is faster, and 1
+# once a choice has gone well
+_REHEARSABLE = 3  # steps before the take-off from which a run-up is rehearsed
+
+
+@dataclass(frozen=True)
+class TakeOff:
+    """A skill has begun. early [m]: how far the stance foot is before its mark; fast [m/s]: how much faster
+    than the entry speed the last step was."""
+
+    early: float
+    fast: float
+
+
+@dataclass(frozen=True)
+class ObstacleRunState:
+    """What an `ObstacleRun` remembers: its obstacles, its plan (6,) and what the skill at work remembers."""
+
+    obstacles: tuple[ObstacleAhead, ...]
+    plan: NDArray[np.float64]
+    skill: NDArray[np.float64] | None
+
+    @property
+    def arrays(self) -> list[NDArray[np.float64]]:
+        """The numbers among it."""
+        return [self.plan] if self.skill is None else [self.plan, self.skill]
+
+
+class ObstacleRun:
+    """The obstacles of a path, and how far the body has come with them."""
+
+    def __init__(self, skills: Sequence[ClearingSkill], run: RunSkill) -> None:
+        """``skills``: to clear them with, on top of ``run``."""
+        self.skills, self._run = tuple(skills), run
+        self.obstacles: tuple[ObstacleAhead, ...] = ()
+        self._plan = np.zeros(6)
+        self._skill: NDArray[np.float64] | None = None
+
+    def begin(self, obstacles: Sequence[ObstacleAhead]) -> None:
+        """Be about to clear ``obstacles``, in order of their arc lengths."""
+        self.obstacles, self._skill = tuple(obstacles), None
+        self._plan[:] = 0.0
+
+    @property
+    def ahead(self) -> ObstacleAhead | None:
+        """The next obstacle, or the one that is being cleared."""
+        number = int(self._plan[_NEXT])
+        return self.obstacles[number] if number < len(self.obstacles) else None
+
+    @property
+    def clearing(self) -> bool:
+        """Whether a skill is at work."""
+        return self._skill is not None
+
+    @property
+    def planned(self) -> float:
+        """Speed [m/s] planned for this step; 0 where there is no run-up."""
+        return float(self._plan[_PLANNED])
+
+    @property
+    def skill(self) -> ClearingSkill:
+        """The skill for the obstacle ahead."""
+        assert self.ahead is not None
+        return self.skill_for(self.ahead)
+
+    def skill_for(self, obstacle: ObstacleAhead) -> ClearingSkill:
+        """The skill for one of the obstacles."""
+        skill = skill_for(self.skills, obstacle)
+        assert skill is not None
+        return skill
+
+    def tick(
+        self, arc: float, state: NDArray[np.float64], data: mujoco.MjData
+    ) -> TakeOff | ObstacleAhead | None:
+        """After the run's tick: plan the run-up at each stance switch, start the skill at its mark, tick it.
+
+        arc: length [m] of the path behind the body; state: the running controller's. Returns a `TakeOff` when
+        a skill begins, and the obstacle when it has been cleared.
+        """
+        obstacle, began = self.ahead, None
+        if obstacle is None:
+            return None
+        if self._skill is None:
+            if obstacle.arc_length < arc:
+                self._pass()
+            elif obstacle.arc_length - arc < RUN_UP and state[controller.STEPS] != self._plan[_STEPS_SEEN]:
+                self._plan[_STEPS_SEEN] = state[controller.STEPS]
+                began = self._plan_step(obstacle, state)
+        if self._skill is not None and self.skill.tick(obstacle, self._skill, state, data):
+            self._skill = None
+            self._pass()
+            return obstacle
+        return began
+
+    def fell(self, state: NDArray[np.float64]) -> bool:
+        """Whether a body has fallen whose skill is at work."""
+        assert self._skill is not None
+        return self.skill.fell(self._skill, state)
+
+    def to_rehearse(self, state: NDArray[np.float64]) -> bool:
+        """Whether one of the last steps before the take-off has just begun, and the rest was not rehearsed
+        yet."""
+        if self.ahead is None or self.clearing or self.planned == 0.0 or self._plan[_REHEARSED] > 0.0:
+            return False
+        begins = state[controller.STEP_TIME] == 0.0
+        return begins and 1 <= len(self._plan_of(self.ahead, state).speeds) <= _REHEARSABLE
+
+    def vary(self, choice: Sequence[float], state: NDArray[np.float64], goes_well: bool) -> None:
+        """Plan the step that has just begun anew, with a mark that is ``choice[0]`` [m] farther from the
+        obstacle and an entry that is ``choice[1]`` [m/s] faster; ``goes_well``: as was seen in rehearsal."""
+        assert self.ahead is not None
+        self._plan[[_FARTHER, _FASTER, _REHEARSED]] = *choice, goes_well
+        speeds = self._plan_of(self.ahead, state).speeds
+        if len(speeds):
+            self._plan[_PLANNED] = speeds[0]
+
+    def disturb(self) -> None:
+        """Something may make it come otherwise than in rehearsal."""
+        self._plan[_REHEARSED] = 0.0
+
+    def _plan_of(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> ApproachPlan:
+        farther, faster = self._plan[[_FARTHER, _FASTER]]
+        return plan_run_up(state, obstacle, self.skill, self._run, farther, faster)
+
+    def _plan_step(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> TakeOff | None:
+        """At a stance switch: the speed of the step that begins, or the start of the skill."""
+        speeds = self._plan_of(obstacle, state).speeds
+        if len(speeds):
+            self._plan[_PLANNED] = speeds[0]
+            return None
+        entry, mark = self.skill.approach(obstacle.height)
+        self._skill = self.skill.start(obstacle, state)
+        self._plan[_PLANNED] = entry
+        fast = float(state[controller.STEP_SPEED]) - entry - self._plan[_FASTER]
+        return TakeOff(foot_distance(state, obstacle) - mark - self._plan[_FARTHER], fast)
+
+    def _pass(self) -> None:
+        """Have the obstacle ahead behind it."""
+        self._plan[_NEXT] += 1.0
+        self._plan[_PLANNED:] = 0.0
+
+    # --- saving
+    def save_state(self) -> ObstacleRunState:
+        """Everything needed to continue from here."""
+        skill = None if self._skill is None else self._skill.copy()
+        return ObstacleRunState(self.obstacles, self._plan.copy(), skill)
+
+    def restore_state(self, state: ObstacleRunState) -> None:
+        """Continue from what `save_state` gave."""
+        self.obstacles, self._plan[:] = state.obstacles, state.plan
+        self._skill = None if state.skill is None else state.skill.copy()

@@ -1,0 +1,139 @@
+"""Rehearsals: a person that tries out what it is about to do does what goes well, and as foreseen."""
+
+import numpy as np
+import pytest
+
+from locomotion.body import Human
+from locomotion.clearing import foot_distance
+from locomotion.events import Cleared, Fell, TookOff
+from locomotion.human_state import MOVING
+from locomotion.passage import Passage
+from locomotion.rehearsal import RUN_UPS
+from locomotion.route_smoothing import ObstacleAhead
+from runtime.courses import make_course, run_course
+
+MARK, ENTRY = 0.6, 3.0
+
+
+class Picky:
+    """A skill that falls unless it starts at least ``from_`` [m] before the edge, and else is over after
+    0.3 s."""
+
+    affordance, ends = "drop", "running"
+    heights = (0.3, 0.5)
+    stride = (0.25, 0.0, 0.25)
+
+    def __init__(self, from_):
+        self.from_, self.starts = from_, 0
+
+    def approach(self, height):
+        return ENTRY, MARK
+
+    def start(self, obstacle, state):
+        self.starts += 1
+        return np.array([0.0, foot_distance(state, obstacle)])
+
+    def tick(self, obstacle, memory, state, data):
+        memory[0] += 1
+        return bool(memory[0] >= 30)
+
+    def fell(self, memory, state):
+        return bool(memory[0] > 20 and memory[1] < self.from_)
+
+
+def about_to_run_up(skill, rehearsals):
+    """A person on the plane on its way to an edge 14 m ahead."""
+    human = Human(None, clearing=[skill], rehearsals=rehearsals)
+    human.reset((0, 0, 0), 0.0)
+    edge = ObstacleAhead(14.0, "drop", 0.4, np.array([14.0, 0, 0]), np.array([-1.0, 0, 0]))
+    human.follow([[0, 0, 0], [30, 0, 0]], 3.0, [edge])
+    return human
+
+
+def run_on(human, seconds=20.0):
+    while human.status in MOVING and human.time < seconds:
+        human.tick()
+    return [type(event) for event in human.events]
+
+
+def distance_unrehearsed():
+    skill = Picky(0.0)
+    human = about_to_run_up(skill, 0)
+    while not human.events or not isinstance(human.events[-1], TookOff):
+        human.tick()
+    return human.events[-1].takeoff_error + MARK
+
+
+def test_variations_begin_with_none_and_grow():
+    assert RUN_UPS[0] == (0.0, 0.0) and len(set(RUN_UPS)) == len(RUN_UPS)
+    sizes = [np.hypot(farther / 0.08, faster / 0.2) for farther, faster in RUN_UPS]
+    assert np.all(np.diff(sizes) >= -1e-12)
+
+
+def test_it_takes_off_from_where_the_skill_works():
+    needed = distance_unrehearsed() + 0.02
+    assert Fell in run_on(about_to_run_up(Picky(needed), 0))
+    happened = run_on(about_to_run_up(Picky(needed), 16))
+    assert Cleared in happened and Fell not in happened
+
+
+def test_a_choice_that_goes_well_is_not_rehearsed_again_and_the_budget_is_kept():
+    skill = Picky(0.0)
+    run_on(about_to_run_up(skill, 16))
+    assert skill.starts == 2  # once in rehearsal, once for good
+    skill = Picky(100.0)
+    run_on(about_to_run_up(skill, 4))
+    assert skill.starts == 3 * 4 + 1  # three steps are left to choose in
+
+
+def test_a_push_in_the_run_up_makes_it_rehearse_anew():
+    skill = Picky(0.0)
+    human = about_to_run_up(skill, 16)
+    while skill.starts == 0:
+        human.tick()
+    human.data.xfrc_applied[human.index.root, 1] = 30.0
+    human.tick()
+    human.data.xfrc_applied[:] = 0.0
+    run_on(human)
+    assert skill.starts == 3
+
+
+def test_a_rehearsal_leaves_no_trace():
+    alone, rehearsing = (about_to_run_up(Picky(0.0), n) for n in (0, 16))
+    run_on(alone), run_on(rehearsing)
+    assert rehearsing.state_hash() == alone.state_hash()
+    assert rehearsing.events == alone.events
+
+
+def test_a_person_saved_in_the_run_up_goes_on_bit_for_bit():
+    needed = distance_unrehearsed() + 0.02
+    human, twin = (about_to_run_up(Picky(needed), 16) for _ in range(2))
+    while not human._obstacle_run.planned:
+        human.tick()
+    run = human._obstacle_run
+    while run.planned and not run.clearing:
+        twin.restore_state(human.save_state())
+        human.tick()
+    run_on(human), run_on(twin)
+    assert human.state_hash() == twin.state_hash()
+
+
+@pytest.mark.parametrize(
+    ("affordance", "passage", "clean"),
+    [
+        ("jump", Passage(), True),
+        ("jump", Passage(touched=True), False),
+        ("drop", Passage(head=0.02), False),
+        ("vault", Passage(), False),
+        ("vault", Passage(held=0.1, planted=0.6), True),
+        ("vault", Passage(held=0.1, planted=0.9), False),
+    ],
+)
+def test_what_counts_as_clean(affordance, passage, clean):
+    assert passage.clean(affordance) is clean
+
+
+@pytest.mark.parametrize(("affordance", "height"), [("vault", 0.8), ("drop", 1.5), ("jump", 0.5)])
+def test_skills_hold_from_any_distance(affordance, height):
+    runs = [run_course(make_course([(affordance, height, 0.3)], [d])) for d in np.linspace(12.0, 17.0, 8)]
+    assert sum(run.ended == "arrived" and run.passages[0].clean(affordance) for run in runs) >= 7

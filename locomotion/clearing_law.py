@@ -15,7 +15,7 @@ from locomotion.person import CONTROL_DT, JOINT_NAMES
 __all__ = [
     "ACTIVE", "EDGE", "ENTRY", "ERROR_DISTANCE", "ERROR_SPEED", "FIRST_STEP", "LAST_STEP", "MIRROR",
     "MIRROR_SIGN", "RANK", "SHARED_MEMORY", "TRIM", "add_actions", "add_clip", "add_feedback", "advance_pace",
-    "apply_offset", "measure_errors", "mirror", "sense_swing_foot",
+    "apply_offset", "hold_course", "measure_errors", "mirror", "sense_swing_foot",
 ]  # fmt: skip
 
 RANK = 3
@@ -80,6 +80,16 @@ def measure_errors(mark, memory, state):
     speed = state[17] * ax + state[18] * ay
     memory[ERROR_DISTANCE] = min(max(distance - mark, -0.5), 0.5)
     memory[ERROR_SPEED] = min(max(speed - memory[ENTRY], -0.8), 0.8)
+
+
+@njit(cache=True)
+def hold_course(memory, state):
+    """Let the run under the skill go straight at the obstacle, on level ground and with the speed correction
+    that it began with. A body that is turned towards its path while it flies lands askew."""
+    state[controller.TRIM] = memory[TRIM]
+    state[controller.SLOPE] = 0.0
+    state[controller.HEADING] = math.atan2(memory[10], memory[9])
+    state[controller.TURN_RATE] = 0.0
 
 
 @njit(cache=True)

@@ -40,6 +40,7 @@ from locomotion.clearing_law import (
     add_feedback,
     advance_pace,
     apply_offset,
+    hold_course,
     measure_errors,
     mirror,
     sense_swing_foot,
@@ -132,8 +133,7 @@ def jump_tick(p, knots, timing, difference, difference_rate, reference, mirror, 
         if step == 1:
             measure_errors(p[_MARKS + 1], memory, state)
     side, phase = state[controller.STANCE], state[controller.PHASE]
-    state[controller.TRIM] = memory[TRIM]
-    state[controller.SLOPE] = 0.0
+    hold_course(memory, state)
     wanted = np.zeros(_N)
     sensed = memory[50 : 50 + SENSORS]
     sense_swing_foot(state, sensed)

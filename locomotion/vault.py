@@ -46,6 +46,7 @@ from locomotion.clearing_law import (
     add_feedback,
     advance_pace,
     apply_offset,
+    hold_course,
     measure_errors,
     sense_swing_foot,
 )  # fmt: skip
@@ -225,8 +226,7 @@ def vault_tick(p, knots, timing, difference, rate, reference, mirror, sign, memo
         if step == 1:
             measure_errors(p[_MARKS + 1], memory, state)
     side, phase = state[controller.STANCE], state[controller.PHASE]
-    state[controller.TRIM] = memory[TRIM]
-    state[controller.SLOPE] = 0.0
+    hold_course(memory, state)
     _hand(p, memory, step, phase, qpos)
     past = (state[14] - memory[20]) * memory[9] + (state[15] - memory[21]) * memory[10]
     if memory[HOLD] == 1.0 and (past > 0.0 or step > 1 or memory[HELD] > _LONGEST):

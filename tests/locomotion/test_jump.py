@@ -106,7 +106,7 @@ def test_learned_heights_are_met_and_between_them_lines(skill):
     np.testing.assert_allclose(middle, 0.5 * (skill.table[0] + skill.table[1]), atol=1e-9)
 
 
-@pytest.mark.parametrize("height", [0.05, 0.9, np.nan])
+@pytest.mark.parametrize("height", [0.05, 0.8, np.nan])
 def test_heights_that_were_not_learned_are_refused(skill, height):
     with pytest.raises(LocomotionError, match="was not learned"):
         skill.at(height)
@@ -114,6 +114,17 @@ def test_heights_that_were_not_learned_are_refused(skill, height):
 
 def test_the_jump_belongs_to_the_run(run, skill):
     assert skill.run == run_digest(run), "the run has changed: train_jump(start_from=...) refines the jump"
+
+
+def test_whatever_heading_is_asked_for_it_goes_straight_at_the_obstacle(run):
+    rng, ahead = np.random.default_rng(2), 0.4
+    tables, memory, ctrl = random_tables(run, 5), np.zeros(jump.MEMORY_SIZE), np.zeros(len(JOINT_NAMES))
+    state = random_state(rng, 0, -1.0)
+    jump.start_jump(tables.parameters, memory, state, 2.0, 1.0, np.cos(ahead), np.sin(ahead))
+    state[controller.HEADING], state[controller.TURN_RATE] = 0.7, 1.5
+    jump.jump_tick(tables.parameters, *tables.rest, memory, state, ctrl)
+    assert state[controller.HEADING] == pytest.approx(ahead)
+    assert state[controller.TURN_RATE] == 0.0
 
 
 def test_entry_and_mark_are_plausible(run, skill):

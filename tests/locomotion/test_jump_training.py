@@ -22,9 +22,9 @@ def problem():
     states = JumpSimulator(run).harvest(Jump(skill, run), rng.uniform(8.0, 12.0, 4), rng)
     options = {"states": 3, "error": 0.05, "duration": 2.0, "pull": 0.1}
     stage = Stage("trial", 1, 0.1, scales(True), options, 4)
-    height = float(skill.heights[0])
-    reference = skill.references[0].reshape(jump.STEPS, jump.BINS, jump.SENSORS)
-    return JumpProblem(run, height, skill.table[0], reference, states, [stage])
+    height, (x, reference) = 0.4, skill.at(0.4)
+    reference = reference.reshape(jump.STEPS, jump.BINS, jump.SENSORS)
+    return JumpProblem(run, height, x, reference, states, [stage])
 
 
 def test_run_ups_end_near_the_mark(problem):

@@ -22,7 +22,7 @@ def test_a_course_is_the_level_that_it_says():
 
 
 @pytest.mark.parametrize(
-    ("affordance", "heights", "least"), [("jump", (0.3, 0.4, 0.5), 10), ("vault", (0.6, 0.7), 5)]
+    ("affordance", "heights", "least"), [("jump", (0.1, 0.3, 0.5, 0.7), 13), ("vault", (0.6, 0.7), 5)]
 )
 def test_clears_obstacles_and_goes_on(affordance, heights, least):
     arrived = 0

@@ -232,9 +232,7 @@ def test_a_goal_that_is_none_is_refused(goals):
 
 
 def test_a_long_body_without_room_is_not_turned():
-    horse = load_body("horse")
-    ground = Ground.from_arrays(*quads(floor(x0=-1.5, x1=3.0)))
-    for yaw in np.linspace(-3.0, 3.0, 13):
-        place = Place(0.0, 0.0, 0.0, 0.0)
-        script = turn_script(horse, ground, place, yaw)
-        assert script is None or check_script(script, horse, ground).free
+    horse, place = load_body("horse"), Place(0.0, 0.0, 0.0, 0.0)
+    lane = Ground.from_arrays(*quads(floor(x0=-1.5, x1=3.0, y0=-0.6, y1=0.6)))
+    for yaw in (-3.0, -2.0, -1.2, 1.2, 2.0, 3.0):
+        assert turn_script(horse, lane, place, yaw) is None

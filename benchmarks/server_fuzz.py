@@ -30,6 +30,7 @@ ROOT = Path(__file__).resolve().parents[1]
 FLOOR = "v 0 0 0\nv 12 0 0\nv 12 6 0\nv 0 6 0\nf 1 2 3\nf 1 3 4\n"
 START = "import runtime.cli; runtime.cli.main()"
 GROWTH = 64.0  # [MB]
+STATE = b'{"type":"state"'  # of which a client gets the newest only, without a number
 GOOD = [
     {"type": "spawn", "id": 1, "world": "world1", "body": "dog", "at": [2, 3, 0], "facing": 0.1},
     {"type": "go_to", "id": 2, "world": "world1", "agent": "rex", "points": [[3, 3, 0]], "speed": 1},
@@ -49,14 +50,17 @@ class Client:
     async def ask(self, kind: str, **fields) -> dict:
         self.id += 1
         await self.socket.send(json.dumps({"type": kind, "id": self.id, **fields}))
-        while True:
-            message = json.loads(await asyncio.wait_for(self.socket.recv(), 60))
-            if "seq" in message:
+        async with asyncio.timeout(60):
+            while True:
+                text = await self.socket.recv(decode=False)
+                if text.startswith(STATE):
+                    continue
+                message = json.loads(text)
                 self.seq += 1
                 if message["seq"] != self.seq:
                     raise SystemExit(f"message {self.seq} came as {message['seq']}")
-            if message.get("id") == self.id:
-                return message
+                if message.get("id") == self.id:
+                    return message
 
 
 async def greeted(address: str) -> Client:

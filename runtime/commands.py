@@ -19,7 +19,7 @@ from runtime.mission_run import MissionResult, run_mission
 from runtime.progress import Progress
 from runtime.rules import person_walk_rules
 from runtime.trace import Trace
-from runtime.warmup import compile_kernels, is_compiled
+from runtime.warmup import compile_kernels, is_compiled, load_kernels
 
 __all__ = [
     "INPUT_ERRORS",
@@ -168,6 +168,7 @@ def serve_worlds(
             else:
                 terrain = navmesh.Terrain.load(level, up=up, scale=scale)
                 graphs[level.stem] = navmesh.NodeGraph.build(terrain, person_walk_rules())
+    load_kernels()
     server = SurefootServer(graphs, host, port, token, pages)
     where = f"[{host}]" if ":" in host else host
     asyncio.run(server.run(lambda port: print(f"serving on ws://{where}:{port}", flush=True)))

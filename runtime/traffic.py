@@ -92,18 +92,16 @@ class Traffic:
     def _gather(self) -> tuple[list[Follower], np.ndarray, list[np.ndarray]]:
         """Those who can give way; where all bodies are, those first, (n, 6); and the discs (d, 6) of each."""
         followers: list[Follower] = []
-        first: list[np.ndarray] = []
+        groups: list[np.ndarray] = []  # (bodies, discs of each, 6)
         others: list[np.ndarray] = []
         for population in self._populations:
-            each = population.followers()
-            all_discs = population.in_the_way()
-            count = len(all_discs) // max(len(each), 1) if each else 1
-            split = [all_discs[k : k + count] for k in range(0, len(all_discs), count)]
-            followers += each
-            (first if each else others).extend(split)
-        discs = first + others
-        rows = np.array([each[len(each) // 2] for each in discs]).reshape(-1, 6)
-        return followers, rows, discs
+            each, discs = population.followers(), population.in_the_way()
+            if len(discs):
+                followers += each
+                (groups if each else others).append(discs.reshape(len(each) or len(discs), -1, 6))
+        groups += others
+        rows = np.concatenate([np.empty((0, 6)), *(group[:, group.shape[1] // 2] for group in groups)])
+        return followers, rows, [discs for group in groups for discs in group]
 
     def _chosen(self, course: Course, discs: int, there: np.ndarray, radii: np.ndarray) -> Options:
         """The option that costs least."""

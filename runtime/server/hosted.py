@@ -1,10 +1,10 @@
 """A world that the server runs, and how it is told in messages."""
 
-import json
 from itertools import count
 from typing import Any
 
 import numpy as np
+from pydantic_core import to_json
 
 import navmesh
 from runtime.agent import Agent
@@ -20,13 +20,15 @@ _DRAWN = ("positions", "radii", "edges", "rim", "normal", "height")
 
 
 class HostedWorld:
-    """``name`` is its own in the server; ``level``: its level's; ``manual``: whether its clients step it."""
+    """``name`` is its own in the server; ``level``: its level's; ``manual``: whether its clients step it.
+    ``clients``: who joined it, and what each wants to be told."""
 
     def __init__(self, name: str, level: str, graph: navmesh.NodeGraph, seed: int, manual: bool) -> None:
         self.name, self.level, self.manual = name, level, manual
         self.world = World(graph, seed)
+        self.clients: dict[Any, States] = {}
         self.saved: WorldState | None = None
-        self._texts: dict[States, str] = {}
+        self._texts: dict[States, bytes] = {}
         self._ways: dict[str, tuple[Plan, int]] = {}
         self._numbers = count(1)
 
@@ -41,12 +43,12 @@ class HostedWorld:
             raise RuntimeInputError(f"no agent {name!r} in world {self.name!r}; there are: {here}")
         return self.world.agents[name]
 
-    def state(self, states: States) -> str:
+    def state(self, states: States) -> bytes:
         """The text of the present state; made once for all who want it."""
         if states not in self._texts:
             agents = [self._agent_state(agent, states) for agent in self.world.agents.values()]
             message = {"type": "state", "world": self.name, "time": self.world.time, "agents": agents}
-            self._texts[states] = json.dumps(message, separators=(",", ":"))
+            self._texts[states] = to_json(message)
         return self._texts[states]
 
     def _agent_state(self, agent: Agent, states: States) -> dict[str, Any]:

@@ -5,10 +5,11 @@ states only which worlds have a newer one is kept: the newest is looked up when 
 """
 
 import asyncio
-import json
 from collections import deque
 from collections.abc import Callable, Mapping
 from typing import Any
+
+from pydantic_core import to_json
 
 __all__ = ["Outbox", "TooSlow"]
 
@@ -19,11 +20,11 @@ class TooSlow(Exception):
 
 class Outbox:
     """``newest(world)`` gives the text of a world's newest state for this client, None for no such world;
-    ``most`` is how many characters may wait in order."""
+    ``most`` is how many bytes may wait in order."""
 
-    def __init__(self, newest: Callable[[str], str | None], most: int) -> None:
+    def __init__(self, newest: Callable[[str], bytes | None], most: int) -> None:
         self._newest, self._most = newest, most
-        self._ordered: deque[str] = deque()
+        self._ordered: deque[bytes] = deque()
         self._fresh: dict[str, None] = {}
         self._waiting, self._seq = 0, 0
         self._filled, self._room = asyncio.Event(), asyncio.Event()
@@ -32,7 +33,7 @@ class Outbox:
     def put(self, message: Mapping[str, Any]) -> None:
         """Send in order. Raises `TooSlow`."""
         self._seq += 1
-        text = json.dumps({**message, "seq": self._seq}, separators=(",", ":"))
+        text = to_json({**message, "seq": self._seq})
         if self._waiting + len(text) > self._most and self._ordered:
             raise TooSlow
         self._ordered.append(text)
@@ -50,7 +51,7 @@ class Outbox:
         """Wait until a client that asks much has read some of the answers."""
         await self._room.wait()
 
-    async def take(self) -> str:
+    async def take(self) -> bytes:
         """The next message to be sent, once there is one."""
         while True:
             await self._filled.wait()

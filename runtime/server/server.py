@@ -41,7 +41,7 @@ _LONGEST = 0.1  # [s] that such a world makes up for at once
 @dataclass(frozen=True)
 class Limits:
     """``message`` [bytes] of a request; ``worlds``, ``clients`` at a time, ``agents`` in a world; ``waiting``
-    [characters] of replies and events that a client may leave unread; ``idle`` [s] after which a client that
+    [bytes] of replies and events that a client may leave unread; ``idle`` [s] after which a client that
     is silent and hears of no world is sent away, and a world without clients is closed; ``greeting`` [s] for
     the first message."""
 
@@ -56,10 +56,9 @@ class Limits:
 
 class _Client:
     def __init__(
-        self, connection: ServerConnection, newest: Callable[["_Client", str], str | None], most: int
+        self, connection: ServerConnection, newest: Callable[["_Client", str], bytes | None], most: int
     ):
         self.connection = connection
-        self.worlds: dict[str, m.States] = {}
         self.outbox = Outbox(lambda world: newest(self, world), most)
         self.heard = time.monotonic()
 
@@ -144,14 +143,13 @@ class SurefootServer:
         hosted.changed()
         for event in hosted.world.events:
             self._announce(hosted, _event_message(hosted, event))
-        for client in tuple(self._clients):
-            if client.worlds.get(hosted.name, "none") != "none":
+        for client, states in hosted.clients.items():
+            if states != "none":
                 client.outbox.mark(hosted.name)
 
     def _announce(self, hosted: HostedWorld, message: Mapping[str, Any]) -> None:
-        for client in tuple(self._clients):
-            if hosted.name in client.worlds:
-                self._put(client, message)
+        for client in tuple(hosted.clients):
+            self._put(client, message)
 
     def _put(self, client: _Client, message: Mapping[str, Any]) -> None:
         try:
@@ -167,12 +165,12 @@ class SurefootServer:
             task.add_done_callback(lambda done: done.cancelled() or done.exception())
 
     def _send_away(self, now: float) -> None:
-        for client in tuple(self._clients):
-            if not client.worlds and now - client.heard > self.limits.idle:
+        busy = {client for hosted in self.worlds.values() for client in hosted.clients}
+        for client in self._clients - busy:
+            if now - client.heard > self.limits.idle:
                 self._dismiss(client, 1001, "was silent for too long")
-        used = {world for client in self._clients for world in client.worlds}
         for hosted in tuple(self.worlds.values()):
-            if hosted.name in used:
+            if hosted.clients:
                 self._deserted.pop(hosted.name, None)
             elif now - self._deserted.setdefault(hosted.name, now) > self.limits.idle:
                 self._close(hosted)
@@ -226,25 +224,27 @@ class SurefootServer:
     async def _write(self, client: _Client) -> None:
         with suppress(ConnectionClosed):
             while True:
-                await client.connection.send(await client.outbox.take())
+                await client.connection.send(await client.outbox.take(), text=True)
 
     def _forget(self, client: _Client) -> None:
         self._clients.discard(client)
-        client.worlds.clear()
+        for hosted in self.worlds.values():
+            hosted.clients.pop(client, None)
 
-    def _newest(self, client: _Client, world: str) -> str | None:
+    def _newest(self, client: _Client, world: str) -> bytes | None:
         hosted = self.worlds.get(world)
-        states = client.worlds.get(world, "none")
+        states = "none" if hosted is None else hosted.clients.get(client, "none")
         return None if hosted is None or states == "none" else hosted.state(states)
 
     # --- requests
     def _answer(self, client: _Client, text: str | bytes) -> None:
-        number, code = _id_in(text), "invalid"
+        number, code = None, "invalid"
         try:
             request = _parsed(text)
-            code = "refused"
+            number, code = request.id, "refused"
             result = getattr(self, f"_do_{request.type}")(client, request)
         except (RuntimeInputError, ValueError) as error:
+            number = _id_in(text) if number is None else number
             self._put(client, {"type": "error", "id": number, "code": code, "message": str(error)})
         except Exception:
             _log.exception("a request failed")
@@ -282,7 +282,7 @@ class SurefootServer:
         return self._join(client, self._hosted(request.world), request.states)
 
     def _join(self, client: _Client, hosted: HostedWorld, states: m.States) -> Any:
-        client.worlds[hosted.name] = states
+        hosted.clients[client] = states
         client.outbox.mark(hosted.name)
         agents = [skeleton(agent) for agent in hosted.world.agents.values()]
         return {
@@ -290,7 +290,8 @@ class SurefootServer:
         }  # fmt: skip
 
     def _do_leave(self, client: _Client, request: m.Leave) -> Any:
-        return {"left": client.worlds.pop(request.world, None) is not None}
+        hosted = self.worlds.get(request.world)
+        return {"left": hosted is not None and hosted.clients.pop(client, None) is not None}
 
     def _do_close(self, client: _Client, request: m.Close) -> Any:
         self._close(self._hosted(request.world))
@@ -298,8 +299,6 @@ class SurefootServer:
 
     def _close(self, hosted: HostedWorld) -> None:
         self._announce(hosted, {"type": "gone", "world": hosted.name, "agent": None})
-        for client in self._clients:
-            client.worlds.pop(hosted.name, None)
         self._deserted.pop(hosted.name, None)
         del self.worlds[hosted.name]
 

@@ -196,15 +196,15 @@ def test_limits_hold(graph):
 
 def test_an_outbox_keeps_order_and_only_the_newest_state():
     async def main():
-        states = {"w": "old"}
+        states = {"w": b"old"}
         box = Outbox(states.get, most=1000)
         for number in range(3):
             box.put({"n": number})
             box.mark("w")
-        states["w"] = "new"
+        states["w"] = b"new"
         taken = [await box.take() for _ in range(4)]
         assert [json.loads(text) for text in taken[:3]] == [{"n": n, "seq": n + 1} for n in range(3)]
-        assert taken[3] == "new"
+        assert taken[3] == b"new"
         with pytest.raises(asyncio.TimeoutError):
             await asyncio.wait_for(box.take(), 0.01)
         with pytest.raises(TooSlow):

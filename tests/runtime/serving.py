@@ -5,11 +5,13 @@ import json
 from contextlib import asynccontextmanager
 
 from runtime.server.server import SurefootServer
+from runtime.warmup import load_kernels
 
 
 @asynccontextmanager
 async def serving(graph, **options):
     """A server on a free port; yields its port."""
+    load_kernels()  # as the command does: nobody's first step may take as long as compiling
     server = SurefootServer({"small": graph}, port=0, **options)
     ready = asyncio.get_running_loop().create_future()
     task = asyncio.ensure_future(server.run(ready.set_result))

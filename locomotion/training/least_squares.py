@@ -7,7 +7,6 @@ stored when it is done; a run that was stopped goes on after the last one and gi
 """
 
 import hashlib
-import multiprocessing
 import os
 import time
 from collections.abc import Callable, Sequence
@@ -18,6 +17,7 @@ import numpy as np
 
 from locomotion.errors import LocomotionError
 from locomotion.training.loop import Progress, show
+from locomotion.workers import worker_pool
 from navmesh.archive import read_archive, write_archive
 
 __all__ = ["Outcomes", "fit"]
@@ -88,8 +88,7 @@ def fit(
             raise LocomotionError(f"{checkpoint}: of another training or seed; remove it to begin anew")
         x, first = arrays["x"], int(header["round"])
     begun = time.monotonic()
-    context = multiprocessing.get_context("spawn")
-    with context.Pool(workers, _start_worker, (problem,)) as pool:
+    with worker_pool(workers, _start_worker, (problem,)) as pool:
         for number in range(first, rounds):
             rng = np.random.default_rng([seed, number])
             trials, others = problem.trials(rng), problem.trials(rng)

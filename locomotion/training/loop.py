@@ -7,7 +7,6 @@ workers.
 """
 
 import hashlib
-import multiprocessing
 import os
 import sys
 import time
@@ -20,6 +19,7 @@ import numpy as np
 
 from locomotion.errors import LocomotionError
 from locomotion.training.cma_es import CmaEs
+from locomotion.workers import worker_pool
 from navmesh.archive import ArchiveError, read_archive, write_archive
 
 __all__ = ["Problem", "Progress", "Stage", "learn", "show"]
@@ -117,8 +117,7 @@ def learn(
     if checkpoint is not None and Path(checkpoint).exists():
         at, parameters, search = _resume(Path(checkpoint), identity, stages, parameters)
     total, begun, made = sum(s.generations for s in stages), time.monotonic(), 0
-    context = multiprocessing.get_context("spawn")
-    with context.Pool(workers, _start_worker, (problem,)) as pool:
+    with worker_pool(workers, _start_worker, (problem,)) as pool:
         for number in range(at, len(stages)):
             stage = stages[number]
             free = np.flatnonzero(stage.scale > 0)

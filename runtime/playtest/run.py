@@ -1,9 +1,7 @@
 """Running a playtest: the level read, its faults proved, the bots sent through it, the report made."""
 
 import math
-import multiprocessing
 import os
-import signal
 import tempfile
 import time
 from collections.abc import Iterator, Sequence
@@ -14,6 +12,7 @@ import numpy as np
 from scipy.spatial import KDTree
 
 import navmesh
+from locomotion.workers import worker_pool
 from runtime.errors import RuntimeInputError
 from runtime.playtest.analysis import analyse
 from runtime.playtest.bots import BotRun, Goals, run_bot
@@ -149,8 +148,7 @@ def _all_runs(stage: Stage, processes: int) -> Iterator[BotRun]:
     with tempfile.TemporaryDirectory(prefix="surefoot-") as folder:
         graph = Path(folder) / "graph.npz"
         stage.site.graph.save(graph)
-        context = multiprocessing.get_context("spawn")
-        with context.Pool(min(processes, max(setup.bots, 1)), _begin, (setup, graph)) as pool:
+        with worker_pool(min(processes, max(setup.bots, 1)), _begin, (setup, graph)) as pool:
             yield from pool.imap(_run_one, range(setup.bots))
 
 
@@ -159,7 +157,6 @@ _stage: Stage | None = None  # of a worker process
 
 def _begin(setup: Setup, graph: Path) -> None:
     global _stage
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent ends its workers
     _stage = open_stage(setup, navmesh.NodeGraph.load(graph))
 
 

@@ -5,8 +5,10 @@ import signal
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
+from navmesh.archive import read_archive
 from navmesh.whole_file import whole_file
 
 HOOK = """
@@ -18,7 +20,7 @@ def replace(self, target):
     global wait
     wait -= 1
     if wait == 0:
-        os.kill(os.getpid(), number)
+        (os.killpg if number == signal.SIGINT else os.kill)(os.getpid(), number)
         time.sleep(60)
     return put(self, target)
 Path.replace = replace
@@ -26,11 +28,13 @@ runtime.cli.main()
 """
 
 
-def interrupted(folder, number, which, *arguments):
-    """Run the command in ``folder``; it gets the signal just before its result number ``which`` is in place.
-    Its exit status and what it says."""
-    command = [sys.executable, "-c", HOOK, str(which), str(int(number)), *map(str, arguments)]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=300, check=False)
+def interrupted(folder, number, which, *arguments, begin=""):
+    """Run the command in ``folder``; it gets the signal (Ctrl-C: all of its processes do) just before its
+    result number ``which`` is in place. Its exit status and what it says."""
+    command = [sys.executable, "-c", begin + HOOK, str(which), str(int(number)), *map(str, arguments)]
+    done = subprocess.run(
+        command, cwd=folder, capture_output=True, text=True, timeout=300, check=False, start_new_session=True
+    )
     return done.returncode, done.stderr
 
 
@@ -43,6 +47,41 @@ COMMANDS = {
     "playtest": ("playtest", "level.obj", "--bots", 1, "--seconds", 5, "--out", "out"),
     "schema": ("schema", "-o", "result.json"),
 }
+
+
+TOY = """
+import os, signal, time
+from dataclasses import dataclass
+from pathlib import Path
+import numpy as np
+from locomotion.training.loop import Stage, learn
+from navmesh.archive import write_archive
+
+@dataclass(frozen=True)
+class Bowl:
+    def stages(self):
+        return (Stage("bowl", 4, 0.5, np.ones(3), population=6),)
+    def start(self):
+        return np.zeros(3)
+    def scenarios(self, stage, generation, rng):
+        return [rng.normal(size=3)]
+    def evaluate(self, stage, candidate, scenarios):
+        if Path("ctrl-c").exists():
+            Path("ctrl-c").unlink(missing_ok=True)
+            os.killpg(0, signal.SIGINT)
+            time.sleep(2.0)
+        return float(np.sum((candidate - 1.0 - 0.01 * scenarios[0]) ** 2)), 1.0
+
+def train(out, seed, checkpoint, workers, effort):
+    write_archive(out, "bowl", 1, {}, {"x": learn(Bowl(), seed, checkpoint, workers)})
+"""
+TRAIN = ("train", "slow-down", "-o", "skill.npz", "--checkpoint", "learned.checkpoint")
+BEGIN = """
+import sys
+sys.path.insert(0, ".")
+import toy, locomotion.training.slow_down
+locomotion.training.slow_down.train_slow_down = toy.train
+"""
 
 
 def files(folder):
@@ -61,6 +100,40 @@ def test_an_interrupted_command_leaves_no_half_result(command, number, folder, t
         assert all(name.split("/")[-1].startswith(".") and ".part" in name for name in left)
     else:
         assert not left
+
+
+def learned(folder, number, which):
+    """Exit status of learning the toy that is interrupted, or not at all, and what it says."""
+    (folder / "toy.py").write_text(TOY)
+    return interrupted(folder, number, which, *TRAIN, begin=BEGIN)
+
+
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("undisturbed")
+    assert learned(folder, 0, 0)[0] == 0
+    return read_archive(folder / "skill.npz", "bowl", 1)[1]["x"]
+
+
+# its results are the checkpoints of four generations and the skill
+@pytest.mark.parametrize(
+    ("number", "which", "status"),
+    [(signal.SIGTERM, 2, 143), (signal.SIGKILL, 3, -9), (signal.SIGINT, 5, 130)],
+)
+def test_interrupted_learning_goes_on_from_its_checkpoint(number, which, status, undisturbed, tmp_path):
+    code, said = learned(tmp_path, number, which)
+    assert code == status and "Traceback" not in said, said
+    assert not (tmp_path / "skill.npz").exists()
+    assert read_archive(tmp_path / "learned.checkpoint", "training checkpoint", 1)
+    assert learned(tmp_path, 0, 0)[0] == 0
+    assert np.array_equal(read_archive(tmp_path / "skill.npz", "bowl", 1)[1]["x"], undisturbed)
+
+
+def test_control_c_while_candidates_are_judged_says_so_once(tmp_path):
+    (tmp_path / "ctrl-c").touch()
+    code, said = learned(tmp_path, 0, 0)
+    assert code == 130 and "Traceback" not in said, said
+    assert said.count("surefoot: interrupted") == 1 and not (tmp_path / "skill.npz").exists()
 
 
 def test_control_c_says_so(folder):

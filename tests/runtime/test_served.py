@@ -96,7 +96,7 @@ def test_it_says_what_there_is_to_watch(graph):
 @pytest.mark.skipif(BROWSER is None, reason="no Chromium here to open the page in")
 def test_the_command_shows_it_in_a_browser(graph, tmp_path):
     async def conversation(server, client, address):
-        name = (await client.ask("create", level="small"))["world"]
+        name = (await client.ask("create", level="small", states="none"))["world"]
         await client.ask("spawn", world=name, body="walker", at=[6, 3, 0], name="tom")
         viewer = subprocess.Popen(
             [sys.executable, "-c", "import runtime.cli; runtime.cli.main()", "view", address],

@@ -8,7 +8,8 @@
 
 A person stands and walks by `locomotion.walking`, and runs by `locomotion.controller`: it runs where its path
 allows it and a run is worth it, slows down (`locomotion.slow_down`) and walks elsewhere (`make_path`), and
-comes to a stand at its goal.
+comes to a stand at its goal. On ground that is too steep for that it goes on hands and feet, and after a fall
+it gets up, if it is told to (`locomotion.on_all_fours`).
 """
 
 from __future__ import annotations
@@ -31,6 +32,7 @@ from locomotion.events import (
     Event,
     Fell,
     GotStuck,
+    GotUp,
     MissedGoal,
     SetOff,
     StrayedFromPath,
@@ -52,6 +54,7 @@ from locomotion.human_state import (
 )
 from locomotion.library import learned_skills
 from locomotion.obstacle_run import ObstacleRun, TakeOff
+from locomotion.on_all_fours import SCRAMBLE_SPEED, OnAllFours, gentle_ahead, steer, too_steep_around
 from locomotion.path_tracking import PathTable, make_path, new_track, shifted, track
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK
 from locomotion.person_course import course_on_path
@@ -90,6 +93,10 @@ _STILL = 0.03  # [m/s] of the centre of mass at rest
 _HASTE = 1.3  # [m/s] that the speed asked for may exceed the last step's: more trips it in setting off
 _CHANGE = 0.01  # [m] by which the ground under a person at rest may change unnoticed
 _PATIENCE = 0.9  # of the time that it gives way does not count as being stuck
+_LONGEST_DOWN = 12000  # ticks after which a body that has not got up stays down
+_AT_WALL = 8.0  # [m] before an obstacle from which there is no run-up any more
+_CLIMBS_BACK = 6.0  # [m] beside its path, where it has slid to, from which it climbs back
+_SLOW_HEADWAY = 0.8  # of the time on hands and feet does not count as being stuck
 _FALL_TICKS = 100  # a fallen body is simulated for this long, then held
 _GAINS = np.array(
     [0.35, 1.2, 0.15, 0.45, 0.5, 0.05]
@@ -103,9 +110,9 @@ class Human(SimulatedPerson):
     """A person under physics. `tick` advances it by 10 ms.
 
     Attributes:
-        status: "standing", "walking", "running", "jumping", "vaulting", "dropping", "fallen", "arrived",
-            "lost" (strayed from its path or missed its goal) or "stuck". `held` tells whether it is
-            simulated.
+        status: "standing", "walking", "running", "jumping", "vaulting", "dropping", "scrambling", "getting
+            up", "fallen" (for good), "arrived", "lost" (strayed from its path or missed its goal) or "stuck".
+            `held` tells whether it is simulated.
         events: list of `locomotion.events.Event` in order of time.
         model, data: the MuJoCo model (shared by all persons on the same ground) and this person's own data.
     """
@@ -118,17 +125,19 @@ class Human(SimulatedPerson):
         walk: WalkSkill | None = None,
         slow_down: SlowDownSkill | None = None,
         rehearsals: int = REHEARSALS,
+        gets_up: bool = False,
     ) -> None:
         """``ground``: None is the endless plane z = 0. ``skill``: how it runs; None loads the package's.
         ``clearing``: how it clears obstacles; None: by what comes with the package (`learned_skills`).
         ``walk``, ``slow_down``: how it walks, and how it comes to it from a run; None loads the package's.
         ``rehearsals``: how many variations of a take-off it tries out at most before it takes off
-        (`locomotion.rehearsal`); 0: none."""
+        (`locomotion.rehearsal`); 0: none. ``gets_up``: whether it gets up after a fall and goes on; else a
+        fall is the end."""
         super().__init__(ground)
         self.skill = load_run_skill() if skill is None else skill
         self.gait = load_walk_skill() if walk is None else walk
         slow_down = load_slow_down_skill() if slow_down is None else slow_down
-        self._rehearsals = rehearsals
+        self._rehearsals, self.gets_up = rehearsals, gets_up
         self._slow_down = slow_down
         self._understudy: Human | None = None
         self._slow_run = slow_down.run_tables(self.skill)
@@ -142,6 +151,7 @@ class Human(SimulatedPerson):
         self._path: PathTable | None = None
         skills = learned_skills(self.skill) if clearing is None else clearing
         self._obstacle_run = ObstacleRun(skills, self.skill)
+        self._fours = OnAllFours(self.model, self.index)
         self._slowing = 0.0  # [m/s^2] at which it slows down to a walk; 0: it does not
         self._ticks = 0
         self._ended_at = 0  # tick at which it fell or stopped
@@ -173,13 +183,18 @@ class Human(SimulatedPerson):
         stopped = self._ticks - self._ended_at
         if self.status == "fallen":
             return stopped > _FALL_TICKS
+        if self._fours.active:
+            return stopped > _SETTLING and self._fours.borne
         at_rest = self._walk[PHASE] == STANDING and self._walk[CLOCK] == 0.0
         at_rest = at_rest and float(np.abs(self._control[controller.COM_VELOCITY]).max()) < _STILL
         return (self._walk[WALKS] > 0.0 and at_rest) or stopped > _SETTLING
 
     @property
     def gait_now(self) -> Gait:
-        """How it moves now: "walk" (or stand), "run", or "slow run" on its way from a run to a walk."""
+        """How it moves now: "walk" (or stand), "run", "slow run" on its way from a run to a walk, or
+        "scramble" (or getting up)."""
+        if self._fours.active:
+            return "scramble"
         if self._walk[WALKS] > 0.0:
             return "walk"
         return "slow run" if self._slowing > 0.0 else "run"
@@ -221,7 +236,7 @@ class Human(SimulatedPerson):
         obstacle that none of its skills clears, or a person that has fallen.
         """
         if self.status == "fallen":
-            raise LocomotionError("the person has fallen and cannot get up yet; reset it")
+            raise LocomotionError("the person has fallen for good; reset it")
         for obstacle in obstacles:
             if skill_for(self.clearing, obstacle) is None:
                 wanted = f"{obstacle.affordance} {obstacle.height:.2f} m"
@@ -243,13 +258,18 @@ class Human(SimulatedPerson):
         self._memory[:] = new_track()
         self._memory[path_tracking.HEADWAY_TICK] = self._ticks
         self._memory[path_tracking.REMAINING] = table.length
-        self.status = "running" if running else "walking"
+        self._fours.on_way = 1.0
+        if not self._fours.active:
+            self.status = "running" if running else "walking"
+        elif self.status != "getting up":
+            self.status = "scrambling"
         goal = (float(table.goal[0]), float(table.goal[1]), float(table.goal[2]))
         self.events.append(SetOff(self.time, self._point(), goal, table.length))
 
     def stop(self) -> None:
         """Give up the path and come to a stand; what is being cleared is cleared first."""
-        if self.status in MOVING:
+        self._fours.on_way = 0.0
+        if self.status in MOVING and self.status != "getting up":
             self.status, self._ended_at = "standing", self._ticks
             if not self._obstacle_run.clearing:
                 self._obstacle_run.begin(())
@@ -260,13 +280,13 @@ class Human(SimulatedPerson):
         that is held though it did not come to rest from a run and whose footing has changed."""
         before, state = self._footing(), self.save_state()
         self._stand_on(ground)
+        self._fours = OnAllFours(self.model, self.index)
         self.restore_state(state)
         now = self._footing()
         bottomless = bool(np.isnan(now).all() and not np.isnan(before).all())
         if bottomless or (self.held and not np.all(np.abs(now - before) <= _CHANGE)):
             if self.status != "fallen" and (bottomless or self._walk[WALKS] == 0.0):
-                let_go_both(self.data)
-                self._end("fallen", Fell(self.time, self._point(), 0.0, 0.0, self.arc_length))
+                self._fall()
             self._ended_at = self._ticks
             self._control[controller.COM_VELOCITY] = 0.0, 0.0, -_STILL  # not at rest any more
 
@@ -305,6 +325,9 @@ class Human(SimulatedPerson):
         self._ticks += 1
         if self.held:
             return
+        if self._fours.active:
+            self._tick_on_all_fours()
+            return
         state, data = self._control, self.data
         walks = self._walk[WALKS] > 0.0
         if self._path is not None and self.status != "fallen":
@@ -332,17 +355,81 @@ class Human(SimulatedPerson):
         elif self._walk[WALKS] > 0.0 and self._walk[WALK_TICKS] < RISING:
             state[controller.FALLEN] = 0.0  # after a roll it begins to walk from a crouch
         if state[controller.FALLEN] > 0.0:
-            let_go_both(data)
-            speed, slope = float(state[controller.SPEED]), float(self._memory[path_tracking.SLOPE_HERE])
-            self._end("fallen", Fell(self.time, self._point(), speed, slope, self.arc_length))
-        elif self._path is not None and self.status in MOVING:
+            self._fall()
+            return
+        if self._path is not None and self.status in MOVING:
             self._notice()
-        if self._path is not None and not self._obstacle_run.clearing and self.status != "fallen":
+        if self._path is not None and not self._obstacle_run.clearing:
             if self._walk[WALKS] > 0.0:
                 self._run_if_due(self._path)
             else:
                 self._walk_if_due(self._path)
                 self._rehearse_take_off()
+
+    def _fall(self) -> None:
+        """It has lost its balance."""
+        let_go_both(self.data)
+        state, on_way = self._control, self.status in MOVING
+        speed, slope = float(state[controller.SPEED]), float(self._memory[path_tracking.SLOPE_HERE])
+        self._end("fallen", Fell(self.time, self._point(), speed, slope, self.arc_length))
+        over_ground = self.ground is None or np.isfinite(self.ground.surface_below(self.com)[0][0])
+        if self.gets_up and over_ground:
+            self.status, self._slowing = "getting up", 0.0
+            self._walk[:] = new_walk()
+            self._obstacle_run.give_up()
+            self._fours.fall(self.data)
+            self._fours.fell_at, self._fours.on_way = float(self._ticks), float(on_way)
+
+    def _tick_on_all_fours(self) -> None:
+        """A tick on hands and feet, on the way to them after a fall, or from them to a stand."""
+        fours, memory, on_way = self._fours, self._memory, self._fours.on_way > 0.0
+        path = self._path if on_way and self.status in MOVING else None
+        self._command[:] = fours.facing, 0.0, 0.0, 0.0
+        if path is not None:
+            x, y = self._control[controller.COM][:2]
+            track(
+                path.table, path.length, _WALK_GAINS, memory, x, y, SCRAMBLE_SPEED, self._ticks, self._command
+            )
+            waits = (self._ticks - memory[path_tracking.HEADWAY_TICK]) * CONTROL_DT / (1.0 - _SLOW_HEADWAY)
+            steer(path, self.arc_length, self.com, waits, self._command)
+        if self._ticks % 20 == 0:
+            fours.gentle = float(gentle_ahead(self.ground, self.position, path, self.arc_length))
+        fours.tick(self._lookup, self._command, self.data, fours.gentle > 0.0)
+        mujoco.mj_step(self.model, self.data, STEPS_PER_TICK)
+        observe(self.index, self.model, self.data, self._control)
+        self._control[controller.FALLEN] = 0.0
+        stands = fours.observe(self._lookup, self.data)
+        if fours.fallen and self.status != "getting up":
+            self._fall()
+        elif stands:
+            self._stand_up()
+        elif fours.borne and fours.gentle == 0.0 and self.status == "getting up":
+            self._got_up("scrambling")
+        if self.status == "getting up":
+            memory[path_tracking.HEADWAY_TICK] = self._ticks
+            if self._ticks - fours.fell_at > _LONGEST_DOWN:
+                self.status, self._ended_at = "fallen", self._ticks
+                fours.leave()
+        elif path is not None and self.status in MOVING:
+            memory[path_tracking.HEADWAY_TICK] += _SLOW_HEADWAY
+            self._notice()
+
+    def _got_up(self, status: Status) -> None:
+        self.status, self._ended_at = status if self._fours.on_way > 0.0 else "standing", self._ticks
+        down = (self._ticks - self._fours.fell_at) * CONTROL_DT
+        self.events.append(GotUp(self.time, self._point(), down))
+
+    def _stand_up(self) -> None:
+        """The walk takes over."""
+        rise_walking(self._walk, self._control, self._fours.facing)
+        observe_walk(self.index, self.data, self._walk)
+        self._fours.leave()
+        if self.status == "getting up":
+            self._got_up("walking")
+        elif self.status == "scrambling":
+            self.status = "walking"
+        if self.status == "walking" and self._obstacle_run.comes_within(self.arc_length, _AT_WALL):
+            self._end("stuck", GotStuck(self.time, self._point()))
 
     def _walk_tables(self) -> NDArray[np.float64]:
         """The gains with which it walks now."""
@@ -459,14 +546,14 @@ class Human(SimulatedPerson):
         assert self._path is not None
         memory, com = self._memory, self._control[controller.COM]
         remaining = memory[path_tracking.REMAINING]
-        if remaining < (_WALK_ARRIVAL if self.status == "walking" else ARRIVAL_DISTANCE):
+        if remaining < (_WALK_ARRIVAL if self.status in ("walking", "scrambling") else ARRIVAL_DISTANCE):
             goal = self._path.goal
             distance = math.hypot(goal[0] - com[0], goal[1] - com[1])
             if distance <= ARRIVAL_DISTANCE:
                 self._end("arrived", Arrived(self.time, self._point(), distance))
-            elif remaining <= 1e-9:
+            elif remaining <= 1e-9 and self.status != "scrambling":
                 self._end("lost", MissedGoal(self.time, self._point(), distance))
-        elif abs(memory[path_tracking.LATERAL]) > STRAYED:
+        elif abs(memory[path_tracking.LATERAL]) > (_CLIMBS_BACK if self._fours.active else STRAYED):
             self._end("lost", StrayedFromPath(self.time, self._point(), abs(self.lateral_error)))
         elif memory[path_tracking.PACE] < 1.0:
             memory[path_tracking.HEADWAY_TICK] += _PATIENCE
@@ -483,8 +570,9 @@ class Human(SimulatedPerson):
         """Everything needed to continue from here."""
         return HumanState(
             save_physics(self.model, self.data), self._control.copy(), self._walk.copy(),
-            np.concatenate([self._memory, self._command]), self._slowing, self._path,
-            self._obstacle_run.save_state(), self.status, self._ticks, self._ended_at, tuple(self.events),
+            np.concatenate([self._memory, self._command]), self._slowing,
+            self._fours.save_state(), self._path, self._obstacle_run.save_state(), self.status, self._ticks,
+            self._ended_at, tuple(self.events),
         )  # fmt: skip
 
     def restore_state(self, state: HumanState) -> None:
@@ -495,6 +583,7 @@ class Human(SimulatedPerson):
         self._memory[:] = state.tracking[: path_tracking.TRACK_SIZE]
         self._command[:] = state.tracking[path_tracking.TRACK_SIZE :]
         self._slowing, self._path, self.status = state.slowing, state.path, state.status
+        self._fours.restore_state(state.on_all_fours)
         self._obstacle_run.restore_state(state.obstacle_run)
         self._ticks, self._ended_at = state.ticks, state.ended_at
         self.events[:] = state.events
@@ -503,10 +592,17 @@ class Human(SimulatedPerson):
         """Hex digest of the physical and mental state; equal for equal runs."""
         physics = save_physics(self.model, self.data)
         parts = [physics, self._control, self._walk, self._memory, self._command, np.array(self._slowing)]
+        parts.append(self._fours.save_state())
         return hash_of(self.status, [*parts, *self._obstacle_run.save_state().arrays])
 
     def _place(self, position: NDArray[np.float64], yaw: float, speed: float) -> None:
-        if speed > 0.0:
+        self._fours.leave()
+        if speed == 0.0 and too_steep_around(self.ground, position):
+            self._fours.crouch(self._lookup, self.data, position, yaw)
+            self._control[:] = controller.new_state()
+            observe(self.index, self.model, self.data, self._control, fresh=True)
+            self._walk[:] = new_walk(yaw)
+        elif speed > 0.0:
             reset_running(self.skill, self.model, self.data, self.index, self._control, position, yaw, speed)
             self._walk[WALKS] = 0.0
         else:

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 __all__ = [
-    "Arrived", "BackedOut", "Cleared", "Event", "Fell", "GotStuck", "LostGround", "MissedGoal", "SetOff",
-    "StrayedFromPath", "TookOff",
+    "Arrived", "BackedOut", "Cleared", "Event", "Fell", "GotStuck", "GotUp", "LostGround", "MissedGoal",
+    "SetOff", "StrayedFromPath", "TookOff",
 ]  # fmt: skip
 
 
@@ -69,6 +69,13 @@ class Fell(Event):
     speed: float
     slope: float
     arc_length: float
+
+
+@dataclass(frozen=True)
+class GotUp(Event):
+    """The body has got up after a fall, ``seconds`` [s] after it: it stands, or goes on on hands and feet."""
+
+    seconds: float
 
 
 @dataclass(frozen=True)

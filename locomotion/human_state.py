@@ -19,14 +19,17 @@ from locomotion.path_tracking import PathTable
 __all__ = ["CLEARING", "MOVING", "Gait", "HumanState", "Status", "hash_of", "restore_physics", "save_physics"]
 
 Status = Literal[
-    "standing", "walking", "running", "jumping", "vaulting", "dropping", "fallen", "arrived", "lost", "stuck"
-]
-Gait = Literal["walk", "run", "slow run"]
+    "standing", "walking", "running", "jumping", "vaulting", "dropping", "scrambling", "getting up", "fallen",
+    "arrived", "lost", "stuck",
+]  # fmt: skip
+Gait = Literal["walk", "run", "slow run", "scramble"]
 CLEARING: dict[str, Status] = {
     "jump": "jumping", "vault": "vaulting", "drop": "dropping", "gap": "jumping",
 }  # fmt: skip
 """What a person does that clears an obstacle of an affordance."""
-MOVING: tuple[Status, ...] = ("walking", "running", *dict.fromkeys(CLEARING.values()))
+MOVING: tuple[Status, ...] = (
+    "walking", "running", *dict.fromkeys(CLEARING.values()), "scrambling", "getting up",
+)  # fmt: skip
 """What a person that is on its way does."""
 
 _STATE = mujoco.mjtState.mjSTATE_INTEGRATION
@@ -41,6 +44,7 @@ class HumanState:
     walk: NDArray[np.float64]
     tracking: NDArray[np.float64]
     slowing: float
+    on_all_fours: NDArray[np.float64]
     path: PathTable | None
     obstacle_run: ObstacleRunState
     status: Status

@@ -63,6 +63,17 @@ class ObstacleRun:
         self.obstacles, self._skill = tuple(obstacles), None
         self._plan[:] = 0.0
 
+    def give_up(self) -> None:
+        """The body has fallen: what was being cleared is not, and there is no run-up."""
+        self._skill = None
+        self._plan[_PLANNED:] = 0.0
+
+    def comes_within(self, arc: float, distance: float) -> bool:
+        """Whether the next obstacle ahead of arc length ``arc`` is nearer than ``distance`` [m]."""
+        while self.ahead is not None and self.ahead.arc_length < arc:
+            self._pass()
+        return self.ahead is not None and self.ahead.arc_length - arc < distance
+
     @property
     def ahead(self) -> ObstacleAhead | None:
         """The next obstacle, or the one that is being cleared."""

@@ -20,6 +20,7 @@ from runtime.events import (
     Departed,
     Event,
     Fell,
+    GotUp,
     Lost,
     SkillFinished,
     SkillStarted,
@@ -104,7 +105,8 @@ class Agent:
     @property
     def status(self) -> str:
         """What it does: "standing", "walking", "running" (of a quadruped: on its way), "arrived", "lost",
-        "stuck", of a human also "jumping" and "fallen"; or "blocked": the last goal cannot be reached."""
+        "stuck", of a human also "jumping", "scrambling", "getting up" and "fallen"; or "blocked": the
+        last goal cannot be reached."""
         return "blocked" if self._blocked else self._driver.status
 
     @property
@@ -251,6 +253,8 @@ class Agent:
             return Arrived(**base, goal=self._goal)
         if isinstance(event, bodily.Fell):
             return Fell(**base)
+        if isinstance(event, bodily.GotUp):
+            return GotUp(**base, seconds=event.seconds)
         if isinstance(event, bodily.TookOff):
             return SkillStarted(**base, skill=event.affordance, height=event.height)
         if isinstance(event, bodily.Cleared):

@@ -10,6 +10,7 @@ __all__ = [
     "Departed",
     "Event",
     "Fell",
+    "GotUp",
     "Lost",
     "SkillFinished",
     "SkillStarted",
@@ -111,10 +112,20 @@ class SkillFinished(Event):
 
 @dataclass(frozen=True)
 class Fell(Event):
-    """The agent lost its balance; it stays down."""
+    """The agent lost its balance. A human gets up and goes on (`GotUp`), unless there is no ground."""
 
     def _what(self) -> str:
         return f"falls at {_place(self.position)}"
+
+
+@dataclass(frozen=True)
+class GotUp(Event):
+    """The agent stands again, or is on hands and feet on steep ground, ``seconds`` [s] after it fell."""
+
+    seconds: float
+
+    def _what(self) -> str:
+        return f"is up again after {self.seconds:.1f} s"
 
 
 @dataclass(frozen=True)

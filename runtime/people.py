@@ -30,12 +30,12 @@ class People:
         self._drivers: list[HumanDriver] = []
 
     def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> Driver:
-        human = Human(self._level.ground)
+        human = Human(self._level.ground, gets_up=True)
         human.reset(place, facing)
         return self._add(human)
 
     def revive(self, body: str, state: Any) -> Driver:
-        driver = self._add(Human(self._level.ground))
+        driver = self._add(Human(self._level.ground, gets_up=True))
         driver.restore(state)
         return driver
 

@@ -1,0 +1,159 @@
+"""A person on hands and feet: scrambling where it is too steep to walk, and getting up after a fall.
+
+    four = OnAllFours(model, index)
+    four.fall(data)                                  # or four.crouch(...)
+    while four.active:
+        four.tick(lookup, command, data, stand=True)
+        mujoco.mj_step(model, data, STEPS_PER_TICK)
+        four.observe(lookup, data)                   # not active any more once it stands
+
+What it remembers is one array, `memory` (its fields: `locomotion.scramble_layout`).
+"""
+
+import math
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion.getting_up import begin_getting_up, get_up_tick, rise_on
+from locomotion.ground import Ground
+from locomotion.path_tracking import PathTable
+from locomotion.person import PersonIndex
+from locomotion.rising import begin_to_rise, gather, ready_to_rise, rise_tick, stands
+from locomotion.scramble_layout import AWAY, BORNE, FACING, MODE, RISEN, RISING, new_scramble
+from locomotion.scramble_seen import observe_scramble, parts_of
+from locomotion.scrambling import crouch, lie_of, scramble_tick
+
+__all__ = ["SCRAMBLE_SPEED", "OnAllFours", "gentle_ahead", "steer", "too_steep_around"]
+
+SCRAMBLE_SPEED = 0.15
+"""[m/s] of a person on hands and feet; faster it falls more often."""
+_TOO_STEEP, _GENTLE = 0.45, 0.35  # slopes around a place where it is put on hands and feet; where it rises
+_AROUND, _AHEAD = 1.2, 12.0  # [m] of the place; of its path
+_LOOK = 0.4  # [m] ahead on its path to where it goes
+_NO_HEADWAY, _ROUND = 6.0, 0.7  # [s] without headway after which it goes [rad] off its way, facing ahead
+
+
+class OnAllFours:
+    """``active``: whether hands and feet move the body now. ``fell_at``: tick of its last fall; ``on_way``:
+    1 if it goes somewhere; ``gentle``: 1 where it can walk on."""
+
+    def __init__(self, model: mujoco.MjModel, index: PersonIndex) -> None:
+        self._model, self._index = model, index
+        self._parts = parts_of(index, model.nbody)
+        self.memory = new_scramble()
+        self.fell_at, self.on_way, self.gentle = 0.0, 0.0, 0.0
+        self.leave()
+
+    @property
+    def active(self) -> bool:
+        return bool(self.memory[MODE] != AWAY)
+
+    @property
+    def borne(self) -> bool:
+        """Whether it has come up on hands and feet."""
+        return bool(self.memory[MODE] == BORNE and self.memory[RISEN] >= 1.0)
+
+    @property
+    def fallen(self) -> bool:
+        """Whether it lies, or is about to."""
+        return bool(AWAY < self.memory[MODE] < BORNE)
+
+    @property
+    def facing(self) -> float:
+        """Direction that it faces [rad]."""
+        return float(self.memory[FACING])
+
+    def leave(self) -> None:
+        """Hand the body over."""
+        self.memory[MODE] = AWAY
+
+    def fall(self, data: mujoco.MjData) -> None:
+        """The body has fallen, however it lies."""
+        self.memory[:] = new_scramble()
+        observe_scramble(self._index, self._parts, data, self.memory, fresh=True)
+        begin_getting_up(self.memory, data.qpos)
+
+    def crouch(
+        self, lookup: tuple[NDArray, ...], data: mujoco.MjData, place: NDArray[np.float64], yaw: float
+    ) -> None:
+        """Put the person on hands and feet over the ground point ``place`` (3,), to go towards ``yaw``."""
+        crouch(self._model, data, self._index, self._parts, lookup, self.memory, place, yaw)
+
+    def tick(
+        self, lookup: tuple[NDArray, ...], command: NDArray[np.float64], data: mujoco.MjData, stand: bool
+    ) -> None:
+        """One control tick. ``command`` (4,): direction [rad] and speed [m/s]; ``stand``: whether to rise."""
+        memory = self.memory
+        if memory[MODE] < BORNE:
+            get_up_tick(lookup, memory, data.qpos, data.ctrl)
+        elif memory[MODE] == RISING:
+            rise_tick(memory, data.qpos, data.ctrl)
+        else:
+            gather(memory, stand and self.borne)
+            if stand or memory[RISEN] < 1.0:
+                command = np.array([memory[FACING], 0.0, 0.0, 0.0])
+            scramble_tick(lookup, memory, command, data.qpos, data.qvel, data.ctrl)
+            if stand and ready_to_rise(memory):
+                begin_to_rise(memory, data.qpos)
+
+    def observe(self, lookup: tuple[NDArray, ...], data: mujoco.MjData) -> bool:
+        """After the physics. Whether it stands now, for the walk to take over."""
+        memory = self.memory
+        observe_scramble(self._index, self._parts, data, memory)
+        if memory[MODE] >= BORNE:
+            rise_on(lookup, memory, data.qpos)
+        return bool(memory[MODE] == RISING and stands(memory))
+
+    def save_state(self) -> NDArray[np.float64]:
+        """Everything needed to continue from here."""
+        return np.concatenate([self.memory, [self.fell_at, self.on_way, self.gentle]])
+
+    def restore_state(self, state: NDArray[np.float64]) -> None:
+        """Continue from what `save_state` gave."""
+        self.memory[:] = state[:-3]
+        self.fell_at, self.on_way, self.gentle = (float(each) for each in state[-3:])
+
+
+def steer(path: PathTable, arc: float, com: NDArray[np.float64], waits: float, command: NDArray) -> None:
+    """Write into ``command`` (4,) how a body on hands and feet goes on along ``path`` at arc length ``arc``
+    [m], having made no headway for ``waits`` [s]."""
+    step = path.length / (len(path.table) - 1)
+    ahead = path.table[min(int((arc + _LOOK) / step), len(path.table) - 1)]
+    command[:3] = math.atan2(ahead[1] - com[1], ahead[0] - com[0]), SCRAMBLE_SPEED, 0.0
+    if waits > _NO_HEADWAY:
+        command[0] += _ROUND if waits % (2.0 * _NO_HEADWAY) < _NO_HEADWAY else -_ROUND
+        command[2] = 1.0
+
+
+def too_steep_around(ground: Ground | None, place: NDArray[np.float64]) -> bool:
+    """Whether nobody can stand around ``place`` (3,)."""
+    if ground is None or not ground.steep:
+        return False
+    around = np.linspace(0.0, 2.0 * math.pi, 8, endpoint=False)
+    ring = place + _AROUND * np.stack([np.cos(around), np.sin(around), 0.0 * around], axis=1)
+    return _steepest(ground, np.vstack([place, ring])) > _TOO_STEEP
+
+
+def gentle_ahead(
+    ground: Ground | None, place: NDArray[np.float64], path: PathTable | None, arc: float
+) -> bool:
+    """Whether a person at ``place`` (3,) can stand up and, if it has a ``path``, walk on from ``arc`` [m]."""
+    if ground is None or not ground.steep:
+        return True
+    points = place[None]
+    if path is not None:
+        step = path.length / (len(path.table) - 1)
+        rows = np.arange(arc, min(arc + _AHEAD, path.length) + 0.01, 0.25) / step
+        points = path.table[np.minimum(rows.astype(int), len(path.table) - 1), :3]
+    return _steepest(ground, points) < _GENTLE
+
+
+def _steepest(ground: Ground, points: NDArray[np.float64]) -> float:
+    """Steepest slope [rise over run] of the ground around ``points`` (n, 3)."""
+    gradient, most, lookup = np.empty(2), 0.0, ground.lookup
+    for x, y, z in points:
+        lie_of(lookup, x, y, z, gradient)
+        most = max(most, math.hypot(gradient[0], gradient[1]))
+    return most

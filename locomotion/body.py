@@ -482,6 +482,7 @@ class Human(SimulatedPerson):
         """Where the path is not run, slow down, and go over to walking just after a foot was put down."""
         state = self._control
         due = self.status not in MOVING or not path.runs(self._memory[path_tracking.ARC])
+        due |= self._memory[path_tracking.PACE] == 0.0
         if due and self._slowing == 0.0:
             self.slow_down(self._rehearse(SLOWINGS, Human.slow_down, walks_on)[0])
         if self._slowing > 0.0 and can_walk_on(state):

@@ -47,7 +47,7 @@ class Course:
         speed: [m/s] now. pace: share of ``speeds`` at which it goes at present.
         length: [m] from its rearmost point, which follows the path, to its front. radius: [m].
         acceleration, braking: [m/s²].
-        slowest: [m/s] that it can go; 0: it can stop.
+        slowest: [m/s] that it can go, unless it halts; 0: it halts as easily as it slows down.
         sharpest: [1/m] of a curve that it can take. begins: [m] ahead where a change of its path may begin.
         aside: whether its path may be changed.
     """
@@ -82,7 +82,7 @@ def foretell(points, speeds, speed, pace, slowest, acceleration, braking, length
             j = min(i + 1, last)
             places[k, d, 0] = (1.0 - w) * points[i, 0] + w * points[j, 0]
             places[k, d, 1] = (1.0 - w) * points[i, 1] + w * points[j, 1]
-        wanted = max(pace * speeds[min(int(arc / SPACING), last)], slowest)
+        wanted = max(pace * speeds[min(int(arc / SPACING), last)], slowest) if pace > 0.0 else 0.0
         change = min(max(wanted - speed, -braking * STEP), acceleration * STEP)
         speed = max(speed + change, 0.0)
         arc = min(arc + speed * STEP, max(last * SPACING - length, 0.0))
@@ -144,12 +144,13 @@ def cost_of_meeting(step: int) -> float:
     return 0.0 if step >= COUNT else _MEETING_COSTS + _SOONER_COSTS * (1.0 - step / COUNT)
 
 
-def options(course: Course, meeting: int) -> list[Options]:
-    """What a body can do that would meet somebody at step ``meeting``, the cheapest first."""
+def options(course: Course, meeting: int, halts: bool = True) -> list[Options]:
+    """What a body can do that would meet somebody at step ``meeting``, the cheapest first; ``halts``: whether
+    one that does not halt easily does so."""
     found = [
         Options(pace, None, _SLOW_COSTS * (1.0 - pace))
         for pace in _PACES
-        if pace == 1.0 or _slows(course, pace)
+        if pace == 1.0 or (_slows(course, pace) if pace > 0.0 else halts or course.slowest == 0.0)
     ]
     if course.aside:
         arcs = SPACING * np.arange(len(course.points))

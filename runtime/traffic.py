@@ -78,12 +78,14 @@ class Traffic:
             if course is None:
                 continue
             others = np.array([j for j in np.flatnonzero(near[index]) if not _on_goal(course, discs[int(j)])])
+            # who halts at once gives way to who does not
+            halts = any(other < len(followers) and _rushes(course_of(int(other))) for other in others)
             if len(others):
                 there = np.concatenate([foretold(int(other)) for other in others], axis=1)
                 radii = np.concatenate([discs[int(other)][:, 5] for other in others])
             else:
                 there, radii = np.empty((COUNT, 0, 2)), np.empty(0)
-            chosen = self._chosen(course, len(discs[index]), there, radii)
+            chosen = self._chosen(course, len(discs[index]), there, radii, halts)
             if chosen.shift is not None or chosen.pace != course.pace:
                 followers[index].give_way(chosen.pace, chosen.shift)
                 courses.pop(index, None)
@@ -103,8 +105,10 @@ class Traffic:
         rows = np.concatenate([np.empty((0, 6)), *(group[:, group.shape[1] // 2] for group in groups)])
         return followers, rows, [discs for group in groups for discs in group]
 
-    def _chosen(self, course: Course, discs: int, there: np.ndarray, radii: np.ndarray) -> Options:
-        """The option that costs least."""
+    def _chosen(
+        self, course: Course, discs: int, there: np.ndarray, radii: np.ndarray, halts: bool
+    ) -> Options:
+        """The option that costs least; ``halts``: also for one that does not halt easily."""
         radius = course.radius + _ROOM
 
         def meeting(option: Options) -> int:
@@ -119,7 +123,7 @@ class Traffic:
         if first >= COUNT:
             return onward
         best, least = onward, cost_of_meeting(first)
-        for option in options(course, first):
+        for option in options(course, first, halts):
             if option.cost >= least:
                 break
             cost = option.cost + cost_of_meeting(meeting(option))
@@ -133,6 +137,11 @@ class Traffic:
         points = course.points[moved].copy()
         points[:, :2] += shift[moved]
         return line_holds(self._level.graph, points, course.radius)
+
+
+def _rushes(course: Course | None) -> bool:
+    """Whether somebody does not halt easily."""
+    return course is not None and course.slowest > 0.0
 
 
 def _on_goal(course: Course, discs: np.ndarray) -> bool:

@@ -32,8 +32,10 @@ def test_a_body_is_foretold_on_its_path():
         stopping[-1, 0, 0] == pytest.approx(1.5**2 / (2.0 * 2.0), abs=0.1)
         and stopping[-1, 0, 0] == stopping[-9, 0, 0]
     )
-    running = places(course(slowest=1.0), 0.0)
+    running = places(course(slowest=1.0), 0.3)
     assert np.diff(running[:, 0, 0])[-1] == pytest.approx(1.0 * STEP)
+    halting = places(course(slowest=1.0), 0.0)
+    assert np.diff(halting[:, 0, 0])[-1] == 0.0
     short = places(course(points=ALONG[:21]), 1.0)
     assert short[-1, 2] == pytest.approx([2.0, 0.0])
 
@@ -72,3 +74,9 @@ def test_ways_aside_leave_and_come_back_as_curved_as_may_be():
     assert right.shift[:, 1].min() < 0.0  # along x, the right is -y
     assert all(each.shift is None for each in options(course(aside=False), 15))
     assert all(each.shift is None for each in options(course(points=ALONG[:20]), 15))
+
+
+def test_who_does_not_halt_easily_halts_only_when_told_that_it_must():
+    runner, walker = course(slowest=1.0), course()
+    for of, halts, wanted in ((runner, False, False), (runner, True, True), (walker, False, True)):
+        assert any(each.pace == 0.0 for each in options(of, 20, halts)) is wanted

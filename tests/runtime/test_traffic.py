@@ -113,3 +113,20 @@ def test_a_body_at_rest_on_the_goal_does_not_keep_others_away(hall):
     late.go_to((10.2, 4.0, 0.0), speed=1.4)
     world.step(15.0)
     assert late.status == "arrived"
+
+
+def test_a_runner_that_gives_way_altogether_walks_and_runs_on():
+    world = World(floor((0.0, 0.0, 60.0, 6.0)))
+    ends = []
+    for told in (2.0, 2.3, 2.6, 2.9):  # one stop of many is a fall
+        agent = world.spawn("human", (2.0, 3.0, 0.0))
+        agent.go_to((58.0, 3.0, 0.0), speed=3.0)
+        world.step(told)
+        agent.human.give_way(0.0, None)
+        world.step(6.0)
+        slow = np.linalg.norm(agent.human.velocity[:2]) < 0.5
+        agent.human.give_way(1.0, None)
+        world.step(6.0)
+        ends.append(slow and agent.status == "running" and agent.human.gait_now == "run")
+        agent.remove()
+    assert sum(ends) >= 3

@@ -5,8 +5,9 @@
 For each level the graph is built with a person's rules (`locomotion.PERSON_RULES`), start and goal are drawn
 from its nodes, 10 to 60 m of route apart, and the person runs along the smoothed route from a held start. The
 table says how many arrive (in 60 s and 10 s per metre: enough for hands and feet at 0.1 m/s), how often they
-fell on their way and got up again, and what stopped the others; JSON holds every mission. Then the longest
-mission is timed: whole ticks, and bare physics with the same controls from the same states, in turns.
+fell on their way and got up again, how far they were from the path (while they went, not while they got up),
+and what stopped the others; JSON holds every mission. Then the longest mission is timed: whole ticks, and
+bare physics with the same controls from the same states, in turns.
 
 Undulating has hardly any ground that is less steep than a person's limit (7 % below 20 degrees; it falls into
 patches of 4 m), so its slope limit is 45 degrees there.
@@ -76,7 +77,8 @@ def run_mission(human: Human, route: Any, speed: float) -> dict[str, Any]:
     limit = TIME_LIMIT[0] + TIME_LIMIT[1] * route.length
     while human.status in MOVING and human.time - begun < limit:
         human.tick()
-        lateral.append(abs(human.lateral_error))
+        if human.status != "getting up":
+            lateral.append(abs(human.lateral_error))
     last = human.events[-1]
     rise = np.abs(np.diff(path.points[:, 2])) / np.maximum(
         np.linalg.norm(np.diff(path.points[:, :2], axis=0), axis=1), 1e-6

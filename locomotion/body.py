@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import TypeVar
 
 import mujoco
@@ -55,14 +56,24 @@ from locomotion.human_state import (
 from locomotion.library import learned_skills
 from locomotion.obstacle_run import ObstacleRun, TakeOff
 from locomotion.on_all_fours import SCRAMBLE_SPEED, OnAllFours, gentle_ahead, steer, too_steep_around
-from locomotion.path_tracking import PathTable, make_path, new_track, shifted, track
+from locomotion.path_tracking import PathTable, back_along, make_path, new_track, shifted, track
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK
 from locomotion.person_course import course_on_path
-from locomotion.rehearsal import REHEARSALS, RUN_UPS, SLOWINGS, clears, first_good, walks_on
+from locomotion.rehearsal import (
+    REHEARSALS,
+    RUN_UPS,
+    SETTING_OFF,
+    SLOWINGS,
+    clears,
+    first_good,
+    runs_on,
+    walks_on,
+)
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.simulated_person import SimulatedPerson
 from locomotion.skill import RunSkill, load_run_skill, reset_running, run_on
 from locomotion.slow_down import SlowDownSkill, can_walk_on, load_slow_down_skill, walk_on
+from locomotion.speed_up import HASTE, SpeedUpSkill, is_fast_enough, load_speed_up_skill
 from locomotion.walk_layout import (
     CAUGHT,
     CLOCK,
@@ -88,6 +99,7 @@ STUCK_TIME = 8.0
 """[s] without headway along the path after which a person counts as stuck."""
 _WALK_ARRIVAL = 0.15  # [m] before the end of its path at which a walking person stops
 _TURN_FIRST = 0.7  # [rad] off its way at which a walking person turns on the spot
+_SLOW_ENOUGH = 0.5  # [m/s] at which it begins to turn so far
 _SETTLING = 600  # ticks in which a person that has stopped walking comes to rest
 _STILL = 0.03  # [m/s] of the centre of mass at rest
 _HASTE = 1.3  # [m/s] that the speed asked for may exceed the last step's: more trips it in setting off
@@ -126,6 +138,7 @@ class Human(SimulatedPerson):
         slow_down: SlowDownSkill | None = None,
         rehearsals: int = REHEARSALS,
         gets_up: bool = False,
+        speed_up: SpeedUpSkill | None = None,
     ) -> None:
         """``ground``: None is the endless plane z = 0. ``skill``: how it runs; None loads the package's.
         ``clearing``: how it clears obstacles; None: by what comes with the package (`learned_skills`).
@@ -138,6 +151,9 @@ class Human(SimulatedPerson):
         self.gait = load_walk_skill() if walk is None else walk
         slow_down = load_slow_down_skill() if slow_down is None else slow_down
         self._rehearsals, self.gets_up = rehearsals, gets_up
+        self._speed_up = load_speed_up_skill() if speed_up is None else speed_up
+        self._quick_run = self._speed_up.run_tables(self.skill)
+        self._hurries = False  # it speeds up to its run
         self._slow_down = slow_down
         self._understudy: Human | None = None
         self._slow_run = slow_down.run_tables(self.skill)
@@ -149,6 +165,8 @@ class Human(SimulatedPerson):
         self._memory = new_track()
         self._command = np.zeros(4)
         self._path: PathTable | None = None
+        self._interrupted: PathTable | None = None  # path to which it returns after having gone back along it
+        self._back_to = 0.0  # [m] arc length there
         skills = learned_skills(self.skill) if clearing is None else clearing
         self._obstacle_run = ObstacleRun(skills, self.skill)
         self._fours = OnAllFours(self.model, self.index)
@@ -202,6 +220,8 @@ class Human(SimulatedPerson):
     @property
     def arc_length(self) -> float:
         """Length of the path behind the person [m]."""
+        if self._interrupted is not None:
+            return self._back_to + float(self._memory[path_tracking.REMAINING])
         return float(self._memory[path_tracking.ARC])
 
     @property
@@ -223,7 +243,7 @@ class Human(SimulatedPerson):
         if not (np.isfinite(speed) and speed >= 0.0):
             raise LocomotionError(f"speed must be a finite number >= 0 m/s, not {speed}")
         self._place(place if self.ground is None else self._on_ground(place), yaw, speed)
-        self._path = None
+        self._path = self._interrupted = None
         self._obstacle_run.begin(())
         self.status = "standing" if speed == 0.0 else "running"
 
@@ -252,7 +272,7 @@ class Human(SimulatedPerson):
             raise LocomotionError(f"the path begins at {start.round(2)}, the person is at {here.round(2)}")
         if self._walk[WALKS] == 0.0 and not running:
             self._place(here, self.yaw, 0.0)
-        self._path = table
+        self._path, self._interrupted = table, None
         self._obstacle_run.begin(obstacles)
         let_go_both(self.data)
         self._memory[:] = new_track()
@@ -298,7 +318,8 @@ class Human(SimulatedPerson):
     @property
     def path(self) -> NDArray[np.float64]:
         """(n, 3) float64 [m]: the path that it follows or followed last."""
-        return np.empty((0, 3)) if self._path is None else self._path.table[:, :3].copy()
+        path = self._interrupted or self._path
+        return np.empty((0, 3)) if path is None else path.table[:, :3].copy()
 
     def course(self) -> Course | None:
         """What it is about to do; None for one that is not on its way, or clears an obstacle."""
@@ -338,7 +359,8 @@ class Human(SimulatedPerson):
                 data.ctrl,
             )  # fmt: skip
         else:
-            tables = self._slow_run if self.gait_now == "slow run" else self.skill.tables
+            tables = self._quick_run if self._hurries else self.skill.tables
+            tables = self._slow_run if self._slowing > 0.0 else tables
             run_tick(*tables, state, self._command, data.qpos, data.qvel, data.ctrl)
             if self.status != "fallen" and self.gait_now == "run":
                 self._clear()
@@ -346,6 +368,8 @@ class Human(SimulatedPerson):
             self._obstacle_run.disturb()
         mujoco.mj_step(self.model, data, STEPS_PER_TICK)
         observe(self.index, self.model, data, state)
+        if self._hurries and (walks or is_fast_enough(state, float(self._command[1]))):
+            self._hurries = False
         if self._walk[WALKS] > 0.0:
             observe_walk(self.index, data, self._walk)
         if self.status == "fallen":
@@ -384,6 +408,7 @@ class Human(SimulatedPerson):
         """A tick on hands and feet, on the way to them after a fall, or from them to a stand."""
         fours, memory, on_way = self._fours, self._memory, self._fours.on_way > 0.0
         path = self._path if on_way and self.status in MOVING else None
+        arc = float(memory[path_tracking.ARC])
         self._command[:] = fours.facing, 0.0, 0.0, 0.0
         if path is not None:
             x, y = self._control[controller.COM][:2]
@@ -391,9 +416,9 @@ class Human(SimulatedPerson):
                 path.table, path.length, _WALK_GAINS, memory, x, y, SCRAMBLE_SPEED, self._ticks, self._command
             )
             waits = (self._ticks - memory[path_tracking.HEADWAY_TICK]) * CONTROL_DT / (1.0 - _SLOW_HEADWAY)
-            steer(path, self.arc_length, self.com, waits, self._command)
+            steer(path, arc, self.com, waits, self._command)
         if self._ticks % 20 == 0:
-            fours.gentle = float(gentle_ahead(self.ground, self.position, path, self.arc_length))
+            fours.gentle = float(gentle_ahead(self.ground, self.position, path, arc))
         fours.tick(self._lookup, self._command, self.data, fours.gentle > 0.0)
         mujoco.mj_step(self.model, self.data, STEPS_PER_TICK)
         observe(self.index, self.model, self.data, self._control)
@@ -428,7 +453,8 @@ class Human(SimulatedPerson):
             self._got_up("walking")
         elif self.status == "scrambling":
             self.status = "walking"
-        if self.status == "walking" and self._obstacle_run.comes_within(self.arc_length, _AT_WALL):
+        at_wall = self.status == "walking" and self._obstacle_run.comes_within(self.arc_length, _AT_WALL)
+        if at_wall and not (self._path is not None and self._go_back(self._path)):
             self._end("stuck", GotStuck(self.time, self._point()))
 
     def _walk_tables(self) -> NDArray[np.float64]:
@@ -454,13 +480,16 @@ class Human(SimulatedPerson):
             off = self._command[0] - self._walk[WALK_HEADING]
             if self.status not in MOVING or abs(math.remainder(off, 2.0 * math.pi)) > _TURN_FIRST:
                 self._command[1:3] = 0.0
+                if np.hypot(*state[controller.COM_VELOCITY][:2]) > _SLOW_ENOUGH:
+                    self._command[0] = self._walk[WALK_HEADING]
             self._command[1] = pace * min(self._command[1], self.gait.speed)
             return
         if self._slowing > 0.0:
             self._command[1:3] = state[controller.SPEED] - self._slowing * CONTROL_DT, 0.0
             return
         if state[controller.STEPS] >= 2.0:
-            self._command[1] = min(self._command[1], state[controller.STEP_SPEED] + _HASTE)
+            haste = HASTE if self._hurries else _HASTE
+            self._command[1] = min(self._command[1], state[controller.STEP_SPEED] + haste)
         if self._obstacle_run.planned > 0.0:
             self._command[1] = self._obstacle_run.planned
         else:
@@ -473,10 +502,40 @@ class Human(SimulatedPerson):
         if self.status not in MOVING or not runs or self._memory[path_tracking.PACE] < 1.0:
             return
         speed = run_entry_speed(walk, self._control, float(self._command[0]))
-        if speed is not None:
-            run_on(self._control, walk[WALK_STANCE], walk[WALK_HEADING], speed)
-            walk[WALKS] = 0.0
-            self.status = "running"
+        if speed is None:
+            return
+        if self._go_back(path):
+            return
+        quickly, went = self._rehearse(SETTING_OFF, partial(Human.run, speed=speed), runs_on)
+        if went > 0.0 or not self._rehearsals:
+            self.run(quickly, speed)
+
+    def _go_back(self, path: PathTable) -> bool:
+        """Whether it turns round, for a longer run-up to the obstacle ahead."""
+        arc = float(self._memory[path_tracking.ARC])
+        back_to = None if self._interrupted is not None else self._obstacle_run.turning_point(arc)
+        if back_to is None:
+            return False
+        self._obstacle_run.go_back()
+        self._interrupted, self._back_to = path, back_to
+        self._take(back_along(path, arc, back_to, self._walk_limits), 0.0)
+        return True
+
+    def run(self, quickly: bool, speed: float) -> None:
+        """Go over from walking to running, from ``speed`` [m/s]."""
+        run_on(self._control, self._walk[WALK_STANCE], self._walk[WALK_HEADING], speed)
+        self._walk[WALKS] = 0.0
+        self.status = "running"
+        self._hurries = quickly
+
+    def _take(self, path: PathTable, arc: float) -> None:
+        """Go along another path from arc length ``arc`` [m] on."""
+        pace = self._memory[path_tracking.PACE]
+        self._path = path
+        self._memory[:] = new_track()
+        self._memory[[path_tracking.ARC, path_tracking.HEADWAY]] = arc
+        self._memory[[path_tracking.HEADWAY_TICK, path_tracking.PACE]] = self._ticks, pace
+        self._memory[path_tracking.REMAINING] = path.length - arc
 
     def _walk_if_due(self, path: PathTable) -> None:
         """Where the path is not run, slow down, and go over to walking just after a foot was put down."""
@@ -538,7 +597,7 @@ class Human(SimulatedPerson):
             return choices[0], 0.0
         if self._understudy is None or self._understudy.model is not self.model:
             self._understudy = Human(
-                self.ground, self.skill, self.clearing, self.gait, self._slow_down, rehearsals=0
+                self.ground, self.skill, self.clearing, self.gait, self._slow_down, 0, speed_up=self._speed_up
             )
         return first_good(self, self._understudy, choices[: self._rehearsals], choose, goes_well)
 
@@ -547,6 +606,10 @@ class Human(SimulatedPerson):
         assert self._path is not None
         memory, com = self._memory, self._control[controller.COM]
         remaining = memory[path_tracking.REMAINING]
+        if self._interrupted is not None and remaining < _WALK_ARRIVAL:
+            path, self._interrupted = self._interrupted, None
+            self._take(path, self._back_to)
+            return
         if remaining < (_WALK_ARRIVAL if self.status in ("walking", "scrambling") else ARRIVAL_DISTANCE):
             goal = self._path.goal
             distance = math.hypot(goal[0] - com[0], goal[1] - com[1])
@@ -571,8 +634,9 @@ class Human(SimulatedPerson):
         """Everything needed to continue from here."""
         return HumanState(
             save_physics(self.model, self.data), self._control.copy(), self._walk.copy(),
-            np.concatenate([self._memory, self._command]), self._slowing,
-            self._fours.save_state(), self._path, self._obstacle_run.save_state(), self.status, self._ticks,
+            np.concatenate([self._memory, self._command]), self._slowing, self._hurries,
+            self._fours.save_state(), self._path, self._interrupted, self._back_to,
+            self._obstacle_run.save_state(), self.status, self._ticks,
             self._ended_at, tuple(self.events),
         )  # fmt: skip
 
@@ -583,7 +647,9 @@ class Human(SimulatedPerson):
         self._walk[:] = state.walk
         self._memory[:] = state.tracking[: path_tracking.TRACK_SIZE]
         self._command[:] = state.tracking[path_tracking.TRACK_SIZE :]
-        self._slowing, self._path, self.status = state.slowing, state.path, state.status
+        self._slowing, self._hurries = state.slowing, state.hurries
+        self._path, self.status = state.path, state.status
+        self._interrupted, self._back_to = state.interrupted, state.back_to
         self._fours.restore_state(state.on_all_fours)
         self._obstacle_run.restore_state(state.obstacle_run)
         self._ticks, self._ended_at = state.ticks, state.ended_at
@@ -592,7 +658,8 @@ class Human(SimulatedPerson):
     def state_hash(self) -> str:
         """Hex digest of the physical and mental state; equal for equal runs."""
         physics = save_physics(self.model, self.data)
-        parts = [physics, self._control, self._walk, self._memory, self._command, np.array(self._slowing)]
+        mood = np.array([self._slowing, self._hurries, self._back_to])
+        parts = [physics, self._control, self._walk, self._memory, self._command, mood]
         parts.append(self._fours.save_state())
         return hash_of(self.status, [*parts, *self._obstacle_run.save_state().arrays])
 

@@ -44,8 +44,11 @@ class HumanState:
     walk: NDArray[np.float64]
     tracking: NDArray[np.float64]
     slowing: float
+    hurries: bool
     on_all_fours: NDArray[np.float64]
     path: PathTable | None
+    interrupted: PathTable | None
+    back_to: float
     obstacle_run: ObstacleRunState
     status: Status
     ticks: int

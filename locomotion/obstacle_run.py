@@ -18,10 +18,13 @@ from locomotion.skill import RunSkill
 
 __all__ = ["ObstacleRun", "ObstacleRunState", "TakeOff"]
 
-_NEXT, _STEPS_SEEN, _PLANNED, _FARTHER, _FASTER, _REHEARSED = range(6)
+_NEXT, _STEPS_SEEN, _PLANNED, _FARTHER, _FASTER, _REHEARSED, _WENT_BACK = range(7)
 # number of the next obstacle, steps made when the run-up was last planned, speed planned for this step or 0;
 # chosen in rehearsal: [m] that the mark is farther from the obstacle, [m/s] that the entry is faster, and 1
-# once a choice has gone well
+# once a choice has gone well; 1 once it has gone back for a longer run-up
+_ROOM = 5.2  # [m] before an obstacle in which a body that begins to run comes to its entry speed
+_SETTING_OFF = 2.5  # [m] that it walks before it runs
+_OFF_EDGE, _WORTH_IT = 0.8, 0.7  # [m] kept from the obstacle behind it; that it goes back at least
 _REHEARSABLE = 3  # steps before the take-off from which a run-up is rehearsed
 
 
@@ -36,7 +39,7 @@ class TakeOff:
 
 @dataclass(frozen=True)
 class ObstacleRunState:
-    """What an `ObstacleRun` remembers: its obstacles, its plan (6,) and what the skill at work remembers."""
+    """What an `ObstacleRun` remembers: its obstacles, its plan (7,) and what the skill at work remembers."""
 
     obstacles: tuple[ObstacleAhead, ...]
     plan: NDArray[np.float64]
@@ -55,7 +58,7 @@ class ObstacleRun:
         """``skills``: to clear them with, on top of ``run``."""
         self.skills, self._run = tuple(skills), run
         self.obstacles: tuple[ObstacleAhead, ...] = ()
-        self._plan = np.zeros(6)
+        self._plan = np.zeros(7)
         self._skill: NDArray[np.float64] | None = None
 
     def begin(self, obstacles: Sequence[ObstacleAhead]) -> None:
@@ -124,6 +127,23 @@ class ObstacleRun:
             self._pass()
             return obstacle
         return began
+
+    def turning_point(self, arc: float) -> float | None:
+        """Arc length [m] to which a body that walks at ``arc`` should go back so that its run-up is long
+        enough, or as long as the obstacle behind allows; None: it need not, cannot, or has been back."""
+        if self.ahead is None or self._plan[_WENT_BACK] > 0.0:
+            return None
+        edge = self.ahead.arc_length
+        if not arc < edge < arc + _ROOM:
+            return None
+        behind = self.obstacles[int(self._plan[_NEXT]) - 1] if self._plan[_NEXT] > 0.0 else None
+        start = 0.0 if behind is None else behind.arc_length + behind.depth + _OFF_EDGE
+        to = max(edge - _ROOM - _SETTING_OFF, start)
+        return to if arc - to > _WORTH_IT else None
+
+    def go_back(self) -> None:
+        """It goes back for its run-up, once."""
+        self._plan[_WENT_BACK] = 1.0
 
     def fell(self, state: NDArray[np.float64]) -> bool:
         """Whether a body has fallen whose skill is at work."""

@@ -14,8 +14,8 @@ from locomotion.errors import LocomotionError
 
 __all__ = [
     "ARC", "HEADWAY", "HEADWAY_TICK", "LATERAL", "PACE", "REMAINING", "RUNS", "RUN_UP", "SLOPE_HERE",
-    "SPEED_HERE", "TRACK_SIZE", "PathTable", "TrackingLimits", "checked_points", "make_path", "new_track",
-    "shifted", "track",
+    "SPEED_HERE", "TRACK_SIZE", "PathTable", "TrackingLimits", "back_along", "checked_points", "make_path",
+    "new_track", "shifted", "track",
 ]  # fmt: skip
 
 SPACING = 0.1
@@ -253,6 +253,15 @@ def shifted(
         slowing = _length_of_slowing(float(table[:, SPEED].max()), limits, walk)
         table[~_can_run(_too_hard(table, limits), along, slowing), RUNS] = 0.0
     return replace(path, table=table)
+
+
+def back_along(path: PathTable, arc: float, to: float, walk: TrackingLimits) -> PathTable:
+    """The way back along ``path`` from arc length ``arc`` to ``to`` [m], walking."""
+    step = path.length / (len(path.table) - 1)
+    first, last = round(to / step), max(round(arc / step), round(to / step) + 1)
+    back = make_path(path.table[first : last + 1, :3][::-1], walk.speeds[1], walk, 0.0)
+    back.table[:, RUNS] = 0.0
+    return back
 
 
 def new_track() -> NDArray[np.float64]:

@@ -15,16 +15,17 @@ from typing import TYPE_CHECKING, TypeVar
 import numpy as np
 
 from locomotion.events import Cleared, TookOff
-from locomotion.human_state import MOVING
+from locomotion.human_state import CLEARING, MOVING
 from locomotion.passage import Passage, watch
 from locomotion.person import CONTROL_DT
 
 if TYPE_CHECKING:
     from locomotion.body import Human
 
-__all__ = ["REHEARSALS", "RUN_UPS", "SLOWINGS", "clears", "first_good", "walks_on"]
+__all__ = ["REHEARSALS", "RUN_UPS", "SETTING_OFF", "SLOWINGS", "clears", "first_good", "runs_on", "walks_on"]
 
 _AFTERWARDS = round(2.2 / CONTROL_DT)  # ticks that it must stay up behind an obstacle
+_RUNNING = round(2.0 / CONTROL_DT)  # ticks that it must stay up when it has begun to run
 _SETTLED = round(3.0 / CONTROL_DT)  # ticks that it must stay up after going over to another gait
 _LONGEST = round(12.0 / CONTROL_DT)
 _MARKS, _ENTRIES = (0.0, 0.04, -0.04, 0.08, -0.08), (0.0, 0.1, -0.1, 0.2, -0.2)
@@ -43,6 +44,8 @@ REHEARSALS = 16
 """Variations that are tried at one time at most, unless told otherwise."""
 RUN_UPS = _nearest_first(_MARKS, _ENTRIES)
 """Variations of a run-up: [m] that the mark is farther from the obstacle, [m/s] that the entry is faster."""
+SETTING_OFF = (True, False)
+"""Whether it speeds up quickly when it begins to run."""
 SLOWINGS = (1.0, 0.92, 1.08, 0.84, 1.16, 0.76, 1.24, 0.68, 1.32, 0.6, 1.4)
 """[m/s^2] by which the run's reference speed is lowered."""
 
@@ -109,3 +112,14 @@ def walks_on(body: Human) -> float:
         if body.held or walked >= _SETTLED:
             return 1.0
     return 0.0
+
+
+def runs_on(body: Human) -> float:
+    """Whether a body that has begun to run stays up."""
+    for _ in range(_RUNNING):
+        body.tick()
+        if body.status in ("fallen", "lost", "stuck"):
+            return 0.0
+        if body.status in CLEARING.values():
+            break
+    return 1.0

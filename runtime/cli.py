@@ -37,6 +37,7 @@ class Skill(StrEnum):
 
     run = "run"
     walk = "walk"
+    speed_up = "speed-up"
     slow_down = "slow-down"
     jump = "jump"
     vault = "vault"

@@ -18,7 +18,7 @@ AFTER = 15.0
 """[m] from the last obstacle to the goal."""
 SPEED = 3.5
 """[m/s] asked for on the way."""
-_SLOWEST = 1.0  # [m/s]: who is slower over the whole course has not made it
+_SLOWEST = 0.5  # [m/s]: who is slower over the whole course has not made it
 _HALF = 5.0  # [m] of the course's width
 _EDGE = 1e-3  # [m] of the path on both sides of an edge
 _FALLEN = ("in the run-up", "in the skill", "afterwards")

@@ -21,7 +21,7 @@ from runtime.progress import Progress
 
 __all__ = [
     "DEFAULT_HEIGHTS", "HEIGHTS", "Attempt", "evaluate_clearing", "evaluate_run", "evaluate_slow_down",
-    "evaluate_walk", "start_noise",
+    "evaluate_speed_up", "evaluate_walk", "start_noise",
 ]  # fmt: skip
 
 DEFAULT_HEIGHTS = {"jump": 0.4, "vault": 0.7, "drop": 1.5}
@@ -39,6 +39,7 @@ RUN_LENGTH = 60.0
 PUSH, PUSH_TIME, PUSH_EVERY = 200.0, 0.1, 5.0
 """[N], [s] and [s] between: pushes on the pelvis from any side."""
 _SLOWEST = 0.5
+_FAST, _RUNS_ON = 3.1, 20.0  # [m/s] of a step to most obstacles; [m] that it must get
 
 
 @dataclass(frozen=True)
@@ -174,6 +175,29 @@ def evaluate_walk(trials: int, seed: int, progress: Progress) -> list[Attempt]:
 
     each = [(name, kind, k) for name, kind in KINDS.items() for k in range(trials)]
     return _tried("walk", [lambda one=one: attempt(*one) for one in each], progress)
+
+
+def evaluate_speed_up(trials: int, seed: int, progress: Progress) -> list[Attempt]:
+    """Starts from standing on a plane, with noise: does the person run on, and after how many metres was a
+    step as fast as it takes for most obstacles?"""
+
+    def attempt(k: int) -> Attempt:
+        rng = np.random.default_rng([seed, k])
+        human = Human()
+        human.reset((0.0, 0.0, 0.0), 0.0)
+        human.data.qvel[:] += NOISE * rng.normal(size=human.model.nv)
+        speed = float(rng.uniform(3.3, 3.8))
+        human.follow([[0.0, 0.0, 0.0], [40.0, 0.0, 0.0]], speed)
+        far = math.nan
+        while human.status in MOVING and human.com[0] < _RUNS_ON:
+            human.tick()
+            if math.isnan(far) and human.control[controller.STEP_SPEED] >= _FAST:
+                far = float(human.com[0])
+        held = human.status in MOVING
+        figures = {f"way to {_FAST:g} m/s [m]": far} if held and math.isfinite(far) else {}
+        return Attempt("from standing", f"{speed:.2f} m/s", human.status, held, figures)
+
+    return _tried("speed-up", [lambda k=k: attempt(k) for k in range(trials)], progress)
 
 
 def evaluate_slow_down(trials: int, seed: int, progress: Progress) -> list[Attempt]:

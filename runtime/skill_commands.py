@@ -27,12 +27,13 @@ def _trainers() -> Mapping[str, Callable[..., Any]]:
     from locomotion.training.jump import train_jump
     from locomotion.training.run import train_run
     from locomotion.training.slow_down import train_slow_down
+    from locomotion.training.speed_up import train_speed_up
     from locomotion.training.vault import train_vault
     from locomotion.training.walk import train_walk
 
     return {
-        "walk": train_walk, "run": train_run, "slow-down": train_slow_down, "jump": train_jump,
-        "vault": train_vault, "drop-roll": train_drop_roll,
+        "walk": train_walk, "run": train_run, "speed-up": train_speed_up, "slow-down": train_slow_down,
+        "jump": train_jump, "vault": train_vault, "drop-roll": train_drop_roll,
     }  # fmt: skip
 
 
@@ -70,10 +71,17 @@ def train_library(seed: int, workers: int, effort: float) -> None:
 
 def evaluate_skill(skill: str, trials: int, seed: int) -> Result:
     """Try ``skill``; holds when at least nine of ten trials of each test do."""
-    from runtime.evaluation import evaluate_clearing, evaluate_run, evaluate_slow_down, evaluate_walk
+    from runtime.evaluation import (
+        evaluate_clearing,
+        evaluate_run,
+        evaluate_slow_down,
+        evaluate_speed_up,
+        evaluate_walk,
+    )
 
     evaluate: Mapping[str, Callable[..., Sequence[Attempt]]] = {
-        "run": evaluate_run, "walk": evaluate_walk, "slow-down": evaluate_slow_down,
+        "run": evaluate_run, "walk": evaluate_walk, "speed-up": evaluate_speed_up,
+        "slow-down": evaluate_slow_down,
         "jump": partial(evaluate_clearing, "jump"), "vault": partial(evaluate_clearing, "vault"),
         "drop-roll": partial(evaluate_clearing, "drop"),
     }  # fmt: skip

@@ -356,3 +356,19 @@ def test_gains_for_steep_ground_are_changes_cut_at_the_limits():
     tables, outside = walk_tables(np.concatenate([low + 0.25 * (high - low), high - low]))
     assert np.allclose(tables, [low + 0.25 * (high - low), high])
     assert outside == pytest.approx(0.25 * len(GAINS))
+
+
+def test_a_walking_person_that_is_told_to_go_back_turns_round_and_arrives():
+    for seed in range(8):
+        rng = np.random.default_rng(seed)
+        human = Human(None, clearing=())
+        human.reset((0, 0, 0), 0.0)
+        human.follow([[0, 0, 0], [30, 0, 0]], 1.5)
+        while human.time < 3.5 + 0.2 * seed:
+            human.tick()
+        x, y, _ = human.position
+        assert np.linalg.norm(human.velocity) > 1.0
+        human.follow([[x, y, 0], [x - 3.0, rng.uniform(-1, 1), 0]], 1.5)
+        while human.status in MOVING:
+            human.tick()
+        assert human.status == "arrived"

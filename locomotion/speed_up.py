@@ -1,0 +1,83 @@
+"""Speeding up from a walk to a run in a few steps: the run's parameters while it does.
+
+The run itself gains some 0.3 m/s a step, which is 8 m from a stand to 3.1 m/s: more than there is between
+many obstacles. While it speeds up it has parameters of its own here, so that the run, and the skills on top
+of it, stay as they are.
+"""
+
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from locomotion import controller
+from locomotion.errors import LocomotionError
+from locomotion.person import person_digest
+from locomotion.skill import RunSkill
+from locomotion.skill_file import read_skill
+from navmesh.archive import write_archive
+
+__all__ = ["HASTE", "SPEED_UP_SKILL", "SpeedUpSkill", "is_fast_enough", "load_speed_up_skill"]
+
+SPEED_UP_SKILL = Path(__file__).parent / "skills" / "speed_up.npz"
+HASTE = 2.0
+"""[m/s] by which the speed asked for may exceed the last step's while it speeds up."""
+_SHORT = 0.25  # [m/s] below the speed asked for at which it goes over to the run
+_STEP_TIMES = (0.22, 0.5)  # [s] shortest and longest step
+_KIND, _VERSION = "speed-up skill", 1
+
+
+@dataclass(frozen=True)
+class SpeedUpSkill:
+    """How a person that has begun to run comes to its speed.
+
+    Attributes:
+        knots: (k,) float64, increasing speeds [m/s].
+        change: (k, p) float64, what is added there to the parameters of the run
+            (`run_layout.PARAMETERS`).
+        meta: what made it.
+    """
+
+    knots: np.ndarray
+    change: np.ndarray
+    meta: dict[str, Any] = field(default_factory=dict)
+
+    def run_tables(self, run: RunSkill) -> tuple[np.ndarray, ...]:
+        """The first arguments of `controller.run_tick` while speeding up to ``run``."""
+        knots = np.union1d(self.knots, run.knots)
+        table = np.stack(
+            [
+                np.interp(knots, run.knots, its) + np.interp(knots, self.knots, change)
+                for its, change in zip(run.table.T, self.change.T, strict=True)
+            ],
+            axis=1,
+        )
+        timing = controller.parameter_slices()["timing"].start
+        table[:, timing] = np.clip(table[:, timing], *_STEP_TIMES)
+        return (knots, np.ascontiguousarray(table), *run.tables[2:])
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the skill for the present person; the file appears whole or not at all."""
+        header = {"person": person_digest(), "meta": self.meta}
+        write_archive(path, _KIND, _VERSION, header, {"knots": self.knots, "change": self.change})
+
+
+def load_speed_up_skill(path: str | os.PathLike[str] = SPEED_UP_SKILL) -> SpeedUpSkill:
+    """Read a speed-up skill; `LocomotionError` if it is missing, cut off, of another version or another
+    person."""
+    header, arrays = read_skill(path, _KIND, _VERSION)
+    knots, change = (arrays.get(name, np.empty(0)) for name in ("knots", "change"))
+    width = sum(controller.PARAMETERS.values())
+    if not (knots.ndim == 1 and len(knots) > 1 and change.shape == (len(knots), width)):
+        raise LocomotionError(f"{path}: not a whole speed-up skill")
+    if not (np.isfinite(knots).all() and np.isfinite(change).all() and (np.diff(knots) > 0).all()):
+        raise LocomotionError(f"{path}: holds numbers that are not finite or speeds that do not grow")
+    return SpeedUpSkill(knots, change, header.get("meta", {}))
+
+
+def is_fast_enough(state: np.ndarray, wanted: float) -> bool:
+    """Whether a person that speeds up to ``wanted`` [m/s] can go over to its run: at a stance switch, when
+    its last step was fast enough."""
+    return state[controller.STEP_TIME] == 0.0 and bool(state[controller.STEP_SPEED] > wanted - _SHORT)

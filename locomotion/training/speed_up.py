@@ -1,0 +1,127 @@
+"""Learning to speed up from a walk to a run: what changes of the run's parameters while it does."""
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from locomotion import controller as c
+from locomotion.body import Human
+from locomotion.human_state import MOVING, HumanState
+from locomotion.skill import RunSkill, load_run_skill
+from locomotion.speed_up import SPEED_UP_SKILL, SpeedUpSkill
+from locomotion.training.loop import Progress, Stage, learn
+from locomotion.training.run import scales
+
+__all__ = ["SpeedUpProblem", "speed_up", "speed_up_of", "train_speed_up"]
+
+_KNOTS = np.array([1.8, 3.2])
+_SIZE = sum(c.PARAMETERS.values())
+_WANTED, _TOO_FAST = 3.3, 3.8  # [m/s]
+_LENGTH = 8.0  # [m] in which it should be as fast
+_AFTERWARDS = 150  # ticks that it must go on from there
+_FREE = ("posture", "a_hat", "feed_forward", "timing", "m_ap", "m_sp")
+_STARTS = 24
+_WAY = np.array([[0.0, 0.0, 0.0], [60.0, 0.0, 0.0]])
+
+
+@lru_cache(maxsize=1)
+def _starts() -> tuple[HumanState, ...]:
+    """Persons that begin to run, quickly."""
+    states = []
+    for seed in range(_STARTS):
+        rng = np.random.default_rng(seed)
+        human = Human(None, clearing=(), rehearsals=0, speed_up=speed_up_of(np.zeros(2 * _SIZE)))
+        human.reset(_WAY[0], 0.0)
+        human.data.qvel[:] += 0.05 * rng.normal(size=human.model.nv)
+        human.follow(_WAY, float(rng.uniform(3.0, 3.6)))
+        while human.status == "walking":
+            human.tick()
+        states.append(human.save_state())
+    return tuple(states)
+
+
+def speed_up(human: Human, start: HumanState, noise: np.ndarray) -> tuple[float, bool]:
+    """Cost of a trial, and whether the person ran on: what it lacks of the wanted speed, over the first
+    `_LENGTH` m [m²/s]."""
+    human.restore_state(start)
+    human.data.qvel[:] += noise
+    begun, state = human.com[0], human.control
+    lacks, at, late = 0.0, 0.0, 0
+    while late < _AFTERWARDS:
+        human.tick()
+        now, speed = human.com[0] - begun, float(state[c.COM_VELOCITY][0])
+        if human.status not in MOVING:
+            return 10.0 + 10.0 * (1.0 - min(now / (2.0 * _LENGTH), 1.0)) + lacks / _LENGTH, False
+        if at < _LENGTH:
+            off = max(_WANTED - speed, 0.0) + max(speed - _TOO_FAST, 0.0)
+            lacks, at = lacks + max(now - at, 0.0) * off, now
+        else:
+            late += 1
+    return lacks, True
+
+
+def speed_up_of(x: np.ndarray, meta: dict | None = None) -> SpeedUpSkill:
+    """The skill that parameters stand for: what is added at the lower speed, and what is added to that at the
+    higher one."""
+    return SpeedUpSkill(_KNOTS, np.stack([x[:_SIZE], x[:_SIZE] + x[_SIZE:]]), meta or {})
+
+
+def _curriculum(effort: float) -> tuple[Stage, ...]:
+    one, part = scales(), c.parameter_slices()
+    scale = np.zeros(_SIZE)
+    for name in _FREE:
+        scale[part[name]] = one[part[name]]
+    scale = np.concatenate([scale, 0.5 * scale])
+    return (Stage("speed up", max(round(120 * effort), 1), 0.06, scale, {"trials": 6}, population=20),)
+
+
+@dataclass(frozen=True)
+class SpeedUpProblem:
+    """Learning to speed up for `locomotion.training.loop.learn`, to the run ``run``."""
+
+    curriculum: tuple[Stage, ...]
+    run: RunSkill
+
+    def stages(self) -> tuple[Stage, ...]:
+        """The curriculum."""
+        return self.curriculum
+
+    def start(self) -> np.ndarray:
+        """The first guess: the run as it is."""
+        return np.zeros(2 * _SIZE)
+
+    def scenarios(
+        self, stage: Stage, generation: int, rng: np.random.Generator
+    ) -> list[tuple[int, np.ndarray]]:
+        """Random trials: which start, and noise of its velocities (45,) [m/s, rad/s]."""
+        count = stage.options["trials"]
+        return [(int(rng.integers(_STARTS)), 0.05 * rng.normal(size=45)) for _ in range(count)]
+
+    def evaluate(
+        self, stage: Stage, candidate: np.ndarray, scenarios: list[tuple[int, np.ndarray]]
+    ) -> tuple[float, float]:
+        """Mean cost, and share of the trials in which the person ran on."""
+        human = Human(None, self.run, clearing=(), rehearsals=0, speed_up=speed_up_of(candidate))
+        results = [speed_up(human, _starts()[number], noise) for number, noise in scenarios]
+        return float(np.mean([cost for cost, _ in results])), float(np.mean([ran for _, ran in results]))
+
+
+def train_speed_up(
+    out: str | os.PathLike[str] = SPEED_UP_SKILL,
+    seed: int = 0,
+    checkpoint: str | os.PathLike[str] | None = None,
+    workers: int = 2,
+    effort: float = 1.0,
+    on_progress: Callable[[Progress], None] | None = None,
+) -> SpeedUpSkill:
+    """Learn to speed up to the package's run and write the skill to ``out``; arguments as for
+    `locomotion.training.run.train_run`."""
+    problem = SpeedUpProblem(_curriculum(effort), load_run_skill())
+    learned = learn(problem, seed, checkpoint, workers, on_progress)
+    assert learned is not None
+    skill = speed_up_of(learned, {"made by": "surefoot train speed-up", "seed": seed, "effort": effort})
+    skill.save(out)
+    return skill

@@ -56,7 +56,7 @@ from locomotion.human_state import (
 from locomotion.library import learned_skills
 from locomotion.obstacle_run import ObstacleRun, TakeOff
 from locomotion.on_all_fours import SCRAMBLE_SPEED, OnAllFours, gentle_ahead, steer, too_steep_around
-from locomotion.path_tracking import PathTable, back_along, make_path, new_track, shifted, track
+from locomotion.path_tracking import RUN_UP, PathTable, back_along, make_path, new_track, shifted, track
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK
 from locomotion.person_course import course_on_path
 from locomotion.rehearsal import (
@@ -505,6 +505,9 @@ class Human(SimulatedPerson):
         if speed is None:
             return
         if self._go_back(path):
+            return
+        if not self._obstacle_run.comes_within(self.arc_length, RUN_UP):
+            self.run(False, speed)
             return
         quickly, went = self._rehearse(SETTING_OFF, partial(Human.run, speed=speed), runs_on)
         if went > 0.0 or not self._rehearsals:

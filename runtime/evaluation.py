@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from locomotion import MOVING, Human, controller
+from locomotion import MOVING, Human, ObstacleAhead, controller
 from locomotion.person import CONTROL_DT
 from locomotion.rehearsal import REHEARSALS
 from locomotion.skill import load_run_skill
@@ -39,7 +39,7 @@ RUN_LENGTH = 60.0
 PUSH, PUSH_TIME, PUSH_EVERY = 200.0, 0.1, 5.0
 """[N], [s] and [s] between: pushes on the pelvis from any side."""
 _SLOWEST = 0.5
-_FAST, _RUNS_ON = 3.1, 20.0  # [m/s] of a step to most obstacles; [m] that it must get
+_FAST, _RUNS_ON = 3.1, 10.0  # [m/s] of a step to most obstacles; [m] that it must get
 
 
 @dataclass(frozen=True)
@@ -178,8 +178,10 @@ def evaluate_walk(trials: int, seed: int, progress: Progress) -> list[Attempt]:
 
 
 def evaluate_speed_up(trials: int, seed: int, progress: Progress) -> list[Attempt]:
-    """Starts from standing on a plane, with noise: does the person run on, and after how many metres was a
-    step as fast as it takes for most obstacles?"""
+    """Starts from standing on a plane, with noise: does the person run up to an edge, and after how many
+    metres was a step as fast as it takes for most obstacles?"""
+    there = np.array([_RUNS_ON + 3.0, 0.0, 0.4])
+    ahead = ObstacleAhead(_RUNS_ON + 3.0, "jump", 0.4, there, np.array([-1.0, 0.0, 0.0]))
 
     def attempt(k: int) -> Attempt:
         rng = np.random.default_rng([seed, k])
@@ -187,7 +189,7 @@ def evaluate_speed_up(trials: int, seed: int, progress: Progress) -> list[Attemp
         human.reset((0.0, 0.0, 0.0), 0.0)
         human.data.qvel[:] += NOISE * rng.normal(size=human.model.nv)
         speed = float(rng.uniform(3.3, 3.8))
-        human.follow([[0.0, 0.0, 0.0], [40.0, 0.0, 0.0]], speed)
+        human.follow([[0.0, 0.0, 0.0], [40.0, 0.0, 0.0]], speed, [ahead])
         far = math.nan
         while human.status in MOVING and human.com[0] < _RUNS_ON:
             human.tick()

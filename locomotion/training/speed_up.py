@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -39,7 +39,7 @@ def _starts() -> tuple[HumanState, ...]:
         human.follow(_WAY, float(rng.uniform(3.0, 3.6)))
         while human.status == "walking":
             human.tick()
-        states.append(human.save_state())
+        states.append(replace(human.save_state(), hurries=True))
     return tuple(states)
 
 

@@ -510,7 +510,7 @@ class Human(SimulatedPerson):
             self.run(False, speed)
             return
         quickly, went = self._rehearse(SETTING_OFF, partial(Human.run, speed=speed), runs_on)
-        if went > 0.0 or not self._rehearsals:
+        if went > 0.0:
             self.run(quickly, speed)
 
     def _go_back(self, path: PathTable) -> bool:
@@ -595,9 +595,10 @@ class Human(SimulatedPerson):
     def _rehearse(
         self, choices: Sequence[_T], choose: Callable[[Human, _T], None], goes_well: Callable[[Human], float]
     ) -> tuple[_T, float]:
-        """The best of ``choices`` and how well it went, see `rehearsal.first_good`."""
+        """The best of ``choices`` and how well it went, see `rehearsal.first_good`; without rehearsals the
+        first is taken to go well."""
         if not self._rehearsals:
-            return choices[0], 0.0
+            return choices[0], 1.0
         if self._understudy is None or self._understudy.model is not self.model:
             self._understudy = Human(
                 self.ground, self.skill, self.clearing, self.gait, self._slow_down, 0, speed_up=self._speed_up

@@ -27,6 +27,7 @@ __all__ = ["REHEARSALS", "RUN_UPS", "SETTING_OFF", "SLOWINGS", "clears", "first_
 _AFTERWARDS = round(2.2 / CONTROL_DT)  # ticks that it must stay up behind an obstacle
 _RUNNING = round(2.0 / CONTROL_DT)  # ticks that it must stay up when it has begun to run
 _SETTLED = round(3.0 / CONTROL_DT)  # ticks that it must stay up after going over to another gait
+_FAILED = ("fallen", "lost", "stuck")
 _LONGEST = round(12.0 / CONTROL_DT)
 _MARKS, _ENTRIES = (0.0, 0.04, -0.04, 0.08, -0.08), (0.0, 0.1, -0.1, 0.2, -0.2)
 
@@ -81,7 +82,7 @@ def clears(body: Human) -> float:
     obstacle, seen = body.obstacle_ahead, len(body.events)
     assert obstacle is not None
     passage, cleared_at = Passage(), 0
-    took_off = False
+    took_off = again = False
     for tick in range(_LONGEST):
         body.tick()
         happened, seen = body.events[seen:], len(body.events)
@@ -91,10 +92,8 @@ def clears(body: Human) -> float:
             if isinstance(event, Cleared):
                 cleared_at = tick
             elif isinstance(event, TookOff):
-                if cleared_at:
-                    return 1.0 if passage.clean(obstacle.affordance) else 0.5
-                took_off = True
-        if cleared_at and (tick - cleared_at >= _AFTERWARDS or body.held):
+                took_off, again = True, cleared_at > 0
+        if cleared_at and (again or tick - cleared_at >= _AFTERWARDS or body.held):
             return 1.0 if passage.clean(obstacle.affordance) else 0.5
         if took_off and not cleared_at:
             watch(body.index, body.model, body.data, obstacle, passage)
@@ -106,7 +105,7 @@ def walks_on(body: Human) -> float:
     walked = 0
     for _ in range(_LONGEST):
         body.tick()
-        if body.status in ("fallen", "lost", "stuck"):
+        if body.status in _FAILED:
             return 0.0
         walked = walked + 1 if body.gait_now == "walk" else 0
         if body.held or walked >= _SETTLED:
@@ -118,7 +117,7 @@ def runs_on(body: Human) -> float:
     """Whether a body that has begun to run stays up."""
     for _ in range(_RUNNING):
         body.tick()
-        if body.status in ("fallen", "lost", "stuck"):
+        if body.status in _FAILED:
             return 0.0
         if body.status in CLEARING.values():
             break

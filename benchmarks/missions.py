@@ -110,7 +110,7 @@ def cost_of_control(human: Human, route: Any, speed: float, seconds: float = 6.0
     for _ in range(3):
         begun = time.thread_time()
         path = smooth_route(route.graph.find_path(*route.waypoints[[0, -1]], radius=PERSON_RULES["radius"]))
-        make_path(path.points, speed, human.limits, 0.0)
+        make_path(path.points, speed, human.on_feet.limits, 0.0)
         planning = min(planning, time.thread_time() - begun)
     planning /= route.length / speed / CONTROL_DT
     human.reset(path.points[0], math.atan2(*(path.points[1] - path.points[0])[1::-1]))

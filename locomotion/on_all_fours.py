@@ -24,15 +24,17 @@ from locomotion.rising import begin_to_rise, gather, ready_to_rise, rise_tick, s
 from locomotion.scramble_layout import AWAY, BORNE, FACING, MODE, RISEN, RISING, new_scramble
 from locomotion.scramble_seen import observe_scramble, parts_of
 from locomotion.scrambling import crouch, lie_of, scramble_tick
+from locomotion.way import Way
 
-__all__ = ["SCRAMBLE_SPEED", "OnAllFours", "gentle_ahead", "steer", "too_steep_around"]
+__all__ = ["OnAllFours", "too_steep_around"]
 
-SCRAMBLE_SPEED = 0.15
-"""[m/s] of a person on hands and feet; faster it falls more often."""
+_SPEED = 0.15  # [m/s] of a person on hands and feet; faster it falls more often
+_GAINS = np.array([0.5, 0.6, 0.05, 0.3, 0.8, 0.25])  # of `path_tracking.track`
 _TOO_STEEP, _GENTLE = 0.45, 0.35  # slopes around a place where it is put on hands and feet; where it rises
 _AROUND, _AHEAD = 1.2, 12.0  # [m] of the place; of its path
 _LOOK = 0.4  # [m] ahead on its path to where it goes
 _NO_HEADWAY, _ROUND = 6.0, 0.7  # [s] without headway after which it goes [rad] off its way, facing ahead
+_SLOW_HEADWAY = 0.8  # of the time on hands and feet does not count as being without headway
 
 
 class OnAllFours:
@@ -81,6 +83,26 @@ class OnAllFours:
         """Put the person on hands and feet over the ground point ``place`` (3,), to go towards ``yaw``."""
         crouch(self._model, data, self._index, self._parts, lookup, self.memory, place, yaw)
 
+    def look(self, ground: Ground | None, place: NDArray[np.float64], way: Way | None) -> None:
+        """See whether it can stand up at ``place`` (3,), and walk on along ``way``."""
+        path, arc = (None, 0.0) if way is None else (way.path, way.arc)
+        self.gentle = float(_gentle_ahead(ground, place, path, arc))
+
+    def steer(self, way: Way | None, com: NDArray[np.float64], tick: int, command: NDArray) -> None:
+        """Write into ``command`` (4,) how it goes on along ``way``, None: it stays. com (3,) [m]."""
+        command[:] = self.facing, 0.0, 0.0, 0.0
+        if way is None or way.path is None:
+            return
+        table, step = way.path.table, way.path.length / (len(way.path.table) - 1)
+        ahead = table[min(int((way.arc + _LOOK) / step), len(table) - 1)]
+        way.track(_GAINS, com[0], com[1], _SPEED, tick, command)
+        command[:3] = math.atan2(ahead[1] - com[1], ahead[0] - com[0]), _SPEED, 0.0
+        waits = way.without_headway(tick) / (1.0 - _SLOW_HEADWAY)
+        if waits > _NO_HEADWAY:
+            command[0] += _ROUND if waits % (2.0 * _NO_HEADWAY) < _NO_HEADWAY else -_ROUND
+            command[2] = 1.0
+        way.excuse(_SLOW_HEADWAY)
+
     def tick(
         self, lookup: tuple[NDArray, ...], command: NDArray[np.float64], data: mujoco.MjData, stand: bool
     ) -> None:
@@ -116,17 +138,6 @@ class OnAllFours:
         self.fell_at, self.on_way, self.gentle = (float(each) for each in state[-3:])
 
 
-def steer(path: PathTable, arc: float, com: NDArray[np.float64], waits: float, command: NDArray) -> None:
-    """Write into ``command`` (4,) how a body on hands and feet goes on along ``path`` at arc length ``arc``
-    [m], having made no headway for ``waits`` [s]."""
-    step = path.length / (len(path.table) - 1)
-    ahead = path.table[min(int((arc + _LOOK) / step), len(path.table) - 1)]
-    command[:3] = math.atan2(ahead[1] - com[1], ahead[0] - com[0]), SCRAMBLE_SPEED, 0.0
-    if waits > _NO_HEADWAY:
-        command[0] += _ROUND if waits % (2.0 * _NO_HEADWAY) < _NO_HEADWAY else -_ROUND
-        command[2] = 1.0
-
-
 def too_steep_around(ground: Ground | None, place: NDArray[np.float64]) -> bool:
     """Whether nobody can stand around ``place`` (3,)."""
     if ground is None or not ground.steep:
@@ -136,7 +147,7 @@ def too_steep_around(ground: Ground | None, place: NDArray[np.float64]) -> bool:
     return _steepest(ground, np.vstack([place, ring])) > _TOO_STEEP
 
 
-def gentle_ahead(
+def _gentle_ahead(
     ground: Ground | None, place: NDArray[np.float64], path: PathTable | None, arc: float
 ) -> bool:
     """Whether a person at ``place`` (3,) can stand up and, if it has a ``path``, walk on from ``arc`` [m]."""

@@ -148,7 +148,7 @@ def _run_turning(simulator: Simulator, rng: np.random.Generator) -> Attempt:
 
 def _run_pushed(rng: np.random.Generator) -> Attempt:
     human = Human()
-    speed = float(rng.uniform(*human.skill.speeds))
+    speed = float(rng.uniform(*human.on_feet.run_skill.speeds))
     yaw = float(rng.uniform(-math.pi, math.pi))
     path = np.outer([0.0, RUN_LENGTH], [math.cos(yaw), math.sin(yaw), 0.0])
     human.reset(path[0], yaw)

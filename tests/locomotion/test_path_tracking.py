@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from locomotion import path_tracking as pt
-from locomotion.body import _GAINS
 from locomotion.errors import LocomotionError
+from locomotion.on_feet import RUN_GAINS
 
 LIMITS = pt.TrackingLimits(speeds=(2.0, 4.0), sideways=2.0)
 
@@ -26,7 +26,7 @@ def ride(points, speed, offset=0.0, drift=0.0, turn_rate=1.0, lag=0.2):
     x, y = path.table[0, :2] + offset * np.array([-np.sin(heading), np.cos(heading)])
     lateral = []
     for tick in range(6000):
-        pt.track(path.table, path.length, _GAINS, memory, x, y, v, tick, command)
+        pt.track(path.table, path.length, RUN_GAINS, memory, x, y, v, tick, command)
         lateral.append(memory[pt.LATERAL])
         if memory[pt.REMAINING] < 0.5:
             return np.array(lateral), memory
@@ -65,7 +65,7 @@ def test_foot_point_does_not_jump_to_the_other_arm_of_a_hairpin():
     path = pt.make_path(np.concatenate([there, back]), 3.0, LIMITS, 3.0)
     memory, command = pt.new_track(), np.zeros(4)
     for tick, x in enumerate(np.arange(0, 15, 0.03)):
-        pt.track(path.table, path.length, _GAINS, memory, x, 0.16, 3.0, tick, command)
+        pt.track(path.table, path.length, RUN_GAINS, memory, x, 0.16, 3.0, tick, command)
     assert memory[pt.ARC] == pytest.approx(15, abs=0.1)
 
 

@@ -203,7 +203,7 @@ def test_stands_still_for_a_minute_and_stays_up_when_pushed():
     human = Human(None, clearing=())
     human.reset((0, 0, 0), 0.5)
     command = np.array([0.5, 0.0, 0.0, 0.0])
-    tables, walk, state, data = human.gait.tables, new_walk(0.5), human.control, human.data
+    tables, walk, state, data = human.on_feet.walk_skill.tables, new_walk(0.5), human.control, human.data
     observe_walk(human.index, data, walk)
     for tick in range(6000):
         data.xfrc_applied[human.index.chest, :2] = (60.0, -40.0) if tick % 1500 in range(1000, 1010) else 0.0

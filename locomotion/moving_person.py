@@ -1,0 +1,168 @@
+"""A person under physics with all that moves it: its parts, what they remember, and what it is doing."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion import controller, path_tracking
+from locomotion.clearing import ClearingSkill
+from locomotion.controller import observe
+from locomotion.events import Event
+from locomotion.ground import Ground
+from locomotion.human_state import MOVING, Gait, HumanState, Status, hash_of, restore_physics, save_physics
+from locomotion.obstacle_run import ObstacleRun
+from locomotion.on_all_fours import OnAllFours, too_steep_around
+from locomotion.on_feet import OnFeet
+from locomotion.path_tracking import new_track
+from locomotion.person import CONTROL_DT
+from locomotion.route_smoothing import ObstacleAhead
+from locomotion.simulated_person import SimulatedPerson
+from locomotion.skill import reset_running
+from locomotion.walk_layout import WALKS, new_walk
+from locomotion.walk_skill import plant
+from locomotion.way import Way
+
+__all__ = ["MovingPerson"]
+
+_SETTLING = 600  # ticks in which a person that has stopped walking comes to rest
+_FALL_TICKS = 100  # a fallen body is simulated for this long, then held
+
+
+class MovingPerson(SimulatedPerson):
+    """``on_feet``: how it walks and runs. ``way``: the path that it follows. ``status``, ``events``: see
+    `locomotion.body.Human`, which decides what they do."""
+
+    def __init__(
+        self,
+        ground: Ground | None,
+        on_feet: OnFeet,
+        clearing: Sequence[ClearingSkill],
+    ) -> None:
+        super().__init__(ground)
+        self.on_feet, self.way = on_feet, Way()
+        self._command = np.zeros(4)
+        self.events: list[Event] = []
+        self._obstacle_run = ObstacleRun(clearing, on_feet.run_skill)
+        self._fours = OnAllFours(self.model, self.index)
+        self._ticks = 0
+        self._ended_at = 0  # tick at which it fell or stopped
+        self.status: Status = "standing"
+        middle = np.zeros(3) if ground is None else 0.5 * (ground.low + ground.high)
+        self._place(middle, 0.0, 0.0)
+
+    @property
+    def clearing(self) -> tuple[ClearingSkill, ...]:
+        """How it clears obstacles."""
+        return self._obstacle_run.skills
+
+    @property
+    def time(self) -> float:
+        """Simulation time [s] since the person was made."""
+        return self._ticks * CONTROL_DT
+
+    @property
+    def velocity(self) -> NDArray[np.float64]:
+        """Velocity of the centre of mass, (3,) float64 [m/s]; zero while held."""
+        return np.zeros(3) if self.held else self._control[controller.COM_VELOCITY].copy()
+
+    @property
+    def held(self) -> bool:
+        """Whether the person is kept still: it stands at rest, did not come to rest, or lay for a second."""
+        if self.status in MOVING:
+            return False
+        stopped = self._ticks - self._ended_at
+        if self.status == "fallen":
+            return stopped > _FALL_TICKS
+        if self._fours.active:
+            return stopped > _SETTLING and self._fours.borne
+        return self.on_feet.at_rest(self._control) or stopped > _SETTLING
+
+    @property
+    def gait_now(self) -> Gait:
+        """How it moves now: "walk" (or stand), "run", "slow run" on its way from a run to a walk, or
+        "scramble" (or getting up)."""
+        if self._fours.active:
+            return "scramble"
+        if self.on_feet.walks:
+            return "walk"
+        return "run" if self.on_feet.runs else "slow run"
+
+    @property
+    def arc_length(self) -> float:
+        """Length of the path behind the person [m]."""
+        return self.way.arc_length
+
+    @property
+    def lateral_error(self) -> float:
+        """Distance of the centre of mass to the left of the path [m]."""
+        return self.way.lateral
+
+    @property
+    def pace(self) -> float:
+        """Share of its planned speed at which it goes."""
+        return self.way.pace
+
+    @property
+    def path(self) -> NDArray[np.float64]:
+        """(n, 3) float64 [m]: the path that it follows or followed last."""
+        return self.way.points
+
+    @property
+    def obstacle_ahead(self) -> ObstacleAhead | None:
+        """The next obstacle on its path, or the one that it clears now."""
+        return self._obstacle_run.ahead
+
+    # --- saving
+    def save_state(self) -> HumanState:
+        """Everything needed to continue from here."""
+        feet, way = self.on_feet, self.way
+        return HumanState(
+            save_physics(self.model, self.data), self._control.copy(), feet.walk.copy(),
+            np.concatenate([way.memory, self._command]), feet.slowing, feet.hurries,
+            self._fours.save_state(), way.path, way.interrupted, way.back_to,
+            self._obstacle_run.save_state(), self.status, self._ticks,
+            self._ended_at, tuple(self.events),
+        )  # fmt: skip
+
+    def restore_state(self, state: HumanState) -> None:
+        """Continue from a state of a person on the same ground with the same skill."""
+        restore_physics(self.model, self.data, state.physics)
+        self._control[:] = state.control
+        self._command[:] = state.tracking[path_tracking.TRACK_SIZE :]
+        feet, way = self.on_feet, self.way
+        feet.walk[:], feet.slowing, feet.hurries = state.walk, state.slowing, state.hurries
+        way.memory[:] = state.tracking[: path_tracking.TRACK_SIZE]
+        way.path, way.interrupted, way.back_to = state.path, state.interrupted, state.back_to
+        self._fours.restore_state(state.on_all_fours)
+        self._obstacle_run.restore_state(state.obstacle_run)
+        self.status, self._ticks, self._ended_at = state.status, state.ticks, state.ended_at
+        self.events[:] = state.events
+
+    def state_hash(self) -> str:
+        """Hex digest of the physical and mental state; equal for equal runs."""
+        physics = save_physics(self.model, self.data)
+        mood = np.array([self.on_feet.slowing, self.on_feet.hurries, self.way.back_to])
+        parts = [physics, self._control, self.on_feet.walk, self.way.memory, self._command, mood]
+        parts.append(self._fours.save_state())
+        return hash_of(self.status, [*parts, *self._obstacle_run.save_state().arrays])
+
+    def _place(self, position: NDArray[np.float64], yaw: float, speed: float) -> None:
+        self._fours.leave()
+        walk = self.on_feet.walk
+        if speed == 0.0 and too_steep_around(self.ground, position):
+            self._fours.crouch(self._lookup, self.data, position, yaw)
+            self._control[:] = controller.new_state()
+            observe(self.index, self.model, self.data, self._control, fresh=True)
+            walk[:] = new_walk(yaw)
+        elif speed > 0.0:
+            run = self.on_feet.run_skill
+            reset_running(run, self.model, self.data, self.index, self._control, position, yaw, speed)
+            walk[WALKS] = 0.0
+        else:
+            plant(self.model, self.data, self.index, self._lookup, self._control, walk, position, yaw)
+        self._command[:] = yaw, speed, 0.0, 0.0
+        self.on_feet.slowing = 0.0
+        self.way.memory[:] = new_track()

@@ -1,0 +1,167 @@
+"""A person on its feet: walking and running, and going over from one to the other.
+
+    feet = OnFeet(run, walk, slow_down, speed_up)
+    feet.steer(way, state, moving, planned, tick, command)
+    feet.tick(lookup, state, command, data)
+    mujoco.mj_step(model, data, STEPS_PER_TICK)
+    feet.observe(index, state, command, data)
+
+``state`` is what the running controller remembers and observes (its fields: `locomotion.run_layout`), also
+while it walks.
+"""
+
+import math
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion import controller
+from locomotion.controller import run_tick
+from locomotion.gaits import run_limits, walk_limits
+from locomotion.person import CONTROL_DT, PersonIndex
+from locomotion.skill import RunSkill, run_on
+from locomotion.slow_down import SlowDownSkill, can_walk_on, walk_on
+from locomotion.speed_up import HASTE, SpeedUpSkill, is_fast_enough
+from locomotion.walk_layout import (
+    CAUGHT,
+    CLOCK,
+    PHASE,
+    STANDING,
+    WALK_HEADING,
+    WALK_STANCE,
+    WALK_STEPS,
+    WALK_TICKS,
+    WALKS,
+    new_walk,
+)
+from locomotion.walk_skill import RISING, STEADYING_SPEED, WalkSkill
+from locomotion.walking import observe_walk, walk_tick
+from locomotion.way import Way
+
+__all__ = ["RUN_GAINS", "OnFeet"]
+
+RUN_GAINS = np.array([0.35, 1.2, 0.15, 0.45, 0.5, 0.05])
+"""Of `path_tracking.track`; hardly any sideways speed: the run was not learned with it."""
+_WALK_GAINS = np.array([0.5, 0.6, 0.05, 0.3, 0.8, 0.25])
+_TURN_FIRST = 0.7  # [rad] off its way at which a walking person turns on the spot
+_SLOW_ENOUGH = 0.5  # [m/s] at which it begins to turn so far
+_HASTE = 1.3  # [m/s] that the speed asked for may exceed the last step's: more trips it in setting off
+_STILL = 0.03  # [m/s] of the centre of mass at rest
+
+
+class OnFeet:
+    """``run_skill``, ``walk_skill``, ``slow_down_skill``, ``speed_up_skill``: how it moves. ``limits``,
+    ``walk_limits``: what it can follow. ``walk``: what the walking controller remembers
+    (`locomotion.walk_layout`). ``slowing``: [m/s^2] at which it slows down to a walk, 0: it does not.
+    ``hurries``: whether it speeds up to its run."""
+
+    def __init__(
+        self, run: RunSkill, walk: WalkSkill, slow_down: SlowDownSkill, speed_up: SpeedUpSkill
+    ) -> None:
+        self.run_skill, self.walk_skill = run, walk
+        self.slow_down_skill, self.speed_up_skill = slow_down, speed_up
+        self._quick_run, self._slow_run = speed_up.run_tables(run), slow_down.run_tables(run)
+        self._first_steps = slow_down.walk_tables(walk)
+        self.limits, self.walk_limits = run_limits(run), walk_limits(walk)
+        self.walk = new_walk()
+        self.slowing, self.hurries = 0.0, False
+
+    @property
+    def walks(self) -> bool:
+        """Whether it walks or stands."""
+        return bool(self.walk[WALKS] > 0.0)
+
+    @property
+    def runs(self) -> bool:
+        """Whether it runs and does not slow down."""
+        return not self.walks and self.slowing == 0.0
+
+    @property
+    def rises(self) -> bool:
+        """Whether it begins to walk from a crouch."""
+        return bool(self.walks and self.walk[WALK_TICKS] < RISING)
+
+    def at_rest(self, state: NDArray[np.float64]) -> bool:
+        """Whether it stands and does not move."""
+        stands = self.walks and self.walk[PHASE] == STANDING and self.walk[CLOCK] == 0.0
+        return bool(stands and np.abs(state[controller.COM_VELOCITY]).max() < _STILL)
+
+    def stir(self, state: NDArray[np.float64]) -> None:
+        """It is not at rest any more."""
+        state[controller.COM_VELOCITY] = 0.0, 0.0, -_STILL
+
+    # --- a tick
+    def steer(
+        self, way: Way, state: NDArray, moving: bool, planned: float, tick: int, command: NDArray
+    ) -> None:
+        """Track the path: write heading and speeds to ask of the controllers into ``command`` (4,).
+
+        moving: whether it is to go on along the path. planned [m/s]: speed of this step of a run-up, 0 where
+        there is none.
+        """
+        (x, y), speed = state[controller.COM][:2], state[controller.SPEED]
+        way.track(_WALK_GAINS if self.walks else RUN_GAINS, x, y, speed, tick, command)
+        if self.walks:
+            self._steer_walk(state, moving, way.pace, command)
+        elif self.slowing > 0.0:
+            command[1:3] = state[controller.SPEED] - self.slowing * CONTROL_DT, 0.0
+        else:
+            if state[controller.STEPS] >= 2.0:
+                haste = HASTE if self.hurries else _HASTE
+                command[1] = min(command[1], state[controller.STEP_SPEED] + haste)
+            slowest = min(command[1], self.limits.speeds[0])
+            command[1] = planned if planned > 0.0 else max(way.pace * command[1], slowest)
+
+    def _steer_walk(self, state: NDArray, moving: bool, pace: float, command: NDArray) -> None:
+        heading = self.walk[WALK_HEADING]
+        if self.walk[WALK_STEPS] < 0.0:
+            command[:] = heading, STEADYING_SPEED, 0.0, 0.0
+            return
+        if not moving or abs(math.remainder(command[0] - heading, 2.0 * math.pi)) > _TURN_FIRST:
+            command[1:3] = 0.0
+            if np.hypot(*state[controller.COM_VELOCITY][:2]) > _SLOW_ENOUGH:
+                command[0] = heading
+        command[1] = pace * min(command[1], self.walk_skill.speed)
+
+    def tick(
+        self, lookup: tuple[NDArray, ...], state: NDArray, command: NDArray, data: mujoco.MjData
+    ) -> None:
+        """Control: write the PD targets into ``data.ctrl``."""
+        if self.walks:
+            tables = self._walk_tables()
+            walk_tick(tables, lookup, self.walk, state, command, data.qpos, data.qvel, data.ctrl)
+        else:
+            tables = self._quick_run if self.hurries else self.run_skill.tables
+            tables = self._slow_run if self.slowing > 0.0 else tables
+            run_tick(*tables, state, command, data.qpos, data.qvel, data.ctrl)
+
+    def _walk_tables(self) -> NDArray[np.float64]:
+        """The gains with which it walks now."""
+        steps = int(self.walk[WALK_STEPS])
+        if self.walk[CAUGHT] > 0.0 and steps < len(self._first_steps):
+            return self._first_steps[steps]
+        return self.walk_skill.tables
+
+    def observe(self, index: PersonIndex, state: NDArray, command: NDArray, data: mujoco.MjData) -> None:
+        """After the physics and `controller.observe`."""
+        if self.hurries and (self.walks or is_fast_enough(state, float(command[1]))):
+            self.hurries = False
+        if self.walks:
+            observe_walk(index, data, self.walk)
+
+    # --- from one gait to the other
+    def run(self, state: NDArray, quickly: bool, speed: float) -> None:
+        """Go over from walking to running, from ``speed`` [m/s]."""
+        run_on(state, self.walk[WALK_STANCE], self.walk[WALK_HEADING], speed)
+        self.walk[WALKS] = 0.0
+        self.hurries = quickly
+
+    def walk_if_slow(self, index: PersonIndex, state: NDArray, data: mujoco.MjData) -> bool:
+        """Go over to walking, if it slows down and has just put a foot down from which it can; whether it
+        has."""
+        if not (self.slowing > 0.0 and can_walk_on(state)):
+            return False
+        walk_on(data, index, self._first_steps[0], self.walk_skill.speed, state, self.walk)
+        self.slowing = 0.0
+        return True

@@ -1,0 +1,123 @@
+"""The way of a person: the path that it follows, how far it has come along it, and back for a run-up."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion import path_tracking
+from locomotion.path_tracking import PathTable, TrackingLimits, back_along, new_track, shifted, track
+from locomotion.person import CONTROL_DT
+
+__all__ = ["Way"]
+
+
+class Way:
+    """``path``: what is followed now, None before the first. ``interrupted``: the path to which it returns,
+    at arc length ``back_to`` [m], after having gone back along it; else None. ``memory``: what
+    `path_tracking.track` remembers."""
+
+    def __init__(self) -> None:
+        self.path: PathTable | None = None
+        self.interrupted: PathTable | None = None
+        self.back_to = 0.0
+        self.memory = new_track()
+
+    def begin(self, path: PathTable, tick: int) -> None:
+        """Follow ``path`` from its beginning."""
+        self.path, self.interrupted = path, None
+        self.memory[:] = new_track()
+        self.memory[path_tracking.HEADWAY_TICK] = tick
+        self.memory[path_tracking.REMAINING] = path.length
+
+    def forget(self) -> None:
+        """Have no path."""
+        self.path = self.interrupted = None
+
+    @property
+    def arc(self) -> float:
+        """[m] behind the person of the path that it follows now."""
+        return float(self.memory[path_tracking.ARC])
+
+    @property
+    def arc_length(self) -> float:
+        """[m] behind the person of the whole path, also while it goes back."""
+        if self.interrupted is not None:
+            return self.back_to + self.remaining
+        return self.arc
+
+    @property
+    def remaining(self) -> float:
+        """[m] left of the path that it follows now."""
+        return float(self.memory[path_tracking.REMAINING])
+
+    @property
+    def lateral(self) -> float:
+        """[m] of the centre of mass to the left of the path."""
+        return float(self.memory[path_tracking.LATERAL])
+
+    @property
+    def pace(self) -> float:
+        """Share of the planned speed at which it goes."""
+        return float(self.memory[path_tracking.PACE])
+
+    @pace.setter
+    def pace(self, pace: float) -> None:
+        self.memory[path_tracking.PACE] = pace
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """(n, 3) float64 [m]: the whole path."""
+        path = self.interrupted or self.path
+        return np.empty((0, 3)) if path is None else path.table[:, :3].copy()
+
+    @property
+    def runs(self) -> bool:
+        """Whether it is to run here."""
+        return self.path is not None and self.path.runs(self.arc)
+
+    def track(
+        self, gains: NDArray[np.float64], x: float, y: float, speed: float, tick: int, command: NDArray
+    ) -> None:
+        """One tick: see `path_tracking.track`."""
+        assert self.path is not None
+        track(self.path.table, self.path.length, gains, self.memory, x, y, speed, tick, command)
+
+    def without_headway(self, tick: float) -> float:
+        """[s] in which it has made no headway."""
+        return float(tick - self.memory[path_tracking.HEADWAY_TICK]) * CONTROL_DT
+
+    def excuse(self, ticks: float) -> None:
+        """Do not count so many ticks as without headway."""
+        self.memory[path_tracking.HEADWAY_TICK] += ticks
+
+    def make_headway(self, tick: int) -> None:
+        """Count time without headway from this ``tick`` on."""
+        self.memory[path_tracking.HEADWAY_TICK] = tick
+
+    def shift(self, shift: NDArray[np.float64], limits: TrackingLimits, walk: TrackingLimits | None) -> None:
+        """Move the path, see `path_tracking.shifted`."""
+        assert self.path is not None
+        self.path = shifted(self.path, self.arc_length, shift, limits, walk)
+
+    def go_back(self, to: float, walk: TrackingLimits, tick: int) -> None:
+        """Turn round and walk back to arc length ``to`` [m]."""
+        assert self.path is not None
+        back = back_along(self.path, self.arc, to, walk)
+        self.interrupted, self.back_to = self.path, to
+        self._take(back, 0.0, tick)
+
+    def turn_again(self, tick: int) -> None:
+        """Having gone back, go on."""
+        assert self.interrupted is not None
+        path, self.interrupted = self.interrupted, None
+        self._take(path, self.back_to, tick)
+
+    def _take(self, path: PathTable, arc: float, tick: int) -> None:
+        """Go along another path from arc length ``arc`` [m] on."""
+        pace = self.pace
+        self.path = path
+        self.memory[:] = new_track()
+        self.memory[[path_tracking.ARC, path_tracking.HEADWAY]] = arc
+        self.memory[[path_tracking.HEADWAY_TICK, path_tracking.PACE]] = tick, pace
+        self.memory[path_tracking.REMAINING] = path.length - arc

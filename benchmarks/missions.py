@@ -3,11 +3,13 @@
     python -m benchmarks.missions [--levels undulating courtyard] [--missions 50] [--speed 3.0] [--json FILE]
 
 For each level the graph is built with a person's rules (`locomotion.PERSON_RULES`), start and goal are drawn
-from its nodes, 10 to 60 m of route apart, and the person runs along the smoothed route from a held start. The
-table says how many arrive (in 60 s and 10 s per metre: enough for hands and feet at 0.1 m/s), how often they
-fell on their way and got up again, how far they were from the path (while they went, not while they got up),
-and what stopped the others; JSON holds every mission. Then the longest mission is timed: whole ticks, and
-bare physics with the same controls from the same states, in turns.
+from its nodes, 10 to 60 m of route apart, and a person of a `runtime.World` is told to go there from a stand,
+as users tell it. The table says how many arrive (in 60 s and 10 s per metre: enough for hands and feet at 0.1
+m/s), how often they fell on their way and got up again, how many ways they took, and what stopped the others;
+JSON holds every mission. A person that has been carried off by a fall (more than 0.5 m), or is stuck, takes a
+new way from where it is; its distance from its path is that from the way that it follows at the time, while
+it goes and not while it gets up: "lateral". "Unfallen" is the same until its first fall. Then the longest
+mission is timed: whole ticks, and bare physics with the same controls from the same states, in turns.
 
 Undulating has hardly any ground that is less steep than a person's limit (7 % below 20 degrees; it falls into
 patches of 4 m), so its slope limit is 45 degrees there.
@@ -26,10 +28,11 @@ import numpy as np
 
 import navmesh
 from benchmarks.shared_data import LEVELS, level_path, shared_folder, why_absent
-from locomotion import MOVING, PERSON_RULES, Ground, Human, friction_for, smooth_route
-from locomotion.events import Fell
+from locomotion import PERSON_RULES, Human, smooth_route
 from locomotion.path_tracking import make_path
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK
+from runtime import World
+from runtime.events import Departed, Fell
 
 OWN_LEVELS = Path(__file__).resolve().parents[1] / "examples" / "levels"
 LENGTHS = (10.0, 60.0)
@@ -66,37 +69,42 @@ def random_routes(graph: navmesh.NodeGraph, count: int, seed: int) -> list:
     raise SystemExit(f"only {len(routes)} routes of {LENGTHS} m found")
 
 
-def run_mission(human: Human, route: Any, speed: float) -> dict[str, Any]:
-    """Run one route from a held start; returns what happened."""
+def run_mission(world: World, route: Any, speed: float) -> dict[str, Any]:
+    """Send a person along one route; returns what happened."""
     path = smooth_route(route)
-    yaw = math.atan2(*(path.points[1] - path.points[0])[1::-1])
-    human.events.clear()
-    human.reset(path.points[0], yaw)
-    human.follow(path.points, speed)
-    begun, lateral, steepest = human.time, [], 0.0
+    facing = math.atan2(*(path.points[1] - path.points[0])[1::-1])
+    agent = world.spawn("human", path.points[0], facing)
+    begun, events = world.time, world.events
+    agent.go_to(path.points[-1], speed)
+    lateral: list[float] = []
+    unfallen: list[float] = []
     limit = TIME_LIMIT[0] + TIME_LIMIT[1] * route.length
-    while human.status in MOVING and human.time - begun < limit:
-        human.tick()
-        if human.status != "getting up":
-            lateral.append(abs(human.lateral_error))
-    last = human.events[-1]
+    while agent.moving and world.time - begun < limit:
+        world.step(CONTROL_DT)
+        events += world.events
+        if agent.status != "getting up":
+            lateral.append(abs(agent.human.lateral_error))
+            if not any(isinstance(event, Fell) for event in events):
+                unfallen.append(lateral[-1])
     rise = np.abs(np.diff(path.points[:, 2])) / np.maximum(
         np.linalg.norm(np.diff(path.points[:, :2], axis=0), axis=1), 1e-6
     )
-    steepest = float(np.degrees(np.arctan(np.percentile(rise, 95))))
-    return {
-        "status": human.status if human.status not in MOVING else "out of time",
-        "falls": sum(isinstance(event, Fell) for event in human.events),
+    result = {
+        "status": "out of time" if agent.moving else agent.status,
+        "falls": sum(isinstance(event, Fell) for event in events),
+        "ways": sum(isinstance(event, Departed) for event in events),
         "start": path.points[0].round(3).tolist(),
         "goal": path.points[-1].round(3).tolist(),
         "length": round(route.length, 2),
         "bounded": path.bounded,
-        "steepest_deg": round(steepest, 1),
-        "time": round(human.time - begun, 2),
-        "arc_length": round(human.arc_length, 2),
-        "event": {k: v for k, v in vars(last).items() if isinstance(v, (int, float, str, tuple))},
+        "steepest_deg": round(float(np.degrees(np.arctan(np.percentile(rise, 95)))), 1),
+        "time": round(world.time - begun, 2),
+        "event": events[-1].to_dict(),
         "lateral": lateral,
+        "unfallen": unfallen,
     }
+    agent.remove()
+    return result
 
 
 def cost_of_control(human: Human, route: Any, speed: float, seconds: float = 6.0) -> dict[str, float]:
@@ -160,18 +168,22 @@ def report_on(name: str, options: argparse.Namespace) -> dict[str, Any]:
     """All missions on one level, and what a tick costs there."""
     terrain = load_level(name)
     max_slope = MAX_SLOPES.get(name, PERSON_RULES["max_slope"])
-    ground = Ground.from_arrays(terrain.vertices, terrain.faces, friction_for(max_slope))
     graph = person_graph(terrain, max_slope)
     routes = random_routes(graph, options.missions, options.seed)
-    human = Human(ground, gets_up=True)
-    results = [run_mission(human, route, options.speed) for route in routes]
-    lateral = np.concatenate([result.pop("lateral") for result in results])
+    world = World(graph)
+    results = [run_mission(world, route, options.speed) for route in routes]
+    lateral, unfallen = (
+        np.concatenate([result.pop(name) for result in results]) for name in ("lateral", "unfallen")
+    )
+    human = world.spawn("human", routes[0].waypoints[0]).human
     return {
         "missions": results,
         "arrived": sum(r["status"] == "arrived" for r in results),
         "falls": sum(r["falls"] for r in results),
+        "ways": sum(r["ways"] for r in results),
         "lateral_p95": float(np.percentile(lateral, 95)),
         "lateral_max": float(lateral.max()),
+        "unfallen_p95": float(np.percentile(unfallen, 95)),
         "stopped_by": dict(Counter(r["status"] for r in results if r["status"] != "arrived")),
         "cost": cost_of_control(human, max(routes, key=lambda r: r.length), options.speed),
     }
@@ -187,8 +199,8 @@ def main() -> None:
     options = parser.parse_args()
     report: dict[str, Any] = {"speed": options.speed, "seed": options.seed, "levels": {}}
     print(
-        f"{'level':12} {'arrive':>8} {'falls':>6} {'lateral p95':>12} {'control':>8} {'and planning':>13} "
-        f"{'real time':>10}  stopped by"
+        f"{'level':12} {'arrive':>8} {'falls':>6} {'ways':>5} {'lateral p95':>12} {'unfallen':>9} "
+        f"{'control':>8} {'and planning':>13} {'real time':>10}  stopped by"
     )
     for name in options.levels:
         if name in LEVELS and shared_folder() is None:
@@ -198,8 +210,8 @@ def main() -> None:
         report["levels"][name] = result
         arrived, cost = f"{result['arrived']}/{len(result['missions'])}", result["cost"]
         print(
-            f"{name:12} {arrived:>8} {result['falls']:6} {result['lateral_p95']:10.2f} m "
-            f"{100 * cost['control']:6.1f} % "
+            f"{name:12} {arrived:>8} {result['falls']:6} {result['ways']:5} {result['lateral_p95']:10.2f} m "
+            f"{result['unfallen_p95']:7.2f} m {100 * cost['control']:6.1f} % "
             f"{100 * cost['share']:11.1f} % "
             f"{cost['real_time']:8.0f} x  {result['stopped_by']}"
         )

@@ -36,16 +36,21 @@ if TYPE_CHECKING:
 
 __all__ = ["Agent", "AgentState", "Pose"]
 
+_CARRIED_OFF = 0.5  # [m] beside its path from which a person that has got up takes another one
+_ATTEMPTS = 3  # of a person that is stuck or lost to find another way to its goals
+_HELPLESS = bodily.GotStuck, bodily.StrayedFromPath, bodily.MissedGoal
+
 
 @dataclass(frozen=True)
 class Errand:
     """What an agent was told: `Agent.go_to`'s arguments. ``doubtful``: the level has changed while it could
-    not look for another way."""
+    not look for another way. ``attempts``: how often it was stuck or lost on its way."""
 
     goals: tuple[tuple[float, float, float], ...] = ()
     speed: float = 0.0
     facing: float | None = None
     doubtful: bool = False
+    attempts: int = 0
 
 
 @dataclass(frozen=True)
@@ -165,18 +170,21 @@ class Agent:
         numbers or an agent that has fallen, and `locomotion.LocomotionError` for a speed that is not above 0.
         """
         goals = _points(point)
-        goal = _triple(goals[-1])
         try:
             plan = self._driver.go_to(goals, speed, facing)
         except NoWay as error:
             self._report_blocked(goals[error.goal], error.reason)
             return self.status
-        self._blocked = False
         self._errand = Errand(tuple(_triple(each) for each in goals), speed, facing)
-        here = _triple(self.position)
+        self._depart(plan)
+        return self.status
+
+    def _depart(self, plan: Plan) -> None:
+        """Report that it has taken the way of ``plan``."""
+        self._blocked = False
+        here, goal = _triple(self.position), self._errand.goals[-1]
         self._goal = _triple(plan.points[-1])
         self._world.report(Departed(self._world.time, self.name, here, goal, plan.length, plan.skills))
-        return self.status
 
     def _report_blocked(self, goal: np.ndarray, reason: str) -> None:
         self._blocked = True
@@ -192,7 +200,7 @@ class Agent:
         self._errand = replace(self._errand, doubtful=False)
         if not self.moving or self._driver.way_holds():
             return
-        goals = np.array(self._errand.goals[-self._driver.goals_left :])
+        goals = self._goals_left
         try:
             status = self.go_to(goals, self._errand.speed, self._errand.facing)
         except (RuntimeInputError, LocomotionError) as error:  # a ground that the graph does not tell of
@@ -201,17 +209,48 @@ class Agent:
         if status == "blocked":
             self._driver.stop()
 
+    @property
+    def _goals_left(self) -> np.ndarray:
+        """(k, 3) [m]: the goals that are still before it."""
+        return np.array(self._errand.goals[-self._driver.goals_left :])
+
+    def _goes_another_way(self) -> bool:
+        """Whether it finds another way to its goals from where it is, and takes it."""
+        if not self._errand.goals:
+            return False
+        try:
+            plan = self._driver.go_to(self._goals_left, self._errand.speed, self._errand.facing)
+        except (NoWay, RuntimeInputError, LocomotionError):
+            return False
+        self._depart(plan)
+        return True
+
+    def _tries_again(self) -> bool:
+        """Whether one that is stuck or lost takes another way."""
+        attempts = self._errand.attempts + 1
+        self._errand = replace(self._errand, attempts=attempts)
+        return attempts <= _ATTEMPTS and self._goes_another_way()
+
+    @property
+    def _carried_off(self) -> bool:
+        """Whether a person on its way is so far beside its path that it should not go back there."""
+        return self.moving and abs(self.human.lateral_error) > _CARRIED_OFF
+
     def notice(self) -> None:
         """Report what has happened to the body; `World.step` calls this after every tick in which there is
         `news`."""
         if isinstance(self._driver, AnimalDriver):
             self._driver.take_note()
         for event in self.news:
+            if isinstance(event, _HELPLESS) and self.body == "human" and self._tries_again():
+                continue
             told = self._translated(event)
             if isinstance(told, Fell | Lost):
                 self._blocked = False
             if told is not None:
                 self._world.report(told)
+            if isinstance(told, GotUp) and self._carried_off:
+                self._goes_another_way()
         self.news.clear()
         if self._errand.doubtful:
             self.look_at_way()

@@ -23,7 +23,7 @@ def graph():
 def test_most_random_ways_are_gone_to_their_end(graph, speed):
     rng = np.random.default_rng(4)
     places = graph.positions[np.flatnonzero(graph.radii > 0.5)]
-    arrived, tried, fell = 0, 0, 0
+    arrived, tried, unharmed = 0, 0, 0
     while tried < 16:
         start, goal = places[rng.choice(len(places), 2)]
         route = graph.find_path(start, goal, radius=0.3)
@@ -36,9 +36,10 @@ def test_most_random_ways_are_gone_to_their_end(graph, speed):
         while person.moving and world.time < 80.0:
             world.step(0.1)
         arrived += person.status == "arrived"
-        fell += any(isinstance(event, Fell) for event in world.events)
-    assert arrived >= 12
-    assert arrived + fell == tried  # nobody is lost or stuck
+        unharmed += not any(isinstance(event, Fell) for event in world.events)
+        assert person.status not in ("lost", "stuck")
+    assert arrived >= 15
+    assert unharmed >= 12
 
 
 def test_smoothed_ways_lie_on_the_ground_between_their_corners(graph):

@@ -59,7 +59,6 @@ from locomotion.rehearsal import (
     SLOWINGS,
     clears,
     first_good,
-    runs_on,
     walks_on,
 )
 from locomotion.route_smoothing import ObstacleAhead
@@ -82,7 +81,8 @@ _WALK_ARRIVAL = 0.15  # [m] before the end of its path at which a walking person
 _CHANGE = 0.01  # [m] by which the ground under a person at rest may change unnoticed
 _PATIENCE = 0.9  # of the time that it gives way does not count as being stuck
 _LONGEST_DOWN = 12000  # ticks after which a body that has not got up stays down
-_AT_WALL = 8.0  # [m] before an obstacle from which there is no run-up any more
+_TOO_NEAR = 2.0  # [m] before an obstacle up to which a walking person comes
+_HEMMED_IN = 9.0  # [m] before an obstacle in which it may not come to a walk
 _CLIMBS_BACK = 6.0  # [m] beside its path, where it has slid to, from which it climbs back
 _LOOKS = 20  # ticks after which one on hands and feet looks again whether it can walk on
 
@@ -317,24 +317,35 @@ class Human(MovingPerson):
             self._got_up("walking")
         elif self.status == "scrambling":
             self.status = "walking"
-        at_wall = self.status == "walking" and self._obstacle_run.comes_within(self.arc_length, _AT_WALL)
-        if at_wall and not self._go_back():
-            self._end("stuck", GotStuck(self.time, self._point()))
 
     # --- from one gait to the other
     def _run_if_due(self) -> None:
         """Go over from walking to running, just after a foot was put down."""
         if self.status not in MOVING or not self.way.runs or self.way.pace < 1.0:
             return
+        obstacles, arc = self._obstacle_run, self.arc_length
+        near = obstacles.comes_within(arc, _TOO_NEAR)
+        if (near or obstacles.balked) and self._go_back():
+            return
+        if near:
+            self._end("stuck", GotStuck(self.time, self._point()))
+            return
         speed = run_entry_speed(self.on_feet.walk, self._control, float(self._command[0]))
         if speed is None or self._go_back():
             return
-        if not self._obstacle_run.comes_within(self.arc_length, RUN_UP):
+        if not obstacles.comes_within(arc, RUN_UP):
             self.run(False, speed)
             return
-        quickly, went = self._rehearse(SETTING_OFF, partial(Human.run, speed=speed), runs_on)
+        choice, went = self._rehearse(SETTING_OFF, partial(Human.set_off, speed=speed), clears)
         if went > 0.0:
-            self.run(quickly, speed)
+            self.set_off(choice, speed)
+
+    def set_off(self, choice: tuple[bool, Sequence[float]], speed: float) -> None:
+        """Begin to run towards the obstacle ahead, from ``speed`` [m/s], in one of the ways of
+        `rehearsal.SETTING_OFF`."""
+        quickly, run_up = choice
+        self.run(quickly, speed)
+        self._obstacle_run.set_off(run_up, True)
 
     def _go_back(self) -> bool:
         """Whether it turns round, for a longer run-up to the obstacle ahead."""
@@ -384,15 +395,35 @@ class Human(MovingPerson):
 
     # --- trying out
     def _rehearse_take_off(self) -> None:
-        """Just after one of the last steps of a run-up has begun: choose among its variations."""
-        if self._rehearsals and self.gait_now == "run" and self._obstacle_run.to_rehearse(self._control):
-            choice, went = self._rehearse(RUN_UPS, Human.vary_run_up, clears)
-            self._obstacle_run.vary(choice, self._control, went > 0.0)
+        """Just after a step of a run-up has begun: choose among its variations, or break it off."""
+        if not (self._rehearsals and self.begins_run_up):
+            return
+        choice, went = self._rehearse(RUN_UPS, Human.vary_run_up, clears)
+        self._obstacle_run.vary(choice, self._control, went > 0.0)
+        if went == 0.0:
+            deceleration, went = self._rehearse(SLOWINGS, Human.balk, walks_on)
+            if went > 0.0:
+                self.balk(deceleration)
+
+    @property
+    def begins_run_up(self) -> bool:
+        """Whether a step of a run-up has just begun, and it was not rehearsed yet."""
+        return self.on_feet.runs and self._obstacle_run.to_rehearse(self._control)
+
+    @property
+    def hemmed_in(self) -> bool:
+        """Whether the next obstacle may be too near to slow down before it."""
+        return self._obstacle_run.comes_within(self.arc_length, _HEMMED_IN)
 
     def vary_run_up(self, choice: Sequence[float]) -> None:
         """Plan the step of the run-up that has just begun with a mark that is farther from the obstacle [m],
         and an entry that is faster [m/s]."""
         self._obstacle_run.vary(choice, self._control, True)
+
+    def balk(self, deceleration: float) -> None:
+        """Break the run-up off, slowing down [m/s^2]."""
+        self._obstacle_run.balk()
+        self.slow_down(deceleration)
 
     def _rehearse(
         self, choices: Sequence[_T], choose: Callable[[Human, _T], None], goes_well: Callable[[Human], float]

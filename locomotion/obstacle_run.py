@@ -18,14 +18,15 @@ from locomotion.skill import RunSkill
 
 __all__ = ["ObstacleRun", "ObstacleRunState", "TakeOff"]
 
-_NEXT, _STEPS_SEEN, _PLANNED, _FARTHER, _FASTER, _REHEARSED, _WENT_BACK = range(7)
+_NEXT, _STEPS_SEEN, _PLANNED, _FARTHER, _FASTER, _REHEARSED, _RETURNS, _BALKED = range(8)
 # number of the next obstacle, steps made when the run-up was last planned, speed planned for this step or 0;
 # chosen in rehearsal: [m] that the mark is farther from the obstacle, [m/s] that the entry is faster, and 1
-# once a choice has gone well; 1 once it has gone back for a longer run-up
+# once a choice has gone well; how often it has gone back for another run-up; 1 after a run-up broken off
+_SIZE = 8
+_MOST_RETURNS = 4
 _ROOM = 5.2  # [m] before an obstacle in which a body that begins to run comes to its entry speed
 _SETTING_OFF = 2.5  # [m] that it walks before it runs
 _OFF_EDGE, _WORTH_IT = 0.8, 0.7  # [m] kept from the obstacle behind it; that it goes back at least
-_REHEARSABLE = 3  # steps before the take-off from which a run-up is rehearsed
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,7 @@ class TakeOff:
 
 @dataclass(frozen=True)
 class ObstacleRunState:
-    """What an `ObstacleRun` remembers: its obstacles, its plan (7,) and what the skill at work remembers."""
+    """What an `ObstacleRun` remembers: its obstacles, its plan (8,) and what the skill at work remembers."""
 
     obstacles: tuple[ObstacleAhead, ...]
     plan: NDArray[np.float64]
@@ -58,7 +59,7 @@ class ObstacleRun:
         """``skills``: to clear them with, on top of ``run``."""
         self.skills, self._run = tuple(skills), run
         self.obstacles: tuple[ObstacleAhead, ...] = ()
-        self._plan = np.zeros(7)
+        self._plan = np.zeros(_SIZE)
         self._skill: NDArray[np.float64] | None = None
 
     def begin(self, obstacles: Sequence[ObstacleAhead]) -> None:
@@ -130,11 +131,12 @@ class ObstacleRun:
 
     def turning_point(self, arc: float) -> float | None:
         """Arc length [m] to which a body that walks at ``arc`` should go back so that its run-up is long
-        enough, or as long as the obstacle behind allows; None: it need not, cannot, or has been back."""
-        if self.ahead is None or self._plan[_WENT_BACK] > 0.0:
+        enough, or as long as the obstacle behind allows; None: it need not, cannot, or has been back often
+        enough."""
+        if self.ahead is None or self._plan[_RETURNS] >= _MOST_RETURNS:
             return None
         edge = self.ahead.arc_length
-        if not arc < edge < arc + _ROOM:
+        if not arc < edge or (edge - arc > _ROOM and self._plan[_BALKED] == 0.0):
             return None
         behind = self.obstacles[int(self._plan[_NEXT]) - 1] if self._plan[_NEXT] > 0.0 else None
         start = 0.0 if behind is None else behind.arc_length + behind.depth + _OFF_EDGE
@@ -142,8 +144,23 @@ class ObstacleRun:
         return to if arc - to > _WORTH_IT else None
 
     def go_back(self) -> None:
-        """It goes back for its run-up, once."""
-        self._plan[_WENT_BACK] = 1.0
+        """It goes back for another run-up."""
+        self._plan[_RETURNS] += 1.0
+        self._plan[_BALKED] = 0.0
+
+    def balk(self) -> None:
+        """It breaks the run-up off."""
+        self._plan[_PLANNED:_RETURNS] = 0.0
+        self._plan[_BALKED] = 1.0
+
+    @property
+    def balked(self) -> bool:
+        """Whether it has broken the run-up off, and has not begun another."""
+        return bool(self._plan[_BALKED] > 0.0)
+
+    def set_off(self, choice: Sequence[float], goes_well: bool) -> None:
+        """It begins to run towards the obstacle ahead; arguments as of `vary`."""
+        self._plan[[_FARTHER, _FASTER, _REHEARSED, _BALKED, _STEPS_SEEN]] = *choice, goes_well, 0.0, 0.0
 
     def fell(self, state: NDArray[np.float64]) -> bool:
         """Whether a body has fallen whose skill is at work."""
@@ -151,12 +168,10 @@ class ObstacleRun:
         return self.skill.fell(self._skill, state)
 
     def to_rehearse(self, state: NDArray[np.float64]) -> bool:
-        """Whether one of the last steps before the take-off has just begun, and the rest was not rehearsed
-        yet."""
+        """Whether a step of a run-up has just begun, and the rest was not rehearsed yet."""
         if self.ahead is None or self.clearing or self.planned == 0.0 or self._plan[_REHEARSED] > 0.0:
             return False
-        begins = state[controller.STEP_TIME] == 0.0
-        return begins and 1 <= len(self._plan_of(self.ahead, state).speeds) <= _REHEARSABLE
+        return bool(state[controller.STEP_TIME] == 0.0)
 
     def vary(self, choice: Sequence[float], state: NDArray[np.float64], goes_well: bool) -> None:
         """Plan the step that has just begun anew, with a mark that is ``choice[0]`` [m] farther from the

@@ -10,22 +10,25 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
 from locomotion.events import Cleared, TookOff
-from locomotion.human_state import CLEARING, MOVING
+from locomotion.human_state import MOVING
 from locomotion.passage import Passage, watch
 from locomotion.person import CONTROL_DT
 
 if TYPE_CHECKING:
     from locomotion.body import Human
 
-__all__ = ["REHEARSALS", "RUN_UPS", "SETTING_OFF", "SLOWINGS", "clears", "first_good", "runs_on", "walks_on"]
+__all__ = ["REHEARSALS", "RUN_UPS", "SETTING_OFF", "SLOWINGS", "clears", "first_good", "walks_on"]
 
-_AFTERWARDS = round(2.2 / CONTROL_DT)  # ticks that it must stay up behind an obstacle
-_RUNNING = round(2.0 / CONTROL_DT)  # ticks that it must stay up when it has begun to run
+_RUNNING, _WALKING = round(2.2 / CONTROL_DT), round(4.0 / CONTROL_DT)
+# ticks that it must stay up behind an obstacle
+_TRAPPED = 0.25  # worth of clearing an obstacle and not finding a way on
+_LOOKED_AT = 3  # variations that are tried to find it
 _SETTLED = round(3.0 / CONTROL_DT)  # ticks that it must stay up after going over to another gait
 _FAILED = ("fallen", "lost", "stuck")
 _LONGEST = round(12.0 / CONTROL_DT)
@@ -45,8 +48,8 @@ REHEARSALS = 16
 """Variations that are tried at one time at most, unless told otherwise."""
 RUN_UPS = _nearest_first(_MARKS, _ENTRIES)
 """Variations of a run-up: [m] that the mark is farther from the obstacle, [m/s] that the entry is faster."""
-SETTING_OFF = (True, False)
-"""Whether it speeds up quickly when it begins to run."""
+SETTING_OFF = tuple((quickly, run_up) for run_up in RUN_UPS for quickly in (True, False))
+"""How it begins to run towards an obstacle: whether it speeds up quickly, and the variation of its run-up."""
 SLOWINGS = (1.0, 0.92, 1.08, 0.84, 1.16, 0.76, 1.24, 0.68, 1.32, 0.6, 1.4)
 """[m/s^2] by which the run's reference speed is lowered."""
 
@@ -77,27 +80,48 @@ def first_good(
     return chosen, best
 
 
-def clears(body: Human) -> float:
-    """Whether it clears the obstacle ahead and stays up behind it: 1 without touching what it should not."""
+def clears(body: Human, looks_on: bool = True) -> float:
+    """Whether it clears the obstacle ahead and stays up behind it: 1 without touching what it should not.
+
+    looks_on: whether it also matters what it can do before another obstacle that is near behind it.
+    """
     obstacle, seen = body.obstacle_ahead, len(body.events)
     assert obstacle is not None
     passage, cleared_at = Passage(), 0
-    took_off = again = False
+    took_off = walked = False
     for tick in range(_LONGEST):
         body.tick()
         happened, seen = body.events[seen:], len(body.events)
         if body.status not in (*MOVING, "arrived"):
             return 0.0
+        again = False
         for event in happened:
             if isinstance(event, Cleared):
                 cleared_at = tick
             elif isinstance(event, TookOff):
                 took_off, again = True, cleared_at > 0
-        if cleared_at and (again or tick - cleared_at >= _AFTERWARDS or body.held):
-            return 1.0 if passage.clean(obstacle.affordance) else 0.5
-        if took_off and not cleared_at:
+        if cleared_at:
+            walks = body.gait_now == "walk"
+            again |= walked and not walks
+            walked = walks
+            good = 1.0 if passage.clean(obstacle.affordance) else 0.5
+            if looks_on and body.begins_run_up and body.hemmed_in:
+                return good if finds_a_way_on(body) else _TRAPPED
+            if again or tick - cleared_at >= (_WALKING if walks else _RUNNING) or body.held:
+                return good
+        elif took_off:
             watch(body.index, body.model, body.data, obstacle, passage)
     return 0.0
+
+
+def finds_a_way_on(body: Human) -> bool:
+    """Whether one that begins a run-up and looks no farther clears the obstacle, or can break it off."""
+    begin, state = type(body), body.save_state()
+    goes_on = partial(clears, looks_on=False)
+    if first_good(body, body, RUN_UPS[:_LOOKED_AT], begin.vary_run_up, goes_on)[1] > 0.0:
+        return True
+    body.restore_state(state)
+    return first_good(body, body, SLOWINGS[:_LOOKED_AT], begin.balk, walks_on)[1] > 0.0
 
 
 def walks_on(body: Human) -> float:
@@ -107,18 +131,7 @@ def walks_on(body: Human) -> float:
         body.tick()
         if body.status in _FAILED:
             return 0.0
-        walked = walked + 1 if body.gait_now == "walk" else 0
-        if body.held or walked >= _SETTLED:
+        if body.held or walked >= _SETTLED or (walked and body.gait_now == "run"):
             return 1.0
+        walked = walked + 1 if body.gait_now == "walk" else 0
     return 0.0
-
-
-def runs_on(body: Human) -> float:
-    """Whether a body that has begun to run stays up."""
-    for _ in range(_RUNNING):
-        body.tick()
-        if body.status in _FAILED:
-            return 0.0
-        if body.status in CLEARING.values():
-            break
-    return 1.0

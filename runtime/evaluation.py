@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from locomotion import MOVING, Human, ObstacleAhead, controller
+from locomotion import MOVING, Ground, Human, controller
 from locomotion.person import CONTROL_DT
 from locomotion.rehearsal import REHEARSALS
 from locomotion.skill import load_run_skill
@@ -178,18 +178,18 @@ def evaluate_walk(trials: int, seed: int, progress: Progress) -> list[Attempt]:
 
 
 def evaluate_speed_up(trials: int, seed: int, progress: Progress) -> list[Attempt]:
-    """Starts from standing on a plane, with noise: does the person run up to an edge, and after how many
-    metres was a step as fast as it takes for most obstacles?"""
-    there = np.array([_RUNS_ON + 3.0, 0.0, 0.4])
-    ahead = ObstacleAhead(_RUNS_ON + 3.0, "jump", 0.4, there, np.array([-1.0, 0.0, 0.0]))
+    """Starts from standing, with noise: does the person run up to a stair, and after how many metres was a
+    step as fast as it takes for most obstacles?"""
+    course = make_course([("jump", 0.4, WALL)], [_RUNS_ON + 3.0])
+    ground = Ground.from_arrays(course.vertices, course.faces)
 
     def attempt(k: int) -> Attempt:
         rng = np.random.default_rng([seed, k])
-        human = Human()
-        human.reset((0.0, 0.0, 0.0), 0.0)
+        human = Human(ground)
+        human.reset(course.path[0], 0.0)
         human.data.qvel[:] += NOISE * rng.normal(size=human.model.nv)
         speed = float(rng.uniform(3.3, 3.8))
-        human.follow([[0.0, 0.0, 0.0], [40.0, 0.0, 0.0]], speed, [ahead])
+        human.follow(course.path, speed, course.obstacles)
         far = math.nan
         while human.status in MOVING and human.com[0] < _RUNS_ON:
             human.tick()

@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
+from locomotion import rehearsal
 from locomotion.body import Human
 from locomotion.clearing import foot_distance
-from locomotion.events import Cleared, Fell, TookOff
+from locomotion.events import Arrived, Cleared, Fell, GotStuck, SetOff, TookOff
 from locomotion.human_state import MOVING
 from locomotion.passage import Passage
-from locomotion.rehearsal import RUN_UPS
+from locomotion.rehearsal import RUN_UPS, clears
 from locomotion.route_smoothing import ObstacleAhead
 from runtime.courses import make_course, run_course
 
@@ -77,13 +78,58 @@ def test_it_takes_off_from_where_the_skill_works():
     assert Cleared in happened and Fell not in happened
 
 
-def test_a_choice_that_goes_well_is_not_rehearsed_again_and_the_budget_is_kept():
+def test_a_choice_that_goes_well_is_not_rehearsed_again():
     skill = Picky(0.0)
     run_on(about_to_run_up(skill, 16))
     assert skill.starts == 2  # once in rehearsal, once for good
+
+
+def test_it_does_not_run_at_what_never_holds_and_keeps_its_budget():
     skill = Picky(100.0)
-    run_on(about_to_run_up(skill, 4))
-    assert skill.starts == 3 * 4 + 1  # three steps are left to choose in
+    human = about_to_run_up(skill, 4)
+    here, returns, most = 0.0, 0, 0
+    while human.status in MOVING and human.time < 120.0:
+        starts = skill.starts
+        human.tick()
+        most = max(most, skill.starts - starts)
+        back = human.arc_length < here - 0.7
+        returns, here = returns + back, human.arc_length if back else max(here, human.arc_length)
+    assert human.status == "stuck" and human.arc_length < 14.0 and most == 4
+    assert 1 <= returns <= 40
+    assert [type(event) for event in human.events] == [SetOff, GotStuck]
+
+
+def test_a_run_up_that_would_fail_now_is_broken_off_and_begun_again():
+    skill = Picky(0.0)
+    human = about_to_run_up(skill, 16)
+    while skill.starts == 0:
+        human.tick()
+    skill.from_ = 100.0
+    human.give_way(1.0, np.zeros((2, 2)))  # something has changed
+    while human.gait_now != "walk":
+        human.tick()
+        assert human.status in MOVING
+    skill.from_ = 0.0
+    assert run_on(human, 60.0) == [SetOff, TookOff, Cleared, Arrived]
+
+
+def test_clearing_an_obstacle_without_a_way_on_behind_it_is_worth_less(monkeypatch):
+    easy, never = Picky(0.0), Picky(100.0)
+    never.heights = (0.6, 0.8)
+    human = Human(None, clearing=[easy, never], rehearsals=0)
+    edges = [
+        ObstacleAhead(x, "drop", height, np.array([x, 0, 0]), np.array([-1.0, 0, 0]))
+        for x, height in ((14.0, 0.4), (20.0, 0.7))
+    ]
+    human.reset((0, 0, 0), 0.0, speed=3.0)
+    human.follow([[0, 0, 0], [30, 0, 0]], 3.0, edges)
+    while not human.begins_run_up:
+        human.tick()
+    here = human.save_state()
+    assert clears(human) == 1.0 and never.starts > 0  # it can be broken off
+    monkeypatch.setattr(rehearsal, "walks_on", lambda body: 0.0)
+    human.restore_state(here)
+    assert 0.0 < clears(human) < 1.0
 
 
 def test_a_push_in_the_run_up_makes_it_rehearse_anew():

@@ -3,30 +3,29 @@
 import numpy as np
 import pytest
 
-from locomotion import Human, LocomotionError, controller
+from locomotion import Ground, Human, LocomotionError, controller
 from locomotion.events import Cleared, SetOff, TookOff
 from locomotion.human_state import MOVING
-from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import load_run_skill
 from locomotion.speed_up import SPEED_UP_SKILL, load_speed_up_skill
 from locomotion.training.speed_up import SpeedUpProblem, _curriculum, speed_up_of
 from runtime.courses import enter_course, make_course
 
-STRAIGHT = np.array([[0.0, 0, 0], [40, 0, 0]])
-EDGE = ObstacleAhead(14.5, "jump", 0.4, np.array([14.5, 0, 0.4]), np.array([-1.0, 0, 0]))
+COURSE = make_course([("jump", 0.4, 0.0)], [14.5])
+GROUND = Ground.from_arrays(COURSE.vertices, COURSE.faces)
 
 
 def slow_starter():
     """A person whose run begins with the ordinary run's parameters."""
     skill = load_speed_up_skill()
-    return Human(None, speed_up=speed_up_of(np.zeros(2 * skill.change.shape[1])))
+    return Human(GROUND, speed_up=speed_up_of(np.zeros(2 * skill.change.shape[1])))
 
 
 def way_to(human, speed, seed):
     """[m] from standing until a step is as fast as ``speed`` [m/s]; infinite if it falls."""
     human.reset((0, 0, 0), 0.0)
     human.data.qvel[:] += 0.02 * np.random.default_rng(seed).normal(size=human.model.nv)
-    human.follow(STRAIGHT, 3.5, [EDGE])
+    human.follow(COURSE.path, 3.5, COURSE.obstacles)
     while human.status in MOVING and human.com[0] < 11.0:
         human.tick()
         if human.control[controller.STEP_SPEED] >= speed:
@@ -35,7 +34,7 @@ def way_to(human, speed, seed):
 
 
 def test_it_is_fast_earlier_than_by_the_run_alone():
-    quick, slow = Human(None), slow_starter()
+    quick, slow = Human(GROUND), slow_starter()
     ways = np.array([[way_to(human, 3.0, seed) for human in (quick, slow)] for seed in range(6)])
     assert np.median(ways[:, 0]) < 0.75 * np.median(ways[:, 1])
 

@@ -2,9 +2,12 @@
 
     python -m benchmarks.giving_way [--starts 10] [--scenes crossing] [--pairs dog-dog] [--without]
 
-Scenes: two that meet head-on on a floor, two whose ways cross, and one and two from each side of a door 1.2 m
-wide; each from `--starts` random starts, for every pair of kinds. "overlap" is the deepest of any two discs
-(three for a dog) in any tick, as a share of the smaller radius; "touching" the starts in which there was any.
+Scenes: two that meet head-on on a floor, two whose ways cross, one and two from each side of a door 1.2 m
+wide, three that are sent to one place, and three that chase a point that moves at 1.2 m/s and then stays
+(told twice a second where it is); each from `--starts` random starts, for every pair of kinds. "overlap" is
+the deepest of any two discs (three for a dog) in any tick, as a share of the smaller radius; "touching" the
+starts in which there was any; "at rest" those in which there was any at the end; "falls" are counted whether
+somebody got up or not.
 With `--without` nobody gives way but walkers: what it was like before.
 """
 
@@ -16,7 +19,7 @@ from pathlib import Path
 import numpy as np
 
 import navmesh
-from runtime import World
+from runtime import Agent, Fell, World
 from runtime.rules import person_walk_rules
 
 KINDS = {"dog": ("dog", 1.4), "person": ("human", 1.4), "runner": ("human", 3.0), "walker": ("walker", 1.4)}
@@ -44,6 +47,12 @@ DOOR = [(0.0, 0.0, 14.8, 10.0), (14.8, 4.4, 15.2, 5.6), (15.2, 0.0, 30.0, 10.0)]
 def ways(scene: str, random: np.random.Generator) -> list[tuple[np.ndarray, np.ndarray]]:
     """(start, goal) of each body, in turn of the pair's kinds."""
     jitter = random.uniform(-1.0, 1.0, (4, 2))
+    if scene in ("one goal", "chase"):
+        angles = random.uniform(0.0, 2.0 * np.pi) + np.radians([0.0, 120.0, 240.0]) + 0.8 * jitter[:3, 0]
+        around = (
+            np.column_stack([np.cos(angles), 0.35 * np.sin(angles)]) * (9.0 + 2.0 * jitter[:3, 1])[:, None]
+        )
+        return [(np.array([15.0, 5.0]) + each, np.array([15.0, 5.0])) for each in around]
     near, far = np.array([4.0, 5.0]), np.array([26.0, 5.0])
     if scene == "head-on":
         return [
@@ -63,21 +72,45 @@ def ways(scene: str, random: np.random.Generator) -> list[tuple[np.ndarray, np.n
 
 
 def play(graph: navmesh.NodeGraph, pair: tuple[str, str], scene: str, seed: int, without: bool) -> dict:
-    world = World(graph, seed=seed)
+    world, random = World(graph, seed=seed), np.random.default_rng([seed, 7])
     if without:
         world._traffic.direct = lambda tick: None
     agents = []
-    for kind, (start, goal) in zip(itertools.cycle(pair), ways(scene, np.random.default_rng([seed, 7]))):
+    for kind, (start, goal) in zip(itertools.cycle(pair), ways(scene, random)):
         body, speed = KINDS[kind]
         facing = float(np.arctan2(*(goal - start)[::-1]))
         agents.append(world.spawn(body, (*start, 0.0), facing))
         agents[-1].go_to((*goal, 0.0), speed=speed)
-    deepest = 0.0
-    while world.time < SECONDS and any(agent.moving for agent in agents):
+    corners = np.vstack([agents[0].position[:2], random.uniform((2.0, 1.0), (28.0, 9.0), (3, 2))])
+    deepest, ticks = 0.0, 0
+    while world.time < SECONDS and (any(agent.moving for agent in agents) or scene == "chase"):
+        if scene == "chase" and ticks % 50 == 0:
+            send_after(agents, along(corners, 1.2 * world.time))
+        ticks += 1
         world.step(0.01)
         deepest = max(deepest, overlap(world))
+    falls = sum(isinstance(event, Fell) for event in world.events)
     ended = [agent.status for agent in agents]
-    return {"overlap": deepest, "ended": ended, "seconds": world.time}
+    return {
+        "overlap": deepest,
+        "at rest": overlap(world),
+        "ended": ended,
+        "falls": falls,
+        "seconds": world.time,
+    }
+
+
+def along(corners: np.ndarray, length: float) -> np.ndarray:
+    """(2,) the point of a line through ``corners`` (k, 2) at an arc length, its end behind that."""
+    arcs = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(corners, axis=0), axis=1))])
+    return np.array([np.interp(length, arcs, corners[:, axis]) for axis in range(2)])
+
+
+def send_after(agents: list[Agent], place: np.ndarray) -> None:
+    """Tell those who are farther than a metre from ``place`` (2,) to go there."""
+    for agent in agents:
+        if np.linalg.norm(agent.position[:2] - place) > 1.0:
+            agent.go_to((*place, 0.0), speed=2.0)
 
 
 def overlap(world: World) -> float:
@@ -106,7 +139,7 @@ def main() -> None:
     options = parser.parse_args()
     graphs = {False: floor(HALL), True: floor(DOOR)}
     results = []
-    head = f"{'all arrive':>10} {'touching':>9} {'overlap':>8} {'fell':>5} {'seconds':>8}"
+    head = f"{'all arrive':>10} {'touching':>9} {'overlap':>8} {'at rest':>7} {'falls':>5} {'seconds':>8}"
     print(f"{'scene':16} {'pair':15} {head}")
     for scene in options.scenes.split(","):
         for pair in options.pairs.split(","):
@@ -119,13 +152,15 @@ def main() -> None:
             row = {
                 "scene": scene, "pair": pair, "arrived": arrived, "starts": options.starts,
                 "touching": sum(run["overlap"] > 0.0 for run in runs),
+                "at rest": sum(run["at rest"] > 0.01 for run in runs),
                 "overlap": max(run["overlap"] for run in runs),
-                "fell": sum("fallen" in run["ended"] for run in runs),
+                "falls": sum(run["falls"] for run in runs),
                 "seconds": float(np.mean([run["seconds"] for run in runs])),
             }  # fmt: skip
             results.append(row)
             many = f"{arrived:4} of {options.starts:2} {row['touching']:9} {row['overlap']:8.2f}"
-            print(f"{scene:16} {pair:15} {many} {row['fell']:5} {row['seconds']:8.1f}", flush=True)
+            rest = f"{row['at rest']:7} {row['falls']:5} {row['seconds']:8.1f}"
+            print(f"{scene:16} {pair:15} {many} {rest}", flush=True)
     if options.json:
         options.json.write_text(json.dumps(results, indent=1) + "\n")
 

@@ -182,6 +182,12 @@ class Human(MovingPerson):
         goal = (float(table.goal[0]), float(table.goal[1]), float(table.goal[2]))
         self.events.append(SetOff(self.time, self._point(), goal, table.length))
 
+    def arrive(self) -> None:
+        """Take where it is for its goal."""
+        goal = self.position if self._path is None else self._path.goal
+        distance = float(np.linalg.norm(goal[:2] - self.position[:2]))
+        self._end("arrived", Arrived(self.time, self._point(), distance))
+
     def stop(self) -> None:
         """Give up the path and come to a stand; what is being cleared is cleared first."""
         self._fours.on_way = 0.0

@@ -30,9 +30,11 @@ COUNT = round(HORIZON / STEP)
 _ASIDE = (0.4, 0.8, 1.2, 1.6)
 """[m] to each side that a way leads."""
 _PACES = (1.0, 0.6, 0.3, 0.0)
-_LEFT_COSTS, _SLOW_COSTS, _MEETING_COSTS, _SOONER_COSTS = 1.2, 2.0, 4.0, 6.0
-"""For each metre to the left in place of the right; for standing; for meeting somebody, and for that at once
-rather than at the end of what is foretold."""
+_LEFT_COSTS, _SLOW_COSTS = 1.2, 2.0
+"""For each metre to the left in place of the right; for standing."""
+_NEAR_COSTS, _TOUCHING_COSTS, _SOONER_COSTS, _DEEPER_COSTS = 1.5, 2.5, 6.0, 20.0
+"""For coming too near to somebody, less than standing, lest two wait for each other for ever; for touching
+it, for that at once rather than at the end of what is foretold, and for going through it."""
 _QUINTIC = 5.7735  # most second derivative of the step from 0 to 1 whose ends are smooth to the second order
 _AFTERWARDS = 1.0  # [m] that a body stays aside behind the place where it would have met somebody
 
@@ -49,7 +51,8 @@ class Course:
         acceleration, braking: [m/s²].
         slowest: [m/s] that it can go, unless it halts; 0: it halts as easily as it slows down.
         sharpest: [1/m] of a curve that it can take. begins: [m] ahead where a change of its path may begin.
-        aside: whether its path may be changed.
+        aside: whether its path may be changed. whole: whether the last point is its goal.
+        stops: [m] that it wants for coming to a stand.
     """
 
     points: NDArray[np.float64]
@@ -64,6 +67,8 @@ class Course:
     sharpest: float
     begins: float
     aside: bool
+    whole: bool
+    stops: float
 
 
 @njit(cache=True)
@@ -89,22 +94,32 @@ def foretell(points, speeds, speed, pace, slowest, acceleration, braking, length
 
 
 @njit(cache=True)
-def first_meeting(own, own_radius, others, other_radius):
+def first_meeting(own, own_radius, others, other_radius, room):
     """The number of the first step at which a disc of ``own`` (n, d, 2) comes nearer to one of ``others``
-    (n, m, 2) than both radii [m], and nearer than before; n when none does."""
+    (n, m, 2) than both radii and ``room`` [m], and nearer than if it stayed where it is; n when none does.
+    The first at which it touches one, and how deep it comes to lie in one, as a share of both radii. Who is
+    run into from behind, or where it stands, has not come near; discs that lie in each other from the
+    beginning do not count, so that the one in front gets away."""
     count = own.shape[0]
+    first, touches, deepest = count, count, 0.0
     for k in range(1, count):
         for d in range(own.shape[1]):
             for m in range(others.shape[1]):
                 x, y = own[k, d, 0] - others[k, m, 0], own[k, d, 1] - others[k, m, 1]
-                wide = own_radius + other_radius[m]
+                both = own_radius + other_radius[m]
                 far = x * x + y * y
-                if far >= wide * wide:
+                if far >= (both + room) * (both + room):
                     continue
-                x, y = own[k - 1, d, 0] - others[k - 1, m, 0], own[k - 1, d, 1] - others[k - 1, m, 1]
+                x, y = own[k - 1, d, 0] - others[k, m, 0], own[k - 1, d, 1] - others[k, m, 1]
                 if far < x * x + y * y - 1e-9:
-                    return k
-    return count
+                    x, y = own[0, d, 0] - others[0, m, 0], own[0, d, 1] - others[0, m, 1]
+                    if x * x + y * y < both * both:
+                        continue
+                    first = min(first, k)
+                    if far < both * both:
+                        touches = min(touches, k)
+                        deepest = max(deepest, 1.0 - math.sqrt(far) / both)
+    return first, touches, deepest
 
 
 @njit(cache=True)
@@ -139,9 +154,12 @@ class Options:
     cost: float
 
 
-def cost_of_meeting(step: int) -> float:
-    """What it costs to meet somebody at a step of what is foretold; 0 for nobody."""
-    return 0.0 if step >= COUNT else _MEETING_COSTS + _SOONER_COSTS * (1.0 - step / COUNT)
+def cost_of_meeting(near: int, touches: int, depth: float) -> float:
+    """What it costs to meet somebody as `first_meeting` says; 0 for nobody."""
+    cost = _NEAR_COSTS if near < COUNT else 0.0
+    if touches < COUNT:
+        cost += _TOUCHING_COSTS + _SOONER_COSTS * (1.0 - touches / COUNT) + _DEEPER_COSTS * depth
+    return cost
 
 
 def options(course: Course, meeting: int, halts: bool = True) -> list[Options]:

@@ -13,9 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 from locomotion.errors import LocomotionError
 
 __all__ = [
-    "ARC", "HEADWAY", "HEADWAY_TICK", "LATERAL", "PACE", "REMAINING", "RUNS", "RUN_UP", "SLOPE_HERE",
-    "SPEED_HERE", "TRACK_SIZE", "PathTable", "TrackingLimits", "back_along", "checked_points", "make_path",
-    "new_track", "shifted", "track",
+    "ARC", "COME_TO_REST", "HEADWAY", "HEADWAY_TICK", "LATERAL", "PACE", "REMAINING", "RUNS", "RUN_UP",
+    "SLOPE_HERE", "SPEED_HERE", "TRACK_SIZE", "PathTable", "TrackingLimits", "back_along", "checked_points",
+    "make_path", "new_track", "shifted", "track",
 ]  # fmt: skip
 
 SPACING = 0.1
@@ -32,7 +32,9 @@ RUN_UP = 15.0
 _STEP = 0.25
 _STEP_REACH = 0.7  # [m] around an obstacle's edge where its height would show as slope
 _WORTH_IT = 4.0  # [m] that are run at least, before it slows down
-_BEFORE, _COME_TO_REST = 1.0, 2.0  # [m] that are walked before what cannot be run, and before the end
+COME_TO_REST = 2.0
+"""[m] that are walked before the end."""
+_BEFORE = 1.0  # [m] that are walked before what cannot be run
 _BETWEEN = 4.0  # [m] that are walked between two runs at least
 _LANDED = 5.0  # [m] behind an obstacle's edge that are run
 _BACK, _AHEAD = 0.5, 1.5  # [m] search window around the last foot point
@@ -165,7 +167,7 @@ def _where_to_run(
     """(n,) bool: where the body runs, if ``speed`` is at least ``slowest`` [m/s]; behind that it needs
     ``slowing`` [m] to slow down."""
     hard = _too_hard(table, limits)
-    runs = _can_run(hard, at, slowing) & (at <= at[-1] - _COME_TO_REST - slowing) & (speed >= slowest)
+    runs = _can_run(hard, at, slowing) & (at <= at[-1] - COME_TO_REST - slowing) & (speed >= slowest)
     ends = np.flatnonzero(np.diff(runs.astype(np.int8), prepend=0, append=0))
     for begin, end in ends.reshape(-1, 2):
         if at[end - 1] - at[begin] < _WORTH_IT and not (running and begin == 0):

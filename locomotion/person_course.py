@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from locomotion import path_tracking
 from locomotion.gaits import PERSON_RULES
 from locomotion.giving_way import HORIZON, SPACING, Course
-from locomotion.path_tracking import PathTable, TrackingLimits
+from locomotion.path_tracking import COME_TO_REST, PathTable, TrackingLimits
 
 __all__ = ["course_on_path"]
 
@@ -44,4 +44,6 @@ def course_on_path(
         sharpest=_WALK_BEND if walks else _RUN_BEND,
         begins=_WALK_BEGINS if walks else _RUN_BEGINS,
         aside=aside,
+        whole=path.length <= far,
+        stops=COME_TO_REST if walks else COME_TO_REST + (speed * speed) / (2.0 * limits.slowing),
     )

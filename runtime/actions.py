@@ -148,8 +148,8 @@ class Follow:
 
     def _look(self, agent: Agent) -> None:
         there = self._target.position
-        if agent.moving and np.linalg.norm(there - self._seen) < _STIRRED:
-            return
+        if (agent.moving or agent.status == "arrived") and np.linalg.norm(there - self._seen) < _STIRRED:
+            return  # one that has arrived farther off has found others in its place
         if not agent.moving and np.linalg.norm(there - agent.position) < self._distance + _STIRRED:
             return
         try:

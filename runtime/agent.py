@@ -170,6 +170,9 @@ class Agent:
         numbers or an agent that has fallen, and `locomotion.LocomotionError` for a speed that is not above 0.
         """
         goals = _points(point)
+        if len(goals) == 1 and not self.moving and self._world.has_come(self, goals[0]):
+            self._goal, self._blocked = _triple(goals[0]), False
+            return self.status
         try:
             plan = self._driver.go_to(goals, speed, facing)
         except NoWay as error:
@@ -184,6 +187,7 @@ class Agent:
         self._blocked = False
         here, goal = _triple(self.position), self._errand.goals[-1]
         self._goal = _triple(plan.points[-1])
+        self._world.look_out(self)
         self._world.report(Departed(self._world.time, self.name, here, goal, plan.length, plan.skills))
 
     def _report_blocked(self, goal: np.ndarray, reason: str) -> None:

@@ -94,12 +94,21 @@ class Follower(Protocol):
         """Share of its speed at which it goes at present."""
         ...
 
+    @property
+    def reach(self) -> float:
+        """[m] that its head is ahead of the foremost of its discs."""
+        ...
+
     def course(self) -> Course | None:
         """What it is about to do, None where that cannot be changed."""
         ...
 
     def give_way(self, pace: float, shift: np.ndarray | None) -> None:
         """Go at another pace; with ``shift`` (k, 2) [m] change its path by it, as its course tells it."""
+        ...
+
+    def end_in(self, ahead: float) -> None:
+        """Take the place ``ahead`` [m] further on for its goal; of one at rest, where it is."""
         ...
 
 

@@ -20,6 +20,7 @@ from locomotion.quadruped import (
     load_body,
 )
 from locomotion.quadruped import layout as at
+from locomotion.quadruped.course import head_length
 from locomotion.quadruped.footprint import at_place
 from runtime.animal_figure import animal_figure
 from runtime.drivers import PLANS_KEPT, Driver, Follower, recall
@@ -197,12 +198,20 @@ class AnimalDriver:
     def pace(self) -> float:
         return float(self.animal.herd.state[self.animal.index, at.PACE])
 
+    @property
+    def reach(self) -> float:
+        body = self.animal.body
+        return head_length(body) - body.spine.length
+
     def course(self) -> Course | None:
         return self.animal.course()
 
     def give_way(self, pace: float, shift: np.ndarray | None) -> None:
         self.animal.give_way(pace, shift)
         self.take_note()
+
+    def end_in(self, ahead: float) -> None:
+        self.animal.end_in(ahead)
 
     def take_note(self) -> None:
         """Keep the plan of a trail that has just been taken, if there is one; an event says that it has."""

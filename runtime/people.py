@@ -10,7 +10,7 @@ import numpy as np
 
 from locomotion import PERSON_RULES, Human, HumanState
 from locomotion.clearing import HEIGHT_TOLERANCE
-from locomotion.giving_way import Course
+from locomotion.giving_way import SPACING, Course
 from runtime.drivers import PLANS_KEPT, Driver, Follower, radius_of, recall
 from runtime.errors import RuntimeInputError
 from runtime.figure import Figure
@@ -151,6 +151,10 @@ class HumanDriver:
     def pace(self) -> float:
         return self.human.pace
 
+    @property
+    def reach(self) -> float:
+        return 0.0
+
     def course(self) -> Course | None:
         return self.human.course()
 
@@ -158,6 +162,15 @@ class HumanDriver:
         self.human.give_way(pace, shift)
         if shift is not None:
             self.plans[-1] = replace(self.plans[-1], points=self.human.path)
+
+    def end_in(self, ahead: float) -> None:
+        course = self.human.course()
+        points = None if course is None else course.points[: round(ahead / SPACING) + 1]
+        if course is None or points is None or len(points) < 2:
+            self.human.arrive()
+            return
+        self.human.follow(points, float(course.speeds.max()))
+        self.plans[-1] = replace(self.plans[-1], points=points, obstacles=(), ends=(ahead,))
 
     def save(self) -> tuple[HumanState, tuple[Plan, ...]]:
         return self.human.save_state(), tuple(self.plans)[-1:]

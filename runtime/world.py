@@ -17,7 +17,7 @@ from locomotion.library import skills_digest
 from locomotion.person import CONTROL_DT
 from locomotion.quadruped import is_body_file, load_body
 from runtime.agent import Agent
-from runtime.drivers import BODIES, Population, radius_of
+from runtime.drivers import BODIES, Follower, Population, radius_of
 from runtime.errors import RuntimeInputError
 from runtime.events import Event
 from runtime.level import Level
@@ -223,6 +223,25 @@ class World:
         finally:
             self._stepping = False
         return due
+
+    def has_come(self, agent: Agent, goal: np.ndarray) -> bool:
+        """Whether an agent at rest that gives way by its path is as near to ``goal`` (3,) as those who stand
+        there let it, see `locomotion.gathering`: it has then arrived. `Agent.go_to` asks."""
+        follower = self._follower(agent)
+        there = follower is not None and agent.status != "fallen" and self._traffic.has_come(follower, goal)
+        if there and follower is not None:
+            follower.end_in(0.0)
+        return there
+
+    def look_out(self, agent: Agent) -> None:
+        """Let an agent that has just been told where to go give way; `Agent.go_to` asks."""
+        follower = self._follower(agent)
+        if follower is not None:
+            self._traffic.look_out(follower)
+
+    def _follower(self, agent: Agent) -> Follower | None:
+        followers = self._population(agent.body).followers()
+        return next((each for each in followers if each is agent.driver), None)
 
     def report(self, event: Event) -> None:
         """Add an event to `events`, and tell who listens at the end of the tick."""

@@ -28,6 +28,8 @@ _ASIDE, _EARLY = 0.5, 1.5
 """[m/s] at which one that stands makes way, and [m] before it is touched by one that has the right of way."""
 _TOUCH = 0.1
 """[m] between two bodies that are in touch."""
+_AT_REST = 0.05
+"""[m/s] below which one that is led stands."""
 _COMPANY = 1.0
 """[m] between two bodies that are near each other."""
 _PATIENCE_ALONE, _PATIENCE = 8.0, 300.0
@@ -57,17 +59,21 @@ def _settle(rows, i, neighbours, count):
         return False
     for k in range(count):
         other = rows[neighbours[k]]
-        if other[at.MODE] != at.STANDING:
+        led = other[at.MODE] == at.LED
+        goes_on = led and max(abs(other[at.VX]), abs(other[at.VY])) > _AT_REST
+        if other[at.MODE] == at.WALKING or goes_on:
             continue
         px, py = other[at.X] - row[at.X], other[at.Y] - row[at.Y]
         near = row[at.RADIUS] + other[at.RADIUS] + _TOUCH
         if px * px + py * py > near * near:
             continue
+        if led:
+            near += 2.0 * row[at.RADIUS]  # it finds no room between that and its goal
         # it stands on the goal, or was on its way there too
         gx, gy = other[at.GOAL_X] - row[at.GOAL_X], other[at.GOAL_Y] - row[at.GOAL_Y]
         if (px - dx) * (px - dx) + (py - dy) * (py - dy) < near * near:
             return True
-        if gx * gx + gy * gy < row[at.RADIUS] * row[at.RADIUS]:
+        if not led and gx * gx + gy * gy < row[at.RADIUS] * row[at.RADIUS]:
             return True
     return False
 

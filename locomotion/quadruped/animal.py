@@ -25,7 +25,7 @@ from locomotion.quadruped.following import wrap
 from locomotion.quadruped.footprint import RESOLUTION, check_script
 from locomotion.quadruped.herd import AnimalState, Herd
 from locomotion.quadruped.local_motion import short_move
-from locomotion.quadruped.motion import DT
+from locomotion.quadruped.motion import DT, stop_length
 from locomotion.quadruped.script import Place, Script, into_flex, out_of_flex
 from locomotion.quadruped.spine import bend_for
 from locomotion.quadruped.trail import Trail, lay_trail
@@ -206,6 +206,24 @@ class Animal:
                 self.index, trail, self._errand.speed, start=arc, end=max(end, arc), gait=self._errand.gait
             )
 
+    def end_in(self, ahead: float) -> None:
+        """Take the place ``ahead`` [m] further on for the goal to which it is going; where it is, at rest."""
+        if self._phase == "resting" or self.trail is None:
+            distance = math.dist(self._errand.goals[-1][:2], self.front[:2]) if self._errand.goals else 0.0
+            self._end("arrived", Arrived(self.time, self._point(), distance))
+            return
+        st = self.herd.state[self.index]
+        arc = float(st[at.ARC])
+        end = arc + max(ahead, stop_length(st[at.SPEED], self.body.movement.braking))
+        self.herd.follow(
+            self.index, self.trail, self._errand.speed, start=arc, end=end, gait=self._errand.gait
+        )
+        goals, points = list(self._errand.goals), self.trail.points
+        front = min(round((end + self.body.spine.length) / self.trail.step), len(points) - 1)
+        x, y, z = points[front].tolist()
+        goals[len(self.ways) - 1] = x, y, z
+        self._errand = replace(self._errand, goals=tuple(goals))
+
     # --- time
     def tick(self) -> None:
         """Notice what has come to an end, and begin what is next; call it after `Herd.tick`."""
@@ -235,7 +253,7 @@ class Animal:
             self._follow(self.trail)
         else:
             try:
-                self._set_out(self._errand)
+                self._set_out(self._errand, flexed=phase == "flexing")
             except ValueError:
                 self._end("stuck", GotStuck(self.time, self._point()))
 
@@ -253,15 +271,17 @@ class Animal:
         """The path from where it is; raises ValueError where there is none."""
         return find_way(self.planner, self.body, self.herd.ground, errand.goals, self.herd.place(self.index))
 
-    def _set_out(self, errand: _Errand) -> None:
-        """From rest: turn onto the path if need be, else follow it."""
+    def _set_out(self, errand: _Errand, flexed: bool = False) -> None:
+        """From rest: turn onto the path if need be, else follow it. ``flexed``: it has just turned its front
+        onto another path, and does not do so again for one that leads elsewhere: it would never get away
+        where it is told anew all the time."""
         place = self.herd.place(self.index)
         trail, ways = self._way(errand)
         self._errand, self.ways = errand, ways
         turn = turn_onto(trail, self.body, place)
         if abs(turn) > self.body.spine_reach:
             self._turn_around(trail, place)
-        elif abs(turn) > _LITTLE:
+        elif abs(turn) > _LITTLE and not flexed:
             bend = bend_for(turn, self.body.spine.bones)
             script = into_flex(self.body, place, float(bend))
             self.trail = trail

@@ -8,9 +8,10 @@ from numpy.typing import NDArray
 from locomotion.giving_way import HORIZON, SPACING, Course
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.body import Body
+from locomotion.quadruped.motion import stop_length
 from locomotion.quadruped.trail import Trail
 
-__all__ = ["course_on", "shifted_points"]
+__all__ = ["course_on", "head_length", "shifted_points"]
 
 _BEND = 1.0  # radius of a curve that it takes to go out of somebody's way, in body lengths
 _BEGINS = 0.1  # [m] before the front feet
@@ -31,7 +32,7 @@ def course_on(trail: Trail, state: NDArray[np.float64], body: Body) -> Course:
         speeds=np.minimum(ahead[:, 3], fastest),
         speed=float(state[at.SPEED]),
         pace=float(state[at.PACE]),
-        length=body.length - body.trunk.loin,
+        length=head_length(body),
         radius=max(body.radius, 0.25 * body.spine.length),
         acceleration=body.movement.acceleration,
         braking=body.movement.braking,
@@ -39,7 +40,14 @@ def course_on(trail: Trail, state: NDArray[np.float64], body: Body) -> Course:
         sharpest=1.0 / (_BEND * body.length),
         begins=body.spine.length + _BEGINS,
         aside=True,
+        whole=trail.length <= far,
+        stops=float(stop_length(state[at.SPEED], body.movement.braking)),
     )
+
+
+def head_length(body: Body) -> float:
+    """[m] from between its rear feet to its nose."""
+    return body.length - body.trunk.loin
 
 
 def shifted_points(trail: Trail, arc: float, shift: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -13,6 +13,7 @@ def course(**changes):
         "points": ALONG, "speeds": np.full(200, 1.5), "speed": 1.5, "pace": 1.0, "length": 0.5,
         "radius": 0.12,
         "acceleration": 2.0, "braking": 2.0, "slowest": 0.0, "sharpest": 1.0, "begins": 0.6, "aside": True,
+        "whole": False, "stops": 0.6,
     }  # fmt: skip
     return Course(**{**usual, **changes})
 
@@ -48,9 +49,29 @@ def test_the_first_meeting_is_that_of_every_pair():
         others[:, :, 0] += 1.0
         radii = random.uniform(0.1, 0.4, 4)
         away = np.linalg.norm(own[:, :, None] - others[:, None], axis=3)
-        meets = (away < 0.2 + radii) & (np.vstack([np.full((1, 3, 4), -1.0), away[:-1]]) > away)
-        steps = np.flatnonzero(meets.any(axis=(1, 2)))
-        assert first_meeting(own, 0.2, others, radii) == (steps[0] if len(steps) else COUNT)
+        stayed = np.linalg.norm(own[:-1, :, None] - others[1:, None], axis=3)
+        comes = (np.vstack([np.full((1, 3, 4), -1.0), stayed]) > away) & (away[0] >= 0.2 + radii)
+        near, touches = comes & (away < 0.25 + radii), comes & (away < 0.2 + radii)
+        steps = [np.append(np.flatnonzero(each.any(axis=(1, 2))), COUNT)[0] for each in (near, touches)]
+        depth = np.where(touches, 1.0 - away / (0.2 + radii), 0.0).max()
+        assert first_meeting(own, 0.2, others, radii, 0.05) == (*steps, pytest.approx(depth))
+
+
+def test_who_is_run_into_does_not_meet_anybody():
+    stands, comes = np.zeros((COUNT, 1, 2)), np.zeros((COUNT, 1, 2))
+    comes[:, 0, 0] = np.linspace(2.0, 0.0, COUNT)
+    radius = np.array([0.3])
+    assert first_meeting(stands, 0.3, comes, radius, 0.1) == (COUNT, COUNT, 0.0)
+    near, touches, depth = first_meeting(comes, 0.3, stands, radius, 0.1)
+    assert 0 < near < touches < COUNT and depth == 1.0
+
+
+def test_who_lies_in_another_gets_away():
+    ahead, behind = np.zeros((COUNT, 2, 2)), np.zeros((COUNT, 2, 2))
+    ahead[:, :, 0] = 0.1 * np.arange(COUNT)[:, None] + [0.0, 0.5]
+    behind[:, :, 0] = [-0.4, 0.1]
+    radii = np.array([0.12, 0.12])
+    assert first_meeting(ahead, 0.12, behind, radii, 0.08)[1] == COUNT
 
 
 def test_who_comes_near():

@@ -115,6 +115,58 @@ def test_a_body_at_rest_on_the_goal_does_not_keep_others_away(hall):
     assert late.status == "arrived"
 
 
+def overlaps(world):
+    """How deep [m] the discs of any two bodies lie in each other."""
+    bodies = [
+        discs
+        for population in world._populations
+        if len(rows := population.in_the_way())
+        for discs in np.split(rows, len(population.followers()) or len(rows))
+    ]
+    return max(
+        float((a[:, None, 5] + b[:, 5] - np.linalg.norm(a[:, None, :2] - b[:, :2], axis=2)).max())
+        for i, a in enumerate(bodies)
+        for b in bodies[:i]
+    )
+
+
+@pytest.mark.parametrize(
+    "bodies", [("dog", "dog", "dog"), ("human", "human", "human"), ("dog", "walker", "horse")]
+)
+def test_who_is_sent_to_one_place_comes_to_a_stand_beside_the_others(hall, bodies):
+    for seed in range(3):
+        world = World(hall, seed=seed)
+        goal = np.array([10.0, 4.0, 0.0])
+        for body, x in zip(bodies, (4.0, 15.0, 2.5), strict=True):
+            agent = world.spawn(body, (x, 4.0 + world.random.uniform(-2.5, 2.5), 0.0))
+            agent.go_to(goal, speed=1.4)
+        deepest = -np.inf
+        while world.time < 40.0 and any(agent.moving for agent in world.agents.values()):
+            world.step(0.05)
+            deepest = max(deepest, overlaps(world))
+        assert [agent.status for agent in world.agents.values()] == ["arrived"] * 3
+        assert deepest < 0.02
+        away = [np.linalg.norm(agent.position - goal) for agent in world.agents.values()]
+        assert min(away) < 1.0 and max(away) < 4.0
+
+
+def test_who_is_told_again_to_go_where_others_stand_stays(hall):
+    world = World(hall)
+    world.spawn("dog", (10.0, 4.0, 0.0))
+    late = world.spawn("dog", (4.0, 4.0, 0.0))
+    goal = world.agents["dog1"].position
+    late.go_to(goal, speed=1.4)
+    world.step(10.0)
+    stood = late.position
+    for _ in range(20):
+        late.go_to(goal, speed=1.4)
+        world.step(0.5)
+    assert late.status == "arrived" and np.linalg.norm(late.position - stood) < 0.01
+    late.go_to((4.0, 4.0, 0.0), speed=1.4)
+    world.step(10.0)
+    assert late.status == "arrived" and np.linalg.norm(late.position[:2] - [4.0, 4.0]) < 0.3
+
+
 def test_a_runner_that_gives_way_altogether_walks_and_runs_on():
     world = World(floor((0.0, 0.0, 60.0, 6.0)))
     ends = []

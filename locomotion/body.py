@@ -184,7 +184,7 @@ class Human(MovingPerson):
 
     def arrive(self) -> None:
         """Take where it is for its goal."""
-        goal = self.position if self._path is None else self._path.goal
+        goal = self.position if self.way.path is None else self.way.path.goal
         distance = float(np.linalg.norm(goal[:2] - self.position[:2]))
         self._end("arrived", Arrived(self.time, self._point(), distance))
 

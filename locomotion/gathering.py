@@ -2,7 +2,8 @@
 
 A body at rest within a metre of a goal takes it; so do, for who comes behind them, those at rest next to it,
 and those next to these. A late one goes on along its path until it would touch one of them. So bodies that
-are sent to one place come to a stand in a group around it, and in a queue where they come one behind the other.
+are sent to one place come to a stand in a group around it, and in a queue where they come one behind the
+other.
 """
 
 from __future__ import annotations

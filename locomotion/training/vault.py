@@ -1,5 +1,5 @@
-"""Learning to vault: first over one wall with feed-forward alone, then with feedback over growing
-heights."""
+"""Learning to vault: first over one wall with feed-forward alone, then with feedback over growing heights,
+with longer trials over all of them, and higher, taking off as higher jumps do."""
 
 import os
 from collections.abc import Callable, Sequence
@@ -25,11 +25,15 @@ __all__ = ["ENTRY_SPEED", "HEIGHTS", "VaultProblem", "cost", "first_guess", "sca
 HEIGHTS = (0.6, 0.8)
 """Heights [m] learned one after the other: each search begins at the one before and raises the wall as it
 goes."""
+FURTHER = (0.9, 1.0)
+"""Heights [m] learned after these, each predicted from the one before."""
 ENTRY_SPEED = 3.3
 """[m/s]"""
 DEPTHS = (0.2, 0.4)
 """Least and greatest thickness [m] of the walls."""
 _STATES = 48
+_SHARES = (0.0, 0.25, 0.5, 0.75, 1.0)
+# of what a jump 0.2 m higher does otherwise: the best is where learning over a higher wall starts
 _KIND, _VERSION = "vault training", 1
 _PART = vault.parameter_slices()
 _REFERENCE = (vault.STEPS, vault.BINS, vault.SENSORS)
@@ -40,10 +44,7 @@ def first_guess() -> np.ndarray:
     reaching."""
     x = np.zeros(sum(vault.PARAMETERS.values()))
     jumped, part = load_jump_skill().at(0.5)[0], jump.parameter_slices()
-    a_hat = jumped[part["a_hat"]].reshape(jump.STEPS, jump.KNOTS, 6)
-    old, new = np.linspace(0.0, 1.0, jump.KNOTS), np.linspace(0.0, 1.0, vault.KNOTS)
-    spread = [[np.interp(new, old, column) for column in step.T] for step in a_hat]
-    x[_PART["a_hat"]] = np.array(spread).transpose(0, 2, 1).ravel()
+    x[_PART["a_hat"]] = _spread(jumped[part["a_hat"]]).ravel()
     x[_PART["lateral"]] = np.repeat(jumped[part["lateral"]].reshape(jump.STEPS, 1, 6), 3, axis=1).ravel()
     for name in ("beta", "alpha", "marks", "gains"):
         x[_PART[name]] = jumped[part[name]]
@@ -53,6 +54,25 @@ def first_guess() -> np.ndarray:
     m_ap[6, 1] = 0.5
     x[_PART["m_ap"]] = m_ap.ravel()
     x[_PART["entry"]] = ENTRY_SPEED
+    return x
+
+
+def _spread(a_hat: np.ndarray) -> np.ndarray:
+    """A jump's knots (96,) on the vault's, (4, 5, 6)."""
+    old, new = np.linspace(0.0, 1.0, jump.KNOTS), np.linspace(0.0, 1.0, vault.KNOTS)
+    steps = a_hat.reshape(jump.STEPS, jump.KNOTS, 6)
+    return np.array([[np.interp(new, old, column) for column in step.T] for step in steps]).transpose(0, 2, 1)
+
+
+def higher() -> np.ndarray:
+    """The change (p,) of a vault that takes off as a jump 0.2 m higher does."""
+    jumps, part = load_jump_skill(), jump.parameter_slices()
+    more = jumps.at(0.7)[0] - jumps.at(0.5)[0]
+    x = np.zeros(sum(vault.PARAMETERS.values()))
+    a_hat = _spread(more[part["a_hat"]])
+    a_hat[2:] = 0.0
+    x[_PART["a_hat"]], x[_PART["marks"]] = a_hat.ravel(), more[part["marks"]]
+    x[_PART["beta"]][:2] = more[part["beta"]][:2]
     return x
 
 
@@ -100,6 +120,7 @@ def cost(outcome: VaultOutcome, entry: float) -> float:
         + 2.0 * outcome.reaction
         + 0.03 * outcome.effort
         + 3.0 * outcome.trunk
+        + 6.0 * outcome.yaw
         + 3.0 * outcome.pose
     )
 
@@ -108,16 +129,18 @@ def cost(outcome: VaultOutcome, entry: float) -> float:
 class VaultProblem:
     """One stage: what `learn` needs.
 
-    family: what was learned before; what is learned is a change (p,) of its last member. states: harvested
-    from planned run-ups. stage: its options are ``heights`` (2,) [m], from the first to the second of which
-    the wall rises, ``same``: whether every generation has the same trials, ``states`` per generation,
-    ``error`` [m] added to the distance, ``duration`` [s] and ``pull`` towards no change.
+    family: what was learned before; what is learned is a change (p,) of it, of its nearest member beyond its
+    ends. states: harvested from planned run-ups. stage: its options are ``heights`` (2,) [m], from the first
+    to the second of which the wall rises, or of which ``mixed`` draws one for each trial, ``same``: whether
+    every generation has the same trials, ``states`` per generation, ``error`` [m] added to the distance,
+    ``duration`` [s] and ``pull`` towards no change. initial: where the search begins.
     """
 
     run: RunSkill
     family: SkillFamily
     states: list[StartState]
     stage: Stage
+    initial: np.ndarray
     _simulator: VaultSimulator | None = None
 
     def stages(self) -> Sequence[Stage]:
@@ -125,8 +148,16 @@ class VaultProblem:
         return [self.stage]
 
     def start(self) -> np.ndarray:
-        """No change, (p,)."""
-        return np.zeros(self.family.table.shape[1])
+        """The first change, (p,)."""
+        return self.initial
+
+    def predict(self, change: np.ndarray) -> None:
+        """Begin with the share of ``change`` (p,) that serves best from all start states."""
+        height = self.stage.options["heights"][1]
+        every = [(i, state.error, height, 0.5 * sum(DEPTHS)) for i, state in enumerate(self.states)]
+        guesses = [share * change for share in _SHARES]
+        self.initial = min(guesses, key=lambda guess: self.evaluate(self.stage, guess, every)[0])
+        self._simulator = None
 
     def scenarios(self, stage: Stage, generation: int, rng: np.random.Generator) -> list[tuple]:
         """(start state, error of the distance [m], height [m], depth [m]) of each trial of a generation."""
@@ -138,20 +169,21 @@ class VaultProblem:
         even = (np.arange(count) + rng.random(count)) / count
         errors = options["error"] * rng.permutation(2.0 * even - 1.0)
         depths = rng.uniform(*DEPTHS, count)
-        height = low + (high - low) * min(generation / max(0.85 * stage.generations, 1.0), 1.0)
+        risen = np.full(count, min(generation / max(0.85 * stage.generations, 1.0), 1.0))
+        heights = low + (high - low) * (rng.permutation(even) if options["mixed"] else risen)
         return [
-            (int(i), self.states[i].error + float(e), height, float(d))
-            for i, e, d in zip(chosen, errors, depths, strict=False)
+            (int(i), self.states[i].error + float(e), float(h), float(d))
+            for i, e, h, d in zip(chosen, errors, heights, depths, strict=False)
         ]
 
     def evaluate(self, stage: Stage, candidate: np.ndarray, scenarios: list) -> tuple[float, float]:
         """Mean cost with the pull towards no change, and the share that vaulted."""
         if self._simulator is None:
             self._simulator = VaultSimulator(self.run)
-        reference = self.family.references[-1].reshape(_REFERENCE)
-        tables = tables_of(self.family.table[-1] + candidate, reference, self.run)
         total = vaulted = 0.0
         for state, error, height, depth in scenarios:
+            parameters, reference = self.family.at(float(np.clip(height, *self.family.range)))
+            tables = tables_of(parameters + candidate, reference.reshape(_REFERENCE), self.run)
             result = self._simulator.vault_trial(
                 tables, height, depth, self.states[state], error, stage.options["duration"]
             )
@@ -164,15 +196,14 @@ class VaultProblem:
 
 
 def curriculum(effort: float = 1.0) -> list[Stage]:
-    """The stages: each ends with a member of the family at its last height."""
+    """The stages: each ends with a member of the family at its last height, or changes all of them."""
     low = HEIGHTS[0]
 
     def stage(name: str, count: int, sigma: float, what: str, same: bool, **options) -> Stage:
         shared = {"heights": (low, low), "error": 0.08, "duration": 2.0, "pull": 0.1, "same": same}
-        population = 16 if same else 20
-        return Stage(
-            name, max(round(count * effort), 1), sigma, scales(what), {**shared, **options}, population
-        )
+        options = {"mixed": False, **shared, **options}
+        population = 20 if what == "feedback" and options["duration"] == 2.0 else 16
+        return Stage(name, max(round(count * effort), 1), sigma, scales(what), options, population)
 
     few = {"error": 0.04, "duration": 1.8}
     stages = [
@@ -183,6 +214,10 @@ def curriculum(effort: float = 1.0) -> list[Stage]:
     for pair in pairwise(HEIGHTS):
         name = f"{pair[0]:g} to {pair[1]:g} m"
         stages.append(stage(name, 40, 0.12, "feedback", False, states=5, heights=pair))
+    longer = {"states": 6, "duration": 3.0}
+    stages.append(stage("all heights", 16, 0.07, "feedback", False, mixed=True, heights=HEIGHTS, **longer))
+    for high in FURTHER:
+        stages.append(stage(f"{high:g} m", 20, 0.08, "feedback", False, heights=(high, high), **longer))
     return stages
 
 
@@ -211,7 +246,7 @@ def train_vault(
     guess = first_guess()[None]
     family = SkillFamily(KIND, np.array(HEIGHTS[:1]), guess, blank, stride, identity["run"], meta)
     rng = np.random.default_rng([seed, 2])
-    states = VaultSimulator(run).harvest(Vault(family, run), rng.uniform(8.0, 16.0, _STATES), rng)
+    states = _harvest(family, run, rng)
     for number, stage in enumerate(curriculum(effort)):
         done = None if folder is None else folder / f"done-{number}.npz"
         if done is not None and done.exists():
@@ -222,7 +257,9 @@ def train_vault(
                 )
             family = replace(family, **arrays)
             continue
-        problem = VaultProblem(run, family, states, stage)
+        problem = VaultProblem(run, family, states, stage, np.zeros_like(family.table[0]))
+        if stage.options["heights"][0] > family.heights[-1]:
+            problem.predict(higher())
         file = None if folder is None else folder / f"search-{number}.npz"
         change = learn(problem, seed + 1000 * number, file, workers, on_progress)
         assert change is not None
@@ -234,11 +271,20 @@ def train_vault(
     return family
 
 
+def _harvest(family: SkillFamily, run: RunSkill, rng: np.random.Generator) -> list[StartState]:
+    """Start states from planned run-ups, half of them from standing."""
+    simulator, skill, half = VaultSimulator(run), Vault(family, run), _STATES // 2
+    running = simulator.harvest(skill, rng.uniform(8.0, 16.0, half), rng)
+    return running + simulator.harvest(skill, rng.uniform(9.5, 30.0, half), rng, standing=True)
+
+
 def changed(
     family: SkillFamily, change: np.ndarray, stage: Stage, run: RunSkill, states: list[StartState]
 ) -> SkillFamily:
-    """The family after a stage that has found ``change`` (p,): the last member with the change becomes the
-    member at the stage's last height, with its sensors recorded anew."""
+    """The family after a stage that has found ``change`` (p,): of all members, or the last member with the
+    change becomes the member at the stage's last height, with its sensors recorded anew."""
+    if stage.options["mixed"]:
+        return replace(family, table=family.table + change)
     height = stage.options["heights"][1]
     parameters, before = family.table[-1] + change, family.references[-1]
     reference = _record(run, parameters, before.reshape(_REFERENCE), height, states).reshape(before.shape)

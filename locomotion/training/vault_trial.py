@@ -19,6 +19,7 @@ from locomotion.vault_skill import grip, vault_clip
 __all__ = ["VaultOutcome", "VaultSimulator"]
 
 _MARGIN = 0.03  # [m] around the wall in which a foot counts as over it, and by which it should clear it
+_YAW = c.SENSORS.index("yaw")
 _COMPARED = ("hip_flexion", "hip_abduction", "knee_flexion")
 
 
@@ -32,8 +33,8 @@ class VaultOutcome:
     touched the wall. missed: least distance [m] of the hand to the middle of the top before it held, 0 when
     it held. planted: where it held, as share of the depth, NaN if it did not. held: ticks. impulse: [Ns]
     upward from the top on the hand. steps: made behind it. speed: mean speed [m/s] of these. drift:
-    sideways distance [m] at the end. yaw: largest turn [rad] of the pelvis after landing. reaction, effort,
-    trunk, pose, errors: as in `JumpOutcome`.
+    sideways distance [m] at the end. yaw: mean squared turn [rad^2] of the pelvis after the landing.
+    reaction, effort, trunk, pose, errors: as in `JumpOutcome`.
     """
 
     cleared: bool
@@ -50,6 +51,7 @@ class VaultOutcome:
     reaction: float
     effort: float
     trunk: float
+    yaw: float
     pose: float
     errors: tuple[float, float]
 
@@ -156,7 +158,7 @@ class _Meter:
         self.shortfall, self.crossed = np.zeros(2), np.zeros(2, dtype=bool)
         self.landed = [False, False]
         self.ticks = self.scrape = self.held = self.steps = self.pose_ticks = 0
-        self.reaction = self.effort = self.trunk = self.pose = self.impulse = 0.0
+        self.reaction = self.effort = self.trunk = self.yaw = self.pose = self.impulse = 0.0
         self.missed, self.planted = 1.0, np.nan
         self.last_step = -1
         self.speeds: list[float] = []
@@ -182,6 +184,7 @@ class _Meter:
         up = data.xmat[s.index.chest]
         if step >= 2:
             self.trunk += (up[2] - 0.1) ** 2 + 2.0 * up[5] ** 2
+            self.yaw += float(state[c.SENSOR_VALUES][_YAW]) ** 2
         if 1 <= step <= 2:
             mirrored = (state[c.STANCE] > 0) == (step == 1)
             clip = s.mirrored_clip if mirrored else s.clip
@@ -249,6 +252,7 @@ class _Meter:
             reaction=self.reaction / n,
             effort=self.effort / n,
             trunk=self.trunk / n,
+            yaw=self.yaw / n,
             pose=self.pose / max(self.pose_ticks, 1),
             errors=(float(memory[vault.ERROR_DISTANCE]), float(memory[vault.ERROR_SPEED])),
         )

@@ -1,5 +1,5 @@
-"""Learning to vault: first over one wall with feed-forward alone, then with feedback over growing heights,
-with longer trials over all of them, and higher, taking off as higher jumps do."""
+"""Learning to vault: first over one wall with feed-forward alone, then with feedback over growing heights;
+higher, it begins by taking off as higher jumps do."""
 
 import os
 from collections.abc import Callable, Sequence
@@ -26,7 +26,8 @@ HEIGHTS = (0.6, 0.8)
 """Heights [m] learned one after the other: each search begins at the one before and raises the wall as it
 goes."""
 FURTHER = (0.9, 1.0)
-"""Heights [m] learned after these, each predicted from the one before."""
+"""Heights [m] learned after these: the first predicted from the one before and from what higher jumps do
+otherwise, the next as the wall rises."""
 ENTRY_SPEED = 3.3
 """[m/s]"""
 DEPTHS = (0.2, 0.4)
@@ -129,11 +130,11 @@ def cost(outcome: VaultOutcome, entry: float) -> float:
 class VaultProblem:
     """One stage: what `learn` needs.
 
-    family: what was learned before; what is learned is a change (p,) of it, of its nearest member beyond its
-    ends. states: harvested from planned run-ups. stage: its options are ``heights`` (2,) [m], from the first
-    to the second of which the wall rises, or of which ``mixed`` draws one for each trial, ``same``: whether
-    every generation has the same trials, ``states`` per generation, ``error`` [m] added to the distance,
-    ``duration`` [s] and ``pull`` towards no change. initial: where the search begins.
+    family: what was learned before; what is learned is a change (p,) of its last member. states: harvested
+    from planned run-ups. stage: its options are ``heights`` (2,) [m], from the first to the second of which
+    the wall rises, ``same``: whether every generation has the same trials, ``states`` per generation,
+    ``error`` [m] added to the distance, ``duration`` [s] and ``pull`` towards no change. initial: where the
+    search begins.
     """
 
     run: RunSkill
@@ -169,21 +170,20 @@ class VaultProblem:
         even = (np.arange(count) + rng.random(count)) / count
         errors = options["error"] * rng.permutation(2.0 * even - 1.0)
         depths = rng.uniform(*DEPTHS, count)
-        risen = np.full(count, min(generation / max(0.85 * stage.generations, 1.0), 1.0))
-        heights = low + (high - low) * (rng.permutation(even) if options["mixed"] else risen)
+        height = low + (high - low) * min(generation / max(0.85 * stage.generations, 1.0), 1.0)
         return [
-            (int(i), self.states[i].error + float(e), float(h), float(d))
-            for i, e, h, d in zip(chosen, errors, heights, depths, strict=False)
+            (int(i), self.states[i].error + float(e), height, float(d))
+            for i, e, d in zip(chosen, errors, depths, strict=False)
         ]
 
     def evaluate(self, stage: Stage, candidate: np.ndarray, scenarios: list) -> tuple[float, float]:
         """Mean cost with the pull towards no change, and the share that vaulted."""
         if self._simulator is None:
             self._simulator = VaultSimulator(self.run)
+        reference = self.family.references[-1].reshape(_REFERENCE)
+        tables = tables_of(self.family.table[-1] + candidate, reference, self.run)
         total = vaulted = 0.0
         for state, error, height, depth in scenarios:
-            parameters, reference = self.family.at(float(np.clip(height, *self.family.range)))
-            tables = tables_of(parameters + candidate, reference.reshape(_REFERENCE), self.run)
             result = self._simulator.vault_trial(
                 tables, height, depth, self.states[state], error, stage.options["duration"]
             )
@@ -196,14 +196,15 @@ class VaultProblem:
 
 
 def curriculum(effort: float = 1.0) -> list[Stage]:
-    """The stages: each ends with a member of the family at its last height, or changes all of them."""
+    """The stages: each ends with a member of the family at its last height."""
     low = HEIGHTS[0]
 
     def stage(name: str, count: int, sigma: float, what: str, same: bool, **options) -> Stage:
         shared = {"heights": (low, low), "error": 0.08, "duration": 2.0, "pull": 0.1, "same": same}
-        options = {"mixed": False, **shared, **options}
-        population = 20 if what == "feedback" and options["duration"] == 2.0 else 16
-        return Stage(name, max(round(count * effort), 1), sigma, scales(what), options, population)
+        population = 16 if same else 20
+        return Stage(
+            name, max(round(count * effort), 1), sigma, scales(what), {**shared, **options}, population
+        )
 
     few = {"error": 0.04, "duration": 1.8}
     stages = [
@@ -214,11 +215,14 @@ def curriculum(effort: float = 1.0) -> list[Stage]:
     for pair in pairwise(HEIGHTS):
         name = f"{pair[0]:g} to {pair[1]:g} m"
         stages.append(stage(name, 40, 0.12, "feedback", False, states=5, heights=pair))
-    longer = {"states": 6, "duration": 3.0}
-    stages.append(stage("all heights", 16, 0.07, "feedback", False, mixed=True, heights=HEIGHTS, **longer))
-    for high in FURTHER:
-        stages.append(stage(f"{high:g} m", 20, 0.08, "feedback", False, heights=(high, high), **longer))
-    return stages
+    first, last = FURTHER
+    further = {"states": 16, "error": 0.06, "duration": 2.6, "pull": 0.05, "heights": (first, first)}
+    rising = {"states": 8, "error": 0.06, "pull": 0.02, "heights": FURTHER}
+    return [
+        *stages,
+        stage(f"{first:g} m", 30, 0.08, "feedback", True, **further),
+        stage(f"{first:g} to {last:g} m", 45, 0.12, "feedback", True, **rising),
+    ]
 
 
 def train_vault(
@@ -281,10 +285,8 @@ def _harvest(family: SkillFamily, run: RunSkill, rng: np.random.Generator) -> li
 def changed(
     family: SkillFamily, change: np.ndarray, stage: Stage, run: RunSkill, states: list[StartState]
 ) -> SkillFamily:
-    """The family after a stage that has found ``change`` (p,): of all members, or the last member with the
-    change becomes the member at the stage's last height, with its sensors recorded anew."""
-    if stage.options["mixed"]:
-        return replace(family, table=family.table + change)
+    """The family after a stage that has found ``change`` (p,): the last member with the change becomes the
+    member at the stage's last height, with its sensors recorded anew."""
     height = stage.options["heights"][1]
     parameters, before = family.table[-1] + change, family.references[-1]
     reference = _record(run, parameters, before.reshape(_REFERENCE), height, states).reshape(before.shape)

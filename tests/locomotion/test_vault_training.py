@@ -16,6 +16,7 @@ from locomotion.training.vault import (
     cost,
     curriculum,
     first_guess,
+    higher,
     scales,
     train_vault,
 )
@@ -25,7 +26,7 @@ from navmesh.archive import write_archive
 
 GOOD = VaultOutcome(
     cleared=True, time=1.0, shortfall=0.0, scrape=0, missed=0.0, planted=0.5, held=15, impulse=60.0, steps=3,
-    speed=3.3, drift=0.0, reaction=0.0, effort=8.0, trunk=0.02, pose=0.05, errors=(0.0, 0.0),
+    speed=3.3, drift=0.0, reaction=0.0, effort=8.0, trunk=0.02, yaw=0.01, pose=0.05, errors=(0.0, 0.0),
 )  # fmt: skip
 
 
@@ -81,6 +82,7 @@ def test_running_into_a_high_wall_is_seen(simulator, states, tables):
         dict(cleared=False), dict(time=0.6), dict(shortfall=0.2), dict(scrape=3), dict(held=2),
         dict(impulse=5.0), dict(planted=0.9), dict(held=0, missed=0.3, planted=np.nan), dict(speed=1.0),
         dict(drift=0.8), dict(pose=0.4), dict(trunk=0.4),
+        dict(yaw=0.3),
     ],
 )  # fmt: skip
 def test_worse_vaults_cost_more(worse):
@@ -109,7 +111,7 @@ def stage_of(same, **options):
 def test_scenarios_stay_the_same_or_are_drawn_anew_while_the_wall_rises(simulator, states, family):
     drawn = {}
     for same in (True, False):
-        problem = VaultProblem(simulator.run, family, states, stage_of(same))
+        problem = VaultProblem(simulator.run, family, states, stage_of(same), np.zeros_like(family.table[0]))
         drawn[same] = [problem.scenarios(problem.stage, g, np.random.default_rng(g)) for g in (0, 9)]
     assert [s[0] for s in drawn[True][0]] == [s[0] for s in drawn[True][1]]
     assert [s[3] for s in drawn[False][0]] != [s[3] for s in drawn[False][1]]
@@ -120,7 +122,7 @@ def test_scenarios_stay_the_same_or_are_drawn_anew_while_the_wall_rises(simulato
 
 def test_cost_grows_with_the_change(simulator, states, family):
     stage = stage_of(True, pull=1e6)
-    problem = VaultProblem(simulator.run, family, states, stage)
+    problem = VaultProblem(simulator.run, family, states, stage, np.zeros_like(family.table[0]))
     scenario = problem.scenarios(stage, 0, np.random.default_rng(0))[:1]
     assert (
         problem.evaluate(stage, 0.01 * stage.scale, scenario)[0]
@@ -142,3 +144,14 @@ def test_a_checkpoint_of_another_training_is_refused(tmp_path):
     write_archive(tmp_path / "done-0.npz", "vault training", 1, {"seed": 7}, {"x": np.zeros(1)})
     with pytest.raises(LocomotionError, match="another training"):
         train_vault(tmp_path / "out.npz", seed=0, checkpoint=tmp_path, effort=0.01)
+
+
+def test_a_higher_wall_begins_with_what_a_higher_jump_does_as_far_as_it_helps(simulator, states, family):
+    stage = stage_of(True, heights=(0.7, 0.7))
+    problem = VaultProblem(simulator.run, family, states, stage, np.zeros_like(family.table[0]))
+    problem.predict(5.0 * scales("feedback"))  # nothing that serves
+    np.testing.assert_array_equal(problem.start(), np.zeros_like(family.table[0]))
+    part = vault.parameter_slices()
+    change = higher()
+    assert change[part["marks"]].any() and change[part["a_hat"]].any()
+    assert not change[part["arm"]].any() and not change[part["entry"]].any()

@@ -9,7 +9,8 @@ m/s), how often they fell on their way and got up again, how many ways they took
 JSON holds every mission. A person that has been carried off by a fall (more than 0.5 m), or is stuck, takes a
 new way from where it is; its distance from its path is that from the way that it follows at the time, while
 it goes and not while it gets up: "lateral". "Unfallen" is the same until its first fall. Then the longest
-mission is timed: whole ticks, and bare physics with the same controls from the same states, in turns.
+mission is timed, whole ticks and bare physics with the same controls from the same state in turns: the
+columns "control", "rehearsal" and "planning" say what comes on top of bare physics, "all" their sum.
 
 Undulating has hardly any ground that is less steep than a person's limit (7 % below 20 degrees; it falls into
 patches of 4 m), so its slope limit is 45 degrees there.
@@ -28,7 +29,8 @@ import numpy as np
 
 import navmesh
 from benchmarks.shared_data import LEVELS, level_path, shared_folder, why_absent
-from locomotion import PERSON_RULES, Human, smooth_route
+from locomotion import MOVING, PERSON_RULES, Human, smooth_route
+from locomotion.human_state import restore_physics, save_physics
 from locomotion.path_tracking import make_path
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK
 from runtime import World
@@ -36,6 +38,7 @@ from runtime.events import Departed, Fell
 
 OWN_LEVELS = Path(__file__).resolve().parents[1] / "examples" / "levels"
 LENGTHS = (10.0, 60.0)
+REPEATS, MOST_TICKS = 3, 4000
 TIME_LIMIT = 60.0, 10.0  # [s], and [s] more per metre of route
 MAX_SLOPES = {"undulating": math.radians(45.0)}
 
@@ -107,61 +110,63 @@ def run_mission(world: World, route: Any, speed: float) -> dict[str, Any]:
     return result
 
 
-def cost_of_control(human: Human, route: Any, speed: float, seconds: float = 6.0) -> dict[str, float]:
-    """CPU time of whole ticks against bare physics under the same controls from the same states.
-
-    Both do the same 20 ticks three times in turns, and the fastest counts, so that what else runs on the
-    machine does not. That the bare physics did what the person did is checked to the last bit. Planning (A*,
-    pulling, smoothing, the speeds along the path) is spread over the ticks of the way that it plans.
+def cost_of_control(human: Human, route: Any, speed: float) -> dict[str, float]:
+    """What a person costs on its way on top of bare physics, as shares of the latter: "control" of one that
+    does not rehearse, "rehearsal" what the rehearsals of one that does add, "planning" (A*, pulling,
+    smoothing, the speeds along the path) of the way once, spread over its ticks.
     """
     planning = math.inf
-    for _ in range(3):
+    for _ in range(REPEATS):
         begun = time.thread_time()
         path = smooth_route(route.graph.find_path(*route.waypoints[[0, -1]], radius=PERSON_RULES["radius"]))
         make_path(path.points, speed, human.on_feet.limits, 0.0)
         planning = min(planning, time.thread_time() - begun)
-    planning /= route.length / speed / CONTROL_DT
-    human.reset(path.points[0], math.atan2(*(path.points[1] - path.points[0])[1::-1]))
-    human.follow(path.points, speed)
-    model, data, twin = human.model, human.data, mujoco.MjData(human.model)
-    spec = mujoco.mjtState.mjSTATE_INTEGRATION
-    before, after, copied = np.empty((3, mujoco.mj_stateSize(model, spec)))
-    whole, bare, ticks = 0.0, 0.0, 0
-    while ticks < seconds / CONTROL_DT:
-        saved = human.save_state()
-        mujoco.mj_getState(model, data, before, spec)
-        controls = []
-        for _ in range(20):
-            human.tick()
-            controls.append(data.ctrl.copy())
-        if human.held:
-            break
-        mujoco.mj_getState(model, data, after, spec)
-        fastest = [math.inf, math.inf]
-        for _ in range(3):
-            human.restore_state(saved)
-            begun = time.thread_time()
-            for _ in range(20):
-                human.tick()
-            fastest[0] = min(fastest[0], time.thread_time() - begun)
-            mujoco.mj_setState(model, twin, before, spec)
-            begun = time.thread_time()
-            for control in controls:
-                twin.ctrl[:] = control
-                mujoco.mj_step(model, twin, STEPS_PER_TICK)
-            fastest[1] = min(fastest[1], time.thread_time() - begun)
-        mujoco.mj_getState(model, twin, copied, spec)
-        if not np.array_equal(after, copied):
-            raise SystemExit("the bare physics is not what the person did: the comparison means nothing")
-        whole, bare, ticks = whole + fastest[0], bare + fastest[1], ticks + 20
+    whole, bare, ticks = time_ticks(human, path.points, speed)
+    alone, bare_alone, _ = time_ticks(Human(human.ground, rehearsals=0, gets_up=True), path.points, speed)
+    control, all_ticks = alone / bare_alone - 1.0, whole / bare - 1.0
     return {
+        "ticks": ticks,
         "tick_us": 1e6 * whole / ticks,
         "physics_us": 1e6 * bare / ticks,
-        "planning_us": 1e6 * planning,
-        "control": whole / bare - 1.0,
-        "share": (whole / ticks + planning) / (bare / ticks) - 1.0,
-        "real_time": CONTROL_DT / (whole / ticks + planning),
+        "control": control,
+        "rehearsal": all_ticks - control,
+        "planning": planning / bare,
+        "share": all_ticks + planning / bare,
+        "real_time": ticks * CONTROL_DT / (whole + planning),
     }
+
+
+def time_ticks(human: Human, path: np.ndarray, speed: float) -> tuple[float, float, int]:
+    """CPU time [s] of the whole ticks of a way (at most `MOST_TICKS`), and of bare physics under the same
+    controls from the same state; and how many ticks.
+
+    Both do the same a few times in turns, and the fastest counts, so that what else runs on the machine does
+    not. That the bare physics did what the person did is checked to the last bit.
+    """
+    human.reset(path[0], math.atan2(*(path[1] - path[0])[1::-1]))
+    human.follow(path, speed)
+    saved, begin = human.save_state(), save_physics(human.model, human.data)
+    controls: list[np.ndarray] = []
+    while human.status in MOVING and len(controls) < MOST_TICKS:
+        human.tick()
+        controls.append(human.data.ctrl.copy())
+    twin = mujoco.MjData(human.model)
+    whole = bare = math.inf
+    for _ in range(REPEATS):
+        human.restore_state(saved)
+        begun = time.thread_time()
+        for _ in controls:
+            human.tick()
+        whole = min(whole, time.thread_time() - begun)
+        restore_physics(human.model, twin, begin)
+        begun = time.thread_time()
+        for control in controls:
+            twin.ctrl[:] = control
+            mujoco.mj_step(human.model, twin, STEPS_PER_TICK)
+        bare = min(bare, time.thread_time() - begun)
+        if not np.array_equal(save_physics(human.model, twin), save_physics(human.model, human.data)):
+            raise SystemExit("the bare physics is not what the person did: the comparison means nothing")
+    return whole, bare, len(controls)
 
 
 def report_on(name: str, options: argparse.Namespace) -> dict[str, Any]:
@@ -200,7 +205,7 @@ def main() -> None:
     report: dict[str, Any] = {"speed": options.speed, "seed": options.seed, "levels": {}}
     print(
         f"{'level':12} {'arrive':>8} {'falls':>6} {'ways':>5} {'lateral p95':>12} {'unfallen':>9} "
-        f"{'control':>8} {'and planning':>13} {'real time':>10}  stopped by"
+        f"{'control':>8} {'rehearsal':>10} {'planning':>9} {'all':>7} {'real time':>10}  stopped by"
     )
     for name in options.levels:
         if name in LEVELS and shared_folder() is None:
@@ -212,7 +217,7 @@ def main() -> None:
         print(
             f"{name:12} {arrived:>8} {result['falls']:6} {result['ways']:5} {result['lateral_p95']:10.2f} m "
             f"{result['unfallen_p95']:7.2f} m {100 * cost['control']:6.1f} % "
-            f"{100 * cost['share']:11.1f} % "
+            f"{100 * cost['rehearsal']:8.1f} % {100 * cost['planning']:7.1f} % {100 * cost['share']:5.1f} % "
             f"{cost['real_time']:8.0f} x  {result['stopped_by']}"
         )
     if options.json:

@@ -39,6 +39,7 @@ from locomotion.events import (
     StrayedFromPath,
     TookOff,
 )  # fmt: skip
+from locomotion.foreseen import Foreseen
 from locomotion.gaits import PERSON_RULES, run_entry_speed
 from locomotion.giving_way import Course
 from locomotion.ground import Ground
@@ -127,6 +128,7 @@ class Human(MovingPerson):
         super().__init__(ground, on_feet, learned_skills(run) if clearing is None else clearing)
         self._rehearsals, self.gets_up = rehearsals, gets_up
         self._understudy: Human | None = None
+        self._foreseen = Foreseen()
 
     # --- what it is told
     def reset(self, position: ArrayLike, yaw: float, speed: float = 0.0) -> None:
@@ -233,6 +235,8 @@ class Human(MovingPerson):
     # --- time
     def tick(self) -> None:
         """Advance by 10 ms: track the path, control, physics, observe, notice what happened."""
+        if self._foreseen.comes_true(self):
+            return
         self._ticks += 1
         if self.held:
             return
@@ -246,7 +250,7 @@ class Human(MovingPerson):
         feet.tick(self._lookup, state, self._command, data)
         if feet.runs and self.status != "fallen":
             self._clear()
-        if data.xfrc_applied.any():
+        if self._obstacle_run.rehearsed and data.xfrc_applied.any():
             self._obstacle_run.disturb()
         mujoco.mj_step(self.model, data, STEPS_PER_TICK)
         observe(self.index, self.model, data, state)
@@ -372,7 +376,11 @@ class Human(MovingPerson):
         """Where the path is not run, slow down, and go over to walking just after a foot was put down."""
         due = self.status not in MOVING or not self.way.runs or self.way.pace == 0.0
         if due and self.on_feet.slowing == 0.0:
-            self.slow_down(self._rehearse(SLOWINGS, Human.slow_down, walks_on)[0])
+            future: list[HumanState] = []
+            choice, went = self._rehearse(SLOWINGS, Human.slow_down, partial(walks_on, seen=future))
+            self.slow_down(choice)
+            if went > 0.0:
+                self._foreseen.expect(self, future)
         if self.on_feet.walk_if_slow(self.index, self._control, self.data) and self.status in MOVING:
             self.status = "walking"
 
@@ -407,9 +415,11 @@ class Human(MovingPerson):
         choice, went = self._rehearse(RUN_UPS, Human.vary_run_up, clears)
         self._obstacle_run.vary(choice, self._control, went > 0.0)
         if went == 0.0:
-            deceleration, went = self._rehearse(SLOWINGS, Human.balk, walks_on)
+            future: list[HumanState] = []
+            deceleration, went = self._rehearse(SLOWINGS, Human.balk, partial(walks_on, seen=future))
             if went > 0.0:
                 self.balk(deceleration)
+                self._foreseen.expect(self, future)
 
     @property
     def begins_run_up(self) -> bool:

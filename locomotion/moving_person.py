@@ -59,6 +59,11 @@ class MovingPerson(SimulatedPerson):
         return self._obstacle_run.skills
 
     @property
+    def ticks(self) -> int:
+        """Ticks made since the person was made."""
+        return self._ticks
+
+    @property
     def time(self) -> float:
         """Simulation time [s] since the person was made."""
         return self._ticks * CONTROL_DT

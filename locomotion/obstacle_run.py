@@ -169,7 +169,7 @@ class ObstacleRun:
 
     def to_rehearse(self, state: NDArray[np.float64]) -> bool:
         """Whether a step of a run-up has just begun, and the rest was not rehearsed yet."""
-        if self.ahead is None or self.clearing or self.planned == 0.0 or self._plan[_REHEARSED] > 0.0:
+        if self.ahead is None or self.clearing or self.planned == 0.0 or self.rehearsed:
             return False
         return bool(state[controller.STEP_TIME] == 0.0)
 
@@ -181,6 +181,11 @@ class ObstacleRun:
         speeds = self._plan_of(self.ahead, state).speeds
         if len(speeds):
             self._plan[_PLANNED] = speeds[0]
+
+    @property
+    def rehearsed(self) -> bool:
+        """Whether a choice has gone well in rehearsal."""
+        return bool(self._plan[_REHEARSED] > 0.0)
 
     def disturb(self) -> None:
         """Something may make it come otherwise than in rehearsal."""

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, TypeVar
 import numpy as np
 
 from locomotion.events import Cleared, TookOff
-from locomotion.human_state import MOVING
+from locomotion.human_state import MOVING, HumanState
 from locomotion.passage import Passage, watch
 from locomotion.person import CONTROL_DT
 
@@ -124,14 +124,25 @@ def finds_a_way_on(body: Human) -> bool:
     return first_good(body, body, SLOWINGS[:_LOOKED_AT], begin.balk, walks_on)[1] > 0.0
 
 
-def walks_on(body: Human) -> float:
-    """Whether a body that slows down comes to walk or stand, and stays up."""
+def walks_on(body: Human, seen: list[HumanState] | None = None) -> float:
+    """Whether a body that slows down comes to walk or stand, and stays up. ``seen`` is filled with its states
+    after each tick, each with the events of that tick only."""
+    if seen is not None:
+        seen.clear()
     walked = 0
     for _ in range(_LONGEST):
+        if seen is not None:
+            body.events.clear()
         body.tick()
+        if seen is not None:
+            seen.append(body.save_state())
         if body.status in _FAILED:
             return 0.0
-        if body.held or walked >= _SETTLED or (walked and body.gait_now == "run"):
+        if walked and body.gait_now == "run":
+            if seen is not None:
+                seen.pop()  # that it runs again is to be rehearsed in its turn
+            return 1.0
+        if body.held or walked >= _SETTLED:
             return 1.0
         walked = walked + 1 if body.gait_now == "walk" else 0
     return 0.0

@@ -75,7 +75,7 @@ def halt(trial: Halt, run: RunSkill, slow_down: SlowDownSkill, rehearsals: int =
         human.tick()
         if human.gait_now == "walk":
             walked += 1
-            tilt += 1.0 - human.data.xmat[human.index.root, 8]
+            tilt += 2.0 * float(human.qpos[4:6] @ human.qpos[4:6])  # 1 less the cosine of the pelvis' tilt
         elif human.gait_now == "slow run":
             slow += 1
             begun = human.com if slow == 1 else begun

@@ -68,7 +68,8 @@ def read_bvh(path: str | os.PathLike[str], units: str = "cm", up: str = "y") -> 
     try:
         import bvhio
     except ImportError as error:
-        raise LocomotionError("reading BVH needs bvhio: pip install surefoot[clips]") from error
+        how = "in Surefoot's folder, pip install -e '.[clips]'"
+        raise LocomotionError(f"reading BVH needs bvhio: {how}") from error
     if units not in UNITS or up not in _TO_Z_UP:
         raise LocomotionError(
             f"units are one of {', '.join(UNITS)} and up is x, y or z, not {units!r} and {up!r}"

@@ -22,7 +22,7 @@ def solve_exact(problem: Problem) -> Solution:
         import cvxpy
     except ImportError:
         raise PathSmoothError(
-            'solve_exact needs cvxpy, which is not installed: pip install "surefoot[exact]", or use solve'
+            "solve_exact needs cvxpy, which is not installed: in Surefoot's folder, pip install -e '.[exact]'"
         ) from None
     n = problem.count
     origin = problem.targets[0]

@@ -153,7 +153,7 @@ def serve_worlds(
     try:
         from runtime.server.server import SurefootServer
     except ImportError as error:
-        raise RuntimeInputError(f"{error}; install the extra: pip install 'surefoot[serve]'") from None
+        raise RuntimeInputError(f"{error}; in Surefoot's folder: pip install -e '.[serve]'") from None
 
     if pages is not None and not pages.is_dir():
         raise RuntimeInputError(f"{pages}: is no folder; pages are served from one")

@@ -28,4 +28,5 @@ def optional(module: str, extra: str, what: str) -> Any:
     try:
         return import_module(module)
     except ImportError:
-        raise RuntimeInputError(f"{what} needs {module}: pip install 'surefoot[{extra}]'") from None
+        how = f"in Surefoot's folder, pip install -e '.[{extra}]'"
+        raise RuntimeInputError(f"{what} needs {module}: {how}") from None

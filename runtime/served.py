@@ -27,7 +27,7 @@ class ServedWorld:
             from websockets.exceptions import ConnectionClosed, WebSocketException
             from websockets.sync.client import connect
         except ImportError as error:
-            raise RuntimeInputError(f"{error}; install the extra: pip install 'surefoot[serve]'") from None
+            raise RuntimeInputError(f"{error}; in Surefoot's folder: pip install -e '.[serve]'") from None
 
         self._closed, self._id = ConnectionClosed, 0
         self._figures: dict[str, Figure] = {}

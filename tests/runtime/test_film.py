@@ -10,7 +10,7 @@ from runtime.camera import agent_named, follow
 from runtime.errors import RuntimeInputError
 from runtime.film import RATE, frames, write_film
 
-av = pytest.importorskip("av", reason="PyAV is not there: pip install 'surefoot[video]'")
+av = pytest.importorskip("av", reason="PyAV is not there: pip install -e '.[video]'")
 SIZE = (96, 64)
 
 

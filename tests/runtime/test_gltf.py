@@ -12,7 +12,7 @@ import pytest
 from runtime.figure import rotate, turn
 from runtime.gltf import write_gltf
 
-pygltflib = pytest.importorskip("pygltflib", reason="not there: pip install 'surefoot[gltf]'")
+pygltflib = pytest.importorskip("pygltflib", reason="not there: pip install -e '.[gltf]'")
 ROOT = Path(__file__).parents[2]
 VALIDATE = """
 const validator = require('gltf-validator');

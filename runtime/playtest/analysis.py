@@ -22,6 +22,7 @@ ALMOST = 0.5
 """[m] a rise that is out of reach by no more than this is taken for a mistake, and not for a wall."""
 _ALMOST_GAP = 1.0  # [m] the same for a gap
 _SLIT = 0.3  # [m] passages narrower than this are cracks
+_TOP = 0.6  # [m] parts that are nowhere as wide are the tops of walls and the like, and no floors
 _LOW_STEP = 0.35  # [m] rises up to this are steps, higher ones ledges
 
 
@@ -50,14 +51,21 @@ def analyse(site: Site, spawns: np.ndarray, forbidden: np.ndarray, wanted: np.nd
 def _unreachable(site: Site, spawns: np.ndarray, forbidden: set[int], wanted: set[int]) -> list[Fault]:
     words, barriers = Wording(site.character), Barriers(site)
     reached = site.reached(spawns)
-    faults = []
+    faults, tops = [], []
     for parts in _first_missing(site, reached):
         area = float(site.areas[parts].sum())
         if area < LEAST_AREA or forbidden & set(parts.tolist()):
             continue
         is_wanted = bool(wanted & set(parts.tolist()))
-        if is_wanted or not is_inside_solid(site, site.centre_of(int(parts[0]))):
+        if not is_wanted and 2.0 * site.graph.radii[np.isin(site.node_part, parts)].max() < _TOP:
+            tops.append(parts)
+        elif is_wanted or not is_inside_solid(site, site.centre_of(int(parts[0]))):
             faults.append(_explained(site, barriers, words, reached, parts, is_wanted))
+    if tops:
+        areas = [float(site.areas[parts].sum()) for parts in tops]
+        place = site.centre_of(int(tops[int(np.argmax(areas))][0]))
+        text = words.tops(place, len(tops), sum(areas), _TOP)
+        faults.append(Fault("tops", triple(place), text, False, extent=sum(areas)))
     return faults
 
 

@@ -14,6 +14,7 @@ KINDS = {
     "ledge": "ledge out of reach",
     "gap": "gap too wide",
     "unreachable": "cannot be reached",
+    "tops": "tops of walls",
     "one_way": "one-way",
     "trap": "trap",
     "forbidden": "should not be reachable",

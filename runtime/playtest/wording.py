@@ -78,6 +78,12 @@ class Wording:
             return f"{what}: it is {size:.2f} m above the floor at {at}; {self.ups(size)}"
         return f"{what}: it is {size:.2f} m below the floor at {at}; {self.downs(size)}"
 
+    def tops(self, centre: np.ndarray, count: int, area: float, width: float) -> str:
+        """Parts that nobody reaches nor is meant to."""
+        parts = f"{count} parts like it, {area:.0f} m² in all," if count > 1 else f"it, {area:.0f} m²,"
+        where = f"a {self.noun} would fit on what is at {place(centre)}, less than {width:.1f} m wide,"
+        return f"{where} but cannot get there: {parts} count as tops of walls"
+
     def no_return(self, kind: str, centre: np.ndarray, area: float, entry, out: Barrier | None) -> str:
         """What is entered but not left."""
         way = f"the {entry['affordance']} of {entry['height']:.2f} m at {place(entry['place'])}"

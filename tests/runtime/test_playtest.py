@@ -112,6 +112,17 @@ def test_floor_inside_a_block_is_no_fault_but_floor_inside_a_room_is():
     assert fault.kind == "walled_off" and 10 < fault.position[0] < 19
 
 
+def test_tops_of_walls_are_one_note():
+    floor, fence = slab(0, 20, 0, 12, -1, 0), slab(0, 20, 12, 12.15, -1, 0.9)
+    tops = [slab(0, 20, 12.15, 12.65, -1, 0.2), slab(0, 20, -0.5, 0, -1, 1.5)]  # the first behind the fence
+    level = trimesh.util.concatenate([floor, fence, *tops])
+    found = [each for each in unreached(level, body="dog") if each.kind != "open_edge"]
+    assert [(each.kind, each.fails) for each in found] == [("tops", False)]
+    assert "2 parts like it" in found[0].text
+    broad = trimesh.util.concatenate([floor, slab(0, 20, 12, 13.5, -1, 1.5)])
+    assert [each.kind for each in unreached(broad, body="dog") if each.kind != "open_edge"] == ["unreachable"]
+
+
 def test_a_gap_is_not_called_a_wall():
     gap = trimesh.util.concatenate([slab(0, 12, 0, 6, -0.3, 0), slab(13, 20, 0, 6, -0.3, 0)])
     (fault,) = (each for each in unreached(gap, body="human") if each.kind != "open_edge")

@@ -215,8 +215,11 @@ class Human(MovingPerson):
             self.on_feet.stir(self._control)
 
     def course(self) -> Course | None:
-        """What it is about to do; None for one that is not on its way, or clears an obstacle."""
+        """What it is about to do; None for one that is not on its way, clears an obstacle, or is going over
+        from a walk to a run or back."""
         if self.way.path is None or self.status not in ("walking", "running"):
+            return None
+        if self.on_feet.changes(self._control):
             return None
         walks = self.status == "walking"
         limits = self.on_feet.walk_limits if walks else self.on_feet.limits

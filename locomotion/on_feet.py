@@ -47,6 +47,7 @@ _WALK_GAINS = np.array([0.5, 0.6, 0.05, 0.3, 0.8, 0.25])
 _TURN_FIRST = 0.7  # [rad] off its way at which a walking person turns on the spot
 _SLOW_ENOUGH = 0.5  # [m/s] at which it begins to turn so far
 _HASTE = 1.3  # [m/s] that the speed asked for may exceed the last step's: more trips it in setting off
+_CHANGED = 4.0  # steps after which it has gone over to another gait
 _STILL = 0.03  # [m/s] of the centre of mass at rest
 
 
@@ -76,6 +77,12 @@ class OnFeet:
     def runs(self) -> bool:
         """Whether it runs and does not slow down."""
         return not self.walks and self.slowing == 0.0
+
+    def changes(self, state: NDArray[np.float64]) -> bool:
+        """Whether it is going over from one gait to the other; told to go back meanwhile, it may fall."""
+        if self.walks:
+            return bool(self.walk[CAUGHT] > 0.0 and self.walk[WALK_STEPS] < _CHANGED)
+        return self.slowing > 0.0 or bool(state[controller.STEPS] < _CHANGED)
 
     @property
     def rises(self) -> bool:

@@ -10,7 +10,9 @@ from locomotion.path_tracking import COME_TO_REST, PathTable, TrackingLimits
 
 __all__ = ["course_on_path"]
 
-_WALK_BEND, _RUN_BEND = 1.0, 0.2  # [1/m] in which it goes out of somebody's way
+_WALK_BEND, _RUN_BEND = 1.0, 0.1
+"""[1/m] in which it goes out of somebody's way; in sharper bends than it has learned to slow down in, a
+runner falls behind those it has met (`python -m benchmarks.giving_way --pairs runner-runner`)."""
 _WALK_BEGINS, _RUN_BEGINS = 0.5, 1.0  # [m] ahead where it begins to
 _SWAY = 0.07  # [m] that it is beside its path now and then
 

@@ -20,9 +20,16 @@ _SLOW = 2.0  # times the planned time
 _KIND = {"fell": "fell", "stuck": "stuck", "lost": "stuck", "bumped": "never_cleared", "no way": "blocked",
          "trapped": "trap"}  # fmt: skip
 _MET = {
-    "fell": "fall", "stuck": "make no headway", "never_cleared": "hit the level in the middle of a leap",
-    "blocked": "stand where they do not fit and find no way on", "trap": "get in and find no way out",
-}  # fmt: skip
+    "fell": ("falls", "fall"),
+    "stuck": ("makes no headway", "make no headway"),
+    "never_cleared": ("hits the level in the middle of a leap", "hit the level in the middle of a leap"),
+    "blocked": (
+        "stands where it does not fit and finds no way on",
+        "stand where they do not fit and find no way on",
+    ),
+    "trap": ("gets in and finds no way out", "get in and find no way out"),
+}
+"""What one bot does, and what several do."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +96,9 @@ def observed(
             sightings = _sightings(cluster)
             middle = _middle(cluster)
             bots = len({bot for bot, _ in cluster})
-            text = f"at {place(middle)} {bots} bot{'s' * (bots > 1)} {_MET[kind]} ({len(cluster)} times)"
+            who, times = f"{bots} bot{'s' * (bots > 1)}", len(cluster)
+            often = f"{times} time{'s' * (times > 1)}"
+            text = f"at {place(middle)} {who} {_MET[kind][bots > 1]} ({often})"
             if kind == "fell":
                 text += f": the {noun} leaves the level or loses its feet here"
             fails = len(cluster) >= _CHANCE or kind == "fell"

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import navmesh
+from locomotion.run_layout import STEPS
 from navmesh.holding import line_holds
 from runtime import World
 from runtime.rules import person_walk_rules
@@ -165,6 +166,32 @@ def test_who_is_told_again_to_go_where_others_stand_stays(hall):
     late.go_to((4.0, 4.0, 0.0), speed=1.4)
     world.step(10.0)
     assert late.status == "arrived" and np.linalg.norm(late.position[:2] - [4.0, 4.0]) < 0.3
+
+
+def test_a_person_finishes_going_over_to_another_gait_before_it_gives_way():
+    world = World(floor((0.0, 0.0, 40.0, 6.0)))
+    runner = world.spawn("human", (2.0, 3.0, 0.0))
+    runner.go_to((38.0, 3.0, 0.0), speed=3.0)
+    asked = {}
+    while runner.moving:
+        world.step(0.01)
+        human = runner.human
+        slows, steps = human.gait_now == "slow run", human._control[STEPS]
+        free = human.course() is not None
+        if slows or (human.gait_now == "run" and steps < 4.0):
+            assert not free
+        asked.setdefault(human.gait_now, set()).add(free)
+    assert asked == {"walk": {True, False}, "run": {True, False}, "slow run": {False}}
+
+
+def test_a_runner_goes_round_others_no_sharper_than_it_can_slow_down():
+    world = World(floor((0.0, 0.0, 40.0, 6.0)))
+    runner = world.spawn("human", (2.0, 3.0, 0.0))
+    runner.go_to((38.0, 3.0, 0.0), speed=3.3)
+    world.step(5.0)
+    course = runner.human.course()
+    assert runner.status == "running" and course is not None
+    assert course.sharpest * course.speeds.max() ** 2 < 1.2  # [m/s^2] in `locomotion.training.slow_down`
 
 
 def test_a_runner_that_gives_way_altogether_walks_and_runs_on():

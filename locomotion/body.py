@@ -160,7 +160,7 @@ class Human(MovingPerson):
             raise LocomotionError("the person has fallen for good; reset it")
         for obstacle in obstacles:
             if skill_for(self.clearing, obstacle) is None:
-                wanted = f"{obstacle.affordance} {obstacle.height:.2f} m"
+                wanted = f"{obstacle.affordance} {obstacle.size:.2f} m"
                 offered = [f"{s.affordance} {s.heights[0]:g} to {s.heights[1]:g} m" for s in self.clearing]
                 raise LocomotionError(f"no skill clears {wanted}; there are {offered or 'none'}")
         edges = [obstacle.arc_length for obstacle in obstacles]
@@ -397,9 +397,9 @@ class Human(MovingPerson):
         obstacle = self._obstacle_run.ahead
         if isinstance(happened, TakeOff):
             assert obstacle is not None
-            kind, height = obstacle.affordance, obstacle.height
+            kind, size = obstacle.affordance, obstacle.size
             self.status = CLEARING[kind]
-            self.events.append(TookOff(self.time, self._point(), kind, height, happened.early, happened.fast))
+            self.events.append(TookOff(self.time, self._point(), kind, size, happened.early, happened.fast))
         elif happened is not None:
             ends = self._obstacle_run.skill_for(happened).ends
             if self.status in MOVING:
@@ -408,7 +408,7 @@ class Human(MovingPerson):
                 self._obstacle_run.begin(())  # it was told to stop meanwhile
             if ends == "walking":
                 rise_walking(self.on_feet.walk, self._control, self.yaw)
-            self.events.append(Cleared(self.time, self._point(), happened.affordance, happened.height))
+            self.events.append(Cleared(self.time, self._point(), happened.affordance, happened.size))
 
     # --- trying out
     def _rehearse_take_off(self) -> None:

@@ -16,10 +16,11 @@ from numpy.typing import NDArray
 
 from locomotion import controller
 from locomotion.approach import ApproachPlan, plan_approach
+from locomotion.errors import LocomotionError
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill
 
-__all__ = ["ClearingSkill", "foot_distance", "plan_run_up", "run_up_speeds", "skill_for"]
+__all__ = ["ClearingSkill", "foot_distance", "plan_run_up", "run_up_speeds", "skill_for", "skill_ranges"]
 
 _ERROR_WEIGHT = 2000.0
 _CHANGE_WEIGHTS = (8.0, 4.0, 2.0, 1.0)
@@ -43,11 +44,12 @@ class ClearingSkill(Protocol):
 
     @property
     def heights(self) -> tuple[float, float]:
-        """Least and greatest height [m] that it clears."""
+        """Least and greatest height [m] that it clears; width, if it leaps over gaps."""
         ...
 
-    def approach(self, height: float) -> tuple[float, float]:
-        """Entry speed [m/s], and distance [m] from the stance foot's touchdown to the edge at the start."""
+    def approach(self, size: float) -> tuple[float, float]:
+        """Entry speed [m/s] for an obstacle of that height (gap: width) [m], and distance [m] from the stance
+        foot's touchdown to the edge at the start."""
         ...
 
     @property
@@ -88,10 +90,28 @@ def skill_for(skills: Sequence[ClearingSkill], obstacle: ObstacleAhead) -> Clear
     """The skill that clears an obstacle, or None."""
     for skill in skills:
         low, high = skill.heights
-        fits = low - HEIGHT_TOLERANCE <= obstacle.height <= high + HEIGHT_TOLERANCE
+        fits = low - HEIGHT_TOLERANCE <= obstacle.size <= high + HEIGHT_TOLERANCE
         if fits and skill.affordance == obstacle.affordance:
             return skill
     return None
+
+
+def skill_ranges(skills: Sequence[ClearingSkill]) -> dict[str, tuple[float, float]]:
+    """Least and greatest size [m] of the obstacles that ``skills`` clear, with what they let pass, by
+    affordance. `LocomotionError` where the ranges of two skills for the same leave some in between."""
+    ranges: dict[str, tuple[float, float]] = {}
+    for skill in sorted(skills, key=lambda each: each.heights):
+        low, high = skill.heights[0] - HEIGHT_TOLERANCE, skill.heights[1] + HEIGHT_TOLERANCE
+        if skill.affordance in ranges:
+            least, most = ranges[skill.affordance]
+            if low > most + 1e-9:
+                raise LocomotionError(
+                    f"skills for {skill.affordance!r}: nothing is learned from {most:g} to {low:g} m; the "
+                    "ranges of skills for the same kind of obstacle must join"
+                )
+            low, high = least, max(most, high)
+        ranges[skill.affordance] = low, high
+    return ranges
 
 
 def foot_distance(state: NDArray[np.float64], obstacle: ObstacleAhead) -> float:
@@ -118,7 +138,7 @@ def plan_run_up(
     """Speeds of the remaining steps, planned at a stance switch; none: start the skill at this step.
 
     farther [m], faster [m/s]: changes of the skill's mark and entry speed."""
-    entry, mark = skill.approach(obstacle.height)
+    entry, mark = skill.approach(obstacle.size)
     entry, mark = min(max(entry + faster, run.speeds[0]), run.speeds[1]), mark + farther
     low, high = run_up_speeds(entry, run)
     if state[controller.STEPS] >= 2.0:

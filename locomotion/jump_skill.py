@@ -33,16 +33,19 @@ def jump_clip() -> Clip:
     return load_clip(JUMP_CLIP)
 
 
-def tables_of(parameters: NDArray[np.float64], reference: NDArray[np.float64], run: RunSkill) -> LawTables:
-    """Put the arguments of the kernels together; ``reference`` (4, 6, 15): expected sensors."""
-    return tables_over_run(parameters, jump.parameter_slices(), reference, jump_clip(), run)
+def tables_of(
+    parameters: NDArray[np.float64], reference: NDArray[np.float64], run: RunSkill, clip: Clip | None = None
+) -> LawTables:
+    """Put the arguments of the kernels together; ``reference`` (4, 6, 15): expected sensors; ``clip``: None
+    is the package's jump."""
+    return tables_over_run(parameters, jump.parameter_slices(), reference, clip or jump_clip(), run)
 
 
-def load_jump_skill(path: str | os.PathLike[str] = JUMP_SKILL) -> SkillFamily:
-    """Read learned jumps; `LocomotionError` if the file is missing, cut off, of another version or of another
-    person."""
+def load_jump_skill(path: str | os.PathLike[str] = JUMP_SKILL, kind: str = KIND) -> SkillFamily:
+    """Read learned jumps; `LocomotionError` if the file is missing, cut off, of another version, of another
+    person or of another ``kind``."""
     width = sum(jump.PARAMETERS.values())
-    return load_family(path, KIND, width, (jump.STEPS * jump.BINS, jump.SENSORS))
+    return load_family(path, kind, width, (jump.STEPS * jump.BINS, jump.SENSORS))
 
 
 def run_digest(run: RunSkill) -> str:
@@ -62,24 +65,27 @@ def run_digest(run: RunSkill) -> str:
 
 
 class Jump(LearnedSkill):
-    """Jumping onto stairs as a `locomotion.clearing.ClearingSkill`, on top of a given run."""
+    """A jump as a `locomotion.clearing.ClearingSkill`, on top of a given run."""
 
-    affordance = "jump"
     ends: Literal["running", "walking"] = "running"
 
-    def __init__(self, skill: SkillFamily, run: RunSkill) -> None:
-        """``skill``: the learned jumps; ``run``: the run under them."""
+    def __init__(
+        self, skill: SkillFamily, run: RunSkill, affordance: str = "jump", clip: Clip | None = None
+    ) -> None:
+        """``skill``: the learned jumps; ``run``: the run under them; ``affordance``: what they clear;
+        ``clip``: what they play, None for the package's jump onto a stair."""
 
-        def law(height: float) -> LawTables:
-            parameters, reference = skill.at(height)
-            return tables_of(parameters, reference.reshape(jump.STEPS, jump.BINS, jump.SENSORS), run)
+        def law(size: float) -> LawTables:
+            parameters, reference = skill.at(size)
+            return tables_of(parameters, reference.reshape(jump.STEPS, jump.BINS, jump.SENSORS), run, clip)
 
         super().__init__(skill, law)
+        self.affordance = affordance
 
     def start(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> NDArray[np.float64]:
         """Begin a jump at a stance switch, before that tick's `tick`; gives all that it remembers, (k,)
         float64."""
-        tables = self.tables(obstacle.height)
+        tables = self.tables(obstacle.size)
         memory = np.zeros(jump.MEMORY_SIZE)
         x, y = float(obstacle.position[0]), float(obstacle.position[1])
         ahead_x, ahead_y = -float(obstacle.normal[0]), -float(obstacle.normal[1])
@@ -94,7 +100,7 @@ class Jump(LearnedSkill):
         data: mujoco.MjData,
     ) -> bool:
         """One control tick after `run_tick`'s and before the physics; True when the jump is over."""
-        tables = self.tables(obstacle.height)
+        tables = self.tables(obstacle.size)
         jump_tick(tables.parameters, *tables.rest, memory, state, data.ctrl)
         return bool(memory[jump.ACTIVE] == 0.0)
 

@@ -75,7 +75,7 @@ class LearnedSkill:
 
     @property
     def heights(self) -> tuple[float, float]:
-        """Least and greatest height [m] that it clears."""
+        """Least and greatest height (gap: width) [m] that it clears."""
         return self._family.range
 
     @property
@@ -83,17 +83,17 @@ class LearnedSkill:
         """(a, lag, b) of the steps of the run-up; see `locomotion.clearing.ClearingSkill`."""
         return self._family.stride
 
-    def tables(self, height: float) -> LawTables:
-        """The kernels' arguments for an obstacle of ``height`` [m]; the nearest learned height beyond the
-        ends."""
+    def tables(self, size: float) -> LawTables:
+        """The kernels' arguments for an obstacle of ``size`` [m]; those of the nearest learned size beyond
+        the ends."""
         low, high = self.heights
-        height = min(max(float(height), low), high)
-        if height not in self._tables:
-            self._tables[height] = self._law(height)
-        return self._tables[height]
+        size = min(max(float(size), low), high)
+        if size not in self._tables:
+            self._tables[size] = self._law(size)
+        return self._tables[size]
 
-    def approach(self, height: float) -> tuple[float, float]:
+    def approach(self, size: float) -> tuple[float, float]:
         """(entry speed [m/s], distance [m] from the stance foot's ankle to the edge at which the skill
         begins)."""
-        tables = self.tables(height)
+        tables = self.tables(size)
         return tables.entry, tables.mark

@@ -1,34 +1,51 @@
-"""The skills that come with the package, for a body to clear obstacles with."""
+"""The skills that a body clears obstacles with: those that come with the package, and one's own."""
 
 import hashlib
+import os
+from collections.abc import Sequence
 from functools import lru_cache
 from pathlib import Path
 
-from locomotion.clearing import ClearingSkill
+from locomotion.clearing import ClearingSkill, skill_ranges
 from locomotion.drop_roll_skill import DROP_ROLL_SKILL, DropRoll, load_drop_roll_skill
 from locomotion.jump_skill import JUMP_SKILL, Jump, load_jump_skill
 from locomotion.skill import RunSkill
+from locomotion.skill_description import load_described, load_description
 from locomotion.vault_skill import VAULT_SKILL, Vault, load_vault_skill
 
-__all__ = ["learned_skills", "skills_digest"]
+__all__ = ["LEAP", "learned_skills", "skills_digest"]
+
+_SKILLS = Path(__file__).parent / "skills"
+LEAP = _SKILLS / "leap.yaml"
+"""Description of the leap over gaps."""
 
 
-@lru_cache(maxsize=1)
-def skills_digest() -> str:
-    """Hex digest of everything that the package has learned: a person does the same only with the same."""
+@lru_cache(maxsize=8)
+def skills_digest(own: tuple[Path, ...] = ()) -> str:
+    """Hex digest of everything that the package has learned and of the skills described by ``own``: a person
+    does the same only with the same."""
     hasher = hashlib.sha256()
-    for file in sorted((Path(__file__).parent / "skills").glob("*.npz")):
+    files = sorted(_SKILLS.glob("*.npz"))
+    for path in own:
+        description = load_description(path)
+        files += [path, description.clip, description.learned]
+    for file in files:
         hasher.update(file.name.encode() + file.read_bytes())
     return hasher.hexdigest()[:16]
 
 
-def learned_skills(run: RunSkill) -> tuple[ClearingSkill, ...]:
-    """What the package has learned to clear, on top of a run."""
-    skills: list[ClearingSkill] = []
+def learned_skills(run: RunSkill, own: Sequence[str | os.PathLike[str]] = ()) -> tuple[ClearingSkill, ...]:
+    """What clears obstacles on top of a run: the skills described by the files ``own``
+    (`locomotion.skill_description`), and then those of the package. `LocomotionError` for files with a
+    mistake, and where the skills for one kind of obstacle leave out sizes in between."""
+    skills = [load_described(path, run) for path in own]
     if JUMP_SKILL.exists():
         skills.append(Jump(load_jump_skill(), run))
     if VAULT_SKILL.exists():
         skills.append(Vault(load_vault_skill(), run))
     if DROP_ROLL_SKILL.exists():
         skills.append(DropRoll(load_drop_roll_skill()))
+    if load_description(LEAP).learned.exists():
+        skills.append(load_described(LEAP, run))
+    skill_ranges(skills)
     return tuple(skills)

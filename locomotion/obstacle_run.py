@@ -201,7 +201,7 @@ class ObstacleRun:
         if len(speeds):
             self._plan[_PLANNED] = speeds[0]
             return None
-        entry, mark = self.skill.approach(obstacle.height)
+        entry, mark = self.skill.approach(obstacle.size)
         self._skill = self.skill.start(obstacle, state)
         self._plan[_PLANNED] = entry
         fast = float(state[controller.STEP_SPEED]) - entry - self._plan[_FASTER]

@@ -51,7 +51,7 @@ class ObstacleAhead:
         affordance: "jump", "vault", "drop" or "gap". height: [m] as in `NodeGraph.obstacles`.
         position: (3,) float64 [m], where the path crosses the edge, at its top.
         normal: (3,) float64, horizontal unit vector at right angles to the edge, towards the run-up side.
-        depth: [m] as in `NodeGraph.obstacles`: thickness of what is vaulted.
+        depth: [m] as in `NodeGraph.obstacles`: thickness of what is vaulted, width of a gap.
     """
 
     arc_length: float
@@ -60,6 +60,11 @@ class ObstacleAhead:
     position: NDArray[np.float64]
     normal: NDArray[np.float64]
     depth: float = 0.0
+
+    @property
+    def size(self) -> float:
+        """What a skill's range is compared with [m]: the height, or the width of a gap."""
+        return self.depth if self.affordance == "gap" else self.height
 
 
 @dataclass(frozen=True)

@@ -48,6 +48,11 @@ class Obstacles:
     def __len__(self) -> int:
         return len(self.height)
 
+    @property
+    def size(self) -> np.ndarray:
+        """(k,) float64 [m], what a skill's range is compared with: `height`, or for a gap its width."""
+        return np.where(self.affordance == "gap", self.depth, self.height)
+
     @classmethod
     def empty(cls) -> "Obstacles":
         """No obstacles."""

@@ -42,8 +42,19 @@ class Skill(StrEnum):
     jump = "jump"
     vault = "vault"
     drop_roll = "drop-roll"
+    leap = "leap"
 
 
+def _skill(name: str) -> str:
+    if name not in list(Skill) and not name.endswith((".yaml", ".yml")):
+        raise typer.BadParameter(f"{name!r}: valid: {', '.join(Skill)}, or the .yaml file that describes one")
+    return name
+
+
+SkillArgument = typer.Argument(
+    metavar=f"[{'|'.join(Skill)}|FILE.yaml]", parser=_skill,
+    help="A skill of the package, or the file that describes one of your own.",
+)  # fmt: skip
 UpOption = Annotated[Up, typer.Option(help="Axis of the file that points up.")]
 ScaleOption = Annotated[float, typer.Option(help="Metres per unit of the file.")]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print the result as JSON on standard output.")]
@@ -244,12 +255,17 @@ def replay(
 
 @app.command()
 def train(
-    skill: Annotated[Skill | None, typer.Argument(help="What to learn.")] = None,
+    skill: Annotated[str | None, SkillArgument] = None,
     everything: Annotated[
         bool, typer.Option("--all", help="Learn the whole library, for the package, one skill after another.")
     ] = False,
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="File for the skill; default: the package's.")
+        Path | None,
+        typer.Option(
+            "--output",
+            "-o",
+            help="File for the skill; default: the package's, or the one that FILE.yaml names.",
+        ),
     ] = None,
     seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same skill.")] = 0,
     workers: Annotated[int, typer.Option(min=1, help="Processes.")] = 2,
@@ -270,12 +286,12 @@ def train(
     if skill is None:
         skill_commands.train_library(seed, workers, effort)
     else:
-        skill_commands.train_skill(skill.value, output, seed, workers, checkpoint, effort)
+        skill_commands.train_skill(skill, output, seed, workers, checkpoint, effort)
 
 
 @app.command()
 def evaluate(
-    skill: Annotated[Skill, typer.Argument(help="What to try.")],
+    skill: Annotated[str, SkillArgument],
     trials: Annotated[int, typer.Option(min=1, help="How many trials of each test.")] = 20,
     seed: Annotated[int, typer.Option(min=0, help="Of the trials.")] = 0,
     as_json: JsonOption = False,
@@ -284,7 +300,7 @@ def evaluate(
     _commands()
     from runtime.skill_commands import evaluate_skill
 
-    _finish(evaluate_skill(skill.value, trials, seed), as_json)
+    _finish(evaluate_skill(skill, trials, seed), as_json)
 
 
 @app.command()

@@ -20,6 +20,7 @@ SPEED = 3.5
 """[m/s] asked for on the way."""
 _SLOWEST = 0.5  # [m/s]: who is slower over the whole course has not made it
 _HALF = 5.0  # [m] of the course's width
+_PIT = 3.0  # [m] of depth of a gap
 _EDGE = 1e-3  # [m] of the path on both sides of an edge
 _FALLEN = ("in the run-up", "in the skill", "afterwards")
 
@@ -49,20 +50,23 @@ class CourseRun:
 def make_course(
     obstacles: Sequence[tuple[str, float, float]], distances: Sequence[float], margin: float = 5.0
 ) -> Course:
-    """A course of ``obstacles``, each (affordance, height [m], thickness [m]), ``distances`` [m] after the
-    start and after each other. Thickness is that of a wall ("vault"); elsewhere it does not count."""
+    """A course of ``obstacles``, each (affordance, height (gap: width) [m], thickness [m]), ``distances`` [m]
+    after the start and after each other. Thickness is that of a wall ("vault"); elsewhere it does not
+    count."""
     x = z = 0.0
     profile, path, ahead = [(-margin, 0.0)], [(0.0, 0.0)], []
-    for (affordance, height, depth), distance in zip(obstacles, distances, strict=True):
+    for (affordance, size, thickness), distance in zip(obstacles, distances, strict=True):
         x += distance
         path.append((x - _EDGE, z))
+        height, depth = {"vault": (size, thickness), "gap": (0.0, size)}.get(affordance, (size, 0.0))
         top = z + height if affordance != "drop" else z
         edge = np.array([x, 0.0, top])
-        thickness = depth if affordance == "vault" else 0.0
-        ahead.append(ObstacleAhead(x, affordance, height, edge, np.array([-1.0, 0.0, 0.0]), thickness))
+        ahead.append(ObstacleAhead(x, affordance, height, edge, np.array([-1.0, 0.0, 0.0]), depth))
         profile.append((x, z))
         if affordance == "vault":
             profile += [(x, top), (x + depth, top), (x + depth, z)]
+        elif affordance == "gap":
+            profile += [(x, z - _PIT), (x + depth, z - _PIT), (x + depth, z)]
         else:
             z += height if affordance == "jump" else -height
             profile.append((x, z))

@@ -6,28 +6,31 @@ skill, a level made of triangles. Velocities at the start have noise of 0.02 m/s
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from locomotion import MOVING, Ground, Human, controller
+from locomotion.clearing import ClearingSkill
+from locomotion.library import learned_skills
 from locomotion.person import CONTROL_DT
 from locomotion.rehearsal import REHEARSALS
 from locomotion.skill import load_run_skill
+from locomotion.skill_description import load_described
 from locomotion.training.rollout import Scenario, Simulator
 from runtime.courses import CourseRun, held, make_course, run_course
 from runtime.progress import Progress
 
 __all__ = [
-    "DEFAULT_HEIGHTS", "HEIGHTS", "Attempt", "evaluate_clearing", "evaluate_run", "evaluate_slow_down",
-    "evaluate_speed_up", "evaluate_walk", "start_noise",
+    "DEFAULT_HEIGHTS", "HEIGHTS", "Attempt", "evaluate_clearing", "evaluate_described", "evaluate_run",
+    "evaluate_slow_down", "evaluate_speed_up", "evaluate_walk", "start_noise",
 ]  # fmt: skip
 
-DEFAULT_HEIGHTS = {"jump": 0.4, "vault": 0.7, "drop": 1.5}
-"""[m]"""
-HEIGHTS = {"jump": (0.1, 0.7), "vault": (0.6, 1.0), "drop": (0.9, 2.0)}
-"""[m] that a person is to clear, by affordance."""
+DEFAULT_HEIGHTS = {"jump": 0.4, "vault": 0.7, "drop": 1.5, "gap": 1.2}
+"""[m], of a gap its width"""
+HEIGHTS = {"jump": (0.1, 0.7), "vault": (0.6, 1.0), "drop": (0.9, 2.0), "gap": (0.4, 1.8)}
+"""[m] that a person is to clear, by affordance; of gaps their widths."""
 WALL = 0.3
 """Thickness of a wall [m]."""
 NOISE = 0.02
@@ -57,7 +60,34 @@ class Attempt:
 def evaluate_clearing(affordance: str, trials: int, seed: int, progress: Progress) -> list[Attempt]:
     """Two tests of ``trials`` each: the default height from 30 to 100 m, evenly, and heights drawn from
     `HEIGHTS` from 10 to 30 m."""
-    height, (low, high) = DEFAULT_HEIGHTS[affordance], HEIGHTS[affordance]
+    skills = [skill for skill in Human().clearing if skill.affordance == affordance]
+    default, heights = DEFAULT_HEIGHTS[affordance], HEIGHTS[affordance]
+    return _evaluate(affordance, default, heights, skills, None, trials, seed, progress)
+
+
+def evaluate_described(path: str, trials: int, seed: int, progress: Progress) -> list[Attempt]:
+    """The same tests of a skill of one's own, described by a file: the middle of its sizes, and all of
+    them."""
+    run = load_run_skill()
+    skill = load_described(path, run)
+    low, high = skill.heights
+    middle = round(0.5 * (low + high), 2)
+    every = learned_skills(run, [path])
+    return _evaluate(skill.affordance, middle, (low, high), [skill], every, trials, seed, progress)
+
+
+def _evaluate(
+    affordance: str,
+    height: float,
+    heights: tuple[float, float],
+    skills: Sequence[ClearingSkill],
+    clearing: Sequence[ClearingSkill] | None,
+    trials: int,
+    seed: int,
+    progress: Progress,
+) -> list[Attempt]:
+    """``skills``: those for the affordance; ``clearing``: all that the person has."""
+    low, high = heights
     rng = np.random.default_rng(seed)
     tests = {
         f"{height:g} m, from 30 to 100 m": [(height, float(d)) for d in np.linspace(30.0, 100.0, trials)],
@@ -66,14 +96,13 @@ def evaluate_clearing(affordance: str, trials: int, seed: int, progress: Progres
             for h, d in zip(rng.uniform(low, high, trials), rng.uniform(10.0, 30.0, trials), strict=True)
         ],
     }
-    skills = [skill.heights for skill in Human().clearing if skill.affordance == affordance]
 
     def attempt(test: str, height: float, distance: float) -> Attempt:
         what = f"{height:.2f} m from {distance:.1f} m"
-        if not any(least - 1e-9 <= height <= most + 1e-9 for least, most in skills):
+        if not any(each.heights[0] - 1e-9 <= height <= each.heights[1] + 1e-9 for each in skills):
             return Attempt(test, what, "not learned for this height", False)
         course = make_course([(affordance, height, WALL)], [distance])
-        return _judged(test, what, affordance, run_course(course, noise=start_noise(seed, distance)))
+        return _judged(test, what, affordance, run_course(course, clearing, start_noise(seed, distance)))
 
     todo = [(test, *start) for test, starts in tests.items() for start in starts]
     return _tried(affordance, [lambda each=each: attempt(*each) for each in todo], progress)

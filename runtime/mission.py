@@ -27,8 +27,9 @@ import numpy as np
 from pydantic.json_schema import GenerateJsonSchema
 
 import navmesh
-from locomotion import LocomotionError
+from locomotion import LocomotionError, load_run_skill
 from locomotion.quadruped import is_body_file, load_body
+from locomotion.skill_description import load_described
 from navmesh.yamlfile import FileError, Located, dotted, read_yaml
 from runtime.mission_model import Mission, Step
 from runtime.rules import walk_rules
@@ -42,8 +43,8 @@ class LoadedMission:
     """A checked mission with the place of its file: resolves paths and names, and errors name the line.
 
     ``level_path`` and ``tags_path`` (or None) exist. ``bodies`` are the agents' in order, as
-    `runtime.World.spawn` takes them: files of one's own are sound, and their paths resolved. Every name that
-    the mission mentions stands in it.
+    `runtime.World.spawn` takes them: files of one's own are sound, and their paths resolved. ``skill_paths``
+    are those of skills of one's own, sound too. Every name that the mission mentions stands in it.
     """
 
     def __init__(self, mission: Mission, located: Located) -> None:
@@ -54,6 +55,7 @@ class LoadedMission:
         self._check_mentions()
         self.level_path = self._existing(("level", "file"), mission.level.file, "level")
         self.bodies = [self._body(i, agent.body) for i, agent in enumerate(mission.agents)]
+        self.skill_paths = [self._skill(k, name) for k, name in enumerate(mission.skills)]
         tags = mission.level.tags
         self.tags_path = None if tags is None else self._existing(("level", "tags"), tags, "tags file")
 
@@ -105,6 +107,14 @@ class LoadedMission:
         except LocomotionError as error:
             raise self.error(address, str(error)) from None
         return str(path)
+
+    def _skill(self, k: int, name: str) -> Path:
+        path = self._existing(("skills", k), name, "skill file")
+        try:
+            load_described(path, load_run_skill())
+        except LocomotionError as error:
+            raise self.error(("skills", k), str(error)) from None
+        return path
 
     def _check_unique(self) -> None:
         seen: set[str] = set()

@@ -10,6 +10,7 @@ import navmesh
 from navmesh.yamlfile import FileError
 from runtime.actions import first_far
 from runtime.agent import Agent
+from runtime.errors import RuntimeInputError
 from runtime.mission import Address, LoadedMission, places_in, steps_of
 from runtime.mission_clearing import find_clearing
 from runtime.mission_model import AgentSpec, Step
@@ -42,7 +43,10 @@ def prepare_mission(
     if graph is None:
         with progress.stage(f"reading {loaded.level_path.name} and building its graph"):
             graph = build_graph(loaded)
-    world = World(graph, seed=loaded.mission.seed)
+    try:
+        world = World(graph, loaded.mission.seed, loaded.skill_paths)
+    except RuntimeInputError as error:
+        raise loaded.error(("skills",), str(error)) from None
     prepared = Prepared(world, {})
     with progress.stage("placing the agents and checking their ways"):
         for index, spec in enumerate(loaded.mission.agents):

@@ -30,10 +30,11 @@ def find_clearing(
     obstacles = world.graph.obstacles
     index = _obstacle(loaded, obstacles, address, use)
     low, high = agent.skills[use.skill]
-    height = float(obstacles.height[index])
-    if not low <= height <= high:
+    size = float(obstacles.size[index])
+    if not low <= size <= high:
+        measure = "wide" if use.skill == "gap" else "high"
         raise loaded.error(
-            address, f"{obstacles.tag[index]} is {height:.2f} m high; {agent.name} can {use.skill} "
+            address, f"{obstacles.tag[index]} is {size:.2f} m {measure}; {agent.name} can {use.skill} "
             f"{low:.2f} to {high:.2f} m",
         )  # fmt: skip
     before, beyond = _ends(obstacles, index)

@@ -72,7 +72,7 @@ Places = Annotated[
 """One place, or several in order."""
 Seconds = Annotated[float, Gt(0.0), Le(86400.0)]
 Speed = Annotated[float, Ge(0.5), Le(6.0)]
-Skill = Literal["jump", "vault", "drop"]
+Skill = Literal["jump", "vault", "drop", "gap"]
 if TYPE_CHECKING:
     Body = str
 else:
@@ -349,5 +349,7 @@ class Mission(_Strict):
     waypoints: Annotated[dict[Name, Point], Len(0, 1000)] = {}
     """Points with names, for use wherever a place is wanted."""
     regions: Annotated[dict[Name, Region], Len(0, 1000)] = {}
+    skills: Annotated[list[str], Len(0, 100)] = []
+    """Files that describe skills of one's own, relative to the mission's: its people have them, too."""
     agents: Annotated[list[AgentSpec], Len(1, 100)]
     triggers: Annotated[list[Trigger], Len(0, 1000)] = []

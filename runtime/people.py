@@ -3,14 +3,16 @@
 from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import mujoco
 import numpy as np
 
-from locomotion import PERSON_RULES, Human, HumanState
-from locomotion.clearing import HEIGHT_TOLERANCE
+from locomotion import PERSON_RULES, Human, HumanState, load_run_skill
+from locomotion.clearing import skill_ranges
 from locomotion.giving_way import SPACING, Course
+from locomotion.library import learned_skills
 from runtime.drivers import PLANS_KEPT, Driver, Follower, radius_of, recall
 from runtime.errors import RuntimeInputError
 from runtime.figure import Figure
@@ -21,23 +23,28 @@ __all__ = ["HumanDriver", "People"]
 
 
 class People:
-    """Simulated persons."""
+    """Simulated persons. ``skills``: descriptions of those of one's own that they have besides the
+    package's."""
 
     bodies: tuple[str, ...] = ("human",)
 
-    def __init__(self, level: Level) -> None:
-        self._level = level
+    def __init__(self, level: Level, skills: Sequence[Path] = ()) -> None:
+        self._level, self._skills = level, skills
         self._drivers: list[HumanDriver] = []
 
     def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> Driver:
-        human = Human(self._level.ground, gets_up=True)
+        human = self._make()
         human.reset(place, facing)
         return self._add(human)
 
     def revive(self, body: str, state: Any) -> Driver:
-        driver = self._add(Human(self._level.ground, gets_up=True))
+        driver = self._add(self._make())
         driver.restore(state)
         return driver
+
+    def _make(self) -> Human:
+        run = load_run_skill()
+        return Human(self._level.ground, run, learned_skills(run, self._skills), gets_up=True)
 
     def _add(self, human: Human) -> "HumanDriver":
         self._drivers.append(HumanDriver(self._level, human))
@@ -101,10 +108,7 @@ class HumanDriver:
 
     @property
     def skills(self) -> Mapping[str, tuple[float, float]]:
-        return {
-            skill.affordance: (skill.heights[0] - HEIGHT_TOLERANCE, skill.heights[1] + HEIGHT_TOLERANCE)
-            for skill in self.human.clearing
-        }
+        return skill_ranges(self.human.clearing)
 
     def transforms(self) -> np.ndarray:
         return self.human.body_transforms()[1 : 1 + len(self.figure.bodies)]

@@ -121,7 +121,7 @@ def _link_holds(
 ) -> bool:
     """Whether ``graph`` has a link over ``obstacle`` from ``start`` to ``end`` (3,)."""
     links = graph.links
-    alike = (links.affordance == obstacle.affordance) & (np.abs(links.height - obstacle.height) <= _SAME)
+    alike = (links.affordance == obstacle.affordance) & (np.abs(links.height - obstacle.size) <= _SAME)
     alike &= (np.abs(links.start - start) <= _SAME).all(axis=1)
     alike &= (np.abs(links.end - end) <= _SAME).all(axis=1)
     return bool(alike.any())
@@ -147,11 +147,11 @@ def why_not(
     reason = "no way leads there on foot or with the skills at hand"
     if over.status != "complete":
         return reason
-    kinds, heights = graph.obstacles.affordance, graph.obstacles.height
+    kinds, sizes = graph.obstacles.affordance, graph.obstacles.size
     beyond = [
-        f"{kinds[use.obstacle]} {heights[use.obstacle]:.2f} m"
+        f"{kinds[use.obstacle]} {sizes[use.obstacle]:.2f} m"
         for use in over.links
-        if not _offered(skills, str(kinds[use.obstacle]), float(heights[use.obstacle]))
+        if not _offered(skills, str(kinds[use.obstacle]), float(sizes[use.obstacle]))
     ]
     offer = ", ".join(f"{kind} {low:g} to {high:g} m" for kind, (low, high) in skills.items())
     return f"{reason}: a way would lead over {', '.join(beyond)}; there are {offer or 'no skills'}"

@@ -63,5 +63,5 @@ def level_trace(graph: navmesh.NodeGraph) -> LevelTrace:
         affordances=tuple(str(each) for each in obstacles.affordance),
         rim=obstacles.rim,
         normal=obstacles.normal,
-        height=obstacles.height,
+        height=obstacles.size,
     )

@@ -23,8 +23,9 @@ __all__ = ["evaluate_skill", "show_clip", "train_library", "train_skill"]
 
 def _trainers() -> Mapping[str, Callable[..., Any]]:
     """What learns each skill, in the order in which they build on one another."""
+    from locomotion.library import LEAP
     from locomotion.training.drop_roll import train_drop_roll
-    from locomotion.training.jump import train_jump
+    from locomotion.training.jump import train_described, train_jump
     from locomotion.training.run import train_run
     from locomotion.training.slow_down import train_slow_down
     from locomotion.training.speed_up import train_speed_up
@@ -34,30 +35,43 @@ def _trainers() -> Mapping[str, Callable[..., Any]]:
     return {
         "walk": train_walk, "run": train_run, "speed-up": train_speed_up, "slow-down": train_slow_down,
         "jump": train_jump, "vault": train_vault, "drop-roll": train_drop_roll,
+        "leap": partial(train_described, LEAP),
     }  # fmt: skip
+
+
+def _trainer(skill: str) -> Callable[..., Any]:
+    """What learns ``skill``: one of the package's, or one that a file describes."""
+    known = _trainers()
+    if skill in known:
+        return known[skill]
+    from locomotion.training.jump import train_described
+
+    return partial(train_described, skill)
 
 
 def train_skill(
     skill: str, output: Path | None, seed: int, workers: int, checkpoint: Path | None, effort: float
 ) -> float:
-    """Learn ``skill`` and write it to ``output`` (None: where the package keeps its own); gives the CPU time
-    that it took [min]. Raises `RuntimeInputError` while another process learns with the same checkpoint."""
+    """Learn ``skill``, one of the package's or one that a file describes, and write it to ``output`` (None:
+    where the package keeps its own, or where its description says); gives the CPU time that it took [min].
+    Raises `RuntimeInputError` while another process learns with the same checkpoint."""
     where = {} if output is None else {"out": output}
     if output is not None:
         check_output(output)
-    kept = checkpoint or Path(f"{skill}.checkpoint")
+    name = Path(skill).stem
+    kept = checkpoint or Path(f"{name}.checkpoint")
     if not kept.parent.is_dir():
         raise RuntimeInputError(f"{kept}: there is no folder {str(kept.parent)!r} to keep checkpoints in")
     begun = sum(os.times()[:4])
     try:
         with FileLock(f"{kept}.lock", timeout=0):
-            _trainers()[skill](**where, seed=seed, checkpoint=kept, workers=workers, effort=effort)
+            _trainer(skill)(**where, seed=seed, checkpoint=kept, workers=workers, effort=effort)
     except Timeout:
         raise RuntimeInputError(
             f"{kept}: another process learns with this checkpoint; wait for it, or name another --checkpoint"
         ) from None
     minutes = (sum(os.times()[:4]) - begun) / 60.0
-    print(f"learned to {skill} in {minutes:.1f} core-minutes; the checkpoint {kept} is not needed any more")
+    print(f"learned to {name} in {minutes:.1f} core-minutes; the checkpoint {kept} is not needed any more")
     return minutes
 
 
@@ -73,6 +87,7 @@ def evaluate_skill(skill: str, trials: int, seed: int) -> Result:
     """Try ``skill``; holds when at least nine of ten trials of each test do."""
     from runtime.evaluation import (
         evaluate_clearing,
+        evaluate_described,
         evaluate_run,
         evaluate_slow_down,
         evaluate_speed_up,
@@ -84,8 +99,9 @@ def evaluate_skill(skill: str, trials: int, seed: int) -> Result:
         "slow-down": evaluate_slow_down,
         "jump": partial(evaluate_clearing, "jump"), "vault": partial(evaluate_clearing, "vault"),
         "drop-roll": partial(evaluate_clearing, "drop"),
+        "leap": partial(evaluate_clearing, "gap"),
     }  # fmt: skip
-    attempts = evaluate[skill](trials, seed, ready())
+    attempts = (evaluate.get(skill) or partial(evaluate_described, skill))(trials, seed, ready())
     tests = [
         {
             "test": test,

@@ -2,8 +2,9 @@
 
 import hashlib
 import math
+import os
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from itertools import count
 from pathlib import Path
 from typing import TypeVar
@@ -12,8 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 import navmesh
-from locomotion import LocomotionError
-from locomotion.library import skills_digest
+from locomotion import LocomotionError, load_run_skill
+from locomotion.library import learned_skills, skills_digest
 from locomotion.person import CONTROL_DT
 from locomotion.quadruped import is_body_file, load_body
 from runtime.agent import Agent
@@ -41,11 +42,19 @@ class World:
     ``terrain`` is the level; or a graph that was built or loaded, whose rules should suit a person. The same
     seed and the same calls give the same run, bit for bit.
 
+    ``skills``: files that describe skills of your own (`locomotion.skill_description`), which its people have
+    besides the package's. Raises `RuntimeInputError` for one with a mistake.
+
     ``agents``: by name, in order of their making. ``random``: the
     `numpy.random.Generator` for whatever chance the host needs, saved, restored and hashed with the rest.
     """
 
-    def __init__(self, terrain: navmesh.Terrain | navmesh.NodeGraph, seed: int = 0) -> None:
+    def __init__(
+        self,
+        terrain: navmesh.Terrain | navmesh.NodeGraph,
+        seed: int = 0,
+        skills: Sequence[str | os.PathLike[str]] = (),
+    ) -> None:
         if isinstance(terrain, navmesh.NodeGraph):
             graph = terrain
         elif isinstance(terrain, navmesh.Terrain):
@@ -57,7 +66,13 @@ class World:
         self.agents: dict[str, Agent] = {}
         self.random = np.random.default_rng(seed)
         self._level = Level.of(graph)
-        others = People(self._level), Pack(self._level)
+        self._skills = tuple(Path(each).resolve() for each in skills)
+        if self._skills:
+            try:
+                learned_skills(load_run_skill(), self._skills)
+            except LocomotionError as error:
+                raise RuntimeInputError(str(error)) from None
+        others = People(self._level, self._skills), Pack(self._level)
         self._populations: tuple[Population, ...] = (*others, Walkers(self._level, others))
         self._traffic = Traffic(self._level, self._populations)
         self._ticks = 0
@@ -272,7 +287,9 @@ class World:
         """This moment, for `restore`."""
         return WorldState(
             level=self.level_digest,
-            skills=skills_digest() if any(each.body == "human" for each in self.agents.values()) else "",
+            skills=skills_digest(self._skills)
+            if any(each.body == "human" for each in self.agents.values())
+            else "",
             ticks=self._ticks,
             owed=self._owed,
             events=tuple(self._events),
@@ -295,9 +312,10 @@ class World:
                 f"the state is of the level {state.level[:12]}…, this world's is {self.level_digest[:12]}…; "
                 "restore it in a world of the same mesh and walk rules"
             )
-        if state.skills not in ("", skills_digest()):
+        own = skills_digest(self._skills)
+        if state.skills not in ("", own):
             raise RuntimeInputError(
-                f"the state is of people with other skills ({state.skills}) than these ({skills_digest()}), "
+                f"the state is of people with other skills ({state.skills}) than these ({own}), "
                 "who would go on in another way; restore it with the learned skills that it was saved with"
             )
         before = self.save()

@@ -2,23 +2,37 @@
 these heights by prediction from the learned ones and correction."""
 
 import os
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from locomotion import jump
+from locomotion.clip import Clip
 from locomotion.errors import LocomotionError
-from locomotion.jump_skill import JUMP_SKILL, KIND, Jump, load_jump_skill, run_digest, tables_of
+from locomotion.jump_skill import (
+    JUMP_SKILL,
+    KIND,
+    Jump,
+    jump_clip,
+    load_jump_skill,
+    run_digest,
+    tables_of,
+)
 from locomotion.skill import RunSkill, load_run_skill
+from locomotion.skill_description import load_description
 from locomotion.skill_family import SkillFamily
-from locomotion.training.jump_trial import JumpOutcome, JumpSimulator, StartState
+from locomotion.training.jump_trial import JumpOutcome, JumpSimulator, LedgeSimulator, StartState
 from locomotion.training.loop import Progress, Stage, learn
 from navmesh.archive import read_archive, write_archive
 
-__all__ = ["ENTRY_SPEED", "FURTHER", "HEIGHTS", "LOWEST", "JumpProblem", "cost", "train_jump"]
+__all__ = [
+    "ENTRY_SPEED", "FURTHER", "HEIGHTS", "LOWEST", "WEIGHTS", "JumpKind", "JumpProblem", "cost",
+    "train_described", "train_jump",
+]  # fmt: skip
 
 HEIGHTS = (0.3, 0.4, 0.5)
 """Heights [m] learned one after the other, each from the one before."""
@@ -30,7 +44,15 @@ _STEPPING_STONE = 0.3
 # [m]; the law between 0.2 and 0.4 m does better there than what was learned first
 ENTRY_SPEED = 3.3
 """[m/s]"""
-_STATES = 48
+WEIGHTS: Mapping[str, float] = {
+    "time": 10.0, "cleared": 3.0, "shortfall": 15.0, "scrape": 0.25, "speed": 0.8, "drift": 0.8,
+    "reaction": 2.0, "effort": 0.03, "trunk": 3.0, "pose": 4.0,
+}  # fmt: skip
+"""What the terms of the objective weigh: that the person falls early, that it has not both feet behind the
+edge in the end, how far [m] its feet miss the edge's height, ticks that something touches the face below it,
+how far [m/s] the last steps are from the entry speed, sideways distance [m], ground reaction above 4 body
+weights, squared torques, squared tilt [rad^2] of the trunk, squared distance [rad^2] from the clip."""
+_STATES, _FEWEST = 48, 12  # start states that are harvested for a height; at least, with less effort
 _SHARES = (0.0, 0.3, 0.6, 1.0)
 # of the way that extrapolation over the height suggests: the best of them is where learning starts
 _REFERENCE = (jump.STEPS, jump.BINS, jump.SENSORS)
@@ -39,19 +61,40 @@ _ENTRY = jump.parameter_slices()["entry"].start
 _TRAINING, _VERSION = "jump training", 1
 
 
-def first_guess() -> np.ndarray:
-    """Parameters (p,) from which learning starts: the clip in the place of the run, which nearly clears
-    0.3 m."""
+@dataclass(frozen=True)
+class JumpKind:
+    """A kind of jump. name: its file's kind. clip, affordance: played over what. simulator: of its trials on
+    a run. entry [m/s], marks [m], pace, share: where learning starts. weights: as `WEIGHTS`."""
+
+    name: str
+    affordance: str
+    clip: Clip
+    simulator: Callable[[RunSkill], JumpSimulator]
+    entry: float = ENTRY_SPEED
+    marks: Sequence[float] = (1.95, 0.95)
+    pace: Sequence[float] = (1.0, 0.75, 1.0, 1.0)
+    share: float = 1.0
+    weights: Mapping[str, float] = field(default_factory=lambda: WEIGHTS)
+
+
+def stair_jump() -> JumpKind:
+    """The package's jump onto a stair."""
+    return JumpKind(KIND, "jump", jump_clip(), JumpSimulator)
+
+
+def first_guess(kind: JumpKind) -> np.ndarray:
+    """Parameters (p,) from which learning starts: the clip in the place of the run; onto a stair it nearly
+    clears 0.3 m."""
     x = np.zeros(sum(jump.PARAMETERS.values()))
     part = jump.parameter_slices()
-    x[part["beta"]] = [1.0, 0.75, 1.0, 1.0]
-    x[part["alpha"]] = 1.0
-    x[part["marks"]] = [1.95, 0.95]
+    x[part["beta"]] = kind.pace
+    x[part["alpha"]] = kind.share
+    x[part["marks"]] = kind.marks
     m_ap = np.zeros((9, jump.RANK))
     m_ap[0, 0] = m_ap[3, 1] = m_ap[1, 2] = 1.0
     m_ap[6, 1] = 0.5
     x[part["m_ap"]] = m_ap.ravel()
-    x[part["entry"]] = ENTRY_SPEED
+    x[part["entry"]] = kind.entry
     return x
 
 
@@ -72,26 +115,26 @@ def scales(feedback: bool) -> np.ndarray:
     return x
 
 
-def cost(outcome: JumpOutcome, entry: float) -> float:
+def cost(outcome: JumpOutcome, entry: float, weights: Mapping[str, float] = WEIGHTS) -> float:
     """Objective of one trial."""
-    speed = abs(outcome.speed - entry) if outcome.steps >= 2 else 1.5
-    return (
-        10.0 * (1.0 - outcome.time)
-        + (0.0 if outcome.cleared else 3.0)
-        + 15.0 * min(outcome.shortfall, 1.0)
-        + 0.25 * min(outcome.scrape, 12)
-        + 0.8 * speed
-        + 0.8 * min(outcome.drift, 1.0)
-        + 2.0 * outcome.reaction
-        + 0.03 * outcome.effort
-        + 3.0 * outcome.trunk
-        + 4.0 * outcome.pose
-    )
+    terms = {
+        "time": 1.0 - outcome.time,
+        "cleared": not outcome.cleared,
+        "shortfall": min(outcome.shortfall, 1.0),
+        "scrape": min(outcome.scrape, 12),
+        "speed": abs(outcome.speed - entry) if outcome.steps >= 2 else 1.5,
+        "drift": min(outcome.drift, 1.0),
+        "reaction": outcome.reaction,
+        "effort": outcome.effort,
+        "trunk": outcome.trunk,
+        "pose": outcome.pose,
+    }
+    return float(sum(weights[name] * term for name, term in terms.items()))
 
 
 @dataclass
 class JumpProblem:
-    """One height: what `learn` needs.
+    """One height (gap: width): what `learn` needs.
 
     initial: (p,) where learning starts, the solution at the neighbouring height; solutions are pulled
     towards it.
@@ -100,6 +143,7 @@ class JumpProblem:
     ``duration`` [s], ``pull``.
     """
 
+    kind: JumpKind
     run: RunSkill
     height: float
     initial: np.ndarray
@@ -126,8 +170,8 @@ class JumpProblem:
     def outcome(self, candidate: np.ndarray, state: int, error: float, duration: float) -> JumpOutcome:
         """One trial."""
         if self._simulator is None:
-            self._simulator = JumpSimulator(self.run)
-        tables = tables_of(np.ascontiguousarray(candidate), self.reference, self.run)
+            self._simulator = self.kind.simulator(self.run)
+        tables = tables_of(np.ascontiguousarray(candidate), self.reference, self.run, self.kind.clip)
         return self._simulator.trial(tables, self.height, self.states[state], error, duration)
 
     def evaluate(self, stage: Stage, candidate: np.ndarray, scenarios: list) -> tuple[float, float]:
@@ -135,7 +179,7 @@ class JumpProblem:
         total = cleared = 0.0
         for state, error in scenarios:
             result = self.outcome(candidate, state, error, stage.options["duration"])
-            total += cost(result, float(candidate[_ENTRY]))
+            total += cost(result, float(candidate[_ENTRY]), self.kind.weights)
             cleared += result.cleared
         free = stage.scale > 0
         away = (candidate[free] - self.initial[free]) / stage.scale[free]
@@ -154,8 +198,8 @@ class JumpProblem:
         """Mean sensors of the cleared jumps without errors, (4, 6, 15); the present reference where none
         is."""
         sums = np.zeros((jump.STEPS, jump.BINS, jump.SENSORS + 1))
-        simulator = JumpSimulator(self.run)
-        tables = tables_of(np.ascontiguousarray(candidate), self.reference, self.run)
+        simulator = self.kind.simulator(self.run)
+        tables = tables_of(np.ascontiguousarray(candidate), self.reference, self.run, self.kind.clip)
         for state in self.states[:16]:
             one = np.zeros_like(sums)
             if simulator.trial(tables, self.height, state, state.error, 2.0, record=one).cleared:
@@ -168,6 +212,7 @@ class JumpProblem:
 class _Course:
     """What stays the same over a whole learning run."""
 
+    kind: JumpKind
     run: RunSkill
     stride: tuple[float, float, float]
     seed: int
@@ -211,22 +256,14 @@ def train_jump(
     """Learn jumps from `LOWEST` to the greatest of `FURTHER` on the package's run and write them to ``out``.
 
     ``checkpoint``: folder for the state of learning; a run that was interrupted goes on from it and gives
-    the same result. ``effort``: scales the number of generations. ``start_from``: a jump skill to refine
-    (after the run has changed) instead of beginning from nothing; of `FURTHER` only what it has not is
-    learned. The same seed gives the same skill with any number of workers.
+    the same result. ``effort``: scales the number of generations, and below 1 that of start states.
+    ``start_from``: a jump skill to refine (after the run has changed) instead of beginning from nothing; of
+    `FURTHER` only what it has not is learned. The same seed gives the same skill with any number of workers.
     """
-    run = load_run_skill()
-    folder = Path(checkpoint) if checkpoint is not None else None
-    if folder is not None:
-        folder.mkdir(parents=True, exist_ok=True)
-    stride = JumpSimulator(run).fit_stride(ENTRY_SPEED, np.random.default_rng([seed, 1]))
-    course = _Course(run, stride, seed, folder, workers, effort, on_progress)
+    course = _course(stair_jump(), seed, checkpoint, workers, effort, on_progress)
     learned: dict[float, tuple[np.ndarray, np.ndarray]] = {}
     if start_from is None:
-        x, reference = first_guess(), np.zeros(_REFERENCE)
-        for number, height in enumerate(HEIGHTS):
-            x, reference = _learn_height(course, height, number, course.first_pass(height), x, reference)
-            learned[height] = x, reference
+        learned |= _learn_in_turn(course, HEIGHTS)
     else:
         old = load_jump_skill(start_from)
         for height, x, reference in zip(old.heights, old.table, old.references, strict=True):
@@ -242,6 +279,72 @@ def train_jump(
     skill = _family(course, learned, {"made by": "surefoot train jump", "seed": seed, "effort": effort})
     skill.save(out)
     return skill
+
+
+def train_described(
+    path: str | os.PathLike[str],
+    out: str | os.PathLike[str] | None = None,
+    seed: int = 0,
+    checkpoint: str | os.PathLike[str] | None = None,
+    workers: int = 2,
+    effort: float = 1.0,
+    on_progress: Callable[[Progress], None] | None = None,
+) -> SkillFamily:
+    """Learn a skill that is described by a file (`locomotion.skill_description`), size by size, and write it
+    to ``out`` (None: where its description says); the others as of `train_jump`.
+
+    Raises `LocomotionError` for a bad description or an unknown term of the objective.
+    """
+    description = load_description(path)
+    unknown = sorted(set(description.objective) - set(WEIGHTS))
+    if unknown:
+        raise LocomotionError(f"{path}: objective: {unknown[0]!r}: valid terms: {', '.join(WEIGHTS)}")
+    clip = description.load_clip()
+    simulator = (
+        partial(JumpSimulator, clip=clip)
+        if description.affordance == "jump"
+        else partial(LedgeSimulator, clip=clip, affordance=description.affordance)
+    )
+    kind = JumpKind(
+        description.kind, description.affordance, clip, simulator, description.entry, description.marks,
+        description.pace, description.share, {**WEIGHTS, **description.objective},
+    )  # fmt: skip
+    course = _course(kind, seed, checkpoint, workers, effort, on_progress)
+    learned = _learn_in_turn(course, description.sizes)
+    for number, (size, solution) in enumerate(learned.items(), _SECOND_PASS):
+        learned[size] = _learn_height(course, size, number, course.second_pass(size), *solution)
+    if description.least is not None:
+        learned[description.least] = learned[description.sizes[0]]
+    meta = {"made by": f"surefoot train {Path(path).name}", "seed": seed, "effort": effort}
+    skill = _family(course, learned, meta)
+    skill.save(description.learned if out is None else out)
+    return skill
+
+
+def _course(
+    kind: JumpKind,
+    seed: int,
+    checkpoint: str | os.PathLike[str] | None,
+    workers: int,
+    effort: float,
+    on_progress: Callable[[Progress], None] | None,
+) -> _Course:
+    run = load_run_skill()
+    folder = Path(checkpoint) if checkpoint is not None else None
+    if folder is not None:
+        folder.mkdir(parents=True, exist_ok=True)
+    stride = kind.simulator(run).fit_stride(kind.entry, np.random.default_rng([seed, 1]))
+    return _Course(kind, run, stride, seed, folder, workers, effort, on_progress)
+
+
+def _learn_in_turn(course: _Course, heights: Sequence[float]) -> dict[float, tuple[np.ndarray, np.ndarray]]:
+    """Parameters (p,) and expected sensors (4, 6, 15) by height [m], each learned from the one before."""
+    learned = {}
+    x, reference = first_guess(course.kind), np.zeros(_REFERENCE)
+    for number, height in enumerate(heights):
+        x, reference = _learn_height(course, height, number, course.first_pass(height), x, reference)
+        learned[height] = x, reference
+    return learned
 
 
 def _learn_further(
@@ -262,7 +365,7 @@ def _family(
     table = np.array([learned[height][0] for height in heights])
     references = np.array([learned[height][1].reshape(-1, jump.SENSORS) for height in heights])
     digest = run_digest(course.run)
-    return SkillFamily(KIND, np.array(heights), table, references, course.stride, digest, meta)
+    return SkillFamily(course.kind.name, np.array(heights), table, references, course.stride, digest, meta)
 
 
 def _learn_height(
@@ -289,10 +392,12 @@ def _learn_height(
     rng = np.random.default_rng([course.seed, number])
     guess = _family(course, {height: (x, reference)}, {})
     standing = number >= _SECOND_PASS
-    distances = rng.uniform(*((9.5, 30.0) if standing else (8.0, 16.0)), _STATES)
-    states = JumpSimulator(course.run).harvest(Jump(guess, course.run), distances, rng, standing)
+    count = max(round(_STATES * min(course.effort, 1.0)), _FEWEST)
+    distances = rng.uniform(*((9.5, 30.0) if standing else (8.0, 16.0)), count)
+    skill = Jump(guess, course.run, course.kind.affordance, course.kind.clip)
+    states = course.kind.simulator(course.run).harvest(skill, distances, rng, standing)
     for place, stage in enumerate(stages):
-        problem = JumpProblem(course.run, height, x, reference, states, [stage])
+        problem = JumpProblem(course.kind, course.run, height, x, reference, states, [stage])
         if beyond is not None:
             problem.predict(beyond)
         file = None if course.folder is None else course.folder / f"search-{number}-{place}.npz"

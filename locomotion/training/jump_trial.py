@@ -1,4 +1,5 @@
-"""Trials of jumping: a stair before a running person, states harvested from planned run-ups, figures."""
+"""Trials of jumping: a stair, a ledge or a gap before a running person, states harvested from planned
+run-ups, figures."""
 
 from dataclasses import dataclass
 
@@ -9,6 +10,7 @@ from locomotion import controller as c
 from locomotion import jump
 from locomotion.body import Human
 from locomotion.clearing import ClearingSkill, foot_distance, plan_run_up, run_up_speeds
+from locomotion.clip import Clip
 from locomotion.jump import jump_tick, start_jump
 from locomotion.jump_skill import jump_clip
 from locomotion.learned_skill import LawTables
@@ -17,7 +19,7 @@ from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, per
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill, reset_running
 
-__all__ = ["JumpOutcome", "JumpSimulator", "StartState", "stair_model"]
+__all__ = ["JumpOutcome", "JumpSimulator", "LedgeSimulator", "StartState", "stair_model"]
 
 _TOP = 2.0  # half height [m] of the box: its lower part is under the plane
 _LENGTH = 60.0  # [m] of the stair behind its edge
@@ -42,9 +44,10 @@ class StartState:
 class JumpOutcome:
     """What a trial showed.
 
-    cleared: both feet were on top and the person still runs at the end. time: share of the trial survived.
-    shortfall: how far [m] the lowest foot was below the edge's height when its toes crossed the edge.
-    scrape: ticks in which something touched the face of the stair. steps: made on top. speed: mean speed
+    cleared: both feet were on top (behind the gap, below) and the person still runs at the end. time: share
+    of the trial survived. shortfall: how far [m] the lowest foot was below the height of the edge that it
+    lands behind when its toes crossed it. scrape: ticks in which something touched the face below that edge.
+    steps: made behind it. speed: mean speed
     [m/s] of the last steps. drift: sideways distance [m] at the end. reaction: mean excess of the ground
     reaction above 4 body weights.
     effort: mean squared torque [(Nm)^2] over 1e4. trunk: mean squared pitch and roll of the trunk off its
@@ -66,8 +69,9 @@ class JumpOutcome:
     errors: tuple[float, float]
 
 
-def stair_model() -> mujoco.MjModel:
-    """The person, the plane z = 0 (geom ``ground``) and a box (geom ``stair``) that trials move."""
+def stair_model(ledge: bool = False) -> mujoco.MjModel:
+    """The person, the plane z = 0 (geom ``ground``) and a box (geom ``stair``) that trials move. ``ledge``:
+    and another one (geom ``ledge``), before the lowered plane."""
     spec = person_spec()
     friction = [0.9, 0.005, 0.0001]
     spec.worldbody.add_geom(
@@ -78,17 +82,24 @@ def stair_model() -> mujoco.MjModel:
         name="stair", type=mujoco.mjtGeom.mjGEOM_BOX, size=[_LENGTH / 2, 4.0, _TOP], contype=1,
         conaffinity=0, friction=friction, rgba=[0.62, 0.55, 0.46, 1], pos=[1000.0, 0.0, -_TOP],
     )  # fmt: skip
+    if ledge:
+        spec.worldbody.add_geom(
+            name="ledge", type=mujoco.mjtGeom.mjGEOM_BOX, size=[_LENGTH / 2, 4.0, _TOP], contype=1,
+            conaffinity=0, friction=friction, rgba=[0.62, 0.55, 0.46, 1], pos=[-1000.0, 0.0, -_TOP],
+        )  # fmt: skip
     model = spec.compile()
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_MIDPHASE  # the box moves in the world body
+    if ledge:  # so that moving the plane counts
+        model.geom_sameframe[model.geom("ground").id] = mujoco.mjtSameFrame.mjSAMEFRAME_NONE
     return model
 
 
 class JumpSimulator:
     """A person, a plane and a stair that trials are run with; one per process."""
 
-    def __init__(self, run: RunSkill) -> None:
+    def __init__(self, run: RunSkill, clip: Clip | None = None) -> None:
         self.run = run
-        self.model = stair_model()
+        self.model = self._make_model()
         self.data = mujoco.MjData(self.model)
         self.index = PersonIndex.of(self.model)
         self.stair = self.model.geom("stair").id
@@ -96,13 +107,22 @@ class JumpSimulator:
         self.command = np.zeros(3)
         self.memory = np.zeros(jump.MEMORY_SIZE)
         shares = np.linspace(0.0, 1.0, 41)
-        self.clip = jump_clip().sample(shares)
+        self.clip = (clip or jump_clip()).sample(shares)
         self.mirrored_clip = jump.mirror(self.clip)
         self.limbs = np.array([i for i, name in enumerate(c.JOINT_NAMES) if name.endswith(_COMPARED)])
 
-    def place_stair(self, edge_x: float, height: float) -> None:
-        """The stair's edge at x = ``edge_x`` [m], its top at ``height`` [m]."""
-        self.model.geom_pos[self.stair] = [edge_x + _LENGTH / 2, 0.0, height - _TOP]
+    def _make_model(self) -> mujoco.MjModel:
+        return stair_model()
+
+    def place(self, edge_x: float, size: float) -> tuple[float, float]:
+        """Put an obstacle of ``size`` [m] with its edge at x = ``edge_x`` [m]; gives x and height [m] of the
+        edge that the person lands behind."""
+        self.model.geom_pos[self.stair] = [edge_x + _LENGTH / 2, 0.0, size - _TOP]
+        return edge_x, size
+
+    def clear_away(self) -> None:
+        """Nothing but the plane."""
+        self.model.geom_pos[self.stair, 0] = 1000.0
 
     def begin(self, distance: float, speed: float, yaw: float = 0.0, noise: np.ndarray | None = None) -> None:
         """Run at ``speed`` [m/s] from x = -``distance``; ``noise`` (51,) as in `rollout.Scenario`."""
@@ -139,7 +159,7 @@ class JumpSimulator:
         step, within what a run-up to ``entry`` [m/s] may ask for.
         """
         rows, lengths = [], []
-        self.place_stair(1000.0, 0.0)
+        self.clear_away()
         low, high = run_up_speeds(entry, self.run)
         for speed in np.linspace(low, high, runs):
             self.begin(0.0, float(speed))
@@ -171,10 +191,10 @@ class JumpSimulator:
         The person starts in a running pose with noise, or ``standing``, from which it walks first.
         """
         height = skill.heights[0]
-        ahead = ObstacleAhead(0.0, skill.affordance, height, np.zeros(3), np.array([-1.0, 0.0, 0.0]))
+        ahead = ObstacleAhead(0.0, skill.affordance, height, np.zeros(3), np.array([-1.0, 0.0, 0.0]), height)
         entry, _ = skill.approach(height)
         found = []
-        self.place_stair(1000.0, 0.0)
+        self.clear_away()
         for distance in distances:
             noise = rng.normal(size=51) * np.r_[np.full(3, 0.1), np.full(3, 0.1), np.full(45, 0.02)]
             speed = rng.uniform(*np.clip([entry - 0.8, entry + 0.5], *self.run.speeds))
@@ -219,7 +239,7 @@ class JumpSimulator:
 
     def runs_on(self, start: StartState, seconds: float = 1.5) -> bool:
         """Whether the run alone goes on from a harvested state; where it does not, no jump could."""
-        self.place_stair(1000.0, 0.0)
+        self.clear_away()
         self._restore(start)
         for _ in range(round(seconds / CONTROL_DT)):
             self.steer()
@@ -235,25 +255,25 @@ class JumpSimulator:
     def trial(
         self,
         tables: LawTables,
-        height: float,
+        size: float,
         start: StartState,
         error: float,
         duration: float,
         on_tick=None,
         record: np.ndarray | None = None,
     ) -> JumpOutcome:
-        """Jump from a harvested state; the stair is put so that the distance misses the mark by ``error``
-        [m].
+        """Jump from a harvested state; the obstacle of ``size`` [m] is put so that the distance misses the
+        mark by ``error`` [m].
 
         duration: [s]. on_tick(simulator) is called after each tick. record: (4, 6, 16) sums of the
         sensors per bin and their count, added to.
         """
         edge = float(start.planted[0]) + tables.mark + error
-        self.place_stair(edge, height)
+        landing = self.place(edge, size)
         self._restore(start)
         steps = self.state[c.STEPS]
         self.command[:] = 0.0, tables.entry, 0.0
-        meter = _Meter(self, edge, height)
+        meter = _Meter(self, *landing)
         begun = False
         ticks = round(duration / CONTROL_DT)
         for _ in range(ticks):
@@ -279,6 +299,30 @@ class JumpSimulator:
         return meter.outcome(
             ticks, (float(self.memory[jump.ERROR_DISTANCE]), float(self.memory[jump.ERROR_SPEED]))
         )
+
+
+class LedgeSimulator(JumpSimulator):
+    """A person on a ledge, and a ledge behind it: across a gap, or lower. ``affordance``: "gap" or "drop"."""
+
+    def __init__(self, run: RunSkill, clip: Clip, affordance: str) -> None:
+        super().__init__(run, clip)
+        self._affordance = affordance
+        self._ground, self._ledge = self.model.geom("ground").id, self.model.geom("ledge").id
+
+    def _make_model(self) -> mujoco.MjModel:
+        return stair_model(ledge=True)
+
+    def place(self, edge_x: float, size: float) -> tuple[float, float]:
+        landing = (edge_x + size, 0.0) if self._affordance == "gap" else (edge_x, -size)
+        super().place(*landing)
+        self.model.geom_pos[self._ledge] = [edge_x - _LENGTH / 2, 0.0, -_TOP]
+        self.model.geom_pos[self._ground, 2] = -_TOP
+        return landing
+
+    def clear_away(self) -> None:
+        super().clear_away()
+        self.model.geom_pos[self._ledge, 0] = -1000.0
+        self.model.geom_pos[self._ground, 2] = 0.0
 
 
 class _Meter:

@@ -180,13 +180,12 @@ def _unusable(site: Site) -> list[Fault]:
     """Obstacles within the range of a skill over which no link leads that the body can take."""
     words = Wording(site.character)
     obstacles, links = site.graph.obstacles, site.graph.links
-    used = np.unique(links.obstacle[site.ways])
+    used, sizes = np.unique(links.obstacle[site.ways]), obstacles.size
     faults = []
     for index in range(len(obstacles)):
         name = str(obstacles.affordance[index])
         low, high = site.character.skills.get(name, (1.0, 0.0))
-        size = obstacles.depth[index] if name == "gap" else obstacles.height[index]
-        if not low <= round(float(size), 4) <= high or index in used:
+        if not low <= round(float(sizes[index]), 4) <= high or index in used:
             continue
         text = words.unusable(obstacles, index)
         faults.append(

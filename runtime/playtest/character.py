@@ -6,7 +6,7 @@ from typing import Any
 
 import navmesh
 from locomotion import PERSON_RULES, Human
-from locomotion.clearing import HEIGHT_TOLERANCE
+from locomotion.clearing import skill_ranges
 from locomotion.quadruped import BODY_NAMES, load_body
 from runtime.errors import RuntimeInputError
 from runtime.rules import walk_rules
@@ -67,10 +67,7 @@ def character_of(body: str) -> Character:
     if body not in BODIES:
         raise RuntimeInputError(f"body {body!r}: valid: {', '.join(map(repr, BODIES))}")
     if body == "human":
-        skills = {
-            skill.affordance: (skill.heights[0] - HEIGHT_TOLERANCE, skill.heights[1] + HEIGHT_TOLERANCE)
-            for skill in Human().clearing
-        }
+        skills = skill_ranges(Human().clearing)
         return Character(body, PERSON_RULES["radius"], 3.3, walk_rules(["human"]), skills)
     if body == "walker":
         rules = walk_rules(["human"])

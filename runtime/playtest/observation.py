@@ -59,13 +59,13 @@ class Journey:
 def crossings(site: Site, runs: Sequence[BotRun], obstacles: Sequence[int]) -> list[Crossing]:
     """What bots made of each of ``obstacles`` (indices)."""
     found = site.graph.obstacles
+    sizes = found.size
     passings = [each for run in runs for each in run.passings]
     table = []
     for index in obstacles:
         mine = [each.cleared for each in passings if each.obstacle == index]
-        size = found.depth[index] if found.affordance[index] == "gap" else found.height[index]
         table.append(
-            Crossing(str(found.tag[index]), str(found.affordance[index]), round(float(size), 3),
+            Crossing(str(found.tag[index]), str(found.affordance[index]), round(float(sizes[index]), 3),
                      triple(found.position[index]), len(mine), sum(mine))
         )  # fmt: skip
     return table

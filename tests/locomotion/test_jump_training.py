@@ -9,7 +9,15 @@ from locomotion import jump
 from locomotion.errors import LocomotionError
 from locomotion.jump_skill import Jump, load_jump_skill, run_digest
 from locomotion.skill import load_run_skill
-from locomotion.training.jump import ENTRY_SPEED, JumpProblem, cost, first_guess, scales, train_jump
+from locomotion.training.jump import (
+    ENTRY_SPEED,
+    JumpProblem,
+    cost,
+    first_guess,
+    scales,
+    stair_jump,
+    train_jump,
+)
 from locomotion.training.jump_trial import JumpSimulator
 from locomotion.training.loop import Stage
 from navmesh.archive import write_archive
@@ -24,7 +32,7 @@ def problem():
     stage = Stage("trial", 1, 0.1, scales(True), options, 4)
     height, (x, reference) = 0.4, skill.at(0.4)
     reference = reference.reshape(jump.STEPS, jump.BINS, jump.SENSORS)
-    return JumpProblem(run, height, x, reference, states, [stage])
+    return JumpProblem(stair_jump(), run, height, x, reference, states, [stage])
 
 
 def test_run_ups_end_near_the_mark(problem):
@@ -42,7 +50,7 @@ def test_trials_repeat(problem):
 
 
 def test_a_jump_costs_less_than_running_into_the_stair(problem):
-    still = first_guess()
+    still = first_guess(stair_jump())
     still[jump.parameter_slices()["alpha"]] = 0.0
     state = problem.states[0]
     good = problem.outcome(problem.start(), 0, state.error, 2.0)

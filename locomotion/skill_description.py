@@ -1,0 +1,106 @@
+"""Skills that are described by a file: a jump over obstacles of a kind, by a clip, the sizes to learn, an
+objective and what was learned. How to make one is in docs/own-skills.md.
+
+    skill = load_described("leap.yaml", load_run_skill())
+    human = Human(ground, clearing=[*learned_skills(run), skill])
+"""
+
+import os
+from itertools import pairwise
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import yaml
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
+
+from locomotion.clearing import ClearingSkill
+from locomotion.clip import Clip, load_clip
+from locomotion.errors import LocomotionError
+from locomotion.jump_skill import Jump, load_jump_skill
+from locomotion.skill import RunSkill
+
+__all__ = ["SkillDescription", "load_described", "load_description"]
+
+
+def _increase(sizes: list[float]) -> list[float]:
+    if any(later <= earlier for earlier, later in pairwise(sizes)):
+        raise ValueError("sizes must increase")
+    return sizes
+
+
+_Size = Annotated[float, Field(gt=0.0, le=10.0)]
+_Pace = Annotated[float, Field(gt=0.0, le=2.0)]
+
+
+class SkillDescription(BaseModel):
+    """What a description says; paths are relative to its file.
+
+    name: what commands and files call it. affordance: the kind of obstacle that it clears. sizes: heights [m]
+    (for a gap, widths) that are learned one after the other. least: [m] down to which what is learned first
+    serves; None: the first of the sizes. entry: speed [m/s] of the last step before it. clip: what is played
+    over take-off and landing. objective: weights of the terms of `locomotion.training.jump.WEIGHTS` that are
+    to differ from those. learned: what `surefoot train` writes.
+
+    Where learning starts: marks: distances [m] from the edge at which the take-off step begins and the
+    take-off foot stands. pace: of the four steps relative to the run's. share: of the clip, the rest is the
+    run's.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    name: Annotated[str, Field(pattern=r"^[a-z][a-z0-9-]*$")]
+    affordance: Literal["jump", "drop", "gap"]
+    sizes: Annotated[list[_Size], Field(min_length=1), AfterValidator(_increase)]
+    least: _Size | None = None
+    entry: Annotated[float, Field(ge=1.0, le=6.0)] = 3.3
+    marks: tuple[_Size, _Size] = (1.95, 0.95)
+    pace: tuple[_Pace, _Pace, _Pace, _Pace] = (1.0, 0.75, 1.0, 1.0)
+    share: Annotated[float, Field(ge=0.0, le=1.0)] = 1.0
+    clip: Path
+    objective: dict[str, Annotated[float, Field(ge=0.0)]] = {}
+    learned: Path
+
+    @property
+    def kind(self) -> str:
+        """What its learned file says that it is."""
+        return f"{self.name} skill"
+
+    def load_clip(self) -> Clip:
+        """What is played."""
+        return load_clip(self.clip)
+
+
+def load_description(path: str | os.PathLike[str]) -> SkillDescription:
+    """Read and check a description; `LocomotionError` names the file, the key and what would be right."""
+    source = Path(path)
+    try:
+        values: Any = yaml.safe_load(source.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise LocomotionError(f"{source}: {error.strerror}") from error
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        raise LocomotionError(f"{source}: not YAML: {error}") from error
+    if not isinstance(values, dict):
+        raise LocomotionError(f"{source}: expected keys and values, such as name: leap")
+    try:
+        description = SkillDescription.model_validate(values)
+    except ValidationError as error:
+        faults = "; ".join(f"{'.'.join(map(str, e['loc']))}: {e['msg']}" for e in error.errors())
+        valid = ", ".join(SkillDescription.model_fields)
+        raise LocomotionError(f"{source}: {faults}; keys: {valid}") from error
+    if description.least is not None and description.least > description.sizes[0]:
+        raise LocomotionError(
+            f"{source}: least: {description.least:g} m is above the first of the sizes, "
+            f"{description.sizes[0]:g} m"
+        )
+    folder = source.parent
+    return description.model_copy(
+        update={"clip": folder / description.clip, "learned": folder / description.learned}
+    )
+
+
+def load_described(path: str | os.PathLike[str], run: RunSkill) -> ClearingSkill:
+    """A described skill that has been learned, on top of ``run``. `LocomotionError` if something is wrong
+    with its files."""
+    description = load_description(path)
+    learned = load_jump_skill(description.learned, description.kind)
+    return Jump(learned, run, description.affordance, description.load_clip())

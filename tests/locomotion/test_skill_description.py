@@ -1,0 +1,175 @@
+"""Skills of one's own: what a description may say, that one is learned and used, and what is refused."""
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+import navmesh
+from locomotion import Human, LocomotionError, ObstacleAhead, load_run_skill
+from locomotion.clearing import skill_for, skill_ranges
+from locomotion.library import LEAP, learned_skills, skills_digest
+from locomotion.skill_description import load_described, load_description
+from locomotion.skill_family import SkillFamily
+from locomotion.training.jump import train_described
+from runtime import World
+from runtime.courses import make_course, run_course
+from runtime.errors import RuntimeInputError
+
+
+@pytest.fixture
+def own(tmp_path):
+    """A folder with a description of one's own: the leap's, over less."""
+    values = yaml.safe_load(LEAP.read_text())
+    description = load_description(LEAP)
+    shutil.copy(description.clip, tmp_path / "clip.yaml")
+    shutil.copy(description.learned, tmp_path / "hop.npz")
+
+    def write(**changes):
+        said = {**values, "clip": "clip.yaml", "learned": "hop.npz", **changes}
+        path = tmp_path / "hop.yaml"
+        path.write_text(yaml.safe_dump({key: value for key, value in said.items() if value is not None}))
+        return path
+
+    return write
+
+
+def obstacle(affordance, height, depth=0.0):
+    return ObstacleAhead(5.0, affordance, height, np.zeros(3), np.array([-1.0, 0.0, 0.0]), depth)
+
+
+def test_a_gap_is_measured_by_its_width():
+    skill = skill_for(learned_skills(load_run_skill()), obstacle("gap", 0.1, 0.8))
+    assert skill is not None and skill.affordance == "gap"
+    assert skill_for([skill], obstacle("gap", 0.8, 9.0)) is None
+    assert obstacle("jump", 0.4, 9.0).size == 0.4
+
+
+def test_what_a_description_leaves_out_is_as_of_a_jump(own):
+    gone = dict.fromkeys(("least", "entry", "marks", "pace", "share", "objective"))
+    description = load_description(own(**gone))
+    assert (description.least, description.entry, description.marks) == (None, 3.3, (1.95, 0.95))
+    assert description.objective == {} and description.clip.is_file()
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"heights": [1.0]}, "heights: .*keys: name, affordance, sizes"),
+        ({"name": "Big Leap"}, "name: "),
+        ({"affordance": "vault"}, "affordance: .*'jump', 'drop' or 'gap'"),
+        ({"sizes": [1.0, 0.8]}, "sizes: .*must increase"),
+        ({"sizes": []}, "sizes: "),
+        ({"sizes": [float("nan")]}, "sizes"),
+        ({"least": 3.0}, "least: 3 m is above the first of the sizes, 1 m"),
+        ({"share": 1.5}, "share: "),
+        ({"clip": None}, "clip: "),
+    ],
+)
+def test_a_bad_description_is_refused_by_key(own, changes, message):
+    path = own(**changes)
+    with pytest.raises(LocomotionError, match=f"hop.yaml: .*{message}"):
+        load_description(path)
+
+
+@pytest.mark.parametrize("content", ["- 1", "a: [", "", "\x00"])
+def test_what_is_no_description_is_refused(tmp_path, content):
+    path = tmp_path / "bad.yaml"
+    path.write_text(content)
+    with pytest.raises(LocomotionError, match=r"bad\.yaml"):
+        load_description(path)
+
+
+def test_files_that_are_missing_or_of_another_skill_are_named(own, tmp_path):
+    run = load_run_skill()
+    with pytest.raises(LocomotionError, match=r"no\.npz"):
+        load_described(own(learned="no.npz"), run)
+    with pytest.raises(LocomotionError, match=r"no\.yaml"):
+        load_described(own(clip="no.yaml"), run)
+    with pytest.raises(LocomotionError, match="skill"):
+        load_described(own(name="hop"), run)  # the file says that it is of the leap
+    with pytest.raises(LocomotionError, match=r"missing\.yaml"):
+        load_described(tmp_path / "missing.yaml", run)
+
+
+def test_an_unknown_term_of_the_objective_is_refused_before_learning(own, tmp_path):
+    with pytest.raises(LocomotionError, match="objective: 'style': valid terms: time, cleared"):
+        train_described(own(objective={"style": 1.0}), out=tmp_path / "out.npz")
+    assert not (tmp_path / "out.npz").exists()
+
+
+def shifted(own, tmp_path, heights):
+    """One's own leap over other widths, by the same laws."""
+    family = load_described(own(), load_run_skill())._family
+    SkillFamily(
+        "leap skill", np.array(heights), family.table[: len(heights)], family.references[: len(heights)],
+        family.stride, family.run,
+    ).save(tmp_path / "hop.npz")  # fmt: skip
+    return own()
+
+
+def test_ranges_of_skills_for_the_same_join_or_are_refused(own, tmp_path):
+    run = load_run_skill()
+    most = skill_ranges(learned_skills(run))["gap"][1]
+    joined = learned_skills(run, [shifted(own, tmp_path, (most - 0.1, most + 0.4))])
+    assert skill_ranges(joined)["gap"][1] == pytest.approx(most + 0.42)
+    assert skill_for(joined, obstacle("gap", 0.0, most - 0.05)) is joined[0]  # one's own comes first
+    with pytest.raises(LocomotionError, match="skills for 'gap': nothing is learned from"):
+        learned_skills(run, [shifted(own, tmp_path, (most + 0.5, most + 0.6))])
+
+
+@pytest.fixture(scope="module")
+def learned(tmp_path_factory):
+    """A hop over a narrow gap, learned with hardly any effort."""
+    folder = tmp_path_factory.mktemp("own")
+    shutil.copy(load_description(LEAP).clip, folder / "clip.yaml")
+    path = folder / "hop.yaml"
+    path.write_text(
+        "{name: hop, affordance: gap, sizes: [0.6], least: 0.4, entry: 3.5, clip: clip.yaml,"
+        " marks: [1.3, 0.25], pace: [1, 0.8, 1, 1], share: 0.5, learned: hop.npz}"
+    )
+    train_described(path, workers=1, effort=0.01, on_progress=lambda progress: None)
+    return path
+
+
+def test_a_skill_of_ones_own_is_learned_and_used(learned):
+    run = load_run_skill()
+    skill = load_described(learned, run)
+    assert skill.affordance == "gap" and skill.heights == (0.4, 0.6)
+    held = 0
+    for distance in (11.0, 13.0, 15.5, 18.0):
+        course = make_course([("gap", 0.5, 0.0)], [distance])
+        held += run_course(course, [skill]).ended == "arrived"
+    assert held >= 3
+
+
+def test_a_world_gives_its_people_the_skills(learned):
+    course = make_course([("gap", 0.5, 0.0)], [10.0])
+    terrain = navmesh.Terrain.from_arrays(course.vertices, course.faces)
+    world = World(terrain, skills=[learned])
+    agent = world.spawn("human", (0.0, 0.0, 0.0))
+    hop = agent.driver.human.clearing[0]
+    assert (hop.affordance, hop.heights) == ("gap", (0.4, 0.6))
+    with pytest.raises(RuntimeInputError, match="other skills"):
+        World(terrain).restore(world.save())
+    twin = World(terrain, skills=[learned])
+    twin.restore(world.save())
+    assert twin.state_hash() == world.state_hash()
+    with pytest.raises(RuntimeInputError, match=r"nowhere\.yaml"):
+        World(terrain, skills=[Path("nowhere.yaml")])
+
+
+def test_the_digest_tells_skills_of_ones_own(learned):
+    assert skills_digest((learned,)) != skills_digest()
+
+
+def test_the_package_leaps_over_gaps():
+    low, high = skill_ranges(Human().clearing)["gap"]
+    arrived = 0
+    for width in (low + 0.02, 0.8, 0.5 * (low + high), high - 0.02):
+        for distance in (11.3, 14.7, 18.2):
+            run = run_course(make_course([("gap", width, 0.0)], [distance]))
+            arrived += run.ended == "arrived" and run.passages[0].cleared
+    assert arrived >= 11

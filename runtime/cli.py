@@ -294,13 +294,16 @@ def evaluate(
     skill: Annotated[str, SkillArgument],
     trials: Annotated[int, typer.Option(min=1, help="How many trials of each test.")] = 20,
     seed: Annotated[int, typer.Option(min=0, help="Of the trials.")] = 0,
+    picture: Annotated[
+        Path | None, typer.Option(help="File for a picture of what is covered and what is not (.png).")
+    ] = None,
     as_json: JsonOption = False,
 ) -> None:
     """Try a learned skill from many starts and say how often it holds."""
     _commands()
     from runtime.skill_commands import evaluate_skill
 
-    _finish(evaluate_skill(skill, trials, seed), as_json)
+    _finish(evaluate_skill(skill, trials, seed, picture), as_json)
 
 
 @app.command()

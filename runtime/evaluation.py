@@ -7,7 +7,7 @@ skill, a level made of triangles. Velocities at the start have noise of 0.02 m/s
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -47,14 +47,15 @@ _FAST, _RUNS_ON = 3.1, 10.0  # [m/s] of a step to most obstacles; [m] that it mu
 
 @dataclass(frozen=True)
 class Attempt:
-    """One trial: of which test, what was tried, how it ended, whether that is a success, and figures to take
-    the mean of."""
+    """One trial: of which test, what was tried, how it ended, whether that is a success, figures to take the
+    mean of, and where it lies in the plane of what was tried, by the names of its axes."""
 
     test: str
     what: str
     status: str
     held: bool
     figures: dict[str, float] = field(default_factory=dict)
+    at: dict[str, float] = field(default_factory=dict)
 
 
 def evaluate_clearing(affordance: str, trials: int, seed: int, progress: Progress) -> list[Attempt]:
@@ -99,10 +100,12 @@ def _evaluate(
 
     def attempt(test: str, height: float, distance: float) -> Attempt:
         what = f"{height:.2f} m from {distance:.1f} m"
+        at = {"run-up [m]": distance, f"{'width' if affordance == 'gap' else 'height'} [m]": height}
         if not any(each.heights[0] - 1e-9 <= height <= each.heights[1] + 1e-9 for each in skills):
-            return Attempt(test, what, "not learned for this height", False)
+            return Attempt(test, what, "not learned for this height", False, at=at)
         course = make_course([(affordance, height, WALL)], [distance])
-        return _judged(test, what, affordance, run_course(course, clearing, start_noise(seed, distance)))
+        run = run_course(course, clearing, start_noise(seed, distance))
+        return replace(_judged(test, what, affordance, run), at=at)
 
     todo = [(test, *start) for test, starts in tests.items() for start in starts]
     return _tried(affordance, [lambda each=each: attempt(*each) for each in todo], progress)
@@ -172,7 +175,8 @@ def _run_turning(simulator: Simulator, rng: np.random.Generator) -> Attempt:
         }
     what = f"{math.degrees(turn):+.1f} °/step at {speed:.2f} m/s"
     test = f"±6 °/step at 2 to 5 m/s, {CYCLES} cycles"
-    return Attempt(test, what, "ran" if survived else "fell", survived, figures)
+    at = {"speed [m/s]": speed, "turn [°/step]": math.degrees(turn)}
+    return Attempt(test, what, "ran" if survived else "fell", survived, figures, at)
 
 
 def _run_pushed(rng: np.random.Generator) -> Attempt:

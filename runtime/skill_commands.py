@@ -83,8 +83,11 @@ def train_library(seed: int, workers: int, effort: float) -> None:
     print(f"{'in all':12} {sum(minutes.values()):7.1f} core-minutes")
 
 
-def evaluate_skill(skill: str, trials: int, seed: int) -> Result:
-    """Try ``skill``; holds when at least nine of ten trials of each test do."""
+def evaluate_skill(skill: str, trials: int, seed: int, picture: Path | None = None) -> Result:
+    """Try ``skill``; holds when at least nine of ten trials of each test do. ``picture``: where to draw which
+    of what was tried is covered."""
+    if picture is not None:
+        check_output(picture)
     from runtime.evaluation import (
         evaluate_clearing,
         evaluate_described,
@@ -102,6 +105,10 @@ def evaluate_skill(skill: str, trials: int, seed: int) -> Result:
         "leap": partial(evaluate_clearing, "gap"),
     }  # fmt: skip
     attempts = (evaluate.get(skill) or partial(evaluate_described, skill))(trials, seed, ready())
+    if picture is not None:
+        from runtime.coverage_plot import plot_coverage
+
+        plot_coverage(skill, attempts, picture)
     tests = [
         {
             "test": test,

@@ -29,6 +29,7 @@ from locomotion.scramble_layout import (
     ROLL_SIDE,
     ROLLING,
     SEEN_COM,
+    SEEN_FORCES,
     SEEN_LIMBS,
     SEEN_TURN,
     SEEN_VELOCITY,
@@ -53,6 +54,8 @@ _GATHER_TIME, _SWING_TIME, _FOLLOW_TIME, _REACH_TIME, _SETTLE_TIME, _TUCK_TIME, 
     1.2,
 )  # [s]
 _ROLLS, _SPREAD_TIME = 0.4, 0.3  # slope on which a limp body rolls down; [s]
+_STEADY, _BEARS, _STEADY_MOST = 0.15, 20.0, 8.0  # [m/s], [N] of each limb: it has come to rest on them; [s]
+_NEARLY = 0.98  # share of its height to which it comes before that
 _SUNK = 0.3  # [m] of the centre of mass above a foot, below which it does not rise any more
 _ON_FRONT, _OFF_FRONT = (
     -0.5,
@@ -218,12 +221,18 @@ def bear_on(memory, risen):
 
 
 @njit(cache=True)
-def rise_on(ground, memory, qpos):
+def rise_on(ground, memory, qpos, to_stand):
     """Every tick of a body that hands or feet bear, after what was observed: the trunk comes up; a body that
-    has tipped over, or sunk while it rose, begins anew."""
+    has tipped over, or sunk while it rose, begins anew. One that goes on on hands and feet, and does not rise
+    ``to_stand``, first comes to rest on all four: else every third falls again at once."""
     if memory[MODE] == BORNE:
         memory[MODE_CLOCK] += CONTROL_DT
-        memory[RISEN] = clamp(memory[RISEN] + CONTROL_DT / _RISE_TIME, 0.0, 1.0)
+        v = memory[SEEN_VELOCITY]
+        steady = memory[PHASE] == ALL_DOWN and math.hypot(v[0], v[1]) < _STEADY
+        for k in range(4):
+            steady = steady and memory[SEEN_FORCES.start + k] > _BEARS
+        most = 1.0 if to_stand or steady or memory[MODE_CLOCK] > _STEADY_MOST else _NEARLY
+        memory[RISEN] = max(memory[RISEN], min(memory[RISEN] + CONTROL_DT / _RISE_TIME, most))
         if lies_on_front(ground, memory)[0] > _OFF_FRONT:
             begin_getting_up(memory, qpos)
     elif memory[SEEN_COM.start + 2] - memory[SEEN_LIMBS.start + 8] < _SUNK:

@@ -125,7 +125,7 @@ class OnAllFours:
         memory = self.memory
         observe_scramble(self._index, self._parts, data, memory)
         if memory[MODE] >= BORNE:
-            rise_on(lookup, memory, data.qpos)
+            rise_on(lookup, memory, data.qpos, self.gentle > 0.0)
         return bool(memory[MODE] == RISING and stands(memory))
 
     def save_state(self) -> NDArray[np.float64]:

@@ -218,22 +218,27 @@ class Agent:
         """(k, 3) [m]: the goals that are still before it."""
         return np.array(self._errand.goals[-self._driver.goals_left :])
 
-    def _goes_another_way(self) -> bool:
-        """Whether it finds another way to its goals from where it is, and takes it."""
-        if not self._errand.goals:
+    def _goes_another_way(self, on_foot: bool = False) -> bool:
+        """Whether a person finds another way to its goals from where it is, and takes it; ``on_foot``: rather
+        one over no obstacle."""
+        if not self._errand.goals or not isinstance(self._driver, HumanDriver):
             return False
+        goals, speed, facing = self._goals_left, self._errand.speed, self._errand.facing
         try:
-            plan = self._driver.go_to(self._goals_left, self._errand.speed, self._errand.facing)
+            if on_foot:
+                plan = self._driver.go_on_foot(goals, speed)
+            else:
+                plan = self._driver.go_to(goals, speed, facing)
         except (NoWay, RuntimeInputError, LocomotionError):
             return False
         self._depart(plan)
         return True
 
     def _tries_again(self) -> bool:
-        """Whether one that is stuck or lost takes another way."""
+        """Whether one that is stuck or lost takes another way, if it can round what it has not cleared."""
         attempts = self._errand.attempts + 1
         self._errand = replace(self._errand, attempts=attempts)
-        return attempts <= _ATTEMPTS and self._goes_another_way()
+        return attempts <= _ATTEMPTS and self._goes_another_way(on_foot=True)
 
     @property
     def _carried_off(self) -> bool:

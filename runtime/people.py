@@ -17,7 +17,7 @@ from runtime.drivers import PLANS_KEPT, Driver, Follower, radius_of, recall
 from runtime.errors import RuntimeInputError
 from runtime.figure import Figure
 from runtime.level import Level
-from runtime.planning import Plan, make_plan, way_holds
+from runtime.planning import NoWay, Plan, make_plan, way_holds
 
 __all__ = ["HumanDriver", "People"]
 
@@ -126,17 +126,30 @@ class HumanDriver:
         return transforms
 
     def plan(self, goals: np.ndarray) -> Plan:
+        return self._plan(goals, self.skills)
+
+    def _plan(self, goals: np.ndarray, skills: Mapping[str, tuple[float, float]]) -> Plan:
         velocity = self.human.velocity[:2]
         moving = velocity if np.linalg.norm(velocity) > 0.5 else None
         radius = PERSON_RULES["radius"]
-        return make_plan(self._level.graph, self.position, list(goals), radius, self.skills, moving)
+        return make_plan(self._level.graph, self.position, list(goals), radius, skills, moving)
 
     def go_to(self, goals: np.ndarray, speed: float, facing: float | None) -> Plan:
         if facing is not None:
             raise RuntimeInputError("a human cannot turn to a facing at its goal yet; leave it out")
         if self.human.status == "fallen":
             raise RuntimeInputError("it has fallen and cannot go anywhere")
-        plan = self.plan(goals)
+        return self._take(self.plan(goals), speed)
+
+    def go_on_foot(self, goals: np.ndarray, speed: float) -> Plan:
+        """As `go_to`, over no obstacle if there is such a way."""
+        try:
+            plan = self._plan(goals, {})
+        except NoWay:
+            plan = self.plan(goals)
+        return self._take(plan, speed)
+
+    def _take(self, plan: Plan, speed: float) -> Plan:
         self.human.follow(plan.points, speed, plan.obstacles)
         self.plans.append(plan)
         return plan

@@ -1,5 +1,7 @@
 """People who fall, slide off their way or cannot go on: they look for another way from where they are."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -9,6 +11,7 @@ from runtime import Arrived, Departed, GotUp, Lost, Stuck, World
 from runtime.agent import Agent
 from runtime.rules import person_walk_rules
 
+COURTYARD = Path(__file__).parents[2] / "examples" / "levels" / "courtyard.obj"
 GOAL = (16.0, 2.0, 0.0)
 
 
@@ -18,6 +21,11 @@ def yard() -> navmesh.NodeGraph:
     corners = np.array([[-2.0, -6.0, 0.0], [18.0, -6.0, 0.0], [18.0, 6.0, 0.0], [-2.0, 6.0, 0.0]])
     terrain = navmesh.Terrain.from_arrays(corners, np.array([[0, 1, 2], [0, 2, 3]]))
     return navmesh.NodeGraph.build(terrain, person_walk_rules())
+
+
+@pytest.fixture(scope="module")
+def courtyard() -> navmesh.NodeGraph:
+    return navmesh.NodeGraph.build(navmesh.Terrain.load(COURTYARD, up="z"), person_walk_rules())
 
 
 def _on_the_way(yard: navmesh.NodeGraph, begun: float = 3.0) -> tuple[World, Agent]:
@@ -91,6 +99,25 @@ def test_where_it_cannot_go_on_it_tries_again_a_few_times(yard, status, what, to
     agent.human.events.append(what)
     world.step(0.01)
     assert isinstance(_until_it_stops(world, agent)[-1], Arrived)
+
+
+def test_stuck_before_an_obstacle_it_goes_round(courtyard):
+    world, rng = World(courtyard), np.random.default_rng(2)
+    places = courtyard.positions[courtyard.radii > 0.5]
+    while True:
+        start, goal = places[rng.choice(len(places), 2)]
+        on_foot = courtyard.find_path(start, goal, radius=0.3)
+        if on_foot.status == "complete" and not on_foot.links and on_foot.length < 40.0:
+            agent = world.spawn("human", start)
+            if agent.plan(goal).skills:
+                break
+            agent.remove()
+    agent.go_to(goal, speed=3.0)
+    world.step(1.0)
+    agent.human.status = "stuck"
+    agent.human.events.append(GotStuck(0.0, (0.0, 0.0, 0.0)))
+    world.step(0.1)
+    assert agent.moving and agent.plans[0].skills and not agent.plans[-1].skills
 
 
 def test_a_person_that_was_never_told_a_goal_stays_stuck(yard):

@@ -9,6 +9,7 @@ speed planner and skills as in a mission.
 
 import argparse
 import json
+import time
 from collections import Counter
 from pathlib import Path
 
@@ -40,21 +41,24 @@ def main() -> None:
     parser.add_argument("--kinds", nargs="+", default=["jump", "vault", "drop"])
     parser.add_argument("--json", type=Path, help="file to write")
     options = parser.parse_args()
-    rows, last, met = [], Counter(), Counter()
+    rows, last, met, began = [], Counter(), Counter(), time.process_time()
     for number in range(options.courses):
         course = draw_course(np.random.default_rng([5, number]), options.obstacles, options.kinds)
         run = run_course(course, noise=start_noise(5, number))
         kinds = [obstacle.affordance for obstacle in course.obstacles]
-        rows.append({"kinds": kinds, "ended": run.ended, "cleared": sum(p.cleared for p in run.passages)})
+        cleared = sum(p.cleared for p in run.passages)
+        rows.append({"kinds": kinds, "ended": run.ended, "cleared": cleared, "seconds": run.seconds})
         met.update(kinds[: len(run.passages)])
         if run.ended != "arrived":
             at = kinds[len(run.passages) - 1] if run.passages else "no obstacle yet"
             last[f"{run.ended}, {at}"] += 1
         if (number + 1) % 20 == 0:
-            print(f"{number + 1} courses", flush=True)
+            print(f"{number + 1} courses, {sum(row['ended'] == 'arrived' for row in rows)} whole", flush=True)
     whole = np.mean([row["ended"] == "arrived" for row in rows])
     print(f"{100 * whole:.1f} % of {len(rows)} courses of {options.obstacles} obstacles whole;"
           f" {np.mean([row['cleared'] for row in rows]):.1f} cleared on average")  # fmt: skip
+    seconds, cpu = sum(row["seconds"] for row in rows), time.process_time() - began
+    print(f"{seconds / len(rows):.0f} s a course; {seconds / cpu:.0f} times real time, rehearsals included")
     print("taken off for:", dict(met))
     print("ended (where, last obstacle):", dict(last.most_common()))
     if options.json:

@@ -15,9 +15,7 @@ it gets up, if it is told to (`locomotion.on_all_fours`).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from functools import partial
-from typing import TypeVar
+from collections.abc import Sequence
 
 import mujoco
 import numpy as np
@@ -30,7 +28,6 @@ from locomotion.errors import LocomotionError
 from locomotion.events import (
     Arrived,
     Cleared,
-    Event,
     Fell,
     GotStuck,
     GotUp,
@@ -39,29 +36,20 @@ from locomotion.events import (
     StrayedFromPath,
     TookOff,
 )  # fmt: skip
-from locomotion.foreseen import Foreseen
-from locomotion.gaits import PERSON_RULES, run_entry_speed
+from locomotion.gaits import PERSON_RULES
 from locomotion.giving_way import Course
 from locomotion.ground import Ground
 from locomotion.hand_hold import let_go_both
 from locomotion.human_state import CLEARING, MOVING, HumanState, Status
 from locomotion.library import learned_skills
-from locomotion.moving_person import MovingPerson
 from locomotion.obstacle_run import TakeOff
 from locomotion.on_all_fours import OnAllFours
 from locomotion.on_feet import OnFeet
-from locomotion.path_tracking import RUN_UP, SLOPE_HERE, make_path
+from locomotion.path_tracking import SLOPE_HERE, make_path
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK
 from locomotion.person_course import course_on_path
-from locomotion.rehearsal import (
-    REHEARSALS,
-    RUN_UPS,
-    SETTING_OFF,
-    SLOWINGS,
-    clears,
-    first_good,
-    walks_on,
-)
+from locomotion.rehearsal import REHEARSALS
+from locomotion.rehearsing_person import RehearsingPerson
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill, load_run_skill
 from locomotion.slow_down import SlowDownSkill, load_slow_down_skill
@@ -82,15 +70,11 @@ _WALK_ARRIVAL = 0.15  # [m] before the end of its path at which a walking person
 _CHANGE = 0.01  # [m] by which the ground under a person at rest may change unnoticed
 _PATIENCE = 0.9  # of the time that it gives way does not count as being stuck
 _LONGEST_DOWN = 12000  # ticks after which a body that has not got up stays down
-_TOO_NEAR = 2.0  # [m] before an obstacle up to which a walking person comes
-_HEMMED_IN = 9.0  # [m] before an obstacle in which it may not come to a walk
 _CLIMBS_BACK = 6.0  # [m] beside its path, where it has slid to, from which it climbs back
 _LOOKS = 20  # ticks after which one on hands and feet looks again whether it can walk on
 
-_T = TypeVar("_T")
 
-
-class Human(MovingPerson):
+class Human(RehearsingPerson):
     """A person under physics. `tick` advances it by 10 ms.
 
     Attributes:
@@ -125,10 +109,8 @@ class Human(MovingPerson):
             load_slow_down_skill() if slow_down is None else slow_down,
             load_speed_up_skill() if speed_up is None else speed_up,
         )
-        super().__init__(ground, on_feet, learned_skills(run) if clearing is None else clearing)
-        self._rehearsals, self.gets_up = rehearsals, gets_up
-        self._understudy: Human | None = None
-        self._foreseen = Foreseen()
+        super().__init__(ground, on_feet, learned_skills(run) if clearing is None else clearing, rehearsals)
+        self.gets_up = gets_up
 
     # --- what it is told
     def reset(self, position: ArrayLike, yaw: float, speed: float = 0.0) -> None:
@@ -331,66 +313,6 @@ class Human(MovingPerson):
         elif self.status == "scrambling":
             self.status = "walking"
 
-    # --- from one gait to the other
-    def _run_if_due(self) -> None:
-        """Go over from walking to running, just after a foot was put down."""
-        if self.status not in MOVING or not self.way.runs or self.way.pace < 1.0:
-            return
-        obstacles, arc = self._obstacle_run, self.arc_length
-        near = obstacles.comes_within(arc, _TOO_NEAR)
-        if (near or obstacles.balked) and self._go_back():
-            return
-        if near:
-            self._end("stuck", GotStuck(self.time, self._point()))
-            return
-        speed = run_entry_speed(self.on_feet.walk, self._control, float(self._command[0]))
-        if speed is None or self._go_back():
-            return
-        if not obstacles.comes_within(arc, RUN_UP):
-            self.run(False, speed)
-            return
-        choice, went = self._rehearse(SETTING_OFF, partial(Human.set_off, speed=speed), clears)
-        if went > 0.0:
-            self.set_off(choice, speed)
-
-    def set_off(self, choice: tuple[bool, Sequence[float]], speed: float) -> None:
-        """Begin to run towards the obstacle ahead, from ``speed`` [m/s], in one of the ways of
-        `rehearsal.SETTING_OFF`."""
-        quickly, run_up = choice
-        self.run(quickly, speed)
-        self._obstacle_run.set_off(run_up, True)
-
-    def _go_back(self) -> bool:
-        """Whether it turns round, for a longer run-up to the obstacle ahead."""
-        way = self.way
-        to = None if way.interrupted is not None else self._obstacle_run.turning_point(way.arc)
-        if way.path is None or to is None:
-            return False
-        self._obstacle_run.go_back()
-        way.go_back(to, self.on_feet.walk_limits, self._ticks)
-        return True
-
-    def run(self, quickly: bool, speed: float) -> None:
-        """Go over from walking to running, from ``speed`` [m/s]."""
-        self.on_feet.run(self._control, quickly, speed)
-        self.status = "running"
-
-    def _walk_if_due(self) -> None:
-        """Where the path is not run, slow down, and go over to walking just after a foot was put down."""
-        due = self.status not in MOVING or not self.way.runs or self.way.pace == 0.0
-        if due and self.on_feet.slowing == 0.0:
-            future: list[HumanState] = []
-            choice, went = self._rehearse(SLOWINGS, Human.slow_down, partial(walks_on, seen=future))
-            self.slow_down(choice)
-            if went > 0.0:
-                self._foreseen.expect(self, future)
-        if self.on_feet.walk_if_slow(self.index, self._control, self.data) and self.status in MOVING:
-            self.status = "walking"
-
-    def slow_down(self, deceleration: float) -> None:
-        """Begin to slow down from the run to a walk [m/s^2]."""
-        self.on_feet.slowing = deceleration
-
     def _clear(self) -> None:
         """After the run's tick: what has to be done for the obstacle ahead."""
         happened = self._obstacle_run.tick(self.arc_length, self._control, self.data)
@@ -410,54 +332,12 @@ class Human(MovingPerson):
                 rise_walking(self.on_feet.walk, self._control, self.yaw)
             self.events.append(Cleared(self.time, self._point(), happened.affordance, happened.size))
 
-    # --- trying out
-    def _rehearse_take_off(self) -> None:
-        """Just after a step of a run-up has begun: choose among its variations, or break it off."""
-        if not (self._rehearsals and self.begins_run_up):
-            return
-        choice, went = self._rehearse(RUN_UPS, Human.vary_run_up, clears)
-        self._obstacle_run.vary(choice, self._control, went > 0.0)
-        if went == 0.0:
-            future: list[HumanState] = []
-            deceleration, went = self._rehearse(SLOWINGS, Human.balk, partial(walks_on, seen=future))
-            if went > 0.0:
-                self.balk(deceleration)
-                self._foreseen.expect(self, future)
-
-    @property
-    def begins_run_up(self) -> bool:
-        """Whether a step of a run-up has just begun, and it was not rehearsed yet."""
-        return self.on_feet.runs and self._obstacle_run.to_rehearse(self._control)
-
-    @property
-    def hemmed_in(self) -> bool:
-        """Whether the next obstacle may be too near to slow down before it."""
-        return self._obstacle_run.comes_within(self.arc_length, _HEMMED_IN)
-
-    def vary_run_up(self, choice: Sequence[float]) -> None:
-        """Plan the step of the run-up that has just begun with a mark that is farther from the obstacle [m],
-        and an entry that is faster [m/s]."""
-        self._obstacle_run.vary(choice, self._control, True)
-
-    def balk(self, deceleration: float) -> None:
-        """Break the run-up off, slowing down [m/s^2]."""
-        self._obstacle_run.balk()
-        self.slow_down(deceleration)
-
-    def _rehearse(
-        self, choices: Sequence[_T], choose: Callable[[Human, _T], None], goes_well: Callable[[Human], float]
-    ) -> tuple[_T, float]:
-        """The best of ``choices`` and how well it went, see `rehearsal.first_good`; without rehearsals the
-        first is taken to go well."""
-        if not self._rehearsals:
-            return choices[0], 1.0
-        if self._understudy is None or self._understudy.model is not self.model:
-            feet = self.on_feet
-            self._understudy = Human(
-                self.ground, feet.run_skill, self.clearing, feet.walk_skill, feet.slow_down_skill, 0,
-                speed_up=feet.speed_up_skill,
-            )  # fmt: skip
-        return first_good(self, self._understudy, choices[: self._rehearsals], choose, goes_well)
+    def _double(self) -> Human:
+        feet = self.on_feet
+        return Human(
+            self.ground, feet.run_skill, self.clearing, feet.walk_skill, feet.slow_down_skill, 0,
+            speed_up=feet.speed_up_skill,
+        )  # fmt: skip
 
     def _notice(self) -> None:
         """Arrived, lost, stuck?"""
@@ -479,8 +359,3 @@ class Human(MovingPerson):
             way.excuse(_PATIENCE)
         elif way.without_headway(self._ticks) > STUCK_TIME:
             self._end("stuck", GotStuck(self.time, self._point()))
-
-    def _end(self, status: Status, event: Event) -> None:
-        self.status = status
-        self._ended_at = self._ticks
-        self.events.append(event)

@@ -171,3 +171,8 @@ class MovingPerson(SimulatedPerson):
         self._command[:] = yaw, speed, 0.0, 0.0
         self.on_feet.slowing = 0.0
         self.way.memory[:] = new_track()
+
+    def _end(self, status: Status, event: Event) -> None:
+        self.status = status
+        self._ended_at = self._ticks
+        self.events.append(event)

@@ -70,7 +70,7 @@ class ObstacleRun:
     def give_up(self) -> None:
         """The body has fallen: what was being cleared is not, and there is no run-up."""
         self._skill = None
-        self._plan[_PLANNED:] = 0.0
+        self.balk()
 
     def comes_within(self, arc: float, distance: float) -> bool:
         """Whether the next obstacle ahead of arc length ``arc`` is nearer than ``distance`` [m]."""

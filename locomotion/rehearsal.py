@@ -22,13 +22,24 @@ from locomotion.person import CONTROL_DT
 
 if TYPE_CHECKING:
     from locomotion.body import Human
+    from locomotion.rehearsing_person import RehearsingPerson
 
-__all__ = ["REHEARSALS", "RUN_UPS", "SETTING_OFF", "SLOWINGS", "clears", "first_good", "walks_on"]
+__all__ = [
+    "BALKINGS",
+    "HOLDS",
+    "REHEARSALS",
+    "RUN_UPS",
+    "SETTING_OFF",
+    "SLOWINGS",
+    "clears",
+    "first_good",
+    "walks_on",
+]
 
 _RUNNING, _WALKING = round(2.2 / CONTROL_DT), round(4.0 / CONTROL_DT)
 # ticks that it must stay up behind an obstacle
-_TRAPPED = 0.25  # worth of clearing an obstacle and not finding a way on
-_LOOKED_AT = 3  # variations that are tried to find it
+_TRAPPED = 0.25  # how well it goes if it clears an obstacle and does not find a way on
+_LOOKED_AT = 2  # variations that are tried to find it: after a good landing most hold, after a bad one none
 _SETTLED = round(3.0 / CONTROL_DT)  # ticks that it must stay up after going over to another gait
 _FAILED = ("fallen", "lost", "stuck")
 _LONGEST = round(12.0 / CONTROL_DT)
@@ -48,14 +59,19 @@ REHEARSALS = 16
 """Variations that are tried at one time at most, unless told otherwise."""
 RUN_UPS = _nearest_first(_MARKS, _ENTRIES)
 """Variations of a run-up: [m] that the mark is farther from the obstacle, [m/s] that the entry is faster."""
-SETTING_OFF = tuple((quickly, run_up) for run_up in RUN_UPS for quickly in (True, False))
-"""How it begins to run towards an obstacle: whether it speeds up quickly, and the variation of its run-up."""
+SETTING_OFF = tuple((quickly, run_up) for run_up in RUN_UPS[:3] for quickly in (True, False))
+"""How it begins to run towards an obstacle: whether it speeds up quickly, and the variation of its run-up.
+Few, since it may as well begin at its next step."""
 SLOWINGS = (1.0, 0.92, 1.08, 0.84, 1.16, 0.76, 1.24, 0.68, 1.32, 0.6, 1.4)
 """[m/s^2] by which the run's reference speed is lowered."""
+BALKINGS = (1.2, 0.9, 1.6, 0.7, 2.2, 3.0)
+"""[m/s^2], the same where a run-up is broken off: harder ones hold as well, and the obstacle is near."""
+HOLDS = 0.5
+"""How well a run-up has to go, at least, that it is begun and not broken off."""
 
 
 def first_good(
-    person: Human,
+    person: RehearsingPerson,
     understudy: Human,
     choices: Sequence[_T],
     choose: Callable[[Human, _T], None],
@@ -121,7 +137,7 @@ def finds_a_way_on(body: Human) -> bool:
     if first_good(body, body, RUN_UPS[:_LOOKED_AT], begin.vary_run_up, goes_on)[1] > 0.0:
         return True
     body.restore_state(state)
-    return first_good(body, body, SLOWINGS[:_LOOKED_AT], begin.balk, walks_on)[1] > 0.0
+    return first_good(body, body, BALKINGS[:_LOOKED_AT], begin.balk, walks_on)[1] > 0.0
 
 
 def walks_on(body: Human, seen: list[HumanState] | None = None) -> float:

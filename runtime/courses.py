@@ -39,10 +39,11 @@ class Course:
 @dataclass
 class CourseRun:
     """A run over a course. ended: "arrived", or the status at the end, "fallen" with where; passages: of the
-    obstacles that the person took off for, in order. frames: qpos (46,) of each tick, if they were asked
-    for."""
+    obstacles that the person took off for, in order. seconds: simulated [s]. frames: qpos (46,) of each
+    tick, if they were asked for."""
 
     ended: str = ""
+    seconds: float = 0.0
     passages: list[Passage] = field(default_factory=list)
     frames: list[NDArray[np.float64]] = field(default_factory=list)
 
@@ -124,6 +125,7 @@ def run_course(
         if passage is not None and not passage.cleared:
             watch(human.index, human.model, human.data, course.obstacles[len(run.passages) - 1], passage)
     run.ended = human.status if human.status not in MOVING else "too slow"
+    run.seconds = human.time
     if run.ended == "fallen":
         run.ended += f" {_FALLEN[where]}"
     return run

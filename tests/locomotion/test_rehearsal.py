@@ -102,7 +102,7 @@ def test_it_does_not_run_at_what_never_holds_and_keeps_its_budget():
 def test_a_run_up_that_would_fail_now_is_broken_off_and_begun_again():
     skill = Picky(0.0)
     human = about_to_run_up(skill, 16)
-    while skill.starts == 0:
+    while human.arc_length < 7.0:
         human.tick()
     skill.from_ = 100.0
     human.give_way(1.0, np.zeros((2, 2)))  # something has changed

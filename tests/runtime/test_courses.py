@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from locomotion import MOVING, Ground, Human, LocomotionError
-from locomotion.events import Cleared, TookOff
+from locomotion.events import Cleared, Fell, TookOff
 from runtime.courses import AFTER, enter_course, make_course, run_course
 
 
@@ -94,3 +94,23 @@ def test_noise_changes_the_start_only():
     quiet, noisy = enter_course(course), enter_course(course, noise=np.full(45, 0.01))
     assert quiet.qpos.tolist() == noisy.qpos.tolist()
     assert (noisy.data.qvel == quiet.data.qvel + 0.01).all()
+
+
+def test_who_falls_in_the_run_up_gets_up_goes_back_and_clears_it():
+    course = make_course([("jump", 0.4, 0.3)], [12.0])
+    ground, cleared = Ground.from_arrays(course.vertices, course.faces), 0
+    for k in range(10):
+        human = Human(ground, gets_up=True)
+        human.reset(course.path[0], 0.0)
+        human.follow(course.path, 3.5, course.obstacles)
+        while human.arc_length < 6.0 + 0.2 * k:
+            human.tick()
+        while human.status == "running":
+            human.data.xfrc_applied[human.index.root, :2] = -500.0, 60.0 * (-1.0) ** k
+            human.tick()
+        human.data.xfrc_applied[:] = 0.0
+        while human.status in MOVING and human.time < 100.0:
+            human.tick()
+        assert any(isinstance(event, Fell) for event in human.events)
+        cleared += human.status == "arrived" and any(isinstance(event, Cleared) for event in human.events)
+    assert cleared >= 8

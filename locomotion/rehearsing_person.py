@@ -1,0 +1,160 @@
+"""A person that goes over from one gait to another, and tries out beforehand what comes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import TYPE_CHECKING, TypeVar
+
+from locomotion.clearing import ClearingSkill
+from locomotion.events import GotStuck
+from locomotion.foreseen import Foreseen
+from locomotion.gaits import run_entry_speed
+from locomotion.ground import Ground
+from locomotion.human_state import MOVING, HumanState
+from locomotion.moving_person import MovingPerson
+from locomotion.on_feet import OnFeet
+from locomotion.path_tracking import RUN_UP
+from locomotion.rehearsal import (
+    BALKINGS,
+    HOLDS,
+    RUN_UPS,
+    SETTING_OFF,
+    SLOWINGS,
+    clears,
+    first_good,
+    walks_on,
+)
+
+if TYPE_CHECKING:
+    from locomotion.body import Human
+
+__all__ = ["RehearsingPerson"]
+
+_TOO_NEAR = 2.0  # [m] before an obstacle up to which a walking person comes
+_HEMMED_IN = 9.0  # [m] before an obstacle in which it may not come to a walk
+
+_T = TypeVar("_T")
+
+
+class RehearsingPerson(MovingPerson):
+    """See `locomotion.rehearsal`. ``rehearsals``: variations that it tries at one time at most, 0: none."""
+
+    def __init__(
+        self, ground: Ground | None, on_feet: OnFeet, clearing: Sequence[ClearingSkill], rehearsals: int
+    ) -> None:
+        super().__init__(ground, on_feet, clearing)
+        self._rehearsals = rehearsals
+        self._understudy: Human | None = None
+        self._foreseen = Foreseen()
+
+    # --- from one gait to the other
+    def _run_if_due(self) -> None:
+        """Go over from walking to running, just after a foot was put down."""
+        if self.status not in MOVING or not self.way.runs or self.way.pace < 1.0:
+            return
+        obstacles, arc = self._obstacle_run, self.arc_length
+        near = obstacles.comes_within(arc, _TOO_NEAR)
+        if (near or obstacles.balked) and self._go_back():
+            return
+        if near:
+            self._end("stuck", GotStuck(self.time, self._point()))
+            return
+        speed = run_entry_speed(self.on_feet.walk, self._control, float(self._command[0]))
+        if speed is None or self._go_back():
+            return
+        if not obstacles.comes_within(arc, RUN_UP):
+            self.run(False, speed)
+            return
+        choice, went = self._rehearse(SETTING_OFF, partial(RehearsingPerson.set_off, speed=speed), clears)
+        if went >= HOLDS:
+            self.set_off(choice, speed)
+
+    def set_off(self, choice: tuple[bool, Sequence[float]], speed: float) -> None:
+        """Begin to run towards the obstacle ahead, from ``speed`` [m/s], in one of the ways of
+        `rehearsal.SETTING_OFF`."""
+        quickly, run_up = choice
+        self.run(quickly, speed)
+        self._obstacle_run.set_off(run_up, True)
+
+    def _go_back(self) -> bool:
+        """Whether it turns round, for a longer run-up to the obstacle ahead."""
+        way = self.way
+        to = None if way.interrupted is not None else self._obstacle_run.turning_point(way.arc)
+        if way.path is None or to is None:
+            return False
+        self._obstacle_run.go_back()
+        way.go_back(to, self.on_feet.walk_limits, self._ticks)
+        return True
+
+    def run(self, quickly: bool, speed: float) -> None:
+        """Go over from walking to running, from ``speed`` [m/s]."""
+        self.on_feet.run(self._control, quickly, speed)
+        self.status = "running"
+
+    def _walk_if_due(self) -> None:
+        """Where the path is not run, slow down, and go over to walking just after a foot was put down."""
+        due = self.status not in MOVING or not self.way.runs or self.way.pace == 0.0
+        if due and self.on_feet.slowing == 0.0:
+            future: list[HumanState] = []
+            walks = partial(walks_on, seen=future)
+            choice, went = self._rehearse(SLOWINGS, RehearsingPerson.slow_down, walks)
+            self.slow_down(choice)
+            if went > 0.0:
+                self._foreseen.expect(self, future)
+        if self.on_feet.walk_if_slow(self.index, self._control, self.data) and self.status in MOVING:
+            self.status = "walking"
+
+    def slow_down(self, deceleration: float) -> None:
+        """Begin to slow down from the run to a walk [m/s^2]."""
+        self.on_feet.slowing = deceleration
+
+    # --- trying out
+    def _rehearse_take_off(self) -> None:
+        """Just after a step of a run-up has begun: choose among its variations, or break it off."""
+        if not (self._rehearsals and self.begins_run_up):
+            return
+        choice, went = self._rehearse(RUN_UPS, RehearsingPerson.vary_run_up, clears)
+        self._obstacle_run.vary(choice, self._control, went >= HOLDS)
+        if went < HOLDS:
+            future: list[HumanState] = []
+            walks = partial(walks_on, seen=future)
+            deceleration, went = self._rehearse(BALKINGS, RehearsingPerson.balk, walks)
+            if went > 0.0:
+                self.balk(deceleration)
+                self._foreseen.expect(self, future)
+
+    @property
+    def begins_run_up(self) -> bool:
+        """Whether a step of a run-up has just begun, and it was not rehearsed yet."""
+        return self.on_feet.runs and self._obstacle_run.to_rehearse(self._control)
+
+    @property
+    def hemmed_in(self) -> bool:
+        """Whether the next obstacle may be too near to slow down before it."""
+        return self._obstacle_run.comes_within(self.arc_length, _HEMMED_IN)
+
+    def vary_run_up(self, choice: Sequence[float]) -> None:
+        """Plan the step of the run-up that has just begun with a mark that is farther from the obstacle [m],
+        and an entry that is faster [m/s]."""
+        self._obstacle_run.vary(choice, self._control, True)
+
+    def balk(self, deceleration: float) -> None:
+        """Break the run-up off, slowing down [m/s^2]."""
+        self._obstacle_run.balk()
+        self.slow_down(deceleration)
+
+    def _rehearse(
+        self, choices: Sequence[_T], choose: Callable[[Human, _T], None], goes_well: Callable[[Human], float]
+    ) -> tuple[_T, float]:
+        """The best of ``choices`` and how well it went, see `rehearsal.first_good`; without rehearsals the
+        first is taken to go well."""
+        if not self._rehearsals:
+            return choices[0], 1.0
+        if self._understudy is None or self._understudy.model is not self.model:
+            self._understudy = self._double()
+        return first_good(self, self._understudy, choices[: self._rehearsals], choose, goes_well)
+
+    def _double(self) -> Human:
+        """One that moves as it does, on the same ground, and does not rehearse."""
+        raise NotImplementedError

@@ -23,7 +23,7 @@ _NEXT, _STEPS_SEEN, _PLANNED, _FARTHER, _FASTER, _REHEARSED, _RETURNS, _BALKED =
 # chosen in rehearsal: [m] that the mark is farther from the obstacle, [m/s] that the entry is faster, and 1
 # once a choice has gone well; how often it has gone back for another run-up; 1 after a run-up broken off
 _SIZE = 8
-_MOST_RETURNS = 4
+_MOST_RETURNS = 8
 _ROOM = 5.2  # [m] before an obstacle in which a body that begins to run comes to its entry speed
 _SETTING_OFF = 2.5  # [m] that it walks before it runs
 _OFF_EDGE, _WORTH_IT = 0.8, 0.7  # [m] kept from the obstacle behind it; that it goes back at least

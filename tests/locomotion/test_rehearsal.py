@@ -86,15 +86,15 @@ def test_a_choice_that_goes_well_is_not_rehearsed_again():
 
 def test_it_does_not_run_at_what_never_holds_and_keeps_its_budget():
     skill = Picky(100.0)
-    human = about_to_run_up(skill, 4)
+    human = about_to_run_up(skill, 2)
     here, returns, most = 0.0, 0, 0
-    while human.status in MOVING and human.time < 120.0:
+    while human.status in MOVING and human.time < 300.0:
         starts = skill.starts
         human.tick()
         most = max(most, skill.starts - starts)
         back = human.arc_length < here - 0.7
         returns, here = returns + back, human.arc_length if back else max(here, human.arc_length)
-    assert human.status == "stuck" and human.arc_length < 14.0 and most == 4
+    assert human.status == "stuck" and human.arc_length < 14.0 and most == 2
     assert 1 <= returns <= 40
     assert [type(event) for event in human.events] == [SetOff, GotStuck]
 

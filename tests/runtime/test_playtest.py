@@ -123,11 +123,19 @@ def test_tops_of_walls_are_one_note():
     assert [each.kind for each in unreached(broad, body="dog") if each.kind != "open_edge"] == ["unreachable"]
 
 
+def gap_of(width):
+    return trimesh.util.concatenate([slab(0, 12, 0, 6, -0.3, 0), slab(12 + width, 20 + width, 0, 6, -0.3, 0)])
+
+
 def test_a_gap_is_not_called_a_wall():
-    gap = trimesh.util.concatenate([slab(0, 12, 0, 6, -0.3, 0), slab(13, 20, 0, 6, -0.3, 0)])
-    (fault,) = (each for each in unreached(gap, body="human") if each.kind != "open_edge")
-    assert fault.kind == "unreachable"
-    assert "the gap at" in fault.text and "1.00 m wide; a person does not leap gaps" in fault.text
+    for width, body, says in (
+        (2.2, "human", "2.20 m wide; a person leaps 1.82 m"),
+        (1.0, "dog", "1.00 m wide; a dog does not leap gaps"),
+    ):
+        (fault,) = (each for each in unreached(gap_of(width), body=body) if each.kind != "open_edge")
+        assert fault.kind in ("gap", "unreachable")
+        assert "gap at" in fault.text and says in fault.text
+    assert not [each for each in unreached(gap_of(1.0), body="human") if each.kind != "open_edge"]
 
 
 def test_what_is_too_low_for_a_skill_is_said_with_its_range():

@@ -45,7 +45,7 @@ def learned_skills(run: RunSkill, own: Sequence[str | os.PathLike[str]] = ()) ->
         skills.append(Vault(load_vault_skill(), run))
     if DROP_ROLL_SKILL.exists():
         skills.append(DropRoll(load_drop_roll_skill()))
-    if load_description(LEAP).learned.exists():
+    if LEAP.with_suffix(".npz").exists():
         skills.append(load_described(LEAP, run))
     skill_ranges(skills)
     return tuple(skills)

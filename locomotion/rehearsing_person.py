@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, TypeVar
@@ -37,7 +38,7 @@ _HEMMED_IN = 9.0  # [m] before an obstacle in which it may not come to a walk
 _T = TypeVar("_T")
 
 
-class RehearsingPerson(MovingPerson):
+class RehearsingPerson(MovingPerson, ABC):
     """See `locomotion.rehearsal`. ``rehearsals``: variations that it tries at one time at most, 0: none."""
 
     def __init__(
@@ -155,6 +156,6 @@ class RehearsingPerson(MovingPerson):
             self._understudy = self._double()
         return first_good(self, self._understudy, choices[: self._rehearsals], choose, goes_well)
 
+    @abstractmethod
     def _double(self) -> Human:
         """One that moves as it does, on the same ground, and does not rehearse."""
-        raise NotImplementedError

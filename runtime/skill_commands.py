@@ -39,16 +39,6 @@ def _trainers() -> Mapping[str, Callable[..., Any]]:
     }  # fmt: skip
 
 
-def _trainer(skill: str) -> Callable[..., Any]:
-    """What learns ``skill``: one of the package's, or one that a file describes."""
-    known = _trainers()
-    if skill in known:
-        return known[skill]
-    from locomotion.training.jump import train_described
-
-    return partial(train_described, skill)
-
-
 def train_skill(
     skill: str, output: Path | None, seed: int, workers: int, checkpoint: Path | None, effort: float
 ) -> float:
@@ -62,10 +52,13 @@ def train_skill(
     kept = checkpoint or Path(f"{name}.checkpoint")
     if not kept.parent.is_dir():
         raise RuntimeInputError(f"{kept}: there is no folder {str(kept.parent)!r} to keep checkpoints in")
+    from locomotion.training.jump import train_described
+
+    train = _trainers().get(skill, partial(train_described, skill))
     begun = sum(os.times()[:4])
     try:
         with FileLock(f"{kept}.lock", timeout=0):
-            _trainer(skill)(**where, seed=seed, checkpoint=kept, workers=workers, effort=effort)
+            train(**where, seed=seed, checkpoint=kept, workers=workers, effort=effort)
     except Timeout:
         raise RuntimeInputError(
             f"{kept}: another process learns with this checkpoint; wait for it, or name another --checkpoint"
@@ -104,7 +97,7 @@ def evaluate_skill(skill: str, trials: int, seed: int, picture: Path | None = No
         "drop-roll": partial(evaluate_clearing, "drop"),
         "leap": partial(evaluate_clearing, "gap"),
     }  # fmt: skip
-    attempts = (evaluate.get(skill) or partial(evaluate_described, skill))(trials, seed, ready())
+    attempts = evaluate.get(skill, partial(evaluate_described, skill))(trials, seed, ready())
     if picture is not None:
         from runtime.coverage_plot import plot_coverage
 

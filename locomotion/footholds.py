@@ -56,6 +56,10 @@ _UPHILL = 2.2  # [rad] off the way downhill from which a foot is rather turned u
 _NOTED = 0.1  # share by which the steepness follows that of a foothold, each time it is planned
 _SHORTEST_SWING = 0.24  # [s]
 _HIGHEST_HUMP = 0.3  # [m]
+_ASIDE = 6.0  # cost of a foothold per [m] beside the wished one
+_PLACES = np.array(
+    sorted((_ASIDE * (abs(x) + abs(y)), x, y) for x in (-0.06, 0.0, 0.06) for y in (-0.05, 0.0, 0.05))
+)[:, [1, 2, 0]]  # where a foot may be put around the wished place [m], and what that costs: nearest first
 _BURIED = 0.2  # [m] that a corner of the sole may be below the ground
 _STRIDE_BACK, _STRIDE, _STRADDLE = -0.45, 0.8, 0.5  # [m] what the legs reach
 _TILT_DOWN = 0.8  # slope downhill to which a foot turns
@@ -190,26 +194,30 @@ def _settle(g, ground, walk, x, y, yaw, level, hip):
     walk[_SPOT], walk[_SPOT + 1], walk[_SPOT + 2] = x, y, level
     walk[_NORMAL], walk[_NORMAL + 1], walk[_NORMAL + 2] = 0.0, 0.0, 1.0  # unless there is ground
     least = math.inf
-    for i in range(-1, 2):
-        for k in range(-1, 2):
-            ox, oy = 0.06 * i, 0.05 * k
-            qx, qy = x + ch * ox - sh * oy, y + sh * ox + ch * oy
-            z, n0, n1, n2 = ground_at(ground, qx, qy, level + _SEARCH)
-            if not z > level - _SEARCH:
-                continue
-            rough = 0.0
-            for corner in range(4):
-                u = _TOE if corner < 2 else _HEEL
-                v = _HALF if corner % 2 else -_HALF
-                cx, cy = qx + ch * u - sh * v, qy + sh * u + ch * v
-                height = ground_at(ground, cx, cy, level + _SEARCH)[0]
-                flat = z - (n0 * (cx - qx) + n1 * (cy - qy)) / n2
-                rough = max(rough, abs(height - flat)) if height == height else 1.0
-            cost = g[_ROUGH] * rough + g[_STEEP] * (1.0 - n2) + 6.0 * (abs(ox) + abs(oy)) + abs(z - level)
-            if cost < least:
-                least = cost
-                walk[_SPOT], walk[_SPOT + 1], walk[_SPOT + 2] = qx, qy, z
-                walk[_NORMAL], walk[_NORMAL + 1], walk[_NORMAL + 2] = n0, n1, n2
+    for place in range(_PLACES.shape[0]):
+        ox, oy, cost = _PLACES[place]
+        if cost >= least:
+            break
+        qx, qy = x + ch * ox - sh * oy, y + sh * ox + ch * oy
+        z, n0, n1, n2 = ground_at(ground, qx, qy, level + _SEARCH)
+        if not z > level - _SEARCH:
+            continue
+        cost += g[_STEEP] * (1.0 - n2) + abs(z - level)
+        if cost >= least:
+            continue
+        rough = 0.0
+        for corner in range(4):
+            u = _TOE if corner < 2 else _HEEL
+            v = _HALF if corner % 2 else -_HALF
+            cx, cy = qx + ch * u - sh * v, qy + sh * u + ch * v
+            height = ground_at(ground, cx, cy, level + _SEARCH)[0]
+            flat = z - (n0 * (cx - qx) + n1 * (cy - qy)) / n2
+            rough = max(rough, abs(height - flat)) if height == height else 1.0
+        cost += g[_ROUGH] * rough
+        if cost < least:
+            least = cost
+            walk[_SPOT], walk[_SPOT + 1], walk[_SPOT + 2] = qx, qy, z
+            walk[_NORMAL], walk[_NORMAL + 1], walk[_NORMAL + 2] = n0, n1, n2
     if least < math.inf:
         n0, n1, n2 = walk[_NORMAL], walk[_NORMAL + 1], walk[_NORMAL + 2]
         walk[STEEPNESS] += _NOTED * (math.sqrt(max(1.0 - n2 * n2, 0.0)) / n2 - walk[STEEPNESS])

@@ -55,6 +55,7 @@ _GATHER_TIME, _SWING_TIME, _FOLLOW_TIME, _REACH_TIME, _SETTLE_TIME, _TUCK_TIME, 
 )  # [s]
 _ROLLS, _SPREAD_TIME = 0.4, 0.3  # slope on which a limp body rolls down; [s]
 _STEADY, _BEARS, _STEADY_MOST = 0.15, 20.0, 8.0  # [m/s], [N] of each limb: it has come to rest on them; [s]
+_LOOKS = 4.0  # ticks after which it looks again whether it has tipped over
 _NEARLY = 0.98  # share of its height to which it comes before that
 _SUNK = 0.3  # [m] of the centre of mass above a foot, below which it does not rise any more
 _ON_FRONT, _OFF_FRONT = (
@@ -233,7 +234,8 @@ def rise_on(ground, memory, qpos, to_stand):
             steady = steady and memory[SEEN_FORCES.start + k] > _BEARS
         most = 1.0 if to_stand or steady or memory[MODE_CLOCK] > _STEADY_MOST else _NEARLY
         memory[RISEN] = max(memory[RISEN], min(memory[RISEN] + CONTROL_DT / _RISE_TIME, most))
-        if lies_on_front(ground, memory)[0] > _OFF_FRONT:
+        looks = memory[TICKS] % _LOOKS == 0.0
+        if looks and lies_on_front(ground, memory)[0] > _OFF_FRONT:
             begin_getting_up(memory, qpos)
     elif memory[SEEN_COM.start + 2] - memory[SEEN_LIMBS.start + 8] < _SUNK:
         begin_getting_up(memory, qpos)

@@ -44,12 +44,18 @@ def solve_leg(pelvis, hip, foot, ankle, side, out):
     # foot = pelvis * hip rotation * Ry(knee) * Ry(pitch) * Rx(roll), so hip = pelvis' foot (Ry(q) Rx(roll))'
     q = knee + pitch
     cq, sq, cr, sr = math.cos(q), math.sin(q), math.cos(roll), math.sin(roll)
-    bend = np.array([[cq, sq * sr, sq * cr], [0.0, cr, -sr], [-sq, cq * sr, cq * cr]])
-    h = np.ascontiguousarray(pelvis.T) @ np.ascontiguousarray(foot) @ np.ascontiguousarray(bend.T)
+    thigh = np.empty((3, 3))  # pelvis' foot, then its rows times (Ry(q) Rx(roll))'
+    for i in range(3):
+        for j in range(3):
+            thigh[i, j] = pelvis[0, i] * foot[0, j] + pelvis[1, i] * foot[1, j] + pelvis[2, i] * foot[2, j]
+    side_x, side_y, side_z = thigh[1]
     # h = Ry(a) Rx(b) Rz(c)
-    b = math.asin(min(max(-h[1, 2], -1.0), 1.0))
-    a = math.atan2(h[0, 2], h[2, 2])
-    c = math.atan2(h[1, 0], h[1, 1])
+    h12 = -sq * side_x + cq * (sr * side_y + cr * side_z)
+    b = math.asin(min(max(-h12, -1.0), 1.0))
+    h02 = -sq * thigh[0, 0] + cq * (sr * thigh[0, 1] + cr * thigh[0, 2])
+    h22 = -sq * thigh[2, 0] + cq * (sr * thigh[2, 1] + cr * thigh[2, 2])
+    a = math.atan2(h02, h22)
+    c = math.atan2(cq * side_x + sq * (sr * side_y + cr * side_z), cr * side_y - sr * side_z)
     out[0] = -a
     out[1] = side * b
     out[2] = -side * c

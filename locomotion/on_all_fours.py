@@ -23,7 +23,7 @@ from locomotion.person import PersonIndex
 from locomotion.rising import begin_to_rise, gather, ready_to_rise, rise_tick, stands
 from locomotion.scramble_layout import AWAY, BORNE, FACING, MODE, RISEN, RISING, new_scramble
 from locomotion.scramble_seen import observe_scramble, parts_of
-from locomotion.scrambling import crouch, lie_of, scramble_tick
+from locomotion.scrambling import crouch, scramble_tick, steeper
 from locomotion.way import Way
 
 __all__ = ["OnAllFours", "too_steep_around"]
@@ -42,8 +42,8 @@ class OnAllFours:
     1 if it goes somewhere; ``gentle``: 1 where it can walk on."""
 
     def __init__(self, model: mujoco.MjModel, index: PersonIndex) -> None:
-        self._model, self._index = model, index
-        self._parts = parts_of(index, model.nbody)
+        self._model = model
+        self._parts = parts_of(index, model)
         self.memory = new_scramble()
         self.fell_at, self.on_way, self.gentle = 0.0, 0.0, 0.0
         self.leave()
@@ -74,14 +74,14 @@ class OnAllFours:
     def fall(self, data: mujoco.MjData) -> None:
         """The body has fallen, however it lies."""
         self.memory[:] = new_scramble()
-        observe_scramble(self._index, self._parts, data, self.memory, fresh=True)
+        observe_scramble(self._parts, data, self.memory, fresh=True)
         begin_getting_up(self.memory, data.qpos)
 
     def crouch(
         self, lookup: tuple[NDArray, ...], data: mujoco.MjData, place: NDArray[np.float64], yaw: float
     ) -> None:
         """Put the person on hands and feet over the ground point ``place`` (3,), to go towards ``yaw``."""
-        crouch(self._model, data, self._index, self._parts, lookup, self.memory, place, yaw)
+        crouch(self._model, data, self._parts, lookup, self.memory, place, yaw)
 
     def look(self, ground: Ground | None, place: NDArray[np.float64], way: Way | None) -> None:
         """See whether it can stand up at ``place`` (3,), and walk on along ``way``."""
@@ -90,13 +90,15 @@ class OnAllFours:
 
     def steer(self, way: Way | None, com: NDArray[np.float64], tick: int, command: NDArray) -> None:
         """Write into ``command`` (4,) how it goes on along ``way``, None: it stays. com (3,) [m]."""
-        command[:] = self.facing, 0.0, 0.0, 0.0
         if way is None or way.path is None:
+            command[:] = self.facing, 0.0, 0.0, 0.0
             return
-        table, step = way.path.table, way.path.length / (len(way.path.table) - 1)
-        ahead = table[min(int((way.arc + _LOOK) / step), len(table) - 1)]
-        way.track(_GAINS, com[0], com[1], _SPEED, tick, command)
-        command[:3] = math.atan2(ahead[1] - com[1], ahead[0] - com[0]), _SPEED, 0.0
+        table, (x, y, _) = way.path.table, com.tolist()
+        ahead = min(int((way.arc + _LOOK) / way.path.length * (len(table) - 1)), len(table) - 1)
+        way.track(_GAINS, x, y, _SPEED, tick, command)
+        command[0] = math.atan2(table[ahead, 1] - y, table[ahead, 0] - x)
+        command[1] = _SPEED
+        command[2] = 0.0
         waits = way.without_headway(tick) / (1.0 - _SLOW_HEADWAY)
         if waits > _NO_HEADWAY:
             command[0] += _ROUND if waits % (2.0 * _NO_HEADWAY) < _NO_HEADWAY else -_ROUND
@@ -123,7 +125,7 @@ class OnAllFours:
     def observe(self, lookup: tuple[NDArray, ...], data: mujoco.MjData) -> bool:
         """After the physics. Whether it stands now, for the walk to take over."""
         memory = self.memory
-        observe_scramble(self._index, self._parts, data, memory)
+        observe_scramble(self._parts, data, memory)
         if memory[MODE] >= BORNE:
             rise_on(lookup, memory, data.qpos, self.gentle > 0.0)
         return bool(memory[MODE] == RISING and stands(memory))
@@ -144,7 +146,7 @@ def too_steep_around(ground: Ground | None, place: NDArray[np.float64]) -> bool:
         return False
     around = np.linspace(0.0, 2.0 * math.pi, 8, endpoint=False)
     ring = place + _AROUND * np.stack([np.cos(around), np.sin(around), 0.0 * around], axis=1)
-    return _steepest(ground, np.vstack([place, ring])) > _TOO_STEEP
+    return steeper(ground.lookup, np.vstack([place, ring]), _TOO_STEEP)
 
 
 def _gentle_ahead(
@@ -158,13 +160,4 @@ def _gentle_ahead(
         step = path.length / (len(path.table) - 1)
         rows = np.arange(arc, min(arc + _AHEAD, path.length) + 0.01, 0.25) / step
         points = path.table[np.minimum(rows.astype(int), len(path.table) - 1), :3]
-    return _steepest(ground, points) < _GENTLE
-
-
-def _steepest(ground: Ground, points: NDArray[np.float64]) -> float:
-    """Steepest slope [rise over run] of the ground around ``points`` (n, 3)."""
-    gradient, most, lookup = np.empty(2), 0.0, ground.lookup
-    for x, y, z in points:
-        lie_of(lookup, x, y, z, gradient)
-        most = max(most, math.hypot(gradient[0], gradient[1]))
-    return most
+    return not steeper(ground.lookup, points, _GENTLE)

@@ -1,8 +1,11 @@
 """What a person on hands and feet sees of its body after each physics step."""
 
+from typing import NamedTuple
+
 import mujoco
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from locomotion.anatomy import TRUNK_JOINTS
 from locomotion.hand_hold import HAND_POINT
@@ -21,15 +24,29 @@ from locomotion.scramble_layout import (
 )  # fmt: skip
 from locomotion.scramble_limbs import BALL
 
-__all__ = ["observe_scramble", "parts_of"]
+__all__ = ["Parts", "observe_scramble", "parts_of"]
 
 _HAND = np.array(HAND_POINT)
 
 
+class Parts(NamedTuple):
+    """The body's parts in a model.
+
+    Attributes:
+        ends: (4,) int64 bodies of right and left hand and foot.
+        of_body: (nbody,) int64: number of the limb whose end a body is, -1 for pelvis, trunk and head, else
+            -2.
+        bodies: (ngeom,) int32: the body of each geom.
+    """
+
+    ends: NDArray[np.int64]
+    of_body: NDArray[np.int64]
+    bodies: NDArray[np.int32]
+
+
 @njit(cache=True)
 def _observe(
-    memory, fresh, places, frames, coms, hands, feet, parts, anchors, axes, bias, ncon, geoms, bodies,
-    addresses, forces,
+    memory, fresh, places, frames, coms, parts, anchors, axes, bias, ncon, geoms, addresses, forces
 ):  # fmt: skip
     for i in range(3):
         c = coms[1, i]
@@ -39,7 +56,7 @@ def _observe(
     memory[SEEN_TURN] = frames[1]
     seen = memory[SEEN_LIMBS].reshape(4, 3)
     for k in range(4):
-        body = hands[k] if k < 2 else feet[k - 2]
+        body = parts.ends[k]
         at = _HAND if k < 2 else BALL
         for i in range(3):
             seen[k, i] = places[body, i]
@@ -58,34 +75,29 @@ def _observe(
         total = 0.0
         for i in range(4):
             total += forces[addresses[c] + i]
-        body = max(bodies[geoms[c, 0]], bodies[geoms[c, 1]])
-        part = parts[body]
+        part = parts.of_body[max(parts.bodies[geoms[c, 0]], parts.bodies[geoms[c, 1]])]
         if part >= 0:
             memory[SEEN_FORCES.start + part] += total
         elif part == -1:
             memory[SEEN_TRUNK] += total
 
 
-def parts_of(index: PersonIndex, bodies: int) -> np.ndarray:
-    """(bodies,) int64: number of the limb whose end a body is, -1 for pelvis, trunk and head, else -2."""
-    parts = np.full(bodies, -2)
-    for k, side in enumerate(("right", "left")):
-        parts[index.bodies[f"{side}_hand"]] = k
-        parts[index.bodies[f"{side}_foot"]] = parts[index.bodies[f"{side}_toes"]] = 2 + k
-    for name in TRUNK_JOINTS:
-        parts[index.bodies[name]] = -1
-    parts[index.root] = -1
-    return parts
+def parts_of(index: PersonIndex, model: mujoco.MjModel) -> Parts:
+    """Where the parts are in ``model``."""
+    sides = ("right", "left")
+    hands, feet, toes = ([index.bodies[f"{s}_{part}"] for s in sides] for part in ("hand", "foot", "toes"))
+    of_body = np.full(model.nbody, -2)
+    for k in range(2):
+        of_body[hands[k]] = k
+        of_body[[feet[k], toes[k]]] = 2 + k
+    of_body[[index.root, *(index.bodies[name] for name in TRUNK_JOINTS)]] = -1
+    return Parts(np.array(hands + feet), of_body, model.geom_bodyid.copy())
 
 
-def observe_scramble(
-    index: PersonIndex, parts: np.ndarray, data: mujoco.MjData, memory: np.ndarray, fresh: bool = False
-) -> None:
+def observe_scramble(parts: Parts, data: mujoco.MjData, memory: np.ndarray, fresh: bool = False) -> None:
     """Read what the controller needs of ``data`` into ``memory``; ``fresh``: at a pose that was put there."""
-    hands = np.array([index.bodies["right_hand"], index.bodies["left_hand"]])
     contact = data.contact
     _observe(
-        memory, fresh, data.xpos, data.xmat, data.subtree_com, hands, index.feet, parts, data.xanchor,
-        data.xaxis, data.qfrc_bias, data.ncon, contact.geom, data.model.geom_bodyid, contact.efc_address,
-        data.efc_force,
+        memory, fresh, data.xpos, data.xmat, data.subtree_com, parts, data.xanchor, data.xaxis,
+        data.qfrc_bias, data.ncon, contact.geom, contact.efc_address, data.efc_force,
     )  # fmt: skip

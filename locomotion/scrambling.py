@@ -18,7 +18,8 @@ from numba import njit
 
 from locomotion.arm_reach import reach
 from locomotion.footholds import ground_at
-from locomotion.person import CONTROL_DT, PersonIndex
+from locomotion.ground import height_below
+from locomotion.person import CONTROL_DT
 from locomotion.scramble_layout import (
     AIR,
     ALL_DOWN,
@@ -58,10 +59,10 @@ from locomotion.scramble_limbs import (
     leg_angles,
     turned,
 )  # fmt: skip
-from locomotion.scramble_seen import observe_scramble
+from locomotion.scramble_seen import Parts, observe_scramble
 from locomotion.walk_layout import clamp, wrap
 
-__all__ = ["crouch", "lie_of", "scramble_tick"]
+__all__ = ["crouch", "scramble_tick", "steeper"]
 
 _HAND_AHEAD, _HAND_OUT, _FOOT_BEHIND, _FOOT_SLOPE, _FOOT_OUT, _HEIGHT, _HEIGHT_SLOPE, _ARM = range(8)
 _SWING, _PAUSE, _CLEARANCE, _BRAKE, _TIPPING, _ROLL, _CURVE = range(8, 15)
@@ -75,6 +76,7 @@ _UPHILL = 0.25  # slope that counts as much as the way in where to face
 _COMING = 0.3  # [m] ahead where it looks how the ground lies, too
 _TURN_RATE = 0.7  # [rad/s]
 _AROUND = 0.6  # [m] around the body that tells how the ground lies
+_RING = _AROUND * np.stack([np.cos(0.25 * np.pi * np.arange(4)), np.sin(0.25 * np.pi * np.arange(4))], axis=1)
 _LEAD = 0.1  # [s] servo damping per stiffness
 _LONGEST_LEG = 0.80  # [m]
 _AIM_AHEAD, _ACROSS = 0.05, 0.75  # [s] by which swings lead; share of a swing after which only height changes
@@ -87,19 +89,35 @@ _STRAY = 0.08  # [m] that the centre of mass may be from where it is to be
 @njit(cache=True)
 def lie_of(ground, x, y, z, out):
     """Gradient (2,) of the ground around (x, y, z)."""
+    rows, cell_start, cell_triangles, grid, shape, origin = ground
+    heights = np.empty((2, 4))
+    for side in range(2):
+        for k in range(4):
+            px = x + (1.0 - 2.0 * side) * _RING[k, 0] - origin[0]
+            py = y + (1.0 - 2.0 * side) * _RING[k, 1] - origin[1]
+            h = height_below(rows, cell_start, cell_triangles, grid, shape, px, py, z + 1.0 - origin[2])[0]
+            heights[side, k] = h + origin[2]
     out[:] = 0.0
     n = 0
     for k in range(4):
-        a = 0.25 * math.pi * k
-        ox, oy = _AROUND * math.cos(a), _AROUND * math.sin(a)
-        h = ground_at(ground, x + ox, y + oy, z + 1.0)[0]
-        o = ground_at(ground, x - ox, y - oy, z + 1.0)[0]
-        if h == h and o == o and abs(h - z) < 1.5 and abs(o - z) < 1.5:
-            out[0] += (h - o) * math.cos(a) / (2.0 * _AROUND)
-            out[1] += (h - o) * math.sin(a) / (2.0 * _AROUND)
+        h, o = heights[0, k], heights[1, k]
+        if abs(h - z) < 1.5 and abs(o - z) < 1.5:  # not so where there is none
+            out[0] += (h - o) * _RING[k, 0] / (2.0 * _AROUND * _AROUND)
+            out[1] += (h - o) * _RING[k, 1] / (2.0 * _AROUND * _AROUND)
             n += 1
     if n > 0:
         out *= 2.0 / n
+
+
+@njit(cache=True)
+def steeper(ground, points, slope):
+    """Whether the ground around any of ``points`` (n, 3) is steeper than ``slope`` [rise over run]."""
+    gradient = np.empty(2)
+    for p in range(points.shape[0]):
+        lie_of(ground, points[p, 0], points[p, 1], points[p, 2], gradient)
+        if math.hypot(gradient[0], gradient[1]) > slope:
+            return True
+    return False
 
 
 @njit(cache=True)
@@ -329,8 +347,7 @@ def scramble_tick(ground, memory, command, qpos, qvel, ctrl):
 def crouch(
     model: mujoco.MjModel,
     data: mujoco.MjData,
-    index: PersonIndex,
-    parts: np.ndarray,
+    parts: Parts,
     ground: tuple[np.ndarray, ...],
     memory: np.ndarray,
     position: np.ndarray,
@@ -350,7 +367,7 @@ def crouch(
     memory[CENTRE] = position[:2]
     for _ in range(8):
         mujoco.mj_forward(model, data)
-        observe_scramble(index, parts, data, memory, fresh=True)
+        observe_scramble(parts, data, memory, fresh=True)
         for k in range(4):
             _home(ground, memory[STANCE], k, *position, facing, slope, limbs[k])
         _posture(memory, slope, 0.0, np.zeros(4), limbs, data.qpos)
@@ -366,4 +383,4 @@ def crouch(
                 data.qpos[7 + first : 14 + first] = angles
         data.qpos[7:] = np.clip(data.qpos[7:], LOWEST, HIGHEST)
     mujoco.mj_forward(model, data)
-    observe_scramble(index, parts, data, memory, fresh=True)
+    observe_scramble(parts, data, memory, fresh=True)

@@ -133,6 +133,20 @@ def observe_walk(index: PersonIndex, data: mujoco.MjData, walk: np.ndarray) -> N
 
 
 @njit(cache=True)
+def _bear_steep(ground, steep, soles, feet, points, spans):
+    """Where the feet bear: ``points`` (2, 3), and ``spans`` (2, 2), how much of their length and width does.
+    On level ground a foot that comes up at the heel is flat again at the next step: it counts as flat."""
+    bears = np.empty(4)
+    for k in range(2):
+        bearing(ground, soles[k], feet[k], bears)
+        ahead, left = steep * bears[0], steep * bears[1]
+        for i in range(3):
+            points[k, i] = soles[k, i] + ahead * feet[k, 3 * i] + left * feet[k, 3 * i + 1]
+            if i < 2:
+                spans[k, i] = 1.0 - steep * (1.0 - bears[2 + i])
+
+
+@njit(cache=True)
 def _pressures(gains, walk, feet, points, spans, capture, omega, cop, share):
     """Centre of pressure ``cop`` (2, 3) under each foot and its ``share`` (2,) of the load.
 
@@ -247,15 +261,9 @@ def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
     omega = math.sqrt(_GRAVITY / max(state[_COM + 2] - soles[stance, 2], 0.5))
     capture = np.array([state[_COM] + state[_VEL] / omega, state[_COM + 1] + state[_VEL + 1] / omega])
     contact = state[_CONTACT : _CONTACT + 2]
-    points, spans, bears = np.empty((2, 3)), np.empty((2, 2)), np.empty(4)
-    for k in range(2):
-        # on level ground a foot that comes up at the heel is flat again at the next step: it counts as flat
-        bearing(ground, soles[k], feet[k], bears)
-        bears[:2] *= steep
-        bears[2:] = 1.0 - steep * (1.0 - bears[2:])
-        for i in range(3):
-            points[k, i] = soles[k, i] + bears[0] * feet[k, 3 * i] + bears[1] * feet[k, 3 * i + 1]
-        spans[k] = bears[2:]
+    points, spans = soles.copy(), np.ones((2, 2))
+    if steep > 0.0:
+        _bear_steep(ground, steep, soles, feet, points, spans)
     advance_step(
         gains,
         walk,

@@ -85,16 +85,22 @@ def seed_clearance(
                 lowest = rise + wall_base(table, start, triangle, there, rx, ry, z + rise, resolution, step)
             slope = (abs(p) + abs(q)) * resolution * 1.5
             for k in range(start[there], start[there + 1]):
-                row = table[triangle[k]]
-                low, high = range_in_column(row, rx, ry, half)
+                f = triangle[k]
+                low, high = range_in_column(table, f, rx, ry, half)
                 if high <= z + lowest - slope or low >= z + headroom + slope:
                     continue
-                left, right = min(row[0], row[3], row[6]) - x, max(row[0], row[3], row[6]) - x
-                near, far = min(row[1], row[4], row[7]) - y, max(row[1], row[4], row[7]) - y
+                left, right = (
+                    min(table[f, 0], table[f, 3], table[f, 6]) - x,
+                    max(table[f, 0], table[f, 3], table[f, 6]) - x,
+                )
+                near, far = (
+                    min(table[f, 1], table[f, 4], table[f, 7]) - y,
+                    max(table[f, 1], table[f, 4], table[f, 7]) - y,
+                )
                 away_x, away_y = max(left, -right, 0.0), max(near, -far, 0.0)
                 if away_x * away_x + away_y * away_y > best * (1.0 + 1e-9):
                     continue
-                count = clip_band(row, px, py, z, p, q, lowest, headroom, polygon, spare)
+                count = clip_band(table, f, px, py, z, p, q, lowest, headroom, polygon, spare)
                 if count == 0:
                     continue
                 vx, vy = nearest_on_polygon(polygon, count, x, y)

@@ -42,19 +42,19 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
         hits = 0
         walkable = False
         for k in range(start[c], start[c + 1]):
-            row = table[triangle[k]]
-            if row[14] == UPRIGHT:
+            f = triangle[k]
+            if table[f, 14] == UPRIGHT:
                 continue
-            if not is_over(row, x, y):
+            if not is_over(table, f, x, y):
                 continue
-            hit[hits, 0] = row[9] * x + row[10] * y + row[11]
-            hit[hits, 1] = row[9]
-            hit[hits, 2] = row[10]
-            hit[hits, 3] = row[14]
-            if row[14] != FLOOR and not faces_up(row):
+            hit[hits, 0] = table[f, 9] * x + table[f, 10] * y + table[f, 11]
+            hit[hits, 1] = table[f, 9]
+            hit[hits, 2] = table[f, 10]
+            hit[hits, 3] = table[f, 14]
+            if table[f, 14] != FLOOR and not faces_up(table, f):
                 hit[hits, 3] = UPRIGHT  # nobody stands on it either
             walkable |= hit[hits, 3] != UPRIGHT
-            face[hits] = triangle[k]
+            face[hits] = f
             hits += 1
         if not walkable:
             continue

@@ -11,11 +11,11 @@ __all__ = ["comes_first", "floor_at", "floor_end"]
 
 
 @njit(cache=True)
-def comes_first(row, other):
+def comes_first(table, one, other):
     """A choice between two triangles that does not depend on their order in the mesh."""
     for k in range(12):
-        if row[k] != other[k]:
-            return row[k] < other[k]
+        if table[one, k] != table[other, k]:
+            return table[one, k] < table[other, k]
     return False
 
 
@@ -26,24 +26,24 @@ def floor_at(table, start, triangle, resolution, ny, x, y, z, step, headroom):
     chosen = -1
     at = -np.inf
     for k in range(start[column], start[column + 1]):
-        row = table[triangle[k]]
-        if row[14] != FLOOR:
+        f = triangle[k]
+        if table[f, 14] != FLOOR:
             continue
-        here = row[9] * x + row[10] * y + row[11]
-        if abs(here - z) > step + TOUCH or here < at or not is_over(row, x, y):
+        here = table[f, 9] * x + table[f, 10] * y + table[f, 11]
+        if abs(here - z) > step + TOUCH or here < at or not is_over(table, f, x, y):
             continue
-        if here == at and chosen >= 0 and not comes_first(row, table[chosen]):
+        if here == at and chosen >= 0 and not comes_first(table, f, chosen):
             continue
         chosen = triangle[k]
         at = here
     if chosen < 0:
         return -1
     for k in range(start[column], start[column + 1]):
-        row = table[triangle[k]]
-        if row[14] == UPRIGHT:
+        f = triangle[k]
+        if table[f, 14] == UPRIGHT:
             continue
-        here = row[9] * x + row[10] * y + row[11]
-        if at + SAME_SURFACE < here < at + headroom and is_over(row, x, y):
+        here = table[f, 9] * x + table[f, 10] * y + table[f, 11]
+        if at + SAME_SURFACE < here < at + headroom and is_over(table, f, x, y):
             return -1
     return chosen
 
@@ -79,12 +79,11 @@ def floor_end(table, start, triangle, resolution, ny, x, y, d, z, p, q, step, he
             if t > 0.0:
                 return t
             break
-        row = table[here]
         out = np.inf
         for k in range(3):
             j = 3 * k + 3 if k < 2 else 0
-            ax, ay = row[3 * k] - x, row[3 * k + 1] - y
-            bx, by = row[j] - x, row[j + 1] - y
+            ax, ay = table[here, 3 * k] - x, table[here, 3 * k + 1] - y
+            bx, by = table[here, j] - x, table[here, j + 1] - y
             # the edge in a frame along and across the way
             along_a, across_a = ax * dx + ay * dy, ay * dx - ax * dy
             along_b, across_b = bx * dx + by * dy, by * dx - bx * dy

@@ -47,14 +47,14 @@ def _column(grid, x, y):
 
 
 @njit(cache=True, inline="always")
-def _over(row, x, y):
+def _over(table, f, x, y):
     """Whether (x, y) is inside a prepared triangle that has a height there."""
     turn = 0
     for k in range(3):
         j = 3 * k + 3 if k < 2 else 0
-        dx = row[j] - row[3 * k]
-        dy = row[j + 1] - row[3 * k + 1]
-        cross = dx * (y - row[3 * k + 1]) - dy * (x - row[3 * k])
+        dx = table[f, j] - table[f, 3 * k]
+        dy = table[f, j + 1] - table[f, 3 * k + 1]
+        cross = dx * (y - table[f, 3 * k + 1]) - dy * (x - table[f, 3 * k])
         if abs(cross) <= _EDGE * math.sqrt(dx * dx + dy * dy):
             continue
         now = 1 if cross > 0.0 else -1
@@ -80,15 +80,14 @@ def surface_below(grid, x, y, low, high):
         return best, which
     for k in range(grid[1][column], grid[1][column + 1]):
         t = grid[2][k]
-        row = table[t]
-        if row[14] == 0.0 or row[12] > high or row[13] < best - 1e-6:
+        if table[t, 14] == 0.0 or table[t, 12] > high or table[t, 13] < best - 1e-6:
             continue
-        z = row[9] * x + row[10] * y + row[11]
+        z = table[t, 9] * x + table[t, 10] * y + table[t, 11]
         if z > high or z < low or z < best - 1e-6:
             continue
-        if which >= 0 and abs(z - best) <= 1e-6 and not (row[14] == 2.0 and table[which, 14] != 2.0):
+        if which >= 0 and abs(z - best) <= 1e-6 and not (table[t, 14] == 2.0 and table[which, 14] != 2.0):
             continue
-        if _over(row, x, y):
+        if _over(table, t, x, y):
             best = z
             which = t
     return best, which
@@ -103,20 +102,20 @@ def lowest_above(grid, x, y, low, high):
     if column < 0:
         return best
     for k in range(grid[1][column], grid[1][column + 1]):
-        row = table[grid[2][k]]
-        if row[14] == 0.0 or row[13] <= low or row[12] >= high:
+        t = grid[2][k]
+        if table[t, 14] == 0.0 or table[t, 13] <= low or table[t, 12] >= high:
             continue
-        z = row[9] * x + row[10] * y + row[11]
-        if low < z < high and z < best and _over(row, x, y):
+        z = table[t, 9] * x + table[t, 10] * y + table[t, 11]
+        if low < z < high and z < best and _over(table, t, x, y):
             best = z
     return best
 
 
 @njit(cache=True)
-def _hits(row, px, py, pz, dx, dy, dz):
+def _hits(table, f, px, py, pz, dx, dy, dz):
     """Whether the segment p to p + d meets a prepared triangle."""
-    e1x, e1y, e1z = row[3] - row[0], row[4] - row[1], row[5] - row[2]
-    e2x, e2y, e2z = row[6] - row[0], row[7] - row[1], row[8] - row[2]
+    e1x, e1y, e1z = table[f, 3] - table[f, 0], table[f, 4] - table[f, 1], table[f, 5] - table[f, 2]
+    e2x, e2y, e2z = table[f, 6] - table[f, 0], table[f, 7] - table[f, 1], table[f, 8] - table[f, 2]
     hx = dy * e2z - dz * e2y
     hy = dz * e2x - dx * e2z
     hz = dx * e2y - dy * e2x
@@ -124,7 +123,7 @@ def _hits(row, px, py, pz, dx, dy, dz):
     scale = (abs(e1x) + abs(e1y) + abs(e1z)) * (abs(hx) + abs(hy) + abs(hz))
     if abs(a) <= 1e-12 * scale or a == 0.0:
         return False
-    sx, sy, sz = px - row[0], py - row[1], pz - row[2]
+    sx, sy, sz = px - table[f, 0], py - table[f, 1], pz - table[f, 2]
     u = (sx * hx + sy * hy + sz * hz) / a
     if u < -1e-9 or u > 1.0 + 1e-9:
         return False
@@ -141,7 +140,7 @@ def _hits(row, px, py, pz, dx, dy, dz):
 @njit(cache=True)
 def crossed(grid, px, py, pz, qx, qy, qz):
     """Whether anything of the mesh crosses the segment p-q (metres)."""
-    size = grid[3]
+    table, size = grid[0], grid[3]
     dx, dy, dz = qx - px, qy - py, qz - pz
     low = min(pz, qz)
     high = max(pz, qz)
@@ -163,10 +162,10 @@ def crossed(grid, px, py, pz, qx, qy, qz):
         ):
             column = ix * grid[5] + iy
             for k in range(grid[1][column], grid[1][column + 1]):
-                row = grid[0][grid[2][k]]
-                if row[12] > high or row[13] < low:
+                t = grid[2][k]
+                if table[t, 12] > high or table[t, 13] < low:
                     continue
-                if _hits(row, px, py, pz, dx, dy, dz):
+                if _hits(table, t, px, py, pz, dx, dy, dz):
                     return True
     return False
 

@@ -17,21 +17,23 @@ _BEYOND = 1e-4
 
 
 @njit(cache=True)
-def faces_up(row):
+def faces_up(table, f):
     """Whether a prepared triangle faces up."""
-    return (row[3] - row[0]) * (row[7] - row[1]) - (row[4] - row[1]) * (row[6] - row[0]) > 0.0
+    return (table[f, 3] - table[f, 0]) * (table[f, 7] - table[f, 1]) - (table[f, 4] - table[f, 1]) * (
+        table[f, 6] - table[f, 0]
+    ) > 0.0
 
 
 @njit(cache=True)
-def _way_out(row, x, y, dx, dy):
+def _way_out(table, f, x, y, dx, dy):
     """How far it is from (x, y), a point of an upward face, in direction (dx, dy) to the face's edge [m]."""
     out = np.inf
     for k in range(3):
         j = 3 * k + 3 if k < 2 else 0
-        ex, ey = row[j] - row[3 * k], row[j + 1] - row[3 * k + 1]
+        ex, ey = table[f, j] - table[f, 3 * k], table[f, j + 1] - table[f, 3 * k + 1]
         leaving = dx * ey - dy * ex
         if leaving > 1e-12:
-            out = min(out, ((row[3 * k] - x) * ey - (row[3 * k + 1] - y) * ex) / leaving)
+            out = min(out, ((table[f, 3 * k] - x) * ey - (table[f, 3 * k + 1] - y) * ex) / leaving)
     return max(out, 0.0)
 
 
@@ -43,17 +45,16 @@ def _next_face(table, start, triangle, resolution, ny, x, y, z, left):
     level = False
     for k in range(start[column], start[column + 1]):
         t = triangle[k]
-        row = table[t]
-        reach = left + TOUCH if row[14] == FLOOR else SAME_SURFACE
+        reach = left + TOUCH if table[t, 14] == FLOOR else SAME_SURFACE
         if (
-            row[14] == UPRIGHT
-            or abs(row[9] * x + row[10] * y + row[11] - z) > reach
-            or not is_over(row, x, y)
+            table[t, 14] == UPRIGHT
+            or abs(table[t, 9] * x + table[t, 10] * y + table[t, 11] - z) > reach
+            or not is_over(table, t, x, y)
         ):
             continue
-        if row[14] == FLOOR:
+        if table[t, 14] == FLOOR:
             level = True
-        elif faces_up(row) and (chosen < 0 or comes_first(row, table[chosen])):
+        elif faces_up(table, t) and (chosen < 0 or comes_first(table, t, chosen)):
             chosen = t
     return chosen, level
 
@@ -65,10 +66,9 @@ def _height_to_floor(table, start, triangle, resolution, ny, t, x, y, way, step,
     z = table[t, 9] * x + table[t, 10] * y + table[t, 11]
     begin = z
     for _ in range(_FACES):
-        row = table[t]
-        fall = math.hypot(row[9], row[10])
-        dx, dy = way * row[9] / fall, way * row[10] / fall
-        out = _way_out(row, x, y, dx, dy)
+        fall = math.hypot(table[t, 9], table[t, 10])
+        dx, dy = way * table[t, 9] / fall, way * table[t, 10] / fall
+        out = _way_out(table, t, x, y, dx, dy)
         z += way * out * fall
         left = step - abs(z - begin)
         if left < -TOUCH:
@@ -89,12 +89,11 @@ def _height_to_floor(table, start, triangle, resolution, ny, t, x, y, way, step,
 def on_riser(table, start, triangle, resolution, ny, t, x, y, step, headroom):
     """Whether (x, y) on the steep face ``t``, which faces up, is on a riser: the fall line through it leads
     over steep faces to floor above and to floor below that are at most ``step`` apart in height."""
-    row = table[t]
-    fall = math.hypot(row[9], row[10])
-    dx, dy = row[9] / fall, row[10] / fall
+    fall = math.hypot(table[t, 9], table[t, 10])
+    dx, dy = table[t, 9] / fall, table[t, 10] / fall
     # most steep faces are too high, by themselves or with those above them
-    below = _way_out(row, x, y, -dx, -dy) * fall
-    if below + _way_out(row, x, y, dx, dy) * fall > step + TOUCH:
+    below = _way_out(table, t, x, y, -dx, -dy) * fall
+    if below + _way_out(table, t, x, y, dx, dy) * fall > step + TOUCH:
         return False
     up = _height_to_floor(table, start, triangle, resolution, ny, t, x, y, 1.0, step - below, headroom)
     if up == np.inf:

@@ -16,16 +16,16 @@ __all__ = [
 
 
 @njit(cache=True)
-def clip_band(row, x, y, z, p, q, low, high, polygon, spare):
+def clip_band(table, f, x, y, z, p, q, low, high, polygon, spare):
     """The part of a triangle between ``low`` and ``high`` above the plane through (x, y, z), seen from above.
 
     Fills ``polygon`` (8, 2) and returns its number of corners (0: nothing in the band).
     """
     count = 3
     for k in range(3):
-        spare[k, 0] = row[3 * k]
-        spare[k, 1] = row[3 * k + 1]
-        spare[k, 2] = row[3 * k + 2] - z - p * (row[3 * k] - x) - q * (row[3 * k + 1] - y)
+        spare[k, 0] = table[f, 3 * k]
+        spare[k, 1] = table[f, 3 * k + 1]
+        spare[k, 2] = table[f, 3 * k + 2] - z - p * (table[f, 3 * k] - x) - q * (table[f, 3 * k + 1] - y)
     kept = 0
     for k in range(count):
         j = k + 1 if k + 1 < count else 0
@@ -128,13 +128,13 @@ def _crosses_polygon(polygon, count, ax, ay, bx, by):
 
 
 @njit(cache=True)
-def range_in_column(row, x, y, reach):
+def range_in_column(table, f, x, y, reach):
     """Bounds of a triangle's height within ``reach`` of (x, y) along both axes."""
-    if row[14] == UPRIGHT:
-        return row[12], row[13]
-    middle = row[9] * x + row[10] * y + row[11]
-    spread = (abs(row[9]) + abs(row[10])) * reach
-    return max(row[12], middle - spread), min(row[13], middle + spread)
+    if table[f, 14] == UPRIGHT:
+        return table[f, 12], table[f, 13]
+    middle = table[f, 9] * x + table[f, 10] * y + table[f, 11]
+    spread = (abs(table[f, 9]) + abs(table[f, 10])) * reach
+    return max(table[f, 12], middle - spread), min(table[f, 13], middle + spread)
 
 
 @njit(cache=True)
@@ -146,10 +146,10 @@ def wall_base(table, start, triangle, column, x, y, z, resolution, step):
     while grew:
         grew = False
         for k in range(start[column], start[column + 1]):
-            row = table[triangle[k]]
-            if row[14] != FLOOR:
+            f = triangle[k]
+            if table[f, 14] != FLOOR:
                 continue
-            low, high = range_in_column(row, x, y, 0.5 * resolution)
+            low, high = range_in_column(table, f, x, y, 0.5 * resolution)
             if low - z <= reach + step + TOUCH and high - z > reach:
                 reach = high - z
                 grew = True
@@ -173,7 +173,7 @@ def find_walls(table, start, triangle, cell_column, height, gradient, resolution
         slope = (abs(gradient[c, 0]) + abs(gradient[c, 1])) * half
         found = False
         for k in range(start[column], start[column + 1]):
-            low, high = range_in_column(table[triangle[k]], x, y, half)
+            low, high = range_in_column(table, triangle[k], x, y, half)
             if high > z + step and low < z + headroom + slope:
                 found = True
                 break
@@ -193,11 +193,13 @@ def _wall_between(
     z = height[c]
     slope = (abs(gradient[c, 0]) + abs(gradient[c, 1])) * half
     for k in range(start[column], start[column + 1]):
-        row = table[triangle[k]]
-        low, high = range_in_column(row, x, y, half)
+        f = triangle[k]
+        low, high = range_in_column(table, f, x, y, half)
         if high <= z + base[c] - slope or low >= z + headroom + slope:
             continue
-        count = clip_band(row, x, y, z, gradient[c, 0], gradient[c, 1], base[c], headroom, polygon, spare)
+        count = clip_band(
+            table, f, x, y, z, gradient[c, 0], gradient[c, 1], base[c], headroom, polygon, spare
+        )
         if count > 0 and _crosses_polygon(polygon, count, ax, ay, bx, by):
             return True
     return False

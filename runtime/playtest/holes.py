@@ -66,7 +66,7 @@ def find_holes(site: Site) -> list[Hole]:
 @njit(cache=True)
 def _bottomless(grid, size, nx, ny):
     """(nx·ny,) bool: columns at whose centre there is no surface, or whose lowest one faces down."""
-    empty = np.ones(nx * ny, np.bool_)
+    empty, table = np.ones(nx * ny, np.bool_), grid[0]
     for ix in range(nx):
         for iy in range(ny):
             x, y = (ix + 0.5) * size, (iy + 0.5) * size
@@ -75,13 +75,13 @@ def _bottomless(grid, size, nx, ny):
                 continue
             lowest = np.inf
             for k in range(grid[1][jx * grid[5] + jy], grid[1][jx * grid[5] + jy + 1]):
-                row = grid[0][grid[2][k]]
-                if row[14] == UPRIGHT or not is_over(row, x, y):
+                f = grid[2][k]
+                if table[f, 14] == UPRIGHT or not is_over(table, f, x, y):
                     continue
-                z = row[9] * x + row[10] * y + row[11]
+                z = table[f, 9] * x + table[f, 10] * y + table[f, 11]
                 if z < lowest:
                     lowest = z
-                    empty[ix * ny + iy] = not faces_up(row)
+                    empty[ix * ny + iy] = not faces_up(table, f)
     return empty
 
 

@@ -8,9 +8,11 @@ as users tell it. The table says how many arrive (in 60 s and 10 s per metre: en
 m/s), how often they fell on their way and got up again, how many ways they took, and what stopped the others;
 JSON holds every mission. A person that has been carried off by a fall (more than 0.5 m), or is stuck, takes a
 new way from where it is; its distance from its path is that from the way that it follows at the time, while
-it goes and not while it gets up: "lateral". "Unfallen" is the same until its first fall. Then the longest
-mission is timed, whole ticks and bare physics with the same controls from the same state in turns: the
-columns "control", "rehearsal" and "planning" say what comes on top of bare physics, "all" their sum.
+it goes and not while it gets up: "lateral". "Unfallen" is the same until its first fall. "In walls":
+missions in which a bone (the line between two joints, less the radius of a hand at its ends, which contacts
+press in) went through a triangle of the level at any time. Then the longest mission is timed, whole ticks and
+bare physics with the same controls from the same state in turns: the columns "control", "rehearsal" and
+"planning" say what comes on top of bare physics, "all" their sum.
 
 Undulating has hardly any ground that is less steep than a person's limit (7 % below 20 degrees; it falls into
 patches of 4 m), so its slope limit is 45 degrees there.
@@ -30,15 +32,18 @@ import numpy as np
 import navmesh
 from benchmarks.shared_data import LEVELS, level_path, shared_folder, why_absent
 from locomotion import MOVING, PERSON_RULES, Human, smooth_route
+from locomotion.arm_reach import HAND_RADIUS
 from locomotion.human_state import restore_physics, save_physics
 from locomotion.path_tracking import make_path
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK
+from navmesh.probes import ProbeGrid, crossed
 from runtime import World
 from runtime.events import Departed, Fell
 
 OWN_LEVELS = Path(__file__).resolve().parents[1] / "examples" / "levels"
 LENGTHS = (10.0, 60.0)
 REPEATS, MOST_TICKS = 3, 4000
+LOOKS = 5  # ticks between two looks at where the bones are
 TIME_LIMIT = 60.0, 10.0  # [s], and [s] more per metre of route
 MAX_SLOPES = {"undulating": math.radians(45.0)}
 
@@ -72,7 +77,20 @@ def random_routes(graph: navmesh.NodeGraph, count: int, seed: int) -> list:
     raise SystemExit(f"only {len(routes)} routes of {LENGTHS} m found")
 
 
-def run_mission(world: World, route: Any, speed: float) -> dict[str, Any]:
+def pierces(human: Human, probe: ProbeGrid, origin: np.ndarray) -> bool:
+    """Whether any bone of a person goes through a triangle of the level."""
+    joints, parents = human.data.xpos - origin, human.model.body_parentid
+    bones = np.flatnonzero(parents > 0)
+    far, near = joints[bones], joints[parents[bones]]
+    lengths = np.linalg.norm(far - near, axis=1)
+    long = lengths > 2.0 * HAND_RADIUS
+    far, near, along = far[long], near[long], (HAND_RADIUS * (far - near).T / lengths)[:, long].T
+    return any(crossed(probe.arrays, *a, *b) for a, b in zip(near + along, far - along, strict=True))
+
+
+def run_mission(
+    world: World, route: Any, speed: float, probe: ProbeGrid, origin: np.ndarray
+) -> dict[str, Any]:
     """Send a person along one route; returns what happened."""
     path = smooth_route(route)
     facing = math.atan2(*(path.points[1] - path.points[0])[1::-1])
@@ -81,10 +99,13 @@ def run_mission(world: World, route: Any, speed: float) -> dict[str, Any]:
     agent.go_to(path.points[-1], speed)
     lateral: list[float] = []
     unfallen: list[float] = []
+    in_walls, ticks = False, 0
     limit = TIME_LIMIT[0] + TIME_LIMIT[1] * route.length
     while agent.moving and world.time - begun < limit:
         world.step(CONTROL_DT)
         events += world.events
+        ticks += 1
+        in_walls = in_walls or (ticks % LOOKS == 0 and pierces(agent.human, probe, origin))
         if agent.status != "getting up":
             lateral.append(abs(agent.human.lateral_error))
             if not any(isinstance(event, Fell) for event in events):
@@ -96,6 +117,7 @@ def run_mission(world: World, route: Any, speed: float) -> dict[str, Any]:
         "status": "out of time" if agent.moving else agent.status,
         "falls": sum(isinstance(event, Fell) for event in events),
         "ways": sum(isinstance(event, Departed) for event in events),
+        "in_walls": in_walls,
         "start": path.points[0].round(3).tolist(),
         "goal": path.points[-1].round(3).tolist(),
         "length": round(route.length, 2),
@@ -176,7 +198,9 @@ def report_on(name: str, options: argparse.Namespace) -> dict[str, Any]:
     graph = person_graph(terrain, max_slope)
     routes = random_routes(graph, options.missions, options.seed)
     world = World(graph)
-    results = [run_mission(world, route, options.speed) for route in routes]
+    origin = terrain.bounds[0] - 1.0
+    probe = ProbeGrid(terrain.vertices, terrain.faces, origin, max_slope)
+    results = [run_mission(world, route, options.speed, probe, origin) for route in routes]
     lateral, unfallen = (
         np.concatenate([result.pop(name) for result in results]) for name in ("lateral", "unfallen")
     )
@@ -186,6 +210,7 @@ def report_on(name: str, options: argparse.Namespace) -> dict[str, Any]:
         "arrived": sum(r["status"] == "arrived" for r in results),
         "falls": sum(r["falls"] for r in results),
         "ways": sum(r["ways"] for r in results),
+        "in_walls": sum(r["in_walls"] for r in results),
         "lateral_p95": float(np.percentile(lateral, 95)),
         "lateral_max": float(lateral.max()),
         "unfallen_p95": float(np.percentile(unfallen, 95)),
@@ -204,8 +229,9 @@ def main() -> None:
     options = parser.parse_args()
     report: dict[str, Any] = {"speed": options.speed, "seed": options.seed, "levels": {}}
     print(
-        f"{'level':12} {'arrive':>8} {'falls':>6} {'ways':>5} {'lateral p95':>12} {'unfallen':>9} "
-        f"{'control':>8} {'rehearsal':>10} {'planning':>9} {'all':>7} {'real time':>10}  stopped by"
+        f"{'level':12} {'arrive':>8} {'falls':>6} {'ways':>5} {'in walls':>9} {'lateral p95':>12} "
+        f"{'unfallen':>9} {'control':>8} {'rehearsal':>10} {'planning':>9} {'all':>7} {'real time':>10}  "
+        "stopped by"
     )
     for name in options.levels:
         if name in LEVELS and shared_folder() is None:
@@ -215,8 +241,8 @@ def main() -> None:
         report["levels"][name] = result
         arrived, cost = f"{result['arrived']}/{len(result['missions'])}", result["cost"]
         print(
-            f"{name:12} {arrived:>8} {result['falls']:6} {result['ways']:5} {result['lateral_p95']:10.2f} m "
-            f"{result['unfallen_p95']:7.2f} m {100 * cost['control']:6.1f} % "
+            f"{name:12} {arrived:>8} {result['falls']:6} {result['ways']:5} {result['in_walls']:9} "
+            f"{result['lateral_p95']:10.2f} m {result['unfallen_p95']:7.2f} m {100 * cost['control']:6.1f} % "
             f"{100 * cost['rehearsal']:8.1f} % {100 * cost['planning']:7.1f} % {100 * cost['share']:5.1f} % "
             f"{cost['real_time']:8.0f} x  {result['stopped_by']}"
         )

@@ -8,16 +8,16 @@ objective and what was learned. How to make one is in docs/own-skills.md.
 import os
 from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
-import yaml
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from locomotion.clearing import ClearingSkill
 from locomotion.clip import Clip, load_clip
 from locomotion.errors import LocomotionError
 from locomotion.jump_skill import Jump, load_jump_skill
 from locomotion.skill import RunSkill
+from navmesh.yamlfile import FileError, read_yaml
 
 __all__ = ["SkillDescription", "load_described", "load_description"]
 
@@ -38,7 +38,7 @@ class SkillDescription(BaseModel):
     name: what commands and files call it. affordance: the kind of obstacle that it clears. sizes: heights [m]
     (for a gap, widths) that are learned one after the other. least: [m] down to which what is learned first
     serves; None: the first of the sizes. entry: speed [m/s] of the last step before it. clip: what is played
-    over take-off and landing. objective: weights of the terms of `locomotion.training.jump.WEIGHTS` that are
+    over take-off and landing. objective: weights of terms of `locomotion.training.jump_kind.WEIGHTS` that are
     to differ from those. learned: what `surefoot train` writes.
 
     Where learning starts: marks: distances [m] from the edge at which the take-off step begins and the
@@ -71,28 +71,16 @@ class SkillDescription(BaseModel):
 
 
 def load_description(path: str | os.PathLike[str]) -> SkillDescription:
-    """Read and check a description; `LocomotionError` names the file, the key and what would be right."""
-    source = Path(path)
+    """Read and check a description; `LocomotionError` names the file, line and column, and what would be
+    right."""
     try:
-        values: Any = yaml.safe_load(source.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise LocomotionError(f"{source}: {error.strerror}") from error
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise LocomotionError(f"{source}: not YAML: {error}") from error
-    if not isinstance(values, dict):
-        raise LocomotionError(f"{source}: expected keys and values, such as name: leap")
-    try:
-        description = SkillDescription.model_validate(values)
-    except ValidationError as error:
-        faults = "; ".join(f"{'.'.join(map(str, e['loc']))}: {e['msg']}" for e in error.errors())
-        valid = ", ".join(SkillDescription.model_fields)
-        raise LocomotionError(f"{source}: {faults}; keys: {valid}") from error
-    if description.least is not None and description.least > description.sizes[0]:
-        raise LocomotionError(
-            f"{source}: least: {description.least:g} m is above the first of the sizes, "
-            f"{description.sizes[0]:g} m"
-        )
-    folder = source.parent
+        description, located = read_yaml(path, SkillDescription, "skill's description")
+        if description.least is not None and description.least > description.sizes[0]:
+            first = f"the first of the sizes, {description.sizes[0]:g} m"
+            raise located.error(["least"], f"least: {description.least:g} m is above {first}")
+    except FileError as error:
+        raise LocomotionError(str(error)) from None
+    folder = Path(path).parent
     return description.model_copy(
         update={"clip": folder / description.clip, "learned": folder / description.learned}
     )

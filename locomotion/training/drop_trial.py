@@ -12,17 +12,17 @@ from locomotion import drop_roll as dr
 from locomotion.gaits import run_entry_speed
 from locomotion.ground import plane_lookup
 from locomotion.learned_skill import LawTables
-from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, person_spec
+from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex
 from locomotion.skill import RunSkill, run_on
 from locomotion.training.jump_trial import StartState
+from locomotion.training.trial_scene import BOX_LENGTH, BOX_TOP, trial_scene
 from locomotion.walk_layout import WALK_HEADING, WALK_STANCE, WALK_STEPS, new_walk
 from locomotion.walk_skill import RISING, STEADYING_SPEED, load_walk_skill, rise_walking
 from locomotion.walking import observe_walk, walk_tick
 
-__all__ = ["DropOutcome", "DropSimulator", "drop_model"]
+__all__ = ["DropOutcome", "DropSimulator"]
 
 _STATE = mujoco.mjtState.mjSTATE_INTEGRATION
-_DEPTH, _LENGTH = 2.0, 60.0  # [m] half the height of the ledge's box; its length
 _UPRIGHT, _TALL = 0.8, 0.75  # of the chest's axis; [m] of the centre of mass: it stands
 _STEERING, _MOST_STEERING = 0.4, 0.4  # [rad/m], [rad] back to the line
 _ON, _HASTE = 3.5, 1.3  # [m/s] of the run after it; by which it may be asked for more than it makes
@@ -65,25 +65,6 @@ class DropOutcome:
     low: float
 
 
-def drop_model() -> mujoco.MjModel:
-    """The person, the lower ground (geom ``ground``) and a box (geom ``ledge``) that trials move."""
-    spec = person_spec()
-    friction = [0.9, 0.005, 0.0001]
-    spec.worldbody.add_geom(
-        name="ground", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], contype=1, conaffinity=0,
-        friction=friction, rgba=[0.82, 0.84, 0.86, 1],
-    )  # fmt: skip
-    spec.worldbody.add_geom(
-        name="ledge", type=mujoco.mjtGeom.mjGEOM_BOX, size=[_LENGTH / 2, 4.0, _DEPTH], contype=1,
-        conaffinity=0, friction=friction, rgba=[0.62, 0.55, 0.46, 1], pos=[1000.0, 0.0, -_DEPTH],
-    )  # fmt: skip
-    model = spec.compile()
-    model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_MIDPHASE  # the box moves in the world body
-    # so that moving the plane counts
-    model.geom_sameframe[model.geom("ground").id] = mujoco.mjtSameFrame.mjSAMEFRAME_NONE
-    return model
-
-
 @njit(cache=True)
 def _touches(ncon, geoms, addresses, forces, heads):
     """Sum of the normal forces [N], and whether a geom marked in ``heads`` touches."""
@@ -101,7 +82,7 @@ class DropSimulator:
 
     def __init__(self, run: RunSkill) -> None:
         self.run, self.gait = run, load_walk_skill()
-        self.model = drop_model()
+        self.model = trial_scene("ledge")
         self.data = mujoco.MjData(self.model)
         self.index = PersonIndex.of(self.model)
         self.ledge, self.ground = self.model.geom("ledge").id, self.model.geom("ground").id
@@ -113,7 +94,7 @@ class DropSimulator:
 
     def place(self, edge: float, height: float) -> None:
         """The ledge, at z = 0, ends at x = ``edge`` [m]; the ground is ``height`` [m] below it."""
-        self.model.geom_pos[self.ledge] = [edge - _LENGTH / 2, 0.0, -_DEPTH]
+        self.model.geom_pos[self.ledge] = [edge - BOX_LENGTH / 2, 0.0, -BOX_TOP]
         self.model.geom_pos[self.ground] = [0.0, 0.0, -height]
         self.height, self.lookup = height, (*plane_lookup()[:-1], np.array([0.0, 0.0, -height]))
 

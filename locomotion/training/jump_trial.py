@@ -15,14 +15,13 @@ from locomotion.jump import jump_tick, start_jump
 from locomotion.jump_skill import jump_clip
 from locomotion.learned_skill import LawTables
 from locomotion.path_tracking import RUN_UP
-from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, person_spec
+from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill, reset_running
+from locomotion.training.trial_scene import BOX_LENGTH, BOX_TOP, trial_scene
 
-__all__ = ["JumpOutcome", "JumpSimulator", "LedgeSimulator", "StartState", "stair_model"]
+__all__ = ["JumpOutcome", "JumpSimulator", "LedgeSimulator", "StartState"]
 
-_TOP = 2.0  # half height [m] of the box: its lower part is under the plane
-_LENGTH = 60.0  # [m] of the stair behind its edge
 _COMPARED = ("hip_flexion", "knee_flexion", "shoulder_flexion")
 _STATE = mujoco.mjtState.mjSTATE_INTEGRATION
 
@@ -69,31 +68,6 @@ class JumpOutcome:
     errors: tuple[float, float]
 
 
-def stair_model(ledge: bool = False) -> mujoco.MjModel:
-    """The person, the plane z = 0 (geom ``ground``) and a box (geom ``stair``) that trials move. ``ledge``:
-    and another one (geom ``ledge``), before the lowered plane."""
-    spec = person_spec()
-    friction = [0.9, 0.005, 0.0001]
-    spec.worldbody.add_geom(
-        name="ground", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], contype=1, conaffinity=0,
-        friction=friction, rgba=[0.82, 0.84, 0.86, 1],
-    )  # fmt: skip
-    spec.worldbody.add_geom(
-        name="stair", type=mujoco.mjtGeom.mjGEOM_BOX, size=[_LENGTH / 2, 4.0, _TOP], contype=1,
-        conaffinity=0, friction=friction, rgba=[0.62, 0.55, 0.46, 1], pos=[1000.0, 0.0, -_TOP],
-    )  # fmt: skip
-    if ledge:
-        spec.worldbody.add_geom(
-            name="ledge", type=mujoco.mjtGeom.mjGEOM_BOX, size=[_LENGTH / 2, 4.0, _TOP], contype=1,
-            conaffinity=0, friction=friction, rgba=[0.62, 0.55, 0.46, 1], pos=[-1000.0, 0.0, -_TOP],
-        )  # fmt: skip
-    model = spec.compile()
-    model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_MIDPHASE  # the box moves in the world body
-    if ledge:  # so that moving the plane counts
-        model.geom_sameframe[model.geom("ground").id] = mujoco.mjtSameFrame.mjSAMEFRAME_NONE
-    return model
-
-
 class JumpSimulator:
     """A person, a plane and a stair that trials are run with; one per process."""
 
@@ -112,12 +86,12 @@ class JumpSimulator:
         self.limbs = np.array([i for i, name in enumerate(c.JOINT_NAMES) if name.endswith(_COMPARED)])
 
     def _make_model(self) -> mujoco.MjModel:
-        return stair_model()
+        return trial_scene("stair")
 
     def place(self, edge_x: float, size: float) -> tuple[float, float]:
         """Put an obstacle of ``size`` [m] with its edge at x = ``edge_x`` [m]; gives x and height [m] of the
         edge that the person lands behind."""
-        self.model.geom_pos[self.stair] = [edge_x + _LENGTH / 2, 0.0, size - _TOP]
+        self.model.geom_pos[self.stair] = [edge_x + BOX_LENGTH / 2, 0.0, size - BOX_TOP]
         return edge_x, size
 
     def clear_away(self) -> None:
@@ -228,7 +202,7 @@ class JumpSimulator:
         """Begin where a person that stood at ``start`` (3,) goes over from walking to running."""
         human = Human(None, self.run, clearing=(), rehearsals=0)
         human.reset(start, 0.0)
-        human.follow(np.array([start, [_LENGTH / 2, start[1], 0.0]]), speed)
+        human.follow(np.array([start, [BOX_LENGTH / 2, start[1], 0.0]]), speed)
         while human.status == "walking":
             human.tick()
         state = np.empty(mujoco.mj_stateSize(human.model, _STATE))
@@ -310,13 +284,13 @@ class LedgeSimulator(JumpSimulator):
         self._ground, self._ledge = self.model.geom("ground").id, self.model.geom("ledge").id
 
     def _make_model(self) -> mujoco.MjModel:
-        return stair_model(ledge=True)
+        return trial_scene("stair", "ledge")
 
     def place(self, edge_x: float, size: float) -> tuple[float, float]:
         landing = (edge_x + size, 0.0) if self._affordance == "gap" else (edge_x, -size)
         super().place(*landing)
-        self.model.geom_pos[self._ledge] = [edge_x - _LENGTH / 2, 0.0, -_TOP]
-        self.model.geom_pos[self._ground, 2] = -_TOP
+        self.model.geom_pos[self._ledge] = [edge_x - BOX_LENGTH / 2, 0.0, -BOX_TOP]
+        self.model.geom_pos[self._ground, 2] = -BOX_TOP
         return landing
 
     def clear_away(self) -> None:

@@ -175,9 +175,14 @@ def test_of_another_person(tmp_path, skill, monkeypatch):
         load_jump_skill(tmp_path / "jump.npz")
 
 
-def test_simulated_face_is_where_the_stair_is():
-    from locomotion.training.jump_trial import stair_model
+def test_the_stair_of_a_trial_is_where_it_was_put():
+    from locomotion.training.jump_trial import JumpSimulator
 
-    model = stair_model()
-    assert model.geom("stair").size[2] == 2.0
-    assert mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, "ground") >= 0
+    simulator = JumpSimulator(load_run_skill())
+    simulator.place(3.0, 0.4)
+    mujoco.mj_forward(simulator.model, simulator.data)
+    hit = np.zeros(1, np.int32)
+    for x, height in ((2.99, 0.0), (3.01, 0.4)):
+        above, down = np.array([x, 2.0, 5.0]), np.array([0.0, 0.0, -1.0])
+        distance = mujoco.mj_ray(simulator.model, simulator.data, above, down, None, 1, -1, hit)
+        assert 5.0 - distance == pytest.approx(height, abs=1e-9)

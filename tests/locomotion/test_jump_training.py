@@ -9,15 +9,8 @@ from locomotion import jump
 from locomotion.errors import LocomotionError
 from locomotion.jump_skill import Jump, load_jump_skill, run_digest
 from locomotion.skill import load_run_skill
-from locomotion.training.jump import (
-    ENTRY_SPEED,
-    JumpProblem,
-    cost,
-    first_guess,
-    scales,
-    stair_jump,
-    train_jump,
-)
+from locomotion.training.jump import JumpProblem, train_jump
+from locomotion.training.jump_kind import ENTRY_SPEED, cost, first_guess, scales, stair_jump
 from locomotion.training.jump_trial import JumpSimulator
 from locomotion.training.loop import Stage
 from navmesh.archive import write_archive

@@ -57,7 +57,7 @@ def test_what_a_description_leaves_out_is_as_of_a_jump(own):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"heights": [1.0]}, "heights: .*keys: name, affordance, sizes"),
+        ({"heights": [1.0]}, "heights: unknown key; valid: name, affordance, sizes"),
         ({"name": "Big Leap"}, "name: "),
         ({"affordance": "vault"}, "affordance: .*'jump', 'drop' or 'gap'"),
         ({"sizes": [1.0, 0.8]}, "sizes: .*must increase"),
@@ -70,7 +70,7 @@ def test_what_a_description_leaves_out_is_as_of_a_jump(own):
 )
 def test_a_bad_description_is_refused_by_key(own, changes, message):
     path = own(**changes)
-    with pytest.raises(LocomotionError, match=f"hop.yaml: .*{message}"):
+    with pytest.raises(LocomotionError, match=rf"hop\.yaml:\d+:\d+: .*{message}"):
         load_description(path)
 
 

@@ -27,6 +27,8 @@ STEP = 0.1
 SPACING = 0.1
 """[m] between the points of a course."""
 COUNT = round(HORIZON / STEP)
+AT_ONCE = 1.0 / STEP
+"""[1/s] Of an eagerness: it changes its speed as hard as it can, to the end."""
 _ASIDE = (0.4, 0.8, 1.2, 1.6)
 """[m] to each side that a way leads."""
 _PACES = (1.0, 0.6, 0.3, 0.0)
@@ -35,6 +37,9 @@ _LEFT_COSTS, _SLOW_COSTS = 1.2, 2.0
 _NEAR_COSTS, _TOUCHING_COSTS, _SOONER_COSTS, _DEEPER_COSTS = 1.5, 2.5, 6.0, 20.0
 """For coming too near to somebody, less than standing, lest two wait for each other for ever; for touching
 it, for that at once rather than at the end of what is foretold, and for going through it."""
+_KEPT = (4.0, 2.0, 1.0)
+"""[m] for which a body keeps to the way that it had."""
+_KEEPING_COSTS = 0.2
 _QUINTIC = 5.7735  # most second derivative of the step from 0 to 1 whose ends are smooth to the second order
 _AFTERWARDS = 1.0  # [m] that a body stays aside behind the place where it would have met somebody
 
@@ -47,8 +52,10 @@ class Course:
         points: (k, 3) float64 [m] the path from the body on, every `SPACING`.
         speeds: (k,) float64 [m/s] at which it wants to pass them, if nobody is in the way.
         speed: [m/s] now. pace: share of ``speeds`` at which it goes at present.
-        length: [m] from its rearmost point, which follows the path, to its front. radius: [m].
-        acceleration, braking: [m/s²].
+        length: [m] from its rearmost point, which follows the path, to its front. reach: [m] of it that lies
+            beyond the last point when it has come to its end. radius: [m].
+        acceleration, braking: [m/s²] at most. eagerness: [1/s] by which a difference of speed becomes one of
+            these, up to `AT_ONCE`.
         slowest: [m/s] that it can go, unless it halts; 0: it halts as easily as it slows down.
         sharpest: [1/m] of a curve that it can take. begins: [m] ahead where a change of its path may begin.
         aside: whether its path may be changed. whole: whether the last point is its goal.
@@ -60,9 +67,11 @@ class Course:
     speed: float
     pace: float
     length: float
+    reach: float
     radius: float
     acceleration: float
     braking: float
+    eagerness: float
     slowest: float
     sharpest: float
     begins: float
@@ -72,36 +81,40 @@ class Course:
 
 
 @njit(cache=True)
-def foretell(points, speeds, speed, pace, slowest, acceleration, braking, length, places):
+def foretell(
+    points, speeds, speed, pace, slowest, acceleration, braking, eagerness, length, reach, places
+):  # fmt: skip
     """Write where a body is every `STEP` from now on into ``places`` (COUNT, discs, 2): its discs lie from
     its rear to its front. points (k, 2+), speeds (k,): as in `Course`."""
     count, discs = places.shape[0], places.shape[1]
     last = points.shape[0] - 1
-    arc = 0.0
+    end, arc = last + reach / SPACING, 0.0
     for k in range(count):
         for d in range(discs):
             ahead = arc + (length * d / (discs - 1) if discs > 1 else 0.0)
-            at = min(max(ahead / SPACING, 0.0), float(last))
+            at = min(max(ahead / SPACING, 0.0), end)
             i = min(int(at), max(last - 1, 0))
             w = at - i
             j = min(i + 1, last)
             places[k, d, 0] = (1.0 - w) * points[i, 0] + w * points[j, 0]
             places[k, d, 1] = (1.0 - w) * points[i, 1] + w * points[j, 1]
         wanted = max(pace * speeds[min(int(arc / SPACING), last)], slowest) if pace > 0.0 else 0.0
-        change = min(max(wanted - speed, -braking * STEP), acceleration * STEP)
-        speed = max(speed + change, 0.0)
-        arc = min(arc + speed * STEP, max(last * SPACING - length, 0.0))
+        change = min(max(eagerness * (wanted - speed), -braking), acceleration) * STEP
+        before, speed = speed, max(speed + change, 0.0)
+        arc = min(arc + 0.5 * (before + speed) * STEP, max(end * SPACING - length, 0.0))
 
 
 @njit(cache=True)
 def first_meeting(own, own_radius, others, other_radius, room):
     """The number of the first step at which a disc of ``own`` (n, d, 2) comes nearer to one of ``others``
     (n, m, 2) than both radii and ``room`` [m], and nearer than if it stayed where it is; n when none does.
-    The first at which it touches one, and how deep it comes to lie in one, as a share of both radii. Who is
-    run into from behind, or where it stands, has not come near; discs that lie in each other from the
-    beginning do not count, so that the one in front gets away."""
+    The first at which it touches one, and how deep it comes to lie in one, as a share of both radii; the
+    foremost of several discs is its head, which gives in. Who is run into from behind, or where it stands,
+    has not come near; discs that lie in each other from the beginning do not count, so that the one in front
+    gets away."""
     count = own.shape[0]
     first, touches, deepest = count, count, 0.0
+    body = max(own.shape[1] - 1, 1)
     for k in range(1, count):
         for d in range(own.shape[1]):
             for m in range(others.shape[1]):
@@ -118,7 +131,8 @@ def first_meeting(own, own_radius, others, other_radius, room):
                     first = min(first, k)
                     if far < both * both:
                         touches = min(touches, k)
-                        deepest = max(deepest, 1.0 - math.sqrt(far) / both)
+                        if d < body:
+                            deepest = max(deepest, 1.0 - math.sqrt(far) / both)
     return first, touches, deepest
 
 
@@ -162,14 +176,14 @@ def cost_of_meeting(near: int, touches: int, depth: float) -> float:
     return cost
 
 
-def options(course: Course, meeting: int, halts: bool = True) -> list[Options]:
+def options(course: Course, meeting: int, halts: bool = True, former: Course | None = None) -> list[Options]:
     """What a body can do that would meet somebody at step ``meeting``, the cheapest first; ``halts``: whether
-    one that does not halt easily does so."""
-    found = [
-        Options(pace, None, _SLOW_COSTS * (1.0 - pace))
-        for pace in _PACES
-        if pace == 1.0 or (_slows(course, pace) if pace > 0.0 else halts or course.slowest == 0.0)
-    ]
+    one that does not halt easily does so; ``former``: the course that it was on until it was told another
+    goal just now."""
+    paces = _paces(course, halts)
+    found = [Options(pace, None, _SLOW_COSTS * (1.0 - pace)) for pace in paces]
+    if course.aside and former is not None:
+        found += _kept(course, former, paces)
     if course.aside:
         arcs = SPACING * np.arange(len(course.points))
         ahead = course.points[np.minimum(np.arange(len(arcs)) + 1, len(arcs) - 1), :2]
@@ -189,15 +203,38 @@ def options(course: Course, meeting: int, halts: bool = True) -> list[Options]:
                 shift = (side * aside * profile)[:, None] * left
                 found += [
                     Options(pace, shift, dear * aside + _SLOW_COSTS * (1.0 - pace))
-                    for pace in _PACES[:-1]
-                    if pace == 1.0 or _slows(course, pace)
+                    for pace in paces
+                    if pace > 0.0
                 ]
     return sorted(found, key=lambda option: option.cost)
 
 
-def _slows(course: Course, pace: float) -> bool:
-    """Whether a pace makes a difference."""
-    return pace * float(course.speeds[0]) >= course.slowest or course.slowest < 0.8 * float(course.speeds[0])
+def _kept(course: Course, former: Course, paces: list[float]) -> list[Options]:
+    """To go on for a while as in ``former``: that may be about to step aside, for which it would be too late
+    on ``course``."""
+    arcs = SPACING * np.arange(len(course.points))
+    same = np.minimum(np.arange(len(arcs)), len(former.points) - 1)
+    apart = former.points[same, :2] - course.points[:, :2]
+    found = []
+    for until in _KEPT:
+        far = float(np.linalg.norm(apart[min(round(until / SPACING), len(arcs) - 1)]))
+        bend = max(math.sqrt(_QUINTIC * far / course.sharpest), course.length)
+        if until + bend <= arcs[-1]:
+            shift = (1.0 - _quintic((arcs - until) / bend))[:, None] * apart
+            found += [Options(pace, shift, _KEEPING_COSTS + _SLOW_COSTS * (1.0 - pace)) for pace in paces]
+    return found
+
+
+def _paces(course: Course, halts: bool) -> list[float]:
+    """Those that make a difference; ``halts``: also 0 for one that does not halt easily."""
+    wanted = float(course.speeds[0])
+    slows = course.slowest < 0.8 * wanted
+    return [
+        pace
+        for pace in _PACES
+        if pace == 1.0
+        or (slows or pace * wanted >= course.slowest if pace > 0.0 else halts or course.slowest == 0.0)
+    ]
 
 
 def _quintic(share: NDArray[Any]) -> NDArray[np.float64]:

@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from locomotion import path_tracking
 from locomotion.gaits import PERSON_RULES
-from locomotion.giving_way import HORIZON, SPACING, Course
+from locomotion.giving_way import AT_ONCE, HORIZON, SPACING, Course
 from locomotion.path_tracking import COME_TO_REST, PathTable, TrackingLimits
 
 __all__ = ["course_on_path"]
@@ -39,9 +39,11 @@ def course_on_path(
         speed=speed,
         pace=float(memory[path_tracking.PACE]),
         length=0.0,
+        reach=0.0,
         radius=PERSON_RULES["radius"] + _SWAY,
         acceleration=limits.acceleration,
         braking=limits.deceleration,
+        eagerness=AT_ONCE,
         slowest=0.0 if walks else limits.speeds[0],
         sharpest=_WALK_BEND if walks else _RUN_BEND,
         begins=_WALK_BEGINS if walks else _RUN_BEGINS,

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from locomotion import MOVING, Human, LocomotionError
 from locomotion import events as bodily
+from locomotion.giving_way import Course
 from locomotion.human_state import CLEARING
 from locomotion.quadruped import Animal
 from runtime.drivers import Driver
@@ -173,21 +174,22 @@ class Agent:
         if len(goals) == 1 and not self.moving and self._world.has_come(self, goals[0]):
             self._goal, self._blocked = _triple(goals[0]), False
             return self.status
+        former = self._world.course(self)
         try:
             plan = self._driver.go_to(goals, speed, facing)
         except NoWay as error:
             self._report_blocked(goals[error.goal], error.reason)
             return self.status
         self._errand = Errand(tuple(_triple(each) for each in goals), speed, facing)
-        self._depart(plan)
+        self._depart(plan, former)
         return self.status
 
-    def _depart(self, plan: Plan) -> None:
-        """Report that it has taken the way of ``plan``."""
+    def _depart(self, plan: Plan, former: Course | None = None) -> None:
+        """Report that it has taken the way of ``plan``; ``former`` is the course that it was on."""
         self._blocked = False
         here, goal = _triple(self.position), self._errand.goals[-1]
         self._goal = _triple(plan.points[-1])
-        self._world.look_out(self)
+        self._world.look_out(self, former)
         self._world.report(Departed(self._world.time, self.name, here, goal, plan.length, plan.skills))
 
     def _report_blocked(self, goal: np.ndarray, reason: str) -> None:

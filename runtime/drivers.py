@@ -103,6 +103,11 @@ class Follower(Protocol):
         """What it is about to do, None where that cannot be changed."""
         ...
 
+    def foretold(self) -> np.ndarray | None:
+        """(COUNT, d, 2) [m] where its discs are every `giving_way.STEP` from now on, of one whose course
+        cannot be changed; None: it goes on as it moves."""
+        ...
+
     def give_way(self, pace: float, shift: np.ndarray | None) -> None:
         """Go at another pace; with ``shift`` (k, 2) [m] change its path by it, as its course tells it."""
         ...

@@ -28,17 +28,18 @@ from runtime.errors import RuntimeInputError
 from runtime.level import Level
 from runtime.planning import NoWay, Plan, make_plan, way_holds
 from runtime.pose import between
+from runtime.traffic import Traffic
 
 __all__ = ["AnimalDriver", "Pack"]
 
 
 class Pack:
-    """Dogs, cats and horses, in one herd."""
+    """Dogs, cats and horses, in one herd, who let ``traffic`` tell them who is around."""
 
     bodies: tuple[str, ...] = BODY_NAMES
 
-    def __init__(self, level: Level) -> None:
-        self._level = level
+    def __init__(self, level: Level, traffic: Traffic) -> None:
+        self._level, self._traffic = level, traffic
         self._herd = Herd(level.ground)
         self._drivers: list[AnimalDriver] = []
         self._before = _Remembered()
@@ -61,7 +62,7 @@ class Pack:
         return driver
 
     def _add(self, index: int) -> "AnimalDriver":
-        self._drivers.append(AnimalDriver(self._level, self._herd, index, self._before))
+        self._drivers.append(AnimalDriver(self._level, self._herd, index, self._before, self._traffic))
         return self._drivers[-1]
 
     def remove(self, driver: Driver) -> None:
@@ -121,11 +122,11 @@ class _Remembered:
 class AnimalDriver:
     """One animal of a herd."""
 
-    def __init__(self, level: Level, herd: Herd, index: int, before: _Remembered) -> None:
+    def __init__(self, level: Level, herd: Herd, index: int, before: _Remembered, traffic: Traffic) -> None:
         self._before = before
         self._level = level
         self._ways = _Ways(level, herd.bodies[index])
-        self.animal = Animal(herd, index, self._ways)
+        self.animal = Animal(herd, index, self._ways, lambda: traffic.around(self))
         self.radius = self.animal.body.radius
         self.figure = animal_figure(self.animal.body)
         self.events = self.animal.events
@@ -205,6 +206,9 @@ class AnimalDriver:
 
     def course(self) -> Course | None:
         return self.animal.course()
+
+    def foretold(self) -> np.ndarray:
+        return self.animal.foretold()
 
     def give_way(self, pace: float, shift: np.ndarray | None) -> None:
         self.animal.give_way(pace, shift)

@@ -175,6 +175,9 @@ class HumanDriver:
     def course(self) -> Course | None:
         return self.human.course()
 
+    def foretold(self) -> None:
+        return None
+
     def give_way(self, pace: float, shift: np.ndarray | None) -> None:
         self.human.give_way(pace, shift)
         if shift is not None:

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 import navmesh
 from locomotion import LocomotionError, load_run_skill
+from locomotion.giving_way import Course
 from locomotion.library import learned_skills, skills_digest
 from locomotion.person import CONTROL_DT
 from locomotion.quadruped import is_body_file, load_body
@@ -72,9 +73,10 @@ class World:
                 learned_skills(load_run_skill(), self._skills)
             except LocomotionError as error:
                 raise RuntimeInputError(str(error)) from None
-        others = People(self._level, self._skills), Pack(self._level)
-        self._populations: tuple[Population, ...] = (*others, Walkers(self._level, others))
+        self._populations: list[Population] = []
         self._traffic = Traffic(self._level, self._populations)
+        others = People(self._level, self._skills), Pack(self._level, self._traffic)
+        self._populations += [*others, Walkers(self._level, others)]
         self._ticks = 0
         self._owed = 0.0
         self._stepping = False
@@ -248,11 +250,17 @@ class World:
             follower.end_in(0.0)
         return there
 
-    def look_out(self, agent: Agent) -> None:
-        """Let an agent that has just been told where to go give way; `Agent.go_to` asks."""
+    def course(self, agent: Agent) -> Course | None:
+        """What an agent that gives way by its path is about to do."""
+        follower = self._follower(agent)
+        return None if follower is None else follower.course()
+
+    def look_out(self, agent: Agent, former: Course | None) -> None:
+        """Let an agent that has just been told where to go, ``former`` was its `course`, give way;
+        `Agent.go_to` asks."""
         follower = self._follower(agent)
         if follower is not None:
-            self._traffic.look_out(follower)
+            self._traffic.look_out(follower, former)
 
     def _follower(self, agent: Agent) -> Follower | None:
         followers = self._population(agent.body).followers()

@@ -2,28 +2,31 @@
 
 It turns its front onto the path (or the whole body, where the path begins behind it), follows the path, stops
 where its front feet are at the goal, and slides its rear out until it faces its target. Short moves are made
-by local motion. Before any of these plays, its footprint is checked. Where there is no room to turn, it goes
-back along its crumbs to where the graph knows room, turns, and goes on.
+by local motion. Before any of these plays, its footprint is checked, and whether others are in its way: it
+waits with a turn until they let it. Where there is no room to turn, it goes back along its crumbs to where
+the graph knows room, turns, and goes on.
 """
 
 from __future__ import annotations
 
 import hashlib
 import math
-from dataclasses import dataclass, replace
-from typing import Literal
+from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from locomotion.errors import LocomotionError
 from locomotion.events import Arrived, BackedOut, Event, GotStuck, LostGround, MissedGoal, SetOff
-from locomotion.giving_way import Course
+from locomotion.giving_way import COUNT, Course, first_meeting
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.course import course_on, shifted_points
+from locomotion.quadruped.errand import AnimalMemory, Errand, Phase, Status
 from locomotion.quadruped.following import wrap
 from locomotion.quadruped.footprint import RESOLUTION, check_script
-from locomotion.quadruped.herd import AnimalState, Herd
+from locomotion.quadruped.foretold import disc_radius, foretell_script, nobody
+from locomotion.quadruped.herd import Herd
 from locomotion.quadruped.local_motion import short_move
 from locomotion.quadruped.motion import DT, stop_length
 from locomotion.quadruped.script import Place, Script, into_flex, out_of_flex
@@ -34,48 +37,21 @@ from locomotion.quadruped.ways import Planner, Way, find_way, first_heading, las
 
 __all__ = ["SHORT_OF_GOAL", "Animal", "AnimalMemory", "Status"]
 
-Status = Literal["standing", "running", "arrived", "lost", "stuck"]
-_Phase = Literal[
-    "resting", "halting", "turning", "flexing", "following", "backing", "straightening", "moving"
-]
-
 SHORT_OF_GOAL = 0.6
 """[body lengths] from the goal within which an animal has arrived: it stops short of a goal at a wall, where
 its head has no room."""
 _LITTLE = math.radians(3.5)  # a turn onto the path without a motion of its own: 3 cm beside it, for a dog
 _EXACT = 1e-3  # [rad] of facing that is left as it is
 _MOST_BACKING = 4  # times that it backs out on its way to one goal
-
-
-@dataclass(frozen=True)
-class _Errand:
-    """What it was told."""
-
-    goals: tuple[tuple[float, float, float], ...] = ()
-    speed: float = 1.0
-    facing: float | None = None
-    gait: str | None = None
-    backed: int = 0
-    backed_from: tuple[float, float] = (0.0, 0.0)
-
-
-@dataclass(frozen=True)
-class AnimalMemory:
-    """Everything needed to go on from here."""
-
-    herd: AnimalState
-    phase: _Phase
-    status: Status
-    errand: _Errand
-    pending: bool
-    trail: Trail | None
-    ways: tuple[Way, ...]
-    ticks: int
-    events: tuple[Event, ...]
+_AGAIN = 20  # ticks until it looks again whether others let it turn around
+_PATIENCE = 20  # times that it does; then it turns all the same
 
 
 class Animal:
     """A quadruped in a herd. `tick` is called after the herd's.
+
+    ``around`` tells where the discs of all others near it will be, every `giving_way.STEP` from now on
+    (COUNT, k, 2) [m], and their radii (k,) [m].
 
     Attributes:
         herd, index: where its state lies. body: its kind. events: in order of time.
@@ -84,15 +60,21 @@ class Animal:
         trail: the path that it follows or followed last, or None. ways: what it was made of.
     """
 
-    def __init__(self, herd: Herd, index: int, planner: Planner) -> None:
-        self.herd, self.index, self.planner = herd, index, planner
+    def __init__(
+        self,
+        herd: Herd,
+        index: int,
+        planner: Planner,
+        around: Callable[[], tuple[NDArray[np.float64], NDArray[np.float64]]] = nobody,
+    ) -> None:
+        self.herd, self.index, self.planner, self._around = herd, index, planner, around
         self.body = herd.bodies[index]
         self.status: Status = "standing"
         self.events: list[Event] = []
         self.trail: Trail | None = None
         self.ways: tuple[Way, ...] = ()
-        self._phase: _Phase = "resting"
-        self._errand = _Errand()
+        self._phase: Phase = "resting"
+        self._errand = Errand()
         self._pending = False
         self._ticks = 0
 
@@ -164,7 +146,7 @@ class Animal:
             raise LocomotionError(f"facing must be a finite angle, not {facing}")
         self.body.gait_index(gait)
         rows = tuple((float(x), float(y), float(z)) for x, y, z in points.reshape(-1, 3))
-        errand = _Errand(rows, float(speed), facing, gait)
+        errand = Errand(rows, float(speed), facing, gait, self._errand.waited)
         if self._phase == "following":
             self._redirect(errand)
         elif self._phase == "resting":
@@ -189,6 +171,10 @@ class Animal:
         if self._phase != "following" or self.trail is None or st[at.STOPPING] > 0.0:
             return None
         return course_on(self.trail, st, self.body)
+
+    def foretold(self) -> NDArray[np.float64]:
+        """(COUNT, discs, 2) [m] see `Herd.foretold`."""
+        return self.herd.foretold(self.index)
 
     def give_way(self, pace: float, shift: NDArray[np.float64] | None) -> None:
         """Go at a share of its speed; with ``shift`` (k, 2) [m] change its trail by it, as its course tells
@@ -233,15 +219,18 @@ class Animal:
             return
         if self._phase == "resting" or not self.herd.resting(self.index):
             return
+        if self._phase == "waiting" and self._ticks % _AGAIN:
+            return
         phase, self._phase = self._phase, "resting"
-        if phase in ("turning", "halting", "flexing", "backing") or self._pending or not self._errand.goals:
+        done = phase in ("following", "straightening", "moving")
+        if not done or self._pending or not self._errand.goals:
             self._go_on(phase)
         elif phase == "following":
             self._straighten()
         else:
             self._arrive()
 
-    def _go_on(self, phase: _Phase) -> None:
+    def _go_on(self, phase: Phase) -> None:
         if phase == "backing":
             x, y = self._errand.backed_from
             gone = math.hypot(self.position[0] - x, self.position[1] - y)
@@ -267,11 +256,11 @@ class Animal:
             self.events.append(LostGround(self.time, self._point()))
 
     # --- beginning
-    def _way(self, errand: _Errand) -> tuple[Trail, tuple[Way, ...]]:
+    def _way(self, errand: Errand) -> tuple[Trail, tuple[Way, ...]]:
         """The path from where it is; raises ValueError where there is none."""
         return find_way(self.planner, self.body, self.herd.ground, errand.goals, self.herd.place(self.index))
 
-    def _set_out(self, errand: _Errand, flexed: bool = False) -> None:
+    def _set_out(self, errand: Errand, flexed: bool = False) -> None:
         """From rest: turn onto the path if need be, else follow it. ``flexed``: it has just turned its front
         onto another path, and does not do so again for one that leads elsewhere: it would never get away
         where it is told anew all the time."""
@@ -292,7 +281,7 @@ class Animal:
         else:
             self._follow(trail)
 
-    def _redirect(self, errand: _Errand) -> None:
+    def _redirect(self, errand: Errand) -> None:
         """On the way: change over to the new path where it leads on, else stop first."""
         place = self.herd.place(self.index)
         trail, ways = self._way(errand)
@@ -317,16 +306,35 @@ class Animal:
         self.events.append(SetOff(self.time, self._point(), goal, trail.length))  # type: ignore[arg-type]
 
     def _free(self, script: Script) -> bool:
-        """Whether nothing is in the way of a script, with the resolution of the check to spare."""
-        return check_script(script, self.body, self.herd.ground, RESOLUTION).free
+        """Whether nothing and nobody is in the way of a script, with the resolution of the check to spare."""
+        clear = self._look_around()
+        return clear(script) and check_script(script, self.body, self.herd.ground, RESOLUTION).free
 
-    def _play(self, script: Script, phase: _Phase) -> None:
+    def _look_around(self) -> Callable[[Script], bool]:
+        """What tells of a script that begins now whether nobody is in its way."""
+        there, radii = self._around()
+
+        def clear(script: Script) -> bool:
+            own = foretell_script(script, self.body)
+            return first_meeting(own, disc_radius(self.body), there, radii, 0.0)[0] == COUNT
+
+        return clear
+
+    def _play(self, script: Script, phase: Phase) -> None:
         self.herd.play(self.index, script)
         self._phase = phase
 
     # --- turning around
     def _turn_around(self, trail: Trail, place: Place) -> None:
-        script = turn_script(self.body, self.herd.ground, place, first_heading(trail, self.body))
+        yaw = first_heading(trail, self.body)
+        script = turn_script(self.body, self.herd.ground, place, yaw, self._look_around())
+        if script is None:
+            script = turn_script(self.body, self.herd.ground, place, yaw)
+            if script is not None and self._errand.waited < _PATIENCE:
+                self._errand = replace(self._errand, waited=self._errand.waited + 1)
+                self._phase = "waiting"
+                return
+        self._errand = replace(self._errand, waited=0)
         if script is not None:
             self.herd.forget_crumbs(self.index)
             self._play(script, "turning")
@@ -346,7 +354,7 @@ class Animal:
         return True
 
     # --- short moves
-    def _move_locally(self, errand: _Errand) -> bool:
+    def _move_locally(self, errand: Errand) -> bool:
         """Make a short move by local motion, if the goal is near and nothing is in the way."""
         if len(errand.goals) != 1:
             return False

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 from locomotion.giving_way import HORIZON, SPACING, Course
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.body import Body
-from locomotion.quadruped.motion import stop_length
+from locomotion.quadruped.foretold import disc_radius
+from locomotion.quadruped.motion import SLACKEN, stop_length
 from locomotion.quadruped.trail import Trail
 
 __all__ = ["course_on", "head_length", "shifted_points"]
@@ -33,9 +34,11 @@ def course_on(trail: Trail, state: NDArray[np.float64], body: Body) -> Course:
         speed=float(state[at.SPEED]),
         pace=float(state[at.PACE]),
         length=head_length(body),
-        radius=max(body.radius, 0.25 * body.spine.length),
+        reach=head_length(body) - body.spine.length if trail.length <= far else 0.0,
+        radius=disc_radius(body),
         acceleration=body.movement.acceleration,
         braking=body.movement.braking,
+        eagerness=SLACKEN,
         slowest=0.0,
         sharpest=1.0 / (_BEND * body.length),
         begins=body.spine.length + _BEGINS,

@@ -20,11 +20,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from locomotion.errors import LocomotionError
+from locomotion.giving_way import COUNT
 from locomotion.ground import Ground
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.advance import advance_all
 from locomotion.quadruped.body import Body
 from locomotion.quadruped.following import front_of, root_behind, wanted_pose, wrap
+from locomotion.quadruped.foretold import DISCS, between_feet, disc_radius, foretell_motion
 from locomotion.quadruped.motion import DT, begin_stop, stop_length
 from locomotion.quadruped.pool import Pool
 from locomotion.quadruped.pose import body_names, count_bodies, write_pose
@@ -328,17 +330,21 @@ class Herd:
         return self.state[index, [at.FRONT_X, at.FRONT_Y]]
 
     def discs(self) -> NDArray[np.float64]:
-        """(3 n, 6) discs that cover all animals on the ground, at the rear feet, the middle and the front
+        """(DISCS n, 6) discs that cover all animals on the ground, at the rear feet, the middle and the front
         feet: x, y, z [m], velocity of the root in x and y [m/s], radius [m]."""
-        rows = np.zeros((len(self), 3, 6))
-        share = np.array([0.0, 0.5, 1.0])
-        rear, front = self.state[:, [at.X, at.Y]], self.state[:, [at.FRONT_X, at.FRONT_Y]]
-        rows[:, :, :2] = rear[:, None] + share[:, None] * (front - rear)[:, None]
+        rows = np.zeros((len(self), DISCS, 6))
+        rows[:, :, :2] = between_feet(self.state[:, [at.X, at.Y]], self.state[:, [at.FRONT_X, at.FRONT_Y]])
         rows[:, :, 2] = self.state[:, [at.HEIGHT]]
         rows[:, :, 3:5] = self.state[:, None, at.RATE : at.RATE + 2]
-        quarter = [[max(body.radius, 0.25 * body.spine.length)] for body in self.bodies]
-        rows[:, :, 5] = np.array(quarter).reshape(-1, 1)
+        rows[:, :, 5] = np.array([disc_radius(body) for body in self.bodies]).reshape(-1, 1)
         return rows.reshape(-1, 6)
+
+    def foretold(self, index: int) -> NDArray[np.float64]:
+        """(COUNT, DISCS, 2) [m] where an animal's discs are every `giving_way.STEP` from now on, if it goes
+        on with what it plays."""
+        st, feet = self.state[index], np.empty((COUNT, 2, 2))
+        foretell_motion(st, self._params[int(st[at.KIND])], self._pool.rows, feet)
+        return between_feet(feet[:, 0], feet[:, 1])
 
     def toes(self, index: int) -> NDArray[np.float64]:
         """(4, 3) [m] in the order of `LEGS`."""

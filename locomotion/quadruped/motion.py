@@ -13,6 +13,7 @@ from locomotion.quadruped.trail import trail_speed
 
 __all__ = [
     "DT",
+    "SLACKEN",
     "advance_along",
     "begin_stop",
     "script_at",
@@ -27,6 +28,8 @@ DT = 0.01
 _SHORTEST_STOP = 0.35  # [s]
 _EAGERNESS = 3.0  # [1/s] by which a difference of speed becomes acceleration
 _JERK = 12.0  # [m/s³]
+SLACKEN = 2.4
+"""[1/s] by which a difference of speed becomes a slowing, with the jerk's delay in it."""
 _FORESIGHT = 0.25  # [s] ahead on the trail that the speed of a bend is looked up
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -34,23 +34,40 @@ class WayBack(NamedTuple):
     end: float
 
 
-def turn_script(body: Body, ground: Ground, place: Place, yaw: float) -> Script | None:
-    """A turn on the spot to ``yaw`` [rad] that touches nothing, with the resolution of the check to spare:
-    around the middle, the rear or the front, the short way or the long one. None where there is none."""
-    moves = local_motion(body)
+def turn_script(
+    body: Body,
+    ground: Ground,
+    place: Place,
+    yaw: float,
+    clear: Callable[[Script], bool] = lambda script: True,
+) -> Script | None:
+    """A turn on the spot to ``yaw`` [rad] that touches nothing, with the resolution of the check to spare,
+    and is ``clear`` of others: around the middle, the rear or the front, the short way, the long one, or the
+    first half of a long one that takes more than half a turn. None where there is none."""
+
+    def free(script: Script) -> bool:
+        return clear(script) and check_script(script, body, ground, RESOLUTION).free
+
     short = float(wrap(yaw - place.yaw))
-    for turn in (short, short - math.copysign(2.0 * math.pi, short)):
-        if abs(turn) > math.pi:
-            continue
-        for pivot in _PIVOTS:
-            ahead = pivot * body.spine.length
-            wanted = ahead * (1.0 - math.cos(turn)), -ahead * math.sin(turn), turn
-            if max(abs(wanted[0]), abs(wanted[1])) > REACH:  # of a long body, around its front
-                continue
-            script = moves.script(place, wanted)
-            if check_script(script, body, ground, RESOLUTION).free:
+    long = short - math.copysign(2.0 * math.pi, short)
+    for turn in (short, long):
+        if abs(turn) <= math.pi:
+            for script in filter(free, _turns(body, place, turn)):
+                return script
+    if abs(long) > math.pi:
+        for script in filter(free, _turns(body, place, 0.5 * long)):
+            if any(map(free, _turns(body, script.end(), 0.5 * long))):
                 return script
     return None
+
+
+def _turns(body: Body, place: Place, turn: float) -> Iterator[Script]:
+    """Turns by ``turn`` [rad], at most half a turn, around one pivot after the other."""
+    for pivot in _PIVOTS:
+        ahead = pivot * body.spine.length
+        wanted = ahead * (1.0 - math.cos(turn)), -ahead * math.sin(turn), turn
+        if max(abs(wanted[0]), abs(wanted[1])) <= REACH:  # not of a long body, around its front
+            yield local_motion(body).script(place, wanted)
 
 
 def way_back(

@@ -16,8 +16,9 @@ def disc(x, y=0.0, speed=0.0, z=0.0, radius=0.3):
 def course(length=0.0):
     points = np.column_stack([SPACING * np.arange(101), np.zeros(101), np.zeros(101)])
     return Course(
-        points, np.full(101, 1.4), speed=1.4, pace=1.0, length=length, radius=0.3, acceleration=1.0,
-        braking=1.0, slowest=0.0, sharpest=1.0, begins=0.5, aside=True, whole=True, stops=1.0,
+        points, np.full(101, 1.4), speed=1.4, pace=1.0, length=length, reach=0.0, radius=0.3,
+        acceleration=1.0, braking=1.0, eagerness=1.0, slowest=0.0, sharpest=1.0, begins=0.5,
+        aside=True, whole=True, stops=1.0,
     )  # fmt: skip
 
 

@@ -3,24 +3,26 @@
 import numpy as np
 import pytest
 
-from locomotion.giving_way import COUNT, STEP, Course, first_meeting, foretell, meetings, options
+from locomotion.giving_way import AT_ONCE, COUNT, STEP, Course, first_meeting, foretell, meetings, options
 
 ALONG = np.column_stack([0.1 * np.arange(200), np.zeros(200), np.zeros(200)])
 
 
 def course(**changes):
     usual = {
-        "points": ALONG, "speeds": np.full(200, 1.5), "speed": 1.5, "pace": 1.0, "length": 0.5,
-        "radius": 0.12,
-        "acceleration": 2.0, "braking": 2.0, "slowest": 0.0, "sharpest": 1.0, "begins": 0.6, "aside": True,
-        "whole": False, "stops": 0.6,
+        "points": ALONG, "speeds": np.full(200, 1.5), "speed": 1.5, "pace": 1.0, "length": 0.5, "reach": 0.0,
+        "radius": 0.12, "acceleration": 2.0, "braking": 2.0, "eagerness": AT_ONCE, "slowest": 0.0,
+        "sharpest": 1.0, "begins": 0.6, "aside": True, "whole": False, "stops": 0.6,
     }  # fmt: skip
     return Course(**{**usual, **changes})
 
 
 def places(of, pace, discs=3):
     found = np.empty((COUNT, discs, 2))
-    foretell(of.points, of.speeds, of.speed, pace, of.slowest, of.acceleration, of.braking, of.length, found)
+    foretell(
+        of.points, of.speeds, of.speed, pace, of.slowest, of.acceleration, of.braking, of.eagerness,
+        of.length, of.reach, found,
+    )  # fmt: skip
     return found
 
 
@@ -41,6 +43,30 @@ def test_a_body_is_foretold_on_its_path():
     assert short[-1, 2] == pytest.approx([2.0, 0.0])
 
 
+def test_a_body_ends_with_its_head_beyond_its_goal():
+    reaches = places(course(points=ALONG[:21], reach=0.3), 1.0)
+    assert reaches[-1, :, 0] == pytest.approx([1.8, 2.05, 2.3], abs=1e-6)
+
+
+def test_a_body_slackens_as_it_does():
+    """Its speed dies away, if it is less eager than its brakes are strong."""
+    slow = course(speed=0.5, eagerness=2.0)
+    assert places(slow, 0.0)[-1, 0, 0] == pytest.approx(0.5 / 2.0, abs=0.05)
+    assert places(course(speed=0.5), 0.0)[-1, 0, 0] == pytest.approx(0.5**2 / 4.0, abs=0.05)
+
+
+def test_one_that_was_about_to_step_aside_may_go_on_with_that():
+    aside = ALONG.copy()
+    aside[:, 1] = 0.5
+    found = options(course(points=ALONG), 5, former=course(points=aside))
+    shifts = [option.shift for option in found if option.shift is not None and option.pace == 1.0]
+    kept = min(shifts, key=lambda shift: abs(shift[:10, 1] - 0.5).max())
+    assert kept[:10] == pytest.approx(np.tile([0.0, 0.5], (10, 1))) and kept[-1] == pytest.approx([0.0, 0.0])
+    assert all(
+        abs(option.shift[:3]).max() < 0.1 for option in options(course(), 5) if option.shift is not None
+    )
+
+
 def test_the_first_meeting_is_that_of_every_pair():
     random = np.random.default_rng(3)
     for _ in range(200):
@@ -53,7 +79,8 @@ def test_the_first_meeting_is_that_of_every_pair():
         comes = (np.vstack([np.full((1, 3, 4), -1.0), stayed]) > away) & (away[0] >= 0.2 + radii)
         near, touches = comes & (away < 0.25 + radii), comes & (away < 0.2 + radii)
         steps = [np.append(np.flatnonzero(each.any(axis=(1, 2))), COUNT)[0] for each in (near, touches)]
-        depth = np.where(touches, 1.0 - away / (0.2 + radii), 0.0).max()
+        deep = np.where(touches, 1.0 - away / (0.2 + radii), 0.0)
+        depth = deep[:, :-1].max()  # of all but the head
         assert first_meeting(own, 0.2, others, radii, 0.05) == (*steps, pytest.approx(depth))
 
 

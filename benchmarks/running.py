@@ -20,7 +20,7 @@ from locomotion.person import CONTROL_DT, STEPS_PER_TICK
 from locomotion.skill import RunSkill, load_run_skill
 from locomotion.training.rollout import Scenario, Simulator, Trial
 
-SPEEDS = (1.5, 2.0, 2.5, 3.0, 3.5, 4.0)
+SPEEDS = (1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0)
 PUSHED_SPEED = 3.3
 """Speed [m/s] of the pushed runs."""
 
@@ -95,7 +95,7 @@ def speed_test(simulator: Simulator, skill: RunSkill) -> list[dict[str, float]]:
 def turn_test(simulator: Simulator, skill: RunSkill, runs: int) -> list[dict[str, float]]:
     """Share of runs of 8 s that hold a steady turn for 6 s; degrees per step as they were really made."""
     rows = []
-    for speed in (1.5, 2.0, 2.5, 3.0, 3.5, 4.0):
+    for speed in SPEEDS:
         for lateral in (0.7, 1.0, 1.4, 1.6):
             alive, made = [], []
             for run in range(runs):

@@ -25,6 +25,8 @@ __all__ = [
 JUMP_CLIP = Path(__file__).parent / "clips" / "jump.yaml"
 JUMP_SKILL = Path(__file__).parent / "skills" / "jump.npz"
 KIND = "jump skill"
+_SPEEDS = (2.5, 4.0)
+"""Of run-ups [m/s]."""
 
 
 @lru_cache(maxsize=1)
@@ -50,16 +52,17 @@ def load_jump_skill(path: str | os.PathLike[str] = JUMP_SKILL, kind: str = KIND)
 
 def run_digest(run: RunSkill) -> str:
     """Hex digest of the running skill that a jump is learned on, as far as it runs straight on level
-    ground."""
+    ground at `_SPEEDS`."""
     hasher = hashlib.sha256()
     knots, parameters, *rest, _ = run.tables
+    used = (knots >= _SPEEDS[0]) & (knots <= _SPEEDS[1])
     part = controller.parameter_slices()
-    straight = parameters[1:, : part["bend"].start].copy()  # the first row only serves setting off
+    straight = parameters[used, : part["bend"].start]
     for name in (
         "turn", "climb", "descend", "start", "climb_legs", "descend_legs", "climb_timing", "descend_timing",
     ):  # fmt: skip
         straight[:, part[name]] = 0.0
-    for table in (knots, straight, *rest):
+    for table in (knots[used], straight, *rest):
         hasher.update(np.round(table, 9).tobytes())
     return hasher.hexdigest()[:16]
 

@@ -34,7 +34,7 @@ __all__ = [
 SLOW_DOWN_SKILL = Path(__file__).parent / "skills" / "slow_down.npz"
 SLOWING = 1.0
 """[m/s^2] by which the run's reference speed is lowered."""
-_STEP_TIMES = (0.25, 0.5)  # [s] shortest and longest step of a slow run
+_STEP_TIMES = (0.22, 0.5)  # [s] shortest and longest step of a slow run
 _CATCHABLE, _WITHIN_REACH = 1.9, 0.45
 # [m/s] at a touchdown below which a running person can walk on; [m] that its capture point is ahead of the
 # foot at most, for it to do so when it is faster

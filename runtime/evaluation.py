@@ -8,6 +8,7 @@ skill, a level made of triangles. Velocities at the start have noise of 0.02 m/s
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from locomotion.person import CONTROL_DT
 from locomotion.rehearsal import REHEARSALS
 from locomotion.skill import load_run_skill
 from locomotion.skill_description import load_described
-from locomotion.training.rollout import Scenario, Simulator
+from locomotion.training.rollout import Scenario, Simulator, Trial
 from runtime.courses import CourseRun, held, make_course, run_course
 from runtime.progress import Progress
 
@@ -37,8 +38,10 @@ NOISE = 0.02
 """Standard deviation [m/s, rad/s] of the velocities at the start."""
 TURN, SPEEDS, CYCLES = math.radians(6.0), (2.0, 5.0), 20
 """Greatest turn per step [rad], speeds [m/s] and cycles (two steps each) of the running plane."""
+HARD_PUSH, PUSHED_SPEEDS = 300.0, (2.0, 3.5, 5.0)
+"""[N] on the chest from any side for `PUSH_TIME`, once a run; speeds [m/s] of these runs."""
 RUN_LENGTH = 60.0
-"""[m] of each pushed run."""
+"""[m] of each run with `PUSH`."""
 PUSH, PUSH_TIME, PUSH_EVERY = 200.0, 0.1, 5.0
 """[N], [s] and [s] between: pushes on the pelvis from any side."""
 _SLOWEST = 0.5
@@ -136,11 +139,14 @@ def _judged(test: str, what: str, affordance: str, run: CourseRun) -> Attempt:
 
 
 def evaluate_run(trials: int, seed: int, progress: Progress) -> list[Attempt]:
-    """Two tests of ``trials`` each: 20 cycles at a turn and a speed drawn from the plane of "Terrain Runner"
-    (section 4.1), and straight runs of 60 m with a push of 200 N from a random side every 5 s."""
+    """Tests of ``trials`` each: 20 cycles at a turn and a speed drawn from the plane of "Terrain Runner"
+    (section 4.1); a push of 300 N from a random side at each of `PUSHED_SPEEDS`; straight runs of 60 m with
+    a push of 200 N every 5 s."""
     simulator = Simulator()
-    todo = [lambda k=k: _run_turning(simulator, np.random.default_rng([seed, k])) for k in range(trials)]
-    todo += [lambda k=k: _run_pushed(np.random.default_rng([seed, k])) for k in range(trials)]
+    tests: list[Callable[[np.random.Generator], Attempt]] = [partial(_run_turning, simulator)]
+    tests += [partial(_pushed_hard, simulator, speed) for speed in PUSHED_SPEEDS]
+    tests.append(_run_pushed)
+    todo = [lambda t=t, k=k: t(np.random.default_rng([seed, k])) for t in tests for k in range(trials)]
     return _tried("run", todo, progress)
 
 
@@ -163,8 +169,7 @@ def _run_turning(simulator: Simulator, rng: np.random.Generator) -> Attempt:
             way = math.atan2(vy, vx)
             seen.append((state[controller.STEP_SPEED], way, state[controller.TICKS]))
 
-    trial = simulator.run(skill, scenario, note)
-    survived = trial.figures["time"] > scenario.duration - 1.5 * CONTROL_DT
+    survived = _stays_up(simulator.run(skill, scenario, note), scenario)
     figures = {}
     if survived and len(seen) > 1:
         steps = np.array(seen)
@@ -177,6 +182,22 @@ def _run_turning(simulator: Simulator, rng: np.random.Generator) -> Attempt:
     test = f"±6 °/step at 2 to 5 m/s, {CYCLES} cycles"
     at = {"speed [m/s]": speed, "turn [°/step]": math.degrees(turn)}
     return Attempt(test, what, "ran" if survived else "fell", survived, figures, at)
+
+
+def _pushed_hard(simulator: Simulator, speed: float, rng: np.random.Generator) -> Attempt:
+    """A straight run at ``speed`` [m/s], pushed at any moment of its fourth second; it goes on for at least
+    5 s."""
+    side, begin = rng.uniform(-math.pi, math.pi), rng.uniform(3.0, 4.0)
+    push = [begin, HARD_PUSH * math.cos(side), HARD_PUSH * math.sin(side), PUSH_TIME]
+    scenario = Scenario(9.0, np.array([[0.0, speed]]), pushes=np.array([push]))
+    survived = _stays_up(simulator.run(load_run_skill(), scenario), scenario)
+    test = f"a push of {HARD_PUSH:.0f} N at {speed:g} m/s"
+    what = f"from {math.degrees(side):+.0f}° after {begin:.2f} s"
+    return Attempt(test, what, "ran" if survived else "fell", survived)
+
+
+def _stays_up(trial: Trial, scenario: Scenario) -> bool:
+    return trial.figures["time"] > scenario.duration - 1.5 * CONTROL_DT
 
 
 def _run_pushed(rng: np.random.Generator) -> Attempt:

@@ -83,25 +83,30 @@ def first_state_reference() -> np.ndarray:
     return table
 
 
-KNOTS = np.array([0.0, 2.5, 3.0, 3.5, 4.0, 4.5])
+KNOTS = np.array([0.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0])
 """Speeds [m/s] of the rows of a learned table; the first serves the start from standing."""
-SPEED_RANGE = (1.5, 4.2)
+SPEED_RANGE = (1.5, 5.0)
 """Speeds [m/s] that may be asked for."""
 SIZE = sum(c.PARAMETERS.values())
+BLOCKS = ("base", "slope", "bend", "start", "faster", "fastest")
+"""Of SIZE genes each: parameters at `MIDDLE`, their change per m/s and per (m/s)^2 from 2.5 to 4 m/s; how the
+row at speed 0 differs from the one at 2.5 m/s, the one at 4.5 from the one at 4 m/s and the one at 5 from the
+one at 4.5 m/s."""
 
 
 def skill_of(
     genes: np.ndarray, reference: np.ndarray, max_lateral: float = 1.6, meta: dict | None = None
 ) -> RunSkill:
-    """The skill that ``genes`` (4 * SIZE,) stand for: parameters at `MIDDLE`, their change per m/s and per
-    (m/s)^2, and the difference at speed 0 from the lowest speed."""
-    base, slope, bend, start = genes.reshape(4, SIZE)
-    u = (KNOTS[1:] - MIDDLE)[:, None]
+    """The skill that ``genes`` (len(BLOCKS) * SIZE,) stand for, see `BLOCKS`."""
+    base, slope, bend, start, faster, fastest = genes.reshape(len(BLOCKS), SIZE)
+    u = (KNOTS[1:-2] - MIDDLE)[:, None]
     table = np.empty((len(KNOTS), SIZE))
-    table[1:] = base + u * slope + u * u * bend
+    table[1:-2] = base + u * slope + u * u * bend
     table[0] = table[1] + start
+    table[-2] = table[-3] + faster
+    table[-1] = table[-2] + fastest
     time = c.parameter_slices()["timing"].start
-    table[:, time] = np.clip(table[:, time], 0.25, 0.5)
+    table[:, time] = np.clip(table[:, time], 0.22, 0.5)
     return RunSkill(KNOTS, table, reference, SPEED_RANGE, max_lateral, (0.3, 0.25), run_clip(), meta or {})
 
 
@@ -115,13 +120,18 @@ def genes_scale(base: float, slope: float, bend: float, start: float) -> np.ndar
     shaped = np.zeros(SIZE)
     for name in ("feed_forward", "a_hat", "timing", "arms", "turn", "bend", "climb", "descend"):
         shaped[part[name]] = one[part[name]]
-    return np.concatenate([base * running + start * lean, slope * running, bend * shaped, start * running])
+    return _genes(base * running + start * lean, slope * running, bend * shaped, start * running)
+
+
+def _genes(*blocks: np.ndarray) -> np.ndarray:
+    """All genes from those of the first `BLOCKS`; the others are 0."""
+    return np.concatenate([*blocks, np.zeros((len(BLOCKS) - len(blocks)) * SIZE)])
 
 
 def terms_scale(*names: str) -> np.ndarray:
     """Scale of all genes where only the blocks ``names`` of `controller.PARAMETERS` are free, at any
     speed."""
-    return np.concatenate([_blocks(*names), np.zeros(3 * SIZE)])
+    return _genes(_blocks(*names))
 
 
 def _blocks(*names: str) -> np.ndarray:
@@ -139,7 +149,15 @@ def ways_scale() -> np.ndarray:
     shape = ("feed_forward", "a_hat", "timing", "turn", "bend")
     setting_off = ("m_ap", "m_sp", "posture", "climb", "descend", "start", *shape)
     middle = _blocks(*(name for name in c.PARAMETERS if name not in kept))
-    return np.concatenate([middle, 0.5 * _blocks(*shape), np.zeros(SIZE), _blocks(*setting_off)])
+    return _genes(middle, 0.5 * _blocks(*shape), np.zeros(SIZE), _blocks(*setting_off))
+
+
+def rows_scale(faster: float, fastest: float) -> np.ndarray:
+    """Scale of all genes where only rows of their own are free, each weighted; slopes are left to what was
+    learned between them."""
+    kept = ("climb", "climb_legs", "climb_timing", "descend", "descend_legs", "descend_timing", "start")
+    free = _blocks(*(name for name in c.PARAMETERS if name not in kept))
+    return np.concatenate([np.zeros(4 * SIZE), faster * free, fastest * free])
 
 
 WAY: dict[str, Any] = {"length": (10.0, 22.0), "radius": 3.4, "speeds": (2.6, 3.6)}
@@ -155,6 +173,13 @@ HARD_PUSHES = (
     WAY, _PUSHED, {**WAY, "ground": "gentle"}, _PUSHED, _ANY_SPEED, _PUSHED, {**WAY, "length": (9.0, 12.0)},
     _PUSHED, {"speeds": (3.3, 3.3), "standing": 1.0, "noise": 0.2, "duration": 5.0},
 )  # fmt: skip
+_FAST = {"steady": True, "noise": 0.3, "duration": 4.0}
+FASTER = ({**_FAST, "speeds": (4.1, 4.6), "lateral": 1.2},)
+FASTEST = ({**_FAST, "speeds": (4.3, 5.0), "lateral": 1.6},)
+_LONGER = {**_FAST, "speeds": (4.05, 5.0), "duration": 6.0}
+FAST_BENDS_AND_PUSHES = {**_LONGER, "lateral": 1.9, "push": 60.0}, {**_LONGER, "push": 320.0}
+_TOP_PUSH = {**_FAST, "speeds": (4.7, 5.0), "push": 330.0, "duration": 5.0}
+TOP = {**_FAST, "speeds": (4.6, 5.0), "lateral": 2.0, "duration": 6.0}, _TOP_PUSH, _TOP_PUSH
 FLAT, BENDS, SLOPES = {"lateral": 0.0, "tilt": 0.0}, {"tilt": 0.0}, {"lateral": 0.0}
 SLOW_KINDS = (
     {"standing": 1.0, "noise": 0.1},
@@ -225,6 +250,10 @@ def curriculum(effort: float = 1.0) -> tuple[Stage, ...]:
         stage("slower", 40, 0.08, slow, 8, SLOW_KINDS, style=0.2, speeds=(1.4, 2.6), **jog),
         stage("ways", 130, 0.04, ways_scale(), len(WAYS), WAYS, style=0.3),
         stage("hard pushes", 31, 0.025, ways_scale(), len(HARD_PUSHES), HARD_PUSHES, style=0.3),
+        stage("faster", 40, 0.05, rows_scale(1, 0), 5, FASTER, style=0.3),
+        stage("fastest", 40, 0.05, rows_scale(0.5, 1), 5, FASTEST, style=0.3),
+        stage("fast bends and pushes", 45, 0.035, rows_scale(1, 1), 8, FAST_BENDS_AND_PUSHES, style=0.3),
+        stage("top", 40, 0.04, rows_scale(0.2, 1), 6, TOP, style=0.3),
     )
 
 
@@ -242,7 +271,7 @@ def train_run(
     result. ``effort``: scales the number of generations. The same seed gives the same skill with any
     number of workers.
     """
-    genes = np.concatenate([first_guess(), np.zeros(3 * SIZE)])
+    genes = _genes(first_guess())
     amplitude = c.parameter_slices()["timing"].start + 1
     genes[SIZE + amplitude] = 0.08  # longer steps at higher speed
     problem = RunProblem(curriculum(effort), genes, first_state_reference())
@@ -280,7 +309,7 @@ class RunProblem:
 
     Attributes:
         curriculum: the stages, see `curriculum`.
-        genes: first guess, (4 * SIZE,) float64.
+        genes: first guess, (len(BLOCKS) * SIZE,) float64.
         reference: reference sensors, (b, 12) float64.
     """
 

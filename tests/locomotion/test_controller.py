@@ -132,7 +132,7 @@ def test_saved_and_restored_runs_on_bit_for_bit(runner: Runner) -> None:
     assert runner.hash() == expected
 
 
-@pytest.mark.parametrize("speed", [2.6, 3.5, 4.2])
+@pytest.mark.parametrize("speed", [2.6, 3.5, 4.2, 4.6, 5.0])
 def test_runs_at_the_speed_that_is_asked_for(speed: float) -> None:
     runner = Runner(speed)
     runner.tick(200)

@@ -6,15 +6,18 @@ import numpy as np
 import pytest
 
 from locomotion.errors import LocomotionError
+from locomotion.run_layout import parameter_slices
 from locomotion.training.cma_es import CmaEs
 from locomotion.training.loop import Stage, learn
 from locomotion.training.rollout import Simulator
 from locomotion.training.run import (
+    BLOCKS,
     SIZE,
     RunProblem,
     first_guess,
     first_state_reference,
     genes_scale,
+    rows_scale,
     skill_of,
 )
 from locomotion.training.run_trials import draw_scenario
@@ -62,7 +65,9 @@ def test_cma_keeps_up_with_the_cma_package() -> None:
 def tiny_problem() -> RunProblem:
     options = {"trials": 1, "style": 0.3, "kinds": ({},), "trial": {"duration": 0.2, "noise": 0.2}}
     stages = tuple(Stage(name, 2, 0.1, genes_scale(1, 0, 0, 0), options, population=4) for name in ("a", "b"))
-    return RunProblem(stages, np.concatenate([first_guess(), np.zeros(3 * SIZE)]), first_state_reference())
+    return RunProblem(
+        stages, np.concatenate([first_guess(), np.zeros((len(BLOCKS) - 1) * SIZE)]), first_state_reference()
+    )
 
 
 def test_interrupted_and_resumed_equals_uninterrupted(tmp_path: Path) -> None:
@@ -80,6 +85,19 @@ def test_interrupted_and_resumed_equals_uninterrupted(tmp_path: Path) -> None:
     checkpoint.write_bytes(checkpoint.read_bytes()[:200])
     with pytest.raises(LocomotionError, match="cut off or damaged"):
         learn(tiny_problem(), 5, checkpoint, workers=1)
+
+
+def test_fast_rows_begin_as_the_one_below_and_are_learned_alone() -> None:
+    genes = np.random.default_rng(0).normal(size=len(BLOCKS) * SIZE)
+    genes[4 * SIZE :] = 0.0
+    held = skill_of(genes, first_state_reference()).table
+    np.testing.assert_array_equal(held[-1], held[-3])
+    changed = skill_of(genes + rows_scale(1.0, 1.0), first_state_reference()).table
+    np.testing.assert_array_equal(changed[:-2], held[:-2])
+    part = parameter_slices()
+    assert (changed[-2, part["m_ap"]] != held[-2, part["m_ap"]]).all()
+    assert (changed[-1, part["m_ap"]] != changed[-2, part["m_ap"]]).all()
+    np.testing.assert_array_equal(changed[:, part["climb"]], held[:, part["climb"]])
 
 
 def test_same_trial_same_outcome() -> None:

@@ -41,6 +41,8 @@ _RUNNING, _WALKING = round(2.2 / CONTROL_DT), round(4.0 / CONTROL_DT)
 _TRAPPED = 0.25  # how well it goes if it clears an obstacle and does not find a way on
 _LOOKED_AT = 2  # variations that are tried to find it: after a good landing most hold, after a bad one none
 _SETTLED = round(3.0 / CONTROL_DT)  # ticks that it must stay up after going over to another gait
+_WATCHED = round(1.0 / CONTROL_DT)  # ticks of these in which it may not
+_STAGGERS = 0.2  # [m] come nearer to or farther from its path
 _FAILED = ("fallen", "lost", "stuck")
 _LONGEST = round(12.0 / CONTROL_DT)
 _MARKS, _ENTRIES = (0.0, 0.04, -0.04, 0.08, -0.08), (0.0, 0.1, -0.1, 0.2, -0.2)
@@ -141,11 +143,12 @@ def finds_a_way_on(body: Human) -> bool:
 
 
 def walks_on(body: Human, seen: list[HumanState] | None = None) -> float:
-    """Whether a body that slows down comes to walk or stand, and stays up. ``seen`` is filled with its states
-    after each tick, each with the events of that tick only."""
+    """Whether a body that slows down comes to walk or stand, and stays up: 1 if it does not stagger to one
+    side in the end, which would make it fall later. ``seen`` is filled with its states after each tick, each
+    with the events of that tick only."""
     if seen is not None:
         seen.clear()
-    walked = 0
+    walked, beside = 0, 0.0
     for _ in range(_LONGEST):
         if seen is not None:
             body.events.clear()
@@ -158,7 +161,11 @@ def walks_on(body: Human, seen: list[HumanState] | None = None) -> float:
             if seen is not None:
                 seen.pop()  # that it runs again is to be rehearsed in its turn
             return 1.0
-        if body.held or walked >= _SETTLED:
+        if body.held:
             return 1.0
+        if walked == _SETTLED - _WATCHED:
+            beside = body.lateral_error
+        if walked >= _SETTLED:
+            return 1.0 if abs(body.lateral_error - beside) < _STAGGERS else 0.5
         walked = walked + 1 if body.gait_now == "walk" else 0
     return 0.0

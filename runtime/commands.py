@@ -1,6 +1,7 @@
 """What the commands of ``surefoot`` do, apart from reading their arguments."""
 
 import json
+import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -158,7 +159,7 @@ def serve_worlds(
     if pages is not None and not pages.is_dir():
         raise RuntimeInputError(f"{pages}: is no folder; pages are served from one")
     graphs: dict[str, navmesh.NodeGraph] = {}
-    progress = ready()
+    progress = ready("clients can connect")
     for level in levels:
         if level.stem in graphs:
             raise RuntimeInputError(f"{level}: there is another level called {level.stem!r}")
@@ -226,10 +227,13 @@ def _in_short(events: Sequence[Event]) -> list[tuple[Event, int]]:
     return shown
 
 
-def ready() -> Progress:
-    """Progress bars, and compiled kernels."""
+def ready(then: str = "") -> Progress:
+    """Progress bars, and compiled kernels. ``then``: what somebody waits for, who is told so in a line also
+    where nobody looks at bars."""
     progress = Progress()
     if not is_compiled():
+        if then and not progress.shown:
+            print(f"compiling kernels, once (a minute or two), then {then}", file=sys.stderr, flush=True)
         compile_kernels(progress)
     return progress
 

@@ -18,6 +18,8 @@ KERNEL_MODULES = (
 )
 """Folder and module of kernels that a first run compiles, the last ones among them."""
 
+_EDGE = 12.0  # [m]
+
 
 def is_compiled() -> bool:
     """Whether compiled kernels of the main packages, as they are now, lie in Numba's cache."""
@@ -28,7 +30,7 @@ def is_compiled() -> bool:
     elsewhere = Path(chosen) if chosen else Path.home() / ".cache" / "numba"
     for package, module in KERNEL_MODULES:
         made = (root / package / f"{module}.py").stat().st_mtime
-        kept = [*(root / package / "__pycache__").glob(f"{module}.*.nbi")]
+        kept = [] if chosen else [*(root / package / "__pycache__").glob(f"{module}.*.nbi")]
         kept = kept or [*elsewhere.rglob(f"{module}.*.nbi")]
         if not any(index.stat().st_mtime >= made for index in kept):
             return False
@@ -44,12 +46,11 @@ def compile_kernels(progress: Progress) -> None:
         world = World(_tiny_level())
         stage.update(0.4, "paths")
         agent = world.spawn("human", (1.5, 2.0, 0.0))
-        agent.go_to((10.5, 2.0, 0.4), speed=3.0)
-        if agent.status == "blocked":
-            agent.go_to((4.5, 2.0, 0.0), speed=3.0)
+        agent.go_to((16.5, 2.0, 0.4), speed=3.0)
         stage.update(0.8, "running and jumping")
-        while agent.moving and world.time < 6.0:
+        while agent.moving and agent.status != "jumping" and world.time < 15.0:
             world.step(0.1)
+        world.step(0.1)
         stage.update(0.9, "dogs and walkers")
         dog = world.spawn("dog", (1.5, 1.0, 0.0))
         dog.go_to((4.5, 1.0, 0.0), speed=1.5)
@@ -70,11 +71,11 @@ def load_kernels() -> None:
 
 
 def _tiny_level() -> navmesh.Terrain:
-    """A floor of 6 x 4 m before a platform of 0.4 m, as long again."""
+    """A floor of 12 x 4 m, long enough to run up, before a platform of 0.4 m."""
     corners, faces = [], []
-    for x0, x1, z in ((0.0, 6.0, 0.0), (6.0, 12.0, 0.4)):
+    for x0, x1, z in ((0.0, _EDGE, 0.0), (_EDGE, 18.0, 0.4)):
         faces += [[len(corners) + k for k in triangle] for triangle in ((0, 1, 2), (0, 2, 3))]
         corners += [(x0, 0.0, z), (x1, 0.0, z), (x1, 4.0, z), (x0, 4.0, z)]
     faces += [[len(corners) + k for k in triangle] for triangle in ((0, 1, 2), (0, 2, 3))]
-    corners += [(6.0, 4.0, 0.0), (6.0, 0.0, 0.0), (6.0, 0.0, 0.4), (6.0, 4.0, 0.4)]
+    corners += [(_EDGE, 4.0, 0.0), (_EDGE, 0.0, 0.0), (_EDGE, 0.0, 0.4), (_EDGE, 4.0, 0.4)]
     return navmesh.Terrain.from_arrays(np.array(corners), np.array(faces), name="warm-up level")

@@ -9,6 +9,7 @@ from locomotion.clearing import foot_distance
 from locomotion.events import Arrived, Cleared, Fell, GotStuck, SetOff, TookOff
 from locomotion.human_state import MOVING
 from locomotion.passage import Passage
+from locomotion.person import CONTROL_DT
 from locomotion.rehearsal import RUN_UPS, clears
 from locomotion.route_smoothing import ObstacleAhead
 from runtime.courses import make_course, run_course
@@ -130,6 +131,23 @@ def test_clearing_an_obstacle_without_a_way_on_behind_it_is_worth_less(monkeypat
     monkeypatch.setattr(rehearsal, "walks_on", lambda body: 0.0)
     human.restore_state(here)
     assert 0.0 < clears(human) < 1.0
+
+
+class Walks:
+    """A body that walks, ``drift`` [m] farther beside its path each second."""
+
+    status, gait_now, held = "walking", "walk", False
+
+    def __init__(self, drift):
+        self.drift, self.lateral_error, self.events = drift, 0.0, []
+
+    def tick(self):
+        self.lateral_error += self.drift * CONTROL_DT
+
+
+def test_slowing_down_goes_well_if_it_does_not_stagger_in_the_end():
+    assert rehearsal.walks_on(Walks(0.02)) == 1.0
+    assert rehearsal.walks_on(Walks(-0.4)) == rehearsal.walks_on(Walks(0.4)) == 0.5
 
 
 def test_a_push_in_the_run_up_makes_it_rehearse_anew():

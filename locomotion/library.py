@@ -20,15 +20,21 @@ LEAP = _SKILLS / "leap.yaml"
 """Description of the leap over gaps."""
 
 
-@lru_cache(maxsize=8)
 def skills_digest(own: tuple[Path, ...] = ()) -> str:
-    """Hex digest of everything that the package has learned and of the skills described by ``own``: a person
-    does the same only with the same."""
-    hasher = hashlib.sha256()
+    """Hex digest of everything that the package has learned and of the skills described by ``own``, as their
+    files are now: a person does the same only with the same."""
     files = sorted(_SKILLS.glob("*.npz"))
     for path in own:
         description = load_description(path)
         files += [path, description.clip, description.learned]
+    stats = [file.stat() for file in files]
+    return _digest(tuple(files), tuple((stat.st_mtime_ns, stat.st_size) for stat in stats))
+
+
+@lru_cache(maxsize=8)
+def _digest(files: tuple[Path, ...], stamps: tuple[tuple[int, int], ...]) -> str:
+    """``stamps``: when the files were changed and their sizes, so that what is kept belongs to them."""
+    hasher = hashlib.sha256()
     for file in files:
         hasher.update(file.name.encode() + file.read_bytes())
     return hasher.hexdigest()[:16]

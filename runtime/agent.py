@@ -253,7 +253,7 @@ class Agent:
         if isinstance(self._driver, AnimalDriver):
             self._driver.take_note()
         for event in self.news:
-            if isinstance(event, _HELPLESS) and self.body == "human" and self._tries_again():
+            if isinstance(event, _HELPLESS) and self._tries_again():
                 continue
             told = self._translated(event)
             if isinstance(told, Fell | Lost):

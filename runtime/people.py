@@ -184,11 +184,11 @@ class HumanDriver:
             self.plans[-1] = replace(self.plans[-1], points=self.human.path)
 
     def end_in(self, ahead: float) -> None:
-        course = self.human.course()
-        points = None if course is None else course.points[: round(ahead / SPACING) + 1]
-        if course is None or points is None or len(points) < 2:
+        course, count = self.human.course(), round(ahead / SPACING) + 1
+        if course is None or min(count, len(course.points)) < 2:
             self.human.arrive()
             return
+        points = course.points[:count]
         self.human.follow(points, float(course.speeds.max()))
         self.plans[-1] = replace(self.plans[-1], points=points, obstacles=(), ends=(ahead,))
 

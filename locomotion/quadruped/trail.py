@@ -6,7 +6,6 @@ onto the ground and given the speed at which each place may be passed.
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -97,12 +96,11 @@ def _subdivided(points: NDArray[np.float64]) -> NDArray[np.float64]:
     keep = points[np.concatenate([[True], apart])]
     if len(keep) < 2:
         raise NoTrail("a path needs at least two points that differ in x or y")
-    pieces = [keep[:1]]
-    for a, b in itertools.pairwise(keep):
-        parts = int(np.ceil(np.linalg.norm((b - a)[:2]) / _KNOTS))
-        share = np.arange(1, parts + 1)[:, None] / parts
-        pieces.append(a + share * (b - a))
-    return np.concatenate(pieces)
+    parts = np.ceil(np.linalg.norm(np.diff(keep[:, :2], axis=0), axis=1) / _KNOTS).astype(int)
+    part = np.arange(1, parts.sum() + 1) - np.repeat(np.cumsum(parts) - parts, parts)
+    share = (part / np.repeat(parts, parts))[:, None]
+    between = np.repeat(keep[:-1], parts, axis=0) + share * np.repeat(np.diff(keep, axis=0), parts, axis=0)
+    return np.concatenate([keep[:1], between])
 
 
 def _drape(rows: NDArray[np.float64], wanted: NDArray[np.float64], ground: Ground) -> NDArray[np.float64]:
@@ -150,9 +148,9 @@ def _plan_speed(rows: NDArray[np.float64], step: float, body: Body) -> None:
     steep = (climbing / np.maximum(rise, climbing / body.top_speed)) ** 2
     squares = np.maximum(np.minimum(body.movement.sideways / np.maximum(bend, 1e-6), steep), _CREEP**2)
     brake = 1.2 * body.movement.braking * step
-    for i in range(len(squares) - 2, -1, -1):
-        squares[i] = min(squares[i], squares[i + 1] + brake)
-    rows[:, at.PSPEED] = np.sqrt(squares)
+    braked = brake * np.arange(len(squares))  # from the end to the beginning: no more than braking takes
+    least = np.minimum.accumulate((squares + braked)[::-1])[::-1] - braked
+    rows[:, at.PSPEED] = np.sqrt(np.maximum(least, _CREEP**2))
 
 
 @njit(cache=True, inline="always")

@@ -173,3 +173,12 @@ def test_the_package_leaps_over_gaps():
             run = run_course(make_course([("gap", width, 0.0)], [distance]))
             arrived += run.ended == "arrived" and run.passages[0].cleared
     assert arrived >= 11
+
+
+def test_the_digest_is_that_of_the_files_as_they_are_now(own):
+    path = own()
+    before = skills_digest((path,))
+    assert skills_digest((path,)) == before
+    learned = path.parent / "hop.npz"
+    learned.write_bytes(learned.read_bytes() + b"learned anew")
+    assert skills_digest((path,)) != before

@@ -16,7 +16,7 @@ __all__ = ["PERSON_RULES", "run_entry_speed", "run_limits", "walk_limits"]
 PERSON_RULES = {"radius": 0.3, "headroom": 1.9, "max_slope": math.radians(20.0), "max_step": 0.15}
 """Where a person can run: radius [m], headroom [m], steepest slope [rad], highest step under a foot [m]."""
 _SHARE_OF_TURNING = 0.8  # the rest of the skill's sideways acceleration is left for corrections
-_SLOWEST_RUN = 2.5  # [m/s]: told less it is not slower, but crosses its legs
+_SLOWEST_RUN = 2.5  # [m/s]: slower it crosses its legs
 _SHARPEST, _STEEPEST = 0.2, 0.12  # [1/m], slope: where it would rather walk
 _SLOWEST, _SIDEWAYS = 0.3, 0.5  # [m/s], [m/s^2] of a walk
 _FASTER, _SLOWER = 0.7, 0.5  # [m/s^2] of a walk

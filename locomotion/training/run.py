@@ -83,28 +83,29 @@ def first_state_reference() -> np.ndarray:
     return table
 
 
-KNOTS = np.array([0.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0])
+KNOTS = np.array([0.0, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0])
 """Speeds [m/s] of the rows of a learned table; the first serves the start from standing."""
 SPEED_RANGE = (1.5, 5.0)
 """Speeds [m/s] that may be asked for."""
 SIZE = sum(c.PARAMETERS.values())
-BLOCKS = ("base", "slope", "bend", "start", "faster", "fastest")
+BLOCKS = ("base", "slope", "bend", "start", "slow", "faster", "fastest")
 """Of SIZE genes each: parameters at `MIDDLE`, their change per m/s and per (m/s)^2 from 2.5 to 4 m/s; how the
-row at speed 0 differs from the one at 2.5 m/s, the one at 4.5 from the one at 4 m/s and the one at 5 from the
-one at 4.5 m/s."""
+row at speed 0 differs from the one at 2.5 m/s, the one at 2 m/s from what lies between these two, the one at
+4.5 from the one at 4 m/s and the one at 5 from the one at 4.5 m/s."""
 
 
 def skill_of(
     genes: np.ndarray, reference: np.ndarray, max_lateral: float = 1.6, meta: dict | None = None
 ) -> RunSkill:
     """The skill that ``genes`` (len(BLOCKS) * SIZE,) stand for, see `BLOCKS`."""
-    base, slope, bend, start, faster, fastest = genes.reshape(len(BLOCKS), SIZE)
-    u = (KNOTS[1:-2] - MIDDLE)[:, None]
+    base, slope, bend, start, slow, faster, fastest = genes.reshape(len(BLOCKS), SIZE)
+    u = (KNOTS[2:6] - MIDDLE)[:, None]
     table = np.empty((len(KNOTS), SIZE))
-    table[1:-2] = base + u * slope + u * u * bend
-    table[0] = table[1] + start
-    table[-2] = table[-3] + faster
-    table[-1] = table[-2] + fastest
+    table[2:6] = base + u * slope + u * u * bend
+    table[0] = table[2] + start
+    table[1] = table[2] + (1.0 - KNOTS[1] / KNOTS[2]) * start + slow
+    table[6] = table[5] + faster
+    table[7] = table[6] + fastest
     time = c.parameter_slices()["timing"].start
     table[:, time] = np.clip(table[:, time], 0.22, 0.5)
     return RunSkill(KNOTS, table, reference, SPEED_RANGE, max_lateral, (0.3, 0.25), run_clip(), meta or {})
@@ -152,12 +153,12 @@ def ways_scale() -> np.ndarray:
     return _genes(middle, 0.5 * _blocks(*shape), np.zeros(SIZE), _blocks(*setting_off))
 
 
-def rows_scale(faster: float, fastest: float) -> np.ndarray:
+def rows_scale(slow: float = 0.0, faster: float = 0.0, fastest: float = 0.0) -> np.ndarray:
     """Scale of all genes where only rows of their own are free, each weighted; slopes are left to what was
     learned between them."""
     kept = ("climb", "climb_legs", "climb_timing", "descend", "descend_legs", "descend_timing", "start")
     free = _blocks(*(name for name in c.PARAMETERS if name not in kept))
-    return np.concatenate([np.zeros(4 * SIZE), faster * free, fastest * free])
+    return np.concatenate([np.zeros(4 * SIZE), slow * free, faster * free, fastest * free])
 
 
 WAY: dict[str, Any] = {"length": (10.0, 22.0), "radius": 3.4, "speeds": (2.6, 3.6)}
@@ -173,13 +174,18 @@ HARD_PUSHES = (
     WAY, _PUSHED, {**WAY, "ground": "gentle"}, _PUSHED, _ANY_SPEED, _PUSHED, {**WAY, "length": (9.0, 12.0)},
     _PUSHED, {"speeds": (3.3, 3.3), "standing": 1.0, "noise": 0.2, "duration": 5.0},
 )  # fmt: skip
-_FAST = {"steady": True, "noise": 0.3, "duration": 4.0}
-FASTER = ({**_FAST, "speeds": (4.1, 4.6), "lateral": 1.2},)
-FASTEST = ({**_FAST, "speeds": (4.3, 5.0), "lateral": 1.6},)
-_LONGER = {**_FAST, "speeds": (4.05, 5.0), "duration": 6.0}
+_STEADY = {"steady": True, "noise": 0.3, "duration": 4.0}
+FASTER = ({**_STEADY, "speeds": (4.1, 4.6), "lateral": 1.2},)
+FASTEST = ({**_STEADY, "speeds": (4.3, 5.0), "lateral": 1.6},)
+_LONGER = {**_STEADY, "speeds": (4.05, 5.0), "duration": 6.0}
 FAST_BENDS_AND_PUSHES = {**_LONGER, "lateral": 1.9, "push": 60.0}, {**_LONGER, "push": 320.0}
-_TOP_PUSH = {**_FAST, "speeds": (4.7, 5.0), "push": 330.0, "duration": 5.0}
-TOP = {**_FAST, "speeds": (4.6, 5.0), "lateral": 2.0, "duration": 6.0}, _TOP_PUSH, _TOP_PUSH
+_TOP_PUSH = {**_STEADY, "speeds": (4.7, 5.0), "push": 330.0, "duration": 5.0}
+TOP = {**_STEADY, "speeds": (4.6, 5.0), "lateral": 2.0, "duration": 6.0}, _TOP_PUSH, _TOP_PUSH
+_SLOW_PUSH = {**_STEADY, "speeds": (1.8, 2.3), "push": 330.0, "duration": 5.0}
+SLOW_PUSHES = (
+    _SLOW_PUSH, {**_SLOW_PUSH, "speeds": (1.8, 2.5), "lateral": 1.2, "push": 60.0},
+    _SLOW_PUSH, {"speeds": (2.3, 3.5), "standing": 1.0, "noise": 0.2, "duration": 4.0},
+)  # fmt: skip
 FLAT, BENDS, SLOPES = {"lateral": 0.0, "tilt": 0.0}, {"tilt": 0.0}, {"lateral": 0.0}
 SLOW_KINDS = (
     {"standing": 1.0, "noise": 0.1},
@@ -250,10 +256,19 @@ def curriculum(effort: float = 1.0) -> tuple[Stage, ...]:
         stage("slower", 40, 0.08, slow, 8, SLOW_KINDS, style=0.2, speeds=(1.4, 2.6), **jog),
         stage("ways", 130, 0.04, ways_scale(), len(WAYS), WAYS, style=0.3),
         stage("hard pushes", 31, 0.025, ways_scale(), len(HARD_PUSHES), HARD_PUSHES, style=0.3),
-        stage("faster", 40, 0.05, rows_scale(1, 0), 5, FASTER, style=0.3),
-        stage("fastest", 40, 0.05, rows_scale(0.5, 1), 5, FASTEST, style=0.3),
-        stage("fast bends and pushes", 45, 0.035, rows_scale(1, 1), 8, FAST_BENDS_AND_PUSHES, style=0.3),
-        stage("top", 40, 0.04, rows_scale(0.2, 1), 6, TOP, style=0.3),
+        stage("faster", 40, 0.05, rows_scale(faster=1), 5, FASTER, style=0.3),
+        stage("fastest", 40, 0.05, rows_scale(faster=0.5, fastest=1), 5, FASTEST, style=0.3),
+        stage(
+            "fast bends and pushes",
+            45,
+            0.035,
+            rows_scale(faster=1, fastest=1),
+            8,
+            FAST_BENDS_AND_PUSHES,
+            style=0.3,
+        ),
+        stage("top", 40, 0.04, rows_scale(faster=0.2, fastest=1), 6, TOP, style=0.3),
+        stage("slow pushes", 16, 0.06, rows_scale(slow=1), 8, SLOW_PUSHES, style=0.3),
     )
 
 

@@ -4,6 +4,7 @@ do."""
 import numpy as np
 import pytest
 
+from locomotion import controller
 from locomotion.arm_reach import hand_place
 from locomotion.body import Human
 from locomotion.clearing import foot_distance
@@ -223,3 +224,16 @@ def test_wrong_input_is_refused_and_changes_nothing():
         with pytest.raises(LocomotionError, match=message):
             call()
     assert human.state_hash() == before and not human.events
+
+
+def test_a_person_told_to_run_fast_speeds_up_no_further_than_it_can_follow() -> None:
+    human, fastest = Human(), 0.0
+    human.reset([0.0, 0.0, 0.0], 0.0)
+    human.follow(np.array([[0.0, 0.0, 0.0], [45.0, 0.0, 0.0]]), 4.8)
+    while human.status in MOVING and human.com[0] < 30.0:
+        human.tick()
+        state = human.control
+        if not human.on_feet.walks and state[controller.STEPS] > 3.0:
+            fastest = max(fastest, float(state[controller.STEP_SPEED]))
+            assert state[controller.SPEED] < max(3.75, state[controller.STEP_SPEED] + 1.1)
+    assert human.status in MOVING and fastest > 4.5

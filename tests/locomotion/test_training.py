@@ -87,17 +87,19 @@ def test_interrupted_and_resumed_equals_uninterrupted(tmp_path: Path) -> None:
         learn(tiny_problem(), 5, checkpoint, workers=1)
 
 
-def test_fast_rows_begin_as_the_one_below_and_are_learned_alone() -> None:
+def test_rows_of_their_own_begin_as_their_neighbours_and_are_learned_alone() -> None:
     genes = np.random.default_rng(0).normal(size=len(BLOCKS) * SIZE)
     genes[4 * SIZE :] = 0.0
-    held = skill_of(genes, first_state_reference()).table
-    np.testing.assert_array_equal(held[-1], held[-3])
-    changed = skill_of(genes + rows_scale(1.0, 1.0), first_state_reference()).table
-    np.testing.assert_array_equal(changed[:-2], held[:-2])
+    before = skill_of(genes, first_state_reference())
     part = parameter_slices()
-    assert (changed[-2, part["m_ap"]] != held[-2, part["m_ap"]]).all()
-    assert (changed[-1, part["m_ap"]] != changed[-2, part["m_ap"]]).all()
-    np.testing.assert_array_equal(changed[:, part["climb"]], held[:, part["climb"]])
+    between = np.interp(2.0, before.knots[[0, 2]], before.table[[0, 2], part["m_ap"].start])
+    assert before.knots[1] == 2.0 and before.table[1, part["m_ap"].start] == pytest.approx(between)
+    np.testing.assert_array_equal(before.table[-1], before.table[-3])
+    for row, scale in ((1, rows_scale(slow=1.0)), (-1, rows_scale(fastest=1.0))):
+        after = skill_of(genes + scale, first_state_reference()).table
+        assert (after[row, part["m_ap"]] != before.table[row, part["m_ap"]]).all()
+        np.testing.assert_array_equal(np.delete(after, row, axis=0), np.delete(before.table, row, axis=0))
+        np.testing.assert_array_equal(after[:, part["climb"]], before.table[:, part["climb"]])
 
 
 def test_same_trial_same_outcome() -> None:

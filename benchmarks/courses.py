@@ -1,6 +1,6 @@
 """Ten obstacles in a row: how many courses does the person run to the end, and where do the others end?
 
-    python -m benchmarks.courses [--courses 200] [--obstacles 10] [--kinds jump vault drop]
+    python -m benchmarks.courses [--courses 200] [--obstacles 10] [--kinds jump vault drop] [--rehearsals 16]
 
 Kinds and heights are drawn evenly (heights from what each skill has learned), 8 to 15 m apart, on a level
 of triangles; from standing, with noise of 0.02 m/s and rad/s. Nothing is authored for it: path tracking,
@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from locomotion import Human
+from locomotion.rehearsal import REHEARSALS
 from locomotion.training.vault import DEPTHS
 from runtime.courses import Course, make_course, run_course
 from runtime.evaluation import start_noise
@@ -39,12 +40,13 @@ def main() -> None:
     parser.add_argument("--courses", type=int, default=200)
     parser.add_argument("--obstacles", type=int, default=10)
     parser.add_argument("--kinds", nargs="+", default=["jump", "vault", "drop"])
+    parser.add_argument("--rehearsals", type=int, default=REHEARSALS, help="as of Human")
     parser.add_argument("--json", type=Path, help="file to write")
     options = parser.parse_args()
     rows, last, met, began = [], Counter(), Counter(), time.process_time()
     for number in range(options.courses):
         course = draw_course(np.random.default_rng([5, number]), options.obstacles, options.kinds)
-        run = run_course(course, noise=start_noise(5, number))
+        run = run_course(course, noise=start_noise(5, number), rehearsals=options.rehearsals)
         kinds = [obstacle.affordance for obstacle in course.obstacles]
         cleared = sum(p.cleared for p in run.passages)
         rows.append({"kinds": kinds, "ended": run.ended, "cleared": cleared, "seconds": run.seconds})

@@ -283,7 +283,7 @@ class Human(RehearsingPerson):
         mujoco.mj_step(self.model, self.data, STEPS_PER_TICK)
         observe(self.index, self.model, self.data, self._control)
         self._control[controller.FALLEN] = 0.0
-        stands = fours.observe(self._lookup, self.data)
+        stands, gets_up = fours.observe(self._lookup, self.data), self.status == "getting up"
         if fours.fallen and self.status != "getting up":
             self._fall()
         elif stands:
@@ -295,10 +295,11 @@ class Human(RehearsingPerson):
             if self._ticks - fours.fell_at > _LONGEST_DOWN:
                 self.status, self._ended_at = "fallen", self._ticks
                 fours.leave()
-        elif way is not None and way.path is not None and self.status in MOVING:
-            self._notice()
+        elif way is not None and way.path is not None and self.status in MOVING and not gets_up:
+            self._notice()  # but one that has just got up, which may be told to take another way
 
     def _got_up(self, status: Status) -> None:
+        self.way.go_on_from(self.position, self._ticks)
         self.status, self._ended_at = status if self._fours.on_way > 0.0 else "standing", self._ticks
         down = (self._ticks - self._fours.fell_at) * CONTROL_DT
         self.events.append(GotUp(self.time, self._point(), down))

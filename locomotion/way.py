@@ -95,6 +95,16 @@ class Way:
         """Count time without headway from this ``tick`` on."""
         self.memory[path_tracking.HEADWAY_TICK] = tick
 
+    def go_on_from(self, place: NDArray[np.float64], tick: int) -> None:
+        """It has been carried along the path by a fall: go on from the point that is nearest to ``place``
+        (3,)."""
+        if self.path is not None:
+            table = self.path.table
+            nearest = int(np.argmin(np.linalg.norm(table[:, :3] - place, axis=1)))
+            arc = nearest * self.path.length / (len(table) - 1)
+            self.memory[[path_tracking.ARC, path_tracking.HEADWAY]] = arc
+            self.make_headway(tick)
+
     def shift(self, shift: NDArray[np.float64], limits: TrackingLimits, walk: TrackingLimits | None) -> None:
         """Move the path, see `path_tracking.shifted`."""
         assert self.path is not None

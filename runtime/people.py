@@ -13,6 +13,7 @@ from locomotion import PERSON_RULES, Human, HumanState, load_run_skill
 from locomotion.clearing import skill_ranges
 from locomotion.giving_way import SPACING, Course
 from locomotion.library import learned_skills
+from locomotion.rehearsal import REHEARSALS
 from runtime.drivers import PLANS_KEPT, Driver, Follower, radius_of, recall
 from runtime.errors import RuntimeInputError
 from runtime.figure import Figure
@@ -24,12 +25,12 @@ __all__ = ["HumanDriver", "People"]
 
 class People:
     """Simulated persons. ``skills``: descriptions of those of one's own that they have besides the
-    package's."""
+    package's; ``rehearsals``: as of `Human`."""
 
     bodies: tuple[str, ...] = ("human",)
 
-    def __init__(self, level: Level, skills: Sequence[Path] = ()) -> None:
-        self._level, self._skills = level, skills
+    def __init__(self, level: Level, skills: Sequence[Path] = (), rehearsals: int = REHEARSALS) -> None:
+        self._level, self._skills, self._rehearsals = level, skills, rehearsals
         self._drivers: list[HumanDriver] = []
 
     def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> Driver:
@@ -44,7 +45,8 @@ class People:
 
     def _make(self) -> Human:
         run = load_run_skill()
-        return Human(self._level.ground, run, learned_skills(run, self._skills), gets_up=True)
+        skills = learned_skills(run, self._skills)
+        return Human(self._level.ground, run, skills, rehearsals=self._rehearsals, gets_up=True)
 
     def _add(self, human: Human) -> "HumanDriver":
         self._drivers.append(HumanDriver(self._level, human))

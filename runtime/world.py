@@ -18,6 +18,7 @@ from locomotion.giving_way import Course
 from locomotion.library import learned_skills, skills_digest
 from locomotion.person import CONTROL_DT
 from locomotion.quadruped import is_body_file, load_body
+from locomotion.rehearsal import REHEARSALS
 from runtime.agent import Agent
 from runtime.drivers import BODIES, Follower, Population, radius_of
 from runtime.errors import RuntimeInputError
@@ -44,7 +45,9 @@ class World:
     seed and the same calls give the same run, bit for bit.
 
     ``skills``: files that describe skills of your own (`locomotion.skill_description`), which its people have
-    besides the package's. Raises `RuntimeInputError` for one with a mistake.
+    besides the package's. Raises `RuntimeInputError` for one with a mistake. ``rehearsals``: how many
+    variations of a take-off or a slowing-down a person tries within one tick at most; with fewer the longest
+    ticks are shorter, and skills hold less often.
 
     ``agents``: by name, in order of their making. ``random``: the
     `numpy.random.Generator` for whatever chance the host needs, saved, restored and hashed with the rest.
@@ -55,7 +58,10 @@ class World:
         terrain: navmesh.Terrain | navmesh.NodeGraph,
         seed: int = 0,
         skills: Sequence[str | os.PathLike[str]] = (),
+        rehearsals: int = REHEARSALS,
     ) -> None:
+        if not rehearsals >= 0:
+            raise RuntimeInputError(f"rehearsals must be a number of at least 0, not {rehearsals}")
         if isinstance(terrain, navmesh.NodeGraph):
             graph = terrain
         elif isinstance(terrain, navmesh.Terrain):
@@ -75,7 +81,7 @@ class World:
                 raise RuntimeInputError(str(error)) from None
         self._populations: list[Population] = []
         self._traffic = Traffic(self._level, self._populations)
-        others = People(self._level, self._skills), Pack(self._level, self._traffic)
+        others = People(self._level, self._skills, rehearsals), Pack(self._level, self._traffic)
         self._populations += [*others, Walkers(self._level, others)]
         self._ticks = 0
         self._owed = 0.0

@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 
 from locomotion import MOVING, Ground, Human, friction_for
+from locomotion.body import STRAYED
 from locomotion.events import Arrived, Event, Fell, GotUp
+from locomotion.path_tracking import TrackingLimits, make_path
+from locomotion.way import Way
 
 WAY = np.array([[x, 0.0, 0.0] for x in np.arange(0.0, 30.0)])
 
@@ -86,6 +89,30 @@ def test_who_has_got_up_on_a_slope_does_not_fall_again_at_once(slope):
         again += any(isinstance(event, Fell) for event in human.events[fell:])
     assert up >= 5, "hard enough a push"
     assert again <= 1
+
+
+def test_who_gets_up_beside_its_path_is_not_lost_before_it_can_be_told_another():
+    human = Human(None, clearing=(), gets_up=True)
+    push_over(human, 2.2, 1.2)
+    go_on(human, 5.0, Fell)
+    human.data.qpos[1] += 2.0 * STRAYED
+    go_on(human, 40.0, GotUp)
+    assert isinstance(human.events[-1], GotUp) and human.status == "walking"
+    assert abs(human.lateral_error) > STRAYED
+
+
+def test_who_was_carried_back_along_its_way_has_its_time_to_make_headway():
+    way = Way()
+    limits = TrackingLimits((0.3, 1.2))
+    way.begin(make_path(WAY, 1.0, limits, 0.0), 0)
+    for tick in range(2000):
+        way.track(np.zeros(6), 0.01 * tick, 0.0, 1.0, tick, np.zeros(4))
+    assert way.arc == pytest.approx(19.99)
+    way.go_on_from(np.array([6.0, 0.3, 0.0]), 3000)
+    assert way.arc == pytest.approx(6.0, abs=0.06)
+    for tick in range(3000, 4200):
+        way.track(np.zeros(6), 6.0 + 0.01 * (tick - 3000), 0.3, 1.0, tick, np.zeros(4))
+        assert way.without_headway(tick) < 0.5
 
 
 def test_without_that_a_fall_is_the_end():

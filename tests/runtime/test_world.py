@@ -31,6 +31,27 @@ def test_refuses_a_bad_step(graph, dt):
         World(graph).step(dt)
 
 
+def test_people_rehearse_as_much_as_their_world_says(graph):
+    with pytest.raises(RuntimeInputError, match="rehearsals must be"):
+        World(graph, rehearsals=-1)
+    course = make_course([("jump", 0.4, 0.0)], [10.0])
+    terrain = navmesh.Terrain.from_arrays(course.vertices, course.faces)
+    tried = []
+    for most in (0, 1, 3):
+        world = World(terrain, rehearsals=most)
+        human = world.spawn("human", (0.0, 0.0, 0.0)).human
+        seen = []
+        choose = human._rehearse
+        human._rehearse = lambda choices, do, goes, seen=seen, choose=choose: choose(
+            choices, lambda body, choice: (seen.append(choice), do(body, choice)), lambda body: 0.0
+        )
+        world.agents["human1"].go_to((20.0, 0.0, 0.4), speed=3.0)
+        while not seen and world.time < 12.0:
+            world.step(0.01)
+        tried.append(len(seen))
+    assert tried == [0, 1, 3]
+
+
 def test_how_time_is_cut_does_not_matter(graph):
     hashes = set()
     for cuts in ([0.01] * 60, [0.6], [0.25, 0.05, 0.3]):

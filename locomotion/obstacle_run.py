@@ -136,11 +136,12 @@ class ObstacleRun:
         if self.ahead is None or self._plan[_RETURNS] >= _MOST_RETURNS:
             return None
         edge = self.ahead.arc_length
-        if not arc < edge or (edge - arc > _ROOM and self._plan[_BALKED] == 0.0):
-            return None
         behind = self.obstacles[int(self._plan[_NEXT]) - 1] if self._plan[_NEXT] > 0.0 else None
         start = 0.0 if behind is None else behind.arc_length + behind.depth + _OFF_EDGE
         to = max(edge - _ROOM - _SETTING_OFF, start)
+        room = edge - to - _SETTING_OFF  # with less than `_ROOM` it tries what there is
+        if not arc < edge or (edge - arc > room and self._plan[_BALKED] == 0.0):
+            return None
         return to if arc - to > _WORTH_IT else None
 
     def go_back(self) -> None:

@@ -201,3 +201,9 @@ def test_what_counts_as_clean(affordance, passage, clean):
 def test_skills_hold_from_any_distance(affordance, height):
     runs = [run_course(make_course([(affordance, height, 0.3)], [d])) for d in np.linspace(12.0, 17.0, 8)]
     assert sum(run.ended == "arrived" and run.passages[0].clean(affordance) for run in runs) >= 7
+
+
+@pytest.mark.parametrize("room", [5.0, 6.0])
+def test_who_has_little_room_tries_what_there_is_before_it_goes_back(room):
+    run = run_course(make_course([("jump", 0.4, 0.0)], [room]))
+    assert run.ended == "arrived" and run.seconds < 30.0

@@ -1,5 +1,5 @@
 # make demo    bakes a level, runs a mission on it, leaves trace, plot, film strip and page in out/
-# make test    the tests
+# make test    the tests, in two processes
 # make check   what the continuous integration runs: linter, format, types, tests
 PYTHON ?= python3
 VENV := .venv
@@ -17,7 +17,7 @@ demo: $(VENV)/.installed
 	@echo "== look at $(OUT)/level.png and $(OUT)/film.png, and open $(OUT)/run.html in a browser"
 
 test: $(VENV)/.installed-dev
-	$(VENV)/bin/python -m pytest
+	$(VENV)/bin/python -m pytest -n 2 --dist loadfile
 
 check:
 	bash .ci/run

@@ -47,10 +47,7 @@ _WALK_GAINS = np.array([0.5, 0.6, 0.05, 0.3, 0.8, 0.25])
 _TURN_FIRST = 0.7  # [rad] off its way at which a walking person turns on the spot
 _SLOW_ENOUGH = 0.5  # [m/s] at which it begins to turn so far
 _HASTE = 1.3  # [m/s] that the speed asked for may exceed the last step's: more trips it in setting off
-_FAST, _FAST_HASTE = (
-    3.7,
-    0.8,
-)  # [m/s]: what is asked for above the first exceeds the last step's by the second
+_FAST, _FAST_HASTE = 3.7, 0.8  # [m/s]: what is asked for above the first may exceed it by the second only
 _CHANGED = 4.0  # steps after which it has gone over to another gait
 _STILL = 0.03  # [m/s] of the centre of mass at rest
 

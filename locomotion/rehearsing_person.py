@@ -97,12 +97,7 @@ class RehearsingPerson(MovingPerson, ABC):
         """Where the path is not run, slow down, and go over to walking just after a foot was put down."""
         due = self.status not in MOVING or not self.way.runs or self.way.pace == 0.0
         if due and self.on_feet.slowing == 0.0:
-            future: list[HumanState] = []
-            walks = partial(walks_on, seen=future)
-            choice, went = self._rehearse(SLOWINGS, RehearsingPerson.slow_down, walks)
-            self.slow_down(choice)
-            if went > 0.0:
-                self._foreseen.expect(self, future)
+            self._slow_as_rehearsed(SLOWINGS, RehearsingPerson.slow_down, True)
         if self.on_feet.walk_if_slow(self.index, self._control, self.data) and self.status in MOVING:
             self.status = "walking"
 
@@ -118,12 +113,19 @@ class RehearsingPerson(MovingPerson, ABC):
         choice, went = self._rehearse(RUN_UPS, RehearsingPerson.vary_run_up, clears)
         self._obstacle_run.vary(choice, self._control, went >= HOLDS)
         if went < HOLDS:
-            future: list[HumanState] = []
-            walks = partial(walks_on, seen=future)
-            deceleration, went = self._rehearse(BALKINGS, RehearsingPerson.balk, walks)
-            if went > 0.0:
-                self.balk(deceleration)
-                self._foreseen.expect(self, future)
+            self._slow_as_rehearsed(BALKINGS, RehearsingPerson.balk, False)
+
+    def _slow_as_rehearsed(
+        self, decelerations: Sequence[float], slow: Callable[[RehearsingPerson, float], None], must: bool
+    ) -> None:
+        """Slow down in the way after which it walks on; where none does, only if it ``must``. What was seen
+        of it is taken over, and not simulated again."""
+        future: list[HumanState] = []
+        deceleration, went = self._rehearse(decelerations, slow, partial(walks_on, seen=future))
+        if went > 0.0 or must:
+            slow(self, deceleration)
+        if went > 0.0:
+            self._foreseen.expect(self, future)
 
     @property
     def begins_run_up(self) -> bool:

@@ -281,9 +281,9 @@ class Human(RehearsingPerson):
         fours.steer(way, self._control[controller.COM], self._ticks, self._command)
         fours.tick(self._lookup, self._command, self.data, fours.gentle > 0.0)
         mujoco.mj_step(self.model, self.data, STEPS_PER_TICK)
-        observe(self.index, self.model, self.data, self._control)
         self._control[controller.FALLEN] = 0.0
-        stands, gets_up = fours.observe(self._lookup, self.data), self.status == "getting up"
+        stands = fours.observe(self._lookup, self.data, self._control)
+        gets_up = self.status == "getting up"
         if fours.fallen and self.status != "getting up":
             self._fall()
         elif stands:

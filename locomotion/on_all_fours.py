@@ -5,7 +5,7 @@
     while four.active:
         four.tick(lookup, command, data, stand=True)
         mujoco.mj_step(model, data, STEPS_PER_TICK)
-        four.observe(lookup, data)                   # not active any more once it stands
+        four.observe(lookup, data, state)                # not active any more once it stands
 
 What it remembers is one array, `memory` (its fields: `locomotion.scramble_layout`).
 """
@@ -33,6 +33,7 @@ _GAINS = np.array([0.5, 0.6, 0.05, 0.3, 0.8, 0.25])  # of `path_tracking.track`
 _TOO_STEEP, _GENTLE = 0.45, 0.35  # slopes around a place where it is put on hands and feet; where it rises
 _AROUND, _AHEAD = 1.2, 12.0  # [m] of the place; of its path
 _LOOK = 0.4  # [m] ahead on its path to where it goes
+_LOOKS_APART = 0.5  # [m] along its path: less than the radius of what `steeper` looks at
 _NO_HEADWAY, _ROUND = 6.0, 0.7  # [s] without headway after which it goes [rad] off its way, facing ahead
 _SLOW_HEADWAY = 0.8  # of the time on hands and feet does not count as being without headway
 
@@ -74,7 +75,7 @@ class OnAllFours:
     def fall(self, data: mujoco.MjData) -> None:
         """The body has fallen, however it lies."""
         self.memory[:] = new_scramble()
-        observe_scramble(self._parts, data, self.memory, fresh=True)
+        observe_scramble(self._parts, data, self.memory)
         begin_getting_up(self.memory, data.qpos)
 
     def crouch(
@@ -122,10 +123,11 @@ class OnAllFours:
             if stand and ready_to_rise(memory):
                 begin_to_rise(memory, data.qpos)
 
-    def observe(self, lookup: tuple[NDArray, ...], data: mujoco.MjData) -> bool:
-        """After the physics. Whether it stands now, for the walk to take over."""
+    def observe(self, lookup: tuple[NDArray, ...], data: mujoco.MjData, state: NDArray[np.float64]) -> bool:
+        """After the physics: also into ``state``, a running controller's. Whether it stands now, for the walk
+        to take over."""
         memory = self.memory
-        observe_scramble(self._parts, data, memory)
+        observe_scramble(self._parts, data, memory, state)
         if memory[MODE] >= BORNE:
             rise_on(lookup, memory, data.qpos, self.gentle > 0.0)
         return bool(memory[MODE] == RISING and stands(memory))
@@ -158,6 +160,6 @@ def _gentle_ahead(
     points = place[None]
     if path is not None:
         step = path.length / (len(path.table) - 1)
-        rows = np.arange(arc, min(arc + _AHEAD, path.length) + 0.01, 0.25) / step
+        rows = np.arange(arc, min(arc + _AHEAD, path.length) + 0.01, _LOOKS_APART) / step
         points = path.table[np.minimum(rows.astype(int), len(path.table) - 1), :3]
     return not steeper(ground.lookup, points, _GENTLE)

@@ -4,10 +4,10 @@ import numpy as np
 
 __all__ = [
     "AIR", "ALL_DOWN", "ANCHORS", "AWAY", "AXES", "BEGUN_FROM", "BIAS", "BORNE", "CENTRE", "CLOCK",
-    "DOWN", "FACING", "HOLDS", "HOMES", "LIFT", "LIMP", "LOADS", "MODE", "MODE_CLOCK", "PAIR", "PHASE",
-    "REACHING", "RISEN", "RISING", "ROLLING", "ROLL_SIDE", "SCRAMBLE_SIZE", "SEEN_BASE", "SEEN_COM",
-    "SEEN_FORCES", "SEEN_LIMBS", "SEEN_TRUNK", "SEEN_TURN", "SEEN_VELOCITY", "SPOT", "STANCE",
-    "SWINGING", "TICKS", "TRIES", "TUCKING", "TURNING", "new_scramble",
+    "DOWN", "FACING", "HOLDS", "HOMES", "LIE_AHEAD", "LIE_HERE", "LIFT", "LIMP", "LOADS", "MODE",
+    "MODE_CLOCK", "PAIR", "PHASE", "REACHING", "RISEN", "RISING", "ROLLING", "ROLL_SIDE", "SCRAMBLE_SIZE",
+    "SEEN_BASE", "SEEN_COM", "SEEN_FORCES", "SEEN_LIMBS", "SEEN_TRUNK", "SEEN_TURN", "SEEN_VELOCITY",
+    "SPOT", "STANCE", "SWINGING", "TICKS", "TRIES", "TUCKING", "TURNING", "new_scramble",
 ]  # fmt: skip
 
 PHASE, CLOCK, PAIR, FACING, TURNING, TICKS, RISEN, SEEN_TRUNK = range(8)
@@ -38,7 +38,9 @@ side over which it rolls (0: right); times that rolling has failed."""
 AWAY, LIMP, ROLLING, REACHING, TUCKING, BORNE, RISING = -1.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0
 BEGUN_FROM = slice(384, 423)
 """Joint angles [rad] with which what it does began."""
-SCRAMBLE_SIZE = 423
+LIE_HERE, LIE_AHEAD = slice(423, 425), slice(425, 427)
+"""Gradients of the ground (2,): around the body, and where it comes to."""
+SCRAMBLE_SIZE = 427
 
 HOMES = {
     "hand_ahead": 0.34,  # [m] from the centre of mass to the hands

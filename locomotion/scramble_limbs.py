@@ -87,7 +87,7 @@ def bear(memory, limbs, torques):
     """Torques (39,) [Nm] with which the limbs that are down carry the weight by vertical forces, shared so
     that they pass through the centre of mass."""
     com = memory[SEEN_COM]
-    a, b, force = np.zeros((3, 3)), np.zeros(3), np.zeros(4)
+    a, force, multiplier = np.zeros((3, 3)), np.zeros(4), np.empty(3)
     loads = memory[LOADS]
     row = np.empty(3)
     for k in range(4):
@@ -97,8 +97,11 @@ def bear(memory, limbs, torques):
                 a[i, j] += loads[k] * row[i] * row[j]
     for i in range(3):
         a[i, i] += 0.02
-    b[0] = MASS * _GRAVITY
-    multiplier = np.linalg.solve(a, b)
+    # a x = (weight, 0, 0) by the first row of a's cofactors
+    multiplier[0] = a[1, 1] * a[2, 2] - a[1, 2] * a[2, 1]
+    multiplier[1] = a[1, 2] * a[2, 0] - a[1, 0] * a[2, 2]
+    multiplier[2] = a[1, 0] * a[2, 1] - a[1, 1] * a[2, 0]
+    multiplier *= MASS * _GRAVITY / (a[0] @ multiplier)
     total = 0.0
     for k in range(4):
         f = multiplier[0]

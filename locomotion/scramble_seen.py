@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from locomotion.anatomy import TRUNK_JOINTS
 from locomotion.hand_hold import HAND_POINT
 from locomotion.person import CONTROL_DT, PersonIndex
+from locomotion.run_layout import COM, COM_VELOCITY, CONTACT, FEET
 from locomotion.scramble_layout import (
     ANCHORS,
     AXES,
@@ -27,6 +28,8 @@ from locomotion.scramble_limbs import BALL
 __all__ = ["Parts", "observe_scramble", "parts_of"]
 
 _HAND = np.array(HAND_POINT)
+_RIGHT_FOOT, _LEFT_FOOT = slice(FEET.start, FEET.start + 3), slice(FEET.start + 3, FEET.stop)
+_FEET_FORCES = slice(SEEN_FORCES.start + 2, SEEN_FORCES.stop)
 
 
 class Parts(NamedTuple):
@@ -46,11 +49,12 @@ class Parts(NamedTuple):
 
 @njit(cache=True)
 def _observe(
-    memory, fresh, places, frames, coms, parts, anchors, axes, bias, ncon, geoms, addresses, forces
+    memory, state, places, frames, coms, parts, anchors, axes, bias, ncon, geoms, addresses, forces
 ):  # fmt: skip
     for i in range(3):
         c = coms[1, i]
-        memory[SEEN_VELOCITY.start + i] = 0.0 if fresh else (c - memory[SEEN_COM.start + i]) / CONTROL_DT
+        before = c if state is None else memory[SEEN_COM.start + i]
+        memory[SEEN_VELOCITY.start + i] = (c - before) / CONTROL_DT
         memory[SEEN_COM.start + i] = c
         memory[SEEN_BASE.start + i] = places[1, i]
     memory[SEEN_TURN] = frames[1]
@@ -80,6 +84,10 @@ def _observe(
             memory[SEEN_FORCES.start + part] += total
         elif part == -1:
             memory[SEEN_TRUNK] += total
+    if state is not None:
+        state[COM], state[COM_VELOCITY] = memory[SEEN_COM], memory[SEEN_VELOCITY]
+        state[_RIGHT_FOOT], state[_LEFT_FOOT] = places[parts.ends[2]], places[parts.ends[3]]
+        state[CONTACT] = memory[_FEET_FORCES]
 
 
 def parts_of(index: PersonIndex, model: mujoco.MjModel) -> Parts:
@@ -94,10 +102,13 @@ def parts_of(index: PersonIndex, model: mujoco.MjModel) -> Parts:
     return Parts(np.array(hands + feet), of_body, model.geom_bodyid.copy())
 
 
-def observe_scramble(parts: Parts, data: mujoco.MjData, memory: np.ndarray, fresh: bool = False) -> None:
-    """Read what the controller needs of ``data`` into ``memory``; ``fresh``: at a pose that was put there."""
+def observe_scramble(
+    parts: Parts, data: mujoco.MjData, memory: np.ndarray, state: np.ndarray | None = None
+) -> None:
+    """Read what the controller needs of ``data`` into ``memory``, and into ``state``, a running controller's,
+    what everybody asks for; without it: at a pose that was put there, at rest."""
     contact = data.contact
     _observe(
-        memory, fresh, data.xpos, data.xmat, data.subtree_com, parts, data.xanchor, data.xaxis,
+        memory, state, data.xpos, data.xmat, data.subtree_com, parts, data.xanchor, data.xaxis,
         data.qfrc_bias, data.ncon, contact.geom, contact.efc_address, data.efc_force,
     )  # fmt: skip

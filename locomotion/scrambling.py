@@ -28,6 +28,8 @@ from locomotion.scramble_layout import (
     DOWN,
     FACING,
     HOLDS,
+    LIE_AHEAD,
+    LIE_HERE,
     LIFT,
     LOADS,
     PAIR,
@@ -74,6 +76,7 @@ _SHOULDER_OUT, _TRUNK = 0.17, 0.485  # [m] from the middle; from the hips to the
 _BELOW = 1.2  # share of the spine's bend by which the pelvis leans less than the trunk as a whole
 _UPHILL = 0.25  # slope that counts as much as the way in where to face
 _COMING = 0.3  # [m] ahead where it looks how the ground lies, too
+_LOOKS = 5.0  # ticks after which it does so again: less than 1 cm later
 _TURN_RATE = 0.7  # [rad/s]
 _AROUND = 0.6  # [m] around the body that tells how the ground lies
 _RING = _AROUND * np.stack([np.cos(0.25 * np.pi * np.arange(4)), np.sin(0.25 * np.pi * np.arange(4))], axis=1)
@@ -249,13 +252,13 @@ def scramble_tick(ground, memory, command, qpos, qvel, ctrl):
         memory[SPOT].reshape(4, 3),
     )
     com = memory[SEEN_COM]
-    gradient = np.empty(2)
-    lie_of(ground, com[0], com[1], com[2] - 0.4, gradient)
-    # where to face: by the ground that it is on and that it comes to
-    ahead = np.empty(2)
+    gradient, ahead = memory[LIE_HERE], memory[LIE_AHEAD]
     wx, wy = math.cos(command[0]), math.sin(command[0])
-    look = _COMING if command[1] > 0.0 else 0.0
-    lie_of(ground, com[0] + look * wx, com[1] + look * wy, com[2] - 0.4, ahead)
+    if memory[TICKS] % _LOOKS == 0.0:
+        look = _COMING if command[1] > 0.0 else 0.0
+        lie_of(ground, com[0], com[1], com[2] - 0.4, gradient)
+        lie_of(ground, com[0] + look * wx, com[1] + look * wy, com[2] - 0.4, ahead)
+    # where to face: by the ground that it is on and that it comes to
     along = max(_UPHILL, command[2])
     fx, fy = 0.5 * (gradient[0] + ahead[0]) + along * wx, 0.5 * (gradient[1] + ahead[1]) + along * wy
     off = wrap(math.atan2(fy, fx) - memory[FACING])
@@ -367,7 +370,7 @@ def crouch(
     memory[CENTRE] = position[:2]
     for _ in range(8):
         mujoco.mj_forward(model, data)
-        observe_scramble(parts, data, memory, fresh=True)
+        observe_scramble(parts, data, memory)
         for k in range(4):
             _home(ground, memory[STANCE], k, *position, facing, slope, limbs[k])
         _posture(memory, slope, 0.0, np.zeros(4), limbs, data.qpos)
@@ -383,4 +386,4 @@ def crouch(
                 data.qpos[7 + first : 14 + first] = angles
         data.qpos[7:] = np.clip(data.qpos[7:], LOWEST, HIGHEST)
     mujoco.mj_forward(model, data)
-    observe_scramble(parts, data, memory, fresh=True)
+    observe_scramble(parts, data, memory)

@@ -229,20 +229,20 @@ def courtyard() -> trimesh.Trimesh:
     return yard.mesh()
 
 
-def write_obj(mesh: trimesh.Trimesh, path: Path, title: str, maker: str = "make_levels.py") -> None:
-    """Write a mesh as OBJ with nothing but vertices and faces (metres, Z up)."""
-    lines = [f"# {title}: metres, Z up; made by examples/{maker}"]
+def write_obj(mesh: trimesh.Trimesh, folder: Path, name: str, maker: str) -> None:
+    """Write a mesh into ``folder`` as an OBJ with nothing but vertices and faces (metres, Z up)."""
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / f"{name}.obj"
+    lines = [f"# {name}: metres, Z up; made by examples/{maker}"]
     lines += ["v " + " ".join(f"{value:.6g}" for value in vertex) for vertex in mesh.vertices]
     lines += ["f " + " ".join(str(index + 1) for index in face) for face in mesh.faces]
     path.write_text("\n".join(lines) + "\n")
+    print(f"{path}: {len(mesh.faces)} triangles, {len(mesh.vertices)} vertices")
 
 
 def main(folder: Path) -> None:
     """Write every level of ours into ``folder``."""
-    folder.mkdir(parents=True, exist_ok=True)
-    mesh = courtyard()
-    write_obj(mesh, folder / "courtyard.obj", "courtyard")
-    print(f"{folder / 'courtyard.obj'}: {len(mesh.faces)} triangles, {len(mesh.vertices)} vertices")
+    write_obj(courtyard(), folder, "courtyard", "make_levels.py")
 
 
 if __name__ == "__main__":

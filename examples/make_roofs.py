@@ -33,10 +33,7 @@ def roofs():
 
 def main(folder: Path) -> None:
     """Write the roofs into ``folder``."""
-    folder.mkdir(parents=True, exist_ok=True)
-    mesh = roofs()
-    write_obj(mesh, folder / "roofs.obj", "roofs", "make_roofs.py")
-    print(f"{folder / 'roofs.obj'}: {len(mesh.faces)} triangles, {len(mesh.vertices)} vertices")
+    write_obj(roofs(), folder, "roofs", "make_roofs.py")
 
 
 if __name__ == "__main__":

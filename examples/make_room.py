@@ -56,10 +56,7 @@ def room():
 
 def main(folder: Path) -> None:
     """Write the room into ``folder``."""
-    folder.mkdir(parents=True, exist_ok=True)
-    mesh = room()
-    write_obj(mesh, folder / "room.obj", "room", "make_room.py")
-    print(f"{folder / 'room.obj'}: {len(mesh.faces)} triangles, {len(mesh.vertices)} vertices")
+    write_obj(room(), folder, "room", "make_room.py")
 
 
 if __name__ == "__main__":

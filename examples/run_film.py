@@ -12,6 +12,7 @@ from locomotion import controller
 from locomotion.skill import load_run_skill
 from locomotion.training.rollout import Scenario, Simulator
 from runtime.figure import Figure
+from runtime.filmstrip import show_frame
 from runtime.render import Camera, Triangles, render
 
 SPEEDS, FRAMES = (2.0, 3.5, 5.0), 8
@@ -41,9 +42,9 @@ def main() -> None:
             pose = poses[int(k)]
             pelvis = pose[0, :3]
             camera = Camera(pelvis + np.array([0.3, -3.4, 0.4]), pelvis + np.array([0.2, 0.0, -0.15]), 0.62)
-            axes.imshow(render(ground, [figure.posed(pose)], camera, (230, 300)))
-            axes.set_axis_off()
-            axes.set_title(f"{speed:g} m/s, {0.01 * (k - touchdowns[-3]):.2f} s", fontsize=9)
+            picture = render(ground, [figure.posed(pose)], camera, (230, 300))
+            show_frame(axes, picture, f"{0.01 * (k - touchdowns[-3]):.2f} s")
+        row[0].set_title(f"{speed:g} m/s", fontsize=10, loc="left")
     sheet.savefig(sys.argv[1] if len(sys.argv) > 1 else "docs/pictures/run.png")
 
 

@@ -16,6 +16,7 @@ from matplotlib.figure import Figure as Sheet
 from locomotion import Human
 from runtime.courses import Course, make_course, run_course
 from runtime.figure import Figure
+from runtime.filmstrip import show_frame
 from runtime.render import Camera, Triangles, render
 
 FRAMES, COLUMNS, APART = 14, 7, 12
@@ -36,9 +37,7 @@ def strip(course: Course, frames: list[np.ndarray], before: float, file: Path) -
         target = data.qpos[:3] + np.array([0.1, 0.0, -0.15])
         camera = Camera(target + np.array([-0.6, -3.6, 0.7]), target, 0.62)
         shapes = figure.posed(np.hstack([data.xpos, data.xquat])[1:])
-        axes.imshow(render(level, [shapes], camera, (300, 400)))
-        axes.set_axis_off()
-        axes.set_title(f"{k * APART / 100.0:.2f} s", fontsize=9)
+        show_frame(axes, render(level, [shapes], camera, (300, 400)), f"{k * APART / 100.0:.2f} s")
     sheet.savefig(file)
 
 

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure as Sheet
 from locomotion import Human
 from locomotion.training.grounds import ground_height, training_ground
 from runtime.figure import Figure
+from runtime.filmstrip import show_frame
 from runtime.render import Camera, Triangles, render
 
 FRAMES, FIRST, APART = 8, 6.0, 0.1
@@ -33,9 +34,7 @@ def main() -> None:
         pose = human.body_transforms()[1:]
         pelvis = pose[0, :3]
         camera = Camera(pelvis + np.array([0.3, -3.4, 0.4]), pelvis + np.array([0.2, 0.0, -0.15]), 0.6)
-        axes.imshow(render(level, [figure.posed(pose)], camera, (230, 300)))
-        axes.set_axis_off()
-        axes.set_title(f"{human.time:.2f} s", fontsize=9)
+        show_frame(axes, render(level, [figure.posed(pose)], camera, (230, 300)), f"{human.time:.2f} s")
     sheet.savefig(sys.argv[1] if len(sys.argv) > 1 else "docs/pictures/walk.png")
 
 

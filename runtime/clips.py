@@ -14,6 +14,7 @@ from locomotion.retargeting import load_mapping, retarget
 from runtime.errors import RuntimeInputError
 from runtime.figure import Figure
 from runtime.files import whole_file
+from runtime.filmstrip import show_frame
 from runtime.progress import Progress
 from runtime.render import Camera, Triangles, render
 
@@ -59,9 +60,7 @@ def write_motion_film(motion: Motion, path: str | os.PathLike[str], progress: Pr
             mujoco.mj_kinematics(model, data)
             target = motion.qpos[pick, :3] - [0.0, 0.0, 0.1]
             shapes = figure.posed(np.hstack([data.xpos, data.xquat])[1:])
-            axes.imshow(render(ground, [shapes], Camera(target + _FROM, target, 0.62), _SIZE))
-            axes.set_axis_off()
-            seconds = f"{pick / motion.rate:.2f} s"
-            axes.text(0.03, 0.94, seconds, transform=axes.transAxes, va="top", fontsize=9)
+            picture = render(ground, [shapes], Camera(target + _FROM, target, 0.62), _SIZE)
+            show_frame(axes, picture, f"{pick / motion.rate:.2f} s")
     with whole_file(path) as temporary:
         page.savefig(temporary, format="png")

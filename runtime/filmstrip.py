@@ -1,6 +1,7 @@
 """A film strip: moments of a run side by side, drawn by `runtime.render` from a trace."""
 
 import os
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,7 +11,10 @@ from runtime.progress import Progress
 from runtime.render import Camera, Triangles, render
 from runtime.trace import AgentTrace, Trace
 
-__all__ = ["write_filmstrip"]
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["show_frame", "write_filmstrip"]
 
 _FRAMES, _COLUMNS = 8, 4
 _SIZE = (400, 330)
@@ -38,13 +42,17 @@ def write_filmstrip(trace: Trace, path: str | os.PathLike[str], progress: Progre
             shown = agent.figure.posed(agent.poses[pick]).place[:, :3]
             camera, clear = clearest(level, _camera(agent, trace, int(pick)), shown)
             away = float(np.linalg.norm(camera.eye - camera.target))
-            axes.imshow(render(level, figures, camera, _SIZE, cutaway=0.0 if clear else 0.75 * away))
-            axes.set_axis_off()
-            axes.text(
-                0.03, 0.94, f"{trace.times[pick]:.2f} s", transform=axes.transAxes, va="top", fontsize=9
-            )
+            picture = render(level, figures, camera, _SIZE, cutaway=0.0 if clear else 0.75 * away)
+            show_frame(axes, picture, f"{trace.times[pick]:.2f} s")
     with whole_file(path) as temporary:
         figure.savefig(temporary, format="png")
+
+
+def show_frame(axes: "Axes", picture: np.ndarray, label: str) -> None:
+    """Show one ``picture`` of a strip, with a label in its corner."""
+    axes.imshow(picture)
+    axes.set_axis_off()
+    axes.text(0.03, 0.94, label, transform=axes.transAxes, va="top", fontsize=9)
 
 
 def _scene(trace: Trace) -> tuple[AgentTrace, float, float, str]:

@@ -220,8 +220,13 @@ class Human(RehearsingPerson):
     # --- time
     def tick(self) -> None:
         """Advance by 10 ms: track the path, control, physics, observe, notice what happened."""
-        if self._foreseen.comes_true(self):
-            return
+        if not self._foreseen.comes_true(self):
+            self._tick()
+        if self._foresight is not None:
+            self._foresight.go_on(self)
+
+    def _tick(self) -> None:
+        """A tick that was not foreseen."""
         self._ticks += 1
         if self.held:
             return
@@ -333,7 +338,7 @@ class Human(RehearsingPerson):
                 rise_walking(self.on_feet.walk, self._control, self.yaw)
             self.events.append(Cleared(self.time, self._point(), happened.affordance, happened.size))
 
-    def _double(self) -> Human:
+    def double(self) -> Human:
         feet = self.on_feet
         return Human(
             self.ground, feet.run_skill, self.clearing, feet.walk_skill, feet.slow_down_skill, 0,

@@ -16,7 +16,17 @@ from locomotion.events import Event
 from locomotion.obstacle_run import ObstacleRunState
 from locomotion.path_tracking import PathTable
 
-__all__ = ["CLEARING", "MOVING", "Gait", "HumanState", "Status", "hash_of", "restore_physics", "save_physics"]
+__all__ = [
+    "CLEARING",
+    "MOVING",
+    "Gait",
+    "HumanState",
+    "Status",
+    "hash_of",
+    "restore_physics",
+    "same",
+    "save_physics",
+]
 
 Status = Literal[
     "standing", "walking", "running", "jumping", "vaulting", "dropping", "scrambling", "getting up", "fallen",
@@ -54,6 +64,23 @@ class HumanState:
     ticks: int
     ended_at: int
     events: tuple[Event, ...]
+
+
+def same(one: HumanState, other: HumanState) -> bool:
+    """Whether two states go on in the same way; what has happened before does not matter."""
+
+    def numbers(state: HumanState) -> bytes:
+        parts = [state.physics, state.control, state.walk, state.tracking, state.on_all_fours]
+        return b"".join(part.tobytes() for part in [*parts, *state.obstacle_run.arrays])
+
+    def rest(state: HumanState) -> tuple:
+        way = state.interrupted is None, state.back_to, id(state.obstacle_run.obstacles)
+        return state.status, state.ticks, state.ended_at, state.slowing, state.hurries, *way
+
+    if rest(one) != rest(other) or numbers(one) != numbers(other):
+        return False
+    paths = (one.path, other.path), (one.interrupted, other.interrupted)
+    return all(a is b or (a and b and np.array_equal(a.table, b.table)) for a, b in paths)
 
 
 def save_physics(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float64]:

@@ -168,6 +168,16 @@ class ObstacleRun:
         assert self._skill is not None
         return self.skill.fell(self._skill, state)
 
+    def rehearses_within(self, arc: float, distance: float) -> bool:
+        """Whether it comes to the run-up to an obstacle, which was not rehearsed yet, within ``distance`` [m]
+        from arc length ``arc``; behind another obstacle when it is about to clear that."""
+        number = int(self._plan[_NEXT])
+        if self.clearing or (self.rehearsed and self.obstacles[number].arc_length - arc < distance):
+            number += 1
+        elif self.rehearsed:
+            return False
+        return number < len(self.obstacles) and self.obstacles[number].arc_length - arc < RUN_UP + distance
+
     def to_rehearse(self, state: NDArray[np.float64]) -> bool:
         """Whether a step of a run-up has just begun, and the rest was not rehearsed yet."""
         if self.ahead is None or self.clearing or self.planned == 0.0 or self.rehearsed:

@@ -9,9 +9,9 @@ the smallest first, until one goes well, and does that. Undisturbed, it then com
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Generator, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -22,7 +22,6 @@ from locomotion.person import CONTROL_DT
 
 if TYPE_CHECKING:
     from locomotion.body import Human
-    from locomotion.rehearsing_person import RehearsingPerson
 
 __all__ = [
     "BALKINGS",
@@ -31,6 +30,9 @@ __all__ = [
     "RUN_UPS",
     "SETTING_OFF",
     "SLOWINGS",
+    "Outcome",
+    "Trial",
+    "at_once",
     "clears",
     "first_good",
     "walks_on",
@@ -48,6 +50,7 @@ _LONGEST = round(12.0 / CONTROL_DT)
 _MARKS, _ENTRIES = (0.0, 0.04, -0.04, 0.08, -0.08), (0.0, 0.1, -0.1, 0.2, -0.2)
 
 _T = TypeVar("_T")
+_R = TypeVar("_R")
 
 
 def _nearest_first(*spans: Sequence[float]) -> tuple[tuple[float, ...], ...]:
@@ -72,46 +75,69 @@ HOLDS = 0.5
 """How well a run-up has to go, at least, that it is begun and not broken off."""
 
 
+class Outcome(NamedTuple, Generic[_T]):
+    """The choice that was made, how well it went, and what was seen of it: its states after each tick, each
+    with the events of that tick only; empty where nothing was noted."""
+
+    choice: _T
+    went: float
+    seen: list[HumanState]
+
+
+Trial = Generator[None, None, tuple[float, list[HumanState]]]
+"""A body goes on by a tick at a time; in the end, how well it went and what was seen of it (`Outcome`)."""
+
+
+def at_once(task: Generator[None, None, _R]) -> _R:
+    """What comes of a task in the end."""
+    while True:
+        try:
+            next(task)
+        except StopIteration as end:
+            return end.value
+
+
 def first_good(
-    person: RehearsingPerson,
+    state: HumanState,
     understudy: Human,
     choices: Sequence[_T],
     choose: Callable[[Human, _T], None],
-    goes_well: Callable[[Human], float],
-) -> tuple[_T, float]:
-    """The first of ``choices`` that goes perfectly, or else the first of the best, and how well it went.
+    goes_well: Callable[[Human], Trial],
+) -> Generator[None, None, Outcome[_T]]:
+    """The first of ``choices`` in ``state`` that goes perfectly, or else the first of the best; tick by tick
+    of the ``understudy``.
 
     choose: tells a body to take a choice. goes_well: lets it go on and says how well it went, 0 (it fell) to
     1 (perfectly).
     """
-    state = person.save_state()
-    best, chosen = 0.0, choices[0]
+    best = Outcome(choices[0], 0.0, [])
     for choice in choices:
         understudy.restore_state(state)
         understudy.data.xfrc_applied[:] = 0.0
         choose(understudy, choice)
-        went = goes_well(understudy)
-        if went > best:
-            best, chosen = went, choice
+        went, seen = yield from goes_well(understudy)
+        if went > best.went:
+            best = Outcome(choice, went, seen)
         if went >= 1.0:
             break
-    return chosen, best
+    return best
 
 
-def clears(body: Human, looks_on: bool = True) -> float:
+def clears(body: Human, looks_on: bool = True) -> Trial:
     """Whether it clears the obstacle ahead and stays up behind it: 1 without touching what it should not.
 
     looks_on: whether it also matters what it can do before another obstacle that is near behind it.
     """
-    obstacle, seen = body.obstacle_ahead, len(body.events)
+    obstacle, events = body.obstacle_ahead, len(body.events)
     assert obstacle is not None
     passage, cleared_at = Passage(), 0
     took_off = walked = False
     for tick in range(_LONGEST):
         body.tick()
-        happened, seen = body.events[seen:], len(body.events)
+        yield
+        happened, events = body.events[events:], len(body.events)
         if body.status not in (*MOVING, "arrived"):
-            return 0.0
+            return 0.0, []
         again = False
         for event in happened:
             if isinstance(event, Cleared):
@@ -124,48 +150,48 @@ def clears(body: Human, looks_on: bool = True) -> float:
             walked = walks
             good = 1.0 if passage.clean(obstacle.affordance) else 0.5
             if looks_on and body.begins_run_up and body.hemmed_in:
-                return good if finds_a_way_on(body) else _TRAPPED
+                goes_on = yield from finds_a_way_on(body)
+                return (good if goes_on else _TRAPPED), []
             if again or tick - cleared_at >= (_WALKING if walks else _RUNNING) or body.held:
-                return good
+                return good, []
         elif took_off:
             watch(body.index, body.model, body.data, obstacle, passage)
-    return 0.0
+    return 0.0, []
 
 
-def finds_a_way_on(body: Human) -> bool:
+def finds_a_way_on(body: Human) -> Generator[None, None, bool]:
     """Whether one that begins a run-up and looks no farther clears the obstacle, or can break it off."""
     begin, state = type(body), body.save_state()
     goes_on = partial(clears, looks_on=False)
-    if first_good(body, body, RUN_UPS[:_LOOKED_AT], begin.vary_run_up, goes_on)[1] > 0.0:
+    best = yield from first_good(state, body, RUN_UPS[:_LOOKED_AT], begin.vary_run_up, goes_on)
+    if best.went > 0.0:
         return True
-    body.restore_state(state)
-    return first_good(body, body, BALKINGS[:_LOOKED_AT], begin.balk, walks_on)[1] > 0.0
+    best = yield from first_good(state, body, BALKINGS[:_LOOKED_AT], begin.balk, walks_on)
+    return best.went > 0.0
 
 
-def walks_on(body: Human, seen: list[HumanState] | None = None) -> float:
+def walks_on(body: Human, notes: bool = False) -> Trial:
     """Whether a body that slows down comes to walk or stand, and stays up: 1 if it does not stagger to one
-    side in the end, which would make it fall later. ``seen`` is filled with its states after each tick, each
-    with the events of that tick only."""
-    if seen is not None:
-        seen.clear()
+    side in the end, which would make it fall later. ``notes``: whether what is seen of it is noted; it then
+    forgets its events."""
+    seen: list[HumanState] = []
     walked, beside = 0, 0.0
     for _ in range(_LONGEST):
-        if seen is not None:
+        if notes:
             body.events.clear()
         body.tick()
-        if seen is not None:
+        yield
+        if notes:
             seen.append(body.save_state())
         if body.status in _FAILED:
-            return 0.0
+            return 0.0, []
         if walked and body.gait_now == "run":
-            if seen is not None:
-                seen.pop()  # that it runs again is to be rehearsed in its turn
-            return 1.0
+            return 1.0, seen[:-1]  # that it runs again is to be rehearsed in its turn
         if body.held:
-            return 1.0
+            return 1.0, seen
         if walked == _SETTLED - _WATCHED:
             beside = body.lateral_error
         if walked >= _SETTLED:
-            return 1.0 if abs(body.lateral_error - beside) < _STAGGERS else 0.5
+            return (1.0 if abs(body.lateral_error - beside) < _STAGGERS else 0.5), seen
         walked = walked + 1 if body.gait_now == "walk" else 0
-    return 0.0
+    return 0.0, []

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, TypeVar
 from locomotion.clearing import ClearingSkill
 from locomotion.events import GotStuck
 from locomotion.foreseen import Foreseen
+from locomotion.foresight import Foresight, Question
 from locomotion.gaits import run_entry_speed
 from locomotion.ground import Ground
-from locomotion.human_state import MOVING, HumanState
+from locomotion.human_state import MOVING
 from locomotion.moving_person import MovingPerson
 from locomotion.on_feet import OnFeet
 from locomotion.path_tracking import RUN_UP
@@ -22,8 +23,9 @@ from locomotion.rehearsal import (
     RUN_UPS,
     SETTING_OFF,
     SLOWINGS,
+    Outcome,
+    Trial,
     clears,
-    first_good,
     walks_on,
 )
 
@@ -35,18 +37,23 @@ __all__ = ["RehearsingPerson"]
 _TOO_NEAR = 2.0  # [m] before an obstacle up to which a walking person comes
 _HEMMED_IN = 9.0  # [m] before an obstacle in which it may not come to a walk
 
+_SOON_WALKED, _SOON_RUN = 2.5, 4.0  # [m] before something is to be rehearsed from which it looks ahead
+
 _T = TypeVar("_T")
 
 
 class RehearsingPerson(MovingPerson, ABC):
-    """See `locomotion.rehearsal`. ``rehearsals``: variations that it tries at one time at most, 0: none."""
+    """See `locomotion.rehearsal`. ``rehearsals``: variations that it tries at one time at most, 0: none.
+    ``decides``: how it rehearses; None: it does not."""
 
     def __init__(
         self, ground: Ground | None, on_feet: OnFeet, clearing: Sequence[ClearingSkill], rehearsals: int
     ) -> None:
         super().__init__(ground, on_feet, clearing)
-        self._rehearsals = rehearsals
-        self._understudy: Human | None = None
+        self._foresight = Foresight(rehearsals) if rehearsals else None
+        self.decides: Callable[[RehearsingPerson, Question], Outcome] | None = None
+        if self._foresight is not None:
+            self.decides = self._foresight.decide
         self._foreseen = Foreseen()
 
     # --- from one gait to the other
@@ -67,7 +74,8 @@ class RehearsingPerson(MovingPerson, ABC):
         if not obstacles.comes_within(arc, RUN_UP):
             self.run(False, speed)
             return
-        choice, went = self._rehearse(SETTING_OFF, partial(RehearsingPerson.set_off, speed=speed), clears)
+        set_off = partial(RehearsingPerson.set_off, speed=speed)
+        choice, went, _ = self._rehearse(SETTING_OFF, set_off, clears)
         if went >= HOLDS:
             self.set_off(choice, speed)
 
@@ -108,9 +116,9 @@ class RehearsingPerson(MovingPerson, ABC):
     # --- trying out
     def _rehearse_take_off(self) -> None:
         """Just after a step of a run-up has begun: choose among its variations, or break it off."""
-        if not (self._rehearsals and self.begins_run_up):
+        if self.decides is None or not self.begins_run_up:
             return
-        choice, went = self._rehearse(RUN_UPS, RehearsingPerson.vary_run_up, clears)
+        choice, went, _ = self._rehearse(RUN_UPS, RehearsingPerson.vary_run_up, clears)
         self._obstacle_run.vary(choice, self._control, went >= HOLDS)
         if went < HOLDS:
             self._slow_as_rehearsed(BALKINGS, RehearsingPerson.balk, False)
@@ -120,12 +128,11 @@ class RehearsingPerson(MovingPerson, ABC):
     ) -> None:
         """Slow down in the way after which it walks on; where none does, only if it ``must``. What was seen
         of it is taken over, and not simulated again."""
-        future: list[HumanState] = []
-        deceleration, went = self._rehearse(decelerations, slow, partial(walks_on, seen=future))
+        deceleration, went, seen = self._rehearse(decelerations, slow, partial(walks_on, notes=True))
         if went > 0.0 or must:
             slow(self, deceleration)
         if went > 0.0:
-            self._foreseen.expect(self, future)
+            self._foreseen.expect(self, seen)
 
     @property
     def begins_run_up(self) -> bool:
@@ -147,17 +154,28 @@ class RehearsingPerson(MovingPerson, ABC):
         self._obstacle_run.balk()
         self.slow_down(deceleration)
 
+    @property
+    def decides_soon(self) -> bool:
+        """Whether it may come to something to be rehearsed within the next seconds."""
+        way, feet, arc = self.way, self.on_feet, self.arc_length
+        if way.path is None or self.status not in MOVING or self._fours.active or feet.slowing > 0.0:
+            return False
+        if feet.walks:
+            begins = way.interrupted is None and way.path.runs(way.arc + _SOON_WALKED)
+            turns = way.interrupted is not None and way.remaining < _SOON_WALKED
+            return (begins or turns) and self._obstacle_run.rehearses_within(arc, _SOON_WALKED)
+        ends = not self._obstacle_run.clearing and not way.path.runs(way.arc + _SOON_RUN)
+        return ends or self._obstacle_run.rehearses_within(arc, _SOON_RUN)
+
     def _rehearse(
-        self, choices: Sequence[_T], choose: Callable[[Human, _T], None], goes_well: Callable[[Human], float]
-    ) -> tuple[_T, float]:
-        """The best of ``choices`` and how well it went, see `rehearsal.first_good`; without rehearsals the
-        first is taken to go well."""
-        if not self._rehearsals:
-            return choices[0], 1.0
-        if self._understudy is None or self._understudy.model is not self.model:
-            self._understudy = self._double()
-        return first_good(self, self._understudy, choices[: self._rehearsals], choose, goes_well)
+        self, choices: Sequence[_T], choose: Callable[[Human, _T], None], goes_well: Callable[[Human], Trial]
+    ) -> Outcome[_T]:
+        """The best of ``choices``, see `rehearsal.first_good`; without rehearsals the first is taken to go
+        well."""
+        if self.decides is None:
+            return Outcome(choices[0], 1.0, [])
+        return self.decides(self, Question(self.save_state(), choices, choose, goes_well))
 
     @abstractmethod
-    def _double(self) -> Human:
+    def double(self) -> Human:
         """One that moves as it does, on the same ground, and does not rehearse."""

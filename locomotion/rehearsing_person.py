@@ -36,7 +36,6 @@ __all__ = ["RehearsingPerson"]
 
 _TOO_NEAR = 2.0  # [m] before an obstacle up to which a walking person comes
 _HEMMED_IN = 9.0  # [m] before an obstacle in which it may not come to a walk
-
 _SOON_WALKED, _SOON_RUN = 2.5, 4.0  # [m] before something is to be rehearsed from which it looks ahead
 
 _T = TypeVar("_T")

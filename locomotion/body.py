@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -47,14 +48,14 @@ from locomotion.on_all_fours import OnAllFours
 from locomotion.on_feet import OnFeet
 from locomotion.path_tracking import SLOPE_HERE, make_path
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK
-from locomotion.person_course import course_on_path
+from locomotion.person_course import course_on_way, course_to_rest
 from locomotion.rehearsal import REHEARSALS
 from locomotion.rehearsing_person import RehearsingPerson
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill, load_run_skill
 from locomotion.slow_down import SlowDownSkill, load_slow_down_skill
 from locomotion.speed_up import SpeedUpSkill, load_speed_up_skill
-from locomotion.walk_layout import new_walk
+from locomotion.walk_layout import WALK_HEADING, new_walk
 from locomotion.walk_skill import WalkSkill, load_walk_skill, rise_walking
 from locomotion.walking import observe_walk
 
@@ -68,7 +69,6 @@ STUCK_TIME = 8.0
 """[s] without headway along the path after which a person counts as stuck."""
 _WALK_ARRIVAL = 0.15  # [m] before the end of its path at which a walking person stops
 _CHANGE = 0.01  # [m] by which the ground under a person at rest may change unnoticed
-_PATIENCE = 0.9  # of the time that it gives way does not count as being stuck
 _LONGEST_DOWN = 12000  # ticks after which a body that has not got up stays down
 _CLIMBS_BACK = 6.0  # [m] beside its path, where it has slid to, from which it climbs back
 _LOOKS = 20  # ticks after which one on hands and feet looks again whether it can walk on
@@ -172,6 +172,10 @@ class Human(RehearsingPerson):
         distance = float(np.linalg.norm(goal[:2] - self.position[:2]))
         self._end("arrived", Arrived(self.time, self._point(), distance))
 
+    def give_up(self) -> None:
+        """Be stuck among others."""
+        self._end("stuck", GotStuck(self.time, self._point(), among_others=True))
+
     def stop(self) -> None:
         """Give up the path and come to a stand; what is being cleared is cleared first."""
         self._fours.on_way = 0.0
@@ -203,10 +207,25 @@ class Human(RehearsingPerson):
             return None
         if self.on_feet.changes(self._control):
             return None
+        return self.prospect()
+
+    def prospect(self) -> Course | None:
+        """What it will do on its feet, whether that can be changed or not; None for one that is not on
+        them."""
+        feet, way, here, velocity = self.on_feet, self.way, self.position, self.velocity
+        if self._fours.active or self.status in CLEARING.values():
+            return None
+        if way.path is None or self.status not in ("walking", "running"):
+            return course_to_rest(here, velocity, feet.walk_limits if feet.walks else feet.limits)
         walks = self.status == "walking"
-        limits = self.on_feet.walk_limits if walks else self.on_feet.limits
-        speed, aside = float(np.linalg.norm(self.velocity[:2])), self._obstacle_run.ahead is None
-        return course_on_path(self.way.path, self.way.memory, limits, speed, walks, aside)
+        limits, facing = feet.walk_limits, float(feet.walk[WALK_HEADING])
+        if not walks:
+            limits, facing = feet.limits, math.atan2(velocity[1], velocity[0])
+        aside = self._obstacle_run.ahead is None
+        course = course_on_way(way, limits, here, velocity, walks, facing, aside)
+        if feet.slowing == 0.0:
+            return course
+        return replace(course, slowest=0.0, braking=feet.slowing)
 
     def give_way(self, pace: float, shift: NDArray[np.float64] | None) -> None:
         """Go at a share of the planned speed; with ``shift`` (k, 2) [m] change the path by it, one row for
@@ -362,6 +381,6 @@ class Human(RehearsingPerson):
         elif abs(way.lateral) > (_CLIMBS_BACK if self._fours.active else STRAYED):
             self._end("lost", StrayedFromPath(self.time, self._point(), abs(way.lateral)))
         elif way.pace < 1.0:
-            way.excuse(_PATIENCE)
+            way.wait()
         elif way.without_headway(self._ticks) > STUCK_TIME:
             self._end("stuck", GotStuck(self.time, self._point()))

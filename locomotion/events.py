@@ -59,7 +59,10 @@ class LostGround(Event):
 
 @dataclass(frozen=True)
 class GotStuck(Event):
-    """The body has made no headway along its path for some seconds."""
+    """The body has made no headway along its path for some seconds; ``among_others``: it and those around it
+    wait for each other."""
+
+    among_others: bool = False
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,10 @@ STEP = 0.1
 SPACING = 0.1
 """[m] between the points of a course."""
 COUNT = round(HORIZON / STEP)
+TURNING_SPEED = 0.5
+"""[m/s] from which a body begins to turn on the spot."""
+AT_FIRST = 10
+"""Steps in which a body can do little about where it is."""
 AT_ONCE = 1.0 / STEP
 """[1/s] Of an eagerness: it changes its speed as hard as it can, to the end."""
 _ASIDE = (0.4, 0.8, 1.2, 1.6)
@@ -59,7 +63,8 @@ class Course:
         slowest: [m/s] that it can go, unless it halts; 0: it halts as easily as it slows down.
         sharpest: [1/m] of a curve that it can take. begins: [m] ahead where a change of its path may begin.
         aside: whether its path may be changed. whole: whether the last point is its goal.
-        stops: [m] that it wants for coming to a stand.
+        stops: [m] that it wants for coming to a stand. turns: [s] for which it turns on the spot, once it is
+            slow enough for that, before it goes on.
     """
 
     points: NDArray[np.float64]
@@ -78,11 +83,12 @@ class Course:
     aside: bool
     whole: bool
     stops: float
+    turns: float = 0.0
 
 
 @njit(cache=True)
 def foretell(
-    points, speeds, speed, pace, slowest, acceleration, braking, eagerness, length, reach, places
+    points, speeds, speed, pace, slowest, acceleration, braking, eagerness, length, reach, turns, places
 ):  # fmt: skip
     """Write where a body is every `STEP` from now on into ``places`` (COUNT, discs, 2): its discs lie from
     its rear to its front. points (k, 2+), speeds (k,): as in `Course`."""
@@ -99,6 +105,10 @@ def foretell(
             places[k, d, 0] = (1.0 - w) * points[i, 0] + w * points[j, 0]
             places[k, d, 1] = (1.0 - w) * points[i, 1] + w * points[j, 1]
         wanted = max(pace * speeds[min(int(arc / SPACING), last)], slowest) if pace > 0.0 else 0.0
+        if turns > 1e-9:
+            wanted = 0.0
+            if speed <= TURNING_SPEED:
+                turns -= STEP
         change = min(max(eagerness * (wanted - speed), -braking), acceleration) * STEP
         before, speed = speed, max(speed + change, 0.0)
         arc = min(arc + 0.5 * (before + speed) * STEP, max(end * SPACING - length, 0.0))
@@ -110,11 +120,11 @@ def first_meeting(own, own_radius, others, other_radius, room):
     (n, m, 2) than both radii and ``room`` [m], and nearer than if it stayed where it is; n when none does.
     The first at which it touches one, and how deep it comes to lie in one, as a share of both radii; the
     foremost of several discs is its head, which gives in. Who is run into from behind, or where it stands,
-    has not come near; discs that lie in each other from the beginning do not count, so that the one in front
-    gets away."""
+    has not come near. Discs that lie in each other from the beginning do not count: those of a long body, so
+    that the one in front gets away; one alone only for `AT_FIRST` steps, in which it can halt."""
     count = own.shape[0]
     first, touches, deepest = count, count, 0.0
-    body = max(own.shape[1] - 1, 1)
+    body, long = max(own.shape[1] - 1, 1), own.shape[1] > 1
     for k in range(1, count):
         for d in range(own.shape[1]):
             for m in range(others.shape[1]):
@@ -126,7 +136,7 @@ def first_meeting(own, own_radius, others, other_radius, room):
                 x, y = own[k - 1, d, 0] - others[k, m, 0], own[k - 1, d, 1] - others[k, m, 1]
                 if far < x * x + y * y - 1e-9:
                     x, y = own[0, d, 0] - others[0, m, 0], own[0, d, 1] - others[0, m, 1]
-                    if x * x + y * y < both * both:
+                    if x * x + y * y < both * both and (long or k < AT_FIRST):
                         continue
                     first = min(first, k)
                     if far < both * both:

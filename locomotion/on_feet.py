@@ -19,7 +19,9 @@ from numpy.typing import NDArray
 from locomotion import controller
 from locomotion.controller import run_tick
 from locomotion.gaits import run_limits, walk_limits
+from locomotion.giving_way import TURNING_SPEED
 from locomotion.person import CONTROL_DT, PersonIndex
+from locomotion.person_course import TURN_FIRST
 from locomotion.skill import RunSkill, run_on
 from locomotion.slow_down import SlowDownSkill, can_walk_on, walk_on
 from locomotion.speed_up import HASTE, SpeedUpSkill, is_fast_enough
@@ -44,8 +46,6 @@ __all__ = ["RUN_GAINS", "OnFeet"]
 RUN_GAINS = np.array([0.35, 1.2, 0.15, 0.45, 0.5, 0.05])
 """Of `path_tracking.track`; hardly any sideways speed: the run was not learned with it."""
 _WALK_GAINS = np.array([0.5, 0.6, 0.05, 0.3, 0.8, 0.25])
-_TURN_FIRST = 0.7  # [rad] off its way at which a walking person turns on the spot
-_SLOW_ENOUGH = 0.5  # [m/s] at which it begins to turn so far
 _HASTE = 1.3  # [m/s] that the speed asked for may exceed the last step's: more trips it in setting off
 _FAST, _FAST_HASTE = 3.7, 0.8  # [m/s]: what is asked for above the first may exceed it by the second only
 _CHANGED = 4.0  # steps after which it has gone over to another gait
@@ -127,11 +127,13 @@ class OnFeet:
         if self.walk[WALK_STEPS] < 0.0:
             command[:] = heading, STEADYING_SPEED, 0.0, 0.0
             return
-        if not moving or abs(math.remainder(command[0] - heading, 2.0 * math.pi)) > _TURN_FIRST:
+        if not moving or abs(math.remainder(command[0] - heading, 2.0 * math.pi)) > TURN_FIRST:
             command[1:3] = 0.0
-            if np.hypot(*state[controller.COM_VELOCITY][:2]) > _SLOW_ENOUGH:
+            if np.hypot(*state[controller.COM_VELOCITY][:2]) > TURNING_SPEED:
                 command[0] = heading
         command[1] = pace * min(command[1], self.walk_skill.speed)
+        if pace == 0.0:  # it waits: whoever steps about in place drifts into those before it
+            command[0], command[2] = heading, 0.0
 
     def tick(
         self, lookup: tuple[NDArray, ...], state: NDArray, command: NDArray, data: mujoco.MjData

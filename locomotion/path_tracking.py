@@ -13,20 +13,23 @@ from numpy.typing import ArrayLike, NDArray
 from locomotion.errors import LocomotionError
 
 __all__ = [
-    "ARC", "COME_TO_REST", "HEADWAY", "HEADWAY_TICK", "LATERAL", "PACE", "REMAINING", "RUNS", "RUN_UP",
-    "SLOPE_HERE", "SPEED_HERE", "TRACK_SIZE", "PathTable", "TrackingLimits", "back_along", "checked_points",
-    "make_path", "new_track", "shifted", "track",
+    "ARC", "BACKED", "COME_TO_REST", "HEADWAY", "HEADWAY_TICK", "LATERAL", "PACE", "REMAINING", "RUNS",
+    "RUN_UP", "SLOPE_HERE", "SPEED_HERE", "TRACK_SIZE", "WAITED", "PathTable", "TrackingLimits", "back_along",
+    "checked_points", "make_path", "new_track", "shifted", "track",
 ]  # fmt: skip
 
 SPACING = 0.1
 """Spacing of a path's table [m]."""
 X, Y, Z, HEADING, CURVATURE, SLOPE, SPEED, RUNS = range(8)
 """Columns of a path's table; `RUNS` is 1 where the body runs and 0 where it walks, or slows down to it."""
-ARC, LATERAL, INTEGRAL, REMAINING, SPEED_HERE, SLOPE_HERE, HEADWAY, HEADWAY_TICK, PACE = range(9)
+(
+    ARC, LATERAL, INTEGRAL, REMAINING, SPEED_HERE, SLOPE_HERE, HEADWAY, HEADWAY_TICK, PACE, WAITED, BACKED
+) = range(11)  # fmt: skip
 """What the tracker remembers: arc length of the body's foot point [m], distance to the left of the path [m],
 its integral [m s], length left [m], planned speed [m/s] and slope here, greatest arc length so far and the
-tick at which it grew last by `_STEP`, share of the planned speed at which it goes to give way."""
-TRACK_SIZE = 9
+tick at which it grew last by `_STEP`, share of the planned speed at which it goes to give way, ticks for
+which it has done so since then, and how often it has gone back to let others by."""
+TRACK_SIZE = 11
 RUN_UP = 15.0
 """[m] before an obstacle, along the path, from which a body runs and the speed of each step is planned."""
 _STEP = 0.25
@@ -310,7 +313,7 @@ def track(table, length, gains, memory, x, y, speed, tick, command):
     memory[LATERAL] = lateral
     memory[REMAINING] = length - arc
     if arc > memory[HEADWAY] + _STEP:
-        memory[HEADWAY], memory[HEADWAY_TICK] = arc, tick
+        memory[HEADWAY], memory[HEADWAY_TICK], memory[WAITED] = arc, tick, 0.0
     pace = max(speed, 1.0)
     if abs(lateral) < 0.5:
         memory[INTEGRAL] = min(max(memory[INTEGRAL] + 0.01 * lateral, -0.5), 0.5)

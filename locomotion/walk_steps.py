@@ -37,7 +37,7 @@ from locomotion.walk_layout import (
     wrap,
 )  # fmt: skip
 
-__all__ = ["advance_step", "begin_swing", "follow"]
+__all__ = ["TURN_RATE", "advance_step", "begin_swing", "follow"]
 
 _I = {name: i for i, name in enumerate(GAINS)}
 _SWING, _TRANSFER = _I["swing_time"], _I["transfer_time"]
@@ -48,7 +48,9 @@ _R_HIP, _L_HIP = (JOINT_NAMES.index(f"{side}_hip_flexion") for side in ("right",
 _TOUCH = 40.0  # [N] under the swing foot that end the step
 _LANDING, _NEAR = 0.8, 0.12  # share of the swing after which, or [m] from its foothold where it may land
 _OVERDUE = 0.12  # [s] after which a foot that has not landed is swung anew: the capture point has moved on
-_TURN_RATE, _TURN_CHANGE = 1.2, 6.0  # [rad/s], [rad/s^2]
+TURN_RATE = 1.2
+"""[rad/s] at most."""
+_TURN_CHANGE = 6.0  # [rad/s^2]
 _FASTER, _SLOWER, _SIDE_CHANGE = 0.8, 1.0, 0.5  # [m/s^2] of the reference speeds
 _STILL, _STRAIGHT, _AWRY = 0.02, 0.2, 0.3  # [m/s], [rad] below which it stands; [rad] above which it sets off
 _SLOW, _STOPPING = 0.1, 0.3  # [m/s] below which steps are corrected faster: share of their error in speed
@@ -77,7 +79,7 @@ def begin_swing(gains, walk, qpos):
 def follow(walk, command):
     """Let the reference heading and speeds follow the command; gives what is left of the heading [rad]."""
     error = wrap(command[0] - walk[WALK_HEADING])
-    rate = clamp(error / 0.3, -_TURN_RATE, _TURN_RATE)
+    rate = clamp(error / 0.3, -TURN_RATE, TURN_RATE)
     change = _TURN_CHANGE * CONTROL_DT
     walk[WALK_TURN_RATE] += clamp(rate - walk[WALK_TURN_RATE], -change, change)
     walk[WALK_HEADING] = wrap(walk[WALK_HEADING] + walk[WALK_TURN_RATE] * CONTROL_DT)

@@ -11,6 +11,9 @@ from locomotion.person import CONTROL_DT
 
 __all__ = ["Way"]
 
+_ROOM = 2.5, 5.0  # [m] that it goes back to let others by, the first and the second time
+_LEAST = 0.5  # [m] behind it from which it does
+
 
 class Way:
     """``path``: what is followed now, None before the first. ``interrupted``: the path to which it returns,
@@ -87,6 +90,16 @@ class Way:
         """[s] in which it has made no headway."""
         return float(tick - self.memory[path_tracking.HEADWAY_TICK]) * CONTROL_DT
 
+    def wait(self) -> None:
+        """It gives way for a tick, which does not count as without headway."""
+        self.excuse(1.0)
+        self.memory[path_tracking.WAITED] += 1.0
+
+    @property
+    def waited(self) -> float:
+        """[s] for which it has given way since it made headway last."""
+        return float(self.memory[path_tracking.WAITED]) * CONTROL_DT
+
     def excuse(self, ticks: float) -> None:
         """Do not count so many ticks as without headway."""
         self.memory[path_tracking.HEADWAY_TICK] += ticks
@@ -117,6 +130,21 @@ class Way:
         self.interrupted, self.back_to = self.path, to
         self._take(back, 0.0, tick)
 
+    def room(self) -> NDArray[np.float64] | None:
+        """(k, 3) [m] the way back to where it would let others by; None where there is none."""
+        backed = int(self.memory[path_tracking.BACKED])
+        if self.path is None or self.interrupted is not None or backed >= len(_ROOM) or self.arc < _LEAST:
+            return None
+        step = self.path.length / (len(self.path.table) - 1)
+        first, last = (round(arc / step) for arc in (max(self.arc - _ROOM[backed], 0.0), self.arc))
+        return self.path.table[first : last + 1, :3][::-1]
+
+    def make_room(self, walk: TrackingLimits, tick: int) -> None:
+        """Go back where there is `room`, and then on again."""
+        backed = int(self.memory[path_tracking.BACKED])
+        self.go_back(max(self.arc - _ROOM[backed], 0.0), walk, tick)
+        self.memory[[path_tracking.BACKED, path_tracking.PACE]] = backed + 1.0, 1.0
+
     def turn_again(self, tick: int) -> None:
         """Having gone back, go on."""
         assert self.interrupted is not None
@@ -125,9 +153,10 @@ class Way:
 
     def _take(self, path: PathTable, arc: float, tick: int) -> None:
         """Go along another path from arc length ``arc`` [m] on."""
-        pace = self.pace
+        pace, backed = self.memory[[path_tracking.PACE, path_tracking.BACKED]]
         self.path = path
         self.memory[:] = new_track()
         self.memory[[path_tracking.ARC, path_tracking.HEADWAY]] = arc
         self.memory[[path_tracking.HEADWAY_TICK, path_tracking.PACE]] = tick, pace
+        self.memory[path_tracking.BACKED] = backed
         self.memory[path_tracking.REMAINING] = path.length - arc

@@ -112,6 +112,24 @@ class Follower(Protocol):
         """Go at another pace; with ``shift`` (k, 2) [m] change its path by it, as its course tells it."""
         ...
 
+    @property
+    def waited(self) -> float | None:
+        """[s] for which it has given way without headway; None for one that is not on its way."""
+        ...
+
+    def room(self) -> np.ndarray | None:
+        """(k, 3) [m] the way back, from where it is, on which it would let others by; None where there is
+        none, or it has been there often enough."""
+        ...
+
+    def make_room(self) -> None:
+        """Go back there, and then on again."""
+        ...
+
+    def give_up(self) -> None:
+        """Be stuck where it is."""
+        ...
+
     def end_in(self, ahead: float) -> None:
         """Take the place ``ahead`` [m] further on for its goal; of one at rest, where it is."""
         ...

@@ -11,6 +11,8 @@ from runtime.drivers import Follower, Population
 
 __all__ = ["Moment", "foretold_on"]
 
+_SOON = 5  # points ahead on a course that tell where it leads
+_ABREAST = 0.2  # cosine up to which who is there is not ahead
 _SLACK = 3.5  # [m] between two that go straight on, from which what they do is looked at closely
 
 
@@ -77,7 +79,19 @@ class Moment:
         if deep.max() <= 0.0 or other >= len(self.followers):
             return False
         mine, theirs = np.unravel_index(int(deep.argmax()), deep.shape)
-        return bool((mine, index) < (theirs, other))
+        if len(own) > 1 and len(its) > 1:
+            return bool((mine, index) < (theirs, other))
+        there = its[theirs, :2] - own[mine, :2]
+        leaves, follows = self._leaves(index, there), self._leaves(other, -there)
+        return leaves and (index < other or not follows)
+
+    def _leaves(self, index: int, there: np.ndarray) -> bool:
+        """Whether the way of a follower does not lead towards ``there`` (2,) from it."""
+        course = self.course(index)
+        if course is None:
+            return False
+        ahead = course.points[min(_SOON, len(course.points) - 1), :2] - course.points[0, :2]
+        return bool(ahead @ there <= _ABREAST * np.linalg.norm(ahead) * np.linalg.norm(there))
 
     def forget(self, index: int) -> None:
         """A follower has changed its course."""
@@ -118,6 +132,6 @@ def foretold_on(course: Course, points: np.ndarray, pace: float, discs: int) -> 
     places = np.empty((COUNT, discs, 2))
     foretell(
         points, course.speeds, course.speed, pace, course.slowest, course.acceleration, course.braking,
-        course.eagerness, course.length, course.reach, places,
+        course.eagerness, course.length, course.reach, course.turns, places,
     )  # fmt: skip
     return places

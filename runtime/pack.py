@@ -214,6 +214,19 @@ class AnimalDriver:
         self.animal.give_way(pace, shift)
         self.take_note()
 
+    @property
+    def waited(self) -> float | None:
+        return self.animal.waited
+
+    def room(self) -> np.ndarray | None:
+        return self.animal.room()
+
+    def make_room(self) -> None:
+        self.animal.make_room()
+
+    def give_up(self) -> None:
+        self.animal.give_up()
+
     def end_in(self, ahead: float) -> None:
         self.animal.end_in(ahead)
 

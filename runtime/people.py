@@ -9,7 +9,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from locomotion import PERSON_RULES, Human, HumanState, load_run_skill
+from locomotion import MOVING, PERSON_RULES, Human, HumanState, load_run_skill
 from locomotion.clearing import skill_ranges
 from locomotion.giving_way import SPACING, Course
 from locomotion.library import learned_skills
@@ -18,6 +18,7 @@ from runtime.drivers import PLANS_KEPT, Driver, Follower, radius_of, recall
 from runtime.errors import RuntimeInputError
 from runtime.figure import Figure
 from runtime.level import Level
+from runtime.moment import foretold_on
 from runtime.planning import NoWay, Plan, make_plan, way_holds
 
 __all__ = ["HumanDriver", "People"]
@@ -177,13 +178,27 @@ class HumanDriver:
     def course(self) -> Course | None:
         return self.human.course()
 
-    def foretold(self) -> None:
-        return None
+    def foretold(self) -> np.ndarray | None:
+        course = self.human.prospect()
+        return None if course is None else foretold_on(course, course.points, course.pace, 1)
 
     def give_way(self, pace: float, shift: np.ndarray | None) -> None:
         self.human.give_way(pace, shift)
         if shift is not None:
             self.plans[-1] = replace(self.plans[-1], points=self.human.path)
+
+    @property
+    def waited(self) -> float | None:
+        return self.human.way.waited if self.human.status in MOVING else None
+
+    def room(self) -> np.ndarray | None:
+        return self.human.way.room() if self.human.status == "walking" else None
+
+    def make_room(self) -> None:
+        self.human.way.make_room(self.human.on_feet.walk_limits, self.human.ticks)
+
+    def give_up(self) -> None:
+        self.human.give_up()
 
     def end_in(self, ahead: float) -> None:
         course, count = self.human.course(), round(ahead / SPACING) + 1

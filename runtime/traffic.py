@@ -18,6 +18,7 @@ from navmesh.holding import line_holds
 from runtime.drivers import Follower, Population
 from runtime.level import Level
 from runtime.moment import Moment, foretold_on
+from runtime.standstill import STANDSTILL, untangle
 
 __all__ = ["EVERY", "Traffic"]
 
@@ -40,7 +41,11 @@ class Traffic:
     def direct(self, tick: int) -> None:
         """Let those choose whose turn it is; called before every `EVERY`th ``tick``."""
         moment = Moment(self._populations)
-        self._let_choose(moment, np.arange(tick // EVERY % _TURNS, len(moment.followers), _TURNS))
+        turns = np.arange(tick // EVERY % _TURNS, len(moment.followers), _TURNS)
+        self._let_choose(moment, turns)
+        for index in turns.tolist():
+            if (moment.followers[index].waited or 0.0) >= STANDSTILL:
+                untangle(moment, index)
 
     def look_out(self, follower: Follower, former: Course | None) -> None:
         """Let one choose that has just been told where to go; ``former`` is the course that it was on."""

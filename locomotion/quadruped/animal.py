@@ -32,7 +32,7 @@ from locomotion.quadruped.motion import DT, stop_length
 from locomotion.quadruped.script import Place, Script, into_flex, out_of_flex
 from locomotion.quadruped.spine import bend_for
 from locomotion.quadruped.trail import Trail, lay_trail
-from locomotion.quadruped.turning import turn_script, way_back
+from locomotion.quadruped.turning import WayBack, little_way_back, turn_script, way_back
 from locomotion.quadruped.ways import Planner, Way, find_way, first_heading, last_free_arc, turn_onto
 
 __all__ = ["SHORT_OF_GOAL", "Animal", "AnimalMemory", "Status"]
@@ -43,6 +43,9 @@ its head has no room."""
 _LITTLE = math.radians(3.5)  # a turn onto the path without a motion of its own: 3 cm beside it, for a dog
 _EXACT = 1e-3  # [rad] of facing that is left as it is
 _MOST_BACKING = 4  # times that it backs out on its way to one goal
+_STANDING = 0.05  # [m/s]
+_ROOM = 1.5  # [body lengths] that it goes back to let others by, each time more
+_MOST_ROOM = 2  # times that it does
 _AGAIN = 20  # ticks until it looks again whether others let it turn around
 _PATIENCE = 20  # times that it does; then it turns all the same
 
@@ -77,6 +80,7 @@ class Animal:
         self._errand = Errand()
         self._pending = False
         self._ticks = 0
+        self._stood = 0  # ticks for which it has stood on its trail, giving way
 
     # --- where it is
     @property
@@ -192,6 +196,41 @@ class Animal:
                 self.index, trail, self._errand.speed, start=arc, end=max(end, arc), gait=self._errand.gait
             )
 
+    def _stands(self) -> bool:
+        st = self.herd.state[self.index]
+        return self._phase == "following" and st[at.PACE] < 1.0 and st[at.SPEED] < _STANDING
+
+    @property
+    def waited(self) -> float | None:
+        """[s] for which it has stood on its trail, giving way; None for one that is not on its way."""
+        return self._stood * DT if self.status == "running" else None
+
+    def room(self) -> NDArray[np.float64] | None:
+        """(k, 3) [m] its crumbs on the way back on which it would let others by, from where it is; None where
+        there are none, or it has been back often enough."""
+        back = None if self._errand.backed >= _MOST_ROOM else self._little_way_back()
+        if back is None:
+            return None
+        arcs = np.arange(back.start, back.end, -RESOLUTION)
+        return np.array([(*back.trail.point(arc), self.position[2]) for arc in arcs])
+
+    def make_room(self) -> None:
+        """Go back there, and then set out anew."""
+        back = self._little_way_back()
+        if back is not None:
+            self._back(back)
+
+    def give_up(self) -> None:
+        """Be stuck among others."""
+        self.stop()
+        self.status = "stuck"
+        self.events.append(GotStuck(self.time, self._point(), among_others=True))
+
+    def _little_way_back(self) -> WayBack | None:
+        place, crumbs = self.herd.place(self.index), self.herd.trail_of_crumbs(self.index)
+        far = _ROOM * (1 + self._errand.backed) * self.body.length
+        return little_way_back(self.body, self.herd.ground, place, crumbs, far)
+
     def end_in(self, ahead: float) -> None:
         """Take the place ``ahead`` [m] further on for the goal to which it is going; where it is, at rest."""
         if self._phase == "resting" or self.trail is None:
@@ -214,6 +253,7 @@ class Animal:
     def tick(self) -> None:
         """Notice what has come to an end, and begin what is next; call it after `Herd.tick`."""
         self._ticks += 1
+        self._stood = self._stood + 1 if self._stands() else 0
         if self.herd.state[self.index, at.NO_GROUND] > 0.0:
             self._lose_ground()
             return
@@ -347,11 +387,16 @@ class Animal:
         back = way_back(self.planner, self.body, self.herd.ground, self._errand.goals, place, crumbs)
         if back is None:
             return False
-        self._errand = replace(self._errand, backed=self._errand.backed + 1, backed_from=(place.x, place.y))
-        speed = self.body.movement.back_speed
-        self.herd.follow(self.index, back.trail, speed, start=back.start, end=back.end, backwards=True)
-        self._phase = "backing"
+        self._back(back)
         return True
+
+    def _back(self, way: WayBack) -> None:
+        x, y = self.position[:2].tolist()
+        self._errand = replace(self._errand, backed=self._errand.backed + 1, backed_from=(x, y))
+        self.herd.state[self.index, at.PACE] = 1.0  # it gives way to nobody meanwhile
+        speed = self.body.movement.back_speed
+        self.herd.follow(self.index, way.trail, speed, start=way.start, end=way.end, backwards=True)
+        self._phase = "backing"
 
     # --- short moves
     def _move_locally(self, errand: Errand) -> bool:
@@ -408,7 +453,7 @@ class Animal:
         """Everything needed to go on from here."""
         return AnimalMemory(
             self.herd.save(self.index), self._phase, self.status, self._errand, self._pending, self.trail,
-            self.ways, self._ticks, tuple(self.events),
+            self.ways, self._ticks, self._stood, tuple(self.events),
         )  # fmt: skip
 
     def restore(self, memory: AnimalMemory) -> None:
@@ -416,10 +461,10 @@ class Animal:
         self.herd.restore(self.index, memory.herd)
         self._phase, self.status, self._errand = memory.phase, memory.status, memory.errand
         self._pending, self.trail, self.ways = memory.pending, memory.trail, memory.ways
-        self._ticks = memory.ticks
+        self._ticks, self._stood = memory.ticks, memory.stood
         self.events[:] = memory.events
 
     def state_hash(self) -> str:
         """Hex digest of everything that decides how it goes on."""
-        mind = repr((self._phase, self.status, self._errand, self._pending))
+        mind = repr((self._phase, self.status, self._errand, self._pending, self._stood))
         return f"{self.herd.state_hash(self.index)}{hashlib.sha256(mind.encode()).hexdigest()[:8]}"

@@ -43,4 +43,5 @@ class AnimalMemory:
     trail: Trail | None
     ways: tuple[Way, ...]
     ticks: int
+    stood: int
     events: tuple[Event, ...]

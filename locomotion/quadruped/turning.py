@@ -19,7 +19,7 @@ from locomotion.quadruped.script import Place, Script
 from locomotion.quadruped.trail import Trail, lay_trail
 from locomotion.quadruped.ways import Planner, find_way, first_heading, turn_onto
 
-__all__ = ["WayBack", "turn_script", "way_back"]
+__all__ = ["WayBack", "little_way_back", "turn_script", "way_back"]
 
 _LOOK_BACK = 40  # places with room that are tried
 _PIVOTS = (0.5, 0.0, 1.0, 0.25, 0.75)  # shares of the spine from the rear on
@@ -70,6 +70,26 @@ def _turns(body: Body, place: Place, turn: float) -> Iterator[Script]:
             yield local_motion(body).script(place, wanted)
 
 
+def little_way_back(
+    body: Body, ground: Ground, place: Place, crumbs: NDArray[np.float64], far: float
+) -> WayBack | None:
+    """Back along ``crumbs`` (k, 3) [m], oldest first, from ``place`` by ``far`` [m], or as far as they reach;
+    None if that is hardly anything."""
+    trail, here = _trail_behind(body, ground, place, crumbs)
+    if here < max(body.spine.length, _STEP):
+        return None
+    return WayBack(trail, here, max(here - far, 0.0))
+
+
+def _trail_behind(
+    body: Body, ground: Ground, place: Place, crumbs: NDArray[np.float64]
+) -> tuple[Trail, float]:
+    """The trail through ``crumbs`` to where it stands, and where on it its rear feet are."""
+    points = np.vstack([crumbs, [place.x, place.y, place.z], [*place.front(body), place.z]])
+    trail = lay_trail(points, body, ground)
+    return trail, trail.length - body.spine.length
+
+
 def way_back(
     planner: Planner,
     body: Body,
@@ -82,9 +102,7 @@ def way_back(
     for a turn towards ``goals``; None where there is none."""
     if len(crumbs) < 2:
         return None
-    points = np.vstack([crumbs, [place.x, place.y, place.z], [*place.front(body), place.z]])
-    trail = lay_trail(points, body, ground)
-    here = trail.length - body.spine.length
+    trail, here = _trail_behind(body, ground, place, crumbs)
     arcs = np.arange(here - _STEP, 0.0, -_STEP)
     if len(arcs) == 0:
         return None

@@ -21,7 +21,7 @@ def places(of, pace, discs=3):
     found = np.empty((COUNT, discs, 2))
     foretell(
         of.points, of.speeds, of.speed, pace, of.slowest, of.acceleration, of.braking, of.eagerness,
-        of.length, of.reach, found,
+        of.length, of.reach, of.turns, found,
     )  # fmt: skip
     return found
 

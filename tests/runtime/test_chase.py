@@ -1,9 +1,11 @@
-"""Dogs that are told again and again where to go keep out of each other's way, also where they turn."""
+"""Who is told again and again where to go keeps out of the way of others, also where it turns."""
 
 import numpy as np
 import pytest
 
 import navmesh
+from benchmarks.giving_way import play
+from locomotion import PERSON_RULES
 from locomotion.giving_way import COUNT, STEP
 from runtime import World
 from runtime.moment import Moment
@@ -139,3 +141,54 @@ def test_a_dog_is_foretold_where_it_will_be(hall):
     world.step(1.0)
     hold(COUNT * STEP)  # to its goal: with the front feet on it
     assert seen >= {"following", "halting", "turning"}
+
+
+def told_and_real(world, seconds):
+    """(k, 2) each: where the only one was foretold to be, and where it came to be."""
+    told = Moment(world._populations).foretold(0)[:, 0]
+    agent, real = next(iter(world.agents.values())), []
+    for _ in range(round(seconds / STEP)):
+        real.append(agent.position[:2])
+        world.step(STEP)
+    return told[: len(real)], np.array(real)
+
+
+@pytest.mark.parametrize(
+    ("walked", "speed", "goal", "within"),
+    [
+        (0.0, 1.4, (2.0, 3.0), 0.8),  # turns on the spot
+        (5.0, 1.4, (2.0, 5.0), 1.0),  # comes to a stand first
+        (5.0, 1.4, None, 0.7),  # stops
+        (5.0, 3.0, None, 2.5),  # from a run
+    ],
+)
+def test_a_person_is_foretold_where_it_will_be(hall, walked, speed, goal, within):
+    world = World(hall)
+    person = world.spawn("human", (5.0, 5.0, 0.0))
+    if walked:
+        person.go_to((28.0, 5.0, 0.0), speed=speed)
+        world.step(walked)
+    if goal is None:
+        person.driver.stop()
+    else:
+        person.go_to((*goal, 0.0), speed=speed)
+    told, real = told_and_real(world, 4.0)
+    assert np.linalg.norm(told - real, axis=1).max() < within
+
+
+def test_people_who_lie_in_each_other_get_apart(hall):
+    """The one that is ahead leaves first, whichever was made first."""
+    for places in ((10.0, 10.4), (10.4, 10.0)):
+        world = World(hall)
+        for x in places:
+            world.spawn("human", (x, 5.0, 0.0)).go_to((24.0, 5.0, 0.0), speed=1.4)
+        world.step(4.0)
+        assert overlap(world) < 0.0
+
+
+@pytest.mark.parametrize("seed", [0, 2, 4, 7])
+def test_people_who_walk_after_a_point_hardly_touch(hall, seed):
+    """In all four they stood in each other up to 0.6 m before those who turn on the spot were foretold."""
+    result = play(hall, ("person", "person"), "chase", seed, False)
+    assert result["overlap"] * PERSON_RULES["radius"] < 0.15
+    assert result["ended"] == ["arrived"] * 3

@@ -20,7 +20,8 @@ _SLOWEST_RUN = 2.5  # [m/s]: slower it crosses its legs
 _SHARPEST, _STEEPEST = 0.2, 0.12  # [1/m], slope: where it would rather walk
 _SLOWEST, _SIDEWAYS = 0.3, 0.5  # [m/s], [m/s^2] of a walk
 _FASTER, _SLOWER = 0.7, 0.5  # [m/s^2] of a walk
-_UPHILL, _DOWNHILL = 0.8, 2.2  # [m/s per unit of slope] of a walk
+_UPHILL, _DOWNHILL = 1.6, 2.2  # [m/s per unit of slope] of a walk
+_FORESIGHT = 0.8  # [m] of a walk: it takes about two steps to go slower
 _ENTRY = 1.1  # [m/s] of walking from which it can begin to run
 _FIRST_STEPS = 3  # made walking before it runs
 _AHEAD = 0.2  # [rad] off its way at most when it begins to run
@@ -35,7 +36,8 @@ def run_limits(skill: RunSkill) -> TrackingLimits:
 
 def walk_limits(skill: WalkSkill) -> TrackingLimits:
     """What a walking person can follow."""
-    return TrackingLimits((_SLOWEST, skill.speed), _SIDEWAYS, _FASTER, _SLOWER, _UPHILL, _DOWNHILL)
+    speeds = _SLOWEST, skill.speed
+    return TrackingLimits(speeds, _SIDEWAYS, _FASTER, _SLOWER, _UPHILL, _DOWNHILL, foresight=_FORESIGHT)
 
 
 def run_entry_speed(walk: np.ndarray, state: np.ndarray, heading: float) -> float | None:

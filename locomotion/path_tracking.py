@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numba import njit
 from numpy.typing import ArrayLike, NDArray
+from scipy.ndimage import maximum_filter1d
 
 from locomotion.errors import LocomotionError
 
@@ -54,6 +55,7 @@ class TrackingLimits:
         uphill, downhill: [m/s per unit of slope] taken off the wished speed on a slope.
         sharpest: curvature [1/m] and steepest: slope [rise over run] above which it does not go this way.
         slowing: [m/s^2] at which it slows down from a run to a walk.
+        foresight: [m] before a slope at which it already goes as fast as on it.
     """
 
     speeds: tuple[float, float]
@@ -65,6 +67,7 @@ class TrackingLimits:
     sharpest: float = math.inf
     steepest: float = math.inf
     slowing: float = 0.6
+    foresight: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -215,13 +218,16 @@ def _plan_speed(
 ) -> None:
     """``gaits``: the limits at each point of the path."""
     slowest, fastest = np.array([g.speeds for g in gaits]).T
-    sideways, faster, slower, uphill, downhill = np.array(
-        [(g.sideways, g.acceleration, g.deceleration, g.uphill, g.downhill) for g in gaits]
+    sideways, faster, slower, uphill, downhill, foresight = np.array(
+        [(g.sideways, g.acceleration, g.deceleration, g.uphill, g.downhill, g.foresight) for g in gaits]
     ).T
     bend = np.maximum(np.abs(table[:, CURVATURE]), 1e-6)
     slope = table[:, SLOPE]
     wished = np.minimum(np.sqrt(sideways / bend), np.minimum(speed, fastest))
-    wished = wished - uphill * np.maximum(slope, 0.0) - downhill * np.maximum(-slope, 0.0)
+    slowed = uphill * np.maximum(slope, 0.0) + downhill * np.maximum(-slope, 0.0)
+    seen = round(float(foresight.max()) / step) + 1  # points, this one included
+    ahead = maximum_filter1d(slowed, seen, mode="nearest", origin=-(seen // 2))
+    wished = wished - np.where(foresight > 0.0, ahead, slowed)
     wished = np.maximum(wished, slowest)
     wished[-1] = slowest[-1]
     squares = wished * wished

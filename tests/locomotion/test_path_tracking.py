@@ -1,5 +1,7 @@
 """Path tables and the tracker, with a point that turns and moves like the running controller's reference."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -82,6 +84,19 @@ def test_speed_slows_in_bends_on_slopes_and_before_the_end():
     table = pt.make_path(hill, 4.0, LIMITS, 4.0).table
     assert table[300, pt.SLOPE] == pytest.approx(0.3, abs=1e-6)
     assert table[300, pt.SPEED] < 3.5
+
+
+@pytest.mark.parametrize("slope", [0.3, -0.3])
+def test_one_with_foresight_goes_before_a_slope_as_slowly_as_on_it(slope):
+    x = np.linspace(0.0, 12.0, 121)
+    points = np.column_stack([x, np.zeros_like(x), slope * np.clip(x - 6.0, 0.0, 2.0)])
+    limits = pt.TrackingLimits((0.3, 1.25), uphill=1.6, downhill=2.2, foresight=0.8)
+    table = pt.make_path(points, 1.25, limits, 1.25).table
+    x, speed, slow = table[:, 0], table[:, 6], 1.25 - (1.6 if slope > 0.0 else 2.2) * 0.3
+    assert speed[(x > 5.75) & (x < 7.4)].max() < slow + 0.01
+    late = pt.make_path(points, 1.25, replace(limits, foresight=0.0), 1.25).table
+    assert speed[x < 5.6].mean() < late[x < 5.6, 6].mean()
+    np.testing.assert_array_equal(speed[x > 8.6], late[x > 8.6, 6])
 
 
 WALK = pt.TrackingLimits(speeds=(0.3, 1.25), sideways=0.5)

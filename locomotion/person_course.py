@@ -22,7 +22,7 @@ runner falls behind those it has met (`python -m benchmarks.giving_way --pairs r
 _WALK_BEGINS, _RUN_BEGINS = 0.5, 1.0  # [m] ahead where it begins to
 _SETTING_OFF = 0.5  # [s] that it takes for the first step after a turn on the spot
 _BESIDE = 0.3  # [m] from its path from which it goes there first
-_BERTH = 0.24  # [m] besides: it sways beside its path, and drifts where it turns on the spot
+_BERTH = 0.14  # [m] besides: it sways beside its path, and drifts where it turns on the spot
 _RADIUS = PERSON_RULES["radius"] + _BERTH
 
 

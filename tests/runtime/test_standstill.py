@@ -36,16 +36,17 @@ def test_two_who_cannot_pass_in_a_corridor_say_so(body, width):
     assert sum(isinstance(event, Stuck) for event in world.events) == 2
 
 
-@pytest.mark.parametrize("body", ["human", "dog"])
-def test_one_of_two_in_a_corridor_goes_back_to_let_the_other_by(body):
-    width = 1.1 if body == "human" else 0.6
+@pytest.mark.parametrize(
+    ("body", "width", "starts"), [("human", 1.1, (11.0, 21.0)), ("dog", 0.6, (15.0, 26.0))]
+)
+def test_one_of_two_in_a_corridor_goes_back_to_let_the_other_by(body, width, starts):
     graph = floor(
         (0.0, 0.0, 14.0, 8.0), (14.0, 4.0 - 0.5 * width, 18.0, 4.0 + 0.5 * width), (18.0, 0.0, 32.0, 8.0)
     )
     world = World(graph)
     ends = (4.0, 4.0, 0.0), (28.0, 4.0, 0.0)
-    for k, (place, facing) in enumerate((((15.0, 4.0, 0.0), 0.0), ((26.0, 4.0, 0.0), np.pi))):
-        world.spawn(body, place, facing).go_to(ends[1 - k], speed=1.4)
+    for k, (start, facing) in enumerate(zip(starts, (0.0, np.pi), strict=True)):
+        world.spawn(body, (start, 4.0, 0.0), facing).go_to(ends[1 - k], speed=1.4)
     assert until_at_rest(world, 150.0) == ["arrived", "arrived"]
 
 

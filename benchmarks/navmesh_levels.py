@@ -68,7 +68,7 @@ def run(
     parser.add_argument("--json", type=Path, help="where to write the figures")
     parser.add_argument("--resolution", type=float, default=0.25, help="[m] side of a cell")
     parser.add_argument("--samples", type=int, default=samples, help=f"{samples_of} per level")
-    parser.add_argument("--repeats", type=int, default=7, help="rounds of timing")
+    parser.add_argument("--repeats", type=int, default=12, help="rounds of timing")
     options = parser.parse_args()
     if shared_folder() is None:
         print(f"skipped: {why_absent()}")

@@ -36,7 +36,8 @@ __all__ = ["RehearsingPerson"]
 
 _TOO_NEAR = 2.0  # [m] before an obstacle up to which a walking person comes
 _HEMMED_IN = 9.0  # [m] before an obstacle in which it may not come to a walk
-_SOON_WALKED, _SOON_RUN = 2.5, 4.0  # [m] before something is to be rehearsed from which it looks ahead
+_SOON_WALKED, _SOON_RUN, _SOON_SLOWS = 2.5, 4.0, 1.5
+# [m] before something is to be rehearsed from which it looks ahead: a run-up, walking, running; slowing down
 
 _T = TypeVar("_T")
 
@@ -163,7 +164,7 @@ class RehearsingPerson(MovingPerson, ABC):
             begins = way.interrupted is None and way.path.runs(way.arc + _SOON_WALKED)
             turns = way.interrupted is not None and way.remaining < _SOON_WALKED
             return (begins or turns) and self._obstacle_run.rehearses_within(arc, _SOON_WALKED)
-        ends = not self._obstacle_run.clearing and not way.path.runs(way.arc + _SOON_RUN)
+        ends = not self._obstacle_run.clearing and not way.path.runs(way.arc + _SOON_SLOWS)
         return ends or self._obstacle_run.rehearses_within(arc, _SOON_RUN)
 
     def _rehearse(

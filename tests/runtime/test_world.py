@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import navmesh
+from locomotion.foresight import Foresight
 from locomotion.jump_skill import load_jump_skill
 from runtime import Blocked, Departed, Event, RuntimeInputError, World
 from runtime.courses import make_course
@@ -31,7 +32,12 @@ def test_refuses_a_bad_step(graph, dt):
         World(graph).step(dt)
 
 
-def test_people_rehearse_as_much_as_their_world_says(graph):
+def test_people_rehearse_as_much_as_their_world_says(graph, monkeypatch):
+    def fails(body):
+        yield
+        return 0.0, []
+
+    monkeypatch.setattr(Foresight, "go_on", lambda self, person: None)  # all at the moment
     with pytest.raises(RuntimeInputError, match="rehearsals must be"):
         World(graph, rehearsals=-1)
     course = make_course([("jump", 0.4, 0.0)], [10.0])
@@ -43,7 +49,7 @@ def test_people_rehearse_as_much_as_their_world_says(graph):
         seen = []
         choose = human._rehearse
         human._rehearse = lambda choices, do, goes, seen=seen, choose=choose: choose(
-            choices, lambda body, choice: (seen.append(choice), do(body, choice)), lambda body: 0.0
+            choices, lambda body, choice: (seen.append(choice), do(body, choice)), fails
         )
         world.agents["human1"].go_to((20.0, 0.0, 0.4), speed=3.0)
         while not seen and world.time < 12.0:

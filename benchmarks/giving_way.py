@@ -30,7 +30,8 @@ PAIRS = [
 SECONDS = 60.0
 
 
-def floor(parts: list[tuple[float, float, float, float]]) -> navmesh.NodeGraph:
+def floor(*parts: tuple[float, float, float, float]) -> navmesh.NodeGraph:
+    """The graph of a level floor of rectangles x0, y0, x1, y1 [m], for people who walk."""
     corners, faces = [], []
     for x0, y0, x1, y1 in parts:
         n = len(corners)
@@ -137,7 +138,7 @@ def main() -> None:
     parser.add_argument("--without", action="store_true")
     parser.add_argument("--json", type=Path, help="file to write")
     options = parser.parse_args()
-    graphs = {False: floor(HALL), True: floor(DOOR)}
+    graphs = {False: floor(*HALL), True: floor(*DOOR)}
     results = []
     head = f"{'all arrive':>10} {'touching':>9} {'overlap':>8} {'at rest':>7} {'falls':>5} {'seconds':>8}"
     print(f"{'scene':16} {'pair':15} {head}")

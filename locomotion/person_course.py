@@ -1,6 +1,7 @@
 """What a person tells of its way, so that others can keep out of it."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,20 +62,9 @@ def course_on_way(
         points, aside = np.concatenate([before[:-1], back, points]), False
         speeds = np.concatenate([np.full(len(points) - len(speeds), speeds[0]), speeds])
     goes_back = way.interrupted is not None
-    return Course(
-        points=points,
-        speeds=speeds,
-        speed=speed,
+    return replace(
+        _course(points, speeds, speed, limits, walks),
         pace=way.pace,
-        length=0.0,
-        reach=0.0,
-        radius=_RADIUS,
-        acceleration=limits.acceleration,
-        braking=limits.deceleration,
-        eagerness=AT_ONCE,
-        slowest=0.0 if walks else limits.speeds[0],
-        sharpest=_WALK_BEND if walks else _RUN_BEND,
-        begins=_WALK_BEGINS if walks else _RUN_BEGINS,
         aside=aside and not goes_back,
         whole=path.length <= far and not goes_back,
         stops=COME_TO_REST if walks else COME_TO_REST + (speed * speed) / (2.0 * limits.slowing),
@@ -88,9 +78,20 @@ def course_to_rest(
     """The course of a person at ``place`` (3,) that comes to a stand from ``velocity`` (3,)."""
     speed = float(np.linalg.norm(velocity[:2]))
     points = _straight_on(place, velocity, speed * speed / (2.0 * limits.deceleration))
+    return _course(points, np.zeros(len(points)), speed, limits, walks=True)
+
+
+def _course(
+    points: NDArray[np.float64],
+    speeds: NDArray[np.float64],
+    speed: float,
+    limits: TrackingLimits,
+    walks: bool,
+) -> Course:
+    """A course that ends in a stand and that nothing can change."""
     return Course(
         points=points,
-        speeds=np.zeros(len(points)),
+        speeds=speeds,
         speed=speed,
         pace=0.0,
         length=0.0,
@@ -99,9 +100,9 @@ def course_to_rest(
         acceleration=limits.acceleration,
         braking=limits.deceleration,
         eagerness=AT_ONCE,
-        slowest=0.0,
-        sharpest=_WALK_BEND,
-        begins=_WALK_BEGINS,
+        slowest=0.0 if walks else limits.speeds[0],
+        sharpest=_WALK_BEND if walks else _RUN_BEND,
+        begins=_WALK_BEGINS if walks else _RUN_BEGINS,
         aside=False,
         whole=False,
         stops=0.0,

@@ -136,14 +136,18 @@ class Way:
         if self.path is None or self.interrupted is not None or backed >= len(_ROOM) or self.arc < _LEAST:
             return None
         step = self.path.length / (len(self.path.table) - 1)
-        first, last = (round(arc / step) for arc in (max(self.arc - _ROOM[backed], 0.0), self.arc))
+        first, last = (round(arc / step) for arc in (self._room_at(backed), self.arc))
         return self.path.table[first : last + 1, :3][::-1]
 
     def make_room(self, walk: TrackingLimits, tick: int) -> None:
         """Go back where there is `room`, and then on again."""
         backed = int(self.memory[path_tracking.BACKED])
-        self.go_back(max(self.arc - _ROOM[backed], 0.0), walk, tick)
+        self.go_back(self._room_at(backed), walk, tick)
         self.memory[[path_tracking.BACKED, path_tracking.PACE]] = backed + 1.0, 1.0
+
+    def _room_at(self, backed: int) -> float:
+        """Arc length [m] at which it lets others by, having gone back so often."""
+        return max(self.arc - _ROOM[backed], 0.0)
 
     def turn_again(self, tick: int) -> None:
         """Having gone back, go on."""

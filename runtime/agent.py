@@ -253,8 +253,8 @@ class Agent:
         if isinstance(self._driver, AnimalDriver):
             self._driver.take_note()
         for event in self.news:
-            helpless = isinstance(event, _HELPLESS) and not getattr(event, "among_others", False)
-            if helpless and self._tries_again():
+            among_others = isinstance(event, bodily.GotStuck) and event.among_others
+            if isinstance(event, _HELPLESS) and not among_others and self._tries_again():
                 continue
             told = self._translated(event)
             if isinstance(told, Fell | Lost):

@@ -7,6 +7,7 @@ from locomotion import rehearsal
 from locomotion.body import Human
 from locomotion.clearing import foot_distance
 from locomotion.events import Arrived, Cleared, Fell, GotStuck, SetOff, TookOff
+from locomotion.foresight import Foresight
 from locomotion.human_state import MOVING
 from locomotion.passage import Passage
 from locomotion.person import CONTROL_DT
@@ -85,7 +86,8 @@ def test_a_choice_that_goes_well_is_not_rehearsed_again():
     assert skill.starts == 2  # once in rehearsal, once for good
 
 
-def test_it_does_not_run_at_what_never_holds_and_keeps_its_budget():
+def test_it_does_not_run_at_what_never_holds_and_keeps_its_budget(monkeypatch):
+    monkeypatch.setattr(Foresight, "go_on", lambda self, person: None)  # each rehearsal in one tick
     skill = Picky(100.0)
     human = about_to_run_up(skill, 2)
     here, returns, most = 0.0, 0, 0
@@ -95,7 +97,7 @@ def test_it_does_not_run_at_what_never_holds_and_keeps_its_budget():
         most = max(most, skill.starts - starts)
         back = human.arc_length < here - 0.7
         returns, here = returns + back, human.arc_length if back else max(here, human.arc_length)
-    assert human.status == "stuck" and human.arc_length < 14.0 and 1 <= most <= 2
+    assert human.status == "stuck" and human.arc_length < 14.0 and most == 2
     assert 1 <= returns <= 40
     assert [type(event) for event in human.events] == [SetOff, GotStuck]
 

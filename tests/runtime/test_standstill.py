@@ -5,20 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-import navmesh
+from benchmarks.giving_way import floor
 from runtime import Stuck, World
-from runtime.rules import person_walk_rules
 from runtime.standstill import GIVEN_UP, untangle
-
-
-def floor(*parts):
-    corners, faces = [], []
-    for x0, y0, x1, y1 in parts:
-        n = len(corners)
-        corners += [(x0, y0, 0.0), (x1, y0, 0.0), (x1, y1, 0.0), (x0, y1, 0.0)]
-        faces += [(n, n + 1, n + 2), (n, n + 2, n + 3)]
-    terrain = navmesh.Terrain.from_arrays(np.array(corners), np.array(faces))
-    return navmesh.NodeGraph.build(terrain, person_walk_rules())
 
 
 def until_at_rest(world, seconds):

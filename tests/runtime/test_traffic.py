@@ -3,22 +3,10 @@
 import numpy as np
 import pytest
 
-import navmesh
+from benchmarks.giving_way import floor
 from locomotion.run_layout import STEPS
 from navmesh.holding import line_holds
 from runtime import World
-from runtime.rules import person_walk_rules
-
-
-def floor(*parts):
-    corners, faces = [], []
-    for x0, y0, x1, y1 in parts:
-        n = len(corners)
-        corners += [(x0, y0, 0.0), (x1, y0, 0.0), (x1, y1, 0.0), (x0, y1, 0.0)]
-        faces += [(n, n + 1, n + 2), (n, n + 2, n + 3)]
-    return navmesh.NodeGraph.build(
-        navmesh.Terrain.from_arrays(np.array(corners), np.array(faces)), person_walk_rules()
-    )
 
 
 @pytest.fixture(scope="module")

@@ -79,7 +79,7 @@ def random_routes(graph: navmesh.NodeGraph, count: int, seed: int) -> list:
 
 def pierces(human: Human, probe: ProbeGrid, origin: np.ndarray) -> bool:
     """Whether any bone of a person goes through a triangle of the level."""
-    joints, parents = human.data.xpos - origin, human.model.body_parentid
+    joints, parents = human.body_transforms()[:, :3] - origin, human.model.body_parentid
     bones = np.flatnonzero(parents > 0)
     far, near = joints[bones], joints[parents[bones]]
     lengths = np.linalg.norm(far - near, axis=1)

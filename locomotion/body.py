@@ -82,7 +82,7 @@ class Human(RehearsingPerson):
             up", "fallen" (for good), "arrived", "lost" (strayed from its path or missed its goal) or "stuck".
             `held` tells whether it is simulated.
         events: list of `locomotion.events.Event` in order of time.
-        model, data: the MuJoCo model (shared by all persons on the same ground) and this person's own data.
+        model, data: as of `SimulatedPerson`.
     """
 
     def __init__(
@@ -239,10 +239,11 @@ class Human(RehearsingPerson):
     # --- time
     def tick(self) -> None:
         """Advance by 10 ms: track the path, control, physics, observe, notice what happened."""
-        if not self._foreseen.comes_true(self):
+        came_true = self.foreseen.comes_true(self)
+        if not came_true:
             self._tick()
         if self._foresight is not None:
-            self._foresight.go_on(self)
+            self._foresight.go_on(self, came_true)
 
     def _tick(self) -> None:
         """A tick that was not foreseen."""

@@ -1,53 +1,62 @@
-"""What a person has seen of its own future in a rehearsal. While nothing disturbs it, it takes that over
-instead of simulating it once more."""
+"""What a person has seen of its own future: in a rehearsal, or because its double is ahead of it. While
+nothing disturbs it, it takes that over instead of simulating it once more."""
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Iterable
 
 import mujoco
-import numpy as np
 
-from locomotion.human_state import HumanState, save_physics
+from locomotion.human_state import HumanState, same
 from locomotion.moving_person import MovingPerson
-from locomotion.path_tracking import TRACK_SIZE
 
 __all__ = ["Foreseen"]
 
 
 class Foreseen:
     """The states of the next ticks. They come true as long as the person is as it was seen to be: a push,
-    another path, pace or ground, or a restored state end it."""
+    another path, pace or ground end it."""
 
     def __init__(self) -> None:
-        self._states: deque[HumanState] = deque()
-        self._now: HumanState | None = None
+        self._states: dict[int, HumanState] = {}  # by tick
         self._model: mujoco.MjModel | None = None
 
     def expect(self, person: MovingPerson, states: Iterable[HumanState]) -> None:
-        """From now on ``states`` are to come, one each tick; each holds the events of its tick only."""
-        self._states, self._now, self._model = deque(states), person.save_state(), person.model
+        """From now on ``states`` are to come, one each tick; each holds the events of its tick only. None of
+        them know of a force that pushes it now."""
+        self.forget()
+        if not person.data.xfrc_applied.any():
+            self._model = person.model
+            for state in (person.save_state(), *states):
+                self.add(state)
+
+    def begin(self, person: MovingPerson) -> None:
+        """What is added from now on comes after what ``person`` is now."""
+        self.forget()
+        self._model = person.model
+        self.add(person.save_state())
+
+    def add(self, state: HumanState) -> None:
+        """``state`` is to come in its tick."""
+        self._states[state.ticks] = state
+
+    def knows(self, tick: int) -> bool:
+        """Whether it is known what is to come in ``tick``."""
+        return tick in self._states
+
+    def forget(self) -> None:
+        """Nothing is known."""
+        self._states.clear()
 
     def comes_true(self, person: MovingPerson) -> bool:
         """Whether the next tick is known; ``person`` is then what it will be after it."""
-        if not self._states:
+        now, soon = self._states.pop(person.ticks, None), self._states.get(person.ticks + 1)
+        if soon is None:
             return False
-        if not self._is_now(person):
-            self._states.clear()
+        if now is None or person.model is not self._model or not same(now, person.save_state()):
+            self.forget()
             return False
-        self._now = self._states.popleft()
-        events = [*person.events, *self._now.events]
-        person.restore_state(self._now)
+        events = [*person.events, *soon.events]
+        person.become(soon)
         person.events[:] = events
         return True
-
-    def _is_now(self, person: MovingPerson) -> bool:
-        now, way = self._now, person.way
-        if now is None or person.model is not self._model or person.ticks != now.ticks:
-            return False
-        if person.status != now.status or way.path is not now.path:
-            return False
-        if not np.array_equal(way.memory, now.tracking[:TRACK_SIZE]):
-            return False
-        return np.array_equal(save_physics(person.model, person.data), now.physics)

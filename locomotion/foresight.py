@@ -1,10 +1,10 @@
 """Rehearsing before the moment comes, so that no single tick has to bear a whole rehearsal.
 
-What a person decides by rehearsal (`locomotion.rehearsal`) depends on its state at that moment alone, and the
-simulation is exact. So its double goes ahead, a few ticks in each tick of the person, to the moment at which
-something is to be decided, and rehearses there; when the person comes to that moment in the very same state,
-it already knows. Otherwise, after a push or when it has to give way, it rehearses then, all at once: what it
-decides never depends on how far its double has come.
+What a person decides by rehearsal (`locomotion.rehearsal`) depends on its state at that moment alone, and
+the simulation is exact. So its double goes ahead, a few ticks in each tick of the person's, to the moment at
+which something is to be decided, and rehearses there. The person takes over what the double went through
+(`locomotion.foreseen`), decisions included. After a push, or when it has to give way, which the double knew
+nothing of, it rehearses at the moment, all at once: its decisions never depend on how far its double is.
 """
 
 from __future__ import annotations
@@ -17,14 +17,15 @@ from locomotion.rehearsal import Outcome, Trial, at_once, first_good
 
 if TYPE_CHECKING:
     from locomotion.body import Human
+    from locomotion.foreseen import Foreseen
     from locomotion.rehearsing_person import RehearsingPerson
 
 __all__ = ["Foresight", "Question"]
 
 _PER_TICK = 20  # ticks of the double in one of the person
 _FAR = 400  # ticks that the double goes ahead at most
-_COMPARED = 10  # ticks after which it is seen whether there is something to foresee, and whether it came so
-_REST = 50  # ticks after which it tries again where not
+_LOOKS = 10  # ticks after which it is seen again whether there is something to foresee
+_REST = 50  # ticks after which it tries again where it came otherwise
 
 
 class Question(NamedTuple):
@@ -57,22 +58,24 @@ class Foresight:
         self._task: Generator[None, None, None] | None = None
         self._asked: Question | None = None  # what the double rehearses now
         self._answers: list[tuple[Question, Outcome]] = []
-        self._expected: dict[int, HumanState] = {}  # by tick
-        self._until = self._last = 0  # tick to which the double has come; the person's last
+        self._until = self._last = self._begins = 0
+        # tick to which the double has come; the person's last; from which it may begin to look ahead
 
-    def go_on(self, person: RehearsingPerson) -> None:
-        """After each tick of ``person``: let its double go on for some ticks of its own."""
+    def go_on(self, person: RehearsingPerson, came_true: bool) -> None:
+        """After each tick of ``person``: let its double go on for some ticks of its own, and add them to what
+        the person foresees. came_true: whether the tick was taken over from that."""
         now = person.ticks
         if now != self._last + 1:
             self._forget(now)  # it was restored
-        self._last = now
-        if now in self._expected and not same(self._expected.pop(now), person.save_state()):
+        elif now <= self._until and not came_true:
             self._forget(now + _REST)
+        self._last = now
         if self._task is None:
-            if now < self._until or now % _COMPARED or not person.decides_soon:
+            if now < max(self._until, self._begins) or now % _LOOKS or not person.decides_soon:
                 return
-            self._forget(now)
-            self._task = self._go_ahead(person.save_state(), self._double_of(person))
+            self._answers.clear()
+            person.foreseen.begin(person)
+            self._task = self._go_ahead(person.save_state(), self._double_of(person), person.foreseen)
         for _ in range(_PER_TICK):
             if self._task is not None and (self._asked is not None or self._until - now < _FAR):
                 next(self._task, None)
@@ -92,24 +95,26 @@ class Foresight:
         state, choices, choose, goes_well = question
         return first_good(state, double, choices[: self._most], choose, goes_well)
 
-    def _go_ahead(self, state: HumanState, double: Human) -> Generator[None, None, None]:
+    def _go_ahead(self, state: HumanState, double: Human, future: Foreseen) -> Generator[None, None, None]:
         """Let the double go on from ``state``, and rehearse whatever is to be decided on its way."""
         double.restore_state(state)
-        while True:
-            before = double.save_state()
-            while True:
-                question = self._tick(double)
-                if question is None:
-                    break
+        self._until = double.ticks
+        while double.ticks % _LOOKS or double.decides_soon or double.foreseen.knows(double.ticks + 1):
+            double.events.clear()
+            question = self._tick(double)
+            while question is not None:
                 self._asked = question
                 self._answers.append((question, (yield from self._rehearse(double, question))))
                 self._asked = None
-                double.restore_state(before)
-            self._until = double.ticks
-            if self._until % _COMPARED == 0:
-                if not double.decides_soon:
-                    break
-                self._expected[self._until] = double.save_state()
+                double.restore_state(state)
+                double.events.clear()
+                question = self._tick(double)
+            if double.status == "fallen":
+                break  # the person may get up
+            state = double.save_state()
+            self._until = state.ticks
+            if state.ticks >= self._last:
+                future.add(state)
             yield
         self._task = None
 
@@ -139,11 +144,10 @@ class Foresight:
             self._double = person.double()
         return self._double
 
-    def _forget(self, until: int) -> None:
-        """Begin anew, at tick ``until`` or later."""
+    def _forget(self, begins: int) -> None:
+        """Begin anew, at the tick ``begins`` or later."""
         if self._task is not None:
             self._task.close()
         self._task = self._asked = None
         self._answers.clear()
-        self._expected.clear()
-        self._until = until
+        self._until, self._begins = 0, begins

@@ -132,8 +132,8 @@ class MovingPerson(SimulatedPerson):
             self._ended_at, tuple(self.events),
         )  # fmt: skip
 
-    def restore_state(self, state: HumanState) -> None:
-        """Continue from a state of a person on the same ground with the same skill."""
+    def become(self, state: HumanState) -> None:
+        """Be as it was, or will be, in a state of a person on the same ground with the same skill."""
         restore_physics(self.model, self.data, state.physics)
         self._control[:] = state.control
         self._command[:] = state.tracking[path_tracking.TRACK_SIZE :]

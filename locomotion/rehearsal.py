@@ -123,23 +123,28 @@ def first_good(
     return best
 
 
-def clears(body: Human, looks_on: bool = True) -> Trial:
+def clears(body: Human, looks_on: bool = True, notes: bool = False) -> Trial:
     """Whether it clears the obstacle ahead and stays up behind it: 1 without touching what it should not.
 
-    looks_on: whether it also matters what it can do before another obstacle that is near behind it.
+    looks_on: whether it also matters what it can do before another obstacle that is near behind it. notes:
+    whether what is seen of it is noted, until something else is to be decided. It forgets its events.
     """
-    obstacle, events = body.obstacle_ahead, len(body.events)
+    obstacle = body.obstacle_ahead
     assert obstacle is not None
     passage, cleared_at = Passage(), 0
     took_off = walked = False
+    seen: list[HumanState] = []
+    body.undecided = False
     for tick in range(_LONGEST):
+        body.events.clear()
         body.tick()
         yield
-        happened, events = body.events[events:], len(body.events)
         if body.status not in (*MOVING, "arrived"):
             return 0.0, []
+        if notes and not body.undecided:
+            seen.append(body.save_state())
         again = False
-        for event in happened:
+        for event in body.events:
             if isinstance(event, Cleared):
                 cleared_at = tick
             elif isinstance(event, TookOff):
@@ -151,9 +156,9 @@ def clears(body: Human, looks_on: bool = True) -> Trial:
             good = 1.0 if passage.clean(obstacle.affordance) else 0.5
             if looks_on and body.begins_run_up and body.hemmed_in:
                 goes_on = yield from finds_a_way_on(body)
-                return (good if goes_on else _TRAPPED), []
+                return (good if goes_on else _TRAPPED), seen
             if again or tick - cleared_at >= (_WALKING if walks else _RUNNING) or body.held:
-                return good, []
+                return good, seen
         elif took_off:
             watch(body.index, body.model, body.data, obstacle, passage)
     return 0.0, []

@@ -13,7 +13,7 @@ from locomotion.foreseen import Foreseen
 from locomotion.foresight import Foresight, Question
 from locomotion.gaits import run_entry_speed
 from locomotion.ground import Ground
-from locomotion.human_state import MOVING
+from locomotion.human_state import MOVING, HumanState
 from locomotion.moving_person import MovingPerson
 from locomotion.on_feet import OnFeet
 from locomotion.path_tracking import RUN_UP
@@ -44,7 +44,9 @@ _T = TypeVar("_T")
 
 class RehearsingPerson(MovingPerson, ABC):
     """See `locomotion.rehearsal`. ``rehearsals``: variations that it tries at one time at most, 0: none.
-    ``decides``: how it rehearses; None: it does not."""
+    ``decides``: how it rehearses; None: it does not, and ``undecided`` says whether
+    there was something to be decided since that was set to False. ``foreseen``: what it knows of the next
+    ticks."""
 
     def __init__(
         self, ground: Ground | None, on_feet: OnFeet, clearing: Sequence[ClearingSkill], rehearsals: int
@@ -54,7 +56,13 @@ class RehearsingPerson(MovingPerson, ABC):
         self.decides: Callable[[RehearsingPerson, Question], Outcome] | None = None
         if self._foresight is not None:
             self.decides = self._foresight.decide
-        self._foreseen = Foreseen()
+        self.undecided = False
+        self.foreseen = Foreseen()
+
+    def restore_state(self, state: HumanState) -> None:
+        """Continue from a state of a person on the same ground with the same skill."""
+        self.become(state)
+        self.foreseen.forget()
 
     # --- from one gait to the other
     def _run_if_due(self) -> None:
@@ -75,9 +83,10 @@ class RehearsingPerson(MovingPerson, ABC):
             self.run(False, speed)
             return
         set_off = partial(RehearsingPerson.set_off, speed=speed)
-        choice, went, _ = self._rehearse(SETTING_OFF, set_off, clears)
+        choice, went, seen = self._rehearse(SETTING_OFF, set_off, partial(clears, notes=True))
         if went >= HOLDS:
             self.set_off(choice, speed)
+            self.foreseen.expect(self, seen)
 
     def set_off(self, choice: tuple[bool, Sequence[float]], speed: float) -> None:
         """Begin to run towards the obstacle ahead, from ``speed`` [m/s], in one of the ways of
@@ -116,23 +125,29 @@ class RehearsingPerson(MovingPerson, ABC):
     # --- trying out
     def _rehearse_take_off(self) -> None:
         """Just after a step of a run-up has begun: choose among its variations, or break it off."""
-        if self.decides is None or not self.begins_run_up:
+        if not self.begins_run_up:
             return
-        choice, went, _ = self._rehearse(RUN_UPS, RehearsingPerson.vary_run_up, clears)
+        if self.decides is None:
+            self.undecided = True
+            return
+        choice, went, seen = self._rehearse(
+            RUN_UPS, RehearsingPerson.vary_run_up, partial(clears, notes=True)
+        )
         self._obstacle_run.vary(choice, self._control, went >= HOLDS)
-        if went < HOLDS:
+        if went >= HOLDS:
+            self.foreseen.expect(self, seen)
+        else:
             self._slow_as_rehearsed(BALKINGS, RehearsingPerson.balk, False)
 
     def _slow_as_rehearsed(
         self, decelerations: Sequence[float], slow: Callable[[RehearsingPerson, float], None], must: bool
     ) -> None:
-        """Slow down in the way after which it walks on; where none does, only if it ``must``. What was seen
-        of it is taken over, and not simulated again."""
+        """Slow down in the way after which it walks on; where none does, only if it ``must``."""
         deceleration, went, seen = self._rehearse(decelerations, slow, partial(walks_on, notes=True))
         if went > 0.0 or must:
             slow(self, deceleration)
         if went > 0.0:
-            self._foreseen.expect(self, seen)
+            self.foreseen.expect(self, seen)
 
     @property
     def begins_run_up(self) -> bool:
@@ -171,8 +186,9 @@ class RehearsingPerson(MovingPerson, ABC):
         self, choices: Sequence[_T], choose: Callable[[Human, _T], None], goes_well: Callable[[Human], Trial]
     ) -> Outcome[_T]:
         """The best of ``choices``, see `rehearsal.first_good`; without rehearsals the first is taken to go
-        well."""
+        well. What was seen of it is there to be taken over, and not simulated again."""
         if self.decides is None:
+            self.undecided = True
             return Outcome(choices[0], 1.0, [])
         return self.decides(self, Question(self.save_state(), choices, choose, goes_well))
 

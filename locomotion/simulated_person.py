@@ -21,7 +21,8 @@ class SimulatedPerson:
 
     Attributes:
         ground: what it stands on; None is the endless plane z = 0.
-        model, data: the MuJoCo model (shared by all persons on the same ground) and this person's own data.
+        model, data: the MuJoCo model (shared by all persons on the same ground) and this person's own data;
+            after a tick its state is current; what follows from that (contacts, places of bodies) may not be.
         index: where the person's parts are in the model.
     """
 

@@ -3,6 +3,7 @@
 import pytest
 
 from locomotion.body import Human
+from locomotion.foreseen import Foreseen
 from locomotion.foresight import Foresight
 from locomotion.human_state import MOVING
 from runtime.courses import enter_course, make_course
@@ -39,8 +40,17 @@ def push(human):
 @pytest.mark.parametrize("disturb", [None, push])
 def test_it_decides_as_if_it_rehearsed_at_the_moment(monkeypatch, disturb):
     foreseeing = hashes(enter(), disturb)
-    monkeypatch.setattr(Foresight, "go_on", lambda self, person: None)
+    monkeypatch.setattr(Foresight, "go_on", lambda *_: None)
     assert foreseeing == hashes(enter(), disturb)
+    monkeypatch.setattr(Foreseen, "comes_true", lambda *_: False)
+    assert foreseeing == hashes(enter(), disturb)
+
+
+def test_what_the_double_went_through_is_not_simulated_again(monkeypatch):
+    human, made, tick = enter(), [], Human._tick
+    monkeypatch.setattr(Human, "_tick", lambda each: (made.append(each is human), tick(each)))
+    hashes(human)
+    assert human.status == "arrived" and sum(made) < 0.5 * human.ticks and len(made) < 2.5 * human.ticks
 
 
 def test_no_tick_bears_a_whole_rehearsal(monkeypatch):
@@ -63,7 +73,7 @@ def test_no_tick_bears_a_whole_rehearsal(monkeypatch):
         return result
 
     beforehand = most(enter())
-    monkeypatch.setattr(Foresight, "go_on", lambda self, person: None)
+    monkeypatch.setattr(Foresight, "go_on", lambda *_: None)
     assert beforehand <= 50 and most(enter()) > 300
 
 

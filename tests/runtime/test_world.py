@@ -37,7 +37,7 @@ def test_people_rehearse_as_much_as_their_world_says(graph, monkeypatch):
         yield
         return 0.0, []
 
-    monkeypatch.setattr(Foresight, "go_on", lambda self, person: None)  # all at the moment
+    monkeypatch.setattr(Foresight, "go_on", lambda *_: None)  # all at the moment
     with pytest.raises(RuntimeInputError, match="rehearsals must be"):
         World(graph, rehearsals=-1)
     course = make_course([("jump", 0.4, 0.0)], [10.0])

@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from locomotion import controller
+from locomotion.brake import BrakeSkill, load_brake_skill
 from locomotion.clearing import ClearingSkill, skill_for
 from locomotion.controller import observe
 from locomotion.errors import LocomotionError
@@ -95,10 +96,12 @@ class Human(RehearsingPerson):
         rehearsals: int = REHEARSALS,
         gets_up: bool = False,
         speed_up: SpeedUpSkill | None = None,
+        brake: BrakeSkill | None = None,
     ) -> None:
         """``ground``: None is the endless plane z = 0. ``skill``: how it runs; None loads the package's.
         ``clearing``: how it clears obstacles; None: by what comes with the package (`learned_skills`).
-        ``walk``, ``slow_down``: how it walks, and how it comes to it from a run; None loads the package's.
+        ``walk``, ``slow_down``, ``brake``: how it walks, how it comes to it from a run, and how to a stand;
+        None loads the package's.
         ``rehearsals``: how many variations of a take-off it tries out at most before it takes off
         (`locomotion.rehearsal`); 0: none. ``gets_up``: whether it gets up after a fall and goes on; else a
         fall is the end."""
@@ -108,6 +111,7 @@ class Human(RehearsingPerson):
             load_walk_skill() if walk is None else walk,
             load_slow_down_skill() if slow_down is None else slow_down,
             load_speed_up_skill() if speed_up is None else speed_up,
+            load_brake_skill() if brake is None else brake,
         )
         super().__init__(ground, on_feet, learned_skills(run) if clearing is None else clearing, rehearsals)
         self.gets_up = gets_up
@@ -177,7 +181,8 @@ class Human(RehearsingPerson):
         self._end("stuck", GotStuck(self.time, self._point(), among_others=True))
 
     def stop(self) -> None:
-        """Give up the path and come to a stand; what is being cleared is cleared first."""
+        """Give up the path and come to a stand, as soon as it can without falling; what is being cleared is
+        cleared first. A person that does not rehearse slows down and walks first."""
         self._fours.on_way = 0.0
         if self.status in MOVING and self.status != "getting up":
             self.status, self._ended_at = "standing", self._ticks
@@ -362,7 +367,7 @@ class Human(RehearsingPerson):
         feet = self.on_feet
         return Human(
             self.ground, feet.run_skill, self.clearing, feet.walk_skill, feet.slow_down_skill, 0,
-            speed_up=feet.speed_up_skill,
+            speed_up=feet.speed_up_skill, brake=feet.brake_skill,
         )  # fmt: skip
 
     def _notice(self) -> None:

@@ -153,12 +153,13 @@ def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole, hip):
     to_x, to_y = capture_x - sole[0] - rest_x, capture_y - sole[1] - rest_y
     left = walk[SWING_TIME] - walk[CLOCK]
     along = across = 0.0
+    shortest = min(_SHORTEST_SWING, g[_SWING])
     while True:
         growth = math.exp(omega * (left + 0.5 * g[_TRANSFER]))
         along = (ch * to_x + sh * to_y) * growth - ahead
         across = ((-sh * to_x + ch * to_y) * growth - aside) * side + inside
         too_far = along > g[_LONGEST] or along < -0.3 or across > 0.42
-        if not (too_far and left > 0.04 and walk[CLOCK] + left > _SHORTEST_SWING):
+        if not (too_far and left > 0.04 and walk[CLOCK] + left > shortest):
             break
         left -= 0.02
     walk[SWING_TIME] = walk[CLOCK] + left

@@ -54,6 +54,7 @@ class HumanState:
     walk: NDArray[np.float64]
     tracking: NDArray[np.float64]
     slowing: float
+    brakes: bool
     hurries: bool
     on_all_fours: NDArray[np.float64]
     path: PathTable | None
@@ -75,7 +76,7 @@ def same(one: HumanState, other: HumanState) -> bool:
 
     def rest(state: HumanState) -> tuple:
         way = state.interrupted is None, state.back_to, id(state.obstacle_run.obstacles)
-        return state.status, state.ticks, state.ended_at, state.slowing, state.hurries, *way
+        return state.status, state.ticks, state.ended_at, state.slowing, state.brakes, state.hurries, *way
 
     if rest(one) != rest(other) or numbers(one) != numbers(other):
         return False

@@ -126,8 +126,8 @@ class MovingPerson(SimulatedPerson):
         feet, way = self.on_feet, self.way
         return HumanState(
             save_physics(self.model, self.data), self._control.copy(), feet.walk.copy(),
-            np.concatenate([way.memory, self._command]), feet.slowing, feet.hurries,
-            self._fours.save_state(), way.path, way.interrupted, way.back_to,
+            np.concatenate([way.memory, self._command]), feet.slowing,
+            feet.brakes, feet.hurries, self._fours.save_state(), way.path, way.interrupted, way.back_to,
             self._obstacle_run.save_state(), self.status, self._ticks,
             self._ended_at, tuple(self.events),
         )  # fmt: skip
@@ -138,7 +138,8 @@ class MovingPerson(SimulatedPerson):
         self._control[:] = state.control
         self._command[:] = state.tracking[path_tracking.TRACK_SIZE :]
         feet, way = self.on_feet, self.way
-        feet.walk[:], feet.slowing, feet.hurries = state.walk, state.slowing, state.hurries
+        feet.walk[:], feet.slowing = state.walk, state.slowing
+        feet.brakes, feet.hurries = state.brakes, state.hurries
         way.memory[:] = state.tracking[: path_tracking.TRACK_SIZE]
         way.path, way.interrupted, way.back_to = state.path, state.interrupted, state.back_to
         self._fours.restore_state(state.on_all_fours)
@@ -149,7 +150,8 @@ class MovingPerson(SimulatedPerson):
     def state_hash(self) -> str:
         """Hex digest of the physical and mental state; equal for equal runs."""
         physics = save_physics(self.model, self.data)
-        mood = np.array([self.on_feet.slowing, self.on_feet.hurries, self.way.back_to])
+        feet = self.on_feet
+        mood = np.array([feet.slowing, feet.brakes, feet.hurries, self.way.back_to])
         parts = [physics, self._control, self.on_feet.walk, self.way.memory, self._command, mood]
         parts.append(self._fours.save_state())
         return hash_of(self.status, [*parts, *self._obstacle_run.save_state().arrays])
@@ -169,7 +171,7 @@ class MovingPerson(SimulatedPerson):
         else:
             plant(self.model, self.data, self.index, self._lookup, self._control, walk, position, yaw)
         self._command[:] = yaw, speed, 0.0, 0.0
-        self.on_feet.slowing = 0.0
+        self.on_feet.slowing, self.on_feet.brakes = 0.0, False
         self.way.memory[:] = new_track()
 
     def _end(self, status: Status, event: Event) -> None:

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from locomotion import controller
+from locomotion.brake import SLOWEST, BrakeSkill
 from locomotion.controller import run_tick
 from locomotion.gaits import run_limits, walk_limits
 from locomotion.giving_way import TURNING_SPEED
@@ -53,21 +54,28 @@ _STILL = 0.03  # [m/s] of the centre of mass at rest
 
 
 class OnFeet:
-    """``run_skill``, ``walk_skill``, ``slow_down_skill``, ``speed_up_skill``: how it moves. ``limits``,
-    ``walk_limits``: what it can follow. ``walk``: what the walking controller remembers
+    """``run_skill``, ``walk_skill``, ``slow_down_skill``, ``speed_up_skill``, ``brake_skill``: how it moves.
+    ``limits``, ``walk_limits``: what it can follow. ``walk``: what the walking controller remembers
     (`locomotion.walk_layout`). ``slowing``: [m/s^2] at which it slows down to a walk, 0: it does not.
-    ``hurries``: whether it speeds up to its run."""
+    ``brakes``: whether it comes to a stand as short as it goes. ``hurries``: whether it speeds up to its
+    run."""
 
     def __init__(
-        self, run: RunSkill, walk: WalkSkill, slow_down: SlowDownSkill, speed_up: SpeedUpSkill
+        self,
+        run: RunSkill,
+        walk: WalkSkill,
+        slow_down: SlowDownSkill,
+        speed_up: SpeedUpSkill,
+        brake: BrakeSkill,
     ) -> None:
         self.run_skill, self.walk_skill = run, walk
-        self.slow_down_skill, self.speed_up_skill = slow_down, speed_up
+        self.slow_down_skill, self.speed_up_skill, self.brake_skill = slow_down, speed_up, brake
         self._quick_run, self._slow_run = speed_up.run_tables(run), slow_down.run_tables(run)
-        self._first_steps = slow_down.walk_tables(walk)
+        self._braking_run = brake.run_tables(run)
+        self._first_steps, self._braking_steps = slow_down.walk_tables(walk), brake.walk_tables(walk)
         self.limits, self.walk_limits = run_limits(run), walk_limits(walk)
         self.walk = new_walk()
-        self.slowing, self.hurries = 0.0, False
+        self.slowing, self.brakes, self.hurries = 0.0, False, False
 
     @property
     def walks(self) -> bool:
@@ -113,7 +121,11 @@ class OnFeet:
         if self.walks:
             self._steer_walk(state, moving, way.pace, command)
         elif self.slowing > 0.0:
-            command[1:3] = state[controller.SPEED] - self.slowing * CONTROL_DT, 0.0
+            slower = state[controller.SPEED] - self.slowing * CONTROL_DT
+            command[1:3] = slower, 0.0
+            if self.brakes:  # straight on; the reference itself would follow too slowly
+                state[controller.SPEED] = max(slower, SLOWEST)
+                command[0] = state[controller.HEADING]
         else:
             if state[controller.STEPS] >= 2.0:
                 haste = HASTE if self.hurries else _HASTE
@@ -144,14 +156,16 @@ class OnFeet:
             walk_tick(tables, lookup, self.walk, state, command, data.qpos, data.qvel, data.ctrl)
         else:
             tables = self._quick_run if self.hurries else self.run_skill.tables
-            tables = self._slow_run if self.slowing > 0.0 else tables
+            if self.slowing > 0.0:
+                tables = self._braking_run if self.brakes else self._slow_run
             run_tick(*tables, state, command, data.qpos, data.qvel, data.ctrl)
 
     def _walk_tables(self) -> NDArray[np.float64]:
         """The gains with which it walks now."""
         steps = int(self.walk[WALK_STEPS])
-        if self.walk[CAUGHT] > 0.0 and steps < len(self._first_steps):
-            return self._first_steps[steps]
+        first_steps = self._braking_steps if self.brakes else self._first_steps
+        if self.walk[CAUGHT] > 0.0 and steps < len(first_steps):
+            return first_steps[steps]
         return self.walk_skill.tables
 
     def observe(self, index: PersonIndex, state: NDArray, command: NDArray, data: mujoco.MjData) -> None:
@@ -160,19 +174,28 @@ class OnFeet:
             self.hurries = False
         if self.walks:
             observe_walk(index, data, self.walk)
+            if self.brakes and self.walk[PHASE] == STANDING:
+                self.brakes, self.walk[CAUGHT] = False, 0.0
 
     # --- from one gait to the other
     def run(self, state: NDArray, quickly: bool, speed: float) -> None:
         """Go over from walking to running, from ``speed`` [m/s]."""
         run_on(state, self.walk[WALK_STANCE], self.walk[WALK_HEADING], speed)
         self.walk[WALKS] = 0.0
-        self.hurries = quickly
+        self.hurries, self.brakes = quickly, False
+
+    def slow_down(self, deceleration: float, brakes: bool = False) -> None:
+        """Begin to slow down from the run to a walk [m/s^2]; ``brakes``: to a stand, as short as it goes."""
+        self.slowing, self.brakes = deceleration, brakes
 
     def walk_if_slow(self, index: PersonIndex, state: NDArray, data: mujoco.MjData) -> bool:
-        """Go over to walking, if it slows down and has just put a foot down from which it can; whether it
-        has."""
-        if not (self.slowing > 0.0 and can_walk_on(state)):
+        """Go over to walking, if it slows down and is on a foot from which it can; whether it has."""
+        can = self.brake_skill.can_walk_on if self.brakes else can_walk_on
+        if not (self.slowing > 0.0 and can(state)):
             return False
-        walk_on(data, index, self._first_steps[0], self.walk_skill.speed, state, self.walk)
+        if self.brakes:
+            walk_on(data, index, self._braking_steps[0], 0.0, state, self.walk)
+        else:
+            walk_on(data, index, self._first_steps[0], self.walk_skill.speed, state, self.walk)
         self.slowing = 0.0
         return True

@@ -9,6 +9,7 @@ the smallest first, until one goes well, and does that. Undisturbed, it then com
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Callable, Generator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
@@ -19,12 +20,14 @@ from locomotion.events import Cleared, TookOff
 from locomotion.human_state import MOVING, HumanState
 from locomotion.passage import Passage, watch
 from locomotion.person import CONTROL_DT
+from locomotion.walk_layout import WALK_HEADING
 
 if TYPE_CHECKING:
     from locomotion.body import Human
 
 __all__ = [
     "BALKINGS",
+    "BRAKINGS",
     "HOLDS",
     "REHEARSALS",
     "RUN_UPS",
@@ -34,6 +37,7 @@ __all__ = [
     "Trial",
     "at_once",
     "clears",
+    "comes_to_rest",
     "first_good",
     "walks_on",
 ]
@@ -45,6 +49,8 @@ _LOOKED_AT = 2  # variations that are tried to find it: after a good landing mos
 _SETTLED = round(3.0 / CONTROL_DT)  # ticks that it must stay up after going over to another gait
 _WATCHED = round(1.0 / CONTROL_DT)  # ticks of these in which it may not
 _STAGGERS = 0.2  # [m] come nearer to or farther from its path
+_AT_REST = round(3.5 / CONTROL_DT)  # ticks in which one that brakes must stand still
+_ASKEW = 0.5  # [rad] off its heading, at which it has not lost much time when it goes on
 _FAILED = ("fallen", "lost", "stuck")
 _LONGEST = round(12.0 / CONTROL_DT)
 _MARKS, _ENTRIES = (0.0, 0.04, -0.04, 0.08, -0.08), (0.0, 0.1, -0.1, 0.2, -0.2)
@@ -71,6 +77,8 @@ SLOWINGS = (1.0, 0.92, 1.08, 0.84, 1.16, 0.76, 1.24, 0.68, 1.32, 0.6, 1.4)
 """[m/s^2] by which the run's reference speed is lowered."""
 BALKINGS = (1.2, 0.9, 1.6, 0.7, 2.2, 3.0)
 """[m/s^2], the same where a run-up is broken off: harder ones hold as well, and the obstacle is near."""
+BRAKINGS = (1.8, 1.6, 1.5, 1.4, 1.3, 1.2, 1.1, 1.0, 0.9, 0.8, 0.7)
+"""How hard it brakes, as a share of what was learned: harder first, since it comes to stand sooner."""
 HOLDS = 0.5
 """How well a run-up has to go, at least, that it is begun and not broken off."""
 
@@ -173,6 +181,23 @@ def finds_a_way_on(body: Human) -> Generator[None, None, bool]:
         return True
     best = yield from first_good(state, body, BALKINGS[:_LOOKED_AT], begin.balk, walks_on)
     return best.went > 0.0
+
+
+def comes_to_rest(body: Human) -> Trial:
+    """Whether a body that brakes stands still in the end: 1 if it then faces where it went; with what was
+    seen of it."""
+    seen: list[HumanState] = []
+    for _ in range(_AT_REST):
+        body.events.clear()
+        body.tick()
+        yield
+        seen.append(body.save_state())
+        if body.status in _FAILED:
+            return 0.0, []
+        if body.on_feet.at_rest(body.control):
+            askew = math.remainder(body.yaw - body.on_feet.walk[WALK_HEADING], 2.0 * math.pi)
+            return (1.0 if abs(askew) < _ASKEW else 0.5), seen
+    return 0.0, []
 
 
 def walks_on(body: Human, notes: bool = False) -> Trial:

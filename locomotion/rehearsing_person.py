@@ -19,6 +19,7 @@ from locomotion.on_feet import OnFeet
 from locomotion.path_tracking import RUN_UP
 from locomotion.rehearsal import (
     BALKINGS,
+    BRAKINGS,
     HOLDS,
     RUN_UPS,
     SETTING_OFF,
@@ -26,6 +27,7 @@ from locomotion.rehearsal import (
     Outcome,
     Trial,
     clears,
+    comes_to_rest,
     walks_on,
 )
 
@@ -36,8 +38,11 @@ __all__ = ["RehearsingPerson"]
 
 _TOO_NEAR = 2.0  # [m] before an obstacle up to which a walking person comes
 _HEMMED_IN = 9.0  # [m] before an obstacle in which it may not come to a walk
+_AGAIN, _TRIES = 5, 40  # ticks after which one told to stop tries to brake again; in which it tries
 _SOON_WALKED, _SOON_RUN, _SOON_SLOWS = 2.5, 4.0, 1.5
 # [m] before something is to be rehearsed from which it looks ahead: a run-up, walking, running; slowing down
+
+_WALKS_ON = partial(walks_on, notes=True)
 
 _T = TypeVar("_T")
 
@@ -111,16 +116,35 @@ class RehearsingPerson(MovingPerson, ABC):
         self.status = "running"
 
     def _walk_if_due(self) -> None:
-        """Where the path is not run, slow down, and go over to walking just after a foot was put down."""
-        due = self.status not in MOVING or not self.way.runs or self.way.pace == 0.0
-        if due and self.on_feet.slowing == 0.0:
-            self._slow_as_rehearsed(SLOWINGS, RehearsingPerson.slow_down, True)
+        """Where it is to stand, brake; where the path is not run, slow down; and go over to walking when it
+        can."""
+        told = self.status == "standing"
+        if self.on_feet.slowing == 0.0:
+            if (told or self.way.pace == 0.0) and self._brakes_or_will(told):
+                return
+            if self.status not in MOVING or not self.way.runs or self.way.pace == 0.0:
+                self._slow_as_rehearsed(SLOWINGS, RehearsingPerson.slow_down, _WALKS_ON, True)
         if self.on_feet.walk_if_slow(self.index, self._control, self.data) and self.status in MOVING:
             self.status = "walking"
 
     def slow_down(self, deceleration: float) -> None:
         """Begin to slow down from the run to a walk [m/s^2]."""
-        self.on_feet.slowing = deceleration
+        self.on_feet.slow_down(deceleration)
+
+    def brake(self, harder: float) -> None:
+        """Begin to brake, ``harder`` by that share than learned."""
+        self.on_feet.slow_down(harder * self.on_feet.brake_skill.deceleration, brakes=True)
+
+    def _brakes_or_will(self, told: bool) -> bool:
+        """Whether it begins to brake, because that goes well, or, if it was ``told`` to stop just now, will
+        try it again in a moment."""
+        if self.decides is None:
+            return False
+        since = self._ticks - self._ended_at if told else 1
+        now = since % _AGAIN == 1 or since >= _TRIES
+        if now and self._slow_as_rehearsed(BRAKINGS, RehearsingPerson.brake, comes_to_rest, False):
+            return True
+        return told and since < _TRIES
 
     # --- trying out
     def _rehearse_take_off(self) -> None:
@@ -137,17 +161,23 @@ class RehearsingPerson(MovingPerson, ABC):
         if went >= HOLDS:
             self.foreseen.expect(self, seen)
         else:
-            self._slow_as_rehearsed(BALKINGS, RehearsingPerson.balk, False)
+            self._slow_as_rehearsed(BALKINGS, RehearsingPerson.balk, _WALKS_ON, False)
 
     def _slow_as_rehearsed(
-        self, decelerations: Sequence[float], slow: Callable[[RehearsingPerson, float], None], must: bool
-    ) -> None:
-        """Slow down in the way after which it walks on; where none does, only if it ``must``."""
-        deceleration, went, seen = self._rehearse(decelerations, slow, partial(walks_on, notes=True))
+        self,
+        decelerations: Sequence[float],
+        slow: Callable[[RehearsingPerson, float], None],
+        goes_well: Callable[[Human], Trial],
+        must: bool,
+    ) -> bool:
+        """Slow down in the way that goes well; where none does, only if it ``must``. Gives whether there is
+        such a way."""
+        deceleration, went, seen = self._rehearse(decelerations, slow, goes_well)
         if went > 0.0 or must:
             slow(self, deceleration)
         if went > 0.0:
             self.foreseen.expect(self, seen)
+        return went > 0.0
 
     @property
     def begins_run_up(self) -> bool:

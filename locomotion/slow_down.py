@@ -27,8 +27,8 @@ from locomotion.walking import observe_walk
 from navmesh.archive import write_archive
 
 __all__ = [
-    "SLOWING", "SLOW_DOWN_SKILL", "SlowDownSkill", "can_walk_on", "load_slow_down_skill", "touchdown",
-    "walk_on",
+    "SLOWING", "SLOW_DOWN_SKILL", "SlowDownSkill", "can_walk_on", "load_slow_down_skill", "slowed_tables",
+    "touchdown", "walk_on",
 ]  # fmt: skip
 
 SLOW_DOWN_SKILL = Path(__file__).parent / "skills" / "slow_down.npz"
@@ -62,14 +62,7 @@ class SlowDownSkill:
 
     def run_tables(self, run: RunSkill) -> tuple[np.ndarray, ...]:
         """The first arguments of `controller.run_tick` while slowing down from ``run``."""
-        above = run.knots > self.knots[-1]
-        knots = np.concatenate([self.knots, run.knots[above]])
-        table = np.stack([np.interp(knots, run.knots, column) for column in run.table.T], axis=1)
-        table[: len(self.knots)] += self.change
-        timing = controller.parameter_slices()["timing"].start
-        table[:, timing] = np.clip(table[:, timing], *_STEP_TIMES)
-        limits = np.array([self.knots[0], run.speeds[1], run.max_lateral])
-        return (knots, np.ascontiguousarray(table), *run.tables[2:-1], limits)
+        return slowed_tables(run, self.knots, self.change, self.knots[0])
 
     def walk_tables(self, walk: WalkSkill) -> tuple[np.ndarray, ...]:
         """``walk.tables`` for each of the first steps out of a run."""
@@ -87,6 +80,21 @@ class SlowDownSkill:
         header = {"person": person_digest(), "gains": list(GAINS), "meta": self.meta}
         arrays = {"knots": self.knots, "change": self.change, "gains": self.gains}
         write_archive(path, _KIND, _VERSION, header, arrays)
+
+
+def slowed_tables(
+    run: RunSkill, knots: np.ndarray, change: np.ndarray, slowest: float
+) -> tuple[np.ndarray, ...]:
+    """The first arguments of `controller.run_tick` for ``run`` with other parameters up to the last of
+    ``knots`` (k,) [m/s]: ``change`` (k, p) is added to them; its reference speed is ``slowest`` at least."""
+    above = run.knots > knots[-1]
+    all_knots = np.concatenate([knots, run.knots[above]])
+    table = np.stack([np.interp(all_knots, run.knots, column) for column in run.table.T], axis=1)
+    table[: len(knots)] += change
+    timing = controller.parameter_slices()["timing"].start
+    table[:, timing] = np.clip(table[:, timing], *_STEP_TIMES)
+    limits = np.array([slowest, run.speeds[1], run.max_lateral])
+    return (all_knots, np.ascontiguousarray(table), *run.tables[2:-1], limits)
 
 
 def load_slow_down_skill(path: str | os.PathLike[str] = SLOW_DOWN_SKILL) -> SlowDownSkill:
@@ -132,7 +140,7 @@ def walk_on(
     state: np.ndarray,
     walk: np.ndarray,
 ) -> None:
-    """Let the walking controller take over a running body that has just put a foot down; ``state`` is the
+    """Let the walking controller take over a running body that stands on one foot; ``state`` is the
     running controller's, ``walk`` is filled. tables (2, len(GAINS)): gains of its first step; speed: at
     which it walks at most [m/s]."""
     heading, (vx, vy) = float(state[controller.HEADING]), state[controller.COM_VELOCITY][:2]

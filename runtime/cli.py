@@ -39,6 +39,7 @@ class Skill(StrEnum):
     walk = "walk"
     speed_up = "speed-up"
     slow_down = "slow-down"
+    brake = "brake"
     jump = "jump"
     vault = "vault"
     drop_roll = "drop-roll"

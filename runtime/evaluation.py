@@ -14,6 +14,7 @@ import numpy as np
 
 from locomotion import MOVING, Ground, Human, controller
 from locomotion.clearing import ClearingSkill
+from locomotion.human_state import HumanState
 from locomotion.library import learned_skills
 from locomotion.person import CONTROL_DT
 from locomotion.rehearsal import REHEARSALS
@@ -24,8 +25,8 @@ from runtime.courses import CourseRun, held, make_course, run_course
 from runtime.progress import Progress
 
 __all__ = [
-    "DEFAULT_HEIGHTS", "HEIGHTS", "Attempt", "evaluate_clearing", "evaluate_described", "evaluate_run",
-    "evaluate_slow_down", "evaluate_speed_up", "evaluate_walk", "start_noise",
+    "DEFAULT_HEIGHTS", "HEIGHTS", "Attempt", "evaluate_brake", "evaluate_clearing", "evaluate_described",
+    "evaluate_run", "evaluate_slow_down", "evaluate_speed_up", "evaluate_walk", "start_noise",
 ]  # fmt: skip
 
 DEFAULT_HEIGHTS = {"jump": 0.4, "vault": 0.7, "drop": 1.5, "gap": 1.2}
@@ -44,6 +45,8 @@ RUN_LENGTH = 60.0
 """[m] of each run with `PUSH`."""
 PUSH, PUSH_TIME, PUSH_EVERY = 200.0, 0.1, 5.0
 """[N], [s] and [s] between: pushes on the pelvis from any side."""
+STOPPED_FROM, STOPS = (2.5, 3.0, 3.5), (1.5, 2.0, 2.5)
+"""[m/s] asked for of those who are told to stop; [m] within which they may come to stand."""
 _SLOWEST = 0.5
 _FAST, _RUNS_ON = 3.1, 10.0  # [m/s] of a step to most obstacles; [m] that it must get
 
@@ -273,6 +276,40 @@ def evaluate_slow_down(trials: int, seed: int, progress: Progress) -> list[Attem
     ways = {"straight": (math.inf,), "bends": BENDS}
     each = [(name, radii, k) for name, radii in ways.items() for k in range(trials)]
     return _tried("slow-down", [lambda one=one: attempt(*one) for one in each], progress)
+
+
+def evaluate_brake(trials: int, seed: int, progress: Progress) -> list[Attempt]:
+    """People in steady runs, straight on or in a bend, who are told to stop at a random moment: do they stand
+    in the end, and how far does the centre of mass come in the direction in which it moved then, from there
+    and from the next touchdown on?"""
+    from locomotion.training.brake import draw_starts
+
+    human = Human(clearing=())
+
+    def attempt(speed: float, start: HumanState) -> Attempt:
+        human.restore_state(start)
+        begun, velocity = human.com, human.velocity
+        along, way, before = velocity / np.linalg.norm(velocity), 0.0, math.nan
+        human.stop()
+        while not human.held:
+            human.tick()
+            way = max(way, float(along @ (human.com - begun)))
+            if math.isnan(before) and human.control[controller.STEP_TIME] == 0.0:
+                before = way
+        stands = human.status == "standing"
+        figures = {"way [m]": way} | {f"share within {far:g} m": float(way <= far) for far in STOPS}
+        if math.isfinite(before):
+            figures |= {"from the next touchdown [m]": way - before}
+            figures |= {f"share within {STOPS[0]:g} m of it": float(way - before <= STOPS[0])}
+        test = f"told at {speed:g} m/s"
+        return Attempt(test, f"{way:.2f} m", human.status, stands, figures if stands else {})
+
+    each = [
+        (speed, start)
+        for speed in STOPPED_FROM
+        for start in draw_starts(np.random.default_rng([seed, round(10 * speed)]), trials, (speed, speed))
+    ]
+    return _tried("brake", [lambda one=one: attempt(*one) for one in each], progress)
 
 
 def _tried(name: str, todo: list[Callable[[], Attempt]], progress: Progress) -> list[Attempt]:

@@ -24,6 +24,7 @@ __all__ = ["evaluate_skill", "show_clip", "train_library", "train_skill"]
 def _trainers() -> Mapping[str, Callable[..., Any]]:
     """What learns each skill, in the order in which they build on one another."""
     from locomotion.library import LEAP
+    from locomotion.training.brake import train_brake
     from locomotion.training.drop_roll import train_drop_roll
     from locomotion.training.jump import train_described, train_jump
     from locomotion.training.run import train_run
@@ -34,6 +35,7 @@ def _trainers() -> Mapping[str, Callable[..., Any]]:
 
     return {
         "walk": train_walk, "run": train_run, "speed-up": train_speed_up, "slow-down": train_slow_down,
+        "brake": train_brake,
         "jump": train_jump, "vault": train_vault, "drop-roll": train_drop_roll,
         "leap": partial(train_described, LEAP),
     }  # fmt: skip
@@ -82,6 +84,7 @@ def evaluate_skill(skill: str, trials: int, seed: int, picture: Path | None = No
     if picture is not None:
         check_output(picture)
     from runtime.evaluation import (
+        evaluate_brake,
         evaluate_clearing,
         evaluate_described,
         evaluate_run,
@@ -92,7 +95,7 @@ def evaluate_skill(skill: str, trials: int, seed: int, picture: Path | None = No
 
     evaluate: Mapping[str, Callable[..., Sequence[Attempt]]] = {
         "run": evaluate_run, "walk": evaluate_walk, "speed-up": evaluate_speed_up,
-        "slow-down": evaluate_slow_down,
+        "slow-down": evaluate_slow_down, "brake": evaluate_brake,
         "jump": partial(evaluate_clearing, "jump"), "vault": partial(evaluate_clearing, "vault"),
         "drop-roll": partial(evaluate_clearing, "drop"),
         "leap": partial(evaluate_clearing, "gap"),
@@ -108,7 +111,9 @@ def evaluate_skill(skill: str, trials: int, seed: int, picture: Path | None = No
             "trials": len(tried),
             "held": sum(each.held for each in tried),
             "ends": dict(Counter(each.status for each in tried)),
-            "means": _means(tried),
+            "means": _over(tried, np.mean),
+            "medians": _over(tried, np.median),
+            "percentiles 95": _over(tried, partial(np.percentile, q=95)),
         }
         for test, tried in _by_test(attempts).items()
     ]
@@ -122,10 +127,18 @@ def evaluate_skill(skill: str, trials: int, seed: int, picture: Path | None = No
         print("| --- | --- | --- |")
         for test in tests:
             share = 100.0 * test["held"] / test["trials"]
-            means = ", ".join(f"{name} {value:.3g}" for name, value in test["means"].items())
-            print(f"| {test['test']} | {share:.1f} % of {test['trials']} | {means} |")
+            figures = ", ".join(_shown(test, name) for name in test["means"])
+            print(f"| {test['test']} | {share:.1f} % of {test['trials']} | {figures} |")
 
     return Result(values, all(test["held"] >= 0.9 * test["trials"] for test in tests), show)
+
+
+def _shown(test: dict[str, Any], name: str) -> str:
+    """One of a test's figures: its mean, and of lengths also how they are spread."""
+    mean = f"{name} {test['means'][name]:.3g}"
+    if not name.endswith("[m]"):
+        return mean
+    return f"{mean} (median {test['medians'][name]:.3g}, 95 % up to {test['percentiles 95'][name]:.3g})"
 
 
 def _by_test(attempts: Sequence["Attempt"]) -> dict[str, list["Attempt"]]:
@@ -133,11 +146,11 @@ def _by_test(attempts: Sequence["Attempt"]) -> dict[str, list["Attempt"]]:
     return {test: [a for a in attempts if a.test == test] for test in dict.fromkeys(a.test for a in attempts)}
 
 
-def _means(attempts: Sequence["Attempt"]) -> dict[str, float]:
-    """Means of the figures, each over the attempts that have it."""
+def _over(attempts: Sequence["Attempt"], statistic: Callable[[list[float]], Any]) -> dict[str, float]:
+    """A ``statistic`` of each of the figures, over the attempts that have it."""
     names = dict.fromkeys(name for each in attempts for name in each.figures)
     return {
-        name: float(np.mean([each.figures[name] for each in attempts if name in each.figures]))
+        name: float(statistic([each.figures[name] for each in attempts if name in each.figures]))
         for name in names
     }
 

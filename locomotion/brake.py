@@ -1,0 +1,99 @@
+"""Braking from a run to a stand, as short as it goes: the run's parameters while it brakes, and the first
+steps of the walk that takes over.
+
+The reference speed falls so fast that the run plants its next foot far ahead and leans back. As soon as the
+capture point is within the reach of a foot that bears the body, the walk takes over, with gains of its own
+for each of its first steps. Unlike slowing down (`locomotion.slow_down`) it does not hold always, so that it
+is rehearsed before it is done.
+"""
+
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from locomotion import controller
+from locomotion.errors import LocomotionError
+from locomotion.person import person_digest
+from locomotion.skill import RunSkill
+from locomotion.skill_file import read_skill
+from locomotion.slow_down import slowed_tables, touchdown
+from locomotion.walk_layout import GAINS
+from locomotion.walk_skill import WalkSkill
+from navmesh.archive import write_archive
+
+__all__ = ["BRAKE_SKILL", "FIRST_STEPS", "SLOWEST", "BrakeSkill", "load_brake_skill"]
+
+BRAKE_SKILL = Path(__file__).parent / "skills" / "brake.npz"
+FIRST_STEPS = 3
+"""Steps of the walk that have gains of their own."""
+SLOWEST = 0.3
+"""[m/s] to which the reference speed falls."""
+_BORNE = 100.0  # [N] under a foot that bears the body
+_KIND, _VERSION = "brake skill", 1
+
+
+@dataclass(frozen=True)
+class BrakeSkill:
+    """How a running person brakes.
+
+    Attributes:
+        knots: (k,) float64, increasing speeds [m/s].
+        change: (k, p) float64, what is added there to the parameters of the run
+            (`run_layout.PARAMETERS`).
+        gains: (FIRST_STEPS, len(GAINS)) float64 of the walk's first steps.
+        deceleration: [m/s^2] by which the reference speed falls.
+        reach: [m] that the capture point is ahead of the foot at most, for the walk to take over.
+        hold: [s] after a touchdown from which it may.
+        meta: what made it.
+    """
+
+    knots: np.ndarray
+    change: np.ndarray
+    gains: np.ndarray
+    deceleration: float
+    reach: float
+    hold: float
+    meta: dict[str, Any] = field(default_factory=dict)
+
+    def run_tables(self, run: RunSkill) -> tuple[np.ndarray, ...]:
+        """The first arguments of `controller.run_tick` while braking from ``run``."""
+        return slowed_tables(run, self.knots, self.change, SLOWEST)
+
+    def walk_tables(self, walk: WalkSkill) -> tuple[np.ndarray, ...]:
+        """``walk.tables`` for each of the first steps."""
+        return tuple(np.stack([gains, walk.tables[1]]) for gains in self.gains)
+
+    def can_walk_on(self, state: np.ndarray) -> bool:
+        """Whether the walk can take over a person that brakes now; ``state``: the running controller's."""
+        foot = controller.CONTACT.start + (1 if state[controller.STANCE] > 0.0 else 0)
+        if state[controller.STEP_TIME] < self.hold or state[foot] < _BORNE:
+            return False
+        return touchdown(state)[0] < self.reach
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the skill for the present person; the file appears whole or not at all."""
+        header = {"person": person_digest(), "gains": list(GAINS), "meta": self.meta}
+        header |= {"deceleration": self.deceleration, "reach": self.reach, "hold": self.hold}
+        arrays = {"knots": self.knots, "change": self.change, "gains": self.gains}
+        write_archive(path, _KIND, _VERSION, header, arrays)
+
+
+def load_brake_skill(path: str | os.PathLike[str] = BRAKE_SKILL) -> BrakeSkill:
+    """Read a brake skill; `LocomotionError` if it is missing, cut off, of another version or another
+    person."""
+    header, arrays = read_skill(path, _KIND, _VERSION)
+    knots, change, gains = (arrays.get(name, np.empty(0)) for name in ("knots", "change", "gains"))
+    deceleration, reach, hold = (
+        float(header.get(name, np.nan)) for name in ("deceleration", "reach", "hold")
+    )
+    width = sum(controller.PARAMETERS.values())
+    whole = knots.ndim == 1 and len(knots) > 1 and change.shape == (len(knots), width)
+    if not (whole and gains.shape == (FIRST_STEPS, len(GAINS)) and header.get("gains") == list(GAINS)):
+        raise LocomotionError(f"{path}: not a whole brake skill")
+    finite = all(np.isfinite(each).all() for each in (knots, change, gains, deceleration, reach, hold))
+    if not (finite and (np.diff(knots) > 0).all()):
+        raise LocomotionError(f"{path}: holds numbers that are not finite or speeds that do not grow")
+    return BrakeSkill(knots, change, gains, deceleration, reach, hold, header.get("meta", {}))

@@ -1,0 +1,244 @@
+"""Learning to brake from a run to a stand: changes of the run's parameters, gains of the walk's first steps,
+and when the one gives way to the other."""
+
+import math
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from locomotion import controller as c
+from locomotion.body import Human
+from locomotion.brake import BRAKE_SKILL, FIRST_STEPS, BrakeSkill
+from locomotion.human_state import MOVING, HumanState
+from locomotion.person import MASS
+from locomotion.skill import RunSkill, load_run_skill
+from locomotion.slow_down import load_slow_down_skill
+from locomotion.training.loop import Progress, Stage, learn
+from locomotion.training.run import scales
+from locomotion.walk_layout import GAINS, gain_limits
+from locomotion.walk_skill import load_walk_skill
+
+__all__ = [
+    "BrakeProblem",
+    "Stop",
+    "brake_of",
+    "draw_starts",
+    "first_guess",
+    "run_steadily",
+    "stop",
+    "train_brake",
+]
+
+_KNOTS, _MIDDLE = np.linspace(1.0, 4.0, 6), 2.4
+_SIZE = sum(c.PARAMETERS.values())
+_NUMBERS = {
+    "deceleration": (3.5, 3.0, 8.0, 3.0),
+    "reach": (0.5, 0.2, 0.9, 0.4),
+    "hold": (0.03, 0.0, 0.14, 0.3),
+}
+"""First guess, least and greatest value, and scale of the skill's numbers."""
+_WIDER = {
+    "swing_time": (0.16, 0.5), "height": (0.65, 0.96), "lean": (-0.5, 0.3), "longest": (0.35, 1.0),
+    "moment": (40.0, 300.0), "tilt_moment": (20.0, 250.0), "pressure_along": (0.01, 0.13),
+    "height_damping": (2.0, 50.0), "height_stiffness": (10.0, 400.0), "pressure_rest": (-0.06, 0.1),
+    "drop": (-0.2, 0.2), "clearance": (0.02, 0.25),
+}  # fmt: skip
+"""Least and greatest gains of a step that brakes, where they differ from a walk's."""
+_KEPT = (
+    "roughness", "steepness", "foot_pitch", "foot_roll", "ankle_spare", "foot_turn", "foot_hold",
+    "height_slope", "height_uphill", "lean_slope", "climb_rate", "trim_rate", "most_trim",
+)  # fmt: skip
+"""Gains that make no difference here."""
+_SHAPE = ("posture", "a_hat", "feed_forward", "timing")
+_STARTS, _FASTEST, _SHARPEST = 200, 3.7, 8.0  # runs; [m/s]; [m] radius of their bends
+_NOISE = np.repeat([0.1, 0.02], [6, 39])  # of a start's root velocities and joint angles
+_LONGEST, _SETTLES = 300, 140  # ticks in which it should stand; in which it may still fall then
+_STANDS = 0.1  # [m/s] along its way
+_BACK = 0.2  # [m/s] back again that cost nothing
+_HARD = 4.5  # body weights of the ground's reaction that cost nothing
+
+
+@dataclass(frozen=True)
+class Stop:
+    """How a person stopped: whether it fell; whether it came to a stand; the farthest that its centre of mass
+    came from where it was told [m], in the direction in which it ran; its least speed in it [m/s]; share of
+    the time that it was up and had not come to rest; mean squared tilt of the pelvis; greatest reaction of
+    the ground [body weights]; whether the walk took over; how far it is turned off its
+    heading in the end [rad]."""
+
+    fell: bool
+    stood: bool
+    way: float
+    least: float
+    up: float
+    tilt: float
+    peak: float
+    walked: bool
+    askew: float
+
+    @property
+    def cost(self) -> float:
+        """What learning makes small. A fall costs little more than a metre: variations will be rehearsed, of
+        which the first that stays up is taken."""
+        cost = self.way + 3.0 * self.tilt + 0.2 * max(self.peak - _HARD, 0.0)
+        if not self.walked:
+            return cost + 3.5 + 2.0 * (1.0 - self.up) + 0.7 * max(self.least, 0.0)
+        if self.fell:
+            return cost + 1.2 + 1.5 * (1.0 - self.up) + 0.7 * max(self.least, 0.0)
+        cost += self.up + self.askew
+        return cost + 2.0 * max(-self.least - _BACK, 0.0) + (0.0 if self.stood else 0.5)
+
+
+def run_steadily(rng: np.random.Generator, human: Human, speed: float, bend: float) -> HumanState | None:
+    """A person in a steady run, at a random moment, straight on or in a bend of curvature ``bend`` [1/m];
+    None if it did not come to it."""
+    heading = bend * 0.1 * np.maximum(np.arange(600) - 40, 0)
+    points = np.zeros((601, 3))
+    points[1:, 0], points[1:, 1] = 0.1 * np.cumsum(np.cos(heading)), 0.1 * np.cumsum(np.sin(heading))
+    human.reset(points[0], 0.0, speed)
+    noise = rng.normal(size=45) * _NOISE
+    human.data.qvel[:6] += noise[:6]
+    human.data.qpos[7:] += noise[6:]
+    human.follow(points, speed)
+    for _ in range(int(rng.integers(130, 400))):
+        human.tick()
+        if human.gait_now != "run" or human.status not in MOVING:
+            return None
+    return human.save_state()
+
+
+def draw_starts(rng: np.random.Generator, count: int, speeds: tuple[float, float]) -> list[HumanState]:
+    """People in steady runs of ``speeds`` [m/s], a third of them in bends."""
+    human, starts = Human(None, clearing=(), rehearsals=0, brake=brake_of(first_guess())), []
+    while len(starts) < count:
+        speed = float(rng.uniform(*speeds))
+        radius = max(_SHARPEST, speed * speed / 1.2) * float(rng.uniform(1.0, 2.0))
+        bend = float(rng.choice([-1.0, 0.0, 0.0, 0.0, 0.0, 1.0])) / radius
+        start = run_steadily(rng, human, speed, bend)
+        starts += [] if start is None else [start]
+    return starts
+
+
+def stop(human: Human, start: HumanState) -> Stop:
+    """Let ``human`` brake in the state ``start``, as its skill says."""
+    human.restore_state(start)
+    human.stop()
+    human.brake(1.0)
+    state = human.control
+    begun, velocity = human.com, human.velocity[:2]
+    along = velocity / np.linalg.norm(velocity)
+    way = tilt = peak = 0.0
+    least, stood, walked, tick = math.inf, 0, False, 0
+    while tick < _LONGEST and not human.held and human.status != "fallen" and stood <= _SETTLES:
+        human.tick()
+        tick += 1
+        way = max(way, float(along @ (human.com - begun)[:2]))
+        least = min(least, float(along @ state[c.COM_VELOCITY][:2]))
+        stood += least < _STANDS
+        walked |= human.gait_now == "walk"
+        tilt += float(human.qpos[4:6] @ human.qpos[4:6])
+        peak = max(peak, float(state[c.CONTACT].sum()) / (9.81 * MASS))
+    fell = human.status == "fallen"
+    askew = abs(math.remainder(human.yaw - state[c.HEADING], 2.0 * math.pi))
+    return Stop(fell, stood > 0, way, least, tick / _LONGEST, tilt / max(tick, 1), peak, walked, askew)
+
+
+def first_guess() -> np.ndarray:
+    """Parameters from which learning starts: those of slowing down, with a reference speed that falls
+    faster."""
+    walk = load_walk_skill()
+    slow_down = load_slow_down_skill()
+    numbers = [first for first, *_ in _NUMBERS.values()]
+    gains = [walk.tables[0] + (1.0 - step / 4.0) * slow_down.gains for step in range(FIRST_STEPS)]
+    return np.concatenate([np.zeros(2 * _SIZE), *gains, numbers])
+
+
+def brake_of(x: np.ndarray, meta: dict | None = None) -> BrakeSkill:
+    """The skill that parameters stand for: what is added to those of slowing down at `_MIDDLE`, and for each
+    [m/s] above; the gains of the walk's first steps; the skill's numbers."""
+    slow_down = load_slow_down_skill()
+    change = np.stack([np.interp(_KNOTS, slow_down.knots, each) for each in slow_down.change.T], axis=1)
+    change += x[:_SIZE] + (_KNOTS - _MIDDLE)[:, None] * x[_SIZE : 2 * _SIZE]
+    numbers = x[-len(_NUMBERS) :]
+    limits = np.array([(low, high) for _, low, high, _ in _NUMBERS.values()]).T
+    low, high = _limits()
+    gains = np.clip(x[2 * _SIZE : -len(numbers)].reshape(FIRST_STEPS, -1), low, high)
+    deceleration, reach, hold = np.clip(numbers, *limits).tolist()
+    return BrakeSkill(_KNOTS, change, gains, deceleration, reach, hold, meta or {})
+
+
+def _limits() -> tuple[np.ndarray, np.ndarray]:
+    """Least and greatest gains of a step that brakes."""
+    low, high = gain_limits()
+    for name, (least, most) in _WIDER.items():
+        low[list(GAINS).index(name)], high[list(GAINS).index(name)] = least, most
+    return low, high
+
+
+def _curriculum(effort: float) -> tuple[Stage, ...]:
+    one, part = scales(), c.parameter_slices()
+    shape = np.zeros(_SIZE)
+    for name in _SHAPE:
+        shape[part[name]] = one[part[name]]
+    low, high = _limits()
+    gains = np.tile(np.where([name in _KEPT for name in GAINS], 0.0, high - low), FIRST_STEPS)
+    numbers = np.array([scale for *_, scale in _NUMBERS.values()])
+    first = np.concatenate([shape, np.zeros(_SIZE), gains, numbers])
+    both = np.concatenate([shape, shape, gains, numbers])
+    options = {"trials": 10}
+    return (
+        Stage("plant a foot", max(round(60 * effort), 1), 0.08, first, options, population=24),
+        Stage("at any speed", max(round(120 * effort), 1), 0.05, both, options, population=24),
+    )
+
+
+@dataclass(frozen=True)
+class BrakeProblem:
+    """Learning to brake for `locomotion.training.loop.learn`, from the run ``run`` and the moments
+    ``starts``."""
+
+    curriculum: tuple[Stage, ...]
+    run: RunSkill
+    starts: list[HumanState]
+
+    def stages(self) -> tuple[Stage, ...]:
+        """The curriculum."""
+        return self.curriculum
+
+    def start(self) -> np.ndarray:
+        """The first guess."""
+        return first_guess()
+
+    def scenarios(self, stage: Stage, generation: int, rng: np.random.Generator) -> list[HumanState]:
+        """Moments of runs."""
+        return [self.starts[k] for k in rng.choice(len(self.starts), stage.options["trials"], replace=False)]
+
+    def evaluate(
+        self, stage: Stage, candidate: np.ndarray, scenarios: list[HumanState]
+    ) -> tuple[float, float]:
+        """Mean cost, and share of the trials in which the person stayed up."""
+        human = Human(None, self.run, clearing=(), rehearsals=0, brake=brake_of(candidate))
+        stops = [stop(human, start) for start in scenarios]
+        up = float(np.mean([not each.fell for each in stops]))
+        return float(np.mean([each.cost for each in stops])), up
+
+
+def train_brake(
+    out: str | os.PathLike[str] = BRAKE_SKILL,
+    seed: int = 0,
+    checkpoint: str | os.PathLike[str] | None = None,
+    workers: int = 2,
+    effort: float = 1.0,
+    on_progress: Callable[[Progress], None] | None = None,
+) -> BrakeSkill:
+    """Learn to brake from the package's run and write the skill to ``out``; arguments as for
+    `locomotion.training.run.train_run`."""
+    starts = draw_starts(np.random.default_rng([seed, 1]), _STARTS, (2.0, _FASTEST))
+    problem = BrakeProblem(_curriculum(effort), load_run_skill(), starts)
+    learned = learn(problem, seed, checkpoint, workers, on_progress)
+    assert learned is not None
+    skill = brake_of(learned, {"made by": "surefoot train brake", "seed": seed, "effort": effort})
+    skill.save(out)
+    return skill

@@ -1,0 +1,154 @@
+"""From a run to a stand, as short as it goes."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from locomotion import Human, LocomotionError, controller
+from locomotion.brake import BRAKE_SKILL, FIRST_STEPS, load_brake_skill
+from locomotion.person import MASS
+from locomotion.rehearsal import at_once, comes_to_rest
+from locomotion.training.brake import brake_of, draw_starts, first_guess, stop
+
+WAY = np.array([[0.0, 0.0, 0.0], [60.0, 0.0, 0.0]])
+
+
+def running(ticks: int, speed: float = 3.0, rehearsals: int = 16) -> Human:
+    human = Human(None, clearing=(), rehearsals=rehearsals)
+    human.reset(WAY[0], 0.0, speed)
+    human.follow(WAY, speed)
+    for _ in range(ticks):
+        human.tick()
+    return human
+
+
+def way_of_stop(human: Human) -> float:
+    """Tick until it rests; how far it comes [m]."""
+    begun, far = human.com, 0.0
+    human.stop()
+    while not human.held:
+        human.tick()
+        far = max(far, float(human.com[0] - begun[0]))
+    return far
+
+
+def test_told_to_stop_at_any_moment_it_stands_within_a_few_steps():
+    ways = []
+    for k in range(8):
+        human = running(300 + 7 * k)
+        ways.append(way_of_stop(human))
+        assert human.status == "standing" and human.data.xmat[human.index.root, 8] > 0.97
+    assert max(ways) < 3.2 and np.median(ways) < 2.3  # 4 m where it slows down
+
+
+def test_stopped_it_goes_on_when_told_again():
+    for k in range(4):
+        human = running(320 + 9 * k)
+        way_of_stop(human)
+        human.follow(human.position + np.outer([0.0, 12.0], [1, 0, 0]), 3.0)
+        while human.status != "arrived":
+            assert human.status in ("walking", "running") and human.time < 40.0
+            human.tick()
+
+
+def test_one_that_does_not_rehearse_slows_down_and_walks():
+    human = running(300, rehearsals=0)
+    human.stop()
+    human.tick()
+    assert human.gait_now == "slow run" and not human.on_feet.brakes
+    assert human.on_feet.slowing == 1.0
+
+
+def test_one_whose_braking_does_not_go_well_runs_on_for_a_moment_and_slows_down(monkeypatch):
+    def falls(body):
+        yield
+        return 0.0, []
+
+    monkeypatch.setattr("locomotion.rehearsing_person.comes_to_rest", falls)
+    human = running(300)
+    human.stop()
+    gaits = []
+    for _ in range(60):
+        human.tick()
+        gaits.append(human.gait_now)
+    assert gaits[0] == "run" and gaits[-1] == "slow run" and not human.on_feet.brakes
+    assert 35 <= gaits.count("run") <= 45
+
+
+def test_one_that_has_to_wait_for_others_brakes():
+    human = running(300)
+    human.give_way(0.0, None)
+    human.tick()
+    assert human.on_feet.brakes and human.on_feet.slowing > 2.0
+    assert human.prospect().braking == human.on_feet.slowing
+    for _ in range(350):
+        human.tick()
+    assert human.status == "walking" and np.linalg.norm(human.velocity[:2]) < 0.1
+    human.give_way(1.0, None)
+    while human.gait_now != "run":
+        assert human.status == "walking" and human.time < 20.0
+        human.tick()
+    assert not human.on_feet.brakes
+
+
+def test_what_falls_does_not_come_to_rest():
+    human = running(300)
+    human.stop()
+    human.data.qvel[:2] = 0.0, 6.0
+    assert at_once(comes_to_rest(human))[0] == 0.0
+
+
+@pytest.mark.parametrize("after", [1, 40, 90])
+def test_saved_while_it_brakes_it_goes_on_bit_for_bit(after):
+    human, twin = running(310), Human(None, clearing=())
+    human.stop()
+    while not human.on_feet.brakes:
+        human.tick()
+    for _ in range(after):
+        human.tick()
+    twin.restore_state(human.save_state())
+    for each in (human, twin):
+        for _ in range(200):
+            each.tick()
+    assert twin.state_hash() == human.state_hash()
+
+
+def test_the_walk_takes_over_on_a_foot_that_bears_the_body_within_its_reach():
+    skill, state = replace(load_brake_skill(), reach=0.4, hold=0.0), controller.new_state()
+    state[controller.COM] = 0.0, 0.0, 0.9
+    state[controller.COM_VELOCITY] = 2.31, 0.0, 0.0  # the capture point is 0.7 m ahead
+    state[controller.STANCE] = 1.0
+    state[controller.CONTACT] = 0.0, 9.81 * MASS
+    state[controller.FEET] = np.array([[-0.4, -0.1, 0.3], [0.35, 0.1, 0.06]]).ravel()
+    assert skill.can_walk_on(state)
+    assert not replace(skill, reach=0.3).can_walk_on(state)
+    state[controller.CONTACT] = 9.81 * MASS, 0.0
+    assert not skill.can_walk_on(state)
+
+
+def test_file_that_is_cut_off_or_of_something_else_is_refused(tmp_path):
+    file, whole = tmp_path / "brake.npz", BRAKE_SKILL.read_bytes()
+    for content in (whole[:100], b"", b"something else", whole[:-20]):
+        file.write_bytes(content)
+        with pytest.raises(LocomotionError, match=r"brake\.npz"):
+            load_brake_skill(file)
+    skill = load_brake_skill()
+    assert len(skill.gains) == FIRST_STEPS
+    for broken in (
+        replace(skill, change=skill.change[:, :-1]),
+        replace(skill, gains=np.full_like(skill.gains, np.nan)),
+        replace(skill, reach=float("nan")),
+    ):
+        broken.save(file)
+        with pytest.raises(LocomotionError, match=r"brake\.npz"):
+            load_brake_skill(file)
+
+
+def test_learning_prefers_those_that_stand_soon():
+    starts = draw_starts(np.random.default_rng(3), 6, (2.8, 3.2))
+    good = Human(None, clearing=(), rehearsals=0)
+    first = Human(None, clearing=(), rehearsals=0, brake=brake_of(first_guess()))
+    stops = [[stop(human, start) for start in starts] for human in (good, first)]
+    assert np.mean([each.cost for each in stops[0]]) < np.mean([each.cost for each in stops[1]])
+    assert sum(each.fell for each in stops[0]) < sum(each.fell for each in stops[1])

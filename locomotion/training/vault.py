@@ -1,5 +1,5 @@
 """Learning to vault: first over one wall with feed-forward alone, then with feedback over growing heights;
-higher, it begins by taking off as higher jumps do."""
+higher, it begins by taking off as higher jumps do. In the end every height is refined on longer trials."""
 
 import os
 from collections.abc import Callable, Sequence
@@ -130,11 +130,12 @@ def cost(outcome: VaultOutcome, entry: float) -> float:
 class VaultProblem:
     """One stage: what `learn` needs.
 
-    family: what was learned before; what is learned is a change (p,) of its last member. states: harvested
-    from planned run-ups. stage: its options are ``heights`` (2,) [m], from the first to the second of which
-    the wall rises, ``same``: whether every generation has the same trials, ``states`` per generation,
-    ``error`` [m] added to the distance, ``duration`` [s] and ``pull`` towards no change. initial: where the
-    search begins.
+    family: what was learned before; what is learned is a change (p,) of its member at the stage's first
+    height, or the one nearest to it. states: harvested from planned run-ups. stage: its options are
+    ``heights`` (2,) [m], from the first to the second of which the wall rises, ``same``: whether every
+    generation has the same trials, ``states`` per generation, ``error`` [m] added to the distance,
+    ``duration`` [s], ``pull`` towards no change, ``failed``: what a trial costs in addition that is no
+    vault, ``refines``: whether the expected sensors stay as they are. initial: where the search begins.
     """
 
     run: RunSkill
@@ -180,14 +181,15 @@ class VaultProblem:
         """Mean cost with the pull towards no change, and the share that vaulted."""
         if self._simulator is None:
             self._simulator = VaultSimulator(self.run)
-        reference = self.family.references[-1].reshape(_REFERENCE)
-        tables = tables_of(self.family.table[-1] + candidate, reference, self.run)
+        member = member_of(self.family, stage)
+        reference = self.family.references[member].reshape(_REFERENCE)
+        tables = tables_of(self.family.table[member] + candidate, reference, self.run)
         total = vaulted = 0.0
         for state, error, height, depth in scenarios:
             result = self._simulator.vault_trial(
                 tables, height, depth, self.states[state], error, stage.options["duration"]
             )
-            total += cost(result, tables.entry)
+            total += cost(result, tables.entry) + stage.options["failed"] * (not result.vaulted)
             vaulted += result.vaulted
         free = stage.scale > 0
         away = candidate[free] / stage.scale[free]
@@ -195,12 +197,18 @@ class VaultProblem:
         return total / n + stage.options["pull"] * float(np.mean(away**2)), vaulted / n
 
 
+def member_of(family: SkillFamily, stage: Stage) -> int:
+    """Which member of the family a stage changes."""
+    return int(np.argmin(np.abs(family.heights - stage.options["heights"][0])))
+
+
 def curriculum(effort: float = 1.0) -> list[Stage]:
     """The stages: each ends with a member of the family at its last height."""
     low = HEIGHTS[0]
+    usual = {"error": 0.08, "duration": 2.0, "pull": 0.1, "failed": 0.0, "refines": False}
 
     def stage(name: str, count: int, sigma: float, what: str, same: bool, **options) -> Stage:
-        shared = {"heights": (low, low), "error": 0.08, "duration": 2.0, "pull": 0.1, "same": same}
+        shared = {"heights": (low, low), "same": same, **usual}
         population = 16 if same else 20
         return Stage(
             name, max(round(count * effort), 1), sigma, scales(what), {**shared, **options}, population
@@ -218,10 +226,15 @@ def curriculum(effort: float = 1.0) -> list[Stage]:
     first, last = FURTHER
     further = {"states": 16, "error": 0.06, "duration": 2.6, "pull": 0.05, "heights": (first, first)}
     rising = {"states": 8, "error": 0.06, "pull": 0.02, "heights": FURTHER}
+    long = {"states": 10, "duration": 4.0, "pull": 0.05, "failed": 4.0, "refines": True}
     return [
         *stages,
         stage(f"{first:g} m", 30, 0.08, "feedback", True, **further),
         stage(f"{first:g} to {last:g} m", 45, 0.12, "feedback", True, **rising),
+        *(
+            stage(f"{height:g} m, refined", 60, 0.06, "feedback", False, heights=(height, height), **long)
+            for height in (*HEIGHTS, *FURTHER)
+        ),
     ]
 
 
@@ -251,6 +264,7 @@ def train_vault(
     family = SkillFamily(KIND, np.array(HEIGHTS[:1]), guess, blank, stride, identity["run"], meta)
     rng = np.random.default_rng([seed, 2])
     states = _harvest(family, run, rng)
+    refined = np.zeros_like(family.table[0])  # what the last member changed when it was refined
     for number, stage in enumerate(curriculum(effort)):
         done = None if folder is None else folder / f"done-{number}.npz"
         if done is not None and done.exists():
@@ -259,17 +273,22 @@ def train_vault(
                 raise LocomotionError(
                     f"{done}: checkpoint of another training or seed; remove it to begin anew"
                 )
+            refined = arrays.pop("refined")
             family = replace(family, **arrays)
             continue
         problem = VaultProblem(run, family, states, stage, np.zeros_like(family.table[0]))
         if stage.options["heights"][0] > family.heights[-1]:
             problem.predict(higher())
+        elif refined.any():
+            problem.predict(refined)
         file = None if folder is None else folder / f"search-{number}.npz"
         change = learn(problem, seed + 1000 * number, file, workers, on_progress)
         assert change is not None
         family = changed(family, change, stage, run, states)
+        refined = change if stage.options["refines"] else refined
         if done is not None:
             arrays = {"heights": family.heights, "table": family.table, "references": family.references}
+            arrays["refined"] = refined
             write_archive(done, _KIND, _VERSION, identity, arrays)
     family.save(out)
     return family
@@ -285,17 +304,21 @@ def _harvest(family: SkillFamily, run: RunSkill, rng: np.random.Generator) -> li
 def changed(
     family: SkillFamily, change: np.ndarray, stage: Stage, run: RunSkill, states: list[StartState]
 ) -> SkillFamily:
-    """The family after a stage that has found ``change`` (p,): the last member with the change becomes the
-    member at the stage's last height, with its sensors recorded anew."""
-    height = stage.options["heights"][1]
-    parameters, before = family.table[-1] + change, family.references[-1]
-    reference = _record(run, parameters, before.reshape(_REFERENCE), height, states).reshape(before.shape)
-    keep = family.heights < height - 1e-9
+    """The family after a stage that has found ``change`` (p,): the member that it began with becomes, with
+    the change, the member at the stage's last height; its sensors are recorded anew where it is not
+    refined."""
+    height, member = stage.options["heights"][1], member_of(family, stage)
+    parameters, reference = family.table[member] + change, family.references[member]
+    if not stage.options["refines"]:
+        recorded = _record(run, parameters, reference.reshape(_REFERENCE), height, states)
+        reference = recorded.reshape(reference.shape)
+    keep = np.abs(family.heights - height) > 1e-9
+    at = int(np.searchsorted(family.heights[keep], height))
     return replace(
         family,
-        heights=np.append(family.heights[keep], height),
-        table=np.append(family.table[keep], parameters[None], axis=0),
-        references=np.append(family.references[keep], reference[None], axis=0),
+        heights=np.insert(family.heights[keep], at, height),
+        table=np.insert(family.table[keep], at, parameters, axis=0),
+        references=np.insert(family.references[keep], at, reference, axis=0),
     )
 
 

@@ -105,6 +105,7 @@ def test_curriculum_reaches_every_height_with_feedback():
 
 def stage_of(same, **options):
     shared = {"heights": (0.6, 0.8), "states": 2, "error": 0.1, "duration": 1.0, "pull": 0.1, "same": same}
+    shared |= {"failed": 0.0, "refines": False}
     return Stage("test", 10, 0.1, scales("feedback"), {**shared, **options}, 4)
 
 
@@ -130,14 +131,27 @@ def test_cost_grows_with_the_change(simulator, states, family):
     )
 
 
+def test_what_is_no_vault_costs_more(simulator, states, family):
+    costs = []
+    for failed in (0.0, 4.0):
+        stage = stage_of(True, failed=failed, heights=(0.6, 0.6), duration=0.3)
+        problem = VaultProblem(simulator.run, family, states, stage, np.zeros_like(family.table[0]))
+        cost_, vaulted = problem.evaluate(stage, problem.start(), problem.scenarios(stage, 0, None))
+        costs.append(cost_)
+        assert vaulted == 0.0  # too short for it
+    assert costs[1] == pytest.approx(costs[0] + 4.0)
+
+
 def test_a_stage_adds_a_member_or_replaces_the_one_at_its_height(simulator, family):
     change = 0.01 * np.ones(family.table.shape[1])
     grown = changed(family, change, stage_of(False), simulator.run, [])
     assert grown.heights.tolist() == [0.6, 0.8]
     np.testing.assert_array_equal(grown.table, [family.table[0], family.table[0] + change])
-    again = changed(grown, change, stage_of(False), simulator.run, [])
+    refined = stage_of(False, heights=(0.6, 0.6), refines=True)
+    again = changed(grown, 2 * change, refined, simulator.run, [])
     assert again.heights.tolist() == [0.6, 0.8]
-    np.testing.assert_allclose(again.table[1], family.table[0] + 2 * change)
+    np.testing.assert_allclose(again.table, [family.table[0] + 2 * change, grown.table[1]])
+    np.testing.assert_array_equal(again.references, grown.references)
 
 
 def test_a_checkpoint_of_another_training_is_refused(tmp_path):

@@ -50,6 +50,7 @@ _WALK_GAINS = np.array([0.5, 0.6, 0.05, 0.3, 0.8, 0.25])
 _HASTE = 1.3  # [m/s] that the speed asked for may exceed the last step's: more trips it in setting off
 _FAST, _FAST_HASTE = 3.7, 0.8  # [m/s]: what is asked for above the first may exceed it by the second only
 _CHANGED = 4.0  # steps after which it has gone over to another gait
+_HELD_UP = 12.0  # steps after which one that has braked, and was pushed, need not come to rest any more
 _STILL = 0.03  # [m/s] of the centre of mass at rest
 
 
@@ -90,7 +91,7 @@ class OnFeet:
     def changes(self, state: NDArray[np.float64]) -> bool:
         """Whether it is going over from one gait to the other; told to go back meanwhile, it may fall."""
         if self.walks:
-            return bool(self.walk[CAUGHT] > 0.0 and self.walk[WALK_STEPS] < _CHANGED)
+            return self.brakes or bool(self.walk[CAUGHT] > 0.0 and self.walk[WALK_STEPS] < _CHANGED)
         return self.slowing > 0.0 or bool(state[controller.STEPS] < _CHANGED)
 
     @property
@@ -143,6 +144,8 @@ class OnFeet:
             command[1:3] = 0.0
             if np.hypot(*state[controller.COM_VELOCITY][:2]) > TURNING_SPEED:
                 command[0] = heading
+        if self.brakes:
+            pace = 0.0  # whatever it is told meanwhile: it has rehearsed to come to a stand
         command[1] = pace * min(command[1], self.walk_skill.speed)
         if pace == 0.0:  # it waits: whoever steps about in place drifts into those before it
             command[0], command[2] = heading, 0.0
@@ -175,7 +178,9 @@ class OnFeet:
         if self.walks:
             observe_walk(index, data, self.walk)
             if self.brakes and self.walk[PHASE] == STANDING:
-                self.brakes, self.walk[CAUGHT] = False, 0.0
+                self.walk[CAUGHT] = 0.0
+                self.brakes = not self.at_rest(state)
+            self.brakes &= bool(self.walk[WALK_STEPS] < _HELD_UP)
 
     # --- from one gait to the other
     def run(self, state: NDArray, quickly: bool, speed: float) -> None:

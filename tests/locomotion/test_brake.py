@@ -92,6 +92,21 @@ def test_one_that_has_to_wait_for_others_brakes():
     assert not human.on_feet.brakes
 
 
+@pytest.mark.parametrize("ticks", [20, 40, 60])
+def test_told_to_go_on_while_it_brakes_it_comes_to_a_stand_first(ticks):
+    human, least = running(300), np.inf
+    human.give_way(0.0, None)
+    for _ in range(ticks):
+        human.tick()
+    assert human.on_feet.brakes
+    human.give_way(1.0, None)
+    while human.gait_now != "run" or human.on_feet.slowing > 0.0:
+        assert human.status in ("running", "walking") and human.time < 20.0
+        human.tick()
+        least = min(least, float(np.linalg.norm(human.velocity[:2])))
+    assert least < 0.25
+
+
 def test_what_falls_does_not_come_to_rest():
     human = running(300)
     human.stop()

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from locomotion import controller
-from locomotion.brake import BrakeSkill, load_brake_skill
+from locomotion.brake import BRAKING, BrakeSkill, load_brake_skill
 from locomotion.clearing import ClearingSkill, skill_for
 from locomotion.controller import observe
 from locomotion.errors import LocomotionError
@@ -221,7 +221,11 @@ class Human(RehearsingPerson):
         if self._fours.active or self.status in CLEARING.values():
             return None
         if way.path is None or self.status not in ("walking", "running"):
-            return course_to_rest(here, velocity, feet.walk_limits if feet.walks else feet.limits)
+            limits = feet.walk_limits if feet.walks else feet.limits
+            will_brake = feet.runs and self.decides is not None
+            if feet.brakes or will_brake:
+                limits = replace(limits, deceleration=BRAKING)
+            return course_to_rest(here, velocity, limits)
         walks = self.status == "walking"
         limits, facing = feet.walk_limits, float(feet.walk[WALK_HEADING])
         if not walks:
@@ -230,7 +234,7 @@ class Human(RehearsingPerson):
         course = course_on_way(way, limits, here, velocity, walks, facing, aside)
         if feet.slowing == 0.0:
             return course
-        return replace(course, slowest=0.0, braking=feet.slowing)
+        return replace(course, slowest=0.0, braking=BRAKING if feet.brakes else feet.slowing)
 
     def give_way(self, pace: float, shift: NDArray[np.float64] | None) -> None:
         """Go at a share of the planned speed; with ``shift`` (k, 2) [m] change the path by it, one row for

@@ -24,9 +24,11 @@ from locomotion.walk_layout import GAINS
 from locomotion.walk_skill import WalkSkill
 from navmesh.archive import write_archive
 
-__all__ = ["BRAKE_SKILL", "FIRST_STEPS", "SLOWEST", "BrakeSkill", "load_brake_skill"]
+__all__ = ["BRAKE_SKILL", "BRAKING", "FIRST_STEPS", "SLOWEST", "BrakeSkill", "load_brake_skill"]
 
 BRAKE_SKILL = Path(__file__).parent / "skills" / "brake.npz"
+BRAKING = 2.4
+"""[m/s^2] at which a person that brakes comes to a stand, on the whole."""
 FIRST_STEPS = 3
 """Steps of the walk that have gains of their own."""
 SLOWEST = 0.3

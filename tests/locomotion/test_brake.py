@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from locomotion import Human, LocomotionError, controller
-from locomotion.brake import BRAKE_SKILL, FIRST_STEPS, load_brake_skill
+from locomotion.brake import BRAKE_SKILL, BRAKING, FIRST_STEPS, load_brake_skill
 from locomotion.person import MASS
 from locomotion.rehearsal import at_once, comes_to_rest
 from locomotion.training.brake import brake_of, draw_starts, first_guess, stop
@@ -81,7 +81,7 @@ def test_one_that_has_to_wait_for_others_brakes():
     human.give_way(0.0, None)
     human.tick()
     assert human.on_feet.brakes and human.on_feet.slowing > 2.0
-    assert human.prospect().braking == human.on_feet.slowing
+    assert human.prospect().braking == BRAKING
     for _ in range(350):
         human.tick()
     assert human.status == "walking" and np.linalg.norm(human.velocity[:2]) < 0.1

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from locomotion import MOVING, Ground, Human, friction_for
+from locomotion import MOVING, Ground, Human
 from locomotion.events import Fell, GotUp
 
 SPEEDS = (0.8, 1.2, 3.0, 4.0)  # [m/s] that they go at
@@ -27,7 +27,7 @@ def plane(slope: float) -> Ground | None:
         return None
     half, rise = 100.0, 100.0 * slope
     corners = [[-half, -half, -rise], [half, -half, -rise], [half, half, rise], [-half, half, rise]]
-    return Ground.from_arrays(corners, [[0, 1, 2], [0, 2, 3]], friction_for(math.atan(slope)))
+    return Ground.from_arrays(corners, [[0, 1, 2], [0, 2, 3]], math.atan(slope))
 
 
 def falls(human: Human, count: int, rng: np.random.Generator) -> Iterator[tuple[float, bool]]:

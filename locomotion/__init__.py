@@ -3,7 +3,7 @@
 from locomotion.approach import ApproachPlan, plan_approach, plan_approach_exact
 from locomotion.body import ARRIVAL_DISTANCE, PERSON_RULES, Human, HumanState
 from locomotion.errors import LocomotionError
-from locomotion.ground import Ground, friction_for
+from locomotion.ground import Ground
 from locomotion.human_state import MOVING
 from locomotion.route_smoothing import ObstacleAhead, Smoothing, SmoothPath, smooth_route
 from locomotion.skill import RunSkill, load_run_skill
@@ -21,7 +21,6 @@ __all__ = [
     "RunSkill",
     "SmoothPath",
     "Smoothing",
-    "friction_for",
     "load_run_skill",
     "plan_approach",
     "plan_approach_exact",

@@ -25,13 +25,15 @@ from locomotion.errors import LocomotionError
 from locomotion.trimesh_build import build_triangle_arrays
 from locomotion.trimesh_install import MARK, occupy, release
 
-__all__ = ["FRICTION", "Ground", "friction_for", "height_below", "plane_lookup"]
+__all__ = ["FRICTION", "Ground", "height_below", "plane_lookup"]
 
 FRICTION = 0.9
 """Friction of shoes on a usual ground."""
-_HOLD = 1.4 * math.sqrt(2.0)
-# friction per slope with which a foot on a floor still has force to spare, in the worst direction of the
-# pyramid that stands for the cone of friction: it holds 1 / sqrt(2) of its coefficient there
+_HOLD, _SPARE = math.sqrt(2.0), 1.4
+# friction per slope that holds a foot in the worst direction of the pyramid that stands for the cone of
+# friction: it holds 1 / sqrt(2) of its coefficient there; by how much more a floor has force to spare
+_STEEPEST_FRONT, _LOWEST_FRONT = 1.0, 0.05
+# slope beyond which the front of a step is not trodden on; [m] of height below which it does not matter
 _HARD = (0.999, 0.9999, 0.001, 0.5, 2.0)
 # impedance of contacts with steep ground: with the usual one hands and feet creep downhill by 3 to 5 cm/s
 _TORSIONAL, _ROLLING = 0.005, 0.0001
@@ -49,12 +51,16 @@ class Ground:
         low, high: (3,) float64, bounds [m].
         digest: hex digest of the mesh.
         friction: coefficient of friction.
+        steep: whether floors are steeper than the usual friction holds.
     """
 
     def __init__(
-        self, vertices: NDArray[np.float64], faces: NDArray[np.int64], friction: float = FRICTION
+        self, vertices: NDArray[np.float64], faces: NDArray[np.int64], max_slope: float, max_step: float
     ) -> None:
-        self.vertices, self.faces, self.friction = vertices, faces, friction
+        self.vertices, self.faces = vertices, faces
+        floors, fronts = _SPARE * math.tan(max_slope), _steepest_front(vertices, faces, max_slope, max_step)
+        self.friction = max(FRICTION, _HOLD * floors, _HOLD * fronts)
+        self.steep = _HOLD * floors > FRICTION
         used = vertices[np.unique(faces)]
         self.low, self.high = used.min(axis=0), used.max(axis=0)
         self._origin = np.ascontiguousarray(0.5 * (self.low + self.high))
@@ -68,12 +74,17 @@ class Ground:
         weakref.finalize(self, _release, self._slot, kept)
 
     @classmethod
-    def from_arrays(cls, vertices: ArrayLike, faces: ArrayLike, friction: float = FRICTION) -> Ground:
-        """vertices (v, 3) [m], faces (f, 3) indices of corners, counter-clockwise seen from outside;
-        friction: its coefficient.
+    def from_arrays(
+        cls, vertices: ArrayLike, faces: ArrayLike, max_slope: float = 0.0, max_step: float = 0.0
+    ) -> Ground:
+        """vertices (v, 3) [m], faces (f, 3) indices of corners, counter-clockwise seen from outside.
+
+        max_slope [rad], max_step [m]: floors up to which are walked on, and steps up to which are taken
+        without a skill, as of `navmesh.WalkRules`; the ground has the friction that takes, and `FRICTION` at
+        least: on floors and on fronts of steps that are steeper than that holds, nobody could stand.
 
         Raises `LocomotionError` for wrong shapes, coordinates that are not finite, indices out of range, and
-        a friction that is not a positive number.
+        slopes or steps that are below 0 or too great.
         """
         points = np.ascontiguousarray(vertices, dtype=np.float64)
         triangles = np.asarray(faces)
@@ -88,9 +99,11 @@ class Ground:
             raise LocomotionError(f"vertex {row} is {points[row]}; give finite coordinates")
         if triangles.min() < 0 or triangles.max() >= len(points):
             raise LocomotionError(f"faces name vertices outside 0 to {len(points) - 1}")
-        if not (np.isfinite(friction) and friction > 0.0):
-            raise LocomotionError(f"friction must be a finite number above 0, not {friction}")
-        return cls(points, np.ascontiguousarray(triangles, dtype=np.int64), float(friction))
+        if not 0.0 <= max_slope < 0.5 * math.pi:
+            raise LocomotionError(f"max_slope is {max_slope} rad; give 0 to less than {0.5 * math.pi:.2f}")
+        if not 0.0 <= max_step < math.inf:
+            raise LocomotionError(f"max_step is {max_step} m; give a finite number from 0 on")
+        return cls(points, np.ascontiguousarray(triangles, dtype=np.int64), max_slope, max_step)
 
     @property
     def arrays(self):
@@ -107,11 +120,6 @@ class Ground:
     def origin(self) -> NDArray[np.float64]:
         """(3,) point [m] that the kernel's coordinates are relative to."""
         return self._origin
-
-    @property
-    def steep(self) -> bool:
-        """Whether floors of this ground are steeper than the usual friction holds (`friction_for`)."""
-        return self.friction > FRICTION
 
     def add_to(self, spec: mujoco.MjSpec, visual: bool = True) -> Any:
         """Add the ground to a model's description; returns the geom ``ground`` that stands for it.
@@ -181,10 +189,22 @@ class Ground:
         return heights + self._origin[2], normals
 
 
-def friction_for(max_slope: float) -> float:
-    """Friction of a level whose rules call floors up to ``max_slope`` [rad] walkable: on ground that is
-    steeper than the usual friction holds, nobody could stand."""
-    return max(FRICTION, _HOLD * math.tan(max_slope))
+def _steepest_front(
+    vertices: NDArray[np.float64], faces: NDArray[np.int64], max_slope: float, max_step: float
+) -> float:
+    """Slope of the steepest front of a step that feet come down on, 0 where there is none: of the faces that
+    are steeper than floors and rise by a step at most over their width."""
+    corners = vertices[faces]
+    edges = np.roll(corners, -1, axis=1) - corners
+    normals = np.cross(edges[:, 0], edges[:, 1])  # twice as long as the face is large
+    flat, level = np.hypot(normals[:, 0], normals[:, 1]), normals[:, 2]
+    facing_up = level > 0.0
+    slopes = flat[facing_up] / level[facing_up]
+    lengths = np.hypot(edges[facing_up, :, 0], edges[facing_up, :, 1]).max(axis=1)
+    heights = flat[facing_up] / lengths  # the slope times the width across the longest edge, seen from above
+    trodden = (slopes > math.tan(max_slope)) & (slopes <= _STEEPEST_FRONT)
+    trodden &= (heights >= _LOWEST_FRONT) & (heights <= max_step)
+    return float(np.max(slopes[trodden], initial=0.0))
 
 
 @lru_cache(maxsize=1)

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import navmesh
-from locomotion import Ground, friction_for
+from locomotion import Ground
 
 __all__ = ["Level"]
 
@@ -19,6 +19,6 @@ class Level:
     def of(cls, graph: navmesh.NodeGraph) -> "Level":
         """The level that a graph was built for. Raises `locomotion.LocomotionError` for one without a
         triangle that has an area."""
-        terrain = graph.terrain
-        friction = friction_for(graph.rules.max_slope)
-        return cls(graph, Ground.from_arrays(terrain.vertices, terrain.faces, friction))
+        terrain, rules = graph.terrain, graph.rules
+        ground = Ground.from_arrays(terrain.vertices, terrain.faces, rules.max_slope, rules.max_step)
+        return cls(graph, ground)

@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 from scipy.ndimage import map_coordinates
 
-from locomotion.ground import Ground, friction_for
+from locomotion.ground import Ground
 
 __all__ = ["HALF", "KINDS", "ground_height", "training_ground"]
 
@@ -74,5 +74,5 @@ def training_ground(kind: str) -> Ground:
     corner = (np.arange(n - 1)[:, None] * n + np.arange(n - 1)).ravel()
     a, b, d, e = corner, corner + n, corner + n + 1, corner + 1
     faces = np.concatenate([np.stack([a, b, d], axis=1), np.stack([a, d, e], axis=1)])
-    friction = friction_for(math.atan(_STEEPEST.get(kind, 0.0)))
-    return Ground.from_arrays(np.stack([x, y, ground_height(kind, x, y)], axis=1), faces, friction)
+    corners = np.stack([x, y, ground_height(kind, x, y)], axis=1)
+    return Ground.from_arrays(corners, faces, math.atan(_STEEPEST.get(kind, 0.0)))

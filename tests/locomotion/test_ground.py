@@ -375,3 +375,35 @@ def test_batch_of_two_threads_equals_single_runs():
 def test_bad_meshes_are_refused(vertices, faces, message):
     with pytest.raises(LocomotionError, match=message):
         Ground.from_arrays(vertices, np.asarray(faces))
+
+
+def flight(front, slope):
+    """A ramp of 0.33 interrupted every 1.5 m by fronts ``front`` [m] high that rise with ``slope``."""
+    run = [(1.5, 0.33 * 1.5), (front / slope, front)] * 4
+    profile = np.vstack([[0.0, 0.0], np.cumsum(run, axis=0)])
+    vertices = np.array([[x, y, z] for y in (-2.0, 2.0) for x, z in profile])
+    n = len(profile)
+    faces = [[i, i + 1, i + 1 + n] for i in range(n - 1)] + [[i, i + 1 + n, i + n] for i in range(n - 1)]
+    return Ground.from_arrays(vertices, faces, max_slope=np.radians(20.0), max_step=0.2)
+
+
+@pytest.mark.parametrize(
+    ("front", "slope", "held"),
+    [(0.1, 0.8, 0.8), (0.1, 0.4, 0.0), (0.3, 0.8, 0.0), (0.1, 2.0, 0.0), (0.02, 0.8, 0.0)],
+    ids=["trodden on", "no steeper than usual", "no step", "no place for a foot", "under a sole"],
+)
+def test_ground_holds_feet_on_fronts_of_steps(front, slope, held):
+    ground = flight(front, slope)
+    assert ground.friction == pytest.approx(max(0.9, 2.0**0.5 * held), abs=1e-6)
+    assert not ground.steep  # what is stood on is not
+
+
+def test_ground_holds_feet_on_its_floors():
+    square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]
+    for slope, steep in ((20.0, False), (40.0, True)):
+        ground = Ground.from_arrays(*square, max_slope=np.radians(slope))
+        assert ground.steep == steep and ground.friction >= 1.9 * np.tan(np.radians(slope)) * steep
+    with pytest.raises(LocomotionError, match=r"max_slope is 2\.0 rad; give 0 to less than 1\.57"):
+        Ground.from_arrays(*square, max_slope=2.0)
+    with pytest.raises(LocomotionError, match="max_step is nan m"):
+        Ground.from_arrays(*square, max_step=float("nan"))

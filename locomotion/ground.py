@@ -36,6 +36,7 @@ _STEEPEST_FRONT, _LOWEST_FRONT = 1.0, 0.05
 # slope beyond which the front of a step is not trodden on; [m] of height below which it does not matter
 _HARD = (0.999, 0.9999, 0.001, 0.5, 2.0)
 # impedance of contacts with steep ground: with the usual one hands and feet creep downhill by 3 to 5 cm/s
+_USUAL = (0.9, 0.95, 0.001, 0.5, 2.0)  # MuJoCo's impedance of contacts
 _TORSIONAL, _ROLLING = 0.005, 0.0001
 _MESH_FACES = 200_000  # MuJoCo's renderer draws larger meshes badly; only pictures are cut off
 
@@ -59,7 +60,7 @@ class Ground:
     ) -> None:
         self.vertices, self.faces = vertices, faces
         floors, fronts = _SPARE * math.tan(max_slope), _steepest_front(vertices, faces, max_slope, max_step)
-        self.friction = max(FRICTION, _HOLD * floors, _HOLD * fronts)
+        self.friction = max(FRICTION, _HOLD * floors, _HOLD * _SPARE * fronts)
         self.steep = _HOLD * floors > FRICTION
         used = vertices[np.unique(faces)]
         self.low, self.high = used.min(axis=0), used.max(axis=0)
@@ -140,8 +141,8 @@ class Ground:
             contype=1, conaffinity=0, friction=[self.friction, _TORSIONAL, _ROLLING], rgba=[0, 0, 0, 0],
             group=4, userdata=user,
         )  # fmt: skip
-        if self.steep:
-            geom.solimp, geom.priority = _HARD, 1
+        if self.friction > FRICTION:
+            geom.solimp, geom.priority = _HARD if self.steep else _usually_hard(self.friction), 1
         if visual:
             self._add_visual(spec)
         return geom
@@ -187,6 +188,14 @@ class Ground:
         a = self._arrays
         _surface_below(a.rows, a.cell_start, a.cell_triangles, a.grid, a.shape, wanted, heights, normals)
         return heights + self._origin[2], normals
+
+
+def _usually_hard(friction: float) -> tuple[float, ...]:
+    """Impedance with which contacts give way about as much as with `FRICTION`: the pyramid of a greater
+    coefficient is softer by its square."""
+    softer = (FRICTION / friction) ** 2
+    least, most = (1.0 / (1.0 + softer * (1.0 / each - 1.0)) for each in _USUAL[:2])
+    return (least, most, *_USUAL[2:])
 
 
 def _steepest_front(

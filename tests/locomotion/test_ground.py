@@ -378,9 +378,9 @@ def test_bad_meshes_are_refused(vertices, faces, message):
 
 
 def flight(front, slope):
-    """A ramp of 0.33 interrupted every 1.5 m by fronts ``front`` [m] high that rise with ``slope``."""
+    """A floor, and a ramp of 0.33 with a front ``front`` [m] high that rises with ``slope`` every 1.5 m."""
     run = [(1.5, 0.33 * 1.5), (front / slope, front)] * 4
-    profile = np.vstack([[0.0, 0.0], np.cumsum(run, axis=0)])
+    profile = np.vstack([[-3.0, 0.0], [0.0, 0.0], np.cumsum(run, axis=0)])
     vertices = np.array([[x, y, z] for y in (-2.0, 2.0) for x, z in profile])
     n = len(profile)
     faces = [[i, i + 1, i + 1 + n] for i in range(n - 1)] + [[i, i + 1 + n, i + n] for i in range(n - 1)]
@@ -394,8 +394,19 @@ def flight(front, slope):
 )
 def test_ground_holds_feet_on_fronts_of_steps(front, slope, held):
     ground = flight(front, slope)
-    assert ground.friction == pytest.approx(max(0.9, 2.0**0.5 * held), abs=1e-6)
+    assert ground.friction == pytest.approx(max(0.9, 1.4 * 2.0**0.5 * held), abs=1e-6)
     assert not ground.steep  # what is stood on is not
+
+
+def test_ground_that_holds_more_is_hardly_softer():
+    depths = []
+    for ground in (flight(0.1, 0.4), flight(0.1, 0.9)):
+        model, data = scene(ground, SPHERE, [0.05, 0, 0], [-1.5, 0.1, 0.05], density=2e4)
+        for _ in range(400):
+            mujoco.mj_step(model, data)
+        depths.append(-data.contact.dist.min())
+    assert depths[0] > 1e-4
+    assert depths[1] < 1.6 * depths[0]  # 3.5 times as deep with the usual impedance
 
 
 def test_ground_holds_feet_on_its_floors():

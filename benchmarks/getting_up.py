@@ -27,7 +27,7 @@ def plane(slope: float) -> Ground | None:
         return None
     half, rise = 100.0, 100.0 * slope
     corners = [[-half, -half, -rise], [half, -half, -rise], [half, half, rise], [-half, half, rise]]
-    return Ground.from_arrays(corners, [[0, 1, 2], [0, 2, 3]], math.atan(slope))
+    return Ground.from_arrays(corners, [[0, 1, 2], [0, 2, 3]], max_slope=math.atan(slope))
 
 
 def falls(human: Human, count: int, rng: np.random.Generator) -> Iterator[tuple[float, bool]]:

@@ -76,7 +76,7 @@ class Ground:
 
     @classmethod
     def from_arrays(
-        cls, vertices: ArrayLike, faces: ArrayLike, max_slope: float = 0.0, max_step: float = 0.0
+        cls, vertices: ArrayLike, faces: ArrayLike, *, max_slope: float = 0.0, max_step: float = 0.0
     ) -> Ground:
         """vertices (v, 3) [m], faces (f, 3) indices of corners, counter-clockwise seen from outside.
 

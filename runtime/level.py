@@ -20,5 +20,7 @@ class Level:
         """The level that a graph was built for. Raises `locomotion.LocomotionError` for one without a
         triangle that has an area."""
         terrain, rules = graph.terrain, graph.rules
-        ground = Ground.from_arrays(terrain.vertices, terrain.faces, rules.max_slope, rules.max_step)
+        ground = Ground.from_arrays(
+            terrain.vertices, terrain.faces, max_slope=rules.max_slope, max_step=rules.max_step
+        )
         return cls(graph, ground)

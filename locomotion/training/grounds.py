@@ -75,4 +75,4 @@ def training_ground(kind: str) -> Ground:
     a, b, d, e = corner, corner + n, corner + n + 1, corner + 1
     faces = np.concatenate([np.stack([a, b, d], axis=1), np.stack([a, d, e], axis=1)])
     corners = np.stack([x, y, ground_height(kind, x, y)], axis=1)
-    return Ground.from_arrays(corners, faces, math.atan(_STEEPEST.get(kind, 0.0)))
+    return Ground.from_arrays(corners, faces, max_slope=math.atan(_STEEPEST.get(kind, 0.0)))

@@ -18,7 +18,7 @@ def plane(slope: float) -> Ground:
     """A square of 80 m that rises towards x."""
     half, rise = 40.0, 40.0 * slope
     corners = [[-half, -half, -rise], [half, -half, rise], [half, half, rise], [-half, half, -rise]]
-    return Ground.from_arrays(corners, [[0, 1, 2], [0, 2, 3]], math.atan(slope))
+    return Ground.from_arrays(corners, [[0, 1, 2], [0, 2, 3]], max_slope=math.atan(slope))
 
 
 def push_over(human: Human, direction: float, speed: float) -> None:

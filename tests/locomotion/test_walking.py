@@ -226,7 +226,8 @@ def test_walks_along_winding_paths(kind):
 def test_walks_up_along_and_down_a_slope(slope, direction_deg):
     corners = np.array([[-50, -50], [50, -50], [50, 50], [-50, 50]], dtype=float)
     corners = np.column_stack([corners, slope * corners[:, 0]])
-    human = Human(Ground.from_arrays(corners, [[0, 1, 2], [0, 2, 3]], 1.3), clearing=())
+    ground = Ground.from_arrays(corners, [[0, 1, 2], [0, 2, 3]], max_slope=math.atan(slope))
+    human = Human(ground, clearing=())
     yaw = math.radians(direction_deg)
     way = np.outer(np.linspace(0.0, 4.0, 9), [math.cos(yaw), math.sin(yaw), slope * math.cos(yaw)])
     human.reset(way[0], yaw)

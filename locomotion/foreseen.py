@@ -26,8 +26,8 @@ class Foreseen:
         them know of a force that pushes it now."""
         self.forget()
         if not person.data.xfrc_applied.any():
-            self._model = person.model
-            for state in (person.save_state(), *states):
+            self.begin(person)
+            for state in states:
                 self.add(state)
 
     def begin(self, person: MovingPerson) -> None:

@@ -29,9 +29,9 @@ __all__ = ["FRICTION", "Ground", "height_below", "plane_lookup"]
 
 FRICTION = 0.9
 """Friction of shoes on a usual ground."""
-_HOLD, _SPARE = math.sqrt(2.0), 1.4
-# friction per slope that holds a foot in the worst direction of the pyramid that stands for the cone of
-# friction: it holds 1 / sqrt(2) of its coefficient there; by how much more a floor has force to spare
+_HOLD = 1.4 * math.sqrt(2.0)
+# friction per slope with which a foot still has force to spare, in the worst direction of the pyramid that
+# stands for the cone of friction: it holds 1 / sqrt(2) of its coefficient there
 _STEEPEST_FRONT, _LOWEST_FRONT = 1.0, 0.05
 # slope beyond which the front of a step is not trodden on; [m] of height below which it does not matter
 _HARD = (0.999, 0.9999, 0.001, 0.5, 2.0)
@@ -59,9 +59,9 @@ class Ground:
         self, vertices: NDArray[np.float64], faces: NDArray[np.int64], max_slope: float, max_step: float
     ) -> None:
         self.vertices, self.faces = vertices, faces
-        floors, fronts = _SPARE * math.tan(max_slope), _steepest_front(vertices, faces, max_slope, max_step)
-        self.friction = max(FRICTION, _HOLD * floors, _HOLD * _SPARE * fronts)
-        self.steep = _HOLD * floors > FRICTION
+        floors = _HOLD * math.tan(max_slope)
+        fronts = _HOLD * _steepest_front(vertices, faces, max_slope, max_step)
+        self.friction, self.steep = max(FRICTION, floors, fronts), floors > FRICTION
         used = vertices[np.unique(faces)]
         self.low, self.high = used.min(axis=0), used.max(axis=0)
         self._origin = np.ascontiguousarray(0.5 * (self.low + self.high))

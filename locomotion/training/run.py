@@ -180,7 +180,13 @@ FASTEST = ({**_STEADY, "speeds": (4.3, 5.0), "lateral": 1.6},)
 _LONGER = {**_STEADY, "speeds": (4.05, 5.0), "duration": 6.0}
 FAST_BENDS_AND_PUSHES = {**_LONGER, "lateral": 1.9, "push": 60.0}, {**_LONGER, "push": 320.0}
 _TOP_PUSH = {**_STEADY, "speeds": (4.7, 5.0), "push": 330.0, "duration": 5.0}
-TOP = {**_STEADY, "speeds": (4.6, 5.0), "lateral": 2.0, "duration": 6.0}, _TOP_PUSH, _TOP_PUSH
+_TOP_BEND = {**_STEADY, "speeds": (4.6, 5.0), "lateral": 2.0, "duration": 6.0}
+TOP = _TOP_BEND, _TOP_PUSH, _TOP_PUSH
+_HARD_TOP_PUSH = {**_TOP_PUSH, "speeds": (4.85, 5.0), "push": 360.0}
+TOP_PUSHES = (
+    _HARD_TOP_PUSH, _TOP_BEND, _HARD_TOP_PUSH, _HARD_TOP_PUSH, _HARD_TOP_PUSH,
+    {**_HARD_TOP_PUSH, "speeds": (4.5, 5.0)},
+)  # fmt: skip
 _SLOW_PUSH = {**_STEADY, "speeds": (1.8, 2.3), "push": 330.0, "duration": 5.0}
 SLOW_PUSHES = (
     _SLOW_PUSH, {**_SLOW_PUSH, "speeds": (1.8, 2.5), "lateral": 1.2, "push": 60.0},
@@ -197,7 +203,8 @@ SLOW_KINDS = (
 
 
 def curriculum(effort: float = 1.0) -> tuple[Stage, ...]:
-    """The stages from nothing to the whole family; ``effort`` scales the number of generations."""
+    """The stages from nothing to the whole family; ``effort`` scales the number of generations. A stage's
+    ``fall`` is what each fall costs besides the time that is lost."""
 
     def stage(
         name: str,
@@ -207,10 +214,12 @@ def curriculum(effort: float = 1.0) -> tuple[Stage, ...]:
         trials: int,
         kinds: tuple[dict, ...] = ({},),
         style: float = 0.4,
+        fall: float = 0.0,
+        population: int = 32,
         **trial: Any,
     ) -> Stage:
-        options = {"trials": trials, "style": style, "trial": trial, "kinds": kinds}
-        return Stage(name, max(round(generations * effort), 1), sigma, scale, options)
+        options = {"trials": trials, "style": style, "fall": fall, "trial": trial, "kinds": kinds}
+        return Stage(name, max(round(generations * effort), 1), sigma, scale, options, population)
 
     middle, family, slow = genes_scale(1, 0, 0, 0), genes_scale(1, 1, 0, 0), genes_scale(0, 0, 0, 1)
     every = genes_scale(1, 1, 1, 0)
@@ -268,6 +277,17 @@ def curriculum(effort: float = 1.0) -> tuple[Stage, ...]:
             style=0.3,
         ),
         stage("top", 40, 0.04, rows_scale(faster=0.2, fastest=1), 6, TOP, style=0.3),
+        stage(
+            "top pushes",
+            60,
+            0.03,
+            rows_scale(fastest=1),
+            12,
+            TOP_PUSHES,
+            style=0.3,
+            fall=6.0,
+            population=24,
+        ),
         stage("slow pushes", 16, 0.06, rows_scale(slow=1), 8, SLOW_PUSHES, style=0.3),
     )
 
@@ -361,6 +381,7 @@ class RunProblem:
             else:
                 trial = _simulator().run(skill, scenario)
             costs += cost(trial, scenario.duration, stage.options["style"])
+            costs += stage.options["fall"] * (trial.figures["time"] < scenario.duration - 0.02)
             survived += trial.figures["time"] / scenario.duration
         return costs / len(scenarios), survived / len(scenarios)
 

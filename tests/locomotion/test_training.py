@@ -63,7 +63,8 @@ def test_cma_keeps_up_with_the_cma_package() -> None:
 
 
 def tiny_problem() -> RunProblem:
-    options = {"trials": 1, "style": 0.3, "kinds": ({},), "trial": {"duration": 0.2, "noise": 0.2}}
+    trial = {"duration": 0.2, "noise": 0.2}
+    options = {"trials": 1, "style": 0.3, "fall": 0.0, "kinds": ({},), "trial": trial}
     stages = tuple(Stage(name, 2, 0.1, genes_scale(1, 0, 0, 0), options, population=4) for name in ("a", "b"))
     return RunProblem(
         stages, np.concatenate([first_guess(), np.zeros((len(BLOCKS) - 1) * SIZE)]), first_state_reference()
@@ -100,6 +101,15 @@ def test_rows_of_their_own_begin_as_their_neighbours_and_are_learned_alone() -> 
         assert (after[row, part["m_ap"]] != before.table[row, part["m_ap"]]).all()
         np.testing.assert_array_equal(np.delete(after, row, axis=0), np.delete(before.table, row, axis=0))
         np.testing.assert_array_equal(after[:, part["climb"]], before.table[:, part["climb"]])
+
+
+def test_a_fall_costs_what_its_stage_says_and_a_trial_that_lasts_nothing() -> None:
+    problem, rng = tiny_problem(), np.random.default_rng(2)
+    lasts, falls = draw_scenario(rng, 0.2), draw_scenario(rng, 3.0, push=3000.0)
+    for trials, more in (([lasts], 0.0), ([falls], 6.0), ([lasts, falls], 3.0)):
+        free, dear = (Stage("a", 1, 0.1, np.ones(1), {"style": 0.3, "fall": fall}) for fall in (0.0, 6.0))
+        free, dear = (problem.evaluate(stage, problem.genes, trials)[0] for stage in (free, dear))
+        assert dear - free == pytest.approx(more)
 
 
 def test_same_trial_same_outcome() -> None:

@@ -12,17 +12,17 @@ __all__ = ["HALF", "KINDS", "ground_height", "training_ground"]
 
 HALF = 40.0
 """Half the side [m] of a training ground."""
-KINDS = ("level", "gentle", "rolling", "ramps", "moguls", "crags", "cliffs")
+KINDS = ("level", "gentle", "rolling", "ramps", "moguls", "crags")
 """Waves with slopes up to 0.1 and up to 0.35; plateaus joined by ramps of a slope of 0.3, 12 m long; random
-heights every 1.5 m, with a median slope of about 0.3; random heights every 2.2 m, as crags with
-slopes up to 0.65, as cliffs up to 1."""
+heights every 1.5 m, with a median slope of about 0.3; crags, random heights every 2.2 m with slopes up to
+0.44, the steepest on which people still walk."""
 _MESH = 0.5  # [m] side of the squares
 _WAVES = ((0.9, 0.35, 0.4), (-0.4, 0.8, 1.9), (0.55, -0.65, 3.1))  # (wave numbers x, y [1/m], phase)
 _ALONG = (0.9, 0.43)  # direction in which the ramps rise
 _PLATEAU, _RAMP, _STEEP = 3.0, 12.0, 0.3
-_SPACING = {"moguls": 1.5, "crags": 2.2, "cliffs": 2.2}  # [m] between random heights
-_ROUGH = {"moguls": 0.3, "crags": 5.0, "cliffs": 8.0}  # [m] of those
-_STEEPEST = {"crags": 0.65, "cliffs": 1.0}  # their slopes
+_SPACING = {"moguls": 1.5, "crags": 2.2}  # [m] between random heights
+_ROUGH = {"moguls": 0.3, "crags": 5.0}  # [m] of those
+_STEEPEST = {"crags": 0.44}  # their slopes
 
 
 @lru_cache(maxsize=len(_SPACING))

@@ -27,19 +27,15 @@ _MARGIN = 2.0  # [m] from the ground's border
 class PathScenario:
     """One path to follow.
 
-    ground: one of `grounds.KINDS`; points: (n, 3) float64 [m]; speed: wished [m/s]; pushes: (j, 3) rows of
-    time [s] and force x, y [N] on the chest for 0.1 s.
+    ground: one of `grounds.KINDS`; points: (n, 3) float64 [m]; length: how much of it counts [m], horizontal;
+    speed: wished [m/s]; pushes: (j, 3) rows of time [s] and force x, y [N] on the chest for 0.1 s.
     """
 
     ground: str
     points: np.ndarray
+    length: float
     speed: float
     pushes: np.ndarray
-
-    @property
-    def length(self) -> float:
-        """[m], horizontal."""
-        return float(np.linalg.norm(np.diff(self.points[:, :2], axis=0), axis=1).sum())
 
     @property
     def duration(self) -> float:
@@ -54,13 +50,16 @@ def draw_path(
     radius: float,
     ground: str = "level",
     push: float = 0.0,
+    beyond: float = 0.0,
 ) -> PathScenario:
     """A random winding path.
 
     length [m] and speeds [m/s]: ranges drawn from; radius: of the tightest bends [m]; ground: kind; push:
-    highest force [N] of pushes every 3 s.
+    highest force [N] of pushes every 3 s; beyond: what follows straight on [m], so that nobody slows down
+    before the end of what counts.
     """
-    count = max(round(rng.uniform(*length) / _PACE), 8)
+    counted = max(round(rng.uniform(*length) / _PACE), 8)
+    count = counted + round(beyond / _PACE)
     curvature = np.empty(0)
     while len(curvature) < count:
         bend = rng.uniform(-1.0, 1.0) / radius * (rng.random() < 0.65)
@@ -69,6 +68,7 @@ def draw_path(
     window = round(_TURN_IN / _PACE)
     curvature = np.convolve(np.pad(curvature, window, mode="edge"), np.full(window, 1.0 / window), "same")
     curvature = curvature[window : window + count]
+    curvature[counted:] = 0.0
     heading = rng.uniform(-np.pi, np.pi) + np.concatenate([[0.0], np.cumsum(curvature * _PACE)[:-1]])
     points = np.zeros((count + 1, 3))
     points[1:, 0], points[1:, 1] = np.cumsum(_PACE * np.cos(heading)), np.cumsum(_PACE * np.sin(heading))
@@ -79,7 +79,7 @@ def draw_path(
     angle, force = rng.uniform(0, 2 * np.pi, len(times)), push * np.sqrt(rng.random(len(times)))
     pushes = np.stack([times, force * np.cos(angle), force * np.sin(angle)], axis=1)
     pushes = pushes[: len(times) if push > 0.0 else 0]
-    return PathScenario(ground, points, float(rng.uniform(*speeds)), pushes)
+    return PathScenario(ground, points, counted * _PACE, float(rng.uniform(*speeds)), pushes)
 
 
 def follow_path(scenario: PathScenario, run: RunSkill | None = None, walk: WalkSkill | None = None) -> Trial:
@@ -96,7 +96,11 @@ def follow_path(scenario: PathScenario, run: RunSkill | None = None, walk: WalkS
     measures = Measures(human.data, human.index)
     push, state = human.data.xfrc_applied[human.index.chest], human.control
     aside, ticks = 0.0, 0
-    while human.status in MOVING and ticks * CONTROL_DT < scenario.duration:
+    while (
+        human.status in MOVING
+        and human.arc_length < scenario.length
+        and ticks * CONTROL_DT < scenario.duration
+    ):
         time = ticks * CONTROL_DT
         push[:2] = 0.0
         for start, fx, fy in scenario.pushes:
@@ -109,8 +113,9 @@ def follow_path(scenario: PathScenario, run: RunSkill | None = None, walk: WalkS
     push[:2] = 0.0
     for _ in range(_STANDS if human.status == "arrived" else 0):
         human.tick()
-    done = 1.0 if human.status == "arrived" else min(human.arc_length / scenario.length, 0.99)
+    covered = human.arc_length / scenario.length
+    done = human.status == "arrived" or (human.status in MOVING and covered >= 1.0)
     figures = measures.figures(state, ticks)
-    figures["time"] = done * scenario.duration
+    figures["time"] = (1.0 if done else min(covered, 0.99)) * scenario.duration
     figures["side_drift"] = 2.0 * aside / max(ticks, 1)
     return Trial(figures, np.concatenate([human.qpos, state]))

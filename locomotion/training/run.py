@@ -161,17 +161,17 @@ def rows_scale(slow: float = 0.0, faster: float = 0.0, fastest: float = 0.0) -> 
     return np.concatenate([np.zeros(4 * SIZE), slow * free, faster * free, fastest * free])
 
 
-WAY: dict[str, Any] = {"length": (10.0, 22.0), "radius": 3.4, "speeds": (2.6, 3.6)}
-"""A path that is run from where the person has walked a few steps."""
+WAY: dict[str, Any] = {"length": (12.0, 20.0), "beyond": 10.0, "radius": 6.0, "speeds": (2.6, 3.6)}
+"""A path that is run from where the person has walked a few steps, without bends in which it would walk."""
 _PUSHED = {"speeds": (3.3, 3.3), "push": 330.0, "noise": 0.3, "duration": 7.0}
 _ANY_SPEED = {"speeds": (2.6, 3.9), "steady": True, "push": 250.0, "noise": 0.3, "duration": 7.0}
-_FROM_STANDING = {"speeds": (3.0, 3.5), "standing": 0.5, "push": 240.0, "noise": 0.3, "duration": 10.0}
+_FROM_STANDING = {"speeds": (3.0, 3.5), "standing": 0.5, "push": 240.0, "noise": 0.3, "duration": 7.0}
 WAYS = (
-    WAY, _FROM_STANDING, {**WAY, "ground": "gentle"}, _ANY_SPEED, {**WAY, "push": 60.0}, _FROM_STANDING,
-    {**WAY, "ground": "gentle"}, {**WAY, "length": (9.0, 12.0)},
+    WAY, _FROM_STANDING, {**WAY, "ground": "gentle"}, _ANY_SPEED, {**WAY, "push": 60.0},
+    {**WAY, "length": (10.0, 12.0)},
 )  # fmt: skip
 HARD_PUSHES = (
-    WAY, _PUSHED, {**WAY, "ground": "gentle"}, _PUSHED, _ANY_SPEED, _PUSHED, {**WAY, "length": (9.0, 12.0)},
+    WAY, _PUSHED, {**WAY, "ground": "gentle"}, _PUSHED, _ANY_SPEED, _PUSHED, {**WAY, "length": (10.0, 12.0)},
     _PUSHED, {"speeds": (3.3, 3.3), "standing": 1.0, "noise": 0.2, "duration": 5.0},
 )  # fmt: skip
 _STEADY = {"steady": True, "noise": 0.3, "duration": 4.0}
@@ -263,7 +263,7 @@ def curriculum(effort: float = 1.0) -> tuple[Stage, ...]:
         ),
         stage("slow", 15, 0.08, slow, 6, SLOW_KINDS, style=0.2, speeds=(1.9, 2.6), **jog),
         stage("slower", 40, 0.08, slow, 8, SLOW_KINDS, style=0.2, speeds=(1.4, 2.6), **jog),
-        stage("ways", 130, 0.04, ways_scale(), len(WAYS), WAYS, style=0.3),
+        stage("ways", 40, 0.04, ways_scale(), len(WAYS), WAYS, style=0.3),
         stage("hard pushes", 31, 0.025, ways_scale(), len(HARD_PUSHES), HARD_PUSHES, style=0.3),
         stage("faster", 40, 0.05, rows_scale(faster=1), 5, FASTER, style=0.3),
         stage("fastest", 40, 0.05, rows_scale(faster=0.5, fastest=1), 5, FASTEST, style=0.3),

@@ -38,7 +38,6 @@ KINDS: dict[str, dict[str, Any]] = {
     "ramps": _kind("ramps", (0.8, SPEED), 1.2, length=(9.0, 15.0)),
     "moguls": _kind("moguls", (0.4, 0.8), 1.0),
     "crags": _kind("crags", (0.4, 0.8), 2.0),
-    "cliffs": _kind("cliffs", (0.4, 0.8), 2.0),
 }
 """What is walked, as arguments of `draw_path`."""
 
@@ -60,8 +59,7 @@ def walk_curriculum(effort: float = 1.0) -> tuple[Stage, ...]:
         stage("rolling", 30, 0.6, "level rolling rolling rolling ramps"),
         stage("ramps", 40, 0.5, "pushed rolling ramps ramps ramps moguls"),
         stage("moguls", 40, 0.4, "pushed rolling ramps ramps moguls moguls"),
-        stage("crags", 30, 1.0, " ".join(["crags"] * 8), table=1),
-        stage("cliffs", 60, 0.7, " ".join(["crags"] * 4 + ["cliffs"] * 6), table=1),
+        stage("crags", 30, 0.8, " ".join(["crags"] * 6), table=1),
     )
 
 

@@ -55,12 +55,13 @@ def train_skill(
     if not kept.parent.is_dir():
         raise RuntimeInputError(f"{kept}: there is no folder {str(kept.parent)!r} to keep checkpoints in")
     from locomotion.training.jump import train_described
+    from locomotion.training.training import Training
 
     train = _trainers().get(skill, partial(train_described, skill))
     begun = sum(os.times()[:4])
     try:
         with FileLock(f"{kept}.lock", timeout=0):
-            train(**where, seed=seed, checkpoint=kept, workers=workers, effort=effort)
+            train(Training(seed, kept, workers, effort), **where)
     except Timeout:
         raise RuntimeInputError(
             f"{kept}: another process learns with this checkpoint; wait for it, or name another --checkpoint"

@@ -3,7 +3,6 @@ and when the one gives way to the other."""
 
 import math
 import os
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,8 +14,9 @@ from locomotion.human_state import MOVING, HumanState
 from locomotion.person import MASS
 from locomotion.skill import RunSkill, load_run_skill
 from locomotion.slow_down import load_slow_down_skill
-from locomotion.training.loop import Progress, Stage, learn
+from locomotion.training.loop import Stage
 from locomotion.training.run import scales
+from locomotion.training.training import Training
 from locomotion.walk_layout import GAINS, gain_limits
 from locomotion.walk_skill import load_walk_skill
 
@@ -177,7 +177,7 @@ def _limits() -> tuple[np.ndarray, np.ndarray]:
     return low, high
 
 
-def _curriculum(effort: float) -> tuple[Stage, ...]:
+def _curriculum(training: Training) -> tuple[Stage, ...]:
     one, part = scales(), c.parameter_slices()
     shape = np.zeros(_SIZE)
     for name in _SHAPE:
@@ -189,8 +189,8 @@ def _curriculum(effort: float) -> tuple[Stage, ...]:
     both = np.concatenate([shape, shape, gains, numbers])
     options = {"trials": 10}
     return (
-        Stage("plant a foot", max(round(60 * effort), 1), 0.08, first, options, population=24),
-        Stage("at any speed", max(round(120 * effort), 1), 0.05, both, options, population=24),
+        Stage("plant a foot", training.generations(60), 0.08, first, options, population=24),
+        Stage("at any speed", training.generations(120), 0.05, both, options, population=24),
     )
 
 
@@ -225,20 +225,10 @@ class BrakeProblem:
         return float(np.mean([each.cost for each in stops])), up
 
 
-def train_brake(
-    out: str | os.PathLike[str] = BRAKE_SKILL,
-    seed: int = 0,
-    checkpoint: str | os.PathLike[str] | None = None,
-    workers: int = 2,
-    effort: float = 1.0,
-    on_progress: Callable[[Progress], None] | None = None,
-) -> BrakeSkill:
-    """Learn to brake from the package's run and write the skill to ``out``; arguments as for
-    `locomotion.training.run.train_run`."""
-    starts = draw_starts(np.random.default_rng([seed, 1]), _STARTS, (2.0, _FASTEST))
-    problem = BrakeProblem(_curriculum(effort), load_run_skill(), starts)
-    learned = learn(problem, seed, checkpoint, workers, on_progress)
-    assert learned is not None
-    skill = brake_of(learned, {"made by": "surefoot train brake", "seed": seed, "effort": effort})
+def train_brake(training: Training, out: str | os.PathLike[str] = BRAKE_SKILL) -> BrakeSkill:
+    """Learn to brake from the package's run and write the skill to ``out``."""
+    starts = draw_starts(np.random.default_rng([training.seed, 1]), _STARTS, (2.0, _FASTEST))
+    learned = training.learn(BrakeProblem(_curriculum(training), load_run_skill(), starts))
+    skill = brake_of(learned, training.made_by("brake"))
     skill.save(out)
     return skill

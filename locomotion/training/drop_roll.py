@@ -2,25 +2,24 @@
 
 import math
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from locomotion import drop_roll
 from locomotion.drop_roll import ACTIONS, BINS, KNOTS, SENSORS
-from locomotion.drop_roll_skill import DROP_ROLL_SKILL, KIND, DropRoll, load_drop_roll_skill, tables_of
-from locomotion.errors import LocomotionError
+from locomotion.drop_roll_skill import DROP_ROLL_SKILL, KIND, DropRoll, tables_of
 from locomotion.jump_skill import run_digest
 from locomotion.skill import RunSkill, load_run_skill
 from locomotion.skill_family import SkillFamily
 from locomotion.training.drop_trial import DropOutcome, DropSimulator
 from locomotion.training.jump_trial import JumpSimulator, StartState
 from locomotion.training.least_squares import fit
-from locomotion.training.loop import Progress, Stage, learn
-from navmesh.archive import read_archive, write_archive
+from locomotion.training.loop import Stage, simulated
+from locomotion.training.progress import Clock
+from locomotion.training.training import Training
 
 __all__ = ["HEIGHTS", "DropProblem", "cost", "first_guess", "scales", "train_drop_roll"]
 
@@ -32,7 +31,7 @@ _ROLLS, _BALANCING = 24, 4  # trials and rounds of least squares on how the roll
 _REFINEMENTS = 2  # stages in which half of the trials are those that went worst before
 _PULL = 0.01
 _ROUNDS, _HARD = 2, 0.2  # trials per start state to find the hard ones; share of them that is hard
-_TRAINING, _VERSION = "drop-roll training", 1
+_TRAINING = "drop-roll training"
 _ERROR = 0.1  # [m] by which the distance misses the mark at most
 _LONGEST = 3.2  # [s] of a trial up to the roll's end
 _HEAD = 0.03  # [m] of the head above the ground in a roll
@@ -233,57 +232,52 @@ class _Course:
 
     run: RunSkill
     stride: tuple[float, float, float]
-    seed: int
-    folder: Path | None
-    workers: int
-    effort: float
-    on_progress: Callable[[Progress], None] | None
+    training: Training
+    clock: Clock
 
-    def stage(
-        self, name: str, generations: int, sigma: float, feedback: bool, population: int, **options
-    ) -> Stage:
-        count = max(round(generations * self.effort), 1)
-        return Stage(name, count, sigma, scales(feedback), options, population)
+    @property
+    def digest(self) -> str:
+        return run_digest(self.run)
 
 
-def train_drop_roll(
-    out: str | os.PathLike[str] = DROP_ROLL_SKILL,
-    seed: int = 0,
-    checkpoint: str | os.PathLike[str] | None = None,
-    workers: int = 2,
-    effort: float = 1.0,
-    start_from: str | os.PathLike[str] | None = None,
-    on_progress: Callable[[Progress], None] | None = None,
-) -> SkillFamily:
-    """Learn to roll off drops of `HEIGHTS` on the package's run and walk, and write it to ``out``.
+def curriculum(training: Training) -> list[Stage]:
+    """The stages; least squares on how the roll ends come between the second and the third."""
 
-    ``checkpoint``: folder for the state of learning; a run that was interrupted goes on from it and gives
-    the same result. ``effort``: scales the number of generations. ``start_from``: a skill to refine (after
-    the run or the walk has changed) instead of beginning from nothing. The same seed gives the same skill
-    with any number of workers.
-    """
+    def stage(name: str, count: int, sigma: float, feedback: bool, population: int, **options) -> Stage:
+        seconds = options["states"] * options["duration"]
+        shared = {"error": _ERROR, **options}
+        return Stage(name, training.generations(count), sigma, scales(feedback), shared, population, seconds)
+
+    return [
+        stage("feed-forward", 50, 0.12, False, 18, states=8, duration=3.0),
+        stage("feedback", 40, 0.1, True, 20, states=10, duration=3.2),
+        *(stage("refined", 20, 0.06, True, 16, states=8, duration=5.0) for _ in range(_REFINEMENTS)),
+    ]
+
+
+def train_drop_roll(training: Training, out: str | os.PathLike[str] = DROP_ROLL_SKILL) -> SkillFamily:
+    """Learn to roll off drops of `HEIGHTS` on the package's run and walk, and write it to ``out``. The
+    training's checkpoint is a folder."""
     run = load_run_skill()
-    folder = Path(checkpoint) if checkpoint is not None else None
-    if folder is not None:
-        folder.mkdir(parents=True, exist_ok=True)
-    stride = JumpSimulator(run).fit_stride(_ENTRY, np.random.default_rng([seed, 1]))
-    course = _Course(run, stride, seed, folder, workers, effort, on_progress)
-    if start_from is None:
-        x, reference = first_guess(), np.zeros((BINS, len(SENSORS)))
-        few = course.stage("feed-forward", 50, 0.12, False, 18, states=8, error=_ERROR, duration=3.0)
-        x, reference = _learn(course, 0, few, x, reference)
-        many = course.stage("feedback", 40, 0.1, True, 20, states=10, error=_ERROR, duration=3.2)
-        x, reference = _learn(course, 1, many, x, reference)
-    else:
-        x, reference = load_drop_roll_skill(start_from).at(HEIGHTS[0])
-    x = _learn_to_end(course, 2, x, reference)
-    for number in range(3, 3 + _REFINEMENTS):
-        finer = course.stage("refined", 20, 0.06, True, 16, states=8, error=_ERROR, duration=5.0)
-        x, reference = _learn(course, number, finer, x, reference)
-    made = {"made by": "surefoot train drop-roll", "seed": seed, "effort": effort}
-    skill = family_of(x, reference, stride, run, made)
+    stride = JumpSimulator(run).fit_stride(_ENTRY, np.random.default_rng([training.seed, 1]))
+    few, many, *finer = curriculum(training)
+    rounds = training.generations(_BALANCING)
+    clock = Clock(simulated([few, many, *finer]) + rounds * _round_takes())
+    course = _Course(run, stride, training, clock)
+    x, reference = _learn(course, 0, few, first_guess(), np.zeros((BINS, len(SENSORS))))
+    x, reference = _learn(course, 1, many, x, reference)
+    x = _learn_to_end(course, 2, rounds, x, reference)
+    for number, stage in enumerate(finer, 3):
+        x, reference = _learn(course, number, stage, x, reference)
+    skill = family_of(x, reference, stride, run, training.made_by("drop-roll"))
     skill.save(out)
     return skill
+
+
+def _round_takes() -> float:
+    """What a round of least squares simulates [s]: two differences of each parameter, on half of the
+    trials."""
+    return (1.0 + np.count_nonzero(roll_scales())) * _ROLLS * _LONGEST
 
 
 def _learn(
@@ -294,38 +288,35 @@ def _learn(
     Start states are harvested from planned run-ups, half of them from standing. The expected sensors are
     recorded anew after a stage without feedback; a refinement looks for trials that go wrong first.
     """
-    identity = {"seed": course.seed, "run": run_digest(course.run), "effort": course.effort}
-    done = None if course.folder is None else course.folder / f"done-{number}.npz"
-    if done is not None and done.exists():
-        header, arrays = read_archive(done, _TRAINING, _VERSION)
-        if {key: header.get(key) for key in identity} != identity:
-            raise LocomotionError(f"{done}: checkpoint of another training or seed; remove it to begin anew")
+    training = course.training
+    arrays = training.recall(_TRAINING, number, course.digest)
+    if arrays is not None:
+        course.clock.skip(simulated([stage]))
         return arrays["x"], arrays["reference"]
-    rng = np.random.default_rng([course.seed, number])
+    rng = np.random.default_rng([training.seed, number])
     states = _harvest(course, x, reference, _STATES, rng)
     problem = DropProblem(course.run, HEIGHTS, x, reference, states, [stage])
     if number >= 2:
         problem.find_hard(x, stage, rng)
-    file = None if course.folder is None else course.folder / f"search-{number}.npz"
-    learned = learn(problem, course.seed + number, file, course.workers, course.on_progress)
-    assert learned is not None
+    learned = training.learn(problem, number, training.file(f"search-{number}"), course.clock)
     if not (stage.scale[drop_roll.parameter_slices()["m_sp"]] > 0).any():
         reference = problem.record(learned, rng)
-    if done is not None:
-        write_archive(done, _TRAINING, _VERSION, identity, {"x": learned, "reference": reference})
+    training.keep(_TRAINING, number, course.digest, {"x": learned, "reference": reference})
     return learned, reference
 
 
-def _learn_to_end(course: _Course, number: int, x: np.ndarray, reference: np.ndarray) -> np.ndarray:
+def _learn_to_end(
+    course: _Course, number: int, rounds: int, x: np.ndarray, reference: np.ndarray
+) -> np.ndarray:
     """Least squares on how the roll ends; what was done before is read from the checkpoint."""
-    rng = np.random.default_rng([course.seed, number])
+    training = course.training
+    rng = np.random.default_rng([training.seed, number])
     states = _harvest(course, x, reference, _ROLLS, rng)
     problem = DropProblem(course.run, HEIGHTS, x, reference, states, [])
-    rounds = max(round(_BALANCING * course.effort), 1)
-    file = None if course.folder is None else course.folder / f"search-{number}.npz"
     return fit(
-        problem, x, roll_scales(), rounds, course.seed + number, file, course.workers, course.on_progress
-    )
+        problem, x, roll_scales(), rounds, training.seed + number, training.file(f"search-{number}"),
+        training.workers, training.on_progress, course.clock, _round_takes(),
+    )  # fmt: skip
 
 
 def _harvest(

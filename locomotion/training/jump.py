@@ -2,7 +2,7 @@
 these heights by prediction from the learned ones and correction."""
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -15,7 +15,6 @@ from locomotion.errors import LocomotionError
 from locomotion.jump_skill import (
     JUMP_SKILL,
     Jump,
-    load_jump_skill,
     run_digest,
     tables_of,
 )
@@ -24,8 +23,9 @@ from locomotion.skill_description import load_description
 from locomotion.skill_family import SkillFamily
 from locomotion.training.jump_kind import WEIGHTS, JumpKind, cost, first_guess, scales, stair_jump
 from locomotion.training.jump_trial import JumpOutcome, JumpSimulator, LedgeSimulator, StartState
-from locomotion.training.loop import Progress, Stage, learn
-from navmesh.archive import read_archive, write_archive
+from locomotion.training.loop import Stage, simulated
+from locomotion.training.progress import Clock
+from locomotion.training.training import Training
 
 __all__ = ["FURTHER", "HEIGHTS", "LOWEST", "JumpProblem", "train_described", "train_jump"]
 
@@ -43,7 +43,7 @@ _SHARES = (0.0, 0.3, 0.6, 1.0)
 _REFERENCE = (jump.STEPS, jump.BINS, jump.SENSORS)
 _SECOND_PASS, _FURTHER = 100, 200
 _ENTRY = jump.parameter_slices()["entry"].start
-_TRAINING, _VERSION = "jump training", 1
+_TRAINING = "jump training"
 
 
 @dataclass
@@ -129,83 +129,64 @@ class _Course:
     kind: JumpKind
     run: RunSkill
     stride: tuple[float, float, float]
-    seed: int
-    folder: Path | None
-    workers: int
-    effort: float
-    on_progress: Callable[[Progress], None] | None
+    training: Training
+    clock: Clock
 
-    def generations(self, n: int) -> int:
-        return max(round(n * self.effort), 1)
-
-    def first_pass(self, height: float) -> list[Stage]:
-        """Feed-forward on few start states, then feedback on many."""
-        few = {"states": 4, "error": 0.05, "duration": 2.2, "pull": 0.1}
-        many = {"states": 8, "error": 0.15, "duration": 3.0, "pull": 0.15}
-        return [
-            Stage(f"{height:g} m, feed-forward", self.generations(30), 0.25, scales(False), few, 16),
-            Stage(f"{height:g} m, feedback", self.generations(21), 0.2, scales(True), many, 20),
-        ]
-
-    def second_pass(self, height: float) -> list[Stage]:
-        """Refinement on more start states, reached from standing, and for longer."""
-        most = {"states": 10, "error": 0.1, "duration": 4.0, "pull": 0.15}
-        return [Stage(f"{height:g} m, refined", self.generations(14), 0.1, scales(True), most, 20)]
-
-    def correction(self, height: float) -> list[Stage]:
-        """Of what was predicted for a height."""
-        several = {"states": 6, "error": 0.1, "duration": 3.0, "pull": 0.1}
-        return [Stage(f"{height:g} m, corrected", self.generations(24), 0.1, scales(True), several, 16)]
+    @property
+    def digest(self) -> str:
+        return run_digest(self.run)
 
 
-def train_jump(
-    out: str | os.PathLike[str] = JUMP_SKILL,
-    seed: int = 0,
-    checkpoint: str | os.PathLike[str] | None = None,
-    workers: int = 2,
-    effort: float = 1.0,
-    start_from: str | os.PathLike[str] | None = None,
-    on_progress: Callable[[Progress], None] | None = None,
-) -> SkillFamily:
+def _first_pass(training: Training, height: float) -> list[Stage]:
+    """Feed-forward on few start states, then feedback on many."""
+    few = {"states": 4, "error": 0.05, "duration": 2.2, "pull": 0.1}
+    many = {"states": 8, "error": 0.15, "duration": 3.0, "pull": 0.15}
+    return [
+        _stage(training, f"{height:g} m, feed-forward", 30, 0.25, False, 16, few),
+        _stage(training, f"{height:g} m, feedback", 21, 0.2, True, 20, many),
+    ]
+
+
+def _second_pass(training: Training, height: float) -> list[Stage]:
+    """Refinement on more start states, reached from standing, and for longer."""
+    most = {"states": 10, "error": 0.1, "duration": 4.0, "pull": 0.15}
+    return [_stage(training, f"{height:g} m, refined", 14, 0.1, True, 20, most)]
+
+
+def _correction(training: Training, height: float) -> list[Stage]:
+    """Of what was predicted for a height."""
+    several = {"states": 6, "error": 0.1, "duration": 3.0, "pull": 0.1}
+    return [_stage(training, f"{height:g} m, corrected", 24, 0.1, True, 16, several)]
+
+
+def _stage(
+    training: Training, name: str, count: int, sigma: float, feedback: bool, population: int, options: dict
+) -> Stage:
+    seconds = options["states"] * options["duration"]
+    return Stage(name, training.generations(count), sigma, scales(feedback), options, population, seconds)
+
+
+def train_jump(training: Training, out: str | os.PathLike[str] = JUMP_SKILL) -> SkillFamily:
     """Learn jumps from `LOWEST` to the greatest of `FURTHER` on the package's run and write them to ``out``.
-
-    ``checkpoint``: folder for the state of learning; a run that was interrupted goes on from it and gives
-    the same result. ``effort``: scales the number of generations, and below 1 that of start states.
-    ``start_from``: a jump skill to refine (after the run has changed) instead of beginning from nothing; of
-    `FURTHER` only what it has not is learned. The same seed gives the same skill with any number of workers.
-    """
-    course = _course(stair_jump(), seed, checkpoint, workers, effort, on_progress)
-    learned: dict[float, tuple[np.ndarray, np.ndarray]] = {}
-    if start_from is None:
-        learned |= _learn_in_turn(course, HEIGHTS)
-    else:
-        old = load_jump_skill(start_from)
-        for height, x, reference in zip(old.heights, old.table, old.references, strict=True):
-            learned[round(float(height), 3)] = x, reference.reshape(_REFERENCE)
-    for number, height in enumerate(tuple(learned), _SECOND_PASS):
-        stages = course.second_pass(height)
-        learned[height] = _learn_height(course, height, number, stages, *learned[height])
+    The training's checkpoint is a folder."""
+    course = _course(stair_jump(), training, HEIGHTS, FURTHER)
+    learned = _learn_in_turn(course, HEIGHTS)
     for number, height in enumerate(FURTHER, _FURTHER):
-        if height not in learned:
-            learned[height] = _learn_further(course, height, number, learned)
+        learned[height] = _learn_further(course, height, number, learned)
     learned[LOWEST] = learned[min(learned)]
     learned.pop(_STEPPING_STONE, None)
-    skill = _family(course, learned, {"made by": "surefoot train jump", "seed": seed, "effort": effort})
+    skill = _family(course, learned, training.made_by("jump"))
     skill.save(out)
     return skill
 
 
 def train_described(
     path: str | os.PathLike[str],
+    training: Training,
     out: str | os.PathLike[str] | None = None,
-    seed: int = 0,
-    checkpoint: str | os.PathLike[str] | None = None,
-    workers: int = 2,
-    effort: float = 1.0,
-    on_progress: Callable[[Progress], None] | None = None,
 ) -> SkillFamily:
     """Learn a skill that is described by a file (`locomotion.skill_description`), size by size, and write it
-    to ``out`` (None: where its description says); the others as of `train_jump`.
+    to ``out`` (None: where its description says). The training's checkpoint is a folder.
 
     Raises `LocomotionError` for a bad description or an unknown term of the objective.
     """
@@ -223,41 +204,41 @@ def train_described(
         description.kind, description.affordance, clip, simulator, description.entry, description.marks,
         description.pace, description.share, {**WEIGHTS, **description.objective},
     )  # fmt: skip
-    course = _course(kind, seed, checkpoint, workers, effort, on_progress)
+    course = _course(kind, training, description.sizes)
     learned = _learn_in_turn(course, description.sizes)
-    for number, (size, solution) in enumerate(learned.items(), _SECOND_PASS):
-        learned[size] = _learn_height(course, size, number, course.second_pass(size), *solution)
     if description.least is not None:
         learned[description.least] = learned[description.sizes[0]]
-    meta = {"made by": f"surefoot train {Path(path).name}", "seed": seed, "effort": effort}
-    skill = _family(course, learned, meta)
+    skill = _family(course, learned, training.made_by(Path(path).name))
     skill.save(description.learned if out is None else out)
     return skill
 
 
 def _course(
-    kind: JumpKind,
-    seed: int,
-    checkpoint: str | os.PathLike[str] | None,
-    workers: int,
-    effort: float,
-    on_progress: Callable[[Progress], None] | None,
+    kind: JumpKind, training: Training, heights: Sequence[float], further: Sequence[float] = ()
 ) -> _Course:
+    """``heights``, ``further`` [m]: those that will be learned in turn, and by extrapolation."""
     run = load_run_skill()
-    folder = Path(checkpoint) if checkpoint is not None else None
-    if folder is not None:
-        folder.mkdir(parents=True, exist_ok=True)
-    stride = kind.simulator(run).fit_stride(kind.entry, np.random.default_rng([seed, 1]))
-    return _Course(kind, run, stride, seed, folder, workers, effort, on_progress)
+    stride = kind.simulator(run).fit_stride(kind.entry, np.random.default_rng([training.seed, 1]))
+    passes = [
+        *(stage for height in heights for stage in _first_pass(training, height)),
+        *(stage for height in heights for stage in _second_pass(training, height)),
+        *(stage for height in further for stage in _correction(training, height)),
+    ]
+    return _Course(kind, run, stride, training, Clock(simulated(passes)))
 
 
 def _learn_in_turn(course: _Course, heights: Sequence[float]) -> dict[float, tuple[np.ndarray, np.ndarray]]:
-    """Parameters (p,) and expected sensors (4, 6, 15) by height [m], each learned from the one before."""
+    """Parameters (p,) and expected sensors (4, 6, 15) by height [m], each learned from the one before and
+    then refined."""
     learned = {}
     x, reference = first_guess(course.kind), np.zeros(_REFERENCE)
     for number, height in enumerate(heights):
-        x, reference = _learn_height(course, height, number, course.first_pass(height), x, reference)
+        stages = _first_pass(course.training, height)
+        x, reference = _learn_height(course, height, number, stages, x, reference)
         learned[height] = x, reference
+    for number, height in enumerate(heights, _SECOND_PASS):
+        stages = _second_pass(course.training, height)
+        learned[height] = _learn_height(course, height, number, stages, *learned[height])
     return learned
 
 
@@ -268,7 +249,8 @@ def _learn_further(
     near, far = sorted(learned, key=lambda other: abs(other - height))[:2]
     (x, reference), slope = learned[near], (learned[near][0] - learned[far][0]) / (near - far)
     beyond = x + (height - near) * slope
-    return _learn_height(course, height, number, course.correction(height), x, reference, beyond)
+    stages = _correction(course.training, height)
+    return _learn_height(course, height, number, stages, x, reference, beyond)
 
 
 def _family(
@@ -278,8 +260,9 @@ def _family(
     heights = sorted(learned)
     table = np.array([learned[height][0] for height in heights])
     references = np.array([learned[height][1].reshape(-1, jump.SENSORS) for height in heights])
-    digest = run_digest(course.run)
-    return SkillFamily(course.kind.name, np.array(heights), table, references, course.stride, digest, meta)
+    return SkillFamily(
+        course.kind.name, np.array(heights), table, references, course.stride, course.digest, meta
+    )
 
 
 def _learn_height(
@@ -296,17 +279,15 @@ def _learn_height(
     The expected sensors are recorded anew after a stage of feed-forward. ``beyond``: (p,) where extrapolation
     suggests the solution.
     """
-    identity = {"seed": course.seed, "run": run_digest(course.run), "effort": course.effort}
-    done = None if course.folder is None else course.folder / f"done-{number}.npz"
-    if done is not None and done.exists():
-        header, arrays = read_archive(done, _TRAINING, _VERSION)
-        if {key: header.get(key) for key in identity} != identity:
-            raise LocomotionError(f"{done}: checkpoint of another training or seed; remove it to begin anew")
+    training = course.training
+    arrays = training.recall(_TRAINING, number, course.digest)
+    if arrays is not None:
+        course.clock.skip(simulated(stages))
         return arrays["x"], arrays["reference"]
-    rng = np.random.default_rng([course.seed, number])
+    rng = np.random.default_rng([training.seed, number])
     guess = _family(course, {height: (x, reference)}, {})
     standing = number >= _SECOND_PASS
-    count = max(round(_STATES * min(course.effort, 1.0)), _FEWEST)
+    count = max(round(_STATES * min(training.effort, 1.0)), _FEWEST)
     distances = rng.uniform(*((9.5, 30.0) if standing else (8.0, 16.0)), count)
     skill = Jump(guess, course.run, course.kind.affordance, course.kind.clip)
     states = course.kind.simulator(course.run).harvest(skill, distances, rng, standing)
@@ -314,13 +295,9 @@ def _learn_height(
         problem = JumpProblem(course.kind, course.run, height, x, reference, states, [stage])
         if beyond is not None:
             problem.predict(beyond)
-        file = None if course.folder is None else course.folder / f"search-{number}-{place}.npz"
-        seed = course.seed + 1000 * number + place
-        learned = learn(problem, seed, file, course.workers, course.on_progress)
-        assert learned is not None
-        x = learned
+        file = training.file(f"search-{number}-{place}")
+        x = training.learn(problem, 1000 * number + place, file, course.clock)
         if not (stage.scale[jump.parameter_slices()["m_sp"]] > 0).any():
             reference = problem.record(x)
-    if done is not None:
-        write_archive(done, _TRAINING, _VERSION, identity, {"x": x, "reference": reference})
+    training.keep(_TRAINING, number, course.digest, {"x": x, "reference": reference})
     return x, reference

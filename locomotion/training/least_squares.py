@@ -8,7 +8,6 @@ stored when it is done; a run that was stopped goes on after the last one and gi
 
 import hashlib
 import os
-import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Protocol
@@ -16,7 +15,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from locomotion.errors import LocomotionError
-from locomotion.training.loop import Progress, show
+from locomotion.training.progress import Clock, Progress, show
 from locomotion.workers import worker_pool
 from navmesh.archive import read_archive, write_archive
 
@@ -70,13 +69,16 @@ def fit(
     seed: int,
     checkpoint: str | os.PathLike[str] | None = None,
     workers: int = 2,
-    on_progress: Callable[[Progress], None] | None = None,
+    on_progress: Callable[[Progress], None] = show,
+    clock: Clock | None = None,
+    seconds: float = 1.0,
 ) -> np.ndarray:
     """Parameters (p,) float64 whose trials' residuals are small, from ``start`` (p,).
 
     ``scale`` (p,): how far a parameter may reasonably move; 0 keeps it. ``checkpoint``: file that each round
     is written to; one of another start or seed is refused with `LocomotionError`. ``on_progress``: told after
-    each round instead of a line on the terminal; ``survival`` is the share of trials that showed residuals.
+    each round; ``survival`` is the share of trials that showed residuals. ``clock``: of a skill that is
+    learned in several searches; ``seconds``: what a round simulates [s], about.
     """
     free = np.flatnonzero(scale > 0)
     parts = f"{seed} {rounds}".encode() + start.tobytes() + scale.tobytes()
@@ -87,7 +89,8 @@ def fit(
         if header.get("identity") != identity:
             raise LocomotionError(f"{checkpoint}: of another training or seed; remove it to begin anew")
         x, first = arrays["x"], int(header["round"])
-    begun = time.monotonic()
+    clock = clock or Clock(rounds * seconds)
+    clock.skip(first * seconds)
     with worker_pool(workers, _start_worker, (problem,)) as pool:
         for number in range(first, rounds):
             rng = np.random.default_rng([seed, number])
@@ -96,10 +99,8 @@ def fit(
             if checkpoint is not None:
                 header = {"identity": identity, "round": number + 1}
                 write_archive(checkpoint, _KIND, _VERSION, header, {"x": x})
-            elapsed, made = time.monotonic() - begun, number + 1 - first
-            left = elapsed / made * (rounds - number - 1)
-            told = Progress("least squares", number + 1, rounds, loss, shown, elapsed, left)
-            (on_progress or show)(told)
+            times = clock.advance(seconds)
+            on_progress(Progress("least squares", number + 1, rounds, loss, shown, *times))
     return x
 
 

@@ -8,8 +8,6 @@ workers.
 
 import hashlib
 import os
-import sys
-import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -19,10 +17,11 @@ import numpy as np
 
 from locomotion.errors import LocomotionError
 from locomotion.training.cma_es import CmaEs
+from locomotion.training.progress import Clock, Progress, show
 from locomotion.workers import worker_pool
 from navmesh.archive import ArchiveError, read_archive, write_archive
 
-__all__ = ["Problem", "Progress", "Stage", "learn", "show"]
+__all__ = ["Problem", "Stage", "learn", "simulated"]
 
 _KIND, _VERSION = "training checkpoint", 1
 
@@ -37,6 +36,7 @@ class Stage:
         scale: (n,) float64, size of a unit of each parameter; 0 keeps a parameter as it is.
         options: what the problem's ``scenarios`` and ``cost`` want to know about the stage.
         population: candidates per generation.
+        seconds: what is simulated for a candidate [s], about; the time left is told from it.
     """
 
     name: str
@@ -45,6 +45,12 @@ class Stage:
     scale: np.ndarray
     options: dict[str, Any] = field(default_factory=dict)
     population: int = 32
+    seconds: float = 1.0
+
+
+def simulated(stages: Sequence[Stage]) -> float:
+    """What stages simulate [s], about."""
+    return sum(stage.generations * stage.population * stage.seconds for stage in stages)
 
 
 class Problem(Protocol):
@@ -67,19 +73,6 @@ class Problem(Protocol):
         ...
 
 
-@dataclass(frozen=True)
-class Progress:
-    """Where learning stands: shown on a terminal, or given to the caller's function."""
-
-    stage: str
-    generation: int
-    generations: int
-    cost: float
-    survival: float
-    elapsed: float
-    remaining: float
-
-
 _problem: Problem | None = None
 _stages: Sequence[Stage] = ()
 
@@ -100,15 +93,16 @@ def learn(
     seed: int,
     checkpoint: str | os.PathLike[str] | None = None,
     workers: int = 2,
-    on_progress: Callable[[Progress], None] | None = None,
+    on_progress: Callable[[Progress], None] = show,
+    clock: Clock | None = None,
     stop_after: int | None = None,
 ) -> np.ndarray | None:
     """Go through the problem's stages with CMA-ES; gives the learned parameters, (n,) float64.
 
     ``checkpoint``: file that the state is written to after each generation and resumed from if it is
-    there; one of another problem or seed is refused with `LocomotionError`. ``stop_after``: leave after
-    that many
-    generations (returns None if that is before the end), as an interruption would.
+    there; one of another problem or seed is refused with `LocomotionError`. ``clock``: of a skill that is
+    learned in several searches. ``stop_after``: leave after that many generations (returns None if that is
+    before the end), as an interruption would.
     """
     stages = problem.stages()
     parameters = problem.start()
@@ -116,27 +110,27 @@ def learn(
     at, search = 0, None
     if checkpoint is not None and Path(checkpoint).exists():
         at, parameters, search = _resume(Path(checkpoint), identity, stages, parameters)
-    total, begun, made = sum(s.generations for s in stages), time.monotonic(), 0
+    made, clock = 0, clock or Clock(simulated(stages))
+    clock.skip(simulated(stages[:at]))
     with worker_pool(workers, _start_worker, (problem,)) as pool:
         for number in range(at, len(stages)):
             stage = stages[number]
             free = np.flatnonzero(stage.scale > 0)
             if search is None:
                 search = CmaEs(parameters[free], stage.sigma, stage.scale[free], stage.population)
+            once = stage.population * stage.seconds
+            clock.skip(search.generation * once)
             while search.generation < stage.generations:
                 if stop_after is not None and made >= stop_after:
                     return None
                 cost, survival = _generation(pool, problem, seed, number, stage, search, parameters, free)
                 made += 1
-                done = sum(s.generations for s in stages[:number]) + search.generation
                 if checkpoint is not None:
                     _save(Path(checkpoint), identity, number, parameters, search)
-                elapsed = time.monotonic() - begun
-                remaining = elapsed / made * (total - done)
-                report = Progress(
-                    stage.name, search.generation, stage.generations, cost, survival, elapsed, remaining
+                times = clock.advance(once)
+                on_progress(
+                    Progress(stage.name, search.generation, stage.generations, cost, survival, *times)
                 )
-                (on_progress or show)(report)
             parameters = parameters.copy()
             parameters[free] = search.best_guess
             search = None
@@ -194,17 +188,3 @@ def _resume(
     search = CmaEs(start[free], stage.sigma, stage.scale[free], stage.population)
     search.restore(arrays)
     return int(header["stage"]), arrays["parameters"], search
-
-
-def show(p: Progress) -> None:
-    """One line that is rewritten on a terminal; elsewhere a line per ten generations."""
-    line = (
-        f"{p.stage}: generation {p.generation}/{p.generations}  cost {p.cost:.2f}"
-        f"  survives {100 * p.survival:.0f} %  {p.elapsed / 60:.1f} min done, {p.remaining / 60:.1f} min left"
-    )
-    if sys.stderr.isatty():
-        print(
-            "\r\x1b[2K" + line, end="\n" if p.generation == p.generations else "", file=sys.stderr, flush=True
-        )
-    elif p.generation % 10 == 0 or p.generation == p.generations:
-        print(line, file=sys.stderr, flush=True)

@@ -1,7 +1,6 @@
 """Learning to run: first guess, curriculum and objective."""
 
 import os
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
@@ -10,10 +9,11 @@ import numpy as np
 
 from locomotion import controller as c
 from locomotion.skill import RUN_SKILL, RunSkill, run_clip
-from locomotion.training.loop import Progress, Stage, learn
+from locomotion.training.loop import Stage
 from locomotion.training.path_trial import PathScenario, draw_path, follow_path
 from locomotion.training.rollout import Scenario, Simulator
 from locomotion.training.run_trials import MIDDLE, cost, draw_scenario
+from locomotion.training.training import Training
 
 __all__ = [
     "RunProblem",
@@ -163,6 +163,7 @@ def rows_scale(slow: float = 0.0, faster: float = 0.0, fastest: float = 0.0) -> 
 
 WAY: dict[str, Any] = {"length": (12.0, 20.0), "beyond": 10.0, "radius": 6.0, "speeds": (2.6, 3.6)}
 """A path that is run from where the person has walked a few steps, without bends in which it would walk."""
+_WAY_TAKES = 9.0  # [s]
 _PUSHED = {"speeds": (3.3, 3.3), "push": 330.0, "noise": 0.3, "duration": 7.0}
 _ANY_SPEED = {"speeds": (2.6, 3.9), "steady": True, "push": 250.0, "noise": 0.3, "duration": 7.0}
 _FROM_STANDING = {"speeds": (3.0, 3.5), "standing": 0.5, "push": 240.0, "noise": 0.3, "duration": 7.0}
@@ -202,9 +203,9 @@ SLOW_KINDS = (
 """Kinds of trials that a stage goes through in turn: what they change of its trial."""
 
 
-def curriculum(effort: float = 1.0) -> tuple[Stage, ...]:
-    """The stages from nothing to the whole family; ``effort`` scales the number of generations. A stage's
-    ``fall`` is what each fall costs besides the time that is lost."""
+def curriculum(training: Training) -> tuple[Stage, ...]:
+    """The stages from nothing to the whole family. A stage's ``fall`` is what each fall costs besides the
+    time that is lost."""
 
     def stage(
         name: str,
@@ -219,7 +220,8 @@ def curriculum(effort: float = 1.0) -> tuple[Stage, ...]:
         **trial: Any,
     ) -> Stage:
         options = {"trials": trials, "style": style, "fall": fall, "trial": trial, "kinds": kinds}
-        return Stage(name, max(round(generations * effort), 1), sigma, scale, options, population)
+        seconds = sum(({**trial, **kinds[i % len(kinds)]}).get("duration", _WAY_TAKES) for i in range(trials))
+        return Stage(name, training.generations(generations), sigma, scale, options, population, seconds)
 
     middle, family, slow = genes_scale(1, 0, 0, 0), genes_scale(1, 1, 0, 0), genes_scale(0, 0, 0, 1)
     every = genes_scale(1, 1, 1, 0)
@@ -292,29 +294,13 @@ def curriculum(effort: float = 1.0) -> tuple[Stage, ...]:
     )
 
 
-def train_run(
-    out: str | os.PathLike[str] = RUN_SKILL,
-    seed: int = 0,
-    checkpoint: str | os.PathLike[str] | None = None,
-    workers: int = 2,
-    effort: float = 1.0,
-    on_progress: Callable[[Progress], None] | None = None,
-) -> RunSkill:
-    """Learn to run from nothing and write the skill to ``out``.
-
-    ``checkpoint``: file for the state of learning; an interrupted run goes on from it and gives the same
-    result. ``effort``: scales the number of generations. The same seed gives the same skill with any
-    number of workers.
-    """
+def train_run(training: Training, out: str | os.PathLike[str] = RUN_SKILL) -> RunSkill:
+    """Learn to run from nothing and write the skill to ``out``."""
     genes = _genes(first_guess())
     amplitude = c.parameter_slices()["timing"].start + 1
     genes[SIZE + amplitude] = 0.08  # longer steps at higher speed
-    problem = RunProblem(curriculum(effort), genes, first_state_reference())
-    learned = learn(problem, seed, checkpoint, workers, on_progress)
-    assert learned is not None
-    skill = skill_of(
-        learned, problem.reference, meta={"made by": "surefoot train run", "seed": seed, "effort": effort}
-    )
+    problem = RunProblem(curriculum(training), genes, first_state_reference())
+    skill = skill_of(training.learn(problem), problem.reference, meta=training.made_by("run"))
     skill = replace(skill, step_length=fit_step_length(skill))
     skill.save(out)
     return skill

@@ -3,7 +3,6 @@ walk's gains in its first steps."""
 
 import math
 import os
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,9 +11,10 @@ from locomotion import controller as c
 from locomotion.body import Human
 from locomotion.skill import RunSkill, load_run_skill
 from locomotion.slow_down import SLOW_DOWN_SKILL, SlowDownSkill, touchdown
-from locomotion.training.loop import Progress, Stage, learn
+from locomotion.training.loop import Stage
 from locomotion.training.path_trial import draw_path
 from locomotion.training.run import scales
+from locomotion.training.training import Training
 from locomotion.walk_layout import GAINS, gain_limits
 
 __all__ = [
@@ -107,7 +107,7 @@ def slow_down_of(x: np.ndarray, meta: dict | None = None) -> SlowDownSkill:
     return SlowDownSkill(_KNOTS, np.stack([low + lowest, low, np.zeros(_SIZE)]), gains, meta or {})
 
 
-def _curriculum(effort: float) -> tuple[Stage, ...]:
+def _curriculum(training: Training) -> tuple[Stage, ...]:
     one, part = scales(), c.parameter_slices()
     low, lowest = np.zeros(_SIZE), np.zeros(_SIZE)
     for name in (*_FREE, "m_ap", "m_sp"):
@@ -116,7 +116,7 @@ def _curriculum(effort: float) -> tuple[Stage, ...]:
         lowest[part[name]] = one[part[name]]
     least, most = gain_limits()
     scale = np.concatenate([low, lowest, most - least])
-    return (Stage("slow down", max(round(40 * effort), 1), 0.08, scale, {"trials": 10}, population=24),)
+    return (Stage("slow down", training.generations(40), 0.08, scale, {"trials": 10}, population=24),)
 
 
 @dataclass(frozen=True)
@@ -145,19 +145,9 @@ class SlowDownProblem:
         return float(np.mean([cost for cost, _ in results])), float(np.mean([stood for _, stood in results]))
 
 
-def train_slow_down(
-    out: str | os.PathLike[str] = SLOW_DOWN_SKILL,
-    seed: int = 0,
-    checkpoint: str | os.PathLike[str] | None = None,
-    workers: int = 2,
-    effort: float = 1.0,
-    on_progress: Callable[[Progress], None] | None = None,
-) -> SlowDownSkill:
-    """Learn to slow down from the package's run and write the skill to ``out``; arguments as for
-    `locomotion.training.run.train_run`."""
-    problem = SlowDownProblem(_curriculum(effort), load_run_skill())
-    learned = learn(problem, seed, checkpoint, workers, on_progress)
-    assert learned is not None
-    skill = slow_down_of(learned, {"made by": "surefoot train slow-down", "seed": seed, "effort": effort})
+def train_slow_down(training: Training, out: str | os.PathLike[str] = SLOW_DOWN_SKILL) -> SlowDownSkill:
+    """Learn to slow down from the package's run and write the skill to ``out``."""
+    learned = training.learn(SlowDownProblem(_curriculum(training), load_run_skill()))
+    skill = slow_down_of(learned, training.made_by("slow-down"))
     skill.save(out)
     return skill

@@ -1,7 +1,6 @@
 """Learning to speed up from a walk to a run: what changes of the run's parameters while it does."""
 
 import os
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -12,8 +11,9 @@ from locomotion.body import Human
 from locomotion.human_state import MOVING, HumanState
 from locomotion.skill import RunSkill, load_run_skill
 from locomotion.speed_up import SPEED_UP_SKILL, SpeedUpSkill
-from locomotion.training.loop import Progress, Stage, learn
+from locomotion.training.loop import Stage
 from locomotion.training.run import scales
+from locomotion.training.training import Training
 
 __all__ = ["SpeedUpProblem", "speed_up", "speed_up_of", "train_speed_up"]
 
@@ -69,13 +69,13 @@ def speed_up_of(x: np.ndarray, meta: dict | None = None) -> SpeedUpSkill:
     return SpeedUpSkill(_KNOTS, np.stack([x[:_SIZE], x[:_SIZE] + x[_SIZE:]]), meta or {})
 
 
-def _curriculum(effort: float) -> tuple[Stage, ...]:
+def _curriculum(training: Training) -> tuple[Stage, ...]:
     one, part = scales(), c.parameter_slices()
     scale = np.zeros(_SIZE)
     for name in _FREE:
         scale[part[name]] = one[part[name]]
     scale = np.concatenate([scale, 0.5 * scale])
-    return (Stage("speed up", max(round(120 * effort), 1), 0.06, scale, {"trials": 6}, population=20),)
+    return (Stage("speed up", training.generations(120), 0.06, scale, {"trials": 6}, population=20),)
 
 
 @dataclass(frozen=True)
@@ -109,19 +109,9 @@ class SpeedUpProblem:
         return float(np.mean([cost for cost, _ in results])), float(np.mean([ran for _, ran in results]))
 
 
-def train_speed_up(
-    out: str | os.PathLike[str] = SPEED_UP_SKILL,
-    seed: int = 0,
-    checkpoint: str | os.PathLike[str] | None = None,
-    workers: int = 2,
-    effort: float = 1.0,
-    on_progress: Callable[[Progress], None] | None = None,
-) -> SpeedUpSkill:
-    """Learn to speed up to the package's run and write the skill to ``out``; arguments as for
-    `locomotion.training.run.train_run`."""
-    problem = SpeedUpProblem(_curriculum(effort), load_run_skill())
-    learned = learn(problem, seed, checkpoint, workers, on_progress)
-    assert learned is not None
-    skill = speed_up_of(learned, {"made by": "surefoot train speed-up", "seed": seed, "effort": effort})
+def train_speed_up(training: Training, out: str | os.PathLike[str] = SPEED_UP_SKILL) -> SpeedUpSkill:
+    """Learn to speed up to the package's run and write the skill to ``out``."""
+    learned = training.learn(SpeedUpProblem(_curriculum(training), load_run_skill()))
+    skill = speed_up_of(learned, training.made_by("speed-up"))
     skill.save(out)
     return skill

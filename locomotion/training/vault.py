@@ -2,23 +2,22 @@
 higher, it begins by taking off as higher jumps do. In the end every height is refined on longer trials."""
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 
 from locomotion import jump, vault
-from locomotion.errors import LocomotionError
 from locomotion.jump_skill import load_jump_skill, run_digest
 from locomotion.skill import RunSkill, load_run_skill
 from locomotion.skill_family import SkillFamily
 from locomotion.training.jump_trial import StartState
-from locomotion.training.loop import Progress, Stage, learn
+from locomotion.training.loop import Stage, simulated
+from locomotion.training.progress import Clock
+from locomotion.training.training import Training
 from locomotion.training.vault_trial import VaultOutcome, VaultSimulator
 from locomotion.vault_skill import KIND, VAULT_SKILL, Vault, tables_of
-from navmesh.archive import read_archive, write_archive
 
 __all__ = ["ENTRY_SPEED", "HEIGHTS", "VaultProblem", "cost", "first_guess", "scales", "train_vault"]
 
@@ -35,7 +34,7 @@ DEPTHS = (0.2, 0.4)
 _STATES = 48
 _SHARES = (0.0, 0.25, 0.5, 0.75, 1.0)
 # of what a jump 0.2 m higher does otherwise: the best is where learning over a higher wall starts
-_KIND, _VERSION = "vault training", 1
+_TRAINING = "vault training"
 _PART = vault.parameter_slices()
 _REFERENCE = (vault.STEPS, vault.BINS, vault.SENSORS)
 
@@ -202,17 +201,15 @@ def member_of(family: SkillFamily, stage: Stage) -> int:
     return int(np.argmin(np.abs(family.heights - stage.options["heights"][0])))
 
 
-def curriculum(effort: float = 1.0) -> list[Stage]:
+def curriculum(training: Training) -> list[Stage]:
     """The stages: each ends with a member of the family at its last height."""
     low = HEIGHTS[0]
     usual = {"error": 0.08, "duration": 2.0, "pull": 0.1, "failed": 0.0, "refines": False}
 
     def stage(name: str, count: int, sigma: float, what: str, same: bool, **options) -> Stage:
-        shared = {"heights": (low, low), "same": same, **usual}
-        population = 16 if same else 20
-        return Stage(
-            name, max(round(count * effort), 1), sigma, scales(what), {**shared, **options}, population
-        )
+        options = {"heights": (low, low), "same": same, **usual, **options}
+        population, seconds = 16 if same else 20, options["states"] * options["duration"]
+        return Stage(name, training.generations(count), sigma, scales(what), options, population, seconds)
 
     few = {"error": 0.04, "duration": 1.8}
     stages = [
@@ -238,58 +235,35 @@ def curriculum(effort: float = 1.0) -> list[Stage]:
     ]
 
 
-def train_vault(
-    out: str | os.PathLike[str] = VAULT_SKILL,
-    seed: int = 0,
-    checkpoint: str | os.PathLike[str] | None = None,
-    workers: int = 2,
-    effort: float = 1.0,
-    on_progress: Callable[[Progress], None] | None = None,
-) -> SkillFamily:
-    """Learn vaults over all of `HEIGHTS` on the package's run and write them to ``out``.
-
-    ``checkpoint``: folder for the state of learning; a run that was interrupted goes on from it and gives
-    the same result. ``effort``: scales the number of generations. The same seed gives the same skill with any
-    number of workers.
-    """
-    run = load_run_skill()
-    folder = Path(checkpoint) if checkpoint is not None else None
-    if folder is not None:
-        folder.mkdir(parents=True, exist_ok=True)
-    identity = {"seed": seed, "run": run_digest(run), "effort": effort}
+def train_vault(training: Training, out: str | os.PathLike[str] = VAULT_SKILL) -> SkillFamily:
+    """Learn vaults over all of `HEIGHTS` and `FURTHER` on the package's run and write them to ``out``.
+    The training's checkpoint is a folder."""
+    run, seed = load_run_skill(), training.seed
+    digest, stages = run_digest(run), curriculum(training)
     stride = VaultSimulator(run).fit_stride(ENTRY_SPEED, np.random.default_rng([seed, 1]))
-    meta = {"made by": "surefoot train vault", "seed": seed, "effort": effort}
     blank = np.zeros((1, vault.STEPS * vault.BINS, vault.SENSORS))
     guess = first_guess()[None]
-    family = SkillFamily(KIND, np.array(HEIGHTS[:1]), guess, blank, stride, identity["run"], meta)
+    family = SkillFamily(KIND, np.array(HEIGHTS[:1]), guess, blank, stride, digest, training.made_by("vault"))
     rng = np.random.default_rng([seed, 2])
-    states = _harvest(family, run, rng)
+    states, clock = _harvest(family, run, rng), Clock(simulated(stages))
     refined = np.zeros_like(family.table[0])  # what the last member changed when it was refined
-    for number, stage in enumerate(curriculum(effort)):
-        done = None if folder is None else folder / f"done-{number}.npz"
-        if done is not None and done.exists():
-            header, arrays = read_archive(done, _KIND, _VERSION)
-            if {key: header.get(key) for key in identity} != identity:
-                raise LocomotionError(
-                    f"{done}: checkpoint of another training or seed; remove it to begin anew"
-                )
+    for number, stage in enumerate(stages):
+        arrays = training.recall(_TRAINING, number, digest)
+        if arrays is not None:
             refined = arrays.pop("refined")
             family = replace(family, **arrays)
+            clock.skip(simulated([stage]))
             continue
         problem = VaultProblem(run, family, states, stage, np.zeros_like(family.table[0]))
         if stage.options["heights"][0] > family.heights[-1]:
             problem.predict(higher())
         elif refined.any():
             problem.predict(refined)
-        file = None if folder is None else folder / f"search-{number}.npz"
-        change = learn(problem, seed + 1000 * number, file, workers, on_progress)
-        assert change is not None
+        change = training.learn(problem, 1000 * number, training.file(f"search-{number}"), clock)
         family = changed(family, change, stage, run, states)
         refined = change if stage.options["refines"] else refined
-        if done is not None:
-            arrays = {"heights": family.heights, "table": family.table, "references": family.references}
-            arrays["refined"] = refined
-            write_archive(done, _KIND, _VERSION, identity, arrays)
+        arrays = {"heights": family.heights, "table": family.table, "references": family.references}
+        training.keep(_TRAINING, number, digest, {**arrays, "refined": refined})
     family.save(out)
     return family
 

@@ -2,14 +2,14 @@
 ground, and then how those for steep ground differ."""
 
 import os
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from locomotion.training.loop import Progress, Stage, learn
+from locomotion.training.loop import Stage
 from locomotion.training.path_trial import PathScenario, draw_path, follow_path
+from locomotion.training.training import Training
 from locomotion.walk_layout import GAINS, first_gains, gain_limits
 from locomotion.walk_skill import WALK_SKILL, WalkSkill
 
@@ -42,17 +42,17 @@ KINDS: dict[str, dict[str, Any]] = {
 """What is walked, as arguments of `draw_path`."""
 
 
-def walk_curriculum(effort: float = 1.0) -> tuple[Stage, ...]:
-    """From level ground to ramps and moguls, then steep ground; ``effort`` scales the
-    number of generations."""
+def walk_curriculum(training: Training) -> tuple[Stage, ...]:
+    """From level ground to ramps and moguls, then steep ground."""
     low, high = gain_limits()
     unit = _UNIT * (high - low)
 
     def stage(name: str, generations: int, sigma: float, kinds: str, table: int = 0) -> Stage:
-        rounds = max(round(generations * effort), 1)
         scale = np.concatenate([unit if k == table else np.zeros(len(GAINS)) for k in range(2)])
-        options = {"kinds": tuple(KINDS[kind] for kind in kinds.split())}
-        return Stage(name, rounds, sigma, scale, options, population=16)
+        walked = tuple(KINDS[kind] for kind in kinds.split())
+        seconds = sum(np.mean(kind["length"]) / np.mean(kind["speeds"]) for kind in walked)
+        generations = training.generations(generations)
+        return Stage(name, generations, sigma, scale, {"kinds": walked}, population=16, seconds=seconds)
 
     return (
         stage("level", 20, 1.0, "level level level rolling"),
@@ -114,19 +114,10 @@ def walk_tables(parameters: np.ndarray) -> tuple[np.ndarray, float]:
     return tables, float((np.abs(wanted - tables) / (high - low)).sum())
 
 
-def train_walk(
-    out: str | os.PathLike[str] = WALK_SKILL,
-    seed: int = 0,
-    checkpoint: str | os.PathLike[str] | None = None,
-    workers: int = 2,
-    effort: float = 1.0,
-    on_progress: Callable[[Progress], None] | None = None,
-) -> WalkSkill:
-    """Learn to walk and write the skill to ``out``; arguments as for `locomotion.training.run.train_run`."""
+def train_walk(training: Training, out: str | os.PathLike[str] = WALK_SKILL) -> WalkSkill:
+    """Learn to walk and write the skill to ``out``."""
     start = np.concatenate([first_gains(), np.zeros(len(GAINS))])
-    learned = learn(WalkProblem(walk_curriculum(effort), start), seed, checkpoint, workers, on_progress)
-    assert learned is not None
-    meta = {"made by": "surefoot train walk", "seed": seed, "effort": effort}
-    skill = WalkSkill(walk_tables(learned)[0], SPEED, meta)
+    learned = training.learn(WalkProblem(walk_curriculum(training), start))
+    skill = WalkSkill(walk_tables(learned)[0], SPEED, training.made_by("walk"))
     skill.save(out)
     return skill

@@ -113,7 +113,7 @@ def test_heights_that_were_not_learned_are_refused(skill, height):
 
 
 def test_the_jump_belongs_to_the_run(run, skill):
-    assert skill.run == run_digest(run), "the run has changed: train_jump(start_from=...) refines the jump"
+    assert skill.run == run_digest(run), "the run has changed"
 
 
 def test_whatever_heading_is_asked_for_it_goes_straight_at_the_obstacle(run):

@@ -13,6 +13,7 @@ from locomotion.training.jump import JumpProblem, train_jump
 from locomotion.training.jump_kind import ENTRY_SPEED, cost, first_guess, scales, stair_jump
 from locomotion.training.jump_trial import JumpSimulator
 from locomotion.training.loop import Stage
+from locomotion.training.training import Training
 from navmesh.archive import write_archive
 
 
@@ -68,5 +69,5 @@ def test_checkpoint_of_another_seed_is_refused(tmp_path, monkeypatch):
     write_archive(tmp_path / "done-0.npz", "jump training", 1, header, {"x": np.zeros(1)})
     monkeypatch.setattr(JumpSimulator, "fit_stride", lambda self, entry, rng: (0.25, 0.0, 0.25))
     with pytest.raises(LocomotionError, match="another training or seed"):
-        train_jump(tmp_path / "jump.npz", seed=0, checkpoint=tmp_path)
+        train_jump(Training(checkpoint=tmp_path), tmp_path / "jump.npz")
     assert not (tmp_path / "jump.npz").exists()

@@ -5,6 +5,7 @@ import pytest
 
 from locomotion.errors import LocomotionError
 from locomotion.training.least_squares import fit
+from locomotion.training.progress import show
 
 WANTED = np.array([0.6, -0.4, 0.3, 0.0])
 
@@ -23,7 +24,7 @@ class Throws:
         return 3.0 * (off + 0.2 * np.sin(off[::-1]) + 0.3 * candidate[3] * trial)
 
 
-def learned(path=None, rounds=4, seed=0, told=None):
+def learned(path=None, rounds=4, seed=0, told=show):
     scale = np.array([0.5, 0.5, 0.5, 0.5])
     return fit(Throws(), np.array([0.0, 0.0, 0.0, 0.4]), scale, rounds, seed, path, 1, told)
 

@@ -14,6 +14,7 @@ from locomotion.library import LEAP, learned_skills, skills_digest
 from locomotion.skill_description import load_described, load_description
 from locomotion.skill_family import SkillFamily
 from locomotion.training.jump import train_described
+from locomotion.training.training import Training
 from runtime import World
 from runtime.courses import make_course, run_course
 from runtime.errors import RuntimeInputError
@@ -96,7 +97,7 @@ def test_files_that_are_missing_or_of_another_skill_are_named(own, tmp_path):
 
 def test_an_unknown_term_of_the_objective_is_refused_before_learning(own, tmp_path):
     with pytest.raises(LocomotionError, match="objective: 'style': valid terms: time, cleared"):
-        train_described(own(objective={"style": 1.0}), out=tmp_path / "out.npz")
+        train_described(own(objective={"style": 1.0}), Training(), tmp_path / "out.npz")
     assert not (tmp_path / "out.npz").exists()
 
 
@@ -130,7 +131,7 @@ def learned(tmp_path_factory):
         "{name: hop, affordance: gap, sizes: [0.6], least: 0.4, entry: 3.5, clip: clip.yaml,"
         " marks: [1.3, 0.25], pace: [1, 0.8, 1, 1], share: 0.5, learned: hop.npz}"
     )
-    train_described(path, workers=1, effort=0.01, on_progress=lambda progress: None)
+    train_described(path, Training(workers=1, effort=0.01, on_progress=lambda progress: None))
     return path
 
 

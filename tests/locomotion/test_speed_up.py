@@ -9,6 +9,7 @@ from locomotion.human_state import MOVING
 from locomotion.skill import load_run_skill
 from locomotion.speed_up import SPEED_UP_SKILL, load_speed_up_skill
 from locomotion.training.speed_up import SpeedUpProblem, _curriculum, speed_up_of
+from locomotion.training.training import Training
 from runtime.courses import enter_course, make_course
 
 COURSE = make_course([("jump", 0.4, 0.0)], [14.5])
@@ -51,7 +52,7 @@ def test_tables_differ_from_the_runs_by_the_change():
 
 
 def test_a_candidate_that_falls_costs_more():
-    problem = SpeedUpProblem(_curriculum(0.1), load_run_skill())
+    problem = SpeedUpProblem(_curriculum(Training(effort=0.1)), load_run_skill())
     stage, start = problem.stages()[0], problem.start()
     trials = problem.scenarios(stage, 0, np.random.default_rng(1))[:2]
     bad = start.copy()

@@ -1,18 +1,27 @@
 """Learning: the optimiser, resuming, the same result for the same seed. Nothing is really learned here."""
 
+from collections import Counter
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from locomotion.body import Human
 from locomotion.errors import LocomotionError
+from locomotion.human_state import MOVING
 from locomotion.run_layout import parameter_slices
 from locomotion.training.cma_es import CmaEs
-from locomotion.training.loop import Stage, learn
+from locomotion.training.grounds import training_ground
+from locomotion.training.loop import Stage, learn, simulated
+from locomotion.training.path_trial import PathScenario, draw_path
+from locomotion.training.progress import Clock
 from locomotion.training.rollout import Simulator
 from locomotion.training.run import (
     BLOCKS,
     SIZE,
+    WAYS,
     RunProblem,
     first_guess,
     first_state_reference,
@@ -21,6 +30,8 @@ from locomotion.training.run import (
     skill_of,
 )
 from locomotion.training.run_trials import draw_scenario
+from locomotion.training.training import Training
+from locomotion.training.walk import KINDS as WALKS
 
 
 def minimise(function, start: np.ndarray, generations: int, sigma: float = 0.5) -> CmaEs:
@@ -86,6 +97,63 @@ def test_interrupted_and_resumed_equals_uninterrupted(tmp_path: Path) -> None:
     checkpoint.write_bytes(checkpoint.read_bytes()[:200])
     with pytest.raises(LocomotionError, match="cut off or damaged"):
         learn(tiny_problem(), 5, checkpoint, workers=1)
+
+
+def test_the_time_left_is_that_of_all_searches_and_not_of_what_was_done_before(monkeypatch, tmp_path) -> None:
+    now = [0.0]
+    monkeypatch.setattr("locomotion.training.progress.time", SimpleNamespace(monotonic=lambda: now[0]))
+    stages = [Stage("a", 3, 1.0, np.ones(2), population=4, seconds=2.0), Stage("b", 1, 1.0, np.ones(2))]
+    assert simulated(stages) == 3 * 4 * 2.0 + 32 * 1.0
+    clock = Clock(simulated(stages))
+    clock.skip(8.0)  # a generation of the first
+    now[0] = 4.0
+    assert clock.advance(8.0) == (4.0, pytest.approx(0.5 * (8.0 + 32.0)))
+    told: list[float] = []
+    learn(tiny_problem(), 5, tmp_path / "kept", 1, lambda p: told.append(p.remaining), Clock(100.0), 3)
+    assert told == pytest.approx([0.0] * 3)  # no time goes by on this clock
+    clock = Clock(100.0)
+    learn(tiny_problem(), 5, tmp_path / "kept", 1, lambda p: None, clock)
+    assert clock.ahead == pytest.approx(100.0 - simulated(tiny_problem().stages()))
+
+
+def test_what_a_search_has_found_is_kept_for_the_same_training_only(tmp_path: Path) -> None:
+    found = {"x": np.arange(3.0)}
+    Training().keep("toy", 0, "a run", found)
+    assert Training().recall("toy", 0, "a run") is None  # kept nowhere
+    training = Training(seed=4, checkpoint=tmp_path / "new" / "folder")
+    assert training.recall("toy", 0, "a run") is None
+    training.keep("toy", 0, "a run", found)
+    np.testing.assert_array_equal(training.recall("toy", 0, "a run")["x"], found["x"])
+    for other in ({"seed": 5}, {"effort": 0.5}):
+        with pytest.raises(LocomotionError, match="another training or seed"):
+            replace(training, **other).recall("toy", 0, "a run")
+    with pytest.raises(LocomotionError, match="another training or seed"):
+        training.recall("toy", 0, "another run")
+
+
+def ticks_by_gait(path: PathScenario) -> Counter:
+    """How many ticks people go along a path by each gait."""
+    human, points = Human(training_ground(path.ground), clearing=(), rehearsals=0), path.points
+    human.reset(points[0], float(np.arctan2(*(points[1] - points[0])[[1, 0]])))
+    human.follow(points, path.speed)
+    gaits: Counter = Counter()
+    while human.status in MOVING and human.arc_length < path.length:
+        human.tick()
+        gaits[human.status] += 1
+    return gaits
+
+
+def test_paths_on_which_people_learn_to_run_are_run() -> None:
+    ways = [kind for kind in WAYS if "length" in kind]
+    gaits = sum((ticks_by_gait(draw_path(np.random.default_rng(3), **kind)) for kind in ways), Counter())
+    assert set(gaits) == {"walking", "running"}
+    assert gaits["running"] > 0.6 * gaits.total()  # the first steps are walked
+
+
+@pytest.mark.parametrize("kind", WALKS)
+def test_paths_on_which_people_learn_to_walk_are_walked(kind: str) -> None:
+    path = draw_path(np.random.default_rng(3), **WALKS[kind])
+    assert set(ticks_by_gait(path)) - {"arrived"} == {"walking"}
 
 
 def test_rows_of_their_own_begin_as_their_neighbours_and_are_learned_alone() -> None:

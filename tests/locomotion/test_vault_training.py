@@ -10,6 +10,7 @@ from locomotion.errors import LocomotionError
 from locomotion.skill import load_run_skill
 from locomotion.skill_family import SkillFamily
 from locomotion.training.loop import Stage
+from locomotion.training.training import Training
 from locomotion.training.vault import (
     VaultProblem,
     changed,
@@ -98,7 +99,7 @@ def test_scales_free_more_from_stage_to_stage():
 
 
 def test_curriculum_reaches_every_height_with_feedback():
-    stages = curriculum()
+    stages = curriculum(Training())
     assert stages[-1].options["heights"][1] > stages[0].options["heights"][1]
     assert (stages[-1].scale[vault.parameter_slices()["gains"]] > 0).all()
 
@@ -157,7 +158,7 @@ def test_a_stage_adds_a_member_or_replaces_the_one_at_its_height(simulator, fami
 def test_a_checkpoint_of_another_training_is_refused(tmp_path):
     write_archive(tmp_path / "done-0.npz", "vault training", 1, {"seed": 7}, {"x": np.zeros(1)})
     with pytest.raises(LocomotionError, match="another training"):
-        train_vault(tmp_path / "out.npz", seed=0, checkpoint=tmp_path, effort=0.01)
+        train_vault(Training(checkpoint=tmp_path, effort=0.01), tmp_path / "out.npz")
 
 
 def test_a_higher_wall_begins_with_what_a_higher_jump_does_as_far_as_it_helps(simulator, states, family):

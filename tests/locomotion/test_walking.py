@@ -19,6 +19,7 @@ from locomotion.leg_kinematics import solve_leg
 from locomotion.person import JOINT_NAMES, STEPS_PER_TICK, PersonIndex, build_person
 from locomotion.training.grounds import KINDS, ground_height, training_ground
 from locomotion.training.path_trial import draw_path, follow_path
+from locomotion.training.training import Training
 from locomotion.training.walk import KINDS as WALKS
 from locomotion.training.walk import WalkProblem, walk_curriculum, walk_tables
 from locomotion.walk_layout import (
@@ -342,7 +343,7 @@ def test_walk_file_that_is_cut_off_or_of_something_else_is_refused(tmp_path):
 
 
 def test_learning_prefers_gains_that_stay_up():
-    stage = walk_curriculum(0.1)[0]
+    stage = walk_curriculum(Training(effort=0.1))[0]
     good = np.concatenate([load_walk_skill().tables[0], np.zeros(len(GAINS))])
     bad = np.concatenate([gain_limits()[0], np.zeros(len(GAINS))])
     problem = WalkProblem((stage,), good)

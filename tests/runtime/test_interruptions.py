@@ -54,7 +54,7 @@ import os, signal, time
 from dataclasses import dataclass
 from pathlib import Path
 import numpy as np
-from locomotion.training.loop import Stage, learn
+from locomotion.training.loop import Stage
 from navmesh.archive import write_archive
 
 @dataclass(frozen=True)
@@ -72,8 +72,8 @@ class Bowl:
             time.sleep(2.0)
         return float(np.sum((candidate - 1.0 - 0.01 * scenarios[0]) ** 2)), 1.0
 
-def train(out, seed, checkpoint, workers, effort):
-    write_archive(out, "bowl", 1, {}, {"x": learn(Bowl(), seed, checkpoint, workers)})
+def train(training, out):
+    write_archive(out, "bowl", 1, {}, {"x": training.learn(Bowl())})
 """
 TRAIN = ("train", "slow-down", "-o", "skill.npz", "--checkpoint", "learned.checkpoint")
 BEGIN = """

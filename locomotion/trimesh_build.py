@@ -13,7 +13,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-__all__ = ["DEPTH_CAP", "ROW", "TriangleArrays", "build_triangle_arrays"]
+__all__ = ["DEPTH_CAP", "ROW", "TriangleArrays", "build_triangle_arrays", "share_corner"]
 
 #: [m] how far behind a face the centre of a body may be and still be pushed out through it.
 DEPTH_CAP = 0.10
@@ -222,6 +222,16 @@ def _fill_grid(first, last, rows, nx, ny):
 
 
 @njit(cache=True)
+def share_corner(flags, s, t):
+    """Whether two faces have a corner in common."""
+    for a in range(1, 4):
+        for b in range(1, 4):
+            if flags[s, a] == flags[t, b]:
+                return True
+    return False
+
+
+@njit(cache=True)
 def _depth_limits(rows, flags, cell_start, cell_triangles, grid, shape):
     """How deep a body may be behind each face: at most half the thickness of the wall there.
 
@@ -242,19 +252,10 @@ def _depth_limits(rows, flags, cell_start, cell_triangles, grid, shape):
                     if rows[s, 46] > rows[t, 49] or rows[s, 49] < rows[t, 46] - reach:
                         continue
                     facing = rows[t, 0] * rows[s, 0] + rows[t, 1] * rows[s, 1] + rows[t, 2] * rows[s, 2]
-                    if facing > -0.1 or _share_corner(flags, s, t):
+                    if facing > -0.1 or share_corner(flags, s, t):
                         continue
                     thickness = min(thickness, _depth_behind(rows[t], rows[s], thickness))
         rows[t, 25] = max(0.5 * thickness, DEPTH_FLOOR)
-
-
-@njit(cache=True)
-def _share_corner(flags, s, t):
-    for a in range(1, 4):
-        for b in range(1, 4):
-            if flags[s, a] == flags[t, b]:
-                return True
-    return False
 
 
 @njit(cache=True)

@@ -1,7 +1,8 @@
 """Contacts of a capsule or sphere with a triangle soup: the kernel that MuJoCo calls.
 
 A capsule touches
-- a face with the centre of an end cap above it, or behind it by less than the face's depth limit;
+- a face with the centre of an end cap above it, or behind it by less than the face's depth limit, unless
+  the centre is in front of another side of the same sharp wedge: then it is outside;
 - an edge or corner that sticks out, with the nearest point of its axis, within the cone of directions
   that the neighbouring faces leave free.
 Faces are one-sided. `locomotion.trimesh_reference` is the slow version of the same rules.
@@ -13,7 +14,7 @@ import math
 
 from numba import njit
 
-from locomotion.trimesh_build import DEPTH_CAP
+from locomotion.trimesh_build import DEPTH_CAP, share_corner
 
 __all__ = ["MAX_CONTACTS", "capsule_contacts"]
 
@@ -23,6 +24,8 @@ MAX_CONTACTS = 8
 MAX_CANDIDATES = 32
 #: [m] a face reaches this far beyond its sides, so that nothing falls between two of them.
 SIDE_TOLERANCE = 5e-4
+#: [m] a side of a wedge lies across a way this far beyond its own sides, too.
+BESIDE = 2.0 * SIDE_TOLERANCE
 #: [m] two contacts belong to the same point of the axis, or to the same plane, within this.
 SAME = 1e-3
 #: cosine of the angle below which two contacts at the same point of the axis are one.
@@ -52,15 +55,51 @@ def _add(out, count, dist, qx, qy, qz, radius, nx, ny, nz, at, height, is_face):
     return count + 1
 
 
+@njit(cache=True, inline="never")
+def _outside(rows, flags, cell_start, cell_triangles, grid, shape, t, x, y, z, height):
+    """Whether (x, y, z), -``height`` behind face ``t``, is in front of another side of the same wedge: a face
+    that shares a corner with ``t`` lies across the way straight out. (Depth limits tell it of other faces.)
+    """
+    row = rows[t]
+    sx, sy, sz = x - height * row[0], y - height * row[1], z - height * row[2]
+    x0, x1 = int((min(x, sx) - grid[0]) * grid[2]), int((max(x, sx) - grid[0]) * grid[2])
+    y0, y1 = int((min(y, sy) - grid[1]) * grid[2]), int((max(y, sy) - grid[1]) * grid[2])
+    for ix in range(max(x0, 0), min(x1, shape[0] - 1) + 1):
+        for iy in range(max(y0, 0), min(y1, shape[1] - 1) + 1):
+            cell = ix * shape[1] + iy
+            for i in range(cell_start[cell], cell_start[cell + 1]):
+                s = cell_triangles[i]
+                side = rows[s]
+                before = side[0] * x + side[1] * y + side[2] * z - side[3]
+                behind = side[0] * sx + side[1] * sy + side[2] * sz - side[3]
+                if before <= SIDE_TOLERANCE or behind >= SIDE_TOLERANCE or not share_corner(flags, s, t):
+                    continue
+                share = before / (before - behind)
+                px, py, pz = x + share * (sx - x), y + share * (sy - y), z + share * (sz - z)
+                across = True
+                for k in range(4, 16, 4):
+                    if side[k] * px + side[k + 1] * py + side[k + 2] * pz - side[k + 3] > BESIDE:
+                        across = False
+                        break
+                if across:
+                    return True
+    return False
+
+
 @njit(cache=True)
-def _face(row, x, y, z, radius, margin, at, out, count):
-    """Candidate between a face and one end of the axis."""
+def _face(rows, flags, cell_start, cell_triangles, grid, shape, t, x, y, z, radius, margin, at, out, count):
+    """Candidate between face ``t`` and one end of the axis."""
+    row = rows[t]
     height = row[0] * x + row[1] * y + row[2] * z - row[3]
     if height - radius >= margin or height < -row[25]:
         return count
     for k in range(4, 16, 4):
         if row[k] * x + row[k + 1] * y + row[k + 2] * z - row[k + 3] > SIDE_TOLERANCE:
             return count
+    if height < 0.0 and _outside(
+        rows, flags, cell_start, cell_triangles, grid, shape, t, x, y, z, height
+    ):  # fmt: skip
+        return count
     return _add(out, count, height - radius, x, y, z, radius, row[0], row[1], row[2], at, height, 1.0)
 
 
@@ -230,9 +269,15 @@ def capsule_contacts(
                 hb = row[0] * bx + row[1] * by + row[2] * bz - row[3]
                 if min(ha, hb) > reach or max(ha, hb) < -pad:
                     continue
-                count = _face(row, ax, ay, az, radius, margin, 0.0, out, count)
+                count = _face(
+                    rows, flags, cell_start, cell_triangles, grid, shape, t, ax, ay, az, radius, margin, 0.0,
+                    out, count,
+                )  # fmt: skip
                 if length > 0.0:
-                    count = _face(row, bx, by, bz, radius, margin, length, out, count)
+                    count = _face(
+                        rows, flags, cell_start, cell_triangles, grid, shape, t, bx, by, bz, radius, margin,
+                        length, out, count,
+                    )  # fmt: skip
                 flag = flags[t, 0]
                 if flag == 0:
                     continue

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from locomotion.trimesh_build import FLAT_ANGLE, WELD
-from locomotion.trimesh_contact import MAX_CONTACTS, PARALLEL, SAME, SIDE_TOLERANCE
+from locomotion.trimesh_contact import BESIDE, MAX_CONTACTS, PARALLEL, SAME, SIDE_TOLERANCE
 
 __all__ = ["Contact", "reference_contacts"]
 
@@ -58,7 +58,8 @@ def reference_contacts(
         for q, at in ends:
             height = float(normal @ (q - points[corners[t, 0]]))
             touches = height - radius < margin and height >= -depth_limits[t]
-            if touches and _above(points[corners[t]], normal, q):
+            touches = touches and _above(points[corners[t]], normal, q)
+            if touches and not (height < 0 and _outside(points, corners, normals, t, q, q - height * normal)):
                 found.append(_contact(q, at, normal, height - radius, radius, True, height))
 
     around: dict[tuple[int, int], list[int]] = {}
@@ -110,6 +111,20 @@ def _above(triangle: NDArray[np.float64], normal: NDArray[np.float64], q: NDArra
         if outward @ (q - triangle[k]) > SIDE_TOLERANCE:
             return False
     return True
+
+
+def _outside(points, corners, normals, t: int, q: NDArray, surface: NDArray) -> bool:
+    """Whether a face that shares a corner with ``t`` lies across the way from q, in front of it, to its point
+    on the surface of ``t``."""
+    for s, normal in enumerate(normals):
+        triangle = points[corners[s]]
+        before, behind = normal @ (q - triangle[0]), normal @ (surface - triangle[0])
+        if before > SIDE_TOLERANCE > behind and set(corners[s]) & set(corners[t]):
+            p = q + before / (before - behind) * (surface - q)
+            sides = [_unit(np.cross(triangle[(k + 1) % 3] - triangle[k], normal))[0] for k in range(3)]
+            if all(side @ (p - triangle[k]) <= BESIDE for k, side in enumerate(sides)):
+                return True
+    return False
 
 
 def _outward(points, triangle, normal, a: int, b: int) -> NDArray[np.float64]:

@@ -138,7 +138,36 @@ def test_capsule_at_a_box_has_the_least_distance():
             assert found[:, 0].min() == pytest.approx(distance.min() - 0.1, abs=1e-4)
 
 
-@pytest.mark.parametrize("shape", ["hills", "stairs", "soup"])
+def wedge(angle, height=1.0, length=1.0):
+    """An upright prism whose edge along z at (0, 0) is as sharp as ``angle`` [rad]; x leads into it."""
+    y = length * np.tan(0.5 * angle)
+    foot = np.array([[0, 0, 0], [length, -y, 0], [length, y, 0]])
+    sides = [[a, b, b + 3, a + 3] for a, b in ((0, 1), (1, 2), (2, 0))]
+    faces = [[0, 2, 1], [3, 4, 5], *(f for a, b, c, d in sides for f in ([a, b, c], [a, c, d]))]
+    return np.concatenate([foot, foot + np.array([0, 0, height])]), np.array(faces)
+
+
+def test_nothing_is_pushed_through_a_sharp_wedge():
+    """A centre beside a wedge is also behind its other side, by little where it is sharp."""
+    ground = Ground.from_arrays(*wedge(0.4))
+    rng = np.random.default_rng(5)
+    seen = 0
+    for _ in range(2000):
+        x, out = rng.uniform(0.02, 0.4), rng.uniform(0.001, 0.08)
+        side = rng.choice([-1.0, 1.0])
+        along = np.array([np.cos(0.2), side * np.sin(0.2), 0.0])
+        normal = np.array([-np.sin(0.2), side * np.cos(0.2), 0.0])
+        q = x * along + out * normal + [0, 0, rng.uniform(0.2, 0.8)]
+        found = contacts(ground, q, q, 0.04)
+        assert len(found) == (out < 0.04)
+        if len(found):
+            seen += 1
+            assert found[0, 0] == pytest.approx(out - 0.04, abs=1e-9)
+            np.testing.assert_allclose(found[0, 4:7], normal, atol=1e-9)
+    assert seen > 500
+
+
+@pytest.mark.parametrize("shape", ["hills", "stairs", "soup", "wedges"])
 def test_kernel_equals_the_slow_reference(shape):
     rng = np.random.default_rng(3)
     if shape == "hills":
@@ -146,6 +175,8 @@ def test_kernel_equals_the_slow_reference(shape):
     elif shape == "stairs":
         parts = [box([0.4 * i, -1, -0.5], [0.4 * i + 0.4, 1, 0.17 * i]) for i in range(4)]
         vertices, faces = joined(floor(2.0, 3, lambda x, y: 0 * x - 0.2), *parts)
+    elif shape == "wedges":
+        vertices, faces = joined(wedge(0.4, 0.3, 0.4), wedge(0.8, 0.2, 0.5))
     else:
         vertices = rng.uniform(-1, 1, (60, 3)) * [2, 2, 0.5]
         faces = rng.permutation(60).reshape(20, 3)

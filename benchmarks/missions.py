@@ -168,27 +168,28 @@ def time_ticks(human: Human, path: np.ndarray, speed: float) -> tuple[float, flo
     human.reset(path[0], math.atan2(*(path[1] - path[0])[1::-1]))
     human.follow(path, speed)
     saved, begin = human.save_state(), save_physics(human.model, human.data)
-    controls: list[np.ndarray] = []
-    while human.status in MOVING and len(controls) < MOST_TICKS:
+    steps: list[tuple[mujoco.MjModel, np.ndarray]] = []
+    while human.status in MOVING and len(steps) < MOST_TICKS:
+        model = human.physics
         human.tick()
-        controls.append(human.data.ctrl.copy())
+        steps.append((model, human.data.ctrl.copy()))
     twin = mujoco.MjData(human.model)
     whole = bare = math.inf
     for _ in range(REPEATS):
         human.restore_state(saved)
         begun = time.thread_time()
-        for _ in controls:
+        for _ in steps:
             human.tick()
         whole = min(whole, time.thread_time() - begun)
         restore_physics(human.model, twin, begin)
         begun = time.thread_time()
-        for control in controls:
+        for model, control in steps:
             twin.ctrl[:] = control
-            mujoco.mj_step(human.model, twin, STEPS_PER_TICK)
+            mujoco.mj_step(model, twin, STEPS_PER_TICK)
         bare = min(bare, time.thread_time() - begun)
         if not np.array_equal(save_physics(human.model, twin), save_physics(human.model, human.data)):
             raise SystemExit("the bare physics is not what the person did: the comparison means nothing")
-    return whole, bare, len(controls)
+    return whole, bare, len(steps)
 
 
 def report_on(name: str, options: argparse.Namespace) -> dict[str, Any]:

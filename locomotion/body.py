@@ -246,6 +246,12 @@ class Human(RehearsingPerson):
             self.way.shift(shift, self.on_feet.limits, walk)
 
     # --- time
+    @property
+    def physics(self) -> mujoco.MjModel:
+        """What its next tick is simulated with: one on hands and feet, or that has fallen, touches the ground
+        more firmly than `model` has it."""
+        return self._fours.model if self._fours.active else self.model
+
     def tick(self) -> None:
         """Advance by 10 ms: track the path, control, physics, observe, notice what happened."""
         came_true = self.foreseen.comes_true(self)
@@ -314,7 +320,7 @@ class Human(RehearsingPerson):
             fours.look(self.ground, self.position, way)
         fours.steer(way, self._control[controller.COM], self._ticks, self._command)
         fours.tick(self._lookup, self._command, self.data, fours.gentle > 0.0)
-        mujoco.mj_step(self.model, self.data, STEPS_PER_TICK)
+        mujoco.mj_step(self.physics, self.data, STEPS_PER_TICK)
         self._control[controller.FALLEN] = 0.0
         stands = fours.observe(self._lookup, self.data, self._control)
         gets_up = self.status == "getting up"

@@ -4,7 +4,7 @@
     four.fall(data)                                  # or four.crouch(...)
     while four.active:
         four.tick(lookup, command, data, stand=True)
-        mujoco.mj_step(model, data, STEPS_PER_TICK)
+        mujoco.mj_step(four.model, data, STEPS_PER_TICK)
         four.observe(lookup, data, state)                # not active any more once it stands
 
 What it remembers is one array, `memory` (its fields: `locomotion.scramble_layout`).
@@ -20,6 +20,7 @@ from locomotion.getting_up import begin_getting_up, get_up_tick, rise_on
 from locomotion.ground import Ground
 from locomotion.path_tracking import PathTable
 from locomotion.person import PersonIndex
+from locomotion.person_models import harder
 from locomotion.rising import begin_to_rise, gather, ready_to_rise, rise_tick, stands
 from locomotion.scramble_layout import AWAY, BORNE, FACING, MODE, RISEN, RISING, new_scramble
 from locomotion.scramble_seen import observe_scramble, parts_of
@@ -39,8 +40,8 @@ _SLOW_HEADWAY = 0.8  # of the time on hands and feet does not count as being wit
 
 
 class OnAllFours:
-    """``active``: whether hands and feet move the body now. ``fell_at``: tick of its last fall; ``on_way``:
-    1 if it goes somewhere; ``gentle``: 1 where it can walk on."""
+    """``fell_at``: tick of its last fall; ``on_way``: 1 if it goes somewhere; ``gentle``: 1 where it can walk
+    on."""
 
     def __init__(self, model: mujoco.MjModel, index: PersonIndex) -> None:
         self._model = model
@@ -50,7 +51,13 @@ class OnAllFours:
         self.leave()
 
     @property
+    def model(self) -> mujoco.MjModel:
+        """The physics of a body that hands and feet move, or that falls."""
+        return harder(self._model)
+
+    @property
     def active(self) -> bool:
+        """Whether hands and feet move the body now."""
         return bool(self.memory[MODE] != AWAY)
 
     @property

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import threading
 import weakref
 
@@ -10,10 +11,12 @@ import mujoco
 from locomotion.ground import Ground
 from locomotion.person import PersonIndex, build_person
 
-__all__ = ["person_on"]
+__all__ = ["harder", "person_on"]
 
+_SUDDEN = 0.01  # [s] in which contacts give way to a falling body, half of MuJoCo's usual time
 _models: weakref.WeakKeyDictionary[Ground, tuple[mujoco.MjModel, PersonIndex]] = weakref.WeakKeyDictionary()
 _plane: list[tuple[mujoco.MjModel, PersonIndex]] = []
+_hard: weakref.WeakKeyDictionary[mujoco.MjModel, mujoco.MjModel] = weakref.WeakKeyDictionary()
 _lock = threading.Lock()
 
 
@@ -30,4 +33,15 @@ def person_on(ground: Ground | None) -> tuple[mujoco.MjModel, PersonIndex]:
                 _plane.append(found)
             else:
                 _models[ground] = found
+        return found
+
+
+def harder(model: mujoco.MjModel) -> mujoco.MjModel:
+    """A person's ``model`` with contacts that give way half as far, for the same `MjData`: into the usual
+    ones the hands of a falling person, 3 cm thick, sink by 5 cm."""
+    with _lock:
+        found = _hard.get(model)
+        if found is None:
+            found = _hard[model] = copy.copy(model)
+            found.geom_solref[:, 0] = _SUDDEN
         return found

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from locomotion import MOVING, Ground, Human
+from locomotion.arm_reach import HAND_RADIUS
 from locomotion.body import STRAYED
 from locomotion.events import Arrived, Event, Fell, GotUp
 from locomotion.path_tracking import TrackingLimits, make_path
@@ -55,6 +56,22 @@ def test_gets_up_again_however_it_was_pushed_over():
             assert human.data.xmat[human.index.chest].reshape(3, 3)[2, 2] > 0.7, "it stands"
     assert len(down) >= 8, "hard enough a push"
     assert max(down) < 40.0 and np.mean(np.array(down) <= 15.0) >= 0.75
+
+
+def test_hands_and_forearms_do_not_sink_into_the_ground_in_a_fall():
+    human = Human(None, clearing=(), gets_up=True)
+    names = [f"{side}_{part}" for side in ("right", "left") for part in ("hand", "forearm")]
+    arms = [human.index.bodies[name] for name in names]
+    for direction in (0.0, math.pi, 5.0 * math.pi / 3.0):
+        push_over(human, direction, 3.0)
+        go_on(human, 5.0, Fell)
+        deepest = 0.0
+        for _ in range(200):
+            human.tick()
+            contact = human.data.contact
+            of_arms = np.isin(human.model.geom_bodyid[contact.geom.max(axis=1)], arms)
+            deepest = min(deepest, contact.dist[of_arms].min(initial=0.0))
+        assert -HAND_RADIUS < deepest < -0.005, "it has put them down"
 
 
 def test_goes_on_to_its_goal_after_a_fall():

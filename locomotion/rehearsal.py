@@ -11,6 +11,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Generator, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
@@ -33,11 +34,11 @@ __all__ = [
     "RUN_UPS",
     "SETTING_OFF",
     "SLOWINGS",
+    "ComesToRest",
     "Outcome",
     "Trial",
     "at_once",
     "clears",
-    "comes_to_rest",
     "first_good",
     "walks_on",
 ]
@@ -51,6 +52,7 @@ _WATCHED = round(1.0 / CONTROL_DT)  # ticks of these in which it may not
 _STAGGERS = 0.2  # [m] come nearer to or farther from its path
 _AT_REST = round(3.5 / CONTROL_DT)  # ticks in which one that brakes must stand still
 _ASKEW = 0.5  # [rad] off its heading, at which it has not lost much time when it goes on
+_SLOWEST = 0.1  # [m/s] of one that brakes
 _FAILED = ("fallen", "lost", "stuck")
 _LONGEST = round(12.0 / CONTROL_DT)
 _MARKS, _ENTRIES = (0.0, 0.04, -0.04, 0.08, -0.08), (0.0, 0.1, -0.1, 0.2, -0.2)
@@ -77,8 +79,9 @@ SLOWINGS = (1.0, 0.92, 1.08, 0.84, 1.16, 0.76, 1.24, 0.68, 1.32, 0.6, 1.4)
 """[m/s^2] by which the run's reference speed is lowered."""
 BALKINGS = (1.2, 0.9, 1.6, 0.7, 2.2, 3.0)
 """[m/s^2], the same where a run-up is broken off: harder ones hold as well, and the obstacle is near."""
-BRAKINGS = (2.3, 2.0, 1.8, 1.65, 1.5, 1.4, 1.3, 1.2, 1.1, 1.0, 0.9, 0.8)
-"""How hard it brakes, as a share of what was learned: harder first, since it comes to stand sooner."""
+BRAKINGS = (1.5, 1.65, 1.4, 1.8, 1.3, 1.2, 0.9, 0.8)
+"""How hard it brakes, as a share of what was learned: those first that mostly come to stand sooner, so that
+others can be given up early."""
 HOLDS = 0.5
 """How well a run-up has to go, at least, that it is begun and not broken off."""
 
@@ -183,21 +186,38 @@ def finds_a_way_on(body: Human) -> Generator[None, None, bool]:
     return best.went > 0.0
 
 
-def comes_to_rest(body: Human) -> Trial:
-    """Whether a body that brakes stands still in the end: 1 if it then faces where it went; with what was
-    seen of it."""
-    seen: list[HumanState] = []
-    for _ in range(_AT_REST):
-        body.events.clear()
-        body.tick()
-        yield
-        seen.append(body.save_state())
-        if body.status in _FAILED:
-            return 0.0, []
-        if body.on_feet.at_rest(body.control):
-            askew = math.remainder(body.yaw - body.on_feet.walk[WALK_HEADING], 2.0 * math.pi)
-            return (1.0 if abs(askew) < _ASKEW else 0.5), seen
-    return 0.0, []
+@dataclass
+class ComesToRest:
+    """Whether a body that brakes stands still in the end, and in how little room: 1 / (1 + the way there and
+    back again [m]), and much less if it then does not face where it went; with what was seen of it.
+
+    within: least room [m] so far; one that comes farther is given up.
+    """
+
+    within: float = math.inf
+
+    def __call__(self, body: Human) -> Trial:
+        """Try it."""
+        seen: list[HumanState] = []
+        begun, velocity, way = body.com, body.velocity, 0.0
+        along = velocity / max(float(np.linalg.norm(velocity)), _SLOWEST)
+        for _ in range(_AT_REST):
+            body.events.clear()
+            body.tick()
+            yield
+            seen.append(body.save_state())
+            now = float(along @ (body.com - begun))
+            way = max(way, now)
+            if body.status in _FAILED or way >= self.within:
+                return 0.0, []
+            if body.on_feet.at_rest(body.control):
+                askew = math.remainder(body.yaw - body.on_feet.walk[WALK_HEADING], 2.0 * math.pi)
+                room = way + (way - now)
+                if abs(askew) >= _ASKEW:
+                    return 0.1 / (1.0 + room), seen
+                self.within = min(self.within, room)
+                return 1.0 / (1.0 + room), seen
+        return 0.0, []
 
 
 def walks_on(body: Human, notes: bool = False) -> Trial:

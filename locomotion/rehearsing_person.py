@@ -24,10 +24,10 @@ from locomotion.rehearsal import (
     RUN_UPS,
     SETTING_OFF,
     SLOWINGS,
+    ComesToRest,
     Outcome,
     Trial,
     clears,
-    comes_to_rest,
     walks_on,
 )
 
@@ -142,7 +142,7 @@ class RehearsingPerson(MovingPerson, ABC):
             return False
         since = self._ticks - self._ended_at if told else 1
         now = since % _AGAIN == 1 or since >= _TRIES
-        if now and self._slow_as_rehearsed(BRAKINGS, RehearsingPerson.brake, comes_to_rest, False):
+        if now and self._slow_as_rehearsed(BRAKINGS, RehearsingPerson.brake, ComesToRest(), False):
             return True
         return told and since < _TRIES
 

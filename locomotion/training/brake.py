@@ -4,6 +4,7 @@ and when the one gives way to the other."""
 import math
 import os
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -52,7 +53,9 @@ _KEPT = (
 )  # fmt: skip
 """Gains that make no difference here."""
 _SHAPE = ("posture", "a_hat", "feed_forward", "timing")
-_STARTS, _FASTEST, _SHARPEST = 200, 3.7, 8.0  # runs; [m/s]; [m] radius of their bends
+_PLANTING = ("swing_hip_flexion", "stance_hip_flexion", "waist_pitch")
+"""Actions that put the foot ahead and the trunk back."""
+_STARTS, _FASTEST, _SHARPEST = 400, 3.7, 8.0  # runs; [m/s]; [m] radius of their bends
 _NOISE = np.repeat([0.1, 0.02], [6, 39])  # of a start's root velocities and joint angles
 _LONGEST, _SETTLES = 300, 140  # ticks in which it should stand; in which it may still fall then
 _STANDS = 0.1  # [m/s] along its way
@@ -78,15 +81,14 @@ class Stop:
     walked: bool
     askew: float
 
-    @property
-    def cost(self) -> float:
-        """What learning makes small. A fall costs little more than a metre: variations will be rehearsed, of
-        which the first that stays up is taken."""
-        cost = self.way + 3.0 * self.tilt + 0.2 * max(self.peak - _HARD, 0.0)
+    def cost(self, fall: float = 1.2) -> float:
+        """What learning makes small. A ``fall`` costs about a metre: variations will be rehearsed, of which
+        the shortest that stays up is taken."""
+        cost = 2.0 * self.way + 3.0 * self.tilt + 0.2 * max(self.peak - _HARD, 0.0)
         if not self.walked:
             return cost + 3.5 + 2.0 * (1.0 - self.up) + 0.7 * max(self.least, 0.0)
         if self.fell:
-            return cost + 1.2 + 1.5 * (1.0 - self.up) + 0.7 * max(self.least, 0.0)
+            return cost + fall + 1.5 * (1.0 - self.up) + 0.7 * max(self.least, 0.0)
         cost += self.up + self.askew
         return cost + 2.0 * max(-self.least - _BACK, 0.0) + (0.0 if self.stood else 0.5)
 
@@ -121,11 +123,11 @@ def draw_starts(rng: np.random.Generator, count: int, speeds: tuple[float, float
     return starts
 
 
-def stop(human: Human, start: HumanState) -> Stop:
-    """Let ``human`` brake in the state ``start``, as its skill says."""
+def stop(human: Human, start: HumanState, harder: float = 1.0) -> Stop:
+    """Let ``human`` brake in the state ``start``, ``harder`` by that share than its skill says."""
     human.restore_state(start)
     human.stop()
-    human.brake(1.0)
+    human.brake(harder)
     state = human.control
     begun, velocity = human.com, human.velocity[:2]
     along = velocity / np.linalg.norm(velocity)
@@ -179,18 +181,33 @@ def _limits() -> tuple[np.ndarray, np.ndarray]:
 
 def _curriculum(training: Training) -> tuple[Stage, ...]:
     one, part = scales(), c.parameter_slices()
-    shape = np.zeros(_SIZE)
+    shape, planting = np.zeros(_SIZE), np.zeros(_SIZE)
     for name in _SHAPE:
         shape[part[name]] = one[part[name]]
+    placed = [part["a_hat"].start + c.ACTIONS.index(name) for name in _PLANTING]
+    for places in (placed, part["timing"]):
+        planting[places] = one[places]
+    throwing = planting.copy()
+    throwing[part["feed_forward"]] = one[part["feed_forward"]]
     low, high = _limits()
     gains = np.tile(np.where([name in _KEPT for name in GAINS], 0.0, high - low), FIRST_STEPS)
+    first_gains = np.where(np.arange(len(gains)) < len(GAINS), gains, 0.0)
     numbers = np.array([scale for *_, scale in _NUMBERS.values()])
     first = np.concatenate([shape, np.zeros(_SIZE), gains, numbers])
     both = np.concatenate([shape, shape, gains, numbers])
-    options = {"trials": 10}
+    few = np.concatenate([throwing, planting, first_gains, numbers])
+
+    def stage(
+        name: str, generations: int, sigma: float, scale: np.ndarray, population: int = 24, **options: Any
+    ) -> Stage:
+        options = {"trials": 10, "harder": (1.0, 1.0), "fall": 1.2} | options
+        return Stage(name, training.generations(generations), sigma, scale, options, population)
+
     return (
-        Stage("plant a foot", training.generations(60), 0.08, first, options, population=24),
-        Stage("at any speed", training.generations(120), 0.05, both, options, population=24),
+        stage("plant a foot", 60, 0.08, first),
+        stage("at any speed", 120, 0.05, both),
+        stage("harder", 100, 0.1, few, population=16, harder=(1.0, 2.0)),
+        stage("surer", 50, 0.06, few, population=16, trials=12, harder=(1.0, 2.0), fall=2.4),
     )
 
 
@@ -211,18 +228,21 @@ class BrakeProblem:
         """The first guess."""
         return first_guess()
 
-    def scenarios(self, stage: Stage, generation: int, rng: np.random.Generator) -> list[HumanState]:
-        """Moments of runs."""
-        return [self.starts[k] for k in rng.choice(len(self.starts), stage.options["trials"], replace=False)]
+    def scenarios(
+        self, stage: Stage, generation: int, rng: np.random.Generator
+    ) -> list[tuple[HumanState, float]]:
+        """Moments of runs, and how hard to brake there."""
+        drawn = rng.choice(len(self.starts), stage.options["trials"], replace=False)
+        return [(self.starts[k], float(rng.uniform(*stage.options["harder"]))) for k in drawn]
 
     def evaluate(
-        self, stage: Stage, candidate: np.ndarray, scenarios: list[HumanState]
+        self, stage: Stage, candidate: np.ndarray, scenarios: list[tuple[HumanState, float]]
     ) -> tuple[float, float]:
         """Mean cost, and share of the trials in which the person stayed up."""
         human = Human(None, self.run, clearing=(), rehearsals=0, brake=brake_of(candidate))
-        stops = [stop(human, start) for start in scenarios]
+        stops = [stop(human, start, harder) for start, harder in scenarios]
         up = float(np.mean([not each.fell for each in stops]))
-        return float(np.mean([each.cost for each in stops])), up
+        return float(np.mean([each.cost(stage.options["fall"]) for each in stops])), up
 
 
 def train_brake(training: Training, out: str | os.PathLike[str] = BRAKE_SKILL) -> BrakeSkill:

@@ -20,7 +20,7 @@ from locomotion.person import CONTROL_DT
 from locomotion.rehearsal import REHEARSALS
 from locomotion.skill import load_run_skill
 from locomotion.skill_description import load_described
-from locomotion.training.rollout import Scenario, Simulator, Trial
+from locomotion.training.rollout import Scenario, Simulator, stays_up
 from runtime.courses import CourseRun, held, make_course, run_course
 from runtime.progress import Progress
 
@@ -172,7 +172,7 @@ def _run_turning(simulator: Simulator, rng: np.random.Generator) -> Attempt:
             way = math.atan2(vy, vx)
             seen.append((state[controller.STEP_SPEED], way, state[controller.TICKS]))
 
-    survived = _stays_up(simulator.run(skill, scenario, note), scenario)
+    survived = stays_up(simulator.run(skill, scenario, note), scenario.duration)
     figures = {}
     if survived and len(seen) > 1:
         steps = np.array(seen)
@@ -193,14 +193,10 @@ def _pushed_hard(simulator: Simulator, speed: float, rng: np.random.Generator) -
     side, begin = rng.uniform(-math.pi, math.pi), rng.uniform(3.0, 4.0)
     push = [begin, HARD_PUSH * math.cos(side), HARD_PUSH * math.sin(side), PUSH_TIME]
     scenario = Scenario(9.0, np.array([[0.0, speed]]), pushes=np.array([push]))
-    survived = _stays_up(simulator.run(load_run_skill(), scenario), scenario)
+    survived = stays_up(simulator.run(load_run_skill(), scenario), scenario.duration)
     test = f"a push of {HARD_PUSH:.0f} N at {speed:g} m/s"
     what = f"from {math.degrees(side):+.0f}° after {begin:.2f} s"
     return Attempt(test, what, "ran" if survived else "fell", survived)
-
-
-def _stays_up(trial: Trial, scenario: Scenario) -> bool:
-    return trial.figures["time"] > scenario.duration - 1.5 * CONTROL_DT
 
 
 def _run_pushed(rng: np.random.Generator) -> Attempt:

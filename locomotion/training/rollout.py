@@ -11,7 +11,7 @@ from locomotion import controller as c
 from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, build_person
 from locomotion.skill import RunSkill, reset_running, reset_standing
 
-__all__ = ["FIGURES", "Measures", "Scenario", "Simulator", "Trial"]
+__all__ = ["FIGURES", "Measures", "Scenario", "Simulator", "Trial", "stays_up"]
 
 FIGURES = (
     "time",
@@ -72,6 +72,11 @@ class Trial:
 
     figures: dict[str, float]
     state: np.ndarray
+
+
+def stays_up(trial: Trial, duration: float) -> bool:
+    """Whether a trial of ``duration`` [s] did not end before."""
+    return trial.figures["time"] > duration - 1.5 * CONTROL_DT
 
 
 @njit(cache=True)

@@ -11,7 +11,7 @@ from locomotion import controller as c
 from locomotion.skill import RUN_SKILL, RunSkill, run_clip
 from locomotion.training.loop import Stage
 from locomotion.training.path_trial import PathScenario, draw_path, follow_path
-from locomotion.training.rollout import Scenario, Simulator
+from locomotion.training.rollout import Scenario, Simulator, stays_up
 from locomotion.training.run_trials import MIDDLE, cost, draw_scenario
 from locomotion.training.training import Training
 
@@ -367,7 +367,7 @@ class RunProblem:
             else:
                 trial = _simulator().run(skill, scenario)
             costs += cost(trial, scenario.duration, stage.options["style"])
-            costs += stage.options["fall"] * (trial.figures["time"] < scenario.duration - 0.02)
+            costs += stage.options["fall"] * (not stays_up(trial, scenario.duration))
             survived += trial.figures["time"] / scenario.duration
         return costs / len(scenarios), survived / len(scenarios)
 

@@ -19,6 +19,7 @@ from locomotion import controller as c
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK
 from locomotion.skill import RunSkill, load_run_skill
 from locomotion.training.rollout import Scenario, Simulator, Trial
+from locomotion.training.walk_starts import WALK_STARTS
 
 SPEEDS = (1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0)
 PUSHED_SPEED = 3.3
@@ -38,7 +39,7 @@ def survived(trial: Trial, scenario: Scenario) -> bool:
 def push_test(
     simulator: Simulator, skill: RunSkill, seeds: int, duration: float, force: float
 ) -> dict[str, float]:
-    """Runs of ``duration`` [s] from standing, pushed for 0.1 s with ``force`` [N] from anywhere every 5 s
+    """Runs of ``duration`` [s] from a walk, pushed for 0.1 s with ``force`` [N] from anywhere every 5 s
     from 6 s on."""
     alive = []
     for seed in range(seeds):
@@ -48,7 +49,7 @@ def push_test(
         pushes = np.stack(
             [times, force * np.cos(angle), force * np.sin(angle), np.full(len(times), 0.1)], axis=1
         )
-        scenario = constant(PUSHED_SPEED, duration, pushes=pushes, standing=True)
+        scenario = constant(PUSHED_SPEED, duration, pushes=pushes, walking=seed % WALK_STARTS)
         alive.append(survived(simulator.run(skill, scenario), scenario))
     return {
         "seeds": seeds,

@@ -4,13 +4,11 @@ Per control tick of 10 ms the order is *control, physics, observe*::
 
     skill = load_run_skill()                         # locomotion.skill
     state = new_state()                              # (STATE_SIZE,) float64: its memory
-    reset_running(skill, model, data, index, state, position, yaw, speed)     # or reset_standing
+    reset_running(skill, model, data, index, state, position, yaw, speed)
     each tick:
         run_tick(*skill.tables, state, command, data.qpos, data.qvel, data.ctrl)     # writes data.ctrl
         mujoco.mj_step(model, data, STEPS_PER_TICK)
         observe(index, model, data, state)           # reads contacts, feet, centre of mass into ``state``
-
-After `reset_standing` the first ticks lean forward until the person topples, then it runs.
 
 ``command`` (3,) float64 = desired heading [rad, world, any turn], desired speed [m/s, clipped to the
 skill's range] and desired sideways speed [m/s to the left of the heading, clipped to ±0.4]; a fourth
@@ -68,7 +66,6 @@ from locomotion.run_layout import (
     RANK,
     SENSOR_VALUES,
     SENSORS,
-    SETTING_OFF,
     SLOPE,
     SPEED,
     STANCE,
@@ -82,19 +79,18 @@ from locomotion.run_layout import (
     TURN_RATE,
     new_state,
     parameter_slices,
-    standing_pose,
 )  # fmt: skip
 
 __all__ = [
     "ACTIONS", "CLIMB", "COM", "COM_AT_SWITCH", "COM_VELOCITY", "CONTACT", "FALLEN", "FEET", "HEADING",
     "LAST_TARGET", "MIN_PHASE", "OBSERVED", "PARAMETERS", "PHASE", "PLANTED", "SENSORS", "SENSOR_VALUES",
     "SLOPE", "SPEED", "STANCE", "STATE_SIZE", "STEPS", "STEP_LENGTH", "STEP_SPEED", "STEP_TIME", "TICKS",
-    "TRIM", "TURN_RATE", "new_state", "observe", "parameter_slices", "run_tick", "standing_pose",
+    "TRIM", "TURN_RATE", "new_state", "observe", "parameter_slices", "run_tick",
 ]  # fmt: skip
 _SP = parameter_slices()
 _M_AP, _M_SP, _POSTURE, _A_HAT = (_SP[k].start for k in ("m_ap", "m_sp", "posture", "a_hat"))
 _FF, _TURN, _CLIMB, _TIMING = (_SP[k].start for k in ("feed_forward", "turn", "climb", "timing"))
-_ARMS, _DESCEND, _START = (_SP[k].start for k in ("arms", "descend", "start"))
+_ARMS, _DESCEND = (_SP[k].start for k in ("arms", "descend"))
 _CLIMB_LEGS, _DESCEND_LEGS = _SP["climb_legs"].start, _SP["descend_legs"].start
 _BEND = _SP["bend"].start
 _CLIMB_TIMING, _DESCEND_TIMING = _SP["climb_timing"].start, _SP["descend_timing"].start
@@ -108,11 +104,8 @@ _ACCELERATION = 1.5  # [m/s^2] of the reference speed
 _MAX_SIDE = 0.4  # [m/s]
 _MAX_SLOPE = 0.4
 _TOUCH = 20.0  # [N] under a foot that counts as contact
-_LEAN_RAMP, _LEAN_LIMIT = 0.25, 1.0
-# [s] in which the lean is taken; after which the first step is made regardless
 _CLIP = np.array([0.6, 5.0, 0.2, 1.5, 2.0, 0.5, 0.6, 0.6, 5.0, 5.0, 1.5, 0.4])
 _TARGETS = LAST_TARGET.start
-_STAND = standing_pose()
 
 
 @njit(cache=True)
@@ -267,37 +260,6 @@ def _feedback(p, delta, turn, speed, slope, raw, out):
 
 
 @njit(cache=True)
-def _lean(p, reference, state, ctrl):
-    """Setting off from standing: both feet planted, the body topples forward, the arms come up.
-
-    p[_START:] = ankle and hip flexion [rad] that make it lean; how far [m] the centre of mass must be
-    ahead of the feet for the first step; phase and reference speed [m/s] with which that step begins.
-    Returns whether it begins now.
-    """
-    state[TICKS] += 1.0
-    share = min(state[TICKS] * CONTROL_DT / _LEAN_RAMP, 1.0)
-    pose = np.empty(_N)
-    _lookup(reference, 0.5 * p[_START + 3], pose)
-    for j in range(_R_HIP):
-        ctrl[j] = (1.0 - share) * _STAND[j] + share * pose[j]
-    for j in range(_R_HIP, _N):
-        ctrl[j] = _STAND[j]
-    for hip in (_R_HIP, _L_HIP):
-        ctrl[hip] += share * p[_START + 1]
-        ctrl[hip + 4] += share * p[_START]
-    for j in range(_N):
-        state[_TARGETS + j] = ctrl[j]
-    ahead = math.cos(state[HEADING]) * (state[14] - 0.5 * (state[20] + state[23]))
-    ahead += math.sin(state[HEADING]) * (state[15] - 0.5 * (state[21] + state[24]))
-    if ahead < p[_START + 2] and state[TICKS] * CONTROL_DT < _LEAN_LIMIT:
-        return False
-    state[PHASE] = p[_START + 3]
-    state[SPEED] = p[_START + 4]
-    state[SETTING_OFF] = 0.0
-    return True
-
-
-@njit(cache=True)
 def run_tick(knots, table, reference, rates, mean, state_reference, limits, state, command, qpos, qvel, ctrl):
     """One control tick: advance phase and stance in ``state`` and write the PD targets ``ctrl`` (39,) [rad].
 
@@ -307,11 +269,6 @@ def run_tick(knots, table, reference, rates, mean, state_reference, limits, stat
     mean (39,): mean of the reference. state_reference (b, 12): s_ref over a step. limits (3,): lowest and
     highest speed [m/s], highest lateral acceleration [m/s^2] in turns. All float64.
     """
-    switched = False
-    if state[SETTING_OFF] > 0.0:
-        if not _lean(table[0], reference, state, ctrl):
-            return
-        switched = True
     _follow_command(limits, state, command)
     if command.shape[0] > 3:
         state[SLOPE] = min(max(command[3], -_MAX_SLOPE), _MAX_SLOPE)
@@ -323,6 +280,7 @@ def run_tick(knots, table, reference, rates, mean, state_reference, limits, stat
     state[PHASE] += CONTROL_DT / step_time
     state[STEP_TIME] += CONTROL_DT
     state[TICKS] += 1.0
+    switched = False
     swing_contact = 26 + (1 if state[STANCE] < 0 else 0)
     if state[PHASE] >= MIN_PHASE and state[swing_contact] > _TOUCH:
         _switch_stance(state)

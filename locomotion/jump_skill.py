@@ -59,7 +59,7 @@ def run_digest(run: RunSkill) -> str:
     part = controller.parameter_slices()
     straight = parameters[used, : part["bend"].start]
     for name in (
-        "turn", "climb", "descend", "start", "climb_legs", "descend_legs", "climb_timing", "descend_timing",
+        "turn", "climb", "descend", "climb_legs", "descend_legs", "climb_timing", "descend_timing",
     ):  # fmt: skip
         straight[:, part[name]] = 0.0
     for table in (knots[used], straight, *rest):

@@ -2,8 +2,6 @@
 
 import numpy as np
 
-from locomotion.person import JOINT_NAMES
-
 __all__ = [
     "ACTIONS",
     "BLEND",
@@ -25,7 +23,6 @@ __all__ = [
     "RANK",
     "SENSORS",
     "SENSOR_VALUES",
-    "SETTING_OFF",
     "SLOPE",
     "SPEED",
     "STANCE",
@@ -39,7 +36,6 @@ __all__ = [
     "TURN_RATE",
     "new_state",
     "parameter_slices",
-    "standing_pose",
 ]
 
 SENSORS = (
@@ -87,7 +83,6 @@ PARAMETERS: dict[str, int] = {
     "timing": 2,  # step time [s]; amplitude of the legs' reference about its mean
     "arms": 1,  # amplitude of the arms' reference about its mean
     "descend": 12,  # rad per unit of slope, downhill
-    "start": 5,  # from standing, first row only: see `_lean`
     "climb_legs": 3 * N_KNOTS,  # change of feed_forward per unit of slope, uphill
     "descend_legs": 3 * N_KNOTS,  # the same downhill
     "climb_timing": 2,  # change of timing per unit of slope, uphill
@@ -111,9 +106,8 @@ PHASE, STANCE, HEADING, SPEED, TURN_RATE, TRIM, STEPS, STEP_TIME, SLOPE, TICKS =
 """Phase of the step [0, 1]; stance side (-1 right, +1 left); reference heading [rad], speed [m/s], turn
 rate [rad/s]; speed correction [m/s]; steps made; time since the switch [s]; estimated slope along the
 heading; ticks made."""
-FALLEN, STEP_LENGTH, STEP_SPEED, SETTING_OFF = 10, 11, 12, 13
-"""1 after a fall; length [m] and mean speed [m/s] of the last step; 1 while a standing person leans to set
-off."""
+FALLEN, STEP_LENGTH, STEP_SPEED = 10, 11, 12
+"""1 after a fall; length [m] and mean speed [m/s] of the last step."""
 COM, COM_VELOCITY, FEET, CONTACT = slice(14, 17), slice(17, 20), slice(20, 26), slice(26, 28)
 """Centre of mass [m], its velocity [m/s], right and left foot [m] (ankles), normal force under each foot
 [N]."""
@@ -127,25 +121,8 @@ BLEND, LAST_TARGET = slice(49, 49 + 39), slice(88, 88 + 39)
 STATE_SIZE = 127
 
 
-def standing_pose() -> np.ndarray:
-    """Joint angles [rad], (39,) float64, of a relaxed stand."""
-    pose = np.zeros(len(JOINT_NAMES))
-    for name, degrees in (
-        ("hip_flexion", 8),
-        ("knee_flexion", 14),
-        ("ankle_flexion", 6),
-        ("shoulder_abduction", 8),
-        ("elbow_flexion", 20),
-    ):
-        for side in ("right", "left"):
-            pose[JOINT_NAMES.index(f"{side}_{name}")] = np.deg2rad(degrees)
-    return pose
-
-
-def new_state(standing: bool = False) -> np.ndarray:
-    """A controller state, (STATE_SIZE,) float64: right stance, at the start of a step, heading 0, speed 0; or
-    ``standing``: the first ticks lean forward and set off."""
+def new_state() -> np.ndarray:
+    """A controller state, (STATE_SIZE,) float64: right stance, at the start of a step, heading 0, speed 0."""
     state = np.zeros(STATE_SIZE)
     state[STANCE] = -1.0
-    state[SETTING_OFF] = float(standing)
     return state

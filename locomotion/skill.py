@@ -22,7 +22,6 @@ __all__ = [
     "RunSkill",
     "load_run_skill",
     "reset_running",
-    "reset_standing",
     "run_clip",
     "run_on",
 ]
@@ -161,22 +160,13 @@ def reset_running(
     _place(model, data, index, pose, position, yaw, skill.clip.root_pitch)
     data.qvel[:3] = [speed * np.cos(yaw), speed * np.sin(yaw), -0.4]
     data.qvel[6 : 6 + len(JOINT_NAMES)] = rates
-    _fresh_state(model, data, index, state, yaw, speed)
+    state[:] = controller.new_state()
+    state[controller.HEADING], state[controller.SPEED] = yaw, speed
+    mujoco.mj_forward(model, data)
+    controller.observe(index, model, data, state, fresh=True)
+    state[controller.PLANTED] = state[controller.FEET]
+    state[controller.COM_AT_SWITCH] = state[controller.COM]
     state[controller.COM_VELOCITY] = data.qvel[:3]
-
-
-def reset_standing(
-    model: mujoco.MjModel,
-    data: mujoco.MjData,
-    index: PersonIndex,
-    state: np.ndarray,
-    position: np.ndarray,
-    yaw: float,
-) -> None:
-    """Put the person on the ground point ``position`` (3,), standing still; fills ``state``."""
-    mujoco.mj_resetData(model, data)
-    _place(model, data, index, controller.standing_pose(), position, yaw, 0.0)
-    _fresh_state(model, data, index, state, yaw, 0.0, standing=True)
 
 
 def run_on(state: np.ndarray, stance: float, heading: float, speed: float, phase: float = 0.1) -> None:
@@ -189,21 +179,3 @@ def run_on(state: np.ndarray, stance: float, heading: float, speed: float, phase
     state[controller.SPEED], state[controller.PHASE] = speed, phase
     state[controller.PLANTED] = state[controller.FEET]
     state[controller.COM_AT_SWITCH] = state[controller.COM]
-
-
-def _fresh_state(
-    model: mujoco.MjModel,
-    data: mujoco.MjData,
-    index: PersonIndex,
-    state: np.ndarray,
-    yaw: float,
-    speed: float,
-    standing: bool = False,
-) -> None:
-    state[:] = controller.new_state(standing)
-    state[controller.HEADING] = yaw
-    state[controller.SPEED] = speed
-    mujoco.mj_forward(model, data)
-    controller.observe(index, model, data, state, fresh=True)
-    state[controller.PLANTED] = state[controller.FEET]
-    state[34:37] = state[controller.COM]

@@ -109,7 +109,7 @@ def follow_path(scenario: PathScenario, run: RunSkill | None = None, walk: WalkS
         human.tick()
         ticks += 1
         aside += min(abs(human.lateral_error), 1.0)
-        measures.add(state, float(state[c.TURN_RATE]), float(state[c.SPEED]))
+        measures.add(state, float(state[c.TURN_RATE]))
     push[:2] = 0.0
     for _ in range(_STANDS if human.status == "arrived" else 0):
         human.tick()

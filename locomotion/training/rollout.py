@@ -8,8 +8,11 @@ import numpy as np
 from numba import njit
 
 from locomotion import controller as c
+from locomotion.human_state import restore_physics
 from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, build_person
-from locomotion.skill import RunSkill, reset_running, reset_standing
+from locomotion.skill import RunSkill, reset_running, run_on
+from locomotion.training.walk_starts import walk_starts
+from locomotion.walk_layout import WALK_HEADING, WALK_STANCE
 
 __all__ = ["FIGURES", "Measures", "Scenario", "Simulator", "Trial", "stays_up"]
 
@@ -42,7 +45,7 @@ class Scenario:
         headings: (h, 2) float64, rows of time [s] and desired turn rate [rad/s].
         pushes: (j, 4) float64, rows of time [s], force x, y [N] on the chest in the world, length [s].
         tilt: (2,) float64, slope of the plane along x and y [rise over run].
-        standing: whether the trial starts from standing still.
+        walking: which of `walk_starts.walk_starts` the trial starts from; None: from a running pose.
         start_noise: (51,) float64 added to the start: root velocity (3), root angular velocity (3), 39
             joints' angles [rad], 6 spare; empty for none.
         yaw: heading at the start [rad].
@@ -53,7 +56,7 @@ class Scenario:
     headings: np.ndarray = field(default_factory=lambda: np.zeros((1, 2)))
     pushes: np.ndarray = field(default_factory=lambda: np.zeros((0, 4)))
     tilt: tuple[float, float] = (0.0, 0.0)
-    standing: bool = False
+    walking: int | None = None
     start_noise: np.ndarray = field(default_factory=lambda: np.zeros(0))
     yaw: float = 0.0
 
@@ -62,7 +65,8 @@ class Scenario:
 class Trial:
     """Outcome of a trial: the figures by name of `FIGURES`, and the final state for hashing.
 
-    time [s] survived; mean absolute errors of speed [m/s] and heading [rad]; mean lateral speed off the
+    time [s] survived; mean absolute errors of speed, off the reference speed, which follows the one asked for
+    [m/s], and heading [rad]; mean lateral speed off the
     heading [m/s];
     reaction: mean excess of the ground reaction above 3 body weights; effort: mean squared torque [(Nm)^2]
     over 1e4;
@@ -80,7 +84,7 @@ def stays_up(trial: Trial, duration: float) -> bool:
 
 
 @njit(cache=True)
-def _measure(sums, state, head, past, forces, chest, turn_rate, wanted):
+def _measure(sums, state, head, past, forces, chest, turn_rate):
     """Add one tick to ``sums``; ``past`` (7,): head at the last two ticks, and ticks seen."""
     h = state[2]
     ch, sh = math.cos(h), math.sin(h)
@@ -113,7 +117,7 @@ def _measure(sums, state, head, past, forces, chest, turn_rate, wanted):
     sums[7] += fy * fy
     sums[8] += abs(math.atan2(-sh * state[17] + ch * state[18], max(vx, 0.5)))
     if state[3] > 0.0 and state[7] == 0.0 and state[6] > 1.0:
-        sums[9] += abs(state[12] - wanted)
+        sums[9] += abs(state[12] - state[3])
         sums[11] += 1.0
 
 
@@ -130,9 +134,9 @@ class Measures:
         self._head, self._chest = data.xpos[index.head], data.xmat[index.chest]
         self._forces = data.actuator_force
 
-    def add(self, state: np.ndarray, turn_rate: float, wanted: float) -> None:
-        """Add a tick; ``turn_rate`` [rad/s] and ``wanted`` speed [m/s] were asked for."""
-        _measure(self._sums, state, self._head, self._past, self._forces, self._chest, turn_rate, wanted)
+    def add(self, state: np.ndarray, turn_rate: float) -> None:
+        """Add a tick; ``turn_rate`` [rad/s] was asked for."""
+        _measure(self._sums, state, self._head, self._past, self._forces, self._chest, turn_rate)
 
     def figures(self, state: np.ndarray, ticks: int, turned: float = 0.0) -> dict[str, float]:
         """The figures after ``ticks`` and ``turned`` [rad] in all."""
@@ -180,8 +184,11 @@ class Simulator:
         """Put the person at the origin as ``scenario`` says."""
         self._tilt(scenario.tilt)
         origin = np.zeros(3)
-        if scenario.standing:
-            reset_standing(self.model, self.data, self.index, self.state, origin, scenario.yaw)
+        if scenario.walking is not None:
+            walked, speed = walk_starts()[scenario.walking]
+            restore_physics(self.model, self.data, walked.physics)
+            self.state[:] = walked.control
+            run_on(self.state, walked.walk[WALK_STANCE], walked.walk[WALK_HEADING], speed)
         else:
             speed = _at(scenario.speeds, 0.0)
             reset_running(skill, self.model, self.data, self.index, self.state, origin, scenario.yaw, speed)
@@ -234,7 +241,7 @@ class Simulator:
             c.run_tick(*tables, state, command, qpos, qvel, ctrl)
             mujoco.mj_step(model, data, STEPS_PER_TICK)
             c.observe(index, model, data, state)
-            measures.add(state, turn, command[1])
+            measures.add(state, turn)
             if on_tick is not None:
                 on_tick(self)
             if state[c.FALLEN] > 0.0:

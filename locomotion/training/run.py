@@ -47,7 +47,6 @@ def first_guess() -> np.ndarray:
     x[part["posture"]] = [1.0, 1.0, 0.7, 0.8, 0.1, 0.8, 0.1, 0.5, 0.05]
     x[part["timing"]] = [0.36, 1.0]
     x[part["arms"]] = 1.0
-    x[part["start"]] = [0.45, 0.0, 0.18, 0.35, 1.2]
     return x
 
 
@@ -66,7 +65,6 @@ def scales() -> np.ndarray:
     x[part["climb_legs"]] = x[part["descend_legs"]] = 1.5
     x[part["bend"]] = 0.1
     x[part["climb_timing"]] = x[part["descend_timing"]] = [0.2, 0.8]
-    x[part["start"]] = [0.15, 0.15, 0.03, 0.15, 0.3]
     x[part["timing"]] = [0.06, 0.25]
     x[part["arms"]] = 0.2
     return x
@@ -83,27 +81,33 @@ def first_state_reference() -> np.ndarray:
     return table
 
 
-KNOTS = np.array([0.0, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0])
-"""Speeds [m/s] of the rows of a learned table; the first serves the start from standing."""
+_STRAIGHT = ("m_ap", "m_sp", "posture", "a_hat", "feed_forward", "timing", "arms")
+"""Blocks of `controller.PARAMETERS` that count straight on on level ground."""
+_LEVEL = (*_STRAIGHT, "turn", "bend")
+"""Those that count on level ground."""
+_UP, _DOWN = (tuple(f"{way}{term}" for term in ("", "_legs", "_timing")) for way in ("climb", "descend"))
+"""Those that count uphill, and downhill."""
+KNOTS = np.array([1.2, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0])
+"""Speeds [m/s] of the rows of a learned table; the first is that of a walk from which it begins to run."""
 SPEED_RANGE = (1.5, 5.0)
 """Speeds [m/s] that may be asked for."""
 SIZE = sum(c.PARAMETERS.values())
-BLOCKS = ("base", "slope", "bend", "start", "slow", "faster", "fastest")
+BLOCKS = ("base", "slope", "bend", "slow", "slowest", "faster", "fastest")
 """Of SIZE genes each: parameters at `MIDDLE`, their change per m/s and per (m/s)^2 from 2.5 to 4 m/s; how the
-row at speed 0 differs from the one at 2.5 m/s, the one at 2 m/s from what lies between these two, the one at
-4.5 from the one at 4 m/s and the one at 5 from the one at 4.5 m/s."""
+rows beyond differ from their neighbours: that at 2 from that at 2.5 m/s, that at 1.2 from that at 2, that at
+4.5 from that at 4 and that at 5 from that at 4.5."""
 
 
 def skill_of(
     genes: np.ndarray, reference: np.ndarray, max_lateral: float = 1.6, meta: dict | None = None
 ) -> RunSkill:
     """The skill that ``genes`` (len(BLOCKS) * SIZE,) stand for, see `BLOCKS`."""
-    base, slope, bend, start, slow, faster, fastest = genes.reshape(len(BLOCKS), SIZE)
+    base, slope, bend, slow, slowest, faster, fastest = genes.reshape(len(BLOCKS), SIZE)
     u = (KNOTS[2:6] - MIDDLE)[:, None]
     table = np.empty((len(KNOTS), SIZE))
     table[2:6] = base + u * slope + u * u * bend
-    table[0] = table[2] + start
-    table[1] = table[2] + (1.0 - KNOTS[1] / KNOTS[2]) * start + slow
+    table[1] = table[2] + slow
+    table[0] = table[1] + slowest
     table[6] = table[5] + faster
     table[7] = table[6] + fastest
     time = c.parameter_slices()["timing"].start
@@ -111,28 +115,16 @@ def skill_of(
     return RunSkill(KNOTS, table, reference, SPEED_RANGE, max_lateral, (0.3, 0.25), run_clip(), meta or {})
 
 
-def genes_scale(base: float, slope: float, bend: float, start: float) -> np.ndarray:
-    """Scale of all genes from those of one row, each block weighted; 0 keeps a block."""
-    one = scales()
-    part = c.parameter_slices()
-    lean = np.zeros(SIZE)
-    lean[part["start"]] = one[part["start"]]
-    running = one - lean
-    shaped = np.zeros(SIZE)
-    for name in ("feed_forward", "a_hat", "timing", "arms", "turn", "bend", "climb", "descend"):
-        shaped[part[name]] = one[part[name]]
-    return _genes(base * running + start * lean, slope * running, bend * shaped, start * running)
+def genes_scale(base: float, slope: float, bend: float, *names: str) -> np.ndarray:
+    """Scale of the genes of the family where only the blocks ``names`` of `controller.PARAMETERS` are free,
+    each weighted; of the third only those that shape the step."""
+    shape = _blocks(*(name for name in names if name not in ("m_ap", "m_sp", "posture")))
+    return _genes(base * _blocks(*names), slope * _blocks(*names), bend * shape)
 
 
 def _genes(*blocks: np.ndarray) -> np.ndarray:
     """All genes from those of the first `BLOCKS`; the others are 0."""
     return np.concatenate([*blocks, np.zeros((len(BLOCKS) - len(blocks)) * SIZE)])
-
-
-def terms_scale(*names: str) -> np.ndarray:
-    """Scale of all genes where only the blocks ``names`` of `controller.PARAMETERS` are free, at any
-    speed."""
-    return _genes(_blocks(*names))
 
 
 def _blocks(*names: str) -> np.ndarray:
@@ -143,39 +135,37 @@ def _blocks(*names: str) -> np.ndarray:
     return free
 
 
-def ways_scale() -> np.ndarray:
-    """Scale of all genes for runs that begin walking: the middle row, how the shape of a step changes with
-    speed, and the row for setting off."""
-    kept = ("start", "climb_legs", "descend_legs")
-    shape = ("feed_forward", "a_hat", "timing", "turn", "bend")
-    setting_off = ("m_ap", "m_sp", "posture", "climb", "descend", "start", *shape)
-    middle = _blocks(*(name for name in c.PARAMETERS if name not in kept))
-    return _genes(middle, 0.5 * _blocks(*shape), np.zeros(SIZE), _blocks(*setting_off))
-
-
-def rows_scale(slow: float = 0.0, faster: float = 0.0, fastest: float = 0.0) -> np.ndarray:
+def rows_scale(
+    slow: float = 0.0, slowest: float = 0.0, faster: float = 0.0, fastest: float = 0.0
+) -> np.ndarray:
     """Scale of all genes where only rows of their own are free, each weighted; slopes are left to what was
     learned between them."""
-    kept = ("climb", "climb_legs", "climb_timing", "descend", "descend_legs", "descend_timing", "start")
-    free = _blocks(*(name for name in c.PARAMETERS if name not in kept))
-    return np.concatenate([np.zeros(4 * SIZE), slow * free, faster * free, fastest * free])
+    free = _blocks(*_LEVEL)
+    return np.concatenate([np.zeros(3 * SIZE), slow * free, slowest * free, faster * free, fastest * free])
 
 
 WAY: dict[str, Any] = {"length": (12.0, 20.0), "beyond": 10.0, "radius": 6.0, "speeds": (2.6, 3.6)}
 """A path that is run from where the person has walked a few steps, without bends in which it would walk."""
 _WAY_TAKES = 9.0  # [s]
-_PUSHED = {"speeds": (3.3, 3.3), "push": 330.0, "noise": 0.3, "duration": 7.0}
+_PUSHED = {"speeds": (3.2, 3.7), "steady": True, "push": 330.0, "noise": 0.3, "duration": 7.0}
 _ANY_SPEED = {"speeds": (2.6, 3.9), "steady": True, "push": 250.0, "noise": 0.3, "duration": 7.0}
-_FROM_STANDING = {"speeds": (3.0, 3.5), "standing": 0.5, "push": 240.0, "noise": 0.3, "duration": 7.0}
+_FROM_A_WALK = {"speeds": (2.8, 3.6), "walking": 1.0, "push": 100.0, "noise": 0.1, "duration": 5.0}
+_SLOW_RUN = {"speeds": (1.7, 2.3), "steady": True, "noise": 0.3, "push": 200.0, "duration": 4.0}
 WAYS = (
-    WAY, _FROM_STANDING, {**WAY, "ground": "gentle"}, _ANY_SPEED, {**WAY, "push": 60.0},
-    {**WAY, "length": (10.0, 12.0)},
+    WAY, _FROM_A_WALK, {**WAY, "ground": "gentle"}, _ANY_SPEED, {**WAY, "push": 60.0},
+    {**WAY, "length": (10.0, 12.0)}, _SLOW_RUN,
 )  # fmt: skip
 HARD_PUSHES = (
     WAY, _PUSHED, {**WAY, "ground": "gentle"}, _PUSHED, _ANY_SPEED, _PUSHED, {**WAY, "length": (10.0, 12.0)},
-    _PUSHED, {"speeds": (3.3, 3.3), "standing": 1.0, "noise": 0.2, "duration": 5.0},
+    _PUSHED, _FROM_A_WALK, _SLOW_RUN,
 )  # fmt: skip
 _STEADY = {"steady": True, "noise": 0.3, "duration": 4.0}
+SLOW = ({**_STEADY, "speeds": (1.95, 2.45), "lateral": 1.0},)
+SLOWER = (
+    {**_STEADY, "speeds": (1.5, 2.2)},
+    {**_STEADY, "speeds": (1.7, 2.4), "push": 200.0},
+    {**_STEADY, "speeds": (1.7, 2.4), "lateral": 1.4},
+)
 FASTER = ({**_STEADY, "speeds": (4.1, 4.6), "lateral": 1.2},)
 FASTEST = ({**_STEADY, "speeds": (4.3, 5.0), "lateral": 1.6},)
 _LONGER = {**_STEADY, "speeds": (4.05, 5.0), "duration": 6.0}
@@ -191,16 +181,17 @@ TOP_PUSHES = (
 _SLOW_PUSH = {**_STEADY, "speeds": (1.8, 2.3), "push": 330.0, "duration": 5.0}
 SLOW_PUSHES = (
     _SLOW_PUSH, {**_SLOW_PUSH, "speeds": (1.8, 2.5), "lateral": 1.2, "push": 60.0},
-    _SLOW_PUSH, {"speeds": (2.3, 3.5), "standing": 1.0, "noise": 0.2, "duration": 4.0},
+    _SLOW_PUSH, _FROM_A_WALK,
 )  # fmt: skip
-FLAT, BENDS, SLOPES = {"lateral": 0.0, "tilt": 0.0}, {"tilt": 0.0}, {"lateral": 0.0}
-SLOW_KINDS = (
-    {"standing": 1.0, "noise": 0.1},
-    {"lateral": 1.6},
-    {"tilt": 0.12},
-    {"speeds": (1.4, 3.0), "steady": False, "lateral": 1.4},
-)
-"""Kinds of trials that a stage goes through in turn: what they change of its trial."""
+FLAT, BENDS = {"lateral": 0.0}, {"lateral": 1.8}
+HILLS = {"tilt": 0.18}, BENDS, {"tilt": 0.18, "lateral": 1.2}
+EVERY = genes_scale(1, 0.5, 0, *_LEVEL) + rows_scale(slow=0.5, slowest=0.5)
+
+
+def set_off(slowest: float, fastest: float) -> tuple[dict[str, Any], ...]:
+    """Kinds of trials of setting off from a walk to a speed [m/s]; among them slow runs, which share rows."""
+    walked = {"walking": 1.0, "noise": 0.1, "speeds": (slowest, fastest)}
+    return walked, walked, _SLOW_RUN, walked
 
 
 def curriculum(training: Training) -> tuple[Stage, ...]:
@@ -223,50 +214,54 @@ def curriculum(training: Training) -> tuple[Stage, ...]:
         seconds = sum(({**trial, **kinds[i % len(kinds)]}).get("duration", _WAY_TAKES) for i in range(trials))
         return Stage(name, training.generations(generations), sigma, scale, options, population, seconds)
 
-    middle, family, slow = genes_scale(1, 0, 0, 0), genes_scale(1, 1, 0, 0), genes_scale(0, 0, 0, 1)
-    every = genes_scale(1, 1, 1, 0)
-    up, down = (terms_scale(w, f"{w}_legs", f"{w}_timing") for w in ("climb", "descend"))
-    mixed = (FLAT, BENDS, SLOPES, BENDS)
-    fast: dict[str, Any] = {"speeds": (2.4, 4.4), "steady": True}
+    middle, family = genes_scale(1, 0, 0, *_STRAIGHT), genes_scale(1, 1, 0, *_LEVEL)
+    up, down = genes_scale(1, 0, 0, *_UP), genes_scale(1, 0, 0, *_DOWN)
+    first: dict[str, Any] = {"style": 0.1, "population": 48, "noise": 0.2}
+    fast: dict[str, Any] = {"speeds": (2.4, 4.4), "steady": True, "noise": 0.4, "push": 100.0}
     steep: dict[str, Any] = {"speeds": (2.5, 3.4), "noise": 0.3, "duration": 4.0}
-    jog: dict[str, Any] = {"steady": True, "noise": 0.3, "push": 30.0, "duration": 4.0}
+    beginning = rows_scale(slow=0.5, slowest=1)
     return (
-        stage("first steps", 8, 0.20, middle, 1, duration=0.8, noise=0.2),
-        stage("first second", 25, 0.18, middle, 1, duration=1.6, noise=0.2),
-        stage("four seconds", 45, 0.18, middle, 1, duration=4.0, noise=0.2),
+        stage("first steps", 8, 0.20, middle, 1, duration=0.8, **first),
+        stage("first second", 25, 0.18, middle, 1, duration=1.6, **first),
+        stage("four seconds", 45, 0.18, middle, 1, duration=4.0, **first),
         stage("twelve seconds", 40, 0.16, middle, 2, duration=10.0, noise=0.2),
         stage("pushes", 20, 0.07, middle, 6, duration=6.0, noise=0.5, push=60.0),
         stage(
-            "speeds", 30, 0.06, every, 5, duration=5.0, noise=0.5, push=100.0, speeds=(2.9, 4.1), lateral=0.7
-        ),
-        stage("flat", 30, 0.05, family, 5, duration=4.5, noise=0.4, push=100.0, **fast),
-        stage(
-            "bends",
+            "speeds",
             30,
-            0.045,
-            family,
-            8,
-            mixed,
-            duration=4.0,
-            noise=0.4,
+            0.06,
+            genes_scale(1, 1, 1, *_LEVEL),
+            5,
+            duration=5.0,
+            noise=0.5,
             push=100.0,
-            lateral=1.8,
-            tilt=0.18,
-            **fast,
+            speeds=(2.9, 4.1),
+            lateral=0.7,
         ),
+        stage("flat", 30, 0.05, family, 5, duration=4.5, **fast),
+        stage("bends", 40, 0.045, family, 8, (FLAT, BENDS, BENDS, BENDS), duration=4.0, **fast),
         stage("gentle climbs", 25, 0.10, up, 3, style=0.2, climb=(0.06, 0.16), **steep),
         stage("climbs", 40, 0.08, up, 4, style=0.2, climb=(0.05, 0.24), push=40.0, **steep),
         stage("gentle descents", 25, 0.10, down, 3, style=0.2, climb=(-0.16, -0.06), **steep),
         stage("descents", 40, 0.08, down, 4, style=0.2, climb=(-0.24, -0.05), push=40.0, **steep),
-        stage("tight bends", 20, 0.06, terms_scale("turn"), 4, duration=5.0, noise=0.3, lateral=2.2, **fast),
-        stage("first step", 40, 0.20, slow, 1, style=0.2, duration=2.2, speeds=(2.7, 2.7), standing=1.0),
         stage(
-            "set off", 25, 0.12, slow, 4, style=0.2, duration=4.0, speeds=(2.5, 3.5), noise=0.2, standing=1.0
+            "tight bends",
+            20,
+            0.06,
+            genes_scale(1, 0, 0, "turn", "bend"),
+            4,
+            duration=5.0,
+            **{**fast, "lateral": 2.2, "push": 0.0},
         ),
-        stage("slow", 15, 0.08, slow, 6, SLOW_KINDS, style=0.2, speeds=(1.9, 2.6), **jog),
-        stage("slower", 40, 0.08, slow, 8, SLOW_KINDS, style=0.2, speeds=(1.4, 2.6), **jog),
-        stage("ways", 40, 0.04, ways_scale(), len(WAYS), WAYS, style=0.3),
-        stage("hard pushes", 31, 0.025, ways_scale(), len(HARD_PUSHES), HARD_PUSHES, style=0.3),
+        stage("hills", 25, 0.04, genes_scale(1, 0, 0, *_LEVEL, *_UP, *_DOWN), 6, HILLS, duration=4.0, **fast),
+        stage("slow", 40, 0.05, rows_scale(slow=1), 5, SLOW, style=0.3),
+        stage("slower", 40, 0.05, rows_scale(slow=1, slowest=0.5), 6, SLOWER, style=0.3),
+        stage("jog on", 12, 0.05, beginning, 3, set_off(1.5, 1.7), style=0.3, duration=3.0),
+        stage("set off slowly", 20, 0.04, beginning, 4, set_off(1.6, 2.6), style=0.3, duration=3.0),
+        stage("set off", 40, 0.04, beginning, 4, set_off(2.4, 3.6), style=0.3, duration=4.0),
+        stage("ways", 40, 0.04, EVERY, len(WAYS), WAYS, style=0.3),
+        stage("hard pushes", 40, 0.025, EVERY, len(HARD_PUSHES), HARD_PUSHES, style=0.3, fall=3.0),
+        stage("slow pushes", 30, 0.04, rows_scale(slow=1), 8, SLOW_PUSHES, style=0.3, fall=3.0),
         stage("faster", 40, 0.05, rows_scale(faster=1), 5, FASTER, style=0.3),
         stage("fastest", 40, 0.05, rows_scale(faster=0.5, fastest=1), 5, FASTEST, style=0.3),
         stage(
@@ -290,7 +285,6 @@ def curriculum(training: Training) -> tuple[Stage, ...]:
             fall=6.0,
             population=24,
         ),
-        stage("slow pushes", 16, 0.06, rows_scale(slow=1), 8, SLOW_PUSHES, style=0.3),
     )
 
 

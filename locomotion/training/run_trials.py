@@ -3,6 +3,7 @@
 import numpy as np
 
 from locomotion.training.rollout import Scenario, Trial
+from locomotion.training.walk_starts import WALK_STARTS
 
 __all__ = ["MIDDLE", "cost", "draw_scenario"]
 
@@ -18,7 +19,7 @@ def draw_scenario(
     push: float = 0.0,
     lateral: float = 0.0,
     tilt: float = 0.0,
-    standing: float = 0.0,
+    walking: float = 0.0,
     climb: tuple[float, float] | None = None,
     steady: bool = False,
 ) -> Scenario:
@@ -26,8 +27,8 @@ def draw_scenario(
 
     duration [s]; range of desired speeds [m/s], drawn anew every 2 to 3 s; noise: start noise (1 = 0.3
     m/s, 0.05 rad); push: highest force [N] of pushes of 0.1 s; lateral: highest lateral acceleration
-    [m/s^2] of turns; tilt: highest slope of the ground [rise over run]; standing: share of the trials that
-    start from standing; climb: range of the slope along the start's heading instead of ``tilt``; steady: one
+    [m/s^2] of turns; tilt: highest slope of the ground [rise over run]; walking: share of the trials that
+    start from a walk; climb: range of the slope along the start's heading instead of ``tilt``; steady: one
     speed all the time.
     """
     low, high = speeds
@@ -54,19 +55,22 @@ def draw_scenario(
         headings=turns,
         pushes=pushes if push > 0 else np.zeros((0, 4)),
         tilt=slope,
-        standing=bool(rng.random() < standing),
+        walking=int(rng.integers(WALK_STARTS)) if rng.random() < walking else None,
         start_noise=rng.normal(size=51) * sizes if noise > 0 else np.zeros(0),
     )
 
 
 def cost(trial: Trial, duration: float, style: float) -> float:
-    """Objective of one trial of ``duration`` [s]; ``style`` in [0, 1] weighs looks against survival."""
+    """Objective of one trial of ``duration`` [s]; ``style`` in [0, 1] weighs looks against survival.
+
+    What is wrong counts as long as the person is up, and the time after a fall as much as the worst: it never
+    pays to fall before something goes wrong.
+    """
     f = trial.figures
-    lost = 1.0 - f["time"] / duration
+    up = f["time"] / duration
     wanted_rate = 2.75 * (0.2 * f["speed"] / 3.5 + 0.8)
-    return (
-        10.0 * lost
-        + 4.0 * f["speed_error"]
+    wrong = (
+        4.0 * f["speed_error"]
         + 1.0 * f["side_drift"]
         + 1.5 * f["heading_error"]
         + 2.0 * f["trunk"]
@@ -78,3 +82,4 @@ def cost(trial: Trial, duration: float, style: float) -> float:
             + 0.5 * abs(f["step_rate"] - wanted_rate)
         )
     )
+    return 10.0 * (1.0 - up) + up * min(wrong, 10.0)

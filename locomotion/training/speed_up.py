@@ -1,19 +1,19 @@
 """Learning to speed up from a walk to a run: what changes of the run's parameters while it does."""
 
 import os
-from dataclasses import dataclass, replace
-from functools import lru_cache
+from dataclasses import dataclass
 
 import numpy as np
 
 from locomotion import controller as c
 from locomotion.body import Human
-from locomotion.human_state import MOVING, HumanState
+from locomotion.human_state import MOVING
 from locomotion.skill import RunSkill, load_run_skill
 from locomotion.speed_up import SPEED_UP_SKILL, SpeedUpSkill
 from locomotion.training.loop import Stage
 from locomotion.training.run import scales
 from locomotion.training.training import Training
+from locomotion.training.walk_starts import WALK_STARTS, WalkStart, walk_starts
 
 __all__ = ["SpeedUpProblem", "speed_up", "speed_up_of", "train_speed_up"]
 
@@ -23,30 +23,13 @@ _WANTED, _TOO_FAST = 3.3, 3.8  # [m/s]
 _LENGTH = 8.0  # [m] in which it should be as fast
 _AFTERWARDS = 150  # ticks that it must go on from there
 _FREE = ("posture", "a_hat", "feed_forward", "timing", "m_ap", "m_sp")
-_STARTS = 24
-_WAY = np.array([[0.0, 0.0, 0.0], [60.0, 0.0, 0.0]])
 
 
-@lru_cache(maxsize=1)
-def _starts() -> tuple[HumanState, ...]:
-    """Persons that begin to run, quickly."""
-    states = []
-    for seed in range(_STARTS):
-        rng = np.random.default_rng(seed)
-        human = Human(None, clearing=(), rehearsals=0, speed_up=speed_up_of(np.zeros(2 * _SIZE)))
-        human.reset(_WAY[0], 0.0)
-        human.data.qvel[:] += 0.05 * rng.normal(size=human.model.nv)
-        human.follow(_WAY, float(rng.uniform(3.0, 3.6)))
-        while human.status == "walking":
-            human.tick()
-        states.append(replace(human.save_state(), hurries=True))
-    return tuple(states)
-
-
-def speed_up(human: Human, start: HumanState, noise: np.ndarray) -> tuple[float, bool]:
+def speed_up(human: Human, start: WalkStart, noise: np.ndarray) -> tuple[float, bool]:
     """Cost of a trial, and whether the person ran on: what it lacks of the wanted speed, over the first
     `_LENGTH` m [m²/s]."""
-    human.restore_state(start)
+    human.restore_state(start.state)
+    human.run(True, start.speed)
     human.data.qvel[:] += noise
     begun, state = human.com[0], human.control
     lacks, at, late = 0.0, 0.0, 0
@@ -98,14 +81,14 @@ class SpeedUpProblem:
     ) -> list[tuple[int, np.ndarray]]:
         """Random trials: which start, and noise of its velocities (45,) [m/s, rad/s]."""
         count = stage.options["trials"]
-        return [(int(rng.integers(_STARTS)), 0.05 * rng.normal(size=45)) for _ in range(count)]
+        return [(int(rng.integers(WALK_STARTS)), 0.05 * rng.normal(size=45)) for _ in range(count)]
 
     def evaluate(
         self, stage: Stage, candidate: np.ndarray, scenarios: list[tuple[int, np.ndarray]]
     ) -> tuple[float, float]:
         """Mean cost, and share of the trials in which the person ran on."""
         human = Human(None, self.run, clearing=(), rehearsals=0, speed_up=speed_up_of(candidate))
-        results = [speed_up(human, _starts()[number], noise) for number, noise in scenarios]
+        results = [speed_up(human, walk_starts()[number], noise) for number, noise in scenarios]
         return float(np.mean([cost for cost, _ in results])), float(np.mean([ran for _, ran in results]))
 
 

@@ -10,7 +10,7 @@ import pytest
 from locomotion import controller as c
 from locomotion import controller_reference as slow
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK, PersonIndex, build_person
-from locomotion.skill import RunSkill, load_run_skill, reset_running, reset_standing
+from locomotion.skill import RunSkill, load_run_skill, reset_running
 
 
 class Runner:
@@ -163,15 +163,6 @@ def test_survives_a_push_from_the_side(runner: Runner) -> None:
     runner.data.xfrc_applied[:] = 0.0
     runner.tick(500)
     assert runner.state[c.FALLEN] == 0.0
-
-
-@pytest.mark.parametrize("yaw", [0.0, 2.5])
-def test_sets_off_from_standing(runner: Runner, yaw: float) -> None:
-    runner.command[:] = [yaw, 3.0, 0.0]
-    reset_standing(runner.model, runner.data, runner.index, runner.state, np.zeros(3), yaw)
-    runner.tick(500)
-    assert runner.state[c.FALLEN] == 0.0
-    assert runner.state[c.COM_VELOCITY] @ [np.cos(yaw), np.sin(yaw), 0.0] == pytest.approx(3.0, abs=0.5)
 
 
 def test_a_dropped_person_counts_as_fallen(runner: Runner) -> None:

@@ -10,7 +10,7 @@ import pytest
 from locomotion import controller as c
 from locomotion.errors import LocomotionError
 from locomotion.person import PersonIndex, build_person
-from locomotion.skill import RUN_SKILL, load_run_skill, reset_running, reset_standing
+from locomotion.skill import RUN_SKILL, load_run_skill, reset_running
 from navmesh.archive import read_archive, write_archive
 
 
@@ -75,16 +75,12 @@ def test_with_numbers_that_are_not_finite(tmp_path: Path) -> None:
         load_run_skill(tmp_path / "run.npz")
 
 
-@pytest.mark.parametrize("standing", [True, False])
-def test_starts_where_it_is_put(standing: bool) -> None:
+def test_starts_where_it_is_put() -> None:
     model = build_person()
     data, index, state = mujoco.MjData(model), PersonIndex.of(model), c.new_state()
     place, yaw = np.array([3.0, -2.0, 0.0]), 2.0
-    if standing:
-        reset_standing(model, data, index, state, place, yaw)
-    else:
-        reset_running(load_run_skill(), model, data, index, state, place, yaw, 3.0)
-        assert np.hypot(*state[c.COM_VELOCITY][:2]) == pytest.approx(3.0)
+    reset_running(load_run_skill(), model, data, index, state, place, yaw, 3.0)
+    assert np.hypot(*state[c.COM_VELOCITY][:2]) == pytest.approx(3.0)
     np.testing.assert_allclose(data.qpos[:2], place[:2])
     assert state[c.HEADING] == yaw
     data.qpos[2] -= 0.001

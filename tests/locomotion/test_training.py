@@ -11,13 +11,14 @@ import pytest
 from locomotion.body import Human
 from locomotion.errors import LocomotionError
 from locomotion.human_state import MOVING
-from locomotion.run_layout import parameter_slices
+from locomotion.run_layout import COM_VELOCITY, SPEED, parameter_slices
+from locomotion.skill import load_run_skill
 from locomotion.training.cma_es import CmaEs
 from locomotion.training.grounds import training_ground
 from locomotion.training.loop import Stage, learn, simulated
 from locomotion.training.path_trial import PathScenario, draw_path
 from locomotion.training.progress import Clock
-from locomotion.training.rollout import Simulator
+from locomotion.training.rollout import Simulator, stays_up
 from locomotion.training.run import (
     BLOCKS,
     SIZE,
@@ -76,7 +77,8 @@ def test_cma_keeps_up_with_the_cma_package() -> None:
 def tiny_problem() -> RunProblem:
     trial = {"duration": 0.2, "noise": 0.2}
     options = {"trials": 1, "style": 0.3, "fall": 0.0, "kinds": ({},), "trial": trial}
-    stages = tuple(Stage(name, 2, 0.1, genes_scale(1, 0, 0, 0), options, population=4) for name in ("a", "b"))
+    scale = genes_scale(1, 0, 0, "m_ap", "m_sp", "a_hat")
+    stages = tuple(Stage(name, 2, 0.1, scale, options, population=4) for name in ("a", "b"))
     return RunProblem(
         stages, np.concatenate([first_guess(), np.zeros((len(BLOCKS) - 1) * SIZE)]), first_state_reference()
     )
@@ -156,19 +158,46 @@ def test_paths_on_which_people_learn_to_walk_are_walked(kind: str) -> None:
     assert set(ticks_by_gait(path)) - {"arrived"} == {"walking"}
 
 
-def test_rows_of_their_own_begin_as_their_neighbours_and_are_learned_alone() -> None:
+def test_rows_of_their_own_begin_as_their_neighbours_and_are_learned_without_slopes() -> None:
     genes = np.random.default_rng(0).normal(size=len(BLOCKS) * SIZE)
-    genes[4 * SIZE :] = 0.0
+    genes[3 * SIZE :] = 0.0
     before = skill_of(genes, first_state_reference())
+    rows = dict(zip(before.knots, before.table, strict=True))
+    for row, neighbour in ((1.2, 2.5), (2.0, 2.5), (4.5, 4.0), (5.0, 4.0)):
+        np.testing.assert_array_equal(rows[row], rows[neighbour])
     part = parameter_slices()
-    between = np.interp(2.0, before.knots[[0, 2]], before.table[[0, 2], part["m_ap"].start])
-    assert before.knots[1] == 2.0 and before.table[1, part["m_ap"].start] == pytest.approx(between)
-    np.testing.assert_array_equal(before.table[-1], before.table[-3])
-    for row, scale in ((1, rows_scale(slow=1.0)), (-1, rows_scale(fastest=1.0))):
-        after = skill_of(genes + scale, first_state_reference()).table
-        assert (after[row, part["m_ap"]] != before.table[row, part["m_ap"]]).all()
-        np.testing.assert_array_equal(np.delete(after, row, axis=0), np.delete(before.table, row, axis=0))
+    beyond: dict[str, list[float]] = {
+        "slow": [1.2, 2.0],
+        "slowest": [1.2],
+        "faster": [4.5, 5.0],
+        "fastest": [5.0],
+    }
+    for name, moved in beyond.items():
+        after = skill_of(genes + rows_scale(**{name: 1.0}), first_state_reference()).table
+        changed = (after[:, part["m_ap"]] != before.table[:, part["m_ap"]]).all(axis=1)
+        assert list(before.knots[changed]) == moved
+        np.testing.assert_array_equal(after[~changed], before.table[~changed])
         np.testing.assert_array_equal(after[:, part["climb"]], before.table[:, part["climb"]])
+
+
+def test_what_a_stage_does_not_feel_stays_as_it_is() -> None:
+    """Genes that make no difference would wander off."""
+    free = genes_scale(1.0, 0.5, 2.0, "posture", "turn").reshape(len(BLOCKS), SIZE) > 0.0
+    part = parameter_slices()
+    for block, names in ((0, ("posture", "turn")), (1, ("posture", "turn")), (2, ("turn",))):
+        assert free[block].sum() == sum(free[block, part[name]].sum() for name in names)
+        assert all(free[block, part[name]].all() for name in names)
+    assert not free[3:].any()
+
+
+def test_trials_of_setting_off_begin_in_a_walk_from_which_people_run() -> None:
+    scenario = draw_scenario(np.random.default_rng(2), 3.0, speeds=(3.2, 3.2), walking=1.0)
+    simulator, skill = Simulator(), load_run_skill()
+    simulator.start(skill, scenario)
+    walked, (pace, *_) = simulator.state[SPEED], simulator.state[COM_VELOCITY]
+    assert 1.0 < walked < 1.5 and pace == pytest.approx(walked, abs=0.1)
+    assert stays_up(simulator.run(skill, scenario), scenario.duration)
+    assert simulator.state[COM_VELOCITY][0] > 2.5
 
 
 def test_a_fall_costs_what_its_stage_says_and_a_trial_that_lasts_nothing() -> None:

@@ -16,7 +16,7 @@ from locomotion.person import MASS
 from locomotion.skill import RunSkill, load_run_skill
 from locomotion.slow_down import load_slow_down_skill
 from locomotion.training.loop import Stage
-from locomotion.training.run import scales
+from locomotion.training.run_genes import row_scale
 from locomotion.training.training import Training
 from locomotion.walk_layout import GAINS, gain_limits
 from locomotion.walk_skill import load_walk_skill
@@ -180,15 +180,10 @@ def _limits() -> tuple[np.ndarray, np.ndarray]:
 
 
 def _curriculum(training: Training) -> tuple[Stage, ...]:
-    one, part = scales(), c.parameter_slices()
-    shape, planting = np.zeros(_SIZE), np.zeros(_SIZE)
-    for name in _SHAPE:
-        shape[part[name]] = one[part[name]]
-    placed = [part["a_hat"].start + c.ACTIONS.index(name) for name in _PLANTING]
-    for places in (placed, part["timing"]):
-        planting[places] = one[places]
-    throwing = planting.copy()
-    throwing[part["feed_forward"]] = one[part["feed_forward"]]
+    shape, posed, planting = row_scale(*_SHAPE), row_scale("a_hat"), row_scale("timing")
+    placed = [c.parameter_slices()["a_hat"].start + c.ACTIONS.index(name) for name in _PLANTING]
+    planting[placed] = posed[placed]
+    throwing = planting + row_scale("feed_forward")
     low, high = _limits()
     gains = np.tile(np.where([name in _KEPT for name in GAINS], 0.0, high - low), FIRST_STEPS)
     first_gains = np.where(np.arange(len(gains)) < len(GAINS), gains, 0.0)

@@ -13,7 +13,7 @@ from locomotion.skill import RunSkill, load_run_skill
 from locomotion.slow_down import SLOW_DOWN_SKILL, SlowDownSkill, touchdown
 from locomotion.training.loop import Stage
 from locomotion.training.path_trial import draw_path
-from locomotion.training.run import scales
+from locomotion.training.run_genes import row_scale
 from locomotion.training.training import Training
 from locomotion.walk_layout import GAINS, gain_limits
 
@@ -108,12 +108,7 @@ def slow_down_of(x: np.ndarray, meta: dict | None = None) -> SlowDownSkill:
 
 
 def _curriculum(training: Training) -> tuple[Stage, ...]:
-    one, part = scales(), c.parameter_slices()
-    low, lowest = np.zeros(_SIZE), np.zeros(_SIZE)
-    for name in (*_FREE, "m_ap", "m_sp"):
-        low[part[name]] = one[part[name]]
-    for name in _FREE:
-        lowest[part[name]] = one[part[name]]
+    low, lowest = row_scale(*_FREE, "m_ap", "m_sp"), row_scale(*_FREE)
     least, most = gain_limits()
     scale = np.concatenate([low, lowest, most - least])
     return (Stage("slow down", training.generations(40), 0.08, scale, {"trials": 10}, population=24),)

@@ -11,7 +11,7 @@ from locomotion.human_state import MOVING
 from locomotion.skill import RunSkill, load_run_skill
 from locomotion.speed_up import SPEED_UP_SKILL, SpeedUpSkill
 from locomotion.training.loop import Stage
-from locomotion.training.run import scales
+from locomotion.training.run_genes import row_scale
 from locomotion.training.training import Training
 from locomotion.training.walk_starts import WALK_STARTS, WalkStart, walk_starts
 
@@ -53,10 +53,7 @@ def speed_up_of(x: np.ndarray, meta: dict | None = None) -> SpeedUpSkill:
 
 
 def _curriculum(training: Training) -> tuple[Stage, ...]:
-    one, part = scales(), c.parameter_slices()
-    scale = np.zeros(_SIZE)
-    for name in _FREE:
-        scale[part[name]] = one[part[name]]
+    scale = row_scale(*_FREE)
     scale = np.concatenate([scale, 0.5 * scale])
     return (Stage("speed up", training.generations(120), 0.06, scale, {"trials": 6}, population=20),)
 

@@ -19,11 +19,11 @@ from locomotion.training.loop import Stage, learn, simulated
 from locomotion.training.path_trial import PathScenario, draw_path
 from locomotion.training.progress import Clock
 from locomotion.training.rollout import Simulator, stays_up
-from locomotion.training.run import (
+from locomotion.training.run import RunProblem
+from locomotion.training.run_curriculum import WAYS
+from locomotion.training.run_genes import (
     BLOCKS,
     SIZE,
-    WAYS,
-    RunProblem,
     first_guess,
     first_state_reference,
     genes_scale,
@@ -79,9 +79,7 @@ def tiny_problem() -> RunProblem:
     options = {"trials": 1, "style": 0.3, "fall": 0.0, "kinds": ({},), "trial": trial}
     scale = genes_scale(1, 0, 0, "m_ap", "m_sp", "a_hat")
     stages = tuple(Stage(name, 2, 0.1, scale, options, population=4) for name in ("a", "b"))
-    return RunProblem(
-        stages, np.concatenate([first_guess(), np.zeros((len(BLOCKS) - 1) * SIZE)]), first_state_reference()
-    )
+    return RunProblem(stages, first_guess(), first_state_reference())
 
 
 def test_interrupted_and_resumed_equals_uninterrupted(tmp_path: Path) -> None:

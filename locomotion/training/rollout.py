@@ -45,7 +45,7 @@ class Scenario:
         headings: (h, 2) float64, rows of time [s] and desired turn rate [rad/s].
         pushes: (j, 4) float64, rows of time [s], force x, y [N] on the chest in the world, length [s].
         tilt: (2,) float64, slope of the plane along x and y [rise over run].
-        walking: which of `walk_starts.walk_starts` the trial starts from; None: from a running pose.
+        walking: which of `walk_starts.walk_starts`, along x, it starts from; None: from a running pose.
         start_noise: (51,) float64 added to the start: root velocity (3), root angular velocity (3), 39
             joints' angles [rad], 6 spare; empty for none.
         yaw: heading at the start [rad].
@@ -66,10 +66,8 @@ class Trial:
     """Outcome of a trial: the figures by name of `FIGURES`, and the final state for hashing.
 
     time [s] survived; mean absolute errors of speed, off the reference speed, which follows the one asked for
-    [m/s], and heading [rad]; mean lateral speed off the
-    heading [m/s];
-    reaction: mean excess of the ground reaction above 3 body weights; effort: mean squared torque [(Nm)^2]
-    over 1e4;
+    [m/s], and heading [rad]; mean lateral speed off the heading [m/s]; reaction: mean excess of the ground
+    reaction above 3 body weights; effort: mean squared torque [(Nm)^2] over 1e4;
     head: mean squared acceleration of the head [g^2]; step_rate [1/s]; trunk: mean squared tilt [rad^2];
     speed: mean [m/s]; peak: highest reaction [body weights]; turn: turning per step [rad].
     """

@@ -63,8 +63,8 @@ def draw_scenario(
 def cost(trial: Trial, duration: float, style: float) -> float:
     """Objective of one trial of ``duration`` [s]; ``style`` in [0, 1] weighs looks against survival.
 
-    What is wrong counts as long as the person is up, and the time after a fall as much as the worst: it never
-    pays to fall before something goes wrong.
+    What is wrong counts as long as the person is up, and the time after a fall as much as the worst, so that
+    it does not pay to fall before something goes wrong.
     """
     f = trial.figures
     up = f["time"] / duration

@@ -1,5 +1,6 @@
 """Learning: the optimiser, resuming, the same result for the same seed. Nothing is really learned here."""
 
+import itertools
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
@@ -18,7 +19,7 @@ from locomotion.training.grounds import training_ground
 from locomotion.training.loop import Stage, learn, simulated
 from locomotion.training.path_trial import PathScenario, draw_path
 from locomotion.training.progress import Clock
-from locomotion.training.rollout import Simulator, stays_up
+from locomotion.training.rollout import FIGURES, Simulator, Trial, stays_up
 from locomotion.training.run import RunProblem
 from locomotion.training.run_curriculum import WAYS
 from locomotion.training.run_genes import (
@@ -30,7 +31,7 @@ from locomotion.training.run_genes import (
     rows_scale,
     skill_of,
 )
-from locomotion.training.run_trials import draw_scenario
+from locomotion.training.run_trials import cost, draw_scenario
 from locomotion.training.training import Training
 from locomotion.training.walk import KINDS as WALKS
 
@@ -205,6 +206,17 @@ def test_a_fall_costs_what_its_stage_says_and_a_trial_that_lasts_nothing() -> No
         free, dear = (Stage("a", 1, 0.1, np.ones(1), {"style": 0.3, "fall": fall}) for fall in (0.0, 6.0))
         free, dear = (problem.evaluate(stage, problem.genes, trials)[0] for stage in (free, dear))
         assert dear - free == pytest.approx(more)
+
+
+def test_whoever_falls_sooner_is_not_better_off_for_what_it_is_spared() -> None:
+    figures = dict.fromkeys(FIGURES, 0.0)
+    trials = [
+        Trial(figures | {"time": t, "speed_error": 0.75 * t}, np.zeros(0)) for t in (0.3, 0.6, 0.9, 1.2)
+    ]
+    costs = [cost(trial, 4.0, style=0.3) for trial in trials]
+    assert all(later < sooner for sooner, later in itertools.pairwise(costs))
+    hopeless = Trial(figures | {"time": 4.0, "speed_error": 50.0}, np.zeros(0))
+    assert cost(hopeless, 4.0, style=0.3) == 10.0
 
 
 def test_same_trial_same_outcome() -> None:

@@ -1,6 +1,7 @@
 """Learning to run, from nothing: the problem, its objective over a stage's trials, and the step's length."""
 
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
@@ -9,24 +10,40 @@ import numpy as np
 
 from locomotion import controller as c
 from locomotion.skill import RUN_SKILL, RunSkill
-from locomotion.training.loop import Stage
+from locomotion.training.loop import Stage, simulated
 from locomotion.training.path_trial import PathScenario, draw_path, follow_path
+from locomotion.training.progress import Clock
 from locomotion.training.rollout import Scenario, Simulator, stays_up
-from locomotion.training.run_curriculum import curriculum
+from locomotion.training.run_curriculum import BEGINNINGS, beginning, curriculum
 from locomotion.training.run_genes import first_guess, first_state_reference, skill_of
 from locomotion.training.run_trials import cost, draw_scenario
 from locomotion.training.training import Training
 
-__all__ = ["RunProblem", "fit_step_length", "train_run"]
+__all__ = ["RunProblem", "begin", "fit_step_length", "train_run"]
+
+_JUDGED = 20  # generations' trials by which beginnings are compared
 
 
 def train_run(training: Training, out: str | os.PathLike[str] = RUN_SKILL) -> RunSkill:
     """Learn to run from nothing and write the skill to ``out``."""
-    problem = RunProblem(curriculum(training), first_guess(), first_state_reference())
-    skill = skill_of(training.learn(problem), problem.reference, meta=training.made_by("run"))
+    first, then = beginning(training), curriculum(training)
+    clock = Clock(BEGINNINGS * simulated(first) + simulated(then))
+    problem = RunProblem(then, begin(training, first, clock), first_state_reference())
+    genes = training.learn(problem, BEGINNINGS, training.file("search"), clock)
+    skill = skill_of(genes, problem.reference, meta=training.made_by("run"))
     skill = replace(skill, step_length=fit_step_length(skill))
     skill.save(out)
     return skill
+
+
+def begin(training: Training, stages: Sequence[Stage], clock: Clock, count: int = BEGINNINGS) -> np.ndarray:
+    """Genes of the best of ``count`` searches from nothing, each from a seed of its own, by the mean cost of
+    trials of the last stage."""
+    problem = RunProblem(tuple(stages), first_guess(), first_state_reference())
+    found = [training.learn(problem, k, training.file(f"beginning-{k}"), clock) for k in range(count)]
+    rng, last = np.random.default_rng(training.seed), stages[-1]
+    trials = [trial for _ in range(_JUDGED) for trial in problem.scenarios(last, 0, rng)]
+    return min(found, key=lambda genes: problem.evaluate(last, genes, trials)[0])
 
 
 def fit_step_length(skill: RunSkill) -> tuple[float, float]:

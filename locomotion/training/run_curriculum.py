@@ -1,5 +1,6 @@
 """What running is learned on: the stages, from the first steps to the whole family, and their trials."""
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -8,7 +9,10 @@ from locomotion.training.loop import Stage
 from locomotion.training.run_genes import DOWN, LEVEL, STRAIGHT, UP, genes_scale, rows_scale
 from locomotion.training.training import Training
 
-__all__ = ["WAYS", "curriculum"]
+__all__ = ["BEGINNINGS", "WAYS", "beginning", "curriculum"]
+
+BEGINNINGS = 8
+"""How often learning begins anew, to go on from the best: about one beginning in three comes to running."""
 
 WAY: dict[str, Any] = {"length": (12.0, 20.0), "beyond": 10.0, "radius": 6.0, "speeds": (2.6, 3.6)}
 """A path that is run from where the person has walked a few steps, without bends in which it would walk."""
@@ -63,36 +67,46 @@ def set_off(slowest: float, fastest: float) -> tuple[dict[str, Any], ...]:
     return walked, walked, _SLOW_RUN, walked
 
 
+def _stage(
+    training: Training,
+    name: str,
+    generations: int,
+    sigma: float,
+    scale: np.ndarray,
+    trials: int,
+    kinds: tuple[dict, ...] = ({},),
+    style: float = 0.4,
+    fall: float = 0.0,
+    population: int = 32,
+    **trial: Any,
+) -> Stage:
+    """A stage; ``fall`` is what each fall costs besides the time that is lost."""
+    options = {"trials": trials, "style": style, "fall": fall, "trial": trial, "kinds": kinds}
+    seconds = sum(({**trial, **kinds[i % len(kinds)]}).get("duration", _WAY_TAKES) for i in range(trials))
+    return Stage(name, training.generations(generations), sigma, scale, options, population, seconds)
+
+
+def beginning(training: Training) -> tuple[Stage, ...]:
+    """The stages from nothing to four seconds of running. They do not always get there: see `BEGINNINGS`."""
+    stage = partial(
+        _stage, training, scale=genes_scale(1, 0, 0, *STRAIGHT), trials=1, style=0.1, population=48
+    )
+    return (
+        stage("first steps", 8, 0.20, duration=0.8, noise=0.2),
+        stage("first second", 25, 0.18, duration=1.6, noise=0.2),
+        stage("four seconds", 45, 0.18, duration=4.0, noise=0.2),
+    )
+
+
 def curriculum(training: Training) -> tuple[Stage, ...]:
-    """The stages from nothing to the whole family. A stage's ``fall`` is what each fall costs besides the
-    time that is lost."""
-
-    def stage(
-        name: str,
-        generations: int,
-        sigma: float,
-        scale: np.ndarray,
-        trials: int,
-        kinds: tuple[dict, ...] = ({},),
-        style: float = 0.4,
-        fall: float = 0.0,
-        population: int = 32,
-        **trial: Any,
-    ) -> Stage:
-        options = {"trials": trials, "style": style, "fall": fall, "trial": trial, "kinds": kinds}
-        seconds = sum(({**trial, **kinds[i % len(kinds)]}).get("duration", _WAY_TAKES) for i in range(trials))
-        return Stage(name, training.generations(generations), sigma, scale, options, population, seconds)
-
+    """The stages from there to the whole family."""
+    stage = partial(_stage, training)
     middle, family = genes_scale(1, 0, 0, *STRAIGHT), genes_scale(1, 1, 0, *LEVEL)
     up, down = genes_scale(1, 0, 0, *UP), genes_scale(1, 0, 0, *DOWN)
-    first: dict[str, Any] = {"style": 0.1, "population": 48, "noise": 0.2}
     steep: dict[str, Any] = {"speeds": (2.5, 3.4), "noise": 0.3, "duration": 4.0}
     high, top = rows_scale(faster=1, fastest=1), rows_scale(fastest=1)
     beginning = rows_scale(slow=0.5, slowest=1)
     return (
-        stage("first steps", 8, 0.20, middle, 1, duration=0.8, **first),
-        stage("first second", 25, 0.18, middle, 1, duration=1.6, **first),
-        stage("four seconds", 45, 0.18, middle, 1, duration=4.0, **first),
         stage("twelve seconds", 40, 0.16, middle, 2, duration=10.0, noise=0.2),
         stage("pushes", 20, 0.07, middle, 6, duration=6.0, noise=0.5, push=60.0),
         stage("speeds", 30, 0.06, genes_scale(1, 1, 1, *LEVEL), 5, SPEEDS),

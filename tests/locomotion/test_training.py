@@ -20,7 +20,7 @@ from locomotion.training.loop import Stage, learn, simulated
 from locomotion.training.path_trial import PathScenario, draw_path
 from locomotion.training.progress import Clock
 from locomotion.training.rollout import FIGURES, Simulator, Trial, stays_up
-from locomotion.training.run import RunProblem
+from locomotion.training.run import RunProblem, begin
 from locomotion.training.run_curriculum import WAYS
 from locomotion.training.run_genes import (
     BLOCKS,
@@ -187,6 +187,20 @@ def test_what_a_stage_does_not_feel_stays_as_it_is() -> None:
         assert free[block].sum() == sum(free[block, part[name]].sum() for name in names)
         assert all(free[block, part[name]].all() for name in names)
     assert not free[3:].any()
+
+
+def test_running_goes_on_from_the_best_of_several_beginnings(tmp_path: Path) -> None:
+    problem = tiny_problem()
+    training = Training(7, tmp_path / "run.checkpoint", workers=1, on_progress=lambda progress: None)
+    genes = begin(training, problem.stages(), Clock(1.0), count=3)
+    each = [learn(problem, 7 + k, None, 1, lambda progress: None) for k in range(3)]
+    trials = [
+        draw_scenario(np.random.default_rng(k), **problem.stages()[-1].options["trial"]) for k in range(9)
+    ]
+    costs = [problem.evaluate(problem.stages()[-1], x, trials)[0] for x in each]
+    assert any(np.array_equal(genes, x) for x in each)
+    np.testing.assert_array_equal(genes, each[int(np.argmin(costs))])
+    np.testing.assert_array_equal(begin(training, problem.stages(), Clock(1.0), count=3), genes)
 
 
 def test_trials_of_setting_off_begin_in_a_walk_from_which_people_run() -> None:

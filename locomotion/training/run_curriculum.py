@@ -12,7 +12,7 @@ from locomotion.training.training import Training
 __all__ = ["BEGINNINGS", "WAYS", "beginning", "curriculum"]
 
 BEGINNINGS = 8
-"""How often learning begins anew, to go on from the best: about one beginning in three comes to running."""
+"""How often learning begins anew, to go on from the best: fewer than half of them come to running."""
 
 WAY: dict[str, Any] = {"length": (12.0, 20.0), "beyond": 10.0, "radius": 6.0, "speeds": (2.6, 3.6)}
 """A path that is run from where the person has walked a few steps, without bends in which it would walk."""

@@ -18,7 +18,7 @@ import numpy as np
 from locomotion import controller as c
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK
 from locomotion.skill import RunSkill, load_run_skill
-from locomotion.training.rollout import Scenario, Simulator, Trial
+from locomotion.training.rollout import Scenario, Simulator, stays_up
 from locomotion.training.walk_starts import WALK_STARTS
 
 SPEEDS = (1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0)
@@ -29,11 +29,6 @@ PUSHED_SPEED = 3.3
 def constant(speed: float, duration: float, **options: Any) -> Scenario:
     """A trial at one desired speed [m/s]."""
     return Scenario(duration, np.array([[0.0, speed]]), **options)
-
-
-def survived(trial: Trial, scenario: Scenario) -> bool:
-    """Whether the person was still running at the end."""
-    return trial.figures["time"] > scenario.duration - 1.5 * CONTROL_DT
 
 
 def push_test(
@@ -50,7 +45,7 @@ def push_test(
             [times, force * np.cos(angle), force * np.sin(angle), np.full(len(times), 0.1)], axis=1
         )
         scenario = constant(PUSHED_SPEED, duration, pushes=pushes, walking=seed % WALK_STARTS)
-        alive.append(survived(simulator.run(skill, scenario), scenario))
+        alive.append(stays_up(simulator.run(skill, scenario), scenario.duration))
     return {
         "seeds": seeds,
         "duration": duration,
@@ -127,7 +122,7 @@ def slope_test(simulator: Simulator, skill: RunSkill) -> list[dict[str, float]]:
             rise = np.tan(np.radians(degrees))
             tilt = (float(rise * np.cos(direction)), float(rise * np.sin(direction)))
             scenario = constant(3.0, 10.0, tilt=tilt)
-            alive.append(survived(simulator.run(skill, scenario), scenario))
+            alive.append(stays_up(simulator.run(skill, scenario), scenario.duration))
         rows.append({"degrees": degrees, "survived": float(np.mean(alive))})
     return rows
 

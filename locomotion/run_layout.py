@@ -107,7 +107,7 @@ PHASE, STANCE, HEADING, SPEED, TURN_RATE, TRIM, STEPS, STEP_TIME, SLOPE, TICKS =
 rate [rad/s]; speed correction [m/s]; steps made; time since the switch [s]; estimated slope along the
 heading; ticks made."""
 FALLEN, STEP_LENGTH, STEP_SPEED = 10, 11, 12
-"""1 after a fall; length [m] and mean speed [m/s] of the last step."""
+"""1 after a fall; length [m] and mean speed [m/s] of the last step. (13 is free.)"""
 COM, COM_VELOCITY, FEET, CONTACT = slice(14, 17), slice(17, 20), slice(20, 26), slice(26, 28)
 """Centre of mass [m], its velocity [m/s], right and left foot [m] (ankles), normal force under each foot
 [N]."""

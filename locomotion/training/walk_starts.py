@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from locomotion.body import Human
+from locomotion.errors import LocomotionError
 from locomotion.gaits import run_entry_speed
 from locomotion.human_state import HumanState
 
@@ -26,7 +27,10 @@ class WalkStart(NamedTuple):
 
 @lru_cache(maxsize=1)
 def walk_starts() -> tuple[WalkStart, ...]:
-    """The package's walk on a plane along x, each time with other velocities at its start."""
+    """The package's walk on a plane along x, each time with other velocities at its start.
+
+    Raises `LocomotionError` where it does not come to a speed from which people run.
+    """
     human, starts = Human(None, clearing=(), rehearsals=0), []
     for seed in range(WALK_STARTS):
         rng = np.random.default_rng(seed)
@@ -34,6 +38,10 @@ def walk_starts() -> tuple[WalkStart, ...]:
         human.data.qvel[:] += _NOISE * rng.normal(size=human.model.nv)
         human.follow(_WAY, float(rng.uniform(3.0, 3.6)))
         while (speed := run_entry_speed(human.on_feet.walk, human.control, 0.0)) is None:
+            if human.status != "walking":
+                raise LocomotionError(
+                    f"people who walk end {human.status} before they can run: learn to walk anew"
+                )
             human.tick()
         starts.append(WalkStart(human.save_state(), speed))
     return tuple(starts)

@@ -18,8 +18,7 @@ from locomotion import controller
 from locomotion.errors import LocomotionError
 from locomotion.person import person_digest
 from locomotion.skill import RunSkill
-from locomotion.skill_file import read_skill
-from locomotion.slow_down import slowed_tables, touchdown
+from locomotion.slow_down import read_changes, slowed_tables, touchdown
 from locomotion.walk_layout import GAINS
 from locomotion.walk_skill import WalkSkill
 from navmesh.archive import write_archive
@@ -86,16 +85,11 @@ class BrakeSkill:
 def load_brake_skill(path: str | os.PathLike[str] = BRAKE_SKILL) -> BrakeSkill:
     """Read a brake skill; `LocomotionError` if it is missing, cut off, of another version or another
     person."""
-    header, arrays = read_skill(path, _KIND, _VERSION)
-    knots, change, gains = (arrays.get(name, np.empty(0)) for name in ("knots", "change", "gains"))
+    header, arrays = read_changes(path, _KIND, _VERSION, (FIRST_STEPS, len(GAINS)))
     deceleration, reach, hold = (
         float(header.get(name, np.nan)) for name in ("deceleration", "reach", "hold")
     )
-    width = sum(controller.PARAMETERS.values())
-    whole = knots.ndim == 1 and len(knots) > 1 and change.shape == (len(knots), width)
-    if not (whole and gains.shape == (FIRST_STEPS, len(GAINS)) and header.get("gains") == list(GAINS)):
-        raise LocomotionError(f"{path}: not a whole brake skill")
-    finite = all(np.isfinite(each).all() for each in (knots, change, gains, deceleration, reach, hold))
-    if not (finite and (np.diff(knots) > 0).all()):
+    if not np.isfinite([deceleration, reach, hold]).all():
         raise LocomotionError(f"{path}: holds numbers that are not finite or speeds that do not grow")
-    return BrakeSkill(knots, change, gains, deceleration, reach, hold, header.get("meta", {}))
+    meta = header.get("meta", {})
+    return BrakeSkill(**arrays, deceleration=deceleration, reach=reach, hold=hold, meta=meta)

@@ -27,8 +27,8 @@ from locomotion.walking import observe_walk
 from navmesh.archive import write_archive
 
 __all__ = [
-    "SLOWING", "SLOW_DOWN_SKILL", "SlowDownSkill", "can_walk_on", "load_slow_down_skill", "slowed_tables",
-    "touchdown", "walk_on",
+    "SLOWING", "SLOW_DOWN_SKILL", "SlowDownSkill", "can_walk_on", "load_slow_down_skill", "read_changes",
+    "slowed_tables", "touchdown", "walk_on",
 ]  # fmt: skip
 
 SLOW_DOWN_SKILL = Path(__file__).parent / "skills" / "slow_down.npz"
@@ -100,15 +100,24 @@ def slowed_tables(
 def load_slow_down_skill(path: str | os.PathLike[str] = SLOW_DOWN_SKILL) -> SlowDownSkill:
     """Read a slow-down skill; `LocomotionError` if it is missing, cut off, of another version or another
     person."""
-    header, arrays = read_skill(path, _KIND, _VERSION)
-    knots, change, gains = (arrays.get(name, np.empty(0)) for name in ("knots", "change", "gains"))
+    header, arrays = read_changes(path, _KIND, _VERSION, (len(GAINS),))
+    return SlowDownSkill(**arrays, meta=header.get("meta", {}))
+
+
+def read_changes(
+    path: str | os.PathLike[str], kind: str, version: int, gains: tuple[int, ...]
+) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+    """Header and arrays (``knots``, ``change``, ``gains``) of a skill that changes the run and the walk after
+    it; ``gains``: the shape of those. Raises `LocomotionError` as `load_slow_down_skill` does."""
+    header, arrays = read_skill(path, kind, version)
+    knots, change, given = (arrays.get(name, np.empty(0)) for name in ("knots", "change", "gains"))
     width = sum(controller.PARAMETERS.values())
     whole = knots.ndim == 1 and len(knots) > 1 and change.shape == (len(knots), width)
-    if not (whole and gains.shape == (len(GAINS),) and header.get("gains") == list(GAINS)):
-        raise LocomotionError(f"{path}: not a whole slow-down skill")
-    if not (all(np.isfinite(each).all() for each in (knots, change, gains)) and (np.diff(knots) > 0).all()):
+    if not (whole and given.shape == gains and header.get("gains") == list(GAINS)):
+        raise LocomotionError(f"{path}: not a whole {kind}")
+    if not (all(np.isfinite(each).all() for each in (knots, change, given)) and (np.diff(knots) > 0).all()):
         raise LocomotionError(f"{path}: holds numbers that are not finite or speeds that do not grow")
-    return SlowDownSkill(knots, change, gains, header.get("meta", {}))
+    return header, {"knots": knots, "change": change, "gains": given}
 
 
 def can_walk_on(state: np.ndarray) -> bool:

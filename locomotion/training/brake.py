@@ -58,6 +58,7 @@ _PLANTING = ("swing_hip_flexion", "stance_hip_flexion", "waist_pitch")
 _STARTS, _FASTEST, _SHARPEST = 400, 3.7, 8.0  # runs; [m/s]; [m] radius of their bends
 _NOISE = np.repeat([0.1, 0.02], [6, 39])  # of a start's root velocities and joint angles
 _LONGEST, _SETTLES = 300, 140  # ticks in which it should stand; in which it may still fall then
+_TAKES = 2.5  # [s] of a trial, about
 _STANDS = 0.1  # [m/s] along its way
 _BACK = 0.2  # [m/s] back again that cost nothing
 _HARD = 4.5  # body weights of the ground's reaction that cost nothing
@@ -196,7 +197,8 @@ def _curriculum(training: Training) -> tuple[Stage, ...]:
         name: str, generations: int, sigma: float, scale: np.ndarray, population: int = 24, **options: Any
     ) -> Stage:
         options = {"trials": 10, "harder": (1.0, 1.0), "fall": 1.2} | options
-        return Stage(name, training.generations(generations), sigma, scale, options, population)
+        seconds = options["trials"] * _TAKES
+        return Stage(name, training.generations(generations), sigma, scale, options, population, seconds)
 
     return (
         stage("plant a foot", 60, 0.08, first),

@@ -235,10 +235,6 @@ class _Course:
     training: Training
     clock: Clock
 
-    @property
-    def digest(self) -> str:
-        return run_digest(self.run)
-
 
 def curriculum(training: Training) -> list[Stage]:
     """The stages; least squares on how the roll ends come between the second and the third."""
@@ -289,7 +285,7 @@ def _learn(
     recorded anew after a stage without feedback; a refinement looks for trials that go wrong first.
     """
     training = course.training
-    arrays = training.recall(_TRAINING, number, course.digest)
+    arrays = training.recall(_TRAINING, number, run_digest(course.run))
     if arrays is not None:
         course.clock.skip(simulated([stage]))
         return arrays["x"], arrays["reference"]
@@ -301,7 +297,7 @@ def _learn(
     learned = training.learn(problem, number, training.file(f"search-{number}"), course.clock)
     if not (stage.scale[drop_roll.parameter_slices()["m_sp"]] > 0).any():
         reference = problem.record(learned, rng)
-    training.keep(_TRAINING, number, course.digest, {"x": learned, "reference": reference})
+    training.keep(_TRAINING, number, run_digest(course.run), {"x": learned, "reference": reference})
     return learned, reference
 
 

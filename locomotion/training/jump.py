@@ -132,10 +132,6 @@ class _Course:
     training: Training
     clock: Clock
 
-    @property
-    def digest(self) -> str:
-        return run_digest(self.run)
-
 
 def _first_pass(training: Training, height: float) -> list[Stage]:
     """Feed-forward on few start states, then feedback on many."""
@@ -261,7 +257,7 @@ def _family(
     table = np.array([learned[height][0] for height in heights])
     references = np.array([learned[height][1].reshape(-1, jump.SENSORS) for height in heights])
     return SkillFamily(
-        course.kind.name, np.array(heights), table, references, course.stride, course.digest, meta
+        course.kind.name, np.array(heights), table, references, course.stride, run_digest(course.run), meta
     )
 
 
@@ -280,7 +276,7 @@ def _learn_height(
     suggests the solution.
     """
     training = course.training
-    arrays = training.recall(_TRAINING, number, course.digest)
+    arrays = training.recall(_TRAINING, number, run_digest(course.run))
     if arrays is not None:
         course.clock.skip(simulated(stages))
         return arrays["x"], arrays["reference"]
@@ -299,5 +295,5 @@ def _learn_height(
         x = training.learn(problem, 1000 * number + place, file, course.clock)
         if not (stage.scale[jump.parameter_slices()["m_sp"]] > 0).any():
             reference = problem.record(x)
-    training.keep(_TRAINING, number, course.digest, {"x": x, "reference": reference})
+    training.keep(_TRAINING, number, run_digest(course.run), {"x": x, "reference": reference})
     return x, reference

@@ -56,7 +56,7 @@ def first_guess() -> np.ndarray:
     m_ap[action["stance_hip_flexion"], 2] = 1.0
     x[part["m_ap"]], x[part["m_sp"]] = m_ap.ravel(), m_sp.ravel()
     x[part["posture"]] = [1.0, 1.0, 0.7, 0.8, 0.1, 0.8, 0.1, 0.5, 0.05]
-    x[part["timing"]] = [0.36, 1.0]
+    x[part["timing"]] = [0.3, 1.0]
     x[part["arms"]] = 1.0
     longer = np.zeros(SIZE)
     longer[part["timing"].start + 1] = 0.08

@@ -233,6 +233,16 @@ def test_whoever_falls_sooner_is_not_better_off_for_what_it_is_spared() -> None:
     assert cost(hopeless, 4.0, style=0.3) == 10.0
 
 
+def test_a_run_that_steps_as_often_as_a_captured_person_costs_least() -> None:
+    def costs(speed: float) -> list[float]:
+        figures = dict.fromkeys(FIGURES, 0.0) | {"time": 4.0, "speed": speed}
+        return [cost(Trial(figures | {"step_rate": rate}, np.zeros(0)), 4.0, style=0.0) for rate in rates]
+
+    rates = np.arange(2.0, 5.0, 0.01)
+    assert rates[np.argmin(costs(5.26))] == pytest.approx(3.69)
+    assert rates[np.argmin(costs(3.5))] == pytest.approx(3.44, abs=0.006)  # equation 8
+
+
 def test_same_trial_same_outcome() -> None:
     skill = skill_of(tiny_problem().start(), first_state_reference())
     scenario = draw_scenario(np.random.default_rng(1), 1.0, noise=0.5, push=50.0, tilt=0.05, lateral=1.0)

@@ -90,6 +90,6 @@ def load_brake_skill(path: str | os.PathLike[str] = BRAKE_SKILL) -> BrakeSkill:
         float(header.get(name, np.nan)) for name in ("deceleration", "reach", "hold")
     )
     if not np.isfinite([deceleration, reach, hold]).all():
-        raise LocomotionError(f"{path}: holds numbers that are not finite or speeds that do not grow")
+        raise LocomotionError(f"{path}: deceleration, reach and hold are not finite numbers")
     meta = header.get("meta", {})
     return BrakeSkill(**arrays, deceleration=deceleration, reach=reach, hold=hold, meta=meta)

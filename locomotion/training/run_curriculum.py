@@ -82,7 +82,7 @@ def _stage(
 ) -> Stage:
     """A stage; ``fall`` is what each fall costs besides the time that is lost."""
     options = {"trials": trials, "style": style, "fall": fall, "trial": trial, "kinds": kinds}
-    seconds = sum(({**trial, **kinds[i % len(kinds)]}).get("duration", _WAY_TAKES) for i in range(trials))
+    seconds = sum((trial | kinds[i % len(kinds)]).get("duration", _WAY_TAKES) for i in range(trials))
     return Stage(name, training.generations(generations), sigma, scale, options, population, seconds)
 
 
@@ -105,7 +105,7 @@ def curriculum(training: Training) -> tuple[Stage, ...]:
     up, down = genes_scale(1, 0, 0, *UP), genes_scale(1, 0, 0, *DOWN)
     steep: dict[str, Any] = {"speeds": (2.5, 3.4), "noise": 0.3, "duration": 4.0}
     high, top = rows_scale(faster=1, fastest=1), rows_scale(fastest=1)
-    beginning = rows_scale(slow=0.5, slowest=1)
+    lowest = rows_scale(slow=0.5, slowest=1)
     return (
         stage("twelve seconds", 40, 0.16, middle, 2, duration=10.0, noise=0.2),
         stage("pushes", 40, 0.07, middle, 6, duration=6.0, noise=0.5, push=60.0),
@@ -120,9 +120,9 @@ def curriculum(training: Training) -> tuple[Stage, ...]:
         stage("hills", 30, 0.04, genes_scale(1, 0, 0, *LEVEL, *UP, *DOWN), 6, HILLS, duration=4.0, **FAST),
         stage("slow", 25, 0.05, rows_scale(slow=1), 5, SLOW, style=0.3),
         stage("slower", 20, 0.05, rows_scale(slow=1, slowest=0.5), 6, SLOWER, style=0.3),
-        stage("jog on", 12, 0.05, beginning, 3, set_off(1.5, 1.7), style=0.3, duration=3.0),
-        stage("set off slowly", 20, 0.04, beginning, 4, set_off(1.6, 2.6), style=0.3, duration=3.0),
-        stage("set off", 40, 0.04, beginning, 4, set_off(2.4, 3.6), style=0.3, duration=4.0),
+        stage("jog on", 12, 0.05, lowest, 3, set_off(1.5, 1.7), style=0.3, duration=3.0),
+        stage("set off slowly", 20, 0.04, lowest, 4, set_off(1.6, 2.6), style=0.3, duration=3.0),
+        stage("set off", 40, 0.04, lowest, 4, set_off(2.4, 3.6), style=0.3, duration=4.0),
         stage("ways", 40, 0.04, EVERY, len(WAYS), WAYS, style=0.3),
         stage("hard pushes", 40, 0.025, EVERY, len(HARD_PUSHES), HARD_PUSHES, style=0.3, fall=3.0),
         stage("slow pushes", 30, 0.04, rows_scale(slow=1), 8, SLOW_PUSHES, style=0.3, fall=3.0),

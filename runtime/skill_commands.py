@@ -45,7 +45,8 @@ def train_skill(
     skill: str, output: Path | None, seed: int, workers: int, checkpoint: Path | None, effort: float
 ) -> float:
     """Learn ``skill``, one of the package's or one that a file describes, and write it to ``output`` (None:
-    where the package keeps its own, or where its description says); gives the CPU time that it took [min].
+    where the package keeps its own, or where its description says); gives the CPU time that it took [min],
+    without what an interrupted one has taken before.
     Raises `RuntimeInputError` while another process learns with the same checkpoint."""
     where = {} if output is None else {"out": output}
     if output is not None:
@@ -58,6 +59,7 @@ def train_skill(
     from locomotion.training.training import Training
 
     train = _trainers().get(skill, partial(train_described, skill))
+    since = " since it was resumed" if kept.exists() else ""
     begun = sum(os.times()[:4])
     try:
         with FileLock(f"{kept}.lock", timeout=0):
@@ -67,16 +69,18 @@ def train_skill(
             f"{kept}: another process learns with this checkpoint; wait for it, or name another --checkpoint"
         ) from None
     minutes = (sum(os.times()[:4]) - begun) / 60.0
-    print(f"learned to {name} in {minutes:.1f} core-minutes; the checkpoint {kept} is not needed any more")
+    print(f"{name} learned in {minutes:.1f} core-minutes{since}; {kept} is not needed any more")
     return minutes
 
 
 def train_library(seed: int, workers: int, effort: float) -> None:
     """Learn all skills, one after the other, and say what each has cost."""
+    resumed = any(Path(f"{skill}.checkpoint").exists() for skill in _trainers())
     minutes = {skill: train_skill(skill, None, seed, workers, None, effort) for skill in _trainers()}
     for skill, each in minutes.items():
         print(f"{skill:12} {each:7.1f} core-minutes")
-    print(f"{'in all':12} {sum(minutes.values()):7.1f} core-minutes")
+    since = " since it was resumed" if resumed else ""
+    print(f"{'in all':12} {sum(minutes.values()):7.1f} core-minutes{since}")
 
 
 def evaluate_skill(skill: str, trials: int, seed: int, picture: Path | None = None) -> Result:

@@ -29,6 +29,19 @@ def test_a_checkpoint_in_a_folder_that_is_not_there_is_refused(capsys, tmp_path)
     assert code == 2 and "there is no folder" in err
 
 
+def test_what_was_resumed_does_not_count_the_time_before(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(
+        "runtime.skill_commands._trainers", lambda: dict.fromkeys(["sit", "lie"], lambda training: None)
+    )
+    _, whole, _ = surefoot(capsys, "train", "--all")
+    (tmp_path / "lie.checkpoint").touch()
+    _, resumed, _ = surefoot(capsys, "train", "--all")
+    assert whole.count("core-minutes") == 5 and "resumed" not in whole
+    said = [line for line in resumed.splitlines() if "since it was resumed" in line]
+    assert [line.split()[0] for line in said] == ["lie", "in"]
+
+
 @pytest.mark.parametrize(("skill", "tests"), [("jump", 2), ("run", 5)])
 def test_evaluate_prints_a_table_and_the_same_as_json(capsys, skill, tests):
     code, out, _ = surefoot(capsys, "evaluate", skill, "--trials", "2", "--seed", "3", "--json")

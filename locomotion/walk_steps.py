@@ -57,6 +57,7 @@ _SLOW, _STOPPING = 0.1, 0.3  # [m/s] below which steps are corrected faster: sha
 _SETTLED = 0.05  # [m/s] of the reference speed below which it stands
 _FOOTED = 0.5  # share of a sole's length on which it can stand
 _TOES, _HEELS = 0.1, -0.08  # [m] ahead of the feet's middles between which the capture point can be held
+_SIDES = 0.02  # [m] outside of the middle of a foot to which it can
 _SET_OFF_LIMIT = 3.0  # [s] after which the first step is made regardless
 
 
@@ -109,10 +110,14 @@ def advance_step(gains, walk, command, error, soles, points, spans, contact, com
     swing = 1 - stance
     ch, sh = math.cos(walk[WALK_HEADING]), math.sin(walk[WALK_HEADING])
     still = abs(command[1]) < _STILL and abs(command[2]) < _STILL
-    # on its toes, or with the capture point before or behind its feet, a person stays up only by stepping
+    # on its toes, or with the capture point before, behind or beside its feet, a person stays up only by
+    # stepping; with crossed legs it cannot stand
     mx, my = 0.5 * (points[0, 0] + points[1, 0]), 0.5 * (points[0, 1] + points[1, 1])
     ahead = ch * (capture[0] - mx) + sh * (capture[1] - my)
-    shaky = max(spans[0, 0], spans[1, 0]) < _FOOTED or ahead > _TOES or ahead < _HEELS
+    left = ch * (capture[1] - my) - sh * (capture[0] - mx)
+    apart = ch * (points[1, 1] - points[0, 1]) - sh * (points[1, 0] - points[0, 0])
+    beside = abs(left) > 0.5 * apart + _SIDES
+    shaky = max(spans[0, 0], spans[1, 0]) < _FOOTED or ahead > _TOES or ahead < _HEELS or beside
     if walk[PHASE] == STANDING:
         if still and abs(error) < _AWRY and not shaky:
             walk[CLOCK] = walk[SETTING_OFF] = 0.0

@@ -19,7 +19,7 @@ __all__ = ["PathScenario", "draw_path", "follow_path"]
 _PACE = 0.25  # [m] between a path's points
 _TURN_IN = 1.0  # [m] along which a path goes over from one curvature to the next
 _SLOWEST = 0.6  # share of the wished speed that is allowed on the mean
-_STANDS = 150  # ticks that it has to stay up at its goal
+_RESTS = 300  # ticks at its goal within which it has to come to rest
 _MARGIN = 2.0  # [m] from the ground's border
 
 
@@ -85,7 +85,8 @@ def draw_path(
 def follow_path(scenario: PathScenario, run: RunSkill | None = None, walk: WalkSkill | None = None) -> Trial:
     """Follow the path from a stand with these skills (None: the package's).
 
-    Among the figures ``time`` is the share of the path covered, times the scenario's duration, and
+    Who arrives has to come to rest there. Among the figures ``time`` is the share of the path covered (0.8 to
+    0.99 for one that arrives and does not rest), times the scenario's duration, and
     ``side_drift`` twice the mean distance from the path [m], at most 1 m.
     """
     human = Human(training_ground(scenario.ground), run, clearing=(), walk=walk, rehearsals=0)
@@ -111,10 +112,14 @@ def follow_path(scenario: PathScenario, run: RunSkill | None = None, walk: WalkS
         aside += min(abs(human.lateral_error), 1.0)
         measures.add(state, float(state[c.TURN_RATE]))
     push[:2] = 0.0
-    for _ in range(_STANDS if human.status == "arrived" else 0):
+    arrived, stands = human.status == "arrived", 0
+    while human.status == "arrived" and not human.held and stands < _RESTS:
         human.tick()
+        stands += 1
     covered = human.arc_length / scenario.length
-    done = human.status == "arrived" or (human.status in MOVING and covered >= 1.0)
+    if arrived:
+        covered = 1.0 if human.held else 0.8 + 0.19 * stands / _RESTS
+    done = covered >= 1.0 and human.status in (*MOVING, "arrived")
     figures = measures.figures(state, ticks)
     figures["time"] = (1.0 if done else min(covered, 0.99)) * scenario.duration
     figures["side_drift"] = 2.0 * aside / max(ticks, 1)

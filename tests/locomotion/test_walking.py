@@ -200,26 +200,49 @@ def test_stand_is_on_the_ground_with_both_feet(kind):
         assert not human.control[COM_VELOCITY].any()
 
 
-def test_stands_still_for_a_minute_and_stays_up_when_pushed():
+def stand(ticks, pushes):
+    """A person told to stand for ``ticks``, pushed on its chest with ``pushes``: [N] by the tick at which each
+    begins, for 0.1 s."""
     human = Human(None, clearing=())
     human.reset((0, 0, 0), 0.5)
     command = np.array([0.5, 0.0, 0.0, 0.0])
     tables, walk, state, data = human.on_feet.walk_skill.tables, new_walk(0.5), human.control, human.data
     observe_walk(human.index, data, walk)
-    for tick in range(6000):
-        data.xfrc_applied[human.index.chest, :2] = (60.0, -40.0) if tick % 1500 in range(1000, 1010) else 0.0
+    for tick in range(ticks):
+        force = [push for begin, push in pushes.items() if begin <= tick < begin + 10]
+        data.xfrc_applied[human.index.chest, :2] = force[0] if force else 0.0
         walk_tick(tables, plane_lookup(), walk, state, command, data.qpos, data.qvel, data.ctrl)
         mujoco.mj_step(human.model, data, STEPS_PER_TICK)
         observe(human.index, human.model, data, state)
         observe_walk(human.index, data, walk)
-    assert data.xmat[1, 8] > 0.97
+    return human
+
+
+def test_stands_still_for_a_minute_and_stays_up_when_pushed():
+    human = stand(6000, {begin: (60.0, -40.0) for begin in range(1000, 6000, 1500)})
+    assert human.data.xmat[1, 8] > 0.97
     assert np.linalg.norm(human.com[:2]) < 1.0
+
+
+@pytest.mark.parametrize("side_deg", range(0, 360, 30))
+def test_pushed_hard_from_any_side_it_steps_and_stands(side_deg):
+    side = math.radians(side_deg)
+    human = stand(700, {100: (200.0 * math.cos(side), 200.0 * math.sin(side))})
+    assert human.data.xmat[1, 8] > 0.97
+    assert 0.1 < np.linalg.norm(human.com[:2]) < 2.0
 
 
 @pytest.mark.parametrize("kind", ["pushed", "rolling", "ramps", "moguls", "crags"])
 def test_walks_along_winding_paths(kind):
     figures = [follow_path(draw_path(np.random.default_rng([7, k]), **WALKS[kind])).figures for k in range(6)]
     assert sum(f["time"] > 6.0 and f["side_drift"] < 0.5 for f in figures) >= 5
+
+
+def test_learning_counts_only_those_who_come_to_rest_at_their_goal(monkeypatch):
+    way = draw_path(np.random.default_rng(1), **WALKS["level"])
+    assert follow_path(way).figures["time"] == way.duration
+    monkeypatch.setattr(Human, "held", False)
+    assert follow_path(way).figures["time"] == pytest.approx(0.99 * way.duration)
 
 
 @pytest.mark.parametrize("slope", [0.3, 0.5])

@@ -79,7 +79,7 @@ SLOWINGS = (1.0, 0.92, 1.08, 0.84, 1.16, 0.76, 1.24, 0.68, 1.32, 0.6, 1.4)
 """[m/s^2] by which the run's reference speed is lowered."""
 BALKINGS = (1.2, 0.9, 1.6, 0.7, 2.2, 3.0)
 """[m/s^2], the same where a run-up is broken off: harder ones hold as well, and the obstacle is near."""
-BRAKINGS = (1.5, 1.65, 1.4, 1.8, 1.3, 1.2, 0.9, 0.8)
+BRAKINGS = (1.65, 1.4, 2.0, 1.3, 1.8, 0.9, 2.5, 2.8)
 """How hard it brakes, as a share of what was learned: those first that mostly come to stand sooner, so that
 others can be given up early."""
 HOLDS = 0.5

@@ -196,8 +196,8 @@ def _curriculum(training: Training) -> tuple[Stage, ...]:
     def stage(
         name: str, generations: int, sigma: float, scale: np.ndarray, population: int = 24, **options: Any
     ) -> Stage:
-        options = {"trials": 10, "harder": (1.0, 1.0), "fall": 1.2} | options
-        seconds = options["trials"] * _TAKES
+        options = {"trials": 10, "harder": (1.0, 1.0), "ways": 1, "fall": 1.2} | options
+        seconds = options["trials"] * options["ways"] * _TAKES
         return Stage(name, training.generations(generations), sigma, scale, options, population, seconds)
 
     return (
@@ -205,6 +205,8 @@ def _curriculum(training: Training) -> tuple[Stage, ...]:
         stage("at any speed", 120, 0.05, both),
         stage("harder", 100, 0.1, few, population=16, harder=(1.0, 2.0)),
         stage("surer", 50, 0.06, few, population=16, trials=12, harder=(1.0, 2.0), fall=2.4),
+        stage("rehearsed", 40, 0.06, few, trials=8, ways=3, harder=(0.9, 2.3), fall=2.4),
+        stage("rehearsed more widely", 35, 0.06, both, trials=8, ways=4, harder=(0.9, 2.8), fall=2.4),
     )
 
 
@@ -227,19 +229,24 @@ class BrakeProblem:
 
     def scenarios(
         self, stage: Stage, generation: int, rng: np.random.Generator
-    ) -> list[tuple[HumanState, float]]:
-        """Moments of runs, and how hard to brake there."""
+    ) -> list[tuple[HumanState, np.ndarray]]:
+        """Moments of runs, and how hard to brake there, in each of the ways that may be tried."""
         drawn = rng.choice(len(self.starts), stage.options["trials"], replace=False)
-        return [(self.starts[k], float(rng.uniform(*stage.options["harder"]))) for k in drawn]
+        (low, high), ways = stage.options["harder"], stage.options["ways"]
+        return [(self.starts[k], rng.uniform(low, high, ways)) for k in drawn]
 
     def evaluate(
-        self, stage: Stage, candidate: np.ndarray, scenarios: list[tuple[HumanState, float]]
+        self, stage: Stage, candidate: np.ndarray, scenarios: list[tuple[HumanState, np.ndarray]]
     ) -> tuple[float, float]:
-        """Mean cost, and share of the trials in which the person stayed up."""
+        """Mean cost of the best ways, and share of the trials in which the person stayed up in these."""
         human = Human(None, self.run, clearing=(), rehearsals=0, brake=brake_of(candidate))
-        stops = [stop(human, start, harder) for start, harder in scenarios]
-        up = float(np.mean([not each.fell for each in stops]))
-        return float(np.mean([each.cost(stage.options["fall"]) for each in stops])), up
+        costs, up = [], []
+        for start, ways in scenarios:
+            stops = [stop(human, start, float(harder)) for harder in ways]
+            tried = [each.cost(stage.options["fall"]) for each in stops]
+            costs.append(min(tried))
+            up.append(not stops[int(np.argmin(tried))].fell)
+        return float(np.mean(costs)), float(np.mean(up))
 
 
 def train_brake(training: Training, out: str | os.PathLike[str] = BRAKE_SKILL) -> BrakeSkill:

@@ -201,7 +201,7 @@ def test_stand_is_on_the_ground_with_both_feet(kind):
 
 
 def stand(ticks, pushes):
-    """A person told to stand for ``ticks``, pushed on its chest with ``pushes``: [N] by the tick at which each
+    """A person told to stand for ``ticks``, pushed on its chest with ``pushes``: [N] by the tick at which one
     begins, for 0.1 s."""
     human = Human(None, clearing=())
     human.reset((0, 0, 0), 0.5)

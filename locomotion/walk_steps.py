@@ -134,6 +134,8 @@ def advance_step(gains, walk, command, error, soles, points, spans, contact, com
         there = walk[CLOCK] > _LANDING * walk[SWING_TIME] or dx * dx + dy * dy < _NEAR * _NEAR
         if walk[CLOCK] > 0.5 * walk[SWING_TIME] and contact[swing] > _TOUCH and there:
             missed = ch * (soles[swing, 0] - walk[_SPOT]) + sh * (soles[swing, 1] - walk[_SPOT + 1])
+            if walk[WALK_SPEED] <= _SLOW:
+                missed -= walk[MISSED]  # faster it stays a sum: runs are learned from such walks
             walk[MISSED] = clamp(walk[MISSED] + 0.3 * missed, -0.1, 0.1)
             walk[PHASE], walk[CLOCK] = DOUBLE, 0.0
             walk[WALK_STANCE] = -walk[WALK_STANCE]

@@ -245,9 +245,8 @@ def test_learning_counts_only_those_who_come_to_rest_at_their_goal(monkeypatch):
     assert follow_path(way).figures["time"] == pytest.approx(0.99 * way.duration)
 
 
-@pytest.mark.parametrize("slope", [0.3, 0.5])
-@pytest.mark.parametrize("direction_deg", [0, 90, 180])
-def test_walks_up_along_and_down_a_slope(slope, direction_deg):
+def walk_on_slope(slope, direction_deg, speed):
+    """A person that has walked 4 m on a plane that rises by ``slope`` towards 0 degrees."""
     corners = np.array([[-50, -50], [50, -50], [50, 50], [-50, 50]], dtype=float)
     corners = np.column_stack([corners, slope * corners[:, 0]])
     ground = Ground.from_arrays(corners, [[0, 1, 2], [0, 2, 3]], max_slope=math.atan(slope))
@@ -255,10 +254,25 @@ def test_walks_up_along_and_down_a_slope(slope, direction_deg):
     yaw = math.radians(direction_deg)
     way = np.outer(np.linspace(0.0, 4.0, 9), [math.cos(yaw), math.sin(yaw), slope * math.cos(yaw)])
     human.reset(way[0], yaw)
-    human.follow(way, 0.5)
+    human.follow(way, speed)
     while human.status in MOVING and human.time < 40.0:
         human.tick()
-    assert human.status == "arrived"
+    return human
+
+
+@pytest.mark.parametrize("slope", [0.3, 0.5])
+@pytest.mark.parametrize("direction_deg", [0, 90, 180])
+def test_walks_up_along_and_down_a_slope(slope, direction_deg):
+    assert walk_on_slope(slope, direction_deg, 0.5).status == "arrived"
+
+
+@pytest.mark.parametrize("direction_deg", range(0, 181, 30))
+def test_comes_to_rest_at_a_goal_on_a_slope(direction_deg):
+    human = walk_on_slope(0.2, direction_deg, 0.8)
+    for _ in range(500):  # after 600 it would be held in any case
+        human.tick()
+    assert human.status == "arrived" and human.held
+    assert np.abs(human.control[COM_VELOCITY]).max() < 0.1
 
 
 @given(seed=st.integers(0, 10_000))

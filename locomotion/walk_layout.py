@@ -85,8 +85,9 @@ heading [rad], turn rate [rad/s], speed and sideways speed to the left [m/s]; 1 
 for the first step."""
 STANDING, SINGLE, DOUBLE = 0.0, 1.0, 2.0
 SWING_TIME, MISSED, WALK_STEPS, WALK_TICKS, FOOTHOLD_YAW, LIFT_YAW = range(8, 14)
-"""Planned time of this step's single support [s]; mean distance [m] by which feet land ahead of their
-footholds; steps and ticks made; yaw [rad] of the swing foot at its foothold and where it left the ground."""
+"""Planned time of this step's single support [s]; distance [m] by which feet land ahead of their footholds
+(the mean near a stand, summed in a walk); steps and ticks made; yaw [rad] of the swing foot at its foothold
+and where it left the ground."""
 FOOTHOLD, FOOTHOLD_NORMAL, LIFT, LIFT_NORMAL = slice(14, 17), slice(17, 20), slice(20, 23), slice(23, 26)
 """Where the swing foot's sole is to land and the foot's normal there; where it left the ground."""
 SWING_ANGLES = slice(26, 32)

@@ -52,15 +52,14 @@ def train_skill(
     if output is not None:
         check_output(output)
     name = Path(skill).stem
-    kept = checkpoint or Path(f"{name}.checkpoint")
+    kept = checkpoint or _kept(name)
     if not kept.parent.is_dir():
         raise RuntimeInputError(f"{kept}: there is no folder {str(kept.parent)!r} to keep checkpoints in")
     from locomotion.training.jump import train_described
     from locomotion.training.training import Training
 
     train = _trainers().get(skill, partial(train_described, skill))
-    since = " since it was resumed" if kept.exists() else ""
-    begun = sum(os.times()[:4])
+    since, begun = _since(kept), sum(os.times()[:4])
     try:
         with FileLock(f"{kept}.lock", timeout=0):
             train(Training(seed, kept, workers, effort), **where)
@@ -73,13 +72,22 @@ def train_skill(
     return minutes
 
 
+def _kept(name: str) -> Path:
+    """Where the state of learning is kept unless a user says otherwise."""
+    return Path(f"{name}.checkpoint")
+
+
+def _since(*checkpoints: Path) -> str:
+    """What to add to the time that learning took: some of it may have passed before."""
+    return " since it was resumed" if any(each.exists() for each in checkpoints) else ""
+
+
 def train_library(seed: int, workers: int, effort: float) -> None:
     """Learn all skills, one after the other, and say what each has cost."""
-    resumed = any(Path(f"{skill}.checkpoint").exists() for skill in _trainers())
+    since = _since(*map(_kept, _trainers()))
     minutes = {skill: train_skill(skill, None, seed, workers, None, effort) for skill in _trainers()}
     for skill, each in minutes.items():
         print(f"{skill:12} {each:7.1f} core-minutes")
-    since = " since it was resumed" if resumed else ""
     print(f"{'in all':12} {sum(minutes.values()):7.1f} core-minutes{since}")
 
 

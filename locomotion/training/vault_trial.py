@@ -19,6 +19,8 @@ from locomotion.vault_skill import grip, vault_clip
 __all__ = ["VaultOutcome", "VaultSimulator"]
 
 _MARGIN = 0.03  # [m] around the wall in which a foot counts as over it, and by which it should clear it
+_HIGH = 0.85  # [m] of the centre of mass above the floor: a leg that lands is nearly straight
+_NO_FORCE = 10.0  # [m] by which anything would have to be inside before a wall that is not solid pushes it
 _YAW = c.SENSORS.index("yaw")
 _COMPARED = ("hip_flexion", "hip_abduction", "knee_flexion")
 
@@ -34,6 +36,8 @@ class VaultOutcome:
     it held. planted: where it held, as share of the depth, NaN if it did not. held: ticks. impulse: [Ns]
     upward from the top on the hand. steps: made behind it. speed: mean speed [m/s] of these. drift:
     sideways distance [m] at the end. yaw: mean squared turn [rad^2] of the pelvis after the landing.
+    headlong: most that the chest was upside down, from 0 (its axis level or above) to 1.
+    sunk: how far [m] the centre of mass was below `_HIGH` when the leading foot landed, or at the end.
     reaction, effort, trunk, pose, errors: as in `JumpOutcome`.
     """
 
@@ -52,6 +56,8 @@ class VaultOutcome:
     effort: float
     trunk: float
     yaw: float
+    headlong: float
+    sunk: float
     pose: float
     errors: tuple[float, float]
 
@@ -72,8 +78,12 @@ class VaultSimulator(JumpSimulator):
         self.mirrored_clip = mirror(self.clip)
         self.limbs = np.array([i for i, name in enumerate(c.JOINT_NAMES) if name.endswith(_COMPARED)])
 
-    def place_wall(self, edge_x: float, height: float, depth: float) -> None:
-        """The wall's near edge at x = ``edge_x`` [m], its top at ``height`` [m], ``depth`` [m] thick."""
+    def place_wall(self, edge_x: float, height: float, depth: float, solid: bool = True) -> None:
+        """The wall's near edge at x = ``edge_x`` [m], its top at ``height`` [m], ``depth`` [m] thick. One
+        that is not solid is seen to be touched and lets through; a hand holds on to it all the same."""
+        # MuJoCo reports contacts nearer than margin + gap; there is force in those nearer than margin
+        self.model.geom_margin[self.stair] = 0.0 if solid else -_NO_FORCE
+        self.model.geom_gap[self.stair] = 0.0 if solid else _NO_FORCE
         self.model.geom_size[self.stair, 0] = 0.5 * depth
         self.model.geom_pos[self.stair] = [
             edge_x + 0.5 * depth,
@@ -89,18 +99,18 @@ class VaultSimulator(JumpSimulator):
         start: StartState,
         error: float,
         duration: float,
-        hand: bool = True,
+        solid: bool = True,
         on_tick=None,
         record: np.ndarray | None = None,
     ) -> VaultOutcome:
         """Vault from a harvested state; the wall is put so that the distance misses the mark by ``error``
         [m].
 
-        duration: [s]. hand: whether the hand's joint works. on_tick(simulator) is called after each tick.
-        record: (4, 6, 19) sums of the sensors per bin and their count, added to.
+        duration: [s]. solid: see `place_wall`. on_tick(simulator) is called after each tick. record:
+        (4, 6, 19) sums of the sensors per bin and their count, added to.
         """
         edge = float(start.planted[0]) + tables.mark + error
-        self.place_wall(edge, height, depth)
+        self.place_wall(edge, height, depth, solid)
         self._restore(start)
         memory, state, data = self.vault_memory, self.state, self.data
         memory[:] = 0.0
@@ -120,8 +130,7 @@ class VaultSimulator(JumpSimulator):
                 start_vault(tables.parameters, memory, state, where, ahead, height, height, depth)
             if begun:
                 vault_tick(tables.parameters, *tables.rest, memory, state, data.qpos, data.ctrl)
-                if hand:
-                    grip(memory, data)
+                grip(memory, data)
             state[c.FALLEN] = 0.0
             self._step()
             if begun:
@@ -159,6 +168,7 @@ class _Meter:
         self.landed = [False, False]
         self.ticks = self.scrape = self.held = self.steps = self.pose_ticks = 0
         self.reaction = self.effort = self.trunk = self.yaw = self.pose = self.impulse = 0.0
+        self.headlong = self.sunk = 0.0
         self.missed, self.planted = 1.0, np.nan
         self.last_step = -1
         self.speeds: list[float] = []
@@ -166,6 +176,8 @@ class _Meter:
     def tick(self, step: int) -> None:
         s, data, state, memory = self.s, self.s.data, self.s.state, self.s.vault_memory
         self.ticks += 1
+        if step < 2:
+            self.sunk = max(_HIGH - state[16], 0.0)
         if step == 1 or (step >= 0 and not all(self.landed)):
             self._feet(step)
             self._wall(memory)
@@ -182,6 +194,7 @@ class _Meter:
         self.reaction += max((state[26] + state[27]) / weight - 4.0, 0.0)
         self.effort += float(np.dot(data.actuator_force, data.actuator_force)) * 1e-4
         up = data.xmat[s.index.chest]
+        self.headlong = max(self.headlong, -up[8])
         if step >= 2:
             self.trunk += (up[2] - 0.1) ** 2 + 2.0 * up[5] ** 2
             self.yaw += float(state[c.SENSOR_VALUES][_YAW]) ** 2
@@ -253,6 +266,8 @@ class _Meter:
             effort=self.effort / n,
             trunk=self.trunk / n,
             yaw=self.yaw / n,
+            headlong=self.headlong,
+            sunk=self.sunk,
             pose=self.pose / max(self.pose_ticks, 1),
             errors=(float(memory[vault.ERROR_DISTANCE]), float(memory[vault.ERROR_SPEED])),
         )

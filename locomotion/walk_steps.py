@@ -50,6 +50,9 @@ _LANDING, _NEAR = 0.8, 0.12  # share of the swing after which, or [m] from its f
 _OVERDUE = 0.12  # [s] after which a foot that has not landed is swung anew: the capture point has moved on
 TURN_RATE = 1.2
 """[rad/s] at most."""
+_TURN_TIME = 0.3  # [s] in which it would turn to where it is told to
+_TURNING = 0.6  # [m/s^2] sideways at most, as it turns
+_SLOW_TURN = 0.4  # [m/s] below which that is no limit
 _TURN_CHANGE = 6.0  # [rad/s^2]
 _FASTER, _SLOWER, _SIDE_CHANGE = 0.8, 1.0, 0.5  # [m/s^2] of the reference speeds
 _STILL, _STRAIGHT, _AWRY = 0.02, 0.2, 0.3  # [m/s], [rad] below which it stands; [rad] above which it sets off
@@ -80,11 +83,15 @@ def begin_swing(gains, walk, qpos):
 def follow(walk, command):
     """Let the reference heading and speeds follow the command; gives what is left of the heading [rad]."""
     error = wrap(command[0] - walk[WALK_HEADING])
-    rate = clamp(error / 0.3, -TURN_RATE, TURN_RATE)
+    wanted = error / _TURN_TIME
+    most = min(TURN_RATE, _TURNING / max(abs(walk[WALK_SPEED]), _SLOW_TURN))
+    rate = clamp(wanted, -most, most)
     change = _TURN_CHANGE * CONTROL_DT
     walk[WALK_TURN_RATE] += clamp(rate - walk[WALK_TURN_RATE], -change, change)
     walk[WALK_HEADING] = wrap(walk[WALK_HEADING] + walk[WALK_TURN_RATE] * CONTROL_DT)
-    walk[WALK_SPEED] += clamp(command[1] - walk[WALK_SPEED], -_SLOWER * CONTROL_DT, _FASTER * CONTROL_DT)
+    # in a bend the capture point moves sideways: who turns fast goes slowly
+    speed = min(command[1], max(_TURNING / max(abs(wanted), 1e-6), _SLOW_TURN))
+    walk[WALK_SPEED] += clamp(speed - walk[WALK_SPEED], -_SLOWER * CONTROL_DT, _FASTER * CONTROL_DT)
     change = _SIDE_CHANGE * CONTROL_DT
     walk[SIDEWAYS] += clamp(command[2] - walk[SIDEWAYS], -change, change)
     return error

@@ -65,7 +65,7 @@ class BrakeSkill:
 
     def walk_tables(self, walk: WalkSkill) -> tuple[np.ndarray, ...]:
         """``walk.tables`` for each of the first steps."""
-        return tuple(np.stack([gains, walk.tables[1]]) for gains in self.gains)
+        return tuple(np.vstack([gains, walk.tables[1:]]) for gains in self.gains)
 
     def can_walk_on(self, state: np.ndarray) -> bool:
         """Whether the walk can take over a person that brakes now; ``state``: the running controller's."""

@@ -26,6 +26,8 @@ from locomotion.walk_layout import (
     LIFT,
     MISSED,
     SIDEWAYS,
+    STAIRS,
+    STAIRS_AHEAD,
     STEEPNESS,
     SWING_TIME,
     WALK_HEADING,
@@ -36,7 +38,10 @@ from locomotion.walk_layout import (
     steep_share,
 )
 
-__all__ = ["SOLE", "bearing", "foot_frame", "ground_at", "plan_foothold", "stand_on", "sway", "turn_out"]
+__all__ = [
+    "SOLE", "bearing", "foot_frame", "ground_at", "lowest_gap", "moved", "plan_foothold", "rise_over_steps",
+    "risen", "stand_on", "steps_ahead", "sway", "tread_shift", "turn_out",
+]  # fmt: skip
 
 SOLE = 0.045
 """[m] from below the ankle forward to the middle of the sole."""
@@ -45,7 +50,7 @@ _I = {name: i for i, name in enumerate(GAINS)}
 _SWING, _TRANSFER, _WIDTH, _REST = _I["swing_time"], _I["transfer_time"], _I["width"], _I["pressure_rest"]
 _NARROWEST, _LONGEST, _PITCH = _I["narrowest"], _I["longest"], _I["foot_pitch"]
 _ROUGH, _STEEP, _ROLL = _I["roughness"], _I["steepness"], _I["foot_roll"]
-_TURN, _SPARE = _I["foot_turn"], _I["ankle_spare"]
+_TURN, _SPARE, _CLEARANCE = _I["foot_turn"], _I["ankle_spare"], _I["clearance"]
 _SPOT, _NORMAL, _LIFT = FOOTHOLD.start, FOOTHOLD_NORMAL.start, LIFT.start
 _SEARCH = 0.7  # [m] above and below the stance foot in which ground is looked for
 _TOE, _HEEL, _HALF = 0.12, -0.08, 0.035  # [m] corners of the sole around its middle
@@ -60,6 +65,13 @@ _ASIDE = 6.0  # cost of a foothold per [m] beside the wished one
 _PLACES = np.array(
     sorted((_ASIDE * (abs(x) + abs(y)), x, y) for x in (-0.06, 0.0, 0.06) for y in (-0.05, 0.0, 0.05))
 )[:, [1, 2, 0]]  # where a foot may be put around the wished place [m], and what that costs: nearest first
+_SPACING, _SHIFTS = 0.02, 11  # [m] between places on a flight that are looked at; how many, before and behind
+_PROFILE_AHEAD, _PROFILE_BACK = 7, 5  # of them under a foot
+_AHEAD, _HIGHEST_STEP, _LEVEL = 8, 0.23, 0.99
+# how many tenths of a metre it looks ahead for steps; [m] of such a step at most; upward part of its normal
+_DECIDED, _SAME = 0.4, 0.05  # share of a swing from which it goes to one tread; [m] of the height of that
+_MARGIN = 0.04  # [m] above what toes and heel pass
+_LONGEST_SWING = 1.5  # times the usual one, on stairs
 _BURIED = 0.2  # [m] that a corner of the sole may be below the ground
 _STRIDE_BACK, _STRIDE, _STRADDLE = -0.45, 0.8, 0.5  # [m] what the legs reach
 _TILT_DOWN = 0.8  # slope downhill to which a foot turns
@@ -95,14 +107,8 @@ def foot_frame(yaw, normal, out):
 
 
 @njit(cache=True)
-def bearing(ground, sole, foot, out):
-    """Where a foot stands on the ground: ``out`` (4,) = how far its bearing point is ahead of the sole's
-    middle and to the left of it [m], and how much of the sole's length and of its width bears, in [0, 1].
-
-    sole (3,) [m]: middle of the sole; foot (9,): the foot's rotation, by rows. Heel, ball, left and right
-    bear by how near they are to the ground, next to the nearest.
-    """
-    gap = np.empty(4)
+def _gaps(ground, sole, foot, gap):
+    """How far [m] the corners of a foot are above the ground: ``gap`` (4,)."""
     for corner in range(4):
         u = _BALL if corner < 2 else -_BALL
         v = _HALF if corner % 2 else -_HALF
@@ -111,6 +117,26 @@ def bearing(ground, sole, foot, out):
         z = sole[2] + u * foot[6] + v * foot[7]
         floor = ground_at(ground, x, y, z + _BURIED)[0]
         gap[corner] = z - floor if floor == floor else math.inf
+
+
+@njit(cache=True)
+def lowest_gap(ground, sole, foot):
+    """How far [m] the lowest corner of a foot is above the ground. Arguments as of `bearing`."""
+    gap = np.empty(4)
+    _gaps(ground, sole, foot, gap)
+    return gap.min()
+
+
+@njit(cache=True)
+def bearing(ground, sole, foot, out):
+    """Where a foot stands on the ground: ``out`` (4,) = how far its bearing point is ahead of the sole's
+    middle and to the left of it [m], and how much of the sole's length and of its width bears, in [0, 1].
+
+    sole (3,) [m]: middle of the sole; foot (9,): the foot's rotation, by rows. Heel, ball, left and right
+    bear by how near they are to the ground, next to the nearest.
+    """
+    gap = np.empty(4)
+    _gaps(ground, sole, foot, gap)
     low = gap.min()
     if low == math.inf:
         out[0] = out[1] = 0.0
@@ -162,8 +188,22 @@ def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole, hip):
         if not (too_far and left > 0.04 and walk[CLOCK] + left > shortest):
             break
         left -= 0.02
+    along = min(max(along, _STRIDE_BACK), _STRIDE)
+    walk[STAIRS_AHEAD] = steps_ahead(ground, sole, ch, sh)
+    stairs = walk[STAIRS]
+    if stairs > 0.0:
+        # a tread is where it is: the step is made sooner or later instead
+        off = stairs * tread_shift(g, ground, walk, sole, ch, sh, along, across * side)
+        made = ch * to_x + sh * to_y
+        if off != 0.0 and made > 0.01 and along + off + ahead > 0.01:
+            wanted = math.log((along + off + ahead) / made) / omega - 0.5 * g[_TRANSFER]
+            wanted = min(max(wanted, 0.04, shortest - walk[CLOCK]), _LONGEST_SWING * g[_SWING] - walk[CLOCK])
+            left += stairs * (max(wanted, 0.04) - left)
+            growth = math.exp(omega * (left + 0.5 * g[_TRANSFER]))
+            across = ((-sh * to_x + ch * to_y) * growth - aside) * side + inside
+        along += off
     walk[SWING_TIME] = walk[CLOCK] + left
-    along = min(max(along, _STRIDE_BACK), _STRIDE) - walk[MISSED]
+    along -= (1.0 - stairs) * walk[MISSED]  # on a tread there is no room for that
     across = min(max(across, g[_NARROWEST]), _STRADDLE) * side
     x, y = sole[0] + ch * along - sh * across, sole[1] + sh * along + ch * across
     _settle(g, ground, walk, x, y, yaw, sole[2], hip)
@@ -176,6 +216,9 @@ def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole, hip):
     if bears[0] != 0.0 or bears[1] != 0.0:
         _settle(g, ground, walk, x - ox, y - oy, yaw, sole[2], hip)
     walk[HUMP] = 0.0
+    if stairs > 0.0:
+        walk[HUMP] = stairs * rise_over_steps(g, ground, walk, ch, sh)
+        return
     for i in range(1, 4):
         share = 0.25 * i
         px = walk[_LIFT] + share * (walk[_SPOT] - walk[_LIFT])
@@ -184,6 +227,84 @@ def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole, hip):
         z = ground_at(ground, px, py, sole[2] + _SEARCH)[0]
         if z == z:
             walk[HUMP] = min(max(walk[HUMP], z - line), _HIGHEST_HUMP)
+
+
+@njit(cache=True)
+def steps_ahead(ground, sole, ch, sh):
+    """Slope [rise over run] of steps before the stance foot at ``sole`` (3,): level, not as high."""
+    level = last = sole[2]
+    most = 0.0
+    for i in range(1, _AHEAD + 1):
+        x, y = sole[0] + 0.1 * i * ch, sole[1] + 0.1 * i * sh
+        z, _, _, up = ground_at(ground, x, y, level + _SEARCH)
+        if not abs(z - last) < _HIGHEST_STEP or up < _LEVEL:
+            break
+        last = z
+        most = max(most, abs(z - level))
+    return most / (0.1 * _AHEAD)
+
+
+@njit(cache=True)
+def tread_shift(g, ground, walk, sole, ch, sh, along, across):
+    """How much further along [m] than (along, across) from the stance foot at ``sole`` (3,) a foot stands
+    best on one tread. (ch, sh): direction of the way."""
+    late = walk[CLOCK] > _DECIDED * walk[SWING_TIME]
+    count = _PROFILE_BACK + _PROFILE_AHEAD
+    heights = np.empty(2 * _SHIFTS + 1 + count)
+    for i in range(heights.shape[0]):
+        u = along + (i - _SHIFTS - _PROFILE_BACK) * _SPACING
+        x, y = sole[0] + ch * u - sh * across, sole[1] + sh * u + ch * across
+        heights[i] = ground_at(ground, x, y, sole[2] + _SEARCH)[0]
+    least, best = math.inf, 0.0
+    for shift in range(-_SHIFTS, _SHIFTS + 1):
+        middle = shift + _SHIFTS + _PROFILE_BACK
+        z = heights[middle]
+        if not abs(z - sole[2]) < _HIGHEST_STEP or (late and abs(z - walk[_SPOT + 2]) > _SAME):
+            continue
+        off = shift * _SPACING
+        up = down = 0.0
+        for i in range(middle - _PROFILE_BACK, middle + _PROFILE_AHEAD + 1):
+            h = heights[i] - z if heights[i] == heights[i] else -_SEARCH
+            up, down = max(up, h), down + max(-h, 0.0)
+        cost = _ASIDE * (abs(off) + abs(z - sole[2])) + g[_ROUGH] * (up + down / (count + 1))
+        if cost < least:
+            least, best = cost, off
+    return best
+
+
+@njit(cache=True)
+def rise_over_steps(g, ground, walk, ch, sh):
+    """How much higher [m] than its clearance a foot has to swing so that neither its toes nor its heel touch
+    what is between where it left the ground and its foothold."""
+    hump = 0.0
+    rise = walk[_SPOT + 2] - walk[_LIFT + 2]
+    for i in range(3, 9):  # earlier and later it hardly moves along
+        share = 0.1 * i
+        move = moved(share)
+        x = walk[_LIFT] + move * (walk[_SPOT] - walk[_LIFT])
+        y = walk[_LIFT + 1] + move * (walk[_SPOT + 1] - walk[_LIFT + 1])
+        z = walk[_LIFT + 2] + risen(share, rise)
+        for u in (_TOE, 0.0, _HEEL):
+            floor = ground_at(ground, x + u * ch, y + u * sh, max(walk[_SPOT + 2], walk[_LIFT + 2]) + 0.1)[0]
+            if floor == floor:
+                hump = max(hump, (floor - z) / math.sin(math.pi * share) + _MARGIN - g[_CLEARANCE])
+    return min(hump, _HIGHEST_HUMP)
+
+
+@njit(cache=True)
+def moved(share):
+    """How much of its way along a swing foot has made at a ``share`` of its swing."""
+    u = min(share / 0.92, 1.0)
+    return u * u * u * (10.0 + u * (-15.0 + 6.0 * u))
+
+
+@njit(cache=True)
+def risen(share, rise):
+    """How much [m] of the ``rise`` to its foothold it has made: early up to a higher one, late down to a
+    lower one."""
+    if rise > 0.0:
+        return rise * math.sin(0.5 * math.pi * min(2.0 * share, 1.0))
+    return rise * (1.0 - math.cos(0.5 * math.pi * min(max(2.0 * share - 1.0, 0.0), 1.0)))
 
 
 @njit(cache=True)

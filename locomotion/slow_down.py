@@ -150,7 +150,7 @@ def walk_on(
     walk: np.ndarray,
 ) -> None:
     """Let the walking controller take over a running body that stands on one foot; ``state`` is the
-    running controller's, ``walk`` is filled. tables (2, len(GAINS)): gains of its first step; speed: at
+    running controller's, ``walk`` is filled. tables (4, len(GAINS)): gains of its first step; speed: at
     which it walks at most [m/s]."""
     heading, (vx, vy) = float(state[controller.HEADING]), state[controller.COM_VELOCITY][:2]
     walk[:] = new_walk(heading)

@@ -31,16 +31,21 @@ from locomotion.walk_layout import (
 from locomotion.walking import observe_walk
 from navmesh.archive import write_archive
 
-__all__ = ["RISING", "STEADYING_SPEED", "WALK_SKILL", "WalkSkill", "load_walk_skill", "plant", "rise_walking"]
+__all__ = [
+    "RISING", "STEADYING_SPEED", "TABLES", "WALK_SKILL", "WalkSkill", "load_walk_skill", "plant",
+    "rise_walking",
+]  # fmt: skip
 
 WALK_SKILL = Path(__file__).parent / "skills" / "walk.npz"
+TABLES = 4
+"""Rows of gains: for level ground, for steep ground, for coming to rest on it, for stairs."""
 RISING = 50
 """Ticks in which a body that begins to walk from a crouch comes up."""
 STEADYING_SPEED = 1.0
 """[m/s] at which such a body makes its first steps, straight on."""
 _PASSING = 0.1  # [s] after which such a body is over its feet
 _STEADYING = 3  # steps of such a body that do not count yet
-_KIND, _VERSION = "walk skill", 2
+_KIND, _VERSION = "walk skill", 3
 _WIDTH, _HIP_HEIGHT = 0.17, 0.83  # [m] of a stand: between the feet; of the hips above the lower sole
 _LOWER = 0.15  # [m] that the hips are lower per unit of slope
 _HIPS_BACK = 0.03  # [m] that the hips are behind the middle of where the feet bear
@@ -51,9 +56,9 @@ _ARMS = (("shoulder_abduction", 0.12), ("elbow_flexion", 0.35))
 
 @dataclass(frozen=True)
 class WalkSkill:
-    """How the person walks: ``tables`` (2, len(GAINS)) float64, gains by the order of `walk_layout.GAINS` for
-    level and for steep ground; ``speed`` [m/s] at which it walks at most;
-    ``meta``: what made it."""
+    """How the person walks: ``tables`` (4, len(GAINS)) float64, gains by the order of `walk_layout.GAINS` for
+    level ground, for steep ground, for coming to rest there and for stairs; ``speed`` [m/s] at which it
+    walks at most; ``meta``: what made it."""
 
     tables: np.ndarray
     speed: float = 1.25
@@ -70,8 +75,10 @@ def load_walk_skill(path: str | os.PathLike[str] = WALK_SKILL) -> WalkSkill:
     person."""
     header, arrays = read_skill(path, _KIND, _VERSION)
     tables, (low, high) = arrays.get("tables"), gain_limits()
-    if tables is None or header.get("gains") != list(GAINS) or tables.shape != (2, len(GAINS)):
-        raise LocomotionError(f"{path}: not a whole walk skill: it must name and hold 2 x {len(GAINS)} gains")
+    if tables is None or header.get("gains") != list(GAINS) or tables.shape != (TABLES, len(GAINS)):
+        raise LocomotionError(
+            f"{path}: not a whole walk skill: it must name and hold {TABLES} x {len(GAINS)} gains"
+        )
     outside = ~((tables >= low) & (tables <= high))
     if outside.any():
         name = list(GAINS)[int(np.argwhere(outside)[0, 1])]

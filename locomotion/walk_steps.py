@@ -80,9 +80,9 @@ def begin_swing(gains, walk, qpos):
 
 
 @njit(cache=True)
-def follow(walk, command):
-    """Let the reference heading and speeds follow the command; gives what is left of the heading [rad]."""
-    error = wrap(command[0] - walk[WALK_HEADING])
+def follow(walk, heading, speed, sideways):
+    """Let the reference heading and speeds follow what is asked; gives what is left of the heading [rad]."""
+    error = wrap(heading - walk[WALK_HEADING])
     wanted = error / _TURN_TIME
     most = min(TURN_RATE, _TURNING / max(abs(walk[WALK_SPEED]), _SLOW_TURN))
     rate = clamp(wanted, -most, most)
@@ -90,10 +90,10 @@ def follow(walk, command):
     walk[WALK_TURN_RATE] += clamp(rate - walk[WALK_TURN_RATE], -change, change)
     walk[WALK_HEADING] = wrap(walk[WALK_HEADING] + walk[WALK_TURN_RATE] * CONTROL_DT)
     # in a bend the capture point moves sideways: who turns fast goes slowly
-    speed = min(command[1], max(_TURNING / max(abs(wanted), 1e-6), _SLOW_TURN))
-    walk[WALK_SPEED] += clamp(speed - walk[WALK_SPEED], -_SLOWER * CONTROL_DT, _FASTER * CONTROL_DT)
+    slower = min(speed, max(_TURNING / max(abs(wanted), 1e-6), _SLOW_TURN))
+    walk[WALK_SPEED] += clamp(slower - walk[WALK_SPEED], -_SLOWER * CONTROL_DT, _FASTER * CONTROL_DT)
     change = _SIDE_CHANGE * CONTROL_DT
-    walk[SIDEWAYS] += clamp(command[2] - walk[SIDEWAYS], -change, change)
+    walk[SIDEWAYS] += clamp(sideways - walk[SIDEWAYS], -change, change)
     return error
 
 
@@ -111,8 +111,9 @@ def _trim(gains, walk, x, y, ch, sh):
 
 
 @njit(cache=True)
-def advance_step(gains, walk, command, error, soles, points, spans, contact, com, capture, omega, qpos):
-    """Which feet bear the person now: phases and their ends."""
+def advance_step(gains, walk, command, error, soles, points, spans, contact, down, com, capture, omega, qpos):
+    """Which feet bear the person now: phases and their ends. down: whether what touches the swing foot may be
+    the ground below it."""
     stance = 1 if walk[WALK_STANCE] > 0 else 0
     swing = 1 - stance
     ch, sh = math.cos(walk[WALK_HEADING]), math.sin(walk[WALK_HEADING])
@@ -139,7 +140,7 @@ def advance_step(gains, walk, command, error, soles, points, spans, contact, com
         # a foot that only brushes the ground on its way has not landed
         dx, dy = soles[swing, 0] - walk[_SPOT], soles[swing, 1] - walk[_SPOT + 1]
         there = walk[CLOCK] > _LANDING * walk[SWING_TIME] or dx * dx + dy * dy < _NEAR * _NEAR
-        if walk[CLOCK] > 0.5 * walk[SWING_TIME] and contact[swing] > _TOUCH and there:
+        if walk[CLOCK] > 0.5 * walk[SWING_TIME] and contact[swing] > _TOUCH and there and down:
             missed = ch * (soles[swing, 0] - walk[_SPOT]) + sh * (soles[swing, 1] - walk[_SPOT + 1])
             if walk[WALK_SPEED] <= _SLOW:
                 missed -= walk[MISSED]  # faster it stays a sum: runs are learned from such walks

@@ -31,7 +31,7 @@ from numba import njit
 
 from locomotion import run_layout
 from locomotion.anatomy import ANKLE, MASS
-from locomotion.footholds import SOLE, bearing, plan_foothold, sway
+from locomotion.footholds import SOLE, bearing, lowest_gap, plan_foothold, sway
 from locomotion.person import CONTROL_DT, JOINT_NAMES, PersonIndex
 from locomotion.walk_layout import (
     ATTITUDES,
@@ -51,6 +51,8 @@ from locomotion.walk_layout import (
     SEEN_TORQUES,
     SETTING_OFF,
     SINGLE,
+    STAIRS,
+    STAIRS_AHEAD,
     STEEPNESS,
     SWING_TIME,
     WALK_HEADING,
@@ -70,7 +72,7 @@ from locomotion.walking_legs import height_in_reach, steady_foot, support_leg, s
 __all__ = ["observe_walk", "walk_tick"]
 
 _I = {name: i for i, name in enumerate(GAINS)}
-_TRANSFER, _HEIGHT = _I["transfer_time"], _I["height"]
+_SWING, _TRANSFER, _HEIGHT = _I["swing_time"], _I["transfer_time"], _I["height"]
 _P_GAIN, _P_ALONG, _P_ACROSS, _P_REST = (
     _I["pressure_gain"], _I["pressure_along"], _I["pressure_across"], _I["pressure_rest"],
 )  # fmt: skip
@@ -100,12 +102,15 @@ _SHOULDER, _ABDUCTION, _ELBOW = (
 )
 _WAIST, _CHEST, _NECK = (JOINT_NAMES.index(f"{part}_pitch") for part in ("waist", "chest", "neck"))
 _PELVIS_BODY = 1
+_LEAST, _TREAD = 0.2, 0.3  # [m/s] above which it goes over stairs a tread a step; [m] of a usual one
+_DOWN = 0.03  # [m] above a tread at which a corner of a foot has come down on it
 _GRAVITY = 9.81
 _UNLOADED = 0.15  # share of the weight on the first stance leg while it is pushed over it
 _STRAIGHTEN = 0.4  # share of the pelvis's lean that waist and chest take back, each
 _FRICTION = 0.75  # sideways per upward force at most
 _MAX_SLOPE = 0.8
 _YAW_MOMENT = 25.0  # [Nm]
+_SLOW, _RESTING = 0.4, 0.1  # [m/s] of the reference speed below which it begins to rest; with which it rests
 
 
 @njit(cache=True)
@@ -242,13 +247,20 @@ def _lift(gains, walk, steep, slope, soles, state, hip):
 def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
     """One control tick: advance ``walk`` (WALK_SIZE,), write the PD targets ``ctrl`` (39,) [rad].
 
-    tables (2, len(GAINS)): gains for level and for steep ground; ground as in
-    `footholds.ground_at`; state: a running controller's, with what was observed; its heading, speed, stance
-    and steps are kept up to date. All float64.
+    tables (4, len(GAINS)): gains for level ground, for steep ground, for coming to rest there and for stairs;
+    ground as in `footholds.ground_at`; state: a running controller's, with what was observed; its heading,
+    speed, stance and steps are kept up to date. All float64.
     """
     steep = steep_share(walk[STEEPNESS])
-    gains = tables[0] + steep * (tables[1] - tables[0])
-    error = follow(walk, command)
+    stairs = (1.0 - steep) * steep_share(max(abs(command[3]), walk[STAIRS_AHEAD]) - walk[STEEPNESS])
+    walk[STAIRS] = stairs
+    asked = command[1]
+    if stairs > 0.0 and asked > _LEAST:  # a step is a tread: who goes more slowly stops on each
+        asked = max(asked, stairs * _TREAD / (tables[3, _SWING] + tables[3, _TRANSFER]))
+    error = follow(walk, command[0], asked, command[2])
+    rests = clamp((_SLOW - abs(walk[WALK_SPEED])) / (_SLOW - _RESTING), 0.0, 1.0)
+    gains = tables[0] + steep * (tables[1] - tables[0] + rests * (tables[2] - tables[1]))
+    gains += stairs * (tables[3] - tables[0])
     walk[WALK_TICKS] += 1.0
     walk[CLOCK] += CONTROL_DT
     soles = walk[_SOLES : _SOLES + 6].reshape(2, 3)
@@ -262,8 +274,11 @@ def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
     capture = np.array([state[_COM] + state[_VEL] / omega, state[_COM + 1] + state[_VEL + 1] / omega])
     contact = state[_CONTACT : _CONTACT + 2]
     points, spans = soles.copy(), np.ones((2, 2))
-    if steep > 0.0:
-        _bear_steep(ground, steep, soles, feet, points, spans)
+    uneven = steep + stairs
+    if uneven > 0.0:
+        _bear_steep(ground, uneven, soles, feet, points, spans)
+    swing = 1 - stance
+    down = stairs == 0.0 or lowest_gap(ground, soles[swing], feet[swing]) < _DOWN
     advance_step(
         gains,
         walk,
@@ -273,6 +288,7 @@ def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
         points,
         spans,
         contact,
+        down,
         state[_COM : _COM + 2],
         capture,
         omega,
@@ -292,7 +308,7 @@ def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
 
     # force of the ground: height, then the line from the centre of pressure past the centre of mass
     slope = clamp(command[3], -_MAX_SLOPE, _MAX_SLOPE)
-    lift = _lift(gains, walk, steep, slope, soles, state, anchors[1 - stance, 0])
+    lift = _lift(gains, walk, uneven, slope, soles, state, anchors[1 - stance, 0])
     force, moment = np.empty(3), np.empty(3)
     force[2] = MASS * (_GRAVITY + clamp(lift, -6.0, 8.0))
     _upright(gains, walk, slope, pelvis, qvel, moment)

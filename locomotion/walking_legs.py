@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit
 
 from locomotion.anatomy import ANKLE, SHANK, SIDE_JOINTS, THIGH
-from locomotion.footholds import SOLE, foot_frame
+from locomotion.footholds import SOLE, foot_frame, moved, risen
 from locomotion.leg_kinematics import solve_leg
 from locomotion.person import CONTROL_DT
 from locomotion.walk_layout import (
@@ -92,23 +92,15 @@ def height_in_reach(walk, com, velocity, hip):
 def swing_leg(gains, walk, pelvis, hip_at, hip, side, ctrl):
     """A leg whose foot moves to its foothold: PD targets by inverse kinematics."""
     share = walk[CLOCK] / walk[SWING_TIME]
-    u = min(share / 0.92, 1.0)
-    move = u * u * u * (10.0 + u * (-15.0 + 6.0 * u))
+    move = moved(share)
     spot, normal = np.empty(3), np.empty(3)
     for i in range(3):
         spot[i] = walk[_LIFT + i] + move * (walk[_SPOT + i] - walk[_LIFT + i])
         turned = clamp(2.0 * share - 0.7, 0.0, 1.0)
         normal[i] = walk[_LIFT_NORMAL + i] + turned * (walk[_NORMAL + i] - walk[_LIFT_NORMAL + i])
     normal /= math.sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2)
-    # early up to a higher foothold, late down to a lower one
-    rise = walk[_SPOT + 2] - walk[_LIFT + 2]
-    if rise > 0.0:
-        done = math.sin(0.5 * math.pi * min(2.0 * share, 1.0))
-    else:
-        done = 1.0 - math.cos(0.5 * math.pi * clamp(2.0 * share - 1.0, 0.0, 1.0))
-    spot[2] = (
-        walk[_LIFT + 2] + rise * done + (gains[_CLEARANCE] + walk[HUMP]) * math.sin(math.pi * min(share, 1.0))
-    )
+    spot[2] = walk[_LIFT + 2] + risen(share, walk[_SPOT + 2] - walk[_LIFT + 2])
+    spot[2] += (gains[_CLEARANCE] + walk[HUMP]) * math.sin(math.pi * min(share, 1.0))
     spot[2] -= steep_share(walk[STEEPNESS]) * _PRESS * clamp(5.0 * share - 4.0, 0.0, 1.0)
     if share > 1.0:  # the ground is lower than thought: reach for it
         spot[2] -= 0.35 * (walk[CLOCK] - walk[SWING_TIME])

@@ -217,11 +217,11 @@ def _run_pushed(rng: np.random.Generator) -> Attempt:
 
 def evaluate_walk(trials: int, seed: int, progress: Progress) -> list[Attempt]:
     """Winding paths, a test of ``trials`` for each kind of ground, with pushes of up to 80 N on the level."""
-    from locomotion.training.path_trial import draw_path, follow_path
-    from locomotion.training.walk import KINDS
+    from locomotion.training.path_trial import follow_path
+    from locomotion.training.walk import KINDS, draw_walk
 
     def attempt(name: str, kind: dict, k: int) -> Attempt:
-        scenario = draw_path(np.random.default_rng([seed, k]), **kind)
+        scenario = draw_walk(np.random.default_rng([seed, k]), kind)
         arrived = follow_path(scenario).figures["time"] >= scenario.duration
         what = f"{scenario.length:.1f} m at {scenario.speed:.2f} m/s"
         return Attempt(name, what, "arrived" if arrived else "did not arrive", arrived)

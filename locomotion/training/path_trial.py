@@ -10,16 +10,17 @@ from locomotion.body import Human
 from locomotion.human_state import MOVING
 from locomotion.person import CONTROL_DT
 from locomotion.skill import RunSkill
-from locomotion.training.grounds import HALF, ground_height, training_ground
+from locomotion.training.grounds import FLIGHTS, HALF, ground_height, training_ground
 from locomotion.training.rollout import Measures, Trial
 from locomotion.walk_skill import WalkSkill
 
-__all__ = ["PathScenario", "draw_path", "follow_path"]
+__all__ = ["PathScenario", "draw_flight", "draw_path", "follow_path"]
 
 _PACE = 0.25  # [m] between a path's points
 _TURN_IN = 1.0  # [m] along which a path goes over from one curvature to the next
 _SLOWEST = 0.6  # share of the wished speed that is allowed on the mean
 _RESTS = 300  # ticks at its goal within which it has to come to rest
+_ASIDE = 0.3  # slope of a way over a flight to the way straight up, at most
 _MARGIN = 2.0  # [m] from the ground's border
 
 
@@ -82,12 +83,29 @@ def draw_path(
     return PathScenario(ground, points, counted * _PACE, float(rng.uniform(*speeds)), pushes)
 
 
+def draw_flight(
+    rng: np.random.Generator, speeds: tuple[float, float], ground: str = "stairs"
+) -> PathScenario:
+    """A random way up or down a flight of stairs, nearly straight on, from landing to landing. speeds [m/s]:
+    range drawn from."""
+    first, _, _, last = FLIGHTS[rng.integers(len(FLIGHTS))]
+    begin, end = first - rng.uniform(0.8, 1.2), last + rng.uniform(0.8, 1.2)
+    if rng.random() < 0.5:
+        begin, end = end, begin
+    x = np.linspace(begin, end, round(abs(end - begin) / _PACE) + 1)
+    y = rng.uniform(-30.0, 30.0) + rng.uniform(-_ASIDE, _ASIDE) * np.abs(x - begin)
+    points = np.stack([x, y, ground_height(ground, x, y)], axis=1)
+    length = float(np.hypot(x[-1] - x[0], y[-1] - y[0]))
+    return PathScenario(ground, points, length, float(rng.uniform(*speeds)), np.empty((0, 3)))
+
+
 def follow_path(scenario: PathScenario, run: RunSkill | None = None, walk: WalkSkill | None = None) -> Trial:
     """Follow the path from a stand with these skills (None: the package's).
 
     Who arrives has to come to rest there. Among the figures ``time`` is the share of the path covered (0.8 to
-    0.99 for one that arrives and does not rest), times the scenario's duration, and
-    ``side_drift`` twice the mean distance from the path [m], at most 1 m.
+    0.99 for one that arrives and does not rest), times the scenario's duration,
+    ``side_drift`` twice the mean distance from the path [m], at most 1 m, and ``restless`` the share of the
+    3 s that it took to come to rest, 1 for one that did not.
     """
     human = Human(training_ground(scenario.ground), run, clearing=(), walk=walk, rehearsals=0)
     points = scenario.points
@@ -122,5 +140,6 @@ def follow_path(scenario: PathScenario, run: RunSkill | None = None, walk: WalkS
     done = covered >= 1.0 and human.status in (*MOVING, "arrived")
     figures = measures.figures(state, ticks)
     figures["time"] = (1.0 if done else min(covered, 0.99)) * scenario.duration
+    figures["restless"] = stands / _RESTS if human.held else 1.0
     figures["side_drift"] = 2.0 * aside / max(ticks, 1)
     return Trial(figures, np.concatenate([human.qpos, state]))

@@ -1,5 +1,5 @@
 """Learning to walk: the gains of the walking controller, from a first guess on level ground to rough
-ground, and then how those for steep ground differ."""
+ground, then how those for steep ground, for coming to rest there and for stairs differ."""
 
 import os
 from dataclasses import dataclass
@@ -8,16 +8,17 @@ from typing import Any
 import numpy as np
 
 from locomotion.training.loop import Stage
-from locomotion.training.path_trial import PathScenario, draw_path, follow_path
+from locomotion.training.path_trial import PathScenario, draw_flight, draw_path, follow_path
 from locomotion.training.training import Training
 from locomotion.walk_layout import GAINS, first_gains, gain_limits
-from locomotion.walk_skill import WALK_SKILL, WalkSkill
+from locomotion.walk_skill import TABLES, WALK_SKILL, WalkSkill
 
-__all__ = ["KINDS", "WalkProblem", "train_walk", "walk_curriculum", "walk_tables"]
+__all__ = ["KINDS", "WalkProblem", "draw_walk", "train_walk", "walk_curriculum", "walk_tables"]
 
 SPEED = 1.25
 """Fastest walk [m/s]."""
 _STEPS_PER_S = 1.9  # of people who walk at 1.3 m/s; it grows with the root of the speed
+_RESTLESS = 1.0  # cost of the time that it takes to come to rest, per what is allowed
 _UNIT = 0.08  # share of a gain's range that is one unit of the search
 
 
@@ -38,21 +39,29 @@ KINDS: dict[str, dict[str, Any]] = {
     "ramps": _kind("ramps", (0.8, SPEED), 1.2, length=(9.0, 15.0)),
     "moguls": _kind("moguls", (0.4, 0.8), 1.0),
     "crags": _kind("crags", (0.4, 0.8), 2.0),
+    "ridges": _kind("ridges", (0.4, SPEED), 1.0, length=(2.0, 2.5)),
+    "stairs": {"ground": "stairs", "speeds": (0.8, SPEED)},
 }
-"""What is walked, as arguments of `draw_path`."""
+"""What is walked, as arguments of `draw_path`, on stairs of `draw_flight`."""
+
+
+def draw_walk(rng: np.random.Generator, kind: dict[str, Any]) -> PathScenario:
+    """A random path of a kind, one of the values of `KINDS`."""
+    return draw_flight(rng, **kind) if kind["ground"] == "stairs" else draw_path(rng, **kind)
 
 
 def walk_curriculum(training: Training) -> tuple[Stage, ...]:
-    """From level ground to ramps and moguls, then steep ground."""
+    """From level ground to ramps and moguls, then steep ground, coming to rest on it, and stairs."""
     low, high = gain_limits()
     unit = _UNIT * (high - low)
 
     def stage(name: str, generations: int, sigma: float, kinds: str, table: int = 0) -> Stage:
-        scale = np.concatenate([unit if k == table else np.zeros(len(GAINS)) for k in range(2)])
+        scale = np.concatenate([unit if k == table else np.zeros(len(GAINS)) for k in range(TABLES)])
         walked = tuple(KINDS[kind] for kind in kinds.split())
-        seconds = sum(np.mean(kind["length"]) / np.mean(kind["speeds"]) for kind in walked)
+        seconds = sum(np.mean(kind.get("length", 5.0)) / np.mean(kind["speeds"]) for kind in walked)
         generations = training.generations(generations)
-        return Stage(name, generations, sigma, scale, {"kinds": walked}, population=16, seconds=seconds)
+        options = {"kinds": walked, "restless": _RESTLESS * (table == 2)}
+        return Stage(name, generations, sigma, scale, options, population=16, seconds=seconds)
 
     return (
         stage("level", 20, 1.0, "level level level rolling"),
@@ -60,13 +69,16 @@ def walk_curriculum(training: Training) -> tuple[Stage, ...]:
         stage("ramps", 40, 0.5, "pushed rolling ramps ramps ramps moguls"),
         stage("moguls", 40, 0.4, "pushed rolling ramps ramps moguls moguls"),
         stage("crags", 30, 0.8, " ".join(["crags"] * 6), table=1),
+        stage("rest", 40, 0.8, " ".join(["ridges"] * 12 + ["rolling", "ramps"]), table=2),
+        stage("stairs", 60, 0.8, " ".join(["stairs"] * 12), table=3),
     )
 
 
 @dataclass(frozen=True)
 class WalkProblem:
     """Learning of the walk for `locomotion.training.loop.learn`: its stages and the first guess of the
-    parameters: the gains for level ground, then what is added to them on steep ground."""
+    parameters: the gains for level ground, what is added to them on steep ground, what is added to that while
+    coming to rest, and what is added to the first on stairs."""
 
     curriculum: tuple[Stage, ...]
     parameters: np.ndarray
@@ -81,7 +93,7 @@ class WalkProblem:
 
     def scenarios(self, stage: Stage, generation: int, rng: np.random.Generator) -> list[PathScenario]:
         """One random path of each of the stage's kinds."""
-        return [draw_path(rng, **kind) for kind in stage.options["kinds"]]
+        return [draw_walk(rng, kind) for kind in stage.options["kinds"]]
 
     def evaluate(
         self, stage: Stage, candidate: np.ndarray, scenarios: list[PathScenario]
@@ -97,26 +109,25 @@ class WalkProblem:
             looks = (
                 0.3 * abs(f["step_rate"] - pace) + 3.0 * f["trunk"] + 0.02 * f["effort"] + 0.05 * f["head"]
             )
-            cost += (10.0 * (1.0 - done) + 2.0 * (done < 1.0) + 1.5 * f["side_drift"] + looks) / len(
-                scenarios
-            )
+            failed = 10.0 * (1.0 - done) + 2.0 * (done < 1.0) + stage.options["restless"] * f["restless"]
+            cost += (failed + 1.5 * f["side_drift"] + looks) / len(scenarios)
             covered += done / len(scenarios)
         return cost, covered
 
 
 def walk_tables(parameters: np.ndarray) -> tuple[np.ndarray, float]:
-    """Gains (2, len(GAINS)) for ``parameters`` (2 len(GAINS),), cut at their limits, and how far they were
+    """Gains (4, len(GAINS)) for ``parameters`` (4 len(GAINS),), cut at their limits, and how far they were
     outside in all, in shares of their ranges."""
     low, high = gain_limits()
-    level, steep = parameters.reshape(2, len(GAINS))
-    wanted = np.stack([level, level + steep])
+    level, steep, rest, stairs = parameters.reshape(TABLES, len(GAINS))
+    wanted = np.stack([level, level + steep, level + steep + rest, level + stairs])
     tables = np.clip(wanted, low, high)
     return tables, float((np.abs(wanted - tables) / (high - low)).sum())
 
 
 def train_walk(training: Training, out: str | os.PathLike[str] = WALK_SKILL) -> WalkSkill:
     """Learn to walk and write the skill to ``out``."""
-    start = np.concatenate([first_gains(), np.zeros(len(GAINS))])
+    start = np.concatenate([first_gains(), np.zeros((TABLES - 1) * len(GAINS))])
     learned = training.learn(WalkProblem(walk_curriculum(training), start))
     skill = WalkSkill(walk_tables(learned)[0], SPEED, training.made_by("walk"))
     skill.save(out)

@@ -34,6 +34,7 @@ from locomotion.training.run_genes import (
 from locomotion.training.run_trials import cost, draw_scenario
 from locomotion.training.training import Training
 from locomotion.training.walk import KINDS as WALKS
+from locomotion.training.walk import draw_walk
 
 
 def minimise(function, start: np.ndarray, generations: int, sigma: float = 0.5) -> CmaEs:
@@ -153,7 +154,7 @@ def test_paths_on_which_people_learn_to_run_are_run() -> None:
 
 @pytest.mark.parametrize("kind", WALKS)
 def test_paths_on_which_people_learn_to_walk_are_walked(kind: str) -> None:
-    path = draw_path(np.random.default_rng(3), **WALKS[kind])
+    path = draw_walk(np.random.default_rng(3), WALKS[kind])
     assert set(ticks_by_gait(path)) - {"arrived"} == {"walking"}
 
 

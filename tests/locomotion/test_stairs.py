@@ -109,7 +109,7 @@ def test_steps_are_seen_and_ramps_and_walls_are_not():
     here = np.array([-0.55, 0.0, 0.0])
     assert steps_ahead(stairs(0.15, 0.3).lookup, here, 1.0, 0.0) == pytest.approx(0.15 / 0.8)
     assert steps_ahead(stairs(0.15, 0.3).lookup, here + np.array([0.3, 0.0, 0.0]), 1.0, 0.0) == pytest.approx(
-        0.45 / 0.8
+        0.3 / 0.8
     )
     assert steps_ahead(stairs(0.15, 0.3).lookup, here, -1.0, 0.0) == 0.0
     assert steps_ahead(stairs(0.5, 0.3).lookup, here, 1.0, 0.0) == 0.0

@@ -50,7 +50,7 @@ _I = {name: i for i, name in enumerate(GAINS)}
 _SWING, _TRANSFER, _WIDTH, _REST = _I["swing_time"], _I["transfer_time"], _I["width"], _I["pressure_rest"]
 _NARROWEST, _LONGEST, _PITCH = _I["narrowest"], _I["longest"], _I["foot_pitch"]
 _ROUGH, _STEEP, _ROLL = _I["roughness"], _I["steepness"], _I["foot_roll"]
-_TURN, _SPARE, _CLEARANCE = _I["foot_turn"], _I["ankle_spare"], _I["clearance"]
+_TURN, _SPARE, _CLEARANCE, _LATE = _I["foot_turn"], _I["ankle_spare"], _I["clearance"], _I["lateness"]
 _SPOT, _NORMAL, _LIFT = FOOTHOLD.start, FOOTHOLD_NORMAL.start, LIFT.start
 _SEARCH = 0.7  # [m] above and below the stance foot in which ground is looked for
 _TOE, _HEEL, _HALF = 0.12, -0.08, 0.035  # [m] corners of the sole around its middle
@@ -157,8 +157,9 @@ def bearing(ground, sole, foot, out):
 def sway(gains, omega, speed):
     """(ahead, inside) [m]: where the capture point is from the new stance foot at touchdown in a steady
     walk."""
-    growth = math.exp(omega * (gains[_SWING] + gains[_TRANSFER]))
-    return speed * (gains[_SWING] + gains[_TRANSFER]) / (growth - 1.0), gains[_WIDTH] / (1.0 + growth)
+    period = gains[_SWING] + gains[_LATE] + gains[_TRANSFER]
+    growth = math.exp(omega * period)
+    return speed * period / (growth - 1.0), gains[_WIDTH] / (1.0 + growth)
 
 
 @njit(cache=True)
@@ -178,10 +179,11 @@ def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole, hip):
     rest_x, rest_y = g[_REST] * ch, g[_REST] * sh
     to_x, to_y = capture_x - sole[0] - rest_x, capture_y - sole[1] - rest_y
     left = walk[SWING_TIME] - walk[CLOCK]
+    late = g[_LATE] + 0.5 * g[_TRANSFER]
     along = across = 0.0
     shortest = min(_SHORTEST_SWING, g[_SWING])
     while True:
-        growth = math.exp(omega * (left + 0.5 * g[_TRANSFER]))
+        growth = math.exp(omega * (left + late))
         along = (ch * to_x + sh * to_y) * growth - ahead
         across = ((-sh * to_x + ch * to_y) * growth - aside) * side + inside
         too_far = along > g[_LONGEST] or along < -0.3 or across > 0.42
@@ -193,13 +195,13 @@ def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole, hip):
     stairs = walk[STAIRS]
     if stairs > 0.0:
         # a tread is where it is: the step is made sooner or later instead
-        off = stairs * tread_shift(g, ground, walk, sole, ch, sh, along, across * side)
+        off = tread_shift(g, ground, walk, sole, ch, sh, along, across * side)
         made = ch * to_x + sh * to_y
         if off != 0.0 and made > 0.01 and along + off + ahead > 0.01:
-            wanted = math.log((along + off + ahead) / made) / omega - 0.5 * g[_TRANSFER]
+            wanted = math.log((along + off + ahead) / made) / omega - late
             wanted = min(max(wanted, 0.04, shortest - walk[CLOCK]), _LONGEST_SWING * g[_SWING] - walk[CLOCK])
-            left += stairs * (max(wanted, 0.04) - left)
-            growth = math.exp(omega * (left + 0.5 * g[_TRANSFER]))
+            left = max(wanted, 0.04)
+            growth = math.exp(omega * (left + late))
             across = ((-sh * to_x + ch * to_y) * growth - aside) * side + inside
         along += off
     walk[SWING_TIME] = walk[CLOCK] + left
@@ -266,7 +268,7 @@ def tread_shift(g, ground, walk, sole, ch, sh, along, across):
         for i in range(middle - _PROFILE_BACK, middle + _PROFILE_AHEAD + 1):
             h = heights[i] - z if heights[i] == heights[i] else -_SEARCH
             up, down = max(up, h), down + max(-h, 0.0)
-        cost = _ASIDE * (abs(off) + abs(z - sole[2])) + g[_ROUGH] * (up + down / (count + 1))
+        cost = _ASIDE * (abs(off) + max(sole[2] - z, 0.0)) + g[_ROUGH] * (up + down / (count + 1))
         if cost < least:
             least, best = cost, off
     return best

@@ -64,6 +64,7 @@ GAINS: dict[str, tuple[float, float, float]] = {
     ),  # correction of the speed asked for per step's error in speed
     "most_trim": (0.3, 0.0, 0.8),  # [m/s] by which it is corrected at most
     "climb_rate": (1.0, 0.3, 2.0),  # [m/s] up and down at which the body is asked to go at most
+    "lateness": (0.0, 0.0, 0.12),  # [s] by which a foot lands later than its swing was to take
 }
 """Gains by name, in the order of the kernel's array: first guess, least and greatest value."""
 

@@ -1,0 +1,88 @@
+"""Makes the pictures of ``docs/walking.md``, eight moments each: a person walks over rolling ground, goes up
+steps of 0.17 m and down steps of 0.15 m.
+
+    python examples/walk_films.py [folder]
+"""
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure as Sheet
+
+from locomotion import Ground, Human
+from locomotion.training.grounds import ground_height, training_ground
+from runtime.figure import Figure
+from runtime.filmstrip import show_frame
+from runtime.render import Camera, Triangles, render
+
+FRAMES, APART = 8, {"walk": 0.1, "stairs": 0.2}
+"""Moments of a strip, and the time between them [s]."""
+FLIGHTS = (("up", 0.17, 0.29), ("down", 0.15, 0.33))
+"""Way, height and depth of a step [m]."""
+STEPS, LANDING = 7, 3.0
+"""Steps of a flight; level ground before and behind them [m]."""
+
+
+def flight(riser: float, tread: float, down: bool) -> tuple[Ground, np.ndarray]:
+    """A flight along x, and a path (k, 3) over it."""
+    fronts = tread * np.arange(STEPS)
+    x = np.concatenate([[-LANDING], np.repeat(fronts, 2), [fronts[-1] + LANDING]])
+    z = riser * np.repeat(np.arange(STEPS + 1), 2)
+    if down:
+        z = z[::-1]
+    low, n = np.arange(len(x) - 1), len(x)
+    vertices = np.concatenate([np.column_stack([x, np.full(n, y), z]) for y in (-2.0, 2.0)])
+    faces = np.concatenate(
+        [np.column_stack([low, low + 1, low + n + 1]), np.column_stack([low, low + n + 1, low + n])]
+    )
+    along = np.arange(-1.0, x[-1] - 1.5, 0.25)
+    return Ground.from_arrays(vertices, faces), np.column_stack([along, 0.0 * along, np.interp(along, x, z)])
+
+
+def strip(row: Sequence[Axes], human: Human, ground: Ground, apart: float) -> None:
+    """Draw a person from now on, every ``apart`` [s]."""
+    first = human.time
+    figure, level = Figure.from_model(human.model), Triangles(ground.vertices, ground.faces)
+    for k, axes in enumerate(row):
+        while human.time < first + k * apart - 1e-9:
+            human.tick()
+        pose = human.body_transforms()[1:]
+        pelvis = pose[0, :3]
+        camera = Camera(pelvis + np.array([0.3, -3.4, 0.4]), pelvis + np.array([0.2, 0.0, -0.15]), 0.6)
+        show_frame(axes, render(level, [figure.posed(pose)], camera, (230, 300)), f"{human.time:.2f} s")
+
+
+def walking(ground: Ground, path: np.ndarray) -> Human:
+    """A person that sets off along a path, at 1 m/s."""
+    human = Human(ground)
+    human.reset(path[0], 0.0)
+    human.follow(path, 1.0)
+    return human
+
+
+def main() -> None:
+    """Walk over rolling ground, up and down stairs, and draw."""
+    folder = Path(sys.argv[1] if len(sys.argv) > 1 else "docs/pictures")
+    ground, x = training_ground("rolling"), np.linspace(-5.0, 9.0, 57)
+    human = walking(ground, np.column_stack([x, 0.0 * x, ground_height("rolling", x, 0.0 * x)]))
+    while human.time < 6.0:
+        human.tick()
+    sheet = Sheet(figsize=(16, 2.9), dpi=75, layout="constrained")
+    strip(sheet.subplots(1, FRAMES), human, ground, APART["walk"])
+    sheet.savefig(folder / "walk.png")
+
+    sheet = Sheet(figsize=(16, 5.8), dpi=75, layout="constrained")
+    for row, (way, riser, tread) in zip(sheet.subplots(len(FLIGHTS), FRAMES), FLIGHTS, strict=True):
+        ground, path = flight(riser, tread, way == "down")
+        human = walking(ground, path)
+        while abs(human.position[2] - path[0, 2]) < 1.5 * riser:
+            human.tick()
+        strip(row, human, ground, APART["stairs"])
+    sheet.savefig(folder / "stairs.png")
+
+
+if __name__ == "__main__":
+    main()

@@ -249,8 +249,8 @@ def steps_ahead(ground, sole, ch, sh):
 @njit(cache=True)
 def tread_shift(g, ground, walk, sole, ch, sh, along, across):
     """How much further along [m] than (along, across) from the stance foot at ``sole`` (3,) a foot stands
-    best on one tread. (ch, sh): direction of the way."""
-    late = walk[CLOCK] > _DECIDED * walk[SWING_TIME]
+    best on one tread, on the way down rather on that of the other foot. (ch, sh): direction of the way."""
+    decided = walk[CLOCK] > _DECIDED * walk[SWING_TIME]
     count = _PROFILE_BACK + _PROFILE_AHEAD
     heights = np.empty(2 * _SHIFTS + 1 + count)
     for i in range(heights.shape[0]):
@@ -261,7 +261,7 @@ def tread_shift(g, ground, walk, sole, ch, sh, along, across):
     for shift in range(-_SHIFTS, _SHIFTS + 1):
         middle = shift + _SHIFTS + _PROFILE_BACK
         z = heights[middle]
-        if not abs(z - sole[2]) < _HIGHEST_STEP or (late and abs(z - walk[_SPOT + 2]) > _SAME):
+        if not abs(z - sole[2]) < _HIGHEST_STEP or (decided and abs(z - walk[_SPOT + 2]) > _SAME):
             continue
         off = shift * _SPACING
         up = down = 0.0

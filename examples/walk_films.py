@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Sheet
 
 from locomotion import Ground, Human
+from locomotion.ground import extruded
 from locomotion.training.grounds import ground_height, training_ground
 from runtime.figure import Figure
 from runtime.filmstrip import show_frame
@@ -33,13 +34,9 @@ def flight(riser: float, tread: float, down: bool) -> tuple[Ground, np.ndarray]:
     z = riser * np.repeat(np.arange(STEPS + 1), 2)
     if down:
         z = z[::-1]
-    low, n = np.arange(len(x) - 1), len(x)
-    vertices = np.concatenate([np.column_stack([x, np.full(n, y), z]) for y in (-2.0, 2.0)])
-    faces = np.concatenate(
-        [np.column_stack([low, low + 1, low + n + 1]), np.column_stack([low, low + n + 1, low + n])]
-    )
     along = np.arange(-1.0, x[-1] - 1.5, 0.25)
-    return Ground.from_arrays(vertices, faces), np.column_stack([along, 0.0 * along, np.interp(along, x, z)])
+    ground = Ground.from_arrays(*extruded(np.column_stack([x, z]), 2.0))
+    return ground, np.column_stack([along, 0.0 * along, np.interp(along, x, z)])
 
 
 def strip(row: Sequence[Axes], human: Human, ground: Ground, apart: float) -> None:

@@ -26,7 +26,6 @@ from locomotion.walk_layout import (
     LIFT,
     MISSED,
     SIDEWAYS,
-    STAIRS,
     STAIRS_AHEAD,
     STEEPNESS,
     SWING_TIME,
@@ -163,12 +162,12 @@ def sway(gains, omega, speed):
 
 
 @njit(cache=True)
-def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole, hip):
+def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole, hip, stairs):
     """Write `FOOTHOLD`, its normal and yaw, and `SWING_TIME` into ``walk``, for the present capture point.
 
-    sole (3,): bearing point of the stance foot [m]; hip (3,): where the swing leg's hip will be [m]. A step
-    that would be too long is made sooner; one that the legs cannot make is cut. Then the flattest place near
-    it is taken.
+    sole (3,): bearing point of the stance foot [m]; hip (3,): where the swing leg's hip will be [m]; stairs:
+    how much the way is one over steps, 0 to 1. A step that would be too long is made sooner; one that the
+    legs cannot make is cut. Then the flattest place near it is taken.
     """
     g = gains
     yaw = walk[WALK_HEADING] + 0.5 * walk[WALK_TURN_RATE] * (g[_SWING] + g[_TRANSFER])
@@ -192,7 +191,6 @@ def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole, hip):
         left -= 0.02
     along = min(max(along, _STRIDE_BACK), _STRIDE)
     walk[STAIRS_AHEAD] = steps_ahead(ground, sole, ch, sh)
-    stairs = walk[STAIRS]
     if stairs > 0.0:
         # a tread is where it is: the step is made sooner or later instead
         off = tread_shift(g, ground, walk, sole, ch, sh, along, across * side)

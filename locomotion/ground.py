@@ -25,7 +25,7 @@ from locomotion.errors import LocomotionError
 from locomotion.trimesh_build import build_triangle_arrays
 from locomotion.trimesh_install import MARK, occupy, release
 
-__all__ = ["FRICTION", "Ground", "height_below", "plane_lookup"]
+__all__ = ["FRICTION", "Ground", "extruded", "height_below", "plane_lookup"]
 
 FRICTION = 0.9
 """Friction of shoes on a usual ground."""
@@ -228,6 +228,20 @@ def plane_lookup() -> tuple[NDArray[Any], ...]:
 def _release(slot: int, kept: Any) -> None:
     release(slot)
     del kept
+
+
+def extruded(profile: ArrayLike, half_width: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Vertices and faces of the surface over a line ``profile`` (n, 2) of x and z [m], ``half_width`` [m] to
+    both sides along y; it faces the line's left."""
+    line = np.asarray(profile, dtype=np.float64)
+    n = len(line)
+    y = np.repeat([-half_width, half_width], n)
+    vertices = np.column_stack([np.tile(line[:, 0], 2), y, np.tile(line[:, 1], 2)])
+    right, left = np.arange(n - 1), np.arange(n - 1) + n
+    faces = np.concatenate(
+        [np.column_stack([right, right + 1, left + 1]), np.column_stack([right, left + 1, left])]
+    )
+    return vertices, faces
 
 
 @njit(cache=True)

@@ -8,10 +8,10 @@ from numba import njit
 __all__ = [
     "ATTITUDES", "BODY_HEIGHT", "CAUGHT", "CLOCK", "DOUBLE", "FOOTHOLD", "FOOTHOLD_NORMAL", "FOOTHOLD_YAW",
     "GAINS", "HUMP", "LIFT", "LIFT_NORMAL", "LIFT_YAW", "MISSED", "PHASE", "SEEN_ANCHORS", "SEEN_AXES",
-    "SEEN_FEET", "SEEN_PELVIS", "SEEN_SOLES", "SEEN_TORQUES", "SETTING_OFF", "SIDEWAYS", "SINGLE", "STAIRS",
-    "STAIRS_AHEAD", "STANDING",
-    "STEEPNESS", "STEPPED_AT", "STEPPED_FROM", "SWING_ANGLES", "SWING_TIME", "WALKS", "WALK_HEADING",
-    "WALK_SIZE", "WALK_SPEED", "WALK_STANCE", "WALK_STEPS", "WALK_TICKS", "WALK_TRIM", "WALK_TURN_RATE",
+    "SEEN_FEET", "SEEN_PELVIS", "SEEN_SOLES", "SEEN_TORQUES", "SETTING_OFF", "SIDEWAYS", "SINGLE",
+    "STAIRS_AHEAD", "STANDING", "STEEPNESS", "STEPPED_AT", "STEPPED_FROM", "SWING_ANGLES", "SWING_TIME",
+    "WALKS", "WALK_HEADING", "WALK_SIZE", "WALK_SPEED", "WALK_STANCE", "WALK_STEPS", "WALK_TICKS",
+    "WALK_TRIM", "WALK_TURN_RATE",
     "clamp", "first_gains", "gain_limits", "new_walk", "steep_share", "wrap",
 ]  # fmt: skip
 
@@ -115,11 +115,9 @@ ATTITUDES = slice(157, 163)
 """Normals (2, 3) of the right and the left foot as they were last put down."""
 CAUGHT = 163
 """1 if the walk began out of a run, 0 if from a stand."""
-STAIRS = 164
-"""How much the way is one over steps, 0 to 1: it is steeper than what the feet stand on."""
-STAIRS_AHEAD = 165
+STAIRS_AHEAD = 164
 """Slope [rise over run] of steps just before it, 0: there are none."""
-WALK_SIZE = 166
+WALK_SIZE = 165
 
 
 def new_walk(heading: float = 0.0) -> np.ndarray:

@@ -51,7 +51,6 @@ from locomotion.walk_layout import (
     SEEN_TORQUES,
     SETTING_OFF,
     SINGLE,
-    STAIRS,
     STAIRS_AHEAD,
     STEEPNESS,
     SWING_TIME,
@@ -253,7 +252,6 @@ def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
     """
     steep = steep_share(walk[STEEPNESS])
     stairs = (1.0 - steep) * steep_share(max(abs(command[3]), walk[STAIRS_AHEAD]) - walk[STEEPNESS])
-    walk[STAIRS] = stairs
     asked = command[1]
     if stairs > 0.0 and asked > _LEAST:  # a step is a tread: who goes more slowly stops on each
         asked = max(asked, stairs * _TREAD / (tables[3, _SWING] + tables[3, _TRANSFER]))
@@ -300,7 +298,7 @@ def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
     if swinging and planning:
         hip_at = anchors[1 - stance, 0].copy()
         hip_at[:2] += max(walk[SWING_TIME] - walk[CLOCK], 0.0) * state[_VEL : _VEL + 2]
-        plan_foothold(gains, ground, walk, capture[0], capture[1], omega, points[stance], hip_at)
+        plan_foothold(gains, ground, walk, capture[0], capture[1], omega, points[stance], hip_at, stairs)
         for i in range(3):
             walk[_ATTITUDES + 3 * (1 - stance) + i] = walk[_NORMAL + i]
     cop, share = np.empty((2, 3)), np.empty(2)

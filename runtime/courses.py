@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from locomotion import MOVING, Ground, Human, ObstacleAhead
 from locomotion.clearing import ClearingSkill
 from locomotion.events import Cleared, TookOff
+from locomotion.ground import extruded
 from locomotion.human_state import restore_physics, save_physics
 from locomotion.passage import Passage, watch
 from locomotion.rehearsal import REHEARSALS
@@ -76,7 +77,7 @@ def make_course(
         path.append((x + _EDGE, z))
     path.append((x + AFTER, z))
     profile.append((x + AFTER + margin, z))
-    vertices, faces = _extruded(np.array(profile))
+    vertices, faces = extruded(profile, _HALF)
     points = np.array([[x, 0.0, z] for x, z in path])
     return Course(vertices, faces, points, tuple(ahead))
 
@@ -143,15 +144,3 @@ def held(affordance: str, run: CourseRun) -> bool:
     if run.ended != "arrived" or not run.passages:
         return False
     return affordance != "vault" or run.passages[0].held > 0.0
-
-
-def _extruded(profile: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Vertices and faces of the surface over a line (n, 2) of x and z, facing its left."""
-    n = len(profile)
-    y = np.repeat([-_HALF, _HALF], n)
-    vertices = np.column_stack([np.tile(profile[:, 0], 2), y, np.tile(profile[:, 1], 2)])
-    right, left = np.arange(n - 1), np.arange(n - 1) + n
-    faces = np.concatenate(
-        [np.column_stack([right, right + 1, left + 1]), np.column_stack([right, left + 1, left])]
-    )
-    return vertices, faces

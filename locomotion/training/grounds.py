@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 from scipy.ndimage import map_coordinates
 
-from locomotion.ground import Ground
+from locomotion.ground import Ground, extruded
 
 __all__ = ["FLIGHTS", "HALF", "KINDS", "ground_height", "training_ground"]
 
@@ -23,8 +23,7 @@ _RISERS, _PACE = (0.12, 0.2), 0.63  # [m] heights of the steps of the flights; t
 
 def _flights() -> tuple[tuple[float, float, float, float], ...]:
     result, x = [], 1.0 - HALF
-    count = 16
-    for k, riser in enumerate(np.linspace(*_RISERS, count)[np.random.default_rng(5).permutation(count)]):
+    for k, riser in enumerate(np.random.default_rng(5).permutation(np.linspace(*_RISERS, 16))):
         tread = max(_PACE - 2.0 * riser, 0.27)
         result.append((x + _LANDING, float(tread), float(riser) * (-1.0) ** k, x + _LANDING + _STEPS * tread))
         x = result[-1][3]
@@ -80,9 +79,7 @@ def ground_height(kind: str, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         return _STEEP * np.clip(np.minimum(u - _PLATEAU, 2.0 * (_PLATEAU + _RAMP) - u), 0.0, _RAMP)
     if kind == "ridges":
         u, creases = _ALONG[0] * x + _ALONG[1] * y, np.arange(-12, 13)
-        slopes = np.linspace(*_FLANKS, len(creases) - 1)[
-            np.random.default_rng(5).permutation(len(creases) - 1)
-        ]
+        slopes = np.random.default_rng(5).permutation(np.linspace(*_FLANKS, len(creases) - 1))
         rises = _FLANK * slopes * np.where(creases[:-1] % 2, -1.0, 1.0)
         return np.interp(u, _FLANK * creases, np.concatenate([[0.0], np.cumsum(rises)]))
     if kind == "stairs":
@@ -116,8 +113,4 @@ def _stairs() -> Ground:
     rises = np.cumsum(np.repeat([riser for _, _, riser, _ in FLIGHTS], _STEPS))
     x = np.concatenate([[-HALF], np.repeat(fronts, 2), [HALF]])
     z = np.repeat(np.concatenate([[0.0], rises]), 2)
-    n = len(x)
-    corners = np.concatenate([np.column_stack([x, np.full(n, y), z]) for y in (-HALF, HALF)])
-    low = np.arange(n - 1)
-    right, left = [low, low + 1, low + n + 1], [low, low + n + 1, low + n]
-    return Ground.from_arrays(corners, np.concatenate([np.column_stack(right), np.column_stack(left)]))
+    return Ground.from_arrays(*extruded(np.column_stack([x, z]), HALF))

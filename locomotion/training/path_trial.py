@@ -83,9 +83,7 @@ def draw_path(
     return PathScenario(ground, points, counted * _PACE, float(rng.uniform(*speeds)), pushes)
 
 
-def draw_flight(
-    rng: np.random.Generator, speeds: tuple[float, float], ground: str = "stairs"
-) -> PathScenario:
+def draw_flight(rng: np.random.Generator, speeds: tuple[float, float]) -> PathScenario:
     """A random way up or down a flight of stairs, nearly straight on, from landing to landing. speeds [m/s]:
     range drawn from."""
     first, _, _, last = FLIGHTS[rng.integers(len(FLIGHTS))]
@@ -94,9 +92,9 @@ def draw_flight(
         begin, end = end, begin
     x = np.linspace(begin, end, round(abs(end - begin) / _PACE) + 1)
     y = rng.uniform(-30.0, 30.0) + rng.uniform(-_ASIDE, _ASIDE) * np.abs(x - begin)
-    points = np.stack([x, y, ground_height(ground, x, y)], axis=1)
+    points = np.stack([x, y, ground_height("stairs", x, y)], axis=1)
     length = float(np.hypot(x[-1] - x[0], y[-1] - y[0]))
-    return PathScenario(ground, points, length, float(rng.uniform(*speeds)), np.empty((0, 3)))
+    return PathScenario("stairs", points, length, float(rng.uniform(*speeds)), np.empty((0, 3)))
 
 
 def follow_path(scenario: PathScenario, run: RunSkill | None = None, walk: WalkSkill | None = None) -> Trial:

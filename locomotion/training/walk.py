@@ -47,7 +47,7 @@ KINDS: dict[str, dict[str, Any]] = {
 
 def draw_walk(rng: np.random.Generator, kind: dict[str, Any]) -> PathScenario:
     """A random path of a kind, one of the values of `KINDS`."""
-    return draw_flight(rng, **kind) if kind["ground"] == "stairs" else draw_path(rng, **kind)
+    return draw_flight(rng, kind["speeds"]) if kind["ground"] == "stairs" else draw_path(rng, **kind)
 
 
 def walk_curriculum(training: Training) -> tuple[Stage, ...]:
@@ -55,22 +55,22 @@ def walk_curriculum(training: Training) -> tuple[Stage, ...]:
     low, high = gain_limits()
     unit = _UNIT * (high - low)
 
-    def stage(name: str, generations: int, sigma: float, kinds: str, table: int = 0) -> Stage:
+    def stage(name: str, generations: int, sigma: float, kinds: list[str], table: int = 0) -> Stage:
         scale = np.concatenate([unit if k == table else np.zeros(len(GAINS)) for k in range(TABLES)])
-        walked = tuple(KINDS[kind] for kind in kinds.split())
+        walked = tuple(KINDS[kind] for kind in kinds)
         seconds = sum(np.mean(kind.get("length", 5.0)) / np.mean(kind["speeds"]) for kind in walked)
         generations = training.generations(generations)
         options = {"kinds": walked, "restless": _RESTLESS * (table == 2)}
         return Stage(name, generations, sigma, scale, options, population=16, seconds=seconds)
 
     return (
-        stage("level", 20, 1.0, "level level level rolling"),
-        stage("rolling", 30, 0.6, "level rolling rolling rolling ramps"),
-        stage("ramps", 40, 0.5, "pushed rolling ramps ramps ramps moguls"),
-        stage("moguls", 40, 0.4, "pushed rolling ramps ramps moguls moguls"),
-        stage("crags", 30, 0.8, " ".join(["crags"] * 6), table=1),
-        stage("rest", 40, 0.8, " ".join(["ridges"] * 12 + ["rolling", "ramps"]), table=2),
-        stage("stairs", 60, 0.8, " ".join(["stairs"] * 12), table=3),
+        stage("level", 20, 1.0, ["level"] * 3 + ["rolling"]),
+        stage("rolling", 30, 0.6, ["level"] + ["rolling"] * 3 + ["ramps"]),
+        stage("ramps", 40, 0.5, ["pushed", "rolling"] + ["ramps"] * 3 + ["moguls"]),
+        stage("moguls", 40, 0.4, ["pushed", "rolling"] + ["ramps"] * 2 + ["moguls"] * 2),
+        stage("crags", 30, 0.8, ["crags"] * 6, table=1),
+        stage("rest", 40, 0.8, ["ridges"] * 12 + ["rolling", "ramps"], table=2),
+        stage("stairs", 60, 0.8, ["stairs"] * 12, table=3),
     )
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from locomotion import Human
 from locomotion.footholds import moved, rise_over_steps, risen, steps_ahead, tread_shift
-from locomotion.ground import Ground
+from locomotion.ground import Ground, extruded
 from locomotion.human_state import MOVING
 from locomotion.walk_layout import FOOTHOLD, GAINS, LIFT, SWING_TIME, first_gains, new_walk
 
@@ -24,13 +24,7 @@ def flight(slope, riser):
         x += [x[-1] + _RISE, x[-1] + _RISE + _TREAD]
         z += [z[-1] + riser, z[-1] + slope * (_RISE + _TREAD)]
     x, z = np.array([*x, x[-1] + _LEVEL]), np.array([*z, z[-1]])
-    n = len(x)
-    vertices = np.concatenate([np.column_stack([x, np.full(n, y), z]) for y in (-3.0, 3.0)])
-    low = np.arange(n - 1)
-    faces = np.concatenate(
-        [np.column_stack([low, low + 1, low + n + 1]), np.column_stack([low, low + n + 1, low + n])]
-    )
-    return Ground.from_arrays(vertices, faces), x, z
+    return Ground.from_arrays(*extruded(np.column_stack([x, z]), 3.0)), x, z
 
 
 def arrives(slope, riser, down, seed):
@@ -55,14 +49,10 @@ def test_goes_slowly_enough_on_a_steep_flight(slope, riser, down):
 
 
 def stairs(riser, tread):
-    """Seven steps up along x, and the arrays of their profile."""
+    """Seven steps up along x."""
     fronts = np.repeat(tread * np.arange(7), 2)
     x, z = np.concatenate([[-6.0], fronts, [12.0]]), np.repeat(riser * np.arange(8), 2)
-    n = len(x)
-    vertices = np.concatenate([np.column_stack([x, np.full(n, y), z]) for y in (-3.0, 3.0)])
-    low = np.arange(n - 1)
-    right, left = [low, low + 1, low + n + 1], [low, low + n + 1, low + n]
-    return Ground.from_arrays(vertices, np.concatenate([np.column_stack(right), np.column_stack(left)]))
+    return Ground.from_arrays(*extruded(np.column_stack([x, z]), 3.0))
 
 
 def walks_over(riser, tread, down, seed):

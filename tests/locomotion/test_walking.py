@@ -131,7 +131,7 @@ def test_foothold_catches_a_pushed_pendulum():
         for _ in range(8):
             walk[PHASE], walk[CLOCK], walk[SWING_TIME] = SINGLE, 0.0, gains[0]
             hip = foot + np.array([0.0, -walk[WALK_STANCE] * 0.17, 0.85])
-            plan_foothold(gains, plane_lookup(), walk, capture[0], capture[1], omega, foot, hip)
+            plan_foothold(gains, plane_lookup(), walk, capture[0], capture[1], omega, foot, hip, 0.0)
             time = walk[SWING_TIME] + 0.5 * gains[1]
             capture = foot[:2] + (capture - foot[:2]) * math.exp(omega * time)
             foot = walk[FOOTHOLD].copy()
@@ -150,7 +150,7 @@ def test_foothold_keeps_off_an_edge_and_lies_on_the_ground():
     walk[WALK_SPEED], walk[PHASE], walk[SWING_TIME] = 0.6, SINGLE, gains[0]
     for reach in np.linspace(0.05, 0.16, 12):
         foot, hip = np.array([0.0, 0.085, 0.0]), np.array([0.15, -0.085, 0.85])
-        plan_foothold(gains, ground.lookup, walk, reach, 0.03, omega, foot, hip)
+        plan_foothold(gains, ground.lookup, walk, reach, 0.03, omega, foot, hip, 0.0)
         x, _, z = walk[FOOTHOLD]
         toe, heel = x + 0.12, x - 0.08
         assert z == pytest.approx(0.0 if toe < 0.32 else 0.12, abs=1e-9)

@@ -161,6 +161,7 @@ class Human(RehearsingPerson):
             self._place(here, self.yaw, 0.0)
         self.way.begin(table, self._ticks)
         self._obstacle_run.begin(obstacles)
+        self.on_feet.disturb()
         let_go_both(self.data)
         self._fours.on_way = 1.0
         if not self._fours.active:
@@ -186,6 +187,7 @@ class Human(RehearsingPerson):
         self._fours.on_way = 0.0
         if self.status in MOVING and self.status != "getting up":
             self.status, self._ended_at = "standing", self._ticks
+            self.on_feet.disturb()
             if not self._obstacle_run.clearing:
                 self._obstacle_run.begin(())
 
@@ -197,6 +199,7 @@ class Human(RehearsingPerson):
         self._stand_on(ground)
         self._fours = OnAllFours(self.model, self.index)
         self.restore_state(state)
+        self.on_feet.disturb()
         now = self._footing()
         bottomless = bool(np.isnan(now).all() and not np.isnan(before).all())
         if bottomless or (self.held and not np.all(np.abs(now - before) <= _CHANGE)):
@@ -275,8 +278,9 @@ class Human(RehearsingPerson):
         feet.tick(self._lookup, state, self._command, data)
         if feet.runs and self.status != "fallen":
             self._clear()
-        if self._obstacle_run.rehearsed and data.xfrc_applied.any():
+        if data.xfrc_applied.any():
             self._obstacle_run.disturb()
+            feet.disturb()
         mujoco.mj_step(self.model, data, STEPS_PER_TICK)
         observe(self.index, self.model, data, state)
         feet.observe(self.index, state, self._command, data)
@@ -294,6 +298,7 @@ class Human(RehearsingPerson):
         if way.path is not None and not self._obstacle_run.clearing:
             if feet.walks:
                 self._run_if_due()
+                self._rehearse_step()
             else:
                 self._walk_if_due()
                 self._rehearse_take_off()

@@ -21,7 +21,7 @@ from locomotion.events import Cleared, TookOff
 from locomotion.human_state import MOVING, HumanState
 from locomotion.passage import Passage, watch
 from locomotion.person import CONTROL_DT
-from locomotion.walk_layout import WALK_HEADING
+from locomotion.walk_layout import WALK_HEADING, WALK_SPEED
 
 if TYPE_CHECKING:
     from locomotion.body import Human
@@ -34,12 +34,15 @@ __all__ = [
     "RUN_UPS",
     "SETTING_OFF",
     "SLOWINGS",
+    "STAYS_UP",
+    "STEPPINGS",
     "ComesToRest",
     "Outcome",
     "Trial",
     "at_once",
     "clears",
     "first_good",
+    "steps_on",
     "walks_on",
 ]
 
@@ -55,6 +58,9 @@ _ASKEW = 0.5  # [rad] off its heading, at which it has not lost much time when i
 _SLOWEST = 0.1  # [m/s] of one that brakes
 _FAILED = ("fallen", "lost", "stuck")
 _LONGEST = round(12.0 / CONTROL_DT)
+_HEADWAY, _LITTLE = 0.6, 0.3  # share of the way that it is to make meanwhile; [m] less
+_RESTLESS = round(2.0 / CONTROL_DT)  # ticks after which it is not to step on where it is to stand
+_STEPPING = round(3.0 / CONTROL_DT)  # ticks that it must stay up on uneven ground
 _MARKS, _ENTRIES = (0.0, 0.04, -0.04, 0.08, -0.08), (0.0, 0.1, -0.1, 0.2, -0.2)
 
 _T = TypeVar("_T")
@@ -82,6 +88,10 @@ BALKINGS = (1.2, 0.9, 1.6, 0.7, 2.2, 3.0)
 BRAKINGS = (1.65, 1.4, 2.0, 1.3, 1.8, 0.9, 2.5, 2.8)
 """How hard it brakes, as a share of what was learned: those first that mostly come to stand sooner, so that
 others can be given up early."""
+STEPPINGS = _nearest_first((0.0, 0.05, -0.05, 0.1), (0.0, 0.08, -0.08, 0.15, -0.15))
+"""Variations of a step on uneven ground: [s] that its transfer, and its swing, take longer."""
+STAYS_UP = 0.5
+"""How well a step goes, at least, after which a person stays up."""
 HOLDS = 0.5
 """How well a run-up has to go, at least, that it is begun and not broken off."""
 
@@ -199,13 +209,15 @@ class ComesToRest:
     def __call__(self, body: Human) -> Trial:
         """Try it."""
         seen: list[HumanState] = []
+        body.undecided = False
         begun, velocity, way = body.com, body.velocity, 0.0
         along = velocity / max(float(np.linalg.norm(velocity)), _SLOWEST)
         for _ in range(_AT_REST):
             body.events.clear()
             body.tick()
             yield
-            seen.append(body.save_state())
+            if not body.undecided:
+                seen.append(body.save_state())
             now = float(along @ (body.com - begun))
             way = max(way, now)
             if body.status in _FAILED or way >= self.within:
@@ -220,18 +232,44 @@ class ComesToRest:
         return 0.0, []
 
 
+def steps_on(body: Human) -> Trial:
+    """Whether a body that walks on uneven ground stays up and makes headway, or comes to rest where it is to
+    stand: 1, less if it makes little or does not, much less if it falls, the sooner the less. What is seen of
+    it is noted until something else is to be decided; it forgets its events."""
+    seen: list[HumanState] = []
+    body.undecided = False
+    left, meant, stepped = body.way.remaining, -_LITTLE, 0
+    for tick in range(_STEPPING):
+        body.events.clear()
+        body.tick()
+        yield
+        if body.status in _FAILED:
+            return STAYS_UP * tick / _STEPPING, []
+        if not body.undecided:
+            seen.append(body.save_state())
+        if body.held or not body.on_feet.walks:
+            return 1.0, seen
+        meant += _HEADWAY * abs(body.on_feet.walk[WALK_SPEED]) * CONTROL_DT
+        stepped += body.status not in MOVING
+    if stepped > _RESTLESS:
+        return STAYS_UP, seen
+    made = max(left - body.way.remaining, 0.0)
+    return STAYS_UP + (1.0 - STAYS_UP) * (1.0 if made >= meant else made / meant), seen
+
+
 def walks_on(body: Human, notes: bool = False) -> Trial:
     """Whether a body that slows down comes to walk or stand, and stays up: 1 if it does not stagger to one
     side in the end, which would make it fall later. ``notes``: whether what is seen of it is noted; it then
     forgets its events."""
     seen: list[HumanState] = []
     walked, beside = 0, 0.0
+    body.undecided = False
     for _ in range(_LONGEST):
         if notes:
             body.events.clear()
         body.tick()
         yield
-        if notes:
+        if notes and not body.undecided:
             seen.append(body.save_state())
         if body.status in _FAILED:
             return 0.0, []

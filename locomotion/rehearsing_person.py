@@ -24,10 +24,13 @@ from locomotion.rehearsal import (
     RUN_UPS,
     SETTING_OFF,
     SLOWINGS,
+    STAYS_UP,
+    STEPPINGS,
     ComesToRest,
     Outcome,
     Trial,
     clears,
+    steps_on,
     walks_on,
 )
 
@@ -163,6 +166,19 @@ class RehearsingPerson(MovingPerson, ABC):
         else:
             self._slow_as_rehearsed(BALKINGS, RehearsingPerson.balk, _WALKS_ON, False)
 
+    def _rehearse_step(self) -> None:
+        """Just after a foot was put down on uneven ground: choose how long the next step takes."""
+        if not self.on_feet.step_to_rehearse:
+            return
+        choice, went, seen = self._rehearse(STEPPINGS, RehearsingPerson.vary_step, steps_on)
+        self.on_feet.vary_step(choice, went >= STAYS_UP)
+        if went >= STAYS_UP:
+            self.foreseen.expect(self, seen)
+
+    def vary_step(self, longer: Sequence[float]) -> None:
+        """Make the step that has just begun, its transfer and its swing, take longer [s]."""
+        self.on_feet.vary_step(longer, True)
+
     def _slow_as_rehearsed(
         self,
         decelerations: Sequence[float],
@@ -203,6 +219,8 @@ class RehearsingPerson(MovingPerson, ABC):
     def decides_soon(self) -> bool:
         """Whether it may come to something to be rehearsed within the next seconds."""
         way, feet, arc = self.way, self.on_feet, self.arc_length
+        if feet.on_uneven_ground and not self._fours.active and not self.held:
+            return True
         if way.path is None or self.status not in MOVING or self._fours.active or feet.slowing > 0.0:
             return False
         if feet.walks:

@@ -7,11 +7,11 @@ from numba import njit
 
 __all__ = [
     "ATTITUDES", "BODY_HEIGHT", "CAUGHT", "CLOCK", "DOUBLE", "FOOTHOLD", "FOOTHOLD_NORMAL", "FOOTHOLD_YAW",
-    "GAINS", "HUMP", "LIFT", "LIFT_NORMAL", "LIFT_YAW", "MISSED", "PHASE", "SEEN_ANCHORS", "SEEN_AXES",
-    "SEEN_FEET", "SEEN_PELVIS", "SEEN_SOLES", "SEEN_TORQUES", "SETTING_OFF", "SIDEWAYS", "SINGLE",
-    "STAIRS_AHEAD", "STANDING", "STEEPNESS", "STEPPED_AT", "STEPPED_FROM", "SWING_ANGLES", "SWING_TIME",
-    "WALKS", "WALK_HEADING", "WALK_SIZE", "WALK_SPEED", "WALK_STANCE", "WALK_STEPS", "WALK_TICKS",
-    "WALK_TRIM", "WALK_TURN_RATE",
+    "GAINS", "HUMP", "LIFT", "LIFT_NORMAL", "LIFT_YAW", "LONGER", "MISSED", "PHASE", "REHEARSED_TO",
+    "SEEN_ANCHORS", "SEEN_AXES", "SEEN_FEET", "SEEN_PELVIS", "SEEN_SOLES", "SEEN_TORQUES", "SETTING_OFF",
+    "SIDEWAYS", "SINGLE", "STAIRS_AHEAD", "STANDING", "STEEPNESS", "STEPPED_AT", "STEPPED_FROM",
+    "SWING_ANGLES", "SWING_TIME", "UNEVEN", "WALKS", "WALK_HEADING", "WALK_SIZE", "WALK_SPEED",
+    "WALK_STANCE", "WALK_STEPS", "WALK_TICKS", "WALK_TRIM", "WALK_TURN_RATE",
     "clamp", "first_gains", "gain_limits", "new_walk", "steep_share", "wrap",
 ]  # fmt: skip
 
@@ -117,7 +117,13 @@ CAUGHT = 163
 """1 if the walk began out of a run, 0 if from a stand."""
 STAIRS_AHEAD = 164
 """Slope [rise over run] of steps just before it, 0: there are none."""
-WALK_SIZE = 165
+UNEVEN = 165
+"""How much it walks as on steep ground or stairs, 0 to 1."""
+LONGER = slice(166, 168)
+"""Times [s] by which this step's transfer and swing take longer than learned."""
+REHEARSED_TO = 168
+"""Step up to which steps on uneven ground have been rehearsed."""
+WALK_SIZE = 169
 
 
 def new_walk(heading: float = 0.0) -> np.ndarray:

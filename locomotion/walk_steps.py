@@ -14,6 +14,7 @@ from locomotion.walk_layout import (
     LIFT,
     LIFT_NORMAL,
     LIFT_YAW,
+    LONGER,
     MISSED,
     PHASE,
     SEEN_FEET,
@@ -44,6 +45,7 @@ _SWING, _TRANSFER = _I["swing_time"], _I["transfer_time"]
 _TRIM_RATE, _MOST_TRIM = _I["trim_rate"], _I["most_trim"]
 _SPOT, _LIFT, _LIFT_NORMAL, _ANGLES = FOOTHOLD.start, LIFT.start, LIFT_NORMAL.start, SWING_ANGLES.start
 _SOLES, _FEET, _STEPPED = SEEN_SOLES.start, SEEN_FEET.start, STEPPED_FROM.start
+_LONGER = LONGER.start
 _R_HIP, _L_HIP = (JOINT_NAMES.index(f"{side}_hip_flexion") for side in ("right", "left"))
 _TOUCH = 40.0  # [N] under the swing foot that end the step
 _LANDING, _NEAR = 0.8, 0.12  # share of the swing after which, or [m] from its foothold where it may land
@@ -148,6 +150,7 @@ def advance_step(gains, walk, command, error, soles, points, spans, contact, dow
             walk[PHASE], walk[CLOCK] = DOUBLE, 0.0
             walk[WALK_STANCE] = -walk[WALK_STANCE]
             walk[WALK_STEPS] += 1.0
+            walk[_LONGER] = walk[_LONGER + 1] = 0.0
             _trim(gains, walk, com[0], com[1], ch, sh)
         elif walk[CLOCK] > walk[SWING_TIME] + _OVERDUE:
             begin_swing(gains, walk, qpos)  # where it is to land now

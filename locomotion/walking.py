@@ -42,6 +42,7 @@ from locomotion.walk_layout import (
     FOOTHOLD_NORMAL,
     GAINS,
     LIFT,
+    LONGER,
     PHASE,
     SEEN_ANCHORS,
     SEEN_AXES,
@@ -54,6 +55,7 @@ from locomotion.walk_layout import (
     STAIRS_AHEAD,
     STEEPNESS,
     SWING_TIME,
+    UNEVEN,
     WALK_HEADING,
     WALK_SPEED,
     WALK_STANCE,
@@ -90,7 +92,7 @@ _CLIMB = _I["climb_rate"]
 _ARMS = _I["arm_swing"]
 _SPOT, _NORMAL, _LIFT = FOOTHOLD.start, FOOTHOLD_NORMAL.start, LIFT.start
 _SOLES, _FEET, _PELVIS = SEEN_SOLES.start, SEEN_FEET.start, SEEN_PELVIS.start
-_ATTITUDES = ATTITUDES.start
+_ATTITUDES, _LONGER = ATTITUDES.start, LONGER.start
 _ANCHORS, _AXES, _TORQUES = SEEN_ANCHORS.start, SEEN_AXES.start, SEEN_TORQUES.start
 _COM, _VEL, _CONTACT = run_layout.COM.start, run_layout.COM_VELOCITY.start, run_layout.CONTACT.start
 _TARGETS = run_layout.LAST_TARGET.start
@@ -259,6 +261,8 @@ def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
     rests = clamp((_SLOW - abs(walk[WALK_SPEED])) / (_SLOW - _RESTING), 0.0, 1.0)
     gains = tables[0] + steep * (tables[1] - tables[0] + rests * (tables[2] - tables[1]))
     gains += stairs * (tables[3] - tables[0])
+    gains[_TRANSFER] = max(gains[_TRANSFER] + walk[_LONGER], CONTROL_DT)
+    gains[_SWING] += walk[_LONGER + 1]
     walk[WALK_TICKS] += 1.0
     walk[CLOCK] += CONTROL_DT
     soles = walk[_SOLES : _SOLES + 6].reshape(2, 3)
@@ -273,6 +277,7 @@ def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
     contact = state[_CONTACT : _CONTACT + 2]
     points, spans = soles.copy(), np.ones((2, 2))
     uneven = steep + stairs
+    walk[UNEVEN] = uneven
     if uneven > 0.0:
         _bear_steep(ground, uneven, soles, feet, points, spans)
     swing = 1 - stance

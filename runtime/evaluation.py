@@ -222,7 +222,7 @@ def evaluate_walk(trials: int, seed: int, progress: Progress) -> list[Attempt]:
 
     def attempt(name: str, kind: dict, k: int) -> Attempt:
         scenario = draw_walk(np.random.default_rng([seed, k]), kind)
-        arrived = follow_path(scenario).figures["time"] >= scenario.duration
+        arrived = follow_path(scenario, rehearsals=REHEARSALS).figures["time"] >= scenario.duration
         what = f"{scenario.length:.1f} m at {scenario.speed:.2f} m/s"
         return Attempt(name, what, "arrived" if arrived else "did not arrive", arrived)
 

@@ -97,15 +97,18 @@ def draw_flight(rng: np.random.Generator, speeds: tuple[float, float]) -> PathSc
     return PathScenario("stairs", points, length, float(rng.uniform(*speeds)), np.empty((0, 3)))
 
 
-def follow_path(scenario: PathScenario, run: RunSkill | None = None, walk: WalkSkill | None = None) -> Trial:
-    """Follow the path from a stand with these skills (None: the package's).
+def follow_path(
+    scenario: PathScenario, run: RunSkill | None = None, walk: WalkSkill | None = None, rehearsals: int = 0
+) -> Trial:
+    """Follow the path from a stand with these skills (None: the package's) and at most so many
+    ``rehearsals`` at a time.
 
     Who arrives has to come to rest there. Among the figures ``time`` is the share of the path covered (0.8 to
     0.99 for one that arrives and does not rest), times the scenario's duration,
     ``side_drift`` twice the mean distance from the path [m], at most 1 m, and ``restless`` the share of the
     3 s that it took to come to rest, 1 for one that did not.
     """
-    human = Human(training_ground(scenario.ground), run, clearing=(), walk=walk, rehearsals=0)
+    human = Human(training_ground(scenario.ground), run, clearing=(), walk=walk, rehearsals=rehearsals)
     points = scenario.points
     yaw = math.atan2(points[1, 1] - points[0, 1], points[1, 0] - points[0, 0])
     human.reset(points[0], yaw)

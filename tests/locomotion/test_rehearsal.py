@@ -11,7 +11,7 @@ from locomotion.foresight import Foresight
 from locomotion.human_state import MOVING
 from locomotion.passage import Passage
 from locomotion.person import CONTROL_DT
-from locomotion.rehearsal import RUN_UPS, at_once, clears, walks_on
+from locomotion.rehearsal import RUN_UPS, STEPPINGS, at_once, clears, walks_on
 from locomotion.route_smoothing import ObstacleAhead
 from runtime.courses import make_course, run_course
 
@@ -69,6 +69,7 @@ def distance_unrehearsed():
 
 def test_variations_begin_with_none_and_grow():
     assert RUN_UPS[0] == (0.0, 0.0) and len(set(RUN_UPS)) == len(RUN_UPS)
+    assert STEPPINGS[0] == (0.0, 0.0)
     sizes = [np.hypot(farther / 0.08, faster / 0.2) for farther, faster in RUN_UPS]
     assert np.all(np.diff(sizes) >= -1e-12)
 

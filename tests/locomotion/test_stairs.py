@@ -2,15 +2,32 @@
 itself."""
 
 import math
+from types import SimpleNamespace
+from typing import ClassVar
 
 import numpy as np
 import pytest
 
 from locomotion import Human
 from locomotion.footholds import moved, rise_over_steps, risen, steps_ahead, tread_shift
+from locomotion.foreseen import Foreseen
+from locomotion.foresight import Foresight
 from locomotion.ground import Ground, extruded
 from locomotion.human_state import MOVING
-from locomotion.walk_layout import FOOTHOLD, GAINS, LIFT, SWING_TIME, first_gains, new_walk
+from locomotion.person import CONTROL_DT
+from locomotion.rehearsal import REHEARSALS, STAYS_UP, at_once, steps_on
+from locomotion.walk_layout import (
+    FOOTHOLD,
+    GAINS,
+    LIFT,
+    LONGER,
+    REHEARSED_TO,
+    SWING_TIME,
+    WALK_SPEED,
+    WALK_STEPS,
+    first_gains,
+    new_walk,
+)
 
 _STEPS, _RISE, _TREAD = 9, 0.12, 0.52  # number; [m] of each along the way: its front, and behind it
 _LEVEL = 4.0  # [m] before and behind
@@ -55,14 +72,19 @@ def stairs(riser, tread):
     return Ground.from_arrays(*extruded(np.column_stack([x, z]), 3.0))
 
 
-def walks_over(riser, tread, down, seed):
+def about_to_walk_over(riser, tread, down, seed, rehearsals):
     start, aside = np.random.default_rng(seed).uniform((0.8, -0.2), (1.2, 0.2))
     along = np.arange(-start, 7.0 * tread + start, 0.25)
     height = riser * np.clip(np.floor(along / tread) + 1.0, 0.0, 7.0)
     way = np.column_stack([along, aside * along, height])[:: -1 if down else 1]
-    human = Human(stairs(riser, tread), clearing=(), rehearsals=0)
+    human = Human(stairs(riser, tread), clearing=(), rehearsals=rehearsals)
     human.reset(way[0], math.atan2(*(way[1] - way[0])[[1, 0]]))
     human.follow(way, 1.0)
+    return human
+
+
+def walks_over(riser, tread, down, seed, rehearsals=0):
+    human = about_to_walk_over(riser, tread, down, seed, rehearsals)
     while human.status in MOVING and human.time < 60.0:
         human.tick()
     return human.status == "arrived"
@@ -79,6 +101,140 @@ def test_walks_over_stairs_as_people_build_them(riser, tread, down, least):
     """Who went as on level ground came up 5 of 20 flights with steps of 0.15 m and 2 of those of 0.17 m; who
     planned as if feet landed in time came down 5 of 20 with steps of 0.15 m by 0.3 m and 2 of 0.17 m."""
     assert sum(walks_over(riser, tread, down, seed) for seed in range(10)) >= least
+
+
+@pytest.mark.parametrize(("riser", "tread"), [(0.15, 0.30), (0.17, 0.29), (0.20, 0.28)])
+@pytest.mark.parametrize("down", [False, True])
+def test_who_rehearses_its_steps_does_not_fall_on_stairs(riser, tread, down):
+    """Without, 3 of 10 come down those of 0.17 m and none those of 0.2 m."""
+    assert all(walks_over(riser, tread, down, seed, REHEARSALS) for seed in range(4))
+
+
+def disturb(human):
+    """Two pushes, a change of pace, and one who is sent back to where it was."""
+    pushed = human.ticks in range(450, 460) or human.ticks in range(612, 620)
+    human.data.xfrc_applied[human.index.chest, 1] = 40.0 if pushed else 0.0
+    if human.ticks in (500, 530):
+        human.give_way(0.9 if human.ticks == 500 else 1.0, None)
+    if human.ticks == 700:
+        before = human.save_state()
+        human.tick()
+        human.restore_state(before)
+
+
+@pytest.mark.parametrize("disturb", [None, disturb])
+def test_it_decides_as_if_it_rehearsed_every_step_at_the_moment(monkeypatch, disturb):
+    def hashes():
+        human, seen = about_to_walk_over(0.17, 0.29, True, 0, REHEARSALS), []
+        while human.status in MOVING and human.time < 40.0:
+            human.tick()
+            if disturb is not None:
+                disturb(human)
+            seen.append(human.state_hash())
+        return seen
+
+    foreseeing = hashes()
+    monkeypatch.setattr(Foresight, "go_on", lambda *_: None)
+    assert foreseeing == hashes()
+    monkeypatch.setattr(Foreseen, "comes_true", lambda *_: False)
+    assert foreseeing == hashes()
+
+
+def test_no_tick_bears_the_whole_rehearsal_of_a_step(monkeypatch):
+    made, most, tick = [0], 0, Human._tick
+    monkeypatch.setattr(Human, "_tick", lambda each: (made.append(1), tick(each)))
+    human = about_to_walk_over(0.17, 0.29, True, 1, REHEARSALS)
+    while human.status in MOVING:
+        made.clear()
+        human.tick()
+        most = max(most, len(made))
+    assert human.status == "arrived" and most <= 30
+
+
+def test_after_a_push_the_next_step_is_rehearsed():
+    human = about_to_walk_over(0.15, 0.30, False, 0, REHEARSALS)
+    walk = human.on_feet.walk
+    while walk[REHEARSED_TO] == 0.0:
+        human.tick()
+    asked = walk[WALK_STEPS]
+    assert walk[REHEARSED_TO] == asked + 3.0
+    while walk[WALK_STEPS] < asked + 1.0:
+        human.tick()
+    assert walk[REHEARSED_TO] == asked + 3.0
+    human.data.xfrc_applied[human.index.chest, 1] = 20.0
+    human.tick()
+    human.data.xfrc_applied[:] = 0.0
+    while walk[WALK_STEPS] < asked + 2.0:
+        human.tick()
+    assert walk[REHEARSED_TO] == asked + 5.0
+
+
+def test_a_step_takes_as_much_longer_as_it_is_told_and_the_next_one_does_not():
+    def times(longer):
+        """[s] from the third touchdown to the fourth, and on to the fifth."""
+        human, down = Human(None, clearing=(), rehearsals=0), []
+        human.reset((0, 0, 0), 0.0)
+        human.follow([[0, 0, 0], [9, 0, 0]], 0.8)
+        walk = human.on_feet.walk
+        while len(down) < 5:
+            before = walk[WALK_STEPS]
+            human.tick()
+            if walk[WALK_STEPS] > before:
+                down.append(human.time)
+                if len(down) == 3:
+                    walk[LONGER] = longer
+        assert not walk[LONGER].any()
+        return np.diff(down[2:])
+
+    usual = times((0.0, 0.0))
+    assert times((0.05, 0.0))[0] == pytest.approx(usual[0] + 0.05, abs=0.021)
+    assert times((0.0, 0.08))[0] == pytest.approx(usual[0] + 0.08, abs=0.031)
+    assert times((0.0, 0.08))[1] < usual[1] + 0.04
+
+
+class Stepping:
+    """A body that walks at 0.5 m/s, falls after some ticks, makes some headway, or steps on where it is to
+    stand."""
+
+    events: ClassVar[list] = []
+    held = undecided = False
+
+    def __init__(self, falls=math.inf, headway=0.5, status="walking", rests=math.inf):
+        self.ticks, self.falls, self.headway, self.status, self.rests = 0, falls, headway, status, rests
+        walk = new_walk()
+        walk[WALK_SPEED] = 0.5
+        self.on_feet, self.way = SimpleNamespace(walks=True, walk=walk), SimpleNamespace(remaining=5.0)
+
+    def tick(self):
+        self.ticks += 1
+        self.way.remaining -= self.headway * CONTROL_DT
+        self.held = self.ticks >= self.rests
+        if self.ticks >= self.falls:
+            self.status = "fallen"
+
+    def save_state(self):
+        return self.ticks
+
+
+def test_how_well_steps_go():
+    """Well, with little headway, back, restless, resting, and falling late and soon."""
+    well, little, back, restless, rests, late, soon = (
+        at_once(steps_on(body))[0]
+        for body in (
+            Stepping(), Stepping(headway=0.1), Stepping(headway=-0.5), Stepping(status="arrived"),
+            Stepping(status="arrived", rests=120), Stepping(falls=250), Stepping(falls=50),
+        )
+    )  # fmt: skip
+    assert well == rests == 1.0
+    assert STAYS_UP == restless == back < little < 1.0
+    assert 0.0 < soon < late < STAYS_UP
+
+
+def test_what_is_seen_ends_where_something_else_is_to_be_decided():
+    body = Stepping()
+    tick = body.tick
+    body.tick = lambda: (tick(), setattr(body, "undecided", body.ticks >= 120))
+    assert at_once(steps_on(body))[1] == list(range(1, 120))
 
 
 @pytest.mark.parametrize(("riser", "tread"), [(0.12, 0.39), (0.17, 0.29), (0.2, 0.27)])

@@ -161,7 +161,6 @@ class Human(RehearsingPerson):
             self._place(here, self.yaw, 0.0)
         self.way.begin(table, self._ticks)
         self._obstacle_run.begin(obstacles)
-        self.on_feet.disturb()
         let_go_both(self.data)
         self._fours.on_way = 1.0
         if not self._fours.active:
@@ -187,7 +186,6 @@ class Human(RehearsingPerson):
         self._fours.on_way = 0.0
         if self.status in MOVING and self.status != "getting up":
             self.status, self._ended_at = "standing", self._ticks
-            self.on_feet.disturb()
             if not self._obstacle_run.clearing:
                 self._obstacle_run.begin(())
 
@@ -199,7 +197,6 @@ class Human(RehearsingPerson):
         self._stand_on(ground)
         self._fours = OnAllFours(self.model, self.index)
         self.restore_state(state)
-        self.on_feet.disturb()
         now = self._footing()
         bottomless = bool(np.isnan(now).all() and not np.isnan(before).all())
         if bottomless or (self.held and not np.all(np.abs(now - before) <= _CHANGE)):
@@ -278,9 +275,8 @@ class Human(RehearsingPerson):
         feet.tick(self._lookup, state, self._command, data)
         if feet.runs and self.status != "fallen":
             self._clear()
-        if data.xfrc_applied.any():
+        if self._obstacle_run.rehearsed and data.xfrc_applied.any():
             self._obstacle_run.disturb()
-            feet.disturb()
         mujoco.mj_step(self.model, data, STEPS_PER_TICK)
         observe(self.index, self.model, data, state)
         feet.observe(self.index, state, self._command, data)

@@ -67,9 +67,10 @@ class Foresight:
         now = person.ticks
         if now != self._last + 1:
             self._forget(now)  # it was restored
-        elif now <= self._until and not came_true:
+        elif now < self._until and not came_true:
             self._forget(now + _REST)
         self._last = now
+        self._answers[:] = [answer for answer in self._answers if answer[0].state.ticks >= now]
         if self._task is None:
             if now < max(self._until, self._begins) or now % _LOOKS or not person.decides_soon:
                 return

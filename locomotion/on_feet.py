@@ -33,7 +33,6 @@ from locomotion.walk_layout import (
     DOUBLE,
     LONGER,
     PHASE,
-    REHEARSED_TO,
     STANDING,
     UNEVEN,
     WALK_HEADING,
@@ -57,7 +56,6 @@ _FAST, _FAST_HASTE = 3.7, 0.8  # [m/s]: what is asked for above the first may ex
 _CHANGED = 4.0  # steps after which it has gone over to another gait
 _HELD_UP = 12.0  # steps after which one that has braked, and was pushed, need not come to rest any more
 _STILL = 0.03  # [m/s] of the centre of mass at rest
-_AT_A_TIME = 3.0  # steps after which those on uneven ground are rehearsed again
 
 
 class OnFeet:
@@ -111,21 +109,13 @@ class OnFeet:
         return bool(self.walks and self.walk[UNEVEN] > 0.0)
 
     @property
-    def step_to_rehearse(self) -> bool:
-        """Whether it has just put a foot down on such ground, and the next step was not rehearsed yet."""
-        walk = self.walk
-        begins = self.on_uneven_ground and walk[PHASE] == DOUBLE and walk[CLOCK] == 0.0
-        return bool(begins and walk[WALK_STEPS] >= walk[REHEARSED_TO])
+    def begins_uneven_step(self) -> bool:
+        """Whether it has just put a foot down on such ground."""
+        return self.on_uneven_ground and self.walk[PHASE] == DOUBLE and self.walk[CLOCK] == 0.0
 
-    def vary_step(self, longer: Sequence[float], goes_well: bool) -> None:
-        """The transfer and the swing of the step that has just begun take longer [s]. ``goes_well``: as was
-        seen in rehearsal; the next one need not be rehearsed."""
+    def vary_step(self, longer: Sequence[float]) -> None:
+        """The transfer and the swing of the step that has just begun take longer [s]."""
         self.walk[LONGER] = longer
-        self.walk[REHEARSED_TO] = self.walk[WALK_STEPS] + (_AT_A_TIME if goes_well else 1.0)
-
-    def disturb(self) -> None:
-        """Something may make it come otherwise than in rehearsal."""
-        self.walk[REHEARSED_TO] = 0.0
 
     def at_rest(self, state: NDArray[np.float64]) -> bool:
         """Whether it stands and does not move."""

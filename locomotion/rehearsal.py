@@ -18,12 +18,14 @@ from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 import numpy as np
 
 from locomotion.events import Cleared, TookOff
-from locomotion.human_state import MOVING, HumanState
+from locomotion.human_state import MOVING, HumanState, same
 from locomotion.passage import Passage, watch
 from locomotion.person import CONTROL_DT
-from locomotion.walk_layout import WALK_HEADING, WALK_SPEED
+from locomotion.walk_layout import LONGER, WALK_HEADING, WALK_SPEED
 
 if TYPE_CHECKING:
+    import mujoco
+
     from locomotion.body import Human
 
 __all__ = [
@@ -38,11 +40,11 @@ __all__ = [
     "STEPPINGS",
     "ComesToRest",
     "Outcome",
+    "StepsOn",
     "Trial",
     "at_once",
     "clears",
     "first_good",
-    "steps_on",
     "walks_on",
 ]
 
@@ -58,7 +60,7 @@ _ASKEW = 0.5  # [rad] off its heading, at which it has not lost much time when i
 _SLOWEST = 0.1  # [m/s] of one that brakes
 _FAILED = ("fallen", "lost", "stuck")
 _LONGEST = round(12.0 / CONTROL_DT)
-_HEADWAY, _LITTLE = 0.6, 0.3  # share of the way that it is to make meanwhile; [m] less
+_HEADWAY, _LITTLE = 0.4, 0.3  # share of the way that it is to make meanwhile; [m] less
 _RESTLESS = round(2.0 / CONTROL_DT)  # ticks after which it is not to step on where it is to stand
 _STEPPING = round(3.0 / CONTROL_DT)  # ticks that it must stay up on uneven ground
 _MARKS, _ENTRIES = (0.0, 0.04, -0.04, 0.08, -0.08), (0.0, 0.1, -0.1, 0.2, -0.2)
@@ -232,29 +234,74 @@ class ComesToRest:
         return 0.0, []
 
 
-def steps_on(body: Human) -> Trial:
+class _Moment(NamedTuple):
+    """One tick of a trial on uneven ground."""
+
+    state: HumanState
+    undecided: bool  # whether there was something to be decided in it
+    left: float  # [m] of the way
+    rests: bool
+
+
+class StepsOn:
     """Whether a body that walks on uneven ground stays up and makes headway, or comes to rest where it is to
-    stand: 1, less if it makes little or does not, much less if it falls, the sooner the less. What is seen of
-    it is noted until something else is to be decided; it forgets its events."""
-    seen: list[HumanState] = []
-    body.undecided = False
-    left, meant, stepped = body.way.remaining, -_LITTLE, 0
-    for tick in range(_STEPPING):
-        body.events.clear()
-        body.tick()
-        yield
-        if body.status in _FAILED:
-            return STAYS_UP * tick / _STEPPING, []
-        if not body.undecided:
-            seen.append(body.save_state())
-        if body.held or not body.on_feet.walks:
-            return 1.0, seen
-        meant += _HEADWAY * abs(body.on_feet.walk[WALK_SPEED]) * CONTROL_DT
-        stepped += body.status not in MOVING
-    if stepped > _RESTLESS:
-        return STAYS_UP, seen
-    made = max(left - body.way.remaining, 0.0)
-    return STAYS_UP + (1.0 - STAYS_UP) * (1.0 if made >= meant else made / meant), seen
+    stand: 1, less if it makes little or does not, much less if it falls, the sooner the less; with what was
+    seen of it until something else is to be decided. It forgets the body's events.
+
+    It remembers what came of the best variation of a step. If the next one is not varied, that goes on, and
+    need not be simulated again.
+    """
+
+    def __init__(self) -> None:
+        self._model: mujoco.MjModel | None = None
+        self._moments: list[_Moment] = []
+        self._best = 0.0
+
+    def __call__(self, body: Human) -> Trial:
+        """Try it."""
+        varied, left = bool(body.on_feet.walk[LONGER].any()), body.way.remaining
+        moments = self._known(body)
+        if moments:
+            body.become(moments[-1].state)
+        while not (moments and _ends(moments[-1])) and len(moments) < _STEPPING:
+            body.events.clear()
+            body.undecided = False
+            body.tick()
+            yield
+            rests = body.held or not body.on_feet.walks
+            moments.append(_Moment(body.save_state(), body.undecided, body.way.remaining, rests))
+        went = _headway(left, moments)
+        if not varied or went > self._best:
+            self._model, self._moments, self._best = body.model, moments, went
+        known = itertools.takewhile(lambda at: not at.undecided and at.state.status not in _FAILED, moments)
+        return went, [moment.state for moment in known]
+
+    def _known(self, body: Human) -> list[_Moment]:
+        """What is to come, as far as it was seen."""
+        if body.model is self._model:
+            begun = body.save_state()
+            for number, moment in enumerate(self._moments, 1):
+                if moment.state.ticks == begun.ticks and same(moment.state, begun):
+                    return self._moments[number:]
+        return []
+
+
+def _ends(moment: _Moment) -> bool:
+    return moment.rests or moment.state.status in _FAILED
+
+
+def _headway(left: float, moments: Sequence[_Moment]) -> float:
+    """How well it went; ``left``: [m] of the way at the beginning."""
+    last = moments[-1]
+    if last.state.status in _FAILED:
+        return STAYS_UP * len(moments) / _STEPPING
+    if last.rests:
+        return 1.0
+    if sum(moment.state.status not in MOVING for moment in moments) > _RESTLESS:
+        return STAYS_UP
+    meant = _HEADWAY * sum(abs(moment.state.walk[WALK_SPEED]) for moment in moments) * CONTROL_DT - _LITTLE
+    made = max(left - last.left, 0.0)
+    return STAYS_UP + (1.0 - STAYS_UP) * (1.0 if made >= meant else made / meant)
 
 
 def walks_on(body: Human, notes: bool = False) -> Trial:

@@ -24,13 +24,12 @@ from locomotion.rehearsal import (
     RUN_UPS,
     SETTING_OFF,
     SLOWINGS,
-    STAYS_UP,
     STEPPINGS,
     ComesToRest,
     Outcome,
+    StepsOn,
     Trial,
     clears,
-    steps_on,
     walks_on,
 )
 
@@ -66,6 +65,7 @@ class RehearsingPerson(MovingPerson, ABC):
             self.decides = self._foresight.decide
         self.undecided = False
         self.foreseen = Foreseen()
+        self._steps_on = StepsOn()
 
     def restore_state(self, state: HumanState) -> None:
         """Continue from a state of a person on the same ground with the same skill."""
@@ -168,16 +168,14 @@ class RehearsingPerson(MovingPerson, ABC):
 
     def _rehearse_step(self) -> None:
         """Just after a foot was put down on uneven ground: choose how long the next step takes."""
-        if not self.on_feet.step_to_rehearse:
-            return
-        choice, went, seen = self._rehearse(STEPPINGS, RehearsingPerson.vary_step, steps_on)
-        self.on_feet.vary_step(choice, went >= STAYS_UP)
-        if went >= STAYS_UP:
+        if self.on_feet.begins_uneven_step:
+            choice, _, seen = self._rehearse(STEPPINGS, RehearsingPerson.vary_step, self._steps_on)
+            self.vary_step(choice)
             self.foreseen.expect(self, seen)
 
     def vary_step(self, longer: Sequence[float]) -> None:
         """Make the step that has just begun, its transfer and its swing, take longer [s]."""
-        self.on_feet.vary_step(longer, True)
+        self.on_feet.vary_step(longer)
 
     def _slow_as_rehearsed(
         self,

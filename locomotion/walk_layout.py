@@ -7,7 +7,7 @@ from numba import njit
 
 __all__ = [
     "ATTITUDES", "BODY_HEIGHT", "CAUGHT", "CLOCK", "DOUBLE", "FOOTHOLD", "FOOTHOLD_NORMAL", "FOOTHOLD_YAW",
-    "GAINS", "HUMP", "LIFT", "LIFT_NORMAL", "LIFT_YAW", "LONGER", "MISSED", "PHASE", "REHEARSED_TO",
+    "GAINS", "HUMP", "LIFT", "LIFT_NORMAL", "LIFT_YAW", "LONGER", "MISSED", "PHASE",
     "SEEN_ANCHORS", "SEEN_AXES", "SEEN_FEET", "SEEN_PELVIS", "SEEN_SOLES", "SEEN_TORQUES", "SETTING_OFF",
     "SIDEWAYS", "SINGLE", "STAIRS_AHEAD", "STANDING", "STEEPNESS", "STEPPED_AT", "STEPPED_FROM",
     "SWING_ANGLES", "SWING_TIME", "UNEVEN", "WALKS", "WALK_HEADING", "WALK_SIZE", "WALK_SPEED",
@@ -121,9 +121,7 @@ UNEVEN = 165
 """How much it walks as on steep ground or stairs, 0 to 1."""
 LONGER = slice(166, 168)
 """Times [s] by which this step's transfer and swing take longer than learned."""
-REHEARSED_TO = 168
-"""Step up to which steps on uneven ground have been rehearsed."""
-WALK_SIZE = 169
+WALK_SIZE = 168
 
 
 def new_walk(heading: float = 0.0) -> np.ndarray:

@@ -13,15 +13,14 @@ from locomotion.footholds import moved, rise_over_steps, risen, steps_ahead, tre
 from locomotion.foreseen import Foreseen
 from locomotion.foresight import Foresight
 from locomotion.ground import Ground, extruded
-from locomotion.human_state import MOVING
+from locomotion.human_state import MOVING, same
 from locomotion.person import CONTROL_DT
-from locomotion.rehearsal import REHEARSALS, STAYS_UP, at_once, steps_on
+from locomotion.rehearsal import REHEARSALS, STAYS_UP, STEPPINGS, StepsOn, at_once
 from locomotion.walk_layout import (
     FOOTHOLD,
     GAINS,
     LIFT,
     LONGER,
-    REHEARSED_TO,
     SWING_TIME,
     WALK_SPEED,
     WALK_STEPS,
@@ -151,22 +150,43 @@ def test_no_tick_bears_the_whole_rehearsal_of_a_step(monkeypatch):
     assert human.status == "arrived" and most <= 30
 
 
-def test_after_a_push_the_next_step_is_rehearsed():
-    human = about_to_walk_over(0.15, 0.30, False, 0, REHEARSALS)
-    walk = human.on_feet.walk
-    while walk[REHEARSED_TO] == 0.0:
+def test_what_is_known_is_not_simulated_again_except_on_another_ground():
+    """The best of three variations of a step is gone on with at the next step."""
+    human, simulated = about_to_walk_over(0.15, 0.30, False, 0, 0), []
+    while human.on_feet.walk[WALK_STEPS] < 6 or not human.on_feet.begins_uneven_step:
         human.tick()
-    asked = walk[WALK_STEPS]
-    assert walk[REHEARSED_TO] == asked + 3.0
-    while walk[WALK_STEPS] < asked + 1.0:
+    steps_on = StepsOn()
+
+    def tries(longer):
+        state = human.save_state()
+        human.vary_step(longer)
+        trial, made = steps_on(human), 0
+        while True:
+            try:
+                next(trial)
+                made += 1
+            except StopIteration as end:
+                human.restore_state(state)
+                simulated.append(made)
+                return end.value
+
+    best = max((tries(longer) for longer in STEPPINGS[:3]), key=lambda outcome: outcome[0])
+    assert simulated == [300, 300, 300]
+    human.restore_state(best[1][-1])
+    while not human.on_feet.begins_uneven_step:
         human.tick()
-    assert walk[REHEARSED_TO] == asked + 3.0
-    human.data.xfrc_applied[human.index.chest, 1] = 20.0
-    human.tick()
-    human.data.xfrc_applied[:] = 0.0
-    while walk[WALK_STEPS] < asked + 2.0:
-        human.tick()
-    assert walk[REHEARSED_TO] == asked + 5.0
+    simulated.clear()
+    went, seen = tries((0.0, 0.0))
+    assert 20 < simulated[0] < 100
+    state = human.save_state()
+    anew = at_once(StepsOn()(human))
+    human.restore_state(state)
+    assert (went, len(seen)) == (anew[0], len(anew[1]))
+    assert all(same(one, other) for one, other in zip(seen, anew[1], strict=True))
+    human.change_ground(stairs(0.15, 0.30))
+    simulated.clear()
+    tries((0.0, 0.0))
+    assert simulated == [300]
 
 
 def test_a_step_takes_as_much_longer_as_it_is_told_and_the_next_one_does_not():
@@ -197,7 +217,7 @@ class Stepping:
     stand."""
 
     events: ClassVar[list] = []
-    held = undecided = False
+    model, held, undecided = None, False, False
 
     def __init__(self, falls=math.inf, headway=0.5, status="walking", rests=math.inf):
         self.ticks, self.falls, self.headway, self.status, self.rests = 0, falls, headway, status, rests
@@ -213,15 +233,15 @@ class Stepping:
             self.status = "fallen"
 
     def save_state(self):
-        return self.ticks
+        return SimpleNamespace(ticks=self.ticks, status=self.status, walk=self.on_feet.walk)
 
 
 def test_how_well_steps_go():
     """Well, with little headway, back, restless, resting, and falling late and soon."""
     well, little, back, restless, rests, late, soon = (
-        at_once(steps_on(body))[0]
+        at_once(StepsOn()(body))[0]
         for body in (
-            Stepping(), Stepping(headway=0.1), Stepping(headway=-0.5), Stepping(status="arrived"),
+            Stepping(), Stepping(headway=0.05), Stepping(headway=-0.5), Stepping(status="arrived"),
             Stepping(status="arrived", rests=120), Stepping(falls=250), Stepping(falls=50),
         )
     )  # fmt: skip
@@ -230,11 +250,16 @@ def test_how_well_steps_go():
     assert 0.0 < soon < late < STAYS_UP
 
 
-def test_what_is_seen_ends_where_something_else_is_to_be_decided():
-    body = Stepping()
-    tick = body.tick
-    body.tick = lambda: (tick(), setattr(body, "undecided", body.ticks >= 120))
-    assert at_once(steps_on(body))[1] == list(range(1, 120))
+def test_what_is_seen_ends_where_something_else_is_to_be_decided_or_it_falls():
+    for falls, undecided, known in ((math.inf, 120, 119), (60, math.inf, 59)):
+        body = Stepping(falls=falls)
+
+        def tick(body=body, tick=body.tick, undecided=undecided):
+            tick()
+            body.undecided = body.ticks == undecided
+
+        body.tick = tick
+        assert [state.ticks for state in at_once(StepsOn()(body))[1]] == list(range(1, known + 1))
 
 
 @pytest.mark.parametrize(("riser", "tread"), [(0.12, 0.39), (0.17, 0.29), (0.2, 0.27)])

@@ -56,15 +56,20 @@ class CmaEs:
         """Mean of the distribution in the parameters' own units, (n,) float64."""
         return self.mean * self.scale
 
+    @property
+    def parents(self) -> int:
+        """How many of a generation's candidates, the best, it learns from."""
+        return len(self.weights)
+
     def ask(self, rng: np.random.Generator) -> np.ndarray:
         """Candidates of the next generation in the parameters' own units, (population, n) float64."""
         z = rng.standard_normal((self.population, len(self.mean)))
         return (self.mean + self.sigma * (z * self._roots) @ self._vectors.T) * self.scale
 
     def tell(self, candidates: np.ndarray, costs: np.ndarray) -> None:
-        """Update from the candidates of `ask` and their costs (population,)."""
+        """Update from candidates of `ask`, the best `parents` of all at least, and their costs."""
         n = len(self.mean)
-        order = np.argsort(costs, kind="stable")[: len(self.weights)]
+        order = np.argsort(costs, kind="stable")[: self.parents]
         steps = (candidates[order] / self.scale - self.mean) / self.sigma
         step = self.weights @ steps
         self.mean = self.mean + self.sigma * step

@@ -2,6 +2,7 @@
 
 import itertools
 from collections import Counter
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -82,6 +83,55 @@ def tiny_problem() -> RunProblem:
     scale = genes_scale(1, 0, 0, "m_ap", "m_sp", "a_hat")
     stages = tuple(Stage(name, 2, 0.1, scale, options, population=4) for name in ("a", "b"))
     return RunProblem(stages, first_guess(), first_state_reference())
+
+
+class Bowl:
+    """The way to 1 in each of two parameters, seen askew in each trial."""
+
+    def __init__(self, trials: int, askew: float) -> None:
+        self.trials, self.askew, self.judged = trials, askew, []
+
+    def stages(self) -> list[Stage]:
+        return [Stage("bowl", 60, 0.5, np.ones(2), population=8)]
+
+    def start(self) -> np.ndarray:
+        return np.zeros(2)
+
+    def scenarios(self, stage: Stage, generation: int, rng: np.random.Generator) -> list:
+        return list(self.askew * rng.normal(size=(self.trials, 2)))
+
+    def evaluate(self, stage: Stage, candidate: np.ndarray, scenarios: list) -> tuple[float, float]:
+        self.judged.append(len(scenarios))
+        return float(np.mean([np.sum((candidate - 1.0 - askew) ** 2) for askew in scenarios])), 1.0
+
+
+@pytest.fixture
+def in_process(monkeypatch) -> None:
+    @contextmanager
+    def pool(count, begin, arguments):
+        begin(*arguments)
+        yield SimpleNamespace(map=lambda function, tasks, chunksize: [function(task) for task in tasks])
+
+    monkeypatch.setattr("locomotion.training.loop.worker_pool", pool)
+
+
+@pytest.mark.usefixtures("in_process")
+@pytest.mark.parametrize(("trials", "each"), [(1, [1] * 8), (2, [1] * 12), (5, [3] * 8 + [2] * 4)])
+def test_only_the_better_half_of_a_generation_is_judged_on_all_trials(trials: int, each: list[int]) -> None:
+    problem = Bowl(trials, 0.1)
+    learned = learn(problem, seed=3, workers=1, on_progress=lambda progress: None)
+    assert problem.judged == each * 60
+    np.testing.assert_allclose(learned, 1.0, atol=0.15)
+
+
+@pytest.mark.usefixtures("in_process")
+def test_where_all_trials_are_alike_it_learns_as_if_candidates_did_not_race() -> None:
+    learned = learn(Bowl(4, 0.0), seed=3, workers=1, on_progress=lambda progress: None)
+    search = CmaEs(np.zeros(2), 0.5, np.ones(2), population=8)
+    for generation in range(60):
+        asked = search.ask(np.random.default_rng([3, 0, generation]))
+        search.tell(asked, np.sum((asked - 1.0) ** 2, axis=1))
+    np.testing.assert_array_equal(learned, search.best_guess)
 
 
 def test_interrupted_and_resumed_equals_uninterrupted(tmp_path: Path) -> None:

@@ -1,5 +1,5 @@
-"""Makes the pictures of ``docs/walking.md``, eight moments each: a person walks over rolling ground, goes up
-steps of 0.17 m and down steps of 0.15 m.
+"""Makes the pictures of ``docs/walking.md``, eight moments each: a person walks over rolling ground, fast on
+level ground, goes up steps of 0.17 m and down steps of 0.15 m.
 
     python examples/walk_films.py [folder]
 """
@@ -52,24 +52,26 @@ def strip(row: Sequence[Axes], human: Human, ground: Ground, apart: float) -> No
         show_frame(axes, render(level, [figure.posed(pose)], camera, (230, 300)), f"{human.time:.2f} s")
 
 
-def walking(ground: Ground, path: np.ndarray) -> Human:
-    """A person that sets off along a path, at 1 m/s."""
+def walking(ground: Ground, path: np.ndarray, speed: float = 1.0) -> Human:
+    """A person that sets off along a path."""
     human = Human(ground)
     human.reset(path[0], 0.0)
-    human.follow(path, 1.0)
+    human.follow(path, speed)
     return human
 
 
 def main() -> None:
-    """Walk over rolling ground, up and down stairs, and draw."""
+    """Walk over rolling ground, fast over level ground, up and down stairs, and draw."""
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else "docs/pictures")
-    ground, x = training_ground("rolling"), np.linspace(-5.0, 9.0, 57)
-    human = walking(ground, np.column_stack([x, 0.0 * x, ground_height("rolling", x, 0.0 * x)]))
-    while human.time < 6.0:
-        human.tick()
-    sheet = Sheet(figsize=(16, 2.9), dpi=75, layout="constrained")
-    strip(sheet.subplots(1, FRAMES), human, ground, APART["walk"])
-    sheet.savefig(folder / "walk.png")
+    x = np.linspace(-5.0, 15.0, 81)
+    for name, kind, speed in (("walk", "rolling", 1.0), ("walk-fast", "level", 2.0)):
+        ground = training_ground(kind)
+        human = walking(ground, np.column_stack([x, 0.0 * x, ground_height(kind, x, 0.0 * x)]), speed)
+        while human.time < 6.0:
+            human.tick()
+        sheet = Sheet(figsize=(16, 2.9), dpi=75, layout="constrained")
+        strip(sheet.subplots(1, FRAMES), human, ground, APART["walk"])
+        sheet.savefig(folder / f"{name}.png")
 
     sheet = Sheet(figsize=(16, 5.8), dpi=75, layout="constrained")
     for row, (way, riser, tread) in zip(sheet.subplots(len(FLIGHTS), FRAMES), FLIGHTS, strict=True):

@@ -71,6 +71,7 @@ STUCK_TIME = 8.0
 _WALK_ARRIVAL = 0.15  # [m] before the end of its path at which a walking person stops
 _CHANGE = 0.01  # [m] by which the ground under a person at rest may change unnoticed
 _LONGEST_DOWN = 12000  # ticks after which a body that has not got up stays down
+_COMES_BACK = 3.5  # [m] beside its path up to which a walking person may slow down and turn first
 _CLIMBS_BACK = 6.0  # [m] beside its path, where it has slid to, from which it climbs back
 _LOOKS = 20  # ticks after which one on hands and feet looks again whether it can walk on
 
@@ -395,9 +396,15 @@ class Human(RehearsingPerson):
                 self._end("arrived", Arrived(self.time, self._point(), distance))
             elif way.remaining <= 1e-9 and self.status != "scrambling":
                 self._end("lost", MissedGoal(self.time, self._point(), distance))
-        elif abs(way.lateral) > (_CLIMBS_BACK if self._fours.active else STRAYED):
+        elif abs(way.lateral) > self._may_stray():
             self._end("lost", StrayedFromPath(self.time, self._point(), abs(way.lateral)))
         elif way.pace < 1.0:
             way.wait()
         elif way.without_headway(self._ticks) > STUCK_TIME:
             self._end("stuck", GotStuck(self.time, self._point()))
+
+    def _may_stray(self) -> float:
+        """[m] beside its path from which it is lost."""
+        if self._fours.active:
+            return _CLIMBS_BACK
+        return _COMES_BACK if self.on_feet.walks else STRAYED

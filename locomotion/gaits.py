@@ -8,7 +8,7 @@ import numpy as np
 from locomotion.path_tracking import TrackingLimits
 from locomotion.run_layout import COM_VELOCITY
 from locomotion.skill import RunSkill
-from locomotion.walk_layout import CLOCK, DOUBLE, PHASE, WALK_HEADING, WALK_STEPS
+from locomotion.walk_layout import CLOCK, DOUBLE, PHASE, USUAL_SPEED, WALK_HEADING, WALK_STEPS
 from locomotion.walk_skill import WalkSkill
 
 __all__ = ["PERSON_RULES", "run_entry_speed", "run_limits", "walk_limits"]
@@ -37,7 +37,8 @@ def run_limits(skill: RunSkill) -> TrackingLimits:
 def walk_limits(skill: WalkSkill) -> TrackingLimits:
     """What a walking person can follow."""
     speeds = _SLOWEST, skill.speed
-    return TrackingLimits(speeds, _SIDEWAYS, _FASTER, _SLOWER, _UPHILL, _DOWNHILL, foresight=_FORESIGHT)
+    slopes = {"uphill": _UPHILL, "downhill": _DOWNHILL, "foresight": _FORESIGHT}
+    return TrackingLimits(speeds, _SIDEWAYS, _FASTER, _SLOWER, usual=USUAL_SPEED, **slopes)
 
 
 def run_entry_speed(walk: np.ndarray, state: np.ndarray, heading: float) -> float | None:

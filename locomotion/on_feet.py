@@ -138,7 +138,8 @@ class OnFeet:
         (x, y), speed = state[controller.COM][:2], state[controller.SPEED]
         way.track(_WALK_GAINS if self.walks else RUN_GAINS, x, y, speed, tick, command)
         if self.walks:
-            self._steer_walk(state, moving, way.pace, command)
+            most = self.walk_skill.speed if way.walks_fast else self.walk_limits.calm
+            self._steer_walk(state, moving, way.pace, most, command)
         elif self.slowing > 0.0:
             slower = state[controller.SPEED] - self.slowing * CONTROL_DT
             command[1:3] = slower, 0.0
@@ -153,7 +154,8 @@ class OnFeet:
             slowest = min(command[1], self.limits.speeds[0])
             command[1] = planned if planned > 0.0 else max(way.pace * command[1], slowest)
 
-    def _steer_walk(self, state: NDArray, moving: bool, pace: float, command: NDArray) -> None:
+    def _steer_walk(self, state: NDArray, moving: bool, pace: float, most: float, command: NDArray) -> None:
+        """``pace``: share of the speed asked for at which it goes; ``most`` [m/s]."""
         heading = self.walk[WALK_HEADING]
         if self.walk[WALK_STEPS] < 0.0:
             command[:] = heading, STEADYING_SPEED, 0.0, 0.0
@@ -164,7 +166,7 @@ class OnFeet:
                 command[0] = heading
         if self.brakes:
             pace = 0.0  # whatever it is told meanwhile: it has rehearsed to come to a stand
-        command[1] = pace * min(command[1], self.walk_skill.speed)
+        command[1] = pace * min(command[1], most)
         if pace == 0.0:  # it waits: whoever steps about in place drifts into those before it
             command[0], command[2] = heading, 0.0
 
@@ -219,6 +221,6 @@ class OnFeet:
         if self.brakes:
             walk_on(data, index, self._braking_steps[0], 0.0, state, self.walk)
         else:
-            walk_on(data, index, self._first_steps[0], self.walk_skill.speed, state, self.walk)
+            walk_on(data, index, self._first_steps[0], self.walk_limits.calm, state, self.walk)
         self.slowing = 0.0
         return True

@@ -14,15 +14,17 @@ from scipy.ndimage import maximum_filter1d
 from locomotion.errors import LocomotionError
 
 __all__ = [
-    "ARC", "BACKED", "COME_TO_REST", "HEADWAY", "HEADWAY_TICK", "LATERAL", "PACE", "REMAINING", "RUNS",
-    "RUN_UP", "SLOPE_HERE", "SPEED_HERE", "TRACK_SIZE", "WAITED", "PathTable", "TrackingLimits", "back_along",
-    "checked_points", "make_path", "new_track", "shifted", "track",
+    "ARC", "BACKED", "COME_TO_REST", "FAST_WALK", "GAIT", "HEADWAY", "HEADWAY_TICK", "LATERAL", "PACE",
+    "REMAINING", "RUN", "RUN_UP", "SLOPE_HERE", "SPEED_HERE", "TRACK_SIZE", "WAITED", "WALK", "PathTable",
+    "TrackingLimits", "back_along", "checked_points", "make_path", "new_track", "shifted", "track",
 ]  # fmt: skip
 
 SPACING = 0.1
 """Spacing of a path's table [m]."""
-X, Y, Z, HEADING, CURVATURE, SLOPE, SPEED, RUNS = range(8)
-"""Columns of a path's table; `RUNS` is 1 where the body runs and 0 where it walks, or slows down to it."""
+X, Y, Z, HEADING, CURVATURE, SLOPE, SPEED, GAIT = range(8)
+"""Columns of a path's table; `GAIT` is one of the following."""
+FAST_WALK, WALK, RUN = -1.0, 0.0, 1.0
+"""The body walks as fast as the path says; walks at its usual speed at most, or slows down to that; runs."""
 (
     ARC, LATERAL, INTEGRAL, REMAINING, SPEED_HERE, SLOPE_HERE, HEADWAY, HEADWAY_TICK, PACE, WAITED, BACKED
 ) = range(11)  # fmt: skip
@@ -40,6 +42,8 @@ COME_TO_REST = 2.0
 """[m] that are walked before the end."""
 _BEFORE = 1.0  # [m] that are walked before what cannot be run
 _BETWEEN = 4.0  # [m] that are walked between two runs at least
+_LEVEL, _STRAIGHT = 0.05, 0.15  # slope, and curvature [1/m], up to which it walks faster than usual
+_CALM = 4.0  # [m] before a run that are walked no faster than usual: runs are begun from that
 _LANDED = 5.0  # [m] behind an obstacle's edge that are run
 _BACK, _AHEAD = 0.5, 1.5  # [m] search window around the last foot point
 
@@ -56,6 +60,8 @@ class TrackingLimits:
         sharpest: curvature [1/m] and steepest: slope [rise over run] above which it does not go this way.
         slowing: [m/s^2] at which it slows down from a run to a walk.
         foresight: [m] before a slope at which it already goes as fast as on it.
+        usual: [m/s] of a walk at most, but where a faster walk is asked for, straight on, on level ground,
+            away from runs.
     """
 
     speeds: tuple[float, float]
@@ -68,6 +74,12 @@ class TrackingLimits:
     steepest: float = math.inf
     slowing: float = 0.6
     foresight: float = 0.0
+    usual: float = math.inf
+
+    @property
+    def calm(self) -> float:
+        """[m/s] of a walk at most, where no faster one is asked for."""
+        return min(self.usual, self.speeds[1])
 
 
 @dataclass(frozen=True)
@@ -76,7 +88,7 @@ class PathTable:
 
     Attributes:
         table: (n, 8) float64: x, y, z [m], heading [rad, unwrapped], curvature [1/m, left positive], slope
-            (rise per length), planned speed [m/s], whether to run.
+            (rise per length), planned speed [m/s], gait.
         length: horizontal length [m].
         goal: (3,) float64, its last point.
     """
@@ -87,8 +99,15 @@ class PathTable:
 
     def runs(self, arc: float) -> bool:
         """Whether the body is to run at this arc length [m]."""
+        return bool(self._gait(arc) == RUN)
+
+    def walks_fast(self, arc: float) -> bool:
+        """Whether it may walk faster than usual there."""
+        return bool(self._gait(arc) == FAST_WALK)
+
+    def _gait(self, arc: float) -> float:
         last = len(self.table) - 1
-        return bool(self.table[min(max(round(arc / self.length * last), 0), last), RUNS])
+        return self.table[min(max(round(arc / self.length * last), 0), last), GAIT]
 
 
 def checked_points(points: ArrayLike) -> NDArray[np.float64]:
@@ -141,15 +160,18 @@ def make_path(
     crossed = np.atleast_1d(np.asarray(edges, dtype=np.float64))
     for edge in crossed:
         table[np.abs(at - edge) < _STEP_REACH, SLOPE] = 0.0
-    table[:, RUNS] = 1.0
+    table[:, GAIT] = RUN
     gaits = [limits] * count
     if walk is not None:
         slowing = _length_of_slowing(speed, limits, walk)
         slowest = 0.5 * (walk.speeds[1] + limits.speeds[0])  # below it is nearer to a walk
         runs = _where_to_run(table, at, limits, speed, crossed, running, slowest, slowing)
-        table[:, RUNS] = runs
-        last = np.maximum.accumulate(np.where(runs, at, -math.inf))  # run point before each
-        gaits = [limits if near else walk for near in at - last <= slowing]
+        slows_down = (at - np.maximum.accumulate(np.where(runs, at, -math.inf)) <= slowing) & ~runs
+        fast = (speed < slowest) & _can_walk_fast(table, at, runs, walk.foresight) & ~slows_down
+        table[:, GAIT] = np.select([runs, fast], [RUN, FAST_WALK], WALK)
+        usual = replace(walk, speeds=(walk.speeds[0], walk.calm))
+        kinds = np.select([runs | slows_down, fast], [0, 1], 2)
+        gaits = [(limits, walk, usual)[kind] for kind in kinds]
     _plan_speed(table, length / (count - 1), speed, gaits, present_speed)
     return PathTable(table, length, distinct[-1].copy())
 
@@ -157,7 +179,7 @@ def make_path(
 def _length_of_slowing(speed: float, limits: TrackingLimits, walk: TrackingLimits) -> float:
     """[m] in which a body that runs at up to ``speed`` slows down to a walk."""
     fastest = min(max(speed, limits.speeds[0]), limits.speeds[1])
-    return max(fastest**2 - walk.speeds[1] ** 2, 0.0) / (2.0 * limits.slowing)
+    return max(fastest**2 - walk.calm**2, 0.0) / (2.0 * limits.slowing)
 
 
 def _where_to_run(
@@ -185,6 +207,17 @@ def _where_to_run(
         if at[begin] - at[end] < slowing + _BETWEEN and not hard[end:begin].any():
             runs[end:begin] = True
     return runs
+
+
+def _can_walk_fast(
+    table: NDArray[np.float64], at: NDArray[np.float64], runs: NDArray[np.bool_], foresight: float
+) -> NDArray[np.bool_]:
+    """(n,) bool: where the way is level and straight, for ``foresight`` [m] before and behind, and no run
+    begins soon."""
+    hardest = np.maximum(np.abs(table[:, SLOPE]) / _LEVEL, np.abs(table[:, CURVATURE]) / _STRAIGHT)
+    easy = maximum_filter1d(hardest, 2 * round(foresight / SPACING) + 1) <= 1.0
+    next_run = np.minimum.accumulate(np.where(runs, at, math.inf)[::-1])[::-1]
+    return easy & (next_run - at >= _CALM)
 
 
 def _too_hard(table: NDArray[np.float64], limits: TrackingLimits) -> NDArray[np.bool_]:
@@ -262,7 +295,7 @@ def shifted(
     table[:, SPEED] = np.sqrt(squares)
     if walk is not None:
         slowing = _length_of_slowing(float(table[:, SPEED].max()), limits, walk)
-        table[~_can_run(_too_hard(table, limits), along, slowing), RUNS] = 0.0
+        table[~_can_run(_too_hard(table, limits), along, slowing), GAIT] = WALK
     return replace(path, table=table)
 
 
@@ -270,8 +303,8 @@ def back_along(path: PathTable, arc: float, to: float, walk: TrackingLimits) -> 
     """The way back along ``path`` from arc length ``arc`` to ``to`` [m], walking."""
     step = path.length / (len(path.table) - 1)
     first, last = round(to / step), max(round(arc / step), round(to / step) + 1)
-    back = make_path(path.table[first : last + 1, :3][::-1], walk.speeds[1], walk, 0.0)
-    back.table[:, RUNS] = 0.0
+    back = make_path(path.table[first : last + 1, :3][::-1], walk.calm, walk, 0.0)
+    back.table[:, GAIT] = WALK
     return back
 
 

@@ -15,32 +15,33 @@ __all__ = [
     "clamp", "first_gains", "gain_limits", "new_walk", "steep_share", "wrap",
 ]  # fmt: skip
 
+_STILL_FAST = 0.1  # [m/s] by which steps are faster than asked for, at most, in a steady walk
 _LEVEL, _STEEP = 0.1, 0.3  # slopes up to which a person goes as on level ground; from which as on steep
 
 GAINS: dict[str, tuple[float, float, float]] = {
-    "swing_time": (0.42, 0.28, 0.6),  # [s] of single support, unless a step has to be made sooner
-    "transfer_time": (0.12, 0.04, 0.25),  # [s] in which the load goes over to the new stance foot
-    "width": (0.17, 0.08, 0.3),  # [m] between the lines of the feet
-    "height": (0.92, 0.82, 0.96),  # [m] of the centre of mass above the soles
-    "pressure_gain": (1.5, 0.0, 4.0),  # shift of the centre of pressure per error of the capture point
-    "pressure_along": (0.05, 0.01, 0.12),  # [m] by which the centre of pressure may move along the foot
+    "swing_time": (0.4, 0.26, 0.6),  # [s] of single support, unless a step has to be made sooner
+    "transfer_time": (0.06, 0.04, 0.25),  # [s] in which the load goes over to the new stance foot
+    "width": (0.2, 0.08, 0.3),  # [m] between the lines of the feet
+    "height": (0.94, 0.82, 0.96),  # [m] of the centre of mass above the soles
+    "pressure_gain": (1.2, 0.0, 4.0),  # shift of the centre of pressure per error of the capture point
+    "pressure_along": (0.08, 0.01, 0.12),  # [m] by which the centre of pressure may move along the foot
     "pressure_across": (0.02, 0.005, 0.04),  # [m] the same across the foot
     "height_stiffness": (100.0, 30.0, 300.0),  # [1/s^2] of the vertical force
-    "height_damping": (18.0, 5.0, 50.0),  # [1/s]
-    "tilt_stiffness": (500.0, 100.0, 1500.0),  # [Nm/rad] that keeps the pelvis upright
-    "tilt_damping": (60.0, 10.0, 150.0),  # [Nm s/rad]
+    "height_damping": (25.0, 5.0, 50.0),  # [1/s]
+    "tilt_stiffness": (200.0, 100.0, 1500.0),  # [Nm/rad] that keeps the pelvis upright
+    "tilt_damping": (85.0, 10.0, 150.0),  # [Nm s/rad]
     "tilt_moment": (50.0, 20.0, 150.0),  # [Nm] of both at most
-    "yaw_stiffness": (150.0, 20.0, 500.0),  # [Nm/rad]
+    "yaw_stiffness": (200.0, 20.0, 500.0),  # [Nm/rad]
     "yaw_damping": (15.0, 2.0, 40.0),  # [Nm s/rad]
-    "clearance": (0.10, 0.05, 0.2),  # [m] of the swing foot above the straight line to its foothold
-    "lean": (0.05, -0.1, 0.25),  # forward lean of the pelvis
+    "clearance": (0.11, 0.05, 0.2),  # [m] of the swing foot above the straight line to its foothold
+    "lean": (0.12, -0.1, 0.25),  # forward lean of the pelvis
     "leg_damping": (0.9, 0.3, 1.0),  # share of the servos' damping that is cancelled in a stance leg
-    "arm_swing": (0.4, 0.0, 1.0),  # of a shoulder per flexion of the other leg's hip
+    "arm_swing": (0.6, 0.0, 1.0),  # of a shoulder per flexion of the other leg's hip
     "pressure_rest": (0.0, -0.04, 0.06),  # [m] ahead of the sole's middle where the pressure rests
-    "reaction": (0.8, 0.0, 1.5),  # share of the swing hip's torques that the stance leg takes up
-    "moment": (90.0, 40.0, 180.0),  # [Nm] of the ground's force about the centre of mass at most
+    "reaction": (0.7, 0.0, 1.5),  # share of the swing hip's torques that the stance leg takes up
+    "moment": (130.0, 40.0, 180.0),  # [Nm] of the ground's force about the centre of mass at most
     "drop": (0.0, -0.1, 0.2),  # [m] above the lower foot that the body's base may be
-    "swing_lead": (0.08, 0.0, 0.12),  # [s] by which the swing leg's targets lead
+    "swing_lead": (0.07, 0.0, 0.12),  # [s] by which the swing leg's targets lead
     "narrowest": (0.09, -0.15, 0.12),  # [m] between the lines of the feet at least; below 0 they cross
     "roughness": (30.0, 0.0, 80.0),  # cost of a foothold per [m] of unevenness under the sole
     "steepness": (2.0, 0.0, 10.0),  # cost of a foothold that is not level
@@ -56,7 +57,7 @@ GAINS: dict[str, tuple[float, float, float]] = {
     ),  # share of its servos' stiffness that keeps a foot on its edge as put
     "height_slope": (0.15, -0.1, 0.4),  # [m] that the body is lower per unit of slope downhill
     "height_uphill": (0.1, -0.1, 0.4),  # [m] the same uphill
-    "longest": (0.6, 0.35, 0.8),  # [m] above which a step is made sooner instead
+    "longest": (0.7, 0.35, 1.0),  # [m] above which a step is made sooner instead
     "trim_rate": (
         0.1,
         0.0,
@@ -65,6 +66,10 @@ GAINS: dict[str, tuple[float, float, float]] = {
     "most_trim": (0.3, 0.0, 0.8),  # [m/s] by which it is corrected at most
     "climb_rate": (1.0, 0.3, 2.0),  # [m/s] up and down at which the body is asked to go at most
     "lateness": (0.0, 0.0, 0.12),  # [s] by which a foot lands later than its swing was to take
+    "swing_foreseen": (0.7, 0.0, 1.0),  # share of its targets that reckon with delay and inertia
+    "most_missed": (0.1, 0.05, 0.3),  # [m] by which footholds are moved back at most because feet miss them
+    "momentum": (1.0, 0.0, 1.5),  # share of what the legs' swinging adds to the speed that is not counted
+    "tilt_integral": (150.0, 0.0, 1500.0),  # [Nm/(rad s)] of the moment that keeps the pelvis upright
 }
 """Gains by name, in the order of the kernel's array: first guess, least and greatest value."""
 
@@ -100,6 +105,10 @@ SEEN_SOLES, SEEN_FEET, SEEN_PELVIS = slice(32, 38), slice(38, 56), slice(56, 65)
 SEEN_ANCHORS, SEEN_AXES, SEEN_TORQUES = slice(65, 101), slice(101, 137), slice(137, 149)
 """The same for the six joints of the right and of the left leg: anchors [m] and axes, (2, 6, 3) in the world;
 torques, (2, 6) [Nm]."""
+USUAL_SPEED = 1.25
+"""[m/s] of a walk up to which it goes by the gains for level ground."""
+FAST_SPEED = 1.45
+"""[m/s] from which it goes by those for fast walks."""
 WALKS = 149
 """1 while this controller moves the body, 0 while it runs."""
 HUMP = 150
@@ -121,7 +130,11 @@ UNEVEN = 165
 """How much it walks as on steep ground or stairs, 0 to 1."""
 LONGER = slice(166, 168)
 """Times [s] by which this step's transfer and swing take longer than learned."""
-WALK_SIZE = 168
+TILTED = 168
+"""Integral [rad s] of how far the pelvis leans forward beyond what it is to."""
+STEP_MADE = 169
+"""Speed [m/s] of the last step of a fast walk along its way; 0 in other walks."""
+WALK_SIZE = 170
 
 
 def new_walk(heading: float = 0.0) -> np.ndarray:
@@ -149,3 +162,17 @@ def wrap(angle):
 def steep_share(steepness):
     """How much a slope [rise over run] counts as steep, 0 (gone as level ground) to 1."""
     return clamp((steepness - _LEVEL) / (_STEEP - _LEVEL), 0.0, 1.0)
+
+
+@njit(cache=True)
+def pace_of(walk):
+    """Speed [m/s] at which a person walks: that of its reference, or of its steps where it has to slow down
+    from a fast walk and has not yet."""
+    made = walk[STEP_MADE] - _STILL_FAST
+    return made if made > max(walk[WALK_SPEED], USUAL_SPEED) else walk[WALK_SPEED]
+
+
+@njit(cache=True)
+def fast_share(speed):
+    """How much a walk of ``speed`` [m/s] is a fast one, 0 to 1."""
+    return clamp((speed - USUAL_SPEED) / (FAST_SPEED - USUAL_SPEED), 0.0, 1.0)

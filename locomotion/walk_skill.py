@@ -37,8 +37,8 @@ __all__ = [
 ]  # fmt: skip
 
 WALK_SKILL = Path(__file__).parent / "skills" / "walk.npz"
-TABLES = 4
-"""Rows of gains: for level ground, for steep ground, for coming to rest on it, for stairs."""
+TABLES = 5
+"""Rows of gains: for level ground, for steep ground, for coming to rest on it, for stairs, for fast walks."""
 RISING = 50
 """Ticks in which a body that begins to walk from a crouch comes up."""
 STEADYING_SPEED = 1.0
@@ -56,9 +56,14 @@ _ARMS = (("shoulder_abduction", 0.12), ("elbow_flexion", 0.35))
 
 @dataclass(frozen=True)
 class WalkSkill:
-    """How the person walks: ``tables`` (4, len(GAINS)) float64, gains by the order of `walk_layout.GAINS` for
-    level ground, for steep ground, for coming to rest there and for stairs; ``speed`` [m/s] at which it
-    walks at most; ``meta``: what made it."""
+    """How the person walks.
+
+    Attributes:
+        tables: (5, len(GAINS)) float64, gains in the order of `walk_layout.GAINS`, for level ground, for
+            steep ground, for coming to rest there, for stairs and for fast walks.
+        speed: [m/s] at which it walks at most.
+        meta: what made it.
+    """
 
     tables: np.ndarray
     speed: float = 1.25

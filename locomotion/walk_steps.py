@@ -23,10 +23,12 @@ from locomotion.walk_layout import (
     SIDEWAYS,
     SINGLE,
     STANDING,
+    STEP_MADE,
     STEPPED_AT,
     STEPPED_FROM,
     SWING_ANGLES,
     SWING_TIME,
+    USUAL_SPEED,
     WALK_HEADING,
     WALK_SPEED,
     WALK_STANCE,
@@ -35,6 +37,7 @@ from locomotion.walk_layout import (
     WALK_TRIM,
     WALK_TURN_RATE,
     clamp,
+    pace_of,
     wrap,
 )  # fmt: skip
 
@@ -42,6 +45,7 @@ __all__ = ["TURN_RATE", "advance_step", "begin_swing", "follow"]
 
 _I = {name: i for i, name in enumerate(GAINS)}
 _SWING, _TRANSFER = _I["swing_time"], _I["transfer_time"]
+_MOST_MISSED = _I["most_missed"]
 _TRIM_RATE, _MOST_TRIM = _I["trim_rate"], _I["most_trim"]
 _SPOT, _LIFT, _LIFT_NORMAL, _ANGLES = FOOTHOLD.start, LIFT.start, LIFT_NORMAL.start, SWING_ANGLES.start
 _SOLES, _FEET, _STEPPED = SEEN_SOLES.start, SEEN_FEET.start, STEPPED_FROM.start
@@ -59,6 +63,7 @@ _TURN_CHANGE = 6.0  # [rad/s^2]
 _FASTER, _SLOWER, _SIDE_CHANGE = 0.8, 1.0, 0.5  # [m/s^2] of the reference speeds
 _STILL, _STRAIGHT, _AWRY = 0.02, 0.2, 0.3  # [m/s], [rad] below which it stands; [rad] above which it sets off
 _SLOW, _STOPPING = 0.1, 0.3  # [m/s] below which steps are corrected faster: share of their error in speed
+_BENDS = 0.2  # [rad] off its way up to which a fast walk bends
 _SETTLED = 0.05  # [m/s] of the reference speed below which it stands
 _FOOTED = 0.5  # share of a sole's length on which it can stand
 _TOES, _HEELS = 0.1, -0.08  # [m] ahead of the feet's middles between which the capture point can be held
@@ -85,8 +90,10 @@ def begin_swing(gains, walk, qpos):
 def follow(walk, heading, speed, sideways):
     """Let the reference heading and speeds follow what is asked; gives what is left of the heading [rad]."""
     error = wrap(heading - walk[WALK_HEADING])
-    wanted = error / _TURN_TIME
-    most = min(TURN_RATE, _TURNING / max(abs(walk[WALK_SPEED]), _SLOW_TURN))
+    pace, wanted = pace_of(walk), error / _TURN_TIME
+    if pace > USUAL_SPEED and abs(error) > _BENDS:  # it slows down before it turns
+        speed, wanted = min(speed, USUAL_SPEED), 0.0
+    most = min(TURN_RATE, _TURNING / max(abs(pace), _SLOW_TURN))
     rate = clamp(wanted, -most, most)
     change = _TURN_CHANGE * CONTROL_DT
     walk[WALK_TURN_RATE] += clamp(rate - walk[WALK_TURN_RATE], -change, change)
@@ -106,6 +113,7 @@ def _trim(gains, walk, x, y, ch, sh):
     if walk[WALK_STEPS] > 1.0:
         time = (walk[WALK_TICKS] - walk[STEPPED_AT]) * CONTROL_DT
         made = (ch * (x - walk[_STEPPED]) + sh * (y - walk[_STEPPED + 1])) / time
+        walk[STEP_MADE] = made if pace_of(walk) > USUAL_SPEED else 0.0
         rate = gains[_TRIM_RATE] if walk[WALK_SPEED] > _SLOW else _STOPPING
         trim = walk[WALK_TRIM] + rate * (walk[WALK_SPEED] - made)
         walk[WALK_TRIM] = clamp(trim, -gains[_MOST_TRIM], gains[_MOST_TRIM])
@@ -146,7 +154,8 @@ def advance_step(gains, walk, command, error, soles, points, spans, contact, dow
             missed = ch * (soles[swing, 0] - walk[_SPOT]) + sh * (soles[swing, 1] - walk[_SPOT + 1])
             if walk[WALK_SPEED] <= _SLOW:
                 missed -= walk[MISSED]  # faster it stays a sum: runs are learned from such walks
-            walk[MISSED] = clamp(walk[MISSED] + 0.3 * missed, -0.1, 0.1)
+            most = gains[_MOST_MISSED]
+            walk[MISSED] = clamp(walk[MISSED] + 0.3 * missed, -most, most)
             walk[PHASE], walk[CLOCK] = DOUBLE, 0.0
             walk[WALK_STANCE] = -walk[WALK_STANCE]
             walk[WALK_STEPS] += 1.0

@@ -32,6 +32,7 @@ from numba import njit
 from locomotion import run_layout
 from locomotion.anatomy import ANKLE, MASS
 from locomotion.footholds import SOLE, bearing, lowest_gap, plan_foothold, sway
+from locomotion.leg_dynamics import STRAIGHT_LEG, leg_momentum
 from locomotion.person import CONTROL_DT, JOINT_NAMES, PersonIndex
 from locomotion.walk_layout import (
     ATTITUDES,
@@ -55,6 +56,7 @@ from locomotion.walk_layout import (
     STAIRS_AHEAD,
     STEEPNESS,
     SWING_TIME,
+    TILTED,
     UNEVEN,
     WALK_HEADING,
     WALK_SPEED,
@@ -64,13 +66,15 @@ from locomotion.walk_layout import (
     WALK_TRIM,
     WALK_TURN_RATE,
     clamp,
+    fast_share,
+    pace_of,
     steep_share,
     wrap,
 )
 from locomotion.walk_steps import advance_step, follow
 from locomotion.walking_legs import height_in_reach, steady_foot, support_leg, swing_leg
 
-__all__ = ["observe_walk", "walk_tick"]
+__all__ = ["legs_momentum", "observe_walk", "walk_tick"]
 
 _I = {name: i for i, name in enumerate(GAINS)}
 _SWING, _TRANSFER, _HEIGHT = _I["swing_time"], _I["transfer_time"], _I["height"]
@@ -85,9 +89,10 @@ _Z_STIFF, _Z_DAMP, _DROP, _Z_SLOPE, _Z_UPHILL = (
     _I["height_uphill"],
 )
 _TILT, _TILT_DAMP, _TILT_MOST = _I["tilt_stiffness"], _I["tilt_damping"], _I["tilt_moment"]
+_TILT_INTEGRAL = _I["tilt_integral"]
 _YAW, _YAW_DAMP, _REACTION, _MOMENT = _I["yaw_stiffness"], _I["yaw_damping"], _I["reaction"], _I["moment"]
 _LEAN, _LEAN_SLOPE, _LEG_DAMPING = _I["lean"], _I["lean_slope"], _I["leg_damping"]
-_HOLD = _I["foot_hold"]
+_HOLD, _MOMENTUM = _I["foot_hold"], _I["momentum"]
 _CLIMB = _I["climb_rate"]
 _ARMS = _I["arm_swing"]
 _SPOT, _NORMAL, _LIFT = FOOTHOLD.start, FOOTHOLD_NORMAL.start, LIFT.start
@@ -106,10 +111,12 @@ _PELVIS_BODY = 1
 _LEAST, _TREAD = 0.2, 0.3  # [m/s] above which it goes over stairs a tread a step; [m] of a usual one
 _DOWN = 0.03  # [m] above a tread at which a corner of a foot has come down on it
 _GRAVITY = 9.81
+_HIPS = 0.85  # [m] above the ground
 _UNLOADED = 0.15  # share of the weight on the first stance leg while it is pushed over it
 _STRAIGHTEN = 0.4  # share of the pelvis's lean that waist and chest take back, each
 _FRICTION = 0.75  # sideways per upward force at most
 _MAX_SLOPE = 0.8
+_MOST_TILTED = 0.2  # [rad s]
 _YAW_MOMENT = 25.0  # [Nm]
 _SLOW, _RESTING = 0.4, 0.1  # [m/s] of the reference speed below which it begins to rest; with which it rests
 
@@ -214,9 +221,25 @@ def _upright(gains, walk, slope, pelvis, qvel, out):
     most = gains[_TILT_MOST]
     out[0] = clamp(gains[_TILT] * ey - gains[_TILT_DAMP] * gx, -most, most)
     out[1] = clamp(-gains[_TILT] * ex - gains[_TILT_DAMP] * gy, -most, most)
+    tilted = walk[TILTED] + (ch * ex + sh * ey) * CONTROL_DT
+    walk[TILTED] = clamp(tilted, -_MOST_TILTED, _MOST_TILTED)
+    out[0] += gains[_TILT_INTEGRAL] * walk[TILTED] * sh
+    out[1] -= gains[_TILT_INTEGRAL] * walk[TILTED] * ch
     yaw = wrap(walk[WALK_HEADING] - math.atan2(pelvis[3], pelvis[0]))
     turn = gains[_YAW] * yaw - gains[_YAW_DAMP] * (gz - walk[WALK_TURN_RATE])
     out[2] = clamp(turn, -_YAW_MOMENT, _YAW_MOMENT)
+
+
+@njit(cache=True)
+def legs_momentum(pelvis, speed, qpos, qvel):
+    """Angular momentum [kg m^2/s] of the legs, forward, beyond what they have at a touchdown, when both turn
+    back below a body of this ``speed`` [m/s]."""
+    pitch = math.atan2(-pelvis[6], pelvis[8])
+    momentum = 2.0 * STRAIGHT_LEG * speed / _HIPS
+    for hip in (_R_HIP, _L_HIP):
+        thigh, rate = qpos[7 + hip] - pitch, qvel[6 + hip] - qvel[4]
+        momentum += leg_momentum(thigh, thigh - qpos[10 + hip], rate, rate - qvel[9 + hip])
+    return momentum
 
 
 @njit(cache=True)
@@ -248,9 +271,9 @@ def _lift(gains, walk, steep, slope, soles, state, hip):
 def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
     """One control tick: advance ``walk`` (WALK_SIZE,), write the PD targets ``ctrl`` (39,) [rad].
 
-    tables (4, len(GAINS)): gains for level ground, for steep ground, for coming to rest there and for stairs;
-    ground as in `footholds.ground_at`; state: a running controller's, with what was observed; its heading,
-    speed, stance and steps are kept up to date. All float64.
+    tables (5, len(GAINS)): gains for level ground, for steep ground, for coming to rest there, for stairs
+    and for fast walks; ground as in `footholds.ground_at`; state: a running controller's, with what was
+    observed; its heading, speed, stance and steps are kept up to date. All float64.
     """
     steep = steep_share(walk[STEEPNESS])
     stairs = (1.0 - steep) * steep_share(max(abs(command[3]), walk[STAIRS_AHEAD]) - walk[STEEPNESS])
@@ -261,6 +284,7 @@ def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
     rests = clamp((_SLOW - abs(walk[WALK_SPEED])) / (_SLOW - _RESTING), 0.0, 1.0)
     gains = tables[0] + steep * (tables[1] - tables[0] + rests * (tables[2] - tables[1]))
     gains += stairs * (tables[3] - tables[0])
+    gains += fast_share(pace_of(walk)) * (1.0 - max(steep, stairs)) * (tables[4] - tables[0])
     gains[_TRANSFER] = max(gains[_TRANSFER] + walk[_LONGER], CONTROL_DT)
     gains[_SWING] += walk[_LONGER + 1]
     walk[WALK_TICKS] += 1.0
@@ -274,6 +298,14 @@ def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
     stance = 1 if walk[WALK_STANCE] > 0 else 0
     omega = math.sqrt(_GRAVITY / max(state[_COM + 2] - soles[stance, 2], 0.5))
     capture = np.array([state[_COM] + state[_VEL] / omega, state[_COM + 1] + state[_VEL + 1] / omega])
+    if gains[_MOMENTUM] > 0.0:
+        ch, sh = math.cos(walk[WALK_HEADING]), math.sin(walk[WALK_HEADING])
+        along = ch * state[_VEL] + sh * state[_VEL + 1]
+        # what swings ahead now brakes the body until it lands: its momentum does not count
+        momentum = gains[_MOMENTUM] * legs_momentum(pelvis, along, qpos, qvel)
+        too_far = momentum * omega / (MASS * _GRAVITY)
+        capture[0] -= ch * too_far
+        capture[1] -= sh * too_far
     contact = state[_CONTACT : _CONTACT + 2]
     points, spans = soles.copy(), np.ones((2, 2))
     uneven = steep + stairs
@@ -347,7 +379,9 @@ def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
         hip = hips[k]
         ctrl[hip + 6] = 0.0
         if swinging and k != stance:
-            swing_leg(gains, walk, pelvis, anchors[k, 0].copy(), hip, 2.0 * k - 1.0, ctrl)
+            swing_leg(
+                gains, walk, pelvis, anchors[k, 0].copy(), state[_VEL : _VEL + 2], hip, 2.0 * k - 1.0, ctrl
+            )
         else:
             attitude = walk[_ATTITUDES + 3 * k : _ATTITUDES + 3 * k + 3]
             steady_foot(gains[_HOLD], spans[k], feet[k], attitude, hold)

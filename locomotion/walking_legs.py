@@ -7,6 +7,7 @@ from numba import njit
 
 from locomotion.anatomy import ANKLE, SHANK, SIDE_JOINTS, THIGH
 from locomotion.footholds import SOLE, foot_frame, moved, risen
+from locomotion.leg_dynamics import swing_torques
 from locomotion.leg_kinematics import solve_leg
 from locomotion.person import CONTROL_DT
 from locomotion.walk_layout import (
@@ -30,13 +31,18 @@ from locomotion.walk_layout import (
 __all__ = ["height_in_reach", "steady_foot", "support_leg", "swing_leg"]
 
 _I = {name: i for i, name in enumerate(GAINS)}
-_CLEARANCE, _LEAD = _I["clearance"], _I["swing_lead"]
+_CLEARANCE, _LEAD, _FORESEEN = _I["clearance"], _I["swing_lead"], _I["swing_foreseen"]
 _SPOT, _NORMAL, _LIFT, _LIFT_NORMAL, _ANGLES = (
     FOOTHOLD.start, FOOTHOLD_NORMAL.start, LIFT.start, LIFT_NORMAL.start, SWING_ANGLES.start,
 )  # fmt: skip
 _STIFFNESS = np.array([j.stiffness for part in ("thigh", "shank", "foot") for j in SIDE_JOINTS[part]])
 _LEAD_TIME = 0.1  # servo damping per stiffness [s], as in locomotion.person
 _PRESS = 0.01  # [m] below its foothold that the swing foot goes on steep ground, to touch for certain
+_AHEAD = 0.015  # [s] until a PD target has worked: it holds for a tick and is compared with after it
+_NEARBY = 0.02  # [s] before and after that at which the swing's plan is looked at
+_MOST_RATE = 20.0  # [rad/s] of a swing leg's angles
+_MOST_CHANGE = 300.0  # [rad/s^2] of a swing leg's angles
+_HIP, _KNEE = 0, 3  # of a leg's angles
 _REACH = 0.97 * (THIGH + SHANK)  # [m] from hip to ankle when a foot lands, at most
 
 
@@ -89,9 +95,10 @@ def height_in_reach(walk, com, velocity, hip):
 
 
 @njit(cache=True)
-def swing_leg(gains, walk, pelvis, hip_at, hip, side, ctrl):
-    """A leg whose foot moves to its foothold: PD targets by inverse kinematics."""
-    share = walk[CLOCK] / walk[SWING_TIME]
+def _swing_angles(gains, walk, pelvis, hip_at, side, clock, angles):
+    """Angles (6,) [rad] of a leg from a hip at ``hip_at`` (3,) whose foot is where it is to be at
+    ``clock``."""
+    share = clock / walk[SWING_TIME]
     move = moved(share)
     spot, normal = np.empty(3), np.empty(3)
     for i in range(3):
@@ -103,14 +110,53 @@ def swing_leg(gains, walk, pelvis, hip_at, hip, side, ctrl):
     spot[2] += (gains[_CLEARANCE] + walk[HUMP]) * math.sin(math.pi * min(share, 1.0))
     spot[2] -= steep_share(walk[STEEPNESS]) * _PRESS * clamp(5.0 * share - 4.0, 0.0, 1.0)
     if share > 1.0:  # the ground is lower than thought: reach for it
-        spot[2] -= 0.35 * (walk[CLOCK] - walk[SWING_TIME])
+        spot[2] -= 0.35 * (clock - walk[SWING_TIME])
     foot = np.empty((3, 3))
     foot_frame(walk[LIFT_YAW] + move * wrap(walk[FOOTHOLD_YAW] - walk[LIFT_YAW]), normal, foot)
-    ankle, angles = np.empty(3), np.empty(6)
+    ankle = np.empty(3)
     for i in range(3):
         ankle[i] = spot[i] - SOLE * foot[i, 0] + ANKLE * foot[i, 2]
-    solve_leg(pelvis.copy().reshape(3, 3), hip_at, foot, ankle, side, angles)
+    solve_leg(pelvis, hip_at, foot, ankle, side, angles)
+
+
+@njit(cache=True)
+def swing_leg(gains, walk, pelvis, hip_at, velocity, hip, side, ctrl):
+    """A leg whose foot moves to its foothold: PD targets by inverse kinematics. hip_at (3,), velocity (2,):
+    of its hip."""
+    frame = pelvis.copy().reshape(3, 3)
+    angles = np.empty(6)
+    _swing_angles(gains, walk, frame, hip_at, side, walk[CLOCK], angles)
     for j in range(6):
         rate = clamp((angles[j] - walk[_ANGLES + j]) / CONTROL_DT, -12.0, 12.0)
         walk[_ANGLES + j] = angles[j]
         ctrl[hip + j] = angles[j] + gains[_LEAD] * rate
+    if gains[_FORESEEN] > 0.0:
+        wanted = np.empty(6)
+        _foresee(gains, walk, frame, hip_at, velocity, side, wanted)
+        for j in range(6):
+            ctrl[hip + j] += gains[_FORESEEN] * (wanted[j] - ctrl[hip + j])
+
+
+@njit(cache=True)
+def _foresee(gains, walk, frame, hip_at, velocity, side, wanted):
+    """PD targets (6,) with which the leg is where it is planned to be when they have worked: from the plan a
+    little ahead, from a hip that goes on as it does, its rates, and the torques that moving so takes."""
+    plan, place = np.empty((3, 6)), hip_at.copy()
+    for k in range(3):
+        later = _AHEAD + (k - 1) * _NEARBY
+        for i in range(2):
+            place[i] = hip_at[i] + later * velocity[i]
+        _swing_angles(gains, walk, frame, place, side, max(walk[CLOCK] + later, 0.0), plan[k])
+    rates, changes = np.empty(6), np.empty(6)
+    for j in range(6):
+        rates[j] = clamp((plan[2, j] - plan[0, j]) / (2.0 * _NEARBY), -_MOST_RATE, _MOST_RATE)
+        change = (plan[2, j] - 2.0 * plan[1, j] + plan[0, j]) / (_NEARBY * _NEARBY)
+        changes[j] = clamp(change, -_MOST_CHANGE, _MOST_CHANGE)
+        wanted[j] = plan[1, j] + _LEAD_TIME * rates[j]
+    thigh = plan[1, _HIP] - math.atan2(-frame[2, 0], frame[2, 2])
+    about_hip, about_knee = swing_torques(
+        thigh, thigh - plan[1, _KNEE], rates[_HIP], rates[_HIP] - rates[_KNEE],
+        changes[_HIP], changes[_HIP] - changes[_KNEE],
+    )  # fmt: skip
+    wanted[_HIP] += about_hip / _STIFFNESS[_HIP]
+    wanted[_KNEE] -= about_knee / _STIFFNESS[_KNEE]

@@ -79,6 +79,11 @@ class Way:
         """Whether it is to run here."""
         return self.path is not None and self.path.runs(self.arc)
 
+    @property
+    def walks_fast(self) -> bool:
+        """Whether it may walk faster than usual here."""
+        return self.path is not None and self.path.walks_fast(self.arc)
+
     def track(
         self, gains: NDArray[np.float64], x: float, y: float, speed: float, tick: int, command: NDArray
     ) -> None:

@@ -222,9 +222,14 @@ def evaluate_walk(trials: int, seed: int, progress: Progress) -> list[Attempt]:
 
     def attempt(name: str, kind: dict, k: int) -> Attempt:
         scenario = draw_walk(np.random.default_rng([seed, k]), kind)
-        arrived = follow_path(scenario, rehearsals=REHEARSALS).figures["time"] >= scenario.duration
+        figures = follow_path(scenario, rehearsals=REHEARSALS).figures
+        arrived = figures["time"] >= scenario.duration
         what = f"{scenario.length:.1f} m at {scenario.speed:.2f} m/s"
-        return Attempt(name, what, "arrived" if arrived else "did not arrive", arrived)
+        status, slower = (
+            "arrived" if arrived else "did not arrive",
+            {"slower than meant [m/s]": figures["behind"]},
+        )
+        return Attempt(name, what, status, arrived, slower)
 
     each = [(name, kind, k) for name, kind in KINDS.items() for k in range(trials)]
     return _tried("walk", [lambda one=one: attempt(*one) for one in each], progress)

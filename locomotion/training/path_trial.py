@@ -105,7 +105,8 @@ def follow_path(
 
     Who arrives has to come to rest there. Among the figures ``time`` is the share of the path covered (0.8 to
     0.99 for one that arrives and does not rest), times the scenario's duration,
-    ``side_drift`` twice the mean distance from the path [m], at most 1 m, and ``restless`` the share of the
+    ``side_drift`` twice the mean distance from the path [m], at most 1 m, ``behind`` by how much it is slower
+    than its reference on the mean [m/s], and ``restless`` the share of the
     3 s that it took to come to rest, 1 for one that did not.
     """
     human = Human(training_ground(scenario.ground), run, clearing=(), walk=walk, rehearsals=rehearsals)
@@ -115,7 +116,7 @@ def follow_path(
     human.follow(points, scenario.speed)
     measures = Measures(human.data, human.index)
     push, state = human.data.xfrc_applied[human.index.chest], human.control
-    aside, ticks = 0.0, 0
+    aside, behind, ticks = 0.0, 0.0, 0
     while (
         human.status in MOVING
         and human.arc_length < scenario.length
@@ -130,6 +131,7 @@ def follow_path(
         ticks += 1
         aside += min(abs(human.lateral_error), 1.0)
         measures.add(state, float(state[c.TURN_RATE]))
+        behind += float(state[c.SPEED]) - math.hypot(*state[c.COM_VELOCITY][:2])
     push[:2] = 0.0
     arrived, stands = human.status == "arrived", 0
     while human.status == "arrived" and not human.held and stands < _RESTS:
@@ -142,5 +144,6 @@ def follow_path(
     figures = measures.figures(state, ticks)
     figures["time"] = (1.0 if done else min(covered, 0.99)) * scenario.duration
     figures["restless"] = stands / _RESTS if human.held else 1.0
+    figures["behind"] = behind / max(ticks, 1)
     figures["side_drift"] = 2.0 * aside / max(ticks, 1)
     return Trial(figures, np.concatenate([human.qpos, state]))

@@ -10,14 +10,15 @@ import numpy as np
 from locomotion.training.loop import Stage
 from locomotion.training.path_trial import PathScenario, draw_flight, draw_path, follow_path
 from locomotion.training.training import Training
-from locomotion.walk_layout import GAINS, first_gains, gain_limits
+from locomotion.walk_layout import GAINS, USUAL_SPEED, first_gains, gain_limits
 from locomotion.walk_skill import TABLES, WALK_SKILL, WalkSkill
 
 __all__ = ["KINDS", "WalkProblem", "draw_walk", "train_walk", "walk_curriculum", "walk_tables"]
 
-SPEED = 1.25
+FASTEST = 2.0
 """Fastest walk [m/s]."""
 _STEPS_PER_S = 1.9  # of people who walk at 1.3 m/s; it grows with the root of the speed
+_BEHIND = 8.0  # cost of being slower or faster than told, per m/s, of fast walks
 _RESTLESS = 1.0  # cost of the time that it takes to come to rest, per what is allowed
 _UNIT = 0.08  # share of a gain's range that is one unit of the search
 
@@ -33,14 +34,17 @@ def _kind(
 
 
 KINDS: dict[str, dict[str, Any]] = {
-    "level": _kind("level", (0.6, SPEED), 0.8),
-    "pushed": _kind("level", (0.6, SPEED), 1.0, push=80.0),
-    "rolling": _kind("rolling", (0.6, SPEED), 1.0),
-    "ramps": _kind("ramps", (0.8, SPEED), 1.2, length=(9.0, 15.0)),
+    "level": _kind("level", (0.6, USUAL_SPEED), 0.8),
+    "pushed": _kind("level", (0.6, USUAL_SPEED), 1.0, push=80.0),
+    "rolling": _kind("rolling", (0.6, USUAL_SPEED), 1.0),
+    "ramps": _kind("ramps", (0.8, USUAL_SPEED), 1.2, length=(9.0, 15.0)),
     "moguls": _kind("moguls", (0.4, 0.8), 1.0),
     "crags": _kind("crags", (0.4, 0.8), 2.0),
-    "ridges": _kind("ridges", (0.4, SPEED), 1.0, length=(2.0, 2.5)),
-    "stairs": {"ground": "stairs", "speeds": (0.8, SPEED)},
+    "ridges": _kind("ridges", (0.4, USUAL_SPEED), 1.0, length=(2.0, 2.5)),
+    "stairs": {"ground": "stairs", "speeds": (0.8, USUAL_SPEED)},
+    "fast": _kind("level", (USUAL_SPEED, FASTEST), 4.0, length=(8.0, 14.0)),
+    "fast, pushed": _kind("level", (USUAL_SPEED, FASTEST), 8.0, length=(8.0, 14.0), push=80.0),
+    "fast, rolling": _kind("rolling", (USUAL_SPEED, FASTEST), 8.0, length=(8.0, 14.0)),
 }
 """What is walked, as arguments of `draw_path`, on stairs of `draw_flight`."""
 
@@ -60,7 +64,7 @@ def walk_curriculum(training: Training) -> tuple[Stage, ...]:
         walked = tuple(KINDS[kind] for kind in kinds)
         seconds = sum(np.mean(kind.get("length", 5.0)) / np.mean(kind["speeds"]) for kind in walked)
         generations = training.generations(generations)
-        options = {"kinds": walked, "restless": _RESTLESS * (table == 2)}
+        options = {"kinds": walked, "restless": _RESTLESS * (table == 2), "behind": _BEHIND * (table == 4)}
         return Stage(name, generations, sigma, scale, options, population=16, seconds=seconds)
 
     return (
@@ -68,9 +72,10 @@ def walk_curriculum(training: Training) -> tuple[Stage, ...]:
         stage("rolling", 30, 0.6, ["level"] + ["rolling"] * 3 + ["ramps"]),
         stage("ramps", 40, 0.5, ["pushed", "rolling"] + ["ramps"] * 3 + ["moguls"]),
         stage("moguls", 40, 0.4, ["pushed", "rolling"] + ["ramps"] * 2 + ["moguls"] * 2),
-        stage("crags", 30, 0.8, ["crags"] * 6, table=1),
-        stage("rest", 40, 0.8, ["ridges"] * 12 + ["rolling", "ramps"], table=2),
-        stage("stairs", 60, 0.8, ["stairs"] * 12, table=3),
+        stage("crags", 15, 0.8, ["crags"] * 6, table=1),
+        stage("rest", 15, 0.8, ["ridges"] * 12 + ["rolling", "ramps"], table=2),
+        stage("stairs", 25, 0.8, ["stairs"] * 12, table=3),
+        stage("fast", 40, 0.5, ["fast"] * 4 + ["fast, pushed"] * 2 + ["fast, rolling"] * 2, table=4),
     )
 
 
@@ -100,7 +105,7 @@ class WalkProblem:
     ) -> tuple[float, float]:
         """Mean cost and mean share of the way covered; gains outside their limits cost and are cut."""
         tables, outside = walk_tables(candidate)
-        walk = WalkSkill(tables, SPEED)
+        walk = WalkSkill(tables, FASTEST)
         cost, covered = 4.0 * outside, 0.0
         for scenario in scenarios:
             f = follow_path(scenario, walk=walk).figures
@@ -110,17 +115,18 @@ class WalkProblem:
                 0.3 * abs(f["step_rate"] - pace) + 3.0 * f["trunk"] + 0.02 * f["effort"] + 0.05 * f["head"]
             )
             failed = 10.0 * (1.0 - done) + 2.0 * (done < 1.0) + stage.options["restless"] * f["restless"]
+            failed += stage.options["behind"] * abs(f["behind"])
             cost += (failed + 1.5 * f["side_drift"] + looks) / len(scenarios)
             covered += done / len(scenarios)
         return cost, covered
 
 
 def walk_tables(parameters: np.ndarray) -> tuple[np.ndarray, float]:
-    """Gains (4, len(GAINS)) for ``parameters`` (4 len(GAINS),), cut at their limits, and how far they were
+    """Gains (5, len(GAINS)) for ``parameters`` (5 len(GAINS),), cut at their limits, and how far they were
     outside in all, in shares of their ranges."""
     low, high = gain_limits()
-    level, steep, rest, stairs = parameters.reshape(TABLES, len(GAINS))
-    wanted = np.stack([level, level + steep, level + steep + rest, level + stairs])
+    level, steep, rest, stairs, fast = parameters.reshape(TABLES, len(GAINS))
+    wanted = np.stack([level, level + steep, level + steep + rest, level + stairs, level + fast])
     tables = np.clip(wanted, low, high)
     return tables, float((np.abs(wanted - tables) / (high - low)).sum())
 
@@ -129,6 +135,6 @@ def train_walk(training: Training, out: str | os.PathLike[str] = WALK_SKILL) -> 
     """Learn to walk and write the skill to ``out``."""
     start = np.concatenate([first_gains(), np.zeros((TABLES - 1) * len(GAINS))])
     learned = training.learn(WalkProblem(walk_curriculum(training), start))
-    skill = WalkSkill(walk_tables(learned)[0], SPEED, training.made_by("walk"))
+    skill = WalkSkill(walk_tables(learned)[0], FASTEST, training.made_by("walk"))
     skill.save(out)
     return skill

@@ -107,7 +107,7 @@ SLOWING = (3.0**2 - 1.25**2) / 1.6
 
 def stretches(path):
     """(begin, end) [m] of what is run."""
-    runs = path.table[:, pt.RUNS] > 0
+    runs = path.table[:, pt.GAIT] == pt.RUN
     at = np.linspace(0.0, path.length, len(runs))
     ends = np.flatnonzero(np.diff(runs.astype(int), prepend=0, append=0)).reshape(-1, 2)
     return [(at[a], at[b - 1]) for a, b in ends]
@@ -128,6 +128,27 @@ def test_runs_where_the_way_is_straight_and_level_and_slows_down_in_time_before_
     assert path.table[walked, pt.SPEED].max() <= 1.25
     assert path.table[at < first[1], pt.SPEED].max() > 2.9  # slows down only behind it
     assert stretches(pt.make_path(bend, 1.5, GENTLE, 0.0, walk=WALK)) == []
+
+
+def test_a_fast_walk_is_only_for_who_asks_for_it_where_it_is_level_and_no_run_is_near():
+    brisk = replace(WALK, speeds=(0.3, 2.0), usual=1.25, foresight=0.8)
+    slowing = (3.0**2 - 1.25**2) / 1.6
+    hill = np.array([[0.0, 0, 0], [30, 0, 0], [40, 0, 1], [70, 0, 1]])
+    told = pt.make_path(hill, 1.8, GENTLE, 1.25, walk=brisk)
+    at = np.linspace(0.0, told.length, len(told.table))
+    speeds = told.table[:, pt.SPEED]
+    assert stretches(told) == [] and speeds.max() == pytest.approx(1.8)
+    assert speeds[(at > 29.5) & (at < 40.5)].max() <= 1.25
+    # who asks for a run and finds no room for one goes at the usual pace
+    short = pt.make_path([[0, 0, 0], [10, 0, 0]], 3.0, GENTLE, 1.25, walk=brisk)
+    assert stretches(short) == [] and short.table[:, pt.SPEED].max() <= 1.25
+    # from the usual pace it runs up to an obstacle, and slows down to it
+    over = pt.make_path([[0, 0, 0], [80, 0, 0]], 1.8, GENTLE, 1.25, edges=[40.0], walk=brisk)
+    (begin, end), at = stretches(over)[0], np.linspace(0.0, over.length, len(over.table))
+    speeds = over.table[:, pt.SPEED]
+    assert speeds[at < begin - 4.5].max() == pytest.approx(1.8)
+    assert speeds[(at > begin - 3.9) & (at < begin)].max() <= 1.25
+    assert speeds[at > end + slowing].max() == pytest.approx(1.8)
 
 
 def test_a_stretch_too_short_is_walked_unless_the_body_runs_already():

@@ -31,7 +31,7 @@ def test_runs_walks_and_stands_at_its_goal():
         end = [17.0 + 0.31 * k, 0.0, 0.0]
         human.events.clear()
         human.reset((0, 0, 0), 0.0)
-        human.follow([[0, 0, 0], end], 2.2 + 0.1 * k)
+        human.follow([[0, 0, 0], end], 2.3 + 0.1 * k)
         gaits, seen = come_to_rest(human)
         if upright(human):
             stood += 1

@@ -380,7 +380,7 @@ def test_walk_file_that_is_cut_off_or_of_something_else_is_refused(tmp_path):
     wrong = np.stack([first_gains()] * TABLES)
     wrong[1, 0] = 3.0
     WalkSkill(wrong).save(tmp_path / "wrong.npz")
-    with pytest.raises(LocomotionError, match=r"swing_time is outside 0\.28 to 0\.6"):
+    with pytest.raises(LocomotionError, match=r"swing_time is outside 0\.26 to 0\.6"):
         load_walk_skill(tmp_path / "wrong.npz")
 
 
@@ -399,8 +399,8 @@ def test_learning_prefers_gains_that_stay_up():
 def test_gains_for_steep_ground_are_changes_cut_at_the_limits():
     low, high = gain_limits()
     wide, level = high - low, low + 0.25 * (high - low)
-    tables, outside = walk_tables(np.concatenate([level, wide, -wide, 0.25 * wide]))
-    assert np.allclose(tables, [level, high, level, low + 0.5 * wide])
+    tables, outside = walk_tables(np.concatenate([level, wide, -wide, 0.25 * wide, 0.5 * wide]))
+    assert np.allclose(tables, [level, high, level, low + 0.5 * wide, low + 0.75 * wide])
     assert outside == pytest.approx(0.25 * len(GAINS))
 
 
@@ -420,7 +420,7 @@ def test_a_walking_person_that_is_told_to_go_back_turns_round_and_arrives():
         assert human.status == "arrived"
 
 
-def stays_up_while_told_elsewhere(seed):
+def stays_up_while_told_elsewhere(seed, speed):
     rng = np.random.default_rng(seed)
     human = Human(None, clearing=(), rehearsals=0)
     human.reset((0, 0, 0), 0.0)
@@ -428,12 +428,13 @@ def stays_up_while_told_elsewhere(seed):
     while human.time < 20.0 and human.status in ("standing", "walking"):
         if human.time >= told:
             yaw, (x, y, _) = human.yaw + rng.uniform(-1.0, 1.0), human.position
-            human.follow([[x, y, 0], [x + 20.0 * math.cos(yaw), y + 20.0 * math.sin(yaw), 0]], 1.25)
+            human.follow([[x, y, 0], [x + 20.0 * math.cos(yaw), y + 20.0 * math.sin(yaw), 0]], speed)
             told = human.time + rng.uniform(0.5, 2.5)
         human.tick()
     return human.status == "walking"
 
 
-def test_a_walking_person_that_is_told_elsewhere_again_and_again_stays_up():
+@pytest.mark.parametrize(("speed", "least"), [(1.25, 11), (2.0, 9)])
+def test_a_walking_person_that_is_told_elsewhere_again_and_again_stays_up(speed, least):
     """Half of such walks ended in a fall when people turned as fast in a walk as on the spot."""
-    assert sum(stays_up_while_told_elsewhere(seed) for seed in range(12)) >= 11
+    assert sum(stays_up_while_told_elsewhere(seed, speed) for seed in range(12)) >= least

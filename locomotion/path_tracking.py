@@ -43,6 +43,10 @@ COME_TO_REST = 2.0
 _BEFORE = 1.0  # [m] that are walked before what cannot be run
 _BETWEEN = 4.0  # [m] that are walked between two runs at least
 _LEVEL, _STRAIGHT = 0.05, 0.15  # slope, and curvature [1/m], up to which it walks faster than usual
+_BEGINS, _ALREADY = (
+    2.0,
+    0.15,
+)  # [m] that are walked as usual first, by who is not [m/s] faster than that already
 _CALM = 4.0  # [m] before a run that are walked no faster than usual: runs are begun from that
 _LANDED = 5.0  # [m] behind an obstacle's edge that are run
 _BACK, _AHEAD = 0.5, 1.5  # [m] search window around the last foot point
@@ -168,6 +172,8 @@ def make_path(
         runs = _where_to_run(table, at, limits, speed, crossed, running, slowest, slowing)
         slows_down = (at - np.maximum.accumulate(np.where(runs, at, -math.inf)) <= slowing) & ~runs
         fast = (speed < slowest) & _can_walk_fast(table, at, runs, walk.foresight) & ~slows_down
+        if present_speed < walk.calm + _ALREADY:  # who is told elsewhere all the time does not get fast
+            fast &= at >= _BEGINS
         table[:, GAIT] = np.select([runs, fast], [RUN, FAST_WALK], WALK)
         usual = replace(walk, speeds=(walk.speeds[0], walk.calm))
         kinds = np.select([runs | slows_down, fast], [0, 1], 2)

@@ -91,8 +91,12 @@ def follow(walk, heading, speed, sideways):
     """Let the reference heading and speeds follow what is asked; gives what is left of the heading [rad]."""
     error = wrap(heading - walk[WALK_HEADING])
     pace, wanted = pace_of(walk), error / _TURN_TIME
-    if pace > USUAL_SPEED and abs(error) > _BENDS:  # it slows down before it turns
-        speed, wanted = min(speed, USUAL_SPEED), 0.0
+    if pace > USUAL_SPEED and abs(error) > _BENDS:
+        speed = min(speed, USUAL_SPEED)
+        if walk[STEP_MADE] > USUAL_SPEED:
+            wanted = 0.0  # it slows down before it turns
+        else:
+            walk[WALK_SPEED] = pace = min(walk[WALK_SPEED], USUAL_SPEED)  # it has not become fast yet
     most = min(TURN_RATE, _TURNING / max(abs(pace), _SLOW_TURN))
     rate = clamp(wanted, -most, most)
     change = _TURN_CHANGE * CONTROL_DT

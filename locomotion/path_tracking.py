@@ -43,10 +43,8 @@ COME_TO_REST = 2.0
 _BEFORE = 1.0  # [m] that are walked before what cannot be run
 _BETWEEN = 4.0  # [m] that are walked between two runs at least
 _LEVEL, _STRAIGHT = 0.05, 0.15  # slope, and curvature [1/m], up to which it walks faster than usual
-_BEGINS, _ALREADY = (
-    2.0,
-    0.15,
-)  # [m] that are walked as usual first, by who is not [m/s] faster than that already
+_BEGINS = 2.0  # [m] that are walked as usual first, unless one is faster already:
+_ALREADY = 0.15  # [m/s] faster than usual
 _CALM = 4.0  # [m] before a run that are walked no faster than usual: runs are begun from that
 _LANDED = 5.0  # [m] behind an obstacle's edge that are run
 _BACK, _AHEAD = 0.5, 1.5  # [m] search window around the last foot point
@@ -140,7 +138,8 @@ def make_path(
 
     ``limits`` are those of running; without ``walk`` the body runs all the way. With ``walk`` it runs where
     bends and slopes allow it and where a run is worth it (or it is ``running`` already), and over an edge,
-    from `RUN_UP` before it; it walks elsewhere and before the end, and slows down to that in time.
+    from `RUN_UP` before it; it walks elsewhere and before the end, and slows down to that in time. Whose
+    ``speed`` is nearer to a walk walks all the way but over edges, faster than usual where that is easy.
 
     Raises `LocomotionError` for fewer than two distinct points, coordinates that are not finite, or a speed
     that is not above 0.

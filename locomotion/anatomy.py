@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 __all__ = [
     "ANKLE", "FOREARM", "HEIGHT", "MASS", "SHANK", "SIDE_JOINTS", "SIDE_SEGMENTS", "STANDING_HEIGHT", "THIGH",
-    "TRUNK_JOINTS", "TRUNK_SEGMENTS", "UPPER_ARM", "Joint", "Segment",
+    "TOE_JOINT", "TRUNK_JOINTS", "TRUNK_SEGMENTS", "UPPER_ARM", "Joint", "Segment",
 ]  # fmt: skip
 
 HEIGHT = 1.70
@@ -22,6 +22,8 @@ STANDING_HEIGHT = 0.90
 """Height of the root (mid-hip point) above the sole with straight legs [m]."""
 
 THIGH, SHANK, ANKLE = 0.412, 0.424, 0.064
+TOE_JOINT = (0.125, 0.0, -ANKLE + 0.024)
+"""[m] from the ankle."""
 UPPER_ARM, FOREARM = 0.275, 0.2626
 
 

@@ -189,7 +189,7 @@ def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole, hip, s
         if not (too_far and left > 0.04 and walk[CLOCK] + left > shortest):
             break
         left -= 0.02
-    along = min(max(along, _STRIDE_BACK), max(_STRIDE, g[_LONGEST]))
+    along = min(max(along, _STRIDE_BACK), _STRIDE)
     walk[STAIRS_AHEAD] = steps_ahead(ground, sole, ch, sh)
     if stairs > 0.0:
         # a tread is where it is: the step is made sooner or later instead

@@ -37,8 +37,9 @@ def run_limits(skill: RunSkill) -> TrackingLimits:
 def walk_limits(skill: WalkSkill) -> TrackingLimits:
     """What a walking person can follow."""
     speeds = _SLOWEST, skill.speed
-    slopes = {"uphill": _UPHILL, "downhill": _DOWNHILL, "foresight": _FORESIGHT}
-    return TrackingLimits(speeds, _SIDEWAYS, _FASTER, _SLOWER, usual=USUAL_SPEED, **slopes)
+    return TrackingLimits(
+        speeds, _SIDEWAYS, _FASTER, _SLOWER, _UPHILL, _DOWNHILL, foresight=_FORESIGHT, usual=USUAL_SPEED
+    )
 
 
 def run_entry_speed(walk: np.ndarray, state: np.ndarray, heading: float) -> float | None:

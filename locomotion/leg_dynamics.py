@@ -9,20 +9,20 @@ import math
 
 from numba import njit
 
-from locomotion.anatomy import MASS, SHANK, SIDE_SEGMENTS, THIGH
+from locomotion.anatomy import MASS, SHANK, SIDE_SEGMENTS, THIGH, TOE_JOINT
 
 __all__ = ["STRAIGHT_LEG", "leg_momentum", "swing_torques"]
 
 _GRAVITY = 9.81
 _THIGH, _SHANK, _FOOT, _TOES = (SIDE_SEGMENTS[part] for part in ("thigh", "shank", "foot", "toes"))
-_TOES_AHEAD, _TOES_BELOW = 0.125, 0.04  # [m] from the ankle to the toes' joint, as in `person`
 
 
 def _below_knee() -> tuple[float, float, float]:
     """Of shank, foot and toes: first and second moment of mass about the knee [kg m, kg m^2], and by how much
     [rad] their centre is ahead of the shank's line."""
     ahead = down = second = 0.0
-    for part, x, z in ((_SHANK, 0.0, 0.0), (_FOOT, 0.0, SHANK), (_TOES, _TOES_AHEAD, SHANK + _TOES_BELOW)):
+    toes_ahead, _, toes_up = TOE_JOINT
+    for part, x, z in ((_SHANK, 0.0, 0.0), (_FOOT, 0.0, SHANK), (_TOES, toes_ahead, SHANK - toes_up)):
         x, z, mass = x + part.com[0], z - part.com[2], part.mass * MASS
         ahead, down = ahead + mass * x, down + mass * z
         second += mass * (x * x + z * z + part.gyration[1] ** 2)

@@ -169,14 +169,13 @@ def make_path(
         slowing = _length_of_slowing(speed, limits, walk)
         slowest = 0.5 * (walk.speeds[1] + limits.speeds[0])  # below it is nearer to a walk
         runs = _where_to_run(table, at, limits, speed, crossed, running, slowest, slowing)
-        slows_down = (at - np.maximum.accumulate(np.where(runs, at, -math.inf)) <= slowing) & ~runs
-        fast = (speed < slowest) & _can_walk_fast(table, at, runs, walk.foresight) & ~slows_down
+        near = at - np.maximum.accumulate(np.where(runs, at, -math.inf)) <= slowing  # runs, or slows down
+        fast = (speed < slowest) & _can_walk_fast(table, at, runs, walk.foresight) & ~near
         if present_speed < walk.calm + _ALREADY:  # who is told elsewhere all the time does not get fast
             fast &= at >= _BEGINS
         table[:, GAIT] = np.select([runs, fast], [RUN, FAST_WALK], WALK)
         usual = replace(walk, speeds=(walk.speeds[0], walk.calm))
-        kinds = np.select([runs | slows_down, fast], [0, 1], 2)
-        gaits = [(limits, walk, usual)[kind] for kind in kinds]
+        gaits = [limits if n else walk if f else usual for n, f in zip(near, fast, strict=True)]
     _plan_speed(table, length / (count - 1), speed, gaits, present_speed)
     return PathTable(table, length, distinct[-1].copy())
 

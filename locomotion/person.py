@@ -22,7 +22,6 @@ import mujoco
 import numpy as np
 
 from locomotion.anatomy import (
-    ANKLE,
     FOREARM,
     HEIGHT,
     MASS,
@@ -31,6 +30,7 @@ from locomotion.anatomy import (
     SIDE_SEGMENTS,
     STANDING_HEIGHT,
     THIGH,
+    TOE_JOINT,
     TRUNK_JOINTS,
     TRUNK_SEGMENTS,
     UPPER_ARM,
@@ -200,11 +200,11 @@ def _add_leg(pelvis: Any, prefix: str, mirror: bool) -> None:
     _capsule(shank, (0.0, 0.0, -0.01), (0.0, 0.0, -SHANK + 0.03), 0.042, _TROUSERS, mirror)
     _ellipsoid(shank, (-0.018, 0.0, -0.13), (0.053, 0.055, 0.14), _TROUSERS, mirror)
     foot = add(shank, "foot", (0.0, 0.0, -SHANK))
-    sole = -ANKLE + 0.024
+    sole = TOE_JOINT[2]
     _capsule(foot, (-0.032, -0.016, sole), (0.118, -0.026, sole), 0.024, _SHOES, mirror)
     _capsule(foot, (-0.032, 0.016, sole), (0.112, 0.028, sole), 0.024, _SHOES, mirror)
     _ellipsoid(foot, (0.012, 0.0, -0.022), (0.068, 0.038, 0.036), _SHOES, mirror)
-    toes = add(foot, "toes", (0.125, 0.0, sole))
+    toes = add(foot, "toes", TOE_JOINT)
     _capsule(toes, (0.045, -0.022, -0.003), (0.040, 0.026, -0.003), 0.021, _SHOES, mirror)
     _ellipsoid(toes, (0.015, 0.0, 0.0), (0.045, 0.047, 0.022), _SHOES, mirror)
 

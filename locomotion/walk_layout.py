@@ -57,7 +57,7 @@ GAINS: dict[str, tuple[float, float, float]] = {
     ),  # share of its servos' stiffness that keeps a foot on its edge as put
     "height_slope": (0.15, -0.1, 0.4),  # [m] that the body is lower per unit of slope downhill
     "height_uphill": (0.1, -0.1, 0.4),  # [m] the same uphill
-    "longest": (0.7, 0.35, 1.0),  # [m] above which a step is made sooner instead
+    "longest": (0.7, 0.35, 0.8),  # [m] above which a step is made sooner instead
     "trim_rate": (
         0.1,
         0.0,

@@ -225,11 +225,8 @@ def evaluate_walk(trials: int, seed: int, progress: Progress) -> list[Attempt]:
         figures = follow_path(scenario, rehearsals=REHEARSALS).figures
         arrived = figures["time"] >= scenario.duration
         what = f"{scenario.length:.1f} m at {scenario.speed:.2f} m/s"
-        status, slower = (
-            "arrived" if arrived else "did not arrive",
-            {"slower than meant [m/s]": figures["behind"]},
-        )
-        return Attempt(name, what, status, arrived, slower)
+        slower = {"slower than meant [m/s]": figures["behind"]}
+        return Attempt(name, what, "arrived" if arrived else "did not arrive", arrived, slower)
 
     each = [(name, kind, k) for name, kind in KINDS.items() for k in range(trials)]
     return _tried("walk", [lambda one=one: attempt(*one) for one in each], progress)

@@ -20,7 +20,7 @@ from locomotion.errors import LocomotionError
 from locomotion.person import PersonIndex, person_digest
 from locomotion.skill import RunSkill
 from locomotion.skill_file import read_skill
-from locomotion.walk_layout import CAUGHT, GAINS, WALK_SPEED, WALK_STANCE, gain_limits, new_walk
+from locomotion.walk_layout import CAUGHT, GAINS, LEVEL, WALK_SPEED, WALK_STANCE, gain_limits, new_walk
 from locomotion.walk_skill import WalkSkill
 from locomotion.walk_steps import begin_swing
 from locomotion.walking import observe_walk
@@ -67,11 +67,11 @@ class SlowDownSkill:
     def walk_tables(self, walk: WalkSkill) -> tuple[np.ndarray, ...]:
         """``walk.tables`` for each of the first steps out of a run."""
         low, high = gain_limits()
-        first = np.clip(walk.tables[0] + self.gains, low, high)
+        first = np.clip(walk.tables[LEVEL] + self.gains, low, high)
         result = []
         for step in range(_FIRST_STEPS):
             tables = walk.tables.copy()
-            tables[0] += (1.0 - step / _FIRST_STEPS) * (first - tables[0])
+            tables[LEVEL] += (1.0 - step / _FIRST_STEPS) * (first - tables[LEVEL])
             result.append(tables)
         return tuple(result)
 
@@ -157,4 +157,4 @@ def walk_on(
     observe_walk(index, data, walk)
     walk[CAUGHT], walk[WALK_STANCE] = 1.0, state[controller.STANCE]
     walk[WALK_SPEED] = min(math.cos(heading) * vx + math.sin(heading) * vy, speed)
-    begin_swing(tables[0], walk, data.qpos)
+    begin_swing(tables[LEVEL], walk, data.qpos)

@@ -6,17 +6,19 @@ import numpy as np
 from numba import njit
 
 __all__ = [
-    "ATTITUDES", "BODY_HEIGHT", "CAUGHT", "CLOCK", "DOUBLE", "FOOTHOLD", "FOOTHOLD_NORMAL", "FOOTHOLD_YAW",
-    "GAINS", "HUMP", "LIFT", "LIFT_NORMAL", "LIFT_YAW", "LONGER", "MISSED", "PHASE",
-    "SEEN_ANCHORS", "SEEN_AXES", "SEEN_FEET", "SEEN_PELVIS", "SEEN_SOLES", "SEEN_TORQUES", "SETTING_OFF",
-    "SIDEWAYS", "SINGLE", "STAIRS_AHEAD", "STANDING", "STEEPNESS", "STEPPED_AT", "STEPPED_FROM",
+    "ATTITUDES", "BODY_HEIGHT", "CAUGHT", "CLOCK", "DOUBLE", "FAST", "FOOTHOLD", "FOOTHOLD_NORMAL",
+    "FOOTHOLD_YAW", "GAINS", "HUMP", "LEVEL", "LIFT", "LIFT_NORMAL", "LIFT_YAW", "LONGER", "MISSED", "PHASE",
+    "REST", "SEEN_ANCHORS", "SEEN_AXES", "SEEN_FEET", "SEEN_PELVIS", "SEEN_SOLES", "SEEN_TORQUES",
+    "SETTING_OFF", "SIDEWAYS", "SINGLE", "STAIRS", "STAIRS_AHEAD", "STANDING", "STEEP", "STEEPNESS",
+    "STEPPED_AT", "STEPPED_FROM",
     "SWING_ANGLES", "SWING_TIME", "UNEVEN", "WALKS", "WALK_HEADING", "WALK_SIZE", "WALK_SPEED",
     "WALK_STANCE", "WALK_STEPS", "WALK_TICKS", "WALK_TRIM", "WALK_TURN_RATE",
     "clamp", "first_gains", "gain_limits", "new_walk", "steep_share", "wrap",
 ]  # fmt: skip
 
 _STILL_FAST = 0.1  # [m/s] by which steps are faster than asked for, at most, in a steady walk
-_LEVEL, _STEEP = 0.1, 0.3  # slopes up to which a person goes as on level ground; from which as on steep
+_LEVEL_SLOPE, _STEEP_SLOPE = 0.1, 0.3
+# slopes up to which a person goes as on level ground; from which as on steep
 
 GAINS: dict[str, tuple[float, float, float]] = {
     "swing_time": (0.4, 0.26, 0.6),  # [s] of single support, unless a step has to be made sooner
@@ -72,6 +74,11 @@ GAINS: dict[str, tuple[float, float, float]] = {
     "tilt_integral": (150.0, 0.0, 1500.0),  # [Nm/(rad s)] of the moment that keeps the pelvis upright
 }
 """Gains by name, in the order of the kernel's array: first guess, least and greatest value."""
+
+
+LEVEL, STEEP, REST, STAIRS, FAST = range(5)
+"""The rows of gains: for level ground, for steep ground, for coming to rest there, for stairs and for fast
+walks."""
 
 
 def first_gains() -> np.ndarray:
@@ -161,7 +168,7 @@ def wrap(angle):
 @njit(cache=True)
 def steep_share(steepness):
     """How much a slope [rise over run] counts as steep, 0 (gone as level ground) to 1."""
-    return clamp((steepness - _LEVEL) / (_STEEP - _LEVEL), 0.0, 1.0)
+    return clamp((steepness - _LEVEL_SLOPE) / (_STEEP_SLOPE - _LEVEL_SLOPE), 0.0, 1.0)
 
 
 @njit(cache=True)

@@ -39,12 +39,15 @@ from locomotion.walk_layout import (
     BODY_HEIGHT,
     CLOCK,
     DOUBLE,
+    FAST,
     FOOTHOLD,
     FOOTHOLD_NORMAL,
     GAINS,
+    LEVEL,
     LIFT,
     LONGER,
     PHASE,
+    REST,
     SEEN_ANCHORS,
     SEEN_AXES,
     SEEN_FEET,
@@ -53,7 +56,9 @@ from locomotion.walk_layout import (
     SEEN_TORQUES,
     SETTING_OFF,
     SINGLE,
+    STAIRS,
     STAIRS_AHEAD,
+    STEEP,
     STEEPNESS,
     SWING_TIME,
     TILTED,
@@ -271,20 +276,20 @@ def _lift(gains, walk, steep, slope, soles, state, hip):
 def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
     """One control tick: advance ``walk`` (WALK_SIZE,), write the PD targets ``ctrl`` (39,) [rad].
 
-    tables (5, len(GAINS)): gains for level ground, for steep ground, for coming to rest there, for stairs
-    and for fast walks; ground as in `footholds.ground_at`; state: a running controller's, with what was
-    observed; its heading, speed, stance and steps are kept up to date. All float64.
+    tables (5, len(GAINS)): rows of gains as named in `walk_layout`; ground as in `footholds.ground_at`;
+    state: a running controller's, with what was observed; its heading, speed, stance and steps are kept up
+    to date. All float64.
     """
     steep = steep_share(walk[STEEPNESS])
     stairs = (1.0 - steep) * steep_share(max(abs(command[3]), walk[STAIRS_AHEAD]) - walk[STEEPNESS])
     asked = command[1]
     if stairs > 0.0 and asked > _LEAST:  # a step is a tread: who goes more slowly stops on each
-        asked = max(asked, stairs * _TREAD / (tables[3, _SWING] + tables[3, _TRANSFER]))
+        asked = max(asked, stairs * _TREAD / (tables[STAIRS, _SWING] + tables[STAIRS, _TRANSFER]))
     error = follow(walk, command[0], asked, command[2])
     rests = clamp((_SLOW - abs(walk[WALK_SPEED])) / (_SLOW - _RESTING), 0.0, 1.0)
-    gains = tables[0] + steep * (tables[1] - tables[0] + rests * (tables[2] - tables[1]))
-    gains += stairs * (tables[3] - tables[0])
-    gains += fast_share(pace_of(walk)) * (1.0 - max(steep, stairs)) * (tables[4] - tables[0])
+    gains = tables[LEVEL] + steep * (tables[STEEP] - tables[LEVEL] + rests * (tables[REST] - tables[STEEP]))
+    gains += stairs * (tables[STAIRS] - tables[LEVEL])
+    gains += fast_share(pace_of(walk)) * (1.0 - max(steep, stairs)) * (tables[FAST] - tables[LEVEL])
     gains[_TRANSFER] = max(gains[_TRANSFER] + walk[_LONGER], CONTROL_DT)
     gains[_SWING] += walk[_LONGER + 1]
     walk[WALK_TICKS] += 1.0

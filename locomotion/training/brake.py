@@ -18,7 +18,7 @@ from locomotion.slow_down import load_slow_down_skill
 from locomotion.training.loop import Stage
 from locomotion.training.run_genes import row_scale
 from locomotion.training.training import Training
-from locomotion.walk_layout import GAINS, gain_limits
+from locomotion.walk_layout import GAINS, LEVEL, gain_limits
 from locomotion.walk_skill import load_walk_skill
 
 __all__ = [
@@ -154,7 +154,7 @@ def first_guess() -> np.ndarray:
     walk = load_walk_skill()
     slow_down = load_slow_down_skill()
     numbers = [first for first, *_ in _NUMBERS.values()]
-    gains = [walk.tables[0] + (1.0 - step / 4.0) * slow_down.gains for step in range(FIRST_STEPS)]
+    gains = [walk.tables[LEVEL] + (1.0 - step / 4.0) * slow_down.gains for step in range(FIRST_STEPS)]
     return np.concatenate([np.zeros(2 * _SIZE), *gains, numbers])
 
 

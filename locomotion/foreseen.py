@@ -60,3 +60,15 @@ class Foreseen:
         person.become(soon)
         person.events[:] = events
         return True
+
+    def all_come_true(self, person: MovingPerson) -> list[HumanState]:
+        """The states of all the next ticks that are known; ``person`` is then what it will be after them."""
+        first = self._states.get(person.ticks + 1)
+        if first is None or not self.comes_true(person):
+            return []
+        states = [first]
+        while (state := self._states.get(states[-1].ticks + 1)) is not None:
+            states.append(state)
+        person.become(states[-1])
+        self.forget()
+        return states

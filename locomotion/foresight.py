@@ -102,7 +102,8 @@ class Foresight:
         self._until = double.ticks
         while double.ticks % _LOOKS or double.decides_soon or double.foreseen.knows(double.ticks + 1):
             double.events.clear()
-            question = self._tick(double)
+            states = double.foreseen.all_come_true(double)
+            question = None if states else self._tick(double)
             while question is not None:
                 self._asked = question
                 self._answers.append((question, (yield from self._rehearse(double, question))))
@@ -112,10 +113,12 @@ class Foresight:
                 question = self._tick(double)
             if double.status == "fallen":
                 break  # the person may get up
-            state = double.save_state()
+            states = states or [double.save_state()]
+            state = states[-1]
             self._until = state.ticks
-            if state.ticks >= self._last:
-                future.add(state)
+            for known in states:
+                if known.ticks >= self._last:
+                    future.add(known)
             yield
         self._task = None
 

@@ -21,57 +21,57 @@ _LEVEL_SLOPE, _STEEP_SLOPE = 0.1, 0.3
 # slopes up to which a person goes as on level ground; from which as on steep
 
 GAINS: dict[str, tuple[float, float, float]] = {
-    "swing_time": (0.4, 0.26, 0.6),  # [s] of single support, unless a step has to be made sooner
+    "swing_time": (0.36, 0.26, 0.6),  # [s] of single support, unless a step has to be made sooner
     "transfer_time": (0.06, 0.04, 0.25),  # [s] in which the load goes over to the new stance foot
-    "width": (0.2, 0.08, 0.3),  # [m] between the lines of the feet
+    "width": (0.16, 0.08, 0.3),  # [m] between the lines of the feet
     "height": (0.94, 0.82, 0.96),  # [m] of the centre of mass above the soles
-    "pressure_gain": (1.2, 0.0, 4.0),  # shift of the centre of pressure per error of the capture point
-    "pressure_along": (0.08, 0.01, 0.12),  # [m] by which the centre of pressure may move along the foot
-    "pressure_across": (0.02, 0.005, 0.04),  # [m] the same across the foot
-    "height_stiffness": (100.0, 30.0, 300.0),  # [1/s^2] of the vertical force
-    "height_damping": (25.0, 5.0, 50.0),  # [1/s]
-    "tilt_stiffness": (200.0, 100.0, 1500.0),  # [Nm/rad] that keeps the pelvis upright
+    "pressure_gain": (1.6, 0.0, 4.0),  # shift of the centre of pressure per error of the capture point
+    "pressure_along": (0.09, 0.01, 0.12),  # [m] by which the centre of pressure may move along the foot
+    "pressure_across": (0.024, 0.005, 0.04),  # [m] the same across the foot
+    "height_stiffness": (150.0, 30.0, 300.0),  # [1/s^2] of the vertical force
+    "height_damping": (26.0, 5.0, 50.0),  # [1/s]
+    "tilt_stiffness": (220.0, 100.0, 1500.0),  # [Nm/rad] that keeps the pelvis upright
     "tilt_damping": (85.0, 10.0, 150.0),  # [Nm s/rad]
-    "tilt_moment": (50.0, 20.0, 150.0),  # [Nm] of both at most
-    "yaw_stiffness": (200.0, 20.0, 500.0),  # [Nm/rad]
-    "yaw_damping": (15.0, 2.0, 40.0),  # [Nm s/rad]
-    "clearance": (0.11, 0.05, 0.2),  # [m] of the swing foot above the straight line to its foothold
-    "lean": (0.12, -0.1, 0.25),  # forward lean of the pelvis
-    "leg_damping": (0.9, 0.3, 1.0),  # share of the servos' damping that is cancelled in a stance leg
-    "arm_swing": (0.6, 0.0, 1.0),  # of a shoulder per flexion of the other leg's hip
-    "pressure_rest": (0.0, -0.04, 0.06),  # [m] ahead of the sole's middle where the pressure rests
-    "reaction": (0.7, 0.0, 1.5),  # share of the swing hip's torques that the stance leg takes up
-    "moment": (130.0, 40.0, 180.0),  # [Nm] of the ground's force about the centre of mass at most
-    "drop": (0.0, -0.1, 0.2),  # [m] above the lower foot that the body's base may be
-    "swing_lead": (0.07, 0.0, 0.12),  # [s] by which the swing leg's targets lead
-    "narrowest": (0.09, -0.15, 0.12),  # [m] between the lines of the feet at least; below 0 they cross
-    "roughness": (30.0, 0.0, 80.0),  # cost of a foothold per [m] of unevenness under the sole
-    "steepness": (2.0, 0.0, 10.0),  # cost of a foothold that is not level
-    "foot_pitch": (0.15, 0.0, 0.6),  # slope [rise over run] up to which a foot turns uphill
-    "foot_roll": (0.4, 0.1, 0.5),  # slope up to which it turns sideways
+    "tilt_moment": (85.0, 20.0, 150.0),  # [Nm] of both at most
+    "yaw_stiffness": (240.0, 20.0, 500.0),  # [Nm/rad]
+    "yaw_damping": (12.0, 2.0, 40.0),  # [Nm s/rad]
+    "clearance": (0.13, 0.05, 0.2),  # [m] of the swing foot above the straight line to its foothold
+    "lean": (0.15, -0.1, 0.25),  # forward lean of the pelvis
+    "leg_damping": (0.84, 0.3, 1.0),  # share of the servos' damping that is cancelled in a stance leg
+    "arm_swing": (0.65, 0.0, 1.0),  # of a shoulder per flexion of the other leg's hip
+    "pressure_rest": (0.01, -0.04, 0.06),  # [m] ahead of the sole's middle where the pressure rests
+    "reaction": (0.75, 0.0, 1.5),  # share of the swing hip's torques that the stance leg takes up
+    "moment": (155.0, 40.0, 180.0),  # [Nm] of the ground's force about the centre of mass at most
+    "drop": (-0.02, -0.1, 0.2),  # [m] above the lower foot that the body's base may be
+    "swing_lead": (0.08, 0.0, 0.12),  # [s] by which the swing leg's targets lead
+    "narrowest": (0.065, -0.15, 0.12),  # [m] between the lines of the feet at least; below 0 they cross
+    "roughness": (23.0, 0.0, 80.0),  # cost of a foothold per [m] of unevenness under the sole
+    "steepness": (4.5, 0.0, 10.0),  # cost of a foothold that is not level
+    "foot_pitch": (0.18, 0.0, 0.6),  # slope [rise over run] up to which a foot turns uphill
+    "foot_roll": (0.43, 0.1, 0.5),  # slope up to which it turns sideways
     "ankle_spare": (0.05, -0.1, 0.4),  # [rad] that an ankle bends less than it could when a foot is put down
-    "foot_turn": (0.5, 0.0, 0.7),  # [rad] by which a foot turns off its way to stand less steep sideways
+    "foot_turn": (0.65, 0.0, 0.7),  # [rad] by which a foot turns off its way to stand less steep sideways
     "lean_slope": (0.3, -0.2, 0.8),  # lean per unit of slope uphill
     "foot_hold": (
-        0.5,
+        0.2,
         0.0,
         2.0,
     ),  # share of its servos' stiffness that keeps a foot on its edge as put
-    "height_slope": (0.15, -0.1, 0.4),  # [m] that the body is lower per unit of slope downhill
-    "height_uphill": (0.1, -0.1, 0.4),  # [m] the same uphill
-    "longest": (0.7, 0.35, 0.8),  # [m] above which a step is made sooner instead
+    "height_slope": (0.1, -0.1, 0.4),  # [m] that the body is lower per unit of slope downhill
+    "height_uphill": (0.14, -0.1, 0.4),  # [m] the same uphill
+    "longest": (0.66, 0.35, 0.8),  # [m] above which a step is made sooner instead
     "trim_rate": (
-        0.1,
+        0.12,
         0.0,
         0.3,
     ),  # correction of the speed asked for per step's error in speed
-    "most_trim": (0.3, 0.0, 0.8),  # [m/s] by which it is corrected at most
-    "climb_rate": (1.0, 0.3, 2.0),  # [m/s] up and down at which the body is asked to go at most
+    "most_trim": (0.34, 0.0, 0.8),  # [m/s] by which it is corrected at most
+    "climb_rate": (0.75, 0.3, 2.0),  # [m/s] up and down at which the body is asked to go at most
     "lateness": (0.0, 0.0, 0.12),  # [s] by which a foot lands later than its swing was to take
     "swing_foreseen": (0.7, 0.0, 1.0),  # share of its targets that reckon with delay and inertia
-    "most_missed": (0.1, 0.05, 0.3),  # [m] by which footholds are moved back at most because feet miss them
-    "momentum": (1.0, 0.0, 1.5),  # share of what the legs' swinging adds to the speed that is not counted
-    "tilt_integral": (150.0, 0.0, 1500.0),  # [Nm/(rad s)] of the moment that keeps the pelvis upright
+    "most_missed": (0.12, 0.05, 0.3),  # [m] by which footholds are moved back at most because feet miss them
+    "momentum": (1.1, 0.0, 1.5),  # share of what the legs' swinging adds to the speed that is not counted
+    "tilt_integral": (190.0, 0.0, 1500.0),  # [Nm/(rad s)] of the moment that keeps the pelvis upright
 }
 """Gains by name, in the order of the kernel's array: first guess, least and greatest value."""
 

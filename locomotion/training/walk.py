@@ -10,7 +10,17 @@ import numpy as np
 from locomotion.training.loop import Stage
 from locomotion.training.path_trial import PathScenario, draw_flight, draw_path, follow_path
 from locomotion.training.training import Training
-from locomotion.walk_layout import GAINS, USUAL_SPEED, first_gains, gain_limits
+from locomotion.walk_layout import (
+    FAST,
+    GAINS,
+    LEVEL,
+    REST,
+    STAIRS,
+    STEEP,
+    USUAL_SPEED,
+    first_gains,
+    gain_limits,
+)
 from locomotion.walk_skill import TABLES, WALK_SKILL, WalkSkill
 
 __all__ = ["KINDS", "WalkProblem", "draw_walk", "train_walk", "walk_curriculum", "walk_tables"]
@@ -18,7 +28,7 @@ __all__ = ["KINDS", "WalkProblem", "draw_walk", "train_walk", "walk_curriculum",
 FASTEST = 2.0
 """Fastest walk [m/s]."""
 _STEPS_PER_S = 1.9  # of people who walk at 1.3 m/s; it grows with the root of the speed
-_BEHIND = 8.0  # cost of being slower or faster than told, per m/s, of fast walks
+_BEHIND = 6.0  # cost of being slower or faster than its reference, per m/s, but on steep ground and stairs
 _RESTLESS = 1.0  # cost of the time that it takes to come to rest, per what is allowed
 _UNIT = 0.08  # share of a gain's range that is one unit of the search
 
@@ -59,23 +69,24 @@ def walk_curriculum(training: Training) -> tuple[Stage, ...]:
     low, high = gain_limits()
     unit = _UNIT * (high - low)
 
-    def stage(name: str, generations: int, sigma: float, kinds: list[str], table: int = 0) -> Stage:
-        scale = np.concatenate([unit if k == table else np.zeros(len(GAINS)) for k in range(TABLES)])
+    def stage(name: str, generations: int, sigma: float, kinds: list[str], row: int = LEVEL) -> Stage:
+        scale = np.concatenate([unit if k == row else np.zeros(len(GAINS)) for k in range(TABLES)])
         walked = tuple(KINDS[kind] for kind in kinds)
         seconds = sum(np.mean(kind.get("length", 5.0)) / np.mean(kind["speeds"]) for kind in walked)
         generations = training.generations(generations)
-        options = {"kinds": walked, "restless": _RESTLESS * (table == 2), "behind": _BEHIND * (table == 4)}
+        options = {"kinds": walked, "restless": _RESTLESS * (row == REST)}
+        options["behind"] = _BEHIND * (row in (LEVEL, FAST))
         return Stage(name, generations, sigma, scale, options, population=16, seconds=seconds)
 
     return (
-        stage("level", 20, 1.0, ["level"] * 3 + ["rolling"]),
-        stage("rolling", 30, 0.6, ["level"] + ["rolling"] * 3 + ["ramps"]),
-        stage("ramps", 40, 0.5, ["pushed", "rolling"] + ["ramps"] * 3 + ["moguls"]),
-        stage("moguls", 40, 0.4, ["pushed", "rolling"] + ["ramps"] * 2 + ["moguls"] * 2),
-        stage("crags", 15, 0.8, ["crags"] * 6, table=1),
-        stage("rest", 15, 0.8, ["ridges"] * 12 + ["rolling", "ramps"], table=2),
-        stage("stairs", 25, 0.8, ["stairs"] * 12, table=3),
-        stage("fast", 40, 0.5, ["fast"] * 4 + ["fast, pushed"] * 2 + ["fast, rolling"] * 2, table=4),
+        stage("level", 10, 0.5, ["level"] * 3 + ["rolling"]),
+        stage("rolling", 20, 0.5, ["level"] + ["rolling"] * 3 + ["ramps"]),
+        stage("ramps", 30, 0.5, ["pushed", "rolling"] + ["ramps"] * 3 + ["moguls"]),
+        stage("moguls", 30, 0.4, ["pushed", "rolling"] + ["ramps"] * 2 + ["moguls"] * 2),
+        stage("crags", 15, 0.8, ["crags"] * 6, row=STEEP),
+        stage("rest", 20, 0.8, ["ridges"] * 12 + ["rolling", "ramps"], row=REST),
+        stage("stairs", 25, 0.8, ["stairs"] * 12, row=STAIRS),
+        stage("fast", 20, 0.5, ["fast"] * 4 + ["fast, pushed"] * 2 + ["fast, rolling"] * 2, row=FAST),
     )
 
 

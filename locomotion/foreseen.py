@@ -63,12 +63,10 @@ class Foreseen:
 
     def all_come_true(self, person: MovingPerson) -> list[HumanState]:
         """The states of all the next ticks that are known; ``person`` is then what it will be after them."""
-        first = self._states.get(person.ticks + 1)
-        if first is None or not self.comes_true(person):
-            return []
-        states = [first]
-        while (state := self._states.get(states[-1].ticks + 1)) is not None:
-            states.append(state)
-        person.become(states[-1])
-        self.forget()
+        states: list[HumanState] = []
+        if self.comes_true(person):
+            while self.knows(tick := person.ticks + len(states)):
+                states.append(self._states[tick])
+            person.become(states[-1])
+            self.forget()
         return states

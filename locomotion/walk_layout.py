@@ -6,14 +6,14 @@ import numpy as np
 from numba import njit
 
 __all__ = [
-    "ATTITUDES", "BODY_HEIGHT", "CAUGHT", "CLOCK", "DOUBLE", "FAST", "FOOTHOLD", "FOOTHOLD_NORMAL",
-    "FOOTHOLD_YAW", "GAINS", "HUMP", "LEVEL", "LIFT", "LIFT_NORMAL", "LIFT_YAW", "LONGER", "MISSED", "PHASE",
-    "REST", "SEEN_ANCHORS", "SEEN_AXES", "SEEN_FEET", "SEEN_PELVIS", "SEEN_SOLES", "SEEN_TORQUES",
-    "SETTING_OFF", "SIDEWAYS", "SINGLE", "STAIRS", "STAIRS_AHEAD", "STANDING", "STEEP", "STEEPNESS",
-    "STEPPED_AT", "STEPPED_FROM",
-    "SWING_ANGLES", "SWING_TIME", "UNEVEN", "WALKS", "WALK_HEADING", "WALK_SIZE", "WALK_SPEED",
-    "WALK_STANCE", "WALK_STEPS", "WALK_TICKS", "WALK_TRIM", "WALK_TURN_RATE",
-    "clamp", "first_gains", "gain_limits", "new_walk", "steep_share", "wrap",
+    "ATTITUDES", "BODY_HEIGHT", "CAUGHT", "CLOCK", "DOUBLE", "FAST", "FAST_SPEED", "FOOTHOLD",
+    "FOOTHOLD_NORMAL", "FOOTHOLD_YAW", "GAINS", "HUMP", "LEVEL", "LIFT", "LIFT_NORMAL", "LIFT_YAW", "LONGER",
+    "MISSED", "PHASE", "REST", "SEEN_ANCHORS", "SEEN_AXES", "SEEN_FEET", "SEEN_PELVIS", "SEEN_SOLES",
+    "SEEN_TORQUES", "SETTING_OFF", "SIDEWAYS", "SINGLE", "STAIRS", "STAIRS_AHEAD", "STANDING", "STEEP",
+    "STEEPNESS", "STEPPED_AT", "STEPPED_FROM", "STEP_MADE", "SWING_ANGLES", "SWING_TIME", "TILTED", "UNEVEN",
+    "USUAL_SPEED", "WALKS", "WALK_HEADING", "WALK_SIZE", "WALK_SPEED", "WALK_STANCE", "WALK_STEPS",
+    "WALK_TICKS", "WALK_TRIM", "WALK_TURN_RATE", "clamp", "fast_share", "first_gains", "gain_limits",
+    "new_walk", "pace_of", "steep_share", "wrap",
 ]  # fmt: skip
 
 _STILL_FAST = 0.1  # [m/s] by which steps are faster than asked for, at most, in a steady walk

@@ -19,6 +19,7 @@ from locomotion.skill_file import read_skill
 from locomotion.walk_layout import (
     ATTITUDES,
     DOUBLE,
+    FAST,
     GAINS,
     PHASE,
     STEEPNESS,
@@ -37,8 +38,8 @@ __all__ = [
 ]  # fmt: skip
 
 WALK_SKILL = Path(__file__).parent / "skills" / "walk.npz"
-TABLES = 5
-"""Rows of gains: for level ground, for steep ground, for coming to rest on it, for stairs, for fast walks."""
+TABLES = FAST + 1
+"""Rows of gains, as named in `walk_layout`."""
 RISING = 50
 """Ticks in which a body that begins to walk from a crouch comes up."""
 STEADYING_SPEED = 1.0

@@ -1,7 +1,7 @@
 """Trials of following paths: winding ways over a training ground, gone as a mission goes them."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from locomotion.training.grounds import FLIGHTS, HALF, ground_height, training_g
 from locomotion.training.rollout import Measures, Trial
 from locomotion.walk_skill import WalkSkill
 
-__all__ = ["PathScenario", "draw_flight", "draw_path", "follow_path"]
+__all__ = ["PathScenario", "draw_flight", "draw_path", "draw_turns", "follow_path", "straight_on"]
 
 _PACE = 0.25  # [m] between a path's points
 _TURN_IN = 1.0  # [m] along which a path goes over from one curvature to the next
@@ -22,6 +22,9 @@ _SLOWEST = 0.6  # share of the wished speed that is allowed on the mean
 _RESTS = 300  # ticks at its goal within which it has to come to rest
 _ASIDE = 0.3  # slope of a way over a flight to the way straight up, at most
 _MARGIN = 2.0  # [m] from the ground's border
+_TURNS, _TURNED = (0.5, 2.5), 1.0  # [s] between orders to go elsewhere; [rad] to either side, at most
+_TURNING = 12.0  # [s] for which such orders come
+_ONWARD = 20.0  # [m] of the way that each names
 
 
 @dataclass(frozen=True)
@@ -29,7 +32,9 @@ class PathScenario:
     """One path to follow.
 
     ground: one of `grounds.KINDS`; points: (n, 3) float64 [m]; length: how much of it counts [m], horizontal;
-    speed: wished [m/s]; pushes: (j, 3) rows of time [s] and force x, y [N] on the chest for 0.1 s.
+    speed: wished [m/s]; pushes: (j, 3) rows of time [s] and force x, y [N] on the chest for 0.1 s. turns:
+    (k, 2) rows of time [s] and angle [rad] by which it is told to go elsewhere then, straight on; where there
+    are any, what counts is that it walks for so long.
     """
 
     ground: str
@@ -37,10 +42,13 @@ class PathScenario:
     length: float
     speed: float
     pushes: np.ndarray
+    turns: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))
 
     @property
     def duration(self) -> float:
         """Time [s] that the path may take at most."""
+        if len(self.turns):
+            return float(self.turns[-1, 0])
         return 6.0 + self.length / (_SLOWEST * min(self.speed, 2.0))
 
 
@@ -97,6 +105,20 @@ def draw_flight(rng: np.random.Generator, speeds: tuple[float, float]) -> PathSc
     return PathScenario("stairs", points, length, float(rng.uniform(*speeds)), np.empty((0, 3)))
 
 
+def draw_turns(rng: np.random.Generator, speeds: tuple[float, float]) -> PathScenario:
+    """Random orders to go elsewhere, on level ground. speeds [m/s]: range drawn from."""
+    times = np.cumsum(rng.uniform(*_TURNS, math.ceil(_TURNING / _TURNS[0])))
+    times = np.append(times[times < _TURNING], _TURNING)
+    turns = np.column_stack([times, rng.uniform(-_TURNED, _TURNED, len(times))])
+    points = straight_on(np.zeros(3), rng.uniform(-np.pi, np.pi))
+    return PathScenario("level", points, _ONWARD, float(rng.uniform(*speeds)), np.empty((0, 3)), turns)
+
+
+def straight_on(position: np.ndarray, yaw: float) -> np.ndarray:
+    """A straight way (2, 3) [m] from ``position`` (3,), level."""
+    return position + np.outer([0.0, _ONWARD], [math.cos(yaw), math.sin(yaw), 0.0])
+
+
 def follow_path(
     scenario: PathScenario, run: RunSkill | None = None, walk: WalkSkill | None = None, rehearsals: int = 0
 ) -> Trial:
@@ -116,7 +138,7 @@ def follow_path(
     human.follow(points, scenario.speed)
     measures = Measures(human.data, human.index)
     push, state = human.data.xfrc_applied[human.index.chest], human.control
-    aside, behind, ticks = 0.0, 0.0, 0
+    aside, behind, ticks, turned = 0.0, 0.0, 0, 0
     while (
         human.status in MOVING
         and human.arc_length < scenario.length
@@ -127,6 +149,9 @@ def follow_path(
         for start, fx, fy in scenario.pushes:
             if start <= time < start + 0.1:
                 push[:2] = fx, fy
+        if turned < len(scenario.turns) and time >= scenario.turns[turned, 0]:
+            human.follow(straight_on(human.position, human.yaw + scenario.turns[turned, 1]), scenario.speed)
+            turned += 1
         human.tick()
         ticks += 1
         aside += min(abs(human.lateral_error), 1.0)
@@ -138,6 +163,8 @@ def follow_path(
         human.tick()
         stands += 1
     covered = human.arc_length / scenario.length
+    if len(scenario.turns):
+        covered = ticks * CONTROL_DT / scenario.duration + 1e-9
     if arrived:
         covered = 1.0 if human.held else 0.8 + 0.19 * stands / _RESTS
     done = covered >= 1.0 and human.status in (*MOVING, "arrived")

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from locomotion.training.loop import Stage
-from locomotion.training.path_trial import PathScenario, draw_flight, draw_path, follow_path
+from locomotion.training.path_trial import PathScenario, draw_flight, draw_path, draw_turns, follow_path
 from locomotion.training.training import Training
 from locomotion.walk_layout import (
     FAST,
@@ -30,6 +30,7 @@ FASTEST = 2.0
 _STEPS_PER_S = 1.9  # of people who walk at 1.3 m/s; it grows with the root of the speed
 _BEHIND = 6.0  # cost of being slower or faster than its reference, per m/s, but on steep ground and stairs
 _RESTLESS = 1.0  # cost of the time that it takes to come to rest, per what is allowed
+_QUICK = ("swing_time", "transfer_time", "width")
 _UNIT = 0.08  # share of a gain's range that is one unit of the search
 
 
@@ -52,32 +53,48 @@ KINDS: dict[str, dict[str, Any]] = {
     "crags": _kind("crags", (0.4, 0.8), 2.0),
     "ridges": _kind("ridges", (0.4, USUAL_SPEED), 1.0, length=(2.0, 2.5)),
     "stairs": {"ground": "stairs", "speeds": (0.8, USUAL_SPEED)},
+    "told elsewhere": {"ground": "level", "speeds": (0.8, USUAL_SPEED), "turns": True},
     "fast": _kind("level", (USUAL_SPEED, FASTEST), 4.0, length=(8.0, 14.0)),
     "fast, pushed": _kind("level", (USUAL_SPEED, FASTEST), 8.0, length=(8.0, 14.0), push=80.0),
     "fast, rolling": _kind("rolling", (USUAL_SPEED, FASTEST), 8.0, length=(8.0, 14.0)),
+    "fast, told elsewhere": {"ground": "level", "speeds": (USUAL_SPEED, FASTEST), "turns": True},
 }
-"""What is walked, as arguments of `draw_path`, on stairs of `draw_flight`."""
+"""What is walked, as arguments of `draw_path`; on stairs of `draw_flight`, with ``turns`` of `draw_turns`."""
 
 
 def draw_walk(rng: np.random.Generator, kind: dict[str, Any]) -> PathScenario:
     """A random path of a kind, one of the values of `KINDS`."""
-    return draw_flight(rng, kind["speeds"]) if kind["ground"] == "stairs" else draw_path(rng, **kind)
+    if kind["ground"] == "stairs":
+        return draw_flight(rng, kind["speeds"])
+    return draw_turns(rng, kind["speeds"]) if "turns" in kind else draw_path(rng, **kind)
 
 
 def walk_curriculum(training: Training) -> tuple[Stage, ...]:
-    """From level ground to ramps and moguls, then steep ground, coming to rest on it, and stairs."""
+    """From level ground to ramps and moguls, then steep ground, coming to rest on it, stairs and fast walks;
+    at last how quick its steps have to be, on all grounds, that sudden turns are no falls."""
     low, high = gain_limits()
     unit = _UNIT * (high - low)
 
-    def stage(name: str, generations: int, sigma: float, kinds: list[str], row: int = LEVEL) -> Stage:
-        scale = np.concatenate([unit if k == row else np.zeros(len(GAINS)) for k in range(TABLES)])
+    def stage(
+        name: str,
+        generations: int,
+        sigma: float,
+        kinds: list[str],
+        row: int = LEVEL,
+        gains: tuple[str, ...] = tuple(GAINS),
+    ) -> Stage:
+        scale = np.zeros((TABLES, len(GAINS)))
+        scale[row] = np.where([gain in gains for gain in GAINS], unit, 0.0)
         walked = tuple(KINDS[kind] for kind in kinds)
         seconds = sum(np.mean(kind.get("length", 5.0)) / np.mean(kind["speeds"]) for kind in walked)
         generations = training.generations(generations)
         options = {"kinds": walked, "restless": _RESTLESS * (row == REST)}
         options["behind"] = _BEHIND * (row in (LEVEL, FAST))
-        return Stage(name, generations, sigma, scale, options, population=16, seconds=seconds)
+        return Stage(name, generations, sigma, scale.ravel(), options, population=16, seconds=seconds)
 
+    fast = ["fast"] * 4 + ["fast, pushed"] * 2 + ["fast, rolling"] * 2
+    turns = ["told elsewhere"] * 14 + ["fast, told elsewhere"] * 6
+    other = ["pushed", "rolling", "ramps", "stairs"] * 2 + ["moguls", "crags"]
     return (
         stage("level", 10, 0.5, ["level"] * 3 + ["rolling"]),
         stage("rolling", 20, 0.5, ["level"] + ["rolling"] * 3 + ["ramps"]),
@@ -86,7 +103,8 @@ def walk_curriculum(training: Training) -> tuple[Stage, ...]:
         stage("crags", 15, 0.8, ["crags"] * 6, row=STEEP),
         stage("rest", 20, 0.8, ["ridges"] * 12 + ["rolling", "ramps"], row=REST),
         stage("stairs", 25, 0.8, ["stairs"] * 12, row=STAIRS),
-        stage("fast", 20, 0.5, ["fast"] * 4 + ["fast, pushed"] * 2 + ["fast, rolling"] * 2, row=FAST),
+        stage("fast", 20, 0.5, fast, row=FAST),
+        stage("told elsewhere", 8, 0.5, turns + other, gains=_QUICK),
     )
 
 

@@ -2,6 +2,7 @@
 ground."""
 
 import math
+from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -18,7 +19,7 @@ from locomotion.human_state import MOVING
 from locomotion.leg_kinematics import solve_leg
 from locomotion.person import JOINT_NAMES, STEPS_PER_TICK, PersonIndex, build_person
 from locomotion.training.grounds import KINDS, ground_height, training_ground
-from locomotion.training.path_trial import draw_path, follow_path
+from locomotion.training.path_trial import draw_path, draw_turns, follow_path
 from locomotion.training.training import Training
 from locomotion.training.walk import KINDS as WALKS
 from locomotion.training.walk import WalkProblem, walk_curriculum, walk_tables
@@ -167,6 +168,7 @@ def test_stance_legs_push_as_the_full_jacobian_says(person):
     tables = load_walk_skill().tables.copy()
     tables[:, list(GAINS).index("leg_damping")] = 0.0
     tables[:, list(GAINS).index("height")] = state[COM][2]  # neither up nor down
+    tables[:, list(GAINS).index("pressure_gain")] = 1.0  # and hardly forwards or back
     walk_tick(tables, plane_lookup(), walk, state, np.array([0.3, 0, 0, 0]), data.qpos, data.qvel, ctrl)
     total = np.zeros(3)
     for k, hip in enumerate(HIPS):
@@ -418,6 +420,16 @@ def test_a_walking_person_that_is_told_to_go_back_turns_round_and_arrives():
         while human.status in MOVING:
             human.tick()
         assert human.status == "arrived"
+
+
+def test_trials_of_sudden_turns_tell_it_elsewhere_until_their_end():
+    trial = draw_turns(np.random.default_rng(2), (1.0, 1.0))
+    times, angles = trial.turns.T
+    assert (np.diff(times) > 0.0).all() and (np.abs(angles) <= 1.0).all() and times[-1] == trial.duration
+    figures = follow_path(trial).figures
+    straight = follow_path(replace(trial, turns=np.array([[trial.duration, 0.0]]))).figures
+    assert figures["time"] == straight["time"] == trial.duration
+    assert figures["speed"] < straight["speed"] - 0.05  # it slows down for turns
 
 
 def stays_up_while_told_elsewhere(seed, speed):

@@ -164,7 +164,7 @@ def follow_path(
         stands += 1
     covered = human.arc_length / scenario.length
     if len(scenario.turns):
-        covered = ticks * CONTROL_DT / scenario.duration + 1e-9
+        covered = ticks * CONTROL_DT / scenario.duration
     if arrived:
         covered = 1.0 if human.held else 0.8 + 0.19 * stands / _RESTS
     done = covered >= 1.0 and human.status in (*MOVING, "arrived")

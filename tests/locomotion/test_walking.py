@@ -19,7 +19,7 @@ from locomotion.human_state import MOVING
 from locomotion.leg_kinematics import solve_leg
 from locomotion.person import JOINT_NAMES, STEPS_PER_TICK, PersonIndex, build_person
 from locomotion.training.grounds import KINDS, ground_height, training_ground
-from locomotion.training.path_trial import draw_path, draw_turns, follow_path
+from locomotion.training.path_trial import draw_path, draw_turns, follow_path, straight_on
 from locomotion.training.training import Training
 from locomotion.training.walk import KINDS as WALKS
 from locomotion.training.walk import WalkProblem, walk_curriculum, walk_tables
@@ -439,8 +439,7 @@ def stays_up_while_told_elsewhere(seed, speed):
     told = 0.0
     while human.time < 20.0 and human.status in ("standing", "walking"):
         if human.time >= told:
-            yaw, (x, y, _) = human.yaw + rng.uniform(-1.0, 1.0), human.position
-            human.follow([[x, y, 0], [x + 20.0 * math.cos(yaw), y + 20.0 * math.sin(yaw), 0]], speed)
+            human.follow(straight_on(human.position, human.yaw + rng.uniform(-1.0, 1.0)), speed)
             told = human.time + rng.uniform(0.5, 2.5)
         human.tick()
     return human.status == "walking"

@@ -34,7 +34,7 @@ class PathScenario:
     ground: one of `grounds.KINDS`; points: (n, 3) float64 [m]; length: how much of it counts [m], horizontal;
     speed: wished [m/s]; pushes: (j, 3) rows of time [s] and force x, y [N] on the chest for 0.1 s. turns:
     (k, 2) rows of time [s] and angle [rad] by which it is told to go elsewhere then, straight on; where there
-    are any, what counts is that it walks for so long.
+    are any, what counts is that it walks until the last of them, which ends the trial.
     """
 
     ground: str
@@ -126,10 +126,10 @@ def follow_path(
     ``rehearsals`` at a time.
 
     Who arrives has to come to rest there. Among the figures ``time`` is the share of the path covered (0.8 to
-    0.99 for one that arrives and does not rest), times the scenario's duration,
-    ``side_drift`` twice the mean distance from the path [m], at most 1 m, ``behind`` by how much it is slower
-    than its reference on the mean [m/s], and ``restless`` the share of the
-    3 s that it took to come to rest, 1 for one that did not.
+    0.99 for one that arrives and does not rest; where it is told elsewhere, of the time), times the
+    scenario's duration, ``side_drift`` twice the mean distance from the path [m], at most 1 m,
+    ``behind`` by how much it is slower than its reference on the mean [m/s], and ``restless`` the share of
+    the 3 s that it took to come to rest, 1 for one that did not.
     """
     human = Human(training_ground(scenario.ground), run, clearing=(), walk=walk, rehearsals=rehearsals)
     points = scenario.points
@@ -162,9 +162,10 @@ def follow_path(
     while human.status == "arrived" and not human.held and stands < _RESTS:
         human.tick()
         stands += 1
-    covered = human.arc_length / scenario.length
     if len(scenario.turns):
         covered = ticks * CONTROL_DT / scenario.duration
+    else:
+        covered = human.arc_length / scenario.length
     if arrived:
         covered = 1.0 if human.held else 0.8 + 0.19 * stands / _RESTS
     done = covered >= 1.0 and human.status in (*MOVING, "arrived")

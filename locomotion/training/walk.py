@@ -30,7 +30,7 @@ FASTEST = 2.0
 _STEPS_PER_S = 1.9  # of people who walk at 1.3 m/s; it grows with the root of the speed
 _BEHIND = 6.0  # cost of being slower or faster than its reference, per m/s, but on steep ground and stairs
 _RESTLESS = 1.0  # cost of the time that it takes to come to rest, per what is allowed
-_QUICK = ("swing_time", "transfer_time", "width")
+_QUICK = ("swing_time", "transfer_time", "width")  # how soon, and how far aside, a step catches a turn
 _UNIT = 0.08  # share of a gain's range that is one unit of the search
 
 

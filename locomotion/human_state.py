@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable
-from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import mujoco
 import numpy as np
@@ -13,8 +12,8 @@ from numpy.typing import NDArray
 
 from locomotion.errors import LocomotionError
 from locomotion.events import Event
-from locomotion.obstacle_run import ObstacleRunState
 from locomotion.path_tracking import PathTable
+from locomotion.route_smoothing import ObstacleAhead
 
 __all__ = [
     "CLEARING",
@@ -45,22 +44,21 @@ MOVING: tuple[Status, ...] = (
 _STATE = mujoco.mjtState.mjSTATE_INTEGRATION
 
 
-@dataclass(frozen=True)
-class HumanState:
-    """Everything that a `Human` remembers; restoring it continues the run bit for bit on the same ground."""
+class HumanState(NamedTuple):
+    """Everything that a `Human` remembers; restoring it continues the run bit for bit on the same ground.
+    ``numbers``: what its parts remember (`MovingPerson.memories`), and behind that what `save_physics` gives;
+    in one array, since one is kept and compared in every foreseen tick."""
 
-    physics: NDArray[np.float64]
-    control: NDArray[np.float64]
-    walk: NDArray[np.float64]
-    tracking: NDArray[np.float64]
+    numbers: NDArray[np.float64]
     slowing: float
     brakes: bool
     hurries: bool
-    on_all_fours: NDArray[np.float64]
+    on_all_fours: tuple[float, float, float]
     path: PathTable | None
     interrupted: PathTable | None
     back_to: float
-    obstacle_run: ObstacleRunState
+    obstacles: tuple[ObstacleAhead, ...]
+    skill: NDArray[np.float64] | None
     status: Status
     ticks: int
     ended_at: int
@@ -70,15 +68,13 @@ class HumanState:
 def same(one: HumanState, other: HumanState) -> bool:
     """Whether two states go on in the same way; what has happened before does not matter."""
 
-    def numbers(state: HumanState) -> bytes:
-        parts = [state.physics, state.control, state.walk, state.tracking, state.on_all_fours]
-        return b"".join(part.tobytes() for part in [*parts, *state.obstacle_run.arrays])
-
     def rest(state: HumanState) -> tuple:
-        way = state.interrupted is None, state.back_to, id(state.obstacle_run.obstacles)
-        return state.status, state.ticks, state.ended_at, state.slowing, state.brakes, state.hurries, *way
+        way = state.interrupted is None, state.back_to, id(state.obstacles)
+        skill = None if state.skill is None else state.skill.tobytes()
+        mood = state.slowing, state.brakes, state.hurries, state.on_all_fours
+        return state.status, state.ticks, state.ended_at, *mood, *way, skill
 
-    if rest(one) != rest(other) or numbers(one) != numbers(other):
+    if rest(one) != rest(other) or one.numbers.tobytes() != other.numbers.tobytes():
         return False
     paths = (one.path, other.path), (one.interrupted, other.interrupted)
     return all(a is b or (a and b and np.array_equal(a.table, b.table)) for a, b in paths)

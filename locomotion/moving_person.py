@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion import controller, path_tracking
+from locomotion import controller
 from locomotion.clearing import ClearingSkill
 from locomotion.controller import observe
 from locomotion.events import Event
@@ -121,40 +121,42 @@ class MovingPerson(SimulatedPerson):
         return self._obstacle_run.ahead
 
     # --- saving
+    @property
+    def memories(self) -> tuple[NDArray[np.float64], ...]:
+        """What its parts remember from tick to tick, apart from the few things that are no numbers."""
+        memories = self._control, self._command, self.on_feet.walk, self.way.memory
+        return *memories, self._fours.memory, self._obstacle_run.plan
+
     def save_state(self) -> HumanState:
         """Everything needed to continue from here."""
-        feet, way = self.on_feet, self.way
+        feet, way, run = self.on_feet, self.way, self._obstacle_run
         return HumanState(
-            save_physics(self.model, self.data), self._control.copy(), feet.walk.copy(),
-            np.concatenate([way.memory, self._command]), feet.slowing,
-            feet.brakes, feet.hurries, self._fours.save_state(), way.path, way.interrupted, way.back_to,
-            self._obstacle_run.save_state(), self.status, self._ticks,
-            self._ended_at, tuple(self.events),
+            np.concatenate((*self.memories, save_physics(self.model, self.data))), feet.slowing, feet.brakes,
+            feet.hurries, self._fours.mood, way.path, way.interrupted, way.back_to, run.obstacles,
+            None if run.at_work is None else run.at_work.copy(), self.status, self._ticks, self._ended_at,
+            tuple(self.events),
         )  # fmt: skip
 
     def become(self, state: HumanState) -> None:
         """Be as it was, or will be, in a state of a person on the same ground with the same skill."""
-        restore_physics(self.model, self.data, state.physics)
-        self._control[:] = state.control
-        self._command[:] = state.tracking[path_tracking.TRACK_SIZE :]
-        feet, way = self.on_feet, self.way
-        feet.walk[:], feet.slowing = state.walk, state.slowing
-        feet.brakes, feet.hurries = state.brakes, state.hurries
-        way.memory[:] = state.tracking[: path_tracking.TRACK_SIZE]
+        end = 0
+        for memory in self.memories:
+            begin, end = end, end + len(memory)
+            memory[:] = state.numbers[begin:end]
+        restore_physics(self.model, self.data, state.numbers[end:])
+        feet, way, run = self.on_feet, self.way, self._obstacle_run
+        feet.slowing, feet.brakes, feet.hurries = state.slowing, state.brakes, state.hurries
+        self._fours.mood = state.on_all_fours
         way.path, way.interrupted, way.back_to = state.path, state.interrupted, state.back_to
-        self._fours.restore_state(state.on_all_fours)
-        self._obstacle_run.restore_state(state.obstacle_run)
+        run.obstacles, run.at_work = state.obstacles, None if state.skill is None else state.skill.copy()
         self.status, self._ticks, self._ended_at = state.status, state.ticks, state.ended_at
         self.events[:] = state.events
 
     def state_hash(self) -> str:
         """Hex digest of the physical and mental state; equal for equal runs."""
-        physics = save_physics(self.model, self.data)
-        feet = self.on_feet
-        mood = np.array([feet.slowing, feet.brakes, feet.hurries, self.way.back_to])
-        parts = [physics, self._control, self.on_feet.walk, self.way.memory, self._command, mood]
-        parts.append(self._fours.save_state())
-        return hash_of(self.status, [*parts, *self._obstacle_run.save_state().arrays])
+        state = self.save_state()
+        mood = np.array([state.slowing, state.brakes, state.hurries, *state.on_all_fours, state.back_to])
+        return hash_of(self.status, [state.numbers, mood, *([] if state.skill is None else [state.skill])])
 
     def _place(self, position: NDArray[np.float64], yaw: float, speed: float) -> None:
         self._fours.leave()

@@ -16,7 +16,7 @@ from locomotion.path_tracking import RUN_UP
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill
 
-__all__ = ["ObstacleRun", "ObstacleRunState", "TakeOff"]
+__all__ = ["ObstacleRun", "TakeOff"]
 
 _NEXT, _STEPS_SEEN, _PLANNED, _FARTHER, _FASTER, _REHEARSED, _RETURNS, _BALKED = range(8)
 # number of the next obstacle, steps made when the run-up was last planned, speed planned for this step or 0;
@@ -38,20 +38,6 @@ class TakeOff:
     fast: float
 
 
-@dataclass(frozen=True)
-class ObstacleRunState:
-    """What an `ObstacleRun` remembers: its obstacles, its plan (8,) and what the skill at work remembers."""
-
-    obstacles: tuple[ObstacleAhead, ...]
-    plan: NDArray[np.float64]
-    skill: NDArray[np.float64] | None
-
-    @property
-    def arrays(self) -> list[NDArray[np.float64]]:
-        """The numbers among it."""
-        return [self.plan] if self.skill is None else [self.plan, self.skill]
-
-
 class ObstacleRun:
     """The obstacles of a path, and how far the body has come with them."""
 
@@ -59,17 +45,17 @@ class ObstacleRun:
         """``skills``: to clear them with, on top of ``run``."""
         self.skills, self._run = tuple(skills), run
         self.obstacles: tuple[ObstacleAhead, ...] = ()
-        self._plan = np.zeros(_SIZE)
-        self._skill: NDArray[np.float64] | None = None
+        self.plan = np.zeros(_SIZE)
+        self.at_work: NDArray[np.float64] | None = None
 
     def begin(self, obstacles: Sequence[ObstacleAhead]) -> None:
         """Be about to clear ``obstacles``, in order of their arc lengths."""
-        self.obstacles, self._skill = tuple(obstacles), None
-        self._plan[:] = 0.0
+        self.obstacles, self.at_work = tuple(obstacles), None
+        self.plan[:] = 0.0
 
     def give_up(self) -> None:
         """The body has fallen: what was being cleared is not, and there is no run-up."""
-        self._skill = None
+        self.at_work = None
         self.balk()
 
     def comes_within(self, arc: float, distance: float) -> bool:
@@ -81,18 +67,18 @@ class ObstacleRun:
     @property
     def ahead(self) -> ObstacleAhead | None:
         """The next obstacle, or the one that is being cleared."""
-        number = int(self._plan[_NEXT])
+        number = int(self.plan[_NEXT])
         return self.obstacles[number] if number < len(self.obstacles) else None
 
     @property
     def clearing(self) -> bool:
         """Whether a skill is at work."""
-        return self._skill is not None
+        return self.at_work is not None
 
     @property
     def planned(self) -> float:
         """Speed [m/s] planned for this step; 0 where there is no run-up."""
-        return float(self._plan[_PLANNED])
+        return float(self.plan[_PLANNED])
 
     @property
     def skill(self) -> ClearingSkill:
@@ -117,14 +103,14 @@ class ObstacleRun:
         obstacle, began = self.ahead, None
         if obstacle is None:
             return None
-        if self._skill is None:
+        if self.at_work is None:
             if obstacle.arc_length < arc:
                 self._pass()
-            elif obstacle.arc_length - arc < RUN_UP and state[controller.STEPS] != self._plan[_STEPS_SEEN]:
-                self._plan[_STEPS_SEEN] = state[controller.STEPS]
+            elif obstacle.arc_length - arc < RUN_UP and state[controller.STEPS] != self.plan[_STEPS_SEEN]:
+                self.plan[_STEPS_SEEN] = state[controller.STEPS]
                 began = self._plan_step(obstacle, state)
-        if self._skill is not None and self.skill.tick(obstacle, self._skill, state, data):
-            self._skill = None
+        if self.at_work is not None and self.skill.tick(obstacle, self.at_work, state, data):
+            self.at_work = None
             self._pass()
             return obstacle
         return began
@@ -133,45 +119,45 @@ class ObstacleRun:
         """Arc length [m] to which a body that walks at ``arc`` should go back so that its run-up is long
         enough, or as long as the obstacle behind allows; None: it need not, cannot, or has been back often
         enough."""
-        if self.ahead is None or self._plan[_RETURNS] >= _MOST_RETURNS:
+        if self.ahead is None or self.plan[_RETURNS] >= _MOST_RETURNS:
             return None
         edge = self.ahead.arc_length
-        behind = self.obstacles[int(self._plan[_NEXT]) - 1] if self._plan[_NEXT] > 0.0 else None
+        behind = self.obstacles[int(self.plan[_NEXT]) - 1] if self.plan[_NEXT] > 0.0 else None
         start = 0.0 if behind is None else behind.arc_length + behind.depth + _OFF_EDGE
         to = max(edge - _ROOM - _SETTING_OFF, start)
         room = edge - to - _SETTING_OFF  # with less than `_ROOM` it tries what there is
-        if not arc < edge or (edge - arc > room and self._plan[_BALKED] == 0.0):
+        if not arc < edge or (edge - arc > room and self.plan[_BALKED] == 0.0):
             return None
         return to if arc - to > _WORTH_IT else None
 
     def go_back(self) -> None:
         """It goes back for another run-up."""
-        self._plan[_RETURNS] += 1.0
-        self._plan[_BALKED] = 0.0
+        self.plan[_RETURNS] += 1.0
+        self.plan[_BALKED] = 0.0
 
     def balk(self) -> None:
         """It breaks the run-up off."""
-        self._plan[_PLANNED:_RETURNS] = 0.0
-        self._plan[_BALKED] = 1.0
+        self.plan[_PLANNED:_RETURNS] = 0.0
+        self.plan[_BALKED] = 1.0
 
     @property
     def balked(self) -> bool:
         """Whether it has broken the run-up off, and has not begun another."""
-        return bool(self._plan[_BALKED] > 0.0)
+        return bool(self.plan[_BALKED] > 0.0)
 
     def set_off(self, choice: Sequence[float], goes_well: bool) -> None:
         """It begins to run towards the obstacle ahead; arguments as of `vary`."""
-        self._plan[[_FARTHER, _FASTER, _REHEARSED, _BALKED, _STEPS_SEEN]] = *choice, goes_well, 0.0, 0.0
+        self.plan[[_FARTHER, _FASTER, _REHEARSED, _BALKED, _STEPS_SEEN]] = *choice, goes_well, 0.0, 0.0
 
     def fell(self, state: NDArray[np.float64]) -> bool:
         """Whether a body has fallen whose skill is at work."""
-        assert self._skill is not None
-        return self.skill.fell(self._skill, state)
+        assert self.at_work is not None
+        return self.skill.fell(self.at_work, state)
 
     def rehearses_within(self, arc: float, distance: float) -> bool:
         """Whether it comes to the run-up to an obstacle, which was not rehearsed yet, within ``distance`` [m]
         from arc length ``arc``; behind another obstacle when it is about to clear that."""
-        number = int(self._plan[_NEXT])
+        number = int(self.plan[_NEXT])
         if self.clearing or (self.rehearsed and self.obstacles[number].arc_length - arc < distance):
             number += 1
         elif self.rehearsed:
@@ -188,48 +174,37 @@ class ObstacleRun:
         """Plan the step that has just begun anew, with a mark that is ``choice[0]`` [m] farther from the
         obstacle and an entry that is ``choice[1]`` [m/s] faster; ``goes_well``: as was seen in rehearsal."""
         assert self.ahead is not None
-        self._plan[[_FARTHER, _FASTER, _REHEARSED]] = *choice, goes_well
+        self.plan[[_FARTHER, _FASTER, _REHEARSED]] = *choice, goes_well
         speeds = self._plan_of(self.ahead, state).speeds
         if len(speeds):
-            self._plan[_PLANNED] = speeds[0]
+            self.plan[_PLANNED] = speeds[0]
 
     @property
     def rehearsed(self) -> bool:
         """Whether a choice has gone well in rehearsal."""
-        return bool(self._plan[_REHEARSED] > 0.0)
+        return bool(self.plan[_REHEARSED] > 0.0)
 
     def disturb(self) -> None:
         """Something may make it come otherwise than in rehearsal."""
-        self._plan[_REHEARSED] = 0.0
+        self.plan[_REHEARSED] = 0.0
 
     def _plan_of(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> ApproachPlan:
-        farther, faster = self._plan[[_FARTHER, _FASTER]]
+        farther, faster = self.plan[[_FARTHER, _FASTER]]
         return plan_run_up(state, obstacle, self.skill, self._run, farther, faster)
 
     def _plan_step(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> TakeOff | None:
         """At a stance switch: the speed of the step that begins, or the start of the skill."""
         speeds = self._plan_of(obstacle, state).speeds
         if len(speeds):
-            self._plan[_PLANNED] = speeds[0]
+            self.plan[_PLANNED] = speeds[0]
             return None
         entry, mark = self.skill.approach(obstacle.size)
-        self._skill = self.skill.start(obstacle, state)
-        self._plan[_PLANNED] = entry
-        fast = float(state[controller.STEP_SPEED]) - entry - self._plan[_FASTER]
-        return TakeOff(foot_distance(state, obstacle) - mark - self._plan[_FARTHER], fast)
+        self.at_work = self.skill.start(obstacle, state)
+        self.plan[_PLANNED] = entry
+        fast = float(state[controller.STEP_SPEED]) - entry - self.plan[_FASTER]
+        return TakeOff(foot_distance(state, obstacle) - mark - self.plan[_FARTHER], fast)
 
     def _pass(self) -> None:
         """Have the obstacle ahead behind it."""
-        self._plan[_NEXT] += 1.0
-        self._plan[_PLANNED:] = 0.0
-
-    # --- saving
-    def save_state(self) -> ObstacleRunState:
-        """Everything needed to continue from here."""
-        skill = None if self._skill is None else self._skill.copy()
-        return ObstacleRunState(self.obstacles, self._plan.copy(), skill)
-
-    def restore_state(self, state: ObstacleRunState) -> None:
-        """Continue from what `save_state` gave."""
-        self.obstacles, self._plan[:] = state.obstacles, state.plan
-        self._skill = None if state.skill is None else state.skill.copy()
+        self.plan[_NEXT] += 1.0
+        self.plan[_PLANNED:] = 0.0

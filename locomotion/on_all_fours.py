@@ -139,14 +139,14 @@ class OnAllFours:
             rise_on(lookup, memory, data.qpos, self.gentle > 0.0)
         return bool(memory[MODE] == RISING and stands(memory))
 
-    def save_state(self) -> NDArray[np.float64]:
-        """Everything needed to continue from here."""
-        return np.concatenate([self.memory, [self.fell_at, self.on_way, self.gentle]])
+    @property
+    def mood(self) -> tuple[float, float, float]:
+        """What it keeps in mind besides its ``memory``."""
+        return self.fell_at, self.on_way, self.gentle
 
-    def restore_state(self, state: NDArray[np.float64]) -> None:
-        """Continue from what `save_state` gave."""
-        self.memory[:] = state[:-3]
-        self.fell_at, self.on_way, self.gentle = (float(each) for each in state[-3:])
+    @mood.setter
+    def mood(self, mood: tuple[float, float, float]) -> None:
+        self.fell_at, self.on_way, self.gentle = mood
 
 
 def too_steep_around(ground: Ground | None, place: NDArray[np.float64]) -> bool:

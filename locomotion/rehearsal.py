@@ -241,6 +241,7 @@ class _Moment(NamedTuple):
     state: HumanState
     undecided: bool  # whether there was something to be decided in it
     left: float  # [m] of the way
+    asked: float  # [m/s] that it is to walk
     rests: bool
 
 
@@ -270,7 +271,8 @@ class StepsOn:
             body.tick()
             yield
             rests = body.held or not body.on_feet.walks
-            moments.append(_Moment(body.save_state(), body.undecided, body.way.remaining, rests))
+            asked = abs(float(body.on_feet.walk[WALK_SPEED]))
+            moments.append(_Moment(body.save_state(), body.undecided, body.way.remaining, asked, rests))
         went = _headway(left, moments)
         if not varied or went > self._best:
             self._model, self._moments, self._best = body.model, moments, went
@@ -300,7 +302,7 @@ def _headway(left: float, moments: Sequence[_Moment]) -> float:
         return 1.0
     if sum(moment.state.status not in MOVING for moment in moments) > _RESTLESS:
         return STAYS_UP
-    meant = _HEADWAY * sum(abs(moment.state.walk[WALK_SPEED]) for moment in moments) * CONTROL_DT - _LITTLE
+    meant = _HEADWAY * sum(moment.asked for moment in moments) * CONTROL_DT - _LITTLE
     made = max(left - last.left, 0.0)
     return STAYS_UP + (1.0 - STAYS_UP) * (1.0 if made >= meant else made / meant)
 

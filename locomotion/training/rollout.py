@@ -10,9 +10,8 @@ from numba import njit
 from locomotion import controller as c
 from locomotion.human_state import restore_physics
 from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, build_person
-from locomotion.skill import RunSkill, reset_running, run_on
+from locomotion.skill import RunSkill, reset_running
 from locomotion.training.walk_starts import walk_starts
-from locomotion.walk_layout import WALK_HEADING, WALK_STANCE
 
 __all__ = ["FIGURES", "Measures", "Scenario", "Simulator", "Trial", "stays_up"]
 
@@ -183,10 +182,9 @@ class Simulator:
         self._tilt(scenario.tilt)
         origin = np.zeros(3)
         if scenario.walking is not None:
-            walked, speed = walk_starts()[scenario.walking]
+            walked = walk_starts()[scenario.walking]
             restore_physics(self.model, self.data, walked.physics)
-            self.state[:] = walked.control
-            run_on(self.state, walked.walk[WALK_STANCE], walked.walk[WALK_HEADING], speed)
+            self.state[:], speed = walked.running, walked.speed
         else:
             speed = _at(scenario.speeds, 0.0)
             reset_running(skill, self.model, self.data, self.index, self.state, origin, scenario.yaw, speed)

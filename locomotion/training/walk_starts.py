@@ -4,11 +4,14 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from locomotion.body import Human
 from locomotion.errors import LocomotionError
 from locomotion.gaits import run_entry_speed
-from locomotion.human_state import HumanState
+from locomotion.human_state import HumanState, save_physics
+from locomotion.skill import run_on
+from locomotion.walk_layout import WALK_HEADING, WALK_STANCE
 
 __all__ = ["WALK_STARTS", "WalkStart", "walk_starts"]
 
@@ -19,10 +22,13 @@ _WAY = np.array([[0.0, 0.0, 0.0], [60.0, 0.0, 0.0]])
 
 
 class WalkStart(NamedTuple):
-    """A person in the tick in which it can go over from its walk to its run, and its speed [m/s]."""
+    """A person in the tick in which it can go over from its walk to its run, and its speed [m/s]; of that
+    state, the physics, and what the running controller remembers when it goes over."""
 
     state: HumanState
     speed: float
+    physics: NDArray[np.float64]
+    running: NDArray[np.float64]
 
 
 @lru_cache(maxsize=1)
@@ -43,5 +49,7 @@ def walk_starts() -> tuple[WalkStart, ...]:
                     f"people who walk end {human.status} before they can run: learn to walk anew"
                 )
             human.tick()
-        starts.append(WalkStart(human.save_state(), speed))
+        walk, running = human.on_feet.walk, human.control.copy()
+        run_on(running, walk[WALK_STANCE], walk[WALK_HEADING], speed)
+        starts.append(WalkStart(human.save_state(), speed, save_physics(human.model, human.data), running))
     return tuple(starts)

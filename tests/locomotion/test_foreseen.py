@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from locomotion import Human
-from locomotion.path_tracking import TRACK_SIZE
 
 WAY = np.array([[0.0, 0.0, 0.0], [22.0, 0.0, 0.0]])
 
@@ -80,4 +79,4 @@ def test_it_is_simulated_once(monkeypatch):
     while human.gait_now == "slow run":
         human.tick()
     assert human.gait_now == "walk" and not simulated
-    assert human.save_state().tracking[:TRACK_SIZE].any()
+    assert human.way.memory.any()

@@ -14,8 +14,10 @@ from locomotion.training.grounds import FLIGHTS, HALF, ground_height, training_g
 from locomotion.training.rollout import Measures, Trial
 from locomotion.walk_skill import WalkSkill
 
-__all__ = ["PathScenario", "draw_flight", "draw_path", "draw_turns", "follow_path", "straight_on"]
+__all__ = ["TURNING", "PathScenario", "draw_flight", "draw_path", "draw_turns", "follow_path", "straight_on"]
 
+TURNING = 12.0
+"""[s] for which orders to go elsewhere come."""
 _PACE = 0.25  # [m] between a path's points
 _TURN_IN = 1.0  # [m] along which a path goes over from one curvature to the next
 _SLOWEST = 0.6  # share of the wished speed that is allowed on the mean
@@ -23,7 +25,6 @@ _RESTS = 300  # ticks at its goal within which it has to come to rest
 _ASIDE = 0.3  # slope of a way over a flight to the way straight up, at most
 _MARGIN = 2.0  # [m] from the ground's border
 _TURNS, _TURNED = (0.5, 2.5), 1.0  # [s] between orders to go elsewhere; [rad] to either side, at most
-_TURNING = 12.0  # [s] for which such orders come
 _ONWARD = 20.0  # [m] of the way that each names
 
 
@@ -107,8 +108,8 @@ def draw_flight(rng: np.random.Generator, speeds: tuple[float, float]) -> PathSc
 
 def draw_turns(rng: np.random.Generator, speeds: tuple[float, float]) -> PathScenario:
     """Random orders to go elsewhere, on level ground. speeds [m/s]: range drawn from."""
-    times = np.cumsum(rng.uniform(*_TURNS, math.ceil(_TURNING / _TURNS[0])))
-    times = np.append(times[times < _TURNING], _TURNING)
+    times = np.cumsum(rng.uniform(*_TURNS, math.ceil(TURNING / _TURNS[0])))
+    times = np.append(times[times < TURNING], TURNING)
     turns = np.column_stack([times, rng.uniform(-_TURNED, _TURNED, len(times))])
     points = straight_on(np.zeros(3), rng.uniform(-np.pi, np.pi))
     return PathScenario("level", points, _ONWARD, float(rng.uniform(*speeds)), np.empty((0, 3)), turns)

@@ -8,7 +8,14 @@ from typing import Any
 import numpy as np
 
 from locomotion.training.loop import Stage
-from locomotion.training.path_trial import PathScenario, draw_flight, draw_path, draw_turns, follow_path
+from locomotion.training.path_trial import (
+    TURNING,
+    PathScenario,
+    draw_flight,
+    draw_path,
+    draw_turns,
+    follow_path,
+)
 from locomotion.training.training import Training
 from locomotion.walk_layout import (
     FAST,
@@ -31,6 +38,7 @@ _STEPS_PER_S = 1.9  # of people who walk at 1.3 m/s; it grows with the root of t
 _BEHIND = 6.0  # cost of being slower or faster than its reference, per m/s, but on steep ground and stairs
 _RESTLESS = 1.0  # cost of the time that it takes to come to rest, per what is allowed
 _QUICK = ("swing_time", "transfer_time", "width")  # how soon, and how far aside, a step catches a turn
+_FLIGHT = 4.5  # [m] of a way over a flight of stairs, about
 _UNIT = 0.08  # share of a gain's range that is one unit of the search
 
 
@@ -69,6 +77,13 @@ def draw_walk(rng: np.random.Generator, kind: dict[str, Any]) -> PathScenario:
     return draw_turns(rng, kind["speeds"]) if "turns" in kind else draw_path(rng, **kind)
 
 
+def _seconds(kind: dict[str, Any]) -> float:
+    """[s] that a walk of a kind takes, about."""
+    if "turns" in kind:
+        return TURNING
+    return float(np.mean(kind.get("length", _FLIGHT)) / np.mean(kind["speeds"]))
+
+
 def walk_curriculum(training: Training) -> tuple[Stage, ...]:
     """From level ground to ramps and moguls, then steep ground, coming to rest on it, stairs and fast walks;
     at last how quick its steps have to be, on all grounds, that sudden turns are no falls."""
@@ -86,7 +101,7 @@ def walk_curriculum(training: Training) -> tuple[Stage, ...]:
         scale = np.zeros((TABLES, len(GAINS)))
         scale[row] = np.where([gain in gains for gain in GAINS], unit, 0.0)
         walked = tuple(KINDS[kind] for kind in kinds)
-        seconds = sum(np.mean(kind.get("length", 5.0)) / np.mean(kind["speeds"]) for kind in walked)
+        seconds = sum(_seconds(kind) for kind in walked)
         generations = training.generations(generations)
         options = {"kinds": walked, "restless": _RESTLESS * (row == REST)}
         options["behind"] = _BEHIND * (row in (LEVEL, FAST))

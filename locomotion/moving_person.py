@@ -138,12 +138,13 @@ class MovingPerson(SimulatedPerson):
         )  # fmt: skip
 
     def become(self, state: HumanState) -> None:
-        """Be as it was, or will be, in a state of a person on the same ground with the same skill."""
-        end = 0
-        for memory in self.memories:
+        """Be as it was, or will be, in a state of a person on the same ground with the same skill. Raises
+        `LocomotionError`, and changes nothing, if it belongs to another model."""
+        memories, end = self.memories, 0
+        restore_physics(self.model, self.data, state.numbers[sum(map(len, memories)) :])
+        for memory in memories:
             begin, end = end, end + len(memory)
             memory[:] = state.numbers[begin:end]
-        restore_physics(self.model, self.data, state.numbers[end:])
         feet, way, run = self.on_feet, self.way, self._obstacle_run
         feet.slowing, feet.brakes, feet.hurries = state.slowing, state.brakes, state.hurries
         self._fours.mood = state.on_all_fours
@@ -156,7 +157,8 @@ class MovingPerson(SimulatedPerson):
         """Hex digest of the physical and mental state; equal for equal runs."""
         state = self.save_state()
         mood = np.array([state.slowing, state.brakes, state.hurries, *state.on_all_fours, state.back_to])
-        return hash_of(self.status, [state.numbers, mood, *([] if state.skill is None else [state.skill])])
+        skill = np.empty(0) if state.skill is None else state.skill
+        return hash_of(self.status, [state.numbers, mood, skill])
 
     def _place(self, position: NDArray[np.float64], yaw: float, speed: float) -> None:
         self._fours.leave()

@@ -39,7 +39,8 @@ class TakeOff:
 
 
 class ObstacleRun:
-    """The obstacles of a path, and how far the body has come with them."""
+    """The obstacles of a path, and how far the body has come with them. ``plan`` (8,): what it remembers of
+    the run-up; ``at_work``: what the skill that is at work remembers, None where there is none."""
 
     def __init__(self, skills: Sequence[ClearingSkill], run: RunSkill) -> None:
         """``skills``: to clear them with, on top of ``run``."""

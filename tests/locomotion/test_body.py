@@ -115,6 +115,17 @@ def test_saved_person_goes_on_bit_for_bit():
     assert human.body_transforms().shape == (human.model.nbody, 7)
 
 
+def test_saved_state_of_another_model_is_refused_and_changes_nothing():
+    human, other = Human(None, clearing=()), Human(None, clearing=())
+    other.follow(STRAIGHT, 1.0)
+    other.tick()
+    before, saved = human.state_hash(), other.save_state()
+    assert other.state_hash() != before
+    with pytest.raises(LocomotionError, match="another model"):
+        human.restore_state(saved._replace(numbers=saved.numbers[:-1]))
+    assert human.state_hash() == before
+
+
 def test_run_up_ends_at_the_mark_and_the_skill_starts():
     skill = Recorder()
     human = Human(None, clearing=[skill], rehearsals=0)

@@ -1,7 +1,8 @@
-"""Saved states as files: a tree of frozen dataclasses, plain values and arrays, to the last bit.
+"""Saved states as files: a tree of records, plain values and arrays, to the last bit.
 
 The tree goes into the JSON header of an archive, the numbers of its arrays behind one another into one array
-for each dtype. A dataclass of this distribution is written by its full name and made again from its fields.
+for each dtype. A record, which is a frozen dataclass or named tuple of this distribution, is written by its
+full name and made again from its fields.
 """
 
 import dataclasses
@@ -21,8 +22,8 @@ _PACKAGES = ("navmesh.", "pathsmooth.", "locomotion.", "runtime.")
 def pack(value: Any) -> tuple[Any, dict[str, np.ndarray]]:
     """``value`` as a tree that JSON can represent, and the arrays that `unpack` needs with it.
 
-    Raises `RuntimeInputError` for what is neither a frozen dataclass of this distribution nor an array, a
-    tuple, a list, a mapping with text for keys, or a plain value.
+    Raises `RuntimeInputError` for what is neither a record of this distribution nor an array, a tuple, a
+    list, a mapping with text for keys, or a plain value.
     """
     packer = _Packer()
     tree = packer.tree(value)
@@ -49,15 +50,15 @@ class _Packer:
             return value
         if isinstance(value, np.ndarray):
             return {"array": self._array(value)}
+        if (names := _fields(type(value))) is not None:
+            fields = {name: self.tree(getattr(value, name)) for name in names}
+            return {"class": f"{type(value).__module__}:{type(value).__qualname__}", "fields": fields}
         if isinstance(value, tuple):
             return {"tuple": [self.tree(each) for each in value]}
         if isinstance(value, list):
             return [self.tree(each) for each in value]
         if isinstance(value, Mapping):
             return {"dict": [[_text(key), self.tree(each)] for key, each in value.items()]}
-        if dataclasses.is_dataclass(value) and _is_ours(type(value)):
-            fields = {each.name: self.tree(getattr(value, each.name)) for each in dataclasses.fields(value)}
-            return {"class": f"{type(value).__module__}:{type(value).__qualname__}", "fields": fields}
         raise RuntimeInputError(f"a state file cannot hold a {type(value).__module__}.{type(value).__name__}")
 
     def _array(self, array: np.ndarray) -> Any:
@@ -76,9 +77,14 @@ def _text(key: Any) -> str:
     return key
 
 
-def _is_ours(kind: Any) -> bool:
-    own = f"{kind.__module__}.".startswith(_PACKAGES)
-    return own and dataclasses.is_dataclass(kind) and kind.__dataclass_params__.frozen  # type: ignore[attr-defined]
+def _fields(kind: Any) -> tuple[str, ...] | None:
+    """Names of the fields of a record of this distribution; None for what is none."""
+    if not f"{kind.__module__}.".startswith(_PACKAGES):
+        return None
+    if dataclasses.is_dataclass(kind):
+        frozen = kind.__dataclass_params__.frozen  # type: ignore[attr-defined]
+        return tuple(each.name for each in dataclasses.fields(kind)) if frozen else None
+    return getattr(kind, "_fields", None)
 
 
 def _value(tree: Any, arrays: Mapping[str, np.ndarray]) -> Any:
@@ -96,6 +102,6 @@ def _value(tree: Any, arrays: Mapping[str, np.ndarray]) -> Any:
         return {key: _value(each, arrays) for key, each in tree["dict"]}
     module, _, name = tree["class"].partition(":")
     kind = getattr(sys.modules[module], name)
-    if not _is_ours(kind):
+    if _fields(kind) is None:
         raise TypeError(f"{tree['class']} is not part of a state")
     return kind(**{key: _value(each, arrays) for key, each in tree["fields"].items()})

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 import navmesh
+from locomotion.rehearsal import Outcome
 from navmesh.archive import ArchiveError, read_archive, write_archive
 from runtime import RuntimeInputError, World, WorldState
 from runtime.drivers import BODIES
@@ -157,7 +158,7 @@ def test_a_state_that_does_not_fit_leaves_the_world_as_it_was(graph):
     saved = world.save()
     human, plans = saved.agents[agent.name].driver
     broken = dataclasses.replace(
-        saved.agents[agent.name], driver=(dataclasses.replace(human, physics=human.physics[:-1]), plans)
+        saved.agents[agent.name], driver=(human._replace(numbers=human.numbers[:-1]), plans)
     )
     world.step(0.1)
     digest = world.state_hash()
@@ -222,6 +223,7 @@ trees = st.recursive(
         st.lists(inner, max_size=4).map(tuple),
         st.dictionaries(st.text(), inner, max_size=4),
         st.builds(Plan, arrays, arrays, arrays, st.tuples(inner)),
+        st.builds(Outcome, inner, inner, inner),
     ),
     max_leaves=12,
 )

@@ -92,7 +92,7 @@ def walks_over(riser, tread, down, seed, rehearsals=0):
 @pytest.mark.parametrize(
     ("riser", "tread", "down", "least"),
     [
-        (0.12, 0.39, False, 9), (0.15, 0.33, False, 9), (0.17, 0.29, False, 8),
+        (0.12, 0.39, False, 9), (0.15, 0.33, False, 9), (0.17, 0.29, False, 8), (0.20, 0.27, False, 8),
         (0.12, 0.39, True, 7), (0.15, 0.30, True, 6), (0.17, 0.29, True, 3),
     ],
 )  # fmt: skip

@@ -98,7 +98,8 @@ def walks_over(riser, tread, down, seed, rehearsals=0):
 )  # fmt: skip
 def test_walks_over_stairs_as_people_build_them(riser, tread, down, least):
     """Who went as on level ground came up 5 of 20 flights with steps of 0.15 m and 2 of those of 0.17 m; who
-    planned as if feet landed in time came down 5 of 20 with steps of 0.15 m by 0.3 m and 2 of 0.17 m."""
+    planned as if feet landed in time, and did not foresee the swing leg, came down 5 of 20 with steps of
+    0.15 m by 0.3 m and 2 of 0.17 m."""
     assert sum(walks_over(riser, tread, down, seed) for seed in range(10)) >= least
 
 

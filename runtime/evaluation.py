@@ -143,11 +143,13 @@ def _judged(test: str, what: str, affordance: str, run: CourseRun) -> Attempt:
 
 def evaluate_run(trials: int, seed: int, progress: Progress) -> list[Attempt]:
     """Tests of ``trials`` each: 20 cycles at a turn and a speed drawn from the plane of "Terrain Runner"
-    (section 4.1); a push of 300 N from a random side at each of `PUSHED_SPEEDS`; straight runs of 60 m with
-    a push of 200 N every 5 s."""
+    (section 4.1); a push of 300 N from a random side at each of `PUSHED_SPEEDS`, and at speeds drawn from
+    `SPEEDS`, since a run may have weak spots between those; straight runs of 60 m with a push of 200 N every
+    5 s."""
     simulator = Simulator()
     tests: list[Callable[[np.random.Generator], Attempt]] = [partial(_run_turning, simulator)]
-    tests += [partial(_pushed_hard, simulator, speed) for speed in PUSHED_SPEEDS]
+    tests += [partial(_pushed_hard, simulator, (speed, speed)) for speed in PUSHED_SPEEDS]
+    tests.append(partial(_pushed_hard, simulator, SPEEDS))
     tests.append(_run_pushed)
     todo = [lambda t=t, k=k: t(np.random.default_rng([seed, k])) for t in tests for k in range(trials)]
     return _tried("run", todo, progress)
@@ -187,15 +189,15 @@ def _run_turning(simulator: Simulator, rng: np.random.Generator) -> Attempt:
     return Attempt(test, what, "ran" if survived else "fell", survived, figures, at)
 
 
-def _pushed_hard(simulator: Simulator, speed: float, rng: np.random.Generator) -> Attempt:
-    """A straight run at ``speed`` [m/s], pushed at any moment of its fourth second; it goes on for at least
-    5 s."""
-    side, begin = rng.uniform(-math.pi, math.pi), rng.uniform(3.0, 4.0)
+def _pushed_hard(simulator: Simulator, speeds: tuple[float, float], rng: np.random.Generator) -> Attempt:
+    """A straight run at a speed drawn from ``speeds`` [m/s], pushed at any moment of its fourth second; it
+    goes on for at least 5 s."""
+    side, begin, speed = rng.uniform(-math.pi, math.pi), rng.uniform(3.0, 4.0), rng.uniform(*speeds)
     push = [begin, HARD_PUSH * math.cos(side), HARD_PUSH * math.sin(side), PUSH_TIME]
     scenario = Scenario(9.0, np.array([[0.0, speed]]), pushes=np.array([push]))
     survived = stays_up(simulator.run(load_run_skill(), scenario), scenario.duration)
-    test = f"a push of {HARD_PUSH:.0f} N at {speed:g} m/s"
-    what = f"from {math.degrees(side):+.0f}° after {begin:.2f} s"
+    test = f"a push of {HARD_PUSH:.0f} N at {' to '.join(f'{each:g}' for each in dict.fromkeys(speeds))} m/s"
+    what = f"from {math.degrees(side):+.0f}° after {begin:.2f} s at {speed:.2f} m/s"
     return Attempt(test, what, "ran" if survived else "fell", survived)
 
 

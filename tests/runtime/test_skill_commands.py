@@ -42,7 +42,7 @@ def test_what_was_resumed_does_not_count_the_time_before(capsys, tmp_path, monke
     assert [line.split()[0] for line in said] == ["lie", "in"]
 
 
-@pytest.mark.parametrize(("skill", "tests"), [("jump", 2), ("run", 5)])
+@pytest.mark.parametrize(("skill", "tests"), [("jump", 2), ("run", 6)])
 def test_evaluate_prints_a_table_and_the_same_as_json(capsys, skill, tests):
     code, out, _ = surefoot(capsys, "evaluate", skill, "--trials", "2", "--seed", "3", "--json")
     result = json.loads(out)

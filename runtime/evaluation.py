@@ -39,8 +39,9 @@ NOISE = 0.02
 """Standard deviation [m/s, rad/s] of the velocities at the start."""
 TURN, SPEEDS, CYCLES = math.radians(6.0), (2.0, 5.0), 20
 """Greatest turn per step [rad], speeds [m/s] and cycles (two steps each) of the running plane."""
-HARD_PUSH, PUSHED_SPEEDS = 300.0, (2.0, 3.5, 5.0)
-"""[N] on the chest from any side for `PUSH_TIME`, once a run; speeds [m/s] of these runs."""
+HARD_PUSH, PUSHED_SPEEDS = 300.0, ((2.0, 2.0), (3.5, 3.5), (5.0, 5.0), SPEEDS)
+"""[N] on the chest from any side for `PUSH_TIME`, once a run; ranges [m/s] from which the speeds of these
+runs are drawn: the last since a run may have weak spots between the others."""
 RUN_LENGTH = 60.0
 """[m] of each run with `PUSH`."""
 PUSH, PUSH_TIME, PUSH_EVERY = 200.0, 0.1, 5.0
@@ -143,13 +144,11 @@ def _judged(test: str, what: str, affordance: str, run: CourseRun) -> Attempt:
 
 def evaluate_run(trials: int, seed: int, progress: Progress) -> list[Attempt]:
     """Tests of ``trials`` each: 20 cycles at a turn and a speed drawn from the plane of "Terrain Runner"
-    (section 4.1); a push of 300 N from a random side at each of `PUSHED_SPEEDS`, and at speeds drawn from
-    `SPEEDS`, since a run may have weak spots between those; straight runs of 60 m with a push of 200 N every
-    5 s."""
+    (section 4.1); a push of 300 N from a random side at speeds of each of `PUSHED_SPEEDS`; straight runs of
+    60 m with a push of 200 N every 5 s."""
     simulator = Simulator()
     tests: list[Callable[[np.random.Generator], Attempt]] = [partial(_run_turning, simulator)]
-    tests += [partial(_pushed_hard, simulator, (speed, speed)) for speed in PUSHED_SPEEDS]
-    tests.append(partial(_pushed_hard, simulator, SPEEDS))
+    tests += [partial(_pushed_hard, simulator, speeds) for speeds in PUSHED_SPEEDS]
     tests.append(_run_pushed)
     todo = [lambda t=t, k=k: t(np.random.default_rng([seed, k])) for t in tests for k in range(trials)]
     return _tried("run", todo, progress)
@@ -196,7 +195,8 @@ def _pushed_hard(simulator: Simulator, speeds: tuple[float, float], rng: np.rand
     push = [begin, HARD_PUSH * math.cos(side), HARD_PUSH * math.sin(side), PUSH_TIME]
     scenario = Scenario(9.0, np.array([[0.0, speed]]), pushes=np.array([push]))
     survived = stays_up(simulator.run(load_run_skill(), scenario), scenario.duration)
-    test = f"a push of {HARD_PUSH:.0f} N at {' to '.join(f'{each:g}' for each in dict.fromkeys(speeds))} m/s"
+    drawn_from = " to ".join(f"{each:g}" for each in dict.fromkeys(speeds))
+    test = f"a push of {HARD_PUSH:.0f} N at {drawn_from} m/s"
     what = f"from {math.degrees(side):+.0f}° after {begin:.2f} s at {speed:.2f} m/s"
     return Attempt(test, what, "ran" if survived else "fell", survived)
 

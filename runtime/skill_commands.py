@@ -9,13 +9,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import psutil
 from filelock import FileLock, Timeout
 
+from navmesh.whole_file import whole_file
 from runtime.commands import Result, check_output, ready
 from runtime.errors import RuntimeInputError
 from runtime.progress import Progress
 
 if TYPE_CHECKING:
+    from locomotion.training import progress
     from runtime.evaluation import Attempt
 
 __all__ = ["evaluate_skill", "show_clip", "train_library", "train_skill"]
@@ -46,49 +49,72 @@ def train_skill(
 ) -> float:
     """Learn ``skill``, one of the package's or one that a file describes, and write it to ``output`` (None:
     where the package keeps its own, or where its description says); gives the CPU time that it took [min],
-    without what an interrupted one has taken before.
+    with what it took before it was interrupted.
     Raises `RuntimeInputError` while another process learns with the same checkpoint."""
     where = {} if output is None else {"out": output}
     if output is not None:
         check_output(output)
     name = Path(skill).stem
-    kept = checkpoint or _kept(name)
+    kept = checkpoint or Path(f"{name}.checkpoint")
     if not kept.parent.is_dir():
         raise RuntimeInputError(f"{kept}: there is no folder {str(kept.parent)!r} to keep checkpoints in")
     from locomotion.training.jump import train_described
     from locomotion.training.training import Training
 
     train = _trainers().get(skill, partial(train_described, skill))
-    since, begun = _since(kept), sum(os.times()[:4])
     try:
         with FileLock(f"{kept}.lock", timeout=0):
-            train(Training(seed, kept, workers, effort), **where)
+            timer = _Timer(kept)
+            train(Training(seed, kept, workers, effort, timer.told), **where)
+            timer.keep()
     except Timeout:
         raise RuntimeInputError(
             f"{kept}: another process learns with this checkpoint; wait for it, or name another --checkpoint"
         ) from None
-    minutes = (sum(os.times()[:4]) - begun) / 60.0
-    print(f"{name} learned in {minutes:.1f} core-minutes{since}; {kept} is not needed any more")
-    return minutes
+    print(f"{name} learned in {timer.minutes:.1f} core-minutes; {kept} is not needed any more")
+    return timer.minutes
 
 
-def _kept(name: str) -> Path:
-    """Where the state of learning is kept unless a user says otherwise."""
-    return Path(f"{name}.checkpoint")
+class _Timer:
+    """CPU time of learning, kept in a file beside its checkpoint, so that none is lost between commands."""
+
+    def __init__(self, checkpoint: Path) -> None:
+        self._file = checkpoint.with_name(f"{checkpoint.name}.minutes")
+        self.minutes = self._before() if checkpoint.exists() and self._file.exists() else 0.0
+        self._begun = _cpu_minutes() - self.minutes
+
+    def _before(self) -> float:
+        try:
+            return float(self._file.read_text(encoding="utf-8"))
+        except ValueError:
+            raise RuntimeInputError(
+                f"{self._file}: expected minutes of learning so far; remove it to count from now on"
+            ) from None
+
+    def told(self, now: "progress.Progress") -> None:
+        from locomotion.training.progress import show
+
+        show(now)
+        self.keep()
+
+    def keep(self) -> None:
+        self.minutes = _cpu_minutes() - self._begun
+        with whole_file(self._file) as temporary:
+            temporary.write_text(f"{self.minutes:.3f}\n", encoding="utf-8")
 
 
-def _since(*checkpoints: Path) -> str:
-    """What to add to the time that learning took: some of it may have passed before."""
-    return " since it was resumed" if any(each.exists() for each in checkpoints) else ""
+def _cpu_minutes() -> float:
+    """CPU time of this process, the workers it has had and those it has."""
+    running = (worker.cpu_times() for worker in psutil.Process().children())
+    return (sum(os.times()[:4]) + sum(each.user + each.system for each in running)) / 60.0
 
 
 def train_library(seed: int, workers: int, effort: float) -> None:
     """Learn all skills, one after the other, and say what each has cost."""
-    since = _since(*map(_kept, _trainers()))
     minutes = {skill: train_skill(skill, None, seed, workers, None, effort) for skill in _trainers()}
     for skill, each in minutes.items():
         print(f"{skill:12} {each:7.1f} core-minutes")
-    print(f"{'in all':12} {sum(minutes.values()):7.1f} core-minutes{since}")
+    print(f"{'in all':12} {sum(minutes.values()):7.1f} core-minutes")
 
 
 def evaluate_skill(skill: str, trials: int, seed: int, picture: Path | None = None) -> Result:

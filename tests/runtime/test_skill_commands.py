@@ -1,11 +1,16 @@
 """Learning and evaluating from the command line."""
 
 import json
+import time
+from itertools import count
 
 import pytest
 from filelock import FileLock
 
+from locomotion.training.progress import Progress
+from locomotion.workers import worker_pool
 from runtime.cli import main
+from runtime.skill_commands import _cpu_minutes
 
 
 def surefoot(capsys, *arguments):
@@ -29,17 +34,42 @@ def test_a_checkpoint_in_a_folder_that_is_not_there_is_refused(capsys, tmp_path)
     assert code == 2 and "there is no folder" in err
 
 
-def test_what_was_resumed_does_not_count_the_time_before(capsys, tmp_path, monkeypatch):
+def interrupted_first(training):
+    """Takes three minutes, or one that counts and is cut short, where each look at the clock takes one."""
+    training.on_progress(Progress("sitting", 1, 1, 0.0, 1.0, 0.0, 0.0))
+    if not training.checkpoint.exists():
+        training.checkpoint.touch()
+        raise KeyboardInterrupt
+
+
+def test_the_time_before_an_interruption_counts(capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(
-        "runtime.skill_commands._trainers", lambda: dict.fromkeys(["sit", "lie"], lambda training: None)
-    )
-    _, whole, _ = surefoot(capsys, "train", "--all")
-    (tmp_path / "lie.checkpoint").touch()
-    _, resumed, _ = surefoot(capsys, "train", "--all")
-    assert whole.count("core-minutes") == 5 and "resumed" not in whole
-    said = [line for line in resumed.splitlines() if "since it was resumed" in line]
-    assert [line.split()[0] for line in said] == ["lie", "in"]
+    monkeypatch.setattr("runtime.skill_commands._trainers", lambda: {"sit": interrupted_first})
+    monkeypatch.setattr("runtime.skill_commands._cpu_minutes", count().__next__)
+    assert surefoot(capsys, "train", "--all")[0] == 130
+    code, out, _ = surefoot(capsys, "train", "--all")
+    assert code == 0 and out.splitlines()[1:] == [
+        f"{name:12} {3.0:7.1f} core-minutes" for name in ("sit", "in all")
+    ]
+    (tmp_path / "sit.checkpoint.minutes").write_text("noon")
+    code, _, err = surefoot(capsys, "train", "--all")
+    assert code == 2 and "sit.checkpoint.minutes: expected minutes" in err
+    (tmp_path / "sit.checkpoint").unlink()
+    assert surefoot(capsys, "train", "--all")[0] == 130
+    assert (tmp_path / "sit.checkpoint.minutes").read_text() == "1.000\n"
+
+
+def compute(seconds):
+    while time.process_time() < seconds:
+        pass
+
+
+def test_what_workers_compute_counts_while_they_live_and_after():
+    before = _cpu_minutes()
+    with worker_pool(1, compute, (2.0,)) as pool:
+        pool.map(compute, [2.0])
+        assert _cpu_minutes() - before >= 2.0 / 60.0
+    assert _cpu_minutes() - before >= 2.0 / 60.0
 
 
 @pytest.mark.parametrize(("skill", "tests"), [("jump", 2), ("run", 6)])

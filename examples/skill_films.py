@@ -1,4 +1,4 @@
-"""Makes the film strips of ``docs``: each skill at the lowest, a middle and the greatest height of its range.
+"""Makes the film strips of ``docs``: each skill at the lowest, the default and the greatest of its heights.
 
     python examples/skill_films.py [folder]
 
@@ -15,6 +15,7 @@ from matplotlib.figure import Figure as Sheet
 
 from locomotion import Human
 from runtime.courses import Course, make_course, run_course
+from runtime.evaluation import DEFAULT_HEIGHTS
 from runtime.figure import Figure
 from runtime.filmstrip import show_frame
 from runtime.render import Camera, Triangles, render
@@ -46,7 +47,7 @@ def main() -> None:
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else "docs/pictures")
     for skill in Human().clearing:
         low, high = skill.heights
-        for height in (low, round(0.5 * (low + high), 2), high):
+        for height in (low, DEFAULT_HEIGHTS[skill.affordance], high):
             for distance in np.arange(12.0, 20.0, 0.7):
                 course = make_course([(skill.affordance, height, 0.3)], [float(distance)])
                 run = run_course(course, keep_frames=True)

@@ -33,10 +33,10 @@ KNOTS = np.array([1.2, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0])
 SPEED_RANGE = (1.5, 5.0)
 """Speeds [m/s] that may be asked for."""
 SIZE = sum(c.PARAMETERS.values())
-BLOCKS = ("base", "slope", "bend", "slow", "slowest", "faster", "fastest")
+BLOCKS = ("base", "slope", "bend", "slow", "slowest", "faster", "fastest", "fast")
 """Of SIZE genes each: parameters at `MIDDLE`, their change per m/s and per (m/s)^2 from 2.5 to 4 m/s; how the
-rows beyond differ from their neighbours: that at 2 from that at 2.5 m/s, that at 1.2 from that at 2, that at
-4.5 from that at 4 and that at 5 from that at 4.5."""
+rows beyond differ from their neighbours in this family: that at 2 from that at 2.5 m/s, that at 1.2 from that
+at 2, that at 4.5 from that at 4 and that at 5 from that at 4.5; at last how that at 4 itself differs."""
 _SPREAD = np.array([0.1, 1.0, 0.03, 0.3, 0.5, 0.1, 0.05, 0.1, 1.0, 1.0, 0.2, 0.04])
 """Typical deviation of each sensor while running."""
 
@@ -67,7 +67,7 @@ def skill_of(
     genes: np.ndarray, reference: np.ndarray, max_lateral: float = 1.6, meta: dict | None = None
 ) -> RunSkill:
     """The skill that ``genes`` (len(BLOCKS) * SIZE,) stand for, see `BLOCKS`."""
-    base, slope, bend, slow, slowest, faster, fastest = genes.reshape(len(BLOCKS), SIZE)
+    base, slope, bend, slow, slowest, faster, fastest, fast = genes.reshape(len(BLOCKS), SIZE)
     u = (KNOTS[2:6] - MIDDLE)[:, None]
     table = np.empty((len(KNOTS), SIZE))
     table[2:6] = base + u * slope + u * u * bend
@@ -75,6 +75,7 @@ def skill_of(
     table[0] = table[1] + slowest
     table[6] = table[5] + faster
     table[7] = table[6] + fastest
+    table[5] += fast
     time = c.parameter_slices()["timing"].start
     table[:, time] = np.clip(table[:, time], 0.22, 0.5)
     return RunSkill(KNOTS, table, reference, SPEED_RANGE, max_lateral, (0.3, 0.25), run_clip(), meta or {})
@@ -93,12 +94,12 @@ def _genes(*blocks: np.ndarray) -> np.ndarray:
 
 
 def rows_scale(
-    slow: float = 0.0, slowest: float = 0.0, faster: float = 0.0, fastest: float = 0.0
+    slow: float = 0.0, slowest: float = 0.0, faster: float = 0.0, fastest: float = 0.0, fast: float = 0.0
 ) -> np.ndarray:
     """Scale of all genes where only rows of their own are free, each weighted; slopes are left to what was
     learned between them."""
-    free = row_scale(*LEVEL)
-    return np.concatenate([np.zeros(3 * SIZE), slow * free, slowest * free, faster * free, fastest * free])
+    own = np.outer([slow, slowest, faster, fastest, fast], row_scale(*LEVEL))
+    return np.concatenate([np.zeros(3 * SIZE), own.ravel()])
 
 
 def row_scale(*names: str) -> np.ndarray:

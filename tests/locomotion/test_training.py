@@ -221,6 +221,7 @@ def test_rows_of_their_own_begin_as_their_neighbours_and_are_learned_without_slo
         "slowest": [1.2],
         "faster": [4.5, 5.0],
         "fastest": [5.0],
+        "fast": [4.0],
     }
     for name, moved in beyond.items():
         after = skill_of(genes + rows_scale(**{name: 1.0}), first_state_reference()).table

@@ -202,9 +202,8 @@ def _curriculum(training: Training) -> tuple[Stage, ...]:
 
     return (
         stage("plant a foot", 60, 0.08, first),
-        stage("at any speed", 120, 0.05, both),
+        stage("at any speed", 90, 0.05, both),
         stage("harder", 100, 0.1, few, population=16, harder=(1.0, 2.0)),
-        stage("surer", 50, 0.06, few, population=16, trials=12, harder=(1.0, 2.0), fall=2.4),
         stage("rehearsed", 40, 0.06, few, trials=8, ways=3, harder=(0.9, 2.3), fall=2.4),
         stage("rehearsed more widely", 35, 0.06, both, trials=8, ways=4, harder=(0.9, 2.8), fall=2.4),
     )

@@ -5,11 +5,12 @@ trials of generation g are drawn from a generator seeded with (seed, stage, g), 
 so that a run that was stopped and resumed gives the same result as one that was not, with any number of
 workers.
 
-Candidates race: all are judged on a random half of a generation's trials, and only the better half of them on
-the rest, since the search learns from those only. That simulates a quarter less.
+Candidates race: all are judged on a random third of a generation's trials, and only the better half of them
+on the rest, since the search learns from those only. That simulates a third less.
 """
 
 import hashlib
+import math
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -151,7 +152,7 @@ def _generation(
     parameters: np.ndarray,
     free: np.ndarray,
 ) -> tuple[float, float]:
-    """One generation: ask, judge, tell; gives the median cost and survival in the first half of the race."""
+    """One generation: ask, judge, tell; gives the median cost and survival in the first round."""
     rng = np.random.default_rng([seed, number, search.generation])
     asked = search.ask(rng)
     scenarios = problem.scenarios(stage, search.generation, rng)
@@ -163,7 +164,7 @@ def _generation(
         tasks = [(number, x, drawn) for x in candidates[which]]
         return np.array(pool.map(_work, tasks, chunksize=1))
 
-    first, rest = np.array_split(rng.permutation(len(scenarios)), 2)
+    first, rest = np.split(rng.permutation(len(scenarios)), [math.ceil(len(scenarios) / 3)])
     results = judge(np.arange(len(asked)), first)
     costs = results[:, 0]
     better = np.argsort(costs, kind="stable")[: search.parents]

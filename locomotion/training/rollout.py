@@ -159,10 +159,14 @@ class Measures:
 
 
 class Simulator:
-    """A person on a plane that trials are run with; one per process."""
+    """A person on a plane that trials are run with; one per process.
 
-    def __init__(self) -> None:
-        self.model = build_person()
+    ``steps``: of physics in a control tick. Fewer than the product's take less time to learn with.
+    """
+
+    def __init__(self, steps: int = STEPS_PER_TICK) -> None:
+        self.model, self._steps = build_person(), steps
+        self.model.opt.timestep = CONTROL_DT / steps
         self.data = mujoco.MjData(self.model)
         self.index = PersonIndex.of(self.model)
         self.ground = self.model.geom("ground").id
@@ -235,7 +239,7 @@ class Simulator:
                     if start <= time < start + length:
                         push[0], push[1] = fx, fy
             c.run_tick(*tables, state, command, qpos, qvel, ctrl)
-            mujoco.mj_step(model, data, STEPS_PER_TICK)
+            mujoco.mj_step(model, data, self._steps)
             c.observe(index, model, data, state)
             measures.add(state, turn)
             if on_tick is not None:

@@ -22,6 +22,7 @@ from locomotion.training.training import Training
 __all__ = ["RunProblem", "begin", "fit_step_length", "train_run"]
 
 _JUDGED = 20  # generations' trials by which beginnings are compared
+_STEPS_PER_TICK = 3  # what is learned with steps longer than the product's works with those, and costs less
 
 
 def train_run(training: Training, out: str | os.PathLike[str] = RUN_SKILL) -> RunSkill:
@@ -115,4 +116,4 @@ class RunProblem:
 @lru_cache(maxsize=1)
 def _simulator() -> Simulator:
     """This process's simulator."""
-    return Simulator()
+    return Simulator(_STEPS_PER_TICK)

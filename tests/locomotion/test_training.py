@@ -116,7 +116,7 @@ def in_process(monkeypatch) -> None:
 
 
 @pytest.mark.usefixtures("in_process")
-@pytest.mark.parametrize(("trials", "each"), [(1, [1] * 8), (2, [1] * 12), (5, [3] * 8 + [2] * 4)])
+@pytest.mark.parametrize(("trials", "each"), [(1, [1] * 8), (2, [1] * 12), (5, [2] * 8 + [3] * 4)])
 def test_only_the_better_half_of_a_generation_is_judged_on_all_trials(trials: int, each: list[int]) -> None:
     problem = Bowl(trials, 0.1)
     learned = learn(problem, seed=3, workers=1, on_progress=lambda progress: None)

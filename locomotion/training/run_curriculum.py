@@ -48,6 +48,15 @@ HARDER = (
     _HARD_BEND, _PUSH_BETWEEN_ROWS, _HARD_BEND, {**_HARD_PUSH, "speeds": (4.75, 5.0)}, _PUSH_BETWEEN_ROWS,
     _HARD_PUSH,
 )  # fmt: skip
+_CIRCLE = {**_STEADY, "circle": True, "lateral": 1.7, "duration": 10.0}
+_ROUND, _ROUND_FAST = {**_CIRCLE, "speeds": (3.6, 4.3)}, {**_CIRCLE, "speeds": (4.3, 5.0)}
+_BLOW = {**_PUSH, "speeds": (3.6, 5.0), "push": 330.0, "weakest": 0.8}
+_TOP_BLOW = {**_BLOW, "speeds": (4.85, 5.0)}
+SURE = (
+    _ROUND, _TOP_BLOW, _ROUND_FAST, _BLOW, {**_CIRCLE, "speeds": (4.85, 5.0)}, _TOP_BLOW,
+    {**_CIRCLE, "speeds": (3.6, 5.0), "push": 250.0}, {**_BLOW, "speeds": (4.1, 4.9)}, _TOP_BLOW,
+    {**_BLOW, "speeds": (3.6, 4.3)}, _TOP_BLOW, _BLOW,
+)  # fmt: skip
 _SLOW_PUSH = {**_STEADY, "speeds": (1.8, 2.3), "push": 330.0, "duration": 5.0}
 SLOW_PUSHES = (
     _SLOW_PUSH, {**_SLOW_PUSH, "speeds": (1.8, 2.5), "lateral": 1.2, "push": 60.0},
@@ -131,4 +140,5 @@ def curriculum(training: Training) -> tuple[Stage, ...]:
         stage("fast", 30, 0.04, rows_scale(fast=1, faster=0.3), 8, FAST_ROW, style=0.3, fall=6.0),
         stage("hard", 40, 0.03, whole, 12, HARD, style=0.3, fall=6.0),
         stage("harder", 40, 0.03, whole, 12, HARDER, style=0.3, fall=6.0),
+        stage("sure", 50, 0.03, whole, len(SURE), SURE, style=0.3, fall=6.0, population=24),
     )

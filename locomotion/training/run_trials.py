@@ -19,19 +19,21 @@ def draw_scenario(
     speeds: tuple[float, float] = (MIDDLE, MIDDLE),
     noise: float = 0.0,
     push: float = 0.0,
+    weakest: float = 0.0,
     lateral: float = 0.0,
     tilt: float = 0.0,
     walking: float = 0.0,
     climb: tuple[float, float] | None = None,
     steady: bool = False,
+    circle: bool = False,
 ) -> Scenario:
     """A random trial.
 
     duration [s]; range of desired speeds [m/s], drawn anew every 2 to 3 s; noise: start noise (1 = 0.3
-    m/s, 0.05 rad); push: highest force [N] of pushes of 0.1 s; lateral: highest lateral acceleration
-    [m/s^2] of turns; tilt: highest slope of the ground [rise over run]; walking: share of the trials that
-    start from a walk; climb: range of the slope along the start's heading instead of ``tilt``; steady: one
-    speed all the time.
+    m/s, 0.05 rad); push: highest force [N] of pushes of 0.1 s; weakest: least share of it; lateral: highest
+    lateral acceleration [m/s^2] of turns; tilt: highest slope of the ground [rise over run]; walking: share
+    of the trials that start from a walk; climb: range of the slope along the start's heading instead of
+    ``tilt``; steady: one speed all the time; circle: one turn all the time, a sharp one.
     """
     low, high = speeds
     if steady:
@@ -42,9 +44,11 @@ def draw_scenario(
         [changes, rng.uniform(-1, 1, len(changes)) * lateral / np.maximum(speed[:, 1], 1.0)], axis=1
     )
     turns[:, 1] *= rng.random(len(changes)) < 0.7
+    if circle:
+        turns[:, 1] = rng.choice([-1.0, 1.0]) * rng.uniform(0.6, 1.0) * lateral / speed[0, 1]
     times = np.arange(1.0, duration - 0.5, 2.0) + rng.uniform(0, 0.5)
     angle = rng.uniform(0, 2 * np.pi, len(times))
-    force = push * np.sqrt(rng.random(len(times)))
+    force = push * np.sqrt(weakest**2 + (1.0 - weakest**2) * rng.random(len(times)))
     pushes = np.stack([times, force * np.cos(angle), force * np.sin(angle), np.full(len(times), 0.1)], axis=1)
     direction, steepness = rng.uniform(0, 2 * np.pi), tilt * np.sqrt(rng.random())
     slope = (float(steepness * np.cos(direction)), float(steepness * np.sin(direction)))

@@ -265,6 +265,19 @@ def test_trials_of_setting_off_begin_in_a_walk_from_which_people_run() -> None:
     assert simulator.state[COM_VELOCITY][0] > 2.5
 
 
+def test_trials_of_circles_turn_sharply_one_way_and_blows_are_hard() -> None:
+    drawn = [
+        draw_scenario(np.random.default_rng(k), 9.0, (4.0, 4.0), lateral=1.6, circle=True) for k in range(99)
+    ]
+    turns = np.array([trial.headings[:, 1] for trial in drawn])
+    assert np.all(turns == turns[:, :1])
+    assert np.all(np.abs(4.0 * turns) >= 0.6 * 1.6 - 1e-12) and np.all(np.abs(4.0 * turns) <= 1.6 + 1e-12)
+    assert 30 < np.sum(turns[:, 0] > 0.0) < 70
+    blows = [draw_scenario(np.random.default_rng(k), 9.0, push=330.0, weakest=0.8) for k in range(99)]
+    force = np.concatenate([np.hypot(*trial.pushes[:, 1:3].T) for trial in blows])
+    assert force.min() >= 0.8 * 330.0 - 1e-9 and force.max() <= 330.0 + 1e-9
+
+
 def test_a_fall_costs_what_its_stage_says_and_a_trial_that_lasts_nothing() -> None:
     problem, rng = tiny_problem(), np.random.default_rng(2)
     lasts, falls = draw_scenario(rng, 0.2), draw_scenario(rng, 3.0, push=3000.0)

@@ -41,6 +41,7 @@ class Stage:
         options: what the problem's ``scenarios`` and ``cost`` want to know about the stage.
         population: candidates per generation.
         seconds: what is simulated for a candidate [s], about; the time left is told from it.
+        least: trials by which the better half of the candidates is chosen, at least.
     """
 
     name: str
@@ -50,6 +51,7 @@ class Stage:
     options: dict[str, Any] = field(default_factory=dict)
     population: int = 32
     seconds: float = 1.0
+    least: int = 1
 
 
 def simulated(stages: Sequence[Stage]) -> float:
@@ -164,7 +166,7 @@ def _generation(
         tasks = [(number, x, drawn) for x in candidates[which]]
         return np.array(pool.map(_work, tasks, chunksize=1))
 
-    first, rest = np.split(rng.permutation(len(scenarios)), [math.ceil(len(scenarios) / 3)])
+    first, rest = np.split(rng.permutation(len(scenarios)), [max(math.ceil(len(scenarios) / 3), stage.least)])
     results = judge(np.arange(len(asked)), first)
     costs = results[:, 0]
     better = np.argsort(costs, kind="stable")[: search.parents]
@@ -181,7 +183,8 @@ def _identity(seed: int, stages: Sequence[Stage], start: np.ndarray) -> str:
     hasher = hashlib.sha256(start.tobytes())
     for s in stages:
         hasher.update(
-            repr((seed, s.name, s.generations, s.sigma, s.options, s.population)).encode() + s.scale.tobytes()
+            repr((seed, s.name, s.generations, s.sigma, s.options, s.population, s.least)).encode()
+            + s.scale.tobytes()
         )
     return hasher.hexdigest()[:16]
 

@@ -88,11 +88,11 @@ def tiny_problem() -> RunProblem:
 class Bowl:
     """The way to 1 in each of two parameters, seen askew in each trial."""
 
-    def __init__(self, trials: int, askew: float) -> None:
-        self.trials, self.askew, self.judged = trials, askew, []
+    def __init__(self, trials: int, askew: float, least: int = 1) -> None:
+        self.trials, self.askew, self.least, self.judged = trials, askew, least, []
 
     def stages(self) -> list[Stage]:
-        return [Stage("bowl", 60, 0.5, np.ones(2), population=8)]
+        return [Stage("bowl", 60, 0.5, np.ones(2), population=8, least=self.least)]
 
     def start(self) -> np.ndarray:
         return np.zeros(2)
@@ -116,9 +116,20 @@ def in_process(monkeypatch) -> None:
 
 
 @pytest.mark.usefixtures("in_process")
-@pytest.mark.parametrize(("trials", "each"), [(1, [1] * 8), (2, [1] * 12), (5, [2] * 8 + [3] * 4)])
-def test_only_the_better_half_of_a_generation_is_judged_on_all_trials(trials: int, each: list[int]) -> None:
-    problem = Bowl(trials, 0.1)
+@pytest.mark.parametrize(
+    ("trials", "least", "each"),
+    [
+        (1, 1, [1] * 8),
+        (2, 1, [1] * 12),
+        (5, 1, [2] * 8 + [3] * 4),
+        (5, 3, [3] * 8 + [2] * 4),
+        (2, 3, [2] * 8),
+    ],
+)
+def test_only_the_better_half_of_a_generation_is_judged_on_all_trials(
+    trials: int, least: int, each: list[int]
+) -> None:
+    problem = Bowl(trials, 0.1, least)
     learned = learn(problem, seed=3, workers=1, on_progress=lambda progress: None)
     assert problem.judged == each * 60
     np.testing.assert_allclose(learned, 1.0, atol=0.15)

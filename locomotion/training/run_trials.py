@@ -33,7 +33,7 @@ def draw_scenario(
     m/s, 0.05 rad); push: highest force [N] of pushes of 0.1 s; weakest: least share of it; lateral: highest
     lateral acceleration [m/s^2] of turns; tilt: highest slope of the ground [rise over run]; walking: share
     of the trials that start from a walk; climb: range of the slope along the start's heading instead of
-    ``tilt``; steady: one speed all the time; circle: one turn all the time, a sharp one.
+    ``tilt``; steady: one speed all the time; circle: with ``steady``, one sharp turn all the time.
     """
     low, high = speeds
     if steady:

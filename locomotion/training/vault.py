@@ -219,7 +219,7 @@ def curriculum(training: Training) -> list[Stage]:
     def stage(name: str, count: int, sigma: float, what: str, same: bool, **options) -> Stage:
         options = {"heights": (low, low), "same": same, **usual, **options}
         seconds = options["states"] * options["duration"]
-        # chosen by one or two trials none of six beginnings came over the wall
+        # at first hardly anybody comes over the wall, and one or two trials tell no candidates apart
         return Stage(name, training.generations(count), sigma, scales(what), options, 20, seconds, least=3)
 
     through = {"solid": False, "error": 0.04}

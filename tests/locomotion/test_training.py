@@ -20,7 +20,7 @@ from locomotion.training.grounds import training_ground
 from locomotion.training.loop import Stage, learn, simulated
 from locomotion.training.path_trial import PathScenario, draw_path
 from locomotion.training.progress import Clock
-from locomotion.training.rollout import FIGURES, Simulator, Trial, stays_up
+from locomotion.training.rollout import FIGURES, Scenario, Simulator, Trial, stays_up
 from locomotion.training.run import RunProblem, begin
 from locomotion.training.run_curriculum import WAYS
 from locomotion.training.run_genes import (
@@ -274,6 +274,15 @@ def test_trials_of_setting_off_begin_in_a_walk_from_which_people_run() -> None:
     assert 1.0 < walked < 1.5 and pace == pytest.approx(walked, abs=0.1)
     assert stays_up(simulator.run(skill, scenario), scenario.duration)
     assert simulator.state[COM_VELOCITY][0] > 2.5
+
+
+def test_fewer_physics_steps_a_tick_simulate_as_long_a_run() -> None:
+    skill, scenario = load_run_skill(), Scenario(2.0, np.array([[0.0, 3.5]]))
+    simulators = Simulator(), Simulator(3)
+    runs = [simulator.run(skill, scenario) for simulator in simulators]
+    assert [simulator.data.time for simulator in simulators] == pytest.approx([2.0, 2.0])
+    assert runs[0].figures["speed"] == pytest.approx(runs[1].figures["speed"], abs=0.1)
+    assert not np.array_equal(runs[0].state, runs[1].state)
 
 
 def test_trials_of_circles_turn_sharply_one_way_and_blows_are_hard() -> None:

@@ -17,7 +17,9 @@ BEGINNINGS = 8
 WAY: dict[str, Any] = {"length": (12.0, 20.0), "beyond": 10.0, "radius": 6.0, "speeds": (2.6, 3.6)}
 """A path that is run from where the person has walked a few steps, without bends in which it would walk."""
 _WAY_TAKES = 9.0  # [s]
-_PUSHED = {"speeds": (3.2, 3.7), "steady": True, "push": 330.0, "noise": 0.3, "duration": 7.0}
+_PUSHED = {
+    "speeds": (3.2, 3.7), "steady": True, "push": 330.0, "weakest": 0.7, "noise": 0.3, "duration": 7.0,
+}  # fmt: skip
 _ANY_SPEED = {"speeds": (2.6, 3.9), "steady": True, "push": 250.0, "noise": 0.3, "duration": 7.0}
 _FROM_A_WALK = {"speeds": (2.8, 3.6), "walking": 1.0, "push": 100.0, "noise": 0.1, "duration": 5.0}
 _SLOW_RUN = {"speeds": (1.7, 2.3), "steady": True, "noise": 0.3, "push": 200.0, "duration": 4.0}
@@ -40,13 +42,12 @@ FASTER = ({**_STEADY, "speeds": (4.1, 4.6), "lateral": 1.2},)
 FASTEST = ({**_STEADY, "speeds": (4.3, 5.0), "lateral": 1.6},)
 _BEND, _PUSH = {**_STEADY, "lateral": 1.9, "duration": 7.0}, {**_STEADY, "push": 330.0, "duration": 5.0}
 FAST_ROW = {**_BEND, "speeds": (3.6, 4.4)}, {**_PUSH, "speeds": (3.7, 4.4)}
-_HARD_BEND = {**_STEADY, "speeds": (3.7, 5.0), "lateral": 1.9, "push": 300.0, "duration": 7.0, "noise": 0.4}
-_HARD_PUSH = {**_PUSH, "speeds": (3.7, 5.0), "push": 390.0}
-HARD = _HARD_BEND, _HARD_BEND, _HARD_PUSH
-_PUSH_BETWEEN_ROWS = {**_HARD_PUSH, "speeds": (4.2, 4.8), "push": 360.0}
-HARDER = (
-    _HARD_BEND, _PUSH_BETWEEN_ROWS, _HARD_BEND, {**_HARD_PUSH, "speeds": (4.75, 5.0)}, _PUSH_BETWEEN_ROWS,
-    _HARD_PUSH,
+_FAST_BEND, _FAST_PUSH = {**_BEND, "speeds": (3.9, 5.0)}, {**_PUSH, "speeds": (3.9, 5.0)}
+FAST_BENDS_AND_PUSHES = _FAST_BEND, _FAST_PUSH, _FAST_PUSH
+_TOP_PUSH = {**_PUSH, "speeds": (4.85, 5.0), "push": 360.0}
+_TOP_BEND = {**_STEADY, "speeds": (4.6, 5.0), "lateral": 2.0, "duration": 6.0}
+TOP = (
+    _TOP_PUSH, _FAST_BEND, _FAST_PUSH, _TOP_BEND, *(_TOP_PUSH,) * 3, {**_TOP_PUSH, "speeds": (4.5, 5.0)},
 )  # fmt: skip
 _CIRCLE = {**_STEADY, "circle": True, "lateral": 1.7, "duration": 10.0}
 _ROUND, _ROUND_FAST = {**_CIRCLE, "speeds": (3.6, 4.3)}, {**_CIRCLE, "speeds": (4.3, 5.0)}
@@ -113,6 +114,7 @@ def curriculum(training: Training) -> tuple[Stage, ...]:
     middle, family = genes_scale(1, 0, 0, *STRAIGHT), genes_scale(1, 1, 0, *LEVEL)
     up, down = genes_scale(1, 0, 0, *UP), genes_scale(1, 0, 0, *DOWN)
     steep: dict[str, Any] = {"speeds": (2.5, 3.4), "noise": 0.3, "duration": 4.0}
+    high, top = rows_scale(fast=0.5, faster=1, fastest=1), rows_scale(fast=0.2, faster=0.5, fastest=1)
     whole = rows_scale(fast=1, faster=1, fastest=1)
     lowest = rows_scale(slow=0.5, slowest=1)
     return (
@@ -138,7 +140,7 @@ def curriculum(training: Training) -> tuple[Stage, ...]:
         stage("faster", 25, 0.05, rows_scale(faster=1), 5, FASTER, style=0.3),
         stage("fastest", 40, 0.05, rows_scale(faster=0.5, fastest=1), 5, FASTEST, style=0.3),
         stage("fast", 30, 0.04, rows_scale(fast=1, faster=0.3), 8, FAST_ROW, style=0.3, fall=6.0),
-        stage("hard", 40, 0.03, whole, 12, HARD, style=0.3, fall=6.0),
-        stage("harder", 40, 0.03, whole, 12, HARDER, style=0.3, fall=6.0),
-        stage("sure", 50, 0.03, whole, len(SURE), SURE, style=0.3, fall=6.0, population=24),
+        stage("fast bends and pushes", 30, 0.03, high, 10, FAST_BENDS_AND_PUSHES, style=0.3, fall=6.0),
+        stage("top", 60, 0.03, top, 12, TOP, style=0.3, fall=6.0),
+        stage("sure", 60, 0.025, whole, len(SURE), SURE, style=0.3, fall=6.0),
     )

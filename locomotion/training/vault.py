@@ -228,11 +228,11 @@ def curriculum(training: Training) -> list[Stage]:
     stages = [
         stage(f"{low:g} m, clip", 50, 0.2, "feed-forward", True, **clip),
         stage(f"{low:g} m, landing", 80, 0.2, "feed-forward", True, **landing),
-        stage(f"{low:g} m, feedback", 60, 0.12, "feedback", False, states=6, error=0.06, duration=2.5),
+        stage(f"{low:g} m, feedback", 60, 0.12, "feedback", True, states=16, error=0.06, duration=2.5),
     ]
     for pair in pairwise(HEIGHTS):
         name = f"{pair[0]:g} to {pair[1]:g} m"
-        stages.append(stage(name, 40, 0.12, "feedback", False, states=5, heights=pair))
+        stages.append(stage(name, 40, 0.12, "feedback", True, states=10, heights=pair))
     first, last = FURTHER
     further = {"states": 16, "error": 0.06, "duration": 2.6, "pull": 0.05, "heights": (first, first)}
     rising = {"states": 8, "error": 0.06, "pull": 0.02, "heights": FURTHER}

@@ -214,10 +214,10 @@ def curriculum(training: Training) -> list[Stage]:
     """The stages: each ends with a member of the family at its last height."""
     low = HEIGHTS[0]
     usual = {"error": 0.08, "duration": 2.0, "pull": 0.1, "failed": 0.0, "refines": False}
-    usual |= {"solid": True, "pose": _POSE, "beginnings": 1}
+    usual |= {"heights": (low, low), "same": True, "solid": True, "pose": _POSE, "beginnings": 1}
 
-    def stage(name: str, count: int, sigma: float, what: str, same: bool, **options) -> Stage:
-        options = {"heights": (low, low), "same": same, **usual, **options}
+    def stage(name: str, count: int, sigma: float, what: str, **options) -> Stage:
+        options = {**usual, **options}
         seconds = options["states"] * options["duration"]
         # at first hardly anybody comes over the wall, and one or two trials tell no candidates apart
         return Stage(name, training.generations(count), sigma, scales(what), options, 20, seconds, least=3)
@@ -226,23 +226,23 @@ def curriculum(training: Training) -> list[Stage]:
     clip = {"states": 3, "duration": 1.8, "pose": 40.0, "beginnings": BEGINNINGS, **through}
     landing = {"states": 4, "duration": 2.2, "pose": 10.0, "pull": 0.02, **through}
     stages = [
-        stage(f"{low:g} m, clip", 50, 0.2, "feed-forward", True, **clip),
-        stage(f"{low:g} m, landing", 80, 0.2, "feed-forward", True, **landing),
-        stage(f"{low:g} m, feedback", 60, 0.12, "feedback", True, states=16, error=0.06, duration=2.5),
+        stage(f"{low:g} m, clip", 50, 0.2, "feed-forward", **clip),
+        stage(f"{low:g} m, landing", 80, 0.2, "feed-forward", **landing),
+        stage(f"{low:g} m, feedback", 60, 0.12, "feedback", states=16, error=0.06, duration=2.5),
     ]
     for pair in pairwise(HEIGHTS):
         name = f"{pair[0]:g} to {pair[1]:g} m"
-        stages.append(stage(name, 40, 0.12, "feedback", True, states=10, heights=pair))
+        stages.append(stage(name, 40, 0.12, "feedback", states=10, heights=pair))
     first, last = FURTHER
     further = {"states": 16, "error": 0.06, "duration": 2.6, "pull": 0.05, "heights": (first, first)}
     rising = {"states": 8, "error": 0.06, "pull": 0.02, "heights": FURTHER}
-    long = {"states": 10, "duration": 4.0, "pull": 0.05, "failed": 4.0, "refines": True}
+    long = {"states": 10, "duration": 4.0, "pull": 0.05, "failed": 4.0, "refines": True, "same": False}
     return [
         *stages,
-        stage(f"{first:g} m", 30, 0.08, "feedback", True, **further),
-        stage(f"{first:g} to {last:g} m", 45, 0.12, "feedback", True, **rising),
+        stage(f"{first:g} m", 30, 0.08, "feedback", **further),
+        stage(f"{first:g} to {last:g} m", 45, 0.12, "feedback", **rising),
         *(
-            stage(f"{height:g} m, refined", 40, 0.06, "feedback", False, heights=(height, height), **long)
+            stage(f"{height:g} m, refined", 40, 0.06, "feedback", heights=(height, height), **long)
             for height in (*HEIGHTS, *FURTHER)
         ),
     ]

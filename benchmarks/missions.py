@@ -9,8 +9,9 @@ m/s), how often they fell on their way and got up again, how many ways they took
 JSON holds every mission. A person that has been carried off by a fall (more than 0.5 m), or is stuck, takes a
 new way from where it is; its distance from its path is that from the way that it follows at the time, while
 it goes and not while it gets up: "lateral". "Unfallen" is the same until its first fall. "In walls":
-missions in which a bone (the line between two joints, less the radius of a hand at its ends, which contacts
-press in) went through a triangle of the level at any time. Then the longest mission is timed, whole ticks and
+missions in which a bone (the line between two joints) went through a triangle of the level at any time, its
+joints further than the radius of a hand (2.8 cm) on either side: less, soft contacts press in a limb that
+comes down fast. Then the longest mission is timed, whole ticks and
 bare physics with the same controls from the same state in turns: the columns "control", "rehearsal" and
 "planning" say what comes on top of bare physics, "all" their sum.
 
@@ -36,7 +37,7 @@ from locomotion.arm_reach import HAND_RADIUS
 from locomotion.human_state import restore_physics, save_physics
 from locomotion.path_tracking import make_path
 from locomotion.person import CONTROL_DT, STEPS_PER_TICK
-from navmesh.probes import ProbeGrid, crossed
+from navmesh.probes import ProbeGrid, brute_crossed, crossed
 from runtime import World
 from runtime.events import Departed, Fell
 
@@ -77,15 +78,29 @@ def random_routes(graph: navmesh.NodeGraph, count: int, seed: int) -> list:
     raise SystemExit(f"only {len(routes)} routes of {LENGTHS} m found")
 
 
+def depth_through(triangles: np.ndarray, a: np.ndarray, b: np.ndarray) -> float:
+    """How far [m] the line from ``a`` to ``b``, each (3,), goes through any of the prepared ``triangles``
+    (t, 15): the distance of the end that is nearer to its plane, 0 where the line meets none."""
+    corners = triangles[:, :9].reshape(-1, 3, 3)
+    meet = (corners.max(1) >= np.minimum(a, b)) & (corners.min(1) <= np.maximum(a, b))
+    depth = 0.0
+    for row in triangles[meet.all(1)]:
+        if brute_crossed(row[None], a, b):
+            p, q, r = row[:9].reshape(3, 3)
+            normal = np.cross(q - p, r - p)
+            heights = np.abs((np.array([a, b]) - p) @ normal) / np.linalg.norm(normal)
+            depth = max(depth, float(heights.min()))
+    return depth
+
+
 def pierces(human: Human, probe: ProbeGrid, origin: np.ndarray) -> bool:
-    """Whether any bone of a person goes through a triangle of the level."""
+    """Whether any bone of a person goes through a triangle of the level, by more than contacts press it
+    in."""
     joints, parents = human.body_transforms()[:, :3] - origin, human.model.body_parentid
-    bones = np.flatnonzero(parents > 0)
-    far, near = joints[bones], joints[parents[bones]]
-    lengths = np.linalg.norm(far - near, axis=1)
-    long = lengths > 2.0 * HAND_RADIUS
-    far, near, along = far[long], near[long], (HAND_RADIUS * (far - near).T / lengths)[:, long].T
-    return any(crossed(probe.arrays, *a, *b) for a, b in zip(near + along, far - along, strict=True))
+    return any(
+        crossed(probe.arrays, *a, *b) and depth_through(probe.triangles, a, b) > HAND_RADIUS
+        for a, b in ((joints[parents[k]], joints[k]) for k in np.flatnonzero(parents > 0))
+    )
 
 
 def run_mission(

@@ -77,6 +77,7 @@ def read_bvh(path: str | os.PathLike[str], units: str = "cm", up: str = "y") -> 
     source = Path(path)
     if not source.is_file():
         raise LocomotionError(f"{source}: there is no such file")
+    _check_whole(source)
     try:
         found = bvhio.readAsBvh(str(source))
         joints = [(joint, depth) for joint, _, depth in found.Root.layout()]
@@ -87,6 +88,30 @@ def read_bvh(path: str | os.PathLike[str], units: str = "cm", up: str = "y") -> 
             f"{source}: has {found.FrameCount} frames of {found.FrameTime} s; there must be one at least"
         )
     return _capture(source, found, joints, UNITS[units], _TO_Z_UP[up])
+
+
+def _check_whole(source: Path) -> None:
+    """Raise `LocomotionError` for a file that ends early: bvhio would wait for its next line for ever."""
+    try:
+        lines = [line.split() for line in source.read_text().splitlines() if line.strip()]
+    except UnicodeDecodeError as error:
+        raise LocomotionError(f"{source}: not a BVH file: {error}") from error
+    if ["MOTION"] not in lines:
+        raise LocomotionError(f"{source}: not a whole BVH file: it has no line MOTION")
+    motion = lines.index(["MOTION"])
+    words = [word for line in lines[:motion] for word in line]
+    if words.count("{") == 0 or words.count("{") != words.count("}"):
+        raise LocomotionError(
+            f"{source}: not a whole BVH file: {words.count('{')} braces open before MOTION and"
+            f" {words.count('}')} close"
+        )
+    head, rows = lines[motion + 1 : motion + 3], lines[motion + 3 :]
+    if len(head) < 2 or head[0][0] != "Frames:" or not head[0][-1].isdecimal():
+        raise LocomotionError(
+            f"{source}: not a whole BVH file: after MOTION come the lines Frames: and Frame Time:"
+        )
+    if len(rows) < int(head[0][-1]):
+        raise LocomotionError(f"{source}: has {len(rows)} of the {head[0][-1]} frames that it names")
 
 
 def _capture(

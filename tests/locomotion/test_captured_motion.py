@@ -161,10 +161,19 @@ def test_files_that_are_no_captures_are_refused(tmp_path, bvh):
         read_bvh(tmp_path / "none.bvh")
     text = bvh_text([{}, {}])
     for broken, message in (
-        ("HIERARCHY\nROOT", "not a BVH file"),
-        (text[: len(text) // 3], "not a BVH file"),
+        ("", "no line MOTION"),
+        ("HIERARCHY\nROOT", "no line MOTION"),
+        (text[: len(text) // 3], "no line MOTION"),
+        ("MOTION\nFrames: 2\nFrame Time: 0.1\n0 0 0\n", "not a whole BVH file: 0 braces"),
+        (text.replace("}", "", 1), "braces"),
+        (text[: text.index("Frame Time")], "Frame Time"),
+        (text.replace("HIERARCHY", "TREE"), "not a BVH file"),
         (text.replace("Frames: 2", "Frames: 0"), "frames"),
-        (text.rsplit("\n", 2)[0].replace("0.000000000", "nan", 9), "not finite|not a BVH"),
+        (text.replace("Frames: 2", "Frames: 100"), "has 2 of the 100 frames"),
+        (
+            text[: text.index("Time")] + text[text.index("Time") :].replace("0.000000000", "nan", 9),
+            "not finite|must be numerics only",
+        ),
     ):
         path = tmp_path / "broken.bvh"
         path.write_text(broken)

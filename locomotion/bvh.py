@@ -97,18 +97,18 @@ def _check_whole(source: Path) -> None:
     except UnicodeDecodeError as error:
         raise LocomotionError(f"{source}: not a BVH file: {error}") from error
     if ["MOTION"] not in lines:
-        raise LocomotionError(f"{source}: not a whole BVH file: it has no line MOTION")
+        raise LocomotionError(f"{source}: not a BVH file: it has no line MOTION")
     motion = lines.index(["MOTION"])
     words = [word for line in lines[:motion] for word in line]
     if words.count("{") == 0 or words.count("{") != words.count("}"):
         raise LocomotionError(
-            f"{source}: not a whole BVH file: {words.count('{')} braces open before MOTION and"
+            f"{source}: not a BVH file: {words.count('{')} braces open before MOTION and"
             f" {words.count('}')} close"
         )
     head, rows = lines[motion + 1 : motion + 3], lines[motion + 3 :]
     if len(head) < 2 or head[0][0] != "Frames:" or not head[0][-1].isdecimal():
         raise LocomotionError(
-            f"{source}: not a whole BVH file: after MOTION come the lines Frames: and Frame Time:"
+            f"{source}: not a BVH file: after MOTION come the lines Frames: and Frame Time:"
         )
     if len(rows) < int(head[0][-1]):
         raise LocomotionError(f"{source}: has {len(rows)} of the {head[0][-1]} frames that it names")

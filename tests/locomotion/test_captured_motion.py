@@ -162,9 +162,9 @@ def test_files_that_are_no_captures_are_refused(tmp_path, bvh):
     text = bvh_text([{}, {}])
     for broken, message in (
         ("", "no line MOTION"),
-        ("HIERARCHY\nROOT", "no line MOTION"),
-        (text[: len(text) // 3], "no line MOTION"),
-        ("MOTION\nFrames: 2\nFrame Time: 0.1\n0 0 0\n", "not a whole BVH file: 0 braces"),
+        ("HIERARCHY\nROOT", "not a BVH file: it has no line MOTION"),
+        (text[: len(text) // 3], "not a BVH file: it has no line MOTION"),
+        ("MOTION\nFrames: 2\nFrame Time: 0.1\n0 0 0\n", "not a BVH file: 0 braces"),
         (text.replace("}", "", 1), "braces"),
         (text[: text.index("Frame Time")], "Frame Time"),
         (text.replace("HIERARCHY", "TREE"), "not a BVH file"),

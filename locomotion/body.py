@@ -71,7 +71,8 @@ STUCK_TIME = 8.0
 _WALK_ARRIVAL = 0.15  # [m] before the end of its path at which a walking person stops
 _CHANGE = 0.01  # [m] by which the ground under a person at rest may change unnoticed
 _LONGEST_DOWN = 12000  # ticks after which a body that has not got up stays down
-_COMES_BACK = 3.5  # [m] beside its path up to which a walking person may slow down and turn first
+_STAYS = 1.6  # [m/s] up to which one that comes to its goal stays there
+_COMES_BACK = 3.5  # [m] beside its path up to which one that does not run may slow down and turn first
 _CLIMBS_BACK = 6.0  # [m] beside its path, where it has slid to, from which it climbs back
 _LOOKS = 20  # ticks after which one on hands and feet looks again whether it can walk on
 
@@ -389,12 +390,14 @@ class Human(RehearsingPerson):
         if way.interrupted is not None and way.remaining < _WALK_ARRIVAL:
             way.turn_again(self._ticks)
             return
-        if way.remaining < (_WALK_ARRIVAL if self.status in ("walking", "scrambling") else ARRIVAL_DISTANCE):
+        near = _WALK_ARRIVAL if self.status in ("walking", "scrambling") else ARRIVAL_DISTANCE
+        fast = self.status == "running" or float(np.linalg.norm(self.velocity[:2])) > _STAYS
+        if way.remaining < near and not fast:  # else it comes past, and has to come back
             goal = way.path.goal
             distance = math.hypot(goal[0] - com[0], goal[1] - com[1])
             if distance <= ARRIVAL_DISTANCE:
                 self._end("arrived", Arrived(self.time, self._point(), distance))
-            elif way.remaining <= 1e-9 and self.status != "scrambling":
+            elif way.ended and self.status != "scrambling":
                 self._end("lost", MissedGoal(self.time, self._point(), distance))
         elif abs(way.lateral) > self._may_stray():
             self._end("lost", StrayedFromPath(self.time, self._point(), abs(way.lateral)))
@@ -407,4 +410,4 @@ class Human(RehearsingPerson):
         """[m] beside its path from which it is lost."""
         if self._fours.active:
             return _CLIMBS_BACK
-        return _COMES_BACK if self.on_feet.walks else STRAYED
+        return STRAYED if self.on_feet.runs else _COMES_BACK

@@ -20,7 +20,15 @@ from locomotion.errors import LocomotionError
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill
 
-__all__ = ["ClearingSkill", "foot_distance", "plan_run_up", "run_up_speeds", "skill_for", "skill_ranges"]
+__all__ = [
+    "ClearingSkill",
+    "distance_to",
+    "foot_distance",
+    "plan_run_up",
+    "run_up_speeds",
+    "skill_for",
+    "skill_ranges",
+]
 
 _ERROR_WEIGHT = 2000.0
 _CHANGE_WEIGHTS = (8.0, 4.0, 2.0, 1.0)
@@ -117,8 +125,13 @@ def skill_ranges(skills: Sequence[ClearingSkill]) -> dict[str, tuple[float, floa
 def foot_distance(state: NDArray[np.float64], obstacle: ObstacleAhead) -> float:
     """Distance [m] from the stance foot's touchdown place to the obstacle's edge, at right angles to it."""
     foot = controller.PLANTED.start + (3 if state[controller.STANCE] > 0 else 0)
-    x, y = obstacle.position[0], obstacle.position[1]
-    return float((state[foot] - x) * obstacle.normal[0] + (state[foot + 1] - y) * obstacle.normal[1])
+    return distance_to(obstacle, state[foot], state[foot + 1])
+
+
+def distance_to(obstacle: ObstacleAhead, x: float, y: float) -> float:
+    """Distance [m] from a place to the obstacle's edge, at right angles to it; below 0 behind it."""
+    px, py = obstacle.position[0], obstacle.position[1]
+    return float((x - px) * obstacle.normal[0] + (y - py) * obstacle.normal[1])
 
 
 def run_up_speeds(entry: float, run: RunSkill) -> tuple[float, float]:
@@ -134,10 +147,12 @@ def plan_run_up(
     run: RunSkill,
     farther: float = 0.0,
     faster: float = 0.0,
+    bend: float = 0.0,
 ) -> ApproachPlan:
     """Speeds of the remaining steps, planned at a stance switch; none: start the skill at this step.
 
-    farther [m], faster [m/s]: changes of the skill's mark and entry speed."""
+    farther [m], faster [m/s]: changes of the skill's mark and entry speed. bend: [m] by which the path to
+    the obstacle is longer than the distance at right angles to its edge."""
     entry, mark = skill.approach(obstacle.size)
     entry, mark = min(max(entry + faster, run.speeds[0]), run.speeds[1]), mark + farther
     low, high = run_up_speeds(entry, run)
@@ -146,7 +161,7 @@ def plan_run_up(
     speed = min(max(float(state[controller.SPEED]), low), high)
     a, lag, b = skill.stride
     # over the steps to come the lag adds up to lag * (speed - entry)
-    distance = foot_distance(state, obstacle) - lag * (speed - entry)
+    distance = foot_distance(state, obstacle) + bend - lag * (speed - entry)
     return plan_approach(
         distance,
         speed,

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from locomotion.path_tracking import TrackingLimits
+from locomotion.path_table import TrackingLimits
 from locomotion.run_layout import COM_VELOCITY
 from locomotion.skill import RunSkill
 from locomotion.walk_layout import CLOCK, DOUBLE, PHASE, USUAL_SPEED, WALK_HEADING, WALK_STEPS

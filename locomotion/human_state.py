@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from locomotion.errors import LocomotionError
 from locomotion.events import Event
-from locomotion.path_tracking import PathTable
+from locomotion.path_table import PathTable
 from locomotion.route_smoothing import ObstacleAhead
 
 __all__ = [

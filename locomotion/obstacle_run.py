@@ -11,21 +11,22 @@ from numpy.typing import NDArray
 
 from locomotion import controller
 from locomotion.approach import ApproachPlan
-from locomotion.clearing import ClearingSkill, foot_distance, plan_run_up, skill_for
-from locomotion.path_tracking import RUN_UP
+from locomotion.clearing import ClearingSkill, distance_to, foot_distance, plan_run_up, skill_for
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill
+from locomotion.where_to_run import RUN_UP, SET_OFF
 
 __all__ = ["ObstacleRun", "TakeOff"]
 
-_NEXT, _STEPS_SEEN, _PLANNED, _FARTHER, _FASTER, _REHEARSED, _RETURNS, _BALKED = range(8)
+_NEXT, _STEPS_SEEN, _PLANNED, _FARTHER, _FASTER, _REHEARSED, _RETURNS, _BALKED, _BEND = range(9)
 # number of the next obstacle, steps made when the run-up was last planned, speed planned for this step or 0;
 # chosen in rehearsal: [m] that the mark is farther from the obstacle, [m/s] that the entry is faster, and 1
-# once a choice has gone well; how often it has gone back for another run-up; 1 after a run-up broken off
-_SIZE = 8
+# once a choice has gone well; how often it has gone back for another run-up; 1 after a run-up broken off;
+# [m] by which the path to the obstacle is longer than the distance at right angles to its edge
+_SIZE = 9
 _MOST_RETURNS = 8
 _ROOM = 5.2  # [m] before an obstacle in which a body that begins to run comes to its entry speed
-_SETTING_OFF = 2.5  # [m] that it walks before it runs
+_SETTING_OFF = SET_OFF - _ROOM  # [m] that it walks before it runs
 _OFF_EDGE, _WORTH_IT = 0.8, 0.7  # [m] kept from the obstacle behind it; that it goes back at least
 
 
@@ -39,7 +40,7 @@ class TakeOff:
 
 
 class ObstacleRun:
-    """The obstacles of a path, and how far the body has come with them. ``plan`` (8,): what it remembers of
+    """The obstacles of a path, and how far the body has come with them. ``plan`` (9,): what it remembers of
     the run-up; ``at_work``: what the skill that is at work remembers, None where there is none."""
 
     def __init__(self, skills: Sequence[ClearingSkill], run: RunSkill) -> None:
@@ -109,6 +110,8 @@ class ObstacleRun:
                 self._pass()
             elif obstacle.arc_length - arc < RUN_UP and state[controller.STEPS] != self.plan[_STEPS_SEEN]:
                 self.plan[_STEPS_SEEN] = state[controller.STEPS]
+                straight = distance_to(obstacle, *state[controller.COM][:2])
+                self.plan[_BEND] = max(obstacle.arc_length - arc - straight, 0.0)
                 began = self._plan_step(obstacle, state)
         if self.at_work is not None and self.skill.tick(obstacle, self.at_work, state, data):
             self.at_work = None
@@ -190,8 +193,8 @@ class ObstacleRun:
         self.plan[_REHEARSED] = 0.0
 
     def _plan_of(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> ApproachPlan:
-        farther, faster = self.plan[[_FARTHER, _FASTER]]
-        return plan_run_up(state, obstacle, self.skill, self._run, farther, faster)
+        farther, faster, bend = self.plan[[_FARTHER, _FASTER, _BEND]]
+        return plan_run_up(state, obstacle, self.skill, self._run, farther, faster, bend)
 
     def _plan_step(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> TakeOff | None:
         """At a stance switch: the speed of the step that begins, or the start of the skill."""

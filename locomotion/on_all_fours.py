@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from locomotion.getting_up import begin_getting_up, get_up_tick, rise_on
 from locomotion.ground import Ground
-from locomotion.path_tracking import PathTable
+from locomotion.path_table import PathTable
 from locomotion.person import PersonIndex
 from locomotion.person_models import harder
 from locomotion.rising import begin_to_rise, gather, ready_to_rise, rise_tick, stands

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numba import njit
@@ -12,19 +12,28 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.ndimage import maximum_filter1d
 
 from locomotion.errors import LocomotionError
+from locomotion.path_table import (
+    CURVATURE,
+    GAIT,
+    HEADING,
+    RUN,
+    SLOPE,
+    SPACING,
+    SPEED,
+    WALK,
+    PathTable,
+    TrackingLimits,
+    X,
+    Y,
+    Z,
+)
+from locomotion.where_to_run import hard_again, plan_gaits
 
 __all__ = [
-    "ARC", "BACKED", "COME_TO_REST", "FAST_WALK", "GAIT", "HEADWAY", "HEADWAY_TICK", "LATERAL", "PACE",
-    "REMAINING", "RUN", "RUN_UP", "SLOPE_HERE", "SPEED_HERE", "TRACK_SIZE", "WAITED", "WALK", "PathTable",
-    "TrackingLimits", "back_along", "checked_points", "make_path", "new_track", "shifted", "track",
+    "ARC", "BACKED", "HEADWAY", "HEADWAY_TICK", "LATERAL", "PACE", "REMAINING", "SLOPE_HERE", "SPEED_HERE",
+    "TRACK_SIZE", "WAITED", "back_along", "checked_points", "make_path", "new_track", "shifted", "track",
 ]  # fmt: skip
 
-SPACING = 0.1
-"""Spacing of a path's table [m]."""
-X, Y, Z, HEADING, CURVATURE, SLOPE, SPEED, GAIT = range(8)
-"""Columns of a path's table; `GAIT` is one of the following."""
-FAST_WALK, WALK, RUN = -1.0, 0.0, 1.0
-"""The body walks as fast as the path says; walks at its usual speed at most, or slows down to that; runs."""
 (
     ARC, LATERAL, INTEGRAL, REMAINING, SPEED_HERE, SLOPE_HERE, HEADWAY, HEADWAY_TICK, PACE, WAITED, BACKED
 ) = range(11)  # fmt: skip
@@ -33,83 +42,9 @@ its integral [m s], length left [m], planned speed [m/s] and slope here, greates
 tick at which it grew last by `_STEP`, share of the planned speed at which it goes to give way, ticks for
 which it has done so since then, and how often it has gone back to let others by."""
 TRACK_SIZE = 11
-RUN_UP = 15.0
-"""[m] before an obstacle, along the path, from which a body runs and the speed of each step is planned."""
 _STEP = 0.25
 _STEP_REACH = 0.7  # [m] around an obstacle's edge where its height would show as slope
-_WORTH_IT = 4.0  # [m] that are run at least, before it slows down
-COME_TO_REST = 2.0
-"""[m] that are walked before the end."""
-_BEFORE = 1.0  # [m] that are walked before what cannot be run
-_BETWEEN = 4.0  # [m] that are walked between two runs at least
-_LEVEL, _STRAIGHT = 0.05, 0.15  # slope, and curvature [1/m], up to which it walks faster than usual
-_BEGINS = 2.0  # [m] that are walked as usual first, unless one is faster already:
-_ALREADY = 0.15  # [m/s] faster than usual
-_CALM = 4.0  # [m] before a run that are walked no faster than usual: runs are begun from that
-_LANDED = 5.0  # [m] behind an obstacle's edge that are run
 _BACK, _AHEAD = 0.5, 1.5  # [m] search window around the last foot point
-
-
-@dataclass(frozen=True)
-class TrackingLimits:
-    """What a running body can follow.
-
-    Attributes:
-        speeds: lowest and highest speed [m/s].
-        sideways: [m/s^2] highest sideways acceleration in a bend.
-        acceleration, deceleration: [m/s^2] of the planned speed along the path.
-        uphill, downhill: [m/s per unit of slope] taken off the wished speed on a slope.
-        sharpest: curvature [1/m] and steepest: slope [rise over run] above which it does not go this way.
-        slowing: [m/s^2] at which it slows down from a run to a walk.
-        foresight: [m] before a slope at which it already goes as fast as on it.
-        usual: [m/s] of a walk at most, but where a faster walk is asked for, straight on, on level ground,
-            away from runs.
-    """
-
-    speeds: tuple[float, float]
-    sideways: float = 2.5
-    acceleration: float = 1.5
-    deceleration: float = 0.8
-    uphill: float = 2.0
-    downhill: float = 4.0
-    sharpest: float = math.inf
-    steepest: float = math.inf
-    slowing: float = 0.6
-    foresight: float = 0.0
-    usual: float = math.inf
-
-    @property
-    def calm(self) -> float:
-        """[m/s] of a walk at most, where no faster one is asked for."""
-        return min(self.usual, self.speeds[1])
-
-
-@dataclass(frozen=True)
-class PathTable:
-    """A path resampled every 0.1 m of horizontal length.
-
-    Attributes:
-        table: (n, 8) float64: x, y, z [m], heading [rad, unwrapped], curvature [1/m, left positive], slope
-            (rise per length), planned speed [m/s], gait.
-        length: horizontal length [m].
-        goal: (3,) float64, its last point.
-    """
-
-    table: NDArray[np.float64]
-    length: float
-    goal: NDArray[np.float64]
-
-    def runs(self, arc: float) -> bool:
-        """Whether the body is to run at this arc length [m]."""
-        return bool(self._gait(arc) == RUN)
-
-    def walks_fast(self, arc: float) -> bool:
-        """Whether it may walk faster than usual there."""
-        return bool(self._gait(arc) == FAST_WALK)
-
-    def _gait(self, arc: float) -> float:
-        last = len(self.table) - 1
-        return self.table[min(max(round(arc / self.length * last), 0), last), GAIT]
 
 
 def checked_points(points: ArrayLike) -> NDArray[np.float64]:
@@ -138,8 +73,9 @@ def make_path(
 
     ``limits`` are those of running; without ``walk`` the body runs all the way. With ``walk`` it runs where
     bends and slopes allow it and where a run is worth it (or it is ``running`` already), and over an edge,
-    from `RUN_UP` before it; it walks elsewhere and before the end, and slows down to that in time. Whose
-    ``speed`` is nearer to a walk walks all the way but over edges, faster than usual where that is easy.
+    from `RUN_UP` before it; it walks elsewhere and before the end, and slows down to that in time, or comes
+    to a stand where there is not room enough for that. Whose ``speed`` is nearer to a walk walks all the way
+    but over edges, faster than usual where that is easy.
 
     Raises `LocomotionError` for fewer than two distinct points, coordinates that are not finite, or a speed
     that is not above 0.
@@ -166,75 +102,9 @@ def make_path(
     table[:, GAIT] = RUN
     gaits = [limits] * count
     if walk is not None:
-        slowing = _length_of_slowing(speed, limits, walk)
-        slowest = 0.5 * (walk.speeds[1] + limits.speeds[0])  # below it is nearer to a walk
-        runs = _where_to_run(table, at, limits, speed, crossed, running, slowest, slowing)
-        near = at - np.maximum.accumulate(np.where(runs, at, -math.inf)) <= slowing  # runs, or slows down
-        fast = (speed < slowest) & _can_walk_fast(table, at, runs, walk.foresight) & ~near
-        if present_speed < walk.calm + _ALREADY:  # who is told elsewhere all the time does not get fast
-            fast &= at >= _BEGINS
-        table[:, GAIT] = np.select([runs, fast], [RUN, FAST_WALK], WALK)
-        usual = replace(walk, speeds=(walk.speeds[0], walk.calm))
-        gaits = [limits if n else walk if f else usual for n, f in zip(near, fast, strict=True)]
+        gaits = plan_gaits(table, at, speed, limits, walk, crossed, present_speed, running)
     _plan_speed(table, length / (count - 1), speed, gaits, present_speed)
     return PathTable(table, length, distinct[-1].copy())
-
-
-def _length_of_slowing(speed: float, limits: TrackingLimits, walk: TrackingLimits) -> float:
-    """[m] in which a body that runs at up to ``speed`` slows down to a walk."""
-    fastest = min(max(speed, limits.speeds[0]), limits.speeds[1])
-    return max(fastest**2 - walk.calm**2, 0.0) / (2.0 * limits.slowing)
-
-
-def _where_to_run(
-    table: NDArray[np.float64],
-    at: NDArray[np.float64],
-    limits: TrackingLimits,
-    speed: float,
-    edges: NDArray[np.float64],
-    running: bool,
-    slowest: float,
-    slowing: float,
-) -> NDArray[np.bool_]:
-    """(n,) bool: where the body runs, if ``speed`` is at least ``slowest`` [m/s]; behind that it needs
-    ``slowing`` [m] to slow down."""
-    hard = _too_hard(table, limits)
-    runs = _can_run(hard, at, slowing) & (at <= at[-1] - COME_TO_REST - slowing) & (speed >= slowest)
-    ends = np.flatnonzero(np.diff(runs.astype(np.int8), prepend=0, append=0))
-    for begin, end in ends.reshape(-1, 2):
-        if at[end - 1] - at[begin] < _WORTH_IT and not (running and begin == 0):
-            runs[begin:end] = False
-    for edge in edges:
-        runs[(at >= edge - RUN_UP) & (at <= edge + _LANDED)] = True
-    ends = np.flatnonzero(np.diff(runs.astype(np.int8), prepend=0, append=0))
-    for end, begin in ends[1:-1].reshape(-1, 2):
-        if at[begin] - at[end] < slowing + _BETWEEN and not hard[end:begin].any():
-            runs[end:begin] = True
-    return runs
-
-
-def _can_walk_fast(
-    table: NDArray[np.float64], at: NDArray[np.float64], runs: NDArray[np.bool_], foresight: float
-) -> NDArray[np.bool_]:
-    """(n,) bool: where the way is level and straight, for ``foresight`` [m] before and behind, and no run
-    begins soon."""
-    hardest = np.maximum(np.abs(table[:, SLOPE]) / _LEVEL, np.abs(table[:, CURVATURE]) / _STRAIGHT)
-    easy = maximum_filter1d(hardest, 2 * round(foresight / SPACING) + 1) <= 1.0
-    next_run = np.minimum.accumulate(np.where(runs, at, math.inf)[::-1])[::-1]
-    return easy & (next_run - at >= _CALM)
-
-
-def _too_hard(table: NDArray[np.float64], limits: TrackingLimits) -> NDArray[np.bool_]:
-    """(n,) bool: where bends or slopes are too much for these limits."""
-    return (np.abs(table[:, CURVATURE]) > limits.sharpest) | (np.abs(table[:, SLOPE]) > limits.steepest)
-
-
-def _can_run(hard: NDArray[np.bool_], at: NDArray[np.float64], slowing: float) -> NDArray[np.bool_]:
-    """(n,) bool: where nothing ``hard`` is, nor so near before the body that it has to slow down."""
-    runs = ~hard
-    for each in at[hard]:
-        runs[(at >= each - _BEFORE - slowing) & (at <= each)] = False
-    return runs
 
 
 def _directions(table: NDArray[np.float64], step: float) -> None:
@@ -298,8 +168,7 @@ def shifted(
         squares[i] = min(squares[i], squares[i + 1] + 2.0 * present.deceleration * step)
     table[:, SPEED] = np.sqrt(squares)
     if walk is not None:
-        slowing = _length_of_slowing(float(table[:, SPEED].max()), limits, walk)
-        table[~_can_run(_too_hard(table, limits), along, slowing), GAIT] = WALK
+        hard_again(table, step, limits, walk)
     return replace(path, table=table)
 
 

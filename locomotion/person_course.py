@@ -6,12 +6,13 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion import path_tracking
+from locomotion import path_table
 from locomotion.gaits import PERSON_RULES
 from locomotion.giving_way import AT_ONCE, HORIZON, SPACING, TURNING_SPEED, Course
-from locomotion.path_tracking import COME_TO_REST, TrackingLimits
+from locomotion.path_table import TrackingLimits
 from locomotion.walk_steps import TURN_RATE
 from locomotion.way import Way
+from locomotion.where_to_run import COME_TO_REST
 
 __all__ = ["TURN_FIRST", "course_on_way", "course_to_rest"]
 
@@ -47,9 +48,9 @@ def course_on_way(
     rows = np.empty((len(along), path.table.shape[1]))
     for k in range(rows.shape[1]):
         rows[:, k] = np.interp(along / step, np.arange(len(path.table)), path.table[:, k])
-    points, speeds = rows[:, :3], np.minimum(rows[:, path_tracking.SPEED], limits.speeds[1])
+    points, speeds = rows[:, :3], np.minimum(rows[:, path_table.SPEED], limits.speeds[1])
     speed, turns = float(np.linalg.norm(velocity[:2])), 0.0
-    ahead = rows[min(round(_WALK_BEGINS / SPACING), len(rows) - 1), path_tracking.HEADING]
+    ahead = rows[min(round(_WALK_BEGINS / SPACING), len(rows) - 1), path_table.HEADING]
     off = abs(math.remainder(ahead - facing, 2.0 * math.pi))
     before = place[None]
     if off > TURN_FIRST:

@@ -163,7 +163,7 @@ def clears(body: Human, looks_on: bool = True, notes: bool = False) -> Trial:
         body.events.clear()
         body.tick()
         yield
-        if body.status not in (*MOVING, "arrived"):
+        if _failed(body) or body.status == "standing":
             return 0.0, []
         if notes and not body.undecided:
             seen.append(body.save_state())
@@ -223,7 +223,7 @@ class ComesToRest:
                 seen.append(body.save_state())
             now = float(along @ (body.com - begun))
             way = max(way, now)
-            if body.status in _FAILED or way >= self.within:
+            if _failed(body) or way >= self.within:
                 return 0.0, []
             if body.on_feet.at_rest(body.control):
                 askew = math.remainder(body.yaw - body.on_feet.walk[WALK_HEADING], 2.0 * math.pi)
@@ -307,6 +307,12 @@ def _headway(left: float, moments: Sequence[_Moment]) -> float:
     return STAYS_UP + (1.0 - STAYS_UP) * (1.0 if made >= meant else made / meant)
 
 
+def _failed(body: Human) -> bool:
+    """Whether it fell, lost its way or got stuck; one that has come past its goal can go back."""
+    came_past = body.status == "lost" and body.way.ended
+    return body.status in _FAILED and not came_past
+
+
 def walks_on(body: Human, notes: bool = False) -> Trial:
     """Whether a body that slows down comes to walk or stand, and stays up: 1 if it does not stagger to one
     side in the end, which would make it fall later. ``notes``: whether what is seen of it is noted; it then
@@ -321,7 +327,7 @@ def walks_on(body: Human, notes: bool = False) -> Trial:
         yield
         if notes and not body.undecided:
             seen.append(body.save_state())
-        if body.status in _FAILED:
+        if _failed(body):
             return 0.0, []
         if walked and body.gait_now == "run":
             return 1.0, seen[:-1]  # that it runs again is to be rehearsed in its turn

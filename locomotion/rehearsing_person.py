@@ -16,7 +16,6 @@ from locomotion.ground import Ground
 from locomotion.human_state import MOVING, HumanState
 from locomotion.moving_person import MovingPerson
 from locomotion.on_feet import OnFeet
-from locomotion.path_tracking import RUN_UP
 from locomotion.rehearsal import (
     BALKINGS,
     BRAKINGS,
@@ -32,6 +31,7 @@ from locomotion.rehearsal import (
     clears,
     walks_on,
 )
+from locomotion.where_to_run import RUN_UP
 
 if TYPE_CHECKING:
     from locomotion.body import Human
@@ -119,12 +119,13 @@ class RehearsingPerson(MovingPerson, ABC):
         self.status = "running"
 
     def _walk_if_due(self) -> None:
-        """Where it is to stand, brake; where the path is not run, slow down; and go over to walking when it
-        can."""
+        """Where it is to stand, or cannot slow down in time, brake; where the path is not run, slow down;
+        and go over to walking when it can."""
         told = self.status == "standing"
+        stops = told or self.way.pace == 0.0 or self.way.brakes
+        if stops and not self.on_feet.brakes and self._brakes_or_will(told):
+            return
         if self.on_feet.slowing == 0.0:
-            if (told or self.way.pace == 0.0) and self._brakes_or_will(told):
-                return
             if self.status not in MOVING or not self.way.runs or self.way.pace == 0.0:
                 self._slow_as_rehearsed(SLOWINGS, RehearsingPerson.slow_down, _WALKS_ON, True)
         if self.on_feet.walk_if_slow(self.index, self._control, self.data) and self.status in MOVING:
@@ -139,15 +140,17 @@ class RehearsingPerson(MovingPerson, ABC):
         self.on_feet.slow_down(harder * self.on_feet.brake_skill.deceleration, brakes=True)
 
     def _brakes_or_will(self, told: bool) -> bool:
-        """Whether it begins to brake, because that goes well, or, if it was ``told`` to stop just now, will
-        try it again in a moment."""
+        """Whether it begins to brake, because that goes well, or, if it was ``told`` to stop just now or has
+        just come to where it is to brake, will try it again in a moment. One that slows down meanwhile tries
+        it again and again."""
         if self.decides is None:
             return False
-        since = self._ticks - self._ended_at if told else 1
-        now = since % _AGAIN == 1 or since >= _TRIES
+        since, runs = self._ticks - self._ended_at, self.on_feet.slowing == 0.0
+        may_wait = runs and (since < _TRIES if told else self.way.begins_to_brake)
+        now = (since if told else self._ticks) % _AGAIN == 1 or (runs and not may_wait)
         if now and self._slow_as_rehearsed(BRAKINGS, RehearsingPerson.brake, ComesToRest(), False):
             return True
-        return told and since < _TRIES
+        return may_wait
 
     # --- trying out
     def _rehearse_take_off(self) -> None:

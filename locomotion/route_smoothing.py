@@ -1,7 +1,8 @@
 """From a route through the graph to what a body follows: one smooth path, and the obstacles on it.
 
 Each walked leg is smoothed inside its corridor; the legs are joined by the straight lines over the obstacles
-between them, which the path meets at right angles.
+between them, which the path meets at right angles, straight from as far as the run-up needs
+(`locomotion.straight_ends`).
 """
 
 from __future__ import annotations
@@ -13,6 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 
 import pathsmooth
 from locomotion.errors import LocomotionError
+from locomotion.straight_ends import set_legs
+from locomotion.where_to_run import LANDED, SET_OFF, braking_length
 from navmesh.draping import drape_curve
 from navmesh.route import Leg, Route
 
@@ -31,15 +34,20 @@ class Smoothing:
             is reached is smoothed without.
         spacing: [m] between waypoints, at most.
         roundness: [m^3] smoothness of the path; corners are rounded over about its cube root.
+        run_up, landing: [m] straight before an obstacle's edge and behind it, where there is room; no more
+            than the link over it leads straight on when 0.
     """
 
     curvatures: tuple[float, ...]
     spacing: float
     roundness: float
+    run_up: float = 0.0
+    landing: float = 0.0
 
 
-RUNNING = Smoothing((0.12, 0.18, 0.3, 0.5, 0.8), 0.25, 2.0)
-"""A running person's: corners are rounded over about 1.3 m."""
+RUNNING = Smoothing((0.12, 0.18, 0.3, 0.5, 0.8), 0.25, 2.0, SET_OFF, LANDED + braking_length(3.5))
+"""A running person's: corners are rounded over about 1.3 m. The run-up is what one that walks needs to get up
+to speed, the landing what is run at 3.5 m/s before it stands."""
 
 
 @dataclass(frozen=True)
@@ -85,19 +93,17 @@ def smooth_route(
     start_direction: (2,) or (3,) direction in which the body is moving, or None.
     Raises `LocomotionError` for a route without waypoints.
     """
-    legs = route.legs()
-    if not legs or len(route.waypoints) < 2:
+    if len(route.waypoints) < 2:
         raise LocomotionError(f"a route of status {route.status!r} has no path to smooth")
+    heading = None if start_direction is None else np.asarray(start_direction, dtype=np.float64)
+    legs = set_legs(route, smoothing.run_up, smoothing.landing, smoothing.spacing, heading)
     pieces: list[NDArray[np.float64]] = []
     crossings: list[tuple[int, NDArray[np.float64]]] = []
     bounded = True
     for i, leg in enumerate(legs):
-        before = _link_direction(route, i - 1) if i > 0 else start_direction
-        after = _link_direction(route, i) if i < len(legs) - 1 else None
-        points, held = _smooth_leg(leg, smoothing, before, after)
-        points = drape_curve(route.graph, points)
+        points, held = _smooth_leg(leg.leg, smoothing, leg.before, leg.after)
         bounded = bounded and held
-        pieces.append(points)
+        pieces += [leg.behind, drape_curve(route.graph, points), leg.ahead]
         if i < len(legs) - 1:
             edge = _edge_point(route, i)
             crossings.append((route.links[i].obstacle, edge))
@@ -129,11 +135,6 @@ def _smooth_leg(
         if best is not None:
             return best.points, held
     return leg.waypoints, False
-
-
-def _link_direction(route: Route, index: int) -> NDArray[np.float64]:
-    use = route.links[index]
-    return (route.waypoints[use.last] - route.waypoints[use.first])[:2]
 
 
 def _edge_point(route: Route, index: int) -> NDArray[np.float64]:

@@ -6,8 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from locomotion import path_tracking
-from locomotion.path_tracking import PathTable, TrackingLimits, back_along, new_track, shifted, track
+from locomotion.path_table import PathTable, TrackingLimits
+from locomotion.path_tracking import back_along, new_track, shifted, track
 from locomotion.person import CONTROL_DT
+from locomotion.where_to_run import BRAKES_WITHIN
 
 __all__ = ["Way"]
 
@@ -55,6 +57,11 @@ class Way:
         return float(self.memory[path_tracking.REMAINING])
 
     @property
+    def ended(self) -> bool:
+        """Whether it is at the end, or past it."""
+        return self.remaining <= 1e-9
+
+    @property
     def lateral(self) -> float:
         """[m] of the centre of mass to the left of the path."""
         return float(self.memory[path_tracking.LATERAL])
@@ -78,6 +85,16 @@ class Way:
     def runs(self) -> bool:
         """Whether it is to run here."""
         return self.path is not None and self.path.runs(self.arc)
+
+    @property
+    def brakes(self) -> bool:
+        """Whether it is to come to a stand here if it runs."""
+        return self.path is not None and self.path.brakes(self.arc)
+
+    @property
+    def begins_to_brake(self) -> bool:
+        """Whether it is where it may as well brake in a moment."""
+        return self.path is not None and self.path.begins_to_brake(self.arc, BRAKES_WITHIN)
 
     @property
     def walks_fast(self) -> bool:

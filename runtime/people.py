@@ -3,6 +3,7 @@
 from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ import numpy as np
 from locomotion import MOVING, PERSON_RULES, Human, HumanState, load_run_skill
 from locomotion.clearing import skill_ranges
 from locomotion.giving_way import SPACING, Course
+from locomotion.leads import can_begin, leads
 from locomotion.library import learned_skills
 from locomotion.rehearsal import REHEARSALS
 from runtime.drivers import PLANS_KEPT, Driver, Follower, radius_of, recall
@@ -134,8 +136,38 @@ class HumanDriver:
     def _plan(self, goals: np.ndarray, skills: Mapping[str, tuple[float, float]]) -> Plan:
         velocity = self.human.velocity[:2]
         moving = velocity if np.linalg.norm(velocity) > 0.5 else None
-        radius = PERSON_RULES["radius"]
-        return make_plan(self._level.graph, self.position, list(goals), radius, skills, moving)
+        plan_from = partial(self._plan_from, list(goals), skills)
+        if moving is None or self.human.on_feet.walks:
+            return plan_from(self.position, moving)
+        try:
+            plan: Plan | NoWay = plan_from(self.position, moving)
+        except NoWay as error:  # it may fit where it comes to, or have to come back
+            plan = error
+        limits = self.human.on_feet.limits
+        if isinstance(plan, Plan) and can_begin(plan.points, velocity, limits):
+            return plan
+        target = plan.pulled[1] if isinstance(plan, Plan) else goals[0]
+        for lead, runs_on in leads(self._level.graph, self.position, velocity, target, limits, self.radius):
+            try:
+                led = plan_from(lead[-1], lead[-1, :2] - lead[-2, :2] if runs_on else None, lead)
+            except NoWay:
+                continue
+            if not runs_on or can_begin(led.points, velocity, limits):
+                return led
+        if isinstance(plan, NoWay):
+            raise plan
+        return plan
+
+    def _plan_from(
+        self,
+        goals: Sequence[np.ndarray],
+        skills: Mapping[str, tuple[float, float]],
+        start: np.ndarray,
+        direction: np.ndarray | None,
+        lead: np.ndarray | None = None,
+    ) -> Plan:
+        graph, radius = self._level.graph, PERSON_RULES["radius"]
+        return make_plan(graph, start, goals, radius, skills, direction, lead=lead)
 
     def go_to(self, goals: np.ndarray, speed: float, facing: float | None) -> Plan:
         if facing is not None:

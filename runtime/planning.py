@@ -60,14 +60,18 @@ def make_plan(
     skills: Mapping[str, tuple[float, float]],
     direction: np.ndarray | None = None,
     smoothing: Smoothing = RUNNING,
+    lead: np.ndarray | None = None,
 ) -> Plan:
     """Plan from ``start`` (3,) through ``goals``, each (3,), for a body of ``radius`` [m] with ``skills``.
 
     ``direction`` (2,) is where the body is moving, None when it stands; ``smoothing`` is what it wants of its
-    path. Raises `NoWay`.
+    path. ``lead`` (n, 3) [m] is how the path begins in any case, from ``start``. Raises `NoWay`.
     """
     raw, pulled, points, obstacles, ends = [], [], [], [], []
     begun = 0.0
+    if lead is not None:
+        points.append(lead)
+        begun, start = _length(lead), lead[-1]
     for index, goal in enumerate(goals):
         route = graph.find_path(start, goal, radius=radius, skills=skills)
         if route.status != "complete":
@@ -89,6 +93,7 @@ def make_plan(
         direction = _heading(smooth.points)
     if not points:
         raise NoWay(len(goals) - 1, "it is where the body already is")
+    raw, pulled = raw or [points[0]], pulled or [points[0]]
     return Plan(
         np.concatenate(raw), np.concatenate(pulled), np.concatenate(points), tuple(obstacles), tuple(ends)
     )

@@ -14,11 +14,11 @@ from locomotion.clip import Clip
 from locomotion.jump import jump_tick, start_jump
 from locomotion.jump_skill import jump_clip
 from locomotion.learned_skill import LawTables
-from locomotion.path_tracking import RUN_UP
 from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill, reset_running
 from locomotion.training.trial_scene import BOX_LENGTH, BOX_TOP, trial_scene
+from locomotion.where_to_run import RUN_UP
 
 __all__ = ["JumpOutcome", "JumpSimulator", "LedgeSimulator", "StartState"]
 

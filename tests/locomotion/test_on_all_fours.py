@@ -9,7 +9,8 @@ from locomotion import MOVING, Ground, Human
 from locomotion.arm_reach import HAND_RADIUS
 from locomotion.body import STRAYED
 from locomotion.events import Arrived, Event, Fell, GotUp
-from locomotion.path_tracking import TrackingLimits, make_path
+from locomotion.path_table import TrackingLimits
+from locomotion.path_tracking import make_path
 from locomotion.way import Way
 
 WAY = np.array([[x, 0.0, 0.0] for x in np.arange(0.0, 30.0)])

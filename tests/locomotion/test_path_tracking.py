@@ -8,6 +8,8 @@ import pytest
 from locomotion import path_tracking as pt
 from locomotion.errors import LocomotionError
 from locomotion.on_feet import RUN_GAINS
+from locomotion.path_table import BRAKE, CURVATURE, GAIT
+from locomotion.where_to_run import BRAKES_WITHIN, braking_length
 
 LIMITS = pt.TrackingLimits(speeds=(2.0, 4.0), sideways=2.0)
 
@@ -158,13 +160,47 @@ def test_a_stretch_too_short_is_walked_unless_the_body_runs_already():
     assert stretches(path) == [(0.0, pytest.approx(8.0 - SLOWING, abs=0.1))]
 
 
-def test_obstacles_are_run_up_to_whatever_the_way_and_one_after_another_without_a_walk_between():
-    way = [[0, 0, 0], [8, 0, 0], [8, 10, 0], [8, 18, 0]]
+def test_obstacles_are_run_up_to_from_behind_the_last_bend_and_one_after_another_without_a_walk_between():
+    way = [[0, 0, 0], [8, 0, 0], [8, 10, 0], [8, 40, 0]]
     path = pt.make_path(way, 3.0, GENTLE, 0.0, edges=[18.0], walk=WALK)
-    assert stretches(path) == [(pytest.approx(3.0, abs=0.1), pytest.approx(23.0, abs=0.1))]
+    assert stretches(path)[0][0] == pytest.approx(8.3, abs=0.1)
+    near = pt.make_path([[0, 0, 0], [8, 0, 0], [8, 40, 0]], 3.0, GENTLE, 0.0, edges=[12.0], walk=WALK)
+    assert stretches(near)[0][0] == 0.0  # round the corner, if the rest is too short
     straight = [[0, 0, 0], [80, 0, 0]]
     path = pt.make_path(straight, 1.5, GENTLE, 0.0, edges=[18.0, 40.0], walk=WALK)
     assert stretches(path) == [(pytest.approx(3.0, abs=0.1), pytest.approx(45.0, abs=0.1))]
+
+
+def where(path, gait):
+    at = np.linspace(0.0, path.length, len(path.table))[path.table[:, GAIT] == gait]
+    return (float(at[0]), float(at[-1])) if len(at) else None
+
+
+def test_one_that_runs_brakes_where_it_cannot_slow_down_in_time():
+    braking = braking_length(3.0) + BRAKES_WITHIN
+    corner = [[0, 0, 0], [4, 0, 0], [4, 40, 0]]
+    path = pt.make_path(corner, 3.0, GENTLE, 3.0, walk=WALK, running=True)
+    bend = float(np.flatnonzero(np.abs(path.table[:, CURVATURE]) > GENTLE.sharpest)[0]) * 0.1
+    assert bend == pytest.approx(3.8, abs=0.11)
+    assert stretches(path)[0] == (0.0, pytest.approx(bend - braking, abs=0.15))
+    assert where(path, BRAKE) == (pytest.approx(bend - braking, abs=0.15), pytest.approx(bend, abs=0.11))
+    assert path.begins_to_brake(bend - braking + 0.2, 1.0) and not path.begins_to_brake(bend, 1.0)
+    far = [[0, 0, 0], [30, 0, 0], [30, 40, 0]]
+    assert where(pt.make_path(far, 3.0, GENTLE, 3.0, walk=WALK, running=True), BRAKE) is None
+    assert where(pt.make_path(corner, 3.0, GENTLE, 1.2, walk=WALK), BRAKE) is None  # it walks
+
+
+def test_one_that_runs_to_a_goal_near_before_it_brakes():
+    path = pt.make_path([[0, 0, 0], [4, 0, 0]], 3.0, GENTLE, 3.0, walk=WALK, running=True)
+    assert where(path, BRAKE) == (pytest.approx(4.0 - 2.8, abs=0.15), 4.0)
+    assert stretches(path) == [(0.0, pytest.approx(4.0 - 2.8, abs=0.15))]
+
+
+def test_behind_an_obstacle_it_brakes_before_a_bend_but_lands_first():
+    for depth, begin in ((7.0, 7.0 - 2.8), (3.0, 2.0)):
+        way = [[0, 0, 0], [20 + depth, 0, 0], [20 + depth, 40, 0]]
+        path = pt.make_path(way, 3.0, GENTLE, 0.0, edges=[20.0], walk=WALK)
+        assert where(path, BRAKE)[0] == pytest.approx(20.0 + begin, abs=0.35)
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,105 @@
+"""The table of a path that a body follows: where it leads, and how fast and in which gait it is gone."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = [
+    "BRAKE",
+    "CURVATURE",
+    "FAST_WALK",
+    "GAIT",
+    "HEADING",
+    "RUN",
+    "SLOPE",
+    "SPACING",
+    "SPEED",
+    "WALK",
+    "PathTable",
+    "TrackingLimits",
+    "X",
+    "Y",
+    "Z",
+]  # fmt: skip
+
+SPACING = 0.1
+"""Spacing of a path's table [m]."""
+X, Y, Z, HEADING, CURVATURE, SLOPE, SPEED, GAIT = range(8)
+"""Columns of a path's table; `GAIT` is one of the following."""
+BRAKE, FAST_WALK, WALK, RUN = -2.0, -1.0, 0.0, 1.0
+"""Who runs comes to a stand, whoever walks goes on; the body walks as fast as the path says; walks at its
+usual speed at most, or slows down to that; runs."""
+
+
+@dataclass(frozen=True)
+class TrackingLimits:
+    """What a running body can follow.
+
+    Attributes:
+        speeds: lowest and highest speed [m/s].
+        sideways: [m/s^2] highest sideways acceleration in a bend.
+        acceleration, deceleration: [m/s^2] of the planned speed along the path.
+        uphill, downhill: [m/s per unit of slope] taken off the wished speed on a slope.
+        sharpest: curvature [1/m] and steepest: slope [rise over run] above which it does not go this way.
+        slowing: [m/s^2] at which it slows down from a run to a walk.
+        foresight: [m] before a slope at which it already goes as fast as on it.
+        usual: [m/s] of a walk at most, but where a faster walk is asked for, straight on, on level ground,
+            away from runs.
+    """
+
+    speeds: tuple[float, float]
+    sideways: float = 2.5
+    acceleration: float = 1.5
+    deceleration: float = 0.8
+    uphill: float = 2.0
+    downhill: float = 4.0
+    sharpest: float = math.inf
+    steepest: float = math.inf
+    slowing: float = 0.6
+    foresight: float = 0.0
+    usual: float = math.inf
+
+    @property
+    def calm(self) -> float:
+        """[m/s] of a walk at most, where no faster one is asked for."""
+        return min(self.usual, self.speeds[1])
+
+
+@dataclass(frozen=True)
+class PathTable:
+    """A path resampled every 0.1 m of horizontal length.
+
+    Attributes:
+        table: (n, 8) float64: x, y, z [m], heading [rad, unwrapped], curvature [1/m, left positive], slope
+            (rise per length), planned speed [m/s], gait.
+        length: horizontal length [m].
+        goal: (3,) float64, its last point.
+    """
+
+    table: NDArray[np.float64]
+    length: float
+    goal: NDArray[np.float64]
+
+    def runs(self, arc: float) -> bool:
+        """Whether the body is to run at this arc length [m]."""
+        return bool(self._gait(arc) == RUN)
+
+    def brakes(self, arc: float) -> bool:
+        """Whether one that runs is to come to a stand there."""
+        return bool(self._gait(arc) == BRAKE)
+
+    def begins_to_brake(self, arc: float, within: float) -> bool:
+        """Whether the place where it is to brake begins less than ``within`` [m] behind it."""
+        return self.brakes(arc) and (arc < within or not self.brakes(arc - within))
+
+    def walks_fast(self, arc: float) -> bool:
+        """Whether it may walk faster than usual there."""
+        return bool(self._gait(arc) == FAST_WALK)
+
+    def _gait(self, arc: float) -> float:
+        last = len(self.table) - 1
+        return self.table[min(max(round(arc / self.length * last), 0), last), GAIT]

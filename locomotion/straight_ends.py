@@ -1,0 +1,150 @@
+"""Straight ways up to obstacles and on behind them, longer than those of the graph's links.
+
+A link leads straight over its obstacle, from 3 m before the edge to 1.5 m behind it at most: so much any body
+needs. Who runs at it needs more, and finds no stand behind it as soon; where there is room, the walked legs
+before and behind the link end on its line farther away.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from navmesh.corridor import corridor_of
+from navmesh.draping import drape
+from navmesh.graph import NodeGraph
+from navmesh.queries import cast_ray
+from navmesh.route import Leg, Route
+
+__all__ = ["SetLeg", "set_legs", "straight_on"]
+
+_LEAST = 0.25  # [m] by which a straight end is worth being lengthened
+_ENOUGH = 5.0  # [m] of run-up with which one that stands before an obstacle need not go back first
+_ALIKE = 0.7  # cosine between two directions up to which one leads on from the other without turning round
+_LEADS_ON = 0.5  # cosine of the greatest turn behind a straight end that is made in a bend
+_ABREAST = 0.5  # [m] beside a line at which what lies ahead is reached along it
+_OFF_WALL = 0.02  # [m] kept from what ends a straight way
+_SAME = 1e-3  # [m] by which the ends of a way may differ from where it was asked for
+_DETOUR = 3.0  # [m] that the way between two straight ends may be longer than the one that they replace
+
+
+@dataclass(frozen=True, eq=False)
+class SetLeg:
+    """A walked leg between its straight ends. ``behind``: (a, 3) [m] on the surface, straight on from the
+    obstacle behind; ``ahead``: (b, 3) straight up to the next one; both empty where the leg itself begins or
+    ends there. ``before``, ``after``: (2,) its directions at its ends, None: any."""
+
+    leg: Leg
+    behind: NDArray[np.float64]
+    ahead: NDArray[np.float64]
+    before: NDArray[np.float64] | None
+    after: NDArray[np.float64] | None
+
+
+def set_legs(
+    route: Route, run_up: float, landing: float, spacing: float, start_direction: NDArray[np.float64] | None
+) -> list[SetLeg]:
+    """The legs of ``route``, with straight ends of ``run_up`` and ``landing`` [m] from the edges where there
+    is room; points of these at most ``spacing`` [m] apart. ``start_direction``: (2,) in which the body moves,
+    or None."""
+    legs = route.legs()
+    over = [_unit(route.waypoints[use.last] - route.waypoints[use.first]) for use in route.links]
+    before = [None if start_direction is None else _unit(start_direction), *over]
+    set_ones = []
+    for i, (leg, after) in enumerate(zip(legs, [*over, None], strict=True)):
+        first, last = _ends(route, leg, i, before[i], after, run_up, landing)
+        set_ones.append(_between(route, leg, first, last, spacing, before[i], after))
+    return set_ones
+
+
+def _ends(
+    route: Route,
+    leg: Leg,
+    index: int,
+    before: NDArray[np.float64] | None,
+    after: NDArray[np.float64] | None,
+    run_up: float,
+    landing: float,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(3,) each: where a leg may bend first and last."""
+    first, last = leg.waypoints[0], leg.waypoints[-1]
+    way = (last - first)[:2]
+    follows = before is not None and after is not None and float(before @ after) > _ALIKE
+    begin, end = first, last
+    if index > 0 and before is not None:
+        onward, forward = landing - _behind_edge(route, index - 1), float(before @ way)
+        if follows:
+            onward = min(onward, 0.25 * forward)
+        elif forward > 0.0 and abs(before[0] * way[1] - before[1] * way[0]) < _ABREAST:
+            onward = min(onward, forward)
+        begin = straight_on(route.graph, first, before, onward, route.radius)
+    if after is not None:
+        lead, forward = float(route.graph.links.run_up[route.links[index].link]), float(after @ way)
+        back = run_up - lead
+        if follows or (before is None and forward + lead >= _ENOUGH):
+            back = min(back, forward if index == 0 else 0.5 * forward)
+        end = straight_on(route.graph, last, -after, back, route.radius)
+    return begin, end
+
+
+def _between(
+    route: Route,
+    leg: Leg,
+    first: NDArray[np.float64],
+    last: NDArray[np.float64],
+    spacing: float,
+    before: NDArray[np.float64] | None,
+    after: NDArray[np.float64] | None,
+) -> SetLeg:
+    """The leg that may bend between ``first`` and ``last`` (3,) only; as it is where no way leads there."""
+    none, begin, end = np.empty((0, 3)), leg.waypoints[0], leg.waypoints[-1]
+    as_it_is = SetLeg(leg, none, none, before, after)
+    longer = float(np.linalg.norm(first - begin) + np.linalg.norm(end - last))
+    if longer == 0.0:
+        return as_it_is
+    way = route.graph.find_path(first, last, radius=route.radius)
+    gone = float(np.linalg.norm(np.diff(leg.waypoints, axis=0), axis=1).sum())
+    if way.status != "complete" or len(way.waypoints) < 2 or way.length > gone + longer + _DETOUR:
+        return as_it_is
+    if np.abs(way.waypoints[[0, -1]] - np.stack([first, last])).max() > _SAME:
+        return as_it_is
+    corridor = corridor_of(route.graph, way.waypoints, route.radius)
+    onward = (way.waypoints[1] - way.waypoints[0])[:2]
+    turns = before is not None and float(before @ onward) < _LEADS_ON * np.linalg.norm(onward)
+    if first is not begin and turns:
+        before = None  # it stands there and turns: a bend would lead farther on
+    behind = drape(route.graph, np.stack([begin, first]), spacing)[:-1] if first is not begin else none
+    ahead = drape(route.graph, np.stack([last, end]), spacing)[1:] if last is not end else none
+    return SetLeg(Leg(way.waypoints, corridor.centers, corridor.radii), behind, ahead, before, after)
+
+
+def straight_on(
+    graph: NodeGraph,
+    start: NDArray[np.float64],
+    direction: NDArray[np.float64],
+    length: float,
+    radius: float,
+) -> NDArray[np.float64]:
+    """The farthest place (3,), up to ``length`` [m] straight on from ``start``, to which a body of ``radius``
+    [m] can walk; ``start`` itself where that is hardly away."""
+    if length < _LEAST:
+        return start
+    ray = cast_ray(graph, start[None], start[None] + np.array([*(length * direction), 0.0]), radius)
+    free = length if ray.clear[0] else float(ray.share[0]) * length - _OFF_WALL
+    if free < _LEAST:
+        return start
+    return drape(graph, np.stack([start, start + np.array([*(free * direction), 0.0])]), free)[-1]
+
+
+def _unit(direction: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(2,) of length 1."""
+    return direction[:2] / np.linalg.norm(direction[:2])
+
+
+def _behind_edge(route: Route, index: int) -> float:
+    """[m] that a link leads straight behind its obstacle."""
+    use, links = route.links[index], route.graph.links
+    length = float(np.linalg.norm((links.end[use.link] - links.edge[use.link])[:2]))
+    return length - float(route.graph.obstacles.depth[use.obstacle])

@@ -1,0 +1,95 @@
+"""A running person that is told to go elsewhere stays up, and takes off where it should."""
+
+import math
+
+import numpy as np
+import pytest
+import trimesh
+
+import navmesh
+from runtime import World
+from runtime.events import Arrived, Fell, Lost, SkillStarted
+from runtime.rules import person_walk_rules
+
+
+def graph_of(*boxes):
+    mesh = trimesh.util.concatenate([trimesh.creation.box(bounds=each) for each in boxes])
+    return navmesh.NodeGraph.build(
+        navmesh.Terrain.from_arrays(mesh.vertices, mesh.faces), person_walk_rules()
+    )
+
+
+@pytest.fixture(scope="module")
+def field():
+    return graph_of(((-40, -40, -1), (60, 40, 0)))
+
+
+@pytest.fixture(scope="module")
+def terrace():
+    """A floor, and along it, from y = 4 on, a platform of 0.4 m."""
+    return graph_of(((0, -20, -1), (80, 4, 0)), ((0, 4, -1), (80, 14, 0.4)))
+
+
+def running(graph, start, towards, until, speed=3.5):
+    """A world with one that runs along x and has come to x = ``until``."""
+    world = World(graph)
+    agent = world.spawn("human", start)
+    agent.go_to(towards, speed=speed)
+    while agent.position[0] < until:
+        world.step(0.01)
+    assert agent.status == "running" and not [e for e in world.events if isinstance(e, Fell)]
+    return world, agent
+
+
+def happens(world, agent, seconds):
+    """Its events until it does not move any more."""
+    events, end = [], world.time + seconds
+    while world.time < end and (agent.moving or agent.status == "getting up"):
+        world.step(0.02)
+        events += world.events
+    return events
+
+
+@pytest.mark.parametrize("angle", [20, 45, 90, 135, 180])
+@pytest.mark.parametrize(("speed", "until"), [(2.5, -9.0), (3.5, -8.6), (4.5, -8.1)])
+def test_it_turns_or_stops_first_and_arrives(field, angle, speed, until):
+    world, agent = running(field, (-35, 0, 0), (55, 0, 0), until, speed)
+    way = np.array([math.cos(math.radians(angle)), math.sin(math.radians(angle)), 0.0])
+    goal = agent.position + 10.0 * way
+    agent.go_to(goal, speed=speed)
+    events = happens(world, agent, 60.0)
+    assert not [e for e in events if isinstance(e, Fell | Lost)]
+    assert [e.agent for e in events if isinstance(e, Arrived)] == [agent.name]
+    for _ in range(200):
+        world.step(0.01)
+    assert np.linalg.norm((agent.position - goal)[:2]) < 0.7
+
+
+def test_told_to_stay_where_it_is_it_comes_back(field):
+    world, agent = running(field, (-35, 0, 0), (55, 0, 0), -8.7)
+    goal = agent.position
+    agent.go_to(goal)
+    events = happens(world, agent, 30.0)
+    assert isinstance(events[-1], Arrived) and np.linalg.norm((agent.position - goal)[:2]) < 0.5
+
+
+@pytest.mark.parametrize(("beside", "until"), [(3.2, 20.1), (2.0, 20.7), (0.0, 21.2), (-4.0, 20.4)])
+def test_one_that_runs_along_a_platform_takes_off_in_front_of_it(terrace, beside, until):
+    world, agent = running(terrace, (2, beside, 0), (78, beside, 0), until)
+    agent.go_to((45, 9, 0.4))
+    events = happens(world, agent, 60.0)
+    assert not [e for e in events if isinstance(e, Fell | Lost)]
+    (took_off,) = [e for e in events if isinstance(e, SkillStarted)]
+    assert 1.0 < 4.0 - took_off.position[1] < 3.0
+    assert isinstance(events[-1], Arrived)
+
+
+@pytest.mark.parametrize("start", [(40, 0, 0), (20, 2, 0), (40, -12, 0)])
+def test_a_platform_is_gone_up_from_the_side_without_trying_again(terrace, start):
+    world = World(terrace)
+    agent = world.spawn("human", start)
+    agent.go_to((55, 10, 0.4))
+    events = happens(world, agent, 80.0)
+    names = [type(e).__name__ for e in events]
+    assert names == ["Departed", "SkillStarted", "SkillFinished", "Arrived"]
+    assert world.time < 45.0

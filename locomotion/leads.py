@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from locomotion.path_table import TrackingLimits
 from locomotion.straight_ends import straight_on
-from locomotion.where_to_run import BRAKES_WITHIN, braking_length
+from locomotion.where_to_run import SLOWS_WITHIN, braking_length
 from navmesh.draping import drape_curve
 from navmesh.graph import NodeGraph
 from navmesh.holding import line_holds
@@ -35,7 +35,7 @@ def can_begin(points: NDArray[np.float64], velocity: NDArray[np.float64], limits
     if len(steps) < 2:
         return False
     at = np.cumsum(lengths)
-    room = braking_length(speed) + BRAKES_WITHIN
+    room = braking_length(speed) + SLOWS_WITHIN
     headings = np.unwrap(np.arctan2(steps[:, 1], steps[:, 0]))
     off = headings[0] - math.atan2(velocity[1], velocity[0])
     if at[-1] < room or abs(math.remainder(off, 2.0 * math.pi)) > _ASIDE:
@@ -64,7 +64,7 @@ def leads(
         draped = drape_curve(graph, bend)
         if line_holds(graph, draped, radius):
             yield draped, True
-    end = straight_on(graph, place, forward, braking_length(speed) + BRAKES_WITHIN + _RESERVE, radius)
+    end = straight_on(graph, place, forward, braking_length(speed) + SLOWS_WITHIN + _RESERVE, radius)
     if end is not place:
         count = max(math.ceil(float(np.linalg.norm((end - place)[:2])) / _SPACING), 1) + 1
         yield drape_curve(graph, np.linspace(place, end, count)), False

@@ -92,9 +92,9 @@ class PathTable:
         """Whether one that runs is to come to a stand there."""
         return bool(self._gait(arc) == BRAKE)
 
-    def begins_to_brake(self, arc: float, within: float) -> bool:
-        """Whether the place where it is to brake begins less than ``within`` [m] behind it."""
-        return self.brakes(arc) and (arc < within or not self.brakes(arc - within))
+    def changed(self, arc: float, within: float) -> bool:
+        """Whether it has come into another gait less than ``within`` [m] before this arc length [m]."""
+        return arc < within or self._gait(arc) != self._gait(arc - within)
 
     def walks_fast(self, arc: float) -> bool:
         """Whether it may walk faster than usual there."""

@@ -127,7 +127,7 @@ class RehearsingPerson(MovingPerson, ABC):
             return
         if self.on_feet.slowing == 0.0:
             if self.status not in MOVING or not self.way.runs or self.way.pace == 0.0:
-                self._slow_as_rehearsed(SLOWINGS, RehearsingPerson.slow_down, _WALKS_ON, True)
+                self._slow_down_or_will(stops)
         if self.on_feet.walk_if_slow(self.index, self._control, self.data) and self.status in MOVING:
             self.status = "walking"
 
@@ -146,11 +146,28 @@ class RehearsingPerson(MovingPerson, ABC):
         if self.decides is None:
             return False
         since, runs = self._ticks - self._ended_at, self.on_feet.slowing == 0.0
-        may_wait = runs and (since < _TRIES if told else self.way.begins_to_brake)
+        may_wait = runs and (since < _TRIES if told else self.way.begins_to_slow)
         now = (since if told else self._ticks) % _AGAIN == 1 or (runs and not may_wait)
-        if now and self._slow_as_rehearsed(BRAKINGS, RehearsingPerson.brake, ComesToRest(), False):
-            return True
-        return may_wait
+        return (now and self._brakes_well()) or may_wait
+
+    def _slow_down_or_will(self, must: bool) -> None:
+        """Slow down to a walk; where that does not go well, brake, or run on for a moment if it need not."""
+        way = self.way
+        may_wait = not must and self.decides is not None and way.begins_to_slow
+        if may_wait and way.tried_to_slow and self._ticks - way.tried_to_slow < _AGAIN:
+            return
+        if self._slow_as_rehearsed(SLOWINGS, RehearsingPerson.slow_down, _WALKS_ON):
+            return
+        if not must and self._brakes_well():
+            return
+        if may_wait:
+            way.tried_to_slow = self._ticks
+        else:
+            self.slow_down(SLOWINGS[0])
+
+    def _brakes_well(self) -> bool:
+        """Whether it begins to brake, because that goes well."""
+        return self._slow_as_rehearsed(BRAKINGS, RehearsingPerson.brake, ComesToRest())
 
     # --- trying out
     def _rehearse_take_off(self) -> None:
@@ -167,7 +184,7 @@ class RehearsingPerson(MovingPerson, ABC):
         if went >= HOLDS:
             self.foreseen.expect(self, seen)
         else:
-            self._slow_as_rehearsed(BALKINGS, RehearsingPerson.balk, _WALKS_ON, False)
+            self._slow_as_rehearsed(BALKINGS, RehearsingPerson.balk, _WALKS_ON)
 
     def _rehearse_step(self) -> None:
         """Just after a foot was put down on uneven ground: choose how long the next step takes."""
@@ -185,14 +202,11 @@ class RehearsingPerson(MovingPerson, ABC):
         decelerations: Sequence[float],
         slow: Callable[[RehearsingPerson, float], None],
         goes_well: Callable[[Human], Trial],
-        must: bool,
     ) -> bool:
-        """Slow down in the way that goes well; where none does, only if it ``must``. Gives whether there is
-        such a way."""
+        """Slow down in the way that goes well, if there is one; gives whether there is."""
         deceleration, went, seen = self._rehearse(decelerations, slow, goes_well)
-        if went > 0.0 or must:
-            slow(self, deceleration)
         if went > 0.0:
+            slow(self, deceleration)
             self.foreseen.expect(self, seen)
         return went > 0.0
 

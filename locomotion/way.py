@@ -9,7 +9,7 @@ from locomotion import path_tracking
 from locomotion.path_table import PathTable, TrackingLimits
 from locomotion.path_tracking import back_along, new_track, shifted, track
 from locomotion.person import CONTROL_DT
-from locomotion.where_to_run import BRAKES_WITHIN
+from locomotion.where_to_run import SLOWS_WITHIN
 
 __all__ = ["Way"]
 
@@ -92,9 +92,18 @@ class Way:
         return self.path is not None and self.path.brakes(self.arc)
 
     @property
-    def begins_to_brake(self) -> bool:
-        """Whether it is where it may as well brake in a moment."""
-        return self.path is not None and self.path.begins_to_brake(self.arc, BRAKES_WITHIN)
+    def begins_to_slow(self) -> bool:
+        """Whether it is where it may as well slow down or brake in a moment."""
+        return self.path is not None and self.path.changed(self.arc, SLOWS_WITHIN)
+
+    @property
+    def tried_to_slow(self) -> int:
+        """Tick at which it found no way to slow down to a walk; 0: it has not tried."""
+        return int(self.memory[path_tracking.TRIED])
+
+    @tried_to_slow.setter
+    def tried_to_slow(self, tick: int) -> None:
+        self.memory[path_tracking.TRIED] = tick
 
     @property
     def walks_fast(self) -> bool:

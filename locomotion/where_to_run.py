@@ -23,11 +23,11 @@ from locomotion.path_table import (
 )
 
 __all__ = [
-    "BRAKES_WITHIN",
     "COME_TO_REST",
     "LANDED",
     "RUN_UP",
     "SET_OFF",
+    "SLOWS_WITHIN",
     "braking_length",
     "hard_again",
     "plan_gaits",
@@ -41,8 +41,8 @@ LANDED = 5.0
 """[m] behind an obstacle's edge that are run, unless it has to come to a stand sooner."""
 COME_TO_REST = 2.0
 """[m] that are walked before the end."""
-BRAKES_WITHIN = 1.0
-"""[m] that it may run on where it is to brake, until it finds how."""
+SLOWS_WITHIN = 1.0
+"""[m] that it may run on where it is to slow down or to brake, until it finds how."""
 _OFF_EDGE = 2.0  # [m] behind an obstacle's edge that are run in any case
 _WORTH_IT = 4.0  # [m] that are run at least, before it slows down
 _BEFORE = 1.0  # [m] that are walked before what cannot be run
@@ -153,7 +153,7 @@ def _where_to_brake(
         stop = float(ahead[0]) if len(ahead) else float(at[-1])
         if stop - left >= (speed**2 - calm**2) / (2.0 * _SURELY):
             continue
-        first = max(stop - braking_length(speed) - BRAKES_WITHIN, earliest)
+        first = max(stop - braking_length(speed) - SLOWS_WITHIN, earliest)
         runs[(at >= at[begin]) & (at < first)] = True
         stands = (at >= first) & (at <= max(stop, first + _BEFORE))
         runs[stands] = False

@@ -17,7 +17,6 @@ THERE = 0.25
 """[m] An agent this near to a place is there and need not go."""
 _LOOK = 0.5  # [s] between looks at the agent that is followed
 _STIRRED = 0.5  # [m] that it has to move before the follower takes another way
-_STOPPING = 1.5  # [m] ahead on its path, where an agent that is told to wait comes to a stand
 
 Progress = Literal["going", "done", "failed"]
 """How an action goes: "going", "done" or "failed"."""
@@ -79,7 +78,7 @@ class Wait:
 
     def begin(self, agent: Agent, now: float) -> Progress:
         self._begun = now
-        _halt(agent)
+        agent.stop()
         return "going"
 
     def go_on(self, agent: Agent, now: float, events: Sequence[Event]) -> Progress:
@@ -105,7 +104,7 @@ class Patrol:
     def go_on(self, agent: Agent, now: float, events: Sequence[Event]) -> Progress:
         progress = self._round.go_on(agent, now, events)
         if now >= self._ends - 1e-9:
-            _halt(agent)
+            agent.stop()
             return "done"
         if progress == "done":
             self._made += 1
@@ -137,7 +136,7 @@ class Follow:
         if agent.status == "fallen":
             return "failed"
         if now >= self._ends - 1e-9:
-            _halt(agent)
+            agent.stop()
             return "done"
         if self._ends < math.inf:
             self.share = 1.0 - (self._ends - now) / self._seconds
@@ -157,7 +156,7 @@ class Follow:
         except NoWay:
             return
         if plan.length < self._distance + THERE:
-            _halt(agent)
+            agent.stop()
         else:
             goal = _along(plan.points, plan.length - self._distance)
             if _send(agent, goal[None], self._speed) == "going":
@@ -170,16 +169,6 @@ def _send(agent: Agent, points: np.ndarray, speed: float) -> Progress:
         return "failed" if agent.go_to(points, speed) == "blocked" else "going"
     except RuntimeInputError:  # it has fallen
         return "failed"
-
-
-def _halt(agent: Agent) -> None:
-    """Let an agent that is on its way come to a stand a little further on its path."""
-    if not agent.moving or not agent.plans:
-        return
-    path = agent.plans[-1]
-    stand = agent.progress * path.length + _STOPPING
-    if stand < path.length:
-        _send(agent, _along(path.points, stand)[None], 1.0)
 
 
 def first_far(position: np.ndarray, points: Sequence[np.ndarray] | np.ndarray) -> int:

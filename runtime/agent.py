@@ -184,6 +184,13 @@ class Agent:
         self._depart(plan, former)
         return self.status
 
+    def stop(self) -> None:
+        """Give up its way and come to a stand, as soon as it can without falling; an obstacle that it is
+        clearing is cleared first. One that is not on its way stays as it is."""
+        self._errand, self._blocked = Errand(), False
+        if self.moving:
+            self._driver.stop()
+
     def _depart(self, plan: Plan, former: Course | None = None) -> None:
         """Report that it has taken the way of ``plan``; ``former`` is the course that it was on."""
         self._blocked = False

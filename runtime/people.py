@@ -25,6 +25,8 @@ from runtime.planning import NoWay, Plan, make_plan, way_holds
 
 __all__ = ["HumanDriver", "People"]
 
+_HERE = 1e-3  # [m] long ways lead to where it is: one that moves has to come back there
+
 
 class People:
     """Simulated persons. ``skills``: descriptions of those of one's own that they have besides the
@@ -137,15 +139,18 @@ class HumanDriver:
         velocity = self.human.velocity[:2]
         moving = velocity if np.linalg.norm(velocity) > 0.5 else None
         plan_from = partial(self._plan_from, list(goals), skills)
-        if moving is None or self.human.on_feet.walks:
-            return plan_from(self.position, moving)
         try:
             plan: Plan | NoWay = plan_from(self.position, moving)
         except NoWay as error:  # it may fit where it comes to, or have to come back
             plan = error
-        limits = self.human.on_feet.limits
-        if isinstance(plan, Plan) and can_begin(plan.points, velocity, limits):
+        if moving is None:
+            if isinstance(plan, NoWay):
+                raise plan
             return plan
+        limits = self.human.on_feet.limits
+        if isinstance(plan, Plan) and plan.length > _HERE:
+            if self.human.on_feet.walks or can_begin(plan.points, velocity, limits):
+                return plan
         target = plan.pulled[1] if isinstance(plan, Plan) else goals[0]
         for lead, runs_on in leads(self._level.graph, self.position, velocity, target, limits, self.radius):
             try:
@@ -185,7 +190,10 @@ class HumanDriver:
         return self._take(plan, speed)
 
     def _take(self, plan: Plan, speed: float) -> Plan:
-        self.human.follow(plan.points, speed, plan.obstacles)
+        if plan.length > _HERE:
+            self.human.follow(plan.points, speed, plan.obstacles)
+        else:
+            self.human.arrive()
         self.plans.append(plan)
         return plan
 

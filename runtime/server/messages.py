@@ -34,6 +34,7 @@ __all__ = [
     "Spawn",
     "States",
     "Step",
+    "Stop",
     "Way",
     "write_schema",
 ]
@@ -134,6 +135,14 @@ class GoTo(_Request):
     facing: _Angle | None = None
 
 
+class Stop(_Request):
+    """Let an agent give up its way and come to a stand."""
+
+    type: Literal["stop"]
+    world: _Name
+    agent: _Name
+
+
 class Way(_Request):
     """Ask for the path that an agent is on."""
 
@@ -182,6 +191,7 @@ Request = Annotated[
     | Close
     | Spawn
     | GoTo
+    | Stop
     | Way
     | Remove
     | Step

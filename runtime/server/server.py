@@ -316,6 +316,12 @@ class SurefootServer:
         status = hosted.agent(request.agent).go_to(request.points, request.speed, request.facing)
         return {"status": status}
 
+    def _do_stop(self, client: _Client, request: m.Stop) -> Any:
+        hosted = self._hosted(request.world)
+        agent = hosted.agent(request.agent)
+        agent.stop()
+        return {"status": agent.status}
+
     def _do_way(self, client: _Client, request: m.Way) -> Any:
         return way_message(self._hosted(request.world).agent(request.agent))
 

@@ -8,7 +8,7 @@ import pytest
 import navmesh
 from locomotion.leads import can_begin, leads
 from locomotion.path_table import TrackingLimits
-from locomotion.where_to_run import BRAKES_WITHIN, braking_length
+from locomotion.where_to_run import SLOWS_WITHIN, braking_length
 from runtime.rules import person_walk_rules
 
 LIMITS = TrackingLimits((2.5, 5.0), sideways=1.28, sharpest=0.2, steepest=0.12)
@@ -52,7 +52,7 @@ def test_what_lies_beside_or_behind_it_is_gone_to_from_a_stand(field):
     for target in ([0.0, 3.0, 0.0], [-10.0, 0.0, 0.0], [2.0, -4.0, 0.0]):
         ((way, runs_on),) = leads(field, place, velocity, np.array(target), LIMITS, 0.3)
         assert not runs_on and np.abs(way[:, 1]).max() == 0.0
-        assert way[-1, 0] == pytest.approx(braking_length(3.5) + BRAKES_WITHIN + 0.3)
+        assert way[-1, 0] == pytest.approx(braking_length(3.5) + SLOWS_WITHIN + 0.3)
 
 
 def test_it_goes_straight_on_as_far_as_there_is_room():

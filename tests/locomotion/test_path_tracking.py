@@ -9,7 +9,7 @@ from locomotion import path_tracking as pt
 from locomotion.errors import LocomotionError
 from locomotion.on_feet import RUN_GAINS
 from locomotion.path_table import BRAKE, CURVATURE, GAIT
-from locomotion.where_to_run import BRAKES_WITHIN, braking_length
+from locomotion.where_to_run import SLOWS_WITHIN, braking_length
 
 LIMITS = pt.TrackingLimits(speeds=(2.0, 4.0), sideways=2.0)
 
@@ -177,14 +177,14 @@ def where(path, gait):
 
 
 def test_one_that_runs_brakes_where_it_cannot_slow_down_in_time():
-    braking = braking_length(3.0) + BRAKES_WITHIN
+    braking = braking_length(3.0) + SLOWS_WITHIN
     corner = [[0, 0, 0], [4, 0, 0], [4, 40, 0]]
     path = pt.make_path(corner, 3.0, GENTLE, 3.0, walk=WALK, running=True)
     bend = float(np.flatnonzero(np.abs(path.table[:, CURVATURE]) > GENTLE.sharpest)[0]) * 0.1
     assert bend == pytest.approx(3.8, abs=0.11)
     assert stretches(path)[0] == (0.0, pytest.approx(bend - braking, abs=0.15))
     assert where(path, BRAKE) == (pytest.approx(bend - braking, abs=0.15), pytest.approx(bend, abs=0.11))
-    assert path.begins_to_brake(bend - braking + 0.2, 1.0) and not path.begins_to_brake(bend, 1.0)
+    assert path.changed(bend - braking + 0.3, 1.0) and not path.changed(bend - 0.2, 1.0)
     far = [[0, 0, 0], [30, 0, 0], [30, 40, 0]]
     assert where(pt.make_path(far, 3.0, GENTLE, 3.0, walk=WALK, running=True), BRAKE) is None
     assert where(pt.make_path(corner, 3.0, GENTLE, 1.2, walk=WALK), BRAKE) is None  # it walks

@@ -44,9 +44,11 @@ def running(graph, start, towards, until, speed=3.5):
 def happens(world, agent, seconds):
     """Its events until it does not move any more."""
     events, end = [], world.time + seconds
-    while world.time < end and (agent.moving or agent.status == "getting up"):
+    while world.time < end:
         world.step(0.02)
         events += world.events
+        if not agent.moving and agent.status != "getting up":
+            break
     return events
 
 
@@ -65,12 +67,51 @@ def test_it_turns_or_stops_first_and_arrives(field, angle, speed, until):
     assert np.linalg.norm((agent.position - goal)[:2]) < 0.7
 
 
-def test_told_to_stay_where_it_is_it_comes_back(field):
-    world, agent = running(field, (-35, 0, 0), (55, 0, 0), -8.7)
+@pytest.mark.parametrize("speed", [1.25, 3.5])
+@pytest.mark.parametrize("seconds", [0.3, 1.0, 4.0, 4.6, 6.1])
+def test_told_to_stay_where_it_is_it_comes_back(field, speed, seconds):
+    world = World(field)
+    agent = world.spawn("human", (0, 0, 0))
+    agent.go_to((40, 0, 0), speed=speed)
+    world.step(seconds)
     goal = agent.position
     agent.go_to(goal)
     events = happens(world, agent, 30.0)
-    assert isinstance(events[-1], Arrived) and np.linalg.norm((agent.position - goal)[:2]) < 0.5
+    assert isinstance(events[-1], Arrived) and not [e for e in events if isinstance(e, Fell)]
+    world.step(2.0)
+    assert np.linalg.norm((agent.position - goal)[:2]) < 0.6
+
+
+@pytest.mark.parametrize(
+    ("body", "speed", "farthest"), [("human", 3.5, 3.2), ("dog", 2.0, 1.5), ("walker", 1.4, 0.8)]
+)
+def test_told_to_stop_it_stands_soon_and_goes_on_when_told(field, body, speed, farthest):
+    world = World(field)
+    agent = world.spawn(body, (0, 0, 0))
+    agent.go_to((40, 0, 0), speed=speed)
+    world.step(6.0)
+    begun = agent.position
+    agent.stop()
+    world.step(5.0)
+    assert not agent.moving and agent.way is None
+    assert agent.status == "standing" and 0.0 <= agent.position[0] - begun[0] < farthest
+    stood = agent.position
+    world.step(1.0)
+    agent.stop()
+    assert np.linalg.norm(agent.position - stood) < 0.01
+    agent.go_to(stood + np.array([6.0, 0.0, 0.0]), speed=speed)
+    assert isinstance(happens(world, agent, 30.0)[-1], Arrived)
+
+
+def test_told_to_stop_as_it_clears_something_it_does_that_first(terrace):
+    world = World(terrace)
+    agent = world.spawn("human", (40, -6, 0))
+    agent.go_to((40, 12, 0.4))
+    while agent.status != "jumping":
+        world.step(0.01)
+    agent.stop()
+    world.step(8.0)
+    assert agent.status == "standing" and agent.position[2] == pytest.approx(0.4, abs=0.01)
 
 
 @pytest.mark.parametrize(("beside", "until"), [(3.2, 20.1), (2.0, 20.7), (0.0, 21.2), (-4.0, 20.4)])

@@ -318,8 +318,15 @@ def clip(
     units: Annotated[str, typer.Option(help="Units of length of a .bvh file: m, cm, mm, in or ft.")] = "cm",
     up: UpOption = Up.y,
     film: Annotated[Path | None, typer.Option(help="File for a film strip (.png).")] = None,
+    stretch: Annotated[
+        tuple[float, float] | None, typer.Option(help="Begin and end of what is shown [s].")
+    ] = None,
+    mirror: Annotated[bool, typer.Option("--mirror", help="Exchange left and right.")] = False,
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="File for the motion of the person (.npz).")
+        Path | None,
+        typer.Option(
+            "--output", "-o", help="File for the motion of the person (.npz), or for its keyframes (.yaml)."
+        ),
     ] = None,
     as_json: JsonOption = False,
 ) -> None:
@@ -327,7 +334,7 @@ def clip(
     _commands()
     from runtime.skill_commands import show_clip
 
-    _finish(show_clip(source, mapping, units, up.value, film, output), as_json)
+    _finish(show_clip(source, mapping, units, up.value, stretch, mirror, film, output), as_json)
 
 
 def _commands() -> Any:

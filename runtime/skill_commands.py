@@ -195,10 +195,18 @@ def _over(attempts: Sequence["Attempt"], statistic: Callable[[list[float]], Any]
 
 
 def show_clip(
-    source: Path, mapping: Path | None, units: str, up: str, film: Path | None, output: Path | None
+    source: Path,
+    mapping: Path | None,
+    units: str,
+    up: str,
+    stretch: tuple[float, float] | None,
+    mirror: bool,
+    film: Path | None,
+    output: Path | None,
 ) -> Result:
-    """Check a clip or a captured motion; draw it to ``film``, save it as the person's motion to
-    ``output``."""
+    """Check a clip or a captured motion, or a ``stretch`` of it [s]; draw it to ``film``, save it as the
+    person's motion or as keyframes to ``output``."""
+    from locomotion.keyframes import keyframes_of, mirrored, save_clip, stretch_of
     from locomotion.motion_check import check_motion
     from runtime.clips import read_motion, write_motion_film
 
@@ -206,11 +214,21 @@ def show_clip(
     for path in (film, output):
         if path is not None:
             check_output(path)
+    keyframes = output is not None and output.suffix.lower() in (".yaml", ".yml")
+    if output is not None and not keyframes and output.suffix.lower() != ".npz":
+        raise RuntimeInputError(f"{output}: a motion is written to .npz, keyframes to .yaml")
+    if stretch is not None:
+        motion = stretch_of(motion, *stretch)
+    if mirror:
+        motion = mirrored(motion)
     faults = check_motion(motion)
     if film is not None:
         write_motion_film(motion, film, Progress())
     if output is not None:
-        motion.save(output)
+        if keyframes:
+            save_clip(keyframes_of(motion), output)
+        else:
+            motion.save(output)
     values = {
         "name": motion.name,
         "seconds": round(motion.duration, 3),

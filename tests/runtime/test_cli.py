@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from conftest import MISSION
 
+from locomotion.clip import load_clip
 from locomotion.motion import load_motion
 from locomotion.skill import RUN_CLIP
 from navmesh.archive import read_archive, write_archive
@@ -221,6 +222,12 @@ def test_clip_shows_a_motion_and_its_faults(surefoot, tmp_path):
     assert film.read_bytes()[:4] == b"\x89PNG"
     code, out, _ = surefoot("clip", saved, "--json")
     assert code == 0 and json.loads(out)["faults"] == []
+    step = tmp_path / "step.yaml"
+    code, out, _ = surefoot("clip", saved, "--stretch", 0.1, 0.4, "--mirror", "-o", step)
+    assert code == 0 and load_clip(step).duration == pytest.approx(0.3, abs=0.02)
+    for output, stretch in ((tmp_path / "step.txt", (0.1, 0.4)), (tmp_path / "no.yaml", (0.4, 0.1))):
+        code, _, err = surefoot("clip", saved, "--stretch", *stretch, "-o", output)
+        assert code == 2 and one_line(err) and not output.exists()
     motion = load_motion(saved)
     motion.qpos[:, 7:] = 3.0
     motion.save(saved)

@@ -13,7 +13,7 @@ from locomotion.skill import RunSkill
 from locomotion.skill_description import load_described, load_description
 from locomotion.vault_skill import VAULT_SKILL, Vault, load_vault_skill
 
-__all__ = ["LEAP", "learned_skills", "skills_digest"]
+__all__ = ["LEAP", "described_ranges", "learned_skills", "skills_digest"]
 
 _SKILLS = Path(__file__).parent / "skills"
 LEAP = _SKILLS / "leap.yaml"
@@ -38,6 +38,17 @@ def _digest(files: tuple[Path, ...], stamps: tuple[tuple[int, int], ...]) -> str
     for file in files:
         hasher.update(file.name.encode() + file.read_bytes())
     return hasher.hexdigest()[:16]
+
+
+def described_ranges(run: RunSkill, own: Sequence[str | os.PathLike[str]]) -> dict[str, tuple[float, float]]:
+    """Least and greatest size [m] that the skills described by the files ``own`` have learned, by
+    affordance. `LocomotionError` for files with a mistake."""
+    ranges: dict[str, tuple[float, float]] = {}
+    for path in own:
+        skill = load_described(path, run)
+        low, high = ranges.get(skill.affordance, skill.heights)
+        ranges[skill.affordance] = min(low, skill.heights[0]), max(high, skill.heights[1])
+    return ranges
 
 
 def learned_skills(run: RunSkill, own: Sequence[str | os.PathLike[str]] = ()) -> tuple[ClearingSkill, ...]:

@@ -7,6 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 import navmesh
+from locomotion import LocomotionError, load_run_skill
+from locomotion.library import described_ranges
 from navmesh.yamlfile import FileError
 from runtime.actions import first_far
 from runtime.agent import Agent
@@ -16,6 +18,7 @@ from runtime.mission_clearing import find_clearing
 from runtime.mission_model import AgentSpec, Step
 from runtime.planning import NoWay
 from runtime.progress import Progress
+from runtime.rules import obstacle_rules
 from runtime.world import World
 
 __all__ = ["Prepared", "build_graph", "prepare_mission"]
@@ -66,7 +69,10 @@ def build_graph(loaded: LoadedMission) -> navmesh.NodeGraph:
     try:
         tags = None if tags_path is None else navmesh.load_tags(tags_path)
         terrain = navmesh.Terrain.load(loaded.level_path, up=level.up, scale=level.scale)
-        return navmesh.NodeGraph.build(terrain, rules, tags=tags)
+        own = described_ranges(load_run_skill(), loaded.skill_paths)
+        return navmesh.NodeGraph.build(terrain, rules, obstacle_rules(own), tags=tags)
+    except LocomotionError as error:
+        raise loaded.error(("skills",), str(error)) from None
     except FileError:
         raise
     except navmesh.NavmeshError as error:

@@ -1,13 +1,13 @@
 """Walk rules as people write them: degrees, and only what differs from what the bodies need."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import navmesh
 from locomotion import PERSON_RULES
 from locomotion.quadruped import load_body
 
-__all__ = ["person_walk_rules", "walk_rules"]
+__all__ = ["obstacle_rules", "person_walk_rules", "walk_rules"]
 
 
 def person_walk_rules(
@@ -48,6 +48,27 @@ def walk_rules(
     return navmesh.WalkRules(
         **{**common, **{name: value for name, value in given.items() if value is not None}}
     )
+
+
+def obstacle_rules(
+    skills: Mapping[str, tuple[float, float]], body_radius: float = PERSON_RULES["radius"]
+) -> navmesh.ObstacleRules:
+    """What counts as an obstacle for a body of ``body_radius`` [m] with ``skills`` (least and greatest size
+    [m] by affordance): all that it can clear, and the usual rest."""
+    usual = navmesh.ObstacleRules()
+    return navmesh.ObstacleRules(
+        jump_rise=_both(usual.jump_rise, skills.get("jump")),
+        vault_height=_both(usual.vault_height, skills.get("vault")),
+        drop_height=_both(usual.drop_height, skills.get("drop")),
+        gap_width=_both(usual.gap_width, skills.get("gap")),
+        body_radius=body_radius,
+    )
+
+
+def _both(usual: tuple[float, float], own: tuple[float, float] | None) -> tuple[float, float]:
+    if own is None:
+        return usual
+    return min(usual[0], max(own[0], 1e-3)), max(usual[1], own[1])
 
 
 def _needs(body: str) -> dict[str, float]:

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 import navmesh
 from locomotion import LocomotionError, load_run_skill
 from locomotion.giving_way import Course
-from locomotion.library import learned_skills, skills_digest
+from locomotion.library import described_ranges, learned_skills, skills_digest
 from locomotion.person import CONTROL_DT
 from locomotion.quadruped import is_body_file, load_body
 from locomotion.rehearsal import REHEARSALS
@@ -26,7 +26,7 @@ from runtime.events import Event
 from runtime.level import Level
 from runtime.pack import Pack
 from runtime.people import People
-from runtime.rules import person_walk_rules
+from runtime.rules import obstacle_rules, person_walk_rules
 from runtime.traffic import EVERY, Traffic
 from runtime.walkers import Walkers
 from runtime.world_state import WorldState
@@ -45,9 +45,10 @@ class World:
     seed and the same calls give the same run, bit for bit.
 
     ``skills``: files that describe skills of your own (`locomotion.skill_description`), which its people have
-    besides the package's. Raises `RuntimeInputError` for one with a mistake. ``rehearsals``: how many
-    variations of a take-off or a slowing-down a person tries within one tick at most; with fewer the longest
-    ticks are shorter, and skills hold less often.
+    besides the package's; a graph that it builds counts what they clear among the obstacles. Raises
+    `RuntimeInputError` for one with a mistake. ``rehearsals``: how many variations of a take-off or a
+    slowing-down a person tries within one tick at most; with fewer the longest ticks are shorter, and skills
+    hold less often.
 
     ``agents``: by name, in order of their making. ``random``: the
     `numpy.random.Generator` for whatever chance the host needs, saved, restored and hashed with the rest.
@@ -62,10 +63,18 @@ class World:
     ) -> None:
         if not rehearsals >= 0:
             raise RuntimeInputError(f"rehearsals must be a number of at least 0, not {rehearsals}")
+        self._skills = tuple(Path(each).resolve() for each in skills)
+        own: Mapping[str, tuple[float, float]] = {}
+        if self._skills:
+            try:
+                own = described_ranges(load_run_skill(), self._skills)
+                learned_skills(load_run_skill(), self._skills)
+            except LocomotionError as error:
+                raise RuntimeInputError(str(error)) from None
         if isinstance(terrain, navmesh.NodeGraph):
             graph = terrain
         elif isinstance(terrain, navmesh.Terrain):
-            graph = navmesh.NodeGraph.build(terrain, person_walk_rules())
+            graph = navmesh.NodeGraph.build(terrain, person_walk_rules(), obstacle_rules(own))
         else:
             raise RuntimeInputError(
                 f"a world is made of a Terrain or a NodeGraph, not of a {type(terrain).__name__}"
@@ -73,12 +82,6 @@ class World:
         self.agents: dict[str, Agent] = {}
         self.random = np.random.default_rng(seed)
         self._level = Level.of(graph)
-        self._skills = tuple(Path(each).resolve() for each in skills)
-        if self._skills:
-            try:
-                learned_skills(load_run_skill(), self._skills)
-            except LocomotionError as error:
-                raise RuntimeInputError(str(error)) from None
         self._populations: list[Population] = []
         self._traffic = Traffic(self._level, self._populations)
         others = People(self._level, self._skills, rehearsals), Pack(self._level, self._traffic)

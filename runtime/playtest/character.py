@@ -9,7 +9,7 @@ from locomotion import PERSON_RULES, Human
 from locomotion.clearing import skill_ranges
 from locomotion.quadruped import BODY_NAMES, load_body
 from runtime.errors import RuntimeInputError
-from runtime.rules import walk_rules
+from runtime.rules import obstacle_rules, walk_rules
 
 __all__ = ["BODIES", "Character", "changed", "character_of"]
 
@@ -38,14 +38,7 @@ class Character:
 
     def obstacle_rules(self) -> navmesh.ObstacleRules:
         """What counts as an obstacle for it: all that it can clear, and the usual rest."""
-        usual = navmesh.ObstacleRules()
-        return navmesh.ObstacleRules(
-            jump_rise=_both(usual.jump_rise, self.skills.get("jump")),
-            vault_height=_both(usual.vault_height, self.skills.get("vault")),
-            drop_height=_both(usual.drop_height, self.skills.get("drop")),
-            gap_width=_both(usual.gap_width, self.skills.get("gap")),
-            body_radius=max(self.radius, 0.05),
-        )
+        return obstacle_rules(self.skills, max(self.radius, 0.05))
 
     def reach(self, affordance: str) -> float:
         """The greatest height (width) of ``affordance`` that it clears [m]; 0 without the skill."""
@@ -89,9 +82,3 @@ def changed(character: Character, radius: float | None, speed: float | None, rul
         rules=walking,
         skills=character.skills if skills is None else dict(skills),
     )
-
-
-def _both(usual: tuple[float, float], own: tuple[float, float] | None) -> tuple[float, float]:
-    if own is None:
-        return usual
-    return min(usual[0], max(own[0], 1e-3)), max(usual[1], own[1])

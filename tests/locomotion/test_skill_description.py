@@ -162,6 +162,16 @@ def test_a_world_gives_its_people_the_skills(learned):
         World(terrain, skills=[Path("nowhere.yaml")])
 
 
+def test_a_world_counts_what_ones_own_skills_clear_among_the_obstacles(own, tmp_path):
+    most = skill_ranges(learned_skills(load_run_skill()))["gap"][1]
+    course = make_course([("gap", 2.8, 0.0)], [12.0])
+    terrain = navmesh.Terrain.from_arrays(course.vertices, course.faces)
+    end = course.path[-1]
+    for skills, found in (((), "blocked"), ((shifted(own, tmp_path, (most - 0.1, 3.0)),), "walking")):
+        agent = World(terrain, skills=skills).spawn("human", course.path[0])
+        assert agent.go_to(end) == found
+
+
 def test_the_digest_tells_skills_of_ones_own(learned):
     assert skills_digest((learned,)) != skills_digest()
 

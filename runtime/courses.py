@@ -15,7 +15,17 @@ from locomotion.human_state import restore_physics, save_physics
 from locomotion.passage import Passage, watch
 from locomotion.rehearsal import REHEARSALS
 
-__all__ = ["AFTER", "Course", "CourseRun", "Passage", "enter_course", "held", "make_course", "run_course"]
+__all__ = [
+    "AFTER",
+    "Course",
+    "CourseRun",
+    "Passage",
+    "Push",
+    "enter_course",
+    "held",
+    "make_course",
+    "run_course",
+]
 
 AFTER = 15.0
 """[m] from the last obstacle to the goal."""
@@ -37,6 +47,16 @@ class Course:
     faces: NDArray[np.int64]
     path: NDArray[np.float64]
     obstacles: tuple[ObstacleAhead, ...]
+
+
+@dataclass(frozen=True)
+class Push:
+    """A force (2,) [N] on the pelvis for ``ticks``, from when the centre of mass has come to x = ``at``
+    [m]."""
+
+    at: float
+    force: NDArray[np.float64]
+    ticks: int
 
 
 @dataclass
@@ -108,8 +128,10 @@ def run_course(
     noise: NDArray[np.float64] | None = None,
     keep_frames: bool = False,
     rehearsals: int = REHEARSALS,
+    push: Push | None = None,
 ) -> CourseRun:
-    """Run over a course from standing, on the level's triangles; arguments as of `enter_course`."""
+    """Run over a course from standing, on the level's triangles, pushed once if there is a ``push``; other
+    arguments as of `enter_course`."""
     human = enter_course(course, clearing, noise, rehearsals)
     longest = float(course.path[-1, 0]) / _SLOWEST
     run, seen, where = CourseRun(), 0, 0
@@ -117,7 +139,11 @@ def run_course(
     moment = mujoco.MjData(
         human.model
     )  # what a person takes over from its rehearsals are states, no contacts
+    pushed = 0
     while human.status in MOVING and human.time < longest:
+        if push is not None and human.com[0] >= push.at and pushed <= push.ticks:
+            human.data.xfrc_applied[human.index.root, :2] = push.force if pushed < push.ticks else 0.0
+            pushed += 1
         human.tick()
         if keep_frames:
             run.frames.append(human.qpos)

@@ -21,7 +21,7 @@ from locomotion.rehearsal import REHEARSALS
 from locomotion.skill import load_run_skill
 from locomotion.skill_description import load_described
 from locomotion.training.rollout import Scenario, Simulator, stays_up
-from runtime.courses import CourseRun, held, make_course, run_course
+from runtime.courses import CourseRun, Push, held, make_course, run_course
 from runtime.progress import Progress
 
 __all__ = [
@@ -46,6 +46,8 @@ RUN_LENGTH = 60.0
 """[m] of each run with `PUSH`."""
 PUSH, PUSH_TIME, PUSH_EVERY = 200.0, 0.1, 5.0
 """[N], [s] and [s] between: pushes on the pelvis from any side."""
+PUSHED_WITHIN = -10.0, 4.0
+"""[m] from an obstacle's edge, between which somebody who clears it is pushed with `PUSH`."""
 STOPPED_FROM, STOPS = (2.5, 3.0, 3.5), (1.5, 2.0, 2.5)
 """[m/s] asked for of those who are told to stop; [m] within which they may come to stand."""
 _SLOWEST = 0.5
@@ -66,8 +68,8 @@ class Attempt:
 
 
 def evaluate_clearing(affordance: str, trials: int, seed: int, progress: Progress) -> list[Attempt]:
-    """Two tests of ``trials`` each: the default height from 30 to 100 m, evenly, and heights drawn from
-    `HEIGHTS` from 10 to 30 m."""
+    """Three tests of ``trials`` each: the default height from 30 to 100 m, evenly; heights drawn from
+    `HEIGHTS` from 10 to 30 m; the same with a push from any side somewhere in `PUSHED_WITHIN`."""
     skills = [skill for skill in Human().clearing if skill.affordance == affordance]
     default, heights = DEFAULT_HEIGHTS[affordance], HEIGHTS[affordance]
     return _evaluate(affordance, default, heights, skills, None, trials, seed, progress)
@@ -97,12 +99,15 @@ def _evaluate(
     """``skills``: those for the affordance; ``clearing``: all that the person has."""
     low, high = heights
     rng = np.random.default_rng(seed)
+    drawn = [
+        (round(float(h), 2), float(d))
+        for h, d in zip(rng.uniform(low, high, trials), rng.uniform(10.0, 30.0, trials), strict=True)
+    ]
+    pushed = f"{low:g} to {high:g} m, pushed with {PUSH:.0f} N"
     tests = {
         f"{height:g} m, from 30 to 100 m": [(height, float(d)) for d in np.linspace(30.0, 100.0, trials)],
-        f"{low:g} to {high:g} m": [
-            (round(float(h), 2), float(d))
-            for h, d in zip(rng.uniform(low, high, trials), rng.uniform(10.0, 30.0, trials), strict=True)
-        ],
+        f"{low:g} to {high:g} m": drawn,
+        pushed: drawn,
     }
 
     def attempt(test: str, height: float, distance: float) -> Attempt:
@@ -111,7 +116,8 @@ def _evaluate(
         if not any(each.heights[0] - 1e-9 <= height <= each.heights[1] + 1e-9 for each in skills):
             return Attempt(test, what, "not learned for this height", False, at=at)
         course = make_course([(affordance, height, WALL)], [distance])
-        run = run_course(course, clearing, start_noise(seed, distance))
+        push = _push_at(seed, distance) if test == pushed else None
+        run = run_course(course, clearing, start_noise(seed, distance), push=push)
         return replace(_judged(test, what, affordance, run), at=at)
 
     todo = [(test, *start) for test, starts in tests.items() for start in starts]
@@ -121,6 +127,15 @@ def _evaluate(
 def start_noise(seed: int, distance: float) -> np.ndarray:
     """Of the velocities at the start, (45,) [m/s, rad/s]; always the same for a seed and a distance."""
     return NOISE * np.random.default_rng([seed, round(1000.0 * distance)]).normal(size=45)
+
+
+def _push_at(seed: int, distance: float) -> Push:
+    """The push on one who comes over an obstacle ``distance`` [m] from the start; always the same for a
+    seed and a distance."""
+    rng = np.random.default_rng([seed, round(1000.0 * distance), 1])
+    side, at = rng.uniform(-math.pi, math.pi), distance + rng.uniform(*PUSHED_WITHIN)
+    force = PUSH * np.array([math.cos(side), math.sin(side)])
+    return Push(float(at), force, round(PUSH_TIME / CONTROL_DT))
 
 
 def _judged(test: str, what: str, affordance: str, run: CourseRun) -> Attempt:

@@ -5,7 +5,8 @@ import pytest
 
 from locomotion import MOVING, Ground, Human, LocomotionError
 from locomotion.events import Cleared, Fell, TookOff
-from runtime.courses import AFTER, enter_course, make_course, run_course
+from locomotion.person import CONTROL_DT, MASS
+from runtime.courses import AFTER, Push, enter_course, make_course, run_course
 
 
 def one(affordance, height, distance):
@@ -34,6 +35,20 @@ def test_clears_obstacles_and_goes_on(affordance, heights, least):
             by_hand = affordance != "vault" or 0.0 <= passage.planted <= 1.0
             arrived += run.ended == "arrived" and passage.cleared and by_hand
     assert arrived >= least
+
+
+def test_a_push_comes_where_it_is_told_and_moves_the_person_so_much():
+    course = one("jump", 0.4, 14.0)
+    left, right = (
+        run_course(course, push=Push(6.0, np.array([0.0, side]), 10), keep_frames=True)
+        for side in (150.0, -150.0)
+    )
+    sideways = (np.array(left.frames[:600]) - np.array(right.frames[:600]))[:, 1]
+    begun = int(np.flatnonzero(sideways)[0])
+    assert left.frames[begun][0] == pytest.approx(6.0, abs=0.2)
+    after = (sideways[begun + 20] - sideways[begun + 10]) / (10 * CONTROL_DT)  # [m/s], of the pelvis
+    assert 0.5 < after / (2.0 * 150.0 * 0.1 / MASS) < 2.5
+    assert left.passages[0].cleared and right.passages[0].cleared
 
 
 def test_several_obstacles_one_after_another():

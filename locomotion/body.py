@@ -390,14 +390,13 @@ class Human(RehearsingPerson):
         if way.interrupted is not None and way.remaining < _WALK_ARRIVAL:
             way.turn_again(self._ticks)
             return
-        near = _WALK_ARRIVAL if self.status in ("walking", "scrambling") else ARRIVAL_DISTANCE
-        fast = self.status == "running" or float(np.linalg.norm(self.velocity[:2])) > _STAYS
-        if way.remaining < near and not fast:  # else it comes past, and has to come back
+        on_foot = self.status in ("walking", "scrambling")  # who runs comes past, and has to come back
+        if on_foot and way.remaining < _WALK_ARRIVAL:
             goal = way.path.goal
             distance = math.hypot(goal[0] - com[0], goal[1] - com[1])
-            if distance <= ARRIVAL_DISTANCE:
+            if distance <= ARRIVAL_DISTANCE and float(np.linalg.norm(self.velocity[:2])) <= _STAYS:
                 self._end("arrived", Arrived(self.time, self._point(), distance))
-            elif way.ended and self.status != "scrambling":
+            elif distance > ARRIVAL_DISTANCE and way.ended and self.status != "scrambling":
                 self._end("lost", MissedGoal(self.time, self._point(), distance))
         elif abs(way.lateral) > self._may_stray():
             self._end("lost", StrayedFromPath(self.time, self._point(), abs(way.lateral)))

@@ -76,7 +76,7 @@ def plan_gaits(
     brakes = _where_to_brake(hard, at, edges, runs, fastest, entering, walk.calm)
     last_run = np.maximum.accumulate(np.where(runs, at, -math.inf))
     stood = np.maximum.accumulate(np.where(brakes, at, -math.inf)) > last_run
-    near = (at - last_run <= slowing) & ~stood  # runs, or slows down
+    near = (at - last_run <= slowing) & ~stood & (at <= at[-1] - COME_TO_REST)  # runs, or slows down
     fast = (speed < slowest) & _can_walk_fast(table, at, runs, walk.foresight) & ~near
     if present_speed < walk.calm + _ALREADY:  # who is told elsewhere all the time does not get fast
         fast &= at >= _BEGINS

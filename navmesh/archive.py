@@ -6,6 +6,7 @@ The header says what the file is (``kind``), the version of its format, and what
 
 import json
 import os
+import tokenize
 import zipfile
 import zlib
 from collections.abc import Mapping
@@ -21,7 +22,10 @@ __all__ = ["ArchiveError", "read_archive", "write_archive"]
 
 _HEADER = "header"
 # What NumPy, zipfile and json raise on a file that is cut off, overwritten or not an archive at all.
-_DAMAGE = (OSError, ValueError, KeyError, TypeError, EOFError, AttributeError, zipfile.BadZipFile, zlib.error)
+_DAMAGE = (
+    OSError, ValueError, KeyError, TypeError, EOFError, AttributeError, RuntimeError, MemoryError,
+    zipfile.BadZipFile, zlib.error, tokenize.TokenError,
+)  # fmt: skip
 
 
 class ArchiveError(NavmeshError):

@@ -41,6 +41,16 @@ def test_overwritten_bytes_are_refused_or_harmless(archive):
         np.testing.assert_array_equal(arrays["x"], np.arange(1000.0))
 
 
+@pytest.mark.parametrize(("field", "damage"), [(6, 0xFF), (8, 0x01), (8, 0x20), (10, 0xFF)])
+def test_listing_that_asks_for_what_no_archive_has_is_refused(archive, field, damage):
+    """Its version, encryption, patches, and way of compression."""
+    content = bytearray(archive.read_bytes())
+    content[content.rindex(b"PK\x01\x02") + field] ^= damage
+    archive.write_bytes(content)
+    with pytest.raises(ArchiveError, match="cut off or damaged"):
+        read_archive(archive, "thing", 3)
+
+
 def test_other_kind_and_version_are_named(archive):
     with pytest.raises(ArchiveError, match="holds a 'thing', expected a 'skill'"):
         read_archive(archive, "skill", 3)

@@ -5,22 +5,22 @@ A clip names channels (joints of `locomotion.person.JOINT_NAMES`) and gives each
 *mirrored* one gives the right side and the trunk only, and the left side does the same half a cycle later.
 """
 
+import difflib
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-import yaml
 from scipy.interpolate import CubicSpline, PchipInterpolator
 
+from locomotion.clip_file import ClipFile
 from locomotion.errors import LocomotionError
 from locomotion.person import JOINT_NAMES
+from navmesh.yamlfile import FileError, Located, read_yaml
 
 __all__ = ["Clip", "load_clip"]
 
-_Loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # ten times as fast, where PyYAML was built with it
-_KEYS = {"name", "cyclic", "mirrored", "duration", "speed", "root", "channels"}
+_APART = 1e-6  # least difference of two shares: nearer ones bend the curve beyond all numbers
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,78 +74,58 @@ def _interpolate(keys: np.ndarray, at: np.ndarray, cyclic: bool) -> np.ndarray:
 
 
 def load_clip(path: str | os.PathLike[str]) -> Clip:
-    """Read and check a clip; raises `LocomotionError` that names the file, the key and what would be
-    right."""
-    source = Path(path)
+    """Read and check a clip; raises `LocomotionError` that names the file, line and column, the key and what
+    would be right."""
     try:
-        data = yaml.load(source.read_text(encoding="utf-8"), _Loader)
-    except OSError as error:
-        raise LocomotionError(f"{source}: cannot be read: {error.strerror}") from error
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise LocomotionError(f"{source}: not YAML: {error}") from error
-    if not isinstance(data, dict):
-        raise LocomotionError(f"{source}: expected a mapping with the keys {sorted(_KEYS)}")
-    unknown = sorted(set(map(str, data)) - _KEYS)
-    if unknown:
-        raise LocomotionError(f"{source}: unknown key {unknown[0]!r}; the keys are {sorted(_KEYS)}")
-    root = data.get("root", {})
-    if not isinstance(root, dict):
-        raise LocomotionError(f"{source}: 'root' must be a mapping with height [m] and pitch [deg]")
-    cyclic, mirrored = bool(data.get("cyclic", False)), bool(data.get("mirrored", False))
-    raw = data.get("channels")
-    if not isinstance(raw, dict) or not raw:
-        raise LocomotionError(f"{source}: 'channels' must map joint names to lists of [share, degrees]")
-    channels = {str(name): _keys(source, str(name), keys, cyclic) for name, keys in raw.items()}
-    if mirrored:
-        channels |= _mirrored(source, channels, cyclic)
+        file, located = read_yaml(path, ClipFile, "clip of keyframes")
+        channels = {name: _table(located, name, keys, file.cyclic) for name, keys in file.channels.items()}
+        if file.mirrored:
+            channels |= _mirrored(located, channels, file.cyclic)
+    except FileError as error:
+        raise LocomotionError(str(error)) from None
     return Clip(
-        name=str(data.get("name", source.stem)),
-        cyclic=cyclic,
-        duration=_number(source, data, "duration", 1e-3),
-        speed=_number(source, data, "speed", 0.0),
-        root_height=_number(source, root, "height", 0.0),
-        root_pitch=float(np.deg2rad(_number(source, root, "pitch", -90.0))),
+        name=Path(path).stem if file.name is None else file.name,
+        cyclic=file.cyclic,
+        duration=file.duration,
+        speed=file.speed,
+        root_height=file.root.height,
+        root_pitch=float(np.deg2rad(file.root.pitch)),
         channels=channels,
     )
 
 
-def _number(source: Path, data: dict[str, Any], key: str, low: float) -> float:
-    value = data.get(key)
-    if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value) or value < low:
-        raise LocomotionError(
-            f"{source}: {key!r} must be a finite number of at least {low:g}, found {value!r}"
-        )
-    return float(value)
-
-
-def _keys(source: Path, name: str, keys: Any, cyclic: bool) -> np.ndarray:
-    """One channel's keyframes with the angles in radians, checked."""
+def _table(located: Located, name: str, keys: list[tuple[float, float]], cyclic: bool) -> np.ndarray:
+    """One channel's keyframes, (k, 2) float64, with the angles in radians, checked."""
+    here = ["channels", name]
     if name not in JOINT_NAMES:
-        raise LocomotionError(
-            f"{source}: no joint is called {name!r}; the joints are {', '.join(JOINT_NAMES)}"
+        near = difflib.get_close_matches(name, JOINT_NAMES, n=1)
+        hint = f"did you mean {near[0]!r}? " if near else ""
+        raise located.error(
+            here, f"no joint is called {name!r}; {hint}valid: {', '.join(JOINT_NAMES)}", at_key=True
         )
-    try:
-        table = np.array(keys, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise LocomotionError(f"{source}: {name}: expected a list of [share, degrees]") from error
-    if (
-        table.ndim != 2
-        or table.shape[1] != 2
-        or len(table) < (2 if cyclic else 1)
-        or not np.isfinite(table).all()
-    ):
-        raise LocomotionError(f"{source}: {name}: expected at least two finite pairs [share, degrees]")
-    shares = table[:, 0]
-    if shares[0] < 0.0 or shares[-1] > 1.0 or (np.diff(shares) <= 0).any() or (cyclic and shares[-1] >= 1.0):
-        raise LocomotionError(f"{source}: {name}: shares must grow from 0 to 1 (below 1 in a cyclic clip)")
+    least = 2 if cyclic else 1
+    if len(keys) < least:
+        raise located.error(here, f"{name}: {len(keys)} keyframes; at least {least} are needed")
+    table = np.array(keys, dtype=np.float64)
+    for k, apart in enumerate(np.diff(table[:, 0]), 1):
+        if apart < _APART:
+            raise located.error(
+                [*here, k],
+                f"{name}: shares must grow, by {_APART:g} or more: {keys[k][0]:g} follows {keys[k - 1][0]:g}",
+            )
+    if cyclic and table[-1, 0] > table[0, 0] + 1.0 - _APART:
+        raise located.error(
+            [*here, len(keys) - 1],
+            f"{name}: the last share must be below 1 in a cyclic clip, where the first keyframe follows it",
+        )
     table[:, 1] = np.deg2rad(table[:, 1])
     return table
 
 
-def _mirrored(source: Path, channels: dict[str, np.ndarray], cyclic: bool) -> dict[str, np.ndarray]:
+def _mirrored(located: Located, channels: dict[str, np.ndarray], cyclic: bool) -> dict[str, np.ndarray]:
     """The left side's channels: the right side's, half a cycle later."""
     if not cyclic or any(name.startswith("left_") for name in channels):
-        raise LocomotionError(f"{source}: a mirrored clip is cyclic and has no left_ channels")
+        raise located.error(["mirrored"], "a mirrored clip is cyclic and has no left_ channels")
     result = {}
     for name, keys in channels.items():
         if name.startswith("right_"):

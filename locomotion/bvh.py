@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from locomotion.bvh_check import check_bvh
 from locomotion.errors import LocomotionError
 
 __all__ = ["UNITS", "Capture", "read_bvh"]
@@ -62,8 +63,8 @@ class Capture:
 def read_bvh(path: str | os.PathLike[str], units: str = "cm", up: str = "y") -> Capture:
     """Read a BVH file whose lengths are in ``units`` (one of `UNITS`) and whose axis ``up`` points up.
 
-    Raises `LocomotionError` for a file that is missing, not BVH, without frames or with numbers that are not
-    finite, and for a figure of an impossible size (wrong units).
+    Raises `LocomotionError` for a file that is missing or that `bvh_check.check_bvh` refuses, naming the
+    line, and for a figure of an impossible size (wrong units).
     """
     try:
         import bvhio
@@ -77,41 +78,13 @@ def read_bvh(path: str | os.PathLike[str], units: str = "cm", up: str = "y") -> 
     source = Path(path)
     if not source.is_file():
         raise LocomotionError(f"{source}: there is no such file")
-    _check_whole(source)
+    check_bvh(source)
     try:
         found = bvhio.readAsBvh(str(source))
         joints = [(joint, depth) for joint, _, depth in found.Root.layout()]
     except Exception as error:  # bvhio raises whatever its parser meets
         raise LocomotionError(f"{source}: not a BVH file: {error}") from error
-    if found.FrameCount < 1 or not found.FrameTime > 0.0:
-        raise LocomotionError(
-            f"{source}: has {found.FrameCount} frames of {found.FrameTime} s; there must be one at least"
-        )
     return _capture(source, found, joints, UNITS[units], _TO_Z_UP[up])
-
-
-def _check_whole(source: Path) -> None:
-    """Raise `LocomotionError` for a file that ends early: bvhio would wait for its next line for ever."""
-    try:
-        lines = [line.split() for line in source.read_text().splitlines() if line.strip()]
-    except UnicodeDecodeError as error:
-        raise LocomotionError(f"{source}: not a BVH file: {error}") from error
-    if ["MOTION"] not in lines:
-        raise LocomotionError(f"{source}: not a BVH file: it has no line MOTION")
-    motion = lines.index(["MOTION"])
-    words = [word for line in lines[:motion] for word in line]
-    if words.count("{") == 0 or words.count("{") != words.count("}"):
-        raise LocomotionError(
-            f"{source}: not a BVH file: {words.count('{')} braces open before MOTION and"
-            f" {words.count('}')} close"
-        )
-    head, rows = lines[motion + 1 : motion + 3], lines[motion + 3 :]
-    if len(head) < 2 or head[0][0] != "Frames:" or not head[0][-1].isdecimal():
-        raise LocomotionError(
-            f"{source}: not a BVH file: after MOTION come the lines Frames: and Frame Time:"
-        )
-    if len(rows) < int(head[0][-1]):
-        raise LocomotionError(f"{source}: has {len(rows)} of the {head[0][-1]} frames that it names")
 
 
 def _capture(
@@ -122,17 +95,11 @@ def _capture(
     for number, (_, depth) in enumerate(joints):
         parents.append(last.get(depth - 1, -1))
         last[depth] = number
-    short = [joint.Name for joint, _ in joints if len(joint.Keyframes) < found.FrameCount]
-    if short:
-        raise LocomotionError(f"{source}: joint {short[0]!r} has fewer than {found.FrameCount} frames")
     offsets = scale * np.array([list(joint.Offset) for joint, _ in joints], dtype=np.float64) @ axes.T
     root = scale * np.array([list(key.Position) for key in joints[0][0].Keyframes], dtype=np.float64) @ axes.T
     turns = np.empty((found.FrameCount, len(joints), 3, 3))
     for j, (joint, _) in enumerate(joints):
         quaternions = np.array([[getattr(key.Rotation, axis) for axis in "xyzw"] for key in joint.Keyframes])
-        if not np.isfinite(quaternions).all() or not np.isfinite(root).all():
-            frame = int(np.flatnonzero(~np.isfinite(np.hstack([quaternions, root])).all(axis=1))[0])
-            raise LocomotionError(f"{source}: frame {frame} of {joint.Name!r} is not finite")
         turns[:, j] = axes @ Rotation.from_quat(quaternions).as_matrix() @ axes.T
     capture = Capture(
         source.stem,

@@ -16,6 +16,7 @@ __all__ = ["Motion", "load_motion", "lowest_points", "motion_of_clip", "place_on
 
 _KIND, _VERSION = "motion", 1
 _RATE = 60.0  # [Hz] at which a clip of keyframes is played
+_RATES = (1.0, 1e4)  # [Hz] of a file
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,11 +57,20 @@ def load_motion(path: str | os.PathLike[str]) -> Motion:
     qpos = arrays.get("qpos")
     if header.get("joints") != list(JOINT_NAMES):
         raise LocomotionError(f"{path}: the motion of a person with other joints; import it again")
-    if qpos is None or qpos.ndim != 2 or qpos.shape[1] != 7 + len(JOINT_NAMES) or not len(qpos):
-        raise LocomotionError(f"{path}: not a whole motion: it must hold qpos (n, {7 + len(JOINT_NAMES)})")
+    if (
+        qpos is None or qpos.dtype != np.float64
+        or qpos.ndim != 2 or qpos.shape[1] != 7 + len(JOINT_NAMES) or not len(qpos)
+    ):  # fmt: skip
+        size = 7 + len(JOINT_NAMES)
+        raise LocomotionError(f"{path}: not a whole motion: it must hold qpos (n, {size}) float64")
     if not np.isfinite(qpos).all():
         raise LocomotionError(f"{path}: frame {int(np.argwhere(~np.isfinite(qpos))[0, 0])} is not finite")
-    return Motion(str(header["name"]), float(header["rate"]), qpos, bool(header["grounded"]))
+    rate, (slowest, fastest) = header.get("rate"), _RATES
+    if not isinstance(rate, int | float) or not slowest <= rate <= fastest:
+        raise LocomotionError(
+            f"{path}: not a whole motion: its rate must be {slowest:g} to {fastest:g} Hz, not {rate!r}"
+        )
+    return Motion(str(header.get("name", "")), float(rate), qpos, bool(header.get("grounded", False)))
 
 
 def motion_of_clip(clip: Clip) -> Motion:

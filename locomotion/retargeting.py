@@ -6,18 +6,20 @@ A mapping names, for each part of the person, the joint of the capture that turn
     right_thigh: RightUpLeg
     ...
 
+A joint turns one part at most.
+
 In the capture's rest pose the limbs' parts lie along the capture's bones and all others stand as in the
 person's own rest pose; from there each part turns in the world as its joint does. The hinges of a part take
 of that what they can, the next part makes up for the rest. The root's way is scaled by the length of the
 legs.
 """
 
+import difflib
 import os
-from pathlib import Path
 
 import numpy as np
-import yaml
 from numpy.typing import NDArray
+from pydantic import RootModel
 from scipy.spatial.transform import Rotation
 
 from locomotion.anatomy import SHANK, THIGH
@@ -25,6 +27,7 @@ from locomotion.bvh import Capture
 from locomotion.errors import LocomotionError
 from locomotion.motion import Motion, place_on_ground
 from locomotion.person import BODY_NAMES, JOINT_NAMES, person_spec
+from navmesh.yamlfile import FileError, read_yaml
 
 __all__ = ["load_mapping", "retarget"]
 
@@ -33,45 +36,68 @@ _LIMB_PARTS = ("thigh", "shank", "foot", "upper_arm", "forearm")
 _NEEDED = ("pelvis", "chest", *(f"{side}_{part}" for side in _SIDES for part in _LIMB_PARTS))
 _LIMBS = {"thigh": "shank", "shank": "foot", "upper_arm": "forearm", "forearm": "hand"}
 _AXES = "XYZ"
+_SHORTEST, _LONGEST = 1e-3, 2.0  # [m] of a limb's bone
+
+
+class _Mapping(RootModel[dict[str, str]]):
+    """Joints of a capture by parts of the person."""
 
 
 def load_mapping(path: str | os.PathLike[str]) -> dict[str, str]:
     """Read a mapping: joints of a capture by parts of the person (YAML).
 
-    Raises `LocomotionError` for a file that cannot be read, parts that the person does not have, and parts
-    that must be mapped and are not.
+    Raises `LocomotionError` for a file that cannot be read, parts that the person does not have, parts that
+    must be mapped and are not, and joints that two parts are mapped to.
     """
-    source = Path(path)
     try:
-        data = yaml.safe_load(source.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise LocomotionError(f"{source}: cannot be read: {error.strerror}") from error
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise LocomotionError(f"{source}: not YAML: {error}") from error
-    if not isinstance(data, dict) or not all(isinstance(v, str) for v in data.values()):
-        raise LocomotionError(f"{source}: must map parts of the person to names of joints")
-    unknown = [str(name) for name in data if name not in BODY_NAMES]
-    if unknown:
-        parts = ", ".join(BODY_NAMES)
-        raise LocomotionError(f"{source}: no part is called {unknown[0]!r}; the parts are {parts}")
-    missing = [name for name in _NEEDED if name not in data]
+        file, located = read_yaml(path, _Mapping, "mapping of parts to joints")
+        mapping = file.root
+        if wrong := _wrong(mapping):
+            raise located.error(*wrong, at_key=True)
+    except FileError as error:
+        raise LocomotionError(str(error)) from None
+    return mapping
+
+
+def _wrong(mapping: dict[str, str]) -> tuple[list[str], str] | None:
+    """The first mistake of a mapping: the part that it stands at, if it does at one, and what it is."""
+    for part in mapping:
+        if part not in BODY_NAMES:
+            near = difflib.get_close_matches(part, BODY_NAMES, n=1)
+            hint = f"did you mean {near[0]!r}? " if near else ""
+            return [part], f"no part is called {part!r}; {hint}the parts are {', '.join(BODY_NAMES)}"
+    missing = [part for part in _NEEDED if part not in mapping]
     if missing:
-        raise LocomotionError(f"{source}: says no joint for {', '.join(missing)}")
-    return data
+        return [], f"says no joint for {', '.join(missing)}"
+    turned: dict[str, str] = {}
+    for part, joint in mapping.items():
+        other = turned.setdefault(joint, part)
+        if other != part:
+            free = ", ".join(name for name in BODY_NAMES if name not in _NEEDED)
+            return [part], (
+                f"{other} and {part} are both mapped to {joint!r}; a joint turns one part (these may be left"
+                f" out: {free})"
+            )
+    return None
 
 
 def retarget(capture: Capture, mapping: dict[str, str]) -> Motion:
     """The captured motion on the person, standing on the ground z = 0 and facing +X in its rest pose.
 
-    Raises `LocomotionError` for joints that the capture does not have.
+    Raises `LocomotionError` for a mapping with a mistake, joints that the capture does not have or has twice,
+    and limbs without a length or longer than 2 m.
     """
-    missing = [joint for joint in mapping.values() if joint not in capture.joints]
-    if missing:
-        raise LocomotionError(
-            f"{capture.name}: has no joint called {missing[0]!r}; its joints are {', '.join(capture.joints)}"
-        )
+    if wrong := _wrong(mapping):
+        raise LocomotionError(f"{capture.name}: the mapping: {wrong[1]}")
+    for joint in mapping.values():
+        if joint not in capture.joints:
+            joints = ", ".join(capture.joints)
+            raise LocomotionError(f"{capture.name}: has no joint called {joint!r}; its joints are {joints}")
+        if capture.joints.count(joint) > 1:
+            raise LocomotionError(f"{capture.name}: has several joints called {joint!r}; name them apart")
     source = {part: capture.joints.index(joint) for part, joint in mapping.items()}
     places = capture.rest_places()
+    _check_lengths(capture, places, source)
     facing = _facing(places, source)
     world = facing @ capture.orientations() @ facing.T
     places = places @ facing.T
@@ -106,6 +132,29 @@ def retarget(capture: Capture, mapping: dict[str, str]) -> Motion:
     way = capture.root @ facing.T + world[:, source["pelvis"]] @ (hips - places[source["pelvis"]])
     qpos[:, :3] = 2.0 * (THIGH + SHANK) / legs * (way - [*way[0, :2], 0.0])
     return Motion(capture.name, capture.rate, place_on_ground(qpos))
+
+
+def _check_lengths(capture: Capture, places: NDArray[np.float64], source: dict[str, int]) -> None:
+    """Raise `LocomotionError` for limbs without a length, or of an impossible one, and hips that are not
+    beside each other in the rest pose, ``places`` (j, 3) [m]: nothing says where those point."""
+    bones = [(f"{side}_{a}", f"{side}_{b}") for side in _SIDES for a, b in _LIMBS.items()]
+    for a, b in bones:
+        if b not in source:
+            continue
+        length = float(np.linalg.norm(places[source[b]] - places[source[a]]))
+        if not _SHORTEST <= length <= _LONGEST:
+            raise LocomotionError(
+                f"{capture.name}: joint {capture.joints[source[b]]!r} ({b}) is {length:.3g} m from"
+                f" {capture.joints[source[a]]!r} ({a}) in the rest pose; a {a} is {_SHORTEST:g} to"
+                f" {_LONGEST:g} m long"
+            )
+    right, left = source["right_thigh"], source["left_thigh"]
+    if np.linalg.norm((places[left] - places[right])[:2]) < _SHORTEST:
+        raise LocomotionError(
+            f"{capture.name}: the hips {capture.joints[right]!r} and {capture.joints[left]!r} are not beside"
+            " each other in the rest pose, so that it faces nowhere; map other joints, or name another axis"
+            " that points up"
+        )
 
 
 def _facing(places: NDArray[np.float64], source: dict[str, int]) -> NDArray[np.float64]:

@@ -159,21 +159,38 @@ def test_units_and_the_axis_that_points_up_must_fit(bvh):
 def test_files_that_are_no_captures_are_refused(tmp_path, bvh):
     with pytest.raises(LocomotionError, match="no such file"):
         read_bvh(tmp_path / "none.bvh")
+    folder = tmp_path / "folder.bvh"
+    folder.mkdir()
+    with pytest.raises(LocomotionError, match="no such file"):
+        read_bvh(folder)
+    (tmp_path / "bytes.bvh").write_bytes(bytes(range(256)))
+    with pytest.raises(LocomotionError, match="not a BVH file"):
+        read_bvh(tmp_path / "bytes.bvh")
     text = bvh_text([{}, {}])
     for broken, message in (
-        ("", "no line MOTION"),
-        ("HIERARCHY\nROOT", "not a BVH file: it has no line MOTION"),
-        (text[: len(text) // 3], "not a BVH file: it has no line MOTION"),
-        ("MOTION\nFrames: 2\nFrame Time: 0.1\n0 0 0\n", "not a BVH file: 0 braces"),
-        (text.replace("}", "", 1), "braces"),
-        (text[: text.index("Frame Time")], "Frame Time"),
-        (text.replace("HIERARCHY", "TREE"), "not a BVH file"),
-        (text.replace("Frames: 2", "Frames: 0"), "frames"),
-        (text.replace("Frames: 2", "Frames: 100"), "has 2 of the 100 frames"),
-        (
-            text[: text.index("Time")] + text[text.index("Time") :].replace("0.000000000", "nan", 9),
-            "not finite|must be numerics only",
-        ),
+        ("", "1: not a whole BVH file: it ends where HIERARCHY is expected"),
+        ("HIERARCHY\nROOT", "2: expected a name after ROOT"),
+        ("HIERARCHY\nROOT Hips", "2: not a whole BVH file: it ends where { is expected"),
+        (text[: text.index("JOINT Head")], "it ends where } is expected"),
+        ("MOTION\nFrames: 2\nFrame Time: 0.1\n0 0 0\n", "must begin with HIERARCHY, not 'MOTION'"),
+        (text.replace("HIERARCHY", "TREE"), "must begin with HIERARCHY, not 'TREE'"),
+        (text.replace("}", "", 1), "expected JOINT, End Site or }, not 'MOTION'"),
+        (text.replace("MOTION", "}\nMOTION"), "expected MOTION"),
+        (text.replace("ROOT", "JOINT"), "2: expected ROOT and a name, not 'JOINT Hips'"),
+        (text.replace("OFFSET 0 12 0", "OFFSET 0 12"), "expected OFFSET of 'Spine' and three numbers"),
+        (text.replace("OFFSET 0 12 0", "OFFSET 0 nan 0"), "the OFFSET of Spine: expected a number .* 'nan'"),
+        (text.replace("3 Zrotation", "4 Zrotation", 1), "expected CHANNELS of 'Spine'"),
+        (text.replace("3 Zrotation", "3 zrotation", 1), "channel 'zrotation', which is none; valid: Xpos"),
+        (text.replace("3 Zrotation", "3 Xrotation", 1), "channel 'Xrotation', twice"),
+        (text[: text.index("Frame Time")], "it ends where Frame Time: is expected"),
+        (text.replace("Frames: 2", "Frames: 0"), "expected Frames: and how many"),
+        (text.replace("Frames: 2", f"Frames: {'9' * 5000}"), "expected Frames: and how many"),
+        (text.replace("Frames: 2", "Frames: 1000000"), "take 278 minutes; a capture has at most 10"),
+        (text.replace("Frames: 2", "Frames: 100"), "it ends where frame 3 of 100 is expected"),
+        (text.replace(" 0.000000000\n", "\n", 1), "frame 1 of 2 has 50 numbers; its joints have 51 channels"),
+        (text.replace(" 90.000000000", " 1e39", 1), "Hips Yposition in frame 1 of 2: .* not '1e39'"),
+        (text.replace(" 90.000000000", " tall", 1), "Hips Yposition in frame 1 of 2: .* not 'tall'"),
+        (text.replace(" 0.000000000\n", " nan\n", 1), "RightFoot Yrotation in frame 1 of 2: .* 'nan'"),
     ):
         path = tmp_path / "broken.bvh"
         path.write_text(broken)
@@ -181,18 +198,81 @@ def test_files_that_are_no_captures_are_refused(tmp_path, bvh):
             read_bvh(path)
 
 
+@pytest.mark.parametrize("time", ["0", "-0.03", "nan", "inf", "33.3", "1e-9", "fast", ""])
+def test_frames_come_at_a_rate_that_there_is(tmp_path, time):
+    path = tmp_path / "odd.bvh"
+    path.write_text(bvh_text([{}, {}]).replace("0.0166667", time))
+    with pytest.raises(
+        LocomotionError, match=r"odd\.bvh:\d+: expected Frame Time: .* from 0\.0001 to 1, not"
+    ):
+        read_bvh(path)
+
+
+def test_lines_end_where_they_do_for_who_reads_the_file(tmp_path):
+    """A form feed ends no line: two rows with one between them counted as two, and reading never ended."""
+    text = bvh_text([{}, {}])
+    head, first, second = text[:-1].rsplit("\n", 2)
+    path = tmp_path / "feed.bvh"
+    path.write_text(f"{head}\n{first}\f{second}\n")
+    with pytest.raises(LocomotionError, match="frame 1 of 2 has 102 numbers"):
+        read_bvh(path)
+
+
+@pytest.mark.parametrize(("offset", "length"), [("0 0 0", "0"), ("1e5 0 0", r"1e\+03")])
+def test_limbs_have_a_length_and_hips_are_beside_each_other(tmp_path, offset, length):
+    text, path = bvh_text([{}]), tmp_path / "short.bvh"
+    for bone, message in (
+        ("0 -41.2 0", r"joint 'LeftLeg' \(left_shank\) is {} m from 'LeftUpLeg' \(left_thigh\)"),
+        ("-27.5 0 0", r"'RightForeArm' \(right_forearm\) is {} m .*; a right_upper_arm is 0.001 to 2 m long"),
+        ("26.3 0 0", r"joint 'LeftHand' \(left_hand\) is {} m from"),
+    ):
+        path.write_text(text.replace(f"OFFSET {bone}", f"OFFSET {offset}", 1))
+        with pytest.raises(LocomotionError, match=message.format(length)):
+            retarget(read_bvh(path), MAPPING)
+    path.write_text(text.replace("OFFSET -8.5", "OFFSET 8.5"))
+    with pytest.raises(
+        LocomotionError, match="the hips 'RightUpLeg' and 'LeftUpLeg' are not beside each other"
+    ):
+        retarget(read_bvh(path), MAPPING)
+
+
 def test_mappings_name_parts_and_joints_that_there_are(tmp_path, bvh):
     path = tmp_path / "map.yaml"
+    whole = "".join(f"{part}: {joint}\n" for part, joint in MAPPING.items())
+    path.write_text(whole)
+    assert load_mapping(path) == MAPPING
     for text, message in (
-        ("- pelvis", "must map parts"),
-        ("pelvis: Hips\ntail: Hips", "no part is called 'tail'"),
-        ("pelvis: Hips", "says no joint for chest"),
+        ("", "1:1: empty; expected a mapping of parts to joints"),
+        ("- pelvis", "a mapping is needed, not a list"),
+        ("pelvis: Hips\ntail: Hips", "2:1: no part is called 'tail'; the parts are pelvis"),
+        (whole.replace("left_shank", "left_shin"), "'left_shin'; did you mean 'left_shank'"),
+        ("pelvis: Hips", "says no joint for chest, right_thigh"),
+        (whole.replace("chest: Chest", "chest: 5"), "3:8: chest: Input should be a valid string, not 5"),
+        (f"{whole}pelvis: Spine", "17:1: 'pelvis' stands here twice"),
+        (
+            whole.replace("left_shank: LeftLeg", "left_shank: LeftUpLeg"),
+            "9:1: left_thigh and left_shank are both mapped to 'LeftUpLeg'; a joint turns one part",
+        ),
     ):
         path.write_text(text)
         with pytest.raises(LocomotionError, match=message):
             load_mapping(path)
-    with pytest.raises(LocomotionError, match="no joint called 'Rump'; its joints are Hips, Spine"):
-        retarget(read_bvh(bvh([{}])), {**MAPPING, "pelvis": "Rump"})
+    capture = read_bvh(bvh([{}]))
+    for wrong, message in (
+        ({"pelvis": "Rump"}, "no joint called 'Rump'; its joints are Hips, Spine"),
+        ({"waist": "Hips"}, "pelvis and waist are both mapped to 'Hips'"),
+        ({"tail": "Hips"}, "no part is called 'tail'"),
+    ):
+        with pytest.raises(LocomotionError, match=message):
+            retarget(capture, {**MAPPING, **wrong})
+
+
+def test_a_joint_that_turns_a_part_has_a_name_of_its_own(tmp_path):
+    path = tmp_path / "twins.bvh"
+    path.write_text(bvh_text([{}]).replace("JOINT Head", "JOINT Chest"))
+    mapping = {part: joint for part, joint in MAPPING.items() if part != "head"}
+    with pytest.raises(LocomotionError, match="several joints called 'Chest'"):
+        retarget(read_bvh(path), mapping)
 
 
 def still(seconds=0.5, rate=60.0):
@@ -237,6 +317,12 @@ def test_a_clip_of_keyframes_is_a_motion_on_the_ground(tmp_path):
     again = load_motion(tmp_path / "run.npz")
     assert (again.name, again.rate, again.grounded) == (motion.name, motion.rate, True)
     assert np.array_equal(again.qpos, motion.qpos)
+    for rate, turned in ((0.0, motion.qpos), (np.inf, motion.qpos), (60.0, motion.qpos.astype(np.float32))):
+        Motion("odd", rate, turned).save(tmp_path / "odd.npz")
+        with pytest.raises(
+            LocomotionError, match=r"odd\.npz: not a whole motion: .* (1 to 10000 Hz|float64)"
+        ):
+            load_motion(tmp_path / "odd.npz")
     whole = (tmp_path / "run.npz").read_bytes()
     (tmp_path / "run.npz").write_bytes(whole[: len(whole) // 2])
     with pytest.raises(LocomotionError, match=r"run\.npz"):

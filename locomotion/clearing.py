@@ -7,7 +7,7 @@ the skill starts, and from then on changes the running controller's targets unti
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Literal, Protocol
 
 import mujoco
@@ -24,6 +24,7 @@ __all__ = [
     "ClearingSkill",
     "distance_to",
     "foot_distance",
+    "joined",
     "plan_run_up",
     "run_up_speeds",
     "skill_for",
@@ -107,18 +108,23 @@ def skill_for(skills: Sequence[ClearingSkill], obstacle: ObstacleAhead) -> Clear
 def skill_ranges(skills: Sequence[ClearingSkill]) -> dict[str, tuple[float, float]]:
     """Least and greatest size [m] of the obstacles that ``skills`` clear, with what they let pass, by
     affordance. `LocomotionError` where the ranges of two skills for the same leave some in between."""
+    return joined((skill.affordance, skill.heights) for skill in skills)
+
+
+def joined(sizes: Iterable[tuple[str, tuple[float, float]]]) -> dict[str, tuple[float, float]]:
+    """`skill_ranges` of skills of which only the affordance and the sizes [m] are known."""
     ranges: dict[str, tuple[float, float]] = {}
-    for skill in sorted(skills, key=lambda each: each.heights):
-        low, high = skill.heights[0] - HEIGHT_TOLERANCE, skill.heights[1] + HEIGHT_TOLERANCE
-        if skill.affordance in ranges:
-            least, most = ranges[skill.affordance]
+    for affordance, (first, last) in sorted(sizes, key=lambda each: each[1]):
+        low, high = first - HEIGHT_TOLERANCE, last + HEIGHT_TOLERANCE
+        if affordance in ranges:
+            least, most = ranges[affordance]
             if low > most + 1e-9:
                 raise LocomotionError(
-                    f"skills for {skill.affordance!r}: nothing is learned from {most:g} to {low:g} m; the "
+                    f"skills for {affordance!r}: nothing is learned from {most:g} to {low:g} m; the "
                     "ranges of skills for the same kind of obstacle must join"
                 )
             low, high = least, max(most, high)
-        ranges[skill.affordance] = low, high
+        ranges[affordance] = low, high
     return ranges
 
 

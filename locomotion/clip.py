@@ -6,6 +6,7 @@ A clip names channels (joints of `locomotion.person.JOINT_NAMES`) and gives each
 """
 
 import difflib
+import hashlib
 import os
 from dataclasses import dataclass
 from pathlib import Path
@@ -43,6 +44,15 @@ class Clip:
     root_height: float
     root_pitch: float
     channels: dict[str, np.ndarray]
+
+    @property
+    def digest(self) -> str:
+        """Hex digest of all that is played."""
+        said = (self.cyclic, self.duration, self.speed, self.root_height, self.root_pitch)
+        hasher = hashlib.sha256(repr(said).encode())
+        for name in sorted(self.channels):
+            hasher.update(name.encode() + self.channels[name].tobytes())
+        return hasher.hexdigest()[:16]
 
     def sample(self, shares: np.ndarray) -> np.ndarray:
         """Joint angles [rad], (n, 39) float64, at ``shares`` (n,) of the duration (wrapped when cyclic)."""

@@ -3,7 +3,6 @@
 import os
 from collections.abc import Sequence
 
-from runtime.errors import RuntimeInputError
 from runtime.evaluation import Attempt
 from runtime.files import whole_file
 
@@ -13,16 +12,14 @@ _SIZE = (6.0, 4.5)  # [in] of the picture of a test
 
 
 def plot_coverage(skill: str, attempts: Sequence[Attempt], path: str | os.PathLike[str]) -> None:
-    """Write the picture (PNG) to ``path``, whole or not at all: one plane for each test of two coordinates.
-    Raises `RuntimeInputError` when no test has any."""
+    """Write the picture (PNG) to ``path``, whole or not at all: one plane for each test of two
+    coordinates."""
     from matplotlib.figure import Figure
 
     tests = {
         test: [each for each in attempts if each.test == test]
         for test in dict.fromkeys(each.test for each in attempts if len(each.at) == 2)
     }
-    if not tests:
-        raise RuntimeInputError(f"the tests of {skill} have no plane to draw; leave --picture out")
     width, height = _SIZE
     figure = Figure(figsize=(width * len(tests), height), dpi=100, layout="constrained")
     for axes, (test, tried) in zip(

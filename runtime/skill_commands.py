@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 __all__ = ["evaluate_skill", "show_clip", "train_library", "train_skill"]
 
+_WITHOUT_PLANE = "walk", "speed-up", "slow-down", "brake"  # skills that are not tried over a plane
+
 
 def _trainers() -> Mapping[str, Callable[..., Any]]:
     """What learns each skill, in the order in which they build on one another."""
@@ -122,6 +124,8 @@ def evaluate_skill(skill: str, trials: int, seed: int, picture: Path | None = No
     of what was tried is covered."""
     if picture is not None:
         check_output(picture)
+        if skill in _WITHOUT_PLANE:
+            raise RuntimeInputError(f"the tests of {skill} have no plane to draw; leave --picture out")
     from runtime.evaluation import (
         evaluate_brake,
         evaluate_clearing,

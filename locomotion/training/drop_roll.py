@@ -255,6 +255,7 @@ def train_drop_roll(training: Training, out: str | os.PathLike[str] = DROP_ROLL_
     """Learn to roll off drops of `HEIGHTS` on the package's run and walk, and write it to ``out``. The
     training's checkpoint is a folder."""
     run = load_run_skill()
+    training.begin({"skill": "drop-roll", "run": run_digest(run)})
     stride = JumpSimulator(run).fit_stride(_ENTRY, np.random.default_rng([training.seed, 1]))
     few, many, *finer = curriculum(training)
     rounds = training.generations(_BALANCING)

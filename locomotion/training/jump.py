@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from locomotion import jump
+from locomotion.clearing import joined
 from locomotion.errors import LocomotionError
 from locomotion.jump_skill import (
     JUMP_SKILL,
@@ -18,6 +19,7 @@ from locomotion.jump_skill import (
     run_digest,
     tables_of,
 )
+from locomotion.library import learned_skills
 from locomotion.skill import RunSkill, load_run_skill
 from locomotion.skill_description import load_description
 from locomotion.skill_family import SkillFamily
@@ -184,12 +186,20 @@ def train_described(
     """Learn a skill that is described by a file (`locomotion.skill_description`), size by size, and write it
     to ``out`` (None: where its description says). The training's checkpoint is a folder.
 
-    Raises `LocomotionError` for a bad description or an unknown term of the objective.
+    Raises `LocomotionError` for a bad description, an unknown term of the objective, a place where what is
+    learned cannot be kept, or sizes that leave out some between them and those that the package's skills
+    clear.
     """
     description = load_description(path)
     unknown = sorted(set(description.objective) - set(WEIGHTS))
     if unknown:
         raise LocomotionError(f"{path}: objective: {unknown[0]!r}: valid terms: {', '.join(WEIGHTS)}")
+    result = Path(description.learned if out is None else out)
+    if not os.access(result.parent, os.W_OK):
+        raise LocomotionError(f"{path}: learned: there is no folder {str(result.parent)!r} to write to")
+    least = description.sizes[0] if description.least is None else description.least
+    others = ((skill.affordance, skill.heights) for skill in learned_skills(load_run_skill()))
+    joined([*others, (description.affordance, (least, description.sizes[-1]))])
     clip = description.load_clip()
     simulator = (
         partial(JumpSimulator, clip=clip)
@@ -205,7 +215,7 @@ def train_described(
     if description.least is not None:
         learned[description.least] = learned[description.sizes[0]]
     skill = _family(course, learned, training.made_by(Path(path).name))
-    skill.save(description.learned if out is None else out)
+    skill.save(result)
     return skill
 
 
@@ -214,6 +224,13 @@ def _course(
 ) -> _Course:
     """``heights``, ``further`` [m]: those that will be learned in turn, and by extrapolation."""
     run = load_run_skill()
+    training.begin(
+        {
+            "skill": kind.name, "affordance": kind.affordance, "clip": kind.clip.digest, "entry": kind.entry,
+            "marks": tuple(kind.marks), "pace": tuple(kind.pace), "share": kind.share,
+            "objective": sorted(kind.weights.items()), "sizes": (*heights, *further), "run": run_digest(run),
+        }
+    )  # fmt: skip
     stride = kind.simulator(run).fit_stride(kind.entry, np.random.default_rng([training.seed, 1]))
     passes = [
         *(stage for height in heights for stage in _first_pass(training, height)),

@@ -1,6 +1,7 @@
 """What all trainings have in common: what a user asks for, and the files of what was learned so far."""
 
-from collections.abc import Callable
+import json
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -8,13 +9,16 @@ from typing import Any
 import numpy as np
 
 from locomotion.errors import LocomotionError
+from locomotion.person import person_digest
 from locomotion.training.loop import Problem, learn
 from locomotion.training.progress import Clock, Progress, show
 from navmesh.archive import read_archive, write_archive
+from navmesh.whole_file import whole_file
 
 __all__ = ["Training"]
 
 _VERSION = 1
+_ANEW = "remove the folder {} to begin anew, or keep checkpoints elsewhere"
 
 
 @dataclass(frozen=True)
@@ -46,6 +50,32 @@ class Training:
         assert learned is not None
         return learned
 
+    def begin(self, configuration: Mapping[str, Any]) -> None:
+        """Note in the checkpoint's folder what is learned there: values that `repr` tells apart, by name.
+
+        Raises `LocomotionError`, naming what differs, if something else is learned there already.
+        """
+        if self.checkpoint is None:
+            return
+        own = {"seed": self.seed, "effort": self.effort, "person": person_digest()}
+        said = {name: repr(value) for name, value in {**configuration, **own}.items()}
+        self.checkpoint.mkdir(parents=True, exist_ok=True)
+        noted = self.checkpoint / "configuration.json"
+        if not noted.exists():
+            with whole_file(noted) as temporary:
+                temporary.write_text(json.dumps(said, indent=1) + "\n", encoding="utf-8")
+            return
+        try:
+            before = json.loads(noted.read_text(encoding="utf-8"))
+        except ValueError:
+            raise LocomotionError(f"{noted}: cannot be read; {_ANEW.format(self.checkpoint)}") from None
+        differs = [name for name in {**before, **said} if before.get(name) != said.get(name)]
+        if differs:
+            raise LocomotionError(
+                f"{self.checkpoint}: holds another configuration, which differs in {', '.join(differs)}; "
+                + _ANEW.format(self.checkpoint)
+            )
+
     def generations(self, count: int) -> int:
         """So many with this effort, at least one."""
         return max(round(count * self.effort), 1)
@@ -67,7 +97,9 @@ class Training:
             return None
         header, arrays = read_archive(path, kind, _VERSION)
         if any(header.get(key) != value for key, value in self._identity(run).items()):
-            raise LocomotionError(f"{path}: checkpoint of another training or seed; remove it to begin anew")
+            raise LocomotionError(
+                f"{path}: checkpoint of another training or seed; {_ANEW.format(self.checkpoint)}"
+            )
         return arrays
 
     def keep(self, kind: str, number: int, run: str, arrays: dict[str, np.ndarray]) -> None:

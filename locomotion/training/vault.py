@@ -253,6 +253,7 @@ def train_vault(training: Training, out: str | os.PathLike[str] = VAULT_SKILL) -
     The training's checkpoint is a folder."""
     run, seed = load_run_skill(), training.seed
     digest, stages = run_digest(run), curriculum(training)
+    training.begin({"skill": KIND, "run": digest})
     stride = VaultSimulator(run).fit_stride(ENTRY_SPEED, np.random.default_rng([seed, 1]))
     blank = np.zeros((1, vault.STEPS * vault.BINS, vault.SENSORS))
     guess = first_guess()[None]

@@ -34,6 +34,12 @@ def test_a_checkpoint_in_a_folder_that_is_not_there_is_refused(capsys, tmp_path)
     assert code == 2 and "there is no folder" in err
 
 
+def test_a_picture_of_tests_without_a_plane_is_refused_before_they_are_made(capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr("runtime.evaluation.evaluate_brake", None)
+    code, _, err = surefoot(capsys, "evaluate", "brake", "--picture", tmp_path / "brake.png")
+    assert code == 2 and "no plane to draw" in err and not (tmp_path / "brake.png").exists()
+
+
 def interrupted_first(training):
     """Takes three minutes, or one that counts and is cut short, where each look at the clock takes one."""
     training.on_progress(Progress("sitting", 1, 1, 0.0, 1.0, 0.0, 0.0))
@@ -72,7 +78,7 @@ def test_what_workers_compute_counts_while_they_live_and_after():
     assert _cpu_minutes() - before >= least
 
 
-@pytest.mark.parametrize(("skill", "tests"), [("jump", 2), ("run", 6)])
+@pytest.mark.parametrize(("skill", "tests"), [("jump", 3), ("run", 6)])
 def test_evaluate_prints_a_table_and_the_same_as_json(capsys, skill, tests):
     code, out, _ = surefoot(capsys, "evaluate", skill, "--trials", "2", "--seed", "3", "--json")
     result = json.loads(out)

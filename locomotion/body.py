@@ -17,6 +17,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from numbers import Integral
 
 import mujoco
 import numpy as np
@@ -107,6 +108,8 @@ class Human(RehearsingPerson):
         ``rehearsals``: how many variations of a take-off it tries out at most before it takes off
         (`locomotion.rehearsal`); 0: none. ``gets_up``: whether it gets up after a fall and goes on; else a
         fall is the end."""
+        if isinstance(rehearsals, bool) or not isinstance(rehearsals, Integral) or rehearsals < 0:
+            raise LocomotionError(f"rehearsals must be a whole number of at least 0, not {rehearsals!r}")
         run = load_run_skill() if skill is None else skill
         on_feet = OnFeet(
             run,
@@ -146,7 +149,9 @@ class Human(RehearsingPerson):
         """
         if self.status == "fallen":
             raise LocomotionError("the person has fallen for good; reset it")
-        for obstacle in obstacles:
+        for number, obstacle in enumerate(obstacles):
+            if not obstacle.is_finite:
+                raise LocomotionError(f"obstacle {number} is not made of finite numbers: {obstacle}")
             if skill_for(self.clearing, obstacle) is None:
                 wanted = f"{obstacle.affordance} {obstacle.size:.2f} m"
                 offered = [f"{s.affordance} {s.heights[0]:g} to {s.heights[1]:g} m" for s in self.clearing]

@@ -12,6 +12,7 @@ from locomotion import events as bodily
 from locomotion.giving_way import Course
 from locomotion.human_state import CLEARING
 from locomotion.quadruped import Animal
+from runtime.arguments import checked_number, checked_points
 from runtime.drivers import Driver
 from runtime.errors import RuntimeInputError
 from runtime.events import (
@@ -160,7 +161,7 @@ class Agent:
 
     def plan(self, point: ArrayLike) -> Plan:
         """The way that `go_to` would take, not taken. Raises `runtime.planning.NoWay`."""
-        return self._driver.plan(_points(point))
+        return self._driver.plan(checked_points(point, "point"))
 
     def go_to(self, point: ArrayLike, speed: float = 3.5, facing: float | None = None) -> str:
         """Set out for ``point`` (3,) [m], or through several (k, 3) in order, at up to ``speed`` [m/s]; a
@@ -168,9 +169,14 @@ class Agent:
 
         Returns the status: "walking", "running", or "blocked" when there is no way (an event says why; the
         agent then keeps doing what it did). Raises `RuntimeInputError` for a point that is not finite
-        numbers or an agent that has fallen, and `locomotion.LocomotionError` for a speed that is not above 0.
+        numbers, a speed that is not above 0, or an agent that has fallen or was removed.
         """
-        goals = _points(point)
+        self._refuse_if_removed()
+        goals = checked_points(point, "point")
+        if checked_number(speed, "speed", "m/s") <= 0.0:
+            raise RuntimeInputError(f"speed must be above 0 m/s, not {speed!r}")
+        if facing is not None:
+            checked_number(facing, "facing", "rad")
         if len(goals) == 1 and not self.moving and self._world.has_come(self, goals[0]):
             self._goal, self._blocked = _triple(goals[0]), False
             return self.status
@@ -187,9 +193,14 @@ class Agent:
     def stop(self) -> None:
         """Give up its way and come to a stand, as soon as it can without falling; an obstacle that it is
         clearing is cleared first. One that is not on its way stays as it is."""
+        self._refuse_if_removed()
         self._errand, self._blocked = Errand(), False
         if self.moving:
             self._driver.stop()
+
+    def _refuse_if_removed(self) -> None:
+        if self._world.agents.get(self.name) is not self:
+            raise RuntimeInputError(f"{self.name} has been removed from its world; spawn another")
 
     def _depart(self, plan: Plan, former: Course | None = None) -> None:
         """Report that it has taken the way of ``plan``; ``former`` is the course that it was on."""
@@ -328,16 +339,6 @@ class Agent:
         if isinstance(event, bodily.StrayedFromPath):
             return Lost(**base, reason=f"is {event.distance:.1f} m beside its path")
         return None
-
-
-def _points(point: ArrayLike) -> np.ndarray:
-    """``point`` as (k, 3) float64; raises `RuntimeInputError`."""
-    goals = (
-        np.asarray(point, dtype=np.float64).reshape(-1, 3) if np.size(point) % 3 == 0 else np.empty((0, 3))
-    )
-    if len(goals) == 0 or not np.isfinite(goals).all():
-        raise RuntimeInputError(f"point must be finite numbers (3,) or (k, 3), not {point!r}")
-    return goals
 
 
 def _triple(point: ArrayLike) -> tuple[float, float, float]:

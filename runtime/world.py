@@ -20,6 +20,7 @@ from locomotion.person import CONTROL_DT
 from locomotion.quadruped import is_body_file, load_body
 from locomotion.rehearsal import REHEARSALS
 from runtime.agent import Agent
+from runtime.arguments import checked_number, checked_points, checked_whole
 from runtime.drivers import BODIES, Follower, Population, radius_of
 from runtime.errors import RuntimeInputError
 from runtime.events import Event
@@ -61,8 +62,8 @@ class World:
         skills: Sequence[str | os.PathLike[str]] = (),
         rehearsals: int = REHEARSALS,
     ) -> None:
-        if not rehearsals >= 0:
-            raise RuntimeInputError(f"rehearsals must be a number of at least 0, not {rehearsals}")
+        checked_whole(rehearsals, "rehearsals")
+        checked_whole(seed, "seed")
         self._skills = tuple(Path(each).resolve() for each in skills)
         own: Mapping[str, tuple[float, float]] = {}
         if self._skills:
@@ -131,6 +132,10 @@ class World:
         They may do with the world what they like, except step or restore it. An error in one comes out of
         `step`, which can be called again.
         """
+        if not callable(callback) or not (isinstance(kind, type) and issubclass(kind, Event)):
+            raise RuntimeInputError(
+                f"listen takes a function and a class of events, not {callback!r} and {kind!r}"
+            )
         entry: tuple[type[Event], Callable[[Event], object]] = (kind, callback)  # type: ignore[assignment]
         self._listeners.append(entry)
 
@@ -158,6 +163,8 @@ class World:
         a body file with a mistake, a taken name, a place off the walkable surface, or a quadruped without
         room for its head.
         """
+        if not isinstance(body, str) or not isinstance(name, str | None):
+            raise RuntimeInputError(f"body and name must be text, not {body!r} and {name!r}")
         if is_body_file(body):
             try:
                 load_body(body)
@@ -171,14 +178,15 @@ class World:
             name = next(each for each in numbered if each not in self.agents)
         if name in self.agents:
             raise RuntimeInputError(f"name {name!r} is taken; names are unique in a world")
-        place = np.asarray(at, dtype=np.float64)
-        if place.shape != (3,) or not np.isfinite(place).all() or not math.isfinite(facing):
-            raise RuntimeInputError(f"at and facing must be finite (3,) and (), not {at!r} and {facing!r}")
+        place = checked_points(at, "at")
+        if len(place) != 1 or np.ndim(at) != 1:
+            raise RuntimeInputError(f"at must be one point (3,) [m], not {at!r}")
+        place, facing = place[0], checked_number(facing, "facing", "rad")
         if radius is not None and body != "walker":
             raise RuntimeInputError(f"a {body} has a radius of its own; only a walker can be given one")
-        if radius is not None and not 0.0 < radius < math.inf:
-            raise RuntimeInputError(f"radius must be a finite number above 0 m, not {radius!r}")
-        size = radius_of(body) if radius is None else radius
+        if radius is not None and checked_number(radius, "radius", "m") <= 0.0:
+            raise RuntimeInputError(f"radius must be above 0 m, not {radius!r}")
+        size = radius_of(body) if radius is None else float(radius)
         here = self.graph.find_path(place, place, radius=size)
         if here.status != "complete":
             raise RuntimeInputError(f"{place.tolist()} is not near a place where a {body} fits")
@@ -224,8 +232,7 @@ class World:
 
         Returns how many ticks were made. Raises `RuntimeInputError` for a ``dt`` below 0 or not finite.
         """
-        if not (math.isfinite(dt) and dt >= 0.0):
-            raise RuntimeInputError(f"dt must be a finite number of seconds, 0 or more, not {dt!r}")
+        dt = checked_number(dt, "dt", "s", 0.0)
         self._refuse_in_callback("step")
         total = self._owed + dt
         due = math.floor(total / CONTROL_DT + 1e-6)
@@ -324,6 +331,8 @@ class World:
         world is then as it was.
         """
         self._refuse_in_callback("restore")
+        if not isinstance(state, WorldState):
+            raise RuntimeInputError(f"a world is restored from what save gave, not from {state!r}")
         if state.level != self.level_digest:
             raise RuntimeInputError(
                 f"the state is of the level {state.level[:12]}…, this world's is {self.level_digest[:12]}…; "

@@ -126,6 +126,18 @@ def test_saved_state_of_another_model_is_refused_and_changes_nothing():
     assert human.state_hash() == before
 
 
+def test_bad_rehearsals_and_obstacles_are_refused():
+    for rehearsals in (-1, 1.5, None, True):
+        with pytest.raises(LocomotionError, match="rehearsals must be a whole number"):
+            Human(None, rehearsals=rehearsals)
+    human = Human(None)
+    for arc, height, place in ((np.nan, 0.4, 14.0), (14.0, np.inf, 14.0), (14.0, 0.4, np.nan)):
+        obstacle = ObstacleAhead(arc, "jump", height, np.array([place, 0, 0.4]), np.array([-1.0, 0, 0]))
+        with pytest.raises(LocomotionError, match="obstacle 0 is not made of finite numbers"):
+            human.follow([[0, 0, 0], [25, 0, 0]], 3.0, [obstacle])
+    assert human.status == "standing"
+
+
 def test_run_up_ends_at_the_mark_and_the_skill_starts():
     skill = Recorder()
     human = Human(None, clearing=[skill], rehearsals=0)

@@ -26,7 +26,20 @@ def test_steps_of_any_length_make_whole_ticks(graph):
     assert sum(world.step(1e-4) for _ in range(1000)) == 10
 
 
-@pytest.mark.parametrize("dt", [-0.01, np.nan, np.inf])
+def test_refuses_what_is_no_seed_listener_or_state(graph):
+    for seed in (-1, 1.5, "one", None, True):
+        with pytest.raises(RuntimeInputError, match="seed must be a whole number"):
+            World(graph, seed=seed)
+    world = World(graph)
+    for callback, kind in ((5, Event), (print, int), (print, "Arrived")):
+        with pytest.raises(RuntimeInputError, match="listen takes a function and a class"):
+            world.listen(callback, kind)
+    for state in (None, {}, world):
+        with pytest.raises(RuntimeInputError, match="from what save gave"):
+            world.restore(state)
+
+
+@pytest.mark.parametrize("dt", [-0.01, np.nan, np.inf, "1", None])
 def test_refuses_a_bad_step(graph, dt):
     with pytest.raises(RuntimeInputError, match="dt must be"):
         World(graph).step(dt)
@@ -291,6 +304,12 @@ def test_an_error_in_a_callback_comes_out_and_the_world_goes_on(graph):
         ({"at": (50.0, 3.0, 0.0)}, "not near a place"),
         ({"at": (2.0, 3.0)}, "finite"),
         ({"facing": np.nan}, "finite"),
+        ({"facing": "north"}, "facing must be a finite number"),
+        ({"at": "here"}, "finite"),
+        ({"at": [(4.0, 3.0, 0.0)]}, "one point"),
+        ({"body": None}, "must be text"),
+        ({"name": 5}, "must be text"),
+        ({"body": "walker", "radius": "wide"}, "radius must be a finite number"),
         ({"name": "ada"}, "taken"),
     ],
 )
@@ -303,8 +322,17 @@ def test_refuses_a_bad_spawn(graph, change, says):
 
 def test_refuses_a_bad_goal_and_a_bad_level(graph):
     agent = World(graph).spawn("human", (2.0, 3.0, 0.0))
-    for point in ((1.0, 2.0), (1.0, np.nan, 0.0), ()):
+    for point in ((1.0, 2.0), (1.0, np.nan, 0.0), (), None, "there", [[[1.0, 2.0, 3.0]]]):
         with pytest.raises(RuntimeInputError, match="finite"):
             agent.go_to(point)
+    for speed in (None, "fast", np.nan, 0.0, -1.0, True):
+        with pytest.raises(RuntimeInputError, match="speed must be"):
+            agent.go_to((4.0, 3.0, 0.0), speed=speed)
+    with pytest.raises(RuntimeInputError, match="facing must be"):
+        agent.go_to((4.0, 3.0, 0.0), facing="north")
+    agent.remove()
+    for command in (agent.stop, lambda: agent.go_to((4.0, 3.0, 0.0))):
+        with pytest.raises(RuntimeInputError, match="has been removed"):
+            command()
     with pytest.raises(RuntimeInputError, match="Terrain or a NodeGraph"):
         World("level.obj")  # type: ignore[arg-type]

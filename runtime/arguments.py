@@ -1,0 +1,42 @@
+"""Numbers that a host passes, checked."""
+
+import math
+from numbers import Integral, Real
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from runtime.errors import RuntimeInputError
+
+__all__ = ["checked_number", "checked_points", "checked_whole"]
+
+
+def checked_number(value: object, what: str, unit: str, least: float = -math.inf) -> float:
+    """``value`` as a float; `RuntimeInputError` unless it is a finite number of at least ``least``."""
+    if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value) or value < least:
+        bound = "" if least == -math.inf else f" of at least {least:g}"
+        raise RuntimeInputError(f"{what} must be a finite number{bound} [{unit}], not {value!r}")
+    return float(value)
+
+
+def checked_points(points: ArrayLike, what: str) -> NDArray[np.float64]:
+    """``points`` as (k, 3) float64; `RuntimeInputError` unless they are finite numbers (3,) or (k, 3)."""
+    try:
+        checked = np.asarray(points, dtype=np.float64)
+    except (TypeError, ValueError):
+        checked = np.empty(0)
+    if (
+        checked.ndim not in (1, 2)
+        or checked.shape[-1] != 3
+        or not checked.size
+        or not np.isfinite(checked).all()
+    ):
+        raise RuntimeInputError(f"{what} must be finite numbers (3,) or (k, 3) [m], not {points!r}")
+    return checked.reshape(-1, 3)
+
+
+def checked_whole(value: object, what: str) -> int:
+    """``value`` as an int; `RuntimeInputError` unless it is a whole number of at least 0."""
+    if isinstance(value, bool) or not isinstance(value, Integral) or value < 0:
+        raise RuntimeInputError(f"{what} must be a whole number of at least 0, not {value!r}")
+    return int(value)

@@ -28,6 +28,7 @@ __all__ = [
     "bake_level",
     "check_mission_file",
     "check_output",
+    "check_picture",
     "find_path",
     "ready",
     "run_mission_file",
@@ -244,6 +245,13 @@ def check_output(output: Path) -> None:
         raise RuntimeInputError(f"{output}: there is no folder {str(output.parent)!r} to write to")
     if output.is_dir():
         raise RuntimeInputError(f"{output}: is a folder; name a file")
+
+
+def check_picture(picture: Path) -> None:
+    """Raises `RuntimeInputError` when ``picture`` cannot be a PNG file."""
+    check_output(picture)
+    if picture.suffix.lower() != ".png":
+        raise RuntimeInputError(f"{picture}: pictures are written as .png; name it so")
 
 
 def _kinds(graph: navmesh.NodeGraph) -> list[str]:

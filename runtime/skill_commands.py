@@ -13,7 +13,7 @@ import psutil
 from filelock import FileLock, Timeout
 
 from navmesh.whole_file import whole_file
-from runtime.commands import Result, check_output, ready
+from runtime.commands import Result, check_output, check_picture, ready
 from runtime.errors import RuntimeInputError
 from runtime.progress import Progress
 
@@ -123,7 +123,7 @@ def evaluate_skill(skill: str, trials: int, seed: int, picture: Path | None = No
     """Try ``skill``; holds when at least nine of ten trials of each test do. ``picture``: where to draw which
     of what was tried is covered."""
     if picture is not None:
-        check_output(picture)
+        check_picture(picture)
         if skill in _WITHOUT_PLANE:
             raise RuntimeInputError(f"the tests of {skill} have no plane to draw; leave --picture out")
     from runtime.evaluation import (
@@ -215,9 +215,10 @@ def show_clip(
     from runtime.clips import read_motion, write_motion_film
 
     motion = read_motion(source, mapping, units, up)
-    for path in (film, output):
-        if path is not None:
-            check_output(path)
+    if film is not None:
+        check_picture(film)
+    if output is not None:
+        check_output(output)
     keyframes = output is not None and output.suffix.lower() in (".yaml", ".yml")
     if output is not None and not keyframes and output.suffix.lower() != ".npz":
         raise RuntimeInputError(f"{output}: a motion is written to .npz, keyframes to .yaml")

@@ -225,6 +225,8 @@ def test_clip_shows_a_motion_and_its_faults(surefoot, tmp_path):
     step = tmp_path / "step.yaml"
     code, out, _ = surefoot("clip", saved, "--stretch", 0.1, 0.4, "--mirror", "-o", step)
     assert code == 0 and load_clip(step).duration == pytest.approx(0.3, abs=0.02)
+    code, _, err = surefoot("clip", saved, "--film", tmp_path / "run.jpg")
+    assert code == 2 and "written as .png" in err and not (tmp_path / "run.jpg").exists()
     for output, stretch in ((tmp_path / "step.txt", (0.1, 0.4)), (tmp_path / "no.yaml", (0.4, 0.1))):
         code, _, err = surefoot("clip", saved, "--stretch", *stretch, "-o", output)
         assert code == 2 and one_line(err) and not output.exists()

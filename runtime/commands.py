@@ -1,6 +1,7 @@
 """What the commands of ``surefoot`` do, apart from reading their arguments."""
 
 import json
+import os
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -245,6 +246,8 @@ def check_output(output: Path) -> None:
         raise RuntimeInputError(f"{output}: there is no folder {str(output.parent)!r} to write to")
     if output.is_dir():
         raise RuntimeInputError(f"{output}: is a folder; name a file")
+    if not os.access(output.parent, os.W_OK):
+        raise RuntimeInputError(f"{output}: {str(output.parent)!r} may not be written to")
 
 
 def check_picture(picture: Path) -> None:

@@ -12,8 +12,8 @@ _SIZE = (6.0, 4.5)  # [in] of the picture of a test
 
 
 def plot_coverage(skill: str, attempts: Sequence[Attempt], path: str | os.PathLike[str]) -> None:
-    """Write the picture (PNG) to ``path``, whole or not at all: one plane for each test of two
-    coordinates."""
+    """Write the picture (PNG) to ``path``, whole or not at all: one plane for each test of two coordinates.
+    There has to be one."""
     from matplotlib.figure import Figure
 
     tests = {

@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 
 __all__ = ["evaluate_skill", "show_clip", "train_library", "train_skill"]
 
-_WITHOUT_PLANE = "walk", "speed-up", "slow-down", "brake"  # skills that are not tried over a plane
+_WITHOUT_A_PLANE = ("walk", "speed-up", "slow-down", "brake")
+"""Skills whose trials do not differ in two numbers, so that no picture of what they cover can be drawn."""
 
 
 def _trainers() -> Mapping[str, Callable[..., Any]]:
@@ -123,9 +124,9 @@ def evaluate_skill(skill: str, trials: int, seed: int, picture: Path | None = No
     """Try ``skill``; holds when at least nine of ten trials of each test do. ``picture``: where to draw which
     of what was tried is covered."""
     if picture is not None:
-        check_picture(picture)
-        if skill in _WITHOUT_PLANE:
+        if skill in _WITHOUT_A_PLANE:
             raise RuntimeInputError(f"the tests of {skill} have no plane to draw; leave --picture out")
+        check_output(picture)
     from runtime.evaluation import (
         evaluate_brake,
         evaluate_clearing,

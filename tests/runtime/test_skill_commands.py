@@ -65,6 +65,27 @@ def test_the_time_before_an_interruption_counts(capsys, tmp_path, monkeypatch):
     assert (tmp_path / "sit.checkpoint.minutes").read_text() == "1.000\n"
 
 
+def test_a_picture_of_tests_without_a_plane_is_refused_before_they_run(capsys, tmp_path, monkeypatch):
+    def run(*arguments):
+        raise AssertionError
+
+    for skill in ("walk", "speed_up", "slow_down", "brake"):
+        monkeypatch.setattr(f"runtime.evaluation.evaluate_{skill}", run)
+        name = skill.replace("_", "-")
+        code, _, err = surefoot(capsys, "evaluate", name, "--picture", tmp_path / "x.png")
+        assert code == 2 and f"the tests of {name} have no plane to draw; leave --picture out" in err
+    monkeypatch.setattr("runtime.evaluation.evaluate_run", run)
+    monkeypatch.setattr("os.access", lambda path, mode: False)
+    code, _, err = surefoot(capsys, "evaluate", "run", "--picture", tmp_path / "x.png")
+    assert code == 2 and "may not be written to" in err
+
+
+@pytest.mark.parametrize("skill", ["run", "jump"])
+def test_a_picture_of_tests_with_a_plane_is_drawn(capsys, tmp_path, skill):
+    surefoot(capsys, "evaluate", skill, "--trials", "1", "--picture", tmp_path / "x.png")
+    assert (tmp_path / "x.png").read_bytes().startswith(b"\x89PNG")
+
+
 def compute(seconds):
     while time.process_time() < seconds:
         pass

@@ -22,6 +22,7 @@ from locomotion.skill import RunSkill
 
 __all__ = [
     "ClearingSkill",
+    "Clears",
     "distance_to",
     "foot_distance",
     "joined",
@@ -43,8 +44,8 @@ HEIGHT_TOLERANCE = 0.02
 """[m] that an obstacle may be lower or higher than what a skill has learned."""
 
 
-class ClearingSkill(Protocol):
-    """A skill that takes the body over an obstacle, on top of the running controller."""
+class Clears(Protocol):
+    """What obstacles something clears."""
 
     @property
     def affordance(self) -> str:
@@ -55,6 +56,10 @@ class ClearingSkill(Protocol):
     def heights(self) -> tuple[float, float]:
         """Least and greatest height [m] that it clears; width, if it leaps over gaps."""
         ...
+
+
+class ClearingSkill(Clears, Protocol):
+    """A skill that takes the body over an obstacle, on top of the running controller."""
 
     def approach(self, size: float) -> tuple[float, float]:
         """Entry speed [m/s] for an obstacle of that height (gap: width) [m], and distance [m] from the stance
@@ -105,7 +110,7 @@ def skill_for(skills: Sequence[ClearingSkill], obstacle: ObstacleAhead) -> Clear
     return None
 
 
-def skill_ranges(skills: Sequence[ClearingSkill]) -> dict[str, tuple[float, float]]:
+def skill_ranges(skills: Sequence[Clears]) -> dict[str, tuple[float, float]]:
     """Least and greatest size [m] of the obstacles that ``skills`` clear, with what they let pass, by
     affordance. `LocomotionError` where the ranges of two skills for the same leave some in between."""
     return joined((skill.affordance, skill.heights) for skill in skills)

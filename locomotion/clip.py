@@ -5,7 +5,6 @@ A clip names channels (joints of `locomotion.person.JOINT_NAMES`) and gives each
 *mirrored* one gives the right side and the trunk only, and the left side does the same half a cycle later.
 """
 
-import difflib
 import hashlib
 import os
 from dataclasses import dataclass
@@ -47,9 +46,9 @@ class Clip:
 
     @property
     def digest(self) -> str:
-        """Hex digest of all that is played."""
-        said = (self.cyclic, self.duration, self.speed, self.root_height, self.root_pitch)
-        hasher = hashlib.sha256(repr(said).encode())
+        """Hex digest of the motion, however its file is written."""
+        numbers = self.cyclic, self.duration, self.speed, self.root_height, self.root_pitch
+        hasher = hashlib.sha256(repr(numbers).encode())
         for name in sorted(self.channels):
             hasher.update(name.encode() + self.channels[name].tobytes())
         return hasher.hexdigest()[:16]

@@ -13,11 +13,23 @@ from locomotion.skill import RunSkill
 from locomotion.skill_description import load_described, load_description
 from locomotion.vault_skill import VAULT_SKILL, Vault, load_vault_skill
 
-__all__ = ["LEAP", "described_ranges", "learned_skills", "skills_digest"]
+__all__ = ["LEAP", "learned_skills", "package_skill", "skill_digest", "skills_digest"]
 
-_SKILLS = Path(__file__).parent / "skills"
+_SKILLS, _CLIPS = Path(__file__).parent / "skills", Path(__file__).parent / "clips"
 LEAP = _SKILLS / "leap.yaml"
 """Description of the leap over gaps."""
+
+
+def package_skill(name: str) -> Path:
+    """File of one of the package's skills, such as "drop-roll"."""
+    return _SKILLS / f"{name.replace('-', '_')}.npz"
+
+
+def skill_digest(name: str) -> str:
+    """Hex digest of one of the package's skills, with its clip, as their files are now."""
+    learned = package_skill(name)
+    clip = _CLIPS / f"{learned.stem}.yaml"
+    return _digest_now([learned, clip] if clip.exists() else [learned])
 
 
 def skills_digest(own: tuple[Path, ...] = ()) -> str:
@@ -27,6 +39,10 @@ def skills_digest(own: tuple[Path, ...] = ()) -> str:
     for path in own:
         description = load_description(path)
         files += [path, description.clip, description.learned]
+    return _digest_now(files)
+
+
+def _digest_now(files: Sequence[Path]) -> str:
     stats = [file.stat() for file in files]
     return _digest(tuple(files), tuple((stat.st_mtime_ns, stat.st_size) for stat in stats))
 

@@ -8,7 +8,7 @@ objective and what was learned. How to make one is in docs/own-skills.md.
 import os
 from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
@@ -61,6 +61,11 @@ class SkillDescription(BaseModel):
     learned: Path
 
     @property
+    def heights(self) -> tuple[float, float]:
+        """Least and greatest size [m] that it will clear."""
+        return self.sizes[0] if self.least is None else self.least, self.sizes[-1]
+
+    @property
     def kind(self) -> str:
         """What its learned file says that it is."""
         return f"{self.name} skill"
@@ -68,6 +73,11 @@ class SkillDescription(BaseModel):
     def load_clip(self) -> Clip:
         """What is played."""
         return load_clip(self.clip)
+
+    def content(self, clip: Clip) -> dict[str, Any]:
+        """What it says, with the content of its ``clip`` and without where files lie; to be written as
+        JSON."""
+        return {**self.model_dump(mode="json", exclude={"clip", "learned"}), "clip": clip.digest}
 
 
 def load_description(path: str | os.PathLike[str]) -> SkillDescription:
@@ -78,17 +88,26 @@ def load_description(path: str | os.PathLike[str]) -> SkillDescription:
         if description.least is not None and description.least > description.sizes[0]:
             first = f"the first of the sizes, {description.sizes[0]:g} m"
             raise located.error(["least"], f"least: {description.least:g} m is above {first}")
+        clip, learned = (Path(path).parent / each for each in (description.clip, description.learned))
+        for taken, what in ((clip, "the clip"), (Path(path), "this file")):
+            if learned.resolve() == taken.resolve():
+                other = "name another file, which learning writes"
+                raise located.error(["learned"], f"learned: {str(description.learned)!r} is {what}; {other}")
     except FileError as error:
         raise LocomotionError(str(error)) from None
-    folder = Path(path).parent
-    return description.model_copy(
-        update={"clip": folder / description.clip, "learned": folder / description.learned}
-    )
+    return description.model_copy(update={"clip": clip, "learned": learned})
 
 
 def load_described(path: str | os.PathLike[str], run: RunSkill) -> ClearingSkill:
     """A described skill that has been learned, on top of ``run``. `LocomotionError` if something is wrong
-    with its files."""
+    with its files, or it was learned as its description or clip said something else."""
     description = load_description(path)
-    learned = load_jump_skill(description.learned, description.kind)
-    return Jump(learned, run, description.affordance, description.load_clip())
+    learned, clip = load_jump_skill(description.learned, description.kind), description.load_clip()
+    said, says = learned.meta.get("description"), description.content(clip)
+    if said is not None and said != says:  # files of earlier releases do not tell
+        different = [key for key in {**says, **said} if says.get(key) != said.get(key)]
+        raise LocomotionError(
+            f"{description.learned}: learned when {path} said something else ({', '.join(different)}); learn "
+            f"it anew (surefoot train {path})"
+        )
+    return Jump(learned, run, description.affordance, clip)

@@ -22,6 +22,5 @@ def read_skill(
     except ArchiveError as error:
         raise LocomotionError(str(error)) from error
     if header.get("person") != person_digest():
-        again = f"surefoot train {kind.split()[0]}"
-        raise LocomotionError(f"{path}: learned for another person's model; learn it anew ({again})")
+        raise LocomotionError(f"{path}: learned for another person's model; learn it anew (surefoot train)")
     return header, arrays

@@ -18,7 +18,7 @@ import numpy as np
 from navmesh.errors import NavmeshError
 from navmesh.whole_file import whole_file
 
-__all__ = ["ArchiveError", "read_archive", "write_archive"]
+__all__ = ["ArchiveError", "check_target", "read_archive", "write_archive"]
 
 _HEADER = "header"
 # What NumPy, zipfile and json raise on a file that is cut off, overwritten or not an archive at all.
@@ -30,6 +30,17 @@ _DAMAGE = (
 
 class ArchiveError(NavmeshError):
     """An archive is missing, damaged, of another kind or of another version."""
+
+
+def check_target(path: str | os.PathLike[str]) -> None:
+    """Raises `ArchiveError` if no file can be written to ``path``: to know before the work for it is done."""
+    target = Path(path)
+    if not target.parent.is_dir():
+        raise ArchiveError(f"{target}: there is no folder {target.parent} to write into")
+    if target.is_dir():
+        raise ArchiveError(f"{target}: is a folder; name a file")
+    if not os.access(target.parent, os.W_OK):
+        raise ArchiveError(f"{target}: the folder {target.parent} may not be written to")
 
 
 def write_archive(
@@ -45,12 +56,10 @@ def write_archive(
     """
     if _HEADER in arrays:
         raise ArchiveError(f"an array may not be called {_HEADER!r}: that name is taken by the header")
-    target = Path(path)
-    if not target.parent.is_dir():
-        raise ArchiveError(f"{target}: there is no folder {target.parent} to write into")
+    check_target(path)
     text = json.dumps({**header, "kind": kind, "version": version}, sort_keys=True)
     payload: dict[str, Any] = {_HEADER: np.frombuffer(text.encode(), dtype=np.uint8), **arrays}
-    with whole_file(target) as temporary, temporary.open("wb") as file:
+    with whole_file(path) as temporary, temporary.open("wb") as file:
         np.savez_compressed(file, **payload)
 
 

@@ -250,8 +250,12 @@ class BrakeProblem:
 
 def train_brake(training: Training, out: str | os.PathLike[str] = BRAKE_SKILL) -> BrakeSkill:
     """Learn to brake from the package's run and write the skill to ``out``."""
+    run, stages = load_run_skill(), _curriculum(training)
+    training.prepare("brake", out, stages, ("walk", "run", "slow-down"))
     starts = draw_starts(np.random.default_rng([training.seed, 1]), _STARTS, (2.0, _FASTEST))
-    learned = training.learn(BrakeProblem(_curriculum(training), load_run_skill(), starts))
+    problem = BrakeProblem(stages, run, starts)
+    learned = training.learn(problem)
+    training.demand_success("brake", problem, learned)
     skill = brake_of(learned, training.made_by("brake"))
     skill.save(out)
     return skill

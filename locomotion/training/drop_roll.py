@@ -10,7 +10,7 @@ import numpy as np
 
 from locomotion import drop_roll
 from locomotion.drop_roll import ACTIONS, BINS, KNOTS, SENSORS
-from locomotion.drop_roll_skill import DROP_ROLL_SKILL, KIND, DropRoll, tables_of
+from locomotion.drop_roll_skill import DROP_ROLL_SKILL, KIND, DropRoll, drop_roll_clip, tables_of
 from locomotion.jump_skill import run_digest
 from locomotion.skill import RunSkill, load_run_skill
 from locomotion.skill_family import SkillFamily
@@ -29,6 +29,7 @@ _ENTRY = 3.2  # [m/s]
 _STATES = 48
 _ROLLS, _BALANCING = 24, 4  # trials and rounds of least squares on how the roll ends
 _REFINEMENTS = 2  # stages in which half of the trials are those that went worst before
+_REFINED = 3  # number of the first of them
 _PULL = 0.01
 _ROUNDS, _HARD = 2, 0.2  # trials per start state to find the hard ones; share of them that is hard
 _TRAINING = "drop-roll training"
@@ -254,17 +255,19 @@ def curriculum(training: Training) -> list[Stage]:
 def train_drop_roll(training: Training, out: str | os.PathLike[str] = DROP_ROLL_SKILL) -> SkillFamily:
     """Learn to roll off drops of `HEIGHTS` on the package's run and walk, and write it to ``out``. The
     training's checkpoint is a folder."""
-    run = load_run_skill()
-    training.begin({"skill": "drop-roll", "run": run_digest(run)})
-    stride = JumpSimulator(run).fit_stride(_ENTRY, np.random.default_rng([training.seed, 1]))
-    few, many, *finer = curriculum(training)
+    run, stages = load_run_skill(), curriculum(training)
+    few, many, *finer = stages
     rounds = training.generations(_BALANCING)
-    clock = Clock(simulated([few, many, *finer]) + rounds * _round_takes())
+    training.prepare(
+        "drop-roll", out, stages, ("walk", "run", "speed-up"), rounds=rounds, clip=drop_roll_clip().digest
+    )
+    stride = JumpSimulator(run).fit_stride(_ENTRY, np.random.default_rng([training.seed, 1]))
+    clock = Clock(simulated(stages) + rounds * _round_takes())
     course = _Course(run, stride, training, clock)
     x, reference = _learn(course, 0, few, first_guess(), np.zeros((BINS, len(SENSORS))))
     x, reference = _learn(course, 1, many, x, reference)
     x = _learn_to_end(course, 2, rounds, x, reference)
-    for number, stage in enumerate(finer, 3):
+    for number, stage in enumerate(finer, _REFINED):
         x, reference = _learn(course, number, stage, x, reference)
     skill = family_of(x, reference, stride, run, training.made_by("drop-roll"))
     skill.save(out)
@@ -286,19 +289,21 @@ def _learn(
     recorded anew after a stage without feedback; a refinement looks for trials that go wrong first.
     """
     training = course.training
-    arrays = training.recall(_TRAINING, number, run_digest(course.run))
+    arrays = training.recall(_TRAINING, number)
     if arrays is not None:
         course.clock.skip(simulated([stage]))
         return arrays["x"], arrays["reference"]
     rng = np.random.default_rng([training.seed, number])
     states = _harvest(course, x, reference, _STATES, rng)
     problem = DropProblem(course.run, HEIGHTS, x, reference, states, [stage])
-    if number >= 2:
+    if number >= _REFINED:
         problem.find_hard(x, stage, rng)
-    learned = training.learn(problem, number, training.file(f"search-{number}"), course.clock)
+    learned = training.learn(problem, number, f"search-{number}", course.clock)
     if not (stage.scale[drop_roll.parameter_slices()["m_sp"]] > 0).any():
         reference = problem.record(learned, rng)
-    training.keep(_TRAINING, number, run_digest(course.run), {"x": learned, "reference": reference})
+    if number >= _REFINED:
+        training.demand_success("drop-roll", problem, learned)
+    training.keep(_TRAINING, number, {"x": learned, "reference": reference})
     return learned, reference
 
 

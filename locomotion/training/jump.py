@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from locomotion import jump
-from locomotion.clearing import joined
+from locomotion.clearing import skill_ranges
 from locomotion.errors import LocomotionError
 from locomotion.jump_skill import (
     JUMP_SKILL,
@@ -19,15 +19,15 @@ from locomotion.jump_skill import (
     run_digest,
     tables_of,
 )
-from locomotion.library import learned_skills
+from locomotion.library import LEAP, learned_skills
 from locomotion.skill import RunSkill, load_run_skill
-from locomotion.skill_description import load_description
+from locomotion.skill_description import SkillDescription, load_description
 from locomotion.skill_family import SkillFamily
 from locomotion.training.jump_kind import WEIGHTS, JumpKind, cost, first_guess, scales, stair_jump
 from locomotion.training.jump_trial import JumpOutcome, JumpSimulator, LedgeSimulator, StartState
 from locomotion.training.loop import Stage, simulated
 from locomotion.training.progress import Clock
-from locomotion.training.training import Training
+from locomotion.training.training import NotLearnedError, Training
 
 __all__ = ["FURTHER", "HEIGHTS", "LOWEST", "JumpProblem", "train_described", "train_jump"]
 
@@ -167,7 +167,7 @@ def _stage(
 def train_jump(training: Training, out: str | os.PathLike[str] = JUMP_SKILL) -> SkillFamily:
     """Learn jumps from `LOWEST` to the greatest of `FURTHER` on the package's run and write them to ``out``.
     The training's checkpoint is a folder."""
-    course = _course(stair_jump(), training, HEIGHTS, FURTHER)
+    course = _course(stair_jump(), training, out, HEIGHTS, FURTHER)
     learned = _learn_in_turn(course, HEIGHTS)
     for number, height in enumerate(FURTHER, _FURTHER):
         learned[height] = _learn_further(course, height, number, learned)
@@ -186,20 +186,14 @@ def train_described(
     """Learn a skill that is described by a file (`locomotion.skill_description`), size by size, and write it
     to ``out`` (None: where its description says). The training's checkpoint is a folder.
 
-    Raises `LocomotionError` for a bad description, an unknown term of the objective, a place where what is
-    learned cannot be kept, or sizes that leave out some between them and those that the package's skills
-    clear.
+    Raises `LocomotionError` for a bad description, an unknown term of the objective, or a range of sizes that
+    does not join that of the package's skills.
     """
     description = load_description(path)
     unknown = sorted(set(description.objective) - set(WEIGHTS))
     if unknown:
         raise LocomotionError(f"{path}: objective: {unknown[0]!r}: valid terms: {', '.join(WEIGHTS)}")
-    result = Path(description.learned if out is None else out)
-    if not os.access(result.parent, os.W_OK):
-        raise LocomotionError(f"{path}: learned: there is no folder {str(result.parent)!r} to write to")
-    least = description.sizes[0] if description.least is None else description.least
-    others = ((skill.affordance, skill.heights) for skill in learned_skills(load_run_skill()))
-    joined([*others, (description.affordance, (least, description.sizes[-1]))])
+    _check_use(path, description)
     clip = description.load_clip()
     simulator = (
         partial(JumpSimulator, clip=clip)
@@ -210,33 +204,50 @@ def train_described(
         description.kind, description.affordance, clip, simulator, description.entry, description.marks,
         description.pace, description.share, {**WEIGHTS, **description.objective},
     )  # fmt: skip
-    course = _course(kind, training, description.sizes)
+    out = description.learned if out is None else out
+    course = _course(kind, training, out, description.sizes)
     learned = _learn_in_turn(course, description.sizes)
     if description.least is not None:
         learned[description.least] = learned[description.sizes[0]]
-    skill = _family(course, learned, training.made_by(Path(path).name))
-    skill.save(result)
+    meta = {**training.made_by(Path(path).name), "description": description.content(clip)}
+    skill = _family(course, learned, meta)
+    skill.save(out)
     return skill
 
 
+def _check_use(path: str | os.PathLike[str], description: SkillDescription) -> None:
+    """Raises `LocomotionError` if the run does not come to what is described, or nobody could have it in
+    addition to the package's skills."""
+    run, entry = load_run_skill(), description.entry
+    low, high = run.speeds
+    if not low <= entry <= high:
+        raise LocomotionError(f"{path}: entry: {entry:g} m/s: the run goes from {low:g} to {high:g} m/s")
+    if Path(path).samefile(LEAP):
+        return  # it takes its own place
+    try:
+        skill_ranges([*learned_skills(run), description])
+    except LocomotionError as error:
+        raise LocomotionError(f"{path}: sizes: {error}") from None
+
+
 def _course(
-    kind: JumpKind, training: Training, heights: Sequence[float], further: Sequence[float] = ()
+    kind: JumpKind,
+    training: Training,
+    out: str | os.PathLike[str],
+    heights: Sequence[float],
+    further: Sequence[float] = (),
 ) -> _Course:
-    """``heights``, ``further`` [m]: those that will be learned in turn, and by extrapolation."""
+    """``out``: file for the skill; ``heights``, ``further`` [m]: those that will be learned in turn, and by
+    extrapolation."""
     run = load_run_skill()
-    training.begin(
-        {
-            "skill": kind.name, "affordance": kind.affordance, "clip": kind.clip.digest, "entry": kind.entry,
-            "marks": tuple(kind.marks), "pace": tuple(kind.pace), "share": kind.share,
-            "objective": sorted(kind.weights.items()), "sizes": (*heights, *further), "run": run_digest(run),
-        }
-    )  # fmt: skip
-    stride = kind.simulator(run).fit_stride(kind.entry, np.random.default_rng([training.seed, 1]))
     passes = [
         *(stage for height in heights for stage in _first_pass(training, height)),
         *(stage for height in heights for stage in _second_pass(training, height)),
         *(stage for height in further for stage in _correction(training, height)),
     ]
+    decide = {**kind.decide(), "sizes": [*heights, *further]}
+    training.prepare(kind.name, out, passes, ("walk", "run", "speed-up"), **decide)
+    stride = kind.simulator(run).fit_stride(kind.entry, np.random.default_rng([training.seed, 1]))
     return _Course(kind, run, stride, training, Clock(simulated(passes)))
 
 
@@ -293,7 +304,7 @@ def _learn_height(
     suggests the solution.
     """
     training = course.training
-    arrays = training.recall(_TRAINING, number, run_digest(course.run))
+    arrays = training.recall(_TRAINING, number)
     if arrays is not None:
         course.clock.skip(simulated(stages))
         return arrays["x"], arrays["reference"]
@@ -304,13 +315,19 @@ def _learn_height(
     distances = rng.uniform(*((9.5, 30.0) if standing else (8.0, 16.0)), count)
     skill = Jump(guess, course.run, course.kind.affordance, course.kind.clip)
     states = course.kind.simulator(course.run).harvest(skill, distances, rng, standing)
+    if not states:
+        raise NotLearnedError(
+            f"{course.kind.name}: no run-up to {height:g} m comes to where the last step begins; begin with "
+            "another entry speed or other marks"
+        )
     for place, stage in enumerate(stages):
         problem = JumpProblem(course.kind, course.run, height, x, reference, states, [stage])
         if beyond is not None:
             problem.predict(beyond)
-        file = training.file(f"search-{number}-{place}")
-        x = training.learn(problem, 1000 * number + place, file, course.clock)
+        x = training.learn(problem, 1000 * number + place, f"search-{number}-{place}", course.clock)
         if not (stage.scale[jump.parameter_slices()["m_sp"]] > 0).any():
             reference = problem.record(x)
-    training.keep(_TRAINING, number, run_digest(course.run), {"x": x, "reference": reference})
+        if place == len(stages) - 1:
+            training.demand_success(course.kind.name, problem, x)
+    training.keep(_TRAINING, number, {"x": x, "reference": reference})
     return x, reference

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -39,6 +40,13 @@ class JumpKind:
     pace: Sequence[float] = (1.0, 0.75, 1.0, 1.0)
     share: float = 1.0
     weights: Mapping[str, float] = field(default_factory=lambda: WEIGHTS)
+
+    def decide(self) -> dict[str, Any]:
+        """What of it decides what is learned, by the names that a description has for it."""
+        return {
+            "affordance": self.affordance, "entry": self.entry, "marks": self.marks, "pace": self.pace,
+            "share": self.share, "clip": self.clip.digest, "objective": dict(self.weights),
+        }  # fmt: skip
 
 
 def stair_jump() -> JumpKind:

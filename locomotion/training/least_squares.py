@@ -15,9 +15,10 @@ from typing import Any, Protocol
 import numpy as np
 
 from locomotion.errors import LocomotionError
+from locomotion.training.checkpoint import read_checkpoint
 from locomotion.training.progress import Clock, Progress, show
 from locomotion.workers import worker_pool
-from navmesh.archive import read_archive, write_archive
+from navmesh.archive import write_archive
 
 __all__ = ["Outcomes", "fit"]
 
@@ -85,9 +86,11 @@ def fit(
     identity = hashlib.sha256(parts).hexdigest()[:16]
     x, first = start.copy(), 0
     if checkpoint is not None and Path(checkpoint).exists():
-        header, arrays = read_archive(checkpoint, _KIND, _VERSION)
+        header, arrays = read_checkpoint(Path(checkpoint), _KIND, _VERSION)
         if header.get("identity") != identity:
-            raise LocomotionError(f"{checkpoint}: of another training or seed; remove it to begin anew")
+            raise LocomotionError(
+                f"{checkpoint}: of another training or seed; remove {checkpoint} to learn this part anew"
+            )
         x, first = arrays["x"], int(header["round"])
     clock = clock or Clock(rounds * seconds)
     clock.skip(first * seconds)

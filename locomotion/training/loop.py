@@ -20,12 +20,13 @@ from typing import Any, Protocol
 import numpy as np
 
 from locomotion.errors import LocomotionError
+from locomotion.training.checkpoint import read_checkpoint
 from locomotion.training.cma_es import CmaEs
 from locomotion.training.progress import Clock, Progress, show
 from locomotion.workers import worker_pool
-from navmesh.archive import ArchiveError, read_archive, write_archive
+from navmesh.archive import write_archive
 
-__all__ = ["Problem", "Stage", "learn", "simulated"]
+__all__ = ["Problem", "Stage", "learn", "simulated", "stages_digest"]
 
 _KIND, _VERSION = "training checkpoint", 1
 
@@ -57,6 +58,17 @@ class Stage:
 def simulated(stages: Sequence[Stage]) -> float:
     """What stages simulate [s], about."""
     return sum(stage.generations * stage.population * stage.seconds for stage in stages)
+
+
+def stages_digest(stages: Sequence[Stage]) -> str:
+    """Hex digest of what of stages decides what is learned by them."""
+    hasher = hashlib.sha256()
+    for s in stages:
+        hasher.update(
+            repr((s.name, s.generations, s.sigma, s.options, s.population, s.least)).encode()
+            + s.scale.tobytes()
+        )
+    return hasher.hexdigest()[:16]
 
 
 class Problem(Protocol):
@@ -179,14 +191,9 @@ def _generation(
 
 
 def _identity(seed: int, stages: Sequence[Stage], start: np.ndarray) -> str:
-    """Digest of what a checkpoint belongs to."""
-    hasher = hashlib.sha256(start.tobytes())
-    for s in stages:
-        hasher.update(
-            repr((seed, s.name, s.generations, s.sigma, s.options, s.population, s.least)).encode()
-            + s.scale.tobytes()
-        )
-    return hasher.hexdigest()[:16]
+    """Digest of what the state of a search belongs to."""
+    parts = f"{seed} {stages_digest(stages)}".encode() + start.tobytes()
+    return hashlib.sha256(parts).hexdigest()[:16]
 
 
 def _save(path: Path, identity: str, stage: int, parameters: np.ndarray, search: CmaEs) -> None:
@@ -197,12 +204,9 @@ def _save(path: Path, identity: str, stage: int, parameters: np.ndarray, search:
 def _resume(
     path: Path, identity: str, stages: Sequence[Stage], start: np.ndarray
 ) -> tuple[int, np.ndarray, CmaEs]:
-    try:
-        header, arrays = read_archive(path, _KIND, _VERSION)
-    except ArchiveError as error:
-        raise LocomotionError(f"{error}; remove it to begin anew") from error
+    header, arrays = read_checkpoint(path, _KIND, _VERSION)
     if header.get("identity") != identity:
-        raise LocomotionError(f"{path}: checkpoint of another training or seed; remove it to begin anew")
+        raise LocomotionError(f"{path}: of another training or seed; remove {path} to learn this part anew")
     stage = stages[int(header["stage"])]
     free = np.flatnonzero(stage.scale > 0)
     search = CmaEs(start[free], stage.sigma, stage.scale[free], stage.population)

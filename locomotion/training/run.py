@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from locomotion import controller as c
-from locomotion.skill import RUN_SKILL, RunSkill
+from locomotion.skill import RUN_SKILL, RunSkill, run_clip
 from locomotion.training.loop import Stage, simulated
 from locomotion.training.path_trial import PathScenario, draw_path, follow_path
 from locomotion.training.progress import Clock
@@ -28,9 +28,11 @@ _STEPS_PER_TICK = 3  # what is learned with steps longer than the product's work
 def train_run(training: Training, out: str | os.PathLike[str] = RUN_SKILL) -> RunSkill:
     """Learn to run from nothing and write the skill to ``out``."""
     first, then = beginning(training), curriculum(training)
+    training.prepare("run", out, [*first, *then], ("walk",), clip=run_clip().digest)
     clock = Clock(BEGINNINGS * simulated(first) + simulated(then))
     problem = RunProblem(then, begin(training, first, clock), first_state_reference())
-    genes = training.learn(problem, BEGINNINGS, training.file("search"), clock)
+    genes = training.learn(problem, BEGINNINGS, clock=clock)
+    training.demand_success("run", problem, genes)
     skill = skill_of(genes, problem.reference, meta=training.made_by("run"))
     skill = replace(skill, step_length=fit_step_length(skill))
     skill.save(out)
@@ -41,7 +43,7 @@ def begin(training: Training, stages: Sequence[Stage], clock: Clock, count: int 
     """Genes of the best of ``count`` searches from nothing, each from a seed of its own, by the mean cost of
     trials of the last stage."""
     problem = RunProblem(tuple(stages), first_guess(), first_state_reference())
-    found = [training.learn(problem, k, training.file(f"beginning-{k}"), clock) for k in range(count)]
+    found = [training.learn(problem, k, f"beginning-{k}", clock) for k in range(count)]
     rng, last = np.random.default_rng(training.seed), stages[-1]
     trials = [trial for _ in range(_JUDGED) for trial in problem.scenarios(last, 0, rng)]
     return min(found, key=lambda genes: problem.evaluate(last, genes, trials)[0])

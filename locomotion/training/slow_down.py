@@ -142,7 +142,10 @@ class SlowDownProblem:
 
 def train_slow_down(training: Training, out: str | os.PathLike[str] = SLOW_DOWN_SKILL) -> SlowDownSkill:
     """Learn to slow down from the package's run and write the skill to ``out``."""
-    learned = training.learn(SlowDownProblem(_curriculum(training), load_run_skill()))
+    problem = SlowDownProblem(_curriculum(training), load_run_skill())
+    training.prepare("slow-down", out, problem.curriculum, ("walk", "run"))
+    learned = training.learn(problem)
+    training.demand_success("slow-down", problem, learned)
     skill = slow_down_of(learned, training.made_by("slow-down"))
     skill.save(out)
     return skill

@@ -91,7 +91,10 @@ class SpeedUpProblem:
 
 def train_speed_up(training: Training, out: str | os.PathLike[str] = SPEED_UP_SKILL) -> SpeedUpSkill:
     """Learn to speed up to the package's run and write the skill to ``out``."""
-    learned = training.learn(SpeedUpProblem(_curriculum(training), load_run_skill()))
+    problem = SpeedUpProblem(_curriculum(training), load_run_skill())
+    training.prepare("speed-up", out, problem.curriculum, ("walk", "run"))
+    learned = training.learn(problem)
+    training.demand_success("speed-up", problem, learned)
     skill = speed_up_of(learned, training.made_by("speed-up"))
     skill.save(out)
     return skill

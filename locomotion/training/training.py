@@ -1,7 +1,7 @@
 """What all trainings have in common: what a user asks for, and the files of what was learned so far."""
 
-import json
-from collections.abc import Callable, Mapping
+import os
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -9,16 +9,24 @@ from typing import Any
 import numpy as np
 
 from locomotion.errors import LocomotionError
+from locomotion.library import skill_digest
 from locomotion.person import person_digest
-from locomotion.training.loop import Problem, learn
+from locomotion.training.checkpoint import claim, read_checkpoint
+from locomotion.training.loop import Problem, Stage, learn, stages_digest
 from locomotion.training.progress import Clock, Progress, show
-from navmesh.archive import read_archive, write_archive
-from navmesh.whole_file import whole_file
+from navmesh.archive import check_target, write_archive
 
-__all__ = ["Training"]
+__all__ = ["NotLearnedError", "Training"]
 
 _VERSION = 1
-_ANEW = "remove the folder {} to begin anew, or keep checkpoints elsewhere"
+_TRIALS = 24
+"""In which what was learned has to succeed once."""
+_SUCCESS = 0.991
+"""Of a trial's figure: more is a success. Those of who does not come to the end of a path are cut at 0.99."""
+
+
+class NotLearnedError(LocomotionError):
+    """Learning came to its end and what it found never works."""
 
 
 @dataclass(frozen=True)
@@ -27,8 +35,8 @@ class Training:
 
     Attributes:
         seed: the same gives the same skill, with any number of workers.
-        checkpoint: file for the state of learning, or the folder for it where a skill takes several searches;
-            what was interrupted goes on from there and gives the same result. None: it is kept nowhere.
+        checkpoint: folder for what was learned so far; what was interrupted goes on from there and gives the
+            same result. None: it is kept nowhere.
         workers: processes.
         effort: scales the number of generations, and below 1 some numbers of start states.
         on_progress: told after each generation.
@@ -40,40 +48,49 @@ class Training:
     effort: float = 1.0
     on_progress: Callable[[Progress], None] = show
 
+    def prepare(
+        self,
+        skill: str,
+        out: str | os.PathLike[str],
+        stages: Sequence[Stage],
+        builds_on: Sequence[str] = (),
+        **more: Any,
+    ) -> None:
+        """Find what would be in the way of a training, before it takes its time, and claim its folder.
+
+        skill: its name. out: file for it. builds_on: names of the package's skills that learning needs.
+        more: what else decides what is learned, to be written as JSON.
+
+        Raises `ArchiveError` if ``out`` cannot be written; `LocomotionError` if the folder holds what was
+        learned with another configuration.
+        """
+        check_target(out)
+        if self.checkpoint is None:
+            return
+        asked = {"skill": skill, "seed": self.seed, "effort": self.effort, "person": person_digest()}
+        skills = {f"{name} skill": skill_digest(name) for name in builds_on}
+        claim(self.checkpoint, {**asked, **more, **skills, "stages": stages_digest(stages)})
+
     def learn(
-        self, problem: Problem, number: int = 0, file: Path | None = None, clock: Clock | None = None
+        self, problem: Problem, number: int = 0, name: str = "search", clock: Clock | None = None
     ) -> np.ndarray:
-        """What search ``number`` of a skill finds, see `locomotion.training.loop.learn`. ``file``: for its
-        state, where there are several; ``clock``: theirs."""
-        kept = self.checkpoint if file is None else file
-        learned = learn(problem, self.seed + number, kept, self.workers, self.on_progress, clock)
+        """What search ``number`` of a skill finds, see `locomotion.training.loop.learn`. ``name``: of the
+        file for its state; ``clock``: of all searches."""
+        learned = learn(problem, self.seed + number, self.file(name), self.workers, self.on_progress, clock)
         assert learned is not None
         return learned
 
-    def begin(self, configuration: Mapping[str, Any]) -> None:
-        """Note in the checkpoint's folder what is learned there: values that `repr` tells apart, by name.
-
-        Raises `LocomotionError`, naming what differs, if something else is learned there already.
-        """
-        if self.checkpoint is None:
-            return
-        own = {"seed": self.seed, "effort": self.effort, "person": person_digest()}
-        said = {name: repr(value) for name, value in {**configuration, **own}.items()}
-        self.checkpoint.mkdir(parents=True, exist_ok=True)
-        noted = self.checkpoint / "configuration.json"
-        if not noted.exists():
-            with whole_file(noted) as temporary:
-                temporary.write_text(json.dumps(said, indent=1) + "\n", encoding="utf-8")
-            return
-        try:
-            before = json.loads(noted.read_text(encoding="utf-8"))
-        except ValueError:
-            raise LocomotionError(f"{noted}: cannot be read; {_ANEW.format(self.checkpoint)}") from None
-        differs = [name for name in {**before, **said} if before.get(name) != said.get(name)]
-        if differs:
-            raise LocomotionError(
-                f"{self.checkpoint}: holds another configuration, which differs in {', '.join(differs)}; "
-                + _ANEW.format(self.checkpoint)
+    def demand_success(self, skill: str, problem: Problem, learned: np.ndarray) -> None:
+        """Raises `NotLearnedError` if ``learned`` (n,) does what ``skill`` is to do in none of `_TRIALS`
+        trials of the problem's last stage."""
+        stage, rng = problem.stages()[-1], np.random.default_rng(self.seed)
+        trials: list[Any] = []
+        while len(trials) < _TRIALS:
+            trials += problem.scenarios(stage, stage.generations, rng)
+        if not any(problem.evaluate(stage, learned, [trial])[1] > _SUCCESS for trial in trials):
+            raise NotLearnedError(
+                f"{skill} does not work: after {stage.name!r} none of {len(trials)} trials succeeds; learn "
+                "with another --seed or more --effort, or from a better beginning"
             )
 
     def generations(self, count: int) -> int:
@@ -82,34 +99,20 @@ class Training:
 
     def file(self, name: str) -> Path | None:
         """A file in the checkpoint's folder."""
-        if self.checkpoint is None:
-            return None
-        self.checkpoint.mkdir(parents=True, exist_ok=True)
-        return self.checkpoint / f"{name}.npz"
+        return None if self.checkpoint is None else self.checkpoint / f"{name}.npz"
 
-    def recall(self, kind: str, number: int, run: str) -> dict[str, np.ndarray] | None:
-        """What `keep` has kept of search ``number``; None where it is not done. ``run``: digest of the run.
-
-        Raises `LocomotionError` if it was kept by a training with another seed, effort or run.
-        """
+    def recall(self, kind: str, number: int) -> dict[str, np.ndarray] | None:
+        """What `keep` has kept of search ``number``; None where it is not done."""
         path = self.file(f"done-{number}")
         if path is None or not path.exists():
             return None
-        header, arrays = read_archive(path, kind, _VERSION)
-        if any(header.get(key) != value for key, value in self._identity(run).items()):
-            raise LocomotionError(
-                f"{path}: checkpoint of another training or seed; {_ANEW.format(self.checkpoint)}"
-            )
-        return arrays
+        return read_checkpoint(path, kind, _VERSION)[1]
 
-    def keep(self, kind: str, number: int, run: str, arrays: dict[str, np.ndarray]) -> None:
+    def keep(self, kind: str, number: int, arrays: dict[str, np.ndarray]) -> None:
         """Remember what search ``number`` has found."""
         path = self.file(f"done-{number}")
         if path is not None:
-            write_archive(path, kind, _VERSION, self._identity(run), arrays)
-
-    def _identity(self, run: str) -> dict[str, Any]:
-        return {"seed": self.seed, "run": run, "effort": self.effort}
+            write_archive(path, kind, _VERSION, {}, arrays)
 
     def made_by(self, skill: str) -> dict[str, Any]:
         """What a skill's file says about how it was made."""

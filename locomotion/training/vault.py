@@ -18,7 +18,7 @@ from locomotion.training.loop import Stage, simulated
 from locomotion.training.progress import Clock
 from locomotion.training.training import Training
 from locomotion.training.vault_trial import VaultOutcome, VaultSimulator
-from locomotion.vault_skill import KIND, VAULT_SKILL, Vault, tables_of
+from locomotion.vault_skill import KIND, VAULT_SKILL, Vault, tables_of, vault_clip
 
 __all__ = ["ENTRY_SPEED", "HEIGHTS", "VaultProblem", "cost", "first_guess", "scales", "train_vault"]
 
@@ -252,18 +252,19 @@ def train_vault(training: Training, out: str | os.PathLike[str] = VAULT_SKILL) -
     """Learn vaults over all of `HEIGHTS` and `FURTHER` on the package's run and write them to ``out``.
     The training's checkpoint is a folder."""
     run, seed = load_run_skill(), training.seed
-    digest, stages = run_digest(run), curriculum(training)
-    training.begin({"skill": KIND, "run": digest})
+    stages = curriculum(training)
+    training.prepare("vault", out, stages, ("walk", "run", "speed-up", "jump"), clip=vault_clip().digest)
     stride = VaultSimulator(run).fit_stride(ENTRY_SPEED, np.random.default_rng([seed, 1]))
     blank = np.zeros((1, vault.STEPS * vault.BINS, vault.SENSORS))
     guess = first_guess()[None]
-    family = SkillFamily(KIND, np.array(HEIGHTS[:1]), guess, blank, stride, digest, training.made_by("vault"))
+    made_by = training.made_by("vault")
+    family = SkillFamily(KIND, np.array(HEIGHTS[:1]), guess, blank, stride, run_digest(run), made_by)
     rng = np.random.default_rng([seed, 2])
     states = _harvest(family, run, rng)
     clock = Clock(sum(_all_simulated(stage) for stage in stages))
     refined = np.zeros_like(family.table[0])  # what the last member changed when it was refined
     for number, stage in enumerate(stages):
-        arrays = training.recall(_TRAINING, number, digest)
+        arrays = training.recall(_TRAINING, number)
         if arrays is not None:
             refined = arrays.pop("refined")
             family = replace(family, **arrays)
@@ -275,14 +276,16 @@ def train_vault(training: Training, out: str | os.PathLike[str] = VAULT_SKILL) -
         elif refined.any():
             problem.predict(refined)
         found = [
-            training.learn(problem, 1000 * number + k, training.file(f"search-{number}-{k}"), clock)
+            training.learn(problem, 1000 * number + k, f"search-{number}-{k}", clock)
             for k in range(stage.options["beginnings"])
         ]
         change = problem.best(found)
+        if stage.options["refines"]:
+            training.demand_success("vault", problem, change)
         family = changed(family, change, stage, run, states)
         refined = change if stage.options["refines"] else refined
         arrays = {"heights": family.heights, "table": family.table, "references": family.references}
-        training.keep(_TRAINING, number, digest, {**arrays, "refined": refined})
+        training.keep(_TRAINING, number, {**arrays, "refined": refined})
     family.save(out)
     return family
 

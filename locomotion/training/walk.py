@@ -178,7 +178,10 @@ def walk_tables(parameters: np.ndarray) -> tuple[np.ndarray, float]:
 def train_walk(training: Training, out: str | os.PathLike[str] = WALK_SKILL) -> WalkSkill:
     """Learn to walk and write the skill to ``out``."""
     start = np.concatenate([first_gains(), np.zeros((TABLES - 1) * len(GAINS))])
-    learned = training.learn(WalkProblem(walk_curriculum(training), start))
+    problem = WalkProblem(walk_curriculum(training), start)
+    training.prepare("walk", out, problem.curriculum)
+    learned = training.learn(problem)
+    training.demand_success("walk", problem, learned)
     skill = WalkSkill(walk_tables(learned)[0], FASTEST, training.made_by("walk"))
     skill.save(out)
     return skill

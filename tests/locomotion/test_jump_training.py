@@ -7,14 +7,13 @@ import pytest
 
 from locomotion import jump
 from locomotion.errors import LocomotionError
-from locomotion.jump_skill import Jump, load_jump_skill, run_digest
-from locomotion.skill import load_run_skill
+from locomotion.jump_skill import Jump, load_jump_skill
+from locomotion.skill import load_run_skill, run_clip
 from locomotion.training.jump import JumpProblem, train_jump
-from locomotion.training.jump_kind import ENTRY_SPEED, cost, first_guess, scales, stair_jump
+from locomotion.training.jump_kind import ENTRY_SPEED, WEIGHTS, cost, first_guess, scales, stair_jump
 from locomotion.training.jump_trial import JumpSimulator
 from locomotion.training.loop import Stage
 from locomotion.training.training import Training
-from navmesh.archive import write_archive
 
 
 @pytest.fixture(scope="module")
@@ -63,11 +62,24 @@ def test_a_prediction_is_followed_only_as_far_as_it_helps(problem):
     np.testing.assert_allclose(start.start(), problem.start())
 
 
-def test_checkpoint_of_another_seed_is_refused(tmp_path, monkeypatch):
-    digest = run_digest(load_run_skill())
-    header = {"seed": 1, "run": digest, "effort": 1.0}
-    write_archive(tmp_path / "done-0.npz", "jump training", 1, header, {"x": np.zeros(1)})
-    monkeypatch.setattr(JumpSimulator, "fit_stride", lambda self, entry, rng: (0.25, 0.0, 0.25))
-    with pytest.raises(LocomotionError, match="another training or seed"):
-        train_jump(Training(checkpoint=tmp_path), tmp_path / "jump.npz")
+def test_a_checkpoint_of_another_configuration_is_refused_before_anything_runs(tmp_path, monkeypatch):
+    class Begun(Exception):
+        pass
+
+    def begin(*arguments):
+        raise Begun
+
+    def train(**changes):
+        train_jump(Training(checkpoint=tmp_path / "kept", **changes), tmp_path / "jump.npz")
+
+    monkeypatch.setattr(JumpSimulator, "fit_stride", begin)
+    for _ in range(2):
+        with pytest.raises(Begun):
+            train()
+    with pytest.raises(LocomotionError, match="differs in seed "):
+        train(seed=1)
+    kind = replace(stair_jump(), clip=run_clip(), weights={**WEIGHTS, "pose": 5.0})
+    monkeypatch.setattr("locomotion.training.jump.stair_jump", lambda: kind)
+    with pytest.raises(LocomotionError, match="differs in clip, objective "):
+        train()
     assert not (tmp_path / "jump.npz").exists()

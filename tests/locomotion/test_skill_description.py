@@ -76,9 +76,13 @@ def test_what_a_description_leaves_out_is_as_of_a_jump(own):
         ({"least": 3.0}, "least: 3 m is above the first of the sizes, 1 m"),
         ({"share": 1.5}, "share: "),
         ({"clip": None}, "clip: "),
+        ({"learned": "clip.yaml"}, "learned: 'clip.yaml' is the clip"),
+        ({"learned": "../{folder}/hop.yaml"}, "learned: '.*hop.yaml' is this file"),
     ],
 )
-def test_a_bad_description_is_refused_by_key(own, changes, message):
+def test_a_bad_description_is_refused_by_key(own, tmp_path, changes, message):
+    if "learned" in changes:
+        changes = {"learned": changes["learned"].format(folder=tmp_path.name)}
     path = own(**changes)
     with pytest.raises(LocomotionError, match=rf"hop\.yaml:\d+:\d+: .*{message}"):
         load_description(path)
@@ -108,6 +112,81 @@ def test_an_unknown_term_of_the_objective_is_refused_before_learning(own, tmp_pa
     with pytest.raises(LocomotionError, match="objective: 'style': valid terms: time, cleared"):
         train_described(own(objective={"style": 1.0}), Training(), tmp_path / "out.npz")
     assert not (tmp_path / "out.npz").exists()
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"learned": "missing/hop.npz"}, "missing/hop.npz: there is no folder"),
+        ({"sizes": [2.3, 2.5], "least": None}, "hop.yaml: sizes: .*nothing is learned from 1.82 to 2.28 m"),
+        ({"affordance": "drop"}, "hop.yaml: sizes: .*nothing is learned from"),
+        ({"entry": 5.5}, "hop.yaml: entry: 5.5 m/s: the run goes from 1.5 to 5 m/s"),
+        ({"clip": "no.yaml"}, "no.yaml: cannot be read"),
+    ],
+)
+def test_what_would_be_of_no_use_is_refused_before_learning(own, tmp_path, begun, changes, message):
+    if changes.get("affordance") == "drop":
+        changes = {**changes, "sizes": [0.5, 0.6]}
+    with pytest.raises(ValueError, match=message):
+        train_described(own(**changes), Training(checkpoint=tmp_path / "kept"))
+    assert not (tmp_path / "kept").exists()
+
+
+class Begun(Exception):
+    """Learning would begin now."""
+
+
+@pytest.fixture
+def begun(monkeypatch):
+    def begin(*arguments):
+        raise Begun
+
+    monkeypatch.setattr(JumpSimulator, "fit_stride", begin)
+    return Begun
+
+
+def test_the_packages_leap_may_come_to_clear_other_gaps(begun, tmp_path, monkeypatch):
+    said = load_description(LEAP).model_copy(update={"sizes": [2.3, 2.5], "least": None})
+    monkeypatch.setattr("locomotion.training.jump.load_description", lambda path: said)
+    with pytest.raises(begun):
+        train_described(LEAP, Training(), tmp_path / "out.npz")
+
+
+def test_a_checkpoint_is_of_what_the_description_and_its_clip_say(own, begun, tmp_path):
+    training = Training(checkpoint=tmp_path / "kept")
+    for _ in range(2):
+        with pytest.raises(begun):
+            train_described(own(), training)
+    with pytest.raises(begun):  # where things are, and how far down what is learned first serves, is free
+        train_described(own(least=0.5, learned="other.npz"), training)
+    changes = {
+        "objective": {"pose": 3.5}, "affordance": "jump", "sizes": [0.5], "entry": 3.4, "marks": [1.2, 0.25],
+        "pace": [1.0, 0.9, 1.0, 1.0], "share": 0.6, "name": "hop",
+    }  # fmt: skip
+    for key, value in changes.items():
+        named = "skill" if key == "name" else key
+        with pytest.raises(LocomotionError, match=f"kept: .* differs in {named}[ ,]"):
+            train_described(own(**{"least": 0.4, key: value}), training)
+    clip = tmp_path / "clip.yaml"
+    clip.write_text(f"# a remark\n{clip.read_text()}")
+    with pytest.raises(begun):
+        train_described(own(), training)
+    values = yaml.safe_load(clip.read_text())
+    next(iter(values["channels"].values()))[0][1] += 1.0
+    clip.write_text(yaml.safe_dump(values))
+    with pytest.raises(LocomotionError, match=r"kept: .* differs in clip .*remove .*kept to begin anew"):
+        train_described(own(), training)
+
+
+def test_descriptions_of_one_name_in_two_folders_share_no_checkpoint(own, begun, tmp_path):
+    training, other = Training(checkpoint=tmp_path / "hop.checkpoint"), tmp_path / "other"
+    with pytest.raises(begun):
+        train_described(own(), training)
+    other.mkdir()
+    shutil.copy(tmp_path / "clip.yaml", other)
+    shutil.copy(own(share=0.7), other / "hop.yaml")
+    with pytest.raises(LocomotionError, match=r"hop\.checkpoint: .* differs in share "):
+        train_described(other / "hop.yaml", training)
 
 
 def shifted(own, tmp_path, heights):
@@ -153,6 +232,26 @@ def test_a_skill_of_ones_own_is_learned_and_used(learned):
         course = make_course([("gap", 0.5, 0.0)], [distance])
         held += run_course(course, [skill]).ended == "arrived"
     assert held >= 3
+
+
+def test_what_was_learned_is_of_what_the_description_and_its_clip_said(learned, tmp_path):
+    run = load_run_skill()
+    for each in ("hop.yaml", "hop.npz", "clip.yaml"):
+        shutil.copy(learned.parent / each, tmp_path)
+    path, clip = tmp_path / "hop.yaml", tmp_path / "clip.yaml"
+    said, played = path.read_text(), clip.read_text()
+    path.write_text(said.replace("share: 0.5", "share: 50.0e-2"))
+    clip.write_text(f"# a remark\n{played}")
+    assert load_described(path, run).heights == (0.4, 0.6)
+    path.write_text(said.replace("share: 0.5", "share: 0.6").replace("entry: 3.5", "entry: 3.4"))
+    with pytest.raises(LocomotionError, match=r"hop\.npz: learned when .*hop\.yaml said .*\(entry, share\)"):
+        load_described(path, run)
+    path.write_text(said)
+    values = yaml.safe_load(played)
+    next(iter(values["channels"].values()))[0][1] += 1.0
+    clip.write_text(yaml.safe_dump(values))
+    with pytest.raises(LocomotionError, match=r"\(clip\); learn it anew \(surefoot train .*hop\.yaml\)"):
+        load_described(path, run)
 
 
 def test_a_world_gives_its_people_the_skills(learned):

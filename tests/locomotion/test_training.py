@@ -3,7 +3,6 @@
 import itertools
 from collections import Counter
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -179,21 +178,6 @@ def test_the_time_left_is_that_of_all_searches_and_not_of_what_was_done_before(m
     assert clock.ahead == pytest.approx(100.0 - simulated(tiny_problem().stages()))
 
 
-def test_what_a_search_has_found_is_kept_for_the_same_training_only(tmp_path: Path) -> None:
-    found = {"x": np.arange(3.0)}
-    Training().keep("toy", 0, "a run", found)
-    assert Training().recall("toy", 0, "a run") is None  # kept nowhere
-    training = Training(seed=4, checkpoint=tmp_path / "new" / "folder")
-    assert training.recall("toy", 0, "a run") is None
-    training.keep("toy", 0, "a run", found)
-    np.testing.assert_array_equal(training.recall("toy", 0, "a run")["x"], found["x"])
-    for other in ({"seed": 5}, {"effort": 0.5}):
-        with pytest.raises(LocomotionError, match="another training or seed"):
-            replace(training, **other).recall("toy", 0, "a run")
-    with pytest.raises(LocomotionError, match="another training or seed"):
-        training.recall("toy", 0, "another run")
-
-
 def ticks_by_gait(path: PathScenario) -> Counter:
     """How many ticks people go along a path by each gait."""
     human, points = Human(training_ground(path.ground), clearing=(), rehearsals=0), path.points
@@ -254,7 +238,7 @@ def test_what_a_stage_does_not_feel_stays_as_it_is() -> None:
 
 def test_running_goes_on_from_the_best_of_several_beginnings(tmp_path: Path) -> None:
     problem = tiny_problem()
-    training = Training(7, tmp_path / "run.checkpoint", workers=1, on_progress=lambda progress: None)
+    training = Training(7, tmp_path, workers=1, on_progress=lambda progress: None)
     genes = begin(training, problem.stages(), Clock(1.0), count=3)
     each = [learn(problem, 7 + k, None, 1, lambda progress: None) for k in range(3)]
     trials = [

@@ -73,6 +73,7 @@ class Bowl:
         return float(np.sum((candidate - 1.0 - 0.01 * scenarios[0]) ** 2)), 1.0
 
 def train(training, out):
+    training.prepare("bowl", out, Bowl().stages())
     write_archive(out, "bowl", 1, {}, {"x": training.learn(Bowl())})
 """
 TRAIN = ("train", "slow-down", "-o", "skill.npz", "--checkpoint", "learned.checkpoint")
@@ -115,16 +116,23 @@ def undisturbed(tmp_path_factory):
     return read_archive(folder / "skill.npz", "bowl", 1)[1]["x"]
 
 
-# its results are the checkpoints of four generations and the skill
+# its results are the configuration, of each of four generations the state and the time so far, and the skill
 @pytest.mark.parametrize(
     ("number", "which", "status"),
-    [(signal.SIGTERM, 2, 143), (signal.SIGKILL, 3, -9), (signal.SIGINT, 5, 130)],
+    [
+        (signal.SIGKILL, 1, -9),
+        (signal.SIGTERM, 3, 143),
+        (signal.SIGKILL, 4, -9),
+        (signal.SIGINT, 6, 130),
+        (signal.SIGKILL, 10, -9),
+    ],
 )
 def test_interrupted_learning_goes_on_from_its_checkpoint(number, which, status, undisturbed, tmp_path):
     code, said = learned(tmp_path, number, which)
     assert code == status and "Traceback" not in said, said
     assert not (tmp_path / "skill.npz").exists()
-    assert read_archive(tmp_path / "learned.checkpoint", "training checkpoint", 1)
+    if which > 1:
+        assert read_archive(tmp_path / "learned.checkpoint/search.npz", "training checkpoint", 1)
     assert learned(tmp_path, 0, 0)[0] == 0
     assert np.array_equal(read_archive(tmp_path / "skill.npz", "bowl", 1)[1]["x"], undisturbed)
 

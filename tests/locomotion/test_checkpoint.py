@@ -1,0 +1,138 @@
+"""The folder of a training: it belongs to one configuration, and holds nothing else."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from locomotion import library
+from locomotion.errors import LocomotionError
+from locomotion.training.checkpoint import CONFIGURATION, claim
+from locomotion.training.loop import Stage
+from locomotion.training.training import Training
+from navmesh.archive import ArchiveError
+
+
+@pytest.fixture
+def folder(tmp_path):
+    return tmp_path / "new" / "hop.checkpoint"
+
+
+def test_a_folder_is_claimed_once_and_again_by_the_same_configuration(folder):
+    asked = {"seed": 3, "marks": (1.3, 0.25), "clip": "ab", "objective": {"pose": 0.1}}
+    claim(folder, asked)
+    (folder / "done-0.npz").touch()
+    claim(folder, asked)
+    assert json.loads((folder / CONFIGURATION).read_text())["marks"] == [1.3, 0.25]
+
+
+@pytest.mark.parametrize(
+    ("change", "named"),
+    [
+        ({"clip": "cd"}, "clip"),
+        ({"objective": {"pose": 0.2}}, "objective"),
+        ({"seed": 4, "share": 1.0}, "seed, share"),
+    ],
+)
+def test_a_folder_of_another_configuration_is_refused_by_what_differs(folder, change, named):
+    asked = {"seed": 3, "clip": "ab", "objective": {"pose": 0.1}}
+    claim(folder, asked)
+    with pytest.raises(LocomotionError, match=rf"differs in {named} \(") as refused:
+        claim(folder, {**asked, **change})
+    assert f"remove {folder} to begin anew" in str(refused.value)
+
+
+def test_a_folder_with_anything_else_in_it_is_left_alone(folder):
+    folder.mkdir(parents=True)
+    (folder / "holiday.jpg").touch()
+    with pytest.raises(LocomotionError, match=r"holds files but no configuration\.json"):
+        claim(folder, {"seed": 3})
+    (folder / "holiday.jpg").rename(folder / f".{CONFIGURATION}.1.x.part.json")  # left by a killed process
+    claim(folder, {"seed": 3})
+
+
+@pytest.mark.parametrize("content", ["", "{", "[1]", "null", "\xff"])
+def test_a_damaged_configuration_is_named(folder, content):
+    claim(folder, {"seed": 3})
+    (folder / CONFIGURATION).write_text(content, encoding="latin-1")
+    with pytest.raises(LocomotionError, match=r"configuration\.json: not a training's configuration"):
+        claim(folder, {"seed": 3})
+
+
+def test_a_file_in_the_place_of_the_folder_is_refused(tmp_path):
+    (tmp_path / "walk.checkpoint").touch()
+    with pytest.raises(LocomotionError, match=r"walk\.checkpoint: is no folder"):
+        claim(tmp_path / "walk.checkpoint", {})
+
+
+STAGE = Stage("bowl", 4, 0.5, np.ones(3), {"states": 2})
+
+
+def prepared(training, out, **changes):
+    said = {"skill": "hop", "stages": [STAGE], "builds_on": ("walk",), "clip": "ab", **changes}
+    training.prepare(said.pop("skill"), out, said.pop("stages"), said.pop("builds_on"), **said)
+
+
+def test_a_training_goes_on_in_its_folder_with_the_same_configuration_only(folder, tmp_path, monkeypatch):
+    training, out = Training(seed=4, checkpoint=folder), tmp_path / "hop.npz"
+    prepared(training, out)
+    prepared(replace(training, workers=1), tmp_path / "elsewhere.npz")
+    changes = {
+        "skill": {"skill": "leap"},
+        "clip": {"clip": "cd"},
+        "stages": {"stages": [replace(STAGE, options={"states": 3})]},
+        "run skill": {"builds_on": ("walk", "run")},
+    }
+    for name, change in changes.items():
+        with pytest.raises(LocomotionError, match=f"differs in {name} "):
+            prepared(training, out, **change)
+    for name, value in {"seed": 5, "effort": 0.5}.items():
+        with pytest.raises(LocomotionError, match=f"differs in {name} "):
+            prepared(replace(training, **{name: value}), out)
+    monkeypatch.setattr("locomotion.training.training.person_digest", lambda: "taller")
+    with pytest.raises(LocomotionError, match="differs in person "):
+        prepared(training, out)
+
+
+def test_a_training_notices_that_what_it_builds_on_was_learned_anew(folder, tmp_path, monkeypatch):
+    (tmp_path / "walk.npz").write_bytes(b"as it was")
+    (tmp_path / "walk.yaml").write_bytes(b"its clip")
+    monkeypatch.setattr(library, "_SKILLS", tmp_path)
+    monkeypatch.setattr(library, "_CLIPS", tmp_path)
+    prepared(Training(checkpoint=folder), tmp_path / "hop.npz")
+    for file, content in (("walk.npz", b"learned anew"), ("walk.yaml", b"another clip")):
+        before = (tmp_path / file).read_bytes()
+        (tmp_path / file).write_bytes(content)
+        with pytest.raises(LocomotionError, match="differs in walk skill "):
+            prepared(Training(checkpoint=folder), tmp_path / "hop.npz")
+        (tmp_path / file).write_bytes(before)
+    prepared(Training(checkpoint=folder), tmp_path / "hop.npz")
+
+
+def test_where_the_skill_cannot_be_written_is_known_before_learning(folder, tmp_path, monkeypatch):
+    training = Training(checkpoint=folder)
+    with pytest.raises(ArchiveError, match="there is no folder"):
+        prepared(training, tmp_path / "missing" / "hop.npz")
+    with pytest.raises(ArchiveError, match="is a folder"):
+        prepared(training, tmp_path)
+    monkeypatch.setattr("os.access", lambda path, mode: False)
+    with pytest.raises(ArchiveError, match="may not be written to"):
+        prepared(training, tmp_path / "hop.npz")
+    assert not folder.exists()
+
+
+def test_what_a_search_has_found_is_kept(folder, tmp_path):
+    found = {"x": np.arange(3.0)}
+    Training().keep("toy", 0, found)
+    assert Training().recall("toy", 0) is None  # kept nowhere
+    training = Training(checkpoint=folder)
+    prepared(training, tmp_path / "hop.npz")
+    assert training.recall("toy", 0) is None
+    training.keep("toy", 0, found)
+    np.testing.assert_array_equal(training.recall("toy", 0)["x"], found["x"])
+    done = folder / "done-0.npz"
+    done.write_bytes(done.read_bytes()[:200])
+    with pytest.raises(LocomotionError, match="cut off or damaged") as refused:
+        training.recall("toy", 0)
+    assert f"remove {done} to learn this part anew" in str(refused.value)

@@ -265,29 +265,34 @@ def train(
         typer.Option(
             "--output",
             "-o",
-            help="File for the skill; default: the package's, or the one that FILE.yaml names.",
+            help="File for the skill; default: where FILE.yaml says, or the package's (see --replace).",
         ),
     ] = None,
     seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same skill.")] = 0,
     workers: Annotated[int, typer.Option(min=1, help="Processes.")] = 2,
     checkpoint: Annotated[
         Path | None,
-        typer.Option(help="Where to keep what was learned so far; default: SKILL.checkpoint here."),
+        typer.Option(help="Folder for what was learned so far; default: SKILL.checkpoint here."),
     ] = None,
     effort: Annotated[
         float, typer.Option(min=0.01, max=100.0, help="Scales the number of generations.")
     ] = 1.0,
+    replace: Annotated[
+        bool, typer.Option("--replace", help="Write the package's skills over those that it comes with.")
+    ] = False,
 ) -> None:
-    """Learn a skill, with progress. Interrupted, it goes on from its checkpoint when started again."""
+    """Learn a skill, with progress. Interrupted, it goes on from its checkpoint when started again. A skill
+    that never works is not written, and the exit code is 1."""
     if (skill is None) is not everything or (everything and (output or checkpoint)):
         raise typer.BadParameter("name one skill, or --all without --output and --checkpoint")
     _commands()
     from runtime import skill_commands
 
     if skill is None:
-        skill_commands.train_library(seed, workers, effort)
+        result = skill_commands.train_library(seed, workers, effort, replace)
     else:
-        skill_commands.train_skill(skill, output, seed, workers, checkpoint, effort)
+        result = skill_commands.train_skill(skill, output, seed, workers, checkpoint, effort, replace)
+    _finish(result, as_json=False)
 
 
 @app.command()

@@ -1,6 +1,7 @@
 """What the commands on skills and clips do, apart from reading their arguments."""
 
 import os
+import sys
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
@@ -48,41 +49,70 @@ def _trainers() -> Mapping[str, Callable[..., Any]]:
 
 
 def train_skill(
-    skill: str, output: Path | None, seed: int, workers: int, checkpoint: Path | None, effort: float
-) -> float:
+    skill: str,
+    output: Path | None,
+    seed: int,
+    workers: int,
+    checkpoint: Path | None,
+    effort: float,
+    replace: bool,
+) -> Result:
     """Learn ``skill``, one of the package's or one that a file describes, and write it to ``output`` (None:
-    where the package keeps its own, or where its description says); gives the CPU time that it took [min],
-    with what it took before it was interrupted.
-    Raises `RuntimeInputError` while another process learns with the same checkpoint."""
-    where = {} if output is None else {"out": output}
-    if output is not None:
-        check_output(output)
+    where its description says, or where the package keeps it). Holds when what was learned works, which is
+    written only then. Its values tell the CPU time [min], with what it took before it was interrupted.
+    Raises `RuntimeInputError` where a skill of the package would be replaced without ``replace``, and
+    while another process learns with the same checkpoint."""
     name = Path(skill).stem
     kept = checkpoint or Path(f"{name}.checkpoint")
     if not kept.parent.is_dir():
         raise RuntimeInputError(f"{kept}: there is no folder {str(kept.parent)!r} to keep checkpoints in")
     from locomotion.training.jump import train_described
-    from locomotion.training.training import Training
+    from locomotion.training.training import NotLearnedError, Training
 
-    train = _trainers().get(skill, partial(train_described, skill))
+    trainers = _trainers()
+    train, fault = trainers.get(skill, partial(train_described, skill)), ""
+    out = _package_file(skill, replace) if output is None and skill in trainers else output
     try:
         with FileLock(f"{kept}.lock", timeout=0):
             timer = _Timer(kept)
-            train(Training(seed, kept, workers, effort, timer.told), **where)
+            try:
+                train(Training(seed, kept, workers, effort, timer.told), out=out)
+            except NotLearnedError as error:
+                fault = str(error)
             timer.keep()
     except Timeout:
         raise RuntimeInputError(
             f"{kept}: another process learns with this checkpoint; wait for it, or name another --checkpoint"
         ) from None
-    print(f"{name} learned in {timer.minutes:.1f} core-minutes; {kept} is not needed any more")
-    return timer.minutes
+    values = {"skill": skill, "works": not fault, "core-minutes": timer.minutes}
+
+    def show() -> None:
+        if fault:
+            print(f"surefoot: {fault}. No skill was written; {kept} holds what was learned", file=sys.stderr)
+        else:
+            print(f"{name} learned in {timer.minutes:.1f} core-minutes; {kept} is not needed any more")
+
+    return Result(values, not fault, show)
+
+
+def _package_file(skill: str, replace: bool) -> Path:
+    """Where the package keeps ``skill``; `RuntimeInputError` if it has it and is not to ``replace`` it."""
+    from locomotion.library import package_skill
+
+    file = package_skill(skill)
+    if file.exists() and not replace:
+        raise RuntimeInputError(
+            f"{file}: is the package's own {skill}; say --replace to learn it anew in its place, or learn "
+            f"one skill for a file of yours (-o {file.name})"
+        )
+    return file
 
 
 class _Timer:
     """CPU time of learning, kept in a file beside its checkpoint, so that none is lost between commands."""
 
     def __init__(self, checkpoint: Path) -> None:
-        self._file = checkpoint.with_name(f"{checkpoint.name}.minutes")
+        self._file = Path(f"{checkpoint}.minutes")
         self.minutes = self._before() if checkpoint.exists() and self._file.exists() else 0.0
         self._begun = _cpu_minutes() - self.minutes
 
@@ -112,12 +142,26 @@ def _cpu_minutes() -> float:
     return (sum(os.times()[:4]) + sum(each.user + each.system for each in running)) / 60.0
 
 
-def train_library(seed: int, workers: int, effort: float) -> None:
-    """Learn all skills, one after the other, and say what each has cost."""
-    minutes = {skill: train_skill(skill, None, seed, workers, None, effort) for skill in _trainers()}
-    for skill, each in minutes.items():
-        print(f"{skill:12} {each:7.1f} core-minutes")
-    print(f"{'in all':12} {sum(minutes.values()):7.1f} core-minutes")
+def train_library(seed: int, workers: int, effort: float, replace: bool) -> Result:
+    """Learn all skills of the package, one after the other, and say what each has cost; what comes after one
+    that does not work is not learned. Raises `RuntimeInputError` where one would be replaced and is not to
+    be."""
+    for skill in _trainers():
+        _package_file(skill, replace)
+    minutes: dict[str, float] = {}
+    for skill in _trainers():
+        result = train_skill(skill, None, seed, workers, None, effort, replace)
+        if not result.held:
+            return result
+        result.show()
+        minutes[skill] = result.values["core-minutes"]
+    minutes["in all"] = sum(minutes.values())
+
+    def show() -> None:
+        for skill, each in minutes.items():
+            print(f"{skill:12} {each:7.1f} core-minutes")
+
+    return Result({"core-minutes": minutes}, True, show)
 
 
 def evaluate_skill(skill: str, trials: int, seed: int, picture: Path | None = None) -> Result:

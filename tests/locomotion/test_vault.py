@@ -205,7 +205,7 @@ def test_mirror_tables():
 
 
 def test_the_vault_belongs_to_the_run(run):
-    assert load_vault_skill().run == run_digest(run), "the run has changed: surefoot train vault"
+    assert load_vault_skill().run == run_digest(run), "the run has changed: surefoot train vault --replace"
 
 
 def test_entry_and_mark_are_plausible(run):

@@ -7,10 +7,13 @@ from itertools import count
 import pytest
 from filelock import FileLock
 
+from locomotion import library
 from locomotion.training.progress import Progress
+from locomotion.training.training import NotLearnedError
 from locomotion.workers import worker_pool
 from runtime.cli import main
-from runtime.skill_commands import _cpu_minutes
+from runtime.errors import RuntimeInputError
+from runtime.skill_commands import _cpu_minutes, _trainers, train_skill
 
 
 def surefoot(capsys, *arguments):
@@ -34,13 +37,14 @@ def test_a_checkpoint_in_a_folder_that_is_not_there_is_refused(capsys, tmp_path)
     assert code == 2 and "there is no folder" in err
 
 
-def test_a_picture_of_tests_without_a_plane_is_refused_before_they_are_made(capsys, tmp_path, monkeypatch):
-    monkeypatch.setattr("runtime.evaluation.evaluate_brake", None)
-    code, _, err = surefoot(capsys, "evaluate", "brake", "--picture", tmp_path / "brake.png")
-    assert code == 2 and "no plane to draw" in err and not (tmp_path / "brake.png").exists()
+def test_a_checkpoint_in_a_folder_with_other_files_is_refused(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "notes.txt").touch()
+    code, _, err = surefoot(capsys, "train", "walk", "-o", "walk.npz", "--checkpoint", ".")
+    assert code == 2 and "holds files but no configuration.json" in err
 
 
-def interrupted_first(training):
+def interrupted_first(training, out):
     """Takes three minutes, or one that counts and is cut short, where each look at the clock takes one."""
     training.on_progress(Progress("sitting", 1, 1, 0.0, 1.0, 0.0, 0.0))
     if not training.checkpoint.exists():
@@ -63,6 +67,70 @@ def test_the_time_before_an_interruption_counts(capsys, tmp_path, monkeypatch):
     (tmp_path / "sit.checkpoint").unlink()
     assert surefoot(capsys, "train", "--all")[0] == 130
     assert (tmp_path / "sit.checkpoint.minutes").read_text() == "1.000\n"
+
+
+@pytest.fixture
+def never(monkeypatch):
+    """A package whose sitting is learned, whose standing never works, and whose lying comes after it."""
+
+    def train(training, out):
+        if out.stem == "stand":
+            raise NotLearnedError("stand does not work")
+        out.write_text(f"learned with seed {training.seed}")
+
+    names = ("sit", "stand", "lie")
+    monkeypatch.setattr("runtime.skill_commands._trainers", lambda: dict.fromkeys(names, train))
+
+
+@pytest.mark.usefixtures("never")
+def test_a_skill_that_never_works_is_said_so_and_fails(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    result = train_skill("stand", tmp_path / "stand.npz", 0, 1, None, 1.0, False)
+    result.show()
+    output = capsys.readouterr()
+    assert not result.held and not (tmp_path / "stand.npz").exists()
+    assert "stand does not work. No skill was written" in output.err and "learned in" not in output.out
+
+
+@pytest.mark.usefixtures("never")
+def test_the_library_ends_with_what_never_works(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(library, "_SKILLS", tmp_path)
+    code, out, err = surefoot(capsys, "train", "--all")
+    assert code == 1 and "sit learned in" in out and "stand does not work" in err
+    assert (tmp_path / "sit.npz").exists() and not (tmp_path / "lie.npz").exists()
+
+
+@pytest.mark.usefixtures("never")
+def test_the_packages_skills_are_replaced_only_when_asked_to(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(library, "_SKILLS", tmp_path / "package")
+    (tmp_path / "package").mkdir()
+    mine, other = tmp_path / "package" / "lie.npz", tmp_path / "lie.npz"
+    mine.write_text("as it came")
+    for arguments in (["--all"], ["--all", "--seed", 1]):
+        code, _, err = surefoot(capsys, "train", *arguments)
+        assert code == 2 and f"{mine}: is the package's own lie" in err and "--replace" in err
+    assert list(tmp_path.glob("**/*.npz")) == [mine]
+    with pytest.raises(RuntimeInputError, match=r"package's own lie.* \(-o lie\.npz\)"):
+        train_skill("lie", None, 0, 1, None, 1.0, False)
+    assert train_skill("lie", other, 5, 1, None, 1.0, False).held
+    assert (mine.read_text(), other.read_text()) == ("as it came", "learned with seed 5")
+    assert train_skill("lie", None, 6, 1, None, 1.0, True).held
+    assert mine.read_text() == "learned with seed 6"
+    assert surefoot(capsys, "train", "--all", "--replace", "--seed", 7)[0] == 1  # standing never works
+    assert (tmp_path / "package" / "sit.npz").read_text() == "learned with seed 7"
+
+
+def test_the_packages_skills_are_where_they_are_replaced():
+    for skill in _trainers():
+        assert library.package_skill(skill).is_file()
+
+
+def test_training_jump_leaves_the_packages_jump_alone(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, _, err = surefoot(capsys, "train", "jump")
+    assert code == 2 and "is the package's own jump" in err and not list(tmp_path.iterdir())
 
 
 def test_a_picture_of_tests_without_a_plane_is_refused_before_they_run(capsys, tmp_path, monkeypatch):

@@ -25,7 +25,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from locomotion import controller
 from locomotion.brake import BRAKING, BrakeSkill, load_brake_skill
-from locomotion.clearing import ClearingSkill, skill_for
+from locomotion.clearing import ClearingSkill
 from locomotion.controller import observe
 from locomotion.errors import LocomotionError
 from locomotion.events import (
@@ -45,6 +45,8 @@ from locomotion.ground import Ground
 from locomotion.hand_hold import let_go_both
 from locomotion.human_state import CLEARING, MOVING, HumanState, Status
 from locomotion.library import learned_skills
+from locomotion.numeric import as_floats, is_finite
+from locomotion.obstacle_check import check_obstacles
 from locomotion.obstacle_run import TakeOff
 from locomotion.on_all_fours import OnAllFours
 from locomotion.on_feet import OnFeet
@@ -107,7 +109,9 @@ class Human(RehearsingPerson):
         None loads the package's.
         ``rehearsals``: how many variations of a take-off it tries out at most before it takes off
         (`locomotion.rehearsal`); 0: none. ``gets_up``: whether it gets up after a fall and goes on; else a
-        fall is the end."""
+        fall is the end. Raises `LocomotionError` for a ground or a number of rehearsals that is none."""
+        if ground is not None and not isinstance(ground, Ground):
+            raise LocomotionError(f"ground must be a Ground, or None for a plane, not {ground!r}")
         if isinstance(rehearsals, bool) or not isinstance(rehearsals, Integral) or rehearsals < 0:
             raise LocomotionError(f"rehearsals must be a whole number of at least 0, not {rehearsals!r}")
         run = load_run_skill() if skill is None else skill
@@ -129,10 +133,10 @@ class Human(RehearsingPerson):
         Raises `LocomotionError` for numbers that are not finite, a speed below 0, or a position more than
         0.5 m off the ground.
         """
-        place = np.asarray(position, dtype=np.float64)
-        if place.shape != (3,) or not np.isfinite(place).all() or not np.isfinite(yaw):
+        place = as_floats(position)
+        if place is None or place.shape != (3,) or not np.isfinite(place).all() or not is_finite(yaw):
             raise LocomotionError(f"position and yaw must be finite (3,) and (), not {position} and {yaw}")
-        if not (np.isfinite(speed) and speed >= 0.0):
+        if not (is_finite(speed) and speed >= 0.0):
             raise LocomotionError(f"speed must be a finite number >= 0 m/s, not {speed}")
         self._place(place if self.ground is None else self._on_ground(place), yaw, speed)
         self.way.forget()
@@ -145,21 +149,20 @@ class Human(RehearsingPerson):
 
         It walks and runs as the module's text says. Raises
         `LocomotionError` for a bad path or speed, a path that begins more than 2 m from the person, an
-        obstacle that none of its skills clears, or a person that has fallen.
+        obstacle with a mistake or that none of its skills clears, or a person that has fallen.
         """
         if self.status == "fallen":
             raise LocomotionError("the person has fallen for good; reset it")
-        for number, obstacle in enumerate(obstacles):
-            if not obstacle.is_finite:
-                raise LocomotionError(f"obstacle {number} is not made of finite numbers: {obstacle}")
-            if skill_for(self.clearing, obstacle) is None:
-                wanted = f"{obstacle.affordance} {obstacle.size:.2f} m"
-                offered = [f"{s.affordance} {s.heights[0]:g} to {s.heights[1]:g} m" for s in self.clearing]
-                raise LocomotionError(f"no skill clears {wanted}; there are {offered or 'none'}")
+        points = as_floats(path)
+        if points is None:
+            raise LocomotionError(f"a path is numbers of the shape (n, 3), not {path!r}")
+        if not is_finite(speed):
+            raise LocomotionError(f"speed must be a finite number above 0 m/s, not {speed}")
+        check_obstacles(obstacles, self.clearing)
         edges = [obstacle.arc_length for obstacle in obstacles]
         running = not self.on_feet.walks and not self.held
         pace = float(np.linalg.norm(self.velocity[:2]))
-        table = make_path(path, speed, self.on_feet.limits, pace, edges, self.on_feet.walk_limits, running)
+        table = make_path(points, speed, self.on_feet.limits, pace, edges, self.on_feet.walk_limits, running)
         start, here = table.table[0, :3], self.position
         gap = float(np.linalg.norm(start[:2] - here[:2]))
         if gap > STRAYED or abs(start[2] - here[2]) > STRAYED:
@@ -199,7 +202,11 @@ class Human(RehearsingPerson):
     def change_ground(self, ground: Ground) -> None:
         """Go on as it is on another ground. One at rest whose footing has changed by more than 1 cm is
         simulated again; one with no ground at all below it counts as fallen from now on, and so does one
-        that is held though it did not come to rest from a run and whose footing has changed."""
+        that is held though it did not come to rest from a run and whose footing has changed. Raises
+        `LocomotionError` for one on the endless plane, and for what is no ground."""
+        if self.ground is None or not isinstance(ground, Ground):
+            here = "the endless plane" if self.ground is None else "a ground"
+            raise LocomotionError(f"a person on {here} cannot go on on a {type(ground).__name__}")
         before, state = self._footing(), self.save_state()
         self._stand_on(ground)
         self._fours = OnAllFours(self.model, self.index)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from locomotion import controller
 from locomotion.clearing import ClearingSkill
 from locomotion.controller import observe
+from locomotion.errors import LocomotionError
 from locomotion.events import Event
 from locomotion.ground import Ground
 from locomotion.human_state import MOVING, Gait, HumanState, Status, hash_of, restore_physics, save_physics
@@ -139,7 +140,9 @@ class MovingPerson(SimulatedPerson):
 
     def become(self, state: HumanState) -> None:
         """Be as it was, or will be, in a state of a person on the same ground with the same skill. Raises
-        `LocomotionError`, and changes nothing, if it belongs to another model."""
+        `LocomotionError`, and changes nothing, if it belongs to another model, or is no such state."""
+        if not isinstance(state, HumanState):
+            raise LocomotionError(f"a person goes on from a HumanState, not from a {type(state).__name__}")
         memories, end = self.memories, 0
         restore_physics(self.model, self.data, state.numbers[sum(map(len, memories)) :])
         for memory in memories:

@@ -70,12 +70,6 @@ class ObstacleAhead:
     depth: float = 0.0
 
     @property
-    def is_finite(self) -> bool:
-        """Whether all of its numbers are."""
-        numbers = (self.arc_length, self.height, self.depth, *self.position, *self.normal)
-        return bool(np.isfinite(numbers).all())
-
-    @property
     def size(self) -> float:
         """What a skill's range is compared with [m]: the height, or the width of a gap."""
         return self.depth if self.affordance == "gap" else self.height

@@ -1,6 +1,8 @@
 """The person as a whole: it follows paths, repeats bit for bit, can be saved, and refuses what it cannot
 do."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -126,16 +128,12 @@ def test_saved_state_of_another_model_is_refused_and_changes_nothing():
     assert human.state_hash() == before
 
 
-def test_bad_rehearsals_and_obstacles_are_refused():
+def test_what_is_no_ground_or_number_of_rehearsals_is_refused():
     for rehearsals in (-1, 1.5, None, True):
         with pytest.raises(LocomotionError, match="rehearsals must be a whole number"):
             Human(None, rehearsals=rehearsals)
-    human = Human(None)
-    for arc, height, place in ((np.nan, 0.4, 14.0), (14.0, np.inf, 14.0), (14.0, 0.4, np.nan)):
-        obstacle = ObstacleAhead(arc, "jump", height, np.array([place, 0, 0.4]), np.array([-1.0, 0, 0]))
-        with pytest.raises(LocomotionError, match="obstacle 0 is not made of finite numbers"):
-            human.follow([[0, 0, 0], [25, 0, 0]], 3.0, [obstacle])
-    assert human.status == "standing"
+    with pytest.raises(LocomotionError, match="ground must be a Ground, or None for a plane, not 'plane'"):
+        Human("plane")  # type: ignore[arg-type]
 
 
 def test_run_up_ends_at_the_mark_and_the_skill_starts():
@@ -243,10 +241,50 @@ def test_wrong_input_is_refused_and_changes_nothing():
         (lambda: human.reset((0, 0, 0), 0.0, -1.0), "speed"),
         (lambda: human.reset((0, 0, 7.0), 0.0), "no ground within"),
         (lambda: human.reset((500, 0, 0), 0.0), "no ground within"),
+        (lambda: human.follow("there", 3.0), r"numbers of the shape \(n, 3\), not 'there'"),
+        (lambda: human.follow([[0, 0, 0], [1]], 3.0), "numbers of the shape"),
+        (lambda: human.follow(STRAIGHT, None), "speed must be .* not None"),
+        (lambda: human.follow(STRAIGHT, "fast"), "speed must be .* not fast"),
+        (lambda: human.follow(STRAIGHT, 3.0, None), "list of ObstacleAhead, not a NoneType"),
+        (lambda: human.follow(STRAIGHT, 3.0, [5]), "obstacle 0 is a int; expected an ObstacleAhead"),
+        (lambda: human.reset("there", 0.0), "finite"),
+        (lambda: human.reset((0, 0, 0), None), "finite"),
+        (lambda: human.reset((0, 0, 0), 0.0, "fast"), "speed"),
+        (lambda: human.change_ground(None), "cannot go on on a NoneType"),
+        (lambda: Human(None).change_ground(flat_ground()), "on the endless plane cannot go on"),
+        (lambda: human.restore_state(None), "from a HumanState, not from a NoneType"),
     ):
         with pytest.raises(LocomotionError, match=message):
             call()
     assert human.state_hash() == before and not human.events
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"arc_length": np.nan}, "arc_length must be a finite number of metres, not nan"),
+        ({"height": None}, "height must be a finite number of metres, not None"),
+        ({"depth": np.inf}, "depth must be a finite number of metres, not inf"),
+        ({"affordance": "climb"}, "affordance 'climb': valid: 'jump', 'vault', 'drop', 'gap'"),
+        ({"position": np.array([8.0, np.nan, 0.4])}, "position must be three finite numbers"),
+        ({"position": (8.0, 0.0)}, "position must be three finite numbers"),
+        ({"normal": None}, "normal must be three finite numbers, not None"),
+        ({"normal": np.zeros(3)}, "normal must be horizontal and 1 long"),
+    ],
+)
+def test_an_obstacle_with_a_mistake_is_refused_by_field(wrong, message):
+    human = Human(None)
+    before = human.state_hash()
+    right = ObstacleAhead(8.0, "jump", 0.4, np.array([8.0, 0, 0.4]), np.array([-1.0, 0, 0]))
+    with pytest.raises(LocomotionError, match=f"obstacle 1: {message}"):
+        human.follow(STRAIGHT, 3.0, [right, replace(right, **wrong)])
+    assert human.state_hash() == before and not human.events
+
+
+def test_obstacles_out_of_order_are_refused():
+    near = ObstacleAhead(8.0, "jump", 0.4, np.array([8.0, 0, 0.4]), np.array([-1.0, 0, 0]))
+    with pytest.raises(LocomotionError, match="obstacle 1 is at 8 m, the one before it at 12 m"):
+        Human(None).follow(STRAIGHT, 3.0, [replace(near, arc_length=12.0), near])
 
 
 def test_a_person_told_to_run_fast_speeds_up_no_further_than_it_can_follow() -> None:

@@ -1,0 +1,28 @@
+"""Whether what a caller gives is numbers at all: asked at the edge of the public calls, before it is compared
+with anything."""
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["as_floats", "is_finite"]
+
+
+def is_finite(value: Any) -> bool:
+    """Whether ``value`` is one finite number."""
+    try:
+        return math.isfinite(value)
+    except (TypeError, ValueError, OverflowError):
+        return False
+
+
+def as_floats(value: Any) -> NDArray[np.float64] | None:
+    """``value`` as an array of float64, of any shape and finite or not; None for what holds anything but
+    numbers, or rows of different lengths."""
+    try:
+        array = np.asarray(value)
+        return None if array.dtype.kind in "USc" else array.astype(np.float64)
+    except (TypeError, ValueError, OverflowError):
+        return None

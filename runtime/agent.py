@@ -160,7 +160,8 @@ class Agent:
         return Pose(self.figure.bodies, self.figure.parents, transforms)
 
     def plan(self, point: ArrayLike) -> Plan:
-        """The way that `go_to` would take, not taken. Raises `runtime.planning.NoWay`."""
+        """The way that `go_to` would take, not taken. Raises `runtime.planning.NoWay`, and
+        `RuntimeInputError` as `go_to` does."""
         return self._driver.plan(checked_points(point, "point"))
 
     def go_to(self, point: ArrayLike, speed: float = 3.5, facing: float | None = None) -> str:
@@ -171,12 +172,10 @@ class Agent:
         agent then keeps doing what it did). Raises `RuntimeInputError` for a point that is not finite
         numbers, a speed that is not above 0, or an agent that has fallen or was removed.
         """
-        self._refuse_if_removed()
-        goals = checked_points(point, "point")
-        if checked_number(speed, "speed", "m/s") <= 0.0:
+        goals, speed = checked_points(point, "point"), checked_number(speed, "speed", "m/s")
+        if speed <= 0.0:
             raise RuntimeInputError(f"speed must be above 0 m/s, not {speed!r}")
-        if facing is not None:
-            checked_number(facing, "facing", "rad")
+        facing = None if facing is None else checked_number(facing, "facing", "rad")
         if len(goals) == 1 and not self.moving and self._world.has_come(self, goals[0]):
             self._goal, self._blocked = _triple(goals[0]), False
             return self.status
@@ -193,14 +192,9 @@ class Agent:
     def stop(self) -> None:
         """Give up its way and come to a stand, as soon as it can without falling; an obstacle that it is
         clearing is cleared first. One that is not on its way stays as it is."""
-        self._refuse_if_removed()
-        self._errand, self._blocked = Errand(), False
         if self.moving:
             self._driver.stop()
-
-    def _refuse_if_removed(self) -> None:
-        if self._world.agents.get(self.name) is not self:
-            raise RuntimeInputError(f"{self.name} has been removed from its world; spawn another")
+        self._errand, self._blocked = Errand(), False
 
     def _depart(self, plan: Plan, former: Course | None = None) -> None:
         """Report that it has taken the way of ``plan``; ``former`` is the course that it was on."""
@@ -287,13 +281,22 @@ class Agent:
 
     @property
     def driver(self) -> Driver:
-        """What moves its body."""
-        return self._driver
+        """What moves its body. Raises `RuntimeInputError` for one that was removed from its world, as does
+        everything that asks it of its body."""
+        if self._body is None:
+            raise RuntimeInputError(f"{self.name} has been removed from its world; spawn another")
+        return self._body
+
+    _driver = driver
 
     def take(self, driver: Driver) -> None:
         """Go on with another body of the same kind."""
-        self._driver = driver
+        self._body: Driver | None = driver
         self.news = driver.events
+
+    def leave(self) -> None:
+        """Have no body any more; `World.remove` calls this."""
+        self._body = None
 
     def remove(self) -> None:
         """Take it out of its world; it cannot be used any more."""

@@ -1,14 +1,18 @@
-"""Numbers that a host passes, checked."""
+"""Numbers and files that a host passes, checked."""
 
 import math
+import os
+from collections.abc import Iterable
 from numbers import Integral, Real
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from runtime.errors import RuntimeInputError
 
-__all__ = ["checked_number", "checked_points", "checked_whole"]
+__all__ = ["checked_files", "checked_number", "checked_points", "checked_whole"]
 
 
 def checked_number(value: object, what: str, unit: str, least: float = -math.inf) -> float:
@@ -40,3 +44,14 @@ def checked_whole(value: object, what: str) -> int:
     if isinstance(value, bool) or not isinstance(value, Integral) or value < 0:
         raise RuntimeInputError(f"{what} must be a whole number of at least 0, not {value!r}")
     return int(value)
+
+
+def checked_files(files: Any, what: str) -> tuple[Path, ...]:
+    """``files`` as absolute paths; `RuntimeInputError` unless they are several, each a text or a path."""
+    if isinstance(files, str | bytes | os.PathLike) or not isinstance(files, Iterable):
+        raise RuntimeInputError(f"{what} must be a list of files, not {files!r}")
+    paths = tuple(files)
+    for each in paths:
+        if not isinstance(each, str | os.PathLike):
+            raise RuntimeInputError(f"{what} must be a list of files; {each!r} is none")
+    return tuple(Path(each).resolve() for each in paths)

@@ -39,23 +39,22 @@ class People:
         self._drivers: list[HumanDriver] = []
 
     def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> Driver:
-        human = self._make()
-        human.reset(place, facing)
-        return self._add(human)
-
-    def revive(self, body: str, state: Any) -> Driver:
-        driver = self._add(self._make())
-        driver.restore(state)
+        driver = self._make()
+        driver.human.reset(place, facing)
+        self._drivers.append(driver)
         return driver
 
-    def _make(self) -> Human:
+    def revive(self, body: str, state: Any) -> Driver:
+        driver = self._make()
+        driver.restore(state)  # raises for one of another release, who is then not here
+        self._drivers.append(driver)
+        return driver
+
+    def _make(self) -> "HumanDriver":
         run = load_run_skill()
         skills = learned_skills(run, self._skills)
-        return Human(self._level.ground, run, skills, rehearsals=self._rehearsals, gets_up=True)
-
-    def _add(self, human: Human) -> "HumanDriver":
-        self._drivers.append(HumanDriver(self._level, human))
-        return self._drivers[-1]
+        human = Human(self._level.ground, run, skills, rehearsals=self._rehearsals, gets_up=True)
+        return HumanDriver(self._level, human)
 
     def remove(self, driver: Driver) -> None:
         self._drivers = [each for each in self._drivers if each is not driver]

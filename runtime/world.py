@@ -20,7 +20,7 @@ from locomotion.person import CONTROL_DT
 from locomotion.quadruped import is_body_file, load_body
 from locomotion.rehearsal import REHEARSALS
 from runtime.agent import Agent
-from runtime.arguments import checked_number, checked_points, checked_whole
+from runtime.arguments import checked_files, checked_number, checked_points, checked_whole
 from runtime.drivers import BODIES, Follower, Population, radius_of
 from runtime.errors import RuntimeInputError
 from runtime.events import Event
@@ -64,7 +64,7 @@ class World:
     ) -> None:
         checked_whole(rehearsals, "rehearsals")
         checked_whole(seed, "seed")
-        self._skills = tuple(Path(each).resolve() for each in skills)
+        self._skills = checked_files(skills, "skills")
         own: Mapping[str, tuple[float, float]] = {}
         if self._skills:
             try:
@@ -163,8 +163,10 @@ class World:
         a body file with a mistake, a taken name, a place off the walkable surface, or a quadruped without
         room for its head.
         """
-        if not isinstance(body, str) or not isinstance(name, str | None):
-            raise RuntimeInputError(f"body and name must be text, not {body!r} and {name!r}")
+        if not isinstance(body, str) or not isinstance(name, str | None) or name == "":
+            raise RuntimeInputError(
+                f"body and name must be text that is not empty, not {body!r} and {name!r}"
+            )
         if is_body_file(body):
             try:
                 load_body(body)
@@ -195,11 +197,15 @@ class World:
         return agent
 
     def remove(self, agent: Agent) -> None:
-        """Take an agent out of the world. Raises `RuntimeInputError` for one that is not in it."""
+        """Take an agent out of the world; it cannot be used any more. Raises `RuntimeInputError` for one that
+        is not in it."""
+        if not isinstance(agent, Agent):
+            raise RuntimeInputError(f"an Agent is removed, such as world.agents['human1'], not {agent!r}")
         if self.agents.get(agent.name) is not agent:
             raise RuntimeInputError(f"{agent.name} is not in this world")
         self._population(agent.body).remove(agent.driver)
         del self.agents[agent.name]
+        agent.leave()
 
     def change_level(self, changes: Mapping[str, navmesh.Terrain | None]) -> None:
         """Change the level's chunks, between two ticks: by name, a `navmesh.Terrain` to be added or to
@@ -225,7 +231,10 @@ class World:
 
     def _population(self, body: str) -> Population:
         kind = "dog" if is_body_file(body) else body
-        return next(each for each in self._populations if kind in each.bodies)
+        for population in self._populations:
+            if kind in population.bodies:
+                return population
+        raise RuntimeInputError(f"there is no body {body!r}")
 
     def step(self, dt: float) -> int:
         """Advance by ``dt`` [s] ≥ 0, in whole ticks of 10 ms; the rest is owed to later calls.
@@ -283,7 +292,10 @@ class World:
         return next((each for each in followers if each is agent.driver), None)
 
     def report(self, event: Event) -> None:
-        """Add an event to `events`, and tell who listens at the end of the tick."""
+        """Add an event to `events`, and tell who listens at the end of the tick. Raises `RuntimeInputError`
+        for what is none."""
+        if not isinstance(event, Event):
+            raise RuntimeInputError(f"an Event is reported, not {event!r}")
         self._events.append(event)
         if self._listeners:
             self._untold.append(event)
@@ -344,31 +356,31 @@ class World:
                 f"the state is of people with other skills ({state.skills}) than these ({own}), "
                 "who would go on in another way; restore it with the learned skills that it was saved with"
             )
-        before = self.save()
+        before, agents = self.save(), dict(self.agents)
         try:
-            self._become(state)
-        except (ValueError, TypeError, IndexError, KeyError) as error:
-            self._become(before)
+            self._become(state, agents)
+        except (ValueError, TypeError, IndexError, KeyError, AttributeError) as error:
+            self._become(before, agents)
             raise RuntimeInputError(f"the state does not fit this release: {error}") from error
 
-    def _become(self, state: WorldState) -> None:
+    def _become(self, state: WorldState, known: Mapping[str, Agent]) -> None:
+        """Go to ``state``; those of its agents that are ``known`` by name and body are the same objects."""
         here = [(name, agent.body) for name, agent in self.agents.items()]
         if here != [(name, saved.body) for name, saved in state.agents.items()]:
-            self._populate(state)
+            self._populate(state, known)
         for name, saved in state.agents.items():
             self.agents[name].restore(saved)
         self.random.bit_generator.state = dict(state.random)
         self._ticks, self._owed = state.ticks, state.owed
         self._events, self._untold = deque(state.events, maxlen=_UNREAD), deque(state.untold)
 
-    def _populate(self, state: WorldState) -> None:
+    def _populate(self, state: WorldState, known: Mapping[str, Agent]) -> None:
         """Make the agents those of ``state``, in their order."""
-        before = dict(self.agents)
-        for agent in before.values():
+        for agent in tuple(self.agents.values()):
             self.remove(agent)
         for name, saved in state.agents.items():
             driver = self._population(saved.body).revive(saved.body, saved.driver)
-            agent = before.get(name)
+            agent = known.get(name)
             if agent is not None and agent.body == saved.body:
                 agent.take(driver)
             else:

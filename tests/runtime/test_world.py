@@ -37,6 +37,15 @@ def test_refuses_what_is_no_seed_listener_or_state(graph):
     for state in (None, {}, world):
         with pytest.raises(RuntimeInputError, match="from what save gave"):
             world.restore(state)
+    for agent in (None, "human1"):
+        with pytest.raises(RuntimeInputError, match="an Agent is removed"):
+            world.remove(agent)
+    with pytest.raises(RuntimeInputError, match="an Event is reported, not 'Arrived'"):
+        world.report("Arrived")
+    assert world.events == []
+    for skills in (None, 5, "hop.yaml", [5]):
+        with pytest.raises(RuntimeInputError, match="skills must be a list of files"):
+            World(graph, skills=skills)
 
 
 @pytest.mark.parametrize("dt", [-0.01, np.nan, np.inf, "1", None])
@@ -309,6 +318,7 @@ def test_an_error_in_a_callback_comes_out_and_the_world_goes_on(graph):
         ({"at": [(4.0, 3.0, 0.0)]}, "one point"),
         ({"body": None}, "must be text"),
         ({"name": 5}, "must be text"),
+        ({"name": ""}, "must be text"),
         ({"body": "walker", "radius": "wide"}, "radius must be a finite number"),
         ({"name": "ada"}, "taken"),
     ],
@@ -330,9 +340,26 @@ def test_refuses_a_bad_goal_and_a_bad_level(graph):
             agent.go_to((4.0, 3.0, 0.0), speed=speed)
     with pytest.raises(RuntimeInputError, match="facing must be"):
         agent.go_to((4.0, 3.0, 0.0), facing="north")
-    agent.remove()
-    for command in (agent.stop, lambda: agent.go_to((4.0, 3.0, 0.0))):
-        with pytest.raises(RuntimeInputError, match="has been removed"):
-            command()
     with pytest.raises(RuntimeInputError, match="Terrain or a NodeGraph"):
         World("level.obj")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("body", ["human", "walker", "dog"])
+def test_a_removed_agent_says_so_whatever_it_is_asked(graph, body):
+    world = World(graph)
+    empty, agent, other = world.save(), *(world.spawn(body, (x, 3.0, 0.0)) for x in (2.0, 6.0))
+    agent.remove()
+    for use in (
+        agent.stop,
+        lambda: agent.go_to((4.0, 3.0, 0.0)),
+        lambda: agent.plan((4.0, 3.0, 0.0)),
+        lambda: agent.position,  # its place among its kind is another's now
+        lambda: agent.status,
+        lambda: agent.pose,
+        lambda: agent.human,
+    ):
+        with pytest.raises(RuntimeInputError, match=f"{body}1 has been removed from its world"):
+            use()
+    world.restore(empty)
+    with pytest.raises(RuntimeInputError, match=f"{body}2 has been removed from its world"):
+        other.stop()

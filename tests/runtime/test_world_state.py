@@ -167,6 +167,34 @@ def test_a_state_that_does_not_fit_leaves_the_world_as_it_was(graph):
     assert world.state_hash() == digest
 
 
+def in_the_way(world):
+    """How many discs those in the world are made of."""
+    return sum(len(population.in_the_way()) for population in world._populations)
+
+
+def test_after_a_state_that_does_not_fit_all_are_who_they_were(graph):
+    world = World(graph)
+    human, dog = world.spawn("human", (2.0, 3.0, 0.0)), world.spawn("dog", (5.0, 3.0, 0.0))
+    saved, digest, bodies = world.save(), world.state_hash(), in_the_way(world)
+    whole = saved.agents[human.name]
+    human_state, plans = whole.driver
+    short = dataclasses.replace(whole, driver=(human_state._replace(numbers=human_state.numbers[:-1]), plans))
+    goose = dataclasses.replace(saved.agents[dog.name], body="goose")
+    for agents in ({"ada": short}, {human.name: whole, "gus": goose}, {human.name: None}):
+        with pytest.raises(RuntimeInputError, match="does not fit this release"):
+            world.restore(dataclasses.replace(saved, agents=agents))
+        assert world.agents == {human.name: human, dog.name: dog}
+        assert world.state_hash() == digest
+        assert in_the_way(world) == bodies
+
+
+def test_a_speed_of_any_kind_of_float_can_be_written(graph, tmp_path):
+    world = World(graph)
+    world.spawn("dog", (5.0, 3.0, 0.0)).go_to((9.0, 3.0, 0.0), np.float32(1.0), np.float32(0.5))
+    world.save().write(tmp_path / "state.npz")
+    assert WorldState.read(tmp_path / "state.npz").agents["dog1"].errand.facing == 0.5
+
+
 def test_refuses_files_that_are_no_state(graph, tmp_path):
     path = tmp_path / "state.npz"
     with pytest.raises(ArchiveError, match="no such file"):

@@ -5,6 +5,7 @@ A clip names channels (joints of `locomotion.person.JOINT_NAMES`) and gives each
 *mirrored* one gives the right side and the trunk only, and the left side does the same half a cycle later.
 """
 
+import difflib
 import hashlib
 import os
 from dataclasses import dataclass

@@ -7,7 +7,7 @@ the skill starts, and from then on changes the running controller's targets unti
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Literal, Protocol
 
 import mujoco
@@ -25,7 +25,6 @@ __all__ = [
     "Clears",
     "distance_to",
     "foot_distance",
-    "joined",
     "plan_run_up",
     "run_up_speeds",
     "skill_for",
@@ -113,14 +112,10 @@ def skill_for(skills: Sequence[ClearingSkill], obstacle: ObstacleAhead) -> Clear
 def skill_ranges(skills: Sequence[Clears]) -> dict[str, tuple[float, float]]:
     """Least and greatest size [m] of the obstacles that ``skills`` clear, with what they let pass, by
     affordance. `LocomotionError` where the ranges of two skills for the same leave some in between."""
-    return joined((skill.affordance, skill.heights) for skill in skills)
-
-
-def joined(sizes: Iterable[tuple[str, tuple[float, float]]]) -> dict[str, tuple[float, float]]:
-    """`skill_ranges` of skills of which only the affordance and the sizes [m] are known."""
     ranges: dict[str, tuple[float, float]] = {}
-    for affordance, (first, last) in sorted(sizes, key=lambda each: each[1]):
-        low, high = first - HEIGHT_TOLERANCE, last + HEIGHT_TOLERANCE
+    for skill in sorted(skills, key=lambda each: each.heights):
+        affordance = skill.affordance
+        low, high = skill.heights[0] - HEIGHT_TOLERANCE, skill.heights[1] + HEIGHT_TOLERANCE
         if affordance in ranges:
             least, most = ranges[affordance]
             if low > most + 1e-9:

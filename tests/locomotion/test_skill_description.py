@@ -38,14 +38,6 @@ def own(tmp_path):
     return write
 
 
-class Stop(Exception):
-    """Learning has begun."""
-
-    @classmethod
-    def raised(cls, *_):
-        raise cls
-
-
 def obstacle(affordance, height, depth=0.0):
     return ObstacleAhead(5.0, affordance, height, np.zeros(3), np.array([-1.0, 0.0, 0.0]), depth)
 
@@ -278,43 +270,6 @@ def test_a_world_counts_what_ones_own_skills_clear_among_the_obstacles(own, tmp_
     for skills, found in (((), "blocked"), ((shifted(own, tmp_path, (most - 0.1, 3.0)),), "walking")):
         agent = World(terrain, skills=skills).spawn("human", course.path[0])
         assert agent.go_to(end) == found
-
-
-@pytest.mark.parametrize(
-    ("changes", "differs"),
-    [
-        ({"objective": {"pose": 3.5}}, "objective"),
-        ({"marks": [1.2, 0.25], "share": 0.6}, "marks, share"),
-        ({"name": "skip"}, "skill"),
-        ({"sizes": [1.0, 1.4]}, "sizes"),
-    ],
-)
-def test_learning_of_a_changed_description_does_not_go_on(own, tmp_path, changes, differs, monkeypatch):
-    monkeypatch.setattr(JumpSimulator, "fit_stride", Stop.raised)
-    training = Training(checkpoint=tmp_path / "kept")
-    for _ in range(2):  # the same goes on
-        with pytest.raises(Stop):
-            train_described(own(), training, tmp_path / "out.npz")
-    with pytest.raises(
-        LocomotionError, match=f"kept: holds another configuration, which differs in {differs};"
-    ):
-        train_described(own(**changes), training, tmp_path / "out.npz")
-    clip = tmp_path / "clip.yaml"
-    before = clip.read_text()
-    clip.write_text(before.replace("duration: ", "duration: 1"))
-    with pytest.raises(LocomotionError, match="differs in clip; remove the folder"):
-        train_described(own(), training, tmp_path / "out.npz")
-    clip.write_text(before)
-    with pytest.raises(LocomotionError, match="differs in seed, effort;"):
-        train_described(own(), Training(3, tmp_path / "kept", effort=0.5), tmp_path / "out.npz")
-
-
-def test_what_learning_would_be_in_vain_for_is_refused_before(own, tmp_path, monkeypatch):
-    monkeypatch.setattr(JumpSimulator, "fit_stride", Stop.raised)
-    with pytest.raises(LocomotionError, match=r"no folder .*nowhere' to write to"):
-        train_described(own(learned="nowhere/hop.npz"), Training())
-    with pytest.raises(LocomotionError, match="skills for 'gap': nothing is learned from"):
-        train_described(own(sizes=[2.4, 2.6], least=2.2), Training(), tmp_path / "out.npz")
 
 
 def test_the_digest_tells_skills_of_ones_own(learned):

@@ -29,6 +29,7 @@ __all__ = [
     "bake_level",
     "check_mission_file",
     "check_output",
+    "check_page",
     "check_picture",
     "find_path",
     "ready",
@@ -255,6 +256,13 @@ def check_picture(picture: Path) -> None:
     check_output(picture)
     if picture.suffix.lower() != ".png":
         raise RuntimeInputError(f"{picture}: pictures are written as .png; name it so")
+
+
+def check_page(page: Path) -> None:
+    """Raises `RuntimeInputError` when ``page`` cannot be an HTML file."""
+    check_output(page)
+    if page.suffix.lower() not in (".html", ".htm"):
+        raise RuntimeInputError(f"{page}: pages are written as .html; name it so")
 
 
 def _kinds(graph: navmesh.NodeGraph) -> list[str]:

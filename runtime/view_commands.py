@@ -3,7 +3,7 @@
 import time
 from pathlib import Path
 
-from runtime.commands import Result, check_output, ready, show_mission
+from runtime.commands import Result, check_output, check_page, ready, show_mission
 from runtime.errors import RuntimeInputError
 from runtime.mission import load_mission
 from runtime.mission_check import prepare_mission
@@ -19,7 +19,7 @@ def write_view(source: Path, output: Path, follow: str | None) -> Result:
     """Write the page of a trace, or of a mission that is run for it; the camera goes with ``follow``."""
     from runtime.view import write_page
 
-    check_output(output)
+    check_page(output)
     trace, progress = _trace_of(source)
     with progress.stage("writing the page"):
         write_page(trace, output, follow)

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from runtime.commands import Result, check_output, ready
+from runtime.commands import Result, check_page, ready
 from runtime.files import check_output_folder
 from runtime.playtest.diff import Difference, compare
 from runtime.playtest.fault import Fault
@@ -46,7 +46,7 @@ def replay_finding(report: Path, number: int, output: Path) -> Result:
     """Write a page that plays finding ``number`` of ``report``."""
     from runtime.view import write_page as write_view
 
-    check_output(output)
+    check_page(output)
     found = read_report(report)
     progress = ready()
     with progress.stage("running the bot again"):

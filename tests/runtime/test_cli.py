@@ -63,6 +63,22 @@ def test_usage_errors(surefoot, arguments, says):
     assert code == 2 and one_line(err) and says in err
 
 
+@pytest.mark.parametrize(
+    ("arguments", "output", "says"),
+    [
+        (("film", "trace.npz", "-o"), "run.jpg", "written as .mp4"),
+        (("export", "trace.npz", "-o"), "run.gltf", "name it .glb"),
+        (("view", "trace.npz", "-o"), "run.png", "written as .html"),
+        (("replay", "report.json", "1", "-o"), "run.png", "written as .html"),
+        (("evaluate", "jump", "--picture"), "jump.jpg", "written as .png"),
+    ],
+)
+def test_what_is_written_is_called_what_it_is(surefoot, tmp_path, arguments, output, says):
+    code, _, err = surefoot(*arguments, tmp_path / output)
+    assert code == 2 and one_line(err) and output in err and says in err
+    assert names(tmp_path) == []
+
+
 MESHES = {
     "missing": (None, "no such file"),
     "not a mesh": ("hello", "no triangles"),

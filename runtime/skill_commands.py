@@ -170,7 +170,7 @@ def evaluate_skill(skill: str, trials: int, seed: int, picture: Path | None = No
     if picture is not None:
         if skill in _WITHOUT_A_PLANE:
             raise RuntimeInputError(f"the tests of {skill} have no plane to draw; leave --picture out")
-        check_output(picture)
+        check_picture(picture)
     from runtime.evaluation import (
         evaluate_brake,
         evaluate_clearing,

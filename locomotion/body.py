@@ -153,16 +153,11 @@ class Human(RehearsingPerson):
         """
         if self.status == "fallen":
             raise LocomotionError("the person has fallen for good; reset it")
-        points = as_floats(path)
-        if points is None:
-            raise LocomotionError(f"a path is numbers of the shape (n, 3), not {path!r}")
-        if not is_finite(speed):
-            raise LocomotionError(f"speed must be a finite number above 0 m/s, not {speed}")
         check_obstacles(obstacles, self.clearing)
         edges = [obstacle.arc_length for obstacle in obstacles]
         running = not self.on_feet.walks and not self.held
         pace = float(np.linalg.norm(self.velocity[:2]))
-        table = make_path(points, speed, self.on_feet.limits, pace, edges, self.on_feet.walk_limits, running)
+        table = make_path(path, speed, self.on_feet.limits, pace, edges, self.on_feet.walk_limits, running)
         start, here = table.table[0, :3], self.position
         gap = float(np.linalg.norm(start[:2] - here[:2]))
         if gap > STRAYED or abs(start[2] - here[2]) > STRAYED:

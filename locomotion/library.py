@@ -13,7 +13,7 @@ from locomotion.skill import RunSkill
 from locomotion.skill_description import load_described, load_description
 from locomotion.vault_skill import VAULT_SKILL, Vault, load_vault_skill
 
-__all__ = ["LEAP", "learned_skills", "package_skill", "skill_digest", "skills_digest"]
+__all__ = ["LEAP", "described_ranges", "learned_skills", "package_skill", "skill_digest", "skills_digest"]
 
 _SKILLS, _CLIPS = Path(__file__).parent / "skills", Path(__file__).parent / "clips"
 LEAP = _SKILLS / "leap.yaml"

@@ -9,10 +9,10 @@ from locomotion.clearing import ClearingSkill, skill_for
 from locomotion.errors import LocomotionError
 from locomotion.numeric import as_floats, is_finite
 from locomotion.route_smoothing import ObstacleAhead
+from navmesh.obstacle_rules import AFFORDANCES
 
 __all__ = ["check_obstacles"]
 
-_AFFORDANCES = ("jump", "vault", "drop", "gap")
 _UNIT = 1e-3  # by which the length of a normal may differ from 1
 
 
@@ -42,8 +42,8 @@ def check_obstacles(obstacles: Sequence[ObstacleAhead], skills: Sequence[Clearin
 
 
 def _mistake(obstacle: ObstacleAhead) -> str | None:
-    if obstacle.affordance not in _AFFORDANCES:
-        return f"affordance {obstacle.affordance!r}: valid: {', '.join(map(repr, _AFFORDANCES))}"
+    if obstacle.affordance not in AFFORDANCES:
+        return f"affordance {obstacle.affordance!r}: valid: {', '.join(map(repr, AFFORDANCES))}"
     for name in ("arc_length", "height", "depth"):
         value = getattr(obstacle, name)
         if not is_finite(value):

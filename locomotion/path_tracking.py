@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.ndimage import maximum_filter1d
 
 from locomotion.errors import LocomotionError
+from locomotion.numeric import as_floats, is_finite
 from locomotion.path_table import (
     CURVATURE,
     GAIT,
@@ -52,7 +53,9 @@ _BACK, _AHEAD = 0.5, 1.5  # [m] search window around the last foot point
 
 def checked_points(points: ArrayLike) -> NDArray[np.float64]:
     """``points`` as (n, 3) float64; raises `LocomotionError` for other shapes and numbers not finite."""
-    raw = np.asarray(points, dtype=np.float64)
+    raw = as_floats(points)
+    if raw is None:
+        raise LocomotionError(f"a path is numbers of the shape (n, 3), not {points!r}")
     if raw.ndim != 2 or raw.shape[1] != 3:
         raise LocomotionError(f"a path has the shape (n, 3), not {raw.shape}")
     if not np.isfinite(raw).all():
@@ -84,7 +87,7 @@ def make_path(
     that is not above 0.
     """
     raw = checked_points(points)
-    if not (np.isfinite(speed) and speed > 0):
+    if not (is_finite(speed) and speed > 0):
         raise LocomotionError(f"speed must be a finite number above 0 m/s, not {speed}")
     keep = np.ones(len(raw), dtype=bool)
     keep[1:] = np.linalg.norm(np.diff(raw[:, :2], axis=0), axis=1) > 1e-6

@@ -5,7 +5,6 @@ A clip names channels (joints of `locomotion.person.JOINT_NAMES`) and gives each
 *mirrored* one gives the right side and the trunk only, and the left side does the same half a cycle later.
 """
 
-import difflib
 import hashlib
 import os
 from dataclasses import dataclass
@@ -17,7 +16,7 @@ from scipy.interpolate import CubicSpline, PchipInterpolator
 from locomotion.clip_file import ClipFile
 from locomotion.errors import LocomotionError
 from locomotion.person import JOINT_NAMES
-from navmesh.yamlfile import FileError, Located, read_yaml
+from navmesh.yamlfile import FileError, Located, nearest, read_yaml
 
 __all__ = ["Clip", "load_clip"]
 
@@ -108,8 +107,7 @@ def _table(located: Located, name: str, keys: list[tuple[float, float]], cyclic:
     """One channel's keyframes, (k, 2) float64, with the angles in radians, checked."""
     here = ["channels", name]
     if name not in JOINT_NAMES:
-        near = difflib.get_close_matches(name, JOINT_NAMES, n=1)
-        hint = f"did you mean {near[0]!r}? " if near else ""
+        hint = nearest(name, JOINT_NAMES)
         raise located.error(
             here, f"no joint is called {name!r}; {hint}valid: {', '.join(JOINT_NAMES)}", at_key=True
         )

@@ -14,7 +14,6 @@ of that what they can, the next part makes up for the rest. The root's way is sc
 legs.
 """
 
-import difflib
 import os
 
 import numpy as np
@@ -27,7 +26,7 @@ from locomotion.bvh import Capture
 from locomotion.errors import LocomotionError
 from locomotion.motion import Motion, place_on_ground
 from locomotion.person import BODY_NAMES, JOINT_NAMES, person_spec
-from navmesh.yamlfile import FileError, read_yaml
+from navmesh.yamlfile import FileError, nearest, read_yaml
 
 __all__ = ["load_mapping", "retarget"]
 
@@ -63,8 +62,7 @@ def _wrong(mapping: dict[str, str]) -> tuple[list[str], str] | None:
     """The first mistake of a mapping: the part that it stands at, if it does at one, and what it is."""
     for part in mapping:
         if part not in BODY_NAMES:
-            near = difflib.get_close_matches(part, BODY_NAMES, n=1)
-            hint = f"did you mean {near[0]!r}? " if near else ""
+            hint = nearest(part, BODY_NAMES)
             return [part], f"no part is called {part!r}; {hint}the parts are {', '.join(BODY_NAMES)}"
     missing = [part for part in _NEEDED if part not in mapping]
     if missing:

@@ -14,7 +14,7 @@ from pydantic import BaseModel, ValidationError
 
 from navmesh.errors import NavmeshError
 
-__all__ = ["MAX_BYTES", "FileError", "Located", "dotted", "read_yaml"]
+__all__ = ["MAX_BYTES", "FileError", "Located", "dotted", "nearest", "read_yaml"]
 
 MAX_BYTES = 1_000_000
 _SCALARS = ("null", "bool", "int", "float", "str")
@@ -171,9 +171,7 @@ def _first_error(error: ValidationError, located: Located, model: type[BaseModel
     of_key = first["type"] == "extra_forbidden" or first["loc"][-1:] == ("[key]",)
     if first["type"] == "extra_forbidden":
         known = _fields_at(model, address[:-1])
-        near = difflib.get_close_matches(str(address[-1]), known, n=1)
-        hint = f"did you mean {near[0]!r}? " if near else ""
-        problem = f"{name}: unknown key; {hint}valid: {', '.join(known)}"
+        problem = f"{name}: unknown key; {nearest(str(address[-1]), known)}valid: {', '.join(known)}"
     elif first["type"] == "missing":
         problem = f"{name}: missing"
         address = address[:-1]
@@ -209,6 +207,12 @@ def _given(value: Any) -> str:
 def _shown(value: Any) -> str:
     text = repr(value)
     return text if len(text) <= 40 else f"{text[:37]}..."
+
+
+def nearest(name: str, known: Sequence[str]) -> str:
+    """What an error asks about a ``name`` that is none of those ``known``; empty where none is like it."""
+    near = difflib.get_close_matches(name, known, n=1)
+    return f"did you mean {near[0]!r}? " if near else ""
 
 
 def dotted(address: Sequence[Key]) -> str:

@@ -17,7 +17,6 @@ agents:
 Paths in a mission are relative to the mission's file.
 """
 
-import difflib
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -30,7 +29,7 @@ import navmesh
 from locomotion import LocomotionError, load_run_skill
 from locomotion.quadruped import is_body_file, load_body
 from locomotion.skill_description import load_described
-from navmesh.yamlfile import FileError, Located, dotted, read_yaml
+from navmesh.yamlfile import FileError, Located, dotted, nearest, read_yaml
 from runtime.mission_model import Mission, Step
 from runtime.rules import walk_rules
 
@@ -83,9 +82,8 @@ class LoadedMission:
     def unknown(self, address: Address, name: str, what: str, valid: Iterable[str]) -> FileError:
         """The error that ``name`` at ``address`` is none of the ``valid`` ones."""
         known = list(valid)
-        near = difflib.get_close_matches(name, known, n=1)
-        hint = f"did you mean {near[0]!r}? " if near else ""
-        return self.error(address, f"no {what} is called {name!r}; {hint}valid: {', '.join(known) or 'none'}")
+        valid_ones = f"{nearest(name, known)}valid: {', '.join(known) or 'none'}"
+        return self.error(address, f"no {what} is called {name!r}; {valid_ones}")
 
     def _existing(self, address: Address, name: str, what: str) -> Path:
         path = self.path.parent / name

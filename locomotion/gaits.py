@@ -13,12 +13,13 @@ from locomotion.walk_skill import WalkSkill
 
 __all__ = ["PERSON_RULES", "run_entry_speed", "run_limits", "walk_limits"]
 
-PERSON_RULES = {"radius": 0.3, "headroom": 1.9, "max_slope": math.radians(20.0), "max_step": 0.15}
+PERSON_RULES = {"radius": 0.3, "headroom": 1.9, "max_slope": math.radians(20.0), "max_step": 0.2}
 """Where a person can run: radius [m], headroom [m], steepest slope [rad], highest step under a foot [m]."""
 _SHARE_OF_TURNING = 0.8  # the rest of the skill's sideways acceleration is left for corrections
 _SLOWEST_RUN = 2.5  # [m/s]: slower it crosses its legs
 _SHARPEST, _STEEPEST = 0.2, 0.12  # [1/m], slope: where it would rather walk
 _SLOWEST, _SIDEWAYS = 0.3, 0.5  # [m/s], [m/s^2] of a walk
+_TIGHT = 0.75, 1.5  # [m/s], [rad/s] of a walk in bends in which that is faster
 _FASTER, _SLOWER = 0.7, 0.5  # [m/s^2] of a walk
 _UPHILL, _DOWNHILL = 1.6, 2.2  # [m/s per unit of slope] of a walk
 _FORESIGHT = 0.8  # [m] of a walk: it takes about two steps to go slower
@@ -38,7 +39,15 @@ def walk_limits(skill: WalkSkill) -> TrackingLimits:
     """What a walking person can follow."""
     speeds = _SLOWEST, skill.speed
     return TrackingLimits(
-        speeds, _SIDEWAYS, _FASTER, _SLOWER, _UPHILL, _DOWNHILL, foresight=_FORESIGHT, usual=USUAL_SPEED
+        speeds,
+        _SIDEWAYS,
+        _FASTER,
+        _SLOWER,
+        _UPHILL,
+        _DOWNHILL,
+        foresight=_FORESIGHT,
+        usual=USUAL_SPEED,
+        tight=_TIGHT,
     )
 
 

@@ -34,15 +34,18 @@ from locomotion.walk_layout import (
     LONGER,
     PHASE,
     STANDING,
+    SUDDEN,
     UNEVEN,
     WALK_HEADING,
     WALK_STANCE,
     WALK_STEPS,
     WALK_TICKS,
+    WALK_TURN_RATE,
     WALKS,
     new_walk,
 )
 from locomotion.walk_skill import RISING, STEADYING_SPEED, WalkSkill
+from locomotion.walk_steps import TURN_TIME
 from locomotion.walking import observe_walk, walk_tick
 from locomotion.way import Way
 
@@ -160,7 +163,10 @@ class OnFeet:
         if self.walk[WALK_STEPS] < 0.0:
             command[:] = heading, STEADYING_SPEED, 0.0, 0.0
             return
-        if not moving or abs(math.remainder(command[0] - heading, 2.0 * math.pi)) > TURN_FIRST:
+        off = command[0] - heading
+        if self.walk[SUDDEN] == 0.0:
+            off -= TURN_TIME * self.walk[WALK_TURN_RATE]  # a bend in which it is turning already
+        if not moving or abs(math.remainder(off, 2.0 * math.pi)) > TURN_FIRST:
             command[1:3] = 0.0
             if np.hypot(*state[controller.COM_VELOCITY][:2]) > TURNING_SPEED:
                 command[0] = heading

@@ -49,6 +49,8 @@ class TrackingLimits:
         foresight: [m] before a slope at which it already goes as fast as on it.
         usual: [m/s] of a walk at most, but where a faster walk is asked for, straight on, on level ground,
             away from runs.
+        tight: [m/s] at which it goes through a bend on level ground if that turns it by no more than so much
+            [rad/s], whatever the sideways acceleration.
     """
 
     speeds: tuple[float, float]
@@ -62,6 +64,7 @@ class TrackingLimits:
     slowing: float = 0.6
     foresight: float = 0.0
     usual: float = math.inf
+    tight: tuple[float, float] = (0.0, 0.0)
 
     @property
     def calm(self) -> float:

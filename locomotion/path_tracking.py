@@ -48,6 +48,7 @@ no way to slow down."""
 TRACK_SIZE = 12
 _STEP = 0.25
 _STEP_REACH = 0.7  # [m] around an obstacle's edge where its height would show as slope
+_LEVEL = 0.05  # slope up to which ground is level
 _BACK, _AHEAD = 0.5, 1.5  # [m] search window around the last foot point
 
 
@@ -131,12 +132,11 @@ def _plan_speed(
 ) -> None:
     """``gaits``: the limits at each point of the path."""
     slowest, fastest = np.array([g.speeds for g in gaits]).T
-    sideways, faster, slower, uphill, downhill, foresight = np.array(
-        [(g.sideways, g.acceleration, g.deceleration, g.uphill, g.downhill, g.foresight) for g in gaits]
+    faster, slower, uphill, downhill, foresight = np.array(
+        [(g.acceleration, g.deceleration, g.uphill, g.downhill, g.foresight) for g in gaits]
     ).T
-    bend = np.maximum(np.abs(table[:, CURVATURE]), 1e-6)
     slope = table[:, SLOPE]
-    wished = np.minimum(np.sqrt(sideways / bend), np.minimum(speed, fastest))
+    wished = np.minimum(_speed_in_bends(table, gaits), np.minimum(speed, fastest))
     slowed = uphill * np.maximum(slope, 0.0) + downhill * np.maximum(-slope, 0.0)
     seen = round(float(foresight.max()) / step) + 1  # points, this one included
     ahead = maximum_filter1d(slowed, seen, mode="nearest", origin=-(seen // 2))
@@ -150,6 +150,14 @@ def _plan_speed(
     for i in range(1, len(squares)):
         squares[i] = min(squares[i], squares[i - 1] + 2.0 * faster[i - 1] * step)
     table[:, SPEED] = np.sqrt(squares)
+
+
+def _speed_in_bends(table: NDArray[np.float64], gaits: Sequence[TrackingLimits]) -> NDArray[np.float64]:
+    """[m/s] at most at each point of the path, by its curvature."""
+    sideways, speed, rate = np.array([(g.sideways, *g.tight) for g in gaits]).T
+    bend = np.maximum(np.abs(table[:, CURVATURE]), 1e-6)
+    tight = np.where(np.abs(table[:, SLOPE]) < _LEVEL, np.minimum(speed, rate / bend), 0.0)
+    return np.maximum(np.sqrt(sideways / bend), tight)
 
 
 def shifted(
@@ -168,8 +176,8 @@ def shifted(
     _directions(table, step)
     table[:, SLOPE] = path.table[:, SLOPE]
     present = walk or limits
-    bend = np.sqrt(present.sideways / np.maximum(np.abs(table[:, CURVATURE]), 1e-6))
-    squares = np.minimum(table[:, SPEED], np.maximum(bend, present.speeds[0])) ** 2
+    bends = _speed_in_bends(table, [present] * len(table))
+    squares = np.minimum(table[:, SPEED], np.maximum(bends, present.speeds[0])) ** 2
     for i in range(len(squares) - 2, -1, -1):
         squares[i] = min(squares[i], squares[i + 1] + 2.0 * present.deceleration * step)
     table[:, SPEED] = np.sqrt(squares)

@@ -90,7 +90,10 @@ BALKINGS = (1.2, 0.9, 1.6, 0.7, 2.2, 3.0)
 BRAKINGS = (1.65, 1.4, 2.0, 1.3, 1.8, 0.9, 2.5, 2.8)
 """How hard it brakes, as a share of what was learned: those first that mostly come to stand sooner, so that
 others can be given up early."""
-STEPPINGS = (0.0, 0.0), (0.05, 0.0), (-0.05, 0.0), (0.0, 0.08), (0.0, -0.08), (0.05, 0.08)
+STEPPINGS = (
+    (0.0, 0.0), (0.05, 0.0), (-0.05, 0.0), (0.0, 0.08), (0.0, -0.08), (0.05, 0.08),
+    (0.1, 0.0), (0.1, 0.08), (0.0, 0.15), (0.05, -0.08), (-0.05, 0.08), (0.15, 0.0),
+)  # fmt: skip
 """Variations of a step on uneven ground: [s] that its transfer, and its swing, take longer. Few, since there
 are many steps: where none of them goes well, hardly any other does, and the next step may still mend it."""
 STAYS_UP = 0.5

@@ -10,7 +10,8 @@ __all__ = [
     "FOOTHOLD_NORMAL", "FOOTHOLD_YAW", "GAINS", "HUMP", "LEVEL", "LIFT", "LIFT_NORMAL", "LIFT_YAW", "LONGER",
     "MISSED", "PHASE", "REST", "SEEN_ANCHORS", "SEEN_AXES", "SEEN_FEET", "SEEN_PELVIS", "SEEN_SOLES",
     "SEEN_TORQUES", "SETTING_OFF", "SIDEWAYS", "SINGLE", "STAIRS", "STAIRS_AHEAD", "STANDING", "STEEP",
-    "STEEPNESS", "STEPPED_AT", "STEPPED_FROM", "STEP_MADE", "SWING_ANGLES", "SWING_TIME", "TILTED", "UNEVEN",
+    "STEEPNESS", "STEPPED_AT", "STEPPED_FROM", "STEP_MADE", "SUDDEN", "SWING_ANGLES",
+    "SWING_TIME", "TILTED", "TOLD", "UNEVEN",
     "USUAL_SPEED", "WALKS", "WALK_HEADING", "WALK_SIZE", "WALK_SPEED", "WALK_STANCE", "WALK_STEPS",
     "WALK_TICKS", "WALK_TRIM", "WALK_TURN_RATE", "clamp", "fast_share", "first_gains", "gain_limits",
     "new_walk", "pace_of", "steep_share", "wrap",
@@ -141,13 +142,17 @@ TILTED = 168
 """Integral [rad s] of how far the pelvis leans forward beyond what it is to."""
 STEP_MADE = 169
 """Speed [m/s] of the last step of a fast walk along its way; 0 in other walks."""
-WALK_SIZE = 170
+TOLD = 170
+"""Heading [rad] asked for at the last tick."""
+SUDDEN = 171
+"""How much [rad] of a turn that was asked for at once, not bit by bit as in a bend, is still to come."""
+WALK_SIZE = 172
 
 
 def new_walk(heading: float = 0.0) -> np.ndarray:
     """A person standing on both feet, (WALK_SIZE,) float64; the left leg will be the first stance leg."""
     walk = np.zeros(WALK_SIZE)
-    walk[WALKS], walk[WALK_STANCE], walk[WALK_HEADING] = 1.0, 1.0, heading
+    walk[WALKS], walk[WALK_STANCE], walk[WALK_HEADING], walk[TOLD] = 1.0, 1.0, heading, heading
     walk[BODY_HEIGHT] = np.nan
     walk[ATTITUDES] = 0.0, 0.0, 1.0, 0.0, 0.0, 1.0
     return walk

@@ -26,8 +26,11 @@ from locomotion.walk_layout import (
     STEP_MADE,
     STEPPED_AT,
     STEPPED_FROM,
+    SUDDEN,
     SWING_ANGLES,
     SWING_TIME,
+    TOLD,
+    UNEVEN,
     USUAL_SPEED,
     WALK_HEADING,
     WALK_SPEED,
@@ -41,7 +44,7 @@ from locomotion.walk_layout import (
     wrap,
 )  # fmt: skip
 
-__all__ = ["TURN_RATE", "advance_step", "begin_swing", "follow"]
+__all__ = ["TURN_RATE", "TURN_TIME", "advance_step", "begin_swing", "follow"]
 
 _I = {name: i for i, name in enumerate(GAINS)}
 _SWING, _TRANSFER = _I["swing_time"], _I["transfer_time"]
@@ -55,10 +58,15 @@ _TOUCH = 40.0  # [N] under the swing foot that end the step
 _LANDING, _NEAR = 0.8, 0.12  # share of the swing after which, or [m] from its foothold where it may land
 _OVERDUE = 0.12  # [s] after which a foot that has not landed is swung anew: the capture point has moved on
 TURN_RATE = 1.2
-"""[rad/s] at most."""
-_TURN_TIME = 0.3  # [s] in which it would turn to where it is told to
+"""[rad/s] at most, of one that is told at once to turn."""
+TURN_TIME = 0.3
+"""[s] in which it would turn to where it is told to."""
 _TURNING = 0.6  # [m/s^2] sideways at most, as it turns
 _SLOW_TURN = 0.4  # [m/s] below which that is no limit
+_AT_ONCE = 0.15  # [rad] by which what it is told changes in a tick, if it is no bend
+_IN_BENDS = 1.75  # [rad/s] at most in a bend, in which feet can be put aside in time
+_TIGHT_BENDS = 0.8  # [m/s] up to which it turns like that
+_NO_LONGER, _TOO_FAST = 1.0, 3.5  # [m/s] above which it does not; [rad/s] from which it goes slowly, too
 _TURN_CHANGE = 6.0  # [rad/s^2]
 _FASTER, _SLOWER, _SIDE_CHANGE = 0.8, 1.0, 0.5  # [m/s^2] of the reference speeds
 _STILL, _STRAIGHT, _AWRY = 0.02, 0.2, 0.3  # [m/s], [rad] below which it stands; [rad] above which it sets off
@@ -90,7 +98,12 @@ def begin_swing(gains, walk, qpos):
 def follow(walk, heading, speed, sideways):
     """Let the reference heading and speeds follow what is asked; gives what is left of the heading [rad]."""
     error = wrap(heading - walk[WALK_HEADING])
-    pace, wanted = pace_of(walk), error / _TURN_TIME
+    if abs(wrap(heading - walk[TOLD])) > _AT_ONCE:
+        walk[SUDDEN] = abs(error)
+    walk[TOLD] = heading
+    walk[SUDDEN] = max(min(walk[SUDDEN], abs(error)) - abs(walk[WALK_TURN_RATE]) * CONTROL_DT, 0.0)
+    bends = walk[SUDDEN] == 0.0 and walk[UNEVEN] == 0.0
+    pace, wanted = pace_of(walk), error / TURN_TIME
     if pace > USUAL_SPEED and abs(error) > _BENDS:
         speed = min(speed, USUAL_SPEED)
         if walk[STEP_MADE] > USUAL_SPEED:
@@ -98,12 +111,19 @@ def follow(walk, heading, speed, sideways):
         else:
             walk[WALK_SPEED] = pace = min(walk[WALK_SPEED], USUAL_SPEED)  # it has not become fast yet
     most = min(TURN_RATE, _TURNING / max(abs(pace), _SLOW_TURN))
+    if bends:
+        most = max(most, _IN_BENDS * clamp((_NO_LONGER - abs(pace)) / (_NO_LONGER - _TIGHT_BENDS), 0.0, 1.0))
     rate = clamp(wanted, -most, most)
     change = _TURN_CHANGE * CONTROL_DT
     walk[WALK_TURN_RATE] += clamp(rate - walk[WALK_TURN_RATE], -change, change)
     walk[WALK_HEADING] = wrap(walk[WALK_HEADING] + walk[WALK_TURN_RATE] * CONTROL_DT)
     # in a bend the capture point moves sideways: who turns fast goes slowly
-    slower = min(speed, max(_TURNING / max(abs(wanted), 1e-6), _SLOW_TURN))
+    slower = max(_TURNING / max(abs(wanted), 1e-6), _SLOW_TURN)
+    if bends:
+        slower = max(
+            slower, _TIGHT_BENDS * clamp((_TOO_FAST - abs(wanted)) / (_TOO_FAST - _IN_BENDS), 0.0, 1.0)
+        )
+    slower = min(speed, slower)
     walk[WALK_SPEED] += clamp(slower - walk[WALK_SPEED], -_SLOWER * CONTROL_DT, _FASTER * CONTROL_DT)
     change = _SIDE_CHANGE * CONTROL_DT
     walk[SIDEWAYS] += clamp(sideways - walk[SIDEWAYS], -change, change)
@@ -111,11 +131,22 @@ def follow(walk, heading, speed, sideways):
 
 
 @njit(cache=True)
-def _trim(gains, walk, x, y, ch, sh):
+def _in_tight_bend(walk):
+    """Whether it turns so fast, in a bend, that a step's direction is not that in which it ends."""
+    turns = abs(walk[WALK_TURN_RATE]) > _TURNING / USUAL_SPEED
+    return turns and walk[SUDDEN] == 0.0 and walk[WALK_SPEED] > _SLOW_TURN
+
+
+@njit(cache=True)
+def _trim(gains, walk, x, y):
     """At a touchdown with the centre of mass at (x, y): correct the speed asked for by that of the last
     step."""
     if walk[WALK_STEPS] > 1.0:
         time = (walk[WALK_TICKS] - walk[STEPPED_AT]) * CONTROL_DT
+        way = walk[WALK_HEADING]
+        if _in_tight_bend(walk):
+            way -= 0.5 * walk[WALK_TURN_RATE] * time  # halfway through the step
+        ch, sh = math.cos(way), math.sin(way)
         made = (ch * (x - walk[_STEPPED]) + sh * (y - walk[_STEPPED + 1])) / time
         walk[STEP_MADE] = made if pace_of(walk) > USUAL_SPEED else 0.0
         rate = gains[_TRIM_RATE] if walk[WALK_SPEED] > _SLOW else _STOPPING
@@ -164,7 +195,7 @@ def advance_step(gains, walk, command, error, soles, points, spans, contact, dow
             walk[WALK_STANCE] = -walk[WALK_STANCE]
             walk[WALK_STEPS] += 1.0
             walk[_LONGER] = walk[_LONGER + 1] = 0.0
-            _trim(gains, walk, com[0], com[1], ch, sh)
+            _trim(gains, walk, com[0], com[1])
         elif walk[CLOCK] > walk[SWING_TIME] + _OVERDUE:
             begin_swing(gains, walk, qpos)  # where it is to land now
     elif walk[CLOCK] >= gains[_TRANSFER]:

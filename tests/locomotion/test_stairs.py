@@ -103,10 +103,10 @@ def test_walks_over_stairs_as_people_build_them(riser, tread, down, least):
     assert sum(walks_over(riser, tread, down, seed) for seed in range(10)) >= least
 
 
-@pytest.mark.parametrize(("riser", "tread"), [(0.15, 0.30), (0.17, 0.29), (0.20, 0.28)])
+@pytest.mark.parametrize(("riser", "tread"), [(0.15, 0.30), (0.17, 0.29), (0.20, 0.27)])
 @pytest.mark.parametrize("down", [False, True])
 def test_who_rehearses_its_steps_does_not_fall_on_stairs(riser, tread, down):
-    """Without, 9 of 20 come down those of 0.17 m and 1 of 20 those of 0.2 m by 0.27 m."""
+    """Without, 9 of 20 come down those of 0.17 m and 1 of 20 those of 0.2 m."""
     assert all(walks_over(riser, tread, down, seed, REHEARSALS) for seed in range(4))
 
 

@@ -30,7 +30,7 @@ class Wording:
         self.noun = character.noun
 
     def ups(self, rise: float) -> str:
-        """What the body does about ``rise`` [m]: "a person steps 0.15 m and jumps 0.28 to 0.52 m"."""
+        """What the body does about ``rise`` [m]: "a person steps 0.20 m and jumps 0.28 to 0.52 m"."""
         step = self.character.rules.max_step
         if step < rise and self._in_range("jump", rise):
             return f"a {self.noun} jumps that only where there is room to run up and to land"

@@ -88,7 +88,7 @@ def test_the_pit_is_a_trap_and_bots_meet_it(outcome):
     assert kinds(outcome.report) == ["trap"]
     trap = outcome.report.failures[0]
     assert np.allclose(trap.position, (5.0, 6.0, -1.5), atol=0.5)
-    assert "1.50 m high; a person steps 0.15 m and jumps 0.70 m" in trap.text
+    assert "1.50 m high; a person steps 0.20 m and jumps 0.70 m" in trap.text
     assert outcome.report.coverage[-1][1] > 0.5
 
 

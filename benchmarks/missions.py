@@ -16,8 +16,8 @@ bare physics with the same controls from the same state in turns: the columns "c
 "planning" say what comes on top of bare physics, "all" their sum.
 
 Undulating has hardly any ground that is less steep than a person's limit (7 % below 20 degrees; it falls into
-patches of 4 m), so its slope limit is 45 degrees there; steps of 0.2 m between slopes like that are beyond what
-people do (87 of 100 arrive), so theirs is 0.15 m.
+patches of 4 m), so its slope limit is 45 degrees there; steps of 0.2 m between slopes like that are beyond
+what people do (87 of 100 arrive), so theirs is 0.15 m.
 """
 
 import argparse

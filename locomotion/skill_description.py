@@ -15,7 +15,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 from locomotion.clearing import ClearingSkill
 from locomotion.clip import Clip, load_clip
 from locomotion.errors import LocomotionError
-from locomotion.jump_skill import Jump, load_jump_skill
+from locomotion.jump_skill import Jump, load_jump_skill, run_digest
 from locomotion.skill import RunSkill
 from navmesh.yamlfile import FileError, read_yaml
 
@@ -109,5 +109,10 @@ def load_described(path: str | os.PathLike[str], run: RunSkill) -> ClearingSkill
         raise LocomotionError(
             f"{description.learned}: learned when {path} said something else ({', '.join(different)}); learn "
             f"it anew (surefoot train {path})"
+        )
+    if learned.run != run_digest(run):
+        raise LocomotionError(
+            f"{description.learned}: learned on another run than the one that is to carry it; learn it anew "
+            f"(surefoot train {path})"
         )
     return Jump(learned, run, description.affordance, clip)

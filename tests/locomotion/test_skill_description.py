@@ -1,6 +1,7 @@
 """Skills of one's own: what a description may say, that one is learned and used, and what is refused."""
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import yaml
 import navmesh
 from locomotion import Human, LocomotionError, ObstacleAhead, load_run_skill
 from locomotion.clearing import skill_for, skill_ranges
+from locomotion.jump_skill import run_digest
 from locomotion.library import LEAP, learned_skills, skills_digest
 from locomotion.skill_description import load_described, load_description
 from locomotion.skill_family import SkillFamily
@@ -244,6 +246,22 @@ def test_what_was_learned_is_of_what_the_description_and_its_clip_said(learned, 
     clip.write_text(yaml.safe_dump(values))
     with pytest.raises(LocomotionError, match=r"\(clip\); learn it anew \(surefoot train .*hop\.yaml\)"):
         load_described(path, run)
+
+
+def test_what_was_learned_on_another_run_is_refused(own):
+    run = load_run_skill()
+    table = run.table.copy()
+    table[:, 0] += 1e-3
+    with pytest.raises(
+        LocomotionError, match=r"hop\.npz: learned on another run .*surefoot train .*hop\.yaml"
+    ):
+        load_described(own(), replace(run, table=table))
+
+
+def test_what_processors_round_differently_is_no_other_run():
+    run = load_run_skill()
+    noise = np.random.default_rng(0).uniform(-1e-12, 1e-12, run.table.shape)
+    assert run_digest(replace(run, table=run.table + noise)) == run_digest(run)
 
 
 def test_a_world_gives_its_people_the_skills(learned):

@@ -1,5 +1,5 @@
 """Makes the pictures of ``docs/walking.md``, eight moments each: a person walks over rolling ground, fast on
-level ground, goes up steps of 0.17 m and down steps of 0.15 m.
+level ground, round a circle of 0.5 m of radius, goes up steps of 0.17 m and down steps of 0.15 m.
 
     python examples/walk_films.py [folder]
 """
@@ -19,10 +19,12 @@ from runtime.figure import Figure
 from runtime.filmstrip import show_frame
 from runtime.render import Camera, Triangles, render
 
-FRAMES, APART = 8, {"walk": 0.1, "stairs": 0.2}
+FRAMES, APART = 8, {"walk": 0.1, "turn": 0.2, "stairs": 0.2}
 """Moments of a strip, and the time between them [s]."""
 FLIGHTS = (("up", 0.17, 0.29), ("down", 0.15, 0.33))
 """Way, height and depth of a step [m]."""
+RADIUS = 0.5
+"""[m] of the circle."""
 STEPS, LANDING = 7, 3.0
 """Steps of a flight; level ground before and behind them [m]."""
 
@@ -61,7 +63,7 @@ def walking(ground: Ground, path: np.ndarray, speed: float = 1.0) -> Human:
 
 
 def main() -> None:
-    """Walk over rolling ground, fast over level ground, up and down stairs, and draw."""
+    """Walk over rolling ground, fast over level ground, in a circle, up and down stairs, and draw."""
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else "docs/pictures")
     x = np.linspace(-5.0, 15.0, 81)
     for name, kind, speed in (("walk", "rolling", 1.0), ("walk-fast", "level", 2.0)):
@@ -72,6 +74,14 @@ def main() -> None:
         sheet = Sheet(figsize=(16, 2.9), dpi=75, layout="constrained")
         strip(sheet.subplots(1, FRAMES), human, ground, APART["walk"])
         sheet.savefig(folder / f"{name}.png")
+
+    ground, angle = training_ground("level"), np.linspace(0.0, 4.0 * np.pi, 200)
+    human = walking(ground, RADIUS * np.column_stack([np.sin(angle), 1.0 - np.cos(angle), 0.0 * angle]))
+    while human.time < 4.0:
+        human.tick()
+    sheet = Sheet(figsize=(16, 2.9), dpi=75, layout="constrained")
+    strip(sheet.subplots(1, FRAMES), human, ground, APART["turn"])
+    sheet.savefig(folder / "walk-turn.png")
 
     sheet = Sheet(figsize=(16, 5.8), dpi=75, layout="constrained")
     for row, (way, riser, tread) in zip(sheet.subplots(len(FLIGHTS), FRAMES), FLIGHTS, strict=True):

@@ -54,6 +54,13 @@ def strip(row: Sequence[Axes], human: Human, ground: Ground, apart: float) -> No
         show_frame(axes, render(level, [figure.posed(pose)], camera, (230, 300)), f"{human.time:.2f} s")
 
 
+def film(file: Path, human: Human, ground: Ground, apart: float) -> None:
+    """Write one strip."""
+    sheet = Sheet(figsize=(16, 2.9), dpi=75, layout="constrained")
+    strip(sheet.subplots(1, FRAMES), human, ground, apart)
+    sheet.savefig(file)
+
+
 def walking(ground: Ground, path: np.ndarray, speed: float = 1.0) -> Human:
     """A person that sets off along a path."""
     human = Human(ground)
@@ -71,17 +78,13 @@ def main() -> None:
         human = walking(ground, np.column_stack([x, 0.0 * x, ground_height(kind, x, 0.0 * x)]), speed)
         while human.time < 6.0:
             human.tick()
-        sheet = Sheet(figsize=(16, 2.9), dpi=75, layout="constrained")
-        strip(sheet.subplots(1, FRAMES), human, ground, APART["walk"])
-        sheet.savefig(folder / f"{name}.png")
+        film(folder / f"{name}.png", human, ground, APART["walk"])
 
     ground, angle = training_ground("level"), np.linspace(0.0, 4.0 * np.pi, 200)
     human = walking(ground, RADIUS * np.column_stack([np.sin(angle), 1.0 - np.cos(angle), 0.0 * angle]))
     while human.time < 4.0:
         human.tick()
-    sheet = Sheet(figsize=(16, 2.9), dpi=75, layout="constrained")
-    strip(sheet.subplots(1, FRAMES), human, ground, APART["turn"])
-    sheet.savefig(folder / "walk-turn.png")
+    film(folder / "walk-turn.png", human, ground, APART["turn"])
 
     sheet = Sheet(figsize=(16, 5.8), dpi=75, layout="constrained")
     for row, (way, riser, tread) in zip(sheet.subplots(len(FLIGHTS), FRAMES), FLIGHTS, strict=True):

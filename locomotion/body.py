@@ -17,7 +17,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from numbers import Integral
 
 import mujoco
 import numpy as np
@@ -45,7 +44,7 @@ from locomotion.ground import Ground
 from locomotion.hand_hold import let_go_both
 from locomotion.human_state import CLEARING, MOVING, HumanState, Status
 from locomotion.library import learned_skills
-from locomotion.numeric import as_floats, is_finite
+from locomotion.numeric import as_floats, is_finite, is_whole
 from locomotion.obstacle_check import check_obstacles
 from locomotion.obstacle_run import TakeOff
 from locomotion.on_all_fours import OnAllFours
@@ -112,7 +111,7 @@ class Human(RehearsingPerson):
         fall is the end. Raises `LocomotionError` for a ground or a number of rehearsals that is none."""
         if ground is not None and not isinstance(ground, Ground):
             raise LocomotionError(f"ground must be a Ground, or None for a plane, not {ground!r}")
-        if isinstance(rehearsals, bool) or not isinstance(rehearsals, Integral) or rehearsals < 0:
+        if not is_whole(rehearsals):
             raise LocomotionError(f"rehearsals must be a whole number of at least 0, not {rehearsals!r}")
         run = load_run_skill() if skill is None else skill
         on_feet = OnFeet(

@@ -2,12 +2,13 @@
 with anything."""
 
 import math
+from numbers import Integral
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["as_floats", "is_finite"]
+__all__ = ["as_floats", "is_finite", "is_whole"]
 
 
 def is_finite(value: Any) -> bool:
@@ -16,6 +17,11 @@ def is_finite(value: Any) -> bool:
         return math.isfinite(value)
     except (TypeError, ValueError, OverflowError):
         return False
+
+
+def is_whole(value: Any) -> bool:
+    """Whether ``value`` is a whole number of at least 0."""
+    return isinstance(value, Integral) and not isinstance(value, bool) and int(value) >= 0
 
 
 def as_floats(value: Any) -> NDArray[np.float64] | None:

@@ -132,11 +132,12 @@ def _plan_speed(
 ) -> None:
     """``gaits``: the limits at each point of the path."""
     slowest, fastest = np.array([g.speeds for g in gaits]).T
+    sideways, tight, turning = np.array([(g.sideways, *g.tight) for g in gaits]).T
     faster, slower, uphill, downhill, foresight = np.array(
         [(g.acceleration, g.deceleration, g.uphill, g.downhill, g.foresight) for g in gaits]
     ).T
     slope = table[:, SLOPE]
-    wished = np.minimum(_speed_in_bends(table, gaits), np.minimum(speed, fastest))
+    wished = np.minimum(_speed_in_bends(table, sideways, tight, turning), np.minimum(speed, fastest))
     slowed = uphill * np.maximum(slope, 0.0) + downhill * np.maximum(-slope, 0.0)
     seen = round(float(foresight.max()) / step) + 1  # points, this one included
     ahead = maximum_filter1d(slowed, seen, mode="nearest", origin=-(seen // 2))
@@ -152,9 +153,11 @@ def _plan_speed(
     table[:, SPEED] = np.sqrt(squares)
 
 
-def _speed_in_bends(table: NDArray[np.float64], gaits: Sequence[TrackingLimits]) -> NDArray[np.float64]:
-    """[m/s] at most at each point of the path, by its curvature."""
-    sideways, speed, rate = np.array([(g.sideways, *g.tight) for g in gaits]).T
+def _speed_in_bends(
+    table: NDArray[np.float64], sideways: ArrayLike, speed: ArrayLike, rate: ArrayLike
+) -> NDArray[np.float64]:
+    """[m/s] at most at each point of the path, by its curvature. ``sideways``, ``speed`` and ``rate``, (n,)
+    or (): `TrackingLimits.sideways` and `TrackingLimits.tight`."""
     bend = np.maximum(np.abs(table[:, CURVATURE]), 1e-6)
     tight = np.where(np.abs(table[:, SLOPE]) < _LEVEL, np.minimum(speed, rate / bend), 0.0)
     return np.maximum(np.sqrt(sideways / bend), tight)
@@ -176,7 +179,7 @@ def shifted(
     _directions(table, step)
     table[:, SLOPE] = path.table[:, SLOPE]
     present = walk or limits
-    bends = _speed_in_bends(table, [present] * len(table))
+    bends = _speed_in_bends(table, present.sideways, *present.tight)
     squares = np.minimum(table[:, SPEED], np.maximum(bends, present.speeds[0])) ** 2
     for i in range(len(squares) - 2, -1, -1):
         squares[i] = min(squares[i], squares[i + 1] + 2.0 * present.deceleration * step)

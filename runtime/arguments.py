@@ -3,13 +3,14 @@
 import math
 import os
 from collections.abc import Iterable
-from numbers import Integral, Real
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from locomotion.numeric import is_whole
 from runtime.errors import RuntimeInputError
 
 __all__ = ["checked_files", "checked_number", "checked_points", "checked_whole"]
@@ -39,9 +40,9 @@ def checked_points(points: ArrayLike, what: str) -> NDArray[np.float64]:
     return checked.reshape(-1, 3)
 
 
-def checked_whole(value: object, what: str) -> int:
+def checked_whole(value: Any, what: str) -> int:
     """``value`` as an int; `RuntimeInputError` unless it is a whole number of at least 0."""
-    if isinstance(value, bool) or not isinstance(value, Integral) or value < 0:
+    if not is_whole(value):
         raise RuntimeInputError(f"{what} must be a whole number of at least 0, not {value!r}")
     return int(value)
 

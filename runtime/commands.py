@@ -1,7 +1,6 @@
 """What the commands of ``surefoot`` do, apart from reading their arguments."""
 
 import json
-import os
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -11,6 +10,7 @@ from typing import Any
 
 import navmesh
 from locomotion import LocomotionError, smooth_route
+from navmesh.archive import check_target
 from pathsmooth import PathSmoothError
 from runtime.errors import RuntimeInputError
 from runtime.events import Departed, Event
@@ -28,7 +28,6 @@ __all__ = [
     "Result",
     "bake_level",
     "check_mission_file",
-    "check_output",
     "check_page",
     "check_picture",
     "find_path",
@@ -56,7 +55,7 @@ def bake_level(
     level: Path, output: Path, up: str, scale: float, tags: Path | None, rules: Mapping[str, float | None]
 ) -> Result:
     """Build and save the graph of ``level``."""
-    check_output(output)
+    check_target(output)
     progress = ready()
     walk_rules = person_walk_rules(**rules)
     with progress.stage(f"building the graph of {level.name}"):
@@ -143,7 +142,7 @@ def write_schema(output: Path | None) -> None:
     if output is None:
         print(text, end="")
         return
-    check_output(output)
+    check_target(output)
     with whole_file(output) as temporary:
         temporary.write_text(text, encoding="utf-8")
 
@@ -241,26 +240,16 @@ def ready(then: str = "") -> Progress:
     return progress
 
 
-def check_output(output: Path) -> None:
-    """Raises `RuntimeInputError` when ``output`` cannot be a file."""
-    if not output.parent.is_dir():
-        raise RuntimeInputError(f"{output}: there is no folder {str(output.parent)!r} to write to")
-    if output.is_dir():
-        raise RuntimeInputError(f"{output}: is a folder; name a file")
-    if not os.access(output.parent, os.W_OK):
-        raise RuntimeInputError(f"{output}: {str(output.parent)!r} may not be written to")
-
-
 def check_picture(picture: Path) -> None:
-    """Raises `RuntimeInputError` when ``picture`` cannot be a PNG file."""
-    check_output(picture)
+    """Raises `ArchiveError` or `RuntimeInputError` when ``picture`` cannot be a PNG file."""
+    check_target(picture)
     if picture.suffix.lower() != ".png":
         raise RuntimeInputError(f"{picture}: pictures are written as .png; name it so")
 
 
 def check_page(page: Path) -> None:
-    """Raises `RuntimeInputError` when ``page`` cannot be an HTML file."""
-    check_output(page)
+    """Raises `ArchiveError` or `RuntimeInputError` when ``page`` cannot be an HTML file."""
+    check_target(page)
     if page.suffix.lower() not in (".html", ".htm"):
         raise RuntimeInputError(f"{page}: pages are written as .html; name it so")
 

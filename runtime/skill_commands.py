@@ -13,8 +13,9 @@ import numpy as np
 import psutil
 from filelock import FileLock, Timeout
 
+from navmesh.archive import check_target
 from navmesh.whole_file import whole_file
-from runtime.commands import Result, check_output, check_picture, ready
+from runtime.commands import Result, check_picture, ready
 from runtime.errors import RuntimeInputError
 from runtime.progress import Progress
 
@@ -263,7 +264,7 @@ def show_clip(
     if film is not None:
         check_picture(film)
     if output is not None:
-        check_output(output)
+        check_target(output)
     keyframes = output is not None and output.suffix.lower() in (".yaml", ".yml")
     if output is not None and not keyframes and output.suffix.lower() != ".npz":
         raise RuntimeInputError(f"{output}: a motion is written to .npz, keyframes to .yaml")

@@ -3,7 +3,8 @@
 import time
 from pathlib import Path
 
-from runtime.commands import Result, check_output, check_page, ready, show_mission
+from navmesh.archive import check_target
+from runtime.commands import Result, check_page, ready, show_mission
 from runtime.errors import RuntimeInputError
 from runtime.mission import load_mission
 from runtime.mission_check import prepare_mission
@@ -71,7 +72,7 @@ def export_gltf(source: Path, output: Path) -> Result:
     """Write a trace, or a mission that is run for it, as animated glTF."""
     from runtime.gltf import write_gltf
 
-    check_output(output)
+    check_target(output)
     if output.suffix.lower() != ".glb":
         raise RuntimeInputError(f"{output}: glTF is written as one binary file; name it .glb")
     trace, progress = _trace_of(source)
@@ -85,7 +86,7 @@ def write_video(source: Path, output: Path, of: str | None) -> Result:
     from runtime.camera import agent_named
     from runtime.film import write_film
 
-    check_output(output)
+    check_target(output)
     if output.suffix.lower() != ".mp4":
         raise RuntimeInputError(f"{output}: a video is written as .mp4; name it so")
     trace, progress = _trace_of(source)

@@ -9,9 +9,9 @@ m/s), how often they fell on their way and got up again, how many ways they took
 JSON holds every mission. A person that has been carried off by a fall (more than 0.5 m), or is stuck, takes a
 new way from where it is; its distance from its path is that from the way that it follows at the time, while
 it goes and not while it gets up: "lateral". "Unfallen" is the same until its first fall. "In walls":
-missions in which a bone (the line between two joints) went through a triangle of the level at any time, its
-joints further than the radius of a hand (2.8 cm) on either side: less, soft contacts press in a limb that
-comes down fast. Then the longest mission is timed, whole ticks and
+missions in which a bone (the line between two joints) went through the level's surface at any time by more
+than the radius of a hand (2.8 cm), to its nearer joint or to the edge that it passes: less, soft contacts
+press in a limb that comes down fast. Then the longest mission is timed, whole ticks and
 bare physics with the same controls from the same state in turns: the columns "control", "rehearsal" and
 "planning" say what comes on top of bare physics, "all" their sum.
 
@@ -21,6 +21,7 @@ what people do (87 of 100 arrive), so theirs is 0.15 m.
 """
 
 import argparse
+import itertools
 import json
 import math
 import time
@@ -81,17 +82,27 @@ def random_routes(graph: navmesh.NodeGraph, count: int, seed: int) -> list:
 
 def depth_through(triangles: np.ndarray, a: np.ndarray, b: np.ndarray) -> float:
     """How far [m] the line from ``a`` to ``b``, each (3,), goes through any of the prepared ``triangles``
-    (t, 15): the distance of the end that is nearer to its plane, 0 where the line meets none."""
+    (t, 15), and would have to be moved to be out: the distance of the end that is nearer to its plane or,
+    where the line comes out again through another one, of the edge between the two, 0 where the line meets
+    none."""
     corners = triangles[:, :9].reshape(-1, 3, 3)
     meet = (corners.max(1) >= np.minimum(a, b)) & (corners.min(1) <= np.maximum(a, b))
-    depth = 0.0
-    for row in triangles[meet.all(1)]:
-        if brute_crossed(row[None], a, b):
-            p, q, r = row[:9].reshape(3, 3)
-            normal = np.cross(q - p, r - p)
-            heights = np.abs((np.array([a, b]) - p) @ normal) / np.linalg.norm(normal)
-            depth = max(depth, float(heights.min()))
-    return depth
+    rows = [row for row in triangles[meet.all(1)] if brute_crossed(row[None], a, b)]
+    if not rows:
+        return 0.0
+    p, q, r = np.array(rows)[:, :9].reshape(-1, 3, 3).transpose(1, 0, 2)
+    normals = np.cross(q - p, r - p)
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    offsets, along = (normals * p).sum(axis=1), b - a
+    depths = np.abs(np.array([a, b]) @ normals.T - offsets).min(axis=0)
+    for i, j in itertools.combinations(range(len(rows)), 2):
+        edge = np.cross(normals[i], normals[j])
+        across = np.cross(edge, along)
+        if (normals[i] @ along) * (normals[j] @ along) < 0.0 and across.any():
+            on_edge = np.linalg.lstsq(normals[[i, j]], offsets[[i, j]], rcond=None)[0]
+            beside = abs((a - on_edge) @ across) / np.linalg.norm(across)
+            depths[[i, j]] = np.minimum(depths[[i, j]], beside)
+    return float(depths.max())
 
 
 def pierces(human: Human, probe: ProbeGrid, origin: np.ndarray) -> bool:

@@ -24,16 +24,17 @@ WELD = 1e-5
 #: [rad] edges that stick out by less are seams of a flat surface.
 FLAT_ANGLE = 2e-3
 #: number of float64 in a triangle's row.
-ROW = 50
+ROW = 53
 # Layout of a row: 0:3 normal, 3 offset, 4:16 three side planes (outward in the plane, offset),
-# 16:25 corners, 25 depth limit, 26:44 two cone sides for each edge, 44:50 bounds (low, high).
+# 16:25 corners, 25 depth limit, 26:44 two cone sides for each edge, 44:50 bounds (low, high), 50:53 depth
+# limit of each edge.
 
 
 @dataclass(frozen=True)
 class TriangleArrays:
     """What the kernel reads. Coordinates are relative to the ground's origin.
 
-    rows: (n, 50) float64, layout above; flags: (n, 6) int32: bits 0-2 exposed edges that this triangle
+    rows: (n, 53) float64, layout above; flags: (n, 6) int32: bits 0-2 exposed edges that this triangle
     owns, bits 3-5 exposed corners; the three welded vertex ids; the first cell
     (ix, iy) that lists it. vertex_start (v + 1,) int32 and
     vertex_edges (e, 3) float64: unit directions of the edges that leave each vertex. Grid: cell_start
@@ -96,6 +97,7 @@ def build_triangle_arrays(vertices: NDArray[np.float64], faces: NDArray[np.int64
     _exposed_corners(vertex_start, vertex_edges, bisectors, flags)
     cell_start, cell_triangles, cell_range, grid, shape = _grid(rows, flags)
     _depth_limits(rows, flags, cell_start, cell_triangles, grid, shape)
+    _edge_depth_limits(edge_start, edge_sides, rows)
     return TriangleArrays(
         rows, flags, vertex_start, vertex_edges, cell_start, cell_triangles, cell_range, grid, shape
     )
@@ -256,6 +258,17 @@ def _depth_limits(rows, flags, cell_start, cell_triangles, grid, shape):
                         continue
                     thickness = min(thickness, _depth_behind(rows[t], rows[s], thickness))
         rows[t, 25] = max(0.5 * thickness, DEPTH_FLOOR)
+
+
+@njit(cache=True)
+def _edge_depth_limits(edge_start, edge_sides, rows):
+    """How deep an axis may be behind each edge: as behind the thinner of its two faces. At the border of a
+    sheet there is no inside, and where more faces meet none is told."""
+    for e in range(len(edge_start) - 1):
+        i = edge_start[e]
+        if edge_start[e + 1] - i == 2:
+            t, k = edge_sides[i] // 3, edge_sides[i] % 3
+            rows[t, 50 + k] = min(rows[t, 25], rows[edge_sides[i + 1] // 3, 25])
 
 
 @njit(cache=True)

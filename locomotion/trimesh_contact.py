@@ -4,7 +4,9 @@ A capsule touches
 - a face with the centre of an end cap above it, or behind it by less than the face's depth limit, unless
   the centre is in front of another side of the same sharp wedge: then it is outside;
 - an edge or corner that sticks out, with the nearest point of its axis, within the cone of directions
-  that the neighbouring faces leave free.
+  that the neighbouring faces leave free;
+- an edge that its axis has come through, with ends before one of the two faces each, by less than the depth
+  limit of the faces: a foot that comes down fast on the nose of a step.
 Faces are one-sided. `locomotion.trimesh_reference` is the slow version of the same rules.
 """
 
@@ -119,6 +121,37 @@ def _edge_point(row, k, x, y, z, radius, margin, at, cx, cy, cz, out, count):
     return _add(out, count, length - radius, x, y, z, radius, ux, uy, uz, at, 1.0, 0.0)
 
 
+@njit(cache=True, inline="never")
+def _through(row, k, ax, ay, az, bx, by, bz, x, y, z, radius, at, cx, cy, cz, out, count):
+    """Candidate between the point (cx, cy, cz) of edge k and the point (x, y, z) of an axis that has come
+    through it."""
+    ux, uy, uz = cx - x, cy - y, cz - z
+    length = math.sqrt(ux * ux + uy * uy + uz * uz)
+    if length > row[50 + k] or length < 1e-9:
+        return count
+    ux, uy, uz = ux / length, uy / length, uz / length
+    c, side = 26 + 6 * k, 4 + 4 * k  # of two faces the cone has the directions out of them across the edge
+    if ux * row[c] + uy * row[c + 1] + uz * row[c + 2] < 0.0:
+        return count
+    if ux * row[side] + uy * row[side + 1] + uz * row[side + 2] < 0.0:
+        return count
+    # along the edge, and the normal of the other face
+    ex = row[side + 1] * row[2] - row[side + 2] * row[1]
+    ey = row[side + 2] * row[0] - row[side] * row[2]
+    ez = row[side] * row[1] - row[side + 1] * row[0]
+    nx = row[c + 1] * ez - row[c + 2] * ey
+    ny = row[c + 2] * ex - row[c] * ez
+    nz = row[c] * ey - row[c + 1] * ex
+    if ux * row[0] + uy * row[1] + uz * row[2] < 0.0 or ux * nx + uy * ny + uz * nz < 0.0:
+        return count
+    offset = nx * cx + ny * cy + nz * cz
+    before_a = max(row[0] * ax + row[1] * ay + row[2] * az - row[3], nx * ax + ny * ay + nz * az - offset)
+    before_b = max(row[0] * bx + row[1] * by + row[2] * bz - row[3], nx * bx + ny * by + nz * bz - offset)
+    if min(before_a, before_b) <= 0.0:
+        return count
+    return _add(out, count, -length - radius, x, y, z, radius, ux, uy, uz, at, 1.0, 0.0)
+
+
 @njit(cache=True)
 def _edge(row, k, ax, ay, az, bx, by, bz, length, radius, margin, out, count):
     """Candidates between exposed edge k and both ends and the inside of the axis."""
@@ -150,9 +183,11 @@ def _edge(row, k, ax, ay, az, bx, by, bz, length, radius, margin, out, count):
     s = (de * er - ee * dr) / determinant
     w = (dd * er - de * dr) / determinant
     if 0.0 < s < 1.0 and 0.0 < w < 1.0:
-        count = _edge_point(
-            row, k, ax + s * dx, ay + s * dy, az + s * dz, radius, margin, s * length,
-            px + w * ex, py + w * ey, pz + w * ez, out, count,
+        x, y, z = ax + s * dx, ay + s * dy, az + s * dz
+        cx, cy, cz = px + w * ex, py + w * ey, pz + w * ez
+        count = _edge_point(row, k, x, y, z, radius, margin, s * length, cx, cy, cz, out, count)
+        count = _through(
+            row, k, ax, ay, az, bx, by, bz, x, y, z, radius, s * length, cx, cy, cz, out, count
         )  # fmt: skip
     return count
 

@@ -81,6 +81,16 @@ def reference_contacts(
                     free = free and direction @ normals[beside[0]] >= -1e-9
                 if free and distance > 1e-9 and distance - radius < margin:
                     found.append(_contact(q, at, direction, distance - radius, radius, False, 1.0))
+        if len(beside) == 2:
+            # an axis that has come through the edge: its ends are outside, its nearest point is inside
+            planes, limit = [normals[t] for t in beside], min(depth_limits[t] for t in beside)
+            for q, at in _nearest_inside(start, end, length, p, along):
+                w = float((q - p) @ along / (along @ along))
+                direction, distance = _unit(p + w * along - q)
+                back = all(direction @ n >= 0.0 for n in [*outward, *planes])
+                outside = all(max(n @ (tip - p) for n in planes) > 0.0 for tip in (start, end))
+                if back and outside and 1e-9 < distance <= limit:
+                    found.append(_contact(q, at, direction, -distance - radius, radius, False, 1.0))
 
     for v in range(len(points)):
         edges = [e for e in around if v in e]

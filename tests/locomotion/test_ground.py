@@ -264,6 +264,38 @@ def test_convex_edges_hold_and_one_sided_walls_let_out():
     assert len(contacts(sheet, [0, 0, 0.1], [0, 0, 0.1], 0.15)) == 1
 
 
+def test_an_axis_that_came_through_an_edge_is_pushed_back_out_of_it():
+    """A foot set down fast on the nose of a step: its middle is below the edge, its ends are outside."""
+    ground = Ground.from_arrays(*box([-1, -1, -1], [1, 1, 0]))
+    out = np.array([1.0, 0.0, 1.0]) / np.sqrt(2.0)
+    across = np.array([1.0, 0.0, -1.0]) / np.sqrt(2.0)
+    for depth in (-0.01, -0.001, 0.001, 0.01, 0.05):
+        middle = np.array([1.0, 0.2, 0.0]) - depth * out
+        found = contacts(ground, middle - 0.2 * across, middle + 0.2 * across, 0.02)
+        assert len(found) == 1
+        assert found[0, 0] == pytest.approx(-depth - 0.02, abs=1e-12)
+        np.testing.assert_allclose(found[0, 4:7], out, atol=1e-12)
+        np.testing.assert_allclose(found[0, 1:4], middle + 0.5 * (depth - 0.02) * out, atol=1e-12)
+    # one end inside leaves through its face, though the edge is near
+    found = contacts(ground, [0.97, 0.2, 0.1], [0.965, 0.2, -0.01], 0.02)
+    assert len(found) == 1
+    np.testing.assert_allclose(found[0, 4:7], [0, 0, 1], atol=1e-12)
+    # beyond half the thickness of a sheet it leaves through the other edge
+    thin = Ground.from_arrays(*box([-1, -1, -0.03], [1, 1, 0]))
+    found = contacts(thin, [1.1, 0, 0.06], [0.9, 0, -0.1], 0.01)
+    assert len(found) == 1 and found[0, 6] < 0.0
+
+
+def test_nothing_comes_through_an_edge_at_the_speed_of_a_foot():
+    ground = Ground.from_arrays(*box([-1, -1, -1], [1, 1, 0], split=3))
+    for speed in (2.0, 4.0, 6.0):
+        for x in (0.97, 1.0, 1.03):
+            model, data = scene(ground, CAPSULE, [0.024, 0.075, 0], [x, 0.1, 0.1], (0.0, 0.0, -speed))
+            data.qpos[3:7] = [0.7071, 0, 0.7071, 0]
+            mujoco.mj_step(model, data, 80)
+            assert data.qpos[2] > 0.0 or data.qpos[0] > 1.0 + 0.075
+
+
 def test_thin_wall_has_no_phantom_contacts_from_its_other_side():
     ground = Ground.from_arrays(*box([-0.02, -1, 0], [0.02, 1, 2], split=4))
     found = contacts(ground, [0.05, 0.3, 1.1], [0.05, 0.3, 1.1], 0.06)

@@ -25,6 +25,8 @@ def triangles() -> np.ndarray:
         ((-0.3, 0.0, 1.0), (0.3, 0.2, 1.0), 0.25),  # through the wall: as far as beyond the nearer face
         ((-0.04, 0.0, 1.0), (0.04, 0.0, 1.1), 0.0),  # inside it, where nothing is crossed
         ((-0.3, 1.6, 1.0), (0.3, 1.6, 1.0), 0.0),  # past its end
+        ((0.25, 1.28, 1.0), (-0.15, 1.68, 1.1), 0.01 * 2.0**0.5),  # round the upright edge there, too near it
+        ((0.15, 0.0, 1.85), (-0.05, 0.0, 2.05), 0.025 * 2.0**0.5),  # over its top
     ],
 )
 def test_depth_through(triangles: np.ndarray, a: tuple, b: tuple, depth: float) -> None:

@@ -347,12 +347,16 @@ def _commands() -> Any:
 
     What is imported stays to the end, and looking through it for garbage, again and again while it grows and
     once more on leaving, takes as long as the imports themselves: so it is set aside. MuJoCo need not look
-    for a display: no command draws with it.
+    for a display: no command draws with it. Interruptions wait meanwhile: extension modules that load drop
+    them or call them an ImportError.
     """
     os.environ.setdefault("MUJOCO_GL", "disable")
     gc.disable()
-    from runtime import commands
-
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT, signal.SIGTERM))
+    try:
+        from runtime import commands
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
     gc.freeze()
     gc.enable()
     return commands

@@ -225,6 +225,22 @@ def test_an_interrupted_run_leaves_nothing(folder, number):
     assert names(folder) == before
 
 
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_an_interruption_while_modules_load_waits_until_they_are(number, code):
+    program = f"""
+import os, sys, runtime.cli
+class Interrupts:
+    def find_spec(name, path, target=None):
+        if name == "runtime.commands":
+            os.kill(os.getpid(), {int(number)})
+            print("goes on")
+sys.meta_path.insert(0, Interrupts)
+runtime.cli.main(["schema"])
+"""
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert run.returncode == code and run.stdout == "goes on\n" and "Traceback" not in run.stderr
+
+
 def test_quiet_when_not_a_terminal(surefoot, folder):
     _, out, err = surefoot("bake", folder / "level.obj", "-o", folder / "graph.npz", "--json")
     assert err == "" and json.loads(out)

@@ -7,10 +7,11 @@ import mujoco
 import numpy as np
 
 from locomotion.hand_hold import holding
+from locomotion.human_state import restore_physics, save_physics
 from locomotion.person import CONTROL_DT, MASS, PersonIndex
 from locomotion.route_smoothing import ObstacleAhead
 
-__all__ = ["Passage", "watch"]
+__all__ = ["Passage", "Watcher"]
 
 _STAIR = 1.0  # [m] behind the edge of what is jumped onto that only feet may touch
 _SOLES = 0.02  # [m] above the floor before it from which a contact is one with the obstacle
@@ -48,30 +49,34 @@ class Passage:
         return held and not self.touched and self.head == 0.0
 
 
-def watch(
-    index: PersonIndex,
-    model: mujoco.MjModel,
-    data: mujoco.MjData,
-    obstacle: ObstacleAhead,
-    passage: Passage,
-) -> None:
-    """Note in ``passage`` what touches what in this tick."""
-    contact = data.contact
-    pushes = contact.efc_address >= 0
-    force = data.efc_force[contact.efc_address[pushes][:, None] + np.arange(4)].sum()
-    passage.peak = max(passage.peak, float(force) / (MASS * 9.81))
-    bodies = model.geom_bodyid[contact.geom].max(axis=1)  # the level's geoms belong to body 0
-    passage.head += CONTROL_DT * bool((bodies[pushes] == index.head).any())
-    for side in (-1.0, 1.0):
-        if holding(data, side):
-            passage.held += CONTROL_DT
-            hand = data.mocap_pos[int(side > 0)] - obstacle.position
-            passage.planted = -float(hand[:2] @ obstacle.normal[:2]) / max(obstacle.depth, 1e-9)
-    if obstacle.affordance in _MAY_TOUCH:
-        names = _MAY_TOUCH[obstacle.affordance]
-        allowed = [index.bodies[f"{side}_{name}"] for side in ("left", "right") for name in names]
-        deep = obstacle.depth + _BEHIND if obstacle.affordance == "vault" else _STAIR
-        behind = -(contact.pos[:, :2] - obstacle.position[:2]) @ obstacle.normal[:2]
-        floor = obstacle.position[2] - obstacle.height + _SOLES
-        with_it = (behind > -0.1) & (behind < deep) & (contact.pos[:, 2] > floor)
-        passage.touched |= bool((with_it & ~np.isin(bodies, allowed)).any())
+class Watcher:
+    """Looks at what a person touches where it is after a tick. Its own contacts are those of before the last
+    physics step, and in a tick that is taken over from a rehearsal it has none."""
+
+    def __init__(self, index: PersonIndex, model: mujoco.MjModel) -> None:
+        self._index, self._model, self._moment = index, model, mujoco.MjData(model)
+
+    def look(self, data: mujoco.MjData, obstacle: ObstacleAhead, passage: Passage) -> None:
+        """Note in ``passage`` what touches what in ``data``."""
+        model, moment, index = self._model, self._moment, self._index
+        restore_physics(model, moment, save_physics(model, data))
+        mujoco.mj_forward(model, moment)
+        contact = moment.contact
+        pushes = contact.efc_address >= 0
+        force = moment.efc_force[contact.efc_address[pushes][:, None] + np.arange(4)].sum()
+        passage.peak = max(passage.peak, float(force) / (MASS * 9.81))
+        bodies = model.geom_bodyid[contact.geom].max(axis=1)  # the level's geoms belong to body 0
+        passage.head += CONTROL_DT * bool((bodies[pushes] == index.head).any())
+        for side in (-1.0, 1.0):
+            if holding(moment, side):
+                passage.held += CONTROL_DT
+                hand = moment.mocap_pos[int(side > 0)] - obstacle.position
+                passage.planted = -float(hand[:2] @ obstacle.normal[:2]) / max(obstacle.depth, 1e-9)
+        if obstacle.affordance in _MAY_TOUCH:
+            names = _MAY_TOUCH[obstacle.affordance]
+            allowed = [index.bodies[f"{side}_{name}"] for side in ("left", "right") for name in names]
+            deep = obstacle.depth + _BEHIND if obstacle.affordance == "vault" else _STAIR
+            behind = -(contact.pos[:, :2] - obstacle.position[:2]) @ obstacle.normal[:2]
+            floor = obstacle.position[2] - obstacle.height + _SOLES
+            with_it = (behind > -0.1) & (behind < deep) & (contact.pos[:, 2] > floor)
+            passage.touched |= bool((with_it & ~np.isin(bodies, allowed)).any())

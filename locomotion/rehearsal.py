@@ -19,7 +19,7 @@ import numpy as np
 
 from locomotion.events import Cleared, TookOff
 from locomotion.human_state import MOVING, HumanState, same
-from locomotion.passage import Passage, watch
+from locomotion.passage import Passage, Watcher
 from locomotion.person import CONTROL_DT
 from locomotion.walk_layout import LONGER, WALK_HEADING, WALK_SPEED
 
@@ -159,7 +159,8 @@ def clears(body: Human, looks_on: bool = True, notes: bool = False) -> Trial:
     obstacle = body.obstacle_ahead
     assert obstacle is not None
     passage, cleared_at = Passage(), 0
-    took_off = walked = False
+    watcher: Watcher | None = None  # from where it takes off
+    walked = False
     seen: list[HumanState] = []
     body.undecided = False
     for tick in range(_LONGEST):
@@ -175,7 +176,7 @@ def clears(body: Human, looks_on: bool = True, notes: bool = False) -> Trial:
             if isinstance(event, Cleared):
                 cleared_at = tick
             elif isinstance(event, TookOff):
-                took_off, again = True, cleared_at > 0
+                watcher, again = watcher or Watcher(body.index, body.model), cleared_at > 0
         if cleared_at:
             walks = body.gait_now == "walk"
             again |= walked and not walks
@@ -186,8 +187,8 @@ def clears(body: Human, looks_on: bool = True, notes: bool = False) -> Trial:
                 return (good if goes_on else _TRAPPED), seen
             if again or tick - cleared_at >= (_WALKING if walks else _RUNNING) or body.held:
                 return good, seen
-        elif took_off:
-            watch(body.index, body.model, body.data, obstacle, passage)
+        elif watcher is not None:
+            watcher.look(body.data, obstacle, passage)
     return 0.0, []
 
 

@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,8 +10,7 @@ from locomotion import MOVING, Ground, Human, ObstacleAhead
 from locomotion.clearing import ClearingSkill
 from locomotion.events import Cleared, TookOff
 from locomotion.ground import extruded
-from locomotion.human_state import restore_physics, save_physics
-from locomotion.passage import Passage, watch
+from locomotion.passage import Passage, Watcher
 from locomotion.rehearsal import REHEARSALS
 
 __all__ = [
@@ -136,9 +134,7 @@ def run_course(
     longest = float(course.path[-1, 0]) / _SLOWEST
     run, seen, where = CourseRun(), 0, 0
     passage: Passage | None = None
-    moment = mujoco.MjData(
-        human.model
-    )  # what a person takes over from its rehearsals are states, no contacts
+    watcher = Watcher(human.index, human.model)
     pushed = 0
     while human.status in MOVING and human.time < longest:
         if push is not None and human.com[0] >= push.at and pushed <= push.ticks:
@@ -155,9 +151,7 @@ def run_course(
                 passage.cleared, where = True, 2
         seen = len(human.events)
         if passage is not None and not passage.cleared:
-            restore_physics(human.model, moment, save_physics(human.model, human.data))
-            mujoco.mj_forward(human.model, moment)
-            watch(human.index, human.model, moment, course.obstacles[len(run.passages) - 1], passage)
+            watcher.look(human.data, course.obstacles[len(run.passages) - 1], passage)
     run.ended = human.status if human.status not in MOVING else "too slow"
     run.seconds = human.time
     if run.ended == "fallen":

@@ -9,7 +9,7 @@ from locomotion.clearing import foot_distance
 from locomotion.events import Arrived, Cleared, Fell, GotStuck, SetOff, TookOff
 from locomotion.foresight import Foresight
 from locomotion.human_state import MOVING
-from locomotion.passage import Passage
+from locomotion.passage import Passage, Watcher
 from locomotion.person import CONTROL_DT
 from locomotion.rehearsal import RUN_UPS, STEPPINGS, at_once, clears, walks_on
 from locomotion.route_smoothing import ObstacleAhead
@@ -203,6 +203,22 @@ def test_a_person_saved_in_the_run_up_goes_on_bit_for_bit():
 )
 def test_what_counts_as_clean(affordance, passage, clean):
     assert passage.clean(affordance) is clean
+
+
+@pytest.mark.parametrize(("affordance", "height"), [("vault", 0.8), ("drop", 1.5), ("jump", 0.5)])
+def test_a_rehearsal_sees_all_that_is_touched(affordance, height, monkeypatch):
+    rehearsed = []
+
+    class Recorder(Watcher):
+        def look(self, data, obstacle, passage):
+            super().look(data, obstacle, passage)
+            rehearsed.append(passage)
+
+    monkeypatch.setattr(rehearsal, "Watcher", Recorder)
+    (came,) = run_course(make_course([(affordance, height, 0.3)], [14.0])).passages
+    assert came.cleared and came.peak > 1.0
+    for name in ("touched", "held", "planted", "head", "peak"):
+        np.testing.assert_equal(getattr(rehearsed[-1], name), getattr(came, name))
 
 
 @pytest.mark.parametrize(("affordance", "height"), [("vault", 0.8), ("drop", 1.5), ("jump", 0.5)])

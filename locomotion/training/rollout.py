@@ -28,10 +28,12 @@ FIGURES = (
     "speed",
     "peak",
     "turn",
+    "landing",
 )
 """What a trial measures; see `Trial`."""
 _WEIGHT = MASS * 9.81
 _G = 9.81
+_SOFT = 2.8  # [body weights]
 
 
 @dataclass(frozen=True)
@@ -68,7 +70,8 @@ class Trial:
     [m/s], and heading [rad]; mean lateral speed off the heading [m/s]; reaction: mean excess of the ground
     reaction above 3 body weights; effort: mean squared torque [(Nm)^2] over 1e4;
     head: mean squared acceleration of the head [g^2]; step_rate [1/s]; trunk: mean squared tilt [rad^2];
-    speed: mean [m/s]; peak: highest reaction [body weights]; turn: turning per step [rad].
+    speed: mean [m/s]; peak: highest reaction [body weights]; turn: turning per step [rad]; landing: root mean
+    square, over the steps, of how far the highest reaction of each exceeds 2.8 body weights.
     """
 
     figures: dict[str, float]
@@ -82,7 +85,8 @@ def stays_up(trial: Trial, duration: float) -> bool:
 
 @njit(cache=True)
 def _measure(sums, state, head, past, forces, chest, turn_rate):
-    """Add one tick to ``sums``; ``past`` (7,): head at the last two ticks, and ticks seen."""
+    """Add one tick to ``sums``; ``past`` (8,): head at the last two ticks, ticks seen, and the highest
+    reaction of the present step [body weights]."""
     h = state[2]
     ch, sh = math.cos(h), math.sin(h)
     vx = ch * state[17] + sh * state[18]
@@ -93,6 +97,11 @@ def _measure(sums, state, head, past, forces, chest, turn_rate):
     reaction = (state[26] + state[27]) / _WEIGHT
     sums[3] += max(reaction - 3.0, 0.0)
     sums[10] = max(sums[10], reaction)
+    if state[7] == 0.0:
+        sums[12] += max(past[7] - _SOFT, 0.0) ** 2
+        sums[13] += 1.0
+        past[7] = 0.0
+    past[7] = max(past[7], reaction)
     effort = 0.0
     for k in range(forces.shape[0]):
         effort += forces[k] * forces[k]
@@ -127,7 +136,7 @@ class Measures:
     """Sums up what `FIGURES` name, tick by tick."""
 
     def __init__(self, data: mujoco.MjData, index: PersonIndex) -> None:
-        self._sums, self._past = np.zeros(12), np.zeros(7)
+        self._sums, self._past = np.zeros(14), np.zeros(8)
         self._head, self._chest = data.xpos[index.head], data.xmat[index.chest]
         self._forces = data.actuator_force
 
@@ -155,6 +164,7 @@ class Measures:
             "speed": sums[1] / n,
             "peak": sums[10],
             "turn": turned / steps,
+            "landing": math.sqrt(sums[12] / max(sums[13], 1.0)),
         }
 
 

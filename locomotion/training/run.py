@@ -109,7 +109,7 @@ class RunProblem:
                 trial = follow_path(scenario, skill)
             else:
                 trial = _simulator().run(skill, scenario)
-            costs += cost(trial, scenario.duration, stage.options["style"])
+            costs += cost(trial, scenario.duration, stage.options["style"], stage.options["soft"])
             costs += stage.options["fall"] * (not stays_up(trial, scenario.duration))
             survived += trial.figures["time"] / scenario.duration
         return costs / len(scenarios), survived / len(scenarios)

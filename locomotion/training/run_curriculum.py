@@ -58,6 +58,15 @@ SURE = (
     {**_CIRCLE, "speeds": (3.6, 5.0), "push": 250.0}, {**_BLOW, "speeds": (4.1, 4.9)}, _TOP_BLOW,
     {**_BLOW, "speeds": (3.6, 4.3)}, _TOP_BLOW, _BLOW,
 )  # fmt: skip
+_LANDS: dict[str, Any] = {**_STEADY, "duration": 6.0}
+_SETS_OFF = {**_FROM_A_WALK, "push": 220.0, "weakest": 0.7, "duration": 6.0}
+SOFT = (
+    {**_LANDS, "speeds": (2.4, 3.2)}, {**_SETS_OFF, "speeds": (2.5, 3.0)}, {**_PUSH, "speeds": (2.6, 3.5)},
+    {**_SETS_OFF, "speeds": (2.9, 3.4)}, {**_LANDS, "speeds": (3.2, 3.8)}, _SLOW_RUN,
+    {**_SETS_OFF, "speeds": (3.3, 3.8)}, {**_PUSH, "speeds": (3.3, 4.2)}, {**_SETS_OFF, "speeds": (3.7, 4.6)},
+    {**_LANDS, "speeds": (3.8, 4.4)}, {**_SETS_OFF, "speeds": (2.6, 4.0)}, _TOP_BLOW,
+    {**_LANDS, "speeds": (4.4, 5.0)}, {**_BEND, "speeds": (2.6, 5.0)},
+)  # fmt: skip
 _SLOW_PUSH = {**_STEADY, "speeds": (1.8, 2.3), "push": 330.0, "duration": 5.0}
 SLOW_PUSHES = (
     _SLOW_PUSH, {**_SLOW_PUSH, "speeds": (1.8, 2.5), "lateral": 1.2, "push": 60.0},
@@ -87,11 +96,13 @@ def _stage(
     kinds: tuple[dict, ...] = ({},),
     style: float = 0.4,
     fall: float = 0.0,
+    soft: float = 0.0,
     population: int = 32,
     **trial: Any,
 ) -> Stage:
-    """A stage; ``fall`` is what each fall costs besides the time that is lost."""
-    options = {"trials": trials, "style": style, "fall": fall, "trial": trial, "kinds": kinds}
+    """A stage; ``fall`` is what each fall costs besides the time that is lost, ``soft`` what hard landings
+    cost."""
+    options = {"trials": trials, "style": style, "fall": fall, "soft": soft, "trial": trial, "kinds": kinds}
     seconds = sum((trial | kinds[i % len(kinds)]).get("duration", _WAY_TAKES) for i in range(trials))
     return Stage(name, training.generations(generations), sigma, scale, options, population, seconds)
 
@@ -143,4 +154,5 @@ def curriculum(training: Training) -> tuple[Stage, ...]:
         stage("fast bends and pushes", 30, 0.03, high, 10, FAST_BENDS_AND_PUSHES, style=0.3, fall=6.0),
         stage("top", 60, 0.03, top, 12, TOP, style=0.3, fall=6.0),
         stage("sure", 60, 0.025, whole, len(SURE), SURE, style=0.3, fall=6.0),
+        stage("soft", 60, 0.025, middle, len(SOFT), SOFT, style=0.3, fall=6.0, soft=6.0),
     )

@@ -25,7 +25,7 @@ class Recorder:
 
     affordance, ends = "jump", "running"
     heights = (0.3, 0.5)
-    stride = (0.25, 0.0, 0.25)
+    stride = (0.17, 0.09, 0.39)
 
     def __init__(self, trips=False, holds=False):
         self.distances, self.trips, self.holds = [], trips, holds

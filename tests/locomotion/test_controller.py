@@ -9,7 +9,7 @@ import pytest
 
 from locomotion import controller as c
 from locomotion import controller_reference as slow
-from locomotion.person import CONTROL_DT, STEPS_PER_TICK, PersonIndex, build_person
+from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, build_person
 from locomotion.skill import RunSkill, load_run_skill, reset_running
 
 
@@ -142,6 +142,17 @@ def test_runs_at_the_speed_that_is_asked_for(speed: float) -> None:
     moved = runner.state[c.COM] - start
     assert moved[0] / 6.0 == pytest.approx(speed, abs=0.35)
     assert abs(moved[1]) < 1.5
+
+
+@pytest.mark.parametrize("speed", [2.75, 3.0, 3.25, 3.5, 3.75, 4.0])
+def test_lands_softly(speed: float) -> None:
+    runner = Runner(speed)
+    runner.tick(200)
+    highest = 0.0
+    for _ in range(800):
+        runner.tick()
+        highest = max(highest, float(runner.state[c.CONTACT].sum()) / (MASS * 9.81))
+    assert 2.0 < highest <= 3.5  # body weights
 
 
 def test_turns_left_and_right(runner: Runner) -> None:

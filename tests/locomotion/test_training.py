@@ -12,7 +12,8 @@ import pytest
 from locomotion.body import Human
 from locomotion.errors import LocomotionError
 from locomotion.human_state import MOVING
-from locomotion.run_layout import COM_VELOCITY, SPEED, parameter_slices
+from locomotion.person import MASS
+from locomotion.run_layout import COM_VELOCITY, CONTACT, SPEED, STEP_TIME, parameter_slices
 from locomotion.skill import load_run_skill
 from locomotion.training.cma_es import CmaEs
 from locomotion.training.grounds import training_ground
@@ -78,7 +79,7 @@ def test_cma_keeps_up_with_the_cma_package() -> None:
 
 def tiny_problem() -> RunProblem:
     trial = {"duration": 0.2, "noise": 0.2}
-    options = {"trials": 1, "style": 0.3, "fall": 0.0, "kinds": ({},), "trial": trial}
+    options = {"trials": 1, "style": 0.3, "fall": 0.0, "soft": 0.0, "kinds": ({},), "trial": trial}
     scale = genes_scale(1, 0, 0, "m_ap", "m_sp", "a_hat")
     stages = tuple(Stage(name, 2, 0.1, scale, options, population=4) for name in ("a", "b"))
     return RunProblem(stages, first_guess(), first_state_reference())
@@ -286,7 +287,9 @@ def test_a_fall_costs_what_its_stage_says_and_a_trial_that_lasts_nothing() -> No
     problem, rng = tiny_problem(), np.random.default_rng(2)
     lasts, falls = draw_scenario(rng, 0.2), draw_scenario(rng, 3.0, push=3000.0)
     for trials, more in (([lasts], 0.0), ([falls], 6.0), ([lasts, falls], 3.0)):
-        free, dear = (Stage("a", 1, 0.1, np.ones(1), {"style": 0.3, "fall": fall}) for fall in (0.0, 6.0))
+        free, dear = (
+            Stage("a", 1, 0.1, np.ones(1), {"style": 0.3, "fall": fall, "soft": 0.0}) for fall in (0.0, 6.0)
+        )
         free, dear = (problem.evaluate(stage, problem.genes, trials)[0] for stage in (free, dear))
         assert dear - free == pytest.approx(more)
 
@@ -300,6 +303,24 @@ def test_whoever_falls_sooner_is_not_better_off_for_what_it_is_spared() -> None:
     assert all(later < sooner for sooner, later in itertools.pairwise(costs))
     hopeless = Trial(figures | {"time": 4.0, "speed_error": 50.0}, np.zeros(0))
     assert cost(hopeless, 4.0, style=0.3) == 10.0
+
+
+def test_hard_landings_cost_what_the_stage_says() -> None:
+    peaks = [0.0]
+
+    def note(simulator: Simulator) -> None:
+        if simulator.state[STEP_TIME] == 0.0:
+            peaks.append(0.0)
+        peaks[-1] = max(peaks[-1], float(simulator.state[CONTACT].sum()) / (MASS * 9.81))
+
+    scenario = Scenario(3.0, np.array([[0.0, 5.0]]), np.array([[0.0, 0.5]]))
+    trial = Simulator().run(load_run_skill(), scenario, note)
+    hard = np.maximum(np.array(peaks[:-1]) - 2.8, 0.0)  # the last step is not over
+    assert trial.figures["landing"] == pytest.approx(np.sqrt((hard**2).mean())) and hard.max() > 0.3
+    softly = Trial(trial.figures | {"landing": 0.0}, np.zeros(0))
+    more = cost(trial, 3.0, 0.3, soft=2.0) - cost(softly, 3.0, 0.3, soft=2.0)
+    assert more == pytest.approx(2.0 * trial.figures["landing"])
+    assert cost(trial, 3.0, 0.3) == cost(softly, 3.0, 0.3)
 
 
 def test_a_run_that_steps_as_often_as_a_captured_person_costs_least() -> None:

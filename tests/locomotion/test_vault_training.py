@@ -39,7 +39,7 @@ def simulator():
 @pytest.fixture(scope="module")
 def family():
     reference = np.zeros((1, vault.STEPS * vault.BINS, vault.SENSORS))
-    return SkillFamily(KIND, np.array([0.6]), first_guess()[None], reference, (0.23, 0.09, 0.28), "")
+    return SkillFamily(KIND, np.array([0.6]), first_guess()[None], reference, (0.17, 0.09, 0.39), "")
 
 
 @pytest.fixture(scope="module")

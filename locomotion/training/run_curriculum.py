@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from locomotion.training.loop import Stage
-from locomotion.training.run_genes import DOWN, LEVEL, STRAIGHT, UP, genes_scale, rows_scale
+from locomotion.training.run_genes import DOWN, LEVEL, STRAIGHT, UP, genes_scale, inner_scale, rows_scale
 from locomotion.training.training import Training
 
 __all__ = ["BEGINNINGS", "WAYS", "beginning", "curriculum"]
@@ -61,11 +61,11 @@ SURE = (
 _LANDS: dict[str, Any] = {**_STEADY, "duration": 6.0}
 _SETS_OFF = {**_FROM_A_WALK, "push": 220.0, "weakest": 0.7, "duration": 6.0}
 SOFT = (
-    {**_LANDS, "speeds": (2.4, 3.2)}, {**_SETS_OFF, "speeds": (2.5, 3.0)}, {**_PUSH, "speeds": (2.6, 3.5)},
-    {**_SETS_OFF, "speeds": (2.9, 3.4)}, {**_LANDS, "speeds": (3.2, 3.8)}, _SLOW_RUN,
-    {**_SETS_OFF, "speeds": (3.3, 3.8)}, {**_PUSH, "speeds": (3.3, 4.2)}, {**_SETS_OFF, "speeds": (3.7, 4.6)},
-    {**_LANDS, "speeds": (3.8, 4.4)}, {**_SETS_OFF, "speeds": (2.6, 4.0)}, _TOP_BLOW,
-    {**_LANDS, "speeds": (4.4, 5.0)}, {**_BEND, "speeds": (2.6, 5.0)},
+    {**_LANDS, "speeds": (2.4, 3.2)}, {**_SETS_OFF, "speeds": (2.5, 3.0)}, {**_BLOW, "speeds": (2.6, 3.3)},
+    {**_CIRCLE, "speeds": (2.5, 3.6)}, {**_SETS_OFF, "speeds": (2.9, 3.6)}, {**_LANDS, "speeds": (3.1, 3.8)},
+    {**_BLOW, "speeds": (3.3, 3.8)}, {**_BEND, "speeds": (2.6, 4.6)}, {**_SETS_OFF, "speeds": (3.5, 4.6)},
+    {**_BLOW, "speeds": (3.4, 4.1)}, {**_LANDS, "speeds": (3.7, 4.6)}, {**_CIRCLE, "speeds": (3.6, 4.8)},
+    {**_SETS_OFF, "speeds": (2.6, 4.0)}, {**_BLOW, "speeds": (3.9, 4.8)},
 )  # fmt: skip
 _SLOW_PUSH = {**_STEADY, "speeds": (1.8, 2.3), "push": 330.0, "duration": 5.0}
 SLOW_PUSHES = (
@@ -154,5 +154,5 @@ def curriculum(training: Training) -> tuple[Stage, ...]:
         stage("fast bends and pushes", 30, 0.03, high, 10, FAST_BENDS_AND_PUSHES, style=0.3, fall=6.0),
         stage("top", 60, 0.03, top, 12, TOP, style=0.3, fall=6.0),
         stage("sure", 60, 0.025, whole, len(SURE), SURE, style=0.3, fall=6.0),
-        stage("soft", 60, 0.025, middle, len(SOFT), SOFT, style=0.3, fall=6.0, soft=6.0),
+        stage("soft", 60, 0.025, inner_scale(*STRAIGHT), len(SOFT), SOFT, style=0.3, fall=6.0, soft=6.0),
     )

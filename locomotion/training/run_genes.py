@@ -17,6 +17,7 @@ __all__ = [
     "first_guess",
     "first_state_reference",
     "genes_scale",
+    "inner_scale",
     "row_scale",
     "rows_scale",
     "skill_of",
@@ -33,10 +34,13 @@ KNOTS = np.array([1.2, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0])
 SPEED_RANGE = (1.5, 5.0)
 """Speeds [m/s] that may be asked for."""
 SIZE = sum(c.PARAMETERS.values())
-BLOCKS = ("base", "slope", "bend", "slow", "slowest", "faster", "fastest", "fast")
+BLOCKS = ("base", "slope", "bend", "slow", "slowest", "faster", "fastest", "fast", "inner")
 """Of SIZE genes each: parameters at `MIDDLE`, their change per m/s and per (m/s)^2 from 2.5 to 4 m/s; how the
 rows beyond differ from their neighbours in this family: that at 2 from that at 2.5 m/s, that at 1.2 from that
-at 2, that at 4.5 from that at 4 and that at 5 from that at 4.5; at last how that at 4 itself differs."""
+at 2, that at 4.5 from that at 4 and that at 5 from that at 4.5; how that at 4 itself differs; at last how all
+rows do, each by its share in `_INNER`."""
+_INNER = np.array([0.0, 0.0, 0.4, 1.0, 1.0, 1.0, 0.4, 0.0])
+"""Shares of the rows in the last block: none of those beyond the middle, which keep what they learned."""
 _SPREAD = np.array([0.1, 1.0, 0.03, 0.3, 0.5, 0.1, 0.05, 0.1, 1.0, 1.0, 0.2, 0.04])
 """Typical deviation of each sensor while running."""
 
@@ -67,7 +71,7 @@ def skill_of(
     genes: np.ndarray, reference: np.ndarray, max_lateral: float = 1.6, meta: dict | None = None
 ) -> RunSkill:
     """The skill that ``genes`` (len(BLOCKS) * SIZE,) stand for, see `BLOCKS`."""
-    base, slope, bend, slow, slowest, faster, fastest, fast = genes.reshape(len(BLOCKS), SIZE)
+    base, slope, bend, slow, slowest, faster, fastest, fast, inner = genes.reshape(len(BLOCKS), SIZE)
     u = (KNOTS[2:6] - MIDDLE)[:, None]
     table = np.empty((len(KNOTS), SIZE))
     table[2:6] = base + u * slope + u * u * bend
@@ -76,6 +80,7 @@ def skill_of(
     table[6] = table[5] + faster
     table[7] = table[6] + fastest
     table[5] += fast
+    table += np.outer(_INNER, inner)
     time = c.parameter_slices()["timing"].start
     table[:, time] = np.clip(table[:, time], 0.22, 0.5)
     return RunSkill(KNOTS, table, reference, SPEED_RANGE, max_lateral, (0.3, 0.25), run_clip(), meta or {})
@@ -99,7 +104,13 @@ def rows_scale(
     """Scale of all genes where only rows of their own are free, each weighted; slopes are left to what was
     learned between them."""
     own = np.outer([slow, slowest, faster, fastest, fast], row_scale(*LEVEL))
-    return np.concatenate([np.zeros(3 * SIZE), own.ravel()])
+    return _genes(*np.zeros((3, SIZE)), *own)
+
+
+def inner_scale(*names: str) -> np.ndarray:
+    """Scale of all genes where only the last block is free, and of it the blocks ``names`` of
+    `controller.PARAMETERS`."""
+    return _genes(*np.zeros((len(BLOCKS) - 1, SIZE)), row_scale(*names))
 
 
 def row_scale(*names: str) -> np.ndarray:

@@ -29,6 +29,7 @@ from locomotion.training.run_genes import (
     first_guess,
     first_state_reference,
     genes_scale,
+    inner_scale,
     rows_scale,
     skill_of,
 )
@@ -225,6 +226,15 @@ def test_rows_of_their_own_begin_as_their_neighbours_and_are_learned_without_slo
         assert list(before.knots[changed]) == moved
         np.testing.assert_array_equal(after[~changed], before.table[~changed])
         np.testing.assert_array_equal(after[:, part["climb"]], before.table[:, part["climb"]])
+
+
+def test_rows_in_the_middle_change_alike_and_leave_the_others_as_they_are() -> None:
+    genes = np.random.default_rng(0).normal(size=len(BLOCKS) * SIZE)
+    before = skill_of(genes, first_state_reference())
+    after = skill_of(genes + inner_scale("m_ap"), first_state_reference()).table
+    moved = np.zeros_like(after)
+    moved[:, parameter_slices()["m_ap"]] = np.reshape([0, 0, 0.4, 1, 1, 1, 0.4, 0], (-1, 1))
+    np.testing.assert_allclose(after, before.table + moved, atol=1e-12)
 
 
 def test_what_a_stage_does_not_feel_stays_as_it_is() -> None:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from locomotion.numeric import is_whole
+from locomotion.numeric import as_floats, is_whole
 from runtime.errors import RuntimeInputError
 
 __all__ = ["checked_files", "checked_number", "checked_points", "checked_whole"]
@@ -26,12 +26,10 @@ def checked_number(value: object, what: str, unit: str, least: float = -math.inf
 
 def checked_points(points: ArrayLike, what: str) -> NDArray[np.float64]:
     """``points`` as (k, 3) float64; `RuntimeInputError` unless they are finite numbers (3,) or (k, 3)."""
-    try:
-        checked = np.asarray(points, dtype=np.float64)
-    except (TypeError, ValueError):
-        checked = np.empty(0)
+    checked = as_floats(points)
     if (
-        checked.ndim not in (1, 2)
+        checked is None
+        or checked.ndim not in (1, 2)
         or checked.shape[-1] != 3
         or not checked.size
         or not np.isfinite(checked).all()

@@ -125,20 +125,18 @@ class JumpSimulator:
         data = self.data
         c.run_tick(*self.run.tables, self.state, self.command, data.qpos, data.qvel, data.ctrl)
 
-    def fit_stride(
-        self, entry: float, rng: np.random.Generator, runs: int = 16
-    ) -> tuple[float, float, float]:
+    def fit_stride(self, entry: float, rng: np.random.Generator) -> tuple[float, float, float]:
         """(a, lag, b) of step length = a v + lag (v' - v) + b [m] for a step asked for at v after one at
         v'.
 
-        Least squares over ``runs`` runs of 12 s in which the speed that is asked for wanders from step to
+        Least squares over 16 runs of 12 s in which the speed that is asked for wanders from step to
         step, within what a run-up to ``entry`` [m/s] may ask for. Every other sets off from a walk, as people
         do: their steps come out shorter for a while.
         """
         rows, lengths = [], []
         self.clear_away()
         low, high = run_up_speeds(entry, self.run)
-        for number, speed in enumerate(np.linspace(low, high, runs)):
+        for number, speed in enumerate(np.linspace(low, high, 16)):
             if number % 2:
                 self._set_off(np.zeros(3), float(speed))
             else:

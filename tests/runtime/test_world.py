@@ -332,7 +332,7 @@ def test_refuses_a_bad_spawn(graph, change, says):
 
 def test_refuses_a_bad_goal_and_a_bad_level(graph):
     agent = World(graph).spawn("human", (2.0, 3.0, 0.0))
-    for point in ((1.0, 2.0), (1.0, np.nan, 0.0), (), None, "there", [[[1.0, 2.0, 3.0]]]):
+    for point in ((1.0, 2.0), (1.0, np.nan, 0.0), (), None, "there", ("1", "2", "0"), [[[1.0, 2.0, 3.0]]]):
         with pytest.raises(RuntimeInputError, match="finite"):
             agent.go_to(point)
     for speed in (None, "fast", np.nan, 0.0, -1.0, True):

@@ -101,7 +101,7 @@ def _stage(
     **trial: Any,
 ) -> Stage:
     """A stage; ``fall`` is what each fall costs besides the time that is lost, ``soft`` what hard landings
-    cost."""
+    and wrong step rates cost."""
     options = {"trials": trials, "style": style, "fall": fall, "soft": soft, "trial": trial, "kinds": kinds}
     seconds = sum((trial | kinds[i % len(kinds)]).get("duration", _WAY_TAKES) for i in range(trials))
     return Stage(name, training.generations(generations), sigma, scale, options, population, seconds)
@@ -154,5 +154,5 @@ def curriculum(training: Training) -> tuple[Stage, ...]:
         stage("fast bends and pushes", 30, 0.03, high, 10, FAST_BENDS_AND_PUSHES, style=0.3, fall=6.0),
         stage("top", 60, 0.03, top, 12, TOP, style=0.3, fall=6.0),
         stage("sure", 60, 0.025, whole, len(SURE), SURE, style=0.3, fall=6.0),
-        stage("soft", 60, 0.025, inner_scale(*STRAIGHT), len(SOFT), SOFT, style=0.3, fall=6.0, soft=6.0),
+        stage("soft", 60, 0.025, inner_scale(*STRAIGHT), len(SOFT), SOFT, style=0.3, fall=6.0, soft=8.0),
     )

@@ -68,7 +68,7 @@ def draw_scenario(
 
 def cost(trial: Trial, duration: float, style: float, soft: float = 0.0) -> float:
     """Objective of one trial of ``duration`` [s]; ``style`` in [0, 1] weighs looks against survival, ``soft``
-    is what hard landings cost.
+    is what hard landings cost, and other step rates than equation 8's the more.
 
     What is wrong counts as long as the person is up, and the time after a fall as much as the worst, so that
     it does not pay to fall before something goes wrong. How often it steps is asked of every stage (equation
@@ -82,7 +82,7 @@ def cost(trial: Trial, duration: float, style: float, soft: float = 0.0) -> floa
         + 1.0 * f["side_drift"]
         + 1.5 * f["heading_error"]
         + 2.0 * f["trunk"]
-        + 0.5 * abs(f["step_rate"] - wanted_rate)
+        + 0.5 * (1.0 + soft) * abs(f["step_rate"] - wanted_rate)
         + style * (4.0 * f["reaction"] + 0.06 * f["effort"] + 0.05 * f["head"])
         + soft * f["landing"]
     )

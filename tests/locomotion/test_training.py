@@ -334,13 +334,15 @@ def test_hard_landings_cost_what_the_stage_says() -> None:
 
 
 def test_a_run_that_steps_as_often_as_a_captured_person_costs_least() -> None:
-    def costs(speed: float) -> list[float]:
+    def costs(speed: float, soft: float = 0.0) -> np.ndarray:
         figures = dict.fromkeys(FIGURES, 0.0) | {"time": 4.0, "speed": speed}
-        return [cost(Trial(figures | {"step_rate": rate}, np.zeros(0)), 4.0, style=0.0) for rate in rates]
+        trials = [Trial(figures | {"step_rate": rate}, np.zeros(0)) for rate in rates]
+        return np.array([cost(trial, 4.0, style=0.0, soft=soft) for trial in trials])
 
     rates = np.arange(2.0, 5.0, 0.01)
     assert rates[np.argmin(costs(5.26))] == pytest.approx(3.69)
     assert rates[np.argmin(costs(3.5))] == pytest.approx(3.44, abs=0.006)  # equation 8
+    np.testing.assert_allclose(costs(3.5, soft=2.0), 3.0 * costs(3.5))
 
 
 def test_same_trial_same_outcome() -> None:

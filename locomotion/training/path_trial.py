@@ -156,7 +156,7 @@ def follow_path(
         human.tick()
         ticks += 1
         aside += min(abs(human.lateral_error), 1.0)
-        measures.add(state, float(state[c.TURN_RATE]))
+        measures.add(state)
         behind += float(state[c.SPEED]) - math.hypot(*state[c.COM_VELOCITY][:2])
     push[:2] = 0.0
     arrived, stands = human.status == "arrived", 0

@@ -84,7 +84,7 @@ def stays_up(trial: Trial, duration: float) -> bool:
 
 
 @njit(cache=True)
-def _measure(sums, state, head, past, forces, chest, turn_rate):
+def _measure(sums, state, head, past, forces, chest):
     """Add one tick to ``sums``; ``past`` (8,): head at the last two ticks, ticks seen, and the highest
     reaction of the present step [body weights]."""
     h = state[2]
@@ -140,9 +140,9 @@ class Measures:
         self._head, self._chest = data.xpos[index.head], data.xmat[index.chest]
         self._forces = data.actuator_force
 
-    def add(self, state: np.ndarray, turn_rate: float) -> None:
-        """Add a tick; ``turn_rate`` [rad/s] was asked for."""
-        _measure(self._sums, state, self._head, self._past, self._forces, self._chest, turn_rate)
+    def add(self, state: np.ndarray) -> None:
+        """Add a tick."""
+        _measure(self._sums, state, self._head, self._past, self._forces, self._chest)
 
     def figures(self, state: np.ndarray, ticks: int, turned: float = 0.0) -> dict[str, float]:
         """The figures after ``ticks`` and ``turned`` [rad] in all."""
@@ -251,7 +251,7 @@ class Simulator:
             c.run_tick(*tables, state, command, qpos, qvel, ctrl)
             mujoco.mj_step(model, data, self._steps)
             c.observe(index, model, data, state)
-            measures.add(state, turn)
+            measures.add(state)
             if on_tick is not None:
                 on_tick(self)
             if state[c.FALLEN] > 0.0:

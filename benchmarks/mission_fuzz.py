@@ -24,7 +24,7 @@ import numpy as np
 import yaml
 
 import navmesh
-from navmesh.yamlfile import FileError
+from navmesh.files.yamlfile import FileError
 from runtime.files import whole_file
 from runtime.mission import LoadedMission, load_mission
 from runtime.mission_check import build_graph, prepare_mission

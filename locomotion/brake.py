@@ -21,7 +21,7 @@ from locomotion.skill import RunSkill
 from locomotion.slow_down import read_changes, slowed_tables, touchdown
 from locomotion.walk_layout import GAINS
 from locomotion.walk_skill import WalkSkill
-from navmesh.archive import write_archive
+from navmesh.files.archive import write_archive
 
 __all__ = ["BRAKE_SKILL", "BRAKING", "FIRST_STEPS", "SLOWEST", "BrakeSkill", "load_brake_skill"]
 

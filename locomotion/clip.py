@@ -16,7 +16,7 @@ from scipy.interpolate import CubicSpline, PchipInterpolator
 from locomotion.clip_file import ClipFile
 from locomotion.errors import LocomotionError
 from locomotion.person import JOINT_NAMES
-from navmesh.yamlfile import FileError, Located, nearest, read_yaml
+from navmesh.files.yamlfile import FileError, Located, nearest, read_yaml
 
 __all__ = ["Clip", "load_clip"]
 

@@ -13,7 +13,7 @@ from locomotion.clip import Clip
 from locomotion.errors import LocomotionError
 from locomotion.motion import Motion, lowest_points
 from locomotion.person import JOINT_NAMES
-from navmesh.whole_file import whole_file
+from navmesh.files.whole_file import whole_file
 
 __all__ = ["keyframes_of", "mirrored", "save_clip", "stretch_of"]
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from locomotion.clip import Clip
 from locomotion.errors import LocomotionError
 from locomotion.person import JOINT_NAMES, person_spec
-from navmesh.archive import ArchiveError, read_archive, write_archive
+from navmesh.files.archive import ArchiveError, read_archive, write_archive
 
 __all__ = ["Motion", "load_motion", "lowest_points", "motion_of_clip", "place_on_ground"]
 

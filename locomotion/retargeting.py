@@ -26,7 +26,7 @@ from locomotion.bvh import Capture
 from locomotion.errors import LocomotionError
 from locomotion.motion import Motion, place_on_ground
 from locomotion.person import BODY_NAMES, JOINT_NAMES, person_spec
-from navmesh.yamlfile import FileError, nearest, read_yaml
+from navmesh.files.yamlfile import FileError, nearest, read_yaml
 
 __all__ = ["load_mapping", "retarget"]
 

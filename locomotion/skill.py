@@ -14,7 +14,7 @@ from locomotion.clip import Clip, load_clip
 from locomotion.errors import LocomotionError
 from locomotion.person import JOINT_NAMES, STANDING_HEIGHT, PersonIndex, person_digest
 from locomotion.skill_file import read_skill
-from navmesh.archive import write_archive
+from navmesh.files.archive import write_archive
 
 __all__ = [
     "RUN_CLIP",

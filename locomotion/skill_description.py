@@ -17,7 +17,7 @@ from locomotion.clip import Clip, load_clip
 from locomotion.errors import LocomotionError
 from locomotion.jump_skill import Jump, load_jump_skill, run_digest
 from locomotion.skill import RunSkill
-from navmesh.yamlfile import FileError, read_yaml
+from navmesh.files.yamlfile import FileError, read_yaml
 
 __all__ = ["SkillDescription", "load_described", "load_description"]
 

@@ -10,7 +10,7 @@ import numpy as np
 from locomotion.errors import LocomotionError
 from locomotion.person import person_digest
 from locomotion.skill_file import read_skill
-from navmesh.archive import write_archive
+from navmesh.files.archive import write_archive
 
 __all__ = ["SkillFamily", "load_family", "smoothest"]
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from locomotion.errors import LocomotionError
 from locomotion.person import person_digest
-from navmesh.archive import ArchiveError, read_archive
+from navmesh.files.archive import ArchiveError, read_archive
 
 __all__ = ["read_skill"]
 

@@ -24,7 +24,7 @@ from locomotion.walk_layout import CAUGHT, GAINS, LEVEL, WALK_SPEED, WALK_STANCE
 from locomotion.walk_skill import WalkSkill
 from locomotion.walk_steps import begin_swing
 from locomotion.walking import observe_walk
-from navmesh.archive import write_archive
+from navmesh.files.archive import write_archive
 
 __all__ = [
     "SLOWING", "SLOW_DOWN_SKILL", "SlowDownSkill", "can_walk_on", "load_slow_down_skill", "read_changes",

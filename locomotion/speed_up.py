@@ -17,7 +17,7 @@ from locomotion.errors import LocomotionError
 from locomotion.person import person_digest
 from locomotion.skill import RunSkill
 from locomotion.skill_file import read_skill
-from navmesh.archive import write_archive
+from navmesh.files.archive import write_archive
 
 __all__ = ["HASTE", "SPEED_UP_SKILL", "SpeedUpSkill", "is_fast_enough", "load_speed_up_skill"]
 

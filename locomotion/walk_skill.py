@@ -30,7 +30,7 @@ from locomotion.walk_layout import (
     new_walk,
 )
 from locomotion.walking import observe_walk
-from navmesh.archive import write_archive
+from navmesh.files.archive import write_archive
 
 __all__ = [
     "RISING", "STEADYING_SPEED", "TABLES", "WALK_SKILL", "WalkSkill", "load_walk_skill", "plant",

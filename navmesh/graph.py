@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from navmesh import archive, edges, nodes, pathfinding, queries
+from navmesh import edges, nodes, pathfinding, queries
 from navmesh.affordances import obstacles_at
 from navmesh.build import Cells, Grid, find_cells, surface_of
 from navmesh.chunks import change_chunks
 from navmesh.errors import NavmeshError
+from navmesh.files import archive
 from navmesh.links import Links, make_links
 from navmesh.obstacle_rules import ObstacleRules
 from navmesh.obstacles import Obstacles

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from navmesh.errors import NavmeshError
+from navmesh.files.yamlfile import Located, read_yaml
 from navmesh.free_length import REACH, cells_of, room
 from navmesh.obstacle_rules import AFFORDANCES
 from navmesh.obstacles import Obstacles
 from navmesh.rules import WalkRules
 from navmesh.surface import Surface
 from navmesh.tags import Addition, NewValues, Reference, Tags
-from navmesh.yamlfile import Located, read_yaml
 
 __all__ = ["TagFile", "load_tags"]
 
@@ -105,7 +105,7 @@ class TagFile:
 
 
 def load_tags(path: str | os.PathLike[str]) -> TagFile:
-    """Read a tag file. Raises `navmesh.yamlfile.FileError` with line and column for anything wrong in it."""
+    """Read a tag file. Raises `FileError` with line and column for anything wrong in it."""
     return TagFile(*read_yaml(path, Tags, "tag file"))
 
 

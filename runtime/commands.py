@@ -10,7 +10,7 @@ from typing import Any
 
 import navmesh
 from locomotion import LocomotionError, smooth_route
-from navmesh.archive import check_target
+from navmesh.files.archive import check_target
 from pathsmooth import PathSmoothError
 from runtime.errors import RuntimeInputError
 from runtime.events import Departed, Event
@@ -128,7 +128,7 @@ def run_mission_file(mission: Path, out: Path | None) -> Result:
 
 
 def check_mission_file(mission: Path) -> Result:
-    """Check a mission and its level; `navmesh.yamlfile.FileError` says what is wrong."""
+    """Check a mission and its level; `navmesh.files.yamlfile.FileError` says what is wrong."""
     loaded = load_mission(mission)
     prepare_mission(loaded, ready())
     agents = [{"name": agent.name, "body": agent.body} for agent in loaded.mission.agents]

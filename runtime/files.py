@@ -3,7 +3,7 @@
 import os
 from pathlib import Path
 
-from navmesh.whole_file import whole_file
+from navmesh.files.whole_file import whole_file
 from runtime.errors import RuntimeInputError
 
 __all__ = ["check_output_folder", "whole_file"]

@@ -29,7 +29,7 @@ import navmesh
 from locomotion import LocomotionError, load_run_skill
 from locomotion.quadruped import is_body_file, load_body
 from locomotion.skill_description import load_described
-from navmesh.yamlfile import FileError, Located, dotted, nearest, read_yaml
+from navmesh.files.yamlfile import FileError, Located, dotted, nearest, read_yaml
 from runtime.mission_model import Mission, Step
 from runtime.rules import walk_rules
 
@@ -60,7 +60,7 @@ class LoadedMission:
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> Self:
-        """Read and check the mission at ``path``; raises `navmesh.yamlfile.FileError`."""
+        """Read and check the mission at ``path``; raises `FileError`."""
         mission, located = read_yaml(path, Mission, "mission")
         return cls(mission, located)
 
@@ -136,7 +136,7 @@ class LoadedMission:
 
 
 def load_mission(path: str | os.PathLike[str]) -> LoadedMission:
-    """Read and check the mission at ``path``; raises `navmesh.yamlfile.FileError` naming line and column."""
+    """Read and check the mission at ``path``; raises `FileError` naming line and column."""
     return LoadedMission.read(path)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import navmesh
 from locomotion import LocomotionError, load_run_skill
 from locomotion.library import described_ranges
-from navmesh.yamlfile import FileError
+from navmesh.files.yamlfile import FileError
 from runtime.actions import first_far
 from runtime.agent import Agent
 from runtime.errors import RuntimeInputError
@@ -38,7 +38,7 @@ def prepare_mission(
 ) -> Prepared:
     """Make the mission's world: level read, graph built (unless it is given), all places reachable.
 
-    Raises `navmesh.yamlfile.FileError` that names line and column for a level that is no mesh, a start off
+    Raises `FileError` that names line and column for a level that is no mesh, a start off
     the walkable surface, a place that cannot be reached from the agent's start, and a skill or an obstacle
     that is not there.
     """
@@ -62,7 +62,7 @@ def prepare_mission(
 
 
 def build_graph(loaded: LoadedMission) -> navmesh.NodeGraph:
-    """The graph of the mission's level; raises `navmesh.yamlfile.FileError`."""
+    """The graph of the mission's level; raises `FileError`."""
     level = loaded.mission.level
     rules, beside = loaded.rules(), navmesh.tags_path(loaded.level_path)
     tags_path = loaded.tags_path or (beside if beside.is_file() else None)

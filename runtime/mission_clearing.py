@@ -21,7 +21,7 @@ def find_clearing(
 ) -> np.ndarray:
     """The beginning of the run-up and the place beyond the obstacle of ``use``, (2, 3) [m].
 
-    Raises `navmesh.yamlfile.FileError` for a skill that the body has not, an obstacle that is not there, is
+    Raises `FileError` for a skill that the body has not, an obstacle that is not there, is
     too high or too low, and one that the way leads around.
     """
     if use.skill not in agent.skills:

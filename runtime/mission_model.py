@@ -55,7 +55,7 @@ def _kind_of_body(value: Any) -> str:
     return "(file)" if isinstance(value, str) and is_body_file(value) else "(name)"
 
 
-# The tags in brackets show up in the addresses of pydantic's errors; navmesh.yamlfile leaves them out.
+# The tags in brackets show up in the addresses of pydantic's errors; navmesh.files.yamlfile leaves them out.
 Coordinate = Annotated[float, AfterValidator(_near)]
 Point = Annotated[list[Coordinate], Len(3, 3)]
 Name = Annotated[str, AfterValidator(_name), Field(json_schema_extra={"pattern": _NAME.pattern})]

@@ -48,7 +48,7 @@ def run_mission(
     """Run the mission to its end: nobody has anything left to do, or the time limit is over.
 
     ``prepared`` is what `prepare_mission` made of it, and is used up; by default it is made here. ``watch``
-    is called with the world at the beginning and after every step. Raises `navmesh.yamlfile.FileError` as
+    is called with the world at the beginning and after every step. Raises `FileError` as
     `prepare_mission` does.
     """
     progress = progress or Progress(shown=False)

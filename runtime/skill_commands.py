@@ -13,8 +13,8 @@ import numpy as np
 import psutil
 from filelock import FileLock, Timeout
 
-from navmesh.archive import check_target
-from navmesh.whole_file import whole_file
+from navmesh.files.archive import check_target
+from navmesh.files.whole_file import whole_file
 from runtime.commands import Result, check_picture, ready
 from runtime.errors import RuntimeInputError
 from runtime.progress import Progress

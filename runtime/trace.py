@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from navmesh.archive import ArchiveError, read_archive, write_archive
+from navmesh.files.archive import ArchiveError, read_archive, write_archive
 from runtime.figure import Figure, Shapes
 
 __all__ = ["AgentTrace", "LevelTrace", "PathTrace", "Trace"]
@@ -96,7 +96,7 @@ class Trace:
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> "Trace":
-        """Read what `write` wrote; raises `navmesh.archive.ArchiveError` for any other file."""
+        """Read what `write` wrote; raises `navmesh.files.archive.ArchiveError` for any other file."""
         header, arrays = read_archive(path, KIND, VERSION)
         try:
             agents = tuple(_agent(i, entry, arrays) for i, entry in enumerate(header["agents"]))

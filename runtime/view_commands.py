@@ -3,7 +3,7 @@
 import time
 from pathlib import Path
 
-from navmesh.archive import check_target
+from navmesh.files.archive import check_target
 from runtime.commands import Result, check_page, ready, show_mission
 from runtime.errors import RuntimeInputError
 from runtime.mission import load_mission

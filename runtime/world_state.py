@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from typing import Any
 
-from navmesh.archive import read_archive, write_archive
+from navmesh.files.archive import read_archive, write_archive
 from runtime.agent import AgentState
 from runtime.errors import RuntimeInputError
 from runtime.events import Event
@@ -36,7 +36,7 @@ class WorldState:
     agents: dict[str, AgentState]
 
     def write(self, path: str | os.PathLike[str]) -> None:
-        """Write it to ``path`` (.npz), whole or not at all. Raises `navmesh.archive.ArchiveError` where there
+        """Write it to ``path`` (.npz), whole or not at all. Raises `ArchiveError` where there
         is no folder."""
         tree, arrays = pack(self)
         header = {"state": tree, "made_with": {name: version(name) for name in ("mujoco", "numpy", "numba")}}
@@ -46,7 +46,7 @@ class WorldState:
     def read(cls, path: str | os.PathLike[str]) -> "WorldState":
         """Read what `write` wrote. A run goes on bit for bit with the same release of Surefoot and MuJoCo.
 
-        Raises `navmesh.archive.ArchiveError` for a file that is missing, cut off, of another kind or another
+        Raises `ArchiveError` for a file that is missing, cut off, of another kind or another
         version, and `RuntimeInputError` for one with contents of another release.
         """
         header, arrays = read_archive(path, KIND, VERSION)

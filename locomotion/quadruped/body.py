@@ -22,7 +22,7 @@ import navmesh
 from locomotion.errors import LocomotionError
 from locomotion.quadruped import layout as at
 from locomotion.route_smoothing import Smoothing
-from navmesh.yamlfile import FileError, read_yaml
+from navmesh.files.yamlfile import FileError, read_yaml
 
 __all__ = ["BODY_NAMES", "Body", "Gait", "is_body_file", "load_body"]
 

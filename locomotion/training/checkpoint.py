@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from locomotion.errors import LocomotionError
-from navmesh.archive import ArchiveError, read_archive
-from navmesh.whole_file import whole_file
+from navmesh.files.archive import ArchiveError, read_archive
+from navmesh.files.whole_file import whole_file
 
 __all__ = ["CONFIGURATION", "claim", "read_checkpoint"]
 

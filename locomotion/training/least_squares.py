@@ -18,7 +18,7 @@ from locomotion.errors import LocomotionError
 from locomotion.training.checkpoint import read_checkpoint
 from locomotion.training.progress import Clock, Progress, show
 from locomotion.workers import worker_pool
-from navmesh.archive import write_archive
+from navmesh.files.archive import write_archive
 
 __all__ = ["Outcomes", "fit"]
 

@@ -24,7 +24,7 @@ from locomotion.training.checkpoint import read_checkpoint
 from locomotion.training.cma_es import CmaEs
 from locomotion.training.progress import Clock, Progress, show
 from locomotion.workers import worker_pool
-from navmesh.archive import write_archive
+from navmesh.files.archive import write_archive
 
 __all__ = ["Problem", "Stage", "learn", "simulated", "stages_digest"]
 

@@ -14,7 +14,7 @@ from locomotion.person import person_digest
 from locomotion.training.checkpoint import claim, read_checkpoint
 from locomotion.training.loop import Problem, Stage, learn, stages_digest
 from locomotion.training.progress import Clock, Progress, show
-from navmesh.archive import check_target, write_archive
+from navmesh.files.archive import check_target, write_archive
 
 __all__ = ["NotLearnedError", "Training"]
 

@@ -18,7 +18,7 @@ _SPAWNS, _PLACES = 4, 8
 
 
 def spawn_parts(site: Site, plan: LoadedPlan) -> np.ndarray:
-    """The parts that players start in. Raises `navmesh.yamlfile.FileError` for a spawn where nobody fits."""
+    """The parts that players start in. Raises `FileError` for a spawn where nobody fits."""
     spawns = plan.plan.spawns
     if not spawns:
         return core_parts(site)

@@ -23,7 +23,7 @@ from annotated_types import Ge, Gt, Le, Len
 from pydantic import BaseModel, ConfigDict, Field
 
 import navmesh
-from navmesh.yamlfile import FileError, Located, read_yaml
+from navmesh.files.yamlfile import FileError, Located, read_yaml
 from runtime.mission_model import Name, Point
 from runtime.playtest.character import Character, changed
 

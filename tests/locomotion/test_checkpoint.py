@@ -11,7 +11,7 @@ from locomotion.errors import LocomotionError
 from locomotion.training.checkpoint import CONFIGURATION, claim
 from locomotion.training.loop import Stage
 from locomotion.training.training import Training
-from navmesh.archive import ArchiveError
+from navmesh.files.archive import ArchiveError
 
 
 @pytest.fixture

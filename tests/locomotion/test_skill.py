@@ -11,7 +11,7 @@ from locomotion import controller as c
 from locomotion.errors import LocomotionError
 from locomotion.person import PersonIndex, build_person
 from locomotion.skill import RUN_SKILL, load_run_skill, reset_running
-from navmesh.archive import read_archive, write_archive
+from navmesh.files.archive import read_archive, write_archive
 
 
 def test_round_trip(tmp_path: Path) -> None:

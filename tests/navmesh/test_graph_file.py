@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from shapes import box, plane, terrain
 
-from navmesh import NavmeshError, NodeGraph, Terrain, WalkRules, archive
+from navmesh import NavmeshError, NodeGraph, Terrain, WalkRules
+from navmesh.files import archive
 
 LEVEL = (plane(0, 6, 0, 6), box(2, 3, 2, 3, 0, 2))
 

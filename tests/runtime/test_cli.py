@@ -13,7 +13,7 @@ from conftest import MISSION
 from locomotion.clip import load_clip
 from locomotion.motion import load_motion
 from locomotion.skill import RUN_CLIP
-from navmesh.archive import read_archive, write_archive
+from navmesh.files.archive import read_archive, write_archive
 from runtime.cli import main
 
 

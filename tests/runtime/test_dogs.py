@@ -7,7 +7,7 @@ import pytest
 from conftest import MISSION
 
 import navmesh
-from navmesh.yamlfile import FileError
+from navmesh.files.yamlfile import FileError
 from runtime import Arrived, Blocked, Departed, RuntimeInputError, World
 from runtime.mission import load_mission
 from runtime.mission_check import prepare_mission

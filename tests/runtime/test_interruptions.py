@@ -8,8 +8,8 @@ import sys
 import numpy as np
 import pytest
 
-from navmesh.archive import read_archive
-from navmesh.whole_file import whole_file
+from navmesh.files.archive import read_archive
+from navmesh.files.whole_file import whole_file
 
 HOOK = """
 import os, signal, sys, time
@@ -55,7 +55,7 @@ from dataclasses import dataclass
 from pathlib import Path
 import numpy as np
 from locomotion.training.loop import Stage
-from navmesh.archive import write_archive
+from navmesh.files.archive import write_archive
 
 @dataclass(frozen=True)
 class Bowl:

@@ -7,7 +7,7 @@ from conftest import MISSION
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from navmesh.yamlfile import FileError
+from navmesh.files.yamlfile import FileError
 from runtime.mission import load_mission
 
 PLACE = re.compile(r"^[^\n]*mission\.yaml:\d+:\d+: [^\n]+$")

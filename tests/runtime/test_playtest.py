@@ -16,7 +16,7 @@ from conftest import obj_text
 
 import navmesh
 from benchmarks.playtest_faults import COURTYARD, plants
-from navmesh.yamlfile import FileError
+from navmesh.files.yamlfile import FileError
 from runtime.cli import main
 from runtime.playtest import bots, compare, playtest, read_report, write_report
 from runtime.playtest.analysis import analyse, core_parts

@@ -10,7 +10,7 @@ from conftest import obj_text
 
 from benchmarks.mission_fuzz import MISSION as EVERYTHING
 from benchmarks.mission_fuzz import Fuzz, mutated, write_level
-from navmesh.yamlfile import FileError
+from navmesh.files.yamlfile import FileError
 from runtime.director import Told
 from runtime.events import Arrived, Departed
 from runtime.mission import load_mission, mission_schema

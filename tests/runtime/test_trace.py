@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from navmesh.archive import ArchiveError, write_archive
+from navmesh.files.archive import ArchiveError, write_archive
 from runtime.trace import Trace
 
 

@@ -14,7 +14,7 @@ from hypothesis.extra import numpy as hnp
 
 import navmesh
 from locomotion.rehearsal import Outcome
-from navmesh.archive import ArchiveError, read_archive, write_archive
+from navmesh.files.archive import ArchiveError, read_archive, write_archive
 from runtime import RuntimeInputError, World, WorldState
 from runtime.drivers import BODIES
 from runtime.planning import Plan

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from navmesh.archive import ArchiveError, read_archive, write_archive
+from navmesh.files.archive import ArchiveError, read_archive, write_archive
 
 
 @pytest.fixture

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from navmesh.errors import NavmeshError
-from navmesh.whole_file import whole_file
+from navmesh.files.whole_file import whole_file
 
 __all__ = ["ArchiveError", "check_target", "read_archive", "write_archive"]
 

@@ -4,7 +4,6 @@ import hashlib
 import os
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -110,30 +109,26 @@ class Terrain:
         return cls(moved, np.ascontiguousarray(triangles, dtype=np.int32), name)
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str], *, up: str = "z", scale: float = 1.0) -> "Terrain":
-        """Read any mesh file that trimesh reads (OBJ, PLY, STL, OFF, GLB/glTF, …).
+    def load(
+        cls, path: str | os.PathLike[str], *, up: str | None = None, scale: float | None = None
+    ) -> "Terrain":
+        """Read a mesh file: OBJ, PLY, STL, OFF, glTF, FBX, USD, and what else trimesh reads (docs/meshes.md).
 
-        Scenes are flattened: every instance with its transform. ``up`` and ``scale`` as in `from_arrays`
-        (glTF is Y up). Raises `NavmeshError` that names the file when it is missing, not a mesh, or
-        holds no usable triangle.
+        Scenes are flattened: every instance with its transform. ``up`` and ``scale`` as in `from_arrays`; by
+        default what the file or its format says, which is y and metres for glTF, and z and 1 where neither
+        says anything. Vertices that no triangle uses are left out. Raises `NavmeshError` that names the file
+        when it is missing, not a mesh, damaged, or holds no usable triangle.
         """
-        import trimesh
-        from trimesh.visual import ColorVisuals
+        from navmesh.meshfiles import read_mesh
 
-        file = Path(path)
-        if not file.is_file():
-            raise NavmeshError(f"{file}: no such file; expected a mesh (OBJ, PLY, STL, OFF, GLB or glTF)")
-        try:
-            loaded = trimesh.load_scene(file, process=False)
-            for part in loaded.geometry.values():
-                if isinstance(part, trimesh.Trimesh):  # else trimesh packs all textures into one: gigabytes
-                    part.visual = ColorVisuals()
-            mesh = loaded.to_mesh()
-            vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
-        except MemoryError:
-            raise
-        except Exception as error:
-            raise NavmeshError(
-                f"{file}: cannot be read as a mesh: {error or type(error).__name__}"
-            ) from error
-        return cls.from_arrays(vertices, faces, up=up, scale=scale, name=str(file))
+        mesh = read_mesh(path)
+        used = np.zeros(len(mesh.vertices), dtype=bool)
+        used[mesh.faces] = True
+        faces = (np.cumsum(used) - 1)[mesh.faces]
+        return cls.from_arrays(
+            mesh.vertices[used],
+            faces,
+            up=mesh.up if up is None else up,
+            scale=mesh.scale if scale is None else scale,
+            name=str(path),
+        )

@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 from collections.abc import Callable
+from contextlib import ExitStack
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any
@@ -22,6 +23,18 @@ app = typer.Typer(
 
 _INTERRUPTED = 130
 """Exit code after Ctrl-C."""
+
+
+_inputs: list[str | Path] = []
+"""Files that the command reads: none of them is ever written to (`navmesh.files.inputs`)."""
+_after = ExitStack()
+"""What is undone when the command ends."""
+
+
+def _input(value: Any) -> Any:
+    """Callback of every argument and option that names what is read."""
+    _inputs.extend(value if isinstance(value, list) else [] if value is None else [value])
+    return value
 
 
 class Up(StrEnum):
@@ -53,11 +66,20 @@ def _skill(name: str) -> str:
 
 
 SkillArgument = typer.Argument(
-    metavar=f"[{'|'.join(Skill)}|FILE.yaml]", parser=_skill,
+    metavar=f"[{'|'.join(Skill)}|FILE.yaml]", parser=_skill, callback=_input,
     help="A skill of the package, or the file that describes one of your own.",
 )  # fmt: skip
-UpOption = Annotated[Up, typer.Option(help="Axis of the file that points up.")]
-ScaleOption = Annotated[float, typer.Option(help="Metres per unit of the file.")]
+MESH_HELP = "Mesh file: OBJ, PLY, STL, OFF, glTF (.gltf, .glb), FBX, USD, and others (docs/meshes.md)."
+TraceArgument = Annotated[
+    Path, typer.Argument(callback=_input, help="Trace (.npz), or a mission (.yaml) to be run first.")
+]
+UpOption = Annotated[
+    Up | None,
+    typer.Option(help="Axis of the file that points up; default: what the file says, y for glTF, else z."),
+]
+ScaleOption = Annotated[
+    float | None, typer.Option(help="Metres per unit of the file; default: what the file says, else 1.")
+]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print the result as JSON on standard output.")]
 FollowOption = Annotated[
     str | None, typer.Option(help="Agent that the camera goes with; default: the first.")
@@ -70,12 +92,13 @@ ResolutionOption = Annotated[float | None, typer.Option(help="[m] Spacing of the
 
 @app.command()
 def bake(
-    level: Annotated[Path, typer.Argument(help="Mesh file: OBJ, PLY, STL, OFF, GLB or glTF.")],
+    level: Annotated[Path, typer.Argument(callback=_input, help=MESH_HELP)],
     output: Annotated[Path, typer.Option("--output", "-o", help="File for the baked graph (.npz).")],
-    up: UpOption = Up.z,
-    scale: ScaleOption = 1.0,
+    up: UpOption = None,
+    scale: ScaleOption = None,
     tags: Annotated[
-        Path | None, typer.Option(help="Authored tags; default: LEVEL.tags.yaml if there is one.")
+        Path | None,
+        typer.Option(callback=_input, help="Authored tags; default: LEVEL.tags.yaml if there is one."),
     ] = None,
     max_slope_deg: SlopeOption = None,
     max_step: StepOption = None,
@@ -90,7 +113,7 @@ def bake(
         "headroom": headroom,
         "resolution": resolution,
     }
-    _finish(_commands().bake_level(level, output, up.value, scale, tags, rules), as_json)
+    _finish(_commands().bake_level(level, output, up, scale, tags, rules), as_json)
 
 
 @app.command()
@@ -111,7 +134,7 @@ def path(
 
 @app.command()
 def run(
-    mission: Annotated[Path, typer.Argument(help="Mission file (YAML).")],
+    mission: Annotated[Path, typer.Argument(callback=_input, help="Mission file (YAML).")],
     out: Annotated[Path | None, typer.Option(help="Folder for trace, plot, film strip and page.")] = None,
     as_json: JsonOption = False,
 ) -> None:
@@ -121,7 +144,7 @@ def run(
 
 @app.command()
 def check(
-    mission: Annotated[Path, typer.Argument(help="Mission file (YAML).")],
+    mission: Annotated[Path, typer.Argument(callback=_input, help="Mission file (YAML).")],
     as_json: JsonOption = False,
 ) -> None:
     """Check a mission without running it: the file, its level, and that every place can be reached."""
@@ -142,7 +165,10 @@ def schema(
 def view(
     source: Annotated[
         str,
-        typer.Argument(help="Trace (.npz), mission (.yaml) to be run first, or a server's address (ws://…)."),
+        typer.Argument(
+            callback=_input,
+            help="Trace (.npz), mission (.yaml) to be run first, or a server's address (ws://…).",
+        ),
     ],
     output: Annotated[Path, typer.Option("--output", "-o", help="File for the page (.html).")] = Path(
         "view.html"
@@ -171,7 +197,7 @@ def view(
 
 @app.command()
 def export(
-    source: Annotated[Path, typer.Argument(help="Trace (.npz), or a mission (.yaml) to be run first.")],
+    source: TraceArgument,
     output: Annotated[Path, typer.Option("--output", "-o", help="File to write (.glb).")] = Path("run.glb"),
     as_json: JsonOption = False,
 ) -> None:
@@ -181,7 +207,7 @@ def export(
 
 @app.command()
 def film(
-    source: Annotated[Path, typer.Argument(help="Trace (.npz), or a mission (.yaml) to be run first.")],
+    source: TraceArgument,
     output: Annotated[Path, typer.Option("--output", "-o", help="File to write (.mp4).")] = Path("run.mp4"),
     follow: FollowOption = None,
     as_json: JsonOption = False,
@@ -192,7 +218,9 @@ def film(
 
 @app.command()
 def serve(
-    levels: Annotated[list[Path], typer.Argument(help="Mesh files, or graphs that `surefoot bake` wrote.")],
+    levels: Annotated[
+        list[Path], typer.Argument(callback=_input, help="Mesh files, or graphs that `surefoot bake` wrote.")
+    ],
     host: Annotated[
         str, typer.Option(help="Address to listen on; other than this machine: with a token.")
     ] = ("127.0.0.1"),
@@ -201,35 +229,38 @@ def serve(
         str, typer.Option(envvar="SUREFOOT_TOKEN", help="What clients must say to be let in.")
     ] = "",
     pages: Annotated[Path | None, typer.Option(help="Folder whose files are served over HTTP.")] = None,
-    up: UpOption = Up.z,
-    scale: ScaleOption = 1.0,
+    up: UpOption = None,
+    scale: ScaleOption = None,
 ) -> None:
     """Run worlds for engines in other languages, over WebSockets. Ctrl-C ends it."""
-    _commands().serve_worlds(levels, up.value, scale, host, port, token, pages)
+    _commands().serve_worlds(levels, up, scale, host, port, token, pages)
 
 
 @app.command()
 def playtest(
-    level: Annotated[Path, typer.Argument(help="Mesh file: OBJ, PLY, STL, OFF, GLB or glTF.")],
+    level: Annotated[Path, typer.Argument(callback=_input, help=MESH_HELP)],
     bots: Annotated[int, typer.Option(min=0, help="How many bots.")] = 64,
     seconds: Annotated[float, typer.Option(help="[s] that each of them plays.")] = 300.0,
     seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same report.")] = 0,
     body: Annotated[str, typer.Option(help="walker (quick), human, dog, cat or horse.")] = "walker",
     plan: Annotated[
-        Path | None, typer.Option(help="Spawns, places, expectations; default: LEVEL.playtest.yaml.")
+        Path | None,
+        typer.Option(callback=_input, help="Spawns, places, expectations; default: LEVEL.playtest.yaml."),
     ] = None,
     out: Annotated[
         Path | None, typer.Option(help="Folder for report.html, report.json and junit.xml.")
     ] = None,
-    before: Annotated[Path | None, typer.Option(help="An earlier report.json to compare with.")] = None,
+    before: Annotated[
+        Path | None, typer.Option(callback=_input, help="An earlier report.json to compare with.")
+    ] = None,
     processes: Annotated[int, typer.Option(min=1, help="Processes; the report is the same.")] = 1,
-    up: UpOption = Up.z,
-    scale: ScaleOption = 1.0,
+    up: UpOption = None,
+    scale: ScaleOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """Send bots through a level and say what is wrong with it: exit code 1 when there are faults."""
     options = {
-        "bots": bots, "seconds": seconds, "seed": seed, "body": body, "plan": plan, "up": up.value,
+        "bots": bots, "seconds": seconds, "seed": seed, "body": body, "plan": plan, "up": up,
         "scale": scale, "processes": processes,
     }  # fmt: skip
     _commands()
@@ -240,7 +271,9 @@ def playtest(
 
 @app.command()
 def replay(
-    report: Annotated[Path, typer.Argument(help="report.json of `surefoot playtest --out`.")],
+    report: Annotated[
+        Path, typer.Argument(callback=_input, help="report.json of `surefoot playtest --out`.")
+    ],
     number: Annotated[int, typer.Argument(help="Number of the finding.")],
     output: Annotated[Path, typer.Option("--output", "-o", help="File for the page (.html).")] = Path(
         "replay.html"
@@ -315,13 +348,17 @@ def evaluate(
 @app.command()
 def clip(
     source: Annotated[
-        Path, typer.Argument(help="Clip of keyframes (.yaml), captured motion (.bvh) or saved motion (.npz).")
+        Path,
+        typer.Argument(
+            callback=_input, help="Clip of keyframes (.yaml), captured motion (.bvh) or saved motion (.npz)."
+        ),
     ],
     mapping: Annotated[
-        Path | None, typer.Option("--map", help="Joints of the capture by parts of the person (.yaml).")
+        Path | None,
+        typer.Option("--map", callback=_input, help="Joints of the capture by parts of the person (.yaml)."),
     ] = None,
     units: Annotated[str, typer.Option(help="Units of length of a .bvh file: m, cm, mm, in or ft.")] = "cm",
-    up: UpOption = Up.y,
+    up: Annotated[Up, typer.Option(help="Axis of a .bvh file that points up.")] = Up.y,
     film: Annotated[Path | None, typer.Option(help="File for a film strip (.png).")] = None,
     stretch: Annotated[
         tuple[float, float] | None, typer.Option(help="Begin and end of what is shown [s].")
@@ -354,9 +391,11 @@ def _commands() -> Any:
     gc.disable()
     before = signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT, signal.SIGTERM))
     try:
+        from navmesh.files.inputs import keep_inputs
         from runtime import commands
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    _after.enter_context(keep_inputs(_inputs))
     gc.freeze()
     gc.enable()
     return commands
@@ -388,6 +427,15 @@ def _refuse(message: str) -> int:
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line; leaves with exit code 0, 1 or 2, 130 when interrupted."""
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
+    _inputs.clear()
+    with _after:
+        code = _exit_code(arguments)
+    if code == _INTERRUPTED:  # typer makes it an exit of its own
+        print("surefoot: interrupted; nothing half-written is left", file=sys.stderr)
+    sys.exit(code)
+
+
+def _exit_code(arguments: list[str] | None) -> int:
     try:
         command: Callable[..., Any] = typer.main.get_command(app)
         code = command(arguments, prog_name="surefoot", standalone_mode=False) or 0
@@ -403,6 +451,4 @@ def main(arguments: list[str] | None = None) -> None:
         code = _refuse(str(error))
     except OSError as error:
         code = _refuse(f"{error.filename}: {error.strerror}" if error.filename else str(error))
-    if code == _INTERRUPTED:  # typer makes it an exit of its own
-        print("surefoot: interrupted; nothing half-written is left", file=sys.stderr)
-    sys.exit(code)
+    return code

@@ -52,18 +52,24 @@ class Result:
 
 
 def bake_level(
-    level: Path, output: Path, up: str, scale: float, tags: Path | None, rules: Mapping[str, float | None]
+    level: Path,
+    output: Path,
+    up: str | None,
+    scale: float | None,
+    tags: Path | None,
+    rules: Mapping[str, float | None],
 ) -> Result:
     """Build and save the graph of ``level``."""
+    beside = navmesh.tags_path(level)
+    authored = tags or (beside if beside.is_file() else None)
+    loaded = None if authored is None else navmesh.load_tags(authored)
     check_target(output)
     progress = ready()
     walk_rules = person_walk_rules(**rules)
     with progress.stage(f"building the graph of {level.name}"):
         begun = time.perf_counter()
         terrain = navmesh.Terrain.load(level, up=up, scale=scale)
-        beside = navmesh.tags_path(level)
-        authored = tags or (beside if beside.is_file() else None)
-        loaded = None if authored is None else navmesh.load_tags(authored)
+        check_target(output)  # files that the level's names are inputs, too
         graph = navmesh.NodeGraph.build(terrain, walk_rules, tags=loaded)
         seconds = time.perf_counter() - begun
         graph.save(output)
@@ -115,10 +121,10 @@ def find_path(
 def run_mission_file(mission: Path, out: Path | None) -> Result:
     """Run a mission; with ``out`` leave trace, plot, film strip and page there."""
     loaded = load_mission(mission)
-    folder = None if out is None else check_output_folder(out)
+    written = [] if out is None else check_output_folder(out, _RESULTS)
     progress = ready()
     result = run_mission(loaded, progress)
-    written = [] if folder is None else _write_results(result.trace, folder, progress)
+    _write_results(result.trace, written, progress)
     values = {
         **result.trace.report,
         "events": list(result.trace.events),
@@ -148,7 +154,13 @@ def write_schema(output: Path | None) -> None:
 
 
 def serve_worlds(
-    levels: list[Path], up: str, scale: float, host: str, port: int, token: str, pages: Path | None
+    levels: list[Path],
+    up: str | None,
+    scale: float | None,
+    host: str,
+    port: int,
+    token: str,
+    pages: Path | None,
 ) -> None:
     """Serve worlds on ``levels``, meshes or baked graphs, until interrupted."""
     import asyncio
@@ -177,20 +189,24 @@ def serve_worlds(
     asyncio.run(server.run(lambda port: print(f"serving on ws://{where}:{port}", flush=True)))
 
 
-def _write_results(trace: Trace, folder: Path, progress: Progress) -> list[Path]:
+_RESULTS = ("trace.npz", "level.png", "film.png", "run.html")
+
+
+def _write_results(trace: Trace, files: Sequence[Path], progress: Progress) -> None:
+    """Write the trace to ``files``, in the order of `_RESULTS`; nothing where there are none."""
     from runtime.filmstrip import write_filmstrip
     from runtime.plot import plot_from_above
     from runtime.view import write_page
 
-    files = [folder / name for name in ("trace.npz", "level.png", "film.png", "run.html")]
-    folder.mkdir(parents=True, exist_ok=True)
+    if not files:
+        return
+    files[0].parent.mkdir(parents=True, exist_ok=True)
     trace.write(files[0])
     with progress.stage("drawing the level from above"):
         plot_from_above(trace, files[1])
     write_filmstrip(trace, files[2], progress)
     with progress.stage("writing the page"):
         write_page(trace, files[3])
-    return files
 
 
 def show_mission(mission: Path, result: MissionResult, written: list[Path]) -> None:

@@ -1,16 +1,19 @@
 """Files that appear whole or not at all."""
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
 
+from navmesh.files.inputs import refuse_input
 from navmesh.files.whole_file import whole_file
 from runtime.errors import RuntimeInputError
 
 __all__ = ["check_output_folder", "whole_file"]
 
 
-def check_output_folder(path: str | os.PathLike[str]) -> Path:
-    """``path`` as a folder that exists or can be made; `RuntimeInputError` if not. Makes nothing."""
+def check_output_folder(path: str | os.PathLike[str], names: Sequence[str]) -> list[Path]:
+    """The files ``names`` in ``path``, a folder that exists or can be made; makes nothing. Raises
+    `RuntimeInputError` if it cannot, `navmesh.NavmeshError` if a file is an input of this command."""
     folder = Path(path)
     ancestor = folder
     while not ancestor.exists() and ancestor != ancestor.parent:
@@ -19,4 +22,7 @@ def check_output_folder(path: str | os.PathLike[str]) -> Path:
         raise RuntimeInputError(f"{folder}: {str(ancestor)!r} is not a folder; results need one")
     if not os.access(ancestor, os.W_OK):
         raise RuntimeInputError(f"{folder}: {str(ancestor)!r} may not be written to")
-    return folder
+    files = [folder / name for name in names]
+    for file in files:
+        refuse_input(file)
+    return files

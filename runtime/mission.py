@@ -29,6 +29,7 @@ import navmesh
 from locomotion import LocomotionError, load_run_skill
 from locomotion.quadruped import is_body_file, load_body
 from locomotion.skill_description import load_described
+from navmesh.files.inputs import note_input
 from navmesh.files.yamlfile import FileError, Located, dotted, nearest, read_yaml
 from runtime.mission_model import Mission, Step
 from runtime.rules import walk_rules
@@ -93,6 +94,7 @@ class LoadedMission:
             found = False
         if not found:
             raise self.error(address, f"no such {what}: {str(path)!r}")
+        note_input(path)
         return path
 
     def _body(self, i: int, body: str) -> str:

@@ -106,10 +106,11 @@ class LevelSpec(_Strict):
 
     file: str
     """Mesh file, relative to the mission's."""
-    up: Literal["x", "y", "z"] = "z"
-    """Axis of the file that points up; the coordinates in the mission are Z up in any case."""
-    scale: Annotated[float, Gt(0.0), Le(1e6)] = 1.0
-    """Metres per unit of the file."""
+    up: Literal["x", "y", "z"] | None = None
+    """Axis of the file that points up; default: what the file says, y for glTF, else z. The coordinates in
+    the mission are Z up in any case."""
+    scale: Annotated[float, Gt(0.0), Le(1e6)] | None = None
+    """Metres per unit of the file; default: what the file says, else 1."""
     tags: str | None = None
     """File with authored obstacle tags, relative to the mission's; by default the one beside the level."""
 

@@ -21,7 +21,7 @@ def write_view(source: Path, output: Path, follow: str | None) -> Result:
     from runtime.view import write_page
 
     check_page(output)
-    trace, progress = _trace_of(source)
+    trace, progress = _trace_of(source, output)
     with progress.stage("writing the page"):
         write_page(trace, output, follow)
     return _written(output, trace, "open it in a browser")
@@ -75,7 +75,7 @@ def export_gltf(source: Path, output: Path) -> Result:
     check_target(output)
     if output.suffix.lower() != ".glb":
         raise RuntimeInputError(f"{output}: glTF is written as one binary file; name it .glb")
-    trace, progress = _trace_of(source)
+    trace, progress = _trace_of(source, output)
     with progress.stage("writing the animation"):
         write_gltf(trace, output)
     return _written(output, trace, "open it in Blender, Godot or three.js")
@@ -89,16 +89,17 @@ def write_video(source: Path, output: Path, of: str | None) -> Result:
     check_target(output)
     if output.suffix.lower() != ".mp4":
         raise RuntimeInputError(f"{output}: a video is written as .mp4; name it so")
-    trace, progress = _trace_of(source)
+    trace, progress = _trace_of(source, output)
     agent_named(trace, of)
     write_film(trace, output, of, progress)
     return _written(output, trace, "play it")
 
 
-def _trace_of(source: Path) -> tuple[Trace, Progress]:
-    """The trace at ``source``, or of the mission there, which is run for it."""
+def _trace_of(source: Path, output: Path) -> tuple[Trace, Progress]:
+    """The trace at ``source``, or of the mission there, which is run; ``output`` is none of its files."""
     if source.suffix.lower() in (".yaml", ".yml"):
         loaded = load_mission(source)
+        check_target(output)
         progress = ready()
         return run_mission(loaded, progress).trace, progress
     return Trace.read(source), Progress()

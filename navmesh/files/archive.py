@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from navmesh.errors import NavmeshError
+from navmesh.files.inputs import refuse_input
 from navmesh.files.whole_file import whole_file
 
 __all__ = ["ArchiveError", "check_target", "read_archive", "write_archive"]
@@ -33,7 +34,8 @@ class ArchiveError(NavmeshError):
 
 
 def check_target(path: str | os.PathLike[str]) -> None:
-    """Raises `ArchiveError` if no file can be written to ``path``: to know before the work for it is done."""
+    """Raises `ArchiveError` if no file can be written to ``path``, `NavmeshError` if it is an input of this
+    command: to know before the work for it is done."""
     target = Path(path)
     if not target.parent.is_dir():
         raise ArchiveError(f"{target}: there is no folder {target.parent} to write into")
@@ -41,6 +43,7 @@ def check_target(path: str | os.PathLike[str]) -> None:
         raise ArchiveError(f"{target}: is a folder; name a file")
     if not os.access(target.parent, os.W_OK):
         raise ArchiveError(f"{target}: the folder {target.parent} may not be written to")
+    refuse_input(target)
 
 
 def write_archive(

@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from navmesh.files.inputs import refuse_input
+
 __all__ = ["whole_file"]
 
 
@@ -15,9 +17,11 @@ def whole_file(path: str | os.PathLike[str]) -> Iterator[Path]:
     """A file beside ``path`` to write to: takes its place when the block ends well, vanishes otherwise.
 
     Its name begins with a dot and says which process writes it. What a process that was killed has left there
-    is swept up by the next one that writes to ``path``.
+    is swept up by the next one that writes to ``path``. Raises `NavmeshError` if ``path`` is an input of this
+    command.
     """
     target = Path(path)
+    refuse_input(target)
     own = f".{target.name}."
     for left in target.parent.glob(f"{glob.escape(own)}*.part{glob.escape(target.suffix)}"):
         if _has_ended(left.name.removeprefix(own).partition(".")[0]):

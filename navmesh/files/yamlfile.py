@@ -13,6 +13,7 @@ import yaml
 from pydantic import BaseModel, ValidationError
 
 from navmesh.errors import NavmeshError
+from navmesh.files.inputs import note_input
 
 __all__ = ["MAX_BYTES", "FileError", "Located", "dotted", "nearest", "read_yaml"]
 
@@ -60,6 +61,7 @@ def read_yaml(path: str | os.PathLike[str], model: type[Model], what: str) -> tu
     missing or unreadable file, broken YAML, unknown or double keys, and values of a wrong type or range.
     """
     target = Path(path)
+    note_input(target)
     try:
         located = Located(target, _compose(target, what))
         value = _construct(target, located._root, {}, set())

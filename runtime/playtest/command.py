@@ -23,15 +23,13 @@ def playtest_level(level: Path, options: Mapping[str, Any], out: Path | None, be
 
     ``options`` are those of `playtest`; ``before`` is an earlier report to compare with.
     """
-    folder = None if out is None else check_output_folder(out)
+    written = [] if out is None else check_output_folder(out, ("report.json", "junit.xml", "report.html"))
     earlier = None if before is None else read_report(before)
     progress = ready()
     outcome = playtest(level, **options, progress=progress)
     difference = None if earlier is None else compare(earlier, outcome.report)
-    written: list[Path] = []
-    if folder is not None:
-        folder.mkdir(parents=True, exist_ok=True)
-        written = [folder / name for name in ("report.json", "junit.xml", "report.html")]
+    if written:
+        written[0].parent.mkdir(parents=True, exist_ok=True)
         write_report(outcome.report, written[0])
         write_junit(outcome.report, written[1])
         write_page(outcome, written[2], difference, progress)

@@ -22,8 +22,8 @@ class Setup:
     """What was asked for: enough to run any bot again."""
 
     level: str
-    up: str
-    scale: float
+    up: str | None
+    scale: float | None
     plan: str | None
     body: str
     bots: int

@@ -62,8 +62,8 @@ def playtest(
     seed: int = 0,
     body: str = "walker",
     plan: str | os.PathLike[str] | None = None,
-    up: str = "z",
-    scale: float = 1.0,
+    up: str | None = None,
+    scale: float | None = None,
     processes: int = 1,
     progress: Progress | None = None,
 ) -> Outcome:

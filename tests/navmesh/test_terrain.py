@@ -18,7 +18,7 @@ FLOOR = (np.array([[0.0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]]), np.array([[0,
 def test_reads_mesh_files(tmp_path, suffix):
     file = tmp_path / f"level.{suffix}"
     trimesh.Trimesh(*FLOOR, process=False).export(file)
-    terrain = Terrain.load(file)
+    terrain = Terrain.load(file, up="z")
     assert len(terrain.faces) == 2
     np.testing.assert_allclose(terrain.bounds, [[0, 0, 0], [4, 4, 0]], atol=1e-6)
 
@@ -29,7 +29,7 @@ def test_scene_is_flattened_with_its_transforms(tmp_path):
     scene.add_geometry(mesh, transform=trimesh.transformations.translation_matrix([0, 0, 0]))
     scene.add_geometry(mesh, transform=trimesh.transformations.translation_matrix([10, 0, 2]))
     scene.export(tmp_path / "scene.glb")
-    terrain = Terrain.load(tmp_path / "scene.glb")
+    terrain = Terrain.load(tmp_path / "scene.glb", up="z")
     assert len(terrain.faces) == 4
     np.testing.assert_allclose(terrain.bounds, [[0, 0, 0], [14, 4, 2]], atol=1e-6)
 

@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation
 from navmesh.meshfiles.gltf_compression import DRACO, draco_mesh
 from navmesh.meshfiles.gltf_document import Document
 from navmesh.meshfiles.mesh_file import MeshFile, flattened
+from navmesh.meshfiles.strips import strip_faces
 
 __all__ = ["read_gltf"]
 
@@ -237,12 +238,10 @@ def _faces(document: Document, named: np.ndarray, mode: int, where: str) -> np.n
         if len(named) % 3:
             raise document.error(where, f"{len(named)} indices; triangles have three each")
         return named.reshape(-1, 3)
-    count = max(len(named) - 2, 0)
-    step = np.arange(count)
     if mode == _FAN:
-        return np.stack([named[step + 1], named[step + 2], np.broadcast_to(named[:1], count)], axis=1)
-    odd = step % 2
-    return np.stack([named[step], named[step + 1 + odd], named[step + 2 - odd]], axis=1)
+        step = np.arange(max(len(named) - 2, 0))
+        return np.stack([named[step + 1], named[step + 2], np.broadcast_to(named[:1], len(step))], axis=1)
+    return strip_faces(named, np.array([len(named)]))
 
 
 def _morphed(

@@ -2,7 +2,6 @@
 
 import os
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
@@ -43,8 +42,3 @@ def flattened(parts: list[tuple[np.ndarray, np.ndarray]]) -> tuple[np.ndarray, n
     vertices = np.concatenate([np.empty((0, 3)), *(vertices for vertices, _ in parts)])
     faces = [each + before for (_, each), before in zip(parts, counts, strict=False)]
     return vertices, np.concatenate([np.empty((0, 3), np.int64), *faces])
-
-
-def suffix_of(path: str | os.PathLike[str]) -> str:
-    """The kind of a file by its name: "obj", "glb", …"""
-    return Path(path).suffix.lower().removeprefix(".")

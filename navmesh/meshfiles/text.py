@@ -9,7 +9,7 @@ import numpy as np
 
 from navmesh.meshfiles.mesh_file import MeshFileError
 
-__all__ = ["as_lines", "finite_rows", "quoted", "read_bytes", "whole_numbers"]
+__all__ = ["as_lines", "finite_rows", "numbers", "quoted", "read_bytes", "whole_numbers"]
 
 _MARKS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
 
@@ -34,24 +34,24 @@ def as_lines(content: bytes) -> list[bytes]:
 
 
 def finite_rows(
-    path: str | os.PathLike[str], rows: Sequence[bytes], numbers: Sequence[int], what: str
+    path: str | os.PathLike[str], rows: Sequence[bytes], lines: Sequence[int], what: str
 ) -> np.ndarray:
-    """(r, 3) float64: the first three numbers of each of ``rows``, lines of which ``numbers`` says where they
-    stand. Raises `MeshFileError` for a line that has fewer, or one that is not finite."""
-    values, widths = _numbers(b" ".join(rows), np.float64), {len(row.split()) for row in rows}
+    """(r, 3) float64: the first three numbers of each of ``rows``, which stand in ``lines`` of the file.
+    Raises `MeshFileError` for a line that has fewer, or one that is not finite."""
+    values, widths = numbers(b" ".join(rows), np.float64), {len(row.split()) for row in rows}
     width = widths.pop() if len(widths) == 1 else 0
     if width < 3 or values is None or len(values) != width * len(rows):
-        values, width = _first_three(path, rows, numbers, what), 3
+        values, width = _first_three(path, rows, lines, what), 3
     found = values.reshape(-1, width)[:, :3]
     broken = np.flatnonzero(~np.isfinite(found).all(axis=1))
     if len(broken):
         at = int(broken[0])
-        raise MeshFileError(path, f"line {numbers[at]}", f"{quoted(rows[at])}: a coordinate is not finite")
+        raise MeshFileError(path, f"line {lines[at]}", f"{quoted(rows[at])}: a coordinate is not finite")
     return np.ascontiguousarray(found)
 
 
 def _first_three(
-    path: str | os.PathLike[str], rows: Sequence[bytes], numbers: Sequence[int], what: str
+    path: str | os.PathLike[str], rows: Sequence[bytes], lines: Sequence[int], what: str
 ) -> np.ndarray:
     found = np.empty((len(rows), 3))
     for k, row in enumerate(rows):
@@ -60,27 +60,27 @@ def _first_three(
             found[k] = float(x), float(y), float(z)
         except ValueError:
             problem = f"{quoted(row)}: expected three numbers of {what}"
-            raise MeshFileError(path, f"line {numbers[k]}", problem) from None
+            raise MeshFileError(path, f"line {lines[k]}", problem) from None
     return found
 
 
 def whole_numbers(
-    path: str | os.PathLike[str], rows: Sequence[bytes], numbers: Sequence[int], what: str
+    path: str | os.PathLike[str], rows: Sequence[bytes], lines: Sequence[int], what: str
 ) -> tuple[np.ndarray, np.ndarray]:
     """The whole numbers of all ``rows``, one after the other, and (r,) how many each has. Raises
     `MeshFileError` for a line that holds something else."""
     counts = np.fromiter((len(row.split()) for row in rows), np.int64, len(rows))
-    values = _numbers(b" ".join(rows), np.int64)
+    values = numbers(b" ".join(rows), np.int64)
     if values is None or len(values) != counts.sum():
-        for row, number in zip(rows, numbers, strict=True):
-            own = _numbers(row, np.int64)
+        for row, number in zip(rows, lines, strict=True):
+            own = numbers(row, np.int64)
             if own is None or len(own) != len(row.split()):
                 raise MeshFileError(path, f"line {number}", f"{quoted(row)}: expected {what}")
     assert values is not None
     return values, counts
 
 
-def _numbers(text: bytes, kind: type) -> np.ndarray | None:
+def numbers(text: bytes, kind: type) -> np.ndarray | None:
     """The numbers of a text, None if it holds anything else."""
     if not text.strip():
         return np.empty(0, kind)

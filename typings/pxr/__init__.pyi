@@ -1,0 +1,7 @@
+from typing import Any
+
+Gf: Any
+Tf: Any
+Usd: Any
+UsdGeom: Any
+UsdSkel: Any

@@ -180,9 +180,9 @@ class Human(RehearsingPerson):
         distance = float(np.linalg.norm(goal[:2] - self.position[:2]))
         self._end("arrived", Arrived(self.time, self._point(), distance))
 
-    def give_up(self) -> None:
-        """Be stuck among others."""
-        self._end("stuck", GotStuck(self.time, self._point(), among_others=True))
+    def give_up(self, reason: str = "it and those around it wait for each other") -> None:
+        """Be stuck where it is."""
+        self._end("stuck", GotStuck(self.time, self._point(), among_others=True, reason=reason))
 
     def stop(self) -> None:
         """Give up the path and come to a stand, as soon as it can without falling; what is being cleared is

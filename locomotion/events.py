@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 __all__ = [
     "Arrived", "BackedOut", "Cleared", "Event", "Fell", "GotStuck", "GotUp", "LostGround", "MissedGoal",
-    "SetOff", "StrayedFromPath", "TookOff",
+    "SetOff", "StrayedFromPath", "TookOff", "WentBack",
 ]  # fmt: skip
 
 
@@ -60,9 +60,10 @@ class LostGround(Event):
 @dataclass(frozen=True)
 class GotStuck(Event):
     """The body has made no headway along its path for some seconds; ``among_others``: it and those around it
-    wait for each other."""
+    wait for each other. ``reason`` says why, as far as that is known."""
 
     among_others: bool = False
+    reason: str = "it makes no headway"
 
 
 @dataclass(frozen=True)
@@ -90,6 +91,16 @@ class TookOff(Event):
     height: float
     takeoff_error: float
     speed_error: float
+
+
+@dataclass(frozen=True)
+class WentBack(Event):
+    """The body turns round before an obstacle, of this affordance and size [m], to run up to it from
+    ``distance`` [m] farther away."""
+
+    affordance: str
+    size: float
+    distance: float
 
 
 @dataclass(frozen=True)

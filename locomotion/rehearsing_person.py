@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
 from locomotion.clearing import ClearingSkill
-from locomotion.events import GotStuck
+from locomotion.events import GotStuck, WentBack
 from locomotion.foreseen import Foreseen
 from locomotion.foresight import Foresight, Question
 from locomotion.gaits import run_entry_speed
@@ -82,7 +82,10 @@ class RehearsingPerson(MovingPerson, ABC):
         if (near or obstacles.balked) and self._go_back():
             return
         if near:
-            self._end("stuck", GotStuck(self.time, self._point()))
+            ahead = obstacles.ahead
+            assert ahead is not None
+            reason = f"it finds no run-up to the {ahead.affordance} of {ahead.size:.2f} m"
+            self._end("stuck", GotStuck(self.time, self._point(), reason=reason))
             return
         speed = run_entry_speed(self.on_feet.walk, self._control, float(self._command[0]))
         if speed is None or self._go_back():
@@ -109,6 +112,10 @@ class RehearsingPerson(MovingPerson, ABC):
         to = None if way.interrupted is not None else self._obstacle_run.turning_point(way.arc)
         if way.path is None or to is None:
             return False
+        ahead = self._obstacle_run.ahead
+        assert ahead is not None
+        back = WentBack(self.time, self._point(), ahead.affordance, ahead.size, way.arc - to)
+        self.events.append(back)
         self._obstacle_run.go_back()
         way.go_back(to, self.on_feet.walk_limits, self._ticks)
         return True

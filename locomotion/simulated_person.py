@@ -58,6 +58,14 @@ class SimulatedPerson:
         return np.array([x, y, below if np.isfinite(below) else z])
 
     @property
+    def slope_here(self) -> float:
+        """Slope of the ground under the centre of mass [rise over run]; 0 where there is none."""
+        if self.ground is None:
+            return 0.0
+        x, y, z = self.ground.surface_below(self.com[None])[1][0]
+        return math.hypot(x, y) / z if z > 0.0 else 0.0
+
+    @property
     def yaw(self) -> float:
         """Direction that the pelvis faces [rad, -π to π]."""
         w, x, y, z = self.data.qpos[3:7]

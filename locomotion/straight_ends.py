@@ -22,11 +22,13 @@ __all__ = ["SetLeg", "set_legs", "straight_on"]
 
 _LEAST = 0.25  # [m] by which a straight end is worth being lengthened
 _ENOUGH = 5.0  # [m] of run-up with which one that stands before an obstacle need not go back first
+_BEND = 1.5  # [m] of a run-up that a metre to the side at its beginning takes
 _ALIKE = 0.7  # cosine between two directions up to which one leads on from the other without turning round
 _LEADS_ON = 0.5  # cosine of the greatest turn behind a straight end that is made in a bend
 _ABREAST = 0.5  # [m] beside a line at which what lies ahead is reached along it
 _OFF_WALL = 0.02  # [m] kept from what ends a straight way
 _SAME = 1e-3  # [m] by which the ends of a way may differ from where it was asked for
+_TURNS_IN = 0.4  # [m] kept from what lies behind a place where it turns round: so far it swings out
 _DETOUR = 3.0  # [m] that the way between two straight ends may be longer than the one that they replace
 
 
@@ -83,9 +85,12 @@ def _ends(
     if after is not None:
         lead, forward = float(route.graph.links.run_up[route.links[index].link]), float(after @ way)
         back = run_up - lead
-        if follows or (before is None and forward + lead >= _ENOUGH):
+        aside = abs(float(after[0] * way[1] - after[1] * way[0]))
+        if follows or (before is None and forward + lead - _BEND * aside >= _ENOUGH):
             back = min(back, forward if index == 0 else 0.5 * forward)
         end = straight_on(route.graph, last, -after, back, route.radius)
+        if float((end - begin)[:2] @ after) < 0.0:
+            end = straight_on(route.graph, last, -after, back, route.radius, _TURNS_IN)
     return begin, end
 
 
@@ -126,13 +131,15 @@ def straight_on(
     direction: NDArray[np.float64],
     length: float,
     radius: float,
+    room: float = 0.0,
 ) -> NDArray[np.float64]:
     """The farthest place (3,), up to ``length`` [m] straight on from ``start``, to which a body of ``radius``
-    [m] can walk; ``start`` itself where that is hardly away."""
+    [m] can walk with ``room`` [m] left behind it; ``start`` itself where that is hardly away."""
     if length < _LEAST:
         return start
-    ray = cast_ray(graph, start[None], start[None] + np.array([*(length * direction), 0.0]), radius)
-    free = length if ray.clear[0] else float(ray.share[0]) * length - _OFF_WALL
+    far = length + room
+    ray = cast_ray(graph, start[None], start[None] + np.array([*(far * direction), 0.0]), radius)
+    free = length if ray.clear[0] else min(length, float(ray.share[0]) * far - max(room, _OFF_WALL))
     if free < _LEAST:
         return start
     return drape(graph, np.stack([start, start + np.array([*(free * direction), 0.0])]), free)[-1]

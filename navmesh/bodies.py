@@ -46,15 +46,26 @@ def portals_of(graph: "NodeGraph", radius: float) -> tuple:
     return kept[radius]
 
 
-def _leaps_for(graph: "NodeGraph", radius: float, skills: tuple) -> dict[str, np.ndarray]:
-    """The links on offer, grouped by the node they start from: the ``leap`` arrays of `DOORS`."""
+def _checked_links(graph: "NodeGraph", links: Any) -> np.ndarray:
+    """Indices of links (k,) int64, sorted."""
+    index = np.unique(np.asarray(links)) if np.size(links) else np.empty(0, np.int64)
+    if index.dtype.kind not in "iu" or (len(index) and not 0 <= index[0] <= index[-1] < len(graph.links)):
+        raise NavmeshError(
+            f"closed_links: expected indices of the graph's {len(graph.links)} links, not {links!r}"
+        )
+    return index.astype(np.int64)
+
+
+def _leaps_for(graph: "NodeGraph", radius: float, skills: tuple, closed: np.ndarray) -> dict[str, np.ndarray]:
+    """The links on offer but the ``closed`` ones, grouped by the node they start from: the ``leap`` arrays of
+    `DOORS`."""
     count = len(graph.radii)
     links = graph.links
     chosen = []
     for name, low, high in skills:
         of_kind = (links.affordance == name) & (links.height >= low) & (links.height <= high)
         chosen.append(np.flatnonzero(of_kind & (links.radius >= radius)))
-    index = np.sort(np.concatenate(chosen)) if chosen else np.empty(0, np.int64)
+    index = np.setdiff1d(np.concatenate(chosen), closed) if chosen else np.empty(0, np.int64)
     index = index[(graph.label[links.start_cell[index]] >= 0) & (graph.label[links.end_cell[index]] >= 0)]
     origin = graph.surface.origin
     start, end = links.start[index] - origin, links.end[index] - origin
@@ -74,12 +85,17 @@ def _leaps_for(graph: "NodeGraph", radius: float, skills: tuple) -> dict[str, np
     }
 
 
-def doors_of(graph: "NodeGraph", radius: float, skills: Any, node_costs: np.ndarray | None) -> Any:
-    """The `Doors` for a body, made once for each radius and offer of skills (those with costs each time)."""
+def doors_of(
+    graph: "NodeGraph", radius: float, skills: Any, node_costs: np.ndarray | None, closed_links: Any = ()
+) -> Any:
+    """The `Doors` for a body, made once for each radius, offer of skills and closed links (those with costs
+    each time)."""
     offered = _checked_skills(skills) if skills else ()
+    closed = _checked_links(graph, closed_links)
+    key = radius, offered, closed.tobytes()
     if node_costs is None:
         kept = graph.cache.setdefault("doors", {})
-        doors = kept.get((radius, offered))
+        doors = kept.get(key)
         if doors is not None:
             return doors
     if not isfinite(radius) or radius <= 0.0:
@@ -92,10 +108,14 @@ def doors_of(graph: "NodeGraph", radius: float, skills: Any, node_costs: np.ndar
         if costs.shape != (count,) or not np.all(costs >= 1.0) or not np.all(np.isfinite(costs)):
             raise NavmeshError(f"node_costs: expected {count} finite factors of at least 1, one per node")
     doors = make_doors(
-        radius, portals_of(graph, radius), costs, node_costs is not None, _leaps_for(graph, radius, offered)
+        radius,
+        portals_of(graph, radius),
+        costs,
+        node_costs is not None,
+        _leaps_for(graph, radius, offered, closed),
     )
     if node_costs is None:
         if len(kept) >= _KEPT:
             del kept[next(iter(kept))]
-        kept[(radius, offered)] = doors
+        kept[key] = doors
     return doors

@@ -266,6 +266,7 @@ class NodeGraph:
         radius: float = 0.3,
         skills: Mapping[str, tuple[float, float]] | None = None,
         node_costs: np.ndarray | None = None,
+        closed_links: Any = (),
     ) -> Route:
         """The route from ``start`` to ``goal`` (3,) [m] for a body of ``radius`` [m].
 
@@ -274,10 +275,11 @@ class NodeGraph:
         below, is moved to the nearest place where it does, at most twice the radius and two cells away;
         the route's first and last waypoints say where. ``skills`` offers typed links: for each affordance
         the least and greatest height [m] that the body can clear, as in {"jump": (0.3, 0.5)}. ``node_costs``
-        (m,), at least 1, multiply the length walked in each node. Never raises because of where the ends
-        are: see `navmesh.route.STATUSES`. Raises `NavmeshError` for arguments of a wrong kind.
+        (m,), at least 1, multiply the length walked in each node. ``closed_links`` (k,) int are indices of
+        `links` that are not offered. Never raises because of where the ends are: see
+        `navmesh.route.STATUSES`. Raises `NavmeshError` for arguments of a wrong kind.
         """
-        return pathfinding.find_path(self, start, goal, radius, skills, node_costs)
+        return pathfinding.find_path(self, start, goal, radius, skills, node_costs, closed_links)
 
     def find_paths(
         self,

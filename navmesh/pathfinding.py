@@ -63,12 +63,13 @@ def find_path(
     radius: float = 0.3,
     skills: Mapping[str, tuple[float, float]] | None = None,
     node_costs: np.ndarray | None = None,
+    closed_links: Any = (),
 ) -> Route:
     """See `NodeGraph.find_path`."""
     sx, sy, sz = _point("start", start)
     gx, gy, gz = _point("goal", goal)
     radius = float(radius)
-    doors = doors_of(graph, radius, skills, node_costs)
+    doors = doors_of(graph, radius, skills, node_costs, closed_links)
     scratch = _scratch_for(graph)
     reach, rise = _limits(graph, radius)
     status, length, expanded, nodes, waypoints, leaps = _compiled_answer()(

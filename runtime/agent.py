@@ -23,6 +23,7 @@ from runtime.events import (
     Event,
     Fell,
     GotUp,
+    Hindered,
     Lost,
     SkillFinished,
     SkillStarted,
@@ -32,6 +33,7 @@ from runtime.pack import AnimalDriver
 from runtime.people import HumanDriver
 from runtime.planning import NoWay, Plan
 from runtime.pose import Pose
+from runtime.standstill import Headway
 
 if TYPE_CHECKING:
     from runtime.world import World
@@ -40,19 +42,24 @@ __all__ = ["Agent", "AgentState", "Pose"]
 
 _CARRIED_OFF = 0.5  # [m] beside its path from which a person that has got up takes another one
 _ATTEMPTS = 3  # of a person that is stuck or lost to find another way to its goals
+_TURNINGS = 6  # times that it goes back before the same obstacle, until it is stuck
 _HELPLESS = bodily.GotStuck, bodily.StrayedFromPath, bodily.MissedGoal
 
 
 @dataclass(frozen=True)
 class Errand:
     """What an agent was told: `Agent.go_to`'s arguments. ``doubtful``: the level has changed while it could
-    not look for another way. ``attempts``: how often it was stuck or lost on its way."""
+    not look for another way. ``attempts``: how often it was stuck or lost on its way. ``balked``: tags of the
+    obstacles before which it went back for another run-up, once for each time; ``closed``: of those that it
+    has given up."""
 
     goals: tuple[tuple[float, float, float], ...] = ()
     speed: float = 0.0
     facing: float | None = None
     doubtful: bool = False
     attempts: int = 0
+    balked: tuple[str, ...] = ()
+    closed: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -65,6 +72,7 @@ class AgentState:
     blocked: bool
     goal: tuple[float, float, float]
     errand: Errand
+    headway: Headway
 
 
 class Agent:
@@ -84,6 +92,7 @@ class Agent:
         self._born = world.time - driver.time
         self._goal = _triple(driver.position)
         self._errand = Errand()
+        self._headway = Headway()
 
     @property
     def human(self) -> Human:
@@ -202,12 +211,35 @@ class Agent:
         here, goal = _triple(self.position), self._errand.goals[-1]
         self._goal = _triple(plan.points[-1])
         self._world.look_out(self, former)
-        self._world.report(Departed(self._world.time, self.name, here, goal, plan.length, plan.skills))
+        now = self._world.time
+        self._headway = Headway(since=now, tried=now)
+        self._tell(Departed(now, self.name, here, goal, plan.length, plan.skills))
 
     def _report_blocked(self, goal: np.ndarray, reason: str) -> None:
         self._blocked = True
         here = _triple(self.position)
-        self._world.report(Blocked(self._world.time, self.name, here, _triple(goal), reason))
+        self._tell(Blocked(self._world.time, self.name, here, _triple(goal), reason))
+
+    def _tell(self, event: Event) -> None:
+        self._headway = replace(self._headway, told=self._world.time)
+        self._world.report(event)
+
+    def watch(self) -> None:
+        """Say so if it is on its way and gets nowhere, and do something else after a while; `World.step`
+        calls this every half second."""
+        if not self.moving:
+            return
+        now = self._world.time
+        self._headway = self._headway.seen(self._driver.left, now)
+        if self._headway.late(now):
+            self._hindered(self._driver.hindrance)
+        if isinstance(self._driver, HumanDriver) and self._headway.desperate(now):
+            self._headway = replace(self._headway, tried=now)
+            if self._driver.can_turn and not self._tries_again():
+                self._driver.give_up()
+
+    def _hindered(self, reason: str) -> None:
+        self._tell(Hindered(self._world.time, self.name, _triple(self.position), reason))
 
     def look_at_way(self) -> None:
         """After a change of the level: go on where the way holds, look for another one where it does not, and
@@ -232,19 +264,20 @@ class Agent:
         """(k, 3) [m]: the goals that are still before it."""
         return np.array(self._errand.goals[-self._driver.goals_left :])
 
-    def _goes_another_way(self, on_foot: bool = False) -> bool:
-        """Whether a person finds another way to its goals from where it is, and takes it; ``on_foot``: rather
-        one over no obstacle."""
+    def _goes_another_way(self, round_it: bool = False) -> bool:
+        """Whether a person finds another way to its goals from where it is, and takes it; ``round_it``: over
+        no obstacle, or at least not over the next one, if there is such a way."""
         if not self._errand.goals or not isinstance(self._driver, HumanDriver):
             return False
-        goals, speed, facing = self._goals_left, self._errand.speed, self._errand.facing
+        goals, speed, closed = self._goals_left, self._errand.speed, self._errand.closed
         try:
-            if on_foot:
-                plan = self._driver.go_on_foot(goals, speed)
+            if round_it:
+                plan, closed = self._driver.go_round(goals, speed, closed)
             else:
-                plan = self._driver.go_to(goals, speed, facing)
+                plan = self._driver.go_without(goals, speed, closed)
         except (NoWay, RuntimeInputError, LocomotionError):
             return False
+        self._errand = replace(self._errand, closed=closed)
         self._depart(plan)
         return True
 
@@ -252,7 +285,22 @@ class Agent:
         """Whether one that is stuck or lost takes another way, if it can round what it has not cleared."""
         attempts = self._errand.attempts + 1
         self._errand = replace(self._errand, attempts=attempts)
-        return attempts <= _ATTEMPTS and self._goes_another_way(on_foot=True)
+        return attempts <= _ATTEMPTS and self._goes_another_way(round_it=True)
+
+    def _balks(self, event: bodily.WentBack) -> None:
+        """A person goes back for another run-up: the second time it goes another way if there is one, or else
+        straight to the beginning of a run-up of its own."""
+        driver = self._driver
+        assert isinstance(driver, HumanDriver)
+        obstacle = f"the {event.affordance} of {event.size:.2f} m"
+        self._hindered(f"it goes back {event.distance:.1f} m for another run-up to {obstacle}")
+        tag = driver.tag_ahead
+        self._errand = replace(self._errand, balked=(*self._errand.balked, tag))
+        times = self._errand.balked.count(tag)
+        if times >= _TURNINGS:
+            driver.give_up(f"it has gone back {times} times and finds no run-up to {obstacle}")
+        elif times % 2 == 0:
+            self._goes_another_way(round_it=times == 2)
 
     @property
     def _carried_off(self) -> bool:
@@ -265,6 +313,9 @@ class Agent:
         if isinstance(self._driver, AnimalDriver):
             self._driver.take_note()
         for event in self.news:
+            if isinstance(event, bodily.WentBack):
+                self._balks(event)
+                continue
             among_others = isinstance(event, bodily.GotStuck) and event.among_others
             if isinstance(event, _HELPLESS) and not among_others and self._tries_again():
                 continue
@@ -272,7 +323,7 @@ class Agent:
             if isinstance(told, Fell | Lost):
                 self._blocked = False
             if told is not None:
-                self._world.report(told)
+                self._tell(told)
             if isinstance(told, GotUp) and self._carried_off:
                 self._goes_another_way()
         self.news.clear()
@@ -304,13 +355,15 @@ class Agent:
 
     def save(self) -> AgentState:
         """Everything needed to continue from here."""
-        return AgentState(self.body, self._born, self._driver.save(), self._blocked, self._goal, self._errand)
+        return AgentState(
+            self.body, self._born, self._driver.save(), self._blocked, self._goal, self._errand, self._headway
+        )
 
     def restore(self, state: AgentState) -> None:
         """Continue from a state of this agent."""
         self._driver.restore(state.driver)
         self._born, self._blocked, self._goal = state.born, state.blocked, state.goal
-        self._errand = state.errand
+        self._errand, self._headway = state.errand, state.headway
 
     def state_hash(self) -> str:
         """Hexadecimal digest of everything that decides how it goes on."""
@@ -332,7 +385,7 @@ class Agent:
         if isinstance(event, bodily.Cleared):
             return SkillFinished(**base, skill=event.affordance, height=event.height)
         if isinstance(event, bodily.GotStuck):
-            return Stuck(**base)
+            return Stuck(**base, reason=event.reason)
         if isinstance(event, bodily.MissedGoal):
             return Lost(**base, reason=f"passed the goal at a distance of {event.distance:.1f} m")
         if isinstance(event, bodily.BackedOut):

@@ -53,6 +53,16 @@ class Driver(Protocol):
         ...
 
     @property
+    def left(self) -> float:
+        """[m] of its way that are still before it."""
+        ...
+
+    @property
+    def hindrance(self) -> str:
+        """Why one on its way gets nowhere, as far as it knows."""
+        ...
+
+    @property
     def skills(self) -> Mapping[str, tuple[float, float]]: ...
     def transforms(self) -> np.ndarray: ...
     def transforms_between(self, share: float) -> np.ndarray:

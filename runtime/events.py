@@ -11,6 +11,7 @@ __all__ = [
     "Event",
     "Fell",
     "GotUp",
+    "Hindered",
     "Lost",
     "SkillFinished",
     "SkillStarted",
@@ -139,11 +140,24 @@ class Lost(Event):
 
 
 @dataclass(frozen=True)
-class Stuck(Event):
-    """The agent makes no headway any more."""
+class Hindered(Event):
+    """The agent gets nowhere: it goes back for another run-up, or has made no headway for 10 s. ``reason``
+    says why. It goes on trying, by another way if need be, until it gets on or is `Stuck`."""
+
+    reason: str
 
     def _what(self) -> str:
-        return f"is stuck at {_place(self.position)}"
+        return f"gets nowhere at {_place(self.position)}: {self.reason}"
+
+
+@dataclass(frozen=True)
+class Stuck(Event):
+    """The agent makes no headway any more and has given up; ``reason`` says why."""
+
+    reason: str
+
+    def _what(self) -> str:
+        return f"is stuck at {_place(self.position)}: {self.reason}"
 
 
 def _place(point: Point) -> str:

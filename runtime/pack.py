@@ -154,6 +154,15 @@ class AnimalDriver:
         return self.animal.progress
 
     @property
+    def left(self) -> float:
+        length = self.plans[-1].length if self.plans else 0.0
+        return (1.0 - self.progress) * length
+
+    @property
+    def hindrance(self) -> str:
+        return "others are in its way" if self.pace < 1.0 else "it makes no headway"
+
+    @property
     def skills(self) -> Mapping[str, tuple[float, float]]:
         return {}
 

@@ -16,6 +16,7 @@ from locomotion.giving_way import SPACING, Course
 from locomotion.leads import can_begin, leads
 from locomotion.library import learned_skills
 from locomotion.rehearsal import REHEARSALS
+from locomotion.run_up_room import cramped_links
 from runtime.drivers import PLANS_KEPT, Driver, Follower, radius_of, recall
 from runtime.errors import RuntimeInputError
 from runtime.figure import Figure
@@ -25,6 +26,7 @@ from runtime.planning import NoWay, Plan, make_plan, way_holds
 
 __all__ = ["HumanDriver", "People"]
 
+_STEEP = 20.0  # [degrees] of ground that is worth mentioning
 _HERE = 1e-3  # [m] long ways lead to where it is: one that moves has to come back there
 
 
@@ -113,6 +115,48 @@ class HumanDriver:
         return self.human.arc_length / length if length > 0.0 else 1.0
 
     @property
+    def left(self) -> float:
+        return self.plans[-1].length - self.human.arc_length if self.plans else 0.0
+
+    @property
+    def hindrance(self) -> str:
+        human, ahead = self.human, self.human.obstacle_ahead
+        if human.status == "getting up":
+            return f"it has not got up again{self._lie}"
+        if human.status == "scrambling":
+            return f"it finds no hold{self._lie}"
+        if human.pace < 1.0:
+            return "others are in its way"
+        if human.way.interrupted is not None:
+            return "it goes back for another run-up" if ahead else "it goes back to let others by"
+        if ahead is not None:
+            return f"it finds no run-up to the {ahead.affordance} of {ahead.size:.2f} m"
+        return f"it makes no headway{self._lie}"
+
+    @property
+    def _lie(self) -> str:
+        """Where the ground under it is steep, how steep it is."""
+        degrees = np.degrees(np.arctan(self.human.slope_here))
+        return f" on ground of {degrees:.0f} degrees" if degrees >= _STEEP else ""
+
+    @property
+    def can_turn(self) -> bool:
+        """Whether it is on its way and can be told another one: it does not wait for others, and does not lie
+        on the ground."""
+        return self.human.pace >= 1.0 and self.human.status in ("walking", "running", "scrambling")
+
+    @property
+    def tag_ahead(self) -> str:
+        """Of the obstacle that it comes to next; empty where there is none."""
+        obstacles, ahead = self._level.graph.obstacles, self.human.obstacle_ahead
+        if ahead is None:
+            return ""
+        links = self._level.graph.links
+        away = np.linalg.norm(links.edge[:, :2] - ahead.position[:2], axis=1)
+        away[links.affordance != ahead.affordance] = np.inf
+        return str(obstacles.tag[links.obstacle[np.argmin(away)]]) if len(away) else ""
+
+    @property
     def skills(self) -> Mapping[str, tuple[float, float]]:
         return skill_ranges(self.human.clearing)
 
@@ -134,10 +178,12 @@ class HumanDriver:
     def plan(self, goals: np.ndarray) -> Plan:
         return self._plan(goals, self.skills)
 
-    def _plan(self, goals: np.ndarray, skills: Mapping[str, tuple[float, float]]) -> Plan:
+    def _plan(
+        self, goals: np.ndarray, skills: Mapping[str, tuple[float, float]], closed: Sequence[str] = ()
+    ) -> Plan:
         velocity = self.human.velocity[:2]
         moving = velocity if np.linalg.norm(velocity) > 0.5 else None
-        plan_from = partial(self._plan_from, list(goals), skills)
+        plan_from = partial(self._plan_from, list(goals), skills, self._closed_links(closed))
         try:
             plan: Plan | NoWay = plan_from(self.position, moving)
         except NoWay as error:  # it may fit where it comes to, or have to come back
@@ -166,12 +212,19 @@ class HumanDriver:
         self,
         goals: Sequence[np.ndarray],
         skills: Mapping[str, tuple[float, float]],
+        closed_links: np.ndarray,
         start: np.ndarray,
         direction: np.ndarray | None,
         lead: np.ndarray | None = None,
     ) -> Plan:
         graph, radius = self._level.graph, PERSON_RULES["radius"]
-        return make_plan(graph, start, goals, radius, skills, direction, lead=lead)
+        return make_plan(graph, start, goals, radius, skills, direction, lead=lead, closed_links=closed_links)
+
+    def _closed_links(self, tags: Sequence[str]) -> np.ndarray:
+        """Indices of the links over obstacles of these ``tags``, and of those without room for a run-up."""
+        graph = self._level.graph
+        of_tags = np.flatnonzero(np.isin(graph.obstacles.tag[graph.links.obstacle], list(tags)))
+        return np.union1d(cramped_links(graph, PERSON_RULES["radius"]), of_tags)
 
     def go_to(self, goals: np.ndarray, speed: float, facing: float | None) -> Plan:
         if facing is not None:
@@ -180,13 +233,26 @@ class HumanDriver:
             raise RuntimeInputError("it has fallen and cannot go anywhere")
         return self._take(self.plan(goals), speed)
 
-    def go_on_foot(self, goals: np.ndarray, speed: float) -> Plan:
-        """As `go_to`, over no obstacle if there is such a way."""
-        try:
-            plan = self._plan(goals, {})
-        except NoWay:
-            plan = self.plan(goals)
-        return self._take(plan, speed)
+    def go_without(self, goals: np.ndarray, speed: float, closed: Sequence[str]) -> Plan:
+        """As `go_to`, over none of the obstacles of the tags ``closed``."""
+        return self._take(self._plan(goals, self.skills, closed), speed)
+
+    def go_round(
+        self, goals: np.ndarray, speed: float, closed: tuple[str, ...]
+    ) -> tuple[Plan, tuple[str, ...]]:
+        """As `go_without`, over no obstacle at all, or not over the next one, if there is such a way; and the
+        tags of what is closed then."""
+        ahead = self.tag_ahead
+        choices = [({}, closed), (self.skills, closed)]
+        if ahead:
+            choices.insert(1, (self.skills, (*closed, ahead)))
+        for number, (skills, tags) in enumerate(choices, start=1):
+            try:
+                return self._take(self._plan(goals, skills, tags), speed), tags
+            except NoWay:
+                if number == len(choices):
+                    raise
+        raise AssertionError
 
     def _take(self, plan: Plan, speed: float) -> Plan:
         if plan.length > _HERE:
@@ -236,8 +302,11 @@ class HumanDriver:
     def make_room(self) -> None:
         self.human.way.make_room(self.human.on_feet.walk_limits, self.human.ticks)
 
-    def give_up(self) -> None:
-        self.human.give_up()
+    def give_up(self, reason: str | None = None) -> None:
+        if reason is None:
+            self.human.give_up()
+        else:
+            self.human.give_up(reason)
 
     def end_in(self, ahead: float) -> None:
         course, count = self.human.course(), round(ahead / SPACING) + 1

@@ -7,7 +7,9 @@ import numpy as np
 
 import navmesh
 from locomotion import LocomotionError, ObstacleAhead, Smoothing, smooth_route
+from locomotion.lining_up import lined_up
 from locomotion.route_smoothing import RUNNING
+from locomotion.run_up_room import LEAST_RUN_UP, straight_before
 from navmesh.holding import line_holds
 from navmesh.route import Route
 
@@ -61,8 +63,10 @@ def make_plan(
     direction: np.ndarray | None = None,
     smoothing: Smoothing = RUNNING,
     lead: np.ndarray | None = None,
+    closed_links: np.ndarray | Sequence[int] = (),
 ) -> Plan:
-    """Plan from ``start`` (3,) through ``goals``, each (3,), for a body of ``radius`` [m] with ``skills``.
+    """Plan from ``start`` (3,) through ``goals``, each (3,), for a body of ``radius`` [m] with ``skills``,
+    over no link of ``closed_links`` (indices).
 
     ``direction`` (2,) is where the body is moving, None when it stands; ``smoothing`` is what it wants of its
     path. ``lead`` (n, 3) [m] is how the path begins in any case, from ``start``. Raises `NoWay`.
@@ -73,12 +77,15 @@ def make_plan(
         points.append(lead)
         begun, start = _length(lead), lead[-1]
     for index, goal in enumerate(goals):
-        route = graph.find_path(start, goal, radius=radius, skills=skills)
+        route = graph.find_path(start, goal, radius=radius, skills=skills, closed_links=closed_links)
         if route.status != "complete":
-            raise NoWay(index, why_not(graph, route, start, goal, radius, skills))
+            raise NoWay(index, why_not(graph, route, start, goal, radius, skills, closed_links))
         if len(route.waypoints) < 2:
             ends.append(begun)
             continue
+        route = lined_up(route, skills, closed_links)
+        if index > 0 and direction is not None and _turns_back(direction, route.waypoints):
+            direction = None  # it stands at its goal and turns: a bend would lead past it
         try:
             smooth = smooth_route(route, smoothing, direction)
         except LocomotionError as error:
@@ -139,14 +146,18 @@ def why_not(
     goal: np.ndarray,
     radius: float,
     skills: Mapping[str, tuple[float, float]],
+    closed_links: np.ndarray | Sequence[int] = (),
 ) -> str:
-    """Why ``route``, found from ``start`` to ``goal`` (3,) for a body of ``radius`` [m] with ``skills``, does
-    not lead there: over what a way would lead is named."""
+    """Why ``route``, found from ``start`` to ``goal`` (3,) for a body of ``radius`` [m] with ``skills`` but
+    over none of ``closed_links``, does not lead there: over what a way would lead is named."""
     if route.status == "off_graph":
         if graph.find_path(start, start, radius=radius).status == "off_graph":
             return "the way there begins at a place where the body does not fit"
         return "it is not near a place where the body fits"
     links = graph.links
+    shut = graph.find_path(start, goal, radius=radius, skills=skills) if len(closed_links) else route
+    if shut.status == "complete":
+        return "no way leads there without " + ", ".join(_cramped(graph, shut, radius, closed_links))
     every = dict.fromkeys(np.unique(links.affordance).tolist(), (0.0, float(links.height.max(initial=0.0))))
     over = graph.find_path(start, goal, radius=radius, skills=every)
     reason = "no way leads there on foot or with the skills at hand"
@@ -162,6 +173,20 @@ def why_not(
     return f"{reason}: a way would lead over {', '.join(beyond)}; there are {offer or 'no skills'}"
 
 
+def _cramped(
+    graph: navmesh.NodeGraph, route: Route, radius: float, closed_links: np.ndarray | Sequence[int]
+) -> list[str]:
+    """What is wrong with each of the ``closed_links`` on a route."""
+    kinds, sizes = graph.obstacles.affordance, graph.obstacles.size
+    straight = straight_before(graph, radius, LEAST_RUN_UP)
+    return [
+        f"the {kinds[use.obstacle]} of {sizes[use.obstacle]:.2f} m, which has {straight[use.link]:.1f} m for "
+        f"a straight run-up (at least {LEAST_RUN_UP:g} m are needed)"
+        for use in route.links
+        if use.link in set(np.asarray(closed_links).tolist())
+    ]
+
+
 def _offered(skills: Mapping[str, tuple[float, float]], kind: str, height: float) -> bool:
     low, high = skills.get(kind, (np.inf, -np.inf))
     return low <= height <= high
@@ -172,6 +197,10 @@ def _heading(points: np.ndarray) -> np.ndarray | None:
     steps = np.diff(points[:, :2], axis=0)
     onward = np.flatnonzero(np.linalg.norm(steps, axis=1) > 1e-6)
     return steps[onward[-1]] if len(onward) else None
+
+
+def _turns_back(direction: np.ndarray, waypoints: np.ndarray) -> bool:
+    return float(direction @ (waypoints[1] - waypoints[0])[:2]) < 0.0
 
 
 def _length(points: np.ndarray) -> float:

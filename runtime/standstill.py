@@ -1,18 +1,53 @@
-"""Bodies that wait for each other for ever: one goes back to let the others by, and if that does not help
-either, they are stuck."""
+"""Agents that get nowhere: when they say so, and what they do about it.
+
+`Headway` is what an agent remembers of it: whoever has made none for `PATIENCE` says so (`runtime.Hindered`),
+whatever the reason, and again as long as nothing else happens to it. Those that wait for each other for ever
+are untangled: one goes back to let the others by, and if that does not help either, they are stuck.
+"""
+
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from locomotion.gathering import ROOM
 from runtime.moment import Moment
 
-__all__ = ["GIVEN_UP", "STANDSTILL", "untangle"]
+__all__ = ["ANOTHER_WAY", "GIVEN_UP", "PATIENCE", "STANDSTILL", "Headway", "untangle"]
+
+PATIENCE = 10.0
+"""[s] without headway, and without an event, after which an agent says so."""
+ANOTHER_WAY = 25.0
+"""[s] without headway after which an agent that does not wait for others does something else."""
+_STEP = 0.25  # [m] nearer to its goal that count as headway
 
 STANDSTILL = 8.0
 """[s] for which all who wait for each other have made no headway when one of them goes back."""
 GIVEN_UP = 30.0
 """[s] after which they are stuck."""
 _MOVES = 0.2  # [m/s] of one that does not follow a path
+
+
+@dataclass(frozen=True)
+class Headway:
+    """``left``: [m] the least that was left of its way; ``since``: [s] of the world, when that was; ``told``:
+    when something was last told of the agent; ``tried``: when it last did something else."""
+
+    left: float = np.inf
+    since: float = 0.0
+    told: float = 0.0
+    tried: float = 0.0
+
+    def seen(self, left: float, now: float) -> "Headway":
+        """As it is ``now``, with so much ``left``."""
+        return replace(self, left=left, since=now) if left < self.left - _STEP else self
+
+    def late(self, now: float) -> bool:
+        """Whether it is time to say that it gets nowhere."""
+        return now - max(self.since, self.told) >= PATIENCE - 1e-9
+
+    def desperate(self, now: float) -> bool:
+        """Whether it is time to do something else."""
+        return now - max(self.since, self.tried) >= ANOTHER_WAY - 1e-9
 
 
 def untangle(moment: Moment, index: int) -> None:

@@ -131,6 +131,14 @@ class WalkerDriver:
         return float(np.clip(1.0 - self.walker.left / length, 0.0, 1.0))
 
     @property
+    def left(self) -> float:
+        return self.walker.left
+
+    @property
+    def hindrance(self) -> str:
+        return "it waits for its turn" if self.walker.queues else "others are in its way"
+
+    @property
     def skills(self) -> Mapping[str, tuple[float, float]]:
         return {}
 

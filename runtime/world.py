@@ -36,6 +36,7 @@ __all__ = ["BODIES", "World", "WorldState"]
 
 _UNREAD = 100_000
 """Events that are kept for one who does not read them; the oldest are forgotten first."""
+_LOOKS = 50  # ticks between two looks at whether an agent makes headway
 _E = TypeVar("_E", bound=Event)
 
 
@@ -261,6 +262,8 @@ class World:
                 for agent in self.agents.values():
                     if agent.news:
                         agent.notice()
+                for agent in list(self.agents.values())[self._ticks % _LOOKS :: _LOOKS]:
+                    agent.watch()
                 self._tell()
         finally:
             self._stepping = False

@@ -93,6 +93,11 @@ class Walker:
         """[m] of its route that are still before it."""
         return self.crowd.left(self.index)
 
+    @property
+    def queues(self) -> bool:
+        """Whether it waits for its turn at a narrow place."""
+        return bool(self._row[at.PASSAGE] in (at.WAITING, at.RETREATING))
+
     def go_to(self, goals: ArrayLike, speed: float = 1.4, facing: float | None = None) -> list[Route]:
         """Go through ``goals`` (k, 3) [m] at up to ``speed`` [m/s], then face ``facing`` [rad], by default
         as it arrives. Returns the routes to them.

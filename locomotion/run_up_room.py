@@ -1,0 +1,35 @@
+"""Links before which there is no room for a person's run-up."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from navmesh.graph import NodeGraph
+from navmesh.queries import cast_ray
+
+__all__ = ["LEAST_RUN_UP", "cramped_links", "straight_before"]
+
+LEAST_RUN_UP = 4.0
+"""[m] free straight before an edge: with less nobody has come to take off, whether to jump, vault, drop or
+leap over a gap, of whatever size."""
+
+
+def cramped_links(graph: NodeGraph, radius: float) -> NDArray[np.int64]:
+    """(k,) indices of the links of ``graph`` with less than `LEAST_RUN_UP` straight before their edge for a
+    body of ``radius`` [m]; worked out once."""
+    kept = graph.cache.setdefault("cramped_links", {})
+    if radius not in kept:
+        kept[radius] = np.flatnonzero(straight_before(graph, radius, LEAST_RUN_UP) < LEAST_RUN_UP - 1e-6)
+    return kept[radius]
+
+
+def straight_before(graph: NodeGraph, radius: float, most: float) -> NDArray[np.float64]:
+    """(l,) [m] that a body of ``radius`` [m] can walk straight up to the edge of each link, looked at up to
+    ``most`` [m] from it."""
+    links = graph.links
+    if not len(links):
+        return np.empty(0)
+    along = links.start[:, :2] - links.edge[:, :2]
+    along /= np.linalg.norm(along, axis=1, keepdims=True)
+    behind = np.maximum(most - links.run_up, 0.0)
+    ends = links.start + np.column_stack([along * np.maximum(behind, 1e-3)[:, None], np.zeros(len(links))])
+    return links.run_up + behind * np.asarray(cast_ray(graph, links.start, ends, radius).share)

@@ -10,18 +10,20 @@ is rehearsed before it is done.
 import os
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
+from annotated_types import Ge, Le
 
 from locomotion import controller
-from locomotion.errors import LocomotionError
 from locomotion.person import person_digest
 from locomotion.skill import RunSkill
-from locomotion.slow_down import read_changes, slowed_tables, touchdown
+from locomotion.skill_file import RELEARN, read_skill
+from locomotion.slow_down import ChangesHeader, changes, slowed_tables, touchdown
 from locomotion.walk_layout import GAINS
 from locomotion.walk_skill import WalkSkill
 from navmesh.files.archive import write_archive
+from navmesh.files.schema import Schema
 
 __all__ = ["BRAKE_SKILL", "BRAKING", "FIRST_STEPS", "SLOWEST", "BrakeSkill", "load_brake_skill"]
 
@@ -33,7 +35,6 @@ FIRST_STEPS = 3
 SLOWEST = 0.3
 """[m/s] to which the reference speed falls."""
 _BORNE = 100.0  # [N] under a foot that bears the body
-_KIND, _VERSION = "brake skill", 1
 
 
 @dataclass(frozen=True)
@@ -79,17 +80,22 @@ class BrakeSkill:
         header = {"person": person_digest(), "gains": list(GAINS), "meta": self.meta}
         header |= {"deceleration": self.deceleration, "reach": self.reach, "hold": self.hold}
         arrays = {"knots": self.knots, "change": self.change, "gains": self.gains}
-        write_archive(path, _KIND, _VERSION, header, arrays)
+        write_archive(path, BRAKE_FILE.kind, BRAKE_FILE.version, header, arrays)
+
+
+class _BrakeHeader(ChangesHeader):
+    deceleration: Annotated[float, Ge(0.0), Le(100.0)]
+    reach: Annotated[float, Ge(-10.0), Le(10.0)]
+    hold: Annotated[float, Ge(0.0), Le(10.0)]
+
+
+BRAKE_FILE = Schema("brake skill", 1, _BrakeHeader, changes(FIRST_STEPS, len(GAINS)), RELEARN)
 
 
 def load_brake_skill(path: str | os.PathLike[str] = BRAKE_SKILL) -> BrakeSkill:
     """Read a brake skill; `LocomotionError` if it is missing, cut off, of another version or another
     person."""
-    header, arrays = read_changes(path, _KIND, _VERSION, (FIRST_STEPS, len(GAINS)))
-    deceleration, reach, hold = (
-        float(header.get(name, np.nan)) for name in ("deceleration", "reach", "hold")
+    header, arrays = read_skill(path, BRAKE_FILE)
+    return BrakeSkill(
+        **arrays, deceleration=header.deceleration, reach=header.reach, hold=header.hold, meta=header.meta
     )
-    if not np.isfinite([deceleration, reach, hold]).all():
-        raise LocomotionError(f"{path}: deceleration, reach and hold are not finite numbers")
-    meta = header.get("meta", {})
-    return BrakeSkill(**arrays, deceleration=deceleration, reach=reach, hold=hold, meta=meta)

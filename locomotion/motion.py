@@ -2,21 +2,24 @@
 
 import os
 from dataclasses import dataclass
+from typing import Self
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import model_validator
 
 from locomotion.clip import Clip
 from locomotion.errors import LocomotionError
 from locomotion.person import JOINT_NAMES, person_spec
 from navmesh.files.archive import ArchiveError, read_archive, write_archive
+from navmesh.files.schema import Header, Numbers, Schema
 
 __all__ = ["Motion", "load_motion", "lowest_points", "motion_of_clip", "place_on_ground"]
 
-_KIND, _VERSION = "motion", 1
-_RATE = 60.0  # [Hz] at which a clip of keyframes is played
 _RATES = (1.0, 1e4)  # [Hz] of a file
+_UNIT = 1e-3  # by which the length of a quaternion may be off 1
+_RATE = 60.0  # [Hz] at which a clip of keyframes is played
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,32 +48,50 @@ class Motion:
         """Write the motion; the file appears whole or not at all."""
         header = {"name": self.name, "rate": self.rate, "grounded": self.grounded}
         header["joints"] = list(JOINT_NAMES)
-        write_archive(path, _KIND, _VERSION, header, {"qpos": self.qpos})
+        write_archive(path, MOTION_FILE.kind, MOTION_FILE.version, header, {"qpos": self.qpos})
+
+
+class _MotionHeader(Header):
+    name: str = ""
+    rate: float
+    grounded: bool = False
+    joints: tuple[str, ...]
+
+    @model_validator(mode="after")
+    def _fits_the_person(self) -> Self:
+        if self.joints != JOINT_NAMES:
+            raise ValueError("the motion of a person with other joints")
+        slowest, fastest = _RATES
+        if not slowest <= self.rate <= fastest:
+            raise ValueError(f"its rate must be {slowest:g} to {fastest:g} Hz, not {self.rate:g}")
+        return self
+
+
+def _check(header: _MotionHeader, arrays: dict[str, np.ndarray]) -> str | None:
+    qpos = arrays["qpos"]
+    if not len(qpos):
+        return "qpos has no frames"
+    off = np.abs(np.linalg.norm(qpos[:, 3:7], axis=1) - 1.0) > _UNIT
+    return f"frame {int(np.argmax(off))} is turned by no unit quaternion" if off.any() else None
+
+
+MOTION_FILE = Schema(
+    kind="motion",
+    version=1,
+    header=_MotionHeader,
+    arrays={"qpos": Numbers("frames", 7 + len(JOINT_NAMES), low=-1e6, high=1e6)},
+    remedy="import it again (surefoot clip)",
+    check=_check,
+)
 
 
 def load_motion(path: str | os.PathLike[str]) -> Motion:
     """Read a motion; `LocomotionError` if it is missing, cut off, of another version or another person."""
     try:
-        header, arrays = read_archive(path, _KIND, _VERSION)
+        header, arrays = read_archive(path, MOTION_FILE)
     except ArchiveError as error:
         raise LocomotionError(str(error)) from error
-    qpos = arrays.get("qpos")
-    if header.get("joints") != list(JOINT_NAMES):
-        raise LocomotionError(f"{path}: the motion of a person with other joints; import it again")
-    if (
-        qpos is None or qpos.dtype != np.float64
-        or qpos.ndim != 2 or qpos.shape[1] != 7 + len(JOINT_NAMES) or not len(qpos)
-    ):  # fmt: skip
-        size = 7 + len(JOINT_NAMES)
-        raise LocomotionError(f"{path}: not a whole motion: it must hold qpos (n, {size}) float64")
-    if not np.isfinite(qpos).all():
-        raise LocomotionError(f"{path}: frame {int(np.argwhere(~np.isfinite(qpos))[0, 0])} is not finite")
-    rate, (slowest, fastest) = header.get("rate"), _RATES
-    if not isinstance(rate, int | float) or not slowest <= rate <= fastest:
-        raise LocomotionError(
-            f"{path}: not a whole motion: its rate must be {slowest:g} to {fastest:g} Hz, not {rate!r}"
-        )
-    return Motion(str(header.get("name", "")), float(rate), qpos, bool(header.get("grounded", False)))
+    return Motion(header.name, header.rate, arrays["qpos"], header.grounded)
 
 
 def motion_of_clip(clip: Clip) -> Motion:

@@ -4,17 +4,19 @@ import os
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, Self
 
 import mujoco
 import numpy as np
+from annotated_types import Ge, Gt, Le
+from pydantic import model_validator
 
 from locomotion import controller
 from locomotion.clip import Clip, load_clip
-from locomotion.errors import LocomotionError
 from locomotion.person import JOINT_NAMES, STANDING_HEIGHT, PersonIndex, person_digest
-from locomotion.skill_file import read_skill
+from locomotion.skill_file import RELEARN, SkillHeader, learned_numbers, read_skill, speeds
 from navmesh.files.archive import write_archive
+from navmesh.files.schema import Schema
 
 __all__ = [
     "RUN_CLIP",
@@ -28,7 +30,6 @@ __all__ = [
 
 RUN_CLIP = Path(__file__).parent / "clips" / "run.yaml"
 RUN_SKILL = Path(__file__).parent / "skills" / "run.npz"
-_KIND, _VERSION = "run skill", 1
 _SAMPLES = 64
 
 
@@ -89,32 +90,42 @@ class RunSkill:
             "meta": self.meta,
         }
         arrays = {"knots": self.knots, "table": self.table, "state_reference": self.state_reference}
-        write_archive(path, _KIND, _VERSION, header, arrays)
+        write_archive(path, RUN_FILE.kind, RUN_FILE.version, header, arrays)
+
+
+class _RunHeader(SkillHeader):
+    max_lateral: Annotated[float, Gt(0.0), Le(100.0)]
+    speeds: tuple[Annotated[float, Ge(0.0)], Annotated[float, Le(20.0)]]
+    step_length: tuple[float, float]
+
+    @model_validator(mode="after")
+    def _has_speeds(self) -> Self:
+        if self.speeds[0] >= self.speeds[1]:
+            raise ValueError("the lowest speed must be below the highest")
+        return self
+
+
+RUN_FILE = Schema(
+    kind="run skill",
+    version=1,
+    header=_RunHeader,
+    arrays={
+        "knots": speeds("speeds"),
+        "table": learned_numbers("speeds", sum(controller.PARAMETERS.values())),
+        "state_reference": learned_numbers(9, len(controller.SENSORS)),
+    },
+    remedy=RELEARN,
+)
 
 
 def load_run_skill(path: str | os.PathLike[str] = RUN_SKILL) -> RunSkill:
     """Read a run skill; `LocomotionError` if it is missing, cut off, of another version or of another
     person."""
-    header, arrays = read_skill(path, _KIND, _VERSION)
-    width = sum(controller.PARAMETERS.values())
-    try:
-        knots, table, reference = arrays["knots"], arrays["table"], arrays["state_reference"]
-        low, high = (float(x) for x in header["speeds"])
-        a, b = (float(x) for x in header["step_length"])
-        max_lateral = float(header["max_lateral"])
-    except (KeyError, TypeError, ValueError) as error:
-        raise LocomotionError(f"{path}: not a whole run skill: {error}") from error
-    if (
-        table.shape != (len(knots), width)
-        or reference.ndim != 2
-        or reference.shape[1] != len(controller.SENSORS)
-    ):
-        raise LocomotionError(f"{path}: parameters of shape {table.shape}, expected ({len(knots)}, {width})")
-    if not (np.isfinite(table).all() and np.isfinite(reference).all() and (np.diff(knots) > 0).all()):
-        raise LocomotionError(f"{path}: holds numbers that are not finite or speeds that do not grow")
+    header, arrays = read_skill(path, RUN_FILE)
     return RunSkill(
-        knots, table, reference, (low, high), max_lateral, (a, b), run_clip(), header.get("meta", {})
-    )
+        **arrays, speeds=header.speeds, max_lateral=header.max_lateral, step_length=header.step_length,
+        clip=run_clip(), meta=header.meta,
+    )  # fmt: skip
 
 
 def _place(

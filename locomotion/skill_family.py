@@ -9,10 +9,11 @@ import numpy as np
 
 from locomotion.errors import LocomotionError
 from locomotion.person import person_digest
-from locomotion.skill_file import read_skill
+from locomotion.skill_file import RELEARN, SkillHeader, learned_numbers, read_skill
 from navmesh.files.archive import write_archive
+from navmesh.files.schema import Rising, Schema
 
-__all__ = ["SkillFamily", "load_family", "smoothest"]
+__all__ = ["SkillFamily", "family_file", "load_family", "smoothest"]
 
 _VERSION = 1
 
@@ -77,24 +78,23 @@ def smoothest(heights: np.ndarray, values: np.ndarray, height: float) -> np.ndar
     return np.ascontiguousarray((basis @ weights).reshape(values.shape[1:]))
 
 
+class _FamilyHeader(SkillHeader):
+    run: str = ""
+    stride: tuple[float, float, float]
+
+
+def family_file(kind: str, width: int, sensed: tuple[int, int]) -> Schema[_FamilyHeader]:
+    """What a file holds with a family of ``width`` parameters and references of the shape ``sensed``."""
+    arrays = {
+        "heights": Rising("heights", low=0.0, high=10.0),
+        "table": learned_numbers("heights", width),
+        "references": learned_numbers("heights", *sensed),
+    }
+    return Schema(kind, _VERSION, _FamilyHeader, arrays, RELEARN)
+
+
 def load_family(path: str | os.PathLike[str], kind: str, width: int, sensed: tuple[int, int]) -> SkillFamily:
-    """Read a family of ``width`` parameters and references of the shape ``sensed``; `LocomotionError` if it
-    is missing, cut off, of another version or of another person."""
-    header, arrays = read_skill(path, kind, _VERSION)
-    try:
-        heights, table, references = arrays["heights"], arrays["table"], arrays["references"]
-        a, lag, b = (float(x) for x in header["stride"])
-    except (KeyError, TypeError, ValueError) as error:
-        raise LocomotionError(f"{path}: not a whole {kind}: {error}") from error
-    k = len(heights)
-    if k == 0 or (table.shape, references.shape) != ((k, width), (k, *sensed)):
-        shapes = table.shape, references.shape
-        raise LocomotionError(
-            f"{path}: arrays of shapes {shapes} do not fit {k} heights of {width} parameters"
-        )
-    finite = all(np.isfinite(a).all() for a in (heights, table, references))
-    if not finite or (np.diff(heights) <= 0).any():
-        raise LocomotionError(f"{path}: holds numbers that are not finite or heights that do not grow")
-    return SkillFamily(
-        kind, heights, table, references, (a, lag, b), str(header.get("run", "")), header.get("meta", {})
-    )
+    """Read a family, see `family_file`; `LocomotionError` if it is missing, cut off, of another version or of
+    another person."""
+    header, arrays = read_skill(path, family_file(kind, width, sensed))
+    return SkillFamily(kind, **arrays, stride=header.stride, run=header.run, meta=header.meta)

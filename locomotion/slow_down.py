@@ -10,25 +10,34 @@ import math
 import os
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import mujoco
 import numpy as np
+from pydantic import model_validator
 
 from locomotion import controller
-from locomotion.errors import LocomotionError
 from locomotion.person import PersonIndex, person_digest
 from locomotion.skill import RunSkill
-from locomotion.skill_file import read_skill
+from locomotion.skill_file import RELEARN, SkillHeader, learned_numbers, read_skill, speeds
 from locomotion.walk_layout import CAUGHT, GAINS, LEVEL, WALK_SPEED, WALK_STANCE, gain_limits, new_walk
 from locomotion.walk_skill import WalkSkill
 from locomotion.walk_steps import begin_swing
 from locomotion.walking import observe_walk
 from navmesh.files.archive import write_archive
+from navmesh.files.schema import Array, Schema, Size
 
 __all__ = [
-    "SLOWING", "SLOW_DOWN_SKILL", "SlowDownSkill", "can_walk_on", "load_slow_down_skill", "read_changes",
-    "slowed_tables", "touchdown", "walk_on",
+    "SLOWING",
+    "SLOW_DOWN_SKILL",
+    "ChangesHeader",
+    "SlowDownSkill",
+    "can_walk_on",
+    "changes",
+    "load_slow_down_skill",
+    "slowed_tables",
+    "touchdown",
+    "walk_on",
 ]  # fmt: skip
 
 SLOW_DOWN_SKILL = Path(__file__).parent / "skills" / "slow_down.npz"
@@ -40,7 +49,6 @@ _CATCHABLE, _WITHIN_REACH = 1.9, 0.45
 # foot at most, for it to do so when it is faster
 _OMEGA = 3.3  # [1/s] of the capture point
 _FIRST_STEPS = 4  # of the walk in which its gains become those of a walk on level ground
-_KIND, _VERSION = "slow-down skill", 1
 
 
 @dataclass(frozen=True)
@@ -79,7 +87,7 @@ class SlowDownSkill:
         """Write the skill for the present person; the file appears whole or not at all."""
         header = {"person": person_digest(), "gains": list(GAINS), "meta": self.meta}
         arrays = {"knots": self.knots, "change": self.change, "gains": self.gains}
-        write_archive(path, _KIND, _VERSION, header, arrays)
+        write_archive(path, SLOW_DOWN_FILE.kind, SLOW_DOWN_FILE.version, header, arrays)
 
 
 def slowed_tables(
@@ -97,27 +105,36 @@ def slowed_tables(
     return (all_knots, np.ascontiguousarray(table), *run.tables[2:-1], limits)
 
 
+class ChangesHeader(SkillHeader):
+    """Header of a skill that changes the run, and the walk after it."""
+
+    gains: tuple[str, ...]
+
+    @model_validator(mode="after")
+    def _names_the_gains(self) -> Self:
+        if self.gains != tuple(GAINS):
+            raise ValueError(f"must name the {len(GAINS)} gains of this release")
+        return self
+
+
+def changes(*gains: Size) -> dict[str, Array]:
+    """Arrays of such a skill; ``gains``: the shape of the walk's."""
+    width = sum(controller.PARAMETERS.values())
+    return {
+        "knots": speeds("speeds"),
+        "change": learned_numbers("speeds", width),
+        "gains": learned_numbers(*gains),
+    }
+
+
+SLOW_DOWN_FILE = Schema("slow-down skill", 1, ChangesHeader, changes(len(GAINS)), RELEARN)
+
+
 def load_slow_down_skill(path: str | os.PathLike[str] = SLOW_DOWN_SKILL) -> SlowDownSkill:
     """Read a slow-down skill; `LocomotionError` if it is missing, cut off, of another version or another
     person."""
-    header, arrays = read_changes(path, _KIND, _VERSION, (len(GAINS),))
-    return SlowDownSkill(**arrays, meta=header.get("meta", {}))
-
-
-def read_changes(
-    path: str | os.PathLike[str], kind: str, version: int, gains: tuple[int, ...]
-) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
-    """Header and arrays (``knots``, ``change``, ``gains``) of a skill that changes the run and the walk after
-    it; ``gains``: the shape of those. Raises `LocomotionError` as `load_slow_down_skill` does."""
-    header, arrays = read_skill(path, kind, version)
-    knots, change, given = (arrays.get(name, np.empty(0)) for name in ("knots", "change", "gains"))
-    width = sum(controller.PARAMETERS.values())
-    whole = knots.ndim == 1 and len(knots) > 1 and change.shape == (len(knots), width)
-    if not (whole and given.shape == gains and header.get("gains") == list(GAINS)):
-        raise LocomotionError(f"{path}: not a whole {kind}")
-    if not (all(np.isfinite(each).all() for each in (knots, change, given)) and (np.diff(knots) > 0).all()):
-        raise LocomotionError(f"{path}: holds numbers that are not finite or speeds that do not grow")
-    return header, {"knots": knots, "change": change, "gains": given}
+    header, arrays = read_skill(path, SLOW_DOWN_FILE)
+    return SlowDownSkill(**arrays, meta=header.meta)
 
 
 def can_walk_on(state: np.ndarray) -> bool:

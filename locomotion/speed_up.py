@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 
 from locomotion import controller
-from locomotion.errors import LocomotionError
 from locomotion.person import person_digest
 from locomotion.skill import RunSkill
-from locomotion.skill_file import read_skill
+from locomotion.skill_file import RELEARN, SkillHeader, learned_numbers, read_skill, speeds
 from navmesh.files.archive import write_archive
+from navmesh.files.schema import Schema
 
 __all__ = ["HASTE", "SPEED_UP_SKILL", "SpeedUpSkill", "is_fast_enough", "load_speed_up_skill"]
 
@@ -26,7 +26,6 @@ HASTE = 2.0
 """[m/s] by which the speed asked for may exceed the last step's while it speeds up."""
 _SHORT = 0.25  # [m/s] below the speed asked for at which it goes over to the run
 _STEP_TIMES = (0.22, 0.5)  # [s] shortest and longest step
-_KIND, _VERSION = "speed-up skill", 1
 
 
 @dataclass(frozen=True)
@@ -61,20 +60,27 @@ class SpeedUpSkill:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the skill for the present person; the file appears whole or not at all."""
         header = {"person": person_digest(), "meta": self.meta}
-        write_archive(path, _KIND, _VERSION, header, {"knots": self.knots, "change": self.change})
+        arrays = {"knots": self.knots, "change": self.change}
+        write_archive(path, SPEED_UP_FILE.kind, SPEED_UP_FILE.version, header, arrays)
+
+
+SPEED_UP_FILE = Schema(
+    kind="speed-up skill",
+    version=1,
+    header=SkillHeader,
+    arrays={
+        "knots": speeds("speeds"),
+        "change": learned_numbers("speeds", sum(controller.PARAMETERS.values())),
+    },
+    remedy=RELEARN,
+)
 
 
 def load_speed_up_skill(path: str | os.PathLike[str] = SPEED_UP_SKILL) -> SpeedUpSkill:
     """Read a speed-up skill; `LocomotionError` if it is missing, cut off, of another version or another
     person."""
-    header, arrays = read_skill(path, _KIND, _VERSION)
-    knots, change = (arrays.get(name, np.empty(0)) for name in ("knots", "change"))
-    width = sum(controller.PARAMETERS.values())
-    if not (knots.ndim == 1 and len(knots) > 1 and change.shape == (len(knots), width)):
-        raise LocomotionError(f"{path}: not a whole speed-up skill")
-    if not (np.isfinite(knots).all() and np.isfinite(change).all() and (np.diff(knots) > 0).all()):
-        raise LocomotionError(f"{path}: holds numbers that are not finite or speeds that do not grow")
-    return SpeedUpSkill(knots, change, header.get("meta", {}))
+    header, arrays = read_skill(path, SPEED_UP_FILE)
+    return SpeedUpSkill(**arrays, meta=header.meta)
 
 
 def is_fast_enough(state: np.ndarray, wanted: float) -> bool:

@@ -4,18 +4,19 @@ import math
 import os
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, Self
 
 import mujoco
 import numpy as np
+from annotated_types import Gt, Le
+from pydantic import model_validator
 
 from locomotion import controller
 from locomotion.anatomy import ANKLE
-from locomotion.errors import LocomotionError
 from locomotion.footholds import SOLE, bearing, foot_frame, ground_at, stand_on, within_ankle
 from locomotion.leg_kinematics import solve_leg
 from locomotion.person import JOINT_NAMES, PersonIndex, person_digest
-from locomotion.skill_file import read_skill
+from locomotion.skill_file import RELEARN, SkillHeader, read_skill
 from locomotion.walk_layout import (
     ATTITUDES,
     DOUBLE,
@@ -31,6 +32,7 @@ from locomotion.walk_layout import (
 )
 from locomotion.walking import observe_walk
 from navmesh.files.archive import write_archive
+from navmesh.files.schema import Numbers, Schema
 
 __all__ = [
     "RISING", "STEADYING_SPEED", "TABLES", "WALK_SKILL", "WalkSkill", "load_walk_skill", "plant",
@@ -46,7 +48,6 @@ STEADYING_SPEED = 1.0
 """[m/s] at which such a body makes its first steps, straight on."""
 _PASSING = 0.1  # [s] after which such a body is over its feet
 _STEADYING = 3  # steps of such a body that do not count yet
-_KIND, _VERSION = "walk skill", 3
 _WIDTH, _HIP_HEIGHT = 0.17, 0.83  # [m] of a stand: between the feet; of the hips above the lower sole
 _LOWER = 0.15  # [m] that the hips are lower per unit of slope
 _HIPS_BACK = 0.03  # [m] that the hips are behind the middle of where the feet bear
@@ -73,23 +74,44 @@ class WalkSkill:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the skill for the present person; the file appears whole or not at all."""
         header = {"person": person_digest(), "gains": list(GAINS), "speed": self.speed, "meta": self.meta}
-        write_archive(path, _KIND, _VERSION, header, {"tables": self.tables})
+        write_archive(path, WALK_FILE.kind, WALK_FILE.version, header, {"tables": self.tables})
+
+
+class _WalkHeader(SkillHeader):
+    gains: tuple[str, ...]
+    speed: Annotated[float, Gt(0.0), Le(10.0)] = 1.25
+
+    @model_validator(mode="after")
+    def _names_the_gains(self) -> Self:
+        if self.gains != tuple(GAINS):
+            raise ValueError(f"must name the {len(GAINS)} gains of this release")
+        return self
+
+
+def _check(header: _WalkHeader, arrays: dict[str, np.ndarray]) -> str | None:
+    tables, (low, high) = arrays["tables"], gain_limits()
+    outside = ~((tables >= low) & (tables <= high))
+    if not outside.any():
+        return None
+    name = list(GAINS)[int(np.argwhere(outside)[0, 1])]
+    return f"{name} is outside {GAINS[name][1]:g} to {GAINS[name][2]:g}"
+
+
+WALK_FILE = Schema(
+    kind="walk skill",
+    version=3,
+    header=_WalkHeader,
+    arrays={"tables": Numbers(TABLES, len(GAINS))},
+    remedy=RELEARN,
+    check=_check,
+)
 
 
 def load_walk_skill(path: str | os.PathLike[str] = WALK_SKILL) -> WalkSkill:
     """Read a walk skill; `LocomotionError` if it is missing, cut off, of another version or another
     person."""
-    header, arrays = read_skill(path, _KIND, _VERSION)
-    tables, (low, high) = arrays.get("tables"), gain_limits()
-    if tables is None or header.get("gains") != list(GAINS) or tables.shape != (TABLES, len(GAINS)):
-        raise LocomotionError(
-            f"{path}: not a whole walk skill: it must name and hold {TABLES} x {len(GAINS)} gains"
-        )
-    outside = ~((tables >= low) & (tables <= high))
-    if outside.any():
-        name = list(GAINS)[int(np.argwhere(outside)[0, 1])]
-        raise LocomotionError(f"{path}: {name} is outside {GAINS[name][1]:g} to {GAINS[name][2]:g}")
-    return WalkSkill(tables, float(header.get("speed", 1.25)), header.get("meta", {}))
+    header, arrays = read_skill(path, WALK_FILE)
+    return WalkSkill(arrays["tables"], header.speed, header.meta)
 
 
 def plant(

@@ -1,9 +1,9 @@
 """The node-radius graph: discs on the walkable surface, joined where a body can pass from one to the next."""
 
 import os
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, Any, cast
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from navmesh.affordances import obstacles_at
 from navmesh.build import Cells, Grid, find_cells, surface_of
 from navmesh.chunks import change_chunks
 from navmesh.errors import NavmeshError
-from navmesh.files import archive
+from navmesh.graph_file import read_graph, write_graph
 from navmesh.links import Links, make_links
 from navmesh.obstacle_rules import ObstacleRules
 from navmesh.obstacles import Obstacles
@@ -22,16 +22,13 @@ from navmesh.rules import WalkRules
 from navmesh.stages import Stages, all_soundings, grid_for, renew_cells
 from navmesh.surface import Surface
 from navmesh.tagging import TagFile
-from navmesh.tags import Tags
-from navmesh.terrain import Chunk, Terrain
+from navmesh.terrain import Terrain
 
 if TYPE_CHECKING:
     import networkx
 
 __all__ = ["NodeGraph"]
 
-_KIND = "surefoot navigation graph"
-_VERSION = 4
 _OBSTACLE_RULES = ObstacleRules()
 
 
@@ -195,23 +192,7 @@ class NodeGraph:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the graph to ``path``; `load` reads it back."""
-        surface = self.surface
-        arrays = {f"surface_{name}": getattr(surface, name) for name in _SURFACE_ARRAYS}
-        arrays |= {name: getattr(self, name) for name in _GRAPH_ARRAYS}
-        arrays |= {f"obstacles_{name}": array for name, array in self.obstacles.arrays().items()}
-        arrays |= {f"links_{name}": array for name, array in self.links.arrays().items()}
-        arrays |= {"terrain_vertices": self.terrain.vertices, "terrain_faces": self.terrain.faces}
-        header = {
-            "terrain": self.terrain.digest,
-            "level": self.terrain.name,
-            "rules": self.rules.to_dict(),
-            "resolution": surface.resolution,
-            "shape": list(surface.shape),
-            "chunks": [list(chunk) for chunk in self.terrain.chunks],
-            "obstacle_rules": None if self.obstacle_rules is None else self.obstacle_rules.to_dict(),
-            "tags": None if self.tags is None else self.tags.tags.model_dump(mode="json", exclude_none=True),
-        }
-        archive.write_archive(path, _KIND, _VERSION, header, arrays)
+        write_graph(path, self)
 
     @classmethod
     def load(
@@ -223,33 +204,8 @@ class NodeGraph:
         `ArchiveError` for a file that is missing, cut off, or of another version, `NavmeshError` for one
         made for another terrain or other rules.
         """
-        header, arrays = archive.read_archive(path, _KIND, _VERSION)
-        try:
-            surface = Surface(
-                resolution=float(header["resolution"]),
-                shape=(int(header["shape"][0]), int(header["shape"][1])),
-                **{name: arrays.pop(f"surface_{name}") for name in _SURFACE_ARRAYS},
-            )
-            graph = cls(
-                terrain=Terrain(
-                    arrays.pop("terrain_vertices"),
-                    arrays.pop("terrain_faces"),
-                    header["level"],
-                    tuple(Chunk(*chunk) for chunk in header["chunks"]),
-                ),
-                rules=WalkRules.from_dict(header["rules"]),
-                surface=surface,
-                **cast(dict[str, Any], {name: arrays.pop(name) for name in _GRAPH_ARRAYS}),
-                obstacles=Obstacles(**_unpacked(arrays, "obstacles_", Obstacles)),
-                links=Links(**_unpacked(arrays, "links_", Links)),
-                obstacle_rules=_read(header["obstacle_rules"], ObstacleRules.from_dict),
-                tags=_read(header["tags"], lambda tags: TagFile(Tags.model_validate(tags))),
-            )
-        except KeyError as error:
-            raise archive.ArchiveError(f"{path}: the navigation graph lacks {error}; bake it anew") from error
+        graph = cls(**read_graph(path))
         digest = graph.terrain.digest
-        if digest != header["terrain"]:
-            raise archive.ArchiveError(f"{path}: the navigation graph's terrain is damaged; bake it anew")
         if terrain is not None and terrain.digest != digest:
             raise NavmeshError(
                 f"{path}: baked from another terrain than {terrain.name} (digest {digest[:12]}…, "
@@ -365,34 +321,3 @@ class NodeGraph:
             if a < b:
                 graph.add_edge(a, b, width=width, length=length)
         return graph
-
-
-def _read(value: Any, make: Callable[[Any], Any]) -> Any:
-    return None if value is None else make(value)
-
-
-def _unpacked(arrays: dict[str, np.ndarray], prefix: str, kind: type) -> dict[str, np.ndarray]:
-    return {each.name: arrays.pop(prefix + each.name) for each in fields(kind)}
-
-
-_SURFACE_ARRAYS = (
-    "origin",
-    "column_start",
-    "cell_column",
-    "height",
-    "gradient",
-    "link",
-    "clearance",
-    "nearest",
-)
-_GRAPH_ARRAYS = (
-    "positions",
-    "radii",
-    "node_cell",
-    "label",
-    "edge_start",
-    "edge_target",
-    "edge_width",
-    "edge_portal",
-    "edge_cells",
-)

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -73,6 +74,16 @@ class AgentState:
     goal: tuple[float, float, float]
     errand: Errand
     headway: Headway
+
+    def check(self, name: str) -> None:
+        """Raises `RuntimeInputError` for what no agent can have saved, as far as that shows without its
+        body."""
+        errand = self.errand
+        numbers = [self.born, *self.goal, errand.speed, errand.facing or 0.0, *chain(*errand.goals)]
+        if not np.isfinite(numbers).all():
+            raise RuntimeInputError(f"{name} has been told numbers that are not finite")
+        if not name or errand.attempts < 0 or (errand.goals and errand.speed <= 0.0):
+            raise RuntimeInputError(f"{name!r} has been told what nobody can do")
 
 
 class Agent:

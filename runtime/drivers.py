@@ -6,7 +6,7 @@ animals in one call (`runtime.pack`), walkers in one crowd (`runtime.walkers`). 
 
 from collections import deque
 from collections.abc import Mapping, Sequence
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
@@ -14,13 +14,16 @@ from locomotion import PERSON_RULES
 from locomotion.events import Event
 from locomotion.giving_way import Course
 from locomotion.quadruped import BODY_NAMES, load_body
+from locomotion.saved_states.slots import check_array
+from runtime.errors import RuntimeInputError
 from runtime.figure import Figure
 from runtime.planning import Plan
 
-__all__ = ["BODIES", "PLANS_KEPT", "Driver", "Follower", "Population", "radius_of", "recall"]
+__all__ = ["BODIES", "PLANS_KEPT", "Driver", "Follower", "Population", "radius_of", "recall", "saved_parts"]
 
 BODIES = ("human", "walker", *BODY_NAMES)
 """What `World.spawn` can make."""
+_Saved = TypeVar("_Saved")
 PLANS_KEPT = 256
 """Plans that an agent remembers; a pursuer makes many."""
 
@@ -179,6 +182,20 @@ class Population(Protocol):
     def tick(self) -> None:
         """Advance all by 10 ms."""
         ...
+
+
+def saved_parts(state: Any, kind: type[_Saved]) -> tuple[_Saved, tuple[Plan, ...]]:
+    """What a driver has saved: the state of its body, of this ``kind``, and its plans. Raises
+    `RuntimeInputError` for anything else, and for plans that are none."""
+    if not (isinstance(state, tuple) and len(state) == 2 and isinstance(state[0], kind)):
+        raise RuntimeInputError(f"no {kind.__name__} is saved")
+    body, plans = state
+    if not (isinstance(plans, tuple) and all(isinstance(plan, Plan) for plan in plans)):
+        raise RuntimeInputError("no plans are saved")
+    for plan in plans:
+        for name in ("raw", "pulled", "points"):
+            check_array(f"the {name} points of a plan", getattr(plan, name), None, 3)
+    return body, plans
 
 
 def recall(plans: deque[Plan], saved: tuple[Plan, ...]) -> None:

@@ -22,8 +22,9 @@ from locomotion.quadruped import (
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.course import head_length
 from locomotion.quadruped.footprint import at_place
+from locomotion.saved_states.animal import check_animal
 from runtime.animal_figure import animal_figure
-from runtime.drivers import PLANS_KEPT, Driver, Follower, recall
+from runtime.drivers import PLANS_KEPT, Driver, Follower, recall, saved_parts
 from runtime.errors import RuntimeInputError
 from runtime.level import Level
 from runtime.planning import NoWay, Plan, make_plan, way_holds
@@ -57,7 +58,8 @@ class Pack:
         return self._add(self._herd.add(kind, place, facing))
 
     def revive(self, body: str, state: Any) -> Driver:
-        driver = self._add(self._herd.adopt(load_body(body), state[0].herd))
+        kind = load_body(body)
+        driver = self._add(self._herd.adopt(kind, _checked(state, kind)[0].herd))
         driver.restore(state)
         return driver
 
@@ -89,6 +91,18 @@ class Pack:
         self._herd.tick()
         for driver in self._drivers:
             driver.animal.tick()
+
+
+def _checked(state: Any, body: Body) -> tuple[AnimalMemory, tuple[Plan, ...]]:
+    """What `AnimalDriver.save` gave. Raises `RuntimeInputError` and `LocomotionError` for what it cannot have
+    given."""
+    memory, plans = saved_parts(state, AnimalMemory)
+    if not all(isinstance(way, Plan) for way in memory.ways):
+        raise RuntimeInputError("the ways of an animal are no plans")
+    check_animal(memory, body)
+    if memory.phase == "following" and not plans:
+        raise RuntimeInputError("an animal follows a trail without a plan")
+    return memory, plans
 
 
 class _Ways:
@@ -251,9 +265,10 @@ class AnimalDriver:
     def save(self) -> tuple[AnimalMemory, tuple[Plan, ...]]:
         return self.animal.save(), tuple(self.plans)[-1:]
 
-    def restore(self, state: tuple[AnimalMemory, tuple[Plan, ...]]) -> None:
-        self.animal.restore(state[0])
-        recall(self.plans, state[1])
+    def restore(self, state: Any) -> None:
+        memory, plans = _checked(state, self.animal.body)
+        self.animal.restore(memory)
+        recall(self.plans, plans)
         self._before.forget()
         self._followed = self.animal.trail
 

@@ -17,7 +17,8 @@ from locomotion.leads import can_begin, leads
 from locomotion.library import learned_skills
 from locomotion.rehearsal import REHEARSALS
 from locomotion.run_up_room import cramped_links
-from runtime.drivers import PLANS_KEPT, Driver, Follower, radius_of, recall
+from locomotion.saved_states.person import check_person
+from runtime.drivers import PLANS_KEPT, Driver, Follower, radius_of, recall, saved_parts
 from runtime.errors import RuntimeInputError
 from runtime.figure import Figure
 from runtime.level import Level
@@ -320,9 +321,11 @@ class HumanDriver:
     def save(self) -> tuple[HumanState, tuple[Plan, ...]]:
         return self.human.save_state(), tuple(self.plans)[-1:]
 
-    def restore(self, state: tuple[HumanState, tuple[Plan, ...]]) -> None:
-        self.human.restore_state(state[0])
-        recall(self.plans, state[1])
+    def restore(self, state: Any) -> None:
+        body, plans = saved_parts(state, HumanState)
+        check_person(body, self.human)
+        self.human.restore_state(body)
+        recall(self.plans, plans)
         self.before = None
 
     def state_hash(self) -> str:

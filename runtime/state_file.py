@@ -6,6 +6,7 @@ full name and made again from its fields.
 """
 
 import dataclasses
+import math
 import sys
 from collections.abc import Mapping
 from typing import Any
@@ -13,9 +14,17 @@ from typing import Any
 import numpy as np
 
 from runtime.errors import RuntimeInputError
+from runtime.record_types import wrong_field
 
-__all__ = ["pack", "unpack"]
+__all__ = ["DTYPES", "pack", "unpack"]
 
+DTYPES = ("float64", "float32", "int64", "int32", "bool")
+"""Types of the arrays of a state."""
+
+_WRONG = (
+    KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError, RecursionError,
+)  # fmt: skip
+_NOT_FINITE = {"nan": math.nan, "inf": math.inf, "-inf": -math.inf}
 _PACKAGES = ("navmesh.", "pathsmooth.", "locomotion.", "runtime.")
 
 
@@ -27,28 +36,30 @@ def pack(value: Any) -> tuple[Any, dict[str, np.ndarray]]:
     """
     packer = _Packer()
     tree = packer.tree(value)
-    return tree, {dtype: np.concatenate(parts) for dtype, parts in packer.parts.items()}
+    return tree, {dtype: np.concatenate([np.empty(0, dtype), *packer.parts[dtype]]) for dtype in DTYPES}
 
 
 def unpack(tree: Any, arrays: Mapping[str, np.ndarray]) -> Any:
     """What was given to `pack`. Raises `RuntimeInputError` for a tree that is not from there, or from
     another release."""
     try:
-        return _value(tree, arrays)
-    except (KeyError, TypeError, ValueError, IndexError, AttributeError, RecursionError) as error:
+        return _Unpacker(arrays).value(tree)
+    except _WRONG as error:
         raise RuntimeInputError(f"the state is damaged or of another release: {error}") from None
 
 
 class _Packer:
     def __init__(self) -> None:
-        self.parts: dict[str, list[np.ndarray]] = {}
+        self.parts: dict[str, list[np.ndarray]] = {dtype: [] for dtype in DTYPES}
         self._used: dict[str, int] = {}
         self._known: dict[int, tuple[np.ndarray, Any]] = {}
 
     def tree(self, value: Any) -> Any:
+        if isinstance(value, float) and not math.isfinite(value):
+            return {"float": repr(float(value))}  # JSON has none of these
         if value is None or isinstance(value, bool | int | float | str):
             return value
-        if isinstance(value, np.ndarray):
+        if isinstance(value, np.ndarray) and value.dtype.name in DTYPES:
             return {"array": self._array(value)}
         if (names := _fields(type(value))) is not None:
             fields = {name: self.tree(getattr(value, name)) for name in names}
@@ -65,7 +76,7 @@ class _Packer:
         if id(array) not in self._known:
             dtype = array.dtype.name
             start = self._used.get(dtype, 0)
-            self.parts.setdefault(dtype, []).append(array.ravel())
+            self.parts[dtype].append(array.ravel())
             self._used[dtype] = start + array.size
             self._known[id(array)] = array, [dtype, start, list(array.shape)]
         return self._known[id(array)][1]
@@ -87,21 +98,43 @@ def _fields(kind: Any) -> tuple[str, ...] | None:
     return getattr(kind, "_fields", None)
 
 
-def _value(tree: Any, arrays: Mapping[str, np.ndarray]) -> Any:
-    if isinstance(tree, list):
-        return [_value(each, arrays) for each in tree]
-    if not isinstance(tree, dict):
-        return tree
-    if "array" in tree:
-        dtype, start, shape = tree["array"]
-        size = int(np.prod(shape, dtype=np.int64))
-        return arrays[dtype][start : start + size].reshape(shape).copy()
-    if "tuple" in tree:
-        return tuple(_value(each, arrays) for each in tree["tuple"])
-    if "dict" in tree:
-        return {key: _value(each, arrays) for key, each in tree["dict"]}
-    module, _, name = tree["class"].partition(":")
-    kind = getattr(sys.modules[module], name)
-    if _fields(kind) is None:
-        raise TypeError(f"{tree['class']} is not part of a state")
-    return kind(**{key: _value(each, arrays) for key, each in tree["fields"].items()})
+class _Unpacker:
+    """Reads the tree. Arrays that were one when they were packed are one again, and no others overlap, so
+    that a small file cannot become a large state."""
+
+    def __init__(self, arrays: Mapping[str, np.ndarray]) -> None:
+        self._arrays = arrays
+        self._left = {dtype: len(array) for dtype, array in arrays.items()}
+        self._known: dict[tuple[str, int, tuple[int, ...]], np.ndarray] = {}
+
+    def value(self, tree: Any) -> Any:
+        if isinstance(tree, list):
+            return [self.value(each) for each in tree]
+        if not isinstance(tree, dict):
+            return tree
+        if "float" in tree:
+            return _NOT_FINITE[tree["float"]]
+        if "array" in tree:
+            return self._array(*tree["array"])
+        if "tuple" in tree:
+            return tuple(self.value(each) for each in tree["tuple"])
+        if "dict" in tree:
+            return {_text(key): self.value(each) for key, each in tree["dict"]}
+        module, _, name = tree["class"].partition(":")
+        kind = getattr(sys.modules[module], name)
+        if _fields(kind) is None:
+            raise TypeError(f"{tree['class']} is not part of a state")
+        record = kind(**{key: self.value(each) for key, each in tree["fields"].items()})
+        if (field := wrong_field(record)) is not None:
+            raise TypeError(f"{name}.{field} is of a wrong type")
+        return record
+
+    def _array(self, dtype: str, start: int, shape: list[int]) -> np.ndarray:
+        key = dtype, start, tuple(shape)
+        if key not in self._known:
+            size = math.prod(shape)
+            self._left[dtype] -= size
+            if self._left[dtype] < 0 or min(start, *shape, 0) < 0:
+                raise ValueError(f"an array of shape {shape} is more than there is")
+            self._known[key] = self._arrays[dtype][start : start + size].reshape(shape).copy()
+        return self._known[key]

@@ -9,10 +9,11 @@ import numpy as np
 from locomotion import LocomotionError
 from locomotion.crowd import Crowd, NoRoute, Walker, WalkerState
 from locomotion.events import Event
+from locomotion.saved_states.walker import check_walker
 from navmesh.draping import drape
 from navmesh.holding import line_holds
 from navmesh.route import Route
-from runtime.drivers import PLANS_KEPT, Driver, Follower, Population, recall
+from runtime.drivers import PLANS_KEPT, Driver, Follower, Population, recall, saved_parts
 from runtime.errors import RuntimeInputError
 from runtime.figure import Figure, Shapes
 from runtime.level import Level
@@ -58,9 +59,16 @@ class Walkers:
         return WalkerDriver(self, self.crowd.add(place, radius, facing))
 
     def revive(self, body: str, state: Any) -> Driver:
-        driver = WalkerDriver(self, self.crowd.adopt(state[0]))
+        driver = WalkerDriver(self, self.crowd.adopt(self.checked(state)[0]))
         driver.restore(state)
         return driver
+
+    def checked(self, state: Any) -> tuple[WalkerState, tuple[Plan, ...]]:
+        """What `WalkerDriver.save` gave. Raises `RuntimeInputError` and `LocomotionError` for what it cannot
+        have given on this level."""
+        body, plans = saved_parts(state, WalkerState)
+        check_walker(body, self._level.graph)
+        return body, plans
 
     def remove(self, driver: Driver) -> None:
         assert isinstance(driver, WalkerDriver)
@@ -193,9 +201,10 @@ class WalkerDriver:
     def save(self) -> tuple[WalkerState, tuple[Plan, ...]]:
         return self.walker.save(), tuple(self.plans)[-1:]
 
-    def restore(self, state: tuple[WalkerState, tuple[Plan, ...]]) -> None:
-        self.walker.restore(state[0])
-        recall(self.plans, state[1])
+    def restore(self, state: Any) -> None:
+        body, plans = self._population.checked(state)
+        self.walker.restore(body)
+        recall(self.plans, plans)
         self._population.forget()
 
     def state_hash(self) -> str:

@@ -361,8 +361,11 @@ class World:
             )
         before, agents = self.save(), dict(self.agents)
         try:
+            state.check()
             self._become(state, agents)
-        except (ValueError, TypeError, IndexError, KeyError, AttributeError) as error:
+        except (
+            ValueError, TypeError, IndexError, KeyError, AttributeError, OverflowError, ArithmeticError,
+        ) as error:  # fmt: skip
             self._become(before, agents)
             raise RuntimeInputError(f"the state does not fit this release: {error}") from error
 

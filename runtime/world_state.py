@@ -6,16 +6,17 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from typing import Any
 
+import numpy as np
+
+from locomotion.person import CONTROL_DT
 from navmesh.files.archive import read_archive, write_archive
+from navmesh.files.schema import Array, Flags, Header, Schema
 from runtime.agent import AgentState
 from runtime.errors import RuntimeInputError
 from runtime.events import Event
-from runtime.state_file import pack, unpack
+from runtime.state_file import DTYPES, pack, unpack
 
 __all__ = ["WorldState"]
-
-KIND = "surefoot world state"
-VERSION = 3
 
 
 @dataclass(frozen=True)
@@ -35,12 +36,20 @@ class WorldState:
     random: Mapping[str, Any]
     agents: dict[str, AgentState]
 
+    def check(self) -> None:
+        """Raises `RuntimeInputError` for what no world can be in, as far as that shows without its bodies."""
+        if not (0 <= self.ticks < 2**53 and 0.0 <= self.owed <= CONTROL_DT):
+            raise RuntimeInputError(f"it is at tick {self.ticks}, {self.owed} s after it")
+        np.random.default_rng().bit_generator.state = dict(self.random)
+        for name, agent in self.agents.items():
+            agent.check(name)
+
     def write(self, path: str | os.PathLike[str]) -> None:
         """Write it to ``path`` (.npz), whole or not at all. Raises `ArchiveError` where there
         is no folder."""
         tree, arrays = pack(self)
         header = {"state": tree, "made_with": {name: version(name) for name in ("mujoco", "numpy", "numba")}}
-        write_archive(path, KIND, VERSION, header, arrays)
+        write_archive(path, STATE_FILE.kind, STATE_FILE.version, header, arrays)
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> "WorldState":
@@ -49,11 +58,27 @@ class WorldState:
         Raises `ArchiveError` for a file that is missing, cut off, of another kind or another
         version, and `RuntimeInputError` for one with contents of another release.
         """
-        header, arrays = read_archive(path, KIND, VERSION)
+        header, arrays = read_archive(path, STATE_FILE)
         try:
-            state = unpack(header.get("state"), arrays)
+            state = unpack(header.state, arrays)
         except RuntimeInputError as error:
-            raise RuntimeInputError(f"{path}: {error}") from None
+            raise RuntimeInputError(f"{path}: {error}; {STATE_FILE.remedy}") from None
         if not isinstance(state, cls):
-            raise RuntimeInputError(f"{path}: holds no {KIND}; save the world again")
+            raise RuntimeInputError(f"{path}: holds no {STATE_FILE.kind}; {STATE_FILE.remedy}")
         return state
+
+
+class _StateHeader(Header):
+    """``state``: the tree that `runtime.state_file.pack` gives."""
+
+    state: Any
+    made_with: dict[str, str]
+
+
+STATE_FILE = Schema(
+    kind="surefoot world state",
+    version=4,
+    header=_StateHeader,
+    arrays={dtype: Flags(dtype) if dtype == "bool" else Array(dtype, (dtype,)) for dtype in DTYPES},
+    remedy="save the world again",
+)

@@ -2,6 +2,7 @@
 everything that decides what is learned, apart from the code."""
 
 import json
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -10,9 +11,10 @@ import numpy as np
 
 from locomotion.errors import LocomotionError
 from navmesh.files.archive import ArchiveError, read_archive
+from navmesh.files.schema import HeaderType, Schema
 from navmesh.files.whole_file import whole_file
 
-__all__ = ["CONFIGURATION", "claim", "read_checkpoint"]
+__all__ = ["CONFIGURATION", "anew", "claim", "read_checkpoint"]
 
 CONFIGURATION = "configuration.json"
 """File in the folder of a training that says what it belongs to."""
@@ -52,10 +54,15 @@ def claim(folder: Path, configuration: Mapping[str, Any]) -> None:
         )
 
 
-def read_checkpoint(path: Path, kind: str, version: int) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+def anew(path: str | os.PathLike[str]) -> str:
+    """What a user does about a file of what was learned so far that is of no use."""
+    return f"remove {path} to learn this part anew"
+
+
+def read_checkpoint(path: Path, schema: Schema[HeaderType]) -> tuple[HeaderType, dict[str, np.ndarray]]:
     """Header and arrays of a file of what was learned so far; `LocomotionError` if it is damaged or of
     another version."""
     try:
-        return read_archive(path, kind, version)
+        return read_archive(path, schema)
     except ArchiveError as error:
-        raise LocomotionError(f"{error}; remove {path} to learn this part anew") from error
+        raise LocomotionError(str(error)) from error

@@ -9,7 +9,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-__all__ = ["CmaEs"]
+from navmesh.files.schema import Array, Numbers
+
+__all__ = ["CmaEs", "search_arrays"]
+
+
+def search_arrays(count: int) -> dict[str, Array]:
+    """What `CmaEs.arrays` gives for ``count`` parameters, as an archive holds it."""
+    return {
+        "mean": Numbers(count),
+        "sigma": Numbers(low=1e-12),
+        "covariance": Numbers(count, count),
+        "path_c": Numbers(count),
+        "path_s": Numbers(count),
+        "generation": Numbers(low=0, dtype="int64"),
+    }
 
 
 @dataclass

@@ -14,6 +14,7 @@ from locomotion.drop_roll_skill import DROP_ROLL_SKILL, KIND, DropRoll, drop_rol
 from locomotion.jump_skill import run_digest
 from locomotion.skill import RunSkill, load_run_skill
 from locomotion.skill_family import SkillFamily
+from locomotion.skill_file import learned_numbers
 from locomotion.training.drop_trial import DropOutcome, DropSimulator
 from locomotion.training.jump_trial import JumpSimulator, StartState
 from locomotion.training.least_squares import fit
@@ -289,7 +290,8 @@ def _learn(
     recorded anew after a stage without feedback; a refinement looks for trials that go wrong first.
     """
     training = course.training
-    arrays = training.recall(_TRAINING, number)
+    kinds = {"x": learned_numbers(len(x)), "reference": learned_numbers(*reference.shape)}
+    arrays = training.recall(_TRAINING, number, kinds)
     if arrays is not None:
         course.clock.skip(simulated([stage]))
         return arrays["x"], arrays["reference"]

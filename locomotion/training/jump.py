@@ -23,6 +23,7 @@ from locomotion.library import LEAP, learned_skills
 from locomotion.skill import RunSkill, load_run_skill
 from locomotion.skill_description import SkillDescription, load_description
 from locomotion.skill_family import SkillFamily
+from locomotion.skill_file import learned_numbers
 from locomotion.training.jump_kind import WEIGHTS, JumpKind, cost, first_guess, scales, stair_jump
 from locomotion.training.jump_trial import JumpOutcome, JumpSimulator, LedgeSimulator, StartState
 from locomotion.training.loop import Stage, simulated
@@ -304,7 +305,8 @@ def _learn_height(
     suggests the solution.
     """
     training = course.training
-    arrays = training.recall(_TRAINING, number)
+    kinds = {"x": learned_numbers(len(x)), "reference": learned_numbers(*reference.shape)}
+    arrays = training.recall(_TRAINING, number, kinds)
     if arrays is not None:
         course.clock.skip(simulated(stages))
         return arrays["x"], arrays["reference"]

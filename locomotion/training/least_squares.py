@@ -10,19 +10,29 @@ import hashlib
 import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Annotated, Any, Protocol
 
 import numpy as np
+from annotated_types import Ge
 
 from locomotion.errors import LocomotionError
-from locomotion.training.checkpoint import read_checkpoint
+from locomotion.skill_file import learned_numbers
+from locomotion.training.checkpoint import anew, read_checkpoint
 from locomotion.training.progress import Clock, Progress, show
 from locomotion.workers import worker_pool
 from navmesh.files.archive import write_archive
+from navmesh.files.schema import Header, Schema
 
 __all__ = ["Outcomes", "fit"]
 
 _KIND, _VERSION = "least-squares checkpoint", 1
+
+
+class _FitHeader(Header):
+    identity: str
+    round: Annotated[int, Ge(0)]
+
+
 _STEP = 0.5  # of a parameter's scale: the central differences
 _DAMPING = (30.0, 100.0, 300.0)
 _MOST = 8.0  # of a residual that counts
@@ -86,12 +96,12 @@ def fit(
     identity = hashlib.sha256(parts).hexdigest()[:16]
     x, first = start.copy(), 0
     if checkpoint is not None and Path(checkpoint).exists():
-        header, arrays = read_checkpoint(Path(checkpoint), _KIND, _VERSION)
-        if header.get("identity") != identity:
-            raise LocomotionError(
-                f"{checkpoint}: of another training or seed; remove {checkpoint} to learn this part anew"
-            )
-        x, first = arrays["x"], int(header["round"])
+        arrays = {"x": learned_numbers(len(start))}
+        schema = Schema(_KIND, _VERSION, _FitHeader, arrays, anew(checkpoint))
+        found, read = read_checkpoint(Path(checkpoint), schema)
+        if found.identity != identity:
+            raise LocomotionError(f"{checkpoint}: of another training or seed; {anew(checkpoint)}")
+        x, first = read["x"], found.round
     clock = clock or Clock(rounds * seconds)
     clock.skip(first * seconds)
     with worker_pool(workers, _start_worker, (problem,)) as pool:

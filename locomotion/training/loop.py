@@ -15,20 +15,27 @@ import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Annotated, Any, Protocol
 
 import numpy as np
+from annotated_types import Ge
 
-from locomotion.errors import LocomotionError
-from locomotion.training.checkpoint import read_checkpoint
-from locomotion.training.cma_es import CmaEs
+from locomotion.skill_file import learned_numbers
+from locomotion.training.checkpoint import anew, read_checkpoint
+from locomotion.training.cma_es import CmaEs, search_arrays
 from locomotion.training.progress import Clock, Progress, show
 from locomotion.workers import worker_pool
-from navmesh.files.archive import write_archive
+from navmesh.files.archive import ArchiveError, write_archive
+from navmesh.files.schema import Array, Header, Schema
 
 __all__ = ["Problem", "Stage", "learn", "simulated", "stages_digest"]
 
 _KIND, _VERSION = "training checkpoint", 1
+
+
+class _SearchHeader(Header):
+    identity: str
+    stage: Annotated[int, Ge(0)]
 
 
 @dataclass(frozen=True)
@@ -204,11 +211,18 @@ def _save(path: Path, identity: str, stage: int, parameters: np.ndarray, search:
 def _resume(
     path: Path, identity: str, stages: Sequence[Stage], start: np.ndarray
 ) -> tuple[int, np.ndarray, CmaEs]:
-    header, arrays = read_checkpoint(path, _KIND, _VERSION)
-    if header.get("identity") != identity:
-        raise LocomotionError(f"{path}: of another training or seed; remove {path} to learn this part anew")
-    stage = stages[int(header["stage"])]
+    def arrays_of(header: _SearchHeader) -> dict[str, Array]:
+        if header.identity != identity:
+            raise ArchiveError(f"{path}: of another training or seed; {anew(path)}")
+        if header.stage >= len(stages):
+            raise ArchiveError(f"{path}: of stage {header.stage} of {len(stages)}; {anew(path)}")
+        searched = int((stages[header.stage].scale > 0).sum())
+        return {"parameters": learned_numbers(len(start)), **search_arrays(searched)}
+
+    schema = Schema(_KIND, _VERSION, _SearchHeader, arrays_of, anew(path))
+    header, arrays = read_checkpoint(path, schema)
+    stage = stages[header.stage]
     free = np.flatnonzero(stage.scale > 0)
     search = CmaEs(start[free], stage.sigma, stage.scale[free], stage.population)
     search.restore(arrays)
-    return int(header["stage"]), arrays["parameters"], search
+    return header.stage, arrays["parameters"], search

@@ -1,7 +1,7 @@
 """What all trainings have in common: what a user asks for, and the files of what was learned so far."""
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,10 +11,11 @@ import numpy as np
 from locomotion.errors import LocomotionError
 from locomotion.library import skill_digest
 from locomotion.person import person_digest
-from locomotion.training.checkpoint import claim, read_checkpoint
+from locomotion.training.checkpoint import anew, claim, read_checkpoint
 from locomotion.training.loop import Problem, Stage, learn, stages_digest
 from locomotion.training.progress import Clock, Progress, show
 from navmesh.files.archive import check_target, write_archive
+from navmesh.files.schema import Array, Header, Schema
 
 __all__ = ["NotLearnedError", "Training"]
 
@@ -101,12 +102,12 @@ class Training:
         """A file in the checkpoint's folder."""
         return None if self.checkpoint is None else self.checkpoint / f"{name}.npz"
 
-    def recall(self, kind: str, number: int) -> dict[str, np.ndarray] | None:
-        """What `keep` has kept of search ``number``; None where it is not done."""
+    def recall(self, kind: str, number: int, arrays: Mapping[str, Array]) -> dict[str, np.ndarray] | None:
+        """What `keep` has kept of search ``number``, the ``arrays``; None where it is not done."""
         path = self.file(f"done-{number}")
         if path is None or not path.exists():
             return None
-        return read_checkpoint(path, kind, _VERSION)[1]
+        return read_checkpoint(path, Schema(kind, _VERSION, Header, arrays, anew(path)))[1]
 
     def keep(self, kind: str, number: int, arrays: dict[str, np.ndarray]) -> None:
         """Remember what search ``number`` has found."""

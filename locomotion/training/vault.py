@@ -12,7 +12,8 @@ import numpy as np
 from locomotion import jump, vault
 from locomotion.jump_skill import load_jump_skill, run_digest
 from locomotion.skill import RunSkill, load_run_skill
-from locomotion.skill_family import SkillFamily
+from locomotion.skill_family import SkillFamily, family_file
+from locomotion.skill_file import learned_numbers
 from locomotion.training.jump_trial import StartState
 from locomotion.training.loop import Stage, simulated
 from locomotion.training.progress import Clock
@@ -41,6 +42,7 @@ _POSE = 3.0  # cost of a mean squared difference to the clip [1/rad²]
 _TRAINING = "vault training"
 _PART = vault.parameter_slices()
 _REFERENCE = (vault.STEPS, vault.BINS, vault.SENSORS)
+_SENSED = (vault.STEPS * vault.BINS, vault.SENSORS)
 
 
 def first_guess() -> np.ndarray:
@@ -264,7 +266,11 @@ def train_vault(training: Training, out: str | os.PathLike[str] = VAULT_SKILL) -
     clock = Clock(sum(_all_simulated(stage) for stage in stages))
     refined = np.zeros_like(family.table[0])  # what the last member changed when it was refined
     for number, stage in enumerate(stages):
-        arrays = training.recall(_TRAINING, number)
+        width = len(family.table[0])
+        schema = family_file(KIND, width, _SENSED)
+        arrays = training.recall(
+            _TRAINING, number, {**schema.arrays_of(None), "refined": learned_numbers(width)}
+        )
         if arrays is not None:
             refined = arrays.pop("refined")
             family = replace(family, **arrays)

@@ -18,6 +18,9 @@ from navmesh.files.inputs import note_input
 __all__ = ["MAX_BYTES", "FileError", "Located", "dotted", "nearest", "read_yaml"]
 
 MAX_BYTES = 1_000_000
+_MOST_VALUES = 100_000  # counted as often as aliases repeat them
+_MOST_LEVELS = 50
+_LONGEST_NUMBER = 100  # characters; PyYAML takes minutes for a very long number to the base 60
 _SCALARS = ("null", "bool", "int", "float", "str")
 _PREFIX = "tag:yaml.org,2002:"
 _Fast = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
@@ -64,8 +67,8 @@ def read_yaml(path: str | os.PathLike[str], model: type[Model], what: str) -> tu
     note_input(target)
     try:
         located = Located(target, _compose(target, what))
-        value = _construct(target, located._root, {}, set())
-    except RecursionError:
+        value, _ = _Values(target).of(located._root)
+    except RecursionError:  # of PyYAML's own parser
         raise FileError(target, 1, 1, f"nested too deeply for a {what}") from None
     try:
         return model.model_validate(value), located
@@ -112,29 +115,52 @@ def _parse(content: bytes) -> yaml.Node | None:
         return yaml.compose(content, Loader=yaml.SafeLoader)
 
 
-def _construct(path: Path, node: yaml.Node, done: dict[int, Any], open_nodes: set[int]) -> Any:
-    """The plain value of ``node``; aliases share one value, so nothing grows by being repeated."""
-    identity = id(node)
-    if identity in done:
-        return done[identity]
-    if identity in open_nodes:
-        raise _at(path, node, "refers to itself")
-    open_nodes.add(identity)
-    if isinstance(node, yaml.ScalarNode):
-        value = _scalar(path, node)
-    elif isinstance(node, yaml.SequenceNode):
-        value = [_construct(path, child, done, open_nodes) for child in node.value]
-    else:
-        value = {}
+class _Values:
+    """Makes plain values of nodes. Aliases share one value, but what is made of it later does not, so values
+    count as often as they are repeated."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._made: dict[int, tuple[Any, int]] = {}
+        self._open: set[int] = set()
+
+    def of(self, node: yaml.Node) -> tuple[Any, int]:
+        """The value of ``node``, and of how many it consists."""
+        known = self._made.get(id(node))
+        if known is not None:
+            return known
+        if id(node) in self._open:
+            raise _at(self._path, node, "refers to itself")
+        if len(self._open) >= _MOST_LEVELS:
+            raise _at(self._path, node, f"nested more than {_MOST_LEVELS} levels deep")
+        self._open.add(id(node))
+        value, count = self._made_of(node)
+        self._open.discard(id(node))
+        if count > _MOST_VALUES:
+            raise _at(self._path, node, f"more than {_MOST_VALUES} values, with what aliases repeat")
+        self._made[id(node)] = value, count
+        return value, count
+
+    def _made_of(self, node: yaml.Node) -> tuple[Any, int]:
+        count = 1
+        if isinstance(node, yaml.ScalarNode):
+            return _scalar(self._path, node), count
+        if isinstance(node, yaml.SequenceNode):
+            items = []
+            for child in node.value:
+                item, more = self.of(child)
+                items.append(item)
+                count += more
+            return items, count
+        found: dict[str, Any] = {}
         for key, child in node.value:
             if not isinstance(key, yaml.ScalarNode):
-                raise _at(path, key, "a key must be a word")
-            if key.value in value:
-                raise _at(path, key, f"{key.value!r} stands here twice")
-            value[key.value] = _construct(path, child, done, open_nodes)
-    open_nodes.discard(identity)
-    done[identity] = value
-    return value
+                raise _at(self._path, key, "a key must be a word")
+            if key.value in found:
+                raise _at(self._path, key, f"{_shown(key.value)} stands here twice")
+            found[key.value], more = self.of(child)
+            count += more
+        return found, count
 
 
 def _scalar(path: Path, node: yaml.ScalarNode) -> Any:
@@ -145,6 +171,8 @@ def _scalar(path: Path, node: yaml.ScalarNode) -> Any:
         )
     if kind == "str":
         return node.value
+    if len(node.value) > _LONGEST_NUMBER:
+        raise _at(path, node, f"{_shown(node.value)} has {len(node.value)} characters")
     try:
         return yaml.SafeLoader("").construct_object(node)
     except (yaml.YAMLError, ValueError, KeyError, IndexError, OverflowError):

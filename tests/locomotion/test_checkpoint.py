@@ -12,6 +12,7 @@ from locomotion.training.checkpoint import CONFIGURATION, claim
 from locomotion.training.loop import Stage
 from locomotion.training.training import Training
 from navmesh.files.archive import ArchiveError
+from navmesh.files.schema import Numbers
 
 
 @pytest.fixture
@@ -122,17 +123,20 @@ def test_where_the_skill_cannot_be_written_is_known_before_learning(folder, tmp_
     assert not folder.exists()
 
 
+KEPT = {"x": Numbers(3)}
+
+
 def test_what_a_search_has_found_is_kept(folder, tmp_path):
     found = {"x": np.arange(3.0)}
     Training().keep("toy", 0, found)
-    assert Training().recall("toy", 0) is None  # kept nowhere
+    assert Training().recall("toy", 0, KEPT) is None  # kept nowhere
     training = Training(checkpoint=folder)
     prepared(training, tmp_path / "hop.npz")
-    assert training.recall("toy", 0) is None
+    assert training.recall("toy", 0, KEPT) is None
     training.keep("toy", 0, found)
-    np.testing.assert_array_equal(training.recall("toy", 0)["x"], found["x"])
+    np.testing.assert_array_equal(training.recall("toy", 0, KEPT)["x"], found["x"])
     done = folder / "done-0.npz"
     done.write_bytes(done.read_bytes()[:200])
     with pytest.raises(LocomotionError, match="cut off or damaged") as refused:
-        training.recall("toy", 0)
+        training.recall("toy", 0, KEPT)
     assert f"remove {done} to learn this part anew" in str(refused.value)

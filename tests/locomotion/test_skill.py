@@ -1,6 +1,7 @@
 """Skill files: round trip and the errors of wrong ones."""
 
 import dataclasses
+import json
 from pathlib import Path
 
 import mujoco
@@ -11,7 +12,7 @@ from locomotion import controller as c
 from locomotion.errors import LocomotionError
 from locomotion.person import PersonIndex, build_person
 from locomotion.skill import RUN_SKILL, load_run_skill, reset_running
-from navmesh.files.archive import read_archive, write_archive
+from navmesh.files.archive import write_archive
 
 
 def test_round_trip(tmp_path: Path) -> None:
@@ -37,10 +38,17 @@ def test_truncated(tmp_path: Path, share: float) -> None:
         load_run_skill(path)
 
 
+def raw(path):
+    """Header and arrays of an archive as they are, unchecked."""
+    with np.load(path) as file:
+        arrays = dict(file)
+    return json.loads(arrays.pop("header").tobytes()), arrays
+
+
 def rewritten(
     tmp_path: Path, version: int = 1, kind: str = "run skill", drop: str = "", **header: object
 ) -> Path:
-    old, arrays = read_archive(RUN_SKILL, "run skill", 1)
+    old, arrays = raw(RUN_SKILL)
     arrays.pop(drop, None)
     write_archive(tmp_path / "run.npz", kind, version, {**old, **header}, arrays)
     return tmp_path / "run.npz"

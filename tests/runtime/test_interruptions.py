@@ -8,7 +8,6 @@ import sys
 import numpy as np
 import pytest
 
-from navmesh.files.archive import read_archive
 from navmesh.files.whole_file import whole_file
 
 HOOK = """
@@ -113,7 +112,7 @@ def learned(folder, number, which):
 def undisturbed(tmp_path_factory):
     folder = tmp_path_factory.mktemp("undisturbed")
     assert learned(folder, 0, 0)[0] == 0
-    return read_archive(folder / "skill.npz", "bowl", 1)[1]["x"]
+    return np.load(folder / "skill.npz")["x"]
 
 
 # its results are the configuration, of each of four generations the state and the time so far, and the skill
@@ -132,9 +131,9 @@ def test_interrupted_learning_goes_on_from_its_checkpoint(number, which, status,
     assert code == status and "Traceback" not in said, said
     assert not (tmp_path / "skill.npz").exists()
     if which > 1:
-        assert read_archive(tmp_path / "learned.checkpoint/search.npz", "training checkpoint", 1)
+        assert np.load(tmp_path / "learned.checkpoint/search.npz")["mean"].shape == (3,)
     assert learned(tmp_path, 0, 0)[0] == 0
-    assert np.array_equal(read_archive(tmp_path / "skill.npz", "bowl", 1)[1]["x"], undisturbed)
+    assert np.array_equal(np.load(tmp_path / "skill.npz")["x"], undisturbed)
 
 
 def test_control_c_while_candidates_are_judged_says_so_once(tmp_path):

@@ -32,7 +32,7 @@ def test_refuses_a_cut_file_and_another_kind(trace, tmp_path):
         with pytest.raises(ArchiveError):
             Trace.read(path)
     write_archive(path, "surefoot trace", 1, {"agents": []}, {})
-    with pytest.raises(ArchiveError, match="missing"):
+    with pytest.raises(ArchiveError, match="header"):
         Trace.read(path)
     write_archive(path, "skill", 1, {}, {})
     with pytest.raises(ArchiveError, match="skill"):

@@ -1,7 +1,17 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from navmesh.files.archive import ArchiveError, read_archive, write_archive
+from navmesh.files.schema import Header, Numbers, Schema
+
+
+class ThingHeader(Header):
+    made_by: str
+
+
+THING = Schema("thing", 3, ThingHeader, {"x": Numbers("rows")}, "make it again")
 
 
 @pytest.fixture
@@ -12,14 +22,14 @@ def archive(tmp_path):
 
 
 def test_reads_what_it_wrote(archive):
-    header, arrays = read_archive(archive, "thing", 3)
-    assert header["made_by"] == "test"
+    header, arrays = read_archive(archive, THING)
+    assert header.made_by == "test"
     np.testing.assert_array_equal(arrays["x"], np.arange(1000.0))
 
 
 def test_missing_file_is_named(tmp_path):
     with pytest.raises(ArchiveError, match=r"nowhere\.npz: no such file"):
-        read_archive(tmp_path / "nowhere.npz", "thing", 3)
+        read_archive(tmp_path / "nowhere.npz", THING)
 
 
 @pytest.mark.parametrize("share", [0.0, 0.1, 0.5, 0.9, 0.99])
@@ -27,7 +37,7 @@ def test_cut_off_file_is_refused(archive, share):
     whole = archive.read_bytes()
     archive.write_bytes(whole[: int(len(whole) * share)])
     with pytest.raises(ArchiveError, match="cut off or damaged"):
-        read_archive(archive, "thing", 3)
+        read_archive(archive, THING)
 
 
 def test_overwritten_bytes_are_refused_or_harmless(archive):
@@ -35,7 +45,7 @@ def test_overwritten_bytes_are_refused_or_harmless(archive):
     for position in range(0, len(whole), 37):
         archive.write_bytes(whole[:position] + bytes([whole[position] ^ 0xFF]) + whole[position + 1 :])
         try:
-            _, arrays = read_archive(archive, "thing", 3)
+            _, arrays = read_archive(archive, THING)
         except ArchiveError:
             continue
         np.testing.assert_array_equal(arrays["x"], np.arange(1000.0))
@@ -48,14 +58,17 @@ def test_listing_that_asks_for_what_no_archive_has_is_refused(archive, field, da
     content[content.rindex(b"PK\x01\x02") + field] ^= damage
     archive.write_bytes(content)
     with pytest.raises(ArchiveError, match="cut off or damaged"):
-        read_archive(archive, "thing", 3)
+        read_archive(archive, THING)
 
 
 def test_other_kind_and_version_are_named(archive):
     with pytest.raises(ArchiveError, match="holds a 'thing', expected a 'skill'"):
-        read_archive(archive, "skill", 3)
-    with pytest.raises(ArchiveError, match="version 3, this release reads version 4"):
-        read_archive(archive, "thing", 4)
+        read_archive(archive, replace(THING, kind="skill"))
+    older = "version 3, written by an older Surefoot; this release reads version 4: make it again"
+    with pytest.raises(ArchiveError, match=older):
+        read_archive(archive, replace(THING, version=4))
+    with pytest.raises(ArchiveError, match="written by a newer Surefoot"):
+        read_archive(archive, replace(THING, version=2))
 
 
 def test_failed_write_leaves_the_old_file_alone(archive):

@@ -28,7 +28,7 @@ from locomotion.workers import worker_pool
 from navmesh.files.archive import ArchiveError, write_archive
 from navmesh.files.schema import Array, Header, Schema
 
-__all__ = ["Problem", "Stage", "learn", "simulated", "stages_digest"]
+__all__ = ["Problem", "Stage", "learn", "read_search", "simulated", "stages_digest", "write_search"]
 
 _KIND, _VERSION = "training checkpoint", 1
 
@@ -135,7 +135,7 @@ def learn(
     identity = _identity(seed, stages, parameters)
     at, search = 0, None
     if checkpoint is not None and Path(checkpoint).exists():
-        at, parameters, search = _resume(Path(checkpoint), identity, stages, parameters)
+        at, parameters, search = read_search(Path(checkpoint), identity, stages, parameters)
     made, clock = 0, clock or Clock(simulated(stages))
     clock.skip(simulated(stages[:at]))
     with worker_pool(workers, _start_worker, (problem,)) as pool:
@@ -152,7 +152,7 @@ def learn(
                 cost, survival = _generation(pool, problem, seed, number, stage, search, parameters, free)
                 made += 1
                 if checkpoint is not None:
-                    _save(Path(checkpoint), identity, number, parameters, search)
+                    write_search(Path(checkpoint), identity, number, parameters, search)
                 times = clock.advance(once)
                 on_progress(
                     Progress(stage.name, search.generation, stage.generations, cost, survival, *times)
@@ -203,12 +203,12 @@ def _identity(seed: int, stages: Sequence[Stage], start: np.ndarray) -> str:
     return hashlib.sha256(parts).hexdigest()[:16]
 
 
-def _save(path: Path, identity: str, stage: int, parameters: np.ndarray, search: CmaEs) -> None:
+def write_search(path: Path, identity: str, stage: int, parameters: np.ndarray, search: CmaEs) -> None:
     arrays = {"parameters": parameters, **search.arrays()}
     write_archive(path, _KIND, _VERSION, {"identity": identity, "stage": stage}, arrays)
 
 
-def _resume(
+def read_search(
     path: Path, identity: str, stages: Sequence[Stage], start: np.ndarray
 ) -> tuple[int, np.ndarray, CmaEs]:
     def arrays_of(header: _SearchHeader) -> dict[str, Array]:

@@ -1,8 +1,8 @@
 """Archives for baked and learned data: a NumPy ``.npz`` with a JSON header, written atomically.
 
 The header says what the file is (``kind``), the version of its format, a ``seal``, and whatever its writer
-adds (what made it, the digest of what it depends on). The seal is a digest of the names, sizes and checksums
-of all arrays, so that damage and exchanged arrays are noticed. It guards against accidents only; whatever it
+adds (what made it, the digest of what it depends on). The seal is a digest of the header and of the names,
+sizes and checksums of all arrays, so that damage and exchanged arrays are noticed. It guards against accidents only; whatever it
 says, a file is checked by its `navmesh.files.schema.Schema`: first sizes, types and shapes, which are known
 before anything is unpacked, then the values. Nothing is unpickled.
 """
@@ -10,6 +10,7 @@ before anything is unpacked, then the values. Nothing is unpickled.
 import hashlib
 import json
 import os
+import tokenize
 import zipfile
 import zlib
 from collections.abc import Iterable, Mapping
@@ -18,14 +19,13 @@ from typing import Any, cast
 
 import numpy as np
 from pydantic import ValidationError
-from pydantic_core import from_json, to_json
 
 from navmesh.errors import NavmeshError
 from navmesh.files.inputs import refuse_input
 from navmesh.files.schema import HeaderType, Schema, Sizes
 from navmesh.files.whole_file import whole_file
 
-__all__ = ["ArchiveError", "check_target", "most_unpacked", "read_archive", "write_archive"]
+__all__ = ["ArchiveError", "check_target", "most_unpacked", "read_archive", "seal_of", "write_archive"]
 
 _HEADER, _ENDING = "header", ".npy"
 _SEAL = "seal"
@@ -40,6 +40,7 @@ _ENCRYPTED = 0x1
 _DAMAGE = (
     ValueError, KeyError, TypeError, EOFError, AttributeError, RuntimeError, MemoryError, IndexError,
     OverflowError, SyntaxError, zipfile.BadZipFile, zlib.error,
+    tokenize.TokenError,
 )  # fmt: skip
 
 
@@ -98,13 +99,15 @@ def _write(path: Path, content: dict[str, Any], arrays: Mapping[str, np.ndarray]
     with zipfile.ZipFile(path, "w") as archive:
         for name, array in arrays.items():
             put(name, array)
-        text = json.dumps({**content, _SEAL: _seal(archive.infolist())}, sort_keys=True)
+        text = json.dumps({**content, _SEAL: seal_of(content, archive.infolist())}, sort_keys=True)
         put(_HEADER, np.frombuffer(text.encode(), dtype=np.uint8))
 
 
-def _seal(members: Iterable[zipfile.ZipInfo]) -> str:
+def seal_of(header: Mapping[str, Any], members: Iterable[zipfile.ZipInfo]) -> str:
+    """The seal of an archive with this ``header``, but for the seal, and these arrays."""
     listed = sorted((each.filename, each.file_size, each.CRC) for each in members)
-    return hashlib.sha256(repr(listed).encode()).hexdigest()[:32]
+    told = json.dumps({key: value for key, value in header.items() if key != _SEAL}, sort_keys=True)
+    return hashlib.sha256(f"{told}{listed}".encode()).hexdigest()[:32]
 
 
 def read_archive(
@@ -197,15 +200,16 @@ class _Reader:
         if dtype != np.uint8 or len(shape) != 1:
             raise self._error("its header is no text")
         text = self._array(member).tobytes()
-        found = from_json(text, allow_inf_nan=False)
+        found = json.loads(text.decode(), parse_constant=_refuse_constant)
         if not isinstance(found, dict):
             raise self._error("its header is no mapping")
         self._compare_versions(found.get("kind"), found.get("version"))
-        if found.get(_SEAL) not in (None, _seal(members.values())):  # archives of earlier releases have none
-            raise self._error("its arrays are not those that it was written with")
+        seal = found.get(_SEAL)  # archives of earlier releases have none
+        if seal is not None and seal != seal_of(found, members.values()):
+            raise self._error("it does not hold what was written into it")
         fields = {key: value for key, value in found.items() if key not in ("kind", "version", _SEAL)}
         try:
-            return self.schema.header.model_validate_json(to_json(fields))
+            return self.schema.header.model_validate_json(json.dumps(fields))
         except ValidationError as error:
             first = error.errors(include_url=False, include_input=False)[0]
             where = ".".join(["its header", *(str(step) for step in first["loc"])])
@@ -253,6 +257,10 @@ class _Reader:
             if file.read(1):
                 raise self._error(f"{_shown(member.filename)} is longer than its shape says")
         return np.asarray(array, order="C")
+
+
+def _refuse_constant(name: str) -> None:
+    raise ValueError(f"its header holds {name}, which is not finite")
 
 
 def _shown(value: Any) -> str:

@@ -1,0 +1,267 @@
+"""A good file of every kind that Surefoot reads, and how it is read and used: for `benchmarks.file_fuzz`."""
+
+import dataclasses
+import hashlib
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import navmesh
+from locomotion.brake import BRAKE_SKILL, load_brake_skill
+from locomotion.clip import load_clip
+from locomotion.drop_roll_skill import DROP_ROLL_SKILL, load_drop_roll_skill
+from locomotion.jump_skill import JUMP_SKILL, Jump, load_jump_skill
+from locomotion.library import LEAP
+from locomotion.motion import load_motion, motion_of_clip
+from locomotion.motion_check import check_motion
+from locomotion.quadruped import load_body
+from locomotion.retargeting import load_mapping
+from locomotion.skill import RUN_CLIP, RUN_SKILL, load_run_skill
+from locomotion.skill_description import load_description
+from locomotion.slow_down import SLOW_DOWN_SKILL, load_slow_down_skill
+from locomotion.speed_up import SPEED_UP_SKILL, load_speed_up_skill
+from locomotion.training.checkpoint import claim
+from locomotion.training.cma_es import CmaEs
+from locomotion.training.loop import Stage, read_search, write_search
+from locomotion.vault_skill import VAULT_SKILL, load_vault_skill
+from locomotion.walk_skill import WALK_SKILL, load_walk_skill
+from runtime import World, WorldState
+from runtime.mission import load_mission
+from runtime.playtest.fault import Fault, Sighting
+from runtime.playtest.observation import Crossing, Journey
+from runtime.playtest.plan import LoadedPlan
+from runtime.playtest.report import Report, Setup, read_report, write_report
+from runtime.pose import Pose
+from runtime.recording import Recorder
+from runtime.trace import Trace
+
+__all__ = ["KINDS", "Kind", "content", "level"]
+
+_HERE = Path(__file__).parent.parent
+_TAGS = """\
+version: 1
+add:
+  - {name: bar, affordance: vault, position: [6.0, 2.0, 0.8], run_towards_deg: 0, height: 0.8, depth: 0.2,
+     width: 1.0}
+change:
+  - {at: [4.0, 4.0, 0.4], within: 1.0, set: {name: block, width: 0.9}}
+remove:
+  - tag: drop@5.0,4.0,0.4/180
+"""
+_PLAN = """\
+character: {radius: 0.3, height: 1.8, speed: 3.0, skills: {jump: [0.1, 0.5]}}
+spawns: [{name: west, at: [1, 1, 0]}]
+places: [{name: east, at: [7, 7, 0]}]
+routes: [{from: west, to: east}]
+"""
+
+
+def level() -> navmesh.Terrain:
+    """A floor of 8 m with a block of 0.4 m on it."""
+    floor = [[0, 0, 0], [8, 0, 0], [8, 8, 0], [0, 8, 0]]
+    block = [[4, 3, 0], [5, 3, 0], [5, 5, 0], [4, 5, 0], [4, 3, 0.4], [5, 3, 0.4], [5, 5, 0.4], [4, 5, 0.4]]
+    sides = [[4, 5, 6], [4, 6, 7]]
+    for a, b in ((0, 1), (1, 2), (2, 3), (3, 0)):
+        sides += [[a, b, b + 4], [a, b + 4, a + 4]]
+    faces = np.array([[0, 1, 2], [0, 2, 3], *(np.array(sides) + 4)])
+    return navmesh.Terrain.from_arrays(np.array(floor + block, float), faces, name="fuzz")
+
+
+@dataclass(frozen=True)
+class Kind:
+    """``make`` writes a good file; ``read`` reads it, ``use`` goes on with what was read."""
+
+    ending: str
+    make: Callable[[Path], None]
+    read: Callable[[Path], Any]
+    use: Callable[[Any], Any] = lambda read: None
+
+
+def content(value: Any) -> str:
+    """Digest of everything in ``value``: equal for what is equally good."""
+    hasher = hashlib.sha256()
+
+    def add(value: Any) -> None:
+        if isinstance(value, np.ndarray):
+            hasher.update(repr((value.dtype.str, value.shape)).encode())
+            hasher.update(np.ascontiguousarray(value).tobytes())
+        elif dataclasses.is_dataclass(value) and not isinstance(value, type):
+            for field in dataclasses.fields(value):
+                if field.repr and field.name not in ("located", "meta"):
+                    add(getattr(value, field.name))
+        elif isinstance(value, Mapping):
+            for key, each in value.items():
+                hasher.update(str(key).encode("utf-8", "surrogatepass"))
+                add(each)
+        elif isinstance(value, list | tuple):
+            hasher.update(f"{len(value)}".encode())
+            for each in value:
+                add(each)
+        elif hasattr(value, "model_dump"):
+            add(value.model_dump())
+        else:
+            hasher.update(repr(value).encode("utf-8", "surrogatepass"))
+
+    add(value)
+    return hasher.hexdigest()
+
+
+# --- graphs
+def _make_graph(path: Path) -> None:
+    navmesh.NodeGraph.build(level()).save(path)
+
+
+def _use_graph(graph: navmesh.NodeGraph) -> None:
+    skills = {"jump": (0.1, 0.7), "drop": (0.1, 2.0), "vault": (0.6, 1.0), "gap": (0.4, 2.0)}
+    rng = np.random.default_rng(1)
+    for radius in (0.1, 0.3, 0.45):
+        graph.find_path((1.0, 4.0, 0.0), (7.0, 4.0, 0.0), radius)
+        graph.find_path((1.0, 1.0, 0.0), (4.5, 4.0, 0.4), radius, skills)
+        graph.find_paths(
+            rng.uniform(0, 8, (20, 3)) * [1, 1, 0], rng.uniform(0, 8, (20, 3)) * [1, 1, 0], radius
+        )
+    points = rng.uniform(-1, 9, (50, 3))
+    graph.nearest_edge(points), graph.nearest_node(points), graph.containing_node(points)
+    graph.cast_ray(points, points[::-1], 0.2), graph.room_to_turn(points, 1.0)
+    graph.random_points(rng, 10), graph.reachable_nodes((1.0, 1.0, 0.0))
+
+
+# --- states of worlds
+_graph: list[navmesh.NodeGraph] = []
+
+
+def _world() -> World:
+    if not _graph:
+        _graph.append(navmesh.NodeGraph.build(level(), World(level()).graph.rules))
+    return World(_graph[0], seed=1)
+
+
+def _make_state(path: Path) -> None:
+    world = _world()
+    for body, y in (("human", 1.5), ("dog", 6.5), ("walker", 7.3), ("walker", 0.7)):
+        world.spawn(body, at=(1.5, y, 0)).go_to((7, y, 0), speed=1.5)
+    world.spawn("human", at=(1, 4, 0), name="jumper").go_to((7.2, 4.0, 0.0), speed=3.0)
+    world.step(1.5)
+    world.save().write(path)
+
+
+def _use_state(state: WorldState) -> None:
+    world = _world()
+    world.restore(state)
+    world.step(0.15)
+    for agent in world.agents.values():
+        repr((agent.pose, agent.status, agent.progress, agent.position, agent.facing))
+    world.save()
+
+
+# --- traces
+def _make_trace(path: Path) -> None:
+    world = _world()
+    world.spawn("human", at=(1, 4, 0), name="ada").go_to((7.2, 4.0, 0.0), speed=3.0)
+    world.spawn("dog", at=(2, 6, 0), name="rex").go_to((6, 6, 0), speed=1.0)
+    recorder = Recorder(world)
+    for _ in range(12):
+        world.step(0.1)
+        recorder.sample()
+    recorder.trace({"held": True, "expectations": [{"agent": "ada", "held": True}]}).write(path)
+
+
+def _use_trace(trace: Trace) -> None:
+    for agent in trace.agents:
+        for pose in agent.poses[:3]:
+            agent.figure.posed(pose)
+            repr(Pose(agent.figure.bodies, agent.figure.parents, pose.astype(np.float64)).local)
+
+
+# --- what was learned
+def _copy(source: Path) -> Callable[[Path], None]:
+    return lambda path: path.write_bytes(source.read_bytes())
+
+
+def _use_jump(family: Any) -> None:
+    skill = Jump(family, load_run_skill())
+    skill.approach(0.3)
+
+
+def _make_motion(path: Path) -> None:
+    motion_of_clip(load_clip(RUN_CLIP)).save(path)
+
+
+_STAGES = (Stage("one", 3, 0.5, np.array([1.0, 0.0, 2.0])), Stage("two", 2, 0.5, np.ones(3)))
+
+
+def _make_search(path: Path) -> None:
+    search = CmaEs(np.zeros(2), 0.5, np.array([1.0, 2.0]))
+    search.tell(search.ask(np.random.default_rng(0)), np.arange(32.0))
+    write_search(path, "fuzz", 0, np.zeros(3), search)
+
+
+def _read_search(path: Path) -> Any:
+    stage, parameters, search = read_search(path, "fuzz", _STAGES, np.zeros(3))
+    return stage, parameters, search.arrays()
+
+
+# --- text
+def _written(text: str) -> Callable[[Path], None]:
+    return lambda path: path.write_text(text, encoding="utf-8")
+
+
+def _make_report(path: Path) -> None:
+    at = (1.0, 2.0, 0.0)
+    report = Report(
+        Setup("level.obj", "z", 1.0, None, "human", 4, 10.0, 7), "ab", {"radius": 0.3},
+        (Fault("hole", at, "a hole", True, "bots", 1.0, (Sighting(1, 2.0, at),)),),
+        (Crossing("jump@1", "jump", 0.4, at, 3, 2),), (Journey("west", "east", 2, 1, 3.0, 4.0),),
+        ((1.0, 0.5),), ((*at, 3),), 60.0,
+    )  # fmt: skip
+    write_report(report, path)
+
+
+def _claim(path: Path) -> None:
+    folder = path.parent / "claimed"
+    folder.mkdir(exist_ok=True)
+    (folder / "configuration.json").write_bytes(path.read_bytes())
+    claim(folder, {"seed": 3, "marks": [1.3, 0.25], "clip": "ab"})
+
+
+def _read_tags(path: Path) -> Any:
+    tags = navmesh.load_tags(path)
+    return tags.tags, tags
+
+
+def _use_tags(read: Any) -> None:
+    graph = _world().graph
+    read[1].apply(graph.obstacles, graph.surface, graph.rules)
+
+
+KINDS: dict[str, Kind] = {
+    "graph": Kind(".npz", _make_graph, navmesh.NodeGraph.load, _use_graph),
+    "state": Kind(".npz", _make_state, WorldState.read, _use_state),
+    "trace": Kind(".npz", _make_trace, Trace.read, _use_trace),
+    "run": Kind(".npz", _copy(RUN_SKILL), load_run_skill),
+    "walk": Kind(".npz", _copy(WALK_SKILL), load_walk_skill),
+    "brake": Kind(".npz", _copy(BRAKE_SKILL), load_brake_skill),
+    "slow-down": Kind(".npz", _copy(SLOW_DOWN_SKILL), load_slow_down_skill),
+    "speed-up": Kind(".npz", _copy(SPEED_UP_SKILL), load_speed_up_skill),
+    "jump": Kind(".npz", _copy(JUMP_SKILL), load_jump_skill, _use_jump),
+    "vault": Kind(".npz", _copy(VAULT_SKILL), load_vault_skill, lambda family: family.at(0.7)),
+    "drop-roll": Kind(".npz", _copy(DROP_ROLL_SKILL), load_drop_roll_skill, lambda family: family.at(1.5)),
+    "motion": Kind(".npz", _make_motion, load_motion, check_motion),
+    "checkpoint": Kind(".npz", _make_search, _read_search),
+    "tags": Kind(".yaml", _written(_TAGS), _read_tags, _use_tags),
+    "mission": Kind(".yaml", _copy(_HERE / "examples/missions/guard.yaml"), load_mission),
+    "playtest": Kind(".yaml", _written(_PLAN), LoadedPlan.read),
+    "clip": Kind(".yaml", _copy(RUN_CLIP), load_clip, lambda clip: clip.sample(np.linspace(0, 1, 9))),
+    "mapping": Kind(".yaml", _copy(_HERE / "examples/clips/mixamo.yaml"), load_mapping),
+    "body": Kind(".yaml", _copy(_HERE / "locomotion/quadruped/bodies/dog.yaml"), load_body),
+    "description": Kind(".yaml", _copy(LEAP), load_description),
+    "report": Kind(".json", _make_report, read_report),
+    "configuration": Kind(
+        ".json", _written(json.dumps({"seed": 3, "marks": [1.3, 0.25], "clip": "ab"})), _claim
+    ),
+}
+"""By name; the archives are those that end in .npz."""

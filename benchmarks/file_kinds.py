@@ -11,24 +11,24 @@ from typing import Any
 import numpy as np
 
 import navmesh
-from locomotion.brake import BRAKE_SKILL, load_brake_skill
+from locomotion.brake import load_brake_skill
 from locomotion.clip import load_clip
-from locomotion.drop_roll_skill import DROP_ROLL_SKILL, load_drop_roll_skill
-from locomotion.jump_skill import JUMP_SKILL, Jump, load_jump_skill
+from locomotion.drop_roll_skill import load_drop_roll_skill
+from locomotion.jump_skill import Jump, load_jump_skill
 from locomotion.library import LEAP
 from locomotion.motion import load_motion, motion_of_clip
 from locomotion.motion_check import check_motion
 from locomotion.quadruped import load_body
 from locomotion.retargeting import load_mapping
-from locomotion.skill import RUN_CLIP, RUN_SKILL, load_run_skill
+from locomotion.skill import RUN_CLIP, load_run_skill
 from locomotion.skill_description import load_description
-from locomotion.slow_down import SLOW_DOWN_SKILL, load_slow_down_skill
-from locomotion.speed_up import SPEED_UP_SKILL, load_speed_up_skill
+from locomotion.slow_down import load_slow_down_skill
+from locomotion.speed_up import load_speed_up_skill
 from locomotion.training.checkpoint import claim
 from locomotion.training.cma_es import CmaEs
 from locomotion.training.loop import Stage, read_search, write_search
-from locomotion.vault_skill import VAULT_SKILL, load_vault_skill
-from locomotion.walk_skill import WALK_SKILL, load_walk_skill
+from locomotion.vault_skill import load_vault_skill
+from locomotion.walk_skill import load_walk_skill
 from runtime import World, WorldState
 from runtime.mission import load_mission
 from runtime.playtest.fault import Fault, Sighting
@@ -48,15 +48,15 @@ add:
   - {name: bar, affordance: vault, position: [6.0, 2.0, 0.8], run_towards_deg: 0, height: 0.8, depth: 0.2,
      width: 1.0}
 change:
-  - {at: [4.0, 4.0, 0.4], within: 1.0, set: {name: block, width: 0.9}}
+  - {at: [4.0, 4.0, 0.4], within: 0.3, set: {name: block, width: 0.9}}
 remove:
-  - tag: drop@5.0,4.0,0.4/180
+  - tag: jump@5.0,4.0,0.4/180
 """
 _PLAN = """\
 character: {radius: 0.3, height: 1.8, speed: 3.0, skills: {jump: [0.1, 0.5]}}
 spawns: [{name: west, at: [1, 1, 0]}]
 places: [{name: east, at: [7, 7, 0]}]
-routes: [{from: west, to: east}]
+routes: [{from: west, to: east, at_most: 20}]
 """
 
 
@@ -121,9 +121,8 @@ def _use_graph(graph: navmesh.NodeGraph) -> None:
     for radius in (0.1, 0.3, 0.45):
         graph.find_path((1.0, 4.0, 0.0), (7.0, 4.0, 0.0), radius)
         graph.find_path((1.0, 1.0, 0.0), (4.5, 4.0, 0.4), radius, skills)
-        graph.find_paths(
-            rng.uniform(0, 8, (20, 3)) * [1, 1, 0], rng.uniform(0, 8, (20, 3)) * [1, 1, 0], radius
-        )
+        starts, goals = rng.uniform(0, 8, (2, 20, 3)) * [1, 1, 0]
+        graph.find_paths(starts, goals, radius)
     points = rng.uniform(-1, 9, (50, 3))
     graph.nearest_edge(points), graph.nearest_node(points), graph.containing_node(points)
     graph.cast_ray(points, points[::-1], 0.2), graph.room_to_turn(points, 1.0)
@@ -178,8 +177,12 @@ def _use_trace(trace: Trace) -> None:
 
 
 # --- what was learned
+def _saved(load: Callable[[], Any]) -> Callable[[Path], None]:
+    return lambda path: load().save(path)
+
+
 def _copy(source: Path) -> Callable[[Path], None]:
-    return lambda path: path.write_bytes(source.read_bytes())
+    return _written(source.read_text(encoding="utf-8"))
 
 
 def _use_jump(family: Any) -> None:
@@ -208,6 +211,12 @@ def _read_search(path: Path) -> Any:
 # --- text
 def _written(text: str) -> Callable[[Path], None]:
     return lambda path: path.write_text(text, encoding="utf-8")
+
+
+def _make_mission(path: Path) -> None:
+    text = (_HERE / "examples/missions/guard.yaml").read_text(encoding="utf-8")
+    path.write_text(text.replace("../levels/courtyard.obj", "level.obj"), encoding="utf-8")
+    (path.parent / "level.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", encoding="utf-8")
 
 
 def _make_report(path: Path) -> None:
@@ -242,18 +251,20 @@ KINDS: dict[str, Kind] = {
     "graph": Kind(".npz", _make_graph, navmesh.NodeGraph.load, _use_graph),
     "state": Kind(".npz", _make_state, WorldState.read, _use_state),
     "trace": Kind(".npz", _make_trace, Trace.read, _use_trace),
-    "run": Kind(".npz", _copy(RUN_SKILL), load_run_skill),
-    "walk": Kind(".npz", _copy(WALK_SKILL), load_walk_skill),
-    "brake": Kind(".npz", _copy(BRAKE_SKILL), load_brake_skill),
-    "slow-down": Kind(".npz", _copy(SLOW_DOWN_SKILL), load_slow_down_skill),
-    "speed-up": Kind(".npz", _copy(SPEED_UP_SKILL), load_speed_up_skill),
-    "jump": Kind(".npz", _copy(JUMP_SKILL), load_jump_skill, _use_jump),
-    "vault": Kind(".npz", _copy(VAULT_SKILL), load_vault_skill, lambda family: family.at(0.7)),
-    "drop-roll": Kind(".npz", _copy(DROP_ROLL_SKILL), load_drop_roll_skill, lambda family: family.at(1.5)),
+    "run": Kind(".npz", _saved(load_run_skill), load_run_skill),
+    "walk": Kind(".npz", _saved(load_walk_skill), load_walk_skill),
+    "brake": Kind(".npz", _saved(load_brake_skill), load_brake_skill),
+    "slow-down": Kind(".npz", _saved(load_slow_down_skill), load_slow_down_skill),
+    "speed-up": Kind(".npz", _saved(load_speed_up_skill), load_speed_up_skill),
+    "jump": Kind(".npz", _saved(load_jump_skill), load_jump_skill, _use_jump),
+    "vault": Kind(".npz", _saved(load_vault_skill), load_vault_skill, lambda family: family.at(0.7)),
+    "drop-roll": Kind(
+        ".npz", _saved(load_drop_roll_skill), load_drop_roll_skill, lambda family: family.at(1.5)
+    ),
     "motion": Kind(".npz", _make_motion, load_motion, check_motion),
     "checkpoint": Kind(".npz", _make_search, _read_search),
     "tags": Kind(".yaml", _written(_TAGS), _read_tags, _use_tags),
-    "mission": Kind(".yaml", _copy(_HERE / "examples/missions/guard.yaml"), load_mission),
+    "mission": Kind(".yaml", _make_mission, load_mission),
     "playtest": Kind(".yaml", _written(_PLAN), LoadedPlan.read),
     "clip": Kind(".yaml", _copy(RUN_CLIP), load_clip, lambda clip: clip.sample(np.linspace(0, 1, 9))),
     "mapping": Kind(".yaml", _copy(_HERE / "examples/clips/mixamo.yaml"), load_mapping),

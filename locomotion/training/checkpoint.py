@@ -10,7 +10,9 @@ from typing import Any
 import numpy as np
 
 from locomotion.errors import LocomotionError
+from navmesh.errors import NavmeshError
 from navmesh.files.archive import ArchiveError, read_archive
+from navmesh.files.jsonfile import read_json
 from navmesh.files.schema import HeaderType, Schema
 from navmesh.files.whole_file import whole_file
 
@@ -42,9 +44,11 @@ def claim(folder: Path, configuration: Mapping[str, Any]) -> None:
         return
     otherwise = f"remove {folder} to begin anew, or keep this training elsewhere (--checkpoint)"
     try:
-        found = dict(json.loads(file.read_text(encoding="utf-8")))
-    except (ValueError, TypeError) as error:
-        raise LocomotionError(f"{file}: not a training's configuration: {error}; {otherwise}") from None
+        found = read_json(file, "training's configuration")
+    except NavmeshError as error:
+        raise LocomotionError(f"{error}; {otherwise}") from None
+    if not isinstance(found, dict):
+        raise LocomotionError(f"{file}: not a training's configuration: it is no mapping; {otherwise}")
     wanted = json.loads(json.dumps(configuration))
     different = [key for key in {**wanted, **found} if wanted.get(key) != found.get(key)]
     if different:

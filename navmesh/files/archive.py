@@ -2,9 +2,9 @@
 
 The header says what the file is (``kind``), the version of its format, a ``seal``, and whatever its writer
 adds (what made it, the digest of what it depends on). The seal is a digest of the header and of the names,
-sizes and checksums of all arrays, so that damage and exchanged arrays are noticed. It guards against accidents only; whatever it
-says, a file is checked by its `navmesh.files.schema.Schema`: first sizes, types and shapes, which are known
-before anything is unpacked, then the values. Nothing is unpickled.
+sizes and checksums of all arrays, so that damage and exchanged arrays are noticed. It guards against
+accidents only; whatever it says, a file is checked by its `navmesh.files.schema.Schema`: first sizes, types
+and shapes, which are known before anything is unpacked, then the values. Nothing is unpickled.
 """
 
 import hashlib
@@ -22,6 +22,7 @@ from pydantic import ValidationError
 
 from navmesh.errors import NavmeshError
 from navmesh.files.inputs import refuse_input
+from navmesh.files.jsonfile import plain_json
 from navmesh.files.schema import HeaderType, Schema, Sizes
 from navmesh.files.whole_file import whole_file
 
@@ -29,10 +30,7 @@ __all__ = ["ArchiveError", "check_target", "most_unpacked", "read_archive", "sea
 
 _HEADER, _ENDING = "header", ".npy"
 _SEAL = "seal"
-_ALWAYS, _PACKED = (
-    16 * 2**20,
-    100,
-)  # bytes that may always be unpacked, and how many more for each of the file
+_ALWAYS, _PACKED = 16 * 2**20, 100  # [bytes] that any file may unpack to, and more for each of its bytes
 _MOST_MEMBERS = 100_000
 _COMPRESSIONS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 _ENCRYPTED = 0x1
@@ -200,7 +198,7 @@ class _Reader:
         if dtype != np.uint8 or len(shape) != 1:
             raise self._error("its header is no text")
         text = self._array(member).tobytes()
-        found = json.loads(text.decode(), parse_constant=_refuse_constant)
+        found = plain_json(text.decode())
         if not isinstance(found, dict):
             raise self._error("its header is no mapping")
         self._compare_versions(found.get("kind"), found.get("version"))
@@ -257,10 +255,6 @@ class _Reader:
             if file.read(1):
                 raise self._error(f"{_shown(member.filename)} is longer than its shape says")
         return np.asarray(array, order="C")
-
-
-def _refuse_constant(name: str) -> None:
-    raise ValueError(f"its header holds {name}, which is not finite")
 
 
 def _shown(value: Any) -> str:

@@ -7,10 +7,13 @@ from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any
 
+from navmesh.errors import NavmeshError
+from navmesh.files.jsonfile import read_json
 from runtime.errors import RuntimeInputError
 from runtime.files import whole_file
-from runtime.playtest.fault import Fault, Sighting
+from runtime.playtest.fault import KINDS, Fault, Sighting
 from runtime.playtest.observation import Crossing, Journey
+from runtime.record_types import wrong_field
 
 __all__ = ["FORMAT", "Report", "Setup", "read_report", "write_report"]
 
@@ -88,17 +91,13 @@ def read_report(path: str | os.PathLike[str]) -> Report:
     """Read what `write_report` wrote. Raises `RuntimeInputError` for any other file."""
     file = Path(path)
     try:
-        values = json.loads(file.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise RuntimeInputError(
-            f"{file}: {error.strerror}; expected the report of a playtest (JSON)"
-        ) from None
-    except ValueError as error:
-        raise RuntimeInputError(f"{file}: not the report of a playtest: {error}") from None
+        values = read_json(file, "report of a playtest")
+    except NavmeshError as error:
+        raise RuntimeInputError(str(error)) from None
     if not isinstance(values, dict) or values.get("format") != FORMAT:
-        raise RuntimeInputError(f"{file}: not the report of a playtest: expected format {FORMAT!r}")
+        raise RuntimeInputError(f"{file}: not a report of a playtest: expected format {FORMAT!r}")
     try:
-        return Report(
+        report = Report(
             setup=Setup(**values["setup"]),
             digest=values["digest"],
             character=values["character"],
@@ -109,6 +108,13 @@ def read_report(path: str | os.PathLike[str]) -> Report:
             patches=tuple((x, y, z, n) for x, y, z, n in values["patches"]),
             reachable=values["reachable"],
         )
+        parts = (report, report.setup, *report.faults, *report.crossings, *report.journeys)
+        for part in (*parts, *(seen for fault in report.faults for seen in fault.sightings)):
+            if (field := wrong_field(part)) is not None:
+                raise TypeError(f"{field} of a {type(part).__name__} is of a wrong type")
+        if unknown := [fault.kind for fault in report.faults if fault.kind not in KINDS]:
+            raise ValueError(f"a fault of the kind {unknown[0]!r}")
+        return report
     except (KeyError, TypeError, ValueError) as error:
         raise RuntimeInputError(f"{file}: not a whole report of a playtest: {error}; run it again") from None
 

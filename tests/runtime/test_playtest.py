@@ -323,7 +323,7 @@ def test_the_command_refuses_wrong_input(surefoot, level, tmp_path):
         (["nowhere.obj"], "no such file"),
         ([level, "--body", "bird"], "'walker', 'human'"),
         ([level, "--seconds", "-1"], "seconds = -1"),
-        ([level, "--before", tmp_path / "old.json"], "not the report of a playtest"),
+        ([level, "--before", tmp_path / "old.json"], "not a report of a playtest"),
     ):
         code, said = surefoot("playtest", *arguments)
         assert code == 2 and says in said.err and said.err.count("\n") == 1

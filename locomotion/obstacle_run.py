@@ -16,14 +16,15 @@ from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill
 from locomotion.where_to_run import RUN_UP, SET_OFF
 
-__all__ = ["ObstacleRun", "TakeOff"]
+__all__ = ["RUN_UP_SIZE", "ObstacleRun", "TakeOff"]
 
 _NEXT, _STEPS_SEEN, _PLANNED, _FARTHER, _FASTER, _REHEARSED, _RETURNS, _BALKED, _BEND = range(9)
 # number of the next obstacle, steps made when the run-up was last planned, speed planned for this step or 0;
 # chosen in rehearsal: [m] that the mark is farther from the obstacle, [m/s] that the entry is faster, and 1
 # once a choice has gone well; how often it has gone back for another run-up; 1 after a run-up broken off;
 # [m] by which the path to the obstacle is longer than the distance at right angles to its edge
-_SIZE = 9
+RUN_UP_SIZE = 9
+"""Numbers that `ObstacleRun` remembers."""
 _MOST_RETURNS = 8
 _ROOM = 5.2  # [m] before an obstacle in which a body that begins to run comes to its entry speed
 _SETTING_OFF = SET_OFF - _ROOM  # [m] that it walks before it runs
@@ -47,7 +48,7 @@ class ObstacleRun:
         """``skills``: to clear them with, on top of ``run``."""
         self.skills, self._run = tuple(skills), run
         self.obstacles: tuple[ObstacleAhead, ...] = ()
-        self.plan = np.zeros(_SIZE)
+        self.plan = np.zeros(RUN_UP_SIZE)
         self.at_work: NDArray[np.float64] | None = None
 
     def begin(self, obstacles: Sequence[ObstacleAhead]) -> None:

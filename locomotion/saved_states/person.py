@@ -19,6 +19,7 @@ from locomotion.drop_roll_skill import DropRoll
 from locomotion.errors import LocomotionError
 from locomotion.human_state import CLEARING, HumanState
 from locomotion.jump_skill import Jump
+from locomotion.obstacle_run import RUN_UP_SIZE
 from locomotion.path_table import BRAKE, FAST_WALK, GAIT, RUN, SPEED, WALK, PathTable
 from locomotion.person import JOINT_NAMES
 from locomotion.route_smoothing import ObstacleAhead
@@ -127,7 +128,7 @@ _PARTS = (
     ),
     Slots(
         "the run-up of a person",
-        9,
+        RUN_UP_SIZE,
         [(0, _COUNT), (1, _COUNT), (2, _SPEED), (3, _SPEED), (4, _SPEED)],
         whole=(0, 1),
     ),

@@ -3,11 +3,13 @@
     python -m benchmarks.server_fuzz [--messages 1000000] [--clients 50] [--seconds 20] [--json server.json]
 
 The server is a process of its own on a small floor. First fifty clients each ask at 60 Hz for a step of a
-world of their own with a dog on its way; the time to each answer is printed, and that answers and events came
-whole and in order is checked by their numbers. Then eight clients send malformed, cut, oversized and
-out-of-order messages (one in 500 is too long and ends the connection, which is opened again), while a ninth
-steps a world and counts. Exit code 0 when nothing was lost, the ninth was served all along and the server's
-memory did not grow by more than 64 MB.
+world of their own with a dog on its way; the time to each answer is printed, and that answers and events
+came whole and in order is checked by their numbers. Then eight clients send malformed, cut, oversized and
+out-of-order messages, and right ones with one value of a wrong type (one in 500 is too long and ends the
+connection, which is opened again), while a ninth steps a world and counts. At last come attacks: floods of
+pings, pings and requests whose answers nobody reads, connections that say nothing, and paths to files. Exit
+code 0 when nothing was lost, no wrong type passed, the ninth was served all along, no file was found, the
+server wrote no more than 100 lines to its log and its memory did not grow by more than 64 MB.
 """
 
 import argparse
@@ -19,7 +21,10 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Mapping, Sequence
+import urllib.error
+import urllib.request
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import numpy as np
@@ -30,6 +35,7 @@ ROOT = Path(__file__).resolve().parents[1]
 FLOOR = "v 0 0 0\nv 12 0 0\nv 12 6 0\nv 0 6 0\nf 1 2 3\nf 1 3 4\n"
 START = "import runtime.cli; runtime.cli.main()"
 GROWTH = 64.0  # [MB]
+LINES = 100  # of the log
 STATE = b'{"type":"state"'  # of which a client gets the newest only, without a number
 GOOD = [
     {"type": "spawn", "id": 1, "world": "world1", "body": "dog", "at": [2, 3, 0], "facing": 0.1},
@@ -39,6 +45,45 @@ GOOD = [
     {"type": "hello", "id": 5, "version": 1},
     {"type": "step", "id": 6, "world": "world999", "dt": 0.01},
 ]
+
+
+TYPED = [
+    {
+        "type": "spawn",
+        "id": 1,
+        "world": "{world}",
+        "body": "dog",
+        "at": [2, 3, 0],
+        "facing": 0.1,
+        "name": "new",
+    },
+    {"type": "go_to", "id": 2, "world": "{world}", "agent": "rex", "points": [[3, 3, 0]], "speed": 1},
+    {"type": "join", "id": 3, "world": "{world}", "states": "local"},
+    {"type": "step", "id": 4, "world": "{world}", "dt": 0.01},
+    {"type": "create", "id": 5, "level": "floor", "seed": 1, "clock": "manual"},
+    {"type": "hello", "id": 6, "version": 1, "token": ""},
+    {"type": "level", "id": 7, "level": "floor"},
+]  # whose every value is given another type
+
+
+@contextmanager
+def serving(
+    level: Path, *options: str, log: Path | None = None
+) -> Iterator[tuple[str, subprocess.Popen[str]]]:
+    """A server of ``level`` in a process of its own: its address, and the process. ``log``: where its
+    messages go."""
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    with open(log or os.devnull, "w") as errors:
+        server = subprocess.Popen(
+            [sys.executable, "-c", START, "serve", str(level), "--port", "0", *options],
+            env=environment, stdout=subprocess.PIPE, stderr=errors, text=True,
+        )  # fmt: skip
+        try:
+            assert server.stdout is not None
+            yield server.stdout.readline().split()[-1], server
+        finally:
+            server.terminate()
+            server.wait(30)
 
 
 class Client:
@@ -155,29 +200,107 @@ async def fuzz(address: str, messages: int, pid: int) -> dict:
     }  # fmt: skip
 
 
+async def types(address: str) -> list[str]:
+    """Messages that passed although one of their values is of a wrong type."""
+    client, passed = await greeted(address), []
+    world = (await client.ask("create", level="floor", clock="manual", states="none"))["result"]["world"]
+    await client.ask("spawn", world=world, body="dog", at=[2, 3, 0], name="rex")
+    for good in TYPED:
+        for field in [key for key in good if key not in ("type", "id")]:
+            right = world if good[field] == "{world}" else good[field]
+            for value in mistyped(right):
+                whole = {**good, field: value}
+                if "world" in good and field != "world":
+                    whole["world"] = world
+                kind = whole.pop("type")
+                whole.pop("id")
+                if "result" in await client.ask(kind, **whole):
+                    passed.append(f"{kind} {field} {value!r}")
+    return passed
+
+
+def mistyped(right) -> list:
+    """Values of other types that say the same, or nearly."""
+    if isinstance(right, list):
+        inner = [[each, *right[1:]] for each in mistyped(right[0])]
+        return [*inner, dict(enumerate(right)), json.dumps(right), right[0], True]
+    if isinstance(right, str):
+        return [[right], {right: right}, 1, True, 0.5]
+    whole = [float(right)] if isinstance(right, int) and right in (0, 1) else []
+    return [str(right), True, False, [right], {"value": right}, *(whole if right == 1 else [])]
+
+
+async def attacks(address: str) -> None:
+    """Whatever takes memory, time or the log, from connections that want no answers."""
+
+    async def flood_of_pings(read: bool) -> None:
+        for _ in range(20):
+            with suppress(ConnectionClosed, OSError):
+                client = await greeted(address)
+                if not read:
+                    client.socket.transport.pause_reading()
+                for number in range(5000):
+                    await client.socket.ping(f"{number:0125}")
+                client.socket.transport.abort()
+
+    async def unread() -> None:
+        client = await greeted(address)
+        client.socket.transport.pause_reading()
+        with suppress(ConnectionClosed, TimeoutError):
+            async with asyncio.timeout(10):
+                for number in range(100_000):
+                    await client.socket.send(json.dumps({"type": "graph", "id": number, "level": "floor"}))
+        client.socket.transport.abort()
+
+    async def silent() -> None:
+        sockets = []
+        for _ in range(200):
+            with suppress(Exception):
+                sockets.append(await connect(address, compression=None))
+        for socket in sockets:
+            socket.transport.abort()
+
+    await asyncio.gather(*(flood_of_pings(read) for read in (True, False) for _ in range(4)))
+    await asyncio.gather(*(unread() for _ in range(4)))
+    await silent()
+
+
+def pages_found(address: str, folder: Path) -> list[str]:
+    """Paths of a folder that are served and should not be."""
+    secrets = [".git/config", ".env", "code.py", "key.pem", ".hidden/page.html", "out.html"]
+    outside = folder.parent / "outside.html"
+    outside.write_text("no")
+    for name in secrets[:-1]:
+        (folder / name).parent.mkdir(exist_ok=True)
+        (folder / name).write_text("no")
+    (folder / "out.html").symlink_to(outside)
+    found = []
+    for path in [*secrets, "../outside.html", "%2e%2e/outside.html", ".%67it/config", "//etc/passwd"]:
+        with (
+            suppress(urllib.error.HTTPError),
+            urllib.request.urlopen(f"http{address[2:]}/{path}", timeout=20),
+        ):
+            found.append(path)
+    return found
+
+
 def memory(pid: int) -> float:
     """Resident memory of a process [MB]."""
     return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--messages", type=int, default=1_000_000)
     parser.add_argument("--clients", type=int, default=50)
     parser.add_argument("--seconds", type=float, default=20.0)
     parser.add_argument("--json", type=Path, help="file to write")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        level = Path(folder) / "floor.obj"
+        level, pages, log = (Path(folder) / name for name in ("floor.obj", "pages", "log"))
         level.write_text(FLOOR)
-        environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-        server = subprocess.Popen(
-            [sys.executable, "-c", START, "serve", str(level), "--port", "0"],
-            env=environment, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
-        )  # fmt: skip
-        try:
-            assert server.stdout is not None
-            address = server.stdout.readline().split()[-1]
+        pages.mkdir()
+        with serving(level, "--pages", str(pages), log=log) as (address, server):
             taken = asyncio.run(latencies(address, options.clients, options.seconds))
             p50, p99 = np.percentile(taken, [50, 99])
             print(
@@ -186,19 +309,25 @@ def main() -> None:
             )
             print(f"p50 {p50:.1f} ms, p99 {p99:.1f} ms, slowest {taken.max():.1f} ms", flush=True)
             found = asyncio.run(fuzz(address, options.messages, server.pid))
+            passed = asyncio.run(types(address))
+            asyncio.run(attacks(address))
+            served = pages_found(address, pages)
+            found["memory_mb"].append(memory(server.pid))
             alive = server.poll() is None
-        finally:
-            server.terminate()
-            server.wait(30)
+        lines = len(log.read_text().splitlines())
     growth = found["memory_mb"][-1] - found["memory_mb"][0]
     print(
         f"{found['messages']} wrong messages: memory grew by {growth:.1f} MB; the other client was served ",
         end="",
     )
     print(f"{found['other_steps']} times, at the slowest in {found['other_slowest_ms']:.0f} ms")
+    print(f"wrong types that passed: {', '.join(passed) or 'none'}; files: {', '.join(served) or 'none'}")
+    print(f"{lines} lines in the log")
     held = alive and found["other_served"] and growth <= GROWTH
+    held = held and not passed and not served and lines <= LINES
     if options.json:
         result = {"p50_ms": p50, "p99_ms": p99, "answers": len(taken), **found, "held": held}
+        result |= {"wrong_types": passed, "files": served, "log_lines": lines}
         options.json.write_text(json.dumps(result, indent=1) + "\n")
     sys.exit(not held)
 

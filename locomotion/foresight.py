@@ -13,6 +13,7 @@ from collections.abc import Callable, Generator, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from locomotion.human_state import HumanState, same
+from locomotion.pausing import pause
 from locomotion.rehearsal import Outcome, Trial, at_once, first_good
 
 if TYPE_CHECKING:
@@ -86,6 +87,7 @@ class Foresight:
         double = self._double_of(person)
         while self._task is not None and self._asked is not None and question.is_also(self._asked):
             next(self._task, None)
+            pause()
         known = self._known(question)
         if known is not None:
             return known

@@ -20,6 +20,7 @@ import numpy as np
 from locomotion.events import Cleared, TookOff
 from locomotion.human_state import MOVING, HumanState, same
 from locomotion.passage import Passage, Watcher
+from locomotion.pausing import pause
 from locomotion.person import CONTROL_DT
 from locomotion.walk_layout import LONGER, WALK_HEADING, WALK_SPEED
 
@@ -122,6 +123,7 @@ def at_once(task: Generator[None, None, _R]) -> _R:
             next(task)
         except StopIteration as end:
             return end.value
+        pause()
 
 
 def first_good(

@@ -7,6 +7,7 @@ import numpy as np
 from pydantic import Field
 
 from locomotion.errors import LocomotionError
+from locomotion.pausing import pause
 from locomotion.person import person_digest
 from navmesh.files.archive import ArchiveError, read_archive
 from navmesh.files.schema import Header, Numbers, Rising, Schema, Size
@@ -42,6 +43,7 @@ def read_skill(
 ) -> tuple[HeaderType, dict[str, np.ndarray]]:
     """Header and arrays of what was learned; `LocomotionError` if it is missing, cut off, of another kind or
     version, of another person, or not as the ``schema`` says."""
+    pause()
     try:
         header, arrays = read_archive(path, schema)
     except ArchiveError as error:

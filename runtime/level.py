@@ -1,11 +1,15 @@
 """The level of a world, as all that live in it see it: its graph and its ground, which change together."""
 
 from dataclasses import dataclass
+from weakref import WeakKeyDictionary
 
 import navmesh
 from locomotion import Ground
 
 __all__ = ["Level"]
+
+_grounds: WeakKeyDictionary[navmesh.NodeGraph, Ground] = WeakKeyDictionary()
+"""Made once for all worlds on a graph: neither ever changes."""
 
 
 @dataclass
@@ -19,8 +23,10 @@ class Level:
     def of(cls, graph: navmesh.NodeGraph) -> "Level":
         """The level that a graph was built for. Raises `locomotion.LocomotionError` for one without a
         triangle that has an area."""
-        terrain, rules = graph.terrain, graph.rules
-        ground = Ground.from_arrays(
-            terrain.vertices, terrain.faces, max_slope=rules.max_slope, max_step=rules.max_step
-        )
+        ground = _grounds.get(graph)
+        if ground is None:
+            terrain, rules = graph.terrain, graph.rules
+            ground = _grounds[graph] = Ground.from_arrays(
+                terrain.vertices, terrain.faces, max_slope=rules.max_slope, max_step=rules.max_step
+            )
         return cls(graph, ground)

@@ -15,6 +15,7 @@ from locomotion.clearing import skill_ranges
 from locomotion.giving_way import SPACING, Course
 from locomotion.leads import can_begin, leads
 from locomotion.library import learned_skills
+from locomotion.pausing import pause
 from locomotion.rehearsal import REHEARSALS
 from locomotion.run_up_room import cramped_links
 from locomotion.saved_states.person import check_person
@@ -81,6 +82,7 @@ class People:
     def tick(self) -> None:
         for driver in self._drivers:
             driver.human.tick()
+            pause()
 
 
 class HumanDriver:

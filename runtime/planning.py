@@ -8,6 +8,7 @@ import numpy as np
 import navmesh
 from locomotion import LocomotionError, ObstacleAhead, Smoothing, smooth_route
 from locomotion.lining_up import lined_up
+from locomotion.pausing import pause
 from locomotion.route_smoothing import RUNNING
 from locomotion.run_up_room import LEAST_RUN_UP, straight_before
 from navmesh.holding import line_holds
@@ -77,6 +78,7 @@ def make_plan(
         points.append(lead)
         begun, start = _length(lead), lead[-1]
     for index, goal in enumerate(goals):
+        pause()
         route = graph.find_path(start, goal, radius=radius, skills=skills, closed_links=closed_links)
         if route.status != "complete":
             raise NoWay(index, why_not(graph, route, start, goal, radius, skills, closed_links))

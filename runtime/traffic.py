@@ -14,6 +14,7 @@ from locomotion.giving_way import (
     first_meeting,
     options,
 )
+from locomotion.pausing import pause
 from navmesh.holding import line_holds
 from runtime.drivers import Follower, Population
 from runtime.level import Level
@@ -62,6 +63,7 @@ class Traffic:
         if len(turns) == 0 or len(moment) < 2:
             return
         for index, near in zip(turns.tolist(), moment.near(turns), strict=True):
+            pause()
             follower = moment.followers[index]
             course = moment.course(index) if near.any() or follower.pace < 1.0 else None
             if course is None:

@@ -16,6 +16,7 @@ import navmesh
 from locomotion import LocomotionError, load_run_skill
 from locomotion.giving_way import Course
 from locomotion.library import described_ranges, learned_skills, skills_digest
+from locomotion.pausing import pause
 from locomotion.person import CONTROL_DT
 from locomotion.quadruped import is_body_file, load_body
 from locomotion.rehearsal import REHEARSALS
@@ -240,7 +241,8 @@ class World:
     def step(self, dt: float) -> int:
         """Advance by ``dt`` [s] ≥ 0, in whole ticks of 10 ms; the rest is owed to later calls.
 
-        Returns how many ticks were made. Raises `RuntimeInputError` for a ``dt`` below 0 or not finite.
+        It can be interrupted between short pieces, see `locomotion.pausing`. Returns how many ticks were
+        made. Raises `RuntimeInputError` for a ``dt`` below 0 or not finite.
         """
         dt = checked_number(dt, "dt", "s", 0.0)
         self._refuse_in_callback("step")
@@ -259,11 +261,14 @@ class World:
                 self._owed = max(total - made * CONTROL_DT, 0.0)
                 for population in self._populations:
                     population.tick()
+                    pause()
                 for agent in self.agents.values():
                     if agent.news:
                         agent.notice()
+                        pause()
                 for agent in list(self.agents.values())[self._ticks % _LOOKS :: _LOOKS]:
                     agent.watch()
+                    pause()
                 self._tell()
         finally:
             self._stepping = False
@@ -320,10 +325,15 @@ class World:
         checksum.update(repr(self.random.bit_generator.state).encode())
         for name, agent in self.agents.items():
             checksum.update(f"{name}:{agent.state_hash()}".encode())
+            pause()
         return checksum.hexdigest()[:32]
 
     def save(self) -> WorldState:
         """This moment, for `restore`."""
+        agents = {}
+        for name, agent in self.agents.items():
+            agents[name] = agent.save()
+            pause()
         return WorldState(
             level=self.level_digest,
             skills=skills_digest(self._skills)
@@ -334,7 +344,7 @@ class World:
             events=tuple(self._events),
             untold=tuple(self._untold),
             random=self.random.bit_generator.state,
-            agents={name: agent.save() for name, agent in self.agents.items()},
+            agents=agents,
         )
 
     def restore(self, state: WorldState) -> None:
@@ -376,6 +386,7 @@ class World:
             self._populate(state, known)
         for name, saved in state.agents.items():
             self.agents[name].restore(saved)
+            pause()
         self.random.bit_generator.state = dict(state.random)
         self._ticks, self._owed = state.ticks, state.owed
         self._events, self._untold = deque(state.events, maxlen=_UNREAD), deque(state.untold)
@@ -392,3 +403,4 @@ class World:
             else:
                 agent = Agent(self, name, saved.body, driver)
             self.agents[name] = agent
+            pause()

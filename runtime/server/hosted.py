@@ -1,5 +1,12 @@
-"""A world that the server runs, and how it is told in messages."""
+"""A world that the server runs, and how it is told in messages.
 
+What may take long (`HostedWorld.step` and most others) can be interrupted, see `locomotion.pausing`; nobody
+else may use the world then. Whoever calls it holds `HostedWorld.lock`.
+"""
+
+import asyncio
+import time
+from collections.abc import Sequence
 from itertools import count
 from typing import Any
 
@@ -7,10 +14,12 @@ import numpy as np
 from pydantic_core import to_json
 
 import navmesh
+from locomotion.pausing import pause
 from runtime.agent import Agent
 from runtime.errors import RuntimeInputError
 from runtime.planning import Plan
 from runtime.recording import level_trace
+from runtime.server.client import Client
 from runtime.server.messages import States
 from runtime.world import World, WorldState
 
@@ -21,20 +30,29 @@ _DRAWN = ("positions", "radii", "edges", "rim", "normal", "height")
 
 class HostedWorld:
     """``name`` is its own in the server; ``level``: its level's; ``manual``: whether its clients step it.
-    ``clients``: who joined it, and what each wants to be told."""
+
+    ``clients``: who joined it, in order, and what each wants to be told. ``spawned``: whose agents there are.
+    ``since``: when [s] it was advanced or, without clients, left. ``at_work``: whether an advance is due.
+    ``closed``: whether it has been.
+    """
 
     def __init__(self, name: str, level: str, graph: navmesh.NodeGraph, seed: int, manual: bool) -> None:
         self.name, self.level, self.manual = name, level, manual
         self.world = World(graph, seed)
-        self.clients: dict[Any, States] = {}
+        self.clients: dict[Client, States] = {}
+        self.spawned: dict[str, Client | None] = {}
         self.saved: WorldState | None = None
+        self.since = time.monotonic()
+        self.lock = asyncio.Lock()
+        self.at_work = self.closed = False
         self._texts: dict[States, bytes] = {}
         self._ways: dict[str, tuple[Plan, int]] = {}
         self._numbers = count(1)
 
-    def changed(self) -> None:
-        """What was said of it does not hold any more."""
-        self._texts.clear()
+    @property
+    def owner(self) -> Client | None:
+        """To whom it counts: who has been here longest."""
+        return next(iter(self.clients), None)
 
     def agent(self, name: str) -> Agent:
         """Raises `RuntimeInputError`."""
@@ -43,13 +61,83 @@ class HostedWorld:
             raise RuntimeInputError(f"no agent {name!r} in world {self.name!r}; there are: {here}")
         return self.world.agents[name]
 
-    def state(self, states: States) -> bytes:
-        """The text of the present state; made once for all who want it."""
-        if states not in self._texts:
-            agents = [self._agent_state(agent, states) for agent in self.world.agents.values()]
-            message = {"type": "state", "world": self.name, "time": self.world.time, "agents": agents}
-            self._texts[states] = to_json(message)
-        return self._texts[states]
+    # --- what takes long
+    def join(self, states: States) -> dict[str, Any]:
+        """What one who joins is told, and the state as it wants it."""
+        self._describe(states)
+        agents = []
+        for agent in self.world.agents.values():
+            agents.append(skeleton(agent))
+            pause()
+        return {"world": self.name, "level": self.level, "time": self.world.time, "agents": agents}
+
+    def step(self, dt: float) -> int:
+        """Ticks."""
+        ticks = self.world.step(dt)
+        self.changed()
+        return ticks
+
+    def spawn(self, body: str, at: tuple[float, float, float], facing: float, name: str | None) -> Agent:
+        agent = self.world.spawn(body, at, facing, name)
+        self.changed()
+        return agent
+
+    def go_to(
+        self, agent: str, points: Sequence[tuple[float, float, float]], speed: float, facing: float | None
+    ) -> str:
+        """Status."""
+        sent = self.agent(agent)
+        status = sent.go_to(points, speed, facing)
+        former = sent.driver.plans
+        while len(former) > 1:  # a client that sends it about all day must not fill the memory
+            former.popleft()
+        return status
+
+    def stop(self, agent: str) -> str:
+        """Status."""
+        self.agent(agent).stop()
+        return self.agent(agent).status
+
+    def remove(self, agent: str) -> None:
+        self.agent(agent).remove()
+        self.changed()
+
+    def save(self) -> dict[str, Any]:
+        """Time and hash."""
+        self.saved = self.world.save()
+        return {"time": self.world.time, "hash": self.world.state_hash()}
+
+    def restore(self) -> dict[str, Any]:
+        """Time and hash."""
+        if self.saved is None:
+            raise RuntimeInputError(f"world {self.name!r} has not been saved")
+        self.world.restore(self.saved)
+        self.changed()
+        return {"time": self.world.time, "hash": self.world.state_hash()}
+
+    def changed(self) -> None:
+        """Describe the present state to those who want to be told."""
+        self._texts.clear()
+        self._ways = {name: way for name, way in self._ways.items() if name in self.world.agents}
+        self.spawned = {name: self.spawned.get(name, self.owner) for name in self.world.agents}
+        wanted: set[States] = set(self.clients.values())
+        for states in wanted:
+            self._describe(states)
+
+    def _describe(self, states: States) -> None:
+        if states == "none" or states in self._texts:
+            return
+        agents = []
+        for agent in self.world.agents.values():
+            agents.append(to_json(self._agent_state(agent, states)))
+            pause()
+        head = to_json({"type": "state", "world": self.name, "time": self.world.time})[:-1]
+        self._texts[states] = b'%b,"agents":[%b]}' % (head, b",".join(agents))
+
+    # ---
+    def state(self, states: States) -> bytes | None:
+        """The text of the present state, None for one that nobody has asked for yet."""
+        return self._texts.get(states)
 
     def _agent_state(self, agent: Agent, states: States) -> dict[str, Any]:
         told = {

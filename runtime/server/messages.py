@@ -5,6 +5,8 @@
 Metres, seconds, radians; Z up; quaternions (w, x, y, z). A client sends requests, each with an ``id`` of its
 choice that the reply repeats, `Hello` first. Replies, errors and events carry ``seq``, which counts up by 1
 for each client: none is lost or overtakes another. States carry none: a client that is slow gets the newest.
+
+Types are strict: where a number is expected, neither a text with a number in it nor true or false will do.
 """
 
 import json
@@ -12,8 +14,10 @@ import sys
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, TypeAdapter, WithJsonSchema
+from pydantic_core import PydanticCustomError
 
+from runtime.drivers import BODIES
 from runtime.files import whole_file
 
 __all__ = [
@@ -46,13 +50,24 @@ _Name = Annotated[str, Field(min_length=1, max_length=40, pattern=r"^[\w .-]+$")
 _Metres = Annotated[float, Field(ge=-1e6, le=1e6)]
 _Point = tuple[_Metres, _Metres, _Metres]
 _Angle = Annotated[float, Field(ge=-100.0, le=100.0)]
+
+
+def _known(body: str) -> str:
+    if body not in BODIES:
+        valid = ", ".join(map(repr, BODIES))
+        raise PydanticCustomError("body", "body {body}: valid: {valid}", {"body": repr(body), "valid": valid})
+    return body
+
+
+_Body = Annotated[str, AfterValidator(_known), WithJsonSchema({"enum": list(BODIES), "type": "string"})]
+"""Those that come with the package. A file is none: clients name no files."""
 States = Literal["none", "places", "world", "local"]
 """What a client is told after each step: nothing; where each agent is and what it does; also its skeleton's
 transforms in the world, or each in its parent's frame."""
 
 
 class _Message(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, strict=True)
 
 
 class _Request(_Message):
@@ -118,7 +133,7 @@ class Spawn(_Request):
 
     type: Literal["spawn"]
     world: _Name
-    body: _Name
+    body: _Body
     at: _Point
     facing: _Angle = 0.0
     name: _Name | None = None

@@ -6,12 +6,14 @@ states only which worlds have a newer one is kept: the newest is looked up when 
 
 import asyncio
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from pydantic_core import to_json
 
 __all__ = ["Outbox", "TooSlow"]
+
+_PIECE = 1 << 16  # [bytes]
 
 
 class TooSlow(Exception):
@@ -24,20 +26,24 @@ class Outbox:
 
     def __init__(self, newest: Callable[[str], bytes | None], most: int) -> None:
         self._newest, self._most = newest, most
-        self._ordered: deque[bytes] = deque()
+        self._ordered: deque[tuple[bytes, ...]] = deque()
         self._fresh: dict[str, None] = {}
         self._waiting, self._seq = 0, 0
         self._filled, self._room = asyncio.Event(), asyncio.Event()
         self._room.set()
 
-    def put(self, message: Mapping[str, Any]) -> None:
-        """Send in order. Raises `TooSlow`."""
+    def put(self, message: Mapping[str, Any], result: bytes | None = None) -> None:
+        """Send in order. ``result``: the JSON text of the message's ``result``, which the server keeps for
+        all: it takes no room here, and is sent in pieces. Raises `TooSlow`."""
         self._seq += 1
-        text = to_json({**message, "seq": self._seq})
-        if self._waiting + len(text) > self._most and self._ordered:
+        end = b',"seq":%d}' % self._seq
+        head = to_json(message)[:-1]
+        text = (head + end,) if result is None else (head + b',"result":', result, end)
+        size = _own(text)
+        if self._waiting + size > self._most and self._ordered:
             raise TooSlow
         self._ordered.append(text)
-        self._waiting += len(text)
+        self._waiting += size
         if self._waiting > self._most // 4:
             self._room.clear()
         self._filled.set()
@@ -51,16 +57,16 @@ class Outbox:
         """Wait until a client that asks much has read some of the answers."""
         await self._room.wait()
 
-    async def take(self) -> bytes:
-        """The next message to be sent, once there is one."""
+    async def take(self) -> bytes | Iterator[memoryview]:
+        """The next message to be sent, once there is one; a large one in pieces."""
         while True:
             await self._filled.wait()
             if self._ordered:
                 text = self._ordered.popleft()
-                self._waiting -= len(text)
+                self._waiting -= _own(text)
                 if self._waiting <= self._most // 4:
                     self._room.set()
-                return text
+                return text[0] if len(text) == 1 else _pieces(text)
             while self._fresh:
                 world = next(iter(self._fresh))
                 del self._fresh[world]
@@ -68,3 +74,14 @@ class Outbox:
                 if text is not None:
                     return text
             self._filled.clear()
+
+
+def _own(text: tuple[bytes, ...]) -> int:
+    """Size of what is kept for this client alone."""
+    return len(text[0]) + (len(text[-1]) if len(text) > 1 else 0)
+
+
+def _pieces(text: tuple[bytes, ...]) -> Iterator[memoryview]:
+    for part in text:
+        for begin in range(0, len(part), _PIECE):
+            yield memoryview(part)[begin : begin + _PIECE]

@@ -1,7 +1,6 @@
 """Files of one folder over HTTP, for pages that talk to the server."""
 
 import http
-import mimetypes
 from email.utils import formatdate
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
@@ -12,31 +11,54 @@ from websockets.http11 import Response
 
 __all__ = ["page_of"]
 
-_TYPES = {".js": "text/javascript", ".mjs": "text/javascript"}
+_TYPES = {
+    ".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".mjs": "text/javascript",
+    ".json": "application/json", ".wasm": "application/wasm",
+    ".svg": "image/svg+xml", ".png": "image/png", ".jpg": "image/jpeg", ".jpeg": "image/jpeg",
+    ".gif": "image/gif", ".webp": "image/webp", ".ico": "image/x-icon",
+    ".woff": "font/woff", ".woff2": "font/woff2", ".ttf": "font/ttf",
+    ".glb": "model/gltf-binary", ".gltf": "model/gltf+json",
+    ".mp3": "audio/mpeg", ".ogg": "audio/ogg", ".mp4": "video/mp4", ".webm": "video/webm",
+}  # fmt: skip
+"""What a page is made of; no other file is served."""
+_LARGEST = 64_000_000  # [bytes] of a file
 
 
 def page_of(connection: ServerConnection, path: str, folder: Path | None) -> Response:
-    """The file of ``folder`` that ``path`` names, ``index.html`` for a folder; 404 for any other, also for
-    what lies outside."""
+    """The file of ``folder`` that ``path`` names, ``index.html`` for a folder; 404 for any other.
+
+    Only files inside the folder are served, of the types that pages are made of, and none whose name, or
+    whose folder's, begins with a dot. What a link leads to counts, not where it lies.
+    """
     if folder is None:
         return connection.respond(http.HTTPStatus.UPGRADE_REQUIRED, "this is a WebSocket server\n")
-    root = folder.resolve()
+    file = _served(folder.resolve(), unquote(urlsplit(path).path))
     try:
-        file = (root / unquote(urlsplit(path).path).lstrip("/")).resolve()
-        file = file / "index.html" if file.is_dir() else file
-        inside = file.is_relative_to(root) and file.is_file()
-        body = file.read_bytes() if inside else None
-    except (OSError, ValueError):
+        body = None if file is None else file.read_bytes()
+    except OSError:
         body = None
-    if body is None:
+    if file is None or body is None:
         return connection.respond(http.HTTPStatus.NOT_FOUND, "there is no such file\n")
-    kind = _TYPES.get(file.suffix) or mimetypes.guess_type(file.name)[0] or "application/octet-stream"
     headers = Headers(
         {
             "Date": formatdate(usegmt=True),
             "Connection": "close",
             "Content-Length": str(len(body)),
-            "Content-Type": kind,
+            "Content-Type": _TYPES[file.suffix.lower()],
+            "X-Content-Type-Options": "nosniff",
         }
     )
     return Response(200, "OK", headers, body)
+
+
+def _served(root: Path, path: str) -> Path | None:
+    """The file of the folder ``root`` that ``path`` names, None where none is to be served."""
+    try:
+        file = (root / path.lstrip("/")).resolve()
+        file = (file / "index.html").resolve() if file.is_dir() else file
+        if not file.is_relative_to(root) or file.suffix.lower() not in _TYPES:
+            return None
+        hidden = any(part.startswith(".") for part in file.relative_to(root).parts)
+        return file if not hidden and file.is_file() and file.stat().st_size <= _LARGEST else None
+    except (OSError, ValueError, RuntimeError):  # names that are none; links in a circle
+        return None

@@ -11,6 +11,7 @@ import pytest
 
 pytest.importorskip("websockets", reason="needs the extra 'serve'")
 
+from itertools import count
 from pathlib import Path
 
 from pydantic import TypeAdapter
@@ -116,6 +117,28 @@ def test_all_who_joined_hear_of_a_world_that_runs_by_itself(graph):
         ({"type": "go_to", "world": "world1", "agent": "ada", "points": [[2, 3, 0]]}, "no agent 'ada'"),
         ({"type": "restore", "world": "world1"}, "has not been saved"),
         ({"type": "hello", "version": 1}, "already"),
+        (
+            {"type": "spawn", "world": "world1", "body": "goose.yaml", "at": [2, 3, 0]},
+            "spawn.body.*valid: 'human'",
+        ),
+        (
+            {"type": "spawn", "world": "world1", "body": "./dog", "at": [2, 3, 0]},
+            "spawn.body.*valid: 'human'",
+        ),
+        ({"type": "spawn", "world": "world1", "body": "dog", "at": [True, 3, 0]}, "spawn.at.0: .*number"),
+        ({"type": "spawn", "world": "world1", "body": "dog", "at": ["2", 3, 0]}, "spawn.at.0: .*number"),
+        (
+            {"type": "spawn", "world": "world1", "body": "dog", "at": [2, 3, 0], "facing": False},
+            "facing: .*number",
+        ),
+        ({"type": "step", "world": "world1", "dt": True}, "step.dt: .*number"),
+        ({"type": "step", "world": "world1", "dt": "0.1"}, "step.dt: .*number"),
+        ({"type": "create", "level": "small", "seed": "1"}, "seed: .*integer"),
+        ({"type": "create", "level": "small", "seed": 1.0}, "seed: .*integer"),
+        ({"type": "create", "level": "small", "seed": True}, "seed: .*integer"),
+        ({"type": "go_to", "world": "world1", "agent": "ada", "points": {"0": [2, 3, 0]}}, "points: .*array"),
+        ({"type": "go_to", "world": "world1", "agent": 5, "points": [[2, 3, 0]]}, "agent: .*string"),
+        ({"type": "leave", "world": ["world1"]}, "world: .*string"),
     ],
 )
 def test_refuses_and_says_why(graph, request_, says):
@@ -162,7 +185,7 @@ def test_other_machines_and_other_sites_are_kept_out(graph):
 
 
 def test_limits_hold(graph):
-    limits = Limits(message=2000, worlds=2, clients=2, agents=1, idle=0.5, greeting=0.3)
+    limits = Limits(message=2000, worlds=2, clients=2, agents=1, idle=0.5, deserted=0.1, greeting=0.3)
 
     async def conversation(server, join, port):
         client = await join()
@@ -262,11 +285,22 @@ async def _answers(socket, wanted):
         wanted -= json.loads(await socket.recv())["type"] in ("error", "reply")
 
 
-def test_pages_come_from_one_folder_only(graph, tmp_path):
+def test_pages_come_from_one_folder_only_and_are_what_pages_are_made_of(graph, tmp_path):
     pages = tmp_path / "pages"
-    pages.mkdir()
+    for folder in (".git", "code", "data.html"):
+        (pages / folder).mkdir(parents=True)
     (pages / "index.html").write_text("<p>here</p>")
-    (tmp_path / "secret").write_text("no")
+    (pages / "page.JS").write_text("here()")
+    (pages / "data.html" / "index.html").write_text("<p>there</p>")
+    (tmp_path / "secret.js").write_text("no")
+    for name in (".git/config", ".git/index.html", ".env.js", "code/run.py", "key", "key.pem", "notes.yaml"):
+        (pages / name).write_text("no")
+    for name, target in (
+        ("out.js", tmp_path / "secret.js"), ("dot.html", pages / ".git/index.html"),
+        ("typed.js", pages / "key.pem"), ("circle.js", pages / "circle.js"), ("up", tmp_path),
+    ):  # fmt: skip
+        (pages / name).symlink_to(target)
+    (pages / "alias.js").symlink_to(pages / "page.JS")
 
     def fetch(port, path):
         with urllib.request.urlopen(f"http://127.0.0.1:{port}{path}", timeout=20) as answer:
@@ -274,12 +308,167 @@ def test_pages_come_from_one_folder_only(graph, tmp_path):
 
     async def conversation(server, join, port):
         assert await asyncio.to_thread(fetch, port, "/") == ("<p>here</p>", "text/html")
-        for path in ("/../secret", "/%2e%2e/secret", "/nothing", "/%00"):
+        assert await asyncio.to_thread(fetch, port, "/page.JS?v=1") == ("here()", "text/javascript")
+        assert await asyncio.to_thread(fetch, port, "/alias.js") == ("here()", "text/javascript")
+        assert await asyncio.to_thread(fetch, port, "/data.html/") == ("<p>there</p>", "text/html")
+        for path in (
+            "/../secret.js", "/%2e%2e/secret.js", "/nothing", "/%00", "/.git/config", "/.git", "/.env.js",
+            "/.git/index.html", "/%2egit/config", "/code/run.py", "/key", "/key.pem", "/notes.yaml", "/code",
+            "/out.js", "/dot.html", "/typed.js", "/circle.js", "/up/secret.js", "//etc/passwd",
+            f"/{'x' * 3000}.js",
+        ):  # fmt: skip
             with pytest.raises(urllib.error.HTTPError) as error:
                 await asyncio.to_thread(fetch, port, path)
             assert error.value.code == 404
+            error.value.close()
 
     talk(graph, conversation, pages=pages)
+
+
+def test_clients_act_only_in_worlds_that_they_joined(graph):
+    async def conversation(server, join, port):
+        first, second = await join(), await join()
+        world = (await first.ask("create", level="small", clock="manual"))["world"]
+        await first.ask("spawn", world=world, body="dog", at=[2, 3, 0], name="rex")
+        for kind, fields in (
+            ("step", {"dt": 0.1}), ("remove", {"agent": "rex"}), ("save", {}), ("restore", {}), ("close", {}),
+            ("spawn", {"body": "dog", "at": [4, 3, 0]}), ("go_to", {"agent": "rex", "points": [[4, 3, 0]]}),
+            ("stop", {"agent": "rex"}), ("way", {"agent": "rex"}),
+        ):  # fmt: skip
+            with pytest.raises(ValueError, match="join it first"):
+                await second.ask(kind, world=world, **fields)
+        await second.ask("join", world=world)
+        assert (await second.ask("step", world=world, dt=0.1))["ticks"] == 10
+
+    talk(graph, conversation)
+
+
+def test_one_client_takes_no_more_than_its_share(graph):
+    """Two clients: where worlds or agents get scarce, each may have half of them."""
+    limits = Limits(worlds=5, agents=6, all_worlds=4, all_agents=6)
+
+    async def conversation(server, join, port):
+        greedy, late = await join(), await join()
+
+        async def create(client):
+            return (await client.ask("create", level="small", clock="manual", states="none"))["world"]
+
+        def spawn(client, world, number):
+            return client.ask("spawn", world=world, body="walker", at=[1 + 1.5 * number, 3, 0])
+
+        worlds = [await create(greedy) for _ in range(4)]
+        with pytest.raises(ValueError, match="4 worlds already, of 4; you have 4, and your share is 2"):
+            await create(greedy)
+        own = [await create(late) for _ in range(2)]
+        with pytest.raises(ValueError, match="6 worlds already, of 4; you have 2, and your share is 2"):
+            await create(late)
+        for number in range(6):
+            await spawn(greedy, worlds[number % 2], number)
+        with pytest.raises(ValueError, match="6 agents already, of 6; give one up"):
+            await spawn(greedy, worlds[2], 0)
+        await spawn(late, own[0], 0)
+        await greedy.ask("save", world=worlds[0])
+        for name in tuple(server.worlds[worlds[0]].world.agents):
+            await greedy.ask("remove", world=worlds[0], agent=name)
+        for number in range(1, 3):
+            await spawn(late, own[0], number)
+        with pytest.raises(ValueError, match="6 agents already, of 6; you have 3, and your share is 3"):
+            await greedy.ask("restore", world=worlds[0])
+        await greedy.socket.close()
+        while len(server._clients) > 1:
+            await late.ask("step", world=own[0], dt=0.0)
+        for _ in range(2):  # what is deserted makes room
+            own.append(await create(late))
+        assert list(server.worlds) == own
+
+    talk(graph, conversation, limits=limits)
+
+
+def test_worlds_of_clients_that_leave_are_freed(graph):
+    async def conversation(server, join, port):
+        client, other = await join(), await join()
+        worlds = [(await client.ask("create", level="small", clock=c))["world"] for c in ("real", "manual")]
+        kept = (await client.ask("create", level="small"))["world"]
+        await other.ask("join", world=kept)
+        await client.ask("spawn", world=worlds[1], body="human", at=[2, 3, 0])
+        await client.socket.send(json.dumps({"type": "step", "id": 99, "world": worlds[1], "dt": 1.0}))
+        await client.socket.close()  # in the middle of it
+        while list(server.worlds) != [kept]:
+            await other.hear()  # its own world goes on
+        assert server.worlds[kept].owner is next(iter(server._clients))
+
+    talk(graph, conversation, limits=Limits(deserted=0.0))
+
+
+@pytest.mark.parametrize("people", [2, 12])
+def test_others_wait_for_one_piece_of_a_long_step_however_many_are_in_it(graph, people):
+    """Counted in pieces of work, of which each turn is one here: between two answers to a client, hardly more
+    is done of what another asks for than of what it asks for itself."""
+
+    async def conversation(server, join, port):
+        heavy, light, ticks = await join(), await join(), count()
+        server.turns._clock = lambda: float(next(ticks))
+        big = (await heavy.ask("create", level="small", clock="manual", states="none"))["world"]
+        small = (await light.ask("create", level="small", clock="manual", states="none"))["world"]
+        for number in range(people):
+            at = [1 + 1.5 * (number % 6), 1 + 3 * (number // 6), 0]
+            await heavy.ask("spawn", world=big, body="human", at=at, name=f"p{number}")
+            await heavy.ask("go_to", world=big, agent=f"p{number}", points=[[9, 3, 0]], speed=1.2)
+        alone = -server.turns.pieces
+        await light.ask("step", world=small, dt=0.01)
+        alone += server.turns.pieces
+        step = asyncio.ensure_future(heavy.ask("step", world=big, dt=1.0))
+        while not server.worlds[big].lock.locked():
+            await asyncio.sleep(0)
+        done = []
+        while not step.done() and len(done) < 40:
+            before = server.turns.pieces
+            await light.ask("step", world=small, dt=0.01)
+            done.append(server.turns.pieces - before)
+        assert (await step)["ticks"] == 100
+        return alone, done
+
+    alone, done = talk(graph, conversation)
+    assert len(done) == 40
+    assert max(done) <= 3 * alone
+
+
+def test_large_answers_are_kept_once_and_sent_in_pieces():
+    async def main():
+        box = Outbox(lambda world: None, most=1000)
+        level = b'{"vertices":"%b"}' % (b"x" * 200_000)
+        for number in range(3):
+            box.put({"type": "reply", "id": number}, level)
+            box.put({"type": "event"})
+        for number in range(3):
+            pieces = [bytes(each) for each in await box.take()]
+            assert max(map(len, pieces)) <= 65536
+            said = json.loads(b"".join(pieces))
+            assert said == {
+                "type": "reply", "id": number, "result": {"vertices": "x" * 200_000}, "seq": 2 * number + 1
+            }  # fmt: skip
+            assert json.loads(await box.take())["seq"] == 2 * number + 2
+        assert box._waiting == 0
+
+    asyncio.run(main())
+
+
+def test_a_flood_of_pings_ends_the_connection_and_not_the_server(graph):
+    async def conversation(server, join, port):
+        other, bad = await join(), await join()
+        world = (await other.ask("create", level="small", clock="manual"))["world"]
+        for _ in range(1000):
+            await bad.socket.ping()
+        with pytest.raises(ConnectionClosed):
+            await bad.hear()
+        while len(server._clients) > 1:
+            assert (await other.ask("step", world=world, dt=0.01))["ticks"] == 1
+        polite = await join()
+        for _ in range(5):
+            await (await polite.socket.ping())
+        await polite.ask("level", level="small")
+
+    talk(graph, conversation)
 
 
 def test_the_schema_in_the_docs_is_the_present_one(tmp_path):

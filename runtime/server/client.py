@@ -1,0 +1,19 @@
+"""One who is connected to the server."""
+
+import time
+
+from websockets.asyncio.server import ServerConnection
+
+from runtime.server.outbox import Outbox
+from runtime.server.turns import Account
+
+__all__ = ["Client"]
+
+
+class Client:
+    """``outbox``: what is to be sent. ``account``: its share of the server's time. ``heard``: when [s] it
+    last said something."""
+
+    def __init__(self, connection: ServerConnection, outbox: Outbox) -> None:
+        self.connection, self.outbox, self.account = connection, outbox, Account()
+        self.heard = time.monotonic()

@@ -1,0 +1,160 @@
+"""What each request of a client does.
+
+What takes long is done in the turns of the client that asks for it, one request at a time in each world.
+"""
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Any
+
+from pydantic_core import to_json
+
+import navmesh
+from locomotion.person_models import person_on
+from runtime.errors import RuntimeInputError
+from runtime.level import Level
+from runtime.server import messages as m
+from runtime.server.client import Client
+from runtime.server.hosted import HostedWorld, graph_message, level_message, skeleton, way_message
+from runtime.server.turns import Abandoned, Turns
+from runtime.server.worlds import Worlds
+
+__all__ = ["Requests"]
+
+
+class Requests:
+    """Answers requests about ``worlds`` on ``levels`` (graphs by name)."""
+
+    def __init__(self, levels: Mapping[str, navmesh.NodeGraph], worlds: Worlds, turns: Turns) -> None:
+        self._levels, self._worlds, self._turns = levels, worlds, turns
+        for graph in levels.values():
+            person_on(Level.of(graph).ground)  # made once for all worlds, before anybody waits for it
+        self._level_texts = {name: to_json(level_message(graph)) for name, graph in levels.items()}
+        self._graph_texts = {name: to_json(graph_message(graph)) for name, graph in levels.items()}
+
+    async def result(self, client: Client, request: Any) -> dict[str, Any] | bytes:
+        """The fields of the reply, or their JSON text. Raises `RuntimeInputError`, and `ValueError` from what
+        is asked."""
+        return await getattr(self, f"_do_{request.type}")(client, request)
+
+    async def advance(self, hosted: HostedWorld, client: Client, dt: Callable[[], float]) -> None:
+        """Advance a world by ``dt()`` [s] in the turns of ``client``, when it is its turn."""
+        await self._work(client, hosted, lambda: hosted.step(dt()))
+
+    async def _work(
+        self, client: Client, hosted: HostedWorld, work: Callable[[], Any], told: bool = True
+    ) -> Any:
+        """What ``work`` returns; what came of it is ``told`` to all who joined the world."""
+        try:
+            async with hosted.lock:
+                found = await self._turns.run(client.account, work, lambda: not hosted.closed)
+                if told:
+                    self._worlds.tell(hosted)
+                return found
+        except Abandoned:
+            raise RuntimeInputError(f"world {hosted.name!r} has been closed") from None
+
+    def _level(self, texts: Mapping[str, Any], name: str) -> Any:
+        if name not in texts:
+            raise RuntimeInputError(f"no level {name!r}; valid: {', '.join(texts)}")
+        return texts[name]
+
+    # ---
+    async def _do_hello(self, client: Client, request: m.Hello) -> Any:
+        raise RuntimeInputError("hello has been said already")
+
+    async def _do_level(self, client: Client, request: m.Level) -> Any:
+        return self._level(self._level_texts, request.level)
+
+    async def _do_graph(self, client: Client, request: m.Graph) -> Any:
+        return self._level(self._graph_texts, request.level)
+
+    async def _do_create(self, client: Client, request: m.Create) -> Any:
+        graph = self._level(self._levels, request.level)
+        self._worlds.check_world(client)
+        name, manual = self._worlds.new_name(), request.clock == "manual"
+        make = partial(HostedWorld, name, request.level, graph, request.seed, manual)
+        hosted = self._worlds.hosted[name] = await self._turns.run(client.account, make)
+        return await self._join(client, hosted, request.states)
+
+    async def _do_join(self, client: Client, request: m.Join) -> Any:
+        return await self._join(client, self._worlds.named(request.world), request.states)
+
+    async def _join(self, client: Client, hosted: HostedWorld, states: m.States) -> Any:
+        joined = await self._work(client, hosted, partial(hosted.join, states), told=False)
+        self._worlds.join(client, hosted, states)
+        return joined
+
+    async def _do_leave(self, client: Client, request: m.Leave) -> Any:
+        hosted = self._worlds.hosted.get(request.world)
+        return {"left": hosted is not None and self._worlds.leave(client, hosted)}
+
+    async def _do_close(self, client: Client, request: m.Close) -> Any:
+        self._worlds.close(self._worlds.joined(client, request.world))
+        return {}
+
+    async def _do_spawn(self, client: Client, request: m.Spawn) -> Any:
+        hosted = self._worlds.joined(client, request.world)
+
+        def spawn() -> Any:
+            self._worlds.check_room(hosted)
+            self._worlds.check_agents(client, 1)
+            agent = hosted.spawn(request.body, request.at, request.facing, request.name)
+            hosted.spawned[agent.name] = client
+            return agent
+
+        agent = await self._work(client, hosted, spawn, told=False)
+        self._worlds.announce(hosted, {"type": "agent", "world": hosted.name, "agent": skeleton(agent)})
+        self._worlds.tell(hosted)
+        return {"agent": agent.name}
+
+    async def _do_go_to(self, client: Client, request: m.GoTo) -> Any:
+        hosted = self._worlds.joined(client, request.world)
+        go_to = partial(hosted.go_to, request.agent, request.points, request.speed, request.facing)
+        status = await self._work(client, hosted, go_to, told=False)
+        self._worlds.tell_events(hosted)
+        return {"status": status}
+
+    async def _do_stop(self, client: Client, request: m.Stop) -> Any:
+        hosted = self._worlds.joined(client, request.world)
+        return {"status": await self._work(client, hosted, partial(hosted.stop, request.agent), told=False)}
+
+    async def _do_way(self, client: Client, request: m.Way) -> Any:
+        hosted = self._worlds.joined(client, request.world)
+        return await self._work(client, hosted, lambda: way_message(hosted.agent(request.agent)), told=False)
+
+    async def _do_remove(self, client: Client, request: m.Remove) -> Any:
+        hosted = self._worlds.joined(client, request.world)
+        await self._work(client, hosted, partial(hosted.remove, request.agent), told=False)
+        self._worlds.announce(hosted, {"type": "gone", "world": hosted.name, "agent": request.agent})
+        self._worlds.tell(hosted)
+        return {}
+
+    async def _do_step(self, client: Client, request: m.Step) -> Any:
+        hosted = self._worlds.joined(client, request.world)
+        if not hosted.manual:
+            raise RuntimeInputError(f"world {hosted.name!r} runs by itself; make it with the clock 'manual'")
+        ticks = await self._work(client, hosted, partial(hosted.step, request.dt))
+        return {"ticks": ticks, "time": hosted.world.time}
+
+    async def _do_save(self, client: Client, request: m.Save) -> Any:
+        hosted = self._worlds.joined(client, request.world)
+        return await self._work(client, hosted, hosted.save, told=False)
+
+    async def _do_restore(self, client: Client, request: m.Restore) -> Any:
+        hosted = self._worlds.joined(client, request.world)
+
+        def restore() -> Any:
+            before = set(hosted.world.agents)
+            if hosted.saved is not None:
+                self._worlds.check_agents(client, len(hosted.saved.agents.keys() - before))
+            found, now = hosted.restore(), hosted.world.agents
+            return found, sorted(before - now.keys()), [now[name] for name in now if name not in before]
+
+        found, gone, come = await self._work(client, hosted, restore, told=False)
+        for name in gone:
+            self._worlds.announce(hosted, {"type": "gone", "world": hosted.name, "agent": name})
+        for agent in come:
+            self._worlds.announce(hosted, {"type": "agent", "world": hosted.name, "agent": skeleton(agent)})
+        self._worlds.tell(hosted)
+        return found

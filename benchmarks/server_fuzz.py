@@ -57,7 +57,7 @@ TYPED = [
         "facing": 0.1,
         "name": "new",
     },
-    {"type": "go_to", "id": 2, "world": "{world}", "agent": "rex", "points": [[3, 3, 0]], "speed": 1},
+    {"type": "go_to", "id": 2, "world": "{world}", "agent": "rex", "points": [[3, 3, 0]], "speed": 1.5},
     {"type": "join", "id": 3, "world": "{world}", "states": "local"},
     {"type": "step", "id": 4, "world": "{world}", "dt": 0.01},
     {"type": "create", "id": 5, "level": "floor", "seed": 1, "clock": "manual"},

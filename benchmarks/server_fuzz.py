@@ -250,6 +250,7 @@ async def attacks(address: str) -> None:
             async with asyncio.timeout(10):
                 for number in range(100_000):
                     await client.socket.send(json.dumps({"type": "graph", "id": number, "level": "floor"}))
+                    await asyncio.sleep(0)
         client.socket.transport.abort()
 
     async def silent() -> None:

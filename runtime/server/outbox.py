@@ -28,7 +28,7 @@ class Outbox:
         self._newest, self._most = newest, most
         self._ordered: deque[tuple[bytes, ...]] = deque()
         self._fresh: dict[str, None] = {}
-        self._waiting, self._seq = 0, 0
+        self._waiting, self._seq, self._ended = 0, 0, False
         self._filled, self._room = asyncio.Event(), asyncio.Event()
         self._room.set()
 
@@ -40,6 +40,8 @@ class Outbox:
         head = to_json(message)[:-1]
         text = (head + end,) if result is None else (head + b',"result":', result, end)
         size = _own(text)
+        if self._ended:
+            return
         if self._waiting + size > self._most and self._ordered:
             raise TooSlow
         self._ordered.append(text)
@@ -52,6 +54,13 @@ class Outbox:
         """A world has a newer state."""
         self._fresh[world] = None
         self._filled.set()
+
+    def end(self) -> None:
+        """Nobody is there any more to read it."""
+        self._ordered.clear()
+        self._fresh.clear()
+        self._waiting, self._ended = 0, True
+        self._room.set()
 
     async def room(self) -> None:
         """Wait until a client that asks much has read some of the answers."""

@@ -75,6 +75,7 @@ class Requests:
         name, manual = self._worlds.new_name(), request.clock == "manual"
         make = partial(HostedWorld, name, request.level, graph, request.seed, manual)
         hosted = self._worlds.hosted[name] = await self._turns.run(client.account, make)
+        self._worlds.join(client, hosted, request.states)  # from the first, or it would count as deserted
         return await self._join(client, hosted, request.states)
 
     async def _do_join(self, client: Client, request: m.Join) -> Any:

@@ -220,6 +220,7 @@ class SurefootServer:
         """Notice that a client has gone also while it is being answered."""
         await client.connection.wait_closed()
         self._forget(client)
+        client.outbox.end()
 
     def _forget(self, client: Client) -> None:
         self._clients.discard(client)

@@ -254,6 +254,23 @@ def test_a_client_that_does_not_read_harms_nobody(graph):
     talk(graph, conversation, limits=Limits(waiting=20_000))
 
 
+def test_who_goes_without_reading_leaves_nothing_behind(graph):
+    async def conversation(server, join, port):
+        before = len(asyncio.all_tasks())
+        rude = await join()
+        (client,) = server._clients
+        client.outbox._room.clear()  # so much waits that it is not listened to any more
+        await rude.socket.send(json.dumps({"type": "level", "id": 1, "level": "small"}))
+        await rude.hear()
+        rude.socket.transport.abort()
+        while server._clients or len(asyncio.all_tasks()) > before:
+            await asyncio.sleep(0)
+        client.outbox.put({"type": "event"})
+        assert not client.outbox._ordered
+
+    talk(graph, conversation)
+
+
 def test_thousands_of_wrong_messages_change_nothing(graph):
     good = [
         {"type": "spawn", "id": 1, "world": "world1", "body": "dog", "at": [2, 3, 0], "facing": 0.1},

@@ -15,6 +15,8 @@ import numpy as np
 import ufbx
 
 _KEPT: list[object] = []
+_SAYS_WHAT_IS_HIDDEN = 6000
+"""Version of the format from which on; in older files ufbx finds nothing visible."""
 
 
 def parts(path: str) -> tuple[dict[str, np.ndarray], str]:
@@ -37,7 +39,7 @@ def parts(path: str) -> tuple[dict[str, np.ndarray], str]:
         if node.attrib_type in (ufbx.ElementType.NURBS_SURFACE, ufbx.ElementType.NURBS_TRIM_SURFACE):
             return {}, f"{node.name!r} is a NURBS surface, which is not read; convert it to polygons"
         mesh = node.mesh
-        if mesh is None or not is_shown(node, finest):
+        if mesh is None or (scene.metadata.version >= _SAYS_WHAT_IS_HIDDEN and not is_shown(node, finest)):
             continue
         place = np.array(node.geometry_to_world)
         skinned = len(mesh.skin_deformers) > 0 and not mesh.skinned_is_local

@@ -185,15 +185,16 @@ def _parts(document: Document, mesh: dict[str, Any], where: str) -> list[_Part]:
         mode = primitive.get("mode", _TRIANGLES)
         if mode not in _MODES:
             raise document.error(place, f"mode = {mode!r}: expected 0 to 6")
-        if mode >= _TRIANGLES:
+        attributes = primitive.get("attributes")
+        if not isinstance(attributes, dict):
+            raise document.error(place, "has no attributes")
+        if mode >= _TRIANGLES and "POSITION" in attributes:
             found.append(_part(document, primitive, mode, place))
     return found
 
 
 def _part(document: Document, primitive: dict[str, Any], mode: int, where: str) -> _Part:
-    attributes = primitive.get("attributes")
-    if not isinstance(attributes, dict) or "POSITION" not in attributes:
-        raise document.error(where, "has no POSITION")
+    attributes = primitive["attributes"]
     draco = document.extension(primitive, DRACO)
     stored, faces = ({}, None) if draco is None else draco_mesh(document, draco, where)
 

@@ -17,6 +17,8 @@ from navmesh.meshfiles.text import as_lines, finite_rows, quoted, read_bytes, wh
 __all__ = ["read_obj"]
 
 _FACES = (b"f", b"fo")
+_NAMES = {b"o", b"g", b"usemtl", b"mtllib", b"usemap", b"maplib", b"shadow_obj", b"trace_obj"}
+_BLANK = b" \t\v\f\0"  # ZBrush ends its files with a zero
 _REFUSED = {
     b"surf": "a free-form surface",
     b"bzp": "a Bézier patch",
@@ -49,6 +51,9 @@ def read_obj(path: str | os.PathLike[str]) -> MeshFile:
         elif not _STATEMENT.match(word):
             raise MeshFileError(path, f"line {number}", f"{quoted(statement)} is no statement of an OBJ file")
     vertices = finite_rows(path, points, point_lines, "a vertex")
+    for row, line in zip(rows, lines, strict=True):
+        if b" /" in row or row.startswith(b"/"):
+            raise MeshFileError(path, f"line {line}", f"{quoted(row)}: a blank before a slash")
     bare = _BEHIND.sub(b"", b"\n".join(rows)).split(b"\n") if rows else []
     named, sizes = whole_numbers(
         path, bare, lines, "the numbers of vertices: f 1 2 3, or f 1/1/1 2/2/1 3/3/1"
@@ -62,15 +67,15 @@ def read_obj(path: str | os.PathLike[str]) -> MeshFile:
 
 def _statements(lines: list[bytes]) -> Iterator[tuple[int, bytes]]:
     """The statements of a file with the number of the line on which each begins. A backslash at the end of a
-    line joins the next one to it, where it cannot be part of a name or a remark."""
+    line joins the next one to it, unless it is part of a name or a remark."""
     begun, start = b"", 0
     for number, line in enumerate(lines, 1):
-        text = line.strip()
+        text = line.strip(_BLANK)
         if begun:
             text, number, begun = begun + b" " + text, start, b""
         elif not text or text.startswith(b"#"):
             continue
-        if text.endswith(b"\\") and text.split(None, 1)[0] in (b"v", *_FACES):
+        if text.endswith(b"\\") and text.split(None, 1)[0] not in _NAMES:
             begun, start = text.rstrip(b"\\"), number
         else:
             yield number, text

@@ -23,7 +23,7 @@ _TYPES = {
 }  # fmt: skip
 _FORMATS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 _CORNERS = ("vertex_indices", "vertex_index")
-_END = re.compile(rb"end_header[ \t]*(\r\n|\n|\r|$)")
+_END = re.compile(rb"[\r\n]end_header[ \t]*(\r\n|\n|\r|$)")
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,12 @@ def load(tmp_path, name, content):
 
 
 def ply(kind, points, faces, corners="property list uchar int vertex_indices", end="\n", name="face"):
-    head = ["ply", f"format {kind} 1.0", "comment made by hand", f"element vertex {len(points)}"]
+    head = [
+        "ply",
+        f"format {kind} 1.0",
+        "comment made by hand, see end_header",
+        f"element vertex {len(points)}",
+    ]
     head += [f"property {'float' if kind == 'ascii' else 'double'} {axis}" for axis in "xyz"]
     head += [f"element {name} {len(faces)}", corners, "end_header", ""]
     text = end.join(head)

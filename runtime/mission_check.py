@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -12,10 +13,12 @@ from locomotion.library import described_ranges
 from navmesh.files.yamlfile import FileError
 from runtime.actions import first_far
 from runtime.agent import Agent
+from runtime.drivers import radius_of
 from runtime.errors import RuntimeInputError
 from runtime.mission import Address, LoadedMission, places_in, steps_of
 from runtime.mission_clearing import find_clearing
 from runtime.mission_model import AgentSpec, Step
+from runtime.mission_places import what_is_wrong
 from runtime.planning import NoWay
 from runtime.progress import Progress
 from runtime.rules import obstacle_rules
@@ -80,8 +83,12 @@ def build_graph(loaded: LoadedMission) -> navmesh.NodeGraph:
 
 
 def _place(loaded: LoadedMission, world: World, index: int, spec: AgentSpec) -> None:
+    point, body = loaded.point(spec.start), loaded.bodies[index]
+    wrong = what_is_wrong(world.graph, point, radius_of(body), Path(body).stem)
+    if wrong is not None:
+        raise loaded.error(("agents", index, "start"), wrong)
     try:
-        world.spawn(loaded.bodies[index], loaded.point(spec.start), math.radians(spec.facing_deg), spec.name)
+        world.spawn(body, point, math.radians(spec.facing_deg), spec.name)
     except ValueError as error:
         raise loaded.error(("agents", index, "start"), str(error)) from None
 
@@ -106,7 +113,12 @@ def _chains(
         if step.follow is not None:
             yield chain
             chain = []
-        chain += [((*address, *below), loaded.point(place)) for below, place in places_in(step)]
+        for below, place in places_in(step):
+            here, point = (*address, *below), loaded.point(place)
+            wrong = what_is_wrong(prepared.world.graph, point, agent.radius, Path(agent.body).stem)
+            if wrong is not None:
+                raise loaded.error(here, wrong)
+            chain.append((here, point))
     yield chain
 
 

@@ -118,8 +118,20 @@ def test_bad_levels_of_missions(surefoot, folder, kind):
     ("old", "new", "place", "says"),
     [
         ("[9, 3, 0]", "[18, 3, 0]", "13:9", "goto[0]: [18.0, 3.0, 0.0] cannot be reached"),
-        ("[9, 3, 0]", "[9, 3, 0]\n      - [90, 3, 0]", "14:9", "goto[1]: [90.0, 3.0, 0.0] cannot be reached"),
-        ("[2, 3, 0]", "[-4, 3, 0]", "9:12", "start: [-4.0, 3.0, 0.0] is not near a place"),
+        (
+            "[9, 3, 0]",
+            "[9, 3, 0]\n      - [90, 3, 0]",
+            "14:9",
+            "goto[1]: [90.0, 3.0, 0.0] is not on the floor",
+        ),
+        ("[2, 3, 0]", "[-4, 3, 0]", "9:12", "start: [-4.0, 3.0, 0.0] is not on the floor"),
+        ("[2, 3, 0]", "[2, 3, 0.9]", "9:12", "0.90 m above the floor; the floor there is at [2.0, 3.0, 0.0]"),
+        (
+            "[9, 3, 0]",
+            "[9, 3, -0.7]",
+            "13:9",
+            "below the floor; the floor there is at [9.0, 3.0, 0.0]",
+        ),
         ("speed: 3.0", "sped: 3.0", "11:5", "did you mean 'speed'"),
         ("seed: 3", "seed: three", "4:7", "valid integer"),
         ("up: z", "up: z\n  tags: gone.yaml", "4:9", "no such tags file"),

@@ -122,9 +122,9 @@ def test_bad_levels_of_missions(surefoot, folder, kind):
             "[9, 3, 0]",
             "[9, 3, 0]\n      - [90, 3, 0]",
             "14:9",
-            "goto[1]: [90.0, 3.0, 0.0] is not on the floor",
+            "goto[1]: [90.0, 3.0, 0.0] is not on the floor, or in a wall",
         ),
-        ("[2, 3, 0]", "[-4, 3, 0]", "9:12", "start: [-4.0, 3.0, 0.0] is not on the floor"),
+        ("[2, 3, 0]", "[-4, 3, 0]", "9:12", "start: [-4.0, 3.0, 0.0] is not on the floor, or in a wall"),
         ("[2, 3, 0]", "[2, 3, 0.9]", "9:12", "0.90 m above the floor; the floor there is at [2.0, 3.0, 0.0]"),
         (
             "[9, 3, 0]",

@@ -7,67 +7,90 @@ from numba import njit
 
 from navmesh.field import cell_at, floor_at, walk
 from navmesh.pulling import pull
-from navmesh.search import COMPLETE, EXPANDED, advance, begin, chain
-from navmesh.snapping import snap
+from navmesh.search import BEST, COMPLETE, EXPANDED, LIMIT, advance, begin, chain, resume
+from navmesh.snapping import nearest_reachable, snap
 
-__all__ = ["answer", "answer_all", "answer_search", "start_search"]
+__all__ = ["SEARCHING", "answer", "answer_all", "answer_search", "start_search"]
 
 _COMPLETE, _PARTIAL, _NO_PATH, _OFF_GRAPH = range(4)  # indices into navmesh.route.STATUSES
+SEARCHING = (_COMPLETE, _PARTIAL)
+"""What `start_search` returns where there is something to search for."""
 _WHOLE = 1 << 60
-_START_CELL, _GOAL_CELL = 8, 9  # places in scratch.numbers
+_START_CELL, _GOAL_CELL, _STATUS = 8, 9, 11  # places in scratch.numbers
+_NEARER = 0.01  # [m] that a place must be nearer to the goal than the start to be gone to
+_TRIES = 6  # chains that are pulled taut
+_CLOSE = 0.97  # share of the length found that another chain must promise to be tried
+_MORE = 64  # labels that may be expanded then, on top of as many as the search took
 
 
 @njit(error_model="numpy", cache=True, nogil=True)
-def start_search(net, doors, scratch, sx, sy, sz, gx, gy, gz, reach, rise):
-    """Snap the ends and begin the search; False when one of them is off the graph."""
-    start_node, start_cell, ax, ay = snap(net, sx, sy, sz, doors.radius, reach, rise)
+def _mark_reached(doors, scratch, part):
+    """Mark in scratch.reached the parts that leaps lead to from ``part``, with it."""
+    reached, stack = scratch.reached, scratch.part_stack
+    mark = scratch.numbers[0]
+    reached[part] = mark
+    stack[0] = part
+    size = 1
+    while size > 0:
+        size -= 1
+        here = stack[size]
+        for i in range(doors.part_leap_start[here], doors.part_leap_start[here + 1]):
+            other = doors.part_leap[i]
+            if reached[other] != mark:
+                reached[other] = mark
+                stack[size] = other
+                size += 1
+
+
+@njit(error_model="numpy", cache=True, nogil=True)
+def start_search(net, doors, scratch, sx, sy, sz, gx, gy, gz, reach, rise, step):
+    """Snap the ends and begin the search; returns a status.
+
+    `_PARTIAL` where the goal cannot be reached and the search is for the nearest place that can, `_NO_PATH`
+    where that is no nearer than the start, `_OFF_GRAPH`, or `_COMPLETE`.
+    """
+    if doors.radius > doors.widest:
+        return _OFF_GRAPH
+    start_node, start_cell, ax, ay = snap(net, sx, sy, sz, doors.radius, reach, rise, step)
     if start_node < 0:
-        return False
-    goal_node, goal_cell, bx, by = snap(net, gx, gy, gz, doors.radius, reach, rise)
+        return _OFF_GRAPH
+    goal_node, goal_cell, bx, by = snap(net, gx, gy, gz, doors.radius, reach, rise, step)
     if goal_node < 0:
-        return False
+        return _OFF_GRAPH
+    scratch.numbers[0] += 1  # marks of the last search hold no more
+    az = floor_at(net, start_cell, ax, ay)
+    status = _COMPLETE
+    part = doors.part[start_node]
+    if doors.part[goal_node] != part:
+        _mark_reached(doors, scratch, part)
+        if scratch.reached[doors.part[goal_node]] != scratch.numbers[0]:
+            status = _PARTIAL
+            goal_node, goal_cell, bx, by, near = nearest_reachable(net, doors, scratch, gx, gy, gz)
+            now = sqrt((ax - gx) * (ax - gx) + (ay - gy) * (ay - gy) + (az - gz) * (az - gz))
+            if goal_node < 0 or near > now - _NEARER:
+                return _NO_PATH
     scratch.numbers[_START_CELL] = start_cell
     scratch.numbers[_GOAL_CELL] = goal_cell
-    az = floor_at(net, start_cell, ax, ay)
+    scratch.numbers[_STATUS] = status
     bz = floor_at(net, goal_cell, bx, by)
     begin(net, doors, scratch, start_node, goal_node, ax, ay, az, bx, by, bz)
-    return True
+    return status
 
 
 @njit(error_model="numpy", cache=True, nogil=True)
-def _last_place(net, doors, scratch, node):
-    """Where a route that does not reach the goal ends: the place in its last node nearest to it; (x, y,
-    cell)."""
-    gx, gy = scratch.ends[3], scratch.ends[4]
-    x, y = net.position[node, 0], net.position[node, 1]
-    cell = cell_at(net, x, y, net.position[node, 2])
-    shrunk = net.node_radius[node] - doors.radius
-    if shrunk <= 0.0:
-        x, y, z = scratch.entry[node, 0], scratch.entry[node, 1], scratch.entry[node, 2]
-        return x, y, cell_at(net, x, y, z)
-    away = sqrt((gx - x) ** 2 + (gy - y) ** 2)
-    share = min(shrunk / away, 1.0) if away > 0.0 else 0.0
-    px, py = x + share * (gx - x), y + share * (gy - y)
-    reached, end = walk(net, cell, x, y, px, py, doors.radius, False)[:2]
-    return (px, py, end) if reached else (x, y, cell)
+def _trace(net, doors, scratch, leaps, count, gx, gy, goal_cell, last_try):
+    """Pull the chain of ``count`` nodes taut, to g in ``goal_cell``, into ``scratch.points``.
 
-
-@njit(error_model="numpy", cache=True, nogil=True)
-def _finish(net, doors, scratch, leaps):
-    """Turn the search's state into corners in ``scratch.points``.
-
-    ``leaps`` (n, 2) int32 receives (leap, corner at its run-up). Returns (status, nodes, corners, leaps
-    used).
+    ``leaps`` (n, 2) int32 receives (leap, corner at its run-up). The cells are searched on the ``last_try``
+    only. Returns (whether the goal was reached, nodes, corners, leaps used, cost [m]).
     """
-    numbers = scratch.numbers
     ends = scratch.ends
-    done = advance(net, doors, scratch, 0) == COMPLETE
-    count = chain(net, scratch)
     scratch.points[0, 0], scratch.points[0, 1], scratch.points[0, 2] = ends[0], ends[1], ends[2]
-    scratch.cells[0] = numbers[_START_CELL]
+    scratch.cells[0] = scratch.numbers[_START_CELL]
     corners = 1
     used = 0
     first = 1
+    cost = 0.0
     doors_count = doors.target.size
     edges = scratch.edges
     for i in range(1, count):
@@ -75,40 +98,109 @@ def _finish(net, doors, scratch, leaps):
         if leap < 0:
             continue
         x, y, cell = doors.leap_from[leap, 0], doors.leap_from[leap, 1], np.int64(doors.leap_from_cell[leap])
-        corners, reached = pull(net, doors, scratch, first, i, corners, x, y, cell)
+        leg = corners - 1
+        corners, reached = pull(net, doors, scratch, first, i, corners, x, y, cell, last_try)
+        cost += _length(scratch, leg, corners) + doors.leap_cost[leap]
         if not reached:
-            return _PARTIAL, i, corners, used
+            return False, i, corners, used, cost
         leaps[used, 0] = doors.leap_id[leap]
         leaps[used, 1] = corners - 1
         used += 1
         if corners + 1 >= scratch.cells.size:
-            return _PARTIAL, i, corners, used
+            return False, i, corners, used, cost
         scratch.points[corners] = doors.leap_to[leap]
         scratch.cells[corners] = doors.leap_to_cell[leap]
         corners += 1
         first = i + 1
-    x, y, cell = ends[3], ends[4], numbers[_GOAL_CELL]
-    if not done:
-        x, y, cell = _last_place(net, doors, scratch, scratch.nodes[count - 1])
-        gain = sqrt((ends[0] - ends[3]) ** 2 + (ends[1] - ends[4]) ** 2) - sqrt(
-            (x - ends[3]) ** 2 + (y - ends[4]) ** 2
-        )
-        if used == 0 and gain < net.cell:
-            return _NO_PATH, 0, 0, 0
-    corners, reached = pull(net, doors, scratch, first, count, corners, x, y, cell)
-    return (_COMPLETE if done and reached else _PARTIAL), count, corners, used
+    leg = corners - 1
+    corners, reached = pull(net, doors, scratch, first, count, corners, gx, gy, goal_cell, last_try)
+    return reached, count, corners, used, cost + _length(scratch, leg, corners)
 
 
 @njit(error_model="numpy", cache=True, nogil=True)
-def _length(scratch, corners):
+def _length(scratch, first, last):
+    """Length [m] of the line through the corners [first:last]."""
     points = scratch.points
     total = 0.0
-    for i in range(1, corners):
+    for i in range(first + 1, last):
         dx = points[i, 0] - points[i - 1, 0]
         dy = points[i, 1] - points[i - 1, 1]
         dz = points[i, 2] - points[i - 1, 2]
         total += sqrt(dx * dx + dy * dy + dz * dz)
     return total
+
+
+@njit(error_model="numpy", cache=True, nogil=True)
+def _early_end(net, doors, scratch):
+    """Where a search that was ended early leads: (x, y, cell) of the middle of the portal seen that is
+    nearest to the goal."""
+    label = scratch.numbers[BEST]
+    door = scratch.via[label]
+    if door < 0 or door >= doors.target.size:
+        x, y, z = scratch.apex[label, 0], scratch.apex[label, 1], scratch.apex[label, 2]
+        return x, y, cell_at(net, x, y, z)
+    lx, ly = doors.portal[door, 0], doors.portal[door, 1]
+    x, y = 0.5 * (lx + doors.portal[door, 3]), 0.5 * (ly + doors.portal[door, 4])
+    return x, y, walk(net, np.int64(doors.portal_cell[door, 0]), lx, ly, x, y, 0.0, True)[1]
+
+
+@njit(error_model="numpy", cache=True, nogil=True)
+def _finish(net, doors, scratch, leaps):
+    """Turn the search's state into corners in ``scratch.points``.
+
+    The line of the cheapest chain can be longer than the search thought. While chains are left that may lead
+    to a shorter one, they are pulled taut too, at most `_TRIES` in all and with no more than as much
+    searching again; the shortest counts. Returns (status, nodes, corners, leaps used).
+    """
+    numbers, ends = scratch.numbers, scratch.ends
+    state = advance(net, doors, scratch, 0)
+    count = chain(scratch)
+    if state != COMPLETE:
+        x, y, cell = _early_end(net, doors, scratch)
+        now = _far(ends[0], ends[1], ends[2], ends[3], ends[4], ends[5])
+        after = _far(x, y, floor_at(net, cell, x, y), ends[3], ends[4], ends[5])
+        if after > now - _NEARER:
+            return _NO_PATH, 0, 0, 0
+        _, nodes, corners, used, _ = _trace(net, doors, scratch, leaps, count, x, y, cell, True)
+        return _PARTIAL, nodes, corners, used
+    x, y, cell = ends[3], ends[4], numbers[_GOAL_CELL]
+    most = 2 * numbers[EXPANDED] + _MORE
+    cheapest = numbers[BEST]
+    least = 1e300
+    kept_nodes = kept = kept_used = 0
+    fresh = False
+    nodes = corners = used = 0
+    for attempt in range(_TRIES):
+        reached, nodes, corners, used, cost = _trace(net, doors, scratch, leaps, count, x, y, cell, False)
+        fresh = reached and cost < least
+        if fresh:
+            least = cost
+        if attempt == _TRIES - 1 or (doors.weighted and reached):
+            break
+        ends[LIMIT] = least * _CLOSE
+        if resume(net, doors, scratch, most - numbers[EXPANDED]) != COMPLETE:
+            break
+        if fresh:
+            kept_nodes, kept, kept_used = nodes, corners, used
+            scratch.kept[:corners] = scratch.points[:corners]
+            scratch.kept_nodes[:nodes] = scratch.nodes[:nodes]
+            scratch.kept_leaps[:used] = leaps[:used]
+        count = chain(scratch)
+    if fresh:
+        return numbers[_STATUS], nodes, corners, used
+    if kept > 0:
+        scratch.points[:kept] = scratch.kept[:kept]
+        scratch.nodes[:kept_nodes] = scratch.kept_nodes[:kept_nodes]
+        leaps[:kept_used] = scratch.kept_leaps[:kept_used]
+        return numbers[_STATUS], kept_nodes, kept, kept_used
+    numbers[BEST] = cheapest
+    reached, nodes, corners, used, _ = _trace(net, doors, scratch, leaps, chain(scratch), x, y, cell, True)
+    return (numbers[_STATUS] if reached else _PARTIAL), nodes, corners, used
+
+
+@njit(error_model="numpy", cache=True, inline="always")
+def _far(ax, ay, az, bx, by, bz):
+    return sqrt((ax - bx) * (ax - bx) + (ay - by) * (ay - by) + (az - bz) * (az - bz))
 
 
 @njit(error_model="numpy", cache=True, nogil=True)
@@ -118,7 +210,7 @@ def answer_search(net, doors, scratch, origin):
     status, nodes, corners, used = _finish(net, doors, scratch, leaps)
     return (
         status,
-        _length(scratch, corners),
+        _length(scratch, 0, corners),
         scratch.numbers[EXPANDED],
         scratch.nodes[:nodes].copy(),
         scratch.points[:corners] + origin,
@@ -127,19 +219,20 @@ def answer_search(net, doors, scratch, origin):
 
 
 @njit(error_model="numpy", cache=True, nogil=True)
-def answer(net, doors, scratch, origin, sx, sy, sz, gx, gy, gz, reach, rise):
+def answer(net, doors, scratch, origin, sx, sy, sz, gx, gy, gz, reach, rise, step):
     """A whole query; `answer_search`'s tuple."""
     ox, oy, oz = origin[0], origin[1], origin[2]
-    if not start_search(
-        net, doors, scratch, sx - ox, sy - oy, sz - oz, gx - ox, gy - oy, gz - oz, reach, rise
-    ):
-        return _OFF_GRAPH, 0.0, 0, scratch.nodes[:0].copy(), np.empty((0, 3)), np.empty((0, 2), np.int32)
+    status = start_search(
+        net, doors, scratch, sx - ox, sy - oy, sz - oz, gx - ox, gy - oy, gz - oz, reach, rise, step
+    )
+    if status > _PARTIAL:
+        return status, 0.0, 0, scratch.nodes[:0].copy(), np.empty((0, 3)), np.empty((0, 2), np.int32)
     advance(net, doors, scratch, _WHOLE)
     return answer_search(net, doors, scratch, origin)
 
 
 @njit(error_model="numpy", cache=True, nogil=True)
-def answer_all(net, doors, scratch, origin, starts, goals, reach, rise):
+def answer_all(net, doors, scratch, origin, starts, goals, reach, rise, step):
     """Queries one after another; the arrays of `Routes`, with leaps (l, 2) and starts beginning at 0."""
     count = starts.shape[0]
     status = np.empty(count, np.int64)
@@ -154,17 +247,16 @@ def answer_all(net, doors, scratch, origin, starts, goals, reach, rise):
     used_room = np.empty((net.node_radius.size if doors.leap_id.size else 0, 2), np.int32)
     ox, oy, oz = origin[0], origin[1], origin[2]
     for i in range(count):
-        on = start_search(
+        status[i] = start_search(
             net, doors, scratch,
             starts[i, 0] - ox, starts[i, 1] - oy, starts[i, 2] - oz,
-            goals[i, 0] - ox, goals[i, 1] - oy, goals[i, 2] - oz, reach, rise,
+            goals[i, 0] - ox, goals[i, 1] - oy, goals[i, 2] - oz, reach, rise, step,
         )  # fmt: skip
-        status[i] = _OFF_GRAPH
         n = corners = used = 0
-        if on:
+        if status[i] <= _PARTIAL:
             advance(net, doors, scratch, _WHOLE)
             status[i], n, corners, used = _finish(net, doors, scratch, used_room)
-            length[i] = _length(scratch, corners)
+            length[i] = _length(scratch, 0, corners)
             expanded[i] = scratch.numbers[EXPANDED]
         at = waypoint_start[i]
         if at + corners > waypoints.shape[0]:

@@ -2,21 +2,32 @@
 
 from collections.abc import Mapping
 from math import isfinite
+from numbers import Real
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from navmesh.errors import NavmeshError
 from navmesh.obstacle_rules import AFFORDANCES
+from navmesh.parts import leaps_by_part, parts_of_nodes, parts_of_tiles
 from navmesh.portals import open_portals
 from navmesh.structs import make_doors, net_of
 
 if TYPE_CHECKING:
     from navmesh.graph import NodeGraph
 
-__all__ = ["doors_of", "portals_of"]
+__all__ = ["checked_radius", "doors_of", "portals_of"]
 
 _KEPT = 16  # radii, and offers of skills, that are kept
+
+
+def checked_radius(radius: Any) -> float:
+    """``radius`` as a float; `NavmeshError` unless it is a finite number above 0."""
+    if isinstance(radius, bool) or not isinstance(radius, Real):
+        raise NavmeshError(f"radius: expected a body's radius [m], a number above 0, not {radius!r}")
+    if not isfinite(radius) or radius <= 0.0:
+        raise NavmeshError(f"radius = {radius!r}: expected a body's radius [m], above 0")
+    return float(radius)
 
 
 def _checked_skills(skills: Mapping[str, tuple[float, float]] | None) -> tuple:
@@ -54,6 +65,18 @@ def _checked_links(graph: "NodeGraph", links: Any) -> np.ndarray:
             f"closed_links: expected indices of the graph's {len(graph.links)} links, not {links!r}"
         )
     return index.astype(np.int64)
+
+
+def _parts_of(graph: "NodeGraph", radius: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The part of each node for a body of ``radius``, and the parts in each tile (CSR); see
+    `navmesh.parts`."""
+    kept = graph.cache.setdefault("parts", {})
+    if radius not in kept:
+        if len(kept) >= _KEPT:
+            del kept[next(iter(kept))]
+        part = parts_of_nodes(*portals_of(graph, radius)[:2])
+        kept[radius] = part, *parts_of_tiles(net_of(graph), part, radius)
+    return kept[radius]
 
 
 def _leaps_for(graph: "NodeGraph", radius: float, skills: tuple, closed: np.ndarray) -> dict[str, np.ndarray]:
@@ -98,8 +121,6 @@ def doors_of(
         doors = kept.get(key)
         if doors is not None:
             return doors
-    if not isfinite(radius) or radius <= 0.0:
-        raise NavmeshError(f"radius = {radius!r}: expected a body's radius [m], above 0")
     count = len(graph.radii)
     if node_costs is None:
         costs = np.ones(count)
@@ -107,13 +128,20 @@ def doors_of(
         costs = np.ascontiguousarray(node_costs, dtype=np.float64)
         if costs.shape != (count,) or not np.all(costs >= 1.0) or not np.all(np.isfinite(costs)):
             raise NavmeshError(f"node_costs: expected {count} finite factors of at least 1, one per node")
-    doors = make_doors(
-        radius,
-        portals_of(graph, radius),
-        costs,
-        node_costs is not None,
-        _leaps_for(graph, radius, offered, closed),
+    leaps = _leaps_for(graph, radius, offered, closed)
+    part, tile_start, tile_part = _parts_of(graph, radius)
+    part_leap_start, part_leap = leaps_by_part(
+        part, graph.label[leaps["leap_from_cell"]], graph.label[leaps["leap_to_cell"]]
     )
+    parts = {
+        "part": part,
+        "part_leap_start": part_leap_start,
+        "part_leap": part_leap,
+        "tile_start": tile_start,
+        "tile_part": tile_part,
+    }
+    weighted, widest = node_costs is not None, float(graph.radii.max())
+    doors = make_doors(radius, portals_of(graph, radius), costs, weighted, leaps, parts, widest)
     if node_costs is None:
         if len(kept) >= _KEPT:
             del kept[next(iter(kept))]

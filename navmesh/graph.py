@@ -223,19 +223,22 @@ class NodeGraph:
         skills: Mapping[str, tuple[float, float]] | None = None,
         node_costs: np.ndarray | None = None,
         closed_links: Any = (),
+        extent: tuple[float, float] | None = None,
     ) -> Route:
         """The route from ``start`` to ``goal`` (3,) [m] for a body of ``radius`` [m].
 
-        Each end stands for the floor nearest to it in height, at most `WalkRules.headroom` above or below.
-        An end where the body does not fit, because a wall is nearer than its radius or there is no floor
-        below, is moved to the nearest place where it does, at most twice the radius and two cells away;
-        the route's first and last waypoints say where. ``skills`` offers typed links: for each affordance
+        Each end is moved to the place nearest to it where the body fits: a point of the surface with its
+        radius clear around it. ``extent`` (horizontal, vertical) [m] is how far it may be moved, by default
+        twice the radius and two cells sideways and 1.5 times `WalkRules.headroom` up or down; `max_step`
+        of the height does not count as distance. The route's first and last waypoints say where. A goal
+        that cannot be reached is replaced by the place that can be and is nearest to it in a straight line:
+        the status is "partial". ``skills`` offers typed links: for each affordance
         the least and greatest height [m] that the body can clear, as in {"jump": (0.3, 0.5)}. ``node_costs``
         (m,), at least 1, multiply the length walked in each node. ``closed_links`` (k,) int are indices of
         `links` that are not offered. Never raises because of where the ends are: see
         `navmesh.route.STATUSES`. Raises `NavmeshError` for arguments of a wrong kind.
         """
-        return pathfinding.find_path(self, start, goal, radius, skills, node_costs, closed_links)
+        return pathfinding.find_path(self, start, goal, radius, skills, node_costs, closed_links, extent)
 
     def find_paths(
         self,
@@ -245,10 +248,11 @@ class NodeGraph:
         skills: Mapping[str, tuple[float, float]] | None = None,
         node_costs: np.ndarray | None = None,
         workers: int = 1,
+        extent: tuple[float, float] | None = None,
     ) -> Routes:
         """The routes from ``starts`` to ``goals`` (q, 3) [m] each: bit for bit what `find_path` gives
         one by one. ``workers`` threads share the work."""
-        return pathfinding.find_paths(self, starts, goals, radius, skills, node_costs, workers)
+        return pathfinding.find_paths(self, starts, goals, radius, skills, node_costs, workers, extent)
 
     def begin_path(
         self,
@@ -257,9 +261,10 @@ class NodeGraph:
         radius: float = 0.3,
         skills: Mapping[str, tuple[float, float]] | None = None,
         node_costs: np.ndarray | None = None,
+        extent: tuple[float, float] | None = None,
     ) -> PathSearch:
         """`find_path` as a search that is spread over frames: ``advance`` it, then ``finish`` it."""
-        return PathSearch(self, start, goal, radius, skills, node_costs)
+        return PathSearch(self, start, goal, radius, skills, node_costs, extent)
 
     def project(self, points: Any) -> tuple[Any, Any]:
         """The floor at ``points`` (3,) or (k, 3): (cell, world z); see `navmesh.queries`."""

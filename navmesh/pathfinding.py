@@ -7,14 +7,14 @@ discs (`navmesh.search`), string pulling turns it into the line to walk (`navmes
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
-from math import isfinite
+from math import inf, isfinite
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numba import float64
 
-from navmesh.answering import answer, answer_all, answer_search, start_search
-from navmesh.bodies import doors_of
+from navmesh.answering import SEARCHING, answer, answer_all, answer_search, start_search
+from navmesh.bodies import checked_radius, doors_of
 from navmesh.errors import NavmeshError
 from navmesh.route import STATUSES, Route, Routes, link_uses
 from navmesh.search import RUNNING, advance
@@ -38,12 +38,21 @@ def _scratch_for(graph: "NodeGraph") -> Any:
 @cache
 def _compiled_answer() -> Callable:
     """`answer` without Numba's choice by the types of the arguments, which takes longer than passing them."""
-    return answer.compile((NET, DOORS, SCRATCH, float64[::1], *[float64] * 8))
+    return answer.compile((NET, DOORS, SCRATCH, float64[::1], *[float64] * 9))
 
 
-def _limits(graph: "NodeGraph", radius: float) -> tuple[float, float]:
-    """How far [m] an end may be moved sideways, and how far from a floor it may be above or below."""
-    return 2.0 * radius + 2.0 * graph.surface.resolution, graph.rules.headroom
+def _limits(graph: "NodeGraph", radius: float, extent: Any) -> tuple[float, float, float]:
+    """How far [m] an end may be moved sideways, and up or down, and how much of the latter does not count."""
+    rules = graph.rules
+    if extent is None:
+        return 2.0 * radius + 2.0 * graph.surface.resolution, 1.5 * rules.headroom, rules.max_step
+    try:
+        reach, rise = map(float, extent)
+    except (TypeError, ValueError):
+        raise NavmeshError(f"extent: expected (horizontal, vertical) [m], not {extent!r}") from None
+    if not (0.0 <= reach < inf and 0.0 <= rise < inf):
+        raise NavmeshError(f"extent: expected (horizontal, vertical) [m], 0 or more, not {extent!r}")
+    return reach, rise, rules.max_step
 
 
 def _point(name: str, value: Any) -> tuple[float, float, float]:
@@ -64,16 +73,17 @@ def find_path(
     skills: Mapping[str, tuple[float, float]] | None = None,
     node_costs: np.ndarray | None = None,
     closed_links: Any = (),
+    extent: tuple[float, float] | None = None,
 ) -> Route:
     """See `NodeGraph.find_path`."""
     sx, sy, sz = _point("start", start)
     gx, gy, gz = _point("goal", goal)
-    radius = float(radius)
+    radius = checked_radius(radius)
     doors = doors_of(graph, radius, skills, node_costs, closed_links)
     scratch = _scratch_for(graph)
-    reach, rise = _limits(graph, radius)
+    reach, rise, step = _limits(graph, radius, extent)
     status, length, expanded, nodes, waypoints, leaps = _compiled_answer()(
-        net_of(graph), doors, scratch, graph.surface.origin, sx, sy, sz, gx, gy, gz, reach, rise
+        net_of(graph), doors, scratch, graph.surface.origin, sx, sy, sz, gx, gy, gz, reach, rise, step
     )
     graph.cache["scratch"].append(scratch)
     return Route(STATUSES[status], radius, nodes, waypoints, length, link_uses(graph, leaps), expanded, graph)
@@ -98,6 +108,7 @@ def find_paths(
     skills: Mapping[str, tuple[float, float]] | None = None,
     node_costs: np.ndarray | None = None,
     workers: int = 1,
+    extent: tuple[float, float] | None = None,
 ) -> Routes:
     """See `NodeGraph.find_paths`."""
     first, second = _points("starts", starts), _points("goals", goals)
@@ -105,17 +116,16 @@ def find_paths(
         raise NavmeshError(f"{len(first)} starts but {len(second)} goals: expected as many of each")
     if workers < 1:
         raise NavmeshError(f"workers = {workers}: expected at least 1")
-    radius = float(radius)
+    radius = checked_radius(radius)
     doors = doors_of(graph, radius, skills, node_costs)
     net = net_of(graph)
-    reach, rise = _limits(graph, radius)
+    reach, rise, step = _limits(graph, radius, extent)
 
     def run(low: int, high: int) -> tuple:
         scratch = _scratch_for(graph)
         try:
-            return answer_all(
-                net, doors, scratch, graph.surface.origin, first[low:high], second[low:high], reach, rise
-            )
+            ends = first[low:high], second[low:high]
+            return answer_all(net, doors, scratch, graph.surface.origin, *ends, reach, rise, step)
         finally:
             graph.cache["scratch"].append(scratch)
 
@@ -166,30 +176,33 @@ class PathSearch:
         radius: float = 0.3,
         skills: Mapping[str, tuple[float, float]] | None = None,
         node_costs: np.ndarray | None = None,
+        extent: tuple[float, float] | None = None,
     ) -> None:
         sx, sy, sz = (np.array(_point("start", start)) - graph.surface.origin).tolist()
         gx, gy, gz = (np.array(_point("goal", goal)) - graph.surface.origin).tolist()
         self._graph = graph
-        self._radius = float(radius)
+        self._radius = checked_radius(radius)
         self._doors = doors_of(graph, self._radius, skills, node_costs)
         self._net = net_of(graph)
         self._scratch = make_scratch(graph)
-        reach, rise = _limits(graph, self._radius)
-        self._on_graph = start_search(
-            self._net, self._doors, self._scratch, sx, sy, sz, gx, gy, gz, reach, rise
+        reach, rise, step = _limits(graph, self._radius, extent)
+        self._status = start_search(
+            self._net, self._doors, self._scratch, sx, sy, sz, gx, gy, gz, reach, rise, step
         )
 
     def advance(self, nodes: int) -> bool:
         """Expand at most ``nodes`` nodes (each about 0.1 µs); True when the search is done."""
         if nodes < 1:
             raise NavmeshError(f"nodes = {nodes}: expected at least 1")
-        return not self._on_graph or advance(self._net, self._doors, self._scratch, nodes) != RUNNING
+        if self._status not in SEARCHING:
+            return True
+        return advance(self._net, self._doors, self._scratch, nodes) != RUNNING
 
     def finish(self) -> Route:
         """The route to the goal, or a partial one if the search is not done."""
-        if not self._on_graph:
+        if self._status not in SEARCHING:
             nodes, waypoints = np.empty(0, np.int32), np.empty((0, 3))
-            return Route("off_graph", self._radius, nodes, waypoints, 0.0, [], 0, self._graph)
+            return Route(STATUSES[self._status], self._radius, nodes, waypoints, 0.0, [], 0, self._graph)
         status, length, expanded, nodes, waypoints, leaps = answer_search(
             self._net, self._doors, self._scratch, self._graph.surface.origin
         )

@@ -7,7 +7,8 @@
    pushed off, just so far that the body fits; the parts are walked again. Where walking ends on the line, it
    is pulled through the lenses of the portals instead, which lie in the discs; where discs do not overlap
    either, the cells themselves are searched.
-3. Corners that the line of sight jumps over are dropped.
+3. Corners that the line of sight jumps over are dropped, and those that nothing holds are let go
+   (`navmesh.tightening`), unless nodes have costs.
 
 What comes out has been walked: the body fits on all of it.
 """
@@ -21,6 +22,7 @@ from navmesh.detour import detour
 from navmesh.field import centre_of, floor_at, gap_at, same_place, walk
 from navmesh.funnel import funnel, round_corner, tangents
 from navmesh.portals import MARGIN
+from navmesh.tightening import tighten
 
 __all__ = ["pull"]
 
@@ -252,7 +254,7 @@ def _place_of(net, doors, door, side, x, y):
 
 
 @njit(error_model="numpy", cache=True)
-def _through_lenses(net, doors, scratch, first, count, low, high, free, gx, gy, goal_cell):
+def _through_lenses(net, doors, scratch, first, count, low, high, free, gx, gy, goal_cell, last_try):
     """Add a walked line from the leg's last corner to g through the lenses of the portals edges[low:high].
 
     ``free`` is the first free row of the funnel's memory. Returns the new count and whether the body fits.
@@ -264,18 +266,20 @@ def _through_lenses(net, doors, scratch, first, count, low, high, free, gx, gy, 
         x, y, k = work[i, 0], work[i, 1], goal_cell
         if i < free + corners - 1:
             k = _place_of(net, doors, scratch.edges[at[i] >> 1], at[i] & 1, x, y)
-        count, state = _mend(net, doors, scratch, first, count, x, y, k, at[i - 1] >> 1, at[i] >> 1, True)
+        before, here = at[i - 1] >> 1, at[i] >> 1
+        count, state = _mend(net, doors, scratch, first, count, x, y, k, before, here, last_try)
         if state != _FITS:
             return count, False
     return count, True
 
 
 @njit(error_model="numpy", cache=True)
-def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell):
+def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell, last_try):
     """Pull one walked leg taut: from the last corner in ``scratch.points`` through the portals of
     edges[first:last].
 
-    Returns the new number of corners and whether the goal was reached.
+    Where straight lines cannot be mended the cells are searched, on the ``last_try``. Returns the new number
+    of corners and whether the goal was reached.
     """
     leg = count - 1
     work, at, arc = scratch.corner, scratch.corner_at, scratch.arc
@@ -304,10 +308,14 @@ def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell):
             count, state = _mend(net, doors, scratch, leg, count, x, y, k, low, high, False)
             if state == _BLOCKED:
                 low, high = max(low, first), min(high + 1, last)
-                count, fits = _through_lenses(net, doors, scratch, leg, count, low, high, corners, x, y, k)
+                count, fits = _through_lenses(
+                    net, doors, scratch, leg, count, low, high, corners, x, y, k, last_try
+                )
                 state = _FITS if fits else _NO_WAY
             if state != _FITS:
                 return count, False
+    if not doors.weighted:
+        count = tighten(net, scratch, leg, count, radius)
     points, cells = scratch.points, scratch.cells
     for i in range(leg, count):
         points[i, 2] = floor_at(net, np.int64(cells[i]), points[i, 0], points[i, 1])

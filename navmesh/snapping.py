@@ -1,82 +1,25 @@
-"""Where a route may begin and end: the place nearest to the one asked for at which the body fits."""
+"""The place for a body nearest to a point: where a route begins, where it ends, and how near it can come to a
+goal that cannot be reached.
+
+A place is a point of the surface with the body's radius clear around it. It is looked for cell by cell, from
+the point outwards: in each cell's square the nearest point that is clear, on the same side of everything that
+ends walking as the cell's centre.
+"""
+
+from math import sqrt
 
 import numpy as np
 from numba import njit
 
-from navmesh.field import centre_of, floor_at, gap_at, walk
+from navmesh.field import centre_of, floor_at, gap_at, same_place, walk
+from navmesh.parts import TILE
 
-__all__ = ["roomy_cell", "snap"]
+__all__ = ["nearest_reachable", "roomy_cell", "snap"]
 
 _MARGIN = 0.015  # share of the radius: a little more than what string pulling keeps
-
-
-@njit(error_model="numpy", cache=True)
-def _floor_near(net, x, y, z, rise):
-    """The cell with a node under (x, y) whose floor is nearest to ``z`` and within ``rise``, or -1."""
-    ix = int(x // net.cell)
-    iy = int(y // net.cell)
-    if ix < 0 or iy < 0 or ix >= net.nx or iy >= net.ny:
-        return -1
-    column = ix * net.ny + iy
-    best = -1
-    least = rise
-    for k in range(net.column_start[column], net.column_start[column + 1]):
-        off = abs(floor_at(net, k, x, y) - z)
-        if off <= least and net.label[k] >= 0:
-            least = off
-            best = k
-    return best
-
-
-@njit(error_model="numpy", cache=True)
-def _sees(net, k, x, y):
-    """Whether (x, y) is on this side of what ends walking nearest to the centre of ``k``."""
-    cx, cy = centre_of(net, k)
-    vx, vy = net.nearest[k, 0], net.nearest[k, 1]
-    far = vx * vx + vy * vy
-    return far > 0.0 and (x - cx) * vx + (y - cy) * vy < far
-
-
-@njit(error_model="numpy", cache=True)
-def _seeing_cell(net, x, y, z, rise):
-    """The cell nearest to (x, y), at most two squares away, that sees it, or -1: beside a thin wall, the
-    square under a point may have its centre, and so its cell, on the other side."""
-    h = net.cell
-    ix = int(x // h)
-    iy = int(y // h)
-    best = -1
-    least = 1e300
-    for jx in range(max(ix - 2, 0), min(ix + 3, net.nx)):
-        for jy in range(max(iy - 2, 0), min(iy + 3, net.ny)):
-            cx, cy = (jx + 0.5) * h, (jy + 0.5) * h
-            off = (cx - x) ** 2 + (cy - y) ** 2
-            if off < least:
-                k = _floor_near(net, cx, cy, z, rise)
-                if k >= 0 and _sees(net, k, x, y):
-                    least = off
-                    best = k
-    return best
-
-
-@njit(error_model="numpy", cache=True)
-def _nearest_cell(net, x, y, z, reach, rise):
-    """The cell with a node whose centre is nearest to (x, y) horizontally, within ``reach``, or -1."""
-    h = net.cell
-    rings = int(reach / h) + 1
-    ix = int(x // h)
-    iy = int(y // h)
-    best = -1
-    least = reach * reach
-    for jx in range(max(ix - rings, 0), min(ix + rings + 1, net.nx)):
-        for jy in range(max(iy - rings, 0), min(iy + rings + 1, net.ny)):
-            dx = (jx + 0.5) * h - x
-            dy = (jy + 0.5) * h - y
-            if dx * dx + dy * dy < least:
-                k = _floor_near(net, (jx + 0.5) * h, (jy + 0.5) * h, z, rise)
-                if k >= 0:
-                    least = dx * dx + dy * dy
-                    best = k
-    return best
+_THIN = 1e-3  # [m] radius of a line that only must not cross anything
+_PUSHES = 6  # in one cell, off what is too near
+_LATTICE = 5  # points a side that are tried in a cell where pushing does not lead to a clear one
 
 
 @njit(error_model="numpy", cache=True)
@@ -84,7 +27,7 @@ def roomy_cell(net, k, x, y, radius, reach):
     """The cell nearest to (x, y), reached over links from ``k`` within ``reach``, whose centre has ``radius``
     free, or -1."""
     h = net.cell
-    rings = int(reach / h) + 1
+    rings = int(min(reach / h, max(net.nx, net.ny))) + 1
     side = 2 * rings + 1
     seen = np.zeros((side, side), np.uint8)
     queue = np.empty(side * side, np.int32)
@@ -122,62 +65,201 @@ def roomy_cell(net, k, x, y, radius, reach):
 
 
 @njit(error_model="numpy", cache=True)
-def snap(net, x, y, z, radius, reach, rise):
-    """The place for a body of ``radius`` nearest to (x, y, z).
+def _node_at(net, k, x, y, radius):
+    """The node that a body at (x, y) in cell ``k`` starts from: that of the cell, or of a cell beside it that
+    the body can go straight to the centre of; -1 where there is none."""
+    if net.clearance[k] >= radius and net.label[k] >= 0:
+        return net.label[k]
+    best = -1
+    least = 1e300
+    for way in range(4):
+        beside = net.link[k, way]
+        if beside < 0:
+            continue
+        for turn in range(3):  # the cell beside, and those beside that one to the left and to the right
+            other = beside if turn == 0 else net.link[beside, (way + 2 * turn - 1) % 4]
+            if other < 0 or net.clearance[other] < radius or net.label[other] < 0:
+                continue
+            cx, cy = centre_of(net, other)
+            off = (cx - x) * (cx - x) + (cy - y) * (cy - y)
+            if off < least:
+                reached, end = walk(net, k, x, y, cx, cy, 0.999 * radius, False)[:2]
+                if reached and same_place(net, end, other):
+                    least = off
+                    best = net.label[other]
+    return best
 
-    The floor is the one nearest to ``z``, at most ``rise`` above or below it; where there is none straight
-    under the point, or the body does not fit, places up to ``reach`` away are taken. Returns (node, cell, x,
-    y); node is -1 where there is no such place.
+
+@njit(error_model="numpy", cache=True, inline="always")
+def _off(net, k, px, py, x, y, z, step):
+    """Squared distance of the floor at p in cell ``k`` from (x, y, z); ``step`` of the height is free."""
+    rise = max(abs(floor_at(net, k, px, py) - z) - step, 0.0)
+    return (px - x) * (px - x) + (py - y) * (py - y) + rise * rise
+
+
+@njit(error_model="numpy", cache=True)
+def _clear_at(net, k, cx, cy, px, py, room):
+    """Whether p, in cell ``k`` with its centre at c, has ``room`` and nothing between it and the centre."""
+    if gap_at(net, k, px, py)[0] < room:
+        return False
+    reached, end = walk(net, k, cx, cy, px, py, _THIN, False)[:2]
+    return reached and same_place(net, end, k)
+
+
+@njit(error_model="numpy", cache=True)
+def _place_in(net, k, x, y, z, radius, step, best):
+    """The clear point of cell ``k`` nearest to (x, y, z), where it is nearer than ``best`` (squared).
+
+    Returns (squared distance, x, y), with the distance ``best`` where there is none.
     """
-    k = _floor_near(net, x, y, z, rise)
-    if k >= 0 and net.clearance[k] >= radius + 0.7072 * net.cell:
-        return net.label[k], k, x, y
-    if k < 0 or not _sees(net, k, x, y):
-        k = _seeing_cell(net, x, y, z, rise)
-    if k < 0:
-        k = _nearest_cell(net, x, y, z, reach, rise)
-        if k < 0:
-            return -1, -1, x, y
-        column = net.cell_column[k]
-        ix = column // net.ny
-        x = (ix + 0.5) * net.cell
-        y = (column - ix * net.ny + 0.5) * net.cell
-    gap, qx, qy = gap_at(net, k, x, y)
-    if gap < radius and gap > 1e-6:
-        push = radius * (1.0 + _MARGIN) / gap
-        nx = qx + (x - qx) * push
-        ny = qy + (y - qy) * push
-        if radius - gap <= reach:
-            reached, cell = walk(net, k, x, y, nx, ny, 0.0, True)[:2]
-            if reached:
-                after = gap_at(net, cell, nx, ny)[0]
-                if after >= radius:
-                    x, y, k, gap = nx, ny, cell, after
-    if gap >= radius and net.clearance[k] >= radius:
-        return net.label[k], k, x, y
-    cell = roomy_cell(net, k, x, y, radius, reach)
-    if cell < 0:
-        return -1, -1, x, y
-    if gap >= radius:
-        return net.label[cell], k, x, y
-    column = net.cell_column[cell]
-    ix = column // net.ny
-    cx = (ix + 0.5) * net.cell
-    cy = (column - ix * net.ny + 0.5) * net.cell
-    reached, end = walk(net, k, x, y, cx, cy, 0.0, True)[:2]
-    if reached and end == cell:
-        low, high = 0.0, 1.0
-        for _ in range(8):
-            middle = 0.5 * (low + high)
-            px = x + middle * (cx - x)
-            py = y + middle * (cy - y)
-            at = walk(net, k, x, y, px, py, 0.0, True)[1]
-            if gap_at(net, at, px, py)[0] >= radius:
-                high = middle
-            else:
-                low = middle
-        px = x + high * (cx - x)
-        py = y + high * (cy - y)
-        at = walk(net, k, x, y, px, py, 0.0, True)[1]
-        return net.label[cell], at, px, py
-    return net.label[cell], cell, cx, cy
+    cx, cy = centre_of(net, k)
+    half = 0.5 * net.cell
+    px = min(max(x, cx - half), cx + half)
+    py = min(max(y, cy - half), cy + half)
+    off = _off(net, k, px, py, x, y, z, step)
+    if off >= best:
+        return best, px, py
+    if net.clearance[k] >= radius + 0.7072 * net.cell:
+        return off, px, py
+    if _clear_at(net, k, cx, cy, px, py, radius):
+        return off, px, py
+    room = radius * (1.0 + _MARGIN)
+    for _ in range(_PUSHES):
+        gap, qx, qy = gap_at(net, k, px, py)
+        if gap >= room * (1.0 - 1e-9):
+            off = _off(net, k, px, py, x, y, z, step)
+            if off >= best:
+                return best, px, py
+            if _clear_at(net, k, cx, cy, px, py, radius):
+                return off, px, py
+            break
+        dx, dy = px - qx, py - qy
+        reached, end = walk(net, k, cx, cy, px, py, _THIN, False)[:2]
+        if gap < 1e-6 or not reached or not same_place(net, end, k):
+            dx, dy = cx - qx, cy - qy  # beyond what ends walking: back to where the centre is
+        far = sqrt(dx * dx + dy * dy)
+        if far < 1e-6:
+            break
+        px = min(max(qx + dx / far * room, cx - half), cx + half)
+        py = min(max(qy + dy / far * room, cy - half), cy + half)
+    bx, by = px, py
+    for i in range(_LATTICE):
+        for j in range(_LATTICE):
+            px = cx + (2.0 * i / (_LATTICE - 1) - 1.0) * half
+            py = cy + (2.0 * j / (_LATTICE - 1) - 1.0) * half
+            off = _off(net, k, px, py, x, y, z, step)
+            if off < best and _clear_at(net, k, cx, cy, px, py, radius):
+                best, bx, by = off, px, py
+    return best, bx, by
+
+
+@njit(error_model="numpy", cache=True)
+def snap(net, x, y, z, radius, reach, rise, step):
+    """The place for a body of ``radius`` nearest to (x, y, z): at most ``reach`` away horizontally and
+    ``rise`` up or down; up to ``step`` of the height does not count.
+
+    Returns (node, cell, x, y); node is -1 where there is no such place.
+    """
+    h = net.cell
+    ix, iy = int(x // h), int(y // h)
+    node, cell, bx, by = -1, -1, x, y
+    if 0 <= ix < net.nx and 0 <= iy < net.ny:
+        least = step
+        column = ix * net.ny + iy
+        for k in range(net.column_start[column], net.column_start[column + 1]):
+            off = abs(floor_at(net, k, x, y) - z)
+            if off <= least and net.label[k] >= 0 and net.clearance[k] >= radius + 0.7072 * h:
+                least = off
+                cell = k
+        if cell >= 0:
+            return net.label[cell], cell, x, y
+    best = reach * reach + rise * rise
+    rings = int(min(reach / h, 2.0 * max(net.nx, net.ny))) + 1
+    for ring in range(rings + 1):
+        if ring > 1 and (ring - 1) * h * ((ring - 1) * h) >= best:
+            break
+        for jx in range(max(ix - ring, 0), min(ix + ring + 1, net.nx)):
+            edge = jx == ix - ring or jx == ix + ring
+            for jy in range(max(iy - ring, 0), min(iy + ring + 1, net.ny)):
+                if not edge and jy != iy - ring and jy != iy + ring:
+                    continue
+                column = jx * net.ny + jy
+                for k in range(net.column_start[column], net.column_start[column + 1]):
+                    if net.clearance[k] < radius - 0.7072 * h:
+                        continue
+                    off, px, py = _place_in(net, k, x, y, z, radius, step, best)
+                    if off >= best or (px - x) * (px - x) + (py - y) * (py - y) > reach * reach:
+                        continue
+                    if abs(floor_at(net, k, px, py) - z) > rise:
+                        continue
+                    other = _node_at(net, k, px, py, radius)
+                    if other >= 0:
+                        best, node, cell, bx, by = off, other, k, px, py
+    return node, cell, bx, by
+
+
+@njit(error_model="numpy", cache=True)
+def _search_tile(net, doors, scratch, tile, x, y, z, best, node, cell, bx, by):
+    """The place nearest to (x, y, z) in one tile and in a part that scratch.reached marks, where it is nearer
+    than ``best`` (squared)."""
+    radius = doors.radius
+    reached, mark = scratch.reached, scratch.numbers[0]
+    h = net.cell
+    along = (net.ny + TILE - 1) // TILE
+    tx = tile // along
+    ty = tile - tx * along
+    for ix in range(tx * TILE, min((tx + 1) * TILE, net.nx)):
+        for iy in range(ty * TILE, min((ty + 1) * TILE, net.ny)):
+            column = ix * net.ny + iy
+            dx = max(abs((ix + 0.5) * h - x) - 0.5 * h, 0.0)
+            dy = max(abs((iy + 0.5) * h - y) - 0.5 * h, 0.0)
+            if dx * dx + dy * dy >= best:
+                continue
+            for k in range(net.column_start[column], net.column_start[column + 1]):
+                own = net.label[k] if net.clearance[k] >= radius else -1
+                if own >= 0 and reached[doors.part[own]] != mark:
+                    continue
+                if net.clearance[k] < radius - 0.7072 * h:
+                    continue
+                off, px, py = _place_in(net, k, x, y, z, radius, 0.0, best)
+                if off >= best:
+                    continue
+                other = _node_at(net, k, px, py, radius)
+                if other >= 0 and reached[doors.part[other]] == mark:
+                    best, node, cell, bx, by = off, other, k, px, py
+    return best, node, cell, bx, by
+
+
+@njit(error_model="numpy", cache=True)
+def nearest_reachable(net, doors, scratch, x, y, z):
+    """The place nearest to (x, y, z) in a straight line among those in the parts that scratch.reached marks.
+
+    Tiles that hold none of these parts are passed over. Returns (node, cell, x, y, distance [m]).
+    """
+    reached, mark = scratch.reached, scratch.numbers[0]
+    side = TILE * net.cell
+    across, along = (net.nx + TILE - 1) // TILE, (net.ny + TILE - 1) // TILE
+    tx = min(max(int(x // side), 0), across - 1)
+    ty = min(max(int(y // side), 0), along - 1)
+    best, node, cell, bx, by = 1e300, -1, -1, x, y
+    for ring in range(max(across, along)):
+        nearest = max(ring - 1, 0) * side
+        if nearest * nearest >= best:
+            break
+        for jx in range(max(tx - ring, 0), min(tx + ring + 1, across)):
+            edge = jx == tx - ring or jx == tx + ring
+            for jy in range(ty - ring, ty + ring + 1, 1 if edge else max(2 * ring, 1)):
+                if jy < 0 or jy >= along:
+                    continue
+                dx = max(abs((jx + 0.5) * side - x) - 0.5 * side, 0.0)
+                dy = max(abs((jy + 0.5) * side - y) - 0.5 * side, 0.0)
+                if dx * dx + dy * dy >= best:
+                    continue
+                tile = jx * along + jy
+                for i in range(doors.tile_start[tile], doors.tile_start[tile + 1]):
+                    if reached[doors.tile_part[i]] == mark:
+                        best, node, cell, bx, by = _search_tile(
+                            net, doors, scratch, tile, x, y, z, best, node, cell, bx, by
+                        )
+                        break
+    return node, cell, bx, by, sqrt(best)

@@ -11,6 +11,7 @@ import numpy as np
 from numba import float64, int32, int64
 
 from navmesh.bundles import Bundle, BundleType, aligned, rows
+from navmesh.search import LABELS
 
 if TYPE_CHECKING:
     from navmesh.graph import NodeGraph
@@ -25,10 +26,10 @@ _CELL = np.dtype(
 )  # fmt: skip
 _NODE = np.dtype([("position", "f8", 3), ("node_radius", "f8")])
 _DOOR = np.dtype([("portal", "f8", 6), ("portal_cell", "i4", 2), ("target", "i4"), ("", "i4")])
-_SEEN = np.dtype(
+_LABEL = np.dtype(
     [
-        ("stamp", "i8"), ("cost", "f8"), ("total", "f8"), ("entry", "f8", 3), ("parent", "i4"), ("via", "i4"),
-        ("", "i8"),
+        ("stamp", "i8"), ("cost", "f8"), ("total", "f8"), ("apex", "f8", 3), ("left", "f8", 3),
+        ("right", "f8", 3), ("parent", "i4"), ("via", "i4"), ("", "f8", 3),
     ]
 )  # fmt: skip
 
@@ -65,6 +66,12 @@ DOORS = BundleType(
     leap_to=float64[:, ::1],
     leap_to_cell=int32[::1],
     leap_cost=float64[::1],
+    widest=float64,
+    part=int32[::1],
+    part_leap_start=int32[::1],
+    part_leap=int32[::1],
+    tile_start=int32[::1],
+    tile_part=int32[::1],
 )
 """What one body radius makes of the graph.
 
@@ -74,15 +81,20 @@ the node behind; portal (6): x, y, z of its left and of its right end as seen wa
 it where they do not overlap; block (4): x, y of what ends walking at its left and at its right end, inf where
 nothing does. node_cost (m,), at least 1: factor on the length walked in each node; weighted: whether any
 factor is not 1. The leaps are the typed links on offer, grouped by the node they start from: leap_start (m +
-1,), leap_id (l,), leap_from, leap_to (l, 3), leap_from_cell, leap_to_cell (l,), leap_cost (l,) [m].
+1,), leap_id (l,), leap_from, leap_to (l, 3), leap_from_cell, leap_to_cell (l,), leap_cost (l,) [m]. widest:
+radius [m] of the widest disc. part (m,): which nodes can be walked to from each other, see `navmesh.parts`;
+part_leap_start (p + 1,), part_leap (l,): the parts that the leaps from each part lead to; tile_start (t +
+1,), tile_part: the parts in each tile.
 """
 
 SCRATCH = BundleType(
     numbers=int64[::1],
     ends=float64[::1],
-    seen=rows(_SEEN),
+    labels=rows(_LABEL),
     heap_key=float64[::1],
-    heap_node=int32[::1],
+    heap_item=int32[::1],
+    reached=int64[::1],
+    part_stack=int32[::1],
     nodes=int32[::1],
     edges=int32[::1],
     points=float64[:, ::1],
@@ -91,6 +103,11 @@ SCRATCH = BundleType(
     corner_at=int32[::1],
     arc=float64[:, ::1],
     bend=float64[:, ::1],
+    trial=float64[:, ::1],
+    trial_cell=int32[::1],
+    kept=float64[:, ::1],
+    kept_nodes=int32[::1],
+    kept_leaps=int32[:, ::1],
     stack=float64[:, ::1],
     stack_cell=int32[::1],
     cell_stamp=int64[::1],
@@ -100,10 +117,13 @@ SCRATCH = BundleType(
 """Memory for one search at a time.
 
 numbers: the stamp of the current search and its counters, see `navmesh.search`; ends: start and goal. For
-each node: stamp, the last search that came to it; cost, total, entry (3), parent, via. heap_key, heap_node:
-the open list; nodes, edges: the chain found; points, cells: the corners pulled; corner, corner_at: those of
-the funnel; arc: those that round one of them; bend: those that lead a line round a place; stack, stack_cell:
-corners still to be reached; cell_stamp, cell_best, cell_parent: what `navmesh.detour` knows of each cell.
+each label (those of node i from LABELS * i on): stamp, the last search that made it; cost, total, apex, left,
+right (3), parent, via: the door, or the number of doors + leap. heap_key, heap_item: the open list; reached:
+for each part the last search that can get to it, part_stack: those still to be gone on from; nodes, edges:
+the chain found; points, cells: the corners pulled; corner, corner_at: those of the funnel; arc: those that
+round one of them; bend: those that lead a line round a place; trial, trial_cell: corners to be put in the
+place of one; kept, kept_nodes, kept_leaps: the best line so far; stack, stack_cell: corners still to be
+reached; cell_stamp, cell_best, cell_parent: what `navmesh.detour` knows of each cell.
 """
 
 
@@ -144,9 +164,16 @@ def net_of(graph: "NodeGraph") -> Any:
 
 
 def make_doors(
-    radius: float, portals: tuple[np.ndarray, ...], costs: np.ndarray, weighted: bool, leaps: dict
+    radius: float,
+    portals: tuple[np.ndarray, ...],
+    costs: np.ndarray,
+    weighted: bool,
+    leaps: dict,
+    parts: dict,
+    widest: float,
 ) -> Bundle:
-    """`DOORS` from what `open_portals` gives, the costs of the nodes and the ``leap`` arrays."""
+    """`DOORS` from what `open_portals` gives, the costs of the nodes, the ``leap`` arrays and those of the
+    parts."""
     start, target, portal, portal_cell, lens, block = portals
     return Bundle(
         DOORS,
@@ -157,24 +184,37 @@ def make_doors(
         lens=lens,
         block=block,
         node_cost=costs,
+        widest=widest,
         **leaps,
+        **parts,
     )
+
+
+def _most_opened(graph: "NodeGraph") -> int:
+    """How many entries the open list can get: whenever a label is expanded, one for each way on."""
+    links = graph.links
+    start = graph.label[links.start_cell]
+    leaving = np.bincount(start[start >= 0], minlength=len(graph.radii))
+    return LABELS * int((np.diff(graph.edge_start) + leaving).sum()) + 1
 
 
 def make_scratch(graph: "NodeGraph") -> Bundle:
     """`SCRATCH` for searches over the graph, with room for all that can come up. Most of it is never touched
     and so takes no memory."""
     nodes, cells = len(graph.radii), len(graph.surface)
-    opened = len(graph.edge_target) + len(graph.links.obstacle) + 2  # every door is used once at most
-    chain = nodes + 1
+    labels = LABELS * nodes
+    opened = _most_opened(graph)
+    chain = labels + 1
     corners = cells + 4096
     return Bundle(
         SCRATCH,
         numbers=np.zeros(16, np.int64),
-        ends=np.zeros(8),
-        seen=aligned(nodes, _SEEN),
+        ends=np.zeros(12),
+        labels=aligned(labels, _LABEL),
         heap_key=np.empty(opened),
-        heap_node=np.empty(opened, np.int32),
+        heap_item=np.empty(opened, np.int32),
+        reached=np.zeros(nodes, np.int64),
+        part_stack=np.empty(nodes, np.int32),
         nodes=np.empty(chain, np.int32),
         edges=np.empty(chain, np.int32),
         points=np.empty((corners, 3)),
@@ -183,6 +223,11 @@ def make_scratch(graph: "NodeGraph") -> Bundle:
         corner_at=np.empty(2 * chain + 2, np.int32),
         arc=np.empty((2, 2)),
         bend=np.empty((2, 2)),
+        trial=np.empty((4, 2)),
+        trial_cell=np.empty(4, np.int32),
+        kept=np.empty((corners, 3)),
+        kept_nodes=np.empty(chain, np.int32),
+        kept_leaps=np.empty((len(graph.links.obstacle), 2), np.int32),
         stack=np.empty((14, 2)),
         stack_cell=np.empty(14, np.int32),
         cell_stamp=np.zeros(cells, np.int64),

@@ -154,7 +154,8 @@ class Crowd:
         radius = float(row[at.RADIUS])
         reach = 2.0 * (radius + self.graph.surface.resolution)
         x, y, z = row[at.X : at.Z + 1].tolist()
-        node, cell, x, y = snap(self._net, x, y, z, radius, reach, self.graph.rules.headroom)
+        rules = self.graph.rules
+        node, cell, x, y = snap(self._net, x, y, z, radius, reach, rules.headroom, rules.max_step)
         if node < 0:
             return False
         row[at.X], row[at.Y], row[at.CELL] = x, y, cell

@@ -64,15 +64,21 @@ def compare(seed: int, pairs: int, boxes: Boxes | None = None, radius: float | N
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--scenes", type=int, default=300)
     parser.add_argument("--first", type=int, default=1000, help="seed of the first scene")
     parser.add_argument("--pairs", type=int, default=60, help="of places in each scene")
     options = parser.parse_args()
-    found = {seed: compare(seed, options.pairs) for seed in range(options.first, options.first + options.scenes)}
+    found = {
+        seed: compare(seed, options.pairs) for seed in range(options.first, options.first + options.scenes)
+    }
     longest = np.concatenate([each.longest for each in found.values()])
     uneven = np.concatenate([each.uneven for each in found.values()])
-    print(f"{len(longest)} pairs in {len(found)} scenes; {sum(each.lost for each in found.values())} not found")
+    print(
+        f"{len(longest)} pairs in {len(found)} scenes; {sum(each.lost for each in found.values())} not found"
+    )
     for name, ratio, limit in (("shortest way", longest, 1.05), ("way back", uneven, 1.02)):
         print(
             f"longer than the {name}: mean {ratio.mean():.5f}, 99 % up to {np.quantile(ratio, 0.99):.4f}, "

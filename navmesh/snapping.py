@@ -20,6 +20,7 @@ _MARGIN = 0.015  # share of the radius: a little more than what string pulling k
 _THIN = 1e-3  # [m] radius of a line that only must not cross anything
 _PUSHES = 6  # in one cell, off what is too near
 _LATTICE = 5  # points a side that are tried in a cell where pushing does not lead to a clear one
+_FINE = 2e-3  # [m] to which the best of these is improved
 
 
 @njit(error_model="numpy", cache=True)
@@ -143,6 +144,7 @@ def _place_in(net, k, x, y, z, radius, step, best):
         px = min(max(qx + dx / far * room, cx - half), cx + half)
         py = min(max(qy + dy / far * room, cy - half), cy + half)
     bx, by = px, py
+    found = False
     for i in range(_LATTICE):
         for j in range(_LATTICE):
             px = cx + (2.0 * i / (_LATTICE - 1) - 1.0) * half
@@ -150,6 +152,20 @@ def _place_in(net, k, x, y, z, radius, step, best):
             off = _off(net, k, px, py, x, y, z, step)
             if off < best and _clear_at(net, k, cx, cy, px, py, radius):
                 best, bx, by = off, px, py
+                found = True
+    side = half / (_LATTICE - 1)
+    while found and side > _FINE:
+        moved = False
+        for i in range(-1, 2):
+            for j in range(-1, 2):
+                px = min(max(bx + i * side, cx - half), cx + half)
+                py = min(max(by + j * side, cy - half), cy + half)
+                off = _off(net, k, px, py, x, y, z, step)
+                if off < best and _clear_at(net, k, cx, cy, px, py, radius):
+                    best, bx, by = off, px, py
+                    moved = True
+        if not moved:
+            side *= 0.5
     return best, bx, by
 
 

@@ -1,7 +1,6 @@
 """Slow, obvious versions of the kernels that find paths, and levels to compare on."""
 
 import heapq
-import itertools
 import math
 
 import numpy as np
@@ -11,8 +10,6 @@ from navmesh import NodeGraph, Terrain, WalkRules
 
 __all__ = [
     "build",
-    "chain_cost",
-    "crossing",
     "dense_walk",
     "pillars",
     "pillars_level",
@@ -74,60 +71,50 @@ def dense_walk(
     return True, cell, least
 
 
-def crossing(left, right, a, b) -> np.ndarray:
-    """The point of the portal left-right (3,) on the shortest way from a over it to b: by golden section."""
-    low, high = 0.0, 1.0
-    shrink = (math.sqrt(5.0) - 1.0) / 2.0
+def _crosses(a, b, portal) -> bool:
+    """Whether a-b crosses the portal (6,) from its right side to its left, or touches it."""
+    left, right = portal[:2], portal[3:5]
+    u, v = b[:2] - a[:2], right - left
+    turn = u[0] * v[1] - u[1] * v[0]
+    if abs(turn) < 1e-12:
+        return True
+    w = left - a[:2]
+    t = (w[0] * u[1] - w[1] * u[0]) / turn
+    return -1e-9 <= t <= 1.0 + 1e-9
 
-    def length(t: float) -> float:
-        p = left + t * (right - left)
-        return math.dist(a[:2], p[:2]) + math.dist(p[:2], b[:2])
 
-    for _ in range(80):
-        one, two = high - shrink * (high - low), low + shrink * (high - low)
-        if length(one) <= length(two):
-            high = two
-        else:
-            low = one
-    return left + 0.5 * (low + high) * (right - left)
+def line_length(portals: list[np.ndarray], s: np.ndarray, g: np.ndarray) -> float:
+    """Length of the shortest line from s through ``portals`` (6,) in their order to g: it turns at their ends
+    only, and goes straight between turns where it crosses all portals between."""
+    rows = [(s, -1)] + [(p[side : side + 3], k) for k, p in enumerate(portals) for side in (0, 3)]
+    rows.append((g, len(portals)))
+    best = [0.0] + [math.inf] * (len(rows) - 1)
+    for j in range(1, len(rows)):
+        for i in range(j):
+            (a, k), (b, m) = rows[i], rows[j]
+            if (k < m or i == 0) and all(_crosses(a, b, portals[n]) for n in range(k + 1, m)):
+                best[j] = min(best[j], best[i] + math.dist(a, b))
+    return best[-1]
 
 
 def plain_search(start, target, portal, begin: int, end: int, s, g) -> tuple[float, list[int]] | None:
-    """A* along entry points over doors (`navmesh.structs.make_doors`): (cost, nodes), or None."""
-    best = {begin: (math.dist(s, g), 0.0, np.asarray(s), -1)}
-    heap = [(math.dist(s, g), begin)]
-    while heap:
-        total, node = heapq.heappop(heap)
-        known, cost, entry, parent = best[node]
-        if total > known:
-            continue
-        if node == end:
-            nodes = [node]
-            while parent >= 0:
-                nodes.append(parent)
-                parent = best[parent][3]
-            return total, nodes[::-1]
-        for door in range(start[node], start[node + 1]):
+    """The chain of nodes with the shortest line through its portals, of all chains: (length, nodes).
+
+    None where there is none, or where more than 1500 have to be looked at.
+    """
+    heap = [(math.dist(s, g), [begin], [])]
+    for _ in range(1500):
+        if not heap:
+            return None
+        length, nodes, doors = heapq.heappop(heap)
+        if nodes[-1] == end:
+            return length, nodes
+        for door in range(start[nodes[-1]], start[nodes[-1] + 1]):
             other = int(target[door])
-            if other == parent:
-                continue
-            at = crossing(portal[door, :3], portal[door, 3:], entry, np.asarray(g))
-            there = cost + math.dist(entry, at)
-            total = there + math.dist(at, g)
-            if other not in best or total < best[other][0] - 1e-9:
-                best[other] = (total, there, at, node)
-                heapq.heappush(heap, (total, other))
+            if other not in nodes:
+                line = [portal[each] for each in [*doors, door]]
+                heapq.heappush(heap, (line_length(line, s, g), [*nodes, other], [*doors, door]))
     return None
-
-
-def chain_cost(start, target, portal, nodes: list[int], s, g) -> float:
-    """Length from s through the doors between ``nodes`` to g, each crossed as `plain_search` crosses it."""
-    cost, at = 0.0, np.asarray(s)
-    for node, other in itertools.pairwise(nodes):
-        door = next(d for d in range(start[node], start[node + 1]) if target[d] == other)
-        there = crossing(portal[door, :3], portal[door, 3:], at, np.asarray(g))
-        cost, at = cost + math.dist(at, there), there
-    return cost + math.dist(at, g)
 
 
 def rounded_shortest(start, goal, corner, radius: float) -> float:

@@ -5,17 +5,18 @@ import math
 import numpy as np
 import pytest
 from path_references import build, turned
+from scipy.ndimage import label
 from shapes import box, join, plane
 
-from benchmarks.visibility import boxes_level, gaps_to_boxes, random_boxes
+from benchmarks.visibility import Boxes, boxes_level, gaps_to_boxes, random_boxes
 from navmesh import NodeGraph, Terrain, WalkRules
 
-FIELD_ERROR = 0.05
-"""[m] by which the clearance field may read too wide, as in test_paths."""
+FIELD_ERROR = 0.0625
+"""[m], a quarter of a cell: by so much the clearance field may read too wide, see docs/navmesh.md."""
 
 
 def platform(rng: np.random.Generator) -> tuple[NodeGraph, np.ndarray, float]:
-    """A rectangle of floor that ends in ledges, turned about its corner: the graph, its sides and the angle."""
+    """A turned rectangle of floor that ends in ledges: the graph, its sides and the angle."""
     sides = rng.uniform(4.0, 9.0, 2)
     angle = rng.uniform(0.0, math.pi / 2)
     vertices, faces = plane(0.0, sides[0], 0.0, sides[1])
@@ -26,7 +27,7 @@ def platform(rng: np.random.Generator) -> tuple[NodeGraph, np.ndarray, float]:
 def test_routes_begin_and_end_on_the_floor_with_room(seed: int) -> None:
     rng = np.random.default_rng(100 + seed)
     graph, sides, angle = platform(rng)
-    radius = float(rng.uniform(0.1, 0.6))
+    radius = float(rng.uniform(0.3, 0.6))
     asked = np.column_stack([rng.uniform(-1.0, sides + 1.0, (300, 2)), np.zeros(300)])
     middle = np.array([*sides / 2, 0.0])
     routes = graph.find_paths(turned(asked, angle), np.tile(turned(middle[None], angle), (300, 1)), radius)
@@ -62,7 +63,8 @@ def test_the_extent_says_how_far_an_end_may_be_moved() -> None:
         route = graph.find_path(start, goal, 0.3, extent=extent)
         assert route.status == status
         assert graph.find_paths([start], [goal], 0.3, extent=extent).status[0] == status
-        assert graph.begin_path(start, goal, 0.3, extent=extent).finish().status in (status, "partial")
+        search = graph.begin_path(start, goal, 0.3, extent=extent)
+        assert search.advance(10**6) and search.finish().status == status
 
 
 def brute_force(graph: NodeGraph, boxes, start, goal, radius: float) -> float:
@@ -73,8 +75,6 @@ def brute_force(graph: NodeGraph, boxes, start, goal, radius: float) -> float:
     x, y = np.meshgrid((np.arange(nx) + 0.5) * step, (np.arange(ny) + 0.5) * step, indexing="ij")
     points = np.column_stack([x.ravel(), y.ravel()])
     free = (gaps_to_boxes(boxes, points) >= radius).reshape(nx, ny)
-    from scipy.ndimage import label
-
     parts = label(free)[0]
     here = parts[int(start[0] / step), int(start[1] / step)]
     assert here > 0
@@ -84,8 +84,6 @@ def brute_force(graph: NodeGraph, boxes, start, goal, radius: float) -> float:
 
 @pytest.mark.parametrize("seed", range(4))
 def test_a_partial_route_ends_at_the_nearest_place_that_can_be_reached(seed: int) -> None:
-    from benchmarks.visibility import Boxes
-
     rng = np.random.default_rng(50 + seed)
     loose = random_boxes(rng, 4, (14.0, 8.0))
     # a wall from edge to edge, at any angle, makes two parts
@@ -107,7 +105,7 @@ def test_a_partial_route_ends_at_the_nearest_place_that_can_be_reached(seed: int
             continue
         best = brute_force(graph, boxes, a, b, radius)
         end = route.waypoints[-1, :2] if route.status == "partial" else a
-        assert math.dist(end, b) < best + 0.06
+        assert math.dist(end, b) < best + 0.125  # half a cell
         checked += 1
     assert checked >= 3
 

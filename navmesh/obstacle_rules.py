@@ -78,7 +78,7 @@ class ObstacleRules:
     @classmethod
     def from_dict(cls, values: dict[str, Any]) -> "ObstacleRules":
         """Rules from `to_dict`; an unknown or missing name is an error."""
-        try:
-            return cls(**values)
-        except TypeError as error:
-            raise NavmeshError(f"obstacle rules: {error}; expected {', '.join(cls.__slots__)}") from error
+        if set(values) != set(cls.__slots__):
+            found = ", ".join(values) or "none"
+            raise NavmeshError(f"obstacle rules: {found}; expected {', '.join(cls.__slots__)}")
+        return cls(**values)

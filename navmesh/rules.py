@@ -64,7 +64,7 @@ class WalkRules:
     @classmethod
     def from_dict(cls, values: dict[str, Any]) -> "WalkRules":
         """Rules from `to_dict`; an unknown or missing name is an error."""
-        try:
-            return cls(**values)
-        except TypeError as error:
-            raise NavmeshError(f"walk rules: {error}; expected {', '.join(cls.__slots__)}") from error
+        if set(values) != set(cls.__slots__):
+            found = ", ".join(values) or "none"
+            raise NavmeshError(f"walk rules: {found}; expected {', '.join(cls.__slots__)}")
+        return cls(**values)

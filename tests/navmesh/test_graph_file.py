@@ -1,11 +1,14 @@
 """Saving and loading the graph: the same back, and a clear error for every file that does not fit."""
 
+import json
+
 import numpy as np
 import pytest
 from shapes import box, plane, terrain
 
 from navmesh import NavmeshError, NodeGraph, Terrain, WalkRules
 from navmesh.files import archive
+from navmesh.graph_file import GRAPH_FILE
 
 LEVEL = (plane(0, 6, 0, 6), box(2, 3, 2, 3, 0, 2))
 
@@ -62,3 +65,96 @@ def test_other_terrain_or_rules_are_refused(graph, tmp_path):
         NodeGraph.load(file, terrain(plane(0, 6, 0, 6)))
     with pytest.raises(NavmeshError, match="baked with"):
         NodeGraph.load(file, rules=WalkRules(max_step=0.1))
+
+
+def raw(path):
+    """Header and arrays of a graph as they are, unchecked."""
+    with np.load(path) as file:
+        arrays = dict(file)
+    return json.loads(arrays.pop("header").tobytes()), arrays
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    """Header and arrays of a graph with obstacles and links."""
+    path = tmp_path_factory.mktemp("graph") / "level.nav"
+    NodeGraph.build(terrain(plane(0, 6, 0, 6), box(2, 4, 2, 4, 0, 0.4))).save(path)
+    return raw(path)
+
+
+def loaded(tmp_path, header, arrays):
+    path = tmp_path / "odd.nav"
+    archive.write_archive(path, GRAPH_FILE.kind, GRAPH_FILE.version, header, arrays)
+    return NodeGraph.load(path)
+
+
+def test_the_written_graph_is_read(written, tmp_path):
+    assert len(loaded(tmp_path, *written).links) > 0
+
+
+@pytest.mark.parametrize("name", sorted(set(GRAPH_FILE.arrays_of(None)) - {"terrain_vertices"}))
+@pytest.mark.parametrize("value", [2**30, -2])
+def test_numbers_out_of_range_are_refused(written, tmp_path, name, value):
+    header, arrays = written
+    if arrays[name].dtype.kind not in "if":
+        pytest.skip("holds no numbers")
+    if arrays[name].dtype.kind == "f":
+        value = 1e10 if value > 0 else np.nan
+    for place in (0, -1):
+        odd = arrays[name].copy()
+        odd.reshape(-1)[place] = value
+        with pytest.raises(archive.ArchiveError, match=r"odd\.nav: .*bake it again$"):
+            loaded(tmp_path, header, {**arrays, name: odd})
+
+
+@pytest.mark.parametrize("name", sorted(GRAPH_FILE.arrays_of(None)))
+def test_other_shapes_and_types_are_refused(written, tmp_path, name):
+    header, arrays = written
+    array = arrays[name]
+    for odd in (array[:-1], array[None], np.concatenate([array, array]), array.astype("S8"), array[:0]):
+        with pytest.raises(archive.ArchiveError, match=r"odd\.nav"):
+            loaded(tmp_path, header, {**arrays, name: odd})
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"shape": None}, {"shape": [1, 1]}, {"shape": [-1, -1]}, {"resolution": "x"}, {"resolution": 0.0},
+        {"resolution": 0.5}, {"rules": []}, {"rules": {}}, {"rules": {"max_slope": 9.0}}, {"chunks": [[1]]},
+        {"chunks": []}, {"chunks": [["level", 1, 1]]}, {"tags": {"x": 1}}, {"tags": 7}, {"terrain": "ab"},
+        {"obstacle_rules": {"jump_rise": "x"}}, {"level": None}, {"more": 1},
+    ],
+)  # fmt: skip
+def test_other_headers_are_refused(written, tmp_path, change):
+    header, arrays = written
+    with pytest.raises(archive.ArchiveError, match=r"odd\.nav"):
+        loaded(tmp_path, {**header, **change}, arrays)
+    for key in change:
+        if key in header:
+            with pytest.raises(archive.ArchiveError, match=r"odd\.nav"):
+                loaded(tmp_path, {k: v for k, v in header.items() if k != key}, arrays)
+
+
+def test_what_kernels_rely_on_is_checked_between_arrays(written, tmp_path):
+    """In range, but not what it must be: links that lead elsewhere, discs beyond the grid."""
+    header, arrays = written
+    link, clearance, radii = (arrays[name].copy() for name in ("surface_link", "surface_clearance", "radii"))
+    here = int(np.flatnonzero(link[:, 0] >= 0)[0])
+    link[here, 0] = here
+    clearance[len(clearance) // 2] = 7.0
+    radii[-1] = 7.0
+    moved, started = arrays["positions"].copy(), arrays["links_start"].copy()
+    moved[0] += [0.3, 0.0, 0.0]
+    started[0] += [0.0, 0.3, 0.0]
+    for name, odd, said in (
+        ("surface_link", link, "not beside it|lead back"),
+        ("surface_clearance", clearance, "beyond the grid"),
+        ("surface_cell_column", np.sort(arrays["surface_cell_column"])[::-1].copy(), "surface_cell_column"),
+        ("radii", radii, "beyond the grid"),
+        ("positions", moved, "not in its cell"),
+        ("links_start", started, "not in its cell"),
+        ("edge_target", np.zeros_like(arrays["edge_target"]), "its own node"),
+        ("obstacles_normal", np.zeros_like(arrays["obstacles_normal"]), "no horizontal direction"),
+    ):
+        with pytest.raises(archive.ArchiveError, match=said):
+            loaded(tmp_path, header, {**arrays, name: odd})

@@ -21,7 +21,8 @@ _TO_Z_UP = {
     "y": np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]),
     "x": np.array([[0.0, 0, -1], [0, 1, 0], [1, 0, 0]]),
 }
-_TALLEST, _SMALLEST = 3.0, 0.5  # [m] of a figure in its rest pose
+_TALLEST, _SMALLEST = 3.0, 0.5  # [m] of a figure
+_FLAT = 0.05  # of its height: no figure is flatter
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +52,30 @@ class Capture:
                 places[j] = places[parent] + self.offsets[j]
         return places
 
+    def places(self) -> NDArray[np.float64]:
+        """Places of the joints in each frame, (n, j, 3) [m]."""
+        world = self.orientations()
+        places = np.empty((len(self.root), *self.offsets.shape))
+        for j, parent in enumerate(self.parents):
+            if parent >= 0:
+                places[:, j] = places[:, parent] + world[:, parent] @ self.offsets[j]
+            else:
+                places[:, j] = self.root
+        return places
+
+    def height(self) -> float:
+        """How tall [m] the figure is, by the lengths of its bones: what its rest pose looks like does not
+        matter. From a foot to a hand, the longest chain of a person, it is as much longer as one thigh."""
+        lengths = np.linalg.norm(self.offsets, axis=1)
+        reach, longest = np.zeros((len(lengths), 2)), 0.0  # of what hangs on each joint: length, longest bone
+        for j in range(len(lengths) - 1, 0, -1):
+            parent = self.parents[j]
+            down = np.array([reach[j, 0] + lengths[j], max(reach[j, 1], lengths[j])])
+            longest = max(longest, reach[parent, 0] + down[0] - max(reach[parent, 1], down[1]))
+            if down[0] > reach[parent, 0]:
+                reach[parent] = down
+        return float(longest)
+
     def orientations(self) -> NDArray[np.float64]:
         """Rotations of the joints in the world, (n, j, 3, 3)."""
         world = self.turns.copy()
@@ -64,7 +89,7 @@ def read_bvh(path: str | os.PathLike[str], units: str = "cm", up: str = "y") -> 
     """Read a BVH file whose lengths are in ``units`` (one of `UNITS`) and whose axis ``up`` points up.
 
     Raises `LocomotionError` for a file that is missing or that `bvh_check.check_bvh` refuses, naming the
-    line, and for a figure of an impossible size (wrong units).
+    line, and for a figure of an impossible size (wrong units) or one that is flat in all frames (wrong axis).
     """
     try:
         import bvhio
@@ -110,10 +135,13 @@ def _capture(
         root,
         turns,
     )
-    tall = float(np.ptp(capture.rest_places()[:, 2]))
+    tall = capture.height()
     if not _SMALLEST < tall < _TALLEST:
         raise LocomotionError(
-            f"{source}: the figure would be {tall:.3g} m tall from its feet to its head; name other units or "
-            "another axis that points up"
+            f"{source}: the figure would be {tall:.3g} m tall by the lengths of its bones; name other units"
+        )
+    if np.ptp(capture.places()[:, :, 2], axis=1).max() < _FLAT * tall:
+        raise LocomotionError(
+            f"{source}: the figure is flat in every frame; name another axis that points up"
         )
     return capture

@@ -8,10 +8,11 @@ A mapping names, for each part of the person, the joint of the capture that turn
 
 A joint turns one part at most.
 
-In the capture's rest pose the limbs' parts lie along the capture's bones and all others stand as in the
-person's own rest pose; from there each part turns in the world as its joint does. The hinges of a part take
-of that what they can, the next part makes up for the rest. The root's way is scaled by the length of the
-legs.
+Where the capture stands straight, the limbs' parts lie along its bones and all others stand as in the
+person's own rest pose (`locomotion.neutral_pose`); from there each part turns in the world as its joint does.
+The hinges of a part take of that what they can, the next part makes up for the rest. The root's way is scaled
+by the length of the legs. Lengths, places and facing are those of the frames: what the file's rest pose looks
+like does not matter.
 """
 
 import os
@@ -25,17 +26,17 @@ from locomotion.anatomy import SHANK, THIGH
 from locomotion.bvh import Capture
 from locomotion.errors import LocomotionError
 from locomotion.motion import Motion, place_on_ground
+from locomotion.neutral_pose import LIMBS, SIDES, neutral_axes
 from locomotion.person import BODY_NAMES, JOINT_NAMES, person_spec
 from navmesh.files.yamlfile import FileError, nearest, read_yaml
 
 __all__ = ["load_mapping", "retarget"]
 
-_SIDES = ("right", "left")
 _LIMB_PARTS = ("thigh", "shank", "foot", "upper_arm", "forearm")
-_NEEDED = ("pelvis", "chest", *(f"{side}_{part}" for side in _SIDES for part in _LIMB_PARTS))
-_LIMBS = {"thigh": "shank", "shank": "foot", "upper_arm": "forearm", "forearm": "hand"}
+_NEEDED = ("pelvis", "chest", *(f"{side}_{part}" for side in SIDES for part in _LIMB_PARTS))
 _AXES = "XYZ"
 _SHORTEST, _LONGEST = 1e-3, 2.0  # [m] of a limb's bone
+_UNDECIDED = 1e-6  # quarter turns: what faces halfway between two axes is not left to rounding
 
 
 class _Mapping(RootModel[dict[str, str]]):
@@ -80,10 +81,12 @@ def _wrong(mapping: dict[str, str]) -> tuple[list[str], str] | None:
 
 
 def retarget(capture: Capture, mapping: dict[str, str]) -> Motion:
-    """The captured motion on the person, standing on the ground z = 0 and facing +X in its rest pose.
+    """The captured motion on the person, on the ground z = 0. It begins above the origin, and is turned by
+    quarter turns, so that it faces within 45 degrees of +X there.
 
     Raises `LocomotionError` for a mapping with a mistake, joints that the capture does not have or has twice,
-    and limbs without a length or longer than 2 m.
+    limbs without a length or longer than 2 m, legs of an impossible length, and a capture that does not tell
+    how it stands (`neutral_pose.neutral_axes`).
     """
     if wrong := _wrong(mapping):
         raise LocomotionError(f"{capture.name}: the mapping: {wrong[1]}")
@@ -94,12 +97,11 @@ def retarget(capture: Capture, mapping: dict[str, str]) -> Motion:
         if capture.joints.count(joint) > 1:
             raise LocomotionError(f"{capture.name}: has several joints called {joint!r}; name them apart")
     source = {part: capture.joints.index(joint) for part, joint in mapping.items()}
-    places = capture.rest_places()
-    _check_lengths(capture, places, source)
-    facing = _facing(places, source)
-    world = facing @ capture.orientations() @ facing.T
-    places = places @ facing.T
-    wanted = {part: world[:, j] @ _rest(part, places, source) for part, j in source.items()}
+    places, turns = capture.places(), capture.orientations()
+    legs = _check_lengths(capture, places, source)
+    axes = neutral_axes(capture, places, source)
+    facing = _facing(turns[:, source["pelvis"]] @ axes["pelvis"])
+    wanted = {part: facing @ turns[:, j] @ axes[part] for part, j in source.items()}
 
     model = person_spec().compile()
     qpos = np.zeros((len(capture.root), 7 + len(JOINT_NAMES)))
@@ -123,54 +125,48 @@ def retarget(capture: Capture, mapping: dict[str, str]) -> Motion:
         achieved[body] = turned
     hinges = model.jnt_qposadr[1:]
     qpos[:, hinges] = np.unwrap(qpos[:, hinges], axis=0)
-    pairs = (("thigh", "shank"), ("shank", "foot"))
-    bones = [(f"{side}_{a}", f"{side}_{b}") for side in _SIDES for a, b in pairs]
-    legs = sum(float(np.linalg.norm(places[source[b]] - places[source[a]])) for a, b in bones)
-    hips = 0.5 * (places[source["right_thigh"]] + places[source["left_thigh"]])
-    way = capture.root @ facing.T + world[:, source["pelvis"]] @ (hips - places[source["pelvis"]])
+    way = 0.5 * (places[:, source["right_thigh"]] + places[:, source["left_thigh"]]) @ facing.T
     qpos[:, :3] = 2.0 * (THIGH + SHANK) / legs * (way - [*way[0, :2], 0.0])
     return Motion(capture.name, capture.rate, place_on_ground(qpos))
 
 
-def _check_lengths(capture: Capture, places: NDArray[np.float64], source: dict[str, int]) -> None:
-    """Raise `LocomotionError` for limbs without a length, or of an impossible one, and hips that are not
-    beside each other in the rest pose, ``places`` (j, 3) [m]: nothing says where those point."""
-    bones = [(f"{side}_{a}", f"{side}_{b}") for side in _SIDES for a, b in _LIMBS.items()]
+def _check_lengths(capture: Capture, places: NDArray[np.float64], source: dict[str, int]) -> float:
+    """Length [m] of both legs together. Raises `LocomotionError` for limbs without a length, or of an
+    impossible one, and hips that are not apart; ``places`` (n, j, 3) [m]: of the joints in each frame."""
+
+    def apart(one: str, other: str) -> float:
+        return float(np.linalg.norm(places[:, source[other]] - places[:, source[one]], axis=1).mean())
+
+    bones = [(f"{side}_{a}", f"{side}_{b}") for side in SIDES for a, b in LIMBS.items()]
+    legs = 0.0
     for a, b in bones:
         if b not in source:
             continue
-        length = float(np.linalg.norm(places[source[b]] - places[source[a]]))
+        length = apart(a, b)
         if not _SHORTEST <= length <= _LONGEST:
             raise LocomotionError(
                 f"{capture.name}: joint {capture.joints[source[b]]!r} ({b}) is {length:.3g} m from"
-                f" {capture.joints[source[a]]!r} ({a}) in the rest pose; a {a} is {_SHORTEST:g} to"
-                f" {_LONGEST:g} m long"
+                f" {capture.joints[source[a]]!r} ({a}); a {a} is {_SHORTEST:g} to {_LONGEST:g} m long"
             )
-    right, left = source["right_thigh"], source["left_thigh"]
-    if np.linalg.norm((places[left] - places[right])[:2]) < _SHORTEST:
+        legs += length if a.endswith(("thigh", "shank")) else 0.0
+    if apart("right_thigh", "left_thigh") < _SHORTEST:
+        right, left = (capture.joints[source[f"{side}_thigh"]] for side in SIDES)
         raise LocomotionError(
-            f"{capture.name}: the hips {capture.joints[right]!r} and {capture.joints[left]!r} are not beside"
-            " each other in the rest pose, so that it faces nowhere; map other joints, or name another axis"
-            " that points up"
+            f"{capture.name}: the hips {right!r} and {left!r} are not beside each other, so that it faces"
+            " nowhere; map other joints"
         )
+    return legs
 
 
-def _facing(places: NDArray[np.float64], source: dict[str, int]) -> NDArray[np.float64]:
-    """Rotation (3, 3) about z that turns the way the rest pose faces to +X: at right angles to its hips."""
-    left = places[source["left_thigh"]] - places[source["right_thigh"]]
-    return Rotation.from_euler("z", -np.arctan2(-left[0], left[1])).as_matrix()
-
-
-def _rest(part: str, places: NDArray[np.float64], source: dict[str, int]) -> NDArray[np.float64]:
-    """Orientation (3, 3) of a part of the person in the rest pose of the capture, facing +X."""
-    side, _, kind = part.partition("_")
-    if kind == "hand":  # straight on from the forearm
-        kind, part = "forearm", f"{side}_forearm"
-    child = f"{side}_{_LIMBS.get(kind, '')}"
-    if side not in _SIDES or child not in source or part not in source:
-        return np.eye(3)
-    bone = places[source[child]] - places[source[part]]
-    return Rotation.align_vectors(bone / np.linalg.norm(bone), [0.0, 0.0, -1.0])[0].as_matrix()
+def _facing(pelvis: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Quarter turns (3, 3) about z that bring what the pelvis, (n, 3, 3), faces nearest to +X, in the first
+    frame in which its sides are more beside than above each other; if there is none, what its upper end
+    points at in the first."""
+    left = pelvis[:, :, 1]
+    beside = np.flatnonzero(np.abs(left[:, 2]) < np.sqrt(0.5))
+    x, y = (left[beside[0], 1], -left[beside[0], 0]) if len(beside) else pelvis[0, :2, 2]
+    quarters = np.round(np.arctan2(y, x) / (0.5 * np.pi) - _UNDECIDED)
+    return Rotation.from_euler("z", -90.0 * quarters, degrees=True).as_matrix().round()
 
 
 def _hinge_angles(relative: NDArray[np.float64], axes: NDArray[np.float64]) -> NDArray[np.float64]:

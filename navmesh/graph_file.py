@@ -18,7 +18,7 @@ from navmesh.links import Links
 from navmesh.obstacle_rules import AFFORDANCES, ObstacleRules
 from navmesh.obstacles import Obstacles
 from navmesh.rules import WalkRules
-from navmesh.surface import DIRECTIONS, Surface
+from navmesh.surface import Surface
 from navmesh.tagging import TagFile
 from navmesh.tags import Tags
 from navmesh.terrain import Chunk, Terrain
@@ -127,26 +127,33 @@ def _check_terrain(header: _GraphHeader, arrays: dict[str, np.ndarray]) -> str |
 
 
 def _check_surface(header: _GraphHeader, arrays: dict[str, np.ndarray]) -> str | None:
+    """Every cell is in its column, linked to cells beside it that are linked back; no clearance reaches beyond
+    the grid."""
     nx, ny = header.shape
     start, column, link = (arrays[f"surface_{name}"] for name in ("column_start", "cell_column", "link"))
     if len(start) != nx * ny + 1:
         return f"surface_column_start has {len(start)} rows, expected {nx} * {ny} + 1"
     if not np.array_equal(column, np.repeat(np.arange(nx * ny, dtype=np.int32), np.diff(start))):
         return "surface_cell_column is not what surface_column_start says"
-    for way, (dx, dy) in enumerate(DIRECTIONS.tolist()):
-        here = np.flatnonzero(link[:, way] >= 0)
-        there = link[here, way]
-        beside = column[there] - column[here] == dx * ny + dy
-        if dy:
-            beside &= column[there] // ny == column[here] // ny
-        if not (beside & (link[there, (way + 2) % 4] == here)).all():
-            at = int(here[np.argmin(beside & (link[there, (way + 2) % 4] == here))])
+    ix = column // np.int32(ny)
+    iy = column - ix * np.int32(ny)
+    for way in (0, 1):  # those that lead back, 2 and 3, are as many
+        on, back = np.ascontiguousarray(link[:, way]), np.ascontiguousarray(link[:, way + 2])
+        here = np.flatnonzero(on >= 0)
+        there = on[here]
+        beside = column[there] == column[here] + (ny, 1)[way]
+        beside &= back[there] == here
+        if way == 1:
+            beside &= iy[here] < ny - 1
+        if not beside.all():
+            at = int(here[np.argmin(beside)])
             return (
-                f"surface_link[{at}, {way}] is {link[at, way]}, which is not beside it, or does not lead back"
+                f"surface_link[{at}, {way}] leads to {on[at]}, which is not beside it, or does not lead back"
             )
-    ix, iy = np.divmod(column, ny)
-    room = np.minimum(np.minimum(ix, nx - 1 - ix), np.minimum(iy, ny - 1 - iy)) + 0.5
-    out = arrays["surface_clearance"] > room * header.resolution + _SLACK
+        if np.count_nonzero(back >= 0) != len(here):
+            return f"surface_link[:, {way + 2}] leads where surface_link[:, {way}] does not lead back"
+    room = np.minimum(np.minimum(ix, nx - 1 - ix), np.minimum(iy, ny - 1 - iy))
+    out = arrays["surface_clearance"] > (room + 0.5) * header.resolution + _SLACK
     if out.any():
         return f"surface_clearance[{int(np.argmax(out))}] reaches beyond the grid"
     return None

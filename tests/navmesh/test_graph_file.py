@@ -147,7 +147,7 @@ def test_what_kernels_rely_on_is_checked_between_arrays(written, tmp_path):
     moved[0] += [0.3, 0.0, 0.0]
     started[0] += [0.0, 0.3, 0.0]
     for name, odd, said in (
-        ("surface_link", link, "not beside it|lead back"),
+        ("surface_link", link, "not beside it, or does not lead back"),
         ("surface_clearance", clearance, "beyond the grid"),
         ("surface_cell_column", np.sort(arrays["surface_cell_column"])[::-1].copy(), "surface_cell_column"),
         ("radii", radii, "beyond the grid"),

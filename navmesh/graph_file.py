@@ -127,8 +127,8 @@ def _check_terrain(header: _GraphHeader, arrays: dict[str, np.ndarray]) -> str |
 
 
 def _check_surface(header: _GraphHeader, arrays: dict[str, np.ndarray]) -> str | None:
-    """Every cell is in its column, linked to cells beside it that are linked back; no clearance reaches beyond
-    the grid."""
+    """Every cell is in its column and linked to cells beside it that are linked back; no clearance reaches
+    beyond the grid."""
     nx, ny = header.shape
     start, column, link = (arrays[f"surface_{name}"] for name in ("column_start", "cell_column", "link"))
     if len(start) != nx * ny + 1:

@@ -7,6 +7,7 @@ __all__ = ["CrossingPolygon", "triangulate"]
 
 _FLAT = 1e-9  # areas below this share of the polygon's squared size are rounding
 _PLANAR = 1e-3  # a polygon is planar if no corner is farther from its plane than this share of its size
+_HUGE = 1e60  # polygons of a larger squared size are damage; whoever reads them refuses their coordinates
 _SAME = 1e-3  # areas of polygon and triangles that differ by this share are different
 
 
@@ -36,7 +37,8 @@ def triangulate(points: np.ndarray, corners: np.ndarray, sizes: np.ndarray) -> n
         ring = corners[starts[own][:, None] + np.arange(size)]
         fans = _fan(ring)
         if size > 3:
-            good = _upright(points, ring, fans)
+            with np.errstate(over="ignore", invalid="ignore"):
+                good = _upright(points, ring, fans)
             for k in np.flatnonzero(~good).tolist():
                 faces.append(_cut(points[ring[k]], ring[k], int(own[k])))
                 owners.append(np.full(len(faces[-1]), own[k]))
@@ -64,7 +66,8 @@ def _upright(points: np.ndarray, ring: np.ndarray, triangles: np.ndarray) -> np.
         around = points[ring[part]]
         squared = (np.ptp(around, axis=1) ** 2).sum(axis=1)
         along = np.einsum("mti,mi->mt", twice, normal) / np.maximum(length, 1e-300)[:, None]
-        good[part] = (along >= -_FLAT * squared[:, None]).all(axis=1) & (length > _FLAT * squared)
+        flat = (along >= -_FLAT * squared[:, None]).all(axis=1) & (length > _FLAT * squared)
+        good[part] = flat | ~(squared < _HUGE)
     return good
 
 

@@ -2,6 +2,7 @@
 
 import codecs
 import os
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -12,6 +13,8 @@ from navmesh.meshfiles.mesh_file import MeshFileError
 __all__ = ["as_lines", "finite_rows", "numbers", "quoted", "read_bytes", "whole_numbers"]
 
 _MARKS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
+
+_LONE_SIGN = re.compile(rb"[-+](?![0-9.niNI])")
 
 
 def read_bytes(path: str | os.PathLike[str]) -> bytes:
@@ -84,6 +87,8 @@ def numbers(text: bytes, kind: type) -> np.ndarray | None:
     """The numbers of a text, None if it holds anything else."""
     if not text.strip():
         return np.empty(0, kind)
+    if _LONE_SIGN.search(text):  # NumPy takes one for 0
+        return None
     try:
         return np.fromstring(text, dtype=kind, sep=" ")
     except ValueError:

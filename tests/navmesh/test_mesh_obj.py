@@ -66,6 +66,8 @@ def test_spellings(tmp_path, text, square_metres):
         (SQUARE + "f -1 -2 -5\n" + SQUARE, 5, "4 vertices before"),
         (SQUARE + "f 99999999999999999999 1 2\n", 5, "has 4 vertices"),
         (SQUARE + "g x\nf 1 2 three\n", 6, "numbers of vertices"),
+        (SQUARE + "f 1 2 -\n", 5, "numbers of vertices"),
+        (SQUARE + "f 1 2 3 - 4\n", 5, "numbers of vertices"),
         (SQUARE + "f 1.0 2 3\n", 5, "numbers of vertices"),
         (SQUARE + "f 1,2,3\n", 5, "numbers of vertices"),
         (SQUARE + "f 1 / 1 2 / 1 3 / 1\n", 5, "a blank before a slash"),

@@ -23,7 +23,7 @@ _KEPT = 16  # radii, and offers of skills, that are kept
 
 def checked_radius(radius: Any) -> float:
     """``radius`` as a float; `NavmeshError` unless it is a finite number above 0."""
-    if isinstance(radius, bool) or not isinstance(radius, Real):
+    if type(radius) is not float and (isinstance(radius, bool) or not isinstance(radius, Real)):
         raise NavmeshError(f"radius: expected a body's radius [m], a number above 0, not {radius!r}")
     if not isfinite(radius) or radius <= 0.0:
         raise NavmeshError(f"radius = {radius!r}: expected a body's radius [m], above 0")
@@ -32,6 +32,10 @@ def checked_radius(radius: Any) -> float:
 
 def _checked_skills(skills: Mapping[str, tuple[float, float]] | None) -> tuple:
     """The skills on offer as a sorted tuple (name, least height, greatest height)."""
+    if skills is not None and not isinstance(skills, Mapping):
+        raise NavmeshError(
+            f"skills: expected heights by affordance, as in {{'jump': (0.3, 0.5)}}, not {skills!r}"
+        )
     offered = []
     for name, limits in (skills or {}).items():
         if name not in AFFORDANCES:
@@ -125,7 +129,10 @@ def doors_of(
     if node_costs is None:
         costs = np.ones(count)
     else:
-        costs = np.ascontiguousarray(node_costs, dtype=np.float64)
+        try:
+            costs = np.ascontiguousarray(node_costs, dtype=np.float64)
+        except (TypeError, ValueError):
+            costs = np.empty(0)
         if costs.shape != (count,) or not np.all(costs >= 1.0) or not np.all(np.isfinite(costs)):
             raise NavmeshError(f"node_costs: expected {count} finite factors of at least 1, one per node")
     leaps = _leaps_for(graph, radius, offered, closed)

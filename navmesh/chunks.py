@@ -3,6 +3,7 @@
 import bisect
 import math
 from collections.abc import Mapping
+from numbers import Real
 
 import numpy as np
 
@@ -12,11 +13,19 @@ from navmesh.terrain import Chunk, Terrain
 __all__ = ["change_chunks", "chunks_of", "join_chunks", "split_terrain"]
 
 
+def _check_name(name: object) -> None:
+    if not isinstance(name, str):
+        raise NavmeshError(f"chunk {name!r}: expected a name that is a text, not a {type(name).__name__}")
+
+
 def join_chunks(chunks: Mapping[str, Terrain], name: str = "terrain") -> Terrain:
     """One terrain of named ``chunks``: the same whatever their order. Raises `NavmeshError` for none."""
+    if not isinstance(chunks, Mapping):
+        raise NavmeshError(f"chunks: expected Terrains by name, as in {{'hall': terrain}}, not {chunks!r}")
     for key, chunk in chunks.items():
-        if not isinstance(key, str) or not isinstance(chunk, Terrain):
-            raise NavmeshError(f"chunk {key!r} is a {type(chunk).__name__}; expected names and Terrains")
+        _check_name(key)
+        if not isinstance(chunk, Terrain):
+            raise NavmeshError(f"chunk {key!r} is a {type(chunk).__name__}; expected a Terrain")
     if not chunks:
         raise NavmeshError(f"{name}: no chunks; a level needs at least one")
     names = sorted(chunks)
@@ -45,7 +54,8 @@ def chunks_of(terrain: Terrain) -> dict[str, Terrain]:
 def split_terrain(terrain: Terrain, side: float) -> dict[str, Terrain]:
     """``terrain`` in chunks by squares of ``side`` [m], called "ix,iy": each has the triangles with their
     middle in its square. Raises `NavmeshError` for a side that is not above 0."""
-    if not (math.isfinite(side) and side > 0.0):
+    number = isinstance(side, Real) and not isinstance(side, bool)
+    if not (number and math.isfinite(side) and side > 0.0):
         raise NavmeshError(f"side = {side!r}: expected a length [m] above 0")
     middle = terrain.vertices[terrain.faces].mean(axis=1)
     square = np.floor(middle[:, :2] / side).astype(np.int64)
@@ -66,8 +76,11 @@ def change_chunks(
     Returns it and, for each chunk that is another than before, the bounds (2, 3) [m] of what it was and is.
     Raises `NavmeshError` for the removal of a chunk that is not there, and when none is left.
     """
+    if not isinstance(changes, Mapping):
+        raise NavmeshError(f"changes: expected chunks by name, as in {{'hall': terrain}}, not {changes!r}")
     for name, chunk in changes.items():
-        if not isinstance(name, str) or not (chunk is None or isinstance(chunk, Terrain)):
+        _check_name(name)
+        if not (chunk is None or isinstance(chunk, Terrain)):
             raise NavmeshError(
                 f"chunk {name!r} is a {type(chunk).__name__}; expected a Terrain, or None to remove it"
             )

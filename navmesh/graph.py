@@ -97,6 +97,10 @@ class NodeGraph:
         its
         bounds. Raises `NavmeshError` when nothing is walkable, or when the tags do not fit the level.
         """
+        if not isinstance(terrain, Terrain):
+            raise NavmeshError(f"terrain: expected a navmesh.Terrain, not a {type(terrain).__name__}")
+        if not isinstance(rules, WalkRules | None):
+            raise NavmeshError(f"rules: expected navmesh.WalkRules, not a {type(rules).__name__}")
         rules = rules or WalkRules()
         grid = grid_for(terrain, rules, extent)
         return cls._made(terrain, rules, obstacle_rules, tags, grid, find_cells(terrain, rules, grid))

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from math import inf, isfinite
+from numbers import Integral
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -90,7 +91,10 @@ def find_path(
 
 
 def _points(name: str, values: Any) -> np.ndarray:
-    points = np.ascontiguousarray(values, dtype=np.float64)
+    try:
+        points = np.ascontiguousarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise NavmeshError(f"{name}: expected coordinates (q, 3) [m]: {error}") from None
     if points.ndim != 2 or points.shape[1] != 3:
         raise NavmeshError(f"{name}: expected shape (q, 3), not {points.shape}")
     finite = np.isfinite(points)
@@ -114,8 +118,8 @@ def find_paths(
     first, second = _points("starts", starts), _points("goals", goals)
     if len(first) != len(second):
         raise NavmeshError(f"{len(first)} starts but {len(second)} goals: expected as many of each")
-    if workers < 1:
-        raise NavmeshError(f"workers = {workers}: expected at least 1")
+    if not isinstance(workers, Integral) or workers < 1:
+        raise NavmeshError(f"workers = {workers!r}: expected a whole number of at least 1")
     radius = checked_radius(radius)
     doors = doors_of(graph, radius, skills, node_costs)
     net = net_of(graph)
@@ -192,8 +196,8 @@ class PathSearch:
 
     def advance(self, nodes: int) -> bool:
         """Expand at most ``nodes`` nodes (each about 0.1 µs); True when the search is done."""
-        if nodes < 1:
-            raise NavmeshError(f"nodes = {nodes}: expected at least 1")
+        if not isinstance(nodes, Integral) or nodes < 1:
+            raise NavmeshError(f"nodes = {nodes!r}: expected a whole number of at least 1")
         if self._status not in SEARCHING:
             return True
         return advance(self._net, self._doors, self._scratch, nodes) != RUNNING

@@ -6,6 +6,8 @@ beside the outermost cell centres the neighbouring columns are asked too. Points
 "off the surface".
 """
 
+from math import isfinite
+from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -180,9 +182,9 @@ def _local(graph: "NodeGraph", points: Any, name: str = "points") -> tuple[np.nd
     return np.ascontiguousarray(array - graph.surface.origin), single
 
 
-def _length(value: float, name: str) -> float:
-    if not np.isfinite(value) or value < 0:
-        raise NavmeshError(f"{name} = {value!r}: expected metres, 0 or more")
+def _length(value: Any, name: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, Real) or not isfinite(value) or value < 0.0:
+        raise NavmeshError(f"{name}: expected a number [m], 0 or more, not {value!r}")
     return float(value)
 
 
@@ -264,9 +266,10 @@ def reachable_nodes(graph: "NodeGraph", start: Any, radius: float = 0.3) -> np.n
 
     Typed links are not used. Empty when the start is off the surface or in a place too narrow for the body.
     """
-    node = containing_node(graph, np.asarray(start, dtype=np.float64).reshape(-1, 3))
-    if len(node) != 1:
+    local, single = _local(graph, start, "start")
+    if not single and len(local) != 1:
         raise NavmeshError(f"start has shape {np.shape(start)}, expected (3,)")
+    node = containing_node(graph, local + graph.surface.origin)
     parts = _components(graph, _length(radius, "radius"))
     if node[0] < 0 or parts[node[0]] < 0:
         return np.empty(0, np.int32)
@@ -285,6 +288,10 @@ def random_points(
     With ``reachable_from`` (3,), only places that it can walk to from there. Raises `NavmeshError` when
     there is no such place.
     """
+    if not isinstance(rng, np.random.Generator):
+        raise NavmeshError(f"rng: expected a numpy.random.Generator, not {rng!r}")
+    if isinstance(count, bool) or not isinstance(count, Integral) or count < 0:
+        raise NavmeshError(f"count: expected a whole number, 0 or more, not {count!r}")
     fits = graph.surface.clearance >= _length(radius, "radius") - 0.71 * graph.surface.resolution
     fits &= graph.label >= 0
     if reachable_from is not None:
@@ -314,5 +321,8 @@ def room_to_turn(graph: "NodeGraph", points: Any, length: float) -> Any:
     """
     local, single = _local(graph, points)
     net = net_of(graph)
+    reach = 0.5 * _length(length, "length")
+    if reach > graph.radii.max():
+        return _answer(np.zeros(len(local), dtype=bool), single)
     cells, _ = _project_all(net, local, graph.rules.headroom)
-    return _answer(_turns(net, local, cells, 0.5 * _length(length, "length")), single)
+    return _answer(_turns(net, local, cells, reach), single)

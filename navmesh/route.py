@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from numbers import Real
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,9 +20,10 @@ __all__ = ["STATUSES", "Leg", "LinkUse", "Route", "Routes"]
 STATUSES = ("complete", "partial", "no_path", "off_graph")
 """What a route's status can be.
 
-complete: it leads to the goal. partial: the goal cannot be reached (or the search was ended early), and the
-route leads to the place nearest to it that was reached. no_path: the goal cannot be reached, and nothing that
-can be is nearer to it than the start. off_graph: the start or the goal has no place near it where the body
+complete: it leads to the goal. partial: the goal cannot be reached, and the route leads to the place nearest
+to it that can be (docs/navmesh.md); or the search was ended early, and it leads to the portal nearest to the
+goal that was seen. no_path: the goal cannot be reached, and nothing that can be is nearer to it than the
+start. off_graph: the start or the goal has no place near it where the body
 fits. Routes of the last two have no waypoints.
 """
 
@@ -94,7 +96,7 @@ class Route:
 
         The waypoints are among them; links are jumped from end to end.
         """
-        if not spacing > 0.0:
+        if not isinstance(spacing, Real) or not spacing > 0.0:
             raise NavmeshError(f"spacing = {spacing!r}: expected a distance [m] above 0")
         parts = [drape(self.graph, leg.waypoints, spacing) for leg in self.legs()]
         return np.concatenate(parts) if parts else np.empty((0, 3))

@@ -119,11 +119,14 @@ def bake(
 @app.command()
 def path(
     graph: Annotated[Path, typer.Argument(help="Graph that `surefoot bake` wrote.")],
-    start: Annotated[tuple[float, float, float], typer.Option(help="[m] x y z, Z up.")],
-    goal: Annotated[tuple[float, float, float], typer.Option(help="[m] x y z, Z up.")],
+    start: Annotated[tuple[float, float, float], typer.Option(metavar="X Y Z", help="[m] Z is up.")],
+    goal: Annotated[tuple[float, float, float], typer.Option(metavar="X Y Z", help="[m] Z is up.")],
     radius: Annotated[float, typer.Option(help="[m] Radius of the body.")] = 0.3,
     jump: Annotated[
-        tuple[float, float], typer.Option(help="[m] Least and greatest height to jump onto; 0 0: none.")
+        tuple[float, float],
+        typer.Option(
+            metavar="LEAST GREATEST", help="[m] Heights to jump onto; 0 0: none.", show_default="0 0"
+        ),
     ] = (0.0, 0.0),
     smooth: Annotated[bool, typer.Option(help="Give the smoothed path instead of the pulled one.")] = False,
     as_json: JsonOption = False,
@@ -361,7 +364,8 @@ def clip(
     up: Annotated[Up, typer.Option(help="Axis of a .bvh file that points up.")] = Up.y,
     film: Annotated[Path | None, typer.Option(help="File for a film strip (.png).")] = None,
     stretch: Annotated[
-        tuple[float, float] | None, typer.Option(help="Begin and end of what is shown [s].")
+        tuple[float, float] | None,
+        typer.Option(metavar="BEGIN END", help="[s] What is shown."),
     ] = None,
     mirror: Annotated[bool, typer.Option("--mirror", help="Exchange left and right.")] = False,
     output: Annotated[

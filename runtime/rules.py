@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 import navmesh
 from locomotion import PERSON_RULES
 from locomotion.quadruped import load_body
+from runtime.errors import RuntimeInputError
 
 __all__ = ["obstacle_rules", "person_walk_rules", "walk_rules"]
 
@@ -31,6 +32,10 @@ def walk_rules(
 ) -> navmesh.WalkRules:
     """Where every one of ``bodies`` can go [°, m, m, m]; what is None is as the most demanding of them needs
     it."""
+    if max_slope_deg is not None and not 0.0 <= max_slope_deg < 90.0:
+        raise RuntimeInputError(
+            f"max_slope_deg = {max_slope_deg:g}: expected degrees, 0 or more and below 90"
+        )
     needs = [_needs(body) for body in bodies]
     given = {
         "max_slope": None if max_slope_deg is None else math.radians(max_slope_deg),

@@ -352,3 +352,33 @@ def test_wrong_arguments_are_refused() -> None:
         with pytest.raises(NavmeshError, match=words):
             call()
     assert len(graph.find_paths(np.empty((0, 3)), np.empty((0, 3)))) == 0
+
+
+def test_wrong_arguments_of_other_questions_are_refused() -> None:
+    graph, rng = two_plates(), np.random.default_rng(0)
+    a = (1.0, 1.0, 0.0)
+    for call, words in (
+        (lambda: graph.cast_ray(a, a, "wide"), "radius: expected a number"),
+        (lambda: graph.room_to_turn(a, [1.0]), "length: expected a number"),
+        (lambda: graph.reachable_nodes(a, None), "radius: expected a number"),
+        (lambda: graph.reachable_nodes("here"), "start: expected coordinates"),
+        (lambda: graph.random_points(rng, -1), "count: expected a whole number"),
+        (lambda: graph.random_points(7, 1), "rng: expected a numpy.random.Generator"),
+        (lambda: graph.find_paths("here", [a]), "starts: expected coordinates"),
+        (lambda: graph.find_paths([a], [a], workers="2"), "workers = '2'"),
+        (lambda: graph.find_path(a, a, skills=("jump",)), "skills: expected heights by affordance"),
+        (lambda: graph.find_path(a, a, node_costs="dear"), "node_costs"),
+        (lambda: graph.update({3: graph.terrain}), "chunk 3: expected a name that is a text"),
+        (lambda: graph.update([graph.terrain]), "changes: expected chunks by name"),
+        (lambda: NodeGraph.build("level.obj"), "terrain: expected a navmesh.Terrain"),
+        (lambda: NodeGraph.build(graph.terrain, 0.3), "rules: expected navmesh.WalkRules"),
+    ):
+        with pytest.raises(NavmeshError, match=words):
+            call()
+
+
+def test_bodies_wider_than_the_level_fit_nowhere_at_once() -> None:
+    graph = two_plates()
+    for radius in (50.0, 2000.0, 1e9):
+        assert graph.find_path((1.0, 1.0, 0.0), (5.0, 5.0, 0.0), radius).status == "off_graph"
+        assert not graph.room_to_turn((3.0, 3.0, 0.0), radius)

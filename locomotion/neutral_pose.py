@@ -4,7 +4,7 @@ A joint of a capture turns a part of the person, but its axes are those of the f
 stand, lie, or be no pose of a body at all. What they mean for the part is seen in a pose in which the figure
 stands straight: there the limbs' parts lie along the capture's bones, and all others stand as in the person's
 own rest pose. That is the rest pose, if it stands along any axis of the file; else the frame that stands
-straightest.
+straightest. Where none does, the axes are measured on the limbs, on the mean of the motion.
 """
 
 from itertools import product
@@ -15,6 +15,7 @@ from scipy.spatial.transform import Rotation
 
 from locomotion.bvh import Capture
 from locomotion.errors import LocomotionError
+from locomotion.measured_axes import measured_axes
 
 __all__ = ["LIMBS", "SIDES", "neutral_axes"]
 
@@ -36,7 +37,7 @@ def neutral_axes(
     """For each part of ``source`` (the joint that turns it, by part) its axes (3, 3) in those of its joint.
     ``places`` (n, j, 3) [m]: of the joints in each frame.
 
-    Raises `LocomotionError` for a capture that stands in no frame, if its rest pose does not either.
+    Raises `LocomotionError` for a rest pose and frames that stand along an axis that does not point up.
     """
     leaning = _leans(places, _AXES[0], source)
     rest = capture.rest_places()
@@ -55,12 +56,7 @@ def neutral_axes(
             return _axes(rest, turns, _upright(up), source)
     frame = int(np.flatnonzero(leaning <= leaning.min() + _ALIKE)[0])
     if leaning[frame] >= _STILL:
-        raise LocomotionError(
-            f"{capture.name}: neither its rest pose nor any frame stands upright (trunk and legs within"
-            f" {np.degrees(_STILL):.0f} degrees; the straightest frame, {frame + 1}, leans by"
-            f" {np.degrees(leaning[frame]):.0f}), so that its joints' axes have no meaning; name another axis"
-            " that points up, or begin the capture with a frame in which the person stands"
-        )
+        return measured_axes(places, capture.orientations(), source)
     return _axes(places[frame], capture.orientations()[frame], np.eye(3), source)
 
 

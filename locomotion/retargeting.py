@@ -85,8 +85,8 @@ def retarget(capture: Capture, mapping: dict[str, str]) -> Motion:
     quarter turns, so that it faces within 45 degrees of +X there.
 
     Raises `LocomotionError` for a mapping with a mistake, joints that the capture does not have or has twice,
-    limbs without a length or longer than 2 m, legs of an impossible length, and a capture that does not tell
-    how it stands (`neutral_pose.neutral_axes`).
+    limbs without a length or longer than 2 m, and a figure that stands along
+    an axis that does not point up.
     """
     if wrong := _wrong(mapping):
         raise LocomotionError(f"{capture.name}: the mapping: {wrong[1]}")

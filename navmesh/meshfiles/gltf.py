@@ -196,6 +196,10 @@ def _parts(document: Document, mesh: dict[str, Any], where: str) -> list[_Part]:
 def _part(document: Document, primitive: dict[str, Any], mode: int, where: str) -> _Part:
     attributes = primitive["attributes"]
     draco = document.extension(primitive, DRACO)
+    if DRACO not in document.required and "bufferView" in document.item(
+        "accessors", attributes["POSITION"], where
+    ):
+        draco = None  # the file has it plain, too
     stored, faces = ({}, None) if draco is None else draco_mesh(document, draco, where)
 
     def numbers(name: str, kind: str) -> np.ndarray:

@@ -53,7 +53,9 @@ class Document:
         version = str(self.json["asset"].get("version", ""))
         if not version.startswith("2."):
             raise self.error("", f"glTF of version {version or 'none'}; version 2 is read: export it anew")
-        for name in self.items("extensionsRequired", of=str):
+        self.required = set(self.items("extensionsRequired", of=str))
+        """The extensions without which the file cannot be read."""
+        for name in sorted(self.required):
             if name not in _READ and not name.startswith(_WITHOUT_GEOMETRY):
                 raise self.error(
                     "", f"it requires the extension {name}, which is not read; export without it"
@@ -162,11 +164,21 @@ class Document:
         view = self.item("bufferViews", index, where)
         if index not in self._views:
             place = f"bufferViews[{index}]"
-            compressed = next((found for name in MESHOPT if (found := self.extension(view, name))), None)
+            compressed = self._compressed(view, place)
             self._views[index] = self._slice(compressed or view, place)
             if compressed is not None:
                 self._views[index] = meshopt_bytes(self, self._views[index], compressed, place)
         return self._views[index]
+
+    def _compressed(self, view: dict[str, Any], place: str) -> dict[str, Any] | None:
+        """What says how a bufferView is compressed; None if it is not, or if the file has it plain, too."""
+        for name in MESHOPT:
+            found = self.extension(view, name)
+            if found is not None:
+                buffer = self.item("buffers", view.get("buffer"), place)
+                plain = "uri" in buffer or (view.get("buffer") == 0 and self._binary is not None)
+                return found if name in self.required or not plain else None
+        return None
 
     def _slice(self, view: dict[str, Any], place: str) -> bytes:
         buffer = self._buffer(view.get("buffer"), place)

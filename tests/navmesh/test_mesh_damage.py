@@ -41,6 +41,8 @@ def compressed_gltf():
     DracoPy = pytest.importorskip("DracoPy", reason="needs the extra meshes")
     meshopt = pytest.importorskip("meshopt", reason="needs the extra meshes")
     file = Gltf()
+    file.require("KHR_draco_mesh_compression")
+    file.require("EXT_meshopt_compression")
     packed = {
         "bufferView": file.view(DracoPy.encode(SQUARE, np.uint32(TWO).reshape(-1, 3))),
         "attributes": {"POSITION": 0},

@@ -286,6 +286,17 @@ def test_meshopt_exponential_filter(tmp_path):
     np.testing.assert_allclose(load(tmp_path, file).bounds, [[0, 0, 0], [4, 4, 0]], atol=1e-4)
 
 
+def test_compression_that_is_not_required_is_passed_over(tmp_path, monkeypatch):
+    for package in ("DracoPy", "meshopt"):
+        monkeypatch.setitem(sys.modules, package, None)
+    file = square()
+    compressed = {"buffer": 0, "byteLength": 8, "byteStride": 12, "count": 4, "mode": "ATTRIBUTES"}
+    file.json["bufferViews"][0]["extensions"] = {"EXT_meshopt_compression": compressed}
+    extension = {"bufferView": 0, "attributes": {"POSITION": 0}}
+    file.json["meshes"][0]["primitives"][0]["extensions"] = {"KHR_draco_mesh_compression": extension}
+    assert area(load(tmp_path, file)) == pytest.approx(16)
+
+
 @pytest.mark.parametrize(("package", "what"), [("DracoPy", "Draco"), ("meshopt", "meshopt")])
 def test_compression_without_its_package_says_what_helps(tmp_path, monkeypatch, package, what):
     monkeypatch.setitem(sys.modules, package, None)
@@ -294,9 +305,9 @@ def test_compression_without_its_package_says_what_helps(tmp_path, monkeypatch, 
         extension = {"bufferView": file.view(b"DRACO"), "attributes": {"POSITION": 0}}
         mesh = file.mesh(file.accessor("f", 4, 3), extensions={"KHR_draco_mesh_compression": extension})
     else:
-        mesh = file.mesh(
-            file.accessor("f", 4, 3, bufferView=meshopt_view(file, b"x" * 9, 4, 12, "ATTRIBUTES"))
-        )
+        view = meshopt_view(file, b"x" * 9, 4, 12, "ATTRIBUTES")
+        mesh = file.mesh(file.accessor("f", 4, 3, bufferView=view))
+        file.json["buffers"] = [{"byteLength": len(file.data)}, {"byteLength": 48}]
     file.node(mesh=mesh)
     with pytest.raises(NavmeshError, match=rf"compressed with {what}.*\[meshes\].*export without"):
         load(tmp_path, file)

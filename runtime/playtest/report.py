@@ -102,7 +102,9 @@ def read_report(path: str | os.PathLike[str]) -> Report:
             digest=values["digest"],
             character=values["character"],
             faults=tuple(_fault(each) for each in values["faults"]),
-            crossings=tuple(Crossing(**each) for each in values["crossings"]),
+            crossings=tuple(
+                Crossing(**{**each, "position": tuple(each["position"])}) for each in values["crossings"]
+            ),
             journeys=tuple(Journey(**each) for each in values["journeys"]),
             coverage=tuple((t, share) for t, share in values["coverage"]),
             patches=tuple((x, y, z, n) for x, y, z, n in values["patches"]),

@@ -1,9 +1,11 @@
 """What the commands of ``surefoot`` do, apart from reading their arguments."""
 
 import json
+import signal
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -186,7 +188,18 @@ def serve_worlds(
     load_kernels()
     server = SurefootServer(graphs, host, port, token, pages)
     where = f"[{host}]" if ":" in host else host
-    asyncio.run(server.run(lambda port: print(f"serving on ws://{where}:{port}", flush=True)))
+
+    async def serve_until_ended() -> None:
+        own = asyncio.current_task()
+        assert own is not None
+        with suppress(NotImplementedError):  # only Linux and the like have it
+            asyncio.get_running_loop().add_signal_handler(signal.SIGTERM, own.cancel)
+        await server.run(lambda port: print(f"serving on ws://{where}:{port}", flush=True))
+
+    try:
+        asyncio.run(serve_until_ended())
+    except asyncio.CancelledError:  # all that was going on has been put in order
+        raise SystemExit(128 + signal.SIGTERM) from None
 
 
 _RESULTS = ("trace.npz", "level.png", "film.png", "run.html")

@@ -488,6 +488,27 @@ def test_a_flood_of_pings_ends_the_connection_and_not_the_server(graph):
     talk(graph, conversation)
 
 
+def test_it_ends_without_a_word_when_it_is_told_to(tmp_path):
+    """Also in the middle of a long step."""
+    from benchmarks.server_fuzz import FLOOR, greeted, serving
+
+    (tmp_path / "floor.obj").write_text(FLOOR)
+
+    async def busy(address, server):
+        client = await greeted(address)
+        made = await client.ask("create", level="floor", clock="manual", states="none")
+        world = made["result"]["world"]
+        await client.ask("spawn", world=world, body="human", at=[5, 3, 0])
+        for number in range(3):
+            await client.socket.send(json.dumps({"type": "step", "id": number, "world": world, "dt": 1.0}))
+        server.terminate()
+        return await asyncio.to_thread(server.wait, 60)
+
+    with serving(tmp_path / "floor.obj", log=tmp_path / "log") as (address, server):
+        assert asyncio.run(busy(address, server)) == 143
+    assert "Traceback" not in (tmp_path / "log").read_text()
+
+
 def test_the_schema_in_the_docs_is_the_present_one(tmp_path):
     messages.write_schema(tmp_path / "schema.json")
     assert (tmp_path / "schema.json").read_text() == (ROOT / "docs" / "server.schema.json").read_text()

@@ -32,7 +32,7 @@ import numpy as np
 
 from benchmarks.file_mutations import mutated_archive, mutated_text
 
-__all__ = ["OUTCOMES", "fuzz", "spoiled"]
+__all__ = ["OUTCOMES", "fuzz", "judge", "spoiled"]
 
 OUTCOMES = ("refused", "same", "other", "kept other", "wrong", "signal")
 _LIMIT, _SLOWEST = 8 * 2**30, 60  # [bytes] of a process; [s] for a file
@@ -125,7 +125,10 @@ def fuzz(name: str, files: int, seed: int, first: int = 0) -> dict[str, Any]:
                 command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
             ) as worker:
                 assert worker.stdout is not None
-                good = json.loads(worker.stdout.readline())["memory"]
+                begun = worker.stdout.readline()
+                if not begun:
+                    raise RuntimeError(f"the good file of {name} cannot be read or used")
+                good = json.loads(begun)["memory"]
                 for line in worker.stdout:
                     result = json.loads(line)
                     number = result["number"] + 1

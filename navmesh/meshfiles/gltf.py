@@ -37,6 +37,7 @@ class _Part(NamedTuple):
     """(v, 4) float64"""
 
 
+@np.errstate(over="ignore", invalid="ignore")  # what comes out infinite is refused as a whole
 def read_gltf(path: str | os.PathLike[str]) -> MeshFile:
     """The triangles of a file's scene (its default one, or the first; all nodes if it has none). Hidden nodes
     (KHR_node_visibility), points and lines are left out. Raises `MeshFileError` for what is damaged or not

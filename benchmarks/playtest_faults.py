@@ -1,13 +1,14 @@
-"""Plants faults in the courtyard and asks the playtest to find them; and how fast a playtest is.
+"""Plants faults and harmless look-alikes and asks the playtest to tell them apart; and how fast a playtest
+is.
 
-    python -m benchmarks.playtest_faults [--bots 8] [--seconds 60] [--dungeon] [--json FILE]
+    python -m benchmarks.playtest_faults [--seed 1] [--count 40] [--bots 8] [--seconds 60] [--json FILE]
+    python -m benchmarks.playtest_faults --courtyard | --dungeon
 
-Twenty faults, one at a time: holes, walls, one-way drops, traps, doors that are too narrow, ledges out of
-reach, steps
-that are too high. A fault counts as found when the playtest reports its kind at its place; whatever else
-fails is
-a false alarm, and so is everything that fails on the level as it is. With --dungeon 64 bots play Recast's
-dungeon for 300 s each, in 1 and in 2 processes, and the reports are compared.
+Forty halls with one fault each, and forty with something that only looks like one, at random sizes, places
+and angles (`benchmarks.planted_rooms`). A fault is found when it is the one thing that fails, by its kind,
+within 0.5 m of where it is, and measured within 5 cm (slopes: 1 degree); a look-alike holds when nothing
+fails. With --courtyard twenty faults are planted in our courtyard, one at a time. With --dungeon 64 bots play
+Recast's dungeon for 300 s each, in 1 and in 2 processes, and the reports are compared.
 """
 
 import argparse
@@ -20,12 +21,20 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
+import shapely
 import trimesh
 
+from benchmarks.planted_rooms import FAULTS, LOOK_ALIKES, Hall, planted
 from benchmarks.shared_data import level_path, shared_folder, why_absent
 from runtime.playtest import Fault, playtest
 
 COURTYARD = Path(__file__).resolve().parents[1] / "examples" / "levels" / "courtyard.obj"
+IN_PLACE = 0.5
+"""[m] from a planted fault that a finding may lie."""
+EXACT_LENGTH = 0.05
+"""[m] that a finding may measure too much or too little."""
+EXACT = {"steep": 1.0}
+"""[°] the same, for slopes."""
 NEAR = 1.5
 """[m] beyond the edges of a planted fault that a finding may lie."""
 
@@ -184,6 +193,49 @@ def find_all(bots: int, seconds: float) -> dict:
     return {"found": hits, "planted": len(rows), "others": alarms, "clean": len(on_clean), "rows": rows}
 
 
+def judged(hall: Hall, failures: Sequence[Fault]) -> str:
+    """What is wrong with ``failures`` of a playtest of ``hall``; "" where nothing is."""
+    said = "; ".join(f"{each.kind} at {hall.own(each.position).round(2)}: {each.text}" for each in failures)
+    wanted = hall.fault
+    if wanted is None:
+        return said and f"false: {said}"
+    (fault, *others) = failures or [None]
+    if fault is None or others or fault.kind != wanted.kind:
+        return f"expected one {wanted.kind}, said: {said or 'nothing'}"
+    away = float(shapely.distance(wanted.area, shapely.Point(hall.own(fault.position)[:2])))
+    if away > IN_PLACE:
+        return f"{away:.2f} m from where it is: {said}"
+    if wanted.size is not None and not (
+        fault.size is not None and abs(fault.size - wanted.size) <= EXACT.get(wanted.kind, EXACT_LENGTH)
+    ):
+        return f"measured {fault.size}, not {wanted.size:.3f}: {said}"
+    return ""
+
+
+def plant_and_look(seed: int, count: int, bots: int, seconds: float) -> dict:
+    """``count`` halls with faults and as many with look-alikes, every kind in turn."""
+    rows = []
+    for names in (list(FAULTS), list(LOOK_ALIKES)):
+        for number in range(count):
+            name = names[number % len(names)]
+            hall = planted(np.random.default_rng([seed, number, len(names)]), name)
+            with tempfile.TemporaryDirectory() as folder:
+                level = Path(folder) / "hall.obj"
+                hall.mesh.export(level)
+                spawn = [round(float(value), 3) for value in hall.spawn]
+                level.with_suffix(".playtest.yaml").write_text(f"spawns:\n  - {{name: gate, at: {spawn}}}\n")
+                failures = playtest(level, bots=bots, seconds=seconds, seed=seed).report.failures
+            wrong = judged(hall, failures)
+            print(f"{number + 1:3} {hall.says}: {wrong or 'right'}", flush=True)
+            rows.append({"hall": hall.says, "fault": hall.fault is not None, "wrong": wrong})
+    figures = {}
+    for what, is_fault in (("faults", True), ("look-alikes", False)):
+        mine = [row for row in rows if row["fault"] == is_fault]
+        figures[what] = sum(not row["wrong"] for row in mine)
+        print(f"{what}: {figures[what]} of {len(mine)} right")
+    return {"seed": seed, "count": count, **figures, "rows": rows}
+
+
 def play_dungeon(bots: int = 64, seconds: float = 300.0) -> dict:
     """How much faster than real time a playtest of dungeon is, everything included."""
     found = {}
@@ -206,14 +258,22 @@ def play_dungeon(bots: int = 64, seconds: float = 300.0) -> dict:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--count", type=int, default=40, help="halls with faults, and as many without")
     parser.add_argument("--bots", type=int, default=8)
     parser.add_argument("--seconds", type=float, default=60.0)
+    parser.add_argument("--courtyard", action="store_true", help="plant twenty in the courtyard instead")
     parser.add_argument("--dungeon", action="store_true", help="only time the dungeon")
     parser.add_argument("--json", type=Path, help="write the figures here")
     options = parser.parse_args()
     if options.dungeon and shared_folder() is None:
         raise SystemExit(f"dungeon skipped: {why_absent()}")
-    figures = play_dungeon() if options.dungeon else find_all(options.bots, options.seconds)
+    if options.dungeon:
+        figures = play_dungeon()
+    elif options.courtyard:
+        figures = find_all(options.bots, options.seconds)
+    else:
+        figures = plant_and_look(options.seed, options.count, options.bots, options.seconds)
     if options.json:
         options.json.write_text(json.dumps(figures, indent=1))
 

@@ -1,12 +1,14 @@
 """What the graph and the geometry prove, before any bot has walked: `analyse`."""
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from runtime.playtest.barriers import Barrier, Barriers
+from runtime.playtest.barriers import HIGHEST, Barriers
 from runtime.playtest.fault import Fault
-from runtime.playtest.holes import find_holes
+from runtime.playtest.holes import Hole
+from runtime.playtest.openings import Barrier
 from runtime.playtest.passages import narrow_passages
 from runtime.playtest.site import Site
 from runtime.playtest.solids import is_inside_solid
@@ -21,8 +23,8 @@ PIT = 25.0
 ALMOST = 0.5
 """[m] a rise that is out of reach by no more than this is taken for a mistake, and not for a wall."""
 _ALMOST_GAP = 1.0  # [m] the same for a gap
-_SLIT = 0.3  # [m] passages narrower than this are cracks
 _TOP = 0.6  # [m] parts that are nowhere as wide are the tops of walls and the like, and no floors
+_EVEN = 3.0  # [°] that a ramp's slope may differ from that of the way up it
 _LOW_STEP = 0.35  # [m] rises up to this are steps, higher ones ledges
 
 
@@ -33,8 +35,10 @@ def core_parts(site: Site) -> np.ndarray:
     return np.flatnonzero(site.loops == site.loops[largest])
 
 
-def analyse(site: Site, spawns: np.ndarray, forbidden: np.ndarray, wanted: np.ndarray) -> list[Fault]:
-    """The faults of a level for players who start in the parts ``spawns`` (s,).
+def analyse(
+    site: Site, holes: Sequence[Hole], spawns: np.ndarray, forbidden: np.ndarray, wanted: np.ndarray
+) -> list[Fault]:
+    """The faults of a level with ``holes`` for players who start in the parts ``spawns`` (s,).
 
     ``forbidden`` are parts that nobody should reach, ``wanted`` parts that somebody expects to be
     reached; indices.
@@ -42,7 +46,7 @@ def analyse(site: Site, spawns: np.ndarray, forbidden: np.ndarray, wanted: np.nd
     return [
         *_unreachable(site, spawns, set(forbidden.tolist()), set(wanted.tolist())),
         *_no_return(site, spawns),
-        *_holes(site),
+        *_hole_faults(site, holes),
         *_narrow(site, spawns),
         *_unusable(site),
     ]
@@ -86,36 +90,53 @@ def _explained(
     site: Site, barriers: Barriers, words: Wording, reached: np.ndarray, parts: np.ndarray, wanted: bool
 ) -> Fault:
     """Why ``parts`` cannot be reached, from the easiest thing to mend to the hardest."""
-    skills, graph = site.character, site.graph
-    node_reached = np.append(reached, False)[site.node_part]
-    node_there = np.isin(site.node_part, parts)
-    cell_reached, cell_there = (_on_cells(site, nodes) for nodes in (node_reached, node_there))
+    character = site.character
+    here, there = _cells(site, reached), np.isin(site.cell_part, parts)
     centre, area = site.centre_of(int(parts[0])), float(site.areas[parts].sum())
+    climb = max(character.reach("jump"), site.graph.rules.max_step) + ALMOST
+    barrier = barriers.between(here, there, climb)
+    kind, fails = "unreachable", False
+    if barrier is None:
+        barrier = barriers.ledge(here, there)
+    elif barrier.kind in ("narrow", "low"):
+        kind, fails = barrier.kind, True
+    elif barrier.kind == "steep":
+        kind, fails = "steep", _is_ramp(barrier)
+    elif barrier.kind == "wall":
+        kind, fails = "walled_off", True
+    elif barrier.kind == "rise" and barrier.size > 0.0:
+        kind, fails = "step" if barrier.size <= _LOW_STEP else "ledge", True
+    elif barrier.kind == "gap":
+        low, high = character.skills.get("gap", (0.0, 0.0))
+        if 0.0 < high and (barrier.size < low or high <= barrier.size <= high + _ALMOST_GAP):
+            kind, fails = "gap", True
+    text = words.unreachable(centre, area, barrier)
+    return _measured(kind, centre, text, barrier, fails or wanted, area)
 
-    def fault(kind: str, barrier: Barrier | None, fails: bool) -> Fault:
-        place = centre if barrier is None else barrier.place
-        text = words.unreachable(kind, centre, area, barrier)
-        return Fault(kind, triple(place), text, fails or wanted, extent=area)
 
-    narrow = barriers.narrow(node_reached, node_there)
-    if narrow is not None and narrow.size >= _SLIT:
-        return fault("narrow", narrow, True)
-    rise = barriers.rise(cell_reached, cell_there)
-    if rise is not None and 0.0 < rise.size <= max(skills.reach("jump"), graph.rules.max_step) + ALMOST:
-        return fault("step" if rise.size <= _LOW_STEP else "ledge", rise, True)
-    gap = barriers.gap(node_reached, node_there)
-    if gap is not None and 0.0 < skills.reach("gap") <= gap.size <= skills.reach("gap") + _ALMOST_GAP:
-        return fault("gap", gap, True)
-    wall = barriers.wall(cell_reached, cell_there)
-    if wall is not None:
-        return fault("walled_off", wall, True)
-    return fault("unreachable", gap or rise, False)
+def _is_ramp(steep: Barrier) -> bool:
+    """Whether a slope is even, from its foot to its head: something built to be walked up, and no
+    hillside."""
+    x, y, z = np.abs(steep.span[1] - steep.span[0])
+    return abs(math.degrees(math.atan2(z, math.hypot(x, y))) - steep.size) <= _EVEN
 
 
-def _on_cells(site: Site, nodes: np.ndarray) -> np.ndarray:
-    """(n,) bool: the cells that belong to ``nodes`` (m,) bool."""
-    label = site.graph.label
-    return (label >= 0) & nodes[label]
+def _measured(
+    kind: str, centre: np.ndarray, text: str, barrier: Barrier | None, fails: bool, area: float = 0.0
+) -> Fault:
+    """The fault at ``barrier``, or where there is none at ``centre``."""
+    if barrier is None:
+        return Fault(kind, triple(centre), text, fails, extent=area)
+    if barrier.kind == "wall":  # nobody asks how thick it is
+        return Fault(kind, triple(barrier.place), text, fails, extent=area)
+    span = tuple(triple(end) for end in barrier.span)
+    size = round(abs(float(barrier.size)), 3) if np.isfinite(barrier.size) else None
+    return Fault(kind, triple(barrier.place), text, fails, extent=area, size=size, span=span)
+
+
+def _cells(site: Site, parts: np.ndarray) -> np.ndarray:
+    """(n,) bool: the cells of ``parts`` (p,) bool where the body's middle can be."""
+    return np.append(parts, False)[site.cell_part]
 
 
 def _no_return(site: Site, spawns: np.ndarray) -> list[Fault]:
@@ -123,7 +144,7 @@ def _no_return(site: Site, spawns: np.ndarray) -> list[Fault]:
     words, barriers = Wording(site.character), Barriers(site)
     lost = site.reached(spawns) & ~site.returning(spawns)
     faults = []
-    back = np.append(site.returning(spawns), False)[site.node_part]
+    back = _cells(site, site.returning(spawns))
     for loop in np.unique(site.loops[lost]):
         inside = site.loops == loop
         area = float(site.areas[inside].sum())
@@ -132,12 +153,16 @@ def _no_return(site: Site, spawns: np.ndarray) -> list[Fault]:
         ends = not (inside[site.way_from] & ~inside[site.way_to]).any()
         kind = "trap" if ends and area <= PIT else "one_way"
         entries = site.ways[~inside[site.way_from] & inside[site.way_to]]
-        there = np.append(inside, False)[site.node_part]
-        out = barriers.rise(_on_cells(site, there), _on_cells(site, back))
+        there = _cells(site, inside)
+        out = barriers.between(there, back, HIGHEST) or barriers.ledge(there, back)
+        if out is not None and out.kind in ("gap", "wall"):
+            out = barriers.ledge(there, back) or out
         largest = int(np.flatnonzero(inside)[np.argmax(site.areas[inside])])
-        entry = _entry(site, entries)
-        text = words.no_return(kind, site.centre_of(largest), area, entry, out)
-        faults.append(Fault(kind, triple(site.centre_of(largest)), text, extent=area))
+        centre, entry = site.centre_of(largest), _entry(site, entries)
+        text = words.no_return(kind, centre, area, entry, out)
+        size = None if out is None else round(abs(float(out.size)), 3)
+        span = () if out is None else tuple(triple(end) for end in out.span)
+        faults.append(Fault(kind, triple(centre), text, extent=area, size=size, span=span))
     return faults
 
 
@@ -152,27 +177,33 @@ def _entry(site: Site, entries: np.ndarray) -> Mapping[str, object]:
     }
 
 
-def _holes(site: Site) -> list[Fault]:
+def _hole_faults(site: Site, holes: Sequence[Hole]) -> list[Fault]:
+    """Holes are faults, open edges notes."""
     words = Wording(site.character)
     faults = []
-    for hole in find_holes(site):
-        kind = "hole" if hole.enclosed else "open_edge"
-        text = (
-            words.hole(hole.place, hole.area) if hole.enclosed else words.open_edge(hole.place, len(hole.rim))
-        )
-        faults.append(
-            Fault(kind, triple(hole.place), text, hole.enclosed, extent=hole.area if hole.enclosed else 0.0)
-        )
+    for hole in holes:
+        if not hole.enclosed:
+            faults.append(Fault("open_edge", triple(hole.place), words.open_edge(hole), False))
+            continue
+        size = round(float(np.linalg.norm(hole.span[1] - hole.span[0])), 3)
+        span = tuple(triple(end) for end in hole.span)
+        area = round(hole.area, 3)
+        faults.append(Fault("hole", triple(hole.place), words.hole(hole), extent=area, size=size, span=span))
     return faults
 
 
 def _narrow(site: Site, spawns: np.ndarray) -> list[Fault]:
     """Passages that the body does not fit through where the way around is long."""
     words = Wording(site.character)
-    reached = site.reached(spawns)
     return [
-        Fault("narrow", triple(each.place), words.passage(each.place, each.width, each.through, each.around))
-        for each in narrow_passages(site, reached)
+        _measured(
+            "narrow",
+            each.barrier.place,
+            words.passage(each.barrier, each.through, each.around),
+            each.barrier,
+            True,
+        )
+        for each in narrow_passages(site, site.reached(spawns))
     ]
 
 

@@ -1,38 +1,38 @@
-"""What keeps two parts of a level apart: the lowest ledge, the widest passage, the narrowest gap, a wall.
+"""What keeps two parts of a level apart: the easiest thing to mend, of all the places where they come near
+each other.
 
-The questions are for a bottleneck: of all ways from one set of places to another, the one whose worst place
-is least bad. Joining places, the least bad first, until the two sets are joined, finds it (Kruskal).
+Where is told by the graph's cells, what and how much by the mesh (`runtime.playtest.openings`). Great heights
+are left to the cells: of all ways from one set of cells to another, the one whose highest ledge is lowest.
+Joining cells, the least rise first, until the two sets are joined, finds it (Kruskal).
 """
 
-from typing import NamedTuple
+import math
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 from numba import njit
 from scipy.spatial import KDTree
 
-from navmesh.affordances import detect_obstacles
 from navmesh.free_length import cells_of
-from navmesh.links import make_links
-from navmesh.obstacle_rules import ObstacleRules
-from navmesh.probes import crossed, lowest_above
+from navmesh.probes import ProbeGrid, crossed, lowest_above
+from runtime.playtest.floorplan import Allowance
+from runtime.playtest.openings import Barrier, Opening
 from runtime.playtest.site import Site
 
-__all__ = ["Barrier", "Barriers", "width_at"]
+__all__ = ["CRACK", "SLIT", "Barriers", "opening_at"]
 
 HIGHEST = 6.0
 """[m] ledges higher than this are not looked for."""
-_WIDEST_GAP = 5.0  # [m] gaps wider than this are not looked for
-_WALL = 1.2  # [m] greatest thickness of a wall that two floors are told apart by
-_LEVEL = 0.5  # [m] floors on both sides of a wall differ by at most this
-
-
-class Barrier(NamedTuple):
-    """The easiest place to get through. ``kind``: "rise" (negative: a fall), "narrow", "gap" or "wall";
-    ``size`` [m]: height, width of the passage, width of the gap, thickness; ``place`` (3,) [m]."""
-
-    kind: str
-    size: float
-    place: np.ndarray
+SLIT = 0.3
+"""[m] passages narrower than this are cracks."""
+_LOWEST = 0.5  # of the headroom: lower passages are no doors
+_WALL = np.radians(60.0)  # steeper slopes are walls, and no ramps
+CRACK = 0.02
+"""[m] gaps in the floor that nobody notices."""
+_FAR = 8.0  # [m] that two parts may be apart
+_TILE = 2.0  # [m] of a boundary that is looked at in one
+_BESIDE = 1.6  # [m] around it
+_MOST = 40  # places looked at, the nearest first
 
 
 class Barriers:
@@ -41,10 +41,52 @@ class Barriers:
     def __init__(self, site: Site) -> None:
         self.site = site
         self._steps: tuple[np.ndarray, np.ndarray] | None = None
-        self._passages: tuple[np.ndarray, np.ndarray] | None = None
-        self._gaps = None
 
-    def rise(self, of: np.ndarray, to: np.ndarray) -> Barrier | None:
+    def between(self, of: np.ndarray, to: np.ndarray, highest: float) -> Barrier | None:
+        """What keeps cells ``of`` (bool, per cell) from cells ``to``: the first kind of barrier that there is
+        anywhere between them, and of this kind the one that keeps them apart the least. Steps up (or down)
+        are told up to ``highest`` [m]."""
+        rules = self.site.graph.rules
+        places = list(self._places(of, to))
+        if fits := [each for each in places if each.passes]:
+            # the graph, which samples, has lost what only just passes
+            return fits[0].tight()
+        low, steep = _LOWEST * rules.headroom, max(_WALL, rules.max_slope)
+        high = min(highest, 0.95 * rules.headroom)
+        return (
+            _best(places, Opening.narrow, SLIT, 1.0)
+            or _best(places, Opening.low, low, 1.0)
+            or _best(places, Opening.steep, steep, -1.0)
+            or _best(places, Opening.rise, high, -1.0)
+            or self._across(places, Opening.gap)
+            or self._across(places, Opening.wall)
+        )
+
+    def _across(
+        self, places: Sequence[Opening], find: Callable[[Opening, ProbeGrid, np.ndarray], Barrier | None]
+    ) -> Barrier | None:
+        """The shortest way across that there is at any of ``places``."""
+        probe, origin = self.site.probe, self.site.graph.surface.origin
+        found = [each for place in places if (each := find(place, probe, origin)) is not None]
+        return min(found, key=lambda each: each.size, default=None)
+
+    def _places(self, of: np.ndarray, to: np.ndarray) -> Iterator[Opening]:
+        """Where cells ``of`` and ``to`` come near each other, the nearest first."""
+        surface = self.site.graph.surface
+        here, there = np.flatnonzero(of), np.flatnonzero(to)
+        if not len(here) or not len(there):
+            return
+        a, b = surface.centers(here), surface.centers(there)
+        away, nearest = (np.asarray(each) for each in KDTree(a).query(b, distance_upper_bound=_FAR))
+        near = np.flatnonzero(np.isfinite(away))
+        near = near[np.argsort(away[near], kind="stable")]
+        middles = 0.5 * (b[near] + a[nearest[near]])
+        tiles = np.unique(np.floor(middles / _TILE), axis=0, return_index=True)[1]
+        for k in near[np.sort(tiles)][:_MOST].tolist():
+            ends = np.array([b[k], a[nearest[k]]])
+            yield opening_at(self.site, ends, a, b)
+
+    def ledge(self, of: np.ndarray, to: np.ndarray) -> Barrier | None:
         """The lowest ledge on the way from cells ``of`` (bool, per cell) to cells ``to``: how far up, or
         (negative) down, its highest one goes on the easiest way."""
         if self._steps is None:
@@ -53,74 +95,9 @@ class Barriers:
         at, forward = _first_to_join(ends, of, to)
         if at < 0 or rises[at] == 0.0:
             return None
-        surface = self.site.graph.surface
-        low, high = surface.centers(ends[at])
-        place = np.array([*(0.5 * (low + high))[:2], high[2]])
-        return Barrier("rise", float(rises[at] if forward else -rises[at]), place)
-
-    def narrow(self, of: np.ndarray, to: np.ndarray) -> Barrier | None:
-        """The widest passage on foot from nodes ``of`` (bool, per node) to nodes ``to``; its whole width."""
-        graph = self.site.graph
-        if self._passages is None:
-            source = np.repeat(np.arange(len(graph)), np.diff(graph.edge_start))
-            wide = np.minimum(
-                np.minimum(graph.radii[source], graph.radii[graph.edge_target]), graph.edge_width
-            )
-            order = np.argsort(-wide, kind="stable")
-            self._passages = np.stack([source, graph.edge_target], axis=1)[order], wide[order]
-        ends, wide = self._passages
-        at, _ = _first_to_join(ends, of, to)
-        if at < 0:
-            return None
-        pair = ends[at]
-        place = graph.positions[pair[np.argmin(graph.radii[pair])]]
-        return Barrier("narrow", max(width_at(self.site, place), 2.0 * float(wide[at])), place)
-
-    def gap(self, of: np.ndarray, to: np.ndarray) -> Barrier | None:
-        """The narrowest gap to leap from nodes ``of`` to nodes ``to``."""
-        graph = self.site.graph
-        if self._gaps is None:
-            rules = ObstacleRules(
-                gap_width=(0.4, _WIDEST_GAP), body_radius=max(self.site.character.radius, 0.05)
-            )
-            found = detect_obstacles(graph.terrain, graph.surface, graph.rules, rules)
-            found = found.select(found.affordance == "gap")
-            self._gaps = make_links(found, graph.surface, graph.rules, rules.body_radius)
-        links = self._gaps
-        start, end = graph.label[links.start_cell], graph.label[links.end_cell]
-        across = np.flatnonzero((start >= 0) & (end >= 0) & of[start] & to[end])
-        if len(across) == 0:
-            return None
-        best = across[np.argmin(links.height[across])]
-        return Barrier("gap", float(links.height[best]), links.edge[best])
-
-    def wall(self, of: np.ndarray, to: np.ndarray) -> Barrier | None:
-        """The wall where the two sets of cells are nearest to each other at about the same height, if one
-        stands there."""
-        surface = self.site.graph.surface
-        here, there = np.flatnonzero(of), np.flatnonzero(to)
-        if not len(here) or not len(there):
-            return None
-        a, b = surface.centers(here), surface.centers(there)
-        far = _WALL + 2.0 * self.site.character.radius
-        away, nearest = (np.asarray(each) for each in KDTree(b).query(a, distance_upper_bound=far))
-        near = np.isfinite(away)
-        near[near] &= np.abs(a[near, 2] - b[nearest[near], 2]) <= _LEVEL
-        if not near.any():
-            return None
-        best = int(np.flatnonzero(near)[np.argmin(away[near])])
-        if not self._is_wall(a[best] - surface.origin, b[nearest[best]] - surface.origin):
-            return None
-        return Barrier("wall", float(away[best]), 0.5 * (a[best] + b[nearest[best]]))
-
-    def _is_wall(self, here: np.ndarray, there: np.ndarray) -> bool:
-        """Whether anything stands between two places, at the height of a body."""
-        rules = self.site.graph.rules
-        heights = np.linspace(rules.max_step + 0.05, 0.95 * rules.headroom, 4)
-        return any(
-            crossed(self.site.probe.arrays, *here[:2], here[2] + up, *there[:2], there[2] + up)
-            for up in heights
-        )
+        low, high = self.site.graph.surface.centers(ends[at])
+        span = np.array([[*(0.5 * (low + high))[:2], z] for z in (low[2], high[2])])
+        return Barrier("rise", float(rises[at] if forward else -rises[at]), span[1], span)
 
     def _all_steps(self) -> tuple[np.ndarray, np.ndarray]:
         """Pairs (k, 2) of neighbouring cells, lower first, and the rise [m] of each, 0 where one walks; in
@@ -137,36 +114,30 @@ class Barriers:
         return np.stack([source, target], axis=1)[order], rises[order]
 
 
-def width_at(site: Site, place: np.ndarray) -> float:
-    """[m] from the nearest side of a passage at ``place`` (3,) to the opposite one, on the level's triangles.
-
-    The graph knows a width that is up to a cell too small; where no wall confirms a wider one it stands.
-    """
-    graph = site.graph
-    edge = graph.nearest_edge(place)
-    away = place[:2] - edge.place
-    away = away / max(float(np.linalg.norm(away)), 1e-9)
-    ray = graph.cast_ray(place, place + _WIDEST_GAP * np.append(away, 0.0))
-    least = float(edge.distance + np.linalg.norm((ray.end - place)[:2]))
-    x, y, z = place - graph.surface.origin
-    knee = z + graph.rules.max_step + 0.05
-    walls = [_to_wall(site.probe.arrays, x, y, knee, sign * away[0], sign * away[1]) for sign in (1.0, -1.0)]
-    return sum(walls) if sum(walls) <= least + graph.surface.resolution else least
+def _best(
+    places: Sequence[Opening], find: Callable[[Opening, float], Barrier | None], bound: float, sign: float
+) -> Barrier | None:
+    """The barrier with the greatest (``sign`` 1) or least (-1) size that ``find`` finds at any of ``places``,
+    which takes the worst size worth finding, at first ``bound``."""
+    best = None
+    for place in places:
+        found = find(place, bound)
+        if found is not None and (best is None or sign * abs(found.size) > sign * abs(best.size)):
+            best = found
+            bound = math.radians(found.size) if found.kind == "steep" else abs(found.size)
+    return best
 
 
-@njit(cache=True)
-def _to_wall(grid, x, y, z, dx, dy):
-    """[m] from (x, y, z) in the direction (dx, dy) to the first triangle, at most `_WIDEST_GAP`."""
-    if not crossed(grid, x, y, z, x + _WIDEST_GAP * dx, y + _WIDEST_GAP * dy, z):
-        return _WIDEST_GAP
-    low, high = 0.0, _WIDEST_GAP
-    while high - low > 1e-3:
-        middle = 0.5 * (low + high)
-        if crossed(grid, x, y, z, x + middle * dx, y + middle * dy, z):
-            high = middle
-        else:
-            low = middle
-    return low
+def opening_at(site: Site, ends: np.ndarray, here: np.ndarray, there: np.ndarray) -> Opening:
+    """The opening around ``ends`` (2, 3) [m] on its two sides; of ``here`` (k, 3) and ``there`` (m, 3) [m]
+    what is near."""
+    rules, radius = site.graph.rules, site.character.radius
+    aside = _BESIDE + 2.0 * radius
+    up = rules.max_step + 0.3
+    margin = np.array([aside, aside, up])
+    box = np.array([ends.min(axis=0) - margin, ends.max(axis=0) + margin])
+    sides = (side[((side >= box[0]) & (side <= box[1])).all(axis=1)] for side in (here, there))
+    return Opening(site.mesh, box, Allowance.of(rules, CRACK), radius, *sides)
 
 
 @njit(cache=True)

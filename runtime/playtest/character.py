@@ -36,6 +36,11 @@ class Character:
         """What sentences call it."""
         return "person" if self.body in ("human", "walker") else self.body
 
+    @property
+    def stride(self) -> float:
+        """[m] gaps in the floor up to this are stepped over: two thirds of the body's width."""
+        return 2.0 * self.radius * 2.0 / 3.0
+
     def obstacle_rules(self) -> navmesh.ObstacleRules:
         """What counts as an obstacle for it: all that it can clear, and the usual rest."""
         return obstacle_rules(self.skills, max(self.radius, 0.05))

@@ -10,6 +10,8 @@ KINDS = {
     "hole": "hole in the floor",
     "walled_off": "walled off",
     "narrow": "too narrow",
+    "low": "too low",
+    "steep": "too steep",
     "step": "step too high",
     "ledge": "ledge out of reach",
     "gap": "gap too wide",
@@ -43,8 +45,10 @@ class Sighting:
 class Fault:
     """One finding. ``kind`` is one of `KINDS`; ``found_by`` is "analysis" or "bots".
 
-    ``position`` (x, y, z) [m]; ``extent`` [m²] of the place concerned, 0 for a spot. ``fails``: whether it
-    fails the playtest; if not, it is a note. ``sightings`` are the bots that met it.
+    ``position`` (x, y, z) [m]; ``extent`` [m²] of the place concerned, 0 for a spot. ``size`` is what was
+    measured there, along ``span``, its two ends [m]: the width of a passage, hole or gap, the free height of
+    a passage, the height of a step or ledge [m], or a slope [°]; None and empty where nothing was. ``fails``:
+    whether it fails the playtest; if not, it is a note. ``sightings`` are the bots that met it.
     """
 
     kind: str
@@ -54,6 +58,8 @@ class Fault:
     found_by: str = "analysis"
     extent: float = 0.0
     sightings: tuple[Sighting, ...] = field(default=())
+    size: float | None = None
+    span: tuple[tuple[float, float, float], ...] = ()
 
     @property
     def title(self) -> str:

@@ -25,7 +25,9 @@ _TURN = 5.0  # [rad/s] that it turns
 _GAIN, _BRAKE = 4.0, 6.0  # [m/s²]
 _NEAR = 0.2  # [m] from a waypoint that counts as there
 _SLIM = 0.8  # of its radius that its feelers reach: the graph is exact to a quarter of a cell
+_TOE = 0.02  # [m] at which the far side of a crack is felt for
 _STRIDE = 0.1  # [m] at which feelers look at the floor
+_SLACK = 0.01  # [m] that a body ducks
 _SLOPE = 0.4  # that a ramp may rise under a feeler
 _GRAVITY = 9.81
 _HOP = 0.3  # [s] that a leap takes longer than walking as far
@@ -34,7 +36,7 @@ _HOP = 0.3  # [s] that a leap takes longer than walking as far
 @njit(cache=True)
 def _free(grid, x, y, z, u, v, limits):
     """Whether the body gets from (x, y, z) to (u, v): nothing at hip, chest or head height, before it or
-    at its sides. ``limits``: radius, step, headroom, greatest fall."""
+    at its sides. ``limits``: radius, step, headroom, greatest fall, widest crack."""
     dx, dy = u - x, v - y
     length = math.hypot(dx, dy)
     if length < 1e-9:
@@ -51,7 +53,9 @@ def _free(grid, x, y, z, u, v, limits):
         while along < ahead:
             along = min(along + _STRIDE, ahead)
             px, py = ax + along * dx, ay + along * dy
-            found, which = surface_below(grid, px, py, floor - limits[1] - _STRIDE, floor + limits[2])
+            # a ceiling just as high as the body needs is none
+            top = floor + limits[2] - _SLACK
+            found, which = surface_below(grid, px, py, floor - limits[1] - _STRIDE, top)
             if which < 0:
                 break
             if found > floor + limits[1] + _SLOPE * _STRIDE:
@@ -63,6 +67,27 @@ def _free(grid, x, y, z, u, v, limits):
             if crossed(grid, ax, ay, up, bx, by, up + rise):
                 return False
     return True
+
+
+@njit(cache=True)
+def _over_crack(grid, x, y, z, limits):
+    """The height of the floor on both sides of a crack in it at (x, y), across which a body steps; -inf where
+    there is none, or a wider gap."""
+    low, high = z - limits[1] - 0.05, z + limits[1] + 0.05
+    for j in range(8):
+        dx, dy = math.cos(j * math.pi / 8.0), math.sin(j * math.pi / 8.0)
+        wide, floor = 0.0, -np.inf
+        for side in (1.0, -1.0):
+            far, which = 0.0, -1
+            while which < 0 and wide + far <= limits[4]:
+                far += _TOE
+                found, which = surface_below(grid, x + side * far * dx, y + side * far * dy, low, high)
+            wide += far
+            if which >= 0:
+                floor = max(floor, found)
+        if wide <= limits[4]:
+            return floor
+    return -np.inf
 
 
 @njit(cache=True)
@@ -84,6 +109,9 @@ def _step(grid, x, y, z, heading, far, limits, careful):
         if which >= 0 and grid[0][which, 14] == 2.0:
             return 0, u, v, floor
         return 1, x, y, z
+    floor = _over_crack(grid, u, v, z, limits)
+    if floor > -np.inf:
+        return 0, u, v, floor
     if careful:
         return 2, x, y, z
     floor, which = surface_below(grid, u, v, -np.inf, z)
@@ -124,8 +152,9 @@ def follow(grid, place, heading, points, leaps, edges, speed, limits, time_limit
     along.
 
     ``leaps`` (k,) bool: whether the way to the point is a leap, over ``edges`` (k, 3) [m].
-    ``limits`` (4,): radius, step, headroom, greatest fall [m]. The track (n, 4) gets time and place every
-    fourth of a second. Returns (how it ended, time [s], heading [rad], samples, points reached).
+    ``limits`` (5,): radius, step, headroom, greatest fall, widest crack that is stepped over [m]. The track
+    (n, 4) gets time and place every fourth of a second. Returns (how it ended, time [s], heading [rad],
+    samples, points reached).
     """
     x, y, z = place[0], place[1], place[2]
     time, pace, count, ticks = 0.0, 0.0, 0, 0

@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.spatial import KDTree
 
+from runtime.errors import RuntimeInputError
 from runtime.playtest.analysis import LEAST_AREA, core_parts
 from runtime.playtest.bots import Goals
 from runtime.playtest.plan import LoadedPlan
@@ -57,6 +58,11 @@ def patches_of(site: Site, parts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def make_goals(site: Site, plan: LoadedPlan, rng: np.random.Generator) -> Goals:
     """Spawns and places of ``plan``; what it leaves out is spread over the parts that players reach."""
+    if not len(site.areas):
+        raise RuntimeInputError(
+            f"{site.graph.terrain.name}: a {site.character.noun} fits nowhere on it; check the up axis "
+            "and the unit scale, or say in the playtest file who plays"
+        )
     starts = spawn_parts(site, plan)
     reached = site.reached(starts) & (site.areas >= LEAST_AREA)
     targets, _ = patches_of(site, reached)

@@ -1,112 +1,141 @@
-"""Holes: places where the floor ends with nothing below, all the way down."""
+# pyright: reportArgumentType=false, reportReturnType=false, reportIndexIssue=false, reportCallIssue=false
+# pyright: reportAttributeAccessIssue=false, reportGeneralTypeIssues=false, reportOptionalSubscript=false
+# shapely's types do not tell one shape from an array of them.
+"""Holes: places where the floor ends with nothing below, all the way down; and where the level ends.
 
-import math
+Which floors end so is asked of the graph's cells; how far the emptiness goes is a polygon, cut out of the
+mesh.
+"""
+
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
-from scipy import ndimage
+import shapely
 
-from navmesh.free_length import cells_of
 from navmesh.probes import crossed
-from navmesh.raster import UPRIGHT, is_over
-from navmesh.risers import faces_up
+from navmesh.surface import DIRECTIONS
+from runtime.playtest.mesh import standing
 from runtime.playtest.site import Site
 
 __all__ = ["Hole", "find_holes"]
 
-_LEAST_AREA = 0.1  # [m²] smaller ones are cracks that a foot does not notice
+_WINDOW = 8.0  # [m] first looked at around a place, then twice as much, until the hole is whole
+_STOREY = 1.0  # [m] rims nearer to each other in height are of the same hole
 
 
 class Hole(NamedTuple):
-    """A place without floor. ``place`` (3,) [m]: its middle, at the height of the rim; ``rim`` (r, 3) [m]:
-    where
-    walking ends beside it; ``area`` [m²]; ``enclosed``: whether floor or walls are all around it, so that it
-    is not the outer edge of the level."""
+    """A place without floor. ``place`` (3,) [m]: its middle, at the height of the rim (of an open edge: on
+    the rim); ``outline``: seen from above; ``span`` (2, 3) [m]: across its narrow side; ``long`` [m]: its
+    other side; ``rim`` (r, 3) [m]: where walking ends beside it; ``enclosed``: whether floor or walls are all
+    around it, so that it is not the outer edge of the level."""
 
     place: np.ndarray
+    outline: shapely.Geometry
+    span: np.ndarray
+    long: float
     rim: np.ndarray
-    area: float
     enclosed: bool
+
+    @property
+    def area(self) -> float:
+        """[m²]"""
+        return float(shapely.area(self.outline))
 
 
 def find_holes(site: Site) -> list[Hole]:
     """The holes that a walking body can fall through, and the open edges of the level."""
-    surface = site.graph.surface
-    nx, ny = surface.shape
-    empty = _bottomless(site.probe.arrays, surface.resolution, nx, ny)
-    open_cells, beside = _open_rim(
-        site.probe.arrays, cells_of(surface), surface.cell_column, empty, site.graph.rules.max_step,
-        site.graph.rules.headroom,
-    )  # fmt: skip
-    label = np.asarray(ndimage.label(empty.reshape(nx, ny))[0])  # type: ignore[index]
-    outside = set(np.unique(np.concatenate([label[0], label[-1], label[:, 0], label[:, -1]])).tolist())
-    owner = label.ravel()[beside]
-    # only where a body can come to: the rim belongs to a place that it fits in
-    near = (surface.clearance[open_cells] >= 0.0) & (site.graph.label[open_cells] >= 0)
-    near &= site.node_part[site.graph.label[open_cells]] >= 0
+    rim, over = _open_rim(site)
+    left = np.ones(len(rim), dtype=bool)
     holes = []
-    for which in np.unique(owner[near]):
-        mine = near & (owner == which)
-        rim = surface.centers(open_cells[mine])
-        columns = np.flatnonzero(label.ravel() == which)
-        area = len(columns) * surface.resolution**2
-        if area < _LEAST_AREA:
+    while left.any():
+        first = int(np.argmax(np.where(left, rim[:, 2], -np.inf)))
+        outline, enclosed = _emptiness(site, over[first], float(rim[first, 2]))
+        left[first] = False
+        if shapely.is_empty(outline):
             continue
-        if int(which) in outside:
-            middle = rim[len(rim) // 2]
-        else:
-            ix, iy = np.divmod(columns, ny)
-            middle = np.array([ix.mean() + 0.5, iy.mean() + 0.5, 0.0]) * surface.resolution + surface.origin
-            middle[2] = np.median(rim[:, 2])
-        holes.append(Hole(middle, rim, area, int(which) not in outside))
+        mine = shapely.dwithin(outline, shapely.points(over[:, :2]), 0.01)
+        if enclosed:  # there may be another hole below
+            mine &= np.abs(rim[:, 2] - rim[first, 2]) <= _STOREY
+        left &= ~mine
+        mine[first] = True
+        hole = _hole(outline, rim[mine], enclosed)
+        if not enclosed or _width_inside(outline) >= site.character.stride:
+            holes.append(hole)
     return holes
 
 
-@njit(cache=True)
-def _bottomless(grid, size, nx, ny):
-    """(nx·ny,) bool: columns at whose centre there is no surface, or whose lowest one faces down."""
-    empty, table = np.ones(nx * ny, np.bool_), grid[0]
-    for ix in range(nx):
-        for iy in range(ny):
-            x, y = (ix + 0.5) * size, (iy + 0.5) * size
-            jx, jy = math.floor(x / grid[3]), math.floor(y / grid[3])
-            if jx >= grid[4] or jy >= grid[5]:
-                continue
-            lowest = np.inf
-            for k in range(grid[1][jx * grid[5] + jy], grid[1][jx * grid[5] + jy + 1]):
-                f = grid[2][k]
-                if table[f, 14] == UPRIGHT or not is_over(table, f, x, y):
-                    continue
-                z = table[f, 9] * x + table[f, 10] * y + table[f, 11]
-                if z < lowest:
-                    lowest = z
-                    empty[ix * ny + iy] = not faces_up(table, f)
-    return empty
+def _width_inside(outline: shapely.Geometry) -> float:
+    """[m] the widest disc that fits in."""
+    return 2.0 * float(shapely.length(shapely.maximum_inscribed_circle(outline, tolerance=0.005)))
 
 
-@njit(cache=True)
-def _open_rim(grid, cells, cell_column, empty, step, headroom):
-    """Cells beside an empty column with no wall between: (cell, column) (k,) each."""
-    _, _, height, _, link, size, nx, ny = cells
-    found = np.empty(4 * len(height), np.int32)
-    beside = np.empty(4 * len(height), np.int32)
-    count = 0
-    for c in range(len(height)):
-        ix = cell_column[c] // ny
-        iy = cell_column[c] - ix * ny
-        for d in range(4):
-            jx = ix + (1 if d == 0 else -1 if d == 2 else 0)
-            jy = iy + (1 if d == 1 else -1 if d == 3 else 0)
-            if link[c, d] >= 0 or jx < 0 or jy < 0 or jx >= nx or jy >= ny or not empty[jx * ny + jy]:
-                continue
-            x, y = (ix + 0.5) * size, (iy + 0.5) * size
-            u, v = (jx + 0.5) * size, (jy + 0.5) * size
-            free = True
-            for k in range(4):
-                z = height[c] + step + 0.05 + 0.3 * k * (headroom - step - 0.1)
-                free = free and not crossed(grid, x, y, z, u, v, z)
-            if free:
-                found[count], beside[count] = c, jx * ny + jy
-                count += 1
-    return found[:count], beside[:count]
+def _hole(outline: shapely.Geometry, rim: np.ndarray, enclosed: bool) -> Hole:
+    height = float(np.median(rim[:, 2]))
+    corners = shapely.get_coordinates(shapely.minimum_rotated_rectangle(outline))[:4]
+    sides = np.linalg.norm(corners - np.roll(corners, -1, axis=0), axis=1)
+    k = int(np.argmax(sides))  # the narrow side is from the middle of a long side to the middle of the other
+    ends = [0.5 * (corners[j % 4] + corners[(j + 1) % 4]) for j in (k, k + 2)]
+    middle = shapely.centroid(outline)
+    if not shapely.contains(outline, middle):
+        middle = shapely.point_on_surface(outline)
+    place = np.append(shapely.get_coordinates(middle)[0], height) if enclosed else rim[len(rim) // 2]
+    span = np.column_stack([ends, [height, height]]) if enclosed else np.array([place, place])
+    return Hole(place, outline, span, float(sides[k]), rim, enclosed)
+
+
+def _open_rim(site: Site) -> tuple[np.ndarray, np.ndarray]:
+    """Where floor that a body can come to ends with nothing below and no wall between: cells' centres and, as
+    high, the centres of the empty squares beside them, (k, 3) [m] each."""
+    surface, rules = site.graph.surface, site.graph.rules
+    known = site.graph.label >= 0
+    known[known] = site.node_part[site.graph.label[known]] >= 0
+    cell, way = np.nonzero((surface.link < 0) & known[:, None])
+    rim = surface.centers(cell)
+    over = rim + np.column_stack([DIRECTIONS[way] * surface.resolution, np.zeros(len(way))])
+    empty = ~_has_floor(site, over, rules.max_step)
+    rim, over = rim[empty], over[empty]
+    heights = rules.max_step + 0.05 + 0.3 * np.arange(4) * (rules.headroom - rules.max_step - 0.1)
+    probe, origin = site.probe.arrays, surface.origin
+    free = [
+        not any(crossed(probe, ax, ay, az + up, bx, by, bz + up) for up in heights)
+        for (ax, ay, az), (bx, by, bz) in zip(rim - origin, over - origin, strict=True)
+    ]
+    return rim[free], over[free]
+
+
+def _has_floor(site: Site, points: np.ndarray, step: float) -> np.ndarray:
+    """(k,) bool: whether a face that faces up is below ``points`` (k, 3) [m], or a ``step`` above."""
+    mesh = site.mesh
+    faces, tree = mesh.upward
+    point, face = tree.query(shapely.points(points[:, :2]), predicate="intersects")
+    plane = mesh.plane[faces[face]]
+    high = np.einsum("kc,kc->k", plane[:, :2], points[point, :2]) + plane[:, 2]
+    found = np.zeros(len(points), dtype=bool)
+    found[point[high <= points[point, 2] + step + 1e-6]] = True
+    return found
+
+
+def _emptiness(site: Site, place: np.ndarray, height: float) -> tuple[shapely.Geometry, bool]:
+    """The place without floor around ``place`` (3,), for one who stands at ``height`` [m], and whether it is
+    enclosed; empty where a wall stands in it."""
+    mesh, rules = site.mesh, site.graph.rules
+    faces, tree = mesh.upward
+    bounds = site.graph.terrain.bounds[:, :2] + np.array([[-1.0], [1.0]])
+    half, point = 0.5 * _WINDOW, shapely.points(place[:2])
+    while True:
+        low, high = np.maximum(place[:2] - half, bounds[0]), np.minimum(place[:2] + half, bounds[1])
+        window = shapely.box(*low, *high)
+        near = tree.query(window)
+        below = near[mesh.low[faces[near], 2] <= height + rules.max_step]
+        floor = shapely.union_all(shapely.buffer(tree.geometries[below], 1e-4, join_style="mitre"))
+        walls = standing(mesh, low, high, height + rules.max_step, height + rules.headroom)
+        parts = shapely.get_parts(shapely.difference(window, shapely.union(floor, walls)))
+        mine = parts[shapely.dwithin(parts, point, 1e-6)]
+        if not len(mine):
+            return shapely.Polygon(), False
+        edge = shapely.boundary(window)
+        if not shapely.dwithin(mine[0], edge, 1e-6):
+            return mine[0], True
+        if (low <= bounds[0]).all() and (high >= bounds[1]).all():
+            return mine[0], False
+        half *= 2.0

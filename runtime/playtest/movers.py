@@ -83,7 +83,9 @@ class WalkerMover:
     def __init__(self, site: Site) -> None:
         self._site = site
         character, rules = site.character, site.graph.rules
-        self._limits = np.array([character.radius, rules.max_step, rules.headroom, character.reach("drop")])
+        self._limits = np.array(
+            [character.radius, rules.max_step, rules.headroom, character.reach("drop"), character.stride]
+        )
         self.place = np.zeros(3)
         self._heading = 0.0
 

@@ -4,9 +4,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+import shapely
 
 from runtime.playtest.bots import BotRun, Trouble
 from runtime.playtest.fault import Fault, Sighting
+from runtime.playtest.holes import Hole
 from runtime.playtest.site import Site
 from runtime.playtest.wording import place, triple
 
@@ -14,9 +16,10 @@ __all__ = ["Crossing", "Journey", "crossings", "journeys", "observed", "sighted"
 
 _NEAR = 2.0  # [m] troubles of one kind nearer to each other than this are one
 _CLAIMED = 2.5  # [m] a trouble this near to what the analysis found is a sighting of it
+_BESIDE = 1.0  # [m] from a hole that a body falls into it
 _CHANCE = 2  # sightings below which a trouble may be chance: a note
 _TRIES = 2  # attempts at an obstacle after which never having cleared it counts
-_SLOW = 2.0  # times the planned time
+_SLOW, _START = 2.0, 1.0  # times the planned time, and as many seconds to turn and to set off
 _KIND = {"fell": "fell", "stuck": "stuck", "lost": "stuck", "bumped": "never_cleared", "no way": "blocked",
          "trapped": "trap"}  # fmt: skip
 _MET = {
@@ -111,19 +114,21 @@ def observed(
             )
             faults.append(Fault("never_cleared", each.position, text, True, "bots"))
     for trip in trips:
-        if trip.arrived and trip.seconds > _SLOW * trip.planned:
+        if trip.arrived and trip.seconds > _SLOW * trip.planned + _START:
             took = f"bots take {trip.seconds:.1f} s; planned are {trip.planned:.1f} s"
             text = f"from {trip.start} to {trip.goal} {took}"
             faults.append(Fault("slow", (0.0, 0.0, 0.0), text, False, "bots"))
     return faults
 
 
-def with_sightings(analysed: Sequence[Fault], met: Sequence[Fault]) -> list[Fault]:
-    """All findings, those of the bots as sightings of what the analysis has found at the same place."""
+def with_sightings(analysed: Sequence[Fault], met: Sequence[Fault], holes: Sequence[Hole]) -> list[Fault]:
+    """All findings, those of the bots as sightings of what the analysis has found at the same place: falls
+    beside one of ``holes`` are of it, however large it is."""
     known = list(analysed)
     for fault in met:
         at = next(
-            (k for k, each in enumerate(known) if each.found_by == "analysis" and _same(each, fault)), None
+            (k for k, each in enumerate(known) if each.found_by == "analysis" and _same(each, fault, holes)),
+            None,
         )
         if at is None:
             known.append(fault)
@@ -132,16 +137,18 @@ def with_sightings(analysed: Sequence[Fault], met: Sequence[Fault]) -> list[Faul
     return known
 
 
-def _same(analysed: Fault, met: Fault) -> bool:
+def _same(analysed: Fault, met: Fault, holes: Sequence[Hole]) -> bool:
+    if analysed.kind in ("hole", "open_edge"):
+        at = shapely.points(met.position[:2])
+        return met.kind == "fell" and any(
+            analysed.position == triple(hole.place)
+            and shapely.dwithin(hole.outline, at, _BESIDE)
+            and hole.rim[:, 2].min() - _NEAR <= met.position[2] <= hole.rim[:, 2].max() + _NEAR
+            for hole in holes
+        )
     reach = _CLAIMED + (analysed.extent / np.pi) ** 0.5
     near = np.linalg.norm(np.subtract(analysed.position, met.position)) <= reach
-    fits = {
-        "hole": ("fell",),
-        "open_edge": ("fell",),
-        "trap": ("trap", "blocked", "stuck"),
-        "one_way": ("trap", "blocked", "stuck"),
-    }
-    return bool(near) and met.kind in fits.get(analysed.kind, ())
+    return bool(near) and analysed.kind in ("trap", "one_way") and met.kind in ("trap", "blocked", "stuck")
 
 
 def _clusters(troubles: list[tuple[int, Trouble]]) -> Iterator[list[tuple[int, Trouble]]]:

@@ -7,10 +7,11 @@ from typing import Any
 
 from runtime.files import whole_file
 from runtime.playtest.bots import Trouble
+from runtime.playtest.closeup import close_up
 from runtime.playtest.diff import Difference
 from runtime.playtest.fault import Fault
 from runtime.playtest.observation import sighted
-from runtime.playtest.pictures import close_up, film_strip, heat_map, level_map
+from runtime.playtest.pictures import address, film_strip, heat_map, level_map
 from runtime.playtest.run import Outcome
 from runtime.progress import Progress
 from runtime.render import Triangles
@@ -45,7 +46,7 @@ def _values(outcome: Outcome, difference: Difference | None, stage: Any) -> dict
     pictures: list[dict[str, str]] = []
     for k, fault in enumerate(report.faults[:_PICTURED]):
         stage.update(k / min(len(report.faults), _PICTURED))
-        shown = {"close": close_up(site, triangles, fault)}
+        shown = {"close": address(close_up(site, triangles, fault))}
         trouble = _first_trouble(outcome, fault)
         if trouble is not None and len(trouble.track) > 1:
             shown["film"] = film_strip(site.character, triangles, trouble)
@@ -59,7 +60,6 @@ def _values(outcome: Outcome, difference: Difference | None, stage: Any) -> dict
         "heat": heat_map(site, report.patches),
         "bounds": bounds,
         "pictures": pictures,
-        "pace": sum(run.seconds for run in outcome.runs) / max(outcome.wall, 1e-9),
         "spawns": [
             [name, *place] for name, place in zip(goals.spawn_names, goals.spawns.tolist(), strict=True)
         ],

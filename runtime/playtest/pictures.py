@@ -1,4 +1,4 @@
-"""The pictures of a report: the level from above, where bots have been, and each finding seen close by."""
+"""The pictures of a report: the level from above, where bots have been, and their last moments."""
 
 import base64
 import io
@@ -8,10 +8,8 @@ from typing import Any
 import numpy as np
 
 from runtime.camera import clearest
-from runtime.figure import Shapes
 from runtime.playtest.bots import Trouble
 from runtime.playtest.character import Character
-from runtime.playtest.fault import Fault
 from runtime.playtest.goals import PATCH
 from runtime.playtest.looks import POSED, figure_of, poses_along
 from runtime.playtest.site import Site
@@ -19,16 +17,14 @@ from runtime.plot import draw_floors
 from runtime.recording import level_trace
 from runtime.render import Camera, Triangles, render
 
-__all__ = ["close_up", "film_strip", "heat_map", "level_map"]
+__all__ = ["address", "film_strip", "heat_map", "level_map"]
 
 _LONG_SIDE = 1400  # pixels of a map
 _DPI = 100
-_SIZE = (320, 240)  # pixels of a close-up
 _FRAME = (200, 170)  # pixels of a film strip's frame
 _FRAMES = 5
 _FILMED = 5.0  # [s] that a film strip shows
-_FAR = 7.0  # [m] from the camera of a close-up to what it shows
-_RED = (0.83, 0.18, 0.20)
+_FAR = 7.0  # [m] from the camera to what it shows
 
 
 def level_map(site: Site) -> tuple[str, list[float]]:
@@ -70,17 +66,6 @@ def heat_map(site: Site, patches: Sequence[tuple[float, float, float, int]]) -> 
     return _map(site, draw)[0]
 
 
-def close_up(site: Site, triangles: Triangles, fault: Fault) -> str:
-    """The place of a finding from above and aside, with a body beside it, as a PNG in a data address."""
-    at = np.array(fault.position)
-    far = _FAR + 0.8 * fault.extent**0.5
-    camera = Camera(
-        eye=at + far * np.array([-0.42, -0.62, 0.66]), target=at + np.array([0.0, 0.0, 0.3]), fov=0.75
-    )
-    shapes = [_marker(at)]
-    return _address(render(triangles, shapes, camera, _SIZE, reach=far + 15.0, cutaway=0.55 * far))
-
-
 def film_strip(character: Character, triangles: Triangles, trouble: Trouble) -> str:
     """A bot's last moments before ``trouble``, side by side, as a PNG in a data address."""
     figure = figure_of(character)
@@ -100,15 +85,7 @@ def film_strip(character: Character, triangles: Triangles, trouble: Trouble) -> 
         cutaway = 0.0 if clear else 0.6 * _FAR
         frames.append(render(triangles, [shapes], camera, _FRAME, reach=25.0, cutaway=cutaway))
     gap = np.full((_FRAME[1], 4, 3), 255, np.uint8)
-    return _address(np.hstack([part for frame in frames for part in (frame, gap)][:-1]))
-
-
-def _marker(at: np.ndarray) -> Shapes:
-    """A red pin at a place."""
-    place = np.tile([*at, 1.0, 0.0, 0.0, 0.0], (2, 1))
-    place[:, 2] += (1.05, 2.0)
-    size = np.array([(0.05, 0.95, 0.0), (0.28, 0.28, 0.28)])
-    return Shapes(place, size, np.array([False, True]), np.array([_RED, _RED]))
+    return address(np.hstack([part for frame in frames for part in (frame, gap)][:-1]))
 
 
 def _map(site: Site, draw: Any) -> tuple[str, list[float]]:
@@ -127,7 +104,8 @@ def _map(site: Site, draw: Any) -> tuple[str, list[float]]:
     return _data_address(content), [*low.tolist(), *high.tolist()]
 
 
-def _address(pixels: np.ndarray) -> str:
+def address(pixels: np.ndarray) -> str:
+    """``pixels`` (height, width, 3) uint8 as a PNG in a data address."""
     from matplotlib.image import imsave
 
     content = io.BytesIO()

@@ -17,7 +17,7 @@ from runtime.record_types import wrong_field
 
 __all__ = ["FORMAT", "Report", "Setup", "read_report", "write_report"]
 
-FORMAT = "surefoot playtest 1"
+FORMAT = "surefoot playtest 2"
 
 
 @dataclass(frozen=True)
@@ -124,5 +124,6 @@ def read_report(path: str | os.PathLike[str]) -> Report:
 def _fault(values: Mapping[str, Any]) -> Fault:
     own = {field.name: values[field.name] for field in fields(Fault)}
     own["position"] = tuple(own["position"])
+    own["span"] = tuple(tuple(end) for end in own["span"])
     sightings = (Sighting(each["bot"], each["time"], tuple(each["position"])) for each in own["sightings"])
     return Fault(**{**own, "sightings": tuple(sightings)})

@@ -20,6 +20,7 @@ from runtime.playtest.character import Character, character_of
 from runtime.playtest.expectations import broken_expectations
 from runtime.playtest.fault import numbered
 from runtime.playtest.goals import make_goals, patches_of, place_parts, spawn_parts
+from runtime.playtest.holes import find_holes
 from runtime.playtest.observation import crossings, journeys, observed, with_sightings
 from runtime.playtest.plan import LoadedPlan, plan_path
 from runtime.playtest.report import Report, Setup
@@ -92,7 +93,8 @@ def playtest(
         starts = spawn_parts(site, stage.plan)
         at = place_parts(site, stage.plan, "places")
         meant = np.array([each.reachable for each in stage.plan.plan.places], dtype=bool)
-        proved = analyse(site, starts, at[~meant], at[meant])
+        holes = find_holes(site)
+        proved = analyse(site, holes, starts, at[~meant], at[meant])
         proved += broken_expectations(site, stage.plan, starts, at)
     begun = time.perf_counter()
     runs = []
@@ -104,7 +106,7 @@ def playtest(
     wall = time.perf_counter() - begun
     reached = site.reached(starts)
     ways, trips = crossings(site, runs, stage.goals.obstacles), journeys(runs)
-    faults = numbered(with_sightings(proved, observed(site, runs, ways, trips)))
+    faults = numbered(with_sightings(proved, observed(site, runs, ways, trips), holes))
     coverage, patches = _coverage(site, reached, runs, seconds)
     report = Report(
         setup=setup,

@@ -9,6 +9,7 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 import navmesh
 from navmesh.probes import ProbeGrid
 from runtime.playtest.character import Character
+from runtime.playtest.mesh import Mesh
 
 __all__ = ["Site"]
 
@@ -88,6 +89,12 @@ class Site:
         """(3,) float64 [m]: the roomiest place of ``part``."""
         nodes = np.flatnonzero(self.node_part == part)
         return self.graph.positions[nodes[np.argmax(self.graph.radii[nodes])]]
+
+    @cached_property
+    def mesh(self) -> Mesh:
+        """The level's triangles."""
+        terrain = self.graph.terrain
+        return Mesh(terrain.vertices[terrain.faces].astype(np.float64))
 
     @cached_property
     def probe(self) -> ProbeGrid:

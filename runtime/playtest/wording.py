@@ -4,8 +4,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from navmesh.obstacles import Obstacles
-from runtime.playtest.barriers import Barrier
 from runtime.playtest.character import Character
+from runtime.playtest.holes import Hole
+from runtime.playtest.openings import Barrier
 
 __all__ = ["Wording", "place", "triple"]
 
@@ -54,29 +55,43 @@ class Wording:
         least = f"{low:.2f} to " if low > self.character.rules.max_step else ""
         return f"{skill}s {least}{high:.2f} m"
 
-    def unreachable(self, kind: str, centre: np.ndarray, area: float, barrier: Barrier | None) -> str:
+    def unreachable(self, centre: np.ndarray, area: float, barrier: Barrier | None) -> str:
         """Why a part of the level cannot be reached."""
         what = f"the part of {area:.0f} m² around {place(centre)} cannot be reached"
         if barrier is None:
             return f"{what}: nothing that can be reached is near it"
-        at, size = place(barrier.place), abs(barrier.size)
-        if kind == "narrow":
-            need = 2.0 * self.character.radius
-            return f"{what}: the passage at {at} is {size:.2f} m wide; a {self.noun} needs {need:.2f} m"
-        if kind == "step":
-            return f"{what}: the step at {at} is {size:.2f} m high; {self.ups(size)}"
-        if kind == "ledge":
-            edge = f"its lowest edge, at {at}, is {size:.2f} m above the floor beside it"
-            return f"{what}: {edge}; {self.ups(size)}"
+        return f"{what}: {self.barrier(barrier)}"
+
+    def barrier(self, barrier: Barrier) -> str:
+        """What is in the way, how much of it, and what the body can do."""
+        noun, rules = self.noun, self.character.rules
+        at, size, need = place(barrier.place), abs(barrier.size), 2.0 * self.character.radius
+        if barrier.kind == "narrow":
+            return f"the passage at {at} is {size:.2f} m wide; a {noun} needs {need:.2f} m"
+        if barrier.kind == "passes":
+            wide = f"is {size:.2f} m wide" if size < np.inf else "is wide enough"
+            return f"the passage at {at} {wide}, and a {noun} needs {need:.2f} m, but the graph has lost it"
+        if barrier.kind == "low":
+            return f"the passage at {at} is {size:.2f} m high; a {noun} needs {rules.headroom:.2f} m"
+        if barrier.kind == "steep":
+            most = np.degrees(rules.max_slope)
+            return f"the slope at {at} is {size:.0f}° steep; a {noun} walks up to {most:.0f}°"
         if barrier.kind == "gap":
-            leap = self.character.reach("gap")
-            able = f"leaps {leap:.2f} m" if leap else "does not leap gaps"
-            return f"{what}: the gap at {at} is {size:.2f} m wide; a {self.noun} {able}"
-        if kind == "walled_off":
-            return f"{what}: a wall stands between it and the floor beside it at {at}"
+            return f"the gap at {at} is {size:.2f} m wide; {self.leaps(size)}"
+        if barrier.kind == "wall":
+            return f"a wall stands between it and the floor beside it at {at}"
         if barrier.size > 0.0:
-            return f"{what}: it is {size:.2f} m above the floor at {at}; {self.ups(size)}"
-        return f"{what}: it is {size:.2f} m below the floor at {at}; {self.downs(size)}"
+            return f"its lowest edge, at {at}, is {size:.2f} m above the floor beside it; {self.ups(size)}"
+        return f"its edge at {at} is {size:.2f} m below the floor beside it; {self.downs(size)}"
+
+    def leaps(self, width: float) -> str:
+        """What the body does about a gap of ``width`` [m]."""
+        low, high = self.character.skills.get("gap", (0.0, 0.0))
+        if not high:
+            return f"a {self.noun} does not leap gaps"
+        if low <= width <= high:
+            return f"a {self.noun} leaps that only where there is room to run up and to land"
+        return f"a {self.noun} leaps {low:.2f} to {high:.2f} m"
 
     def tops(self, centre: np.ndarray, count: int, area: float, width: float) -> str:
         """Parts that nobody reaches nor is meant to."""
@@ -93,28 +108,28 @@ class Wording:
         )
         if out is None:
             return text
+        if out.kind != "rise":
+            return f"{text}; {self.barrier(out)}"
         if out.size > 0.0:
             edge = f"its lowest edge, at {place(out.place)}, is {out.size:.2f} m high"
             return f"{text}; {edge}; {self.ups(out.size)}"
         return f"{text}; at {place(out.place)} it is {-out.size:.2f} m down; {self.downs(-out.size)}"
 
-    def hole(self, centre: np.ndarray, area: float) -> str:
+    def hole(self, hole: Hole) -> str:
         """A place without floor."""
-        where = f"the floor has a hole of {area:.1f} m² at {place(centre)}"
+        wide = float(np.linalg.norm(hole.span[1] - hole.span[0]))
+        where = f"the floor has a hole of {wide:.2f} by {hole.long:.2f} m at {place(hole.place)}"
         return f"{where}: who walks there falls out of the level"
 
-    def open_edge(self, at: np.ndarray, cells: int) -> str:
+    def open_edge(self, hole: Hole) -> str:
         """The outer edge of a level."""
-        where = f"the level ends at {place(at)} and at {cells - 1} places like it without a wall"
-        return f"{where}: who walks on falls out of it"
+        others = len(hole.rim) - 1
+        also = f" and at {others} places like it" if others else ""
+        return f"the level ends at {place(hole.place)}{also} without a wall: who walks on falls out of it"
 
-    def passage(self, at: np.ndarray, width: float, through: float, around: float) -> str:
+    def passage(self, barrier: Barrier, through: float, around: float) -> str:
         """A door that does not let the body in."""
-        need = 2.0 * self.character.radius
-        return (
-            f"the passage at {place(at)} is {width:.2f} m wide and a {self.noun} needs {need:.2f} m: "
-            f"the way around is {around:.0f} m instead of {through:.1f} m"
-        )
+        return f"{self.barrier(barrier)}: the way around is {around:.0f} m instead of {through:.1f} m"
 
     def unusable(self, obstacles: Obstacles, index: int) -> str:
         """An obstacle without a link."""

@@ -1,0 +1,108 @@
+# pyright: reportArgumentType=false, reportReturnType=false, reportIndexIssue=false, reportCallIssue=false
+# pyright: reportAttributeAccessIssue=false, reportGeneralTypeIssues=false, reportOptionalSubscript=false
+# shapely's types do not tell one shape from an array of them.
+"""A level's triangles seen from above, as shapes that can be cut and joined."""
+
+from functools import cached_property
+
+import numpy as np
+import shapely
+
+__all__ = ["THIN", "Mesh", "parts_within", "standing"]
+
+THIN = 0.001
+"""[m] to every side that a wall without thickness counts."""
+
+
+class Mesh:
+    """A level's triangles with what is asked of them again and again. ``corners`` (t, 3, 3) [m]."""
+
+    def __init__(self, corners: np.ndarray) -> None:
+        normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        size = np.linalg.norm(normal, axis=1)
+        whole = size > 1e-12
+        self.corners = corners[whole]
+        self.up = normal[whole, 2] / size[whole]
+        """(t,): z of the unit normals."""
+        normal = normal[whole]
+        steep = np.abs(self.up) < 1e-6
+        slope = -normal[:, :2] / np.where(steep, 1.0, normal[:, 2])[:, None]
+        offset = self.corners[:, 0, 2] - np.einsum("tc,tc->t", slope, self.corners[:, 0, :2])
+        self.plane = np.column_stack([slope, offset])
+        """(t, 3): height = plane · (x, y, 1); of no use where a face is upright."""
+        self.low, self.high = self.corners.min(axis=1), self.corners.max(axis=1)
+
+    @cached_property
+    def outlines(self) -> np.ndarray:
+        """(t,) shapely: the triangles seen from above: polygons, and lines where they are upright."""
+        return _outlines(self.corners[..., :2])
+
+    @cached_property
+    def upward(self) -> tuple[np.ndarray, shapely.STRtree]:
+        """The faces that face up (k,) int, however steep, and a tree of their outlines."""
+        faces = np.flatnonzero(self.up > 1e-3)
+        return faces, shapely.STRtree(self.outlines[faces])
+
+    def within(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+        """(k,) int: the triangles whose box meets the box from ``low`` to ``high`` (3,) [m]."""
+        return np.flatnonzero(((self.high >= low) & (self.low <= high)).all(axis=1))
+
+
+def _outlines(points: np.ndarray) -> np.ndarray:
+    """(k,) shapely: the hulls of ``points`` (k, n, 2): polygons or lines."""
+    count, size = points.shape[:2]
+    if size == 3:
+        hulls = shapely.polygons(points)
+    else:
+        owner = np.repeat(np.arange(count), size)
+        hulls = shapely.convex_hull(shapely.multipoints(points.reshape(-1, 2), indices=owner))
+    # an upright face is a line, and a sliver only by its rounding errors
+    one = _farthest(points, points[:, 0])
+    two = _farthest(points, one)
+    thin = shapely.area(hulls) <= 1e-7 * np.linalg.norm(two - one, axis=1)
+    hulls[thin] = shapely.linestrings(np.stack([one, two], axis=1)[thin])
+    return hulls
+
+
+def standing(mesh: Mesh, low: np.ndarray, high: np.ndarray, bottom: float, top: float) -> shapely.Geometry:
+    """What of the mesh is between two heights [m], seen from above, near the box from ``low`` to ``high``
+    (2,)."""
+    near = mesh.within(np.append(low, bottom), np.append(high, top))
+    parts = parts_within(mesh, near, mesh.corners[near, :, 2], bottom, top)
+    return shapely.buffer(shapely.union_all(parts), THIN, join_style="mitre")
+
+
+def parts_within(mesh: Mesh, faces: np.ndarray, above: np.ndarray, low: float, high: float) -> np.ndarray:
+    """(k,) shapely: the parts of ``faces`` (k,), seen from above, whose heights ``above`` (k, 3) something
+    are within ``low`` and ``high``."""
+    parts = mesh.outlines[faces]
+    cut = (above.min(axis=1) < low) | (above.max(axis=1) > high)
+    parts[cut] = _outlines(_clipped(mesh.corners[faces[cut], :, :2], above[cut], low, high))
+    return parts
+
+
+def _farthest(points: np.ndarray, of: np.ndarray) -> np.ndarray:
+    """(k, 2): of ``points`` (k, n, 2) the ones farthest from ``of`` (k, 2)."""
+    away = np.linalg.norm(points - of[:, None], axis=2)
+    return points[np.arange(len(points)), away.argmax(axis=1)]
+
+
+def _clipped(corners: np.ndarray, above: np.ndarray, low: float, high: float) -> np.ndarray:
+    """(k, 9, 2): points whose hull is the part of each triangle ``corners`` (k, 3, 2) where ``above`` (k, 3),
+    linear in between, is within [low, high]; points repeat where there are fewer."""
+    points = [np.where(((above >= low) & (above <= high))[..., None], corners, np.nan)]
+    after, rises = np.roll(corners, -1, axis=1), np.roll(above, -1, axis=1) - above
+    for level in (low, high):
+        with np.errstate(divide="ignore", invalid="ignore"):
+            part = (level - above) / rises
+            points.append(
+                np.where(
+                    ((part >= 0) & (part <= 1))[..., None],
+                    corners + part[..., None] * (after - corners),
+                    np.nan,
+                )
+            )
+    every = np.concatenate(points, axis=1)
+    valid = ~np.isnan(every[..., 0])
+    first = every[np.arange(len(every)), valid.argmax(axis=1)]
+    return np.where(valid[..., None], every, first[:, None])

@@ -1,0 +1,213 @@
+"""Playtests measure faults on the mesh: what was planted is named, measured and found in its place, and what
+only looks like a fault is not one."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shapely
+import trimesh
+
+import navmesh
+from benchmarks.planted_rooms import FAULTS, LOOK_ALIKES, planted
+from benchmarks.playtest_faults import judged
+from runtime.playtest import playtest
+from runtime.playtest.character import character_of
+from runtime.playtest.closeup import close_up
+from runtime.playtest.floorplan import Allowance, FloorPlan
+from runtime.playtest.mesh import Mesh
+from runtime.playtest.movers import WalkerMover
+from runtime.playtest.page import write_page
+from runtime.playtest.site import Site
+from runtime.render import Triangles
+
+W, D = 16.0, 10.0
+PLAN = "spawns:\n  - {name: gate, at: [2.0, 5.0, 0.0]}\n"
+
+
+def box(x0, x1, y0, y1, z0, z1):
+    return trimesh.creation.box(bounds=[(x0, y0, z0), (x1, y1, z1)])
+
+
+FLOOR = box(0, W, 0, D, -0.2, 0)
+
+
+def room(*parts, high=3.2):
+    sides = [(-0.3, 0, -0.3, D + 0.3), (W, W + 0.3, -0.3, D + 0.3), (0, W, -0.3, 0), (0, W, D, D + 0.3)]
+    return trimesh.util.concatenate([*(box(a, b, c, d, -0.2, high) for a, b, c, d in sides), *parts])
+
+
+def door(width, lintel=None):
+    a, b = 5 - 0.5 * width, 5 + 0.5 * width
+    above = [box(8, 8.3, a, b, lintel, 3.2)] if lintel else []
+    return [FLOOR, box(8, 8.3, 0, a, 0, 3.2), box(8, 8.3, b, D, 0, 3.2), *above]
+
+
+def ramp(degrees):
+    run = 1.5 / math.tan(math.radians(degrees))
+    corners = [(x, y, z) for y in (0.0, D) for x, z in ((10 - run, 0.0), (10.0, 0.0), (10.0, 1.5))]
+    return [FLOOR, box(10, W, 0, D, 0, 1.5), trimesh.convex.convex_hull(np.array(corners))]
+
+
+def played(folder, mesh, bots=0, seconds=20.0, plan=PLAN):
+    mesh.export(folder / "level.obj")
+    (folder / "level.playtest.yaml").write_text(plan)
+    return playtest(folder / "level.obj", bots=bots, seconds=seconds, seed=1)
+
+
+def site_of(mesh):
+    player = character_of("walker")
+    terrain = navmesh.Terrain.from_arrays(mesh.vertices, mesh.faces)
+    return Site(navmesh.NodeGraph.build(terrain, player.rules, player.obstacle_rules()), player)
+
+
+HOLED = [
+    box(0, W, 0, 4, -0.2, 0),
+    box(0, W, 6, D, -0.2, 0),
+    box(0, 7, 4, 6, -0.2, 0),
+    box(9, W, 4, 6, -0.2, 0),
+]
+
+
+@pytest.mark.parametrize(
+    ("mesh", "kind", "size", "x", "says"),
+    [
+        (room(*HOLED), "hole", 2.0, 8.0, "a hole of 2.00 by 2.00 m"),
+        (room(*door(0.5)), "narrow", 0.5, 8.15, "0.50 m wide; a person needs 0.60 m"),
+        (room(*door(0.35)), "narrow", 0.35, 8.15, "0.35 m wide; a person needs 0.60 m"),
+        (room(*door(1.2, 1.7)), "low", 1.7, 8.15, "1.70 m high; a person needs 1.90 m"),
+        (room(*ramp(50), high=5.0), "steep", 50.0, 9.4, "50° steep; a person walks up to 20°"),
+        (
+            room(box(0, 8, 0, D, -0.2, 0), box(8.31, W, 0, D, -0.2, 0)),
+            "gap",
+            0.31,
+            8.15,
+            "0.31 m wide; a person leaps 0.40 to 2.50 m",
+        ),
+        (room(FLOOR, box(8, W, 0, D, 0, 0.94)), "ledge", 0.94, 8.0, "0.94 m above the floor beside it"),
+    ],
+)
+def test_a_fault_is_named_and_measured_where_it_is(tmp_path, mesh, kind, size, x, says):
+    (fault,) = played(tmp_path, mesh).report.failures
+    assert fault.kind == kind and says in fault.text
+    assert fault.size == pytest.approx(size, abs=0.5 if kind == "steep" else 0.02)
+    assert fault.position[0] == pytest.approx(x, abs=0.2)
+    if kind in ("hole", "narrow", "low"):
+        assert fault.position[1] == pytest.approx(5.0, abs=0.1)
+    if kind != "steep":
+        assert np.linalg.norm(np.diff(fault.span, axis=0)) == pytest.approx(size, abs=0.03)
+
+
+@pytest.mark.parametrize(
+    "mesh",
+    [
+        room(box(0, 8, 0, D, -0.2, 0), box(8.01, W, 0, D, -0.2, 0)),
+        room(box(0, 8, 0, D, -0.2, 0), box(8.05, W, 0, D, -0.2, 0)),
+        room(*door(0.62)),
+        room(*door(0.85)),
+        room(*door(1.2, 1.9)),
+        FLOOR,
+    ],
+    ids=["crack of 1 cm", "crack of 5 cm", "door of 0.62 m", "door of 0.85 m", "lintel at 1.9 m", "no walls"],
+)
+def test_what_is_as_it_should_be_is_no_fault(tmp_path, mesh):
+    assert [fault.text for fault in played(tmp_path, mesh, bots=8).report.failures] == []
+
+
+def test_an_inner_ledge_is_no_open_edge(tmp_path):
+    parts = [box(0, 8, 0, D, -3, 0), box(14, W, 0, D, -3, 0), box(8, 14, 0, D, -3, -1.2)]
+    faults = played(tmp_path, room(*parts)).report.faults
+    assert "one_way" in [fault.kind for fault in faults]
+    assert not {"open_edge", "hole"} & {fault.kind for fault in faults}
+
+
+@pytest.mark.parametrize("name", [*FAULTS, *LOOK_ALIKES])
+def test_what_is_planted_is_found_and_nothing_else(tmp_path, name):
+    rng = np.random.default_rng(20260 + len(name))
+    hall = planted(rng, name, "solid" if name in FAULTS else "faces")
+    plan = f"spawns:\n  - {{name: gate, at: {hall.spawn.tolist()}}}\n"
+    report = played(tmp_path, hall.mesh, plan=plan).report
+    assert judged(hall, report.failures) == "", hall.says
+
+
+def test_a_roamer_steps_over_cracks_and_falls_through_holes():
+    for width, ends in ((0.01, "arrived"), (0.12, "arrived"), (0.3, "arrived"), (0.6, "fell")):
+        for turn in (0.0, 0.7):
+            floors = [box(-9, 9, 0, 9, -0.2, 0), box(-9, 9, -9, -width, -0.2, 0)]
+            mesh = trimesh.util.concatenate(floors)
+            mesh.apply_transform(trimesh.transformations.rotation_matrix(turn, (0, 0, 1)))
+            mover = WalkerMover(site_of(mesh))
+            start = np.array([-2.0 * np.sin(turn), 2.0 * np.cos(turn), 0.0])
+            mover.appear(start, 0.0)
+            leg = mover.wander(np.array([turn - 0.5 * np.pi]), 1.5)
+            assert leg.status == ends, (width, turn)
+
+
+def test_a_level_without_walls_passes_and_falls_are_sightings_of_its_edge(tmp_path):
+    report = played(tmp_path, FLOOR, bots=8, seconds=40.0).report
+    (edge,) = (fault for fault in report.faults if fault.kind == "open_edge")
+    assert report.held and not edge.fails and len(edge.sightings) > 0
+
+
+def floor_by_rays(mesh, point, step, headroom, slope):
+    """The slow reference: heights of the floors at ``point`` (2,), from every triangle over it."""
+    hits = []
+    for a, b, c in mesh.vertices[mesh.faces]:
+        lifted = np.column_stack([b[:2] - a[:2], c[:2] - a[:2]])
+        if abs(np.linalg.det(lifted)) < 1e-12:
+            continue
+        u, v = np.linalg.solve(lifted, point - a[:2])
+        if u >= 0 and v >= 0 and u + v <= 1:
+            normal = np.cross(b - a, c - a)
+            hits.append((a[2] + u * (b - a)[2] + v * (c - a)[2], normal[2] / np.linalg.norm(normal)))
+    return [
+        z for z, up in hits
+        if up >= math.cos(slope) and not any(z + 0.01 < other < z + headroom for other, _ in hits)
+    ]  # fmt: skip
+
+
+def test_the_floor_plan_is_what_rays_find():
+    rng = np.random.default_rng(5)
+    parts = [box(0, 6, 0, 6, -0.2, 0)]
+    for _ in range(9):
+        low = rng.uniform((0, 0, 0), (5, 5, 1.5))
+        part = trimesh.creation.box(bounds=[low, low + rng.uniform(0.3, 2.0, 3)])
+        tilt = trimesh.transformations.rotation_matrix(
+            rng.uniform(-0.7, 0.7), rng.normal(size=3), part.centroid
+        )
+        part.apply_transform(tilt)
+        parts.append(part)
+    mesh = trimesh.util.concatenate(parts)
+    allowed = Allowance(math.radians(35.0), 0.2, 1.8, 0.02)
+    plan = FloorPlan(Mesh(mesh.vertices[mesh.faces]), np.array([0, 0, -1.0]), np.array([6, 6, 5.0]), allowed)
+    agree = total = 0
+    for point in rng.uniform(0.1, 5.9, (400, 2)):
+        expected = floor_by_rays(mesh, point, allowed.step, allowed.headroom, allowed.slope)
+        at = np.flatnonzero(shapely.contains_xy(plan.pieces, *point))
+        found = plan.height(at, np.repeat(point[None], len(at), axis=0))
+        same = len(expected) == len(found) and np.allclose(np.sort(expected), np.sort(found), atol=1e-6)
+        agree, total = agree + same, total + 1
+    # walls count a millimetre to every side, and small steep faces may be risers
+    assert agree >= 0.97 * total, (agree, total)
+
+
+def test_the_picture_shows_what_was_measured(tmp_path):
+    ceiling = box(-0.3, W + 0.3, -0.3, D + 0.3, 3.2, 3.4)
+    outcome = played(tmp_path, room(*door(0.5), ceiling))
+    site = outcome.stage.site
+    triangles = Triangles(site.graph.terrain.vertices, site.graph.terrain.faces)
+    fault = next(each for each in outcome.report.failures if each.kind == "narrow")
+    red, green, blue = np.moveaxis(close_up(site, triangles, fault).astype(int), 2, 0)
+    bar = (red > 1.6 * green) & (red > 1.6 * blue)
+    rows, columns = np.nonzero(bar)
+    assert bar.sum() > 60  # the red bar, all of it in the picture
+    assert 10 < columns.min() and columns.max() < bar.shape[1] - 10
+    assert 10 < rows.min() and rows.max() < bar.shape[0] - 10
+
+
+def test_the_page_is_the_same_however_fast_it_went(tmp_path):
+    outcome = played(tmp_path, room(*HOLED), bots=2, seconds=5.0)
+    for number, wall in enumerate((1.0, 7.3)):
+        write_page(replace(outcome, wall=wall), tmp_path / f"{number}.html")
+    assert (tmp_path / "0.html").read_bytes() == (tmp_path / "1.html").read_bytes()

@@ -7,6 +7,7 @@ from locomotion.ground import Ground
 from locomotion.human_state import MOVING
 from locomotion.route_smoothing import ObstacleAhead, Smoothing, SmoothPath, smooth_route
 from locomotion.skill import RunSkill, load_run_skill
+from surefoot import __version__
 
 __all__ = [
     "ARRIVAL_DISTANCE",
@@ -21,6 +22,7 @@ __all__ = [
     "RunSkill",
     "SmoothPath",
     "Smoothing",
+    "__version__",
     "load_run_skill",
     "plan_approach",
     "plan_approach_exact",

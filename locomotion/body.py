@@ -83,8 +83,9 @@ class Human(RehearsingPerson):
     """A person under physics. `tick` advances it by 10 ms.
 
     Attributes:
-        status: "standing", "walking", "running", "jumping", "vaulting", "dropping", "scrambling", "getting
-            up", "fallen" (for good), "arrived", "lost" (strayed from its path or missed its goal) or "stuck".
+        status: "standing", "walking", "running", "jumping", "vaulting", "dropping", "leaping", "scrambling",
+            "getting up", "fallen" (for good), "arrived", "lost" (strayed from its path or missed its goal) or
+            "stuck".
             `held` tells whether it is simulated.
         events: list of `locomotion.events.Event` in order of time.
         model, data: as of `SimulatedPerson`.

@@ -28,12 +28,12 @@ __all__ = [
 ]
 
 Status = Literal[
-    "standing", "walking", "running", "jumping", "vaulting", "dropping", "scrambling", "getting up", "fallen",
-    "arrived", "lost", "stuck",
+    "standing", "walking", "running", "jumping", "vaulting", "dropping", "leaping", "scrambling",
+    "getting up", "fallen", "arrived", "lost", "stuck",
 ]  # fmt: skip
 Gait = Literal["walk", "run", "slow run", "scramble"]
 CLEARING: dict[str, Status] = {
-    "jump": "jumping", "vault": "vaulting", "drop": "dropping", "gap": "jumping",
+    "jump": "jumping", "vault": "vaulting", "drop": "dropping", "gap": "leaping",
 }  # fmt: skip
 """What a person does that clears an obstacle of an affordance."""
 MOVING: tuple[Status, ...] = (

@@ -84,6 +84,10 @@ class SmoothPath:
     obstacles: tuple[ObstacleAhead, ...]
     bounded: bool
 
+    def __repr__(self) -> str:
+        over = "".join(f", over a {each.affordance}" for each in self.obstacles)
+        return f"<SmoothPath: {len(self.points)} points{over}>"
+
 
 def smooth_route(
     route: Route, smoothing: Smoothing = RUNNING, start_direction: ArrayLike | None = None

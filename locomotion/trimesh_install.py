@@ -135,7 +135,6 @@ _signature = types.int32(types.int64, types.int64, types.int64, types.int32, typ
 
 
 # one function for both kinds: a second one would take as long again to load at every start
-@cfunc(_signature, cache=True)
 def _round_ground(model, data, contacts, g1, g2, margin):
     table = carray(_as_int64(_table_address()), (8 + 2 * SLOTS,))
     kind = carray(_as_int32(carray(_as_int64(model + table[5]), (1,))[0] + 4 * g2), (1,))[0]
@@ -188,14 +187,16 @@ def _install() -> None:
     width = ctypes.c_int64.from_address(model._address + int(_table[0])).value
     if width != model.nuser_geom:
         raise LocomotionError(f"MuJoCo {mujoco.__version__} keeps its sizes elsewhere; use version 4.0")
+    # made here and not with the module: compiling takes ten seconds the first time
+    round_ground = cfunc(_signature, cache=True)(_round_ground)
     library = ctypes.CDLL(str(_library()))
     kinds = int(mujoco.mjtGeom.mjGEOM_SDF) + 1
     functions = (ctypes.c_void_p * (kinds * kinds)).in_dll(library, "mjCOLLISIONFUNC")
     row = int(mujoco.mjtGeom.mjGEOM_HFIELD) * kinds
     for i, kind in enumerate((int(mujoco.mjtGeom.mjGEOM_SPHERE), CAPSULE)):
         _table[6 + i] = functions[row + kind]
-        functions[row + kind] = _round_ground.address
-    _installed.append((library, functions))
+        functions[row + kind] = round_ground.address
+    _installed.append((library, functions, round_ground))
 
 
 def _layout_probe() -> tuple[Any, Any]:

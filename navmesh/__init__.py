@@ -8,6 +8,8 @@ from navmesh.rules import WalkRules
 from navmesh.tagging import load_tags
 from navmesh.tags import save_tags, tags_path
 from navmesh.terrain import Terrain
+from surefoot import __version__
+from surefoot.compiling import announce
 
 __all__ = [
     "NavmeshError",
@@ -15,6 +17,7 @@ __all__ = [
     "ObstacleRules",
     "Terrain",
     "WalkRules",
+    "__version__",
     "chunks_of",
     "join_chunks",
     "load_tags",
@@ -22,3 +25,5 @@ __all__ = [
     "split_terrain",
     "tags_path",
 ]
+
+announce()

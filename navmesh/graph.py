@@ -3,6 +3,7 @@
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,6 +24,7 @@ from navmesh.stages import Stages, all_soundings, grid_for, renew_cells
 from navmesh.surface import Surface
 from navmesh.tagging import TagFile
 from navmesh.terrain import Terrain
+from surefoot.words import several
 
 if TYPE_CHECKING:
     import networkx
@@ -190,6 +192,11 @@ class NodeGraph:
         """(2, 3) float64 [m]: the room that `update` can fill without building everything anew."""
         surface = self.surface
         return Grid(surface.origin, surface.resolution, surface.shape).extent
+
+    def __repr__(self) -> str:
+        counts = (len(self), "node"), (len(self.edge_target) // 2, "edge"), (len(self.obstacles), "obstacle")
+        parts = ", ".join(several(*each) for each in counts)
+        return f"<NodeGraph of {Path(self.terrain.name).name}: {parts}>"
 
     def __len__(self) -> int:
         return len(self.radii)

@@ -48,6 +48,10 @@ class Obstacles:
     def __len__(self) -> int:
         return len(self.height)
 
+    def __repr__(self) -> str:
+        kinds = [f"{int((self.affordance == kind).sum())} {kind}" for kind in sorted(set(self.affordance))]
+        return f"<Obstacles: {', '.join(kinds) or 'none'}>"
+
     @property
     def size(self) -> np.ndarray:
         """(k,) float64 [m], what a skill's range is compared with: `height`, or for a gap its width."""

@@ -11,6 +11,7 @@ from navmesh.corridor import Corridor, corridor_of
 from navmesh.draping import drape
 from navmesh.errors import NavmeshError
 from navmesh.holding import route_holds
+from surefoot.words import several
 
 if TYPE_CHECKING:
     from navmesh.graph import NodeGraph
@@ -75,6 +76,11 @@ class Route:
     graph: "NodeGraph" = field(repr=False)
     """Where the route was found."""
     _legs: list[Leg] | None = field(default=None, repr=False)
+
+    def __repr__(self) -> str:
+        over = "".join(f", over {self.graph.obstacles.tag[use.obstacle]}" for use in self.links)
+        waypoints = several(len(self.waypoints), "waypoint")
+        return f"<Route {self.status}: {self.length:.2f} m, {waypoints}{over}>"
 
     def legs(self) -> list[Leg]:
         """The walked parts of the route, in order, each with its corridor; the links lie between them."""
@@ -148,6 +154,10 @@ class Routes:
 
     def __len__(self) -> int:
         return len(self.length)
+
+    def __repr__(self) -> str:
+        found = [f"{int((self.status == each).sum())} {each}" for each in STATUSES if each in self.status]
+        return f"<Routes: {', '.join(found) or 'none'}>"
 
     def __getitem__(self, index: int) -> Route:
         i = range(len(self))[index]

@@ -4,11 +4,13 @@ import hashlib
 import os
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from navmesh.errors import NavmeshError
+from surefoot.words import several
 
 __all__ = ["Chunk", "Terrain"]
 
@@ -45,6 +47,10 @@ class Terrain:
         if not self.chunks:
             whole = (Chunk("level", len(self.vertices), len(self.faces)),)
             object.__setattr__(self, "chunks", whole)
+
+    def __repr__(self) -> str:
+        size = " x ".join(f"{length:.1f}" for length in np.ptp(self.bounds, axis=0))
+        return f"<Terrain {Path(self.name).name}: {several(len(self.faces), 'triangle')}, {size} m>"
 
     @cached_property
     def digest(self) -> str:

@@ -13,5 +13,18 @@ from pathsmooth.exact import solve_exact
 from pathsmooth.problem import Problem
 from pathsmooth.solution import Solution
 from pathsmooth.solver import solve
+from surefoot import __version__
+from surefoot.compiling import announce
 
-__all__ = ["PathSmoothError", "Problem", "Solution", "curvature", "curvature_bound", "solve", "solve_exact"]
+__all__ = [
+    "PathSmoothError",
+    "Problem",
+    "Solution",
+    "__version__",
+    "curvature",
+    "curvature_bound",
+    "solve",
+    "solve_exact",
+]
+
+announce()

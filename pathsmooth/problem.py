@@ -69,6 +69,10 @@ class Problem:
     packed: NDArray[np.float64] = field(repr=False)
     """(ROWS, n) what the compiled loops read, see `kernels`."""
 
+    def __repr__(self) -> str:
+        bound = "" if self.max_curvature is None else f", curvature up to {self.max_curvature:g} 1/m"
+        return f"<Problem: {len(self.targets)} waypoints, {len(self.radii)} discs{bound}>"
+
     @classmethod
     def from_corridor(
         cls,

@@ -48,3 +48,9 @@ class Solution:
     (zero without one), for a warm start."""
     problem: Problem = field(repr=False)
     """What was solved."""
+
+    def __repr__(self) -> str:
+        return (
+            f"<Solution {self.status}: {len(self.points)} points, objective {self.objective:.6g}, "
+            f"{self.iterations} iterations>"
+        )

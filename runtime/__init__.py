@@ -1,7 +1,21 @@
-"""Worlds with agents, missions, and what a user sees of them."""
+"""Worlds with agents, missions, and what a user sees of them.
+
+    import navmesh, runtime
+
+    runtime.prepare()    # compiles all kernels, once on a machine: 3 to 6 minutes
+    world = runtime.World(navmesh.Terrain.load("level.obj", up="z"), seed=0)
+    ada = world.spawn("human", at=(6.0, 4.0, 0.0))
+    ada.go_to((46.0, 4.0, 0.3), speed=3.3)
+    while ada.moving:
+        world.step(1 / 60)
+
+Everywhere: metres, seconds, radians; Z up, X forward; quaternions (w, x, y, z).
+"""
 
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
+
+from surefoot import __version__
 
 if TYPE_CHECKING:
     from runtime.agent import Agent
@@ -22,6 +36,7 @@ if TYPE_CHECKING:
     )
     from runtime.live import LiveView
     from runtime.pose import Pose
+    from runtime.warmup import prepare
     from runtime.world import World, WorldState
 
 __all__ = [
@@ -43,14 +58,20 @@ __all__ = [
     "Stuck",
     "World",
     "WorldState",
+    "__version__",
+    "prepare",
 ]
 
 
 def __getattr__(name: str) -> Any:
     # imported when first asked for: `surefoot --help` needs neither physics nor kernels
     if name in __all__:
-        for module in ("errors", "events", "agent", "pose", "world", "live"):
+        for module in ("errors", "events", "agent", "pose", "world", "live", "warmup"):
             found = getattr(import_module(f"runtime.{module}"), name, None)
             if found is not None:
                 return found
     raise AttributeError(f"module 'runtime' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -34,6 +34,7 @@ from runtime.pack import AnimalDriver
 from runtime.people import HumanDriver
 from runtime.planning import NoWay, Plan
 from runtime.pose import Pose
+from runtime.skill_words import SKILL_OF
 from runtime.standstill import Headway
 
 if TYPE_CHECKING:
@@ -105,6 +106,11 @@ class Agent:
         self._errand = Errand()
         self._headway = Headway()
 
+    def __repr__(self) -> str:
+        if self._body is None:
+            return f"<Agent {self.name!r}: a {self.body}, removed from its world>"
+        return f"<Agent {self.name!r}: a {self.body}, {self.status} at {self.position.round(2).tolist()}>"
+
     @property
     def human(self) -> Human:
         """The simulated person. Raises `RuntimeInputError` for other bodies."""
@@ -132,8 +138,8 @@ class Agent:
     @property
     def status(self) -> str:
         """What it does: "standing", "walking", "running" (of a quadruped: on its way), "arrived", "lost",
-        "stuck", of a human also "jumping", "scrambling", "getting up" and "fallen"; or "blocked": the
-        last goal cannot be reached."""
+        "stuck", of a human also "jumping", "vaulting", "dropping", "leaping", "scrambling", "getting
+        up" and "fallen"; or "blocked": the last goal cannot be reached."""
         return "blocked" if self._blocked else self._driver.status
 
     @property
@@ -164,7 +170,8 @@ class Agent:
 
     @property
     def skills(self) -> Mapping[str, tuple[float, float]]:
-        """For each affordance that it can clear the least and the greatest height [m]."""
+        """For each affordance that it can clear the least and the greatest height (of a gap: width) [m], as
+        `NodeGraph.find_path` takes them."""
         return self._driver.skills
 
     @property
@@ -224,7 +231,8 @@ class Agent:
         self._world.look_out(self, former)
         now = self._world.time
         self._headway = Headway(since=now, tried=now)
-        self._tell(Departed(now, self.name, here, goal, plan.length, plan.skills))
+        skills = tuple(SKILL_OF[each] for each in plan.skills)
+        self._tell(Departed(now, self.name, here, goal, plan.length, skills))
 
     def _report_blocked(self, goal: np.ndarray, reason: str) -> None:
         self._blocked = True
@@ -392,9 +400,9 @@ class Agent:
         if isinstance(event, bodily.GotUp):
             return GotUp(**base, seconds=event.seconds)
         if isinstance(event, bodily.TookOff):
-            return SkillStarted(**base, skill=event.affordance, height=event.height)
+            return SkillStarted(**base, skill=SKILL_OF[event.affordance], height=event.height)
         if isinstance(event, bodily.Cleared):
-            return SkillFinished(**base, skill=event.affordance, height=event.height)
+            return SkillFinished(**base, skill=SKILL_OF[event.affordance], height=event.height)
         if isinstance(event, bodily.GotStuck):
             return Stuck(**base, reason=event.reason)
         if isinstance(event, bodily.MissedGoal):

@@ -1,18 +1,21 @@
 """The ``surefoot`` command."""
 
 import gc
+import importlib.util
 import json
 import os
 import signal
 import sys
-from collections.abc import Callable
-from contextlib import ExitStack
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 from typer import exceptions as typer_exceptions
+
+from surefoot import __version__
 
 app = typer.Typer(
     no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None,
@@ -90,6 +93,22 @@ HeadroomOption = Annotated[float | None, typer.Option(help="[m] Free height that
 ResolutionOption = Annotated[float | None, typer.Option(help="[m] Spacing of the samples of the surface.")]
 
 
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        print(f"surefoot {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _surefoot(
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_show_version, is_eager=True, help="Print the version and leave."),
+    ] = False,
+) -> None:
+    pass
+
+
 @app.command()
 def bake(
     level: Annotated[Path, typer.Argument(callback=_input, help=MESH_HELP)],
@@ -114,6 +133,19 @@ def bake(
         "resolution": resolution,
     }
     _finish(_commands().bake_level(level, output, up, scale, tags, rules), as_json)
+
+
+@app.command()
+def obstacles(
+    level: Annotated[
+        Path, typer.Argument(callback=_input, help="Mesh file, or graph that `surefoot bake` wrote.")
+    ],
+    up: UpOption = None,
+    scale: ScaleOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """List the obstacles of a level that a skill can clear: the names that missions use, sizes and places."""
+    _finish(_commands().list_obstacles(level, up, scale), as_json)
 
 
 @app.command()
@@ -395,14 +427,32 @@ def _commands() -> Any:
     gc.disable()
     before = signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT, signal.SIGTERM))
     try:
-        from navmesh.files.inputs import keep_inputs
-        from runtime import commands
+        with _told_that_it_loads():
+            from navmesh.files.inputs import keep_inputs
+            from runtime import commands
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
     _after.enter_context(keep_inputs(_inputs))
     gc.freeze()
     gc.enable()
     return commands
+
+
+@contextmanager
+def _told_that_it_loads() -> Iterator[None]:
+    """Say that modules are loaded: on a terminal until they are; elsewhere only at the first start, when
+    Python has not compiled them yet and it takes longest."""
+    begin, end = "", ""
+    if "runtime.commands" not in sys.modules:
+        if sys.stderr.isatty():
+            begin, end = "loading ...", "\r\x1b[2K"
+        elif not Path(
+            importlib.util.cache_from_source(str(Path(__file__).with_name("commands.py")))
+        ).exists():
+            begin = "loading for the first time: up to half a minute\n"
+    print(begin, end="", file=sys.stderr, flush=True)
+    yield
+    print(end, end="", file=sys.stderr, flush=True)
 
 
 def _view_commands() -> Any:

@@ -2,7 +2,6 @@
 
 import json
 import signal
-import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
@@ -22,8 +21,10 @@ from runtime.mission_check import prepare_mission
 from runtime.mission_run import MissionResult, run_mission
 from runtime.progress import Progress
 from runtime.rules import person_walk_rules
+from runtime.skill_words import SKILL_OF
 from runtime.trace import Trace
 from runtime.warmup import compile_kernels, is_compiled, load_kernels
+from surefoot.words import several
 
 __all__ = [
     "INPUT_ERRORS",
@@ -33,6 +34,7 @@ __all__ = [
     "check_page",
     "check_picture",
     "find_path",
+    "list_obstacles",
     "ready",
     "run_mission_file",
     "serve_worlds",
@@ -40,6 +42,9 @@ __all__ = [
     "write_schema",
 ]
 
+_MEASURES = ("height", "depth", "width", "run_up", "landing")
+_NO_FOLD = 400
+"""[columns]: also in a pipe a row stays one line."""
 INPUT_ERRORS = (navmesh.NavmeshError, PathSmoothError, LocomotionError, RuntimeInputError)
 """Errors that say what is wrong with the input."""
 
@@ -89,6 +94,45 @@ def bake_level(
     return Result(values, True, lambda: _print_values(values))
 
 
+def list_obstacles(level: Path, up: str | None, scale: float | None) -> Result:
+    """What a skill can clear on a mesh or a baked graph."""
+    found = _graph_of(level, up, scale, ready()).obstacles
+    rows = [
+        {
+            "tag": str(found.tag[k]),
+            "skill": SKILL_OF[str(found.affordance[k])],
+            "affordance": str(found.affordance[k]),
+            "authored": bool(found.authored[k]),
+            **{name: round(float(getattr(found, name)[k]), 3) for name in _MEASURES},
+            "position": found.position[k].round(3).tolist(),
+        }
+        for k in range(len(found))
+    ]
+
+    def show() -> None:
+        from rich.console import Console
+        from rich.table import Table
+
+        table = Table("tag", "skill", *(f"{name.replace('_', '-')} [m]" for name in _MEASURES), "place [m]")
+        for row in rows:
+            place = " ".join(f"{value:.1f}" for value in row["position"])
+            table.add_row(row["tag"], row["skill"], *(f"{row[name]:.2f}" for name in _MEASURES), place)
+        Console(highlight=False, markup=False, width=_NO_FOLD).print(table)
+
+    return Result({"level": str(level), "obstacles": rows}, True, show)
+
+
+def _graph_of(level: Path, up: str | None, scale: float | None, progress: Progress) -> navmesh.NodeGraph:
+    """The baked graph, or the graph of the mesh, in ``level``."""
+    if level.suffix == ".npz":
+        return navmesh.NodeGraph.load(level)
+    with progress.stage(f"building the graph of {level.name}"):
+        terrain = navmesh.Terrain.load(level, up=up, scale=scale)
+        beside = navmesh.tags_path(level)
+        tags = navmesh.load_tags(beside) if beside.is_file() else None
+        return navmesh.NodeGraph.build(terrain, person_walk_rules(), tags=tags)
+
+
 def find_path(
     graph_file: Path,
     start: tuple[float, float, float],
@@ -112,8 +156,8 @@ def find_path(
     }
 
     def show() -> None:
-        over = f", {len(route.links)} obstacles on the way" if route.links else ""
-        print(f"{route.status}, {route.length:.2f} m, {len(points)} points{over}")
+        over = f", {several(len(route.links), 'obstacle')} on the way" if route.links else ""
+        print(f"{route.status}, {route.length:.2f} m, {several(len(points), 'point')}{over}")
         for x, y, z in points:
             print(f"{x:10.3f} {y:10.3f} {z:8.3f}")
 
@@ -141,7 +185,7 @@ def check_mission_file(mission: Path) -> Result:
     prepare_mission(loaded, ready())
     agents = [{"name": agent.name, "body": agent.body} for agent in loaded.mission.agents]
     values = {"mission": str(mission), "level": str(loaded.level_path), "agents": agents}
-    return Result(values, True, lambda: print(f"{mission}: can be run ({len(agents)} agents)"))
+    return Result(values, True, lambda: print(f"{mission}: can be run ({several(len(agents), 'agent')})"))
 
 
 def write_schema(output: Path | None) -> None:
@@ -175,16 +219,11 @@ def serve_worlds(
     if pages is not None and not pages.is_dir():
         raise RuntimeInputError(f"{pages}: is no folder; pages are served from one")
     graphs: dict[str, navmesh.NodeGraph] = {}
-    progress = ready("clients can connect")
+    progress = ready()
     for level in levels:
         if level.stem in graphs:
             raise RuntimeInputError(f"{level}: there is another level called {level.stem!r}")
-        with progress.stage(f"reading {level.name}"):
-            if level.suffix == ".npz":
-                graphs[level.stem] = navmesh.NodeGraph.load(level)
-            else:
-                terrain = navmesh.Terrain.load(level, up=up, scale=scale)
-                graphs[level.stem] = navmesh.NodeGraph.build(terrain, person_walk_rules())
+        graphs[level.stem] = _graph_of(level, up, scale, progress)
     load_kernels()
     server = SurefootServer(graphs, host, port, token, pages)
     where = f"[{host}]" if ":" in host else host
@@ -230,7 +269,7 @@ def show_mission(mission: Path, result: MissionResult, written: list[Path]) -> N
     console = Console(highlight=False)
     happened = Table("time", "what happened", title=mission.name, title_justify="left")
     for event, more in _in_short(result.events):
-        again = f" (and changes its way {more} times)" if more else ""
+        again = f" (and changes its way {several(more, 'time')})" if more else ""
         happened.add_row(f"{event.time:6.2f} s", f"{event}{again}")
     console.print(happened)
     checks = Table("agent", "expected", "found", "held")
@@ -258,13 +297,10 @@ def _in_short(events: Sequence[Event]) -> list[tuple[Event, int]]:
     return shown
 
 
-def ready(then: str = "") -> Progress:
-    """Progress bars, and compiled kernels. ``then``: what somebody waits for, who is told so in a line also
-    where nobody looks at bars."""
+def ready() -> Progress:
+    """What tells how far a command is; the kernels are compiled."""
     progress = Progress()
     if not is_compiled():
-        if then and not progress.shown:
-            print(f"compiling kernels, once (a minute or two), then {then}", file=sys.stderr, flush=True)
         compile_kernels(progress)
     return progress
 

@@ -1,28 +1,17 @@
 """The director of a mission: lets every agent perform its script, and gives the orders of triggers."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from runtime.actions import Action, Clear, Follow, Go, Patrol, Progress, Wait
 from runtime.agent import Agent
-from runtime.events import Arrived, Event, Fell, SkillFinished
+from runtime.events import Arrived, Event, Fell, SkillFinished, Told
 from runtime.mission import Address, LoadedMission, places_of
 from runtime.mission_model import Region, Step, Trigger
 from runtime.world import World
 
-__all__ = ["Director", "Performer", "Told", "inside"]
-
-
-@dataclass(frozen=True)
-class Told(Event):
-    """A trigger has given the agent a new script; ``why`` says what happened."""
-
-    why: str
-
-    def _what(self) -> str:
-        return f"is told to do something else: {self.why}"
+__all__ = ["Director", "Performer", "inside"]
 
 
 class Performer:

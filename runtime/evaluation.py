@@ -23,6 +23,7 @@ from locomotion.skill_description import load_described
 from locomotion.training.rollout import Scenario, Simulator, stays_up
 from runtime.courses import CourseRun, Push, held, make_course, run_course
 from runtime.progress import Progress
+from runtime.skill_words import SKILL_OF
 
 __all__ = [
     "DEFAULT_HEIGHTS", "HEIGHTS", "Attempt", "evaluate_brake", "evaluate_clearing", "evaluate_described",
@@ -121,7 +122,7 @@ def _evaluate(
         return replace(_judged(test, what, affordance, run), at=at)
 
     todo = [(test, *start) for test, starts in tests.items() for start in starts]
-    return _tried(affordance, [lambda each=each: attempt(*each) for each in todo], progress)
+    return _tried(SKILL_OF[affordance], [lambda each=each: attempt(*each) for each in todo], progress)
 
 
 def start_noise(seed: int, distance: float) -> np.ndarray:

@@ -1,7 +1,12 @@
 """What happened to an agent, one type per kind of event; polled from `World.events`."""
 
+from collections import Counter
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
+
+from runtime.skill_words import clears
+from surefoot.words import several
 
 __all__ = [
     "Arrived",
@@ -16,6 +21,8 @@ __all__ = [
     "SkillFinished",
     "SkillStarted",
     "Stuck",
+    "Told",
+    "event_text",
 ]
 
 Point = tuple[float, float, float]
@@ -54,7 +61,8 @@ class Departed(Event):
     skills: tuple[str, ...]
 
     def _what(self) -> str:
-        over = f" with {', '.join(self.skills)}" if self.skills else ""
+        many = (several(count, skill) for skill, count in Counter(self.skills).items())
+        over = f" ({', '.join(many)} on the way)" if self.skills else ""
         return f"sets out for {_place(self.goal)}, {self.length:.1f} m{over}"
 
 
@@ -91,18 +99,20 @@ class BackedOut(Event):
 
 @dataclass(frozen=True)
 class SkillStarted(Event):
-    """The agent left the run for ``skill``, at an obstacle of ``height`` [m]."""
+    """The agent left the run for ``skill`` ("jump", "vault", "drop-roll" or "leap"), at an obstacle of
+    ``height`` [m] (of a gap its width)."""
 
     skill: str
     height: float
 
     def _what(self) -> str:
-        return f"starts to {self.skill}, {self.height:.2f} m"
+        return clears(self.skill, self.height)
 
 
 @dataclass(frozen=True)
 class SkillFinished(Event):
-    """The agent is back in its run after ``skill``, over an obstacle of ``height`` [m]."""
+    """The agent is back in its run after ``skill``, over an obstacle of ``height`` [m] (of a gap its
+    width)."""
 
     skill: str
     height: float
@@ -158,6 +168,26 @@ class Stuck(Event):
 
     def _what(self) -> str:
         return f"is stuck at {_place(self.position)}: {self.reason}"
+
+
+@dataclass(frozen=True)
+class Told(Event):
+    """A trigger has given the agent a new script; ``why`` says what happened."""
+
+    why: str
+
+    def _what(self) -> str:
+        return f"is told to do something else: {self.why}"
+
+
+def event_text(values: Mapping[str, Any]) -> str:
+    """What `Event.to_dict` has told of, in words; of a kind of another version only its name."""
+    kinds = {kind.__name__: kind for kind in Event.__subclasses__()}
+    told = {name: value for name, value in values.items() if name != "kind"}
+    try:
+        return str(kinds[values["kind"]](**told))
+    except (KeyError, TypeError):
+        return f"{values['agent']}: {values['kind']}"
 
 
 def _place(point: Point) -> str:

@@ -74,7 +74,7 @@ def _checks(
         yield ("never falls" if expect.never_falls else "falls"), expect.never_falls != bool(fall), found
     used = [event.skill for event in events if isinstance(event, SkillFinished)]
     for skill in expect.uses_skills or ():
-        yield f"uses skill {skill}", skill in used, f"uses it {used.count(skill)} times"
+        yield f"uses skill {skill}", skill in used, _times(used.count(skill))
     places = watch.places(spec.name)
     for name in expect.stays_out_of or ():
         within = np.array([inside(loaded.mission.regions[name], place) for place in places])
@@ -85,6 +85,10 @@ def _checks(
         late = watch.times >= each.after - 1e-9
         apart = np.linalg.norm(places - watch.places(each.to), axis=1)[late]
         yield _distance(each.to, each.at_least, each.at_most, apart)
+
+
+def _times(count: int) -> str:
+    return {0: "does not use it", 1: "uses it once"}.get(count, f"uses it {count} times")
 
 
 def _arrival(finished: float | None, limit: float | None) -> Found:

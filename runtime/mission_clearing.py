@@ -6,6 +6,7 @@ from navmesh.obstacles import Obstacles
 from runtime.agent import Agent
 from runtime.mission import Address, LoadedMission
 from runtime.mission_model import Use
+from runtime.skill_words import AFFORDANCE_OF, SKILL_OF
 from runtime.world import World
 
 __all__ = ["find_clearing"]
@@ -24,15 +25,16 @@ def find_clearing(
     Raises `FileError` for a skill that the body has not, an obstacle that is not there, is
     too high or too low, and one that the way leads around.
     """
-    if use.skill not in agent.skills:
-        valid = ", ".join(map(repr, agent.skills)) or "none"
+    affordance = AFFORDANCE_OF[use.skill]
+    if affordance not in agent.skills:
+        valid = ", ".join(repr(SKILL_OF[each]) for each in agent.skills) or "none"
         raise loaded.error((*address, "skill"), f"a {agent.body} has no skill {use.skill!r}; valid: {valid}")
     obstacles = world.graph.obstacles
     index = _obstacle(loaded, obstacles, address, use)
-    low, high = agent.skills[use.skill]
+    low, high = agent.skills[affordance]
     size = float(obstacles.size[index])
     if not low <= size <= high:
-        measure = "wide" if use.skill == "gap" else "high"
+        measure = "wide" if affordance == "gap" else "high"
         raise loaded.error(
             address, f"{obstacles.tag[index]} is {size:.2f} m {measure}; {agent.name} can {use.skill} "
             f"{low:.2f} to {high:.2f} m",
@@ -49,13 +51,13 @@ def find_clearing(
 def _obstacle(loaded: LoadedMission, obstacles: Obstacles, address: Address, use: Use) -> int:
     if use.near is not None:
         place = loaded.point(use.near)
-        index, away = obstacles.near(place, use.skill)
+        index, away = obstacles.near(place, AFFORDANCE_OF[use.skill])
         if away > _NEAR:
             raise loaded.error(
                 (*address, "near"), f"no obstacle to {use.skill} lies within {_NEAR:g} m of {place.tolist()}"
             )
         return index
-    kind = obstacles.affordance == use.skill
+    kind = obstacles.affordance == AFFORDANCE_OF[use.skill]
     found = np.flatnonzero(kind & (obstacles.tag == use.obstacle))
     if len(found) == 0:
         named = obstacles.tag[kind & obstacles.authored].tolist()

@@ -7,6 +7,7 @@ from annotated_types import Ge, Gt, Le, Len
 from pydantic import (
     AfterValidator,
     BaseModel,
+    BeforeValidator,
     ConfigDict,
     Discriminator,
     Field,
@@ -16,6 +17,7 @@ from pydantic import (
 
 from locomotion.quadruped import is_body_file
 from runtime.drivers import BODIES
+from runtime.skill_words import SKILL_OF
 
 __all__ = [
     "AgentSpec", "Distance", "Entering", "Expectation", "Follow", "LevelSpec", "Mission", "Order", "Patrol",
@@ -72,7 +74,11 @@ Places = Annotated[
 """One place, or several in order."""
 Seconds = Annotated[float, Gt(0.0), Le(86400.0)]
 Speed = Annotated[float, Ge(0.5), Le(6.0)]
-Skill = Literal["jump", "vault", "drop", "gap"]
+Skill = Annotated[
+    Literal["jump", "vault", "drop-roll", "leap"],
+    BeforeValidator(lambda said: SKILL_OF.get(said, said) if isinstance(said, str) else said),
+]
+"""What clears an obstacle; files of earlier versions call it as the obstacle: drop, gap."""
 if TYPE_CHECKING:
     Body = str
 else:

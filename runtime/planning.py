@@ -44,6 +44,10 @@ class Plan:
     obstacles: tuple[ObstacleAhead, ...]
     ends: tuple[float, ...] = ()
 
+    def __repr__(self) -> str:
+        over = "".join(f", over a {each}" for each in self.skills)
+        return f"<Plan: {self.length:.2f} m, {len(self.points)} points{over}>"
+
     @property
     def length(self) -> float:
         """Horizontal length of the smoothed path [m]."""

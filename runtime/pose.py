@@ -21,6 +21,10 @@ class Pose:
     parents: np.ndarray
     transforms: np.ndarray
 
+    def __repr__(self) -> str:
+        root = self.transforms[0, :3].round(2).tolist()
+        return f"<Pose of {len(self.names)} bodies, {self.names[0]} at {root}>"
+
     @property
     def local(self) -> np.ndarray:
         """(n, 7) float64: each body's position [m] and quaternion in its parent's frame; the root's in the

@@ -1,56 +1,102 @@
-"""What a user sees while something takes long: nothing at all when the output is not a terminal."""
+"""What a user sees while something takes long: bars on a terminal, elsewhere plain lines."""
 
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 __all__ = ["Progress"]
 
+_TENTHS = 10
+_WIDE = 110
+"""[columns] of a terminal in which a bar and the time left have room beside the words."""
+
 
 class Progress:
-    """Bars on the standard error output, one for each stage; made quiet with ``shown=False``."""
+    """Tells how far each stage is, on the standard error output: on a terminal with a bar; in a pipe or a
+    file with a line at its beginning, after each tenth of it and at its end. Quiet with ``shown=False``."""
 
-    def __init__(self, shown: bool | None = None) -> None:
-        self.shown = sys.stderr.isatty() if shown is None else shown
+    def __init__(self, shown: bool = True) -> None:
+        self.shown = shown
 
     @contextmanager
     def stage(self, label: str) -> Iterator["Stage"]:
-        """Show ``label`` with the time that it takes until the block ends."""
+        """Tell of ``label`` until the block ends."""
         if not self.shown:
-            yield Stage(None, label)
+            yield Stage(label)
             return
-        from rich.console import Console
-        from rich.progress import BarColumn, SpinnerColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
-        from rich.progress import Progress as Bars
-
-        columns = (
-            SpinnerColumn(finished_text="[green]✓"),
-            TextColumn("{task.description}"),
-            BarColumn(bar_width=24),
-            TextColumn("{task.fields[note]}"),
-            TimeElapsedColumn(),
-            TextColumn("left:"),
-            TimeRemainingColumn(),
-        )
-        with Bars(*columns, console=Console(stderr=True)) as bars:
-            stage = Stage(bars, label)
+        stage = _Bar(label) if sys.stderr.isatty() else _Lines(label)
+        with stage.told():
             yield stage
-            stage.done()
 
 
 class Stage:
-    """One stage of `Progress`."""
+    """One stage of `Progress`; this one is told to nobody."""
 
-    def __init__(self, bars, label: str) -> None:
-        self._bars = bars
-        self._task = bars.add_task(label, total=None, note="") if bars is not None else None
+    def __init__(self, label: str) -> None:
+        self.label = label
 
     def update(self, share: float, note: str = "") -> None:
         """Say that ``share`` (0…1) of the stage is done, and a few words more."""
-        if self._bars is not None:
-            self._bars.update(self._task, total=1.0, completed=min(share, 1.0), note=note)
 
-    def done(self) -> None:
-        """The stage is at its end."""
-        if self._bars is not None:
-            self._bars.update(self._task, total=1.0, completed=1.0)
+
+class _Lines(Stage):
+    """A stage that is told in lines, which depend on how far it is and not on the clock."""
+
+    def __init__(self, label: str) -> None:
+        super().__init__(label)
+        self._tenths = 0
+
+    @contextmanager
+    def told(self) -> Iterator[None]:
+        self._say("")
+        yield
+        if self._tenths:
+            self._say(": done")
+
+    def update(self, share: float, note: str = "") -> None:
+        tenths = min(int(_TENTHS * share + 1e-9), _TENTHS - 1)
+        if tenths > self._tenths:
+            self._tenths = tenths
+            self._say(f": {tenths * 100 // _TENTHS} %{f', {note}' if note else ''}")
+
+    def _say(self, more: str) -> None:
+        print(f"{self.label}{more}", file=sys.stderr, flush=True)
+
+
+class _Bar(Stage):
+    """A stage with a bar on a terminal: words that do not fit into one line are continued in the next."""
+
+    def __init__(self, label: str, console: "Console | None" = None) -> None:
+        from rich.console import Console
+        from rich.progress import BarColumn, SpinnerColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+        from rich.progress import Progress as Bars
+        from rich.table import Column
+
+        super().__init__(label)
+        console = console or Console(stderr=True)
+        words = Column(no_wrap=False, overflow="fold")
+        columns = [
+            SpinnerColumn(finished_text="[green]✓"),
+            TextColumn("{task.description}{task.fields[note]}", markup=False, table_column=words),
+            TextColumn("{task.percentage:3.0f} %"),
+            TimeElapsedColumn(),
+        ]
+        if console.width >= _WIDE:
+            columns[2:3] = [BarColumn(bar_width=24)]
+            columns += [TextColumn("left:"), TimeRemainingColumn()]
+        self._bars = Bars(*columns, console=console)
+        self._task = self._bars.add_task(label, total=None, note="")
+
+    @contextmanager
+    def told(self) -> Iterator[None]:
+        with self._bars:
+            yield
+            self.update(1.0)
+
+    def update(self, share: float, note: str = "") -> None:
+        more = f": {note}" if note else ""
+        self._bars.update(self._task, total=1.0, completed=min(share, 1.0), note=more)

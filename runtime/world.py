@@ -32,6 +32,7 @@ from runtime.rules import obstacle_rules, person_walk_rules
 from runtime.traffic import EVERY, Traffic
 from runtime.walkers import Walkers
 from runtime.world_state import WorldState
+from surefoot.words import several
 
 __all__ = ["BODIES", "World", "WorldState"]
 
@@ -95,6 +96,10 @@ class World:
         self._events: deque[Event] = deque(maxlen=_UNREAD)
         self._untold: deque[Event] = deque()
         self._listeners: list[tuple[type[Event], Callable[[Event], object]]] = []
+
+    def __repr__(self) -> str:
+        level, agents = Path(self.graph.terrain.name).name, several(len(self.agents), "agent")
+        return f"<World on {level}: {agents}, {self.time:.2f} s>"
 
     @property
     def graph(self) -> navmesh.NodeGraph:

@@ -15,6 +15,7 @@ from runtime.agent import AgentState
 from runtime.errors import RuntimeInputError
 from runtime.events import Event
 from runtime.state_file import DTYPES, pack, unpack
+from surefoot.words import several
 
 __all__ = ["WorldState"]
 
@@ -35,6 +36,9 @@ class WorldState:
     untold: tuple[Event, ...]
     random: Mapping[str, Any]
     agents: dict[str, AgentState]
+
+    def __repr__(self) -> str:
+        return f"<WorldState after {self.ticks} ticks: {several(len(self.agents), 'agent')}>"
 
     def check(self) -> None:
         """Raises `RuntimeInputError` for what no world can be in, as far as that shows without its bodies."""

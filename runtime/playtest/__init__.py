@@ -25,3 +25,7 @@ def __getattr__(name: str) -> Any:
         if name in names:
             return getattr(import_module(f"runtime.playtest.{module}"), name)
     raise AttributeError(f"module 'runtime.playtest' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -13,6 +13,7 @@ from runtime.events import SkillFinished, SkillStarted
 from runtime.playtest import feet
 from runtime.playtest.looks import POSED
 from runtime.playtest.site import Site
+from runtime.skill_words import AFFORDANCE_OF
 from runtime.world import World
 
 __all__ = ["Leg", "Mover", "WalkerMover", "WorldMover", "mover_of", "planned_time"]
@@ -181,7 +182,9 @@ class WorldMover:
             track.append((world.time - begun, *agent.position))
         for event in world.events:
             if isinstance(event, SkillStarted):
-                cleared = self._site.graph.obstacles.near(np.array(event.position), event.skill)[0]
+                cleared = self._site.graph.obstacles.near(
+                    np.array(event.position), AFFORDANCE_OF[event.skill]
+                )[0]
             elif isinstance(event, SkillFinished):
                 cleared = -1
         self.place = agent.position

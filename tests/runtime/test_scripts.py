@@ -11,8 +11,7 @@ from conftest import obj_text
 from benchmarks.mission_fuzz import MISSION as EVERYTHING
 from benchmarks.mission_fuzz import Fuzz, mutated, write_level
 from navmesh.files.yamlfile import FileError
-from runtime.director import Told
-from runtime.events import Arrived, Departed
+from runtime.events import Arrived, Departed, Told
 from runtime.mission import load_mission, mission_schema
 from runtime.mission_check import prepare_mission
 from runtime.mission_run import run_mission

@@ -1,0 +1,83 @@
+"""Says so when kernels are compiled, which takes minutes, once on a machine."""
+
+import logging
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from numba.core import event as events
+
+__all__ = ["PACKAGES", "TIME", "announce", "counted"]
+
+PACKAGES = ("navmesh", "pathsmooth", "locomotion", "runtime")
+"""The packages that have kernels."""
+TIME = "3 to 6 minutes"
+"""How long it takes to compile all of them."""
+
+_log = logging.getLogger("surefoot")
+
+
+class _Listener(events.Listener):
+    """Calls ``told`` whenever one of our kernels is about to be compiled."""
+
+    def __init__(self, told: Callable[[], None]) -> None:
+        self._told = told
+
+    def on_start(self, event: events.Event) -> None:
+        assert event.data is not None
+        kernel = event.data["dispatcher"].py_func
+        if kernel.__module__.partition(".")[0] in PACKAGES:
+            self._told()
+
+    def on_end(self, event: events.Event) -> None:
+        pass
+
+
+class _Announcer:
+    """Writes one line to the log "surefoot", which ends on standard error unless the host sends it elsewhere,
+    before the first kernel of the process is compiled."""
+
+    def __init__(self) -> None:
+        self.silent = False
+        self._listener = _Listener(self._say)
+        events.register("numba:compile", self._listener)
+
+    def _say(self) -> None:
+        if not self.silent:
+            self.silent = True
+            _log.warning(
+                "surefoot: compiling kernels, once on this machine: up to %s; runtime.prepare() does it "
+                "ahead of time", TIME,
+            )  # fmt: skip
+
+
+_announcer: list[_Announcer] = []
+
+
+def announce() -> None:
+    """From now on say so before the first kernel of this process is compiled. Called by the packages."""
+    if not _announcer:
+        _announcer.append(_Announcer())
+
+
+@contextmanager
+def counted(told: Callable[[int], None]) -> Iterator[None]:
+    """Within the block ``told(n)`` is called when the n-th kernel (from 1) is about to be compiled, and
+    nothing is written to the log."""
+    count = 0
+
+    def one() -> None:
+        nonlocal count
+        count += 1
+        told(count)
+
+    before = [each.silent for each in _announcer]
+    for each in _announcer:
+        each.silent = True
+    listener = _Listener(one)
+    events.register("numba:compile", listener)
+    try:
+        yield
+    finally:
+        events.unregister("numba:compile", listener)
+        for each, silent in zip(_announcer, before, strict=True):
+            each.silent = silent

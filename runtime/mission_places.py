@@ -18,7 +18,8 @@ def what_is_wrong(graph: navmesh.NodeGraph, point: np.ndarray, radius: float, bo
         place = _nearest(graph, point, radius)
         if place is None:
             return f"a {body} fits nowhere on the level"
-        return f"{_named(point)} is not on the floor, or in a wall; the nearest place where a {body} fits is {_named(place)}"
+        nearest = f"the nearest place where a {body} fits is {_named(place)}"
+        return f"{_named(point)} is not on the floor, or in a wall; {nearest}"
     place = here.waypoints[0]
     aside, up = float(np.hypot(*(place - point)[:2])), float(point[2] - place[2])
     if aside > _ASIDE:

@@ -48,7 +48,7 @@ if [ ! -x "$folder/bin/python" ]; then
     fi
 fi
 
-echo "== installing Surefoot and what it needs into $folder (a minute or two)"
+echo "== installing Surefoot and what it needs into $folder (some minutes)"
 if "$folder/bin/python" -c 'import pip' 2>/dev/null; then
     "$folder/bin/python" -m pip install --quiet --disable-pip-version-check -e "$root$extras"
 else

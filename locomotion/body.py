@@ -143,9 +143,12 @@ class Human(RehearsingPerson):
         self._obstacle_run.begin(())
         self.status = "standing" if speed == 0.0 else "running"
 
-    def follow(self, path: ArrayLike, speed: float, obstacles: Sequence[ObstacleAhead] = ()) -> None:
+    def follow(
+        self, path: ArrayLike, speed: float, obstacles: Sequence[ObstacleAhead] = (), hesitates: float = 0.0
+    ) -> None:
         """Go along ``path`` (n, 3) [m, on the ground] at up to ``speed`` [m/s]; slower in bends, on slopes
-        and before the end. ``obstacles``: what the path crosses, in order.
+        and before the end. ``obstacles``: what the path crosses, in order. ``hesitates``: [s] after which one
+        that stands sets out.
 
         It walks and runs as the module's text says. Raises
         `LocomotionError` for a bad path or speed, a path that begins more than 2 m from the person, an
@@ -164,7 +167,9 @@ class Human(RehearsingPerson):
             raise LocomotionError(f"the path begins at {start.round(2)}, the person is at {here.round(2)}")
         if not self.on_feet.walks and not running:
             self._place(here, self.yaw, 0.0)
+        stands = self.status not in MOVING and self.on_feet.walks
         self.way.begin(table, self._ticks)
+        self.way.starts = self._ticks + round(hesitates / CONTROL_DT) if stands else 0
         self._obstacle_run.begin(obstacles)
         let_go_both(self.data)
         self._fours.on_way = 1.0
@@ -279,7 +284,8 @@ class Human(RehearsingPerson):
             return
         state, data, feet, way = self._control, self.data, self.on_feet, self.way
         if way.path is not None and self.status != "fallen":
-            moving, planned = self.status in MOVING, self._obstacle_run.planned
+            moving = self.status in MOVING and self._ticks >= way.starts
+            planned = self._obstacle_run.planned
             feet.steer(way, state, moving, planned, self._ticks, self._command)
         feet.tick(self._lookup, state, self._command, data)
         if feet.runs and self.status != "fallen":

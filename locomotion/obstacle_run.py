@@ -14,6 +14,7 @@ from locomotion.approach import ApproachPlan
 from locomotion.clearing import ClearingSkill, distance_to, foot_distance, plan_run_up, skill_for
 from locomotion.route_smoothing import ObstacleAhead
 from locomotion.skill import RunSkill
+from locomotion.way import Way
 from locomotion.where_to_run import RUN_UP, SET_OFF
 
 __all__ = ["RUN_UP_SIZE", "ObstacleRun", "TakeOff"]
@@ -120,16 +121,16 @@ class ObstacleRun:
             return obstacle
         return began
 
-    def turning_point(self, arc: float) -> float | None:
-        """Arc length [m] to which a body that walks at ``arc`` should go back so that its run-up is long
-        enough, or as long as the obstacle behind allows; None: it need not, cannot, or has been back often
-        enough."""
+    def turning_point(self, arc: float, way: Way) -> float | None:
+        """Arc length [m] to which a body that walks at ``arc`` of its ``way`` should go back so that its
+        run-up is long enough, or as long as the obstacle behind and the last bend of the way allow; None: it
+        need not, cannot, or has been back often enough."""
         if self.ahead is None or self.plan[_RETURNS] >= _MOST_RETURNS:
             return None
         edge = self.ahead.arc_length
         behind = self.obstacles[int(self.plan[_NEXT]) - 1] if self.plan[_NEXT] > 0.0 else None
         start = 0.0 if behind is None else behind.arc_length + behind.depth + _OFF_EDGE
-        to = max(edge - _ROOM - _SETTING_OFF, start)
+        to = max(edge - _ROOM - _SETTING_OFF, start, way.straight_before(edge))
         room = edge - to - _SETTING_OFF  # with less than `_ROOM` it tries what there is
         if not arc < edge or (edge - arc > room and self.plan[_BALKED] == 0.0):
             return None

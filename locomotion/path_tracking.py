@@ -32,20 +32,20 @@ from locomotion.where_to_run import hard_again, plan_gaits
 
 __all__ = [
     "ARC", "BACKED", "HEADWAY", "HEADWAY_TICK", "LATERAL", "PACE", "REMAINING", "SLOPE_HERE", "SPEED_HERE",
-    "TRACK_SIZE", "TRIED", "WAITED", "back_along", "checked_points", "make_path", "new_track", "shifted",
-    "track",
+    "STARTS", "TRACK_SIZE", "TRIED", "WAITED", "back_along", "checked_points", "make_path", "new_track",
+    "shifted", "track",
 ]  # fmt: skip
 
 (
     ARC, LATERAL, INTEGRAL, REMAINING, SPEED_HERE, SLOPE_HERE, HEADWAY, HEADWAY_TICK, PACE, WAITED, BACKED,
-    TRIED,
-) = range(12)  # fmt: skip
+    TRIED, STARTS,
+) = range(13)  # fmt: skip
 """What the tracker remembers: arc length of the body's foot point [m], distance to the left of the path [m],
 its integral [m s], length left [m], planned speed [m/s] and slope here, greatest arc length so far and the
 tick at which it grew last by `_STEP`, share of the planned speed at which it goes to give way, ticks for
-which it has done so since then, how often it has gone back to let others by, and the tick at which it found
-no way to slow down."""
-TRACK_SIZE = 12
+which it has done so since then, how often it has gone back to let others by, the tick at which it found no
+way to slow down, and the tick before which it does not set out."""
+TRACK_SIZE = 13
 _STEP = 0.25
 _STEP_REACH = 0.7  # [m] around an obstacle's edge where its height would show as slope
 _LEVEL = 0.05  # slope up to which ground is level

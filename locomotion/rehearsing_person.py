@@ -109,7 +109,7 @@ class RehearsingPerson(MovingPerson, ABC):
     def _go_back(self) -> bool:
         """Whether it turns round, for a longer run-up to the obstacle ahead."""
         way = self.way
-        to = None if way.interrupted is not None else self._obstacle_run.turning_point(way.arc)
+        to = None if way.interrupted is not None else self._obstacle_run.turning_point(way.arc, way)
         if way.path is None or to is None:
             return False
         ahead = self._obstacle_run.ahead

@@ -56,8 +56,8 @@ def set_legs(
     before = [None if start_direction is None else _unit(start_direction), *over]
     set_ones = []
     for i, (leg, after) in enumerate(zip(legs, [*over, None], strict=True)):
-        first, last = _ends(route, leg, i, before[i], after, run_up, landing)
-        set_ones.append(_between(route, leg, first, last, spacing, before[i], after))
+        first, last, onward = _ends(route, leg, i, before[i], after, run_up, landing)
+        set_ones.append(_between(route, leg, first, last, spacing, before[i], onward))
     return set_ones
 
 
@@ -69,8 +69,9 @@ def _ends(
     after: NDArray[np.float64] | None,
     run_up: float,
     landing: float,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(3,) each: where a leg may bend first and last."""
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64] | None]:
+    """(3,) each: where a leg may bend first and last; and the direction in which it ends there: ``after``, or
+    None where a bend would lead too near to what ends the run-up and the body turns on the spot."""
     first, last = leg.waypoints[0], leg.waypoints[-1]
     way = (last - first)[:2]
     follows = before is not None and after is not None and float(before @ after) > _ALIKE
@@ -91,7 +92,9 @@ def _ends(
         end = straight_on(route.graph, last, -after, back, route.radius)
         if float((end - begin)[:2] @ after) < 0.0:
             end = straight_on(route.graph, last, -after, back, route.radius, _TURNS_IN)
-    return begin, end
+            cramped = float(np.linalg.norm((end - last)[:2])) < back - _OFF_WALL
+            after = None if cramped else after
+    return begin, end, after
 
 
 def _between(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion import path_tracking
+from locomotion import path_table, path_tracking
 from locomotion.path_table import PathTable, TrackingLimits
 from locomotion.path_tracking import back_along, new_track, shifted, track
 from locomotion.person import CONTROL_DT
@@ -14,6 +14,7 @@ from locomotion.where_to_run import SLOWS_WITHIN
 __all__ = ["Way"]
 
 _ROOM = 2.5, 5.0  # [m] that it goes back to let others by, the first and the second time
+_STRAIGHT, _AT_EDGE = 0.35, 0.3  # [rad] to which a run-up may bend; [m] before an edge
 _LEAST = 0.5  # [m] behind it from which it does
 
 
@@ -106,9 +107,26 @@ class Way:
         self.memory[path_tracking.TRIED] = tick
 
     @property
+    def starts(self) -> int:
+        """Tick before which it does not set out."""
+        return int(self.memory[path_tracking.STARTS])
+
+    @starts.setter
+    def starts(self, tick: int) -> None:
+        self.memory[path_tracking.STARTS] = tick
+
+    @property
     def walks_fast(self) -> bool:
         """Whether it may walk faster than usual here."""
         return self.path is not None and self.path.walks_fast(self.arc)
+
+    def straight_before(self, arc: float) -> float:
+        """Arc length [m] from which on the path leads straight up to ``arc`` [m]."""
+        assert self.path is not None
+        table, step = self.path.table, self.path.length / (len(self.path.table) - 1)
+        end = min(max(int((arc - _AT_EDGE) / step), 0), len(table) - 1)
+        bent = np.abs(table[: end + 1, path_table.HEADING] - table[end, path_table.HEADING]) > _STRAIGHT
+        return step * (int(np.flatnonzero(bent)[-1]) + 1) if bent.any() else 0.0
 
     def track(
         self, gains: NDArray[np.float64], x: float, y: float, speed: float, tick: int, command: NDArray

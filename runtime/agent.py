@@ -83,6 +83,9 @@ class AgentState:
         numbers = [self.born, *self.goal, errand.speed, errand.facing or 0.0, *chain(*errand.goals)]
         if not np.isfinite(numbers).all():
             raise RuntimeInputError(f"{name} has been told numbers that are not finite")
+        headway = self.headway
+        if np.isnan([headway.left, headway.since, headway.told, headway.tried]).any():
+            raise RuntimeInputError(f"{name} remembers of its way what is no number")
         if not name or errand.attempts < 0 or (errand.goals and errand.speed <= 0.0):
             raise RuntimeInputError(f"{name!r} has been told what nobody can do")
 

@@ -15,6 +15,7 @@ from locomotion.clearing import skill_ranges
 from locomotion.giving_way import SPACING, Course
 from locomotion.leads import can_begin, leads
 from locomotion.library import learned_skills
+from locomotion.numeric import is_finite
 from locomotion.pausing import pause
 from locomotion.rehearsal import REHEARSALS
 from locomotion.run_up_room import cramped_links
@@ -29,22 +30,29 @@ from runtime.planning import NoWay, Plan, make_plan, way_holds
 __all__ = ["HumanDriver", "People"]
 
 _STEEP = 20.0  # [degrees] of ground that is worth mentioning
+_HESITATES = 0.4  # [s] at most, from a stand: less than half a step
 _HERE = 1e-3  # [m] long ways lead to where it is: one that moves has to come back there
 
 
 class People:
     """Simulated persons. ``skills``: descriptions of those of one's own that they have besides the
-    package's; ``rehearsals``: as of `Human`."""
+    package's; ``rehearsals``: as of `Human`; ``seed`` decides how long each of them hesitates."""
 
     bodies: tuple[str, ...] = ("human",)
 
-    def __init__(self, level: Level, skills: Sequence[Path] = (), rehearsals: int = REHEARSALS) -> None:
+    def __init__(
+        self, level: Level, skills: Sequence[Path] = (), rehearsals: int = REHEARSALS, seed: int = 0
+    ) -> None:
         self._level, self._skills, self._rehearsals = level, skills, rehearsals
+        self._seed = seed
         self._drivers: list[HumanDriver] = []
 
     def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> Driver:
         driver = self._make()
         driver.human.reset(place, facing)
+        millimetres = (np.round(1000.0 * place).astype(np.int64) % 2**32).tolist()
+        chance = np.random.default_rng((self._seed, *millimetres))
+        driver.hesitates = round(float(chance.uniform(0.0, _HESITATES)), 2)
         self._drivers.append(driver)
         return driver
 
@@ -86,7 +94,8 @@ class People:
 
 
 class HumanDriver:
-    """A person. ``before``: (46,) its joints as they were when `People.remember` was called, or None."""
+    """A person. ``before``: (46,) its joints as they were when `People.remember` was called, or None.
+    ``hesitates``: [s] after which it sets out from a stand: people told the same do not step as one."""
 
     def __init__(self, level: Level, human: Human) -> None:
         self._level, self.human = level, human
@@ -95,6 +104,7 @@ class HumanDriver:
         self.events = human.events
         self.plans: deque[Plan] = deque(maxlen=PLANS_KEPT)
         self.before: np.ndarray | None = None
+        self.hesitates = 0.0
 
     @property
     def time(self) -> float:
@@ -259,7 +269,7 @@ class HumanDriver:
 
     def _take(self, plan: Plan, speed: float) -> Plan:
         if plan.length > _HERE:
-            self.human.follow(plan.points, speed, plan.obstacles)
+            self.human.follow(plan.points, speed, plan.obstacles, self.hesitates)
         else:
             self.human.arrive()
         self.plans.append(plan)
@@ -320,14 +330,17 @@ class HumanDriver:
         self.human.follow(points, float(course.speeds.max()))
         self.plans[-1] = replace(self.plans[-1], points=points, obstacles=(), ends=(ahead,))
 
-    def save(self) -> tuple[HumanState, tuple[Plan, ...]]:
-        return self.human.save_state(), tuple(self.plans)[-1:]
+    def save(self) -> tuple[HumanState, tuple[Plan, ...], float]:
+        return self.human.save_state(), tuple(self.plans)[-1:], self.hesitates
 
     def restore(self, state: Any) -> None:
-        body, plans = saved_parts(state, HumanState)
+        if not (isinstance(state, tuple) and len(state) == 3 and is_finite(state[2]) and state[2] >= 0.0):
+            raise RuntimeInputError("expected a person's state, its plans, and how long it hesitates [s]")
+        body, plans = saved_parts(state[:2], HumanState)
         check_person(body, self.human)
         self.human.restore_state(body)
         recall(self.plans, plans)
+        self.hesitates = state[2]
         self.before = None
 
     def state_hash(self) -> str:

@@ -88,7 +88,7 @@ class World:
         self._level = Level.of(graph)
         self._populations: list[Population] = []
         self._traffic = Traffic(self._level, self._populations)
-        others = People(self._level, self._skills, rehearsals), Pack(self._level, self._traffic)
+        others = People(self._level, self._skills, rehearsals, seed), Pack(self._level, self._traffic)
         self._populations += [*others, Walkers(self._level, others)]
         self._ticks = 0
         self._owed = 0.0

@@ -68,10 +68,10 @@ def test_one_that_stands_too_near_goes_back_first(terrace):
     assert before >= RUNNING.run_up - 0.3
 
 
-def test_walls_make_it_as_long_as_there_is_room():
+def test_walls_make_it_as_long_as_there_is_room():  # 0.4 m is kept to turn round in
     graph = graph_of(((0, -1.5, -1), (40, 4, 0)), ((0, 4, -1), (40, 9, 0.4)))
     before, behind, _ = straight_around(graph, (5, 1, 0), (30, 8, 0.4))
-    assert before == pytest.approx(5.2, abs=0.25) and behind == pytest.approx(4.7, abs=0.25)
+    assert before == pytest.approx(4.8, abs=0.25) and behind == pytest.approx(4.7, abs=0.25)
 
 
 def test_between_two_obstacles_the_way_never_leads_back():

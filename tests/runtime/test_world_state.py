@@ -155,9 +155,9 @@ def test_a_state_that_does_not_fit_leaves_the_world_as_it_was(graph):
     world.spawn("dog", (5.0, 3.0, 0.0))
     agent = world.spawn("human", (2.0, 3.0, 0.0))
     saved = world.save()
-    human, plans = saved.agents[agent.name].driver
+    human, *others = saved.agents[agent.name].driver
     broken = dataclasses.replace(
-        saved.agents[agent.name], driver=(human._replace(numbers=human.numbers[:-1]), plans)
+        saved.agents[agent.name], driver=(human._replace(numbers=human.numbers[:-1]), *others)
     )
     world.step(0.1)
     digest = world.state_hash()
@@ -176,8 +176,10 @@ def test_after_a_state_that_does_not_fit_all_are_who_they_were(graph):
     human, dog = world.spawn("human", (2.0, 3.0, 0.0)), world.spawn("dog", (5.0, 3.0, 0.0))
     saved, digest, bodies = world.save(), world.state_hash(), in_the_way(world)
     whole = saved.agents[human.name]
-    human_state, plans = whole.driver
-    short = dataclasses.replace(whole, driver=(human_state._replace(numbers=human_state.numbers[:-1]), plans))
+    human_state, *others = whole.driver
+    short = dataclasses.replace(
+        whole, driver=(human_state._replace(numbers=human_state.numbers[:-1]), *others)
+    )
     goose = dataclasses.replace(saved.agents[dog.name], body="goose")
     for agents in ({"ada": short}, {human.name: whole, "gus": goose}, {human.name: None}):
         with pytest.raises(RuntimeInputError, match="does not fit this release"):

@@ -60,11 +60,9 @@ def compare_connections(graph: NodeGraph, radius: float) -> tuple[int, int]:
 
 def uncovered_cells(graph: NodeGraph) -> int:
     """Cells with enough clearance for a node that lie in no disc that reaches them over links."""
-    surface, ny = graph.surface, graph.surface.shape[1]
-    owner = graph.label
-    x, y = np.divmod(surface.cell_column, ny)
-    offset = np.stack([x - x[graph.node_cell][owner], y - y[graph.node_cell][owner]]) * surface.resolution
-    covered = (owner >= 0) & (np.hypot(*offset) <= graph.radii[owner] + 1e-9)
+    surface, owner = graph.surface, graph.label
+    offset = (surface.centers() - graph.positions[owner])[:, :2]
+    covered = (owner >= 0) & (np.hypot(*offset.T) <= graph.radii[owner] + 1e-9)
     return int((~covered & (surface.clearance >= graph.rules.min_radius)).sum())
 
 

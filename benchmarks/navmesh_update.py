@@ -34,7 +34,7 @@ def agree(one: NodeGraph, other: NodeGraph) -> bool:
     """Whether two graphs have the same nodes, radii, links and obstacles, bit for bit."""
     pairs = [
         (getattr(one, name), getattr(other, name))
-        for name in ("positions", "radii", "label", "edge_start", "edge_target", "edge_width", "edge_portal")
+        for name in ("positions", "radii", "label", "edge_start", "edge_target", "edge_width", "edge_gate")
     ]
     pairs += [(one.surface.nearest, other.surface.nearest), (one.surface.link, other.surface.link)]
     for part in ("obstacles", "links"):

@@ -57,7 +57,9 @@ def portals_of(graph: "NodeGraph", radius: float) -> tuple:
     if radius not in kept:
         if len(kept) >= _KEPT:
             del kept[next(iter(kept))]
-        kept[radius] = open_portals(net_of(graph), graph.edge_width, graph.edge_cells, radius)
+        kept[radius] = open_portals(
+            net_of(graph), graph.edge_width, graph.edge_cells, graph.edge_gate, radius
+        )
     return kept[radius]
 
 

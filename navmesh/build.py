@@ -10,8 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from navmesh import clearance, floors, raster, walls
+from navmesh import blockers, clearance, floors, raster, walls
 from navmesh.errors import NavmeshError
+from navmesh.ridges import field_of
 from navmesh.rules import WalkRules
 from navmesh.surface import Surface
 from navmesh.terrain import Terrain
@@ -51,8 +52,8 @@ class Cells:
     height: np.ndarray
     gradient: np.ndarray
     link: np.ndarray
-    seed: np.ndarray
-    """(n, 2) float64 [m]: vector to the nearest place where walking ends, where it was measured; else inf."""
+    blocker_start: np.ndarray
+    blocker: np.ndarray
 
 
 def lay_grid(bounds: np.ndarray, rules: WalkRules, name: str) -> Grid:
@@ -99,7 +100,7 @@ def find_cells(terrain: Terrain, rules: WalkRules, grid: Grid, window: Window | 
     walls.cut_links_at_walls(
         table, start, triangle, base, cell_column, height, gradient, link, h, ny, rules.headroom
     )
-    seed = clearance.seed_clearance(
+    blocker_start, blocker = blockers.find_blockers(
         table,
         start,
         triangle,
@@ -113,14 +114,16 @@ def find_cells(terrain: Terrain, rules: WalkRules, grid: Grid, window: Window | 
         rules.max_step,
         rules.headroom,
     )
-    return Cells(column_start, cell_column, height, gradient, link, seed)
+    return Cells(column_start, cell_column, height, gradient, link, blocker_start, blocker)
 
 
 def surface_of(cells: Cells, grid: Grid) -> Surface:
     """The surface that ``cells`` make up."""
-    nearest = cells.seed.copy()
-    free = clearance.spread_clearance(cells.column_start, cells.link, nearest, grid.resolution, *grid.shape)
-    return Surface(
+    start, h, (nx, ny) = cells.blocker_start, grid.resolution, grid.shape
+    nearest = blockers.nearest_blockers(start, cells.blocker, cells.cell_column, h, ny)
+    source = np.where(start[1:] > start[:-1], np.arange(len(start) - 1), -1).astype(np.int32)
+    free = clearance.spread_clearance(cells.column_start, cells.link, nearest, source, h, nx, ny)
+    surface = Surface(
         origin=grid.origin,
         resolution=grid.resolution,
         shape=grid.shape,
@@ -131,7 +134,12 @@ def surface_of(cells: Cells, grid: Grid) -> Surface:
         link=cells.link,
         clearance=free,
         nearest=nearest,
+        source=source,
+        blocker_start=start,
+        blocker=cells.blocker,
     )
+    clearance.settle_clearance(field_of(surface))
+    return surface
 
 
 def build_surface(terrain: Terrain, rules: WalkRules) -> Surface:

@@ -3,7 +3,14 @@
 import numpy as np
 from numba import njit
 
+from navmesh.field import centre_of
+from navmesh.ridges import Field, half_width, widest_through
+
 __all__ = ["join_nodes"]
+
+
+_FINE = 0.002
+"""[m] of a passage's half width that are not worth another look."""
 
 
 @njit(cache=True)
@@ -34,73 +41,82 @@ def _border_pairs(label, link, clearance):
 
 
 @njit(cache=True)
-def _assemble(order, key, pair, width, x, y, radii):
+def _widest(order, first, last, pair, width, least, most, field):
+    """Where the widest body passes the border pairs ``order[first:last]`` of one edge, and the pair there:
+    (index of the pair, x, y, radius). Radii up to ``least`` [m] and from ``most`` on are all the same."""
+    best = order[first]
+    for k in range(first + 1, last):
+        if width[order[k]] > width[best]:
+            best = order[k]
+    c, n = pair[best, 0], pair[best, 1]
+    x, y = centre_of(field, c if field.clearance[c] > field.clearance[n] else n)
+    radius = max(width[best], least)
+    for k in range(first, last):
+        c, n = pair[order[k], 0], pair[order[k], 1]
+        if radius + _FINE >= most:
+            break
+        one, other = half_width(field, c), half_width(field, n)
+        bound = min(one, other) if one == np.inf or other == np.inf else max(one, other)
+        if radius + _FINE < bound < np.inf:
+            px, py, passes = widest_through(field, c, n, radius)
+            if passes > radius:
+                best, x, y, radius = order[k], px, py, passes
+    return best, x, y, min(radius, most)
+
+
+@njit(cache=True)
+def _assemble(order, key, pair, width, place, field):
     """CSR arrays of the edges from border pairs that ``order`` sorts by key."""
-    nodes = radii.shape[0]
+    nodes = place.shape[0]
     degree = np.zeros(nodes + 1, np.int32)
-    chosen = np.empty(order.shape[0], np.int32)
+    begin = np.empty(order.shape[0] + 1, np.int32)
     edges = 0
     for k in range(order.shape[0]):
         i = order[k]
-        if edges > 0 and key[chosen[edges - 1]] == key[i]:
-            if width[i] > width[chosen[edges - 1]]:
-                chosen[edges - 1] = i
+        if k > 0 and key[order[k - 1]] == key[i]:
             continue
-        chosen[edges] = i
+        begin[edges] = k
         edges += 1
         degree[key[i] >> 32] += 1
         degree[key[i] & 0xFFFFFFFF] += 1
+    begin[edges] = order.shape[0]
     start = np.zeros(nodes + 1, np.int32)
     for m in range(nodes):
         start[m + 1] = start[m] + degree[m]
     fill = start[:-1].copy()
     target = np.empty(2 * edges, np.int32)
     widest = np.empty(2 * edges)
-    portal = np.empty((2 * edges, 4))
+    gate = np.empty((2 * edges, 2))
     border = np.empty((2 * edges, 2), np.int32)
     for k in range(edges):
-        i = chosen[k]
+        i = order[begin[k]]
         a = np.int32(key[i] >> 32)
         b = np.int32(key[i] & 0xFFFFFFFF)
-        dx, dy = x[b] - x[a], y[b] - y[a]
-        distance = np.hypot(dx, dy)
-        lens = 0.5 * (radii[a] + radii[b] - distance)
-        passes = max(width[i], min(lens, radii[a], radii[b]))
+        one, other = place[a, 2], place[b, 2]
+        lens = 0.5 * (one + other - np.hypot(place[b, 0] - place[a, 0], place[b, 1] - place[a, 1]))
+        i, x, y, passes = _widest(order, begin[k], begin[k + 1], pair, width, lens, min(one, other), field)
         for way in range(2):
-            source, other = (a, b) if way == 0 else (b, a)
+            source, goal = (a, b) if way == 0 else (b, a)
             e = fill[source]
             fill[source] += 1
-            target[e] = other
+            target[e] = goal
             widest[e] = passes
             border[e, 0] = pair[i, way]
             border[e, 1] = pair[i, 1 - way]
-            ux, uy = (dx, dy) if way == 0 else (-dx, -dy)
-            if distance > 0.0:
-                ux /= distance
-                uy /= distance
-            reach = 0.5 * (distance + (radii[source] ** 2 - radii[other] ** 2) / max(distance, 1e-12))
-            reach = min(max(reach, -radii[source]), radii[source])
-            chord = np.sqrt(max(0.0, radii[source] ** 2 - reach * reach))
-            portal[e, 0] = x[source] + reach * ux - chord * uy
-            portal[e, 1] = y[source] + reach * uy + chord * ux
-            portal[e, 2] = x[source] + reach * ux + chord * uy
-            portal[e, 3] = y[source] + reach * uy - chord * ux
-    return start, target, widest, portal, border
+            gate[e, 0] = x
+            gate[e, 1] = y
+    return start, target, widest, gate, border
 
 
 def join_nodes(
-    label: np.ndarray,
-    link: np.ndarray,
-    clearance: np.ndarray,
-    x: np.ndarray,
-    y: np.ndarray,
-    radii: np.ndarray,
+    label: np.ndarray, field: Field, place: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Edges in CSR form, both ways: start (m + 1,), target (e,), width (e,), portal (e, 4), cells (e, 2).
+    """Edges in CSR form, both ways: start (m + 1,), target (e,), width (e,), gate (e, 2), cells (e, 2).
 
-    ``x``, ``y`` and ``radii`` (m,) are the discs; the other arrays are the surface's. The widest body that
-    passes is max((Rᵢ + Rⱼ - d)/2, the clearance of the best pair of linked cells on the labels' border).
+    ``place`` (m, 3) are the discs' x, y and radius [m]; ``label`` says who owns each cell. The widest body
+    that passes is max((Rᵢ + Rⱼ - d)/2, the clearance of the best pair of linked cells on the labels'
+    border); where the sides of a passage face each other, the clearance in its middle instead of the cells'.
     """
-    key, pair, width = _border_pairs(label, link, clearance)
+    key, pair, width = _border_pairs(label, field.link, field.clearance)
     order = np.argsort(key, kind="stable")
-    return _assemble(order, key, pair, width, x, y, radii)
+    return _assemble(order, key, pair, width, place, field)

@@ -1,59 +1,102 @@
 """The clearance field between cell centres: how far a point or a stretch of a line is from where walking
 ends.
 
-Every cell keeps the vector from its centre to the nearest place where walking ends. That place gives the
-distance from anywhere in the cell; the cells to the sides are asked too where a cell is narrow, because
-across the middle of a passage they know the other wall. All coordinates are relative to the surface's origin,
-all distances are horizontal [m].
+Every cell knows which list of blockers (`navmesh.blockers`) has the place where walking ends nearest to its
+centre. The distance from a point is that to all of the list's segments; the lists of the cells to the sides
+are asked too, because across the middle of a passage they know the other wall. All coordinates are relative
+to the surface's origin, all distances are horizontal [m].
 """
 
 from math import sqrt
 
+import numpy as np
 from numba import njit
 
-__all__ = ["cell_at", "centre_of", "floor_at", "gap_at", "same_place", "walk"]
+__all__ = ["cell_at", "centre_of", "floor_at", "gap_at", "same_place", "stretch_gap", "walk"]
 
 
 @njit(error_model="numpy", cache=True, inline="always")
-def _point_gap(vx, vy, ax, ay, ux, uy, low, high):
-    """Least squared distance from the point v to the line from a along the unit vector u, between ``low`` and
-    ``high`` [m] from a, and where on it that is."""
-    s = (vx - ax) * ux + (vy - ay) * uy
-    s = low if s < low else (high if s > high else s)
-    ex = ax + s * ux - vx
-    ey = ay + s * uy - vy
-    return ex * ex + ey * ey, s
+def _to_segment(px, py, ax, ay, bx, by):
+    """Squared distance from p to the segment a-b, and where on it that is (0 to 1)."""
+    ex = bx - ax
+    ey = by - ay
+    length = ex * ex + ey * ey
+    t = ((px - ax) * ex + (py - ay) * ey) / length if length > 0.0 else 0.0
+    t = 0.0 if t < 0.0 else (1.0 if t > 1.0 else t)
+    dx = ax + t * ex - px
+    dy = ay + t * ey - py
+    return dx * dx + dy * dy, t
 
 
-@njit(error_model="numpy", cache=True, inline="always")
-def _stretch_gap(net, k, cx, cy, ax, ay, ux, uy, low, high):
-    """Least distance to where walking ends from the stretch of a line (`_point_gap`) inside cell ``k`` with
-    its centre at c.
+@njit(error_model="numpy", cache=True)
+def _list_gap(net, source, px, py, qx, qy, least, s, x, y):
+    """The least squared distance of the segment p-q to the blockers in the list of cell ``source``, where
+    that is less than ``least``: (squared, where on p-q (0 to 1), the place on the blocker: x, y)."""
+    blocker = net.blocker
+    ux = qx - px
+    uy = qy - py
+    stretch = ux * ux + uy * uy
+    for k in range(net.blocker_start[source], net.blocker_start[source + 1]):
+        ax, ay, bx, by = blocker[k, 0], blocker[k, 1], blocker[k, 2], blocker[k, 3]
+        off, t = _to_segment(px, py, ax, ay, bx, by)
+        if off < least:
+            least, s, x, y = off, 0.0, ax + t * (bx - ax), ay + t * (by - ay)
+        if stretch == 0.0:
+            continue
+        off, t = _to_segment(qx, qy, ax, ay, bx, by)
+        if off < least:
+            least, s, x, y = off, 1.0, ax + t * (bx - ax), ay + t * (by - ay)
+        off, t = _to_segment(ax, ay, px, py, qx, qy)
+        if off < least:
+            least, s, x, y = off, t, ax, ay
+        ex = bx - ax
+        ey = by - ay
+        if ex == 0.0 and ey == 0.0:
+            continue
+        off, t = _to_segment(bx, by, px, py, qx, qy)
+        if off < least:
+            least, s, x, y = off, t, bx, by
+        turn = ux * ey - uy * ex
+        if turn != 0.0:
+            t = ((ax - px) * ey - (ay - py) * ex) / turn
+            w = ((ax - px) * uy - (ay - py) * ux) / turn
+            if 0.0 <= t <= 1.0 and 0.0 <= w <= 1.0:
+                return 0.0, t, px + t * ux, py + t * uy
+    return least, s, x, y
 
-    Returns (squared gap, where on the line, the place where walking ends: x, y).
+
+@njit(error_model="numpy", cache=True)
+def stretch_gap(net, k, cx, cy, ax, ay, ux, uy, low, high):
+    """Least distance to where walking ends from the stretch of a line, from ``low`` to ``high`` [m] along the
+    unit vector u from a, inside cell ``k`` with its centre at c.
+
+    The lists of the cell and of its neighbours on the stretch's side are asked. Returns (squared gap, where
+    on the line, the place where walking ends: x, y).
     """
-    h = net.cell
-    qx = cx + net.nearest[k, 0]
-    qy = cy + net.nearest[k, 1]
-    gap, where = _point_gap(qx, qy, ax, ay, ux, uy, low, high)
-    middle = 0.5 * (low + high)
-    right = ax + middle * ux > cx
-    up = ay + middle * uy > cy
-    side = net.link[k, 0 if right else 2]
+    px, py = ax + low * ux, ay + low * uy
+    qx, qy = ax + high * ux, ay + high * uy
+    right = 0 if px + qx > 2.0 * cx else 2
+    up = 1 if py + qy > 2.0 * cy else 3
+    gap, s, x, y = np.inf, 0.0, np.inf, np.inf
+    first = net.source[k]
+    if first >= 0:
+        gap, s, x, y = _list_gap(net, first, px, py, qx, qy, gap, s, x, y)
+    side, other = net.link[k, right], net.link[k, up]
+    second = third = first
     if side >= 0:
-        vx = cx + net.nearest[side, 0] + (h if right else -h)
-        vy = cy + net.nearest[side, 1]
-        other, s = _point_gap(vx, vy, ax, ay, ux, uy, low, high)
-        if other < gap:
-            gap, where, qx, qy = other, s, vx, vy
-    side = net.link[k, 1 if up else 3]
-    if side >= 0:
-        vx = cx + net.nearest[side, 0]
-        vy = cy + net.nearest[side, 1] + (h if up else -h)
-        other, s = _point_gap(vx, vy, ax, ay, ux, uy, low, high)
-        if other < gap:
-            gap, where, qx, qy = other, s, vx, vy
-    return gap, where, qx, qy
+        second = net.source[side]
+        if second != first and second >= 0:
+            gap, s, x, y = _list_gap(net, second, px, py, qx, qy, gap, s, x, y)
+    if other >= 0:
+        third = net.source[other]
+        if third != first and third != second and third >= 0:
+            gap, s, x, y = _list_gap(net, third, px, py, qx, qy, gap, s, x, y)
+    corner = net.link[side, up] if side >= 0 else (net.link[other, right] if other >= 0 else -1)
+    if corner >= 0:
+        last = net.source[corner]
+        if last != first and last != second and last != third and last >= 0:
+            gap, s, x, y = _list_gap(net, last, px, py, qx, qy, gap, s, x, y)
+    return gap, low + s * (high - low), x, y
 
 
 @njit(error_model="numpy", cache=True, inline="always")
@@ -69,7 +112,7 @@ def gap_at(net, k, x, y):
     """Distance [m] from (x, y), a point in cell ``k``, to the nearest place where walking ends, and that
     place."""
     cx, cy = centre_of(net, k)
-    square, _, qx, qy = _stretch_gap(net, k, cx, cy, x, y, 0.0, 0.0, 0.0, 0.0)
+    square, _, qx, qy = stretch_gap(net, k, cx, cy, x, y, 0.0, 0.0, 0.0, 0.0)
     return sqrt(square), qx, qy
 
 
@@ -191,7 +234,7 @@ def walk(net, k, ax, ay, bx, by, radius, through):
                 free = max(free, _leaves(cx, cy, clearance[k] - margin, ax, ay, ux, uy, s))
             if free < leave:
                 if radius > 0.0:
-                    square, where, px, py = _stretch_gap(net, k, cx, cy, ax, ay, ux, uy, s, leave)
+                    square, where, px, py = stretch_gap(net, k, cx, cy, ax, ay, ux, uy, s, leave)
                     if square < least * least:
                         least, place, qx, qy, tight = sqrt(square), where, px, py, k
                         if least < radius and not through:

@@ -5,15 +5,103 @@ import math
 import numpy as np
 from numba import njit
 
+from navmesh.ledges import GAP, comes_first, floor_at
 from navmesh.raster import FLOOR, SAME_SURFACE, TOUCH, UPRIGHT, is_over
 from navmesh.risers import faces_up, on_riser
 
 __all__ = ["find_floors", "neighbours_within_step"]
 
 
+_LEVELS = 8
+"""Most gaps above each other that are closed in one column."""
+
+
+@njit(cache=True)
+def _with_room(cell_column, height, gradient):
+    """The arrays, twice as long."""
+    count = cell_column.shape[0]
+    more_column, more_height = np.empty(2 * count, np.int32), np.empty(2 * count)
+    more_gradient = np.empty((2 * count, 2))
+    more_column[:count], more_height[:count], more_gradient[:count] = cell_column, height, gradient
+    return more_column, more_height, more_gradient
+
+
+@njit(cache=True)
+def _nearest_on(table, f, x, y):
+    """The place on the outline of a triangle, seen from above, that is nearest to (x, y): (distance, x,
+    y)."""
+    least, at_x, at_y = np.inf, x, y
+    for k in range(3):
+        j = 3 * k + 3 if k < 2 else 0
+        ax, ay = table[f, 3 * k], table[f, 3 * k + 1]
+        ex, ey = table[f, j] - ax, table[f, j + 1] - ay
+        length = ex * ex + ey * ey
+        t = min(max(((x - ax) * ex + (y - ay) * ey) / length, 0.0), 1.0) if length > 0.0 else 0.0
+        away = math.hypot(ax + t * ex - x, ay + t * ey - y)
+        if away < least:
+            least, at_x, at_y = away, ax + t * ex, ay + t * ey
+    return least, at_x, at_y
+
+
+@njit(cache=True)
+def _close_gaps(
+    table, start, triangle, resolution, ny, c, x, y, hit, hits, step, headroom,
+    cell_column, height, gradient, first, cells,
+):  # fmt: skip
+    """Add a cell to column ``c`` for each floor whose gap, narrower than `GAP`, holds the centre (x, y).
+
+    ``hit`` (hits, 4) are the mesh parts over the centre; the column's cells begin at ``first``. Returns the
+    new number of cells.
+    """
+    tried = np.empty(_LEVELS)
+    for turn in range(_LEVELS):
+        best, chosen, at_x, at_y, z = GAP, -1, x, y, 0.0
+        for k in range(start[c], start[c + 1]):
+            f = triangle[k]
+            if table[f, 14] != FLOOR:
+                continue
+            level = table[f, 9] * x + table[f, 10] * y + table[f, 11]
+            known = False
+            for i in range(first, cells):
+                known |= abs(height[i] - level) <= step
+            for i in range(turn):
+                known |= abs(tried[i] - level) <= step
+            if known:
+                continue
+            away, px, py = _nearest_on(table, f, x, y)
+            if away < best or (away == best and chosen >= 0 and comes_first(table, f, chosen)):
+                best, chosen, at_x, at_y, z = away, f, px, py, level
+        if chosen < 0:
+            break
+        tried[turn] = z
+        if best < 1e-12:
+            continue
+        free = True
+        for j in range(hits):
+            free &= not z + SAME_SURFACE < hit[j, 0] < z + headroom
+        beyond = GAP / best
+        if not free or (
+            floor_at(
+                table, start, triangle, resolution, ny,
+                at_x + beyond * (x - at_x), at_y + beyond * (y - at_y), z, step, headroom,
+            ) < 0
+        ):  # fmt: skip
+            continue
+        at = cells
+        while at > first and height[at - 1] > z:
+            height[at] = height[at - 1]
+            gradient[at, 0], gradient[at, 1] = gradient[at - 1, 0], gradient[at - 1, 1]
+            at -= 1
+        height[at] = z
+        gradient[at, 0], gradient[at, 1] = table[chosen, 9], table[chosen, 10]
+        cell_column[cells] = c
+        cells += 1
+    return cells
+
+
 @njit(cache=True)
 def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroom):
-    """Rule 1 at the centre of every column.
+    """Rule 1 at the centre of every column; one in a gap narrower than `navmesh.ledges.GAP` is on its floor.
 
     ``table``, ``start``, ``triangle`` come from `navmesh.raster`; ``slope`` is the tangent of the steepest
     slope walked on. Returns ``column_start`` (nx·ny + 1,) int32, ``cell_column`` (n,) int32, ``height`` (n,)
@@ -24,7 +112,7 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
     most = 1
     for c in range(columns):
         most = max(most, start[c + 1] - start[c])
-    limit = triangle.shape[0]
+    limit = triangle.shape[0] + _LEVELS
     cell_column = np.empty(limit, np.int32)
     height = np.empty(limit, np.float64)
     gradient = np.empty((limit, 2), np.float64)
@@ -56,10 +144,8 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
             walkable |= hit[hits, 3] != UPRIGHT
             face[hits] = f
             hits += 1
-        if not walkable:
-            continue
         first = cells
-        for i in range(hits):
+        for i in range(hits if walkable else 0):
             if hit[i, 3] == UPRIGHT:
                 continue
             z = hit[i, 0]
@@ -96,6 +182,12 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
             gradient[at, 1] = cut * hit[i, 2]
             cell_column[cells] = c
             cells += 1
+        if cells + _LEVELS > cell_column.shape[0]:
+            cell_column, height, gradient = _with_room(cell_column, height, gradient)
+        cells = _close_gaps(
+            table, start, triangle, resolution, ny, c, x, y, hit, hits, step, headroom,
+            cell_column, height, gradient, first, cells,
+        )  # fmt: skip
     column_start[columns] = cells
     return column_start, cell_column[:cells].copy(), height[:cells].copy(), gradient[:cells].copy()
 

@@ -18,6 +18,7 @@ from navmesh.links import Links, make_links
 from navmesh.obstacle_rules import ObstacleRules
 from navmesh.obstacles import Obstacles
 from navmesh.pathfinding import PathSearch
+from navmesh.ridges import field_of
 from navmesh.route import Route, Routes
 from navmesh.rules import WalkRules
 from navmesh.stages import Stages, all_soundings, grid_for, renew_cells
@@ -48,11 +49,12 @@ class NodeGraph:
     rules: WalkRules
     surface: Surface
     positions: np.ndarray
-    """(m, 3) float64 [m], world coordinates of the nodes: points of the surface, centres of cells."""
+    """(m, 3) float64 [m], world coordinates of the nodes: points of the surface, centres of cells or, in a
+    narrow passage, its middle."""
     radii: np.ndarray
     """(m,) float64 [m]: horizontal distance from the node to the nearest place where walking ends."""
     node_cell: np.ndarray
-    """(m,) int32: the cell that the node is the centre of."""
+    """(m,) int32: the cell that the node lies in."""
     label: np.ndarray
     """(n,) int32: the node that owns each cell of the surface (least d² - r² of the discs that hold it);
     -1 for cells in no disc, which have less clearance than `WalkRules.min_radius`."""
@@ -62,9 +64,9 @@ class NodeGraph:
     """(e,) int32: the node that an edge leads to. Every edge has its reverse."""
     edge_width: np.ndarray
     """(e,) float64 [m]: radius of the widest body that passes."""
-    edge_portal: np.ndarray
-    """(e, 4) float64 [m]: chord in which the two discs overlap, as x, y of its left and x, y of its right end
-    seen along the edge, relative to surface.origin. Both ends coincide where the discs do not overlap."""
+    edge_gate: np.ndarray
+    """(e, 2) float64 [m]: x, y of the place on the border of the two labels that the widest body passes,
+    relative to surface.origin."""
     edge_cells: np.ndarray
     """(e, 2) int32: linked cells on the border of the two labels with the most clearance: the first is
     owned by the edge's source, the second by its target."""
@@ -148,19 +150,14 @@ class NodeGraph:
         """The graph of ``cells``; soundings as ``before``, where it is given, but around ``changed``
         bounds."""
         surface = surface_of(cells, grid)
-        h, ny = surface.resolution, surface.shape[1]
-        order = nodes.order_by_clearance(surface.clearance, h / 64)
-        node_cell, label = nodes.select_nodes(order, surface.clearance, surface.link, h, rules.min_radius)
+        field_arrays = field_of(surface)
+        order = nodes.order_by_clearance(surface.clearance, surface.resolution / 64)
+        node_cell, place, label = nodes.select_nodes(order, field_arrays, rules.min_radius)
         if len(node_cell) == 0:
             raise NavmeshError(
                 f"{terrain.name}: no place on it has a clearance of min_radius = {rules.min_radius:g} m"
             )
-        radii = surface.clearance[node_cell]
-        ix, iy = np.divmod(surface.cell_column[node_cell], ny)
-        x, y = (ix + 0.5) * h, (iy + 0.5) * h
-        start, target, width, portal, border = edges.join_nodes(
-            label, surface.link, surface.clearance, x, y, radii
-        )
+        start, target, width, gate, border = edges.join_nodes(label, field_arrays, place)
         obstacles, soundings = Obstacles.empty(), None
         if obstacle_rules is not None:
             soundings, probes = all_soundings(before, changed, terrain, surface, rules, obstacle_rules)
@@ -171,14 +168,14 @@ class NodeGraph:
             terrain=terrain,
             rules=rules,
             surface=surface,
-            positions=surface.centers(node_cell),
-            radii=radii,
+            positions=surface.lifted(place[:, :2], node_cell),
+            radii=place[:, 2].copy(),
             node_cell=node_cell,
             label=label,
             edge_start=start,
             edge_target=target,
             edge_width=width,
-            edge_portal=portal,
+            edge_gate=gate,
             edge_cells=border,
             obstacles=obstacles,
             links=make_links(obstacles, surface, rules, (obstacle_rules or _OBSTACLE_RULES).body_radius),

@@ -56,6 +56,9 @@ _SURFACE: dict[str, Array] = {
     "link": Indices("cells", 4, into="cells", none=True),
     "clearance": Numbers("cells", low=0.0),
     "nearest": Numbers("cells", 2),
+    "source": Indices("cells", into="cells", none=True),
+    "blocker_start": Offsets("cells", into="blockers"),
+    "blocker": Numbers("blockers", 4),
 }
 _GRAPH: dict[str, Array] = {
     "positions": Numbers("nodes", 3),
@@ -65,7 +68,7 @@ _GRAPH: dict[str, Array] = {
     "edge_start": Offsets("nodes", into="edges"),
     "edge_target": Indices("edges", into="nodes"),
     "edge_width": Numbers("edges", low=0.0),
-    "edge_portal": Numbers("edges", 4),
+    "edge_gate": Numbers("edges", 2),
     "edge_cells": Indices("edges", 2, into="cells"),
 }
 _OBSTACLES: dict[str, Array] = {
@@ -196,7 +199,7 @@ def _apart(header: _GraphHeader, arrays: dict[str, np.ndarray], name: str, cells
 
 GRAPH_FILE = Schema(
     kind="surefoot navigation graph",
-    version=4,
+    version=5,
     header=_GraphHeader,
     arrays={prefix + name: array for prefix, part in _PARTS.items() for name, array in part.items()},
     remedy="bake it again",

@@ -7,7 +7,11 @@ from numba import njit
 
 from navmesh.raster import FLOOR, SAME_SURFACE, TOUCH, UPRIGHT, is_over
 
-__all__ = ["comes_first", "floor_at", "floor_end"]
+__all__ = ["GAP", "comes_first", "floor_at", "floor_end"]
+
+GAP = 0.1
+"""[m] Gaps in the floor that are narrower than this are floor: a foot that comes down on one is held by both
+sides."""
 
 
 @njit(cache=True)
@@ -24,6 +28,8 @@ def floor_at(table, start, triangle, resolution, ny, x, y, z, step, headroom):
     """The prepared triangle that is floor (rule 1) at (x, y) within ``step`` of z, or -1."""
     column = math.floor(x / resolution) * ny + math.floor(y / resolution)
     chosen = -1
+    if column < 0 or column >= start.shape[0] - 1:  # beyond the grid
+        return chosen
     at = -np.inf
     for k in range(start[column], start[column + 1]):
         f = triangle[k]

@@ -3,6 +3,9 @@
 import numpy as np
 from numba import njit
 
+from navmesh.field import centre_of
+from navmesh.ridges import half_width, middle_beside
+
 __all__ = ["order_by_clearance", "select_nodes"]
 
 
@@ -47,34 +50,46 @@ def _claim_line(clearance, link, label, power, node, radius, c, d, dx, dy, resol
 
 
 @njit(cache=True)
-def select_nodes(order, clearance, link, resolution, least):
+def select_nodes(order, field, least):
     """Greedy cover by maximal discs, (almost) largest first.
 
-    ``order`` (n,) int32: cells by falling clearance (`order_by_clearance`). A cell with at least ``least``
-    clearance that no disc as wide as itself covers becomes the centre of one. Returns ``node_cell`` (m,)
-    int32 and ``label`` (n,) int32: of the nodes that cover a cell the one in whose disc it is deepest
-    (least d² - r²), or -1.
+    ``order`` (n,) int32: cells by falling clearance (`order_by_clearance`); ``field`` is a
+    `navmesh.ridges.Field`. A cell with at least ``least`` clearance that no disc as wide as itself covers
+    becomes the place of one: its centre or, between opposite sides, the middle of the passage. Returns
+    ``node_cell`` (m,) int32, ``place`` (m, 3) float64, x, y and radius [m], and ``label`` (n,) int32: of the
+    nodes that cover a cell the one in whose disc it is deepest (least d² - r²), or -1.
     """
+    clearance, link, resolution = field.clearance, field.link, field.cell
     cells = clearance.shape[0]
     label = np.full(cells, -1, np.int32)
     power = np.full(cells, np.inf)
     node_cell = np.empty(cells, np.int32)
+    place = np.empty((cells, 3))
     nodes = 0
-    for k in range(cells):
-        c = order[k]
-        r = clearance[c]
-        if r < least or label[c] >= 0:
+    for at in range(cells):
+        c = order[at]
+        if label[c] >= 0:
             continue
-        node_cell[nodes] = c
+        k, r = c, clearance[c]
+        x, y = centre_of(field, c)
+        if half_width(field, c) < np.inf:
+            k, x, y, r = middle_beside(field, c)
+        if r < least:
+            continue
+        cx, cy = centre_of(field, k)
+        node_cell[nodes] = k
+        place[nodes, 0], place[nodes, 1], place[nodes, 2] = x, y, r
         for d in range(0, 3, 2):
             step = resolution if d == 0 else -resolution
-            spine = c if d == 0 else link[c, 2]
-            dx = 0.0 if d == 0 else -resolution
+            spine = k if d == 0 else link[k, 2]
+            dx = cx - x if d == 0 else cx - x - resolution
             while spine >= 0 and dx * dx <= r * r:
-                _claim_line(clearance, link, label, power, nodes, r, spine, 1, dx, 0.0, resolution)
+                _claim_line(clearance, link, label, power, nodes, r, spine, 1, dx, cy - y, resolution)
                 below = link[spine, 3]
-                _claim_line(clearance, link, label, power, nodes, r, below, 3, dx, -resolution, resolution)
+                dy = cy - y - resolution
+                _claim_line(clearance, link, label, power, nodes, r, below, 3, dx, dy, resolution)
                 spine = link[spine, d]
                 dx += step
+        label[c] = nodes  # also where the disc is too small to hold the cell's centre
         nodes += 1
-    return node_cell[:nodes].copy(), label
+    return node_cell[:nodes].copy(), place[:nodes].copy(), label

@@ -22,6 +22,7 @@ from navmesh.detour import detour
 from navmesh.field import centre_of, floor_at, gap_at, same_place, walk
 from navmesh.funnel import funnel, round_corner, tangents
 from navmesh.portals import MARGIN
+from navmesh.ridges import middle
 from navmesh.tightening import tighten
 
 __all__ = ["pull"]
@@ -43,6 +44,8 @@ def _push(net, k, x, y, qx, qy, radius):
     target = radius * (1.0 + MARGIN)
     enough = radius * (1.0 + _SLACK)
     gap = 0.0
+    first = k
+    ax, ay = x, y
     for _ in range(4):
         dx = x - qx
         dy = y - qy
@@ -58,6 +61,10 @@ def _push(net, k, x, y, qx, qy, radius):
         gap, qx, qy = gap_at(net, k, x, y)
         if gap >= enough:
             return True, x, y, k
+    if gap < radius:  # pushed to and fro: the passage is hardly wider than the body
+        _, x, y, gap = middle(net, first, ax, ay, net.cell)
+        reached, k = walk(net, first, ax, ay, x, y, 0.0, True)[:2]
+        gap = gap_at(net, k, x, y)[0] if reached else 0.0
     return gap >= radius, x, y, k
 
 
@@ -182,6 +189,16 @@ def _round(net, doors, scratch, low, high, ax, ay, bx, by, place):
 
 
 @njit(error_model="numpy", cache=True)
+def _fits_on(net, scratch, count, x, y, radius):
+    """Whether a body of ``radius`` gets straight from the last of ``count`` corners to (x, y)."""
+    k = np.int64(scratch.cells[count - 1])
+    reached, _, gap = walk(
+        net, k, scratch.points[count - 1, 0], scratch.points[count - 1, 1], x, y, radius, True
+    )[:3]
+    return reached and gap >= radius * (1.0 - 1e-9)
+
+
+@njit(error_model="numpy", cache=True)
 def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_try):
     """Add a walked line from the leg's last corner to g, through nodes[low:high].
 
@@ -240,7 +257,11 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_
             if net.clearance[at] < radius:
                 gap, qx, qy = gap_at(net, at, x, y)
                 _, x, y, at = _push(net, at, x, y, qx, qy, radius)
+            if not _fits_on(net, scratch, count, x, y, radius):
+                return count, _NO_WAY
             count = _append(net, doors, scratch, first, count, x, y, at)
+        if not _fits_on(net, scratch, count, bx, by, radius):
+            return count, _NO_WAY
         count = _append(net, doors, scratch, first, count, bx, by, target)
         height -= 1
     return count, _FITS

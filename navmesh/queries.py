@@ -16,6 +16,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 
+from navmesh.bodies import portals_of
 from navmesh.errors import NavmeshError
 from navmesh.field import centre_of, floor_at, gap_at, walk
 from navmesh.snapping import roomy_cell
@@ -252,10 +253,11 @@ def _components(graph: "NodeGraph", radius: float) -> np.ndarray:
     """Number (m,) of the part of the graph that each node belongs to for a body of ``radius``, or -1."""
     key = f"parts for radius {radius!r}"
     if key not in graph.cache:
-        source = np.repeat(np.arange(len(graph)), np.diff(graph.edge_start))
+        door_start, door_target = portals_of(graph, radius)[:2]
+        source = np.repeat(np.arange(len(graph)), np.diff(door_start))
         fits = graph.radii >= radius
-        passes = (graph.edge_width >= radius) & fits[source] & fits[graph.edge_target]
-        pairs = (source[passes], graph.edge_target[passes])
+        passes = fits[source] & fits[door_target]
+        pairs = (source[passes], door_target[passes])
         matrix = coo_array((np.ones(len(pairs[0]), dtype=bool), pairs), shape=(len(graph), len(graph)))
         graph.cache[key] = np.where(fits, connected_components(matrix, directed=False)[1], -1)
     return graph.cache[key]

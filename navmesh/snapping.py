@@ -68,7 +68,7 @@ def roomy_cell(net, k, x, y, radius, reach):
 @njit(error_model="numpy", cache=True)
 def _node_at(net, k, x, y, radius):
     """The node that a body at (x, y) in cell ``k`` starts from: that of the cell, or of a cell beside it that
-    the body can go straight to the centre of; -1 where there is none."""
+    the body can go straight to the centre of, or of the node itself; -1 where there is none."""
     if net.clearance[k] >= radius and net.label[k] >= 0:
         return net.label[k]
     best = -1
@@ -88,6 +88,11 @@ def _node_at(net, k, x, y, radius):
                 if reached and same_place(net, end, other):
                     least = off
                     best = net.label[other]
+    node = net.label[k]
+    if best < 0 and node >= 0 and net.node_radius[node] >= radius:  # in a passage too narrow for the centres
+        px, py = net.position[node, 0], net.position[node, 1]
+        if walk(net, k, x, y, px, py, 0.999 * radius, False)[0]:
+            best = node
     return best
 
 

@@ -15,13 +15,19 @@ def splice(old: Cells, new: Cells, window: Window, ny: int) -> Cells:
     )
     count = len(cell_column)
     height, gradient, link = np.empty(count), np.empty((count, 2)), np.empty((count, 4), np.int32)
-    seed = np.empty((count, 2))
+    blocker_start = np.zeros(count + 1, np.int32)
+    for part, at in ((old, old_at), (new, new_at)):
+        kept = at >= 0
+        blocker_start[1:][at[kept]] = np.diff(part.blocker_start)[kept]
+    blocker_start = np.cumsum(blocker_start, dtype=np.int32)
+    blocker = np.empty((blocker_start[-1], 4))
     for part, at in ((old, old_at), (new, new_at)):
         _copy(
-            part.column_start, part.cell_column, part.height, part.gradient, part.link, part.seed, at,
-            column_start, height, gradient, link, seed,
+            part.column_start, part.cell_column, part.height, part.gradient, part.link,
+            part.blocker_start, part.blocker, at,
+            column_start, height, gradient, link, blocker_start, blocker,
         )  # fmt: skip
-    return Cells(column_start, cell_column, height, gradient, link, seed)
+    return Cells(column_start, cell_column, height, gradient, link, blocker_start, blocker)
 
 
 @njit(cache=True)
@@ -53,15 +59,17 @@ def _places(old_start, new_start, window, ny):
 
 @njit(cache=True)
 def _copy(
-    start, owner, height, gradient, link, seed, at, whole_start, to_height, to_gradient, to_link, to_seed
-):
+    start, owner, height, gradient, link, blocker_start, blocker, at,
+    whole_start, to_height, to_gradient, to_link, to_blocker_start, to_blocker,
+):  # fmt: skip
     for k in range(len(at)):
         n = at[k]
         if n < 0:
             continue
         to_height[n] = height[k]
         to_gradient[n, 0], to_gradient[n, 1] = gradient[k, 0], gradient[k, 1]
-        to_seed[n, 0], to_seed[n, 1] = seed[k, 0], seed[k, 1]
+        for i in range(blocker_start[k + 1] - blocker_start[k]):
+            to_blocker[to_blocker_start[n] + i] = blocker[blocker_start[k] + i]
         for d in range(4):
             m = link[k, d]
             # the same one of its column's cells: also where that column is from the other part

@@ -39,6 +39,9 @@ NET = BundleType(
     ny=int64,
     column_start=int32[::1],
     cells=rows(_CELL),
+    source=int32[::1],
+    blocker_start=int32[::1],
+    blocker=float64[:, ::1],
     nodes=rows(_NODE),
     node_cell=int32[::1],
     edge_start=int32[::1],
@@ -47,8 +50,9 @@ NET = BundleType(
 """The surface and the graph.
 
 cell: side of a grid square [m]; nx, ny: columns. Of `Surface`: column_start (nx*ny + 1,) and, for each cell,
-cell_column, height, gradient (2 float32), link (4), clearance, nearest (2). Of `NodeGraph`: label of each
-cell; position (3), node_radius and node_cell of each node; edge_start (m + 1,), edge_target (e,).
+cell_column, height, gradient (2 float32), link (4), clearance, nearest (2), source; blocker_start (n + 1,),
+blocker (k, 4). Of `NodeGraph`: label of each cell; position (3), node_radius and node_cell of each node;
+edge_start (m + 1,), edge_target (e,).
 """
 
 DOORS = BundleType(
@@ -155,6 +159,9 @@ def net_of(graph: "NodeGraph") -> Any:
                 cell_column=surface.cell_column,
                 gradient=surface.gradient,
             ),
+            source=surface.source,
+            blocker_start=surface.blocker_start,
+            blocker=surface.blocker,
             nodes=_table(_NODE, position=graph.positions - surface.origin, node_radius=graph.radii),
             node_cell=graph.node_cell,
             edge_start=graph.edge_start,

@@ -41,6 +41,13 @@ class Surface:
     """(n,) float64 [m]: horizontal distance from the cell's centre to where walking ends."""
     nearest: np.ndarray
     """(n, 2) float64 [m]: the vector from the cell's centre to that place; its length is `clearance`."""
+    source: np.ndarray
+    """(n,) int32: the cell that has that place in its list of blockers, or -1 where walking ends nowhere."""
+    blocker_start: np.ndarray
+    """(n + 1,) int32: the blockers beside cell c are blocker_start[c]:blocker_start[c + 1]."""
+    blocker: np.ndarray
+    """(k, 4) float64 [m]: x, y of both ends of a segment at which walking ends, exact; see
+    `navmesh.blockers`."""
 
     def __len__(self) -> int:
         return len(self.cell_column)
@@ -52,3 +59,10 @@ class Surface:
         ix, iy = np.divmod(columns, self.shape[1])
         half = np.stack([ix + 0.5, iy + 0.5], axis=1) * self.resolution
         return np.column_stack([half, heights]) + self.origin
+
+    def lifted(self, places: np.ndarray, cells: np.ndarray) -> np.ndarray:
+        """World coordinates (k, 3) float64 of ``places`` (k, 2) [m], relative to the origin, on the floor of
+        ``cells`` (k,)."""
+        centers = self.centers(cells) - self.origin
+        rise = np.einsum("ij,ij->i", places - centers[:, :2], self.gradient[cells])
+        return np.column_stack([places, centers[:, 2] + rise]) + self.origin

@@ -113,7 +113,7 @@ def _crosses_polygon(polygon, count, ax, ay, bx, by):
                 one == 0.0 and two == 0.0 and p == 0.0 and r == 0.0
             ):
                 return True
-            if one == 0.0 and two == 0.0:
+            if one == 0.0 and two == 0.0 and p == 0.0 and r == 0.0:
                 lowest = min(
                     (polygon[k, 0] - ax) * ex + (polygon[k, 1] - ay) * ey,
                     (polygon[j, 0] - ax) * ex + (polygon[j, 1] - ay) * ey,

@@ -63,11 +63,14 @@ def dense_walk(
             if cell < 0:
                 return False, cell, -1.0
             ix, iy = divmod(int(surface.cell_column[cell]), surface.shape[1])
-        around = {cell, *(int(k) for k in surface.link[cell] if k >= 0)}
-        for k in around:
-            kx, ky = divmod(int(surface.cell_column[k]), surface.shape[1])
-            centre = (np.array([kx, ky]) + 0.5) * surface.resolution
-            least = min(least, float(np.linalg.norm(p - centre - surface.nearest[k])))
+        beside = [int(k) for k in surface.link[cell] if k >= 0]
+        around = {cell, *beside, *(int(k) for other in beside for k in surface.link[other] if k >= 0)}
+        for k in {int(surface.source[k]) for k in around} - {-1}:
+            for ax, ay, bx, by in surface.blocker[surface.blocker_start[k] : surface.blocker_start[k + 1]]:
+                along = np.array([bx - ax, by - ay])
+                t = (p - (ax, ay)) @ along / max(along @ along, 1e-18)
+                nearest = np.array([ax, ay]) + min(max(t, 0.0), 1.0) * along
+                least = min(least, float(np.linalg.norm(p - nearest)))
     return True, cell, least
 
 

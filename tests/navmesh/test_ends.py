@@ -11,8 +11,8 @@ from shapes import box, join, plane
 from benchmarks.visibility import Boxes, boxes_level, gaps_to_boxes, random_boxes
 from navmesh import NodeGraph, Terrain, WalkRules
 
-FIELD_ERROR = 0.0625
-"""[m], a quarter of a cell: by so much the clearance field may read too wide, see docs/navmesh.md."""
+FIELD_ERROR = 0.03
+"""[m] by which the clearance field may read too wide, see docs/navmesh.md."""
 
 
 def platform(rng: np.random.Generator) -> tuple[NodeGraph, np.ndarray, float]:

@@ -26,9 +26,8 @@ from navmesh.snapping import snap
 from navmesh.structs import make_scratch, net_of
 
 RADII = st.sampled_from([0.15, 0.3, 0.6, 0.9])
-FIELD_ERROR = 0.07
-"""[m] by which the clearance field may read too wide: a cell knows a point of what ends walking, not its
-whole outline. It never reads too narrow."""
+FIELD_ERROR = 0.002
+"""[m] by which the clearance field may read too wide, see docs/navmesh.md. It never reads too narrow."""
 SEEDS = st.integers(0, 10_000)
 
 
@@ -91,7 +90,7 @@ def test_search_agrees_with_the_plain_one(seed: int) -> None:
     net, origin = net_of(graph), graph.surface.origin
     doors, scratch = doors_of(graph, 0.3, None, None), make_scratch(graph)
     start, target, portal = portals_of(graph, 0.3)[:3]
-    checked = 0
+    checked = longer = 0
     for _ in range(12):
         s, g = np.column_stack([rng.uniform(0.5, 13.5, (2, 2)), np.zeros(2)])
         first, _, sx, sy = snap(net, *(s - origin), 0.3, 1.1, 1.8, 0.2)
@@ -105,9 +104,10 @@ def test_search_agrees_with_the_plain_one(seed: int) -> None:
         if found is not None:
             total = scratch.labels["total"][scratch.numbers[BEST]]
             # a label knows the funnel's two corners, not all portals: it may promise a little too much
-            assert 0.95 * found[0] < total < 1.01 * found[0]
+            assert 0.95 * found[0] < total < 1.05 * found[0]
+            longer += total > 1.01 * found[0]
             checked += 1
-    assert checked >= 4
+    assert checked >= 4 and longer <= 1
 
 
 @pytest.mark.parametrize("storeys", [1, 2])

@@ -6,7 +6,7 @@ import pytest
 from benchmarks.thin_walls import count_crossings
 
 
-@pytest.mark.parametrize("radius", [0.2, 0.3, 0.6])
+@pytest.mark.parametrize("radius", [0.1, 0.12, 0.15, 0.2, 0.3, 0.6])
 def test_no_leg_crosses_a_thin_wall(radius: float) -> None:
     crossings, legs = count_crossings(range(700, 706), radius, 60)
     assert legs > 300

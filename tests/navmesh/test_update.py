@@ -48,7 +48,7 @@ def assert_same(graph: NodeGraph, built: NodeGraph) -> None:
     """Bit for bit."""
     for name in ("positions", "radii", "node_cell", "label", "edge_start", "edge_target", "edge_width"):
         np.testing.assert_array_equal(getattr(graph, name), getattr(built, name), name)
-    for name in ("edge_portal", "edge_cells"):
+    for name in ("edge_gate", "edge_cells"):
         np.testing.assert_array_equal(getattr(graph, name), getattr(built, name), name)
     for name in ("origin", "column_start", "height", "gradient", "link", "clearance", "nearest"):
         np.testing.assert_array_equal(getattr(graph.surface, name), getattr(built.surface, name), name)
@@ -128,10 +128,10 @@ def test_a_chunk_with_nothing_around_it_is_removed():
 
 def test_the_graph_before_stays_as_it_is():
     graph = NodeGraph.build(join_chunks({"a": piece("floor", (0, 0)), "b": piece("floor", (1, 0))}))
-    before = graph.positions.copy(), graph.surface.nearest.copy(), graph.stages.cells.seed.copy()
+    before = graph.positions.copy(), graph.surface.nearest.copy(), graph.stages.cells.blocker.copy()
     graph.update({"b": piece("wall", (1, 0))})
     for old, now in zip(
-        before, (graph.positions, graph.surface.nearest, graph.stages.cells.seed), strict=True
+        before, (graph.positions, graph.surface.nearest, graph.stages.cells.blocker), strict=True
     ):
         np.testing.assert_array_equal(old, now)
 

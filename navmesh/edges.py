@@ -9,6 +9,8 @@ from navmesh.ridges import Field, half_width, widest_through
 __all__ = ["join_nodes"]
 
 
+_WIDE = 1.5
+"""[m] Passages this wide are known well enough by their cells: no body is as wide."""
 _FINE = 0.002
 """[m] of a passage's half width that are not worth another look."""
 
@@ -53,7 +55,7 @@ def _widest(order, first, last, pair, width, least, most, field):
     radius = max(width[best], least)
     for k in range(first, last):
         c, n = pair[order[k], 0], pair[order[k], 1]
-        if radius + _FINE >= most:
+        if radius >= _WIDE or radius + _FINE >= most:
             break
         one, other = half_width(field, c), half_width(field, n)
         bound = min(one, other) if one == np.inf or other == np.inf else max(one, other)

@@ -73,8 +73,8 @@ def test_a_clip_that_does_not_repeat_holds_its_ends(tmp_path: Path) -> None:
         ("[1.0, 0]]", "[1.5, 0]]", "from 0 to 1 .share of the duration., not 1.5"),
         ("[1.0, 0]]", "[1.0, 0, 0]]", "at most 2"),
         ("[1.0, 0]]", "5]", r"must be a pair \[share of the duration, degrees\], not 5"),
-        ("[0.5, 20]", f"[0.5, {'9' * 400}]", r"degrees, not 9{30,}\.\.\."),
-        ("[0.5, 20]", f"[0.5, {'9' * 5000}]", r"'9{30,}\.\.\. is not a valid int"),
+        ("[0.5, 20]", f"[0.5, {'9' * 400}]", r"9{30,}\.\.\. has 400 characters"),
+        ("[0.5, 20]", f"[0.5, {'9' * 5000}]", r"9{30,}\.\.\. has 5000 characters"),
         ("[[0.0, 0], [0.5, 20], [1.0, 0]]", "[]", "0 keyframes; at least 1"),
         ("\n  neck_pitch: [[0.0, 0], [0.5, 20], [1.0, 0]]", " {}", "channels"),
         ("duration: 2.0", "duration: -1", "duration"),
@@ -84,7 +84,7 @@ def test_a_clip_that_does_not_repeat_holds_its_ends(tmp_path: Path) -> None:
             "4:11: duration: must be a number from 0.001 to 120 s, not 2000",
         ),
         ("duration: 2.0", "duration: 1.0e+9", "from 0.001 to 120 s"),
-        ("duration: 2.0", f"duration: {'9' * 400}", "from 0.001 to 120 s"),
+        ("duration: 2.0", f"duration: {'9' * 400}", "has 400 characters"),
         ("duration: 2.0", "duration: true", "from 0.001 to 120 s, not True"),
         ("speed: 0.0", "speed: 350", "speed: must be a number from 0 to 20 m/s, not 350"),
         ("height: 0.9", "height: 92", "root.height: must be a number from 0 to 3 m, not 92"),
@@ -119,7 +119,7 @@ def test_brackets_within_brackets_are_no_clip(tmp_path: Path) -> None:
     path = tmp_path / "deep.yaml"
     for depth in (500, 50_000):
         path.write_text("[" * depth + "]" * depth)
-        with pytest.raises(LocomotionError, match="nested too deeply for a clip"):
+        with pytest.raises(LocomotionError, match="nested (more than 50 levels deep|too deeply for a clip)"):
             load_clip(path)
 
 

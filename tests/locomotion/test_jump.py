@@ -156,9 +156,9 @@ def test_truncated(tmp_path, skill):
 @pytest.mark.parametrize(
     "change, message",
     [
-        (lambda skill: dict(table=skill.table[:, :5]), "do not fit"),
-        (lambda skill: dict(table=np.nan * skill.table), "not finite"),
-        (lambda skill: dict(heights=skill.heights[::-1]), "do not grow"),
+        (lambda skill: dict(table=skill.table[:, :5]), "expected 243 on axis 1"),
+        (lambda skill: dict(table=np.nan * skill.table), "expected a finite number"),
+        (lambda skill: dict(heights=skill.heights[::-1]), "heights does not grow"),
     ],
 )
 def test_contents_that_do_not_fit(tmp_path, skill, change, message):

@@ -75,7 +75,9 @@ def test_a_skill_of_ones_own_that_no_run_up_comes_to_is_not_written(tmp_path, mo
 
 def all_but_the_last(monkeypatch, last, arrays):
     """What was found before the search ``last``, by each one."""
-    monkeypatch.setattr(Training, "recall", lambda self, kind, number: arrays() if number < last else None)
+    monkeypatch.setattr(
+        Training, "recall", lambda self, kind, number, kinds: arrays() if number < last else None
+    )
 
 
 def vaulted():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from locomotion import Ground, Human, LocomotionError, controller
-from locomotion.events import Cleared, SetOff, TookOff
+from locomotion.events import Cleared, SetOff, TookOff, WentBack
 from locomotion.human_state import MOVING
 from locomotion.skill import load_run_skill
 from locomotion.speed_up import SPEED_UP_SKILL, load_speed_up_skill
@@ -91,7 +91,7 @@ def test_it_goes_back_for_a_run_up_that_is_too_short():
             back = max(back, here - human.position[0])
             assert human.path[-1] == pytest.approx(course.path[-1]) and human.arc_length > 12.0
     assert back > 0.7 and human.status == "arrived"
-    kinds = [type(event) for event in human.events][:5]
+    kinds = [type(event) for event in human.events if not isinstance(event, WentBack)][:5]
     assert kinds == [SetOff, TookOff, Cleared, TookOff, Cleared]
 
 

@@ -15,6 +15,7 @@ from locomotion.clip import load_clip
 from locomotion.motion import load_motion
 from locomotion.skill import RUN_CLIP
 from navmesh.files.archive import write_archive
+from navmesh.graph_file import GRAPH_FILE
 from runtime.cli import main
 
 
@@ -197,7 +198,7 @@ def test_bad_graphs(surefoot, folder):
     code, _, err = surefoot("path", graph, *ends)
     assert code == 2 and one_line(err) and "version 1" in err
     moved = {**arrays, "terrain_vertices": arrays["terrain_vertices"] + 1.0}
-    write_archive(graph, "surefoot navigation graph", 4, header, moved)
+    write_archive(graph, "surefoot navigation graph", GRAPH_FILE.version, header, moved)
     code, _, err = surefoot("path", graph, *ends)
     assert code == 2 and one_line(err) and "terrain" in err
     code, _, err = surefoot("path", folder / "gone.npz", *ends)

@@ -145,7 +145,7 @@ def test_control_c_while_candidates_are_judged_says_so_once(tmp_path):
 
 def test_control_c_says_so(folder):
     code, said = interrupted(folder, signal.SIGINT, 1, *COMMANDS["bake"])
-    assert code == 130 and said.startswith("surefoot: interrupted") and said.count("\n") == 1, said
+    assert code == 130 and said.splitlines()[-1].startswith("surefoot: interrupted"), said
     assert not (folder / "result.npz").exists()
 
 

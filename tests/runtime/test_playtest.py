@@ -310,14 +310,14 @@ def surefoot(capsys):
 
 def test_the_command_fails_a_level_with_faults_and_replays_them(surefoot, level, tmp_path):
     code, said = surefoot("playtest", level, "--bots", 4, "--seconds", 20, "--out", tmp_path / "out")
-    assert code == 1 and "trap" in said.out and "1 fault" in said.out and said.err == ""
+    assert code == 1 and "trap" in said.out and "1 fault" in said.out and "4 bots play" in said.err
     made = sorted(each.name for each in (tmp_path / "out").iterdir())
     assert made == ["junit.xml", "report.html", "report.json"]
     suite = ElementTree.parse(tmp_path / "out" / "junit.xml").getroot()
     assert suite.get("failures") == "1" and len(suite.findall("testcase/failure")) == 1
     report = tmp_path / "out" / "report.json"
     code, said = surefoot("replay", report, 1, "-o", tmp_path / "replay.html", "--json")
-    assert code == 0 and (tmp_path / "replay.html").stat().st_size > 100_000
+    assert code == 0 and (tmp_path / "replay.html").stat().st_size > 20_000
     code, said = surefoot("replay", report, 99, "-o", tmp_path / "replay.html")
     assert code == 2 and "1 to" in said.err
 
@@ -331,7 +331,8 @@ def test_the_command_refuses_wrong_input(surefoot, level, tmp_path):
         ([level, "--before", tmp_path / "old.json"], "not a report of a playtest"),
     ):
         code, said = surefoot("playtest", *arguments)
-        assert code == 2 and says in said.err and said.err.count("\n") == 1
+        last = said.err.strip().splitlines()[-1]
+        assert code == 2 and says in last and last.startswith("surefoot: ")
 
 
 def test_a_level_without_faults_holds(surefoot, tmp_path):

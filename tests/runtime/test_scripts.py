@@ -209,7 +209,11 @@ def refused(call, text, at, says):
         ),
         ("script: [{wait: 1, speed: 2}]}", "{wait", "waiting has no speed"),
         ("script: [{patrol: {points: [west]}}]}", "[west", "at least 2 items"),
-        ("script: [{use: {skill: fly, near: west}}]}", "fly", "'jump', 'vault', 'drop' or 'gap', not 'fly'"),
+        (
+            "script: [{use: {skill: fly, near: west}}]}",
+            "fly",
+            "'jump', 'vault', 'drop-roll' or 'leap', not 'fly'",
+        ),
         ("script: [{goto: east}], goto: west}", "{name", "either goto or script, not both"),
         ("expect: {stays_out_of: [moon]}}", "moon", "no region is called 'moon'; valid: east_side"),
         ("expect: {keeps_distance: [{to: rex}]}}", "{to", "at_least, at_most or both are needed"),

@@ -1,4 +1,4 @@
-"""What the dog is measured by: paths, feet, spine, head, stops, short moves, dead ends, gaits, time.
+"""What the dog is measured by: paths, feet, spine, head, stops, moves, dead ends, gaits, their changes.
 
     python -m benchmarks.dog [--quick] [--only following stops ...] [--json FILE]
 
@@ -12,13 +12,15 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from benchmarks import dog_checks, dog_gait, dog_walks
+from benchmarks import dog_checks, dog_gait, dog_gait_changes, dog_rooms, dog_walks
 from benchmarks.shared_data import shared_folder, why_absent
 
 Lines = list[tuple[str, str, str, bool | None]]
 _VERDICT = {True: "yes", False: "NO", None: "-"}
 _CHANGE = 25.0
 """[rad/s] by which a joint's speed may change from one tick to the next, see docs/dogs.md."""
+_HEIGHT_OFF, _PITCH_OFF = 0.07, 3.5
+"""Of its own height, and [deg], by which hips, shoulders and trunk may leave the range of even speeds."""
 _SHARED = ("following", "footprint", "gait", "herd")
 
 
@@ -105,6 +107,38 @@ def _gait(found: dict[str, Any]) -> Lines:
     return lines
 
 
+def _gait_changes(found: dict[str, Any]) -> Lines:
+    lines: Lines = []
+    for name, row in found.items():
+        text = (
+            f"height {100 * row['height_off']:.1f} % (p95 {100 * row['height_off_p95']:.1f}), pitch "
+            f"{row['pitch_off_deg']:.1f} deg (p95 {row['pitch_off_p95_deg']:.1f}); lowest bone "
+            f"{100 * row['lowest_bone']:.2f} cm, slide {1e3 * row['slide']:.2f} mm, joints "
+            f"{row['joint_change']:.1f} rad/s ({row['joint_change_usual']:.1f} at even speeds)"
+        )
+        held = (
+            row["height_off"] <= _HEIGHT_OFF and row["pitch_off_deg"] <= _PITCH_OFF
+            and row["lowest_bone"] >= -1e-3 and row["slide"] <= 1e-3
+            and row["joint_change"] <= 1.1 * row["joint_change_usual"]
+        )  # fmt: skip
+        wanted = f"<= {100 * _HEIGHT_OFF:.0f} %, {_PITCH_OFF:.0f} deg"
+        lines.append((f"gait changes: {name}, {row['tasks']}", text, wanted, held))
+    return lines
+
+
+def _rooms(found: dict[str, Any]) -> Lines:
+    lines: Lines = []
+    for name, row in found.items():
+        routes, arrived = row.get("with a route", 0), row.get("with a route: arrived", 0)
+        unsaid = row.get("silent", 0) + sum(n for key, n in row.items() if key.endswith("without a reason"))
+        text = (
+            f"{arrived} of {routes} with a route arrived, {row.get('blocked at once', 0)} of {row['goals']} "
+            f"blocked at once; {unsaid} nowhere without a word"
+        )
+        lines.append((f"{name} in furnished rooms", text, "0 without a word", unsaid == 0))
+    return lines
+
+
 def _herd(found: dict[str, Any]) -> Lines:
     text = (
         f"{found['ms_per_tick']:.2f} ms (p95 {found['ms_p95']:.2f}; wall {found['wall_ms']:.1f}), "
@@ -138,6 +172,8 @@ ROWS: dict[str, tuple[Callable[[bool], Any], Callable[[Any], Lines]]] = {
     "footprint": (dog_checks.footprints, _footprint),
     "dead_ends": (dog_checks.dead_ends, _dead_ends),
     "gait": (dog_gait.against_real, _gait),
+    "gait_changes": (dog_gait_changes.gait_changes, _gait_changes),
+    "rooms": (dog_rooms.rooms, _rooms),
     "herd": (lambda quick: dog_walks.many_at_once(1000, 60 if quick else 300), _herd),
 }
 

@@ -132,6 +132,16 @@ def walk(name: str, gait: str, speed: float, reach: float) -> tuple[Film, object
     return film, figure, (middle, middle + 1.0 / frequency)
 
 
+def into_gallop(name: str, reach: float) -> tuple[Film, object, tuple[float, float]]:
+    """From the last of the trot to where the gallop's order has been found."""
+    body = load_body(name)
+    speed = 1.3 * body.gaits["trot"].up_to
+    film, figure = follow(name, f"{name}: trot into gallop", straight(speed, 20.0), speed, None, reach)
+    changes = (body.gaits["trot"].up_to) / body.movement.acceleration  # [s]
+    stride = 1.0 / (body.gaits["gallop"].frequency[0])
+    return film, figure, (changes - 0.3 * stride, changes + 1.9 * stride)
+
+
 def world_film(title: str, level: trimesh.Trimesh, at, facing: float, goals, speeds, reach: float = 3.0):
     """A dog in a world, from goal to goal."""
     terrain = navmesh.Terrain.from_arrays(np.asarray(level.vertices), np.asarray(level.faces))
@@ -167,6 +177,8 @@ def films() -> dict:
         "dog-walk": lambda: walk("dog", "walk", 1.0, 2.6),
         "dog-trot": lambda: walk("dog", "trot", 2.2, 2.6),
         "dog-gallop": lambda: walk("dog", "gallop", 5.0, 3.0),
+        "dog-into-gallop": lambda: into_gallop("dog", 2.8),
+        "horse-into-gallop": lambda: into_gallop("horse", 7.5),
         "cat-walk": lambda: walk("cat", "walk", 0.6, 1.6),
         "horse-walk": lambda: walk("horse", "walk", 1.5, 7.0),
         "dog-curve-little": lambda: (

@@ -7,7 +7,8 @@ import math
 from numba import njit
 
 from locomotion.quadruped import layout as at
-from locomotion.quadruped.following import front_of, place_body, spring, wrap
+from locomotion.quadruped.carriage import carry
+from locomotion.quadruped.following import place_body, spring, wrap
 from locomotion.quadruped.footfalls import misplaced, step_feet
 from locomotion.quadruped.gait import step_gait
 from locomotion.quadruped.motion import DT, advance_along
@@ -16,13 +17,6 @@ from locomotion.quadruped.trail import trail_point
 
 __all__ = ["advance_all"]
 
-_HEIGHT_HALF_LIFE = 0.07  # [s]
-_STRETCH, _TAUT = 0.90, 0.95  # shares of its length to which a standing leg should and can be stretched
-_SOFT = 0.03  # share of a length over which a limit begins to pull the trunk down
-_FAR = math.log1p(math.exp(-4.0))  # so that nothing pulls four times as far from it
-_CROUCH = 0.25  # [1/rad²] of slope by which a body goes lower on it
-_STEEPEST = 0.75  # of the spine's length between the heights of hips and shoulders; the higher ones come down
-# for it, so that no foot leaves the ground
 _GAZE_HALF_LIFE = 0.10  # [s]
 _GAZE_NEAR = 0.12  # [m] nearer targets do not say where to look
 _STILL = 1e-4  # [m, rad] of an offset that counts as gone
@@ -45,9 +39,10 @@ def advance_all(state, params, gaits, pool, ground, origin, feet, crumbs, poses,
         _move(st, pr, pool)
         place_body(st, pr, pool)
         step_gait(st, pr, gaits[kind], feet[i])
-        settled = step_feet(st, pr, pool, ground, origin, feet[i])
+        gait = gaits[kind, int(st[at.GAIT_NOW])]
+        settled = step_feet(st, pr, gait, pool, ground, origin, feet[i])
         st[at.REST] = 1.0 if settled and _is_over(st) and not misplaced(st, pr, pool, feet[i]) else 0.0
-        _carry(st, pr, feet[i])
+        carry(st, pr, feet[i])
         _look(st, pr, pool)
         _drop_crumb(st, crumbs[i])
         write_pose(st, pr, feet[i], poses[pose_start[i] : pose_start[i + 1]], joints[i])
@@ -74,80 +69,6 @@ def _is_over(st):
         if abs(st[at.OFFSET + k]) > _STILL:
             return False
     return True
-
-
-@njit(cache=True)
-def _highest(feet, joint_x, joint_y, direction, width, first, reach):
-    """Height [m] at which both legs of a pair, ``first`` and the next, still reach their feet: those that
-    swing too, so that nothing jumps when they come down."""
-    highest = math.inf
-    for k in range(2):
-        foot = feet[first + k]
-        side = 0.5 * width if k == 0 else -0.5 * width
-        dx = foot[at.FX] - (joint_x - side * math.sin(direction))
-        dy = foot[at.FY] - (joint_y + side * math.cos(direction))
-        left = reach * reach - dx * dx - dy * dy
-        highest = min(highest, foot[at.FZ] + math.sqrt(max(left, 0.01 * reach * reach)))
-    return highest
-
-
-@njit(cache=True)
-def _carry(st, pr, feet):
-    """Heights of hips and shoulders: over the ground as the feet feel it, and low enough for them."""
-    twice = 4.0 * math.pi * st[at.CLOCK]
-    bob = st[at.BOB_NOW] * math.cos(twice)
-    rock = st[at.ROCK_NOW] * math.cos(0.5 * twice)
-    crouch = 1.0 - _CROUCH * st[at.PITCH] * st[at.PITCH]
-    for front in range(2):
-        z = at.Z_FRONT if front else at.Z_REAR
-        leg = 0 if front else 2
-        height = pr[at.HEIGHT_FRONT] if front else pr[at.HEIGHT_REAR]
-        sizes = at.UPPER_FRONT if front else at.UPPER_REAR
-        wanted = (
-            0.5 * (feet[leg, at.BASE] + feet[leg + 1, at.BASE])
-            + crouch * height
-            + bob
-            + (rock if front else -rock)
-        )
-        reach = pr[sizes] + pr[sizes + 1] + pr[sizes + 2]
-        if front:
-            x, y, direction, width = st[at.FRONT_X], st[at.FRONT_Y], st[at.CHEST], pr[at.WIDTH_FRONT]
-        else:
-            x, y, direction, width = st[at.X], st[at.Y], st[at.YAW], pr[at.WIDTH_REAR]
-        wanted = min(wanted, _highest(feet, x, y, direction, width, leg, _STRETCH * reach))
-        off, st[z + 1] = spring(st[z] - wanted, st[z + 1], _HEIGHT_HALF_LIFE)
-        st[z] = _below(wanted + off, _highest(feet, x, y, direction, width, leg, _TAUT * reach), reach)
-    # the trunk tilts about the hips, which moves the shoulders, which may be too high there for their feet
-    reach = pr[at.UPPER_FRONT] + pr[at.LOWER_FRONT] + pr[at.FOOT_FRONT]
-    wanted = st[at.Z_FRONT]
-    for _ in range(2):
-        _tilt(st, pr)
-        highest = _highest(
-            feet, st[at.FRONT_X], st[at.FRONT_Y], st[at.CHEST], pr[at.WIDTH_FRONT], 0, _TAUT * reach
-        )
-        st[at.Z_FRONT] = _below(wanted, highest, reach)
-    _tilt(st, pr)
-
-
-@njit(cache=True, inline="always")
-def _below(height, limit, size):
-    """``height`` [m] kept under a limit, without a kink where it comes near it; ``size`` [m] of the body."""
-    soft = _SOFT * size
-    over = (height - limit) / soft
-    down = math.log1p(math.exp(over)) if over < 30.0 else over
-    return height - soft * max(down - _FAR, 0.0)
-
-
-@njit(cache=True)
-def _tilt(st, pr):
-    """Pitch of the trunk from the heights of hips and shoulders, and the place of the front under it."""
-    length = pr[at.BONES] * pr[at.BONE]
-    st[at.Z_FRONT] = _below(st[at.Z_FRONT], st[at.Z_REAR] + _STEEPEST * length, length)
-    st[at.Z_REAR] = _below(st[at.Z_REAR], st[at.Z_FRONT] + _STEEPEST * length, length)
-    st[at.PITCH] = math.asin((st[at.Z_FRONT] - st[at.Z_REAR]) / length)
-    st[at.FRONT_X], st[at.FRONT_Y] = front_of(
-        st[at.X], st[at.Y], st[at.YAW], st[at.BEND], pr[at.BONES], pr[at.BONE] * math.cos(st[at.PITCH])
-    )
 
 
 @njit(cache=True)

@@ -28,11 +28,12 @@ from locomotion.quadruped.footprint import RESOLUTION, check_script
 from locomotion.quadruped.foretold import disc_radius, foretell_script, nobody
 from locomotion.quadruped.herd import Herd
 from locomotion.quadruped.local_motion import short_move
+from locomotion.quadruped.manoeuvres import find_manoeuvre
 from locomotion.quadruped.motion import DT, stop_length
 from locomotion.quadruped.script import Place, Script, into_flex, out_of_flex
 from locomotion.quadruped.spine import bend_for
-from locomotion.quadruped.trail import Trail, lay_trail
-from locomotion.quadruped.turning import WayBack, little_way_back, turn_script, way_back
+from locomotion.quadruped.trail import NoTrail, Trail, lay_trail
+from locomotion.quadruped.turning import WayBack, can_set_out, has_way, little_way_back, turn_script, way_back
 from locomotion.quadruped.ways import Planner, Way, find_way, first_heading, last_free_arc, turn_onto
 
 __all__ = ["SHORT_OF_GOAL", "Animal", "AnimalMemory", "Status"]
@@ -43,6 +44,7 @@ its head has no room."""
 _LITTLE = math.radians(3.5)  # a turn onto the path without a motion of its own: 3 cm beside it, for a dog
 _EXACT = 1e-3  # [rad] of facing that is left as it is
 _MOST_BACKING = 4  # times that it backs out on its way to one goal
+_MOST_MANOEUVRES = 6  # times that it manoeuvres on its way to one goal
 _STANDING = 0.05  # [m/s]
 _ROOM = 1.5  # [body lengths] that it goes back to let others by, each time more
 _MOST_ROOM = 2  # times that it does
@@ -139,7 +141,9 @@ class Animal:
         """Go through ``goals`` (3,) or (k, 3) [m] at up to ``speed`` [m/s], until the front feet's midpoint
         is at the last of them; then face ``facing`` [rad], by default as it arrives.
 
-        Raises ValueError (the planner's error) where there is no way; then it goes on with what it did.
+        Raises ValueError (the planner's error, or `NoTrail` where it has no room to turn) where there is no
+        way; then it goes on with what it did. It looks for paths and turns, which takes up to about a second
+        where there is hardly any room.
         """
         points = np.asarray(goals, dtype=np.float64)
         if points.size == 0 or points.size % 3 or points.ndim > 2 or not np.isfinite(points).all():
@@ -154,8 +158,13 @@ class Animal:
         if self._phase == "following":
             self._redirect(errand)
         elif self._phase == "resting":
-            if not self._move_locally(errand):
-                self._set_out(errand)
+            former = self._errand, self.trail, self.ways
+            try:
+                if not self._move_locally(errand):
+                    self._set_out(errand)
+            except ValueError:
+                self._errand, self.trail, self.ways = former
+                raise
         else:
             self._way(errand)
             self._errand, self._pending = errand, True
@@ -224,7 +233,8 @@ class Animal:
         """Be stuck among others."""
         self.stop()
         self.status = "stuck"
-        self.events.append(GotStuck(self.time, self._point(), among_others=True))
+        reason = "it and those around it wait for each other"
+        self.events.append(GotStuck(self.time, self._point(), among_others=True, reason=reason))
 
     def _little_way_back(self) -> WayBack | None:
         place, crumbs = self.herd.place(self.index), self.herd.trail_of_crumbs(self.index)
@@ -283,8 +293,8 @@ class Animal:
         else:
             try:
                 self._set_out(self._errand, flexed=phase == "flexing")
-            except ValueError:
-                self._end("stuck", GotStuck(self.time, self._point()))
+            except ValueError as error:
+                self._end("stuck", GotStuck(self.time, self._point(), reason=str(error)))
 
     def _lose_ground(self) -> None:
         self.herd.state[self.index, at.NO_GROUND] = 0.0
@@ -366,10 +376,14 @@ class Animal:
 
     # --- turning around
     def _turn_around(self, trail: Trail, place: Place) -> None:
-        yaw = first_heading(trail, self.body)
-        script = turn_script(self.body, self.herd.ground, place, yaw, self._look_around())
+        yaw, ground = first_heading(trail, self.body), self.herd.ground
+
+        def leads_on(there: Place) -> bool:
+            return has_way(self.planner, self.body, ground, self._errand.goals, there)
+
+        script = turn_script(self.body, ground, place, yaw, self._look_around(), leads_on)
         if script is None:
-            script = turn_script(self.body, self.herd.ground, place, yaw)
+            script = turn_script(self.body, ground, place, yaw, leads_on=leads_on)
             if script is not None and self._errand.waited < _PATIENCE:
                 self._errand = replace(self._errand, waited=self._errand.waited + 1)
                 self._phase = "waiting"
@@ -379,7 +393,24 @@ class Animal:
             self.herd.forget_crumbs(self.index)
             self._play(script, "turning")
         elif self._errand.backed >= _MOST_BACKING or not self._back_out():
-            self._end("stuck", GotStuck(self.time, self._point()))
+            self._manoeuvre(trail, place)
+
+    def _manoeuvre(self, trail: Trail, place: Place) -> None:
+        """Get onto the trail by several short moves. Raises `NoTrail` where there is no room for any."""
+        most = self._errand.manoeuvres >= _MOST_MANOEUVRES
+        goals, ground = self._errand.goals, self.herd.ground
+
+        def leads_on(there: Place) -> bool:
+            return can_set_out(self.planner, self.body, ground, goals, there)
+
+        script = None if most else find_manoeuvre(self.body, ground, place, trail, leads_on)
+        if script is None:
+            raise NoTrail(
+                f"at ({place.x:.2f}, {place.y:.2f}) a {self.body.name} has no room to turn towards its path, "
+                "nor can it back out"
+            )
+        self._errand = replace(self._errand, manoeuvres=self._errand.manoeuvres + 1)
+        self._play(script, "turning")
 
     def _back_out(self) -> bool:
         """Go back along the crumbs to the nearest place with room for a turn; False where there is none."""

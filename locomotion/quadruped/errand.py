@@ -20,7 +20,8 @@ Phase = Literal[
 
 @dataclass(frozen=True)
 class Errand:
-    """What it was told; how often it has ``waited`` for others to let it turn around, and ``backed`` out."""
+    """What it was told; how often it has ``waited`` for others to let it turn around, ``backed`` out, and
+    made ``manoeuvres``."""
 
     goals: tuple[tuple[float, float, float], ...] = ()
     speed: float = 1.0
@@ -28,6 +29,7 @@ class Errand:
     gait: str | None = None
     waited: int = 0
     backed: int = 0
+    manoeuvres: int = 0
     backed_from: tuple[float, float] = (0.0, 0.0)
 
 

@@ -14,7 +14,7 @@ from numba import njit
 from locomotion.ground import height_below
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.following import front_of, wanted_pose
-from locomotion.quadruped.gait import leg_phase
+from locomotion.quadruped.gait import leg_phase, seconds_for, swing_tempo
 from locomotion.quadruped.motion import DT, travel
 from locomotion.quadruped.trail import trail_point
 
@@ -27,9 +27,9 @@ _RAMP, _RAMP_SLOPE, _SHORTEST_RAMP = 0.36, 0.07, 0.14
 # share of the swing in which a foot speeds up, and in which it slows down: at rest, less by this times the
 # body's way in the swing over the leg's height, and at least
 _HASTE = 4.0  # how much faster than evenly a swing follows a change of where it is to come down
-_LATEST = 0.3  # share of the swing's time until which a foot may still begin it
-_STRETCH = 0.96  # share of its length to which a standing leg may be stretched
-_SINK = 0.84  # share of its height to which the trunk may sink for a standing foot
+_STRETCH = 0.90  # share of its length to which a standing leg may be stretched
+_SINK = 0.96  # share of its height to which the trunk may sink for a standing foot
+_SINK_AHEAD = 0.84  # the same for a foot before it, over which it is yet to come
 _SLACK = 0.12  # [m] above a step that a foot may find ground off the surface it is on
 
 
@@ -117,19 +117,22 @@ def _arch(foot, ground, origin, reach):
 
 
 @njit(cache=True)
-def step_feet(st, pr, pool, ground, origin, feet):
+def step_feet(st, pr, gait, pool, ground, origin, feet):
     """One tick of the four ``feet`` (4, FOOT) of one animal; returns whether all stand where they belong."""
-    cycle = 1.0 / st[at.FREQUENCY_NOW]
+    cycle = 1.0 / st[at.FREQUENCY_WISH]  # [s] of the strides to come
     settled = True
     for leg in range(4):
         foot = feet[leg]
         duty = st[at.DUTY_FRONT_NOW] if leg < 2 else st[at.DUTY_REAR_NOW]
         phase = leg_phase(st, leg)
-        ahead = (1.0 - phase + 0.5 * duty) * cycle
         if foot[at.IN_SWING] == 0.0:
-            due = duty <= phase <= duty + _LATEST * (1.0 - duty)
-            if st[at.REST] > 0.0 or not (due or (phase < duty and _overstretched(st, pr, foot, leg))):
+            due = phase >= foot[at.STANCE]
+            if st[at.REST] > 0.0 or not (due or _overstretched(st, pr, foot, leg)):
                 continue
+            foot[at.TEMPO] = swing_tempo(st, gait, leg, duty)
+        left = seconds_for(st, (1.0 - phase) / foot[at.TEMPO])
+        ahead = left + 0.5 * duty * cycle
+        if foot[at.IN_SWING] == 0.0:
             found = _aim(st, pr, pool, ground, origin, foot, leg, ahead)
             dx, dy = foot[at.AIM] - foot[at.FX], foot[at.AIM + 1] - foot[at.FY]
             if dx * dx + dy * dy < CLOSE * CLOSE or not found:
@@ -149,38 +152,38 @@ def step_feet(st, pr, pool, ground, origin, feet):
             foot[at.IN_SWING] = 0.0
             continue
         done = (phase - begun) / (1.0 - begun)
-        if done < _FREEZE and not _aim(st, pr, pool, ground, origin, foot, leg, ahead):
-            st[at.NO_GROUND] = 1.0
-        pull = min(_HASTE * DT / ((1.0 - phase) * cycle), 1.0)
+        if done < _FREEZE:
+            foot[at.STANCE] = duty
+            if not _aim(st, pr, pool, ground, origin, foot, leg, ahead):
+                st[at.NO_GROUND] = 1.0
+        pull = min(_HASTE * DT / max(left, DT), 1.0)
         for k in range(3):
             foot[at.TO + k] += pull * (foot[at.AIM + k] - foot[at.TO + k])
         way = st[at.SPEED] * (1.0 - duty) * cycle / pr[at.HEIGHT_REAR]
-        _swing(foot, done, st[at.LIFT_NOW], max(_RAMP - _RAMP_SLOPE * way, _SHORTEST_RAMP))
+        slow = (1.0 - begun) / (foot[at.TEMPO] * (1.0 - duty))
+        ramp = max(_RAMP - _RAMP_SLOPE * way, _SHORTEST_RAMP) / max(slow, 1.0)
+        _swing(foot, done, st[at.LIFT_NOW], ramp)
     return settled
 
 
 @njit(cache=True)
 def _overstretched(st, pr, foot, leg):
-    """Whether a standing leg is so far from its joint that the trunk would have to sink for it."""
+    """Whether the body has gone so far on over a standing leg that the trunk would have to sink for it."""
     if leg < 2:
-        x, y, z, direction, sizes = (
-            st[at.FRONT_X],
-            st[at.FRONT_Y],
-            st[at.Z_FRONT],
-            st[at.CHEST],
-            at.UPPER_FRONT,
-        )
-        width, height = pr[at.WIDTH_FRONT], pr[at.HEIGHT_FRONT]
+        x, y, direction, sizes = st[at.FRONT_X], st[at.FRONT_Y], st[at.CHEST], at.UPPER_FRONT
+        ground, width, height = st[at.GROUND_FRONT], pr[at.WIDTH_FRONT], pr[at.HEIGHT_FRONT]
     else:
-        x, y, z, direction, sizes = st[at.X], st[at.Y], st[at.Z_REAR], st[at.YAW], at.UPPER_REAR
-        width, height = pr[at.WIDTH_REAR], pr[at.HEIGHT_REAR]
+        x, y, direction, sizes = st[at.X], st[at.Y], st[at.YAW], at.UPPER_REAR
+        ground, width, height = st[at.GROUND_REAR], pr[at.WIDTH_REAR], pr[at.HEIGHT_REAR]
     side = 0.5 * width if leg % 2 == 0 else -0.5 * width
     dx = foot[at.FX] - x + side * math.sin(direction)
     dy = foot[at.FY] - y - side * math.cos(direction)
     reach = _STRETCH * (pr[sizes] + pr[sizes + 1] + pr[sizes + 2])
-    # how far the joint would have to come down for this foot
-    over = z - foot[at.FZ]
-    return dx * dx + dy * dy > reach * reach - min(_SINK * height, over) ** 2
+    needed = ground + _SINK * height - foot[at.FZ]
+    ahead = st[at.WAY] * (dx * math.cos(direction) + dy * math.sin(direction))
+    if st[at.MODE] == at.ON_TRAIL and ahead > 0.0:
+        needed = min(needed, _SINK_AHEAD * height)
+    return dx * dx + dy * dy > reach * reach - needed * needed
 
 
 @njit(cache=True)
@@ -190,7 +193,7 @@ def _swing(foot, done, lift, ramp):
     for k in range(2):
         foot[at.FX + k] = foot[at.FROM + k] + along * (foot[at.TO + k] - foot[at.FROM + k])
     foot[at.BASE] = foot[at.FROM + 2] + along * (foot[at.TO + 2] - foot[at.FROM + 2])
-    hump = 4.0 * done * (1.0 - done)
+    foot[at.HUMP] = hump = 4.0 * done * (1.0 - done)
     foot[at.FZ] = foot[at.BASE] + 4.0 * along * (1.0 - along) * foot[at.ARCH] + lift * hump * hump
 
 

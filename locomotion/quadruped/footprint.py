@@ -35,6 +35,7 @@ __all__ = [
     "key_balls",
     "script_places",
     "stopping_distance",
+    "touches",
     "trail_places",
 ]
 
@@ -213,7 +214,7 @@ def _distance_squared(px, py, pz, t):
 
 
 @njit(cache=True)
-def _touches(ground, cell_range, x, y, z, radius):
+def touches(ground, cell_range, x, y, z, radius):
     """Whether a triangle comes nearer to a point than ``radius``."""
     rows, start, member, grid, shape = ground
     x0, x1 = int((x - radius - grid[0]) * grid[2]), int((x + radius - grid[0]) * grid[2])
@@ -241,6 +242,6 @@ def _first_touch(ground, cell_range, centres, radii):
     for k in range(centres.shape[0]):
         for part in range(centres.shape[1]):
             x, y, z = centres[k, part]
-            if _touches(ground, cell_range, x, y, z, radii[part]):
+            if touches(ground, cell_range, x, y, z, radii[part]):
                 return k, part
     return -1, -1

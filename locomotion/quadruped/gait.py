@@ -9,11 +9,13 @@ from numba import njit
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.motion import DT
 
-__all__ = ["leg_phase", "step_gait"]
+__all__ = ["leg_phase", "seconds_for", "step_gait", "swing_tempo"]
 
 _HYSTERESIS = 0.12  # share of the speed of the change by which it must be missed to change back
-_BLEND = math.exp(-DT * 0.69314718056 / 0.10)  # half of a change of gait in 0.10 s
-_SHIFT = 0.5  # share of the clock's pace at which a touchdown moves within the stride at most
+_FADE = 0.25 / 0.69314718056  # strides: half of a change of the strides' frequency in a quarter of one
+_HURRY = 0.5  # share of the clock's pace by which a standing foot goes ahead of it at most
+_SOONER = 0.62  # of the stride: a foot that would have to come down later by more comes down sooner instead
+_QUICKEST, _SLOWEST = 0.65, 1.6  # shares of its gait's own swing that a swing takes at least and at most
 _SCRIPT_DUTY = 0.62
 _FORESIGHT = (
     0.4  # [s] ahead for whose speed strides are quickened: a foot that stands now will be needed then
@@ -22,15 +24,18 @@ _SHORTER = 0.6  # [1/rad] of slope by which strides become shorter and quicker
 
 
 @njit(cache=True, inline="always")
-def _eased(now, goal):
-    return goal + (now - goal) * _BLEND
+def _eased(now, goal, rate):
+    return goal + (now - goal) * math.exp(-rate * DT)
 
 
 @njit(cache=True)
 def step_gait(st, pr, gaits, feet):
-    """One tick: choose the gait by speed, ease its numbers into the row ``st``, turn the clock. When one gait
-    gives way to another, a foot's touchdown moves within the stride only while that foot of ``feet`` (4,
-    FOOT) stands: a paw ends its swing as it began it."""
+    """One tick: choose the gait by speed, ease its numbers into the row ``st``, turn the clock.
+
+    When one gait gives way to another, each foot of ``feet`` (4, FOOT) finds its new place in the stride on
+    its own. One that is to come down later takes longer for its swings; it never stands longer for that, as
+    the trunk goes on over it. One that is to come down sooner stands shorter. Within a swing its tempo is
+    even: a paw ends its swing as it began it."""
     speed = st[at.SPEED]
     now = int(st[at.GAIT_NOW])
     if st[at.GAIT_WISH] >= 0.0:
@@ -51,19 +56,22 @@ def step_gait(st, pr, gaits, feet):
     frequency *= 1.0 + _SHORTER * abs(st[at.PITCH])
     if on_the_spot:
         frequency, front, rear = pr[at.STEP_FREQUENCY], _SCRIPT_DUTY, _SCRIPT_DUTY
-    st[at.FREQUENCY_NOW] = _eased(st[at.FREQUENCY_NOW], frequency)
-    st[at.DUTY_FRONT_NOW] = _eased(st[at.DUTY_FRONT_NOW], front)
-    st[at.DUTY_REAR_NOW] = _eased(st[at.DUTY_REAR_NOW], rear)
-    st[at.LIFT_NOW] = _eased(st[at.LIFT_NOW], gait[at.LIFT])
-    st[at.BOB_NOW] = _eased(st[at.BOB_NOW], gait[at.BOB] * min(speed, 1.0))
-    st[at.ROCK_NOW] = _eased(st[at.ROCK_NOW], gait[at.ROCK] * min(speed, 1.0))
-    shift = _SHIFT * st[at.FREQUENCY_NOW] * DT
+    st[at.FREQUENCY_WISH] = frequency
+    rate = frequency / _FADE
+    st[at.FREQUENCY_NOW] = _eased(st[at.FREQUENCY_NOW], frequency, rate)
+    st[at.DUTY_FRONT_NOW], st[at.DUTY_REAR_NOW] = front, rear
+    st[at.LIFT_NOW] = _eased(st[at.LIFT_NOW], gait[at.LIFT], rate)
+    st[at.BOB_NOW] = _eased(st[at.BOB_NOW], gait[at.BOB] * min(speed, 1.0), rate)
+    st[at.ROCK_NOW] = _eased(st[at.ROCK_NOW], gait[at.ROCK] * min(speed, 1.0), rate)
+    turn = st[at.FREQUENCY_NOW] * DT
     for leg in range(4):
+        tempo = feet[leg, at.TEMPO]
         if feet[leg, at.IN_SWING] == 0.0:
-            k = at.TOUCHDOWN_NOW + leg
-            off = gait[at.TOUCHDOWN + leg] - st[k]
-            off -= math.floor(off + 0.5)
-            st[k] += min(max(off, -shift), shift)
+            sooner = 1.0 - _late(st, gait, leg)
+            tempo = 1.0 + min(_HURRY, sooner / turn) if sooner < 1.0 - _SOONER else 1.0
+            if st[at.REST] > 0.0:
+                feet[leg, at.STANCE] = st[at.DUTY_FRONT_NOW] if leg < 2 else st[at.DUTY_REAR_NOW]
+        st[at.TOUCHDOWN_NOW + leg] += (1.0 - tempo) * turn
     if st[at.REST] == 0.0:
         st[at.CLOCK] += st[at.FREQUENCY_NOW] * DT
         st[at.CLOCK] -= math.floor(st[at.CLOCK])
@@ -74,3 +82,32 @@ def leg_phase(st, leg):
     """Share of the stride since ``leg`` touched down, 0 to 1."""
     phase = st[at.CLOCK] - st[at.TOUCHDOWN_NOW + leg]
     return phase - math.floor(phase)
+
+
+@njit(cache=True, inline="always")
+def _late(st, gait, leg):
+    """Share of the stride, 0 to 1, by which ``leg`` should come down later to be in the gait's order."""
+    off = gait[at.TOUCHDOWN + leg] - st[at.TOUCHDOWN_NOW + leg]
+    return off - math.floor(off)
+
+
+@njit(cache=True)
+def swing_tempo(st, gait, leg, duty):
+    """How fast ``leg``, which leaves the ground now, goes on through its stride, against the clock: so that
+    it comes down in its gait's order, or as near to that as a swing can be quick or slow."""
+    left, late = 1.0 - leg_phase(st, leg), _late(st, gait, leg)
+    wanted = left + late if late <= _SOONER else left + late - 1.0
+    whole = 1.0 - duty
+    return left / min(max(wanted, _QUICKEST * whole), _SLOWEST * whole)
+
+
+@njit(cache=True)
+def seconds_for(st, strides):
+    """[s] that the clock takes for ``strides``, while its frequency comes to what is wished."""
+    now, wish = st[at.FREQUENCY_NOW], st[at.FREQUENCY_WISH]
+    seconds = strides / wish
+    for _ in range(4):
+        faded = math.exp(-seconds * wish / _FADE)
+        turned = wish * seconds + (now - wish) * (_FADE / wish) * (1.0 - faded)
+        seconds += (strides - turned) / (wish + (now - wish) * faded)
+    return seconds

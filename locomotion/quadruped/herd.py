@@ -148,8 +148,10 @@ class Herd:
             feet[leg, at.FX : at.FZ + 1] = *spot, self.ground_near([*spot, st[at.HEIGHT]], body)
             feet[leg, at.TO : at.TO + 3] = feet[leg, at.FX : at.FZ + 1]
             feet[leg, at.BASE] = feet[leg, at.FZ]
-        st[at.Z_FRONT] = feet[:2, at.FZ].mean() + body.front_legs.height
-        st[at.Z_REAR] = feet[2:, at.FZ].mean() + body.rear_legs.height
+        feet[:, at.STANCE], feet[:, at.TEMPO] = st[at.DUTY_FRONT_NOW], 1.0
+        st[at.GROUND_FRONT], st[at.GROUND_REAR] = feet[:2, at.FZ].mean(), feet[2:, at.FZ].mean()
+        st[at.Z_FRONT] = st[at.GROUND_FRONT] + body.front_legs.height
+        st[at.Z_REAR] = st[at.GROUND_REAR] + body.rear_legs.height
         st[at.PITCH] = math.asin(np.clip((st[at.Z_FRONT] - st[at.Z_REAR]) / body.spine.length, -0.75, 0.75))
         self._write_pose(index)
 

@@ -121,7 +121,11 @@ CRUMBS, CRUMB_LAST = 66, 67
 """How many crumbs lie on the trail behind; index of the last one in the ring."""
 PACE = 68
 """Share of its speed at which it goes, to give way to others."""
-STATE = 69
+FREQUENCY_WISH = 69
+"""[Hz] that FREQUENCY_NOW comes to."""
+GROUND_REAR, GROUND_FRONT = 70, 71
+"""[m] heights of the ground under hips and shoulders, as the feet feel it."""
+STATE = 72
 
 # --- feet
 FX, FY, FZ = 0, 1, 2
@@ -138,7 +142,13 @@ ARCH = 12
 """[m] by which the middle of the swing's way is raised over ground that bulges between its ends."""
 AIM = 13
 """Three columns: where it is wanted to come down now; TO follows."""
-FOOT = 16
+STANCE = 16
+"""Share of the stride that it stands: as it was when the place was chosen where it stands, or will."""
+TEMPO = 17
+"""How fast it goes through its stride in this swing, against the clock."""
+HUMP = 18
+"""0 where a swing begins and ends, 1 in its middle."""
+FOOT = 19
 
 # --- joints, for whoever wants angles: (n, JOINTS)
 JOINTS_PER_LEG = 4

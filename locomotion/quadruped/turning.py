@@ -19,7 +19,7 @@ from locomotion.quadruped.script import Place, Script
 from locomotion.quadruped.trail import Trail, lay_trail
 from locomotion.quadruped.ways import Planner, find_way, first_heading, turn_onto
 
-__all__ = ["WayBack", "little_way_back", "turn_script", "way_back"]
+__all__ = ["WayBack", "can_set_out", "has_way", "little_way_back", "turn_script", "way_back"]
 
 _LOOK_BACK = 40  # places with room that are tried
 _PIVOTS = (0.5, 0.0, 1.0, 0.25, 0.75)  # shares of the spine from the rear on
@@ -40,23 +40,28 @@ def turn_script(
     place: Place,
     yaw: float,
     clear: Callable[[Script], bool] = lambda script: True,
+    leads_on: Callable[[Place], bool] = lambda place: True,
 ) -> Script | None:
     """A turn on the spot to ``yaw`` [rad] that touches nothing, with the resolution of the check to spare,
-    and is ``clear`` of others: around the middle, the rear or the front, the short way, the long one, or the
-    first half of a long one that takes more than half a turn. None where there is none."""
+    is ``clear`` of others, and ends where the way ``leads_on``: around the middle, the rear or the front, the
+    short way, the long one, or the first half of a long one that takes more than half a turn. None where
+    there is none."""
 
     def free(script: Script) -> bool:
         return clear(script) and check_script(script, body, ground, RESOLUTION).free
+
+    def whole(script: Script) -> bool:
+        return free(script) and leads_on(script.end())
 
     short = float(wrap(yaw - place.yaw))
     long = short - math.copysign(2.0 * math.pi, short)
     for turn in (short, long):
         if abs(turn) <= math.pi:
-            for script in filter(free, _turns(body, place, turn)):
+            for script in filter(whole, _turns(body, place, turn)):
                 return script
     if abs(long) > math.pi:
         for script in filter(free, _turns(body, place, 0.5 * long)):
-            if any(map(free, _turns(body, script.end(), 0.5 * long))):
+            if any(map(whole, _turns(body, script.end(), 0.5 * long))):
                 return script
     return None
 
@@ -111,19 +116,34 @@ def way_back(
     roomy = arcs[planner.room_to_turn(np.column_stack([middles, heights]), body.length)]
     for arc in roomy[:_LOOK_BACK]:
         there = Place(*trail_places(trail, body, arc, arc)[0].tolist())
-        if _can_turn(planner, body, ground, goals, there):
+        if can_set_out(planner, body, ground, goals, there):
             return WayBack(trail, here, float(arc))
     return None
 
 
-def _can_turn(
+def has_way(
     planner: Planner, body: Body, ground: Ground, goals: Sequence[tuple[float, float, float]], there: Place
 ) -> bool:
-    """Whether one at ``there`` could set out for ``goals``."""
+    """Whether a way leads from ``there`` to ``goals``."""
     try:
-        onward, _ = find_way(planner, body, ground, goals, there)
+        find_way(planner, body, ground, goals, there)
     except ValueError:
         return False
-    if abs(turn_onto(onward, body, there)) < body.spine_reach:
+    return True
+
+
+def can_set_out(
+    planner: Planner, body: Body, ground: Ground, goals: Sequence[tuple[float, float, float]], there: Place
+) -> bool:
+    """Whether one at ``there`` could set out for ``goals``, at once or after a turn on the spot."""
+    try:
+        trail, _ = find_way(planner, body, ground, goals, there)
+    except ValueError:
+        return False
+    if abs(turn_onto(trail, body, there)) < body.spine_reach:
         return True
-    return turn_script(body, ground, there, first_heading(onward, body)) is not None
+
+    def leads_on(place: Place) -> bool:
+        return has_way(planner, body, ground, goals, place)
+
+    return turn_script(body, ground, there, first_heading(trail, body), leads_on=leads_on) is not None

@@ -13,6 +13,7 @@ from locomotion.quadruped import (
     Animal,
     Herd,
     Place,
+    check_places,
     check_script,
     lay_trail,
     load_body,
@@ -20,8 +21,9 @@ from locomotion.quadruped import (
 )
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.following import wrap
-from locomotion.quadruped.footprint import key_balls, script_places
+from locomotion.quadruped.footprint import at_place, key_balls, script_places
 from locomotion.quadruped.local_motion import play_blends
+from locomotion.quadruped.manoeuvres import find_manoeuvre, joined
 from locomotion.quadruped.script import into_flex
 from locomotion.quadruped.turning import turn_script
 
@@ -157,16 +159,60 @@ def test_backs_out_of_a_dead_end_and_turns_where_there_is_room():
     assert all(abs(yaw) < 0.3 for x, yaw in inside if x > 0.3)  # it never turns in the passage
 
 
-def test_without_crumbs_and_room_it_stays_where_it_is():
+def test_without_crumbs_it_finds_its_way_out_by_short_moves():
     vertices, faces = dead_end(0.5)
     herd = Herd(Ground.from_arrays(vertices, faces))
     animal = Animal(herd, herd.add(DOG, (0.9, 0.0, 0.0), 0.0), GraphPlanner(vertices, faces))
-    before = herd.toes(animal.index)
     animal.go_to((-3.0, 0.5, 0.0), 1.0)
-    for _ in range(50):
-        herd.tick()
-        animal.tick()
-    assert animal.status == "stuck" and np.array_equal(herd.toes(animal.index), before)
+    free = []
+
+    def look():
+        place = herd.place(animal.index)
+        free.append(check_places(at_place(place), DOG, herd.ground).free)
+
+    run(animal, each=look)
+    assert animal.status == "arrived" and animal.front[0] == pytest.approx(-3.0, abs=0.02)
+    assert all(free)
+
+
+def test_without_room_for_any_move_it_is_told_so_and_stays_as_it_is():
+    loop = [(-0.2, -0.2), (1.0, -0.2), (1.0, 0.2), (-0.2, 0.2)]
+    walls = (wall(a, b) for a, b in zip(loop, loop[1:] + loop[:1], strict=True))
+    animal = animal_on(Ground.from_arrays(*quads(floor(), *walls)))
+    before = animal.herd.toes(0)
+    with pytest.raises(LocomotionError, match="a dog has no room to turn towards its path"):
+        animal.go_to((-3.0, 0.5, 0.0), 1.0)
+    assert animal.status == "standing" and not animal.events and animal.trail is None
+    animal.herd.tick()
+    assert np.array_equal(animal.herd.toes(0), before)
+
+
+def test_a_manoeuvre_ends_where_the_way_leads_on_and_touches_nothing():
+    vertices, faces = dead_end(0.5)
+    ground, place = Ground.from_arrays(vertices, faces), Place(0.9, 0.0, 0.0, 0.0)
+    trail = lay_trail([[0.9, 0.0, 0.0], [-3.0, 0.0, 0.0]], DOG, ground)
+    asked = []
+
+    def leads_on(there):
+        asked.append(there)
+        return there.x < -0.5
+
+    script = find_manoeuvre(DOG, ground, place, trail, leads_on)
+    assert check_script(script, DOG, ground).free
+    assert script.end() == asked[-1] and script.end().x < -0.5
+    assert np.allclose(script.rows[0, :4], [place.x, place.y, place.z, place.yaw])
+    assert find_manoeuvre(DOG, ground, place, trail, lambda there: False) is None
+
+
+def test_joined_scripts_play_one_after_the_other():
+    first = local_motion(DOG).script(Place(0.0, 0.0, 0.0, 0.0), (0.4, 0.0, 0.0))
+    second = local_motion(DOG).script(first.end(), (0.0, 0.2, 0.5))
+    both = joined([first, second])
+    assert both.seconds == pytest.approx(first.seconds + second.seconds, abs=0.03)
+    assert both.end() == second.end()
+    half = round(first.seconds / both.seconds * (len(both.rows) - 1))
+    assert both.rows[half, [at.SX, at.SY]] == pytest.approx([first.end().x, first.end().y], abs=0.01)
+    assert np.linalg.norm(np.diff(both.rows[:, [at.SX, at.SY]], axis=0), axis=1).max() < 0.03
 
 
 # --- many at once, again

@@ -156,9 +156,12 @@ def test_a_paw_ends_its_swing_as_it_began_it_when_the_gait_changes():
         paces.append(0.01 * state[at.FREQUENCY_NOW])
         seen.append(int(state[at.GAIT_NOW]))
     turned = np.diff(phases, axis=0) % 1.0 / np.array(paces)[1:, None]
-    assert np.abs(turned - 1.0)[np.array(swings)[1:]].max() < 1e-9
-    assert np.abs(turned - 1.0).max() > 0.2  # it is done by those that stand
-    # and they are there within a second
+    # of two ticks of one swing, against the clock
+    within = np.array(swings)[1:-1] & np.array(swings)[2:]
+    assert np.abs(np.diff(turned, axis=0))[within].max() < 1e-9
+    assert turned.min() < 0.9  # some take longer
+    # no foot stands longer for it, and they are in order within a second
+    assert turned[~np.array(swings)[1:]].min() > 1.0 - 1e-9
     touchdown = np.array([herd.bodies[index].gaits["trot"].touchdown[leg] for leg in at.LEGS])
     settled = np.array(phases)[seen.index(1) + 100]
     apart = (settled - settled[0] + touchdown - touchdown[0] + 0.5) % 1.0 - 0.5

@@ -199,7 +199,7 @@ def change(body: Body, place: Place, tasks: list[Task], seed: int) -> Watch:
             herd.follow(k, trail, task.first, gait=task.gait)
     watch = Watch(herd, place.slope)
     for tick in range(round(time / DT)):
-        for k in np.flatnonzero(begins == tick):
+        for k in np.flatnonzero(begins == tick).tolist():
             if tasks[k].then == 0.0:
                 herd.stop(k)
             else:

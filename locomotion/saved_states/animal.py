@@ -51,6 +51,7 @@ def _row_of(gaits: int) -> Slots:
             (at.CRUMBS, (0.0, float(RING))),
             (at.CRUMB_LAST, (0.0, RING - 1.0)),
             (at.PACE, _FLAG),
+            (at.FREQUENCY_WISH, (0.0, 100.0)),
         ],
         whole=_WHOLE,
         open_ended=(at.LOOK_X, at.LOOK_Y),
@@ -76,6 +77,9 @@ def check_animal(memory: AnimalMemory, body: Body) -> None:
         raise LocomotionError("an animal plays a motion of no length")
     if not np.isin(state.feet[:, at.IN_SWING], (0.0, 1.0)).all():
         raise LocomotionError("a foot of an animal neither stands nor swings")
+    tempo, shares = state.feet[:, at.TEMPO], state.feet[:, [at.STANCE, at.HUMP]]
+    if not (np.all((tempo > 0.0) & (tempo < 100.0)) and np.all((shares >= 0.0) & (shares <= 1.0))):
+        raise LocomotionError("a foot of an animal is at no place in its stride")
     _check_mind(memory, body)
 
 
@@ -85,7 +89,7 @@ def _check_mind(memory: AnimalMemory, body: Body) -> None:
     if errand.goals and not np.isfinite(np.array(errand.goals)).all():
         raise LocomotionError("a goal of an animal is not finite")
     check_number("the speed that an animal was told", errand.speed, 1e-6, FARTHEST)
-    for what in (errand.waited, errand.backed, memory.ticks, memory.stood):
+    for what in (errand.waited, errand.backed, errand.manoeuvres, memory.ticks, memory.stood):
         check_number("a count of an animal", what, 0, FARTHEST)
     if trail is not None:
         check_array("the trail of an animal", trail.rows, None, at.ROW, least=_LEAST_ROWS)

@@ -194,7 +194,8 @@ class Herd:
     ) -> None:  # fmt: skip
         """Follow a trail with the root, from arc length ``start`` [m] until it stops at ``end`` [m]: by
         default where the front feet reach the trail's end. ``backwards``: rear first, towards a smaller arc
-        length. ``gait``: by name, None by speed. An animal that is on its way goes on at its speed.
+        length. ``gait``: by name, no faster than that goes; None: by speed. An animal that is on its way goes
+        on at its speed.
 
         Raises `LocomotionError` for a speed that is not above 0, an unknown gait, or an end behind the start.
         """
@@ -212,7 +213,8 @@ class Herd:
         st[at.ARC], st[at.ARC_END], st[at.WAY] = start, end, way
         st[at.FRONT_ARC] = start + body.spine.length
         st[at.SPEED], st[at.PUSH] = pace
-        st[at.WISH], st[at.GAIT_WISH], st[at.STOPPING] = min(speed, body.top_speed), wish, 0.0
+        fastest = body.top_speed if gait is None else body.gaits[gait].up_to
+        st[at.WISH], st[at.GAIT_WISH], st[at.STOPPING] = min(speed, fastest), wish, 0.0
         left = way * (end - start)
         if left <= stop_length(st[at.SPEED], body.movement.braking):
             begin_stop(st, left)

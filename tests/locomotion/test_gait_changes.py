@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from benchmarks.dog_gait_changes import FOAL, PLACES, Watch, compare
-from locomotion.quadruped import Herd, load_body
+from locomotion.quadruped import Herd, lay_trail, load_body
 from locomotion.quadruped import layout as at
 
 PLACE = {place.name: place for place in PLACES}
@@ -35,3 +35,14 @@ def test_a_trunk_that_sinks_is_seen():
     watch.look(np.array([True]))
     assert watch.low[0, 0] == pytest.approx(0.32) and watch.high[0, 0] == pytest.approx(0.42)
     assert watch.bone[0] < -0.4 and watch.slide[0] == pytest.approx(0.5)
+
+
+def test_a_gait_that_is_asked_for_goes_no_faster_than_it_can():
+    body, place = load_body("dog"), PLACE["flat"]
+    ground = place.ground(30.0)
+    herd, trail = Herd(ground), lay_trail(place.points(body, 30.0), body, ground)
+    herd.add(body, (0.0, 0.0, 0.0), 0.0)
+    herd.follow(0, trail, 6.0, gait="walk")
+    for _ in range(300):
+        herd.tick()
+    assert herd.state[0, at.SPEED] == pytest.approx(body.gaits["walk"].up_to, abs=0.02)

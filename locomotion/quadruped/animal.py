@@ -400,10 +400,14 @@ class Animal:
         most = self._errand.manoeuvres >= _MOST_MANOEUVRES
         goals, ground = self._errand.goals, self.herd.ground
 
+        alone = (
+            len(self._around()[1]) == 0
+        )  # it looks for no way around others, that may go on before it is there
+
         def leads_on(there: Place) -> bool:
             return can_set_out(self.planner, self.body, ground, goals, there)
 
-        script = None if most else find_manoeuvre(self.body, ground, place, trail, leads_on)
+        script = None if most or not alone else find_manoeuvre(self.body, ground, place, trail, leads_on)
         if script is None:
             raise NoTrail(
                 f"at ({place.x:.2f}, {place.y:.2f}) a {self.body.name} has no room to turn towards its path, "

@@ -400,9 +400,8 @@ class Animal:
         most = self._errand.manoeuvres >= _MOST_MANOEUVRES
         goals, ground = self._errand.goals, self.herd.ground
 
-        alone = (
-            len(self._around()[1]) == 0
-        )  # it looks for no way around others, that may go on before it is there
+        # it looks for no way around others, that may go on before it is there
+        alone = len(self._around()[1]) == 0
 
         def leads_on(there: Place) -> bool:
             return can_set_out(self.planner, self.body, ground, goals, there)

@@ -119,7 +119,7 @@ def test_brackets_within_brackets_are_no_clip(tmp_path: Path) -> None:
     path = tmp_path / "deep.yaml"
     for depth in (500, 50_000):
         path.write_text("[" * depth + "]" * depth)
-        with pytest.raises(LocomotionError, match="nested (more than 50 levels deep|too deeply for a clip)"):
+        with pytest.raises(LocomotionError, match=r"nested (more than 50 levels deep|too deeply for a clip)"):
             load_clip(path)
 
 

@@ -53,6 +53,17 @@ def _close_gaps(
     ``hit`` (hits, 4) are the mesh parts over the centre; the column's cells begin at ``first``. Returns the
     new number of cells.
     """
+    other = False  # whether there is floor that no cell of the column stands for
+    for k in range(start[c], start[c + 1]):
+        f = triangle[k]
+        if table[f, 14] == FLOOR:
+            level = table[f, 9] * x + table[f, 10] * y + table[f, 11]
+            known = False
+            for i in range(first, cells):
+                known |= abs(height[i] - level) <= step
+            other |= not known
+    if not other:
+        return cells
     tried = np.empty(_LEVELS)
     for turn in range(_LEVELS):
         best, chosen, at_x, at_y, z = GAP, -1, x, y, 0.0

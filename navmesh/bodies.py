@@ -16,7 +16,7 @@ from navmesh.structs import make_doors, net_of
 if TYPE_CHECKING:
     from navmesh.graph import NodeGraph
 
-__all__ = ["checked_radius", "doors_of", "portals_of"]
+__all__ = ["checked_radius", "doors_of", "parts_of", "portals_of"]
 
 _KEPT = 16  # radii, and offers of skills, that are kept
 
@@ -73,7 +73,7 @@ def _checked_links(graph: "NodeGraph", links: Any) -> np.ndarray:
     return index.astype(np.int64)
 
 
-def _parts_of(graph: "NodeGraph", radius: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def parts_of(graph: "NodeGraph", radius: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The part of each node for a body of ``radius``, and the parts in each tile (CSR); see
     `navmesh.parts`."""
     kept = graph.cache.setdefault("parts", {})
@@ -138,7 +138,7 @@ def doors_of(
         if costs.shape != (count,) or not np.all(costs >= 1.0) or not np.all(np.isfinite(costs)):
             raise NavmeshError(f"node_costs: expected {count} finite factors of at least 1, one per node")
     leaps = _leaps_for(graph, radius, offered, closed)
-    part, tile_start, tile_part = _parts_of(graph, radius)
+    part, tile_start, tile_part = parts_of(graph, radius)
     part_leap_start, part_leap = leaps_by_part(
         part, graph.label[leaps["leap_from_cell"]], graph.label[leaps["leap_to_cell"]]
     )

@@ -12,11 +12,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numba import njit
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 
-from navmesh.bodies import portals_of
+from navmesh.bodies import parts_of
 from navmesh.errors import NavmeshError
 from navmesh.field import centre_of, floor_at, gap_at, walk
 from navmesh.snapping import roomy_cell
@@ -249,20 +247,6 @@ def cast_ray(graph: "NodeGraph", starts: Any, ends: Any, radius: float = 0.0) ->
     return Ray(*(_answer(array, single) for array in (clear, share, end + graph.surface.origin)))
 
 
-def _components(graph: "NodeGraph", radius: float) -> np.ndarray:
-    """Number (m,) of the part of the graph that each node belongs to for a body of ``radius``, or -1."""
-    key = f"parts for radius {radius!r}"
-    if key not in graph.cache:
-        door_start, door_target = portals_of(graph, radius)[:2]
-        source = np.repeat(np.arange(len(graph)), np.diff(door_start))
-        fits = graph.radii >= radius
-        passes = fits[source] & fits[door_target]
-        pairs = (source[passes], door_target[passes])
-        matrix = coo_array((np.ones(len(pairs[0]), dtype=bool), pairs), shape=(len(graph), len(graph)))
-        graph.cache[key] = np.where(fits, connected_components(matrix, directed=False)[1], -1)
-    return graph.cache[key]
-
-
 def reachable_nodes(graph: "NodeGraph", start: Any, radius: float = 0.3) -> np.ndarray:
     """The nodes that a body of ``radius`` [m] can walk to from ``start`` (3,): (j,) int32, rising.
 
@@ -272,7 +256,8 @@ def reachable_nodes(graph: "NodeGraph", start: Any, radius: float = 0.3) -> np.n
     if not single and len(local) != 1:
         raise NavmeshError(f"start has shape {np.shape(start)}, expected (3,)")
     node = containing_node(graph, local + graph.surface.origin)
-    parts = _components(graph, _length(radius, "radius"))
+    radius = _length(radius, "radius")
+    parts = np.where(graph.radii >= radius, parts_of(graph, radius)[0], -1)
     if node[0] < 0 or parts[node[0]] < 0:
         return np.empty(0, np.int32)
     return np.flatnonzero(parts == parts[node[0]]).astype(np.int32)

@@ -16,87 +16,107 @@ __all__ = ["cell_at", "centre_of", "floor_at", "gap_at", "same_place", "stretch_
 
 
 @njit(error_model="numpy", cache=True, inline="always")
-def _to_segment(px, py, ax, ay, bx, by):
-    """Squared distance from p to the segment a-b, and where on it that is (0 to 1)."""
-    ex = bx - ax
-    ey = by - ay
-    length = ex * ex + ey * ey
-    t = ((px - ax) * ex + (py - ay) * ey) / length if length > 0.0 else 0.0
-    t = 0.0 if t < 0.0 else (1.0 if t > 1.0 else t)
-    dx = ax + t * ex - px
-    dy = ay + t * ey - py
-    return dx * dx + dy * dy, t
-
-
-@njit(error_model="numpy", cache=True)
-def _list_gap(net, source, px, py, qx, qy, least, s, x, y):
-    """The least squared distance of the segment p-q to the blockers in the list of cell ``source``, where
-    that is less than ``least``: (squared, where on p-q (0 to 1), the place on the blocker: x, y)."""
+def _from_list(net, source, px, py, least, x, y):
+    """The least squared distance of p to the blockers in the list of cell ``source``, where that is less than
+    ``least``: (squared, the place on the blocker: x, y)."""
     blocker = net.blocker
-    ux = qx - px
-    uy = qy - py
-    stretch = ux * ux + uy * uy
     for k in range(net.blocker_start[source], net.blocker_start[source + 1]):
-        ax, ay, bx, by = blocker[k, 0], blocker[k, 1], blocker[k, 2], blocker[k, 3]
-        off, t = _to_segment(px, py, ax, ay, bx, by)
+        ax, ay = blocker[k, 0], blocker[k, 1]
+        ex, ey = blocker[k, 2] - ax, blocker[k, 3] - ay
+        length = ex * ex + ey * ey
+        t = ((px - ax) * ex + (py - ay) * ey) / length if length > 0.0 else 0.0
+        t = 0.0 if t < 0.0 else (1.0 if t > 1.0 else t)
+        dx = ax + t * ex - px
+        dy = ay + t * ey - py
+        off = dx * dx + dy * dy
         if off < least:
-            least, s, x, y = off, 0.0, ax + t * (bx - ax), ay + t * (by - ay)
-        if stretch == 0.0:
+            least, x, y = off, ax + t * ex, ay + t * ey
+    return least, x, y
+
+
+@njit(error_model="numpy", cache=True, inline="always")
+def _along_list(net, source, px, py, ux, uy, stretch, gap, s, x, y):
+    """The least distance of a line, ``stretch`` [m] long from p along the unit vector u, to the blockers in
+    the list of cell ``source``, where that is less than ``gap``: (distance, where on the line [m], the place
+    on the blocker: x, y)."""
+    blocker = net.blocker
+    for k in range(net.blocker_start[source], net.blocker_start[source + 1]):
+        # the blocker's ends as seen from p: how far ahead, and how far to the side
+        dx, dy = blocker[k, 0] - px, blocker[k, 1] - py
+        ax, ay = dx * ux + dy * uy, dy * ux - dx * uy
+        dx, dy = blocker[k, 2] - px, blocker[k, 3] - py
+        bx, by = dx * ux + dy * uy, dy * ux - dx * uy
+        if min(ay, by) >= gap or max(ay, by) <= -gap or min(ax, bx) >= stretch + gap or max(ax, bx) <= -gap:
             continue
-        off, t = _to_segment(qx, qy, ax, ay, bx, by)
-        if off < least:
-            least, s, x, y = off, 1.0, ax + t * (bx - ax), ay + t * (by - ay)
-        off, t = _to_segment(ax, ay, px, py, qx, qy)
-        if off < least:
-            least, s, x, y = off, t, ax, ay
-        ex = bx - ax
-        ey = by - ay
-        if ex == 0.0 and ey == 0.0:
-            continue
-        off, t = _to_segment(bx, by, px, py, qx, qy)
-        if off < least:
-            least, s, x, y = off, t, bx, by
-        turn = ux * ey - uy * ex
-        if turn != 0.0:
-            t = ((ax - px) * ey - (ay - py) * ex) / turn
-            w = ((ax - px) * uy - (ay - py) * ux) / turn
-            if 0.0 <= t <= 1.0 and 0.0 <= w <= 1.0:
-                return 0.0, t, px + t * ux, py + t * uy
-    return least, s, x, y
+        ex, ey = bx - ax, by - ay
+        if ay * by <= 0.0 and ey != 0.0:
+            on = ax - ay / ey * ex
+            if 0.0 <= on <= stretch:
+                return 0.0, on, px + on * ux, py + on * uy
+        on = 0.0 if ax < 0.0 else (stretch if ax > stretch else ax)
+        least, place, t = (ax - on) * (ax - on) + ay * ay, on, 0.0
+        length = ex * ex + ey * ey
+        if length > 0.0:
+            on = 0.0 if bx < 0.0 else (stretch if bx > stretch else bx)
+            off = (bx - on) * (bx - on) + by * by
+            if off < least:
+                least, place, t = off, on, 1.0
+            for end in range(2):
+                on = stretch if end == 1 else 0.0
+                w = ((on - ax) * ex - ay * ey) / length
+                if 0.0 < w < 1.0:
+                    off = (ax + w * ex - on) * (ax + w * ex - on) + (ay + w * ey) * (ay + w * ey)
+                    if off < least:
+                        least, place, t = off, on, w
+        if least < gap * gap:
+            gap, s = sqrt(least), place
+            x = blocker[k, 0] + t * (blocker[k, 2] - blocker[k, 0])
+            y = blocker[k, 1] + t * (blocker[k, 3] - blocker[k, 1])
+    return gap, s, x, y
+
+
+@njit(error_model="numpy", cache=True, inline="always")
+def _lists_around(net, k, right, up):
+    """The cells whose lists of blockers are nearest to cell ``k``, to the cells beside it in the directions
+    ``right`` and ``up``, and to the one between these; -1 for none and for one that comes before."""
+    link, source = net.link, net.source
+    side, other = link[k, right], link[k, up]
+    first = np.int64(source[k])
+    second = np.int64(source[side]) if side >= 0 else first
+    third = np.int64(source[other]) if other >= 0 else first
+    corner = link[side, up] if side >= 0 else (link[other, right] if other >= 0 else -1)
+    fourth = np.int64(source[corner]) if corner >= 0 else first
+    if fourth == first or fourth == second or fourth == third:
+        fourth = -1
+    if third == first or third == second:
+        third = -1
+    if second == first:
+        second = -1
+    return first, second, third, fourth
 
 
 @njit(error_model="numpy", cache=True)
-def stretch_gap(net, k, cx, cy, ax, ay, ux, uy, low, high):
+def stretch_gap(net, k, cx, cy, ax, ay, ux, uy, low, high, most):
     """Least distance to where walking ends from the stretch of a line, from ``low`` to ``high`` [m] along the
     unit vector u from a, inside cell ``k`` with its centre at c.
 
-    The lists of the cell and of its neighbours on the stretch's side are asked. Returns (squared gap, where
-    on the line, the place where walking ends: x, y).
+    The lists of the cell and of its neighbours on the stretch's side are asked. u may be 0 where the stretch
+    is a point. Returns (gap [m], where on the line [m], the place where walking ends: x, y), with the gap
+    ``most`` where it is not less than that.
     """
     px, py = ax + low * ux, ay + low * uy
-    qx, qy = ax + high * ux, ay + high * uy
-    right = 0 if px + qx > 2.0 * cx else 2
-    up = 1 if py + qy > 2.0 * cy else 3
-    gap, s, x, y = np.inf, 0.0, np.inf, np.inf
-    first = net.source[k]
-    if first >= 0:
-        gap, s, x, y = _list_gap(net, first, px, py, qx, qy, gap, s, x, y)
-    side, other = net.link[k, right], net.link[k, up]
-    second = third = first
-    if side >= 0:
-        second = net.source[side]
-        if second != first and second >= 0:
-            gap, s, x, y = _list_gap(net, second, px, py, qx, qy, gap, s, x, y)
-    if other >= 0:
-        third = net.source[other]
-        if third != first and third != second and third >= 0:
-            gap, s, x, y = _list_gap(net, third, px, py, qx, qy, gap, s, x, y)
-    corner = net.link[side, up] if side >= 0 else (net.link[other, right] if other >= 0 else -1)
-    if corner >= 0:
-        last = net.source[corner]
-        if last != first and last != second and last != third and last >= 0:
-            gap, s, x, y = _list_gap(net, last, px, py, qx, qy, gap, s, x, y)
-    return gap, low + s * (high - low), x, y
+    middle = 0.5 * (high - low)
+    right = 0 if px + middle * ux > cx else 2
+    up = 1 if py + middle * uy > cy else 3
+    first, second, third, fourth = _lists_around(net, k, right, up)
+    stretch = high - low
+    if ux == 0.0 and uy == 0.0:
+        ux = 1.0
+    gap, s, x, y = most, 0.0, np.inf, np.inf
+    for source in (first, second, third, fourth):
+        if source >= 0:
+            gap, s, x, y = _along_list(net, source, px, py, ux, uy, stretch, gap, s, x, y)
+    return gap, low + s, x, y
 
 
 @njit(error_model="numpy", cache=True, inline="always")
@@ -112,7 +132,11 @@ def gap_at(net, k, x, y):
     """Distance [m] from (x, y), a point in cell ``k``, to the nearest place where walking ends, and that
     place."""
     cx, cy = centre_of(net, k)
-    square, _, qx, qy = stretch_gap(net, k, cx, cy, x, y, 0.0, 0.0, 0.0, 0.0)
+    first, second, third, fourth = _lists_around(net, k, 0 if x > cx else 2, 1 if y > cy else 3)
+    square, qx, qy = np.inf, np.inf, np.inf
+    for source in (first, second, third, fourth):
+        if source >= 0:
+            square, qx, qy = _from_list(net, source, x, y, square, qx, qy)
     return sqrt(square), qx, qy
 
 
@@ -190,8 +214,8 @@ def walk(net, k, ax, ay, bx, by, radius, through):
     does not fit, to find the tightest place, and ends only where no link leads on (gap -1).
 
     Returns (reached, cell where it ended, least gap [m], its place on the line (0 to 1), the place where
-    walking ends there: x, y, the cell in which it is tightest). Gaps are measured only where
-    no disc proves that the body fits; where none was measured the least gap is 1e300.
+    walking ends there: x, y, the cell in which it is tightest). Gaps of the radius and more are not told
+    apart: the least gap is 1e300 then.
     """
     h, ny = net.cell, net.ny
     link, clearance, label = net.link, net.clearance, net.label
@@ -216,7 +240,7 @@ def walk(net, k, ax, ay, bx, by, radius, through):
     step_x = h * abs(per_x)
     step_y = h * abs(per_y)
     margin = max(radius, 0.7072 * h)  # so much inside a disc, the middle of the square is inside it too
-    least = 1e300
+    least, most = 1e300, radius
     place = qx = qy = 0.0
     tight = k
     s = 0.0  # [m] walked
@@ -234,10 +258,11 @@ def walk(net, k, ax, ay, bx, by, radius, through):
                 free = max(free, _leaves(cx, cy, clearance[k] - margin, ax, ay, ux, uy, s))
             if free < leave:
                 if radius > 0.0:
-                    square, where, px, py = stretch_gap(net, k, cx, cy, ax, ay, ux, uy, s, leave)
-                    if square < least * least:
-                        least, place, qx, qy, tight = sqrt(square), where, px, py, k
-                        if least < radius and not through:
+                    gap, where, px, py = stretch_gap(net, k, cx, cy, ax, ay, ux, uy, s, leave, most)
+                    if gap < most:
+                        least = most = gap
+                        place, qx, qy, tight = where, px, py, k
+                        if not through:
                             return False, k, least, place * per_length, qx, qy, tight
             elif free > leave + h and leave < length:
                 ahead = min(free, length)

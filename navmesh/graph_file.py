@@ -171,7 +171,8 @@ def _check_nodes(header: _GraphHeader, arrays: dict[str, np.ndarray]) -> str | N
     out = ((at - radii < -_SLACK) | (at + radii > high + _SLACK)).any(axis=1)
     if out.any():
         return f"the disc of node {int(np.argmax(out))} reaches beyond the grid"
-    if problem := _apart(header, arrays, "positions", arrays["node_cell"]):
+    # the middle of a passage is at most a cell from its cell's centre, and beyond it where no link leads on
+    if problem := _apart(header, arrays, "positions", arrays["node_cell"], 0.5 * header.resolution + _SLACK):
         return problem
     source = np.repeat(np.arange(len(radii), dtype=np.int32), np.diff(arrays["edge_start"]))
     itself = source == arrays["edge_target"]
@@ -188,12 +189,15 @@ def _check_links(header: _GraphHeader, arrays: dict[str, np.ndarray]) -> str | N
     return None
 
 
-def _apart(header: _GraphHeader, arrays: dict[str, np.ndarray], name: str, cells: np.ndarray) -> str | None:
-    """Whether a place of the array ``name`` (k, 3) is outside of the square of its cell (k,)."""
+def _apart(
+    header: _GraphHeader, arrays: dict[str, np.ndarray], name: str, cells: np.ndarray, beyond: float = _SLACK
+) -> str | None:
+    """Whether a place of the array ``name`` (k, 3) is more than ``beyond`` [m] outside of the square of its
+    cell (k,)."""
     h = header.resolution
     squares = np.stack(np.divmod(arrays["surface_cell_column"][cells], header.shape[1]), axis=1) * h
     off = (arrays[name] - arrays["surface_origin"])[:, :2] - squares
-    out = ((off < -_SLACK) | (off > h + _SLACK)).any(axis=1)
+    out = ((off < -beyond) | (off > h + beyond)).any(axis=1)
     return f"{name}[{int(np.argmax(out))}] is not in its cell" if out.any() else None
 
 

@@ -35,6 +35,19 @@ def test_loaded_graph_is_the_saved_one(graph, level, tmp_path):
     assert back.clearance_at((1, 1, 0)) == graph.clearance_at((1, 1, 0))
 
 
+def test_a_graph_of_rough_ground_is_read_back(tmp_path):
+    """Nodes of narrow places lie between cells: the file was refused as damaged."""
+    x, y = np.meshgrid(np.arange(9.0), np.arange(9.0), indexing="ij")
+    z = np.random.default_rng(3).uniform(0.0, 2.5, x.shape)
+    k = np.arange(8 * 9).reshape(8, 9)[:, :-1].ravel()
+    faces = np.concatenate([np.stack([k, k + 9, k + 10], 1), np.stack([k, k + 10, k + 1], 1)])
+    rough = Terrain.from_arrays(np.stack([x, y, z], axis=-1).reshape(-1, 3), faces)
+    graph = NodeGraph.build(rough, WalkRules(max_step=0.9, headroom=2.0), obstacle_rules=None)
+    graph.save(tmp_path / "rough.nav")
+    back = NodeGraph.load(tmp_path / "rough.nav")
+    np.testing.assert_array_equal(back.positions, graph.positions)
+
+
 def test_truncated_file_is_refused(graph, tmp_path):
     whole = tmp_path / "level.nav"
     graph.save(whole)

@@ -16,9 +16,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numba import njit
 
 from locomotion.errors import LocomotionError
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["ApproachPlan", "plan_approach", "plan_approach_exact"]
 
@@ -41,7 +41,7 @@ class ApproachPlan:
     cost: float
 
 
-@njit(cache=True)
+@kernel
 def _closed_form(
     gap: float, v0: float, entry: float, a: float, b: float, wu: float, w: np.ndarray, v: np.ndarray
 ) -> None:
@@ -63,7 +63,7 @@ def _closed_form(
     v[n - 1] = entry
 
 
-@njit(cache=True)
+@kernel
 def _free_optimum(
     gap: float,
     v0: float,
@@ -103,7 +103,7 @@ def _free_optimum(
         x[i] = p[i] + a * m * q[i]
 
 
-@njit(cache=True)
+@allocating_kernel
 def _active_set(
     gap: float,
     v0: float,
@@ -162,7 +162,7 @@ def _active_set(
         fixed[release] = False
 
 
-@njit(cache=True)
+@kernel
 def _evaluate(
     gap: float, v0: float, a: float, b: float, wu: float, w: np.ndarray, v: np.ndarray
 ) -> tuple[float, float]:
@@ -175,7 +175,7 @@ def _evaluate(
     return error, cost + wu * error * error
 
 
-@njit(cache=True)
+@allocating_kernel
 def plan_kernel(
     gap: float,
     v0: float,

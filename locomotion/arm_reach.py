@@ -9,11 +9,11 @@ elbow points. Everything is computed from ``qpos``, so that a controller that us
 import math
 
 import numpy as np
-from numba import njit
 
 from locomotion.anatomy import FOREARM, UPPER_ARM
 from locomotion.hand_hold import HAND_POINT
 from locomotion.person import JOINT_NAMES
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["ARM_START", "HAND_RADIUS", "hand_place", "reach", "shoulder_frame"]
 
@@ -30,7 +30,7 @@ _CLAVICLE_OUT, _CLAVICLE_UP, _SHOULDER_OUT = 0.035, 0.165, 0.150
 _MAX_REACH = 0.995  # share of the arm's length
 
 
-@njit(cache=True)
+@kernel
 def _turn(frame, axis, angle):
     """``frame`` (3, 3) times the rotation by ``angle`` about its own coordinate axis."""
     c, s = math.cos(angle), math.sin(angle)
@@ -41,7 +41,7 @@ def _turn(frame, axis, angle):
         frame[k, j] = c * b - s * a
 
 
-@njit(cache=True)
+@allocating_kernel
 def shoulder_frame(qpos, side):
     """Place (3,) [m] and frame (3, 3) of the shoulder of ``side`` (-1 right, +1 left), before its own
     joints."""
@@ -68,7 +68,7 @@ def shoulder_frame(qpos, side):
     return p, f
 
 
-@njit(cache=True)
+@allocating_kernel
 def hand_place(qpos, side):
     """The hand's point (3,) [m] of ``side`` (-1 right, +1 left)."""
     p, f = shoulder_frame(qpos, side)
@@ -89,7 +89,7 @@ def hand_place(qpos, side):
     return p
 
 
-@njit(cache=True)
+@allocating_kernel
 def reach(qpos, side, target, rotation, out):
     """Angles [rad] of shoulder flexion, abduction, rotation and elbow flexion into ``out`` (4,) that bring
     the hand of ``side`` to ``target`` (3,) [m], or as near as the arm is long; the upper arm is turned

@@ -7,10 +7,10 @@ Memories of such skills begin alike: `ACTIVE` to `EDGE`.
 import math
 
 import numpy as np
-from numba import njit
 
 from locomotion import controller
 from locomotion.person import CONTROL_DT, JOINT_NAMES
+from surefoot.kernels import kernel
 
 __all__ = [
     "ACTIVE", "EDGE", "ENTRY", "ERROR_DISTANCE", "ERROR_SPEED", "FIRST_STEP", "LAST_STEP", "MIRROR",
@@ -57,7 +57,7 @@ def mirror(poses: np.ndarray) -> np.ndarray:
     return poses[..., MIRROR] * MIRROR_SIGN
 
 
-@njit(cache=True)
+@kernel
 def _between(knots, values, x):
     """Linear interpolation of ``values`` (k,) over ``knots`` (k,), held beyond the ends."""
     k = knots.shape[0]
@@ -70,7 +70,7 @@ def _between(knots, values, x):
     return values[k - 1]
 
 
-@njit(cache=True)
+@kernel
 def measure_errors(mark, memory, state):
     """Errors of distance and speed when a step begins that should do so ``mark`` [m] before the edge, into
     ``memory``."""
@@ -82,7 +82,7 @@ def measure_errors(mark, memory, state):
     memory[ERROR_SPEED] = min(max(speed - memory[ENTRY], -0.8), 0.8)
 
 
-@njit(cache=True)
+@kernel
 def hold_course(memory, state):
     """Let the run under the skill go straight at the obstacle, on level ground and with the speed correction
     that it began with. A body that is turned towards its path while it flies lands askew."""
@@ -92,7 +92,7 @@ def hold_course(memory, state):
     state[controller.TURN_RATE] = 0.0
 
 
-@njit(cache=True)
+@kernel
 def sense_swing_foot(state, sensed):
     """The run's 12 sensors and the swing foot relative to the centre of mass, in the mirrored frame of the
     heading, into ``sensed[:15]``."""
@@ -107,7 +107,7 @@ def sense_swing_foot(state, sensed):
     sensed[14] = -side * (-sh * dx + ch * dy)
 
 
-@njit(cache=True)
+@kernel
 def add_feedback(m_sp, m_ap, sensed, reference, phase, action, side_action):
     """Reduced-order feedback: ``m_ap`` (27,) ``m_sp`` (3 n,) (sensed - reference), added to the actions (6,).
 
@@ -134,7 +134,7 @@ def add_feedback(m_sp, m_ap, sensed, reference, phase, action, side_action):
         side_action[5] += m_ap[8 * RANK + r] * latent
 
 
-@njit(cache=True)
+@kernel
 def add_actions(side, action, side_action, wanted):
     """Put sagittal and lateral actions (6,) on the joints of ``wanted`` (39,); ``side``: the stance
     foot's."""
@@ -156,7 +156,7 @@ def add_actions(side, action, side_action, wanted):
         wanted[_CHEST + 1 + k] -= side * side_action[4 + k]
 
 
-@njit(cache=True)
+@kernel
 def add_clip(share, alpha, cycle_rate, difference, rate, flip, mirror, sign, wanted):
     """Add ``alpha`` times a row of ``difference`` (n, 39) at ``share`` of it, with its ``rate`` in advance of
     the servos' lag at ``cycle_rate`` [1/s]; of the mirror image with ``flip``."""
@@ -173,7 +173,7 @@ def add_clip(share, alpha, cycle_rate, difference, rate, flip, mirror, sign, wan
             wanted[j] += alpha * value
 
 
-@njit(cache=True)
+@kernel
 def advance_pace(beta, knots, timing, state):
     """Change the phase that `run_tick` has advanced as if the pace were ``beta``; gives the run's step
     time."""
@@ -183,7 +183,7 @@ def advance_pace(beta, knots, timing, state):
     return step_time
 
 
-@njit(cache=True)
+@kernel
 def apply_offset(wanted, offset, ctrl):
     """Low-pass ``wanted`` (39,) into ``offset`` (39,) and add that to ``ctrl`` (39,)."""
     keep = math.exp(-CONTROL_DT / _FILTER_TIME)

@@ -43,7 +43,6 @@ import math
 
 import mujoco
 import numpy as np
-from numba import njit
 
 from locomotion.person import CONTROL_DT, JOINT_NAMES, PersonIndex
 from locomotion.run_layout import (
@@ -80,6 +79,7 @@ from locomotion.run_layout import (
     new_state,
     parameter_slices,
 )  # fmt: skip
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = [
     "ACTIONS", "CLIMB", "COM", "COM_AT_SWITCH", "COM_VELOCITY", "CONTACT", "FALLEN", "FEET", "HEADING",
@@ -108,12 +108,12 @@ _CLIP = np.array([0.6, 5.0, 0.2, 1.5, 2.0, 0.5, 0.6, 0.6, 5.0, 5.0, 1.5, 0.4])
 _TARGETS = LAST_TARGET.start
 
 
-@njit(cache=True)
+@kernel
 def _wrap(angle: float) -> float:
     return (angle + math.pi) % (2.0 * math.pi) - math.pi
 
 
-@njit(cache=True)
+@kernel
 def _lookup(table, share, out):
     """Row of the periodic ``table`` (n, k) at ``share`` of the cycle, linear between rows, into ``out``
     (k,)."""
@@ -127,7 +127,7 @@ def _lookup(table, share, out):
         out[j] = (1.0 - weight) * table[low, j] + weight * table[high, j]
 
 
-@njit(cache=True)
+@kernel
 def _periodic_spline(values, start, n, share):
     """Uniform periodic cubic (Catmull-Rom) through ``values[start:start+n]`` at ``share`` of the cycle."""
     at = (share - math.floor(share)) * n
@@ -140,7 +140,7 @@ def _periodic_spline(values, start, n, share):
     return b + 0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)))
 
 
-@njit(cache=True)
+@allocating_kernel
 def _parameters_at(knots, table, speed, out):
     """Parameters at ``speed``: linear between the rows of ``table`` (k, p), held beyond the ends."""
     k = knots.shape[0]
@@ -157,7 +157,7 @@ def _parameters_at(knots, table, speed, out):
             out[j] = (1.0 - weight) * table[i, j] + weight * table[i + 1, j]
 
 
-@njit(cache=True)
+@kernel
 def _follow_command(limits, state, command):
     """Let the reference heading and speed follow the command at the skill's rates."""
     low, high = limits[0], limits[1]
@@ -172,7 +172,7 @@ def _follow_command(limits, state, command):
     state[HEADING] = _wrap(state[HEADING] + state[TURN_RATE] * CONTROL_DT)
 
 
-@njit(cache=True)
+@kernel
 def _switch_stance(state):
     """End the step: the swing foot becomes the stance foot; measure the step and the slope."""
     new_side = -state[STANCE]
@@ -200,7 +200,7 @@ def _switch_stance(state):
     state[STEPS] += 1.0
 
 
-@njit(cache=True)
+@kernel
 def _sense(state, side, command, qpos, qvel, out):
     """Sensors in the frame of the reference heading, mirrored so that the stance leg is the right one."""
     w, x, y, z = qpos[3], qpos[4], qpos[5], qpos[6]
@@ -234,7 +234,7 @@ def _sense(state, side, command, qpos, qvel, out):
     out[11] = mirror * (-sh * dx + ch * dy)
 
 
-@njit(cache=True)
+@kernel
 def _feedback(p, delta, turn, speed, slope, raw, out):
     """Actions ``out`` (12,) [rad] as `CLIMB` names them, from the deviations ``delta`` (12,) and raw
     sensors, while turning at ``turn`` [rad/s] at ``speed`` [m/s]."""
@@ -259,7 +259,7 @@ def _feedback(p, delta, turn, speed, slope, raw, out):
     out[5] += p[g + 7] * raw[7] + p[g + 8] * raw[9]
 
 
-@njit(cache=True)
+@allocating_kernel
 def run_tick(knots, table, reference, rates, mean, state_reference, limits, state, command, qpos, qvel, ctrl):
     """One control tick: advance phase and stance in ``state`` and write the PD targets ``ctrl`` (39,) [rad].
 
@@ -363,7 +363,7 @@ def run_tick(knots, table, reference, rates, mean, state_reference, limits, stat
         ctrl[j] = target[j]
 
 
-@njit(cache=True)
+@kernel
 def _observe(
     state, coms, places, frames, root, feet, chest, ncon, geoms, addresses, forces, geom_side, fresh
 ):  # fmt: skip

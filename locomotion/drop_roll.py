@@ -20,10 +20,10 @@ approach. Everything is mirrored when the roll is over the left shoulder: then t
 import math
 
 import numpy as np
-from numba import njit
 
 from locomotion import controller
 from locomotion.person import CONTROL_DT, JOINT_NAMES
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = [
     "ACTIONS", "ACTIVE", "ANGLE", "BINS", "ENDED", "FALL", "KNOTS", "LOW", "MEMORY_SIZE", "MOST_OFF",
@@ -100,7 +100,7 @@ MOST_OFF = np.array([6.0, 1.5, 2.0, 0.3, 0.4, 0.3, 0.6, 5.0, 0.8, 5.0, 1.0, 0.3]
 """Deviations of the sensors beyond which they count no more."""
 
 
-@njit(cache=True)
+@allocating_kernel
 def start_drop_roll(memory, side, low, edge_x, edge_y, ahead_x, ahead_y):
     """Begin at the stance switch that has just been made (its tick's `drop_roll_tick` comes next).
 
@@ -113,7 +113,7 @@ def start_drop_roll(memory, side, low, edge_x, edge_y, ahead_x, ahead_y):
     memory[10], memory[11], memory[12], memory[13] = edge_x, edge_y, ahead_x, ahead_y
 
 
-@njit(cache=True)
+@kernel
 def _sense(memory, state, qpos, qvel):
     """Turn of the pelvis and the sensors into ``memory``."""
     w, x, y, z = qpos[3], qpos[4], qpos[5], qpos[6]
@@ -145,7 +145,7 @@ def _sense(memory, state, qpos, qvel):
     out[11] = side * (-fx * ay + fy * ax)
 
 
-@njit(cache=True)
+@kernel
 def _time_to_touchdown(memory, state):
     """[s] until the lower foot is on the lower ground."""
     above = max(min(state[22], state[25]) - _ANKLE - memory[LOW], 0.0)
@@ -153,7 +153,7 @@ def _time_to_touchdown(memory, state):
     return (vz + math.sqrt(vz * vz + 2.0 * _GRAVITY * above)) / _GRAVITY
 
 
-@njit(cache=True)
+@kernel
 def _go_on(p, memory, state):
     """Phases and the share of the clip."""
     phase = memory[PHASE]
@@ -185,7 +185,7 @@ def _go_on(p, memory, state):
     memory[SHARE_RATE] += 0.3 * ((memory[SHARE] - old) / CONTROL_DT - memory[SHARE_RATE])
 
 
-@njit(cache=True)
+@kernel
 def _aim_legs(p, memory, state, pose):
     """In the fall: hips and ankles so that the legs are at the wanted angle to the vertical at the touchdown.
 
@@ -210,7 +210,7 @@ def _aim_legs(p, memory, state, pose):
         pose[hip + 4] += share * (level - pose[hip + 4])
 
 
-@njit(cache=True)
+@allocating_kernel
 def drop_roll_tick(p, clip, reference, mirror, sign, memory, state, qpos, qvel, ctrl):
     """One tick, after `run_tick` and before the physics: overwrites ``ctrl`` (39,) once it falls.
 

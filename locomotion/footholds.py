@@ -12,7 +12,6 @@ analysis and control of legged locomotion", 2012).
 import math
 
 import numpy as np
-from numba import njit
 
 from locomotion.anatomy import ANKLE, SHANK, THIGH
 from locomotion.ground import height_below
@@ -36,6 +35,7 @@ from locomotion.walk_layout import (
     WALK_TURN_RATE,
     steep_share,
 )
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = [
     "SOLE", "bearing", "foot_frame", "ground_at", "lowest_gap", "moved", "plan_foothold", "rise_over_steps",
@@ -76,7 +76,7 @@ _STRIDE_BACK, _STRIDE, _STRADDLE = -0.45, 0.8, 0.5  # [m] what the legs reach
 _TILT_DOWN = 0.8  # slope downhill to which a foot turns
 
 
-@njit(cache=True)
+@kernel
 def ground_at(ground, px, py, pz):
     """(z, nx, ny, nz) of the first upward face at or below (px, py, pz); z is NaN if there is none.
 
@@ -91,7 +91,7 @@ def ground_at(ground, px, py, pz):
     return z + origin[2], rows[t, 0], rows[t, 1], rows[t, 2]
 
 
-@njit(cache=True)
+@allocating_kernel
 def foot_frame(yaw, normal, out):
     """Rotation ``out`` (3, 3) of a foot with its sole across ``normal`` (3,) and its toes towards ``yaw``."""
     cx, cy = math.cos(yaw), math.sin(yaw)
@@ -105,7 +105,7 @@ def foot_frame(yaw, normal, out):
     out[:, 2] = normal
 
 
-@njit(cache=True)
+@allocating_kernel
 def _gaps(ground, sole, foot, gap):
     """How far [m] the corners of a foot are above the ground: ``gap`` (4,)."""
     for corner in range(4):
@@ -118,7 +118,7 @@ def _gaps(ground, sole, foot, gap):
         gap[corner] = z - floor if floor == floor else math.inf
 
 
-@njit(cache=True)
+@allocating_kernel
 def lowest_gap(ground, sole, foot):
     """How far [m] the lowest corner of a foot is above the ground. Arguments as of `bearing`."""
     gap = np.empty(4)
@@ -126,7 +126,7 @@ def lowest_gap(ground, sole, foot):
     return gap.min()
 
 
-@njit(cache=True)
+@allocating_kernel
 def bearing(ground, sole, foot, out):
     """Where a foot stands on the ground: ``out`` (4,) = how far its bearing point is ahead of the sole's
     middle and to the left of it [m], and how much of the sole's length and of its width bears, in [0, 1].
@@ -152,7 +152,7 @@ def bearing(ground, sole, foot, out):
     out[2], out[3] = math.sqrt(max(1.0 - ahead * ahead, 0.0)), math.sqrt(max(1.0 - left * left, 0.0))
 
 
-@njit(cache=True)
+@kernel
 def sway(gains, omega, speed):
     """(ahead, inside) [m]: where the capture point is from the new stance foot at touchdown in a steady
     walk."""
@@ -161,7 +161,7 @@ def sway(gains, omega, speed):
     return speed * period / (growth - 1.0), gains[_WIDTH] / (1.0 + growth)
 
 
-@njit(cache=True)
+@allocating_kernel
 def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole, hip, stairs):
     """Write `FOOTHOLD`, its normal and yaw, and `SWING_TIME` into ``walk``, for the present capture point.
 
@@ -229,7 +229,7 @@ def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole, hip, s
             walk[HUMP] = min(max(walk[HUMP], z - line), _HIGHEST_HUMP)
 
 
-@njit(cache=True)
+@kernel
 def steps_ahead(ground, sole, ch, sh):
     """Slope [rise over run] of steps before the stance foot at ``sole`` (3,): level, not as high."""
     level = last = sole[2]
@@ -244,7 +244,7 @@ def steps_ahead(ground, sole, ch, sh):
     return most / (0.1 * _AHEAD)
 
 
-@njit(cache=True)
+@allocating_kernel
 def tread_shift(g, ground, walk, sole, ch, sh, along, across):
     """How much further along [m] than (along, across) from the stance foot at ``sole`` (3,) a foot stands
     best on one tread, on the way down rather on that of the other foot. (ch, sh): direction of the way."""
@@ -272,7 +272,7 @@ def tread_shift(g, ground, walk, sole, ch, sh, along, across):
     return best
 
 
-@njit(cache=True)
+@kernel
 def rise_over_steps(g, ground, walk, ch, sh):
     """How much higher [m] than its clearance a foot has to swing so that neither its toes nor its heel touch
     what is between where it left the ground and its foothold."""
@@ -291,14 +291,14 @@ def rise_over_steps(g, ground, walk, ch, sh):
     return min(hump, _HIGHEST_HUMP)
 
 
-@njit(cache=True)
+@kernel
 def moved(share):
     """How much of its way along a swing foot has made at a ``share`` of its swing."""
     u = min(share / 0.92, 1.0)
     return u * u * u * (10.0 + u * (-15.0 + 6.0 * u))
 
 
-@njit(cache=True)
+@kernel
 def risen(share, rise):
     """How much [m] of the ``rise`` to its foothold it has made: early up to a higher one, late down to a
     lower one."""
@@ -307,7 +307,7 @@ def risen(share, rise):
     return rise * (1.0 - math.cos(0.5 * math.pi * min(max(2.0 * share - 1.0, 0.0), 1.0)))
 
 
-@njit(cache=True)
+@kernel
 def _settle(g, ground, walk, x, y, yaw, level, hip):
     """The flattest place within a few centimetres of (x, y), and how a foot of a body that goes towards
     ``yaw`` stands on it."""
@@ -353,7 +353,7 @@ def _settle(g, ground, walk, x, y, yaw, level, hip):
         stand_on(ground, spot, walk[_NORMAL : _NORMAL + 3], ch, sh, pitch, g[_ROLL])
 
 
-@njit(cache=True)
+@kernel
 def turn_out(n0, n1, n2, yaw, roll, most):
     """Angle [rad] by which a foot towards ``yaw`` is turned on ground of the normal (n0, n1, n2), so that it
     stands no steeper to the side than ``roll``: downhill, or uphill if that is much nearer; ``most`` at
@@ -369,7 +369,7 @@ def turn_out(n0, n1, n2, yaw, roll, most):
     return math.copysign(min(needed, most), off)
 
 
-@njit(cache=True)
+@kernel
 def within_ankle(spot, ch, sh, hip, spare):
     """Slope uphill to which a foot at ``spot`` (3,) can turn under a leg from ``hip`` (3,): what the ankle
     bends less the lean of the shank, less ``spare`` [rad]. (ch, sh): direction of the toes."""
@@ -381,7 +381,7 @@ def within_ankle(spot, ch, sh, hip, spare):
     return math.tan(min(max(_DORSIFLEXION - spare - lean, -_HEEL_UP), _HEEL_UP))
 
 
-@njit(cache=True)
+@kernel
 def stand_on(ground, spot, normal, ch, sh, pitch, roll):
     """Turn a foot at ``spot`` (3,) as far towards the ground's ``normal`` (3,) as feet turn, uphill up to the
     slope ``pitch`` (toes down if that is below 0) and sideways up to ``roll``, and raise it until no corner

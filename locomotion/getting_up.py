@@ -9,7 +9,6 @@ by what is seen, and a body that does not come onto its front tries the other si
 import math
 
 import numpy as np
-from numba import njit
 
 from locomotion.person import CONTROL_DT, JOINT_NAMES
 from locomotion.scramble_layout import (
@@ -40,6 +39,7 @@ from locomotion.scramble_layout import (
 )  # fmt: skip
 from locomotion.scrambling import lie_of
 from locomotion.walk_layout import clamp
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["bear_on", "begin_getting_up", "get_up_tick", "lies_on_front", "rise_on"]
 
@@ -117,7 +117,7 @@ def _mirrored(angles: np.ndarray) -> np.ndarray:
 _OVER = np.array([[_SWING_OVER, _FOLLOW_OVER], [_mirrored(_SWING_OVER), _mirrored(_FOLLOW_OVER)]])
 
 
-@njit(cache=True)
+@allocating_kernel
 def lies_on_front(ground, memory):
     """How far the body's forward axis points away from the ground, -1 (on its front) to 1 (on its back), and
     how far its left side does."""
@@ -131,7 +131,7 @@ def lies_on_front(ground, memory):
     return front, left
 
 
-@njit(cache=True)
+@allocating_kernel
 def steepness(ground, memory):
     """Slope [rise over run] of the ground around the body."""
     com, gradient = memory[SEEN_COM], np.empty(2)
@@ -139,7 +139,7 @@ def steepness(ground, memory):
     return math.hypot(gradient[0], gradient[1])
 
 
-@njit(cache=True)
+@kernel
 def begin_getting_up(memory, qpos):
     """The body has fallen."""
     memory[BEGUN_FROM] = qpos[7:]
@@ -147,13 +147,13 @@ def begin_getting_up(memory, qpos):
     memory[RISEN] = 0.0
 
 
-@njit(cache=True)
+@kernel
 def _go_on(memory, mode, angles):
     memory[MODE], memory[MODE_CLOCK] = mode, 0.0
     memory[BEGUN_FROM] = angles
 
 
-@njit(cache=True)
+@kernel
 def _move(begun, target, share, ctrl):
     """From one posture to another (39,), ``share`` of the way in time."""
     u = clamp(share, 0.0, 1.0)
@@ -162,7 +162,7 @@ def _move(begun, target, share, ctrl):
         ctrl[j] = begun[j] + u * (target[j] - begun[j])
 
 
-@njit(cache=True)
+@allocating_kernel
 def get_up_tick(ground, memory, qpos, ctrl):
     """One control tick: advance ``memory``, write the PD targets ``ctrl`` (39,) [rad]."""
     memory[MODE_CLOCK] += CONTROL_DT
@@ -209,7 +209,7 @@ def get_up_tick(ground, memory, qpos, ctrl):
             bear_on(memory, 0.0)
 
 
-@njit(cache=True)
+@kernel
 def bear_on(memory, risen):
     """From the next tick on hands and feet bear the body, where they are; ``risen``: share of its height."""
     turn = memory[SEEN_TURN]
@@ -221,7 +221,7 @@ def bear_on(memory, risen):
     memory[LOADS] = risen
 
 
-@njit(cache=True)
+@kernel
 def rise_on(ground, memory, qpos, to_stand):
     """Every tick of a body that hands or feet bear, after what was observed: the trunk comes up; a body that
     has tipped over, or sunk while it rose, begins anew. One that goes on on hands and feet, and does not rise

@@ -15,8 +15,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["HORIZON", "SPACING", "Course", "Options", "first_meeting", "foretell", "meetings", "options"]
 
@@ -86,7 +87,7 @@ class Course:
     turns: float = 0.0
 
 
-@njit(cache=True)
+@kernel
 def foretell(
     points, speeds, speed, pace, slowest, acceleration, braking, eagerness, length, reach, turns, places
 ):  # fmt: skip
@@ -114,7 +115,7 @@ def foretell(
         arc = min(arc + 0.5 * (before + speed) * STEP, max(end * SPACING - length, 0.0))
 
 
-@njit(cache=True)
+@kernel
 def first_meeting(own, own_radius, others, other_radius, room):
     """The number of the first step at which a disc of ``own`` (n, d, 2) comes nearer to one of ``others``
     (n, m, 2) than both radii and ``room`` [m], and nearer than if it stayed where it is; n when none does.
@@ -146,7 +147,7 @@ def first_meeting(own, own_radius, others, other_radius, room):
     return first, touches, deepest
 
 
-@njit(cache=True)
+@allocating_kernel
 def meetings(places, velocities, heights, followers, slack, storey):
     """Which of the bodies at ``places`` (n, 2) [m] come near to each of ``followers`` (f,) if all go straight
     on: (f, n) bool."""

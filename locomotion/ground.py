@@ -18,12 +18,12 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
 from locomotion.errors import LocomotionError
 from locomotion.trimesh_build import build_triangle_arrays
 from locomotion.trimesh_install import MARK, occupy, release
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["FRICTION", "Ground", "extruded", "height_below", "plane_lookup"]
 
@@ -244,7 +244,7 @@ def extruded(profile: ArrayLike, half_width: float) -> tuple[NDArray[np.float64]
     return vertices, faces
 
 
-@njit(cache=True)
+@kernel
 def height_below(rows, cell_start, cell_triangles, grid, shape, x, y, z):
     """Height of the first upward face at or below (x, y, z), NaN where there is none, and its row or -1."""
     best, which = -np.inf, -1
@@ -269,7 +269,7 @@ def height_below(rows, cell_start, cell_triangles, grid, shape, x, y, z):
     return (best if which >= 0 else np.nan), which
 
 
-@njit(cache=True)
+@allocating_kernel
 def _surface_below(rows, cell_start, cell_triangles, grid, shape, points, heights, normals):
     for p in range(len(points)):
         x, y, z = points[p]

@@ -20,7 +20,6 @@ from radial basis functions over the learned heights (biharmonic spline with a l
 """
 
 import numpy as np
-from numba import njit
 
 from locomotion import controller
 from locomotion.clearing_law import (
@@ -46,6 +45,7 @@ from locomotion.clearing_law import (
     sense_swing_foot,
 )  # fmt: skip
 from locomotion.person import JOINT_NAMES
+from surefoot.kernels import allocating_kernel
 
 __all__ = [
     "ACTIVE", "BINS", "ERROR_DISTANCE", "ERROR_SPEED", "MEMORY_SIZE", "MIRROR", "MIRROR_SIGN",
@@ -98,7 +98,7 @@ MEMORY_SIZE = 50 + SENSORS
 _N = len(JOINT_NAMES)
 
 
-@njit(cache=True)
+@allocating_kernel
 def start_jump(p, memory, state, edge_x, edge_y, ahead_x, ahead_y):
     """Begin a jump at the stance switch that has just been made (its tick's `jump_tick` comes next).
 
@@ -115,7 +115,7 @@ def start_jump(p, memory, state, edge_x, edge_y, ahead_x, ahead_y):
     measure_errors(p[_MARKS], memory, state)
 
 
-@njit(cache=True)
+@allocating_kernel
 def jump_tick(p, knots, timing, difference, difference_rate, reference, mirror, sign, memory, state, ctrl):
     """One tick of a jump, after `run_tick` and before the physics: adds to ``ctrl`` (39,), changes the
     pace.

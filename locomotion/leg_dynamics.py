@@ -7,9 +7,8 @@ is taken to move steadily.
 
 import math
 
-from numba import njit
-
 from locomotion.anatomy import MASS, SHANK, SIDE_SEGMENTS, THIGH, TOE_JOINT
+from surefoot.kernels import kernel
 
 __all__ = ["STRAIGHT_LEG", "leg_momentum", "swing_torques"]
 
@@ -38,7 +37,7 @@ STRAIGHT_LEG = _UPPER + _LOWER + 2.0 * _COUPLING
 """[kg m^2] about the hip of a straight leg."""
 
 
-@njit(cache=True)
+@kernel
 def swing_torques(thigh, shank, thigh_rate, shank_rate, thigh_change, shank_change):
     """Torques [Nm] forward about the hip and about the knee, for angles [rad] of thigh and shank, their rates
     [rad/s] and the changes of those [rad/s^2]."""
@@ -51,7 +50,7 @@ def swing_torques(thigh, shank, thigh_rate, shank_rate, thigh_change, shank_chan
     return hip, knee
 
 
-@njit(cache=True)
+@kernel
 def leg_momentum(thigh, shank, thigh_rate, shank_rate):
     """Angular momentum [kg m^2/s] of a leg about its hip, forward. Arguments as of `swing_torques`."""
     along = _COUPLING * math.cos(thigh - shank - _AHEAD)

@@ -9,9 +9,9 @@ figure's order of axes).
 import math
 
 import numpy as np
-from numba import njit
 
 from locomotion.anatomy import SHANK, THIGH
+from surefoot.kernels import allocating_kernel
 
 __all__ = ["solve_leg"]
 
@@ -19,7 +19,7 @@ _LONGEST = 0.998 * (THIGH + SHANK)
 _SHORTEST = 0.35
 
 
-@njit(cache=True)
+@allocating_kernel
 def solve_leg(pelvis, hip, foot, ankle, side, out):
     """Angles ``out`` (6,) [rad] that put the ankle at ``ankle`` (3,) [m] with the foot turned as ``foot``.
 

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike, NDArray
 from scipy.ndimage import maximum_filter1d
 
@@ -29,6 +28,7 @@ from locomotion.path_table import (
     Z,
 )
 from locomotion.where_to_run import hard_again, plan_gaits
+from surefoot.kernels import kernel
 
 __all__ = [
     "ARC", "BACKED", "HEADWAY", "HEADWAY_TICK", "LATERAL", "PACE", "REMAINING", "SLOPE_HERE", "SPEED_HERE",
@@ -205,7 +205,7 @@ def new_track() -> NDArray[np.float64]:
     return memory
 
 
-@njit(cache=True)
+@kernel
 def _at(table, step, arc, column):
     place = min(max(arc / step, 0.0), table.shape[0] - 1.0)
     i = min(int(place), table.shape[0] - 2)
@@ -213,7 +213,7 @@ def _at(table, step, arc, column):
     return (1.0 - w) * table[i, column] + w * table[i + 1, column]
 
 
-@njit(cache=True)
+@kernel
 def track(table, length, gains, memory, x, y, speed, tick, command):
     """One tick: find the body's foot point; write heading, speed, side speed, slope into ``command`` (4,).
 

@@ -7,7 +7,6 @@ weight goes over to them and hips and trunk come up over the soles together (`ri
 import math
 
 import numpy as np
-from numba import njit
 
 from locomotion.person import CONTROL_DT, JOINT_NAMES
 from locomotion.scramble_layout import (
@@ -32,6 +31,7 @@ from locomotion.scramble_layout import (
 )  # fmt: skip
 from locomotion.scramble_limbs import LEGS, STIFFNESS, WAIST_CHEST_NECK, attitude, bear, leg_angles, turned
 from locomotion.walk_layout import clamp
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["begin_to_rise", "gather", "ready_to_rise", "rise_tick", "stands"]
 
@@ -58,13 +58,13 @@ _ABDUCTIONS = np.array([JOINT_NAMES.index(f"{s}_shoulder_abduction") for s in ("
 _ELBOWS = np.array([JOINT_NAMES.index(f"{s}_elbow_flexion") for s in ("right", "left")])
 
 
-@njit(cache=True)
+@kernel
 def gather(memory, close):
     """Where the limbs are at home from now on: ``close`` before rising, or apart for scrambling."""
     memory[STANCE] = _CLOSE if close else _HOMES
 
 
-@njit(cache=True)
+@allocating_kernel
 def ready_to_rise(memory):
     """Whether the feet are under the body and it is at rest."""
     seen, com, v = memory[SEEN_LIMBS].reshape(4, 3), memory[SEEN_COM], memory[SEEN_VELOCITY]
@@ -78,7 +78,7 @@ def ready_to_rise(memory):
     return True
 
 
-@njit(cache=True)
+@allocating_kernel
 def begin_to_rise(memory, qpos):
     memory[MODE], memory[MODE_CLOCK] = RISING, 0.0
     memory[BEGUN_FROM] = qpos[7:]
@@ -89,7 +89,7 @@ def begin_to_rise(memory, qpos):
     memory[BEGUN_FROM.start + 1] = memory[SEEN_BASE.start + 2] - 0.5 * (seen[2, 2] + seen[3, 2])
 
 
-@njit(cache=True)
+@allocating_kernel
 def rise_tick(memory, qpos, ctrl):
     """One control tick: write the PD targets ``ctrl`` (39,) [rad]."""
     seen, com, base, v = (
@@ -153,7 +153,7 @@ def rise_tick(memory, qpos, ctrl):
         ctrl[j] += torques[j] / STIFFNESS[j]
 
 
-@njit(cache=True)
+@kernel
 def stands(memory):
     """Whether the body has come up."""
     return memory[MODE_CLOCK] > 0.2 + _HANDED_OVER * _RISE_TIME

@@ -3,7 +3,6 @@
 import math
 
 import numpy as np
-from numba import njit
 
 from locomotion.anatomy import ANKLE, MASS, SIDE_JOINTS, TRUNK_JOINTS
 from locomotion.arm_reach import ARM_START, _turn
@@ -12,6 +11,7 @@ from locomotion.leg_kinematics import solve_leg
 from locomotion.person import JOINT_NAMES
 from locomotion.scramble_layout import ANCHORS, AXES, BIAS, LOADS, SEEN_COM, SEEN_FORCES
 from locomotion.walk_layout import clamp
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = [
     "ARMS", "BALL", "HIGHEST", "LEGS", "LOWEST", "STIFFNESS", "SWIVEL", "WAIST_CHEST_NECK", "attitude",
@@ -41,7 +41,7 @@ _GRASP = 40.0  # [N] with which a limb presses that bears nothing yet
 _GRAVITY = 9.81
 
 
-@njit(cache=True)
+@kernel
 def attitude(yaw, lean, roll, qref):
     """Writes the pelvis's rotation into ``qref`` (46,)."""
     a, b, c = 0.5 * yaw, 0.5 * lean, 0.5 * roll
@@ -52,7 +52,7 @@ def attitude(yaw, lean, roll, qref):
     qref[6] = sa * cb * cc - ca * sb * sc
 
 
-@njit(cache=True)
+@kernel
 def turned(q, out):
     w, x, y, z = q
     out[0, 0], out[1, 0], out[2, 0] = 1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)
@@ -60,7 +60,7 @@ def turned(q, out):
     out[0, 2], out[1, 2], out[2, 2] = 2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)
 
 
-@njit(cache=True)
+@allocating_kernel
 def leg_angles(qref, pelvis, ball, yaw, pitch, side, out):
     """Angles (7,) of a leg whose ball is at ``ball`` (3,), the heel raised as far as the ankle needs it."""
     hip, frame, ankle, six = np.empty(3), np.empty((3, 3)), np.empty(3), np.empty(6)
@@ -82,7 +82,7 @@ def leg_angles(qref, pelvis, ball, yaw, pitch, side, out):
     out[6] = clamp(heel - pitch, 0.0, 1.0)
 
 
-@njit(cache=True)
+@allocating_kernel
 def bear(memory, limbs, torques):
     """Torques (39,) [Nm] with which the limbs that are down carry the weight by vertical forces, shared so
     that they pass through the centre of mass."""

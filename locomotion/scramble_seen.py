@@ -4,7 +4,6 @@ from typing import NamedTuple
 
 import mujoco
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from locomotion.anatomy import TRUNK_JOINTS
@@ -24,6 +23,7 @@ from locomotion.scramble_layout import (
     SEEN_VELOCITY,
 )  # fmt: skip
 from locomotion.scramble_limbs import BALL
+from surefoot.kernels import allocating_kernel
 
 __all__ = ["Parts", "observe_scramble", "parts_of"]
 
@@ -47,7 +47,7 @@ class Parts(NamedTuple):
     bodies: NDArray[np.int32]
 
 
-@njit(cache=True)
+@allocating_kernel
 def _observe(
     memory, state, places, frames, coms, parts, anchors, axes, bias, ncon, geoms, addresses, forces
 ):  # fmt: skip

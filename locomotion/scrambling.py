@@ -14,7 +14,6 @@ import math
 
 import mujoco
 import numpy as np
-from numba import njit
 
 from locomotion.arm_reach import reach
 from locomotion.footholds import ground_at
@@ -63,6 +62,7 @@ from locomotion.scramble_limbs import (
 )  # fmt: skip
 from locomotion.scramble_seen import Parts, observe_scramble
 from locomotion.walk_layout import clamp, wrap
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["crouch", "scramble_tick", "steeper"]
 
@@ -89,7 +89,7 @@ _FEEL, _FEEL_MOST = 0.4, 0.12  # [m/s], [m] at which and how far such a limb rea
 _STRAY = 0.08  # [m] that the centre of mass may be from where it is to be
 
 
-@njit(cache=True)
+@allocating_kernel
 def lie_of(ground, x, y, z, out):
     """Gradient (2,) of the ground around (x, y, z)."""
     rows, cell_start, cell_triangles, grid, shape, origin = ground
@@ -112,7 +112,7 @@ def lie_of(ground, x, y, z, out):
         out *= 2.0 / n
 
 
-@njit(cache=True)
+@allocating_kernel
 def steeper(ground, points, slope):
     """Whether the ground around any of ``points`` (n, 3) is steeper than ``slope`` [rise over run]."""
     gradient = np.empty(2)
@@ -123,7 +123,7 @@ def steeper(ground, points, slope):
     return False
 
 
-@njit(cache=True)
+@kernel
 def _home(ground, p, k, x, y, z, facing, slope, out):
     """Where limb ``k`` is at home under a centre of mass over (x, y): ``out`` (3,)."""
     side = -1.0 if k % 2 == 0 else 1.0
@@ -136,13 +136,13 @@ def _home(ground, p, k, x, y, z, facing, slope, out):
     _settle(ground, k, z, out)
 
 
-@njit(cache=True)
+@kernel
 def _settle(ground, k, z, out):
     h, _, _, n2 = ground_at(ground, out[0], out[1], z + 1.0)
     out[2] = (h if h == h and abs(h - z) < 1.2 else z) + _RADIUS[k] / max(n2, 0.4)
 
 
-@njit(cache=True)
+@allocating_kernel
 def _gait(ground, memory, command, gradient, slope):
     """Which limbs are in the air, and where they are to land."""
     p = memory[STANCE]
@@ -199,7 +199,7 @@ def _gait(ground, memory, command, gradient, slope):
         memory[LOADS.start + k] += clamp(want - memory[LOADS.start + k], -0.2, 0.15)
 
 
-@njit(cache=True)
+@kernel
 def _posture(memory, slope, across, command, limbs, qref):
     """Where the trunk is to be: writes the place and rotation of the pelvis into ``qref`` (46,).
 
@@ -238,7 +238,7 @@ def _posture(memory, slope, across, command, limbs, qref):
     attitude(memory[FACING], lean, roll, qref)
 
 
-@njit(cache=True)
+@allocating_kernel
 def scramble_tick(ground, memory, command, qpos, qvel, ctrl):
     """One control tick: advance ``memory`` (SCRAMBLE_SIZE,), write the PD targets ``ctrl`` (39,) [rad].
 

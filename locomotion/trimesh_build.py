@@ -10,8 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["DEPTH_CAP", "ROW", "TriangleArrays", "build_triangle_arrays", "share_corner"]
 
@@ -113,7 +114,7 @@ def _edges(corners: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.in
     return np.append(np.flatnonzero(new), len(order)).astype(np.int64), order.astype(np.int64)
 
 
-@njit(cache=True)
+@allocating_kernel
 def _edge_cones(edge_start, edge_sides, rows, flags, bisectors):
     """Cone of free directions at each edge, from the side planes of its faces; marks the exposed ones."""
     for e in range(len(edge_start) - 1):
@@ -163,7 +164,7 @@ def _vertex_edges(
     return start, np.ascontiguousarray(along)
 
 
-@njit(cache=True)
+@allocating_kernel
 def _exposed_corners(vertex_start, vertex_edges, bisectors, flags):
     """Mark each vertex that sticks out, once, at its first triangle."""
     seen = np.zeros(len(vertex_start) - 1, np.bool_)
@@ -199,7 +200,7 @@ def _grid(rows: NDArray[np.float64], flags: NDArray[np.int32]):
     return start, triangles, span, np.array([low[0], low[1], 1.0 / cell, 0.0]), shape
 
 
-@njit(cache=True)
+@allocating_kernel
 def _fill_grid(first, last, rows, nx, ny):
     start = np.zeros(nx * ny + 1, np.int32)
     span = np.empty((nx * ny, 2))
@@ -223,7 +224,7 @@ def _fill_grid(first, last, rows, nx, ny):
     return start, triangles, span
 
 
-@njit(cache=True)
+@kernel
 def share_corner(flags, s, t):
     """Whether two faces have a corner in common."""
     for a in range(1, 4):
@@ -233,7 +234,7 @@ def share_corner(flags, s, t):
     return False
 
 
-@njit(cache=True)
+@kernel
 def _depth_limits(rows, flags, cell_start, cell_triangles, grid, shape):
     """How deep a body may be behind each face: at most half the thickness of the wall there.
 
@@ -260,7 +261,7 @@ def _depth_limits(rows, flags, cell_start, cell_triangles, grid, shape):
         rows[t, 25] = max(0.5 * thickness, DEPTH_FLOOR)
 
 
-@njit(cache=True)
+@kernel
 def _edge_depth_limits(edge_start, edge_sides, rows):
     """How deep an axis may be behind each edge: as behind the thinner of its two faces. At the border of a
     sheet there is no inside, and where more faces meet none is told."""
@@ -271,7 +272,7 @@ def _edge_depth_limits(edge_start, edge_sides, rows):
             rows[t, 50 + k] = min(rows[t, 25], rows[edge_sides[i + 1] // 3, 25])
 
 
-@njit(cache=True)
+@allocating_kernel
 def _depth_behind(front, back, limit):
     """Least depth [m] of triangle row `back` within the prism behind triangle row `front`, or `limit`."""
     polygon = np.zeros((8, 3))

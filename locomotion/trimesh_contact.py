@@ -14,9 +14,8 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from locomotion.trimesh_build import DEPTH_CAP, share_corner
+from surefoot.kernels import kernel
 
 __all__ = ["MAX_CONTACTS", "capsule_contacts"]
 
@@ -34,7 +33,7 @@ SAME = 1e-3
 PARALLEL = 0.9995
 
 
-@njit(cache=True, inline="never")
+@kernel(inline="never")
 def _add(out, count, dist, qx, qy, qz, radius, nx, ny, nz, at, height, is_face):
     """Append a candidate; one that repeats another keeps the deeper of the two."""
     for i in range(count):
@@ -57,7 +56,7 @@ def _add(out, count, dist, qx, qy, qz, radius, nx, ny, nz, at, height, is_face):
     return count + 1
 
 
-@njit(cache=True, inline="never")
+@kernel(inline="never")
 def _outside(rows, flags, cell_start, cell_triangles, grid, shape, t, x, y, z, height):
     """Whether (x, y, z), -``height`` behind face ``t``, is in front of another side of the same wedge: a face
     that shares a corner with ``t`` lies across the way straight out. (Depth limits tell it of other faces.)
@@ -88,7 +87,7 @@ def _outside(rows, flags, cell_start, cell_triangles, grid, shape, t, x, y, z, h
     return False
 
 
-@njit(cache=True)
+@kernel
 def _face(rows, flags, cell_start, cell_triangles, grid, shape, t, x, y, z, radius, margin, at, out, count):
     """Candidate between face ``t`` and one end of the axis."""
     row = rows[t]
@@ -105,7 +104,7 @@ def _face(rows, flags, cell_start, cell_triangles, grid, shape, t, x, y, z, radi
     return _add(out, count, height - radius, x, y, z, radius, row[0], row[1], row[2], at, height, 1.0)
 
 
-@njit(cache=True)
+@kernel
 def _edge_point(row, k, x, y, z, radius, margin, at, cx, cy, cz, out, count):
     """Candidate between the point (cx, cy, cz) of edge k and the point (x, y, z) of the axis."""
     ux, uy, uz = x - cx, y - cy, z - cz
@@ -121,7 +120,7 @@ def _edge_point(row, k, x, y, z, radius, margin, at, cx, cy, cz, out, count):
     return _add(out, count, length - radius, x, y, z, radius, ux, uy, uz, at, 1.0, 0.0)
 
 
-@njit(cache=True, inline="never")
+@kernel(inline="never")
 def _through(row, k, ax, ay, az, bx, by, bz, x, y, z, radius, at, cx, cy, cz, out, count):
     """Candidate between the point (cx, cy, cz) of edge k and the point (x, y, z) of an axis that has come
     through it."""
@@ -152,7 +151,7 @@ def _through(row, k, ax, ay, az, bx, by, bz, x, y, z, radius, at, cx, cy, cz, ou
     return _add(out, count, -length - radius, x, y, z, radius, ux, uy, uz, at, 1.0, 0.0)
 
 
-@njit(cache=True)
+@kernel
 def _edge(row, k, ax, ay, az, bx, by, bz, length, radius, margin, out, count):
     """Candidates between exposed edge k and both ends and the inside of the axis."""
     i, j = 16 + 3 * k, 16 + 3 * ((k + 1) % 3)
@@ -192,7 +191,7 @@ def _edge(row, k, ax, ay, az, bx, by, bz, length, radius, margin, out, count):
     return count
 
 
-@njit(cache=True)
+@kernel
 def _corner(
     row, k, vertex, vertex_start, vertex_edges, ax, ay, az, bx, by, bz, length, radius, margin, out, count
 ):
@@ -215,7 +214,7 @@ def _corner(
     return _add(out, count, distance - radius, x, y, z, radius, ux, uy, uz, s * length, 1.0, 0.0)
 
 
-@njit(cache=True)
+@kernel
 def _reduce(out, count):
     """Drop what another candidate explains, and keep the deepest MAX_CONTACTS in order of discovery."""
     dropped = 0
@@ -256,7 +255,7 @@ def _reduce(out, count):
     return kept
 
 
-@njit(cache=True)
+@kernel
 def capsule_contacts(
     rows, flags, vertex_start, vertex_edges, cell_start, cell_triangles, cell_range, grid, shape,
     ax, ay, az, bx, by, bz, radius, margin, out,

@@ -18,12 +18,13 @@ import llvmlite.binding
 import mujoco
 import numpy as np
 from llvmlite import ir
-from numba import carray, cfunc, njit, types
+from numba import carray, cfunc, types
 from numba.extending import intrinsic
 
 from locomotion.errors import LocomotionError
 from locomotion.trimesh_build import ROW, TriangleArrays
 from locomotion.trimesh_contact import MAX_CANDIDATES, capsule_contacts
+from surefoot.kernels import allocating_kernel
 
 __all__ = ["MARK", "occupy", "release"]
 
@@ -82,7 +83,7 @@ _table_address: Any = intrinsic(_load_table_address)
 _call: Any = intrinsic(_call_function)
 
 
-@njit(cache=True)
+@allocating_kernel
 def _collide(table, model, data, contacts, g1, g2, margin, capsule):
     user_width = carray(_as_int64(model + table[0]), (1,))[0]
     slot = -1

@@ -26,7 +26,6 @@ same kind of joint (4.2.1).
 import math
 
 import numpy as np
-from numba import njit
 
 from locomotion import controller
 from locomotion.arm_reach import ARM_START, HAND_RADIUS, hand_place, reach, shoulder_frame
@@ -51,6 +50,7 @@ from locomotion.clearing_law import (
     sense_swing_foot,
 )  # fmt: skip
 from locomotion.person import CONTROL_DT, JOINT_NAMES
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = [
     "ACTIVE", "ANCHOR", "BINS", "EDGE", "ERROR_DISTANCE", "ERROR_SPEED", "HELD", "HOLD", "KNOTS", "LAST_STEP",
@@ -119,7 +119,7 @@ _LOWEST = 0.5
 # [m] of the centre of mass above the floor; lower counts as a fall even while it passes the wall
 
 
-@njit(cache=True)
+@allocating_kernel
 def start_vault(p, memory, state, edge, ahead, top, height, depth):
     """Begin a vault at the stance switch that has just been made (its tick's `vault_tick` comes next).
 
@@ -137,7 +137,7 @@ def start_vault(p, memory, state, edge, ahead, top, height, depth):
     measure_errors(p[_MARKS], memory, state)
 
 
-@njit(cache=True)
+@kernel
 def vault_fell(memory, state):
     """Whether a body that `controller.observe` takes for fallen has fallen: over the wall it lies and tucks
     its legs."""
@@ -146,7 +146,7 @@ def vault_fell(memory, state):
     return state[16] < memory[FLOOR] + _LOWEST
 
 
-@njit(cache=True)
+@allocating_kernel
 def _hand(p, memory, step, phase, qpos):
     """Let the hand touch, hold and let go."""
     ax, ay = memory[9], memory[10]
@@ -161,7 +161,7 @@ def _hand(p, memory, step, phase, qpos):
         memory[HELD] += 1.0
 
 
-@njit(cache=True)
+@allocating_kernel
 def _arm(p, memory, step, phase, qpos, ctrl):
     """The supporting arm's targets: from the run's to reaching for the top, holding and pushing, and back."""
     if step == 1 and phase >= p[_ARM] and memory[HOLD] < 2.0:
@@ -208,7 +208,7 @@ def _arm(p, memory, step, phase, qpos, ctrl):
             ctrl[arm + k] += weight * (memory[_LAST_ARM + k] - ctrl[arm + k])
 
 
-@njit(cache=True)
+@allocating_kernel
 def vault_tick(p, knots, timing, difference, rate, reference, mirror, sign, memory, state, qpos, ctrl):
     """One tick of a vault, after `run_tick` and before the physics: adds to ``ctrl`` (39,), changes the
     pace, says in ``memory`` whether the hand holds (`HOLD`) and where (`ANCHOR`).

@@ -3,7 +3,8 @@
 import math
 
 import numpy as np
-from numba import njit
+
+from surefoot.kernels import kernel
 
 __all__ = [
     "ATTITUDES", "BODY_HEIGHT", "CAUGHT", "CLOCK", "DOUBLE", "FAST", "FAST_SPEED", "FOOTHOLD",
@@ -158,25 +159,25 @@ def new_walk(heading: float = 0.0) -> np.ndarray:
     return walk
 
 
-@njit(cache=True)
+@kernel
 def clamp(x, low, high):
     """``x`` within ``low`` to ``high``."""
     return min(max(x, low), high)
 
 
-@njit(cache=True)
+@kernel
 def wrap(angle):
     """``angle`` [rad] within -π to π."""
     return (angle + math.pi) % (2.0 * math.pi) - math.pi
 
 
-@njit(cache=True)
+@kernel
 def steep_share(steepness):
     """How much a slope [rise over run] counts as steep, 0 (gone as level ground) to 1."""
     return clamp((steepness - _LEVEL_SLOPE) / (_STEEP_SLOPE - _LEVEL_SLOPE), 0.0, 1.0)
 
 
-@njit(cache=True)
+@kernel
 def pace_of(walk):
     """Speed [m/s] at which a person walks: that of its reference, or of its steps where it has to slow down
     from a fast walk and has not yet."""
@@ -184,7 +185,7 @@ def pace_of(walk):
     return made if made > max(walk[WALK_SPEED], USUAL_SPEED) else walk[WALK_SPEED]
 
 
-@njit(cache=True)
+@kernel
 def fast_share(speed):
     """How much a walk of ``speed`` [m/s] is a fast one, 0 to 1."""
     return clamp((speed - USUAL_SPEED) / (FAST_SPEED - USUAL_SPEED), 0.0, 1.0)

@@ -2,8 +2,6 @@
 
 import math
 
-from numba import njit
-
 from locomotion.footholds import sway
 from locomotion.person import CONTROL_DT, JOINT_NAMES
 from locomotion.walk_layout import (
@@ -43,6 +41,7 @@ from locomotion.walk_layout import (
     pace_of,
     wrap,
 )  # fmt: skip
+from surefoot.kernels import kernel
 
 __all__ = ["TURN_RATE", "TURN_TIME", "advance_step", "begin_swing", "follow"]
 
@@ -79,7 +78,7 @@ _SIDES = 0.02  # [m] outside of the middle of a foot to which it can
 _SET_OFF_LIMIT = 3.0  # [s] after which the first step is made regardless
 
 
-@njit(cache=True)
+@kernel
 def begin_swing(gains, walk, qpos):
     """Single support begins: remember where the swing foot leaves the ground and how its leg is bent."""
     swing = 0 if walk[WALK_STANCE] > 0 else 1
@@ -94,7 +93,7 @@ def begin_swing(gains, walk, qpos):
         walk[_ANGLES + k] = qpos[7 + hip + k]
 
 
-@njit(cache=True)
+@kernel
 def follow(walk, heading, speed, sideways):
     """Let the reference heading and speeds follow what is asked; gives what is left of the heading [rad]."""
     error = wrap(heading - walk[WALK_HEADING])
@@ -130,14 +129,14 @@ def follow(walk, heading, speed, sideways):
     return error
 
 
-@njit(cache=True)
+@kernel
 def _in_tight_bend(walk):
     """Whether it turns so fast, in a bend, that a step's direction is not that in which it ends."""
     turns = abs(walk[WALK_TURN_RATE]) > _TURNING / USUAL_SPEED
     return turns and walk[SUDDEN] == 0.0 and walk[WALK_SPEED] > _SLOW_TURN
 
 
-@njit(cache=True)
+@kernel
 def _trim(gains, walk, x, y):
     """At a touchdown with the centre of mass at (x, y): correct the speed asked for by that of the last
     step."""
@@ -155,7 +154,7 @@ def _trim(gains, walk, x, y):
     walk[STEPPED_AT], walk[_STEPPED], walk[_STEPPED + 1] = walk[WALK_TICKS], x, y
 
 
-@njit(cache=True)
+@kernel
 def advance_step(gains, walk, command, error, soles, points, spans, contact, down, com, capture, omega, qpos):
     """Which feet bear the person now: phases and their ends. down: whether what touches the swing foot may be
     the ground below it."""

@@ -27,7 +27,6 @@ import math
 
 import mujoco
 import numpy as np
-from numba import njit
 
 from locomotion import run_layout
 from locomotion.anatomy import ANKLE, MASS
@@ -78,6 +77,7 @@ from locomotion.walk_layout import (
 )
 from locomotion.walk_steps import advance_step, follow
 from locomotion.walking_legs import height_in_reach, steady_foot, support_leg, swing_leg
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["legs_momentum", "observe_walk", "walk_tick"]
 
@@ -126,7 +126,7 @@ _YAW_MOMENT = 25.0  # [Nm]
 _SLOW, _RESTING = 0.4, 0.1  # [m/s] of the reference speed below which it begins to rest; with which it rests
 
 
-@njit(cache=True)
+@kernel
 def _observe(walk, feet, positions, rotations, anchors, axes, torques):
     for k in range(2):
         foot = rotations[feet[k]]
@@ -150,7 +150,7 @@ def observe_walk(index: PersonIndex, data: mujoco.MjData, walk: np.ndarray) -> N
     _observe(walk, index.feet, data.xpos, data.xmat, data.xanchor, data.xaxis, data.actuator_force)
 
 
-@njit(cache=True)
+@allocating_kernel
 def _bear_steep(ground, steep, soles, feet, points, spans):
     """Where the feet bear: ``points`` (2, 3), and ``spans`` (2, 2), how much of their length and width does.
     On level ground a foot that comes up at the heel is flat again at the next step: it counts as flat."""
@@ -164,7 +164,7 @@ def _bear_steep(ground, steep, soles, feet, points, spans):
                 spans[k, i] = 1.0 - steep * (1.0 - bears[2 + i])
 
 
-@njit(cache=True)
+@allocating_kernel
 def _pressures(gains, walk, feet, points, spans, capture, omega, cop, share):
     """Centre of pressure ``cop`` (2, 3) under each foot and its ``share`` (2,) of the load.
 
@@ -213,7 +213,7 @@ def _pressures(gains, walk, feet, points, spans, capture, omega, cop, share):
             cop[k, i] = points[k, i] + along[k] * foot[3 * i] + across[k] * foot[3 * i + 1]
 
 
-@njit(cache=True)
+@kernel
 def _upright(gains, walk, slope, pelvis, qvel, out):
     """Moment ``out`` (3,) [Nm] about the world's axes that turns the pelvis upright and towards the
     heading."""
@@ -235,7 +235,7 @@ def _upright(gains, walk, slope, pelvis, qvel, out):
     out[2] = clamp(turn, -_YAW_MOMENT, _YAW_MOMENT)
 
 
-@njit(cache=True)
+@kernel
 def legs_momentum(pelvis, speed, qpos, qvel):
     """Angular momentum [kg m^2/s] of the legs, forward, beyond what they have at a touchdown, when both turn
     back below a body of this ``speed`` [m/s]."""
@@ -247,7 +247,7 @@ def legs_momentum(pelvis, speed, qpos, qvel):
     return momentum
 
 
-@njit(cache=True)
+@kernel
 def _lift(gains, walk, steep, slope, soles, state, hip):
     """Acceleration [m/s^2] upward that takes the body to its height: above the line between the feet, and on
     steep ground no higher than the swing leg reaches from its ``hip`` (3,), no faster than it may climb."""
@@ -272,7 +272,7 @@ def _lift(gains, walk, steep, slope, soles, state, hip):
     return gains[_Z_STIFF] * (height - state[_COM + 2]) + gains[_Z_DAMP] * (steep * climb - state[_VEL + 2])
 
 
-@njit(cache=True)
+@allocating_kernel
 def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
     """One control tick: advance ``walk`` (WALK_SIZE,), write the PD targets ``ctrl`` (39,) [rad].
 

@@ -3,7 +3,6 @@
 import math
 
 import numpy as np
-from numba import njit
 
 from locomotion.anatomy import ANKLE, SHANK, SIDE_JOINTS, THIGH
 from locomotion.footholds import SOLE, foot_frame, moved, risen
@@ -27,6 +26,7 @@ from locomotion.walk_layout import (
     steep_share,
     wrap,
 )
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["height_in_reach", "steady_foot", "support_leg", "swing_leg"]
 
@@ -46,7 +46,7 @@ _HIP, _KNEE = 0, 3  # of a leg's angles
 _REACH = 0.97 * (THIGH + SHANK)  # [m] from hip to ankle when a foot lands, at most
 
 
-@njit(cache=True)
+@kernel
 def support_leg(hip, damping, force, cop, yaw_moment, anchors, axes, hold, span, qpos, qvel, ctrl):
     """A leg that makes the ground push with ``force`` (3,) at ``cop`` (3,): transposed Jacobian, as PD
     targets. hold (3,): rotation [rad] by which the ankle's servos turn the foot, too; they keep their damping
@@ -65,7 +65,7 @@ def support_leg(hip, damping, force, cop, yaw_moment, anchors, axes, hold, span,
             ctrl[hip + j] += axis[0] * hold[0] + axis[1] * hold[1] + axis[2] * hold[2]
 
 
-@njit(cache=True)
+@kernel
 def steady_foot(share, span, foot, normal, out):
     """Rotation ``out`` (3,) [rad] that turns a foot (9,) to its ``normal`` (3,) about the axes about which
     it does not stand: along where its width bears nothing, across where its length does."""
@@ -81,7 +81,7 @@ def steady_foot(share, span, foot, normal, out):
         out[i] = about_x * foot[3 * i] + about_y * foot[3 * i + 1]
 
 
-@njit(cache=True)
+@allocating_kernel
 def height_in_reach(walk, com, velocity, hip):
     """Height [m] of the centre of mass ``com`` (3,) from which the swing leg reaches its foothold when it is
     due. hip (3,): where it is now."""
@@ -94,7 +94,7 @@ def height_in_reach(walk, com, velocity, hip):
     return walk[_SPOT + 2] - SOLE * foot[2, 0] + ANKLE * foot[2, 2] + up - hip[2] + com[2]
 
 
-@njit(cache=True)
+@allocating_kernel
 def _swing_angles(gains, walk, pelvis, hip_at, side, clock, angles):
     """Angles (6,) [rad] of a leg from a hip at ``hip_at`` (3,) whose foot is where it is to be at
     ``clock``."""
@@ -119,7 +119,7 @@ def _swing_angles(gains, walk, pelvis, hip_at, side, clock, angles):
     solve_leg(pelvis, hip_at, foot, ankle, side, angles)
 
 
-@njit(cache=True)
+@allocating_kernel
 def swing_leg(gains, walk, pelvis, hip_at, velocity, hip, side, ctrl):
     """A leg whose foot moves to its foothold: PD targets by inverse kinematics. hip_at (3,), velocity (2,):
     of its hip."""
@@ -137,7 +137,7 @@ def swing_leg(gains, walk, pelvis, hip_at, velocity, hip, side, ctrl):
             ctrl[hip + j] += gains[_FORESEEN] * (wanted[j] - ctrl[hip + j])
 
 
-@njit(cache=True)
+@allocating_kernel
 def _foresee(gains, walk, frame, hip_at, velocity, side, wanted):
     """PD targets (6,) with which the leg is where it is planned to be when they have worked: from the plan a
     little ahead, from a hip that goes on as it does, its rates, and the torques that moving so takes."""

@@ -3,12 +3,12 @@
 from math import sqrt
 
 import numpy as np
-from numba import njit
 
 from navmesh.field import cell_at, floor_at, walk
 from navmesh.pulling import pull
 from navmesh.search import BEST, COMPLETE, EXPANDED, LIMIT, advance, begin, chain, resume
 from navmesh.snapping import nearest_reachable, snap
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["SEARCHING", "answer", "answer_all", "answer_search", "start_search"]
 
@@ -23,7 +23,7 @@ _CLOSE = 0.97  # share of the length found that another chain must promise to be
 _MORE = 64  # labels that may be expanded then, on top of as many as the search took
 
 
-@njit(error_model="numpy", cache=True, nogil=True)
+@kernel(error_model="numpy", nogil=True)
 def _mark_reached(doors, scratch, part):
     """Mark in scratch.reached the parts that leaps lead to from ``part``, with it."""
     reached, stack = scratch.reached, scratch.part_stack
@@ -42,7 +42,7 @@ def _mark_reached(doors, scratch, part):
                 size += 1
 
 
-@njit(error_model="numpy", cache=True, nogil=True)
+@kernel(error_model="numpy", nogil=True)
 def start_search(net, doors, scratch, sx, sy, sz, gx, gy, gz, reach, rise, step):
     """Snap the ends and begin the search; returns a status.
 
@@ -77,7 +77,7 @@ def start_search(net, doors, scratch, sx, sy, sz, gx, gy, gz, reach, rise, step)
     return status
 
 
-@njit(error_model="numpy", cache=True, nogil=True)
+@allocating_kernel(error_model="numpy", nogil=True)
 def _trace(net, doors, scratch, leaps, count, gx, gy, goal_cell, last_try):
     """Pull the chain of ``count`` nodes taut, to g in ``goal_cell``, into ``scratch.points``.
 
@@ -117,7 +117,7 @@ def _trace(net, doors, scratch, leaps, count, gx, gy, goal_cell, last_try):
     return reached, count, corners, used, cost + _length(scratch, leg, corners)
 
 
-@njit(error_model="numpy", cache=True, nogil=True)
+@kernel(error_model="numpy", nogil=True)
 def _length(scratch, first, last):
     """Length [m] of the line through the corners [first:last]."""
     points = scratch.points
@@ -130,7 +130,7 @@ def _length(scratch, first, last):
     return total
 
 
-@njit(error_model="numpy", cache=True, nogil=True)
+@kernel(error_model="numpy", nogil=True)
 def _early_end(net, doors, scratch):
     """Where a search that was ended early leads: (x, y, cell) of the middle of the portal seen that is
     nearest to the goal."""
@@ -144,7 +144,7 @@ def _early_end(net, doors, scratch):
     return x, y, walk(net, np.int64(doors.portal_cell[door, 0]), lx, ly, x, y, 0.0, True)[1]
 
 
-@njit(error_model="numpy", cache=True, nogil=True)
+@allocating_kernel(error_model="numpy", nogil=True)
 def _finish(net, doors, scratch, leaps):
     """Turn the search's state into corners in ``scratch.points``.
 
@@ -198,12 +198,12 @@ def _finish(net, doors, scratch, leaps):
     return (numbers[_STATUS] if reached else _PARTIAL), nodes, corners, used
 
 
-@njit(error_model="numpy", cache=True, inline="always")
+@kernel(error_model="numpy", inline="always")
 def _far(ax, ay, az, bx, by, bz):
     return sqrt((ax - bx) * (ax - bx) + (ay - by) * (ay - by) + (az - bz) * (az - bz))
 
 
-@njit(error_model="numpy", cache=True, nogil=True)
+@allocating_kernel(error_model="numpy", nogil=True)
 def answer_search(net, doors, scratch, origin):
     """The route of a search: (status, length, expanded, nodes, waypoints in world coordinates, leaps)."""
     leaps = np.empty((net.node_radius.size if doors.leap_id.size else 0, 2), np.int32)
@@ -218,7 +218,7 @@ def answer_search(net, doors, scratch, origin):
     )
 
 
-@njit(error_model="numpy", cache=True, nogil=True)
+@allocating_kernel(error_model="numpy", nogil=True)
 def answer(net, doors, scratch, origin, sx, sy, sz, gx, gy, gz, reach, rise, step):
     """A whole query; `answer_search`'s tuple."""
     ox, oy, oz = origin[0], origin[1], origin[2]
@@ -231,7 +231,7 @@ def answer(net, doors, scratch, origin, sx, sy, sz, gx, gy, gz, reach, rise, ste
     return answer_search(net, doors, scratch, origin)
 
 
-@njit(error_model="numpy", cache=True, nogil=True)
+@allocating_kernel(error_model="numpy", nogil=True)
 def answer_all(net, doors, scratch, origin, starts, goals, reach, rise, step):
     """Queries one after another; the arrays of `Routes`, with leaps (l, 2) and starts beginning at 0."""
     count = starts.shape[0]

@@ -9,12 +9,12 @@ list is nearest.
 import math
 
 import numpy as np
-from numba import njit
 
 from navmesh.ledges import GAP, floor_at, floor_end
 from navmesh.raster import FLOOR, PLANE, TOUCH, UPRIGHT, is_over
 from navmesh.risers import faces_up, on_riser
 from navmesh.walls import clip_band, nearest_on_polygon, range_in_column, wall_base
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["find_blockers", "nearest_blockers"]
 
@@ -33,7 +33,7 @@ _SEEN = 0.02
 """[m]: a blocker this near to the way to a neighbour says why there is no link."""
 
 
-@njit(cache=True)
+@allocating_kernel
 def _append(rows, count, ax, ay, bx, by):
     """Put a segment behind the first ``count`` rows; returns the rows, which may be new ones."""
     if count == rows.shape[0]:
@@ -46,7 +46,7 @@ def _append(rows, count, ax, ay, bx, by):
     return rows
 
 
-@njit(cache=True)
+@kernel
 def _part_in_square(ax, ay, bx, by, x, y, half):
     """From where to where (0 to 1) the segment a-b is in the square about (x, y); the first is greater where
     it is not."""
@@ -64,7 +64,7 @@ def _part_in_square(ax, ay, bx, by, x, y, half):
     return first, last
 
 
-@njit(cache=True)
+@allocating_kernel
 def _add_polygon(rows, count, polygon, corners, flat, x, y, half):
     """Add what of a convex polygon's outline is in the square about (x, y)."""
     if flat:  # all on one line: from its one end to the other
@@ -89,7 +89,7 @@ def _add_polygon(rows, count, polygon, corners, flat, x, y, half):
     return rows, count
 
 
-@njit(cache=True)
+@kernel
 def _walked_on(table, start, triangle, resolution, ny, x, y, z, step, headroom):
     """Whether (x, y) is a floor point (rule 1) within ``step`` of z."""
     column = math.floor(x / resolution) * ny + math.floor(y / resolution)
@@ -108,7 +108,7 @@ def _walked_on(table, start, triangle, resolution, ny, x, y, z, step, headroom):
     return False
 
 
-@njit(cache=True)
+@kernel
 def _is_shared(table, start, triangle, column, f, i, j):
     """Whether another floor in the column has the same edge, from corner j to corner i, as triangle f."""
     for k in range(start[column], start[column + 1]):
@@ -126,7 +126,7 @@ def _is_shared(table, start, triangle, column, f, i, j):
     return False
 
 
-@njit(cache=True)
+@kernel
 def _lies_on(rows, first, count, ax, ay, bx, by):
     """Whether the segment a-b lies on a row from ``first`` on: a wall stands at the edge of the floor."""
     for k in range(first, count):
@@ -143,7 +143,7 @@ def _lies_on(rows, first, count, ax, ay, bx, by):
     return False
 
 
-@njit(cache=True)
+@allocating_kernel
 def _add_floor_ends(
     rows, walls_start, walls_end, count, table, start, triangle, shared, resolution, ny, there, rx, ry,
     x, y, z, p, q, step, headroom,
@@ -222,7 +222,7 @@ def _add_floor_ends(
     return rows, count
 
 
-@njit(cache=True)
+@kernel
 def _is_near(rows, first, count, ax, ay, bx, by):
     """Whether a row from ``first`` on comes within `_SEEN` of the segment a-b, which runs along an axis."""
     low_x, high_x, low_y, high_y = min(ax, bx), max(ax, bx), min(ay, by), max(ay, by)
@@ -245,7 +245,7 @@ def _is_near(rows, first, count, ax, ay, bx, by):
     return False
 
 
-@njit(cache=True)
+@allocating_kernel
 def _sort_and_thin(rows, first, count):
     """Sort the rows from ``first`` on and drop those that lie on another one; returns the new count. So the
     list does not depend on the order of the triangles."""
@@ -286,7 +286,7 @@ def _sort_and_thin(rows, first, count):
     return kept
 
 
-@njit(cache=True)
+@allocating_kernel
 def find_blockers(
     table, start, triangle, base, cell_column, height, gradient, link, resolution, ny, step, headroom
 ):
@@ -402,7 +402,7 @@ def find_blockers(
     return blocker_start, rows[:count].copy()
 
 
-@njit(cache=True)
+@allocating_kernel
 def nearest_blockers(blocker_start, blocker, cell_column, resolution, ny):
     """The vector from each cell's centre to the nearest place in its own list: (n, 2) float64, inf without
     one."""

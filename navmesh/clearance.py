@@ -4,14 +4,14 @@ free.
 """
 
 import numpy as np
-from numba import njit
 
 from navmesh.field import centre_of, gap_at
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["settle_clearance", "spread_clearance"]
 
 
-@njit(cache=True)
+@allocating_kernel
 def spread_clearance(column_start, link, nearest, source, resolution, nx, ny):
     """Carry the nearest places over the links, in place; returns the clearance (n,).
 
@@ -80,7 +80,7 @@ def spread_clearance(column_start, link, nearest, source, resolution, nx, ny):
     return np.sqrt(squared)
 
 
-@njit(cache=True)
+@kernel
 def settle_clearance(field):
     """Measure the clearance of cells within two cells of where walking ends, in place, in the lists of the
     cells around: what was carried over the links is the nearest place of another cell."""

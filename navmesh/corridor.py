@@ -11,10 +11,10 @@ from math import sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numba import njit
 
 from navmesh.field import cell_at, floor_at, gap_at, walk
 from navmesh.structs import net_of
+from surefoot.kernels import allocating_kernel, kernel
 
 if TYPE_CHECKING:
     from navmesh.graph import NodeGraph
@@ -39,7 +39,7 @@ class Corridor:
     """(m,) float64 [m]: already shrunk by the body's radius."""
 
 
-@njit(cache=True)
+@kernel
 def _at(path, along, s, segment):
     """The point at arc length ``s`` of the path, searched from ``segment`` on; returns (x, y, segment)."""
     last = path.shape[0] - 2
@@ -55,7 +55,7 @@ def _at(path, along, s, segment):
     )
 
 
-@njit(cache=True)
+@kernel
 def _leaves(path, along, s, segment, x, y, cx, cy, radius):
     """Arc length at which the path, at (x, y) for ``s``, leaves the disc; -1 when it is not in it there."""
     if (x - cx) ** 2 + (y - cy) ** 2 > radius * radius * (1.0 + 1e-12) + 1e-18:
@@ -80,7 +80,7 @@ def _leaves(path, along, s, segment, x, y, cx, cy, radius):
             return start
 
 
-@njit(cache=True)
+@kernel
 def _own_disc(net, k, x, y, radius, path, along, s, segment, px, py):
     """The disc away from the wall at (x, y), in cell ``k``, that takes the path furthest from p at ``s``."""
     gap, qx, qy = gap_at(net, k, x, y)
@@ -105,7 +105,7 @@ def _own_disc(net, k, x, y, radius, path, along, s, segment, px, py):
     return best, best_x, best_y, best_r, best_cell
 
 
-@njit(cache=True)
+@allocating_kernel
 def cover(net, path, start_cell, radius):
     """Discs (m, 4) float64: x, y, z, shrunk radius, that cover ``path`` (k, 3) in order; all relative to the
     origin."""
@@ -163,7 +163,7 @@ def cover(net, path, start_cell, radius):
         x, y, segment = _at(path, along, s, segment)
 
 
-@njit(cache=True)
+@kernel
 def _follow(net, path, along, k, x, y, s, segment, target):
     """The cell under the path at arc length ``target``, from cell ``k`` under (x, y) at ``s``."""
     last = path.shape[0] - 2
@@ -176,7 +176,7 @@ def _follow(net, path, along, k, x, y, s, segment, target):
     return walk(net, k, x, y, bx, by, 0.0, True)[1]
 
 
-@njit(cache=True)
+@allocating_kernel
 def _cover_from(net, path, radius):
     return cover(net, path, cell_at(net, path[0, 0], path[0, 1], path[0, 2]), radius)
 

@@ -4,9 +4,9 @@ mended."""
 from math import sqrt
 
 import numpy as np
-from numba import njit
 
 from navmesh.heap import push, take_first
+from surefoot.kernels import allocating_kernel
 
 __all__ = ["DETOURS", "detour"]
 
@@ -18,7 +18,7 @@ _TIGHT = 25.0
 way."""
 
 
-@njit(error_model="numpy", cache=True)
+@allocating_kernel(error_model="numpy")
 def detour(net, scratch, start, goal, radius):
     """Cells (k,) int32 from cell ``start`` to cell ``goal`` over links, shortest for a body of ``radius``;
     empty if none.

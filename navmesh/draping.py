@@ -4,10 +4,10 @@ from math import ceil, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numba import njit
 
 from navmesh.field import cell_at, floor_at, walk
 from navmesh.structs import net_of
+from surefoot.kernels import allocating_kernel
 
 if TYPE_CHECKING:
     from navmesh.graph import NodeGraph
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["drape", "drape_curve"]
 
 
-@njit(cache=True)
+@allocating_kernel
 def _drape(net, path, spacing):
     count = 1
     for i in range(1, path.shape[0]):
@@ -51,7 +51,7 @@ def drape(graph: "NodeGraph", waypoints: np.ndarray, spacing: float) -> np.ndarr
     return _drape(net_of(graph), np.ascontiguousarray(waypoints - origin), spacing) + origin
 
 
-@njit(cache=True)
+@allocating_kernel
 def _drape_curve(net, curve, points):
     x, y = curve[0, 0], curve[0, 1]
     k = cell_at(net, x, y, curve[0, 2])

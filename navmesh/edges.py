@@ -1,10 +1,10 @@
 """Edges between nodes whose cells touch, with the widest body that passes and where it passes."""
 
 import numpy as np
-from numba import njit
 
 from navmesh.field import centre_of
 from navmesh.ridges import Field, half_width, widest_through
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["join_nodes"]
 
@@ -15,7 +15,7 @@ _FINE = 0.002
 """[m] of a passage's half width that are not worth another look."""
 
 
-@njit(cache=True)
+@allocating_kernel
 def _border_pairs(label, link, clearance):
     """Cell pairs on borders between labels, one for each pair of nodes: the one with most clearance."""
     borders = 0
@@ -42,7 +42,7 @@ def _border_pairs(label, link, clearance):
     return key, pair, width
 
 
-@njit(cache=True)
+@kernel
 def _widest(order, first, last, pair, width, least, most, field):
     """Where the widest body passes the border pairs ``order[first:last]`` of one edge, and the pair there:
     (index of the pair, x, y, radius). Radii up to ``least`` [m] and from ``most`` on are all the same."""
@@ -66,7 +66,7 @@ def _widest(order, first, last, pair, width, least, most, field):
     return best, x, y, min(radius, most)
 
 
-@njit(cache=True)
+@allocating_kernel
 def _assemble(order, key, pair, width, place, field):
     """CSR arrays of the edges from border pairs that ``order`` sorts by key."""
     nodes = place.shape[0]

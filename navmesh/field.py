@@ -10,12 +10,13 @@ to the surface's origin, all distances are horizontal [m].
 from math import sqrt
 
 import numpy as np
-from numba import njit
+
+from surefoot.kernels import kernel
 
 __all__ = ["cell_at", "centre_of", "floor_at", "gap_at", "same_place", "stretch_gap", "walk"]
 
 
-@njit(error_model="numpy", cache=True, inline="always")
+@kernel(error_model="numpy", inline="always")
 def _from_list(net, source, px, py, least, x, y):
     """The least squared distance of p to the blockers in the list of cell ``source``, where that is less than
     ``least``: (squared, the place on the blocker: x, y)."""
@@ -34,7 +35,7 @@ def _from_list(net, source, px, py, least, x, y):
     return least, x, y
 
 
-@njit(error_model="numpy", cache=True, inline="always")
+@kernel(error_model="numpy", inline="always")
 def _along_list(net, source, px, py, ux, uy, stretch, gap, s, x, y):
     """The least distance of a line, ``stretch`` [m] long from p along the unit vector u, to the blockers in
     the list of cell ``source``, where that is less than ``gap``: (distance, where on the line [m], the place
@@ -75,7 +76,7 @@ def _along_list(net, source, px, py, ux, uy, stretch, gap, s, x, y):
     return gap, s, x, y
 
 
-@njit(error_model="numpy", cache=True, inline="always")
+@kernel(error_model="numpy", inline="always")
 def _lists_around(net, k, right, up):
     """The cells whose lists of blockers are nearest to cell ``k``, to the cells beside it in the directions
     ``right`` and ``up``, and to the one between these; -1 for none and for one that comes before."""
@@ -95,7 +96,7 @@ def _lists_around(net, k, right, up):
     return first, second, third, fourth
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def stretch_gap(net, k, cx, cy, ax, ay, ux, uy, low, high, most):
     """Least distance to where walking ends from the stretch of a line, from ``low`` to ``high`` [m] along the
     unit vector u from a, inside cell ``k`` with its centre at c.
@@ -119,7 +120,7 @@ def stretch_gap(net, k, cx, cy, ax, ay, ux, uy, low, high, most):
     return gap, low + s, x, y
 
 
-@njit(error_model="numpy", cache=True, inline="always")
+@kernel(error_model="numpy", inline="always")
 def centre_of(net, k):
     """x and y of the centre of cell ``k``."""
     column = net.cell_column[k]
@@ -127,7 +128,7 @@ def centre_of(net, k):
     return (ix + 0.5) * net.cell, (column - ix * net.ny + 0.5) * net.cell
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def gap_at(net, k, x, y):
     """Distance [m] from (x, y), a point in cell ``k``, to the nearest place where walking ends, and that
     place."""
@@ -140,7 +141,7 @@ def gap_at(net, k, x, y):
     return sqrt(square), qx, qy
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def cell_at(net, x, y, z):
     """The cell of the column under (x, y) whose floor is nearest to height ``z``, or -1."""
     ix = int(x // net.cell)
@@ -158,7 +159,7 @@ def cell_at(net, x, y, z):
     return best
 
 
-@njit(error_model="numpy", cache=True, inline="always")
+@kernel(error_model="numpy", inline="always")
 def same_place(net, k, other):
     """Whether a point that lies in cell ``k`` by one reckoning and in ``other`` by another is one place: on
     the border between squares, or on a corner of four, rounding decides, but they are linked."""
@@ -175,14 +176,14 @@ def same_place(net, k, other):
     return False
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def floor_at(net, k, x, y):
     """Height [m] of the floor at (x, y) in cell ``k``: the plane through its centre."""
     cx, cy = centre_of(net, k)
     return net.height[k] + net.gradient[k, 0] * (x - cx) + net.gradient[k, 1] * (y - cy)
 
 
-@njit(error_model="numpy", cache=True, inline="always")
+@kernel(error_model="numpy", inline="always")
 def _leaves(cx, cy, room, ax, ay, ux, uy, s):
     """How far [m] from a the line along the unit vector u leaves the disc of radius ``room`` about c; -1
     where it is not in it at ``s``."""
@@ -193,7 +194,7 @@ def _leaves(cx, cy, room, ax, ay, ux, uy, s):
     return s - along + sqrt(along * along + spare) if spare >= 0.0 and room > 0.0 else -1.0
 
 
-@njit(error_model="numpy", cache=True, inline="always")
+@kernel(error_model="numpy", inline="always")
 def _landing(column_start, label, column, node):
     """The cell of the column that a line inside a disc about a cell of ``node`` comes to, or -1 where that is
     not clear: the only one, or the one that the node owns, which is the only one on the disc's floor."""
@@ -206,7 +207,7 @@ def _landing(column_start, label, column, node):
     return landing
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def walk(net, k, ax, ay, bx, by, radius, through):
     """Walk the straight line from a, a point in cell ``k``, to b over linked cells.
 

@@ -3,11 +3,11 @@
 import math
 
 import numpy as np
-from numba import njit
 
 from navmesh.ledges import GAP, comes_first, floor_at
 from navmesh.raster import FLOOR, SAME_SURFACE, TOUCH, UPRIGHT, is_over
 from navmesh.risers import faces_up, on_riser
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["find_floors", "neighbours_within_step"]
 
@@ -16,7 +16,7 @@ _LEVELS = 8
 """Most gaps above each other that are closed in one column."""
 
 
-@njit(cache=True)
+@allocating_kernel
 def _with_room(cell_column, height, gradient):
     """The arrays, twice as long."""
     count = cell_column.shape[0]
@@ -26,7 +26,7 @@ def _with_room(cell_column, height, gradient):
     return more_column, more_height, more_gradient
 
 
-@njit(cache=True)
+@kernel
 def _nearest_on(table, f, x, y):
     """The place on the outline of a triangle, seen from above, that is nearest to (x, y): (distance, x,
     y)."""
@@ -43,7 +43,7 @@ def _nearest_on(table, f, x, y):
     return least, at_x, at_y
 
 
-@njit(cache=True)
+@allocating_kernel
 def _close_gaps(
     table, start, triangle, resolution, ny, c, x, y, hit, hits, step, headroom,
     cell_column, height, gradient, first, cells,
@@ -110,7 +110,7 @@ def _close_gaps(
     return cells
 
 
-@njit(cache=True)
+@allocating_kernel
 def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroom):
     """Rule 1 at the centre of every column; one in a gap narrower than `navmesh.ledges.GAP` is on its floor.
 
@@ -203,7 +203,7 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
     return column_start, cell_column[:cells].copy(), height[:cells].copy(), gradient[:cells].copy()
 
 
-@njit(cache=True)
+@allocating_kernel
 def neighbours_within_step(column_start, cell_column, height, gradient, resolution, ny, step):
     """Floors of adjoining columns that meet within ``step`` at the shared border: (n, 4) int32 or -1.
 

@@ -7,10 +7,10 @@ a few centimetres.
 import math
 
 import numpy as np
-from numba import njit
 
 from navmesh.probes import crossed, lowest_above, surface_below
 from navmesh.surface import Surface
+from surefoot.kernels import kernel
 
 __all__ = ["REACH", "SAME", "cells_of", "free_length", "march", "room", "seek"]
 
@@ -36,7 +36,7 @@ def cells_of(surface: Surface) -> tuple:
     )
 
 
-@njit(cache=True)
+@kernel
 def seek(cells, x, y, z, dx, dy, slope, nearest, farthest):
     """The first cell from (x, y, z) in direction (dx, dy): a floor near height z whose centre is ahead.
 
@@ -69,7 +69,7 @@ def seek(cells, x, y, z, dx, dy, slope, nearest, farthest):
     return 0.0, -1
 
 
-@njit(cache=True)
+@kernel
 def march(cells, cell, x, y, dx, dy, limit):
     """Free length [m] from (x, y) in ``cell`` straight in direction (dx, dy), at most ``limit``.
 
@@ -102,7 +102,7 @@ def march(cells, cell, x, y, dx, dy, limit):
         cell = following
 
 
-@njit(cache=True)
+@kernel
 def room(cells, x, y, z, dx, dy, slope, limit):
     """Free length from an edge point (x, y, z) on, in direction (dx, dy), at most ``limit``.
 
@@ -126,7 +126,7 @@ def room(cells, x, y, z, dx, dy, slope, limit):
     return best, at, first, last
 
 
-@njit(cache=True)
+@kernel
 def free_length(grid, cells, x, y, z, dx, dy, slope, step, headroom, limit):
     """`room`, with its end looked for on the triangles: (length [m], distance to the first cell [m], cell).
 

@@ -2,7 +2,7 @@
 
 from math import sqrt
 
-from numba import njit
+from surefoot.kernels import kernel
 
 __all__ = ["funnel", "round_corner", "tangents"]
 
@@ -10,13 +10,13 @@ _SHARP = 0.5
 """Cosine of the turn up to which one corner rounds it; sharper turns get two."""
 
 
-@njit(error_model="numpy", cache=True, inline="always")
+@kernel(error_model="numpy", inline="always")
 def _turn(ax, ay, bx, by, cx, cy):
     """Twice the area of a-b-c, positive where c lies to the left of a-b."""
     return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def funnel(doors, edges, first, last, narrow, work, at, base, sx, sy, gx, gy):
     """Corners of the shortest line through the portals edges[first:last]; returns how many, ends included.
 
@@ -73,7 +73,7 @@ def funnel(doors, edges, first, last, narrow, work, at, base, sx, sy, gx, gy):
     return count + 1 - base
 
 
-@njit(error_model="numpy", cache=True, inline="always")
+@kernel(error_model="numpy", inline="always")
 def _between(ax, ay, bx, by, qx, qy, radius, arc):
     """Corners of a line that touches the circle of ``radius`` about q from outside, first where the unit
     normal a points to, last where b does: they lie where the tangents meet.
@@ -95,7 +95,7 @@ def _between(ax, ay, bx, by, qx, qy, radius, arc):
     return 2
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def round_corner(work, i, side, qx, qy, radius, arc):
     """Corners that lead the funnel's line, at its corner ``i``, round q at the distance ``radius``: those of
     the line that is parallel to it before and after. See `_between`; 0 where q is not on the inner side of
@@ -114,7 +114,7 @@ def round_corner(work, i, side, qx, qy, radius, arc):
     return _between(ax, ay, bx, by, qx, qy, radius, arc)
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def tangents(ax, ay, x, y, bx, by, qx, qy, radius, arc):
     """Corners that lead a line from a to b, which is too close to q at (x, y), round q at the distance
     ``radius`` on the side that it passes q on. See `_between`; 0 where a or b is in the circle."""

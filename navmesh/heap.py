@@ -1,11 +1,11 @@
 """The open list of a search: a binary heap in two arrays, the keys and what they stand for."""
 
-from numba import njit
+from surefoot.kernels import kernel
 
 __all__ = ["push", "take_first"]
 
 
-@njit(error_model="numpy", cache=True, inline="always")
+@kernel(error_model="numpy", inline="always")
 def push(keys, items, size, key, item):
     """Add an entry to the ``size`` that are there."""
     i = size
@@ -20,7 +20,7 @@ def push(keys, items, size, key, item):
     items[i] = item
 
 
-@njit(error_model="numpy", cache=True, inline="always")
+@kernel(error_model="numpy", inline="always")
 def take_first(keys, items, size):
     """Remove the entry with the least key, the first, of ``size``."""
     last = size - 1

@@ -3,9 +3,9 @@
 import math
 
 import numpy as np
-from numba import njit
 
 from navmesh.raster import FLOOR, SAME_SURFACE, TOUCH, UPRIGHT, is_over
+from surefoot.kernels import kernel
 
 __all__ = ["GAP", "comes_first", "floor_at", "floor_end"]
 
@@ -14,7 +14,7 @@ GAP = 0.1
 sides."""
 
 
-@njit(cache=True)
+@kernel
 def comes_first(table, one, other):
     """A choice between two triangles that does not depend on their order in the mesh."""
     for k in range(12):
@@ -23,7 +23,7 @@ def comes_first(table, one, other):
     return False
 
 
-@njit(cache=True)
+@kernel
 def floor_at(table, start, triangle, resolution, ny, x, y, z, step, headroom):
     """The prepared triangle that is floor (rule 1) at (x, y) within ``step`` of z, or -1."""
     column = math.floor(x / resolution) * ny + math.floor(y / resolution)
@@ -54,7 +54,7 @@ def floor_at(table, start, triangle, resolution, ny, x, y, z, step, headroom):
     return chosen
 
 
-@njit(cache=True)
+@kernel
 def floor_end(table, start, triangle, resolution, ny, x, y, d, z, p, q, step, headroom, edge):
     """How far the floor goes on from (x, y) in direction d (`navmesh.surface.DIRECTIONS`), at most a cell.
 

@@ -8,13 +8,13 @@ import math
 from dataclasses import dataclass, fields
 
 import numpy as np
-from numba import njit
 
 from navmesh.free_length import cells_of, room
 from navmesh.obstacle_rules import AFFORDANCES
 from navmesh.obstacles import Obstacles
 from navmesh.rules import WalkRules
 from navmesh.surface import Surface
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["LONGEST_RUN_UP", "Links", "make_links"]
 
@@ -118,7 +118,7 @@ def make_links_from(table: np.ndarray, obstacles: Obstacles) -> Links:
     )
 
 
-@njit(cache=True)
+@kernel
 def _place(cells, clearance, x, y, z, dx, dy, slope, longest, lateral, point):
     """Choose the point straight ahead of an edge point, at most ``longest`` away: the farthest with enough
     clearance, or else the one with most. Writes it to ``point`` (3,).
@@ -152,7 +152,7 @@ def _place(cells, clearance, x, y, z, dx, dy, slope, longest, lateral, point):
     return best, best_cell, max(best_gap, 0.0)
 
 
-@njit(cache=True)
+@allocating_kernel
 def _trace_links(cells, clearance, kind, rim, height, heading, size, slope, body_radius):
     """Rows of links, see `_COLUMNS`. ``rim`` (k, 3, 3): left, middle, right; ``height`` (k, 3) at these;
     ``heading`` (k, 2) of the run; ``size`` (k, 3): depth, rise, width; ``kind`` (k,) indexes AFFORDANCES."""

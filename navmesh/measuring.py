@@ -8,12 +8,12 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from navmesh.free_length import SAME, free_length
 from navmesh.obstacle_rules import ObstacleRules
 from navmesh.probes import crossed, lowest_above, surface_below
 from navmesh.rules import WalkRules
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["DROP", "GAP", "JUMP", "VAULT", "Limits", "measure"]
 
@@ -65,7 +65,7 @@ class Limits(NamedTuple):
         )
 
 
-@njit(cache=True)
+@kernel
 def _foot(grid, x, y, z, dx, dy, lowest):
     """The floor at the foot of an edge: (state, its height at the edge [m]).
 
@@ -87,7 +87,7 @@ def _foot(grid, x, y, z, dx, dy, lowest):
     return 2, 0.0
 
 
-@njit(cache=True)
+@kernel
 def _air(grid, ax, ay, az, bx, by, bz, headroom):
     """Whether a body passes upright from a to b (heights of its feet) without touching the mesh."""
     for j in range(4):
@@ -97,7 +97,7 @@ def _air(grid, ax, ay, az, bx, by, bz, headroom):
     return True
 
 
-@njit(cache=True)
+@kernel
 def _behind(grid, x, y, z, dx, dy, floor, limits):
     """Scan across something thin: (its depth [m] or -1, height of the floor behind it [m])."""
     last = 0.0
@@ -127,7 +127,7 @@ def _behind(grid, x, y, z, dx, dy, floor, limits):
     return -1.0, 0.0
 
 
-@njit(cache=True)
+@kernel
 def _floor_below(cells, x, y, z, dx, dy, limits, deepest):
     """Whether there are cells close by, at most ``deepest`` below z: a quick look before the triangles."""
     size = cells[5]
@@ -145,7 +145,7 @@ def _floor_below(cells, x, y, z, dx, dy, limits, deepest):
     return False
 
 
-@njit(cache=True)
+@kernel
 def _floor_opposite(cells, x, y, z, dx, dy, limits):
     """Whether there are cells at about height z within the width of a gap: a quick look before a scan."""
     size = cells[5]
@@ -163,7 +163,7 @@ def _floor_opposite(cells, x, y, z, dx, dy, limits):
     return False
 
 
-@njit(cache=True)
+@kernel
 def _across(grid, x, y, z, dx, dy, limits):
     """Scan across a gap: (its width [m] or -1, height of the floor on the other side [m])."""
     below = z - max(limits.step, limits.level)
@@ -194,13 +194,13 @@ def _across(grid, x, y, z, dx, dy, limits):
     return -1.0, 0.0
 
 
-@njit(cache=True)
+@kernel
 def _free(grid, cells, x, y, z, dx, dy, limits, reach):
     slope, step, headroom = limits.slope, limits.step, limits.headroom
     return free_length(grid, cells, x, y, z, dx, dy, slope, step, headroom, reach)
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def _note(row, height, depth, run_up, landing, rise):
     row[0] = height
     row[1] = depth
@@ -209,7 +209,7 @@ def _note(row, height, depth, run_up, landing, rise):
     row[4] = rise
 
 
-@njit(cache=True)
+@kernel
 def _measure_one(grid, cells, x, y, z, ox, oy, limits, reach, kind, size):
     """Measure at the edge point (x, y, z) with the fall towards (ox, oy); see `measure` for the slots."""
     deepest = max(limits.drop_high, limits.vault_high, limits.jump_high)
@@ -274,7 +274,7 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, reach, kind, size):
                 _note(size[2], other - z, width, top, free, other - z)
 
 
-@njit(cache=True)
+@allocating_kernel
 def measure(grid, cells, start, end, outward, first, limits, reach):
     """Measure every rim at evenly spread points: the middles of first[i + 1] - first[i] equal parts.
 

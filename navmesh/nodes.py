@@ -1,15 +1,15 @@
 """Nodes: the largest discs that fit the surface, greedily, until every cell wide enough is covered."""
 
 import numpy as np
-from numba import njit
 
 from navmesh.field import centre_of
 from navmesh.ridges import half_width, middle_beside
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["order_by_clearance", "select_nodes"]
 
 
-@njit(cache=True)
+@allocating_kernel
 def order_by_clearance(clearance, grain):
     """The cells by falling clearance in steps of ``grain`` [m], then by rising index: (n,) int32."""
     cells = clearance.shape[0]
@@ -30,7 +30,7 @@ def order_by_clearance(clearance, grain):
     return order
 
 
-@njit(cache=True)
+@kernel
 def _claim_line(clearance, link, label, power, node, radius, c, d, dx, dy, resolution):
     """Claim c and the cells from it in y direction d (1 or 3) for a disc, as long as they lie in the disc.
 
@@ -49,7 +49,7 @@ def _claim_line(clearance, link, label, power, node, radius, c, d, dx, dy, resol
         dy += step
 
 
-@njit(cache=True)
+@allocating_kernel
 def select_nodes(order, field, least):
     """Greedy cover by maximal discs, (almost) largest first.
 

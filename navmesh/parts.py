@@ -2,7 +2,8 @@
 tiles of the grid each part has a place for the body."""
 
 import numpy as np
-from numba import njit
+
+from surefoot.kernels import allocating_kernel
 
 __all__ = ["TILE", "leaps_by_part", "parts_of_nodes", "parts_of_tiles"]
 
@@ -10,7 +11,7 @@ TILE = 16
 """Columns a side of the tiles by which far places are looked for."""
 
 
-@njit(cache=True)
+@allocating_kernel
 def parts_of_nodes(start, target):
     """The part of each node over the doors in CSR form: (m,) int32, numbered by their first nodes."""
     count = start.size - 1
@@ -36,7 +37,7 @@ def parts_of_nodes(start, target):
     return part
 
 
-@njit(cache=True)
+@allocating_kernel
 def parts_of_tiles(net, part, radius):
     """Which parts have a cell with ``radius`` clear in each tile of `TILE` x `TILE` columns, or beside it.
 

@@ -9,10 +9,10 @@ construction.
 from math import sqrt
 
 import numpy as np
-from numba import njit
 
 from navmesh.field import centre_of, floor_at, gap_at, walk
 from navmesh.ridges import middle, middle_beside
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["MARGIN", "open_portals"]
 
@@ -26,7 +26,7 @@ _BESIDE = 1.1
 """Share of the radius up to which the gap at an end says that what ends walking there bounds the portal."""
 
 
-@njit(cache=True)
+@kernel
 def _side(net, k, mx, my, ux, uy, reach, radius):
     """How far a body of ``radius`` gets from m, in cell ``k``, along the unit vector u, at most ``reach``
     [m]."""
@@ -44,7 +44,7 @@ def _side(net, k, mx, my, ux, uy, reach, radius):
     return near
 
 
-@njit(cache=True)
+@kernel
 def _portal(net, i, j, pair, gate, radius):
     """The portal from node i to node j, seen from a middle point on it.
 
@@ -82,7 +82,7 @@ def _portal(net, i, j, pair, gate, radius):
     return x, y, -uy, ux, k, half, to_left, to_right
 
 
-@njit(error_model="numpy", cache=True)
+@allocating_kernel(error_model="numpy")
 def _gets_through(net, k, ax, ay, bx, by, radius):
     """Whether a body of ``radius`` gets from a, in cell ``k``, to b on a line that is led off what is too
     near, a few times."""
@@ -118,7 +118,7 @@ def _gets_through(net, k, ax, ay, bx, by, radius):
     return True
 
 
-@njit(cache=True)
+@kernel
 def _is_open(net, i, j, width, pair, gate, radius):
     """Whether a body of ``radius`` gets from node i through the gate to node j, where the ``width`` of the
     edge between them leaves that open."""
@@ -147,7 +147,7 @@ def _is_open(net, i, j, width, pair, gate, radius):
     return True
 
 
-@njit(cache=True)
+@allocating_kernel
 def open_portals(net, edge_width, edge_cells, edge_gate, radius):
     """The portals for a body of ``radius`` [m].
 

@@ -8,9 +8,9 @@ references of the tests.
 import math
 
 import numpy as np
-from numba import njit
 
 from navmesh.raster import columns_of_triangles, prepare_triangles
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["ProbeGrid", "brute_crossed", "brute_surface_below", "crossed", "lowest_above", "surface_below"]
 
@@ -37,7 +37,7 @@ class ProbeGrid:
         return self.triangles, self.start, self.member, self.size, self.shape[0], self.shape[1]
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def _column(grid, x, y):
     ix = math.floor(x / grid[3])
     iy = math.floor(y / grid[3])
@@ -46,7 +46,7 @@ def _column(grid, x, y):
     return ix * grid[5] + iy
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def _over(table, f, x, y):
     """Whether (x, y) is inside a prepared triangle that has a height there."""
     turn = 0
@@ -65,7 +65,7 @@ def _over(table, f, x, y):
     return True
 
 
-@njit(cache=True)
+@kernel
 def surface_below(grid, x, y, low, high):
     """The highest surface under (x, y) with a height in [low, high].
 
@@ -93,7 +93,7 @@ def surface_below(grid, x, y, low, high):
     return best, which
 
 
-@njit(cache=True)
+@kernel
 def lowest_above(grid, x, y, low, high):
     """Height [m] of the lowest surface over (x, y) strictly between ``low`` and ``high``, or infinity."""
     table = grid[0]
@@ -111,7 +111,7 @@ def lowest_above(grid, x, y, low, high):
     return best
 
 
-@njit(cache=True)
+@kernel
 def _hits(table, f, px, py, pz, dx, dy, dz):
     """Whether the segment p to p + d meets a prepared triangle."""
     e1x, e1y, e1z = table[f, 3] - table[f, 0], table[f, 4] - table[f, 1], table[f, 5] - table[f, 2]
@@ -137,7 +137,7 @@ def _hits(table, f, px, py, pz, dx, dy, dz):
     return -1e-9 <= t <= 1.0 + 1e-9
 
 
-@njit(cache=True)
+@allocating_kernel
 def crossed(grid, px, py, pz, qx, qy, qz):
     """Whether anything of the mesh crosses the segment p-q (metres)."""
     table, size = grid[0], grid[3]

@@ -16,7 +16,6 @@ What comes out has been walked: the body fits on all of it.
 from math import sqrt
 
 import numpy as np
-from numba import njit
 
 from navmesh.detour import detour
 from navmesh.field import centre_of, floor_at, gap_at, same_place, walk
@@ -24,6 +23,7 @@ from navmesh.funnel import funnel, round_corner, tangents
 from navmesh.portals import MARGIN
 from navmesh.ridges import middle
 from navmesh.tightening import tighten
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["pull"]
 
@@ -37,7 +37,7 @@ _DEPTH = 12  # of pushes within pushes; scratch.stack holds two more
 _SPLITS = 64  # of one line: corners that fall away when the next is added could take turns for ever
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def _push(net, k, x, y, qx, qy, radius):
     """Move (x, y) in cell ``k`` away from (qx, qy) until the body fits with a margin; returns (fits, x, y,
     cell)."""
@@ -68,7 +68,7 @@ def _push(net, k, x, y, qx, qy, radius):
     return gap >= radius, x, y, k
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def _free_place(net, k, x, y, px, py, enough):
     """The cell of p, reached straight from (x, y) in cell ``k``; -1 where it is not, or the gap at p is not
     ``enough``."""
@@ -76,7 +76,7 @@ def _free_place(net, k, x, y, px, py, enough):
     return cell if reached and gap_at(net, cell, px, py)[0] >= enough else np.int64(-1)
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def _lead_round(net, scratch, height, k, ax, ay, x, y, bx, by, qx, qy, radius):
     """Put corners on the stack, of ``height``, that lead the line a-b round q, which it is too close to at
     (x, y) in cell ``k``; returns how many.
@@ -101,7 +101,7 @@ def _lead_round(net, scratch, height, k, ax, ay, x, y, bx, by, qx, qy, radius):
     return parts
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def _cost_along(net, doors, k, ax, ay, bx, by):
     """Length of the line from a, in cell ``k``, to b, weighted by the costs of the nodes that it crosses."""
     length = sqrt((bx - ax) ** 2 + (by - ay) ** 2)
@@ -117,7 +117,7 @@ def _cost_along(net, doors, k, ax, ay, bx, by):
     return total
 
 
-@njit(error_model="numpy", cache=True)
+@allocating_kernel(error_model="numpy")
 def _append(net, doors, scratch, first, count, x, y, k):
     """Add a corner to the leg that begins at ``first``, dropping corners that the line of sight jumps
     over."""
@@ -154,7 +154,7 @@ def _append(net, doors, scratch, first, count, x, y, k):
     return count + 1
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def _round(net, doors, scratch, low, high, ax, ay, bx, by, place):
     """A corner inside a disc that leads the line a-b round what ends walking at ``place`` on it.
 
@@ -188,7 +188,7 @@ def _round(net, doors, scratch, low, high, ax, ay, bx, by, place):
     return reached, x, y, cell
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def _fits_on(net, scratch, count, x, y, radius):
     """Whether a body of ``radius`` gets straight from the last of ``count`` corners to (x, y)."""
     k = np.int64(scratch.cells[count - 1])
@@ -198,7 +198,7 @@ def _fits_on(net, scratch, count, x, y, radius):
     return reached and gap >= radius * (1.0 - 1e-9)
 
 
-@njit(error_model="numpy", cache=True)
+@allocating_kernel(error_model="numpy")
 def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_try):
     """Add a walked line from the leg's last corner to g, through nodes[low:high].
 
@@ -267,14 +267,14 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_
     return count, _FITS
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def _place_of(net, doors, door, side, x, y):
     """The cell of (x, y), a place on a portal or beside its left (0) or right (1) end."""
     ex, ey = doors.portal[door, 3 * side], doors.portal[door, 3 * side + 1]
     return walk(net, np.int64(doors.portal_cell[door, side]), ex, ey, x, y, 0.0, True)[1]
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def _through_lenses(net, doors, scratch, first, count, low, high, free, gx, gy, goal_cell, last_try):
     """Add a walked line from the leg's last corner to g through the lenses of the portals edges[low:high].
 
@@ -294,7 +294,7 @@ def _through_lenses(net, doors, scratch, first, count, low, high, free, gx, gy, 
     return count, True
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell, last_try):
     """Pull one walked leg taut: from the last corner in ``scratch.points`` through the portals of
     edges[first:last].

@@ -11,7 +11,6 @@ from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numba import njit
 from scipy.spatial import KDTree
 
 from navmesh.bodies import parts_of
@@ -19,6 +18,7 @@ from navmesh.errors import NavmeshError
 from navmesh.field import centre_of, floor_at, gap_at, walk
 from navmesh.snapping import roomy_cell
 from navmesh.structs import net_of
+from surefoot.kernels import allocating_kernel, kernel
 
 if TYPE_CHECKING:
     from navmesh.graph import NodeGraph
@@ -61,7 +61,7 @@ class Ray(NamedTuple):
     """(k, 3) float64 [m]: where the free part ends, on the surface; a start off the surface stays."""
 
 
-@njit(cache=True)
+@kernel
 def _cell_of(net, x, y, z, rise):
     """The cell that (x, y, z) stands for: of its own column, else the nearest of the eight around; or -1."""
     ix = int(np.floor(x / net.cell))
@@ -84,7 +84,7 @@ def _cell_of(net, x, y, z, rise):
     return best
 
 
-@njit(cache=True)
+@allocating_kernel
 def _project_all(net, points, rise):
     cells = np.empty(points.shape[0], np.int32)
     heights = np.full(points.shape[0], np.nan)
@@ -96,7 +96,7 @@ def _project_all(net, points, rise):
     return cells, heights
 
 
-@njit(cache=True)
+@allocating_kernel
 def _gaps(net, points, cells):
     distance = np.zeros(points.shape[0])
     place = np.full((points.shape[0], 2), np.nan)
@@ -106,7 +106,7 @@ def _gaps(net, points, cells):
     return distance, place
 
 
-@njit(cache=True)
+@allocating_kernel
 def _cast_all(net, starts, ends, cells, radius):
     clear = np.zeros(starts.shape[0], np.bool_)
     share = np.zeros(starts.shape[0])
@@ -135,7 +135,7 @@ def _cast_all(net, starts, ends, cells, radius):
     return clear, share, last
 
 
-@njit(cache=True)
+@allocating_kernel
 def _scatter(net, cells, offsets, radius):
     """Points in ``cells`` at ``offsets`` (k, 2), in cells, from their centres; nan where it is too narrow."""
     points = np.full((cells.shape[0], 3), np.nan)
@@ -154,7 +154,7 @@ def _scatter(net, cells, offsets, radius):
     return points
 
 
-@njit(cache=True)
+@allocating_kernel
 def _turns(net, points, cells, reach):
     room = np.zeros(points.shape[0], np.bool_)
     for i in range(points.shape[0]):

@@ -10,7 +10,8 @@ fifths of a build.
 import math
 
 import numpy as np
-from numba import njit
+
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = [
     "FLOOR",
@@ -31,7 +32,7 @@ SAME_SURFACE = 0.01
 """[m] Parts of the mesh this close in height are one surface."""
 
 
-@njit(cache=True)
+@kernel
 def is_over(table, f, x, y):
     """Whether a prepared triangle that has a height covers (x, y); its edges belong to it."""
     one = (table[f, 3] - table[f, 0]) * (y - table[f, 1]) - (table[f, 4] - table[f, 1]) * (x - table[f, 0])
@@ -42,7 +43,7 @@ def is_over(table, f, x, y):
     )
 
 
-@njit(cache=True)
+@allocating_kernel
 def prepare_triangles(vertices, faces, origin, steepest):
     """Triangles with what the kernels ask of them.
 
@@ -90,7 +91,7 @@ def prepare_triangles(vertices, faces, origin, steepest):
     return table[:kept]
 
 
-@njit(cache=True)
+@allocating_kernel
 def columns_of_triangles(table, resolution, nx, ny, window):
     """The triangles that touch each column, as lists: ``start`` (nx·ny + 1,) and ``triangle`` (k,) int32.
 

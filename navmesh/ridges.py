@@ -10,10 +10,10 @@ from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from navmesh.field import centre_of, gap_at, stretch_gap
 from navmesh.surface import Surface
+from surefoot.kernels import kernel
 
 __all__ = ["Field", "field_of", "half_width", "middle", "middle_beside", "widest_through"]
 
@@ -49,7 +49,7 @@ def field_of(surface: Surface) -> Field:
     )
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def half_width(field, c):
     """Half the distance [m] between the places on opposite sides of cell ``c`` where walking ends, as its
     neighbours know them: no wider body passes there. inf where it is not between two sides."""
@@ -67,7 +67,7 @@ def half_width(field, c):
     return 0.5 * sqrt(least)
 
 
-@njit(error_model="numpy", cache=True, inline="always")
+@kernel(error_model="numpy", inline="always")
 def _under(field, k, x, y):
     """The cell linked to cell ``k`` that (x, y), at most a cell away, is in; ``k`` where there is none."""
     cx, cy = centre_of(field, k)
@@ -89,7 +89,7 @@ def _under(field, k, x, y):
     return corner
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def middle(field, k, x, y, room):
     """The place on the way from what is nearest to (x, y), over (x, y) and at most ``room`` [m] on, that is
     farthest from where walking ends: (cell, x, y, distance). ``k`` is the cell of (x, y) or one beside it."""
@@ -111,7 +111,7 @@ def middle(field, k, x, y, room):
     return _under(field, start, x, y), x, y, gap
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def middle_beside(field, c):
     """The middle of the passage on the line across it through the centre of cell ``c``, and the linked cell
     that it is in: (cell, x, y, distance to its sides)."""
@@ -119,7 +119,7 @@ def middle_beside(field, c):
     return middle(field, c, x, y, field.cell)
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def _least_gap(field, k, ax, ay, bx, by):
     """Least distance to where walking ends on the line from a, in cell ``k``, to b, at most a cell away."""
     length = sqrt((bx - ax) ** 2 + (by - ay) ** 2)
@@ -135,7 +135,7 @@ def _least_gap(field, k, ax, ay, bx, by):
     return least
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def widest_through(field, c, n, least):
     """Where the widest body passes from cell ``c`` to the linked cell ``n`` between opposite sides, and its
     radius: (x, y, radius).

@@ -9,7 +9,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
+
+from surefoot.kernels import allocating_kernel
 
 __all__ = ["WELD", "Rims", "find_rims", "order_of"]
 
@@ -65,7 +66,7 @@ def find_rims(vertices: np.ndarray, faces: np.ndarray, max_slope: float) -> Rims
     )
 
 
-@njit(cache=True)
+@allocating_kernel
 def _half_edges(vertices, faces, place, places, steepest):
     """The edges of every face that are level and long enough to be rims, and what lies at them.
 

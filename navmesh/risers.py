@@ -3,10 +3,10 @@
 import math
 
 import numpy as np
-from numba import njit
 
 from navmesh.ledges import comes_first, floor_at
 from navmesh.raster import FLOOR, SAME_SURFACE, TOUCH, UPRIGHT, is_over
+from surefoot.kernels import kernel
 
 __all__ = ["faces_up", "on_riser"]
 
@@ -16,7 +16,7 @@ _BEYOND = 1e-4
 """[m] by which the fall line is followed over an edge, to what lies beyond it."""
 
 
-@njit(cache=True)
+@kernel
 def faces_up(table, f):
     """Whether a prepared triangle faces up."""
     return (table[f, 3] - table[f, 0]) * (table[f, 7] - table[f, 1]) - (table[f, 4] - table[f, 1]) * (
@@ -24,7 +24,7 @@ def faces_up(table, f):
     ) > 0.0
 
 
-@njit(cache=True)
+@kernel
 def _way_out(table, f, x, y, dx, dy):
     """How far it is from (x, y), a point of an upward face, in direction (dx, dy) to the face's edge [m]."""
     out = np.inf
@@ -37,7 +37,7 @@ def _way_out(table, f, x, y, dx, dy):
     return max(out, 0.0)
 
 
-@njit(cache=True)
+@kernel
 def _next_face(table, start, triangle, resolution, ny, x, y, z, left):
     """The steep face at (x, y, z) that faces up, or -1, and whether a level enough one is within ``left``."""
     column = math.floor(x / resolution) * ny + math.floor(y / resolution)
@@ -59,7 +59,7 @@ def _next_face(table, start, triangle, resolution, ny, x, y, z, left):
     return chosen, level
 
 
-@njit(cache=True)
+@kernel
 def _height_to_floor(table, start, triangle, resolution, ny, t, x, y, way, step, headroom):
     """Height from (x, y) on the steep face ``t`` along the fall line, up (way 1) or down (way -1), to the
     first floor [m], or inf when that is more than ``step``."""
@@ -85,7 +85,7 @@ def _height_to_floor(table, start, triangle, resolution, ny, t, x, y, way, step,
     return np.inf
 
 
-@njit(cache=True)
+@kernel
 def on_riser(table, start, triangle, resolution, ny, t, x, y, step, headroom):
     """Whether (x, y) on the steep face ``t``, which faces up, is on a riser: the fall line through it leads
     over steep faces to floor above and to floor below that are at most ``step`` apart in height."""

@@ -14,9 +14,8 @@ estimate of the rest, a straight line, never is too much. Lengths are three-dime
 
 from math import sqrt
 
-from numba import njit
-
 from navmesh.heap import push, take_first
+from surefoot.kernels import kernel
 
 __all__ = [
     "BEST",
@@ -47,18 +46,18 @@ _NEAREST = 6  # in scratch.ends: how near [m] to the goal a portal seen is
 _SAME = 1e-9  # [m]
 
 
-@njit(error_model="numpy", cache=True, inline="always")
+@kernel(error_model="numpy", inline="always")
 def _distance(ax, ay, az, bx, by, bz):
     return sqrt((ax - bx) * (ax - bx) + (ay - by) * (ay - by) + (az - bz) * (az - bz))
 
 
-@njit(error_model="numpy", cache=True, inline="always")
+@kernel(error_model="numpy", inline="always")
 def _turn(ax, ay, bx, by, cx, cy):
     """Twice the area of a-b-c, positive where c lies to the left of a-b."""
     return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
 
 
-@njit(error_model="numpy", cache=True, inline="always")
+@kernel(error_model="numpy", inline="always")
 def _crossing(lx, ly, rx, ry, ax, ay, bx, by):
     """Where on the portal (0 left, 1 right) the shortest way from a over the portal to b crosses it."""
     px = rx - lx
@@ -75,7 +74,7 @@ def _crossing(lx, ly, rx, ry, ax, ay, bx, by):
     return 0.0 if t < 0.0 else (1.0 if t > 1.0 else t)
 
 
-@njit(error_model="numpy", cache=True, inline="always")
+@kernel(error_model="numpy", inline="always")
 def _out_of_funnel(ax, ay, az, lx, ly, lz, rx, ry, rz, gx, gy, gz):
     """Length of the shortest line from the apex a through the funnel between l and r to g."""
     beyond_left = _turn(ax, ay, lx, ly, gx, gy) > 0.0
@@ -90,7 +89,7 @@ def _out_of_funnel(ax, ay, az, lx, ly, lz, rx, ry, rz, gx, gy, gz):
     return min(left, right)
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def begin(net, doors, scratch, start_node, goal_node, sx, sy, sz, gx, gy, gz):
     """Set up a search from (sx, sy, sz) in ``start_node`` to (gx, gy, gz) in ``goal_node``."""
     numbers = scratch.numbers
@@ -118,7 +117,7 @@ def begin(net, doors, scratch, start_node, goal_node, sx, sy, sz, gx, gy, gz):
     scratch.heap_item[0] = label
 
 
-@njit(error_model="numpy", cache=True, inline="always")
+@kernel(error_model="numpy", inline="always")
 def _free_label(seen, totals, stamp, node, total):
     """The place for a label of ``node`` that costs ``total``: one that is free, or the dearest if that is
     dearer; -1 where there is none, or one that costs the same."""
@@ -134,7 +133,7 @@ def _free_label(seen, totals, stamp, node, total):
     return place
 
 
-@njit(error_model="numpy", cache=True, inline="always")
+@kernel(error_model="numpy", inline="always")
 def _is_done(seen, totals, stamp, node, key):
     """Whether no label that costs ``key`` or more has a place at ``node``."""
     for label in range(LABELS * node, LABELS * node + LABELS):
@@ -143,7 +142,7 @@ def _is_done(seen, totals, stamp, node, key):
     return True
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def advance(net, doors, scratch, budget):
     """Expand at most ``budget`` labels; returns RUNNING, COMPLETE or EMPTY. The slices do not change the
     result."""
@@ -256,14 +255,14 @@ def advance(net, doors, scratch, budget):
     return state
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def resume(net, doors, scratch, budget):
     """Look on for another way to the goal after COMPLETE; returns COMPLETE where there is one."""
     scratch.numbers[_STATE] = RUNNING
     return advance(net, doors, scratch, budget)
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def chain(scratch):
     """Write the chain of nodes to the best label and the doors between them; returns the number of nodes.
 

@@ -9,10 +9,10 @@ ends walking as the cell's centre.
 from math import sqrt
 
 import numpy as np
-from numba import njit
 
 from navmesh.field import centre_of, floor_at, gap_at, same_place, walk
 from navmesh.parts import TILE
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["nearest_reachable", "roomy_cell", "snap"]
 
@@ -23,7 +23,7 @@ _LATTICE = 5  # points a side that are tried in a cell where pushing does not le
 _FINE = 2e-3  # [m] to which the best of these is improved
 
 
-@njit(error_model="numpy", cache=True)
+@allocating_kernel(error_model="numpy")
 def roomy_cell(net, k, x, y, radius, reach):
     """The cell nearest to (x, y), reached over links from ``k`` within ``reach``, whose centre has ``radius``
     free, or -1."""
@@ -65,7 +65,7 @@ def roomy_cell(net, k, x, y, radius, reach):
     return best
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def _node_at(net, k, x, y, radius):
     """The node that a body at (x, y) in cell ``k`` starts from: that of the cell, or of a cell beside it that
     the body can go straight to the centre of, or of the node itself; -1 where there is none."""
@@ -96,14 +96,14 @@ def _node_at(net, k, x, y, radius):
     return best
 
 
-@njit(error_model="numpy", cache=True, inline="always")
+@kernel(error_model="numpy", inline="always")
 def _off(net, k, px, py, x, y, z, step):
     """Squared distance of the floor at p in cell ``k`` from (x, y, z); ``step`` of the height is free."""
     rise = max(abs(floor_at(net, k, px, py) - z) - step, 0.0)
     return (px - x) * (px - x) + (py - y) * (py - y) + rise * rise
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def _clear_at(net, k, cx, cy, px, py, room):
     """Whether p, in cell ``k`` with its centre at c, has ``room`` and nothing between it and the centre."""
     if gap_at(net, k, px, py)[0] < room:
@@ -112,7 +112,7 @@ def _clear_at(net, k, cx, cy, px, py, room):
     return reached and same_place(net, end, k)
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def _place_in(net, k, x, y, z, radius, step, best):
     """The clear point of cell ``k`` nearest to (x, y, z), where it is nearer than ``best`` (squared).
 
@@ -174,7 +174,7 @@ def _place_in(net, k, x, y, z, radius, step, best):
     return best, bx, by
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def snap(net, x, y, z, radius, reach, rise, step):
     """The place for a body of ``radius`` nearest to (x, y, z): at most ``reach`` away horizontally and
     ``rise`` up or down; up to ``step`` of the height does not count.
@@ -219,7 +219,7 @@ def snap(net, x, y, z, radius, reach, rise, step):
     return node, cell, bx, by
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def _search_tile(net, doors, scratch, tile, x, y, z, best, node, cell, bx, by):
     """The place nearest to (x, y, z) in one tile and in a part that scratch.reached marks, where it is nearer
     than ``best`` (squared)."""
@@ -251,7 +251,7 @@ def _search_tile(net, doors, scratch, tile, x, y, z, best, node, cell, bx, by):
     return best, node, cell, bx, by
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def nearest_reachable(net, doors, scratch, x, y, z):
     """The place nearest to (x, y, z) in a straight line among those in the parts that scratch.reached marks.
 

@@ -4,7 +4,6 @@ near it are measured anew."""
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 
 from navmesh.build import reach_of
 from navmesh.free_length import cells_of
@@ -15,6 +14,7 @@ from navmesh.rims import WELD, Rims, find_rims, order_of
 from navmesh.rules import WalkRules
 from navmesh.surface import Surface
 from navmesh.terrain import Terrain
+from surefoot.kernels import allocating_kernel
 
 __all__ = ["Soundings", "renew_soundings", "take_soundings"]
 
@@ -134,7 +134,7 @@ def _touching(rims: Rims, areas: np.ndarray) -> np.ndarray:
     return np.any(np.all((low <= areas[:, 1]) & (high >= areas[:, 0]), axis=2), axis=1)
 
 
-@njit(cache=True)
+@allocating_kernel
 def _touched(vertices, faces, areas):
     """(f,) bool: the faces whose rectangle touches one of ``areas`` (k, 2, 2)."""
     touched = np.zeros(len(faces), np.bool_)

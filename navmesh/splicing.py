@@ -1,9 +1,9 @@
 """Cells of a window put in the place of those that were there."""
 
 import numpy as np
-from numba import njit
 
 from navmesh.build import Cells, Window
+from surefoot.kernels import allocating_kernel
 
 __all__ = ["splice"]
 
@@ -30,7 +30,7 @@ def splice(old: Cells, new: Cells, window: Window, ny: int) -> Cells:
     return Cells(column_start, cell_column, height, gradient, link, blocker_start, blocker)
 
 
-@njit(cache=True)
+@allocating_kernel
 def _places(old_start, new_start, window, ny):
     """``column_start`` and ``cell_column`` of the whole, and where each old and each new cell comes to lie in
     it, or -1."""
@@ -57,7 +57,7 @@ def _places(old_start, new_start, window, ny):
     return start, owner[:count].copy(), old_at, new_at
 
 
-@njit(cache=True)
+@allocating_kernel
 def _copy(
     start, owner, height, gradient, link, blocker_start, blocker, at,
     whole_start, to_height, to_gradient, to_link, to_blocker_start, to_blocker,

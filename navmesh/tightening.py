@@ -8,11 +8,10 @@ corner, and the old one is drawn on. Every line of the result has been walked.
 
 from math import sqrt
 
-from numba import njit
-
 from navmesh.field import gap_at, same_place, walk
 from navmesh.funnel import tangents
 from navmesh.portals import MARGIN
+from surefoot.kernels import kernel
 
 __all__ = ["tighten"]
 
@@ -23,19 +22,19 @@ _HALVINGS = 6  # of the way then
 _CHANGES = 48  # of one leg
 
 
-@njit(error_model="numpy", cache=True, inline="always")
+@kernel(error_model="numpy", inline="always")
 def _far(ax, ay, bx, by):
     return sqrt((ax - bx) * (ax - bx) + (ay - by) * (ay - by))
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def _clear(net, k, ax, ay, bx, by, target, enough):
     """Whether a body that needs ``enough`` room passes from a, in cell ``k``, straight to b in ``target``."""
     reached, cell = walk(net, k, ax, ay, bx, by, enough, False)[:2]
     return reached and same_place(net, cell, target)
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def _replace(scratch, at, count, new):
     """Put the first ``new`` rows of scratch.trial in the place of corner ``at``; returns the new count."""
     points, cells = scratch.points, scratch.cells
@@ -51,7 +50,7 @@ def _replace(scratch, at, count, new):
     return count + shift
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def _walk_bend(net, scratch, parts, base, k, ax, ay, enough):
     """Walk from a, in cell ``k``, to the first ``parts`` corners of scratch.bend in turn, and write them into
     scratch.trial from row ``base`` on; returns whether the body passes."""
@@ -67,7 +66,7 @@ def _walk_bend(net, scratch, parts, base, k, ax, ay, enough):
     return parts > 0
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def _line(ax, ay, rows, count, bx, by):
     """Length of the line from a through the first ``count`` rows to b."""
     total = 0.0
@@ -77,7 +76,7 @@ def _line(ax, ay, rows, count, bx, by):
     return total + _far(ax, ay, bx, by)
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def _round_better(net, scratch, at, radius, enough):
     """Try to lead the line round what stands within the turn at corner ``at`` on a shorter way.
 
@@ -118,7 +117,7 @@ def _round_better(net, scratch, at, radius, enough):
     return True, parts
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def _draw(net, scratch, at, radius, enough, moved):
     """Draw corner ``at`` towards the line between its neighbours; returns rows in scratch.trial to put in its
     place, or -1 where it cannot be drawn. That line is known to be blocked if nothing has ``moved`` yet."""
@@ -181,7 +180,7 @@ def _draw(net, scratch, at, radius, enough, moved):
     return 1
 
 
-@njit(error_model="numpy", cache=True)
+@kernel(error_model="numpy")
 def tighten(net, scratch, first, count, radius):
     """Let go what nothing holds on the walked leg scratch.points[first:count]; returns the new count."""
     enough = radius * (1.0 + _SLACK)

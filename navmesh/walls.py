@@ -1,9 +1,9 @@
 """Rule 2: parts of the mesh that a body standing on the floor cannot pass, however thin."""
 
 import numpy as np
-from numba import njit
 
 from navmesh.raster import FLOOR, TOUCH, UPRIGHT
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = [
     "clip_band",
@@ -15,7 +15,7 @@ __all__ = [
 ]
 
 
-@njit(cache=True)
+@kernel
 def clip_band(table, f, x, y, z, p, q, low, high, polygon, spare):
     """The part of a triangle between ``low`` and ``high`` above the plane through (x, y, z), seen from above.
 
@@ -57,7 +57,7 @@ def clip_band(table, f, x, y, z, p, q, low, high, polygon, spare):
     return kept
 
 
-@njit(cache=True)
+@kernel
 def nearest_on_polygon(polygon, count, x, y):
     """The vector (dx, dy) from (x, y) to the nearest point of a convex polygon that may be flat."""
     best = np.inf
@@ -86,7 +86,7 @@ def nearest_on_polygon(polygon, count, x, y):
     return dx, dy
 
 
-@njit(cache=True)
+@kernel
 def _crosses_polygon(polygon, count, ax, ay, bx, by):
     """Whether the segment a-b meets a convex polygon that may be flat."""
     ex, ey = bx - ax, by - ay
@@ -127,7 +127,7 @@ def _crosses_polygon(polygon, count, ax, ay, bx, by):
     return left or right
 
 
-@njit(cache=True)
+@kernel
 def range_in_column(table, f, x, y, reach):
     """Bounds of a triangle's height within ``reach`` of (x, y) along both axes."""
     if table[f, 14] == UPRIGHT:
@@ -137,7 +137,7 @@ def range_in_column(table, f, x, y, reach):
     return max(table[f, 12], middle - spread), min(table[f, 13], middle + spread)
 
 
-@njit(cache=True)
+@kernel
 def wall_base(table, start, triangle, column, x, y, z, resolution, step):
     """Height above z from which on mesh in the column is a wall: step above the highest floor that a body
     standing at z reaches by steps within the column."""
@@ -156,7 +156,7 @@ def wall_base(table, start, triangle, column, x, y, z, resolution, step):
     return reach + step
 
 
-@njit(cache=True)
+@allocating_kernel
 def find_walls(table, start, triangle, cell_column, height, gradient, resolution, ny, step, headroom):
     """Height above each cell from which on mesh in its own column is a wall [m], or inf: (n,)."""
     cells = cell_column.shape[0]
@@ -184,7 +184,7 @@ def find_walls(table, start, triangle, cell_column, height, gradient, resolution
     return base
 
 
-@njit(cache=True)
+@kernel
 def _wall_between(
     table, start, triangle, base, height, gradient, c, column, x, y, ax, ay, bx, by, half, headroom,
     polygon, spare,
@@ -205,7 +205,7 @@ def _wall_between(
     return False
 
 
-@njit(cache=True)
+@allocating_kernel
 def cut_links_at_walls(
     table, start, triangle, base, cell_column, height, gradient, link, resolution, ny, headroom
 ):

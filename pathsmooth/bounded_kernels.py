@@ -14,7 +14,6 @@ and y', v' as there. Targets need not lie in their discs here.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from pathsmooth.kernels import (
     BEND,
@@ -35,19 +34,20 @@ from pathsmooth.kernels import (
     objective,
     project,
 )  # fmt: skip
+from surefoot.kernels import allocating_kernel, kernel
 
 CONVERGED = 0
 LIMIT = 1
 IMPOSSIBLE = 2
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def _bend(packed, d, i, axis):
     """Second difference of the displacements at an inner waypoint."""
     return packed[LEFT, i] * (d[i - 1, axis] - d[i, axis]) + packed[RIGHT, i] * (d[i + 1, axis] - d[i, axis])
 
 
-@njit(cache=True)
+@kernel
 def _spread(packed, force, out, first, last):
     """out (n, 2) = D^T force for the unknowns first..last-1."""
     n = packed.shape[1]
@@ -61,7 +61,7 @@ def _spread(packed, force, out, first, last):
             out[i, axis] = value
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def _curve_dual(packed, kappa, u, r, relaxation, back, here, ahead):
     """Update u at inner waypoint r; back, here, ahead: 2 d' - d at r - 1, r, r + 1, as (x, y)."""
     c = packed[CURVE_STEP, r]
@@ -75,7 +75,7 @@ def _curve_dual(packed, kappa, u, r, relaxation, back, here, ahead):
     u[r, 1] += relaxation * (f * z1 - u[r, 1])
 
 
-@njit(cache=True)
+@kernel
 def iterate(packed, kappa, first, last, relaxation, count, d, y, v, u, new):
     """Do `count` iterations on d, y, v, u (n, 2) in place; the last primal step's result is left in new."""
     n = packed.shape[1]
@@ -144,7 +144,7 @@ def iterate(packed, kappa, first, last, relaxation, count, d, y, v, u, new):
             here, ahead = (0.0, 0.0), here
 
 
-@njit(cache=True)
+@kernel
 def _bounds(packed, kappa, d, y, u, force, pull, first, last):
     """(a value no feasible point is below, a value no feasible point is above)."""
     n = packed.shape[1]
@@ -177,7 +177,7 @@ def _bounds(packed, kappa, d, y, u, force, pull, first, last):
     return low, high
 
 
-@njit(cache=True)
+@allocating_kernel
 def solve_bounded(packed, kappa, first, last, relaxation, limit, tolerance, slack, check_every, state, best):
     """Iterate until the gap and the violation of the bound are small, or the bound is proven impossible.
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from surefoot.kernels import kernel
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def lens_corners(ax, ay, ra, bx, by, rb):
     """The two points where the rims of two discs meet; of no meaning where they do not."""
     dx = bx - ax
@@ -21,7 +22,7 @@ def lens_corners(ax, ay, ra, bx, by, rb):
     return x - across * uy, y + across * ux, x + across * uy, y - across * ux
 
 
-@njit(cache=True)
+@kernel
 def nearest_in_lens(x, y, ax, ay, ra, bx, by, rb):
     """The point nearest to (x, y) in two overlapping discs, which may be equal or one inside the other."""
     rounding = 1.0 + 1e-12

@@ -22,7 +22,8 @@ The rows of the packed array (ROWS, n) that the loops read are the constants bel
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from surefoot.kernels import allocating_kernel, kernel
 
 AX, AY, AR, BX, BY, BR = (
     0,
@@ -48,7 +49,7 @@ NOTHING = 1e-12  # [m^2] objective that is as good as zero
 EXACT = 1e-10  # relative gap that is as good as none
 
 
-@njit(cache=True)
+@kernel
 def factorise(packed, first, last):
     """Fill SUB1, SUB2, PIVOT for the unknowns first..last-1."""
     n = packed.shape[1]
@@ -82,7 +83,7 @@ def factorise(packed, first, last):
         packed[PIVOT, i] = 1.0 / diagonal
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def _coefficient(packed, row, i):
     if i == row - 1:
         return packed[LEFT, row]
@@ -93,7 +94,7 @@ def _coefficient(packed, row, i):
     return 0.0
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def project(packed, i, x, y):
     """The point of C_i nearest to (x, y)."""
     ux = x - packed[AX, i]
@@ -127,7 +128,7 @@ def project(packed, i, x, y):
     return packed[QX, i], packed[QY, i]
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def lowest(packed, i, gx, gy):
     """Minimum of <g, d> over C_i."""
     g = np.sqrt(gx * gx + gy * gy)
@@ -146,7 +147,7 @@ def lowest(packed, i, gx, gy):
     return min(gx * packed[PX, i] + gy * packed[PY, i], gx * packed[QX, i] + gy * packed[QY, i])
 
 
-@njit(cache=True)
+@kernel
 def objective(packed, d, first, last):
     """f1 + f2 of the displacements d (n, 2); those outside first..last-1 are zero."""
     n = packed.shape[1]
@@ -162,7 +163,7 @@ def objective(packed, d, first, last):
     return total
 
 
-@njit(cache=True)
+@kernel
 def lower_bound(packed, d, y, first, last, pull):
     """A value that no feasible point is below: the dual objective at the second differences of d (n, 2) and
     at y.
@@ -217,7 +218,7 @@ def lower_bound(packed, d, y, first, last, pull):
     return best
 
 
-@njit(cache=True)
+@kernel
 def iterate(packed, first, last, relaxation, count, d, y, v, rhs):
     """Do `count` iterations on d, y, v (n, 2) in place; the last primal step's unrelaxed result is left in
     rhs."""
@@ -267,7 +268,7 @@ def iterate(packed, first, last, relaxation, count, d, y, v, rhs):
             v[i, 1] += relaxation * (z1 - s * x1 - v[i, 1])
 
 
-@njit(cache=True)
+@allocating_kernel
 def solve(
     packed,
     targets,

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from pathsmooth import kernels as k
 from pathsmooth.geometry import lens_corners, nearest_in_lens
+from surefoot.kernels import kernel
 
 # Step sizes of the solver. They change its speed, never its answer; found by trial on random corridors.
 NORM_STEP = 60.0  # [1/m] of the distance term, per weight
@@ -40,7 +40,7 @@ def with_bound(packed: NDArray[np.float64], first: int, last: int) -> NDArray[np
     return packed
 
 
-@njit(cache=True)
+@kernel
 def keep_near(packed, reach):
     """Hold waypoints that are in one disc within `reach` [m] of their targets as well, in place."""
     for i in range(1, packed.shape[1] - 1):
@@ -54,7 +54,7 @@ def keep_near(packed, reach):
             )
 
 
-@njit(cache=True)
+@kernel
 def into_discs(targets, segment_disc, centers, radii):
     """Move the inner targets (n, 2) that lie outside their discs to the nearest place inside, in place."""
     for i in range(1, len(targets) - 1):
@@ -66,7 +66,7 @@ def into_discs(targets, segment_disc, centers, radii):
         )  # fmt: skip
 
 
-@njit(cache=True)
+@kernel
 def _pack(packed, targets, arc, segment_disc, centers, radii, smoothness):
     n = len(arc)
     widest = 0.0

@@ -11,9 +11,9 @@ Arc length is measured horizontally, in metres. Everything here is planar and co
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from pathsmooth.geometry import nearest_in_lens
+from surefoot.kernels import allocating_kernel, kernel
 
 COVERED = 0
 START_OUTSIDE = 1
@@ -27,7 +27,7 @@ SHIFT = 0.1
 """Fraction of the spacing by which a merged waypoint's target may leave the pulled path."""
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def _inside_part(x, y, ux, uy, length, cx, cy, radius):
     """Part of a segment inside a disc: its first and last arc length from the segment's start; last <
     first: none."""
@@ -41,7 +41,7 @@ def _inside_part(x, y, ux, uy, length, cx, cy, radius):
     return max(along - half, 0.0), min(along + half, length)
 
 
-@njit(cache=True)
+@allocating_kernel
 def cover(path, arc, centers, radii, slack):
     """Choose for every disc the stretch of the path that it covers.
 
@@ -129,7 +129,7 @@ def cover(path, arc, centers, radii, slack):
     return COVERED, m, total, begin, end
 
 
-@njit(cache=True)
+@allocating_kernel
 def _enter(a, b, j, first, stretch_begin, stretch_end, earliest, parent, slack):
     """Record the stretch [a, b] of disc j if it can be entered, with the earliest place where that is
     possible."""
@@ -152,7 +152,7 @@ def _enter(a, b, j, first, stretch_begin, stretch_end, earliest, parent, slack):
         parent.append(source)
 
 
-@njit(cache=True)
+@allocating_kernel
 def point_at(path, arc, s):
     """The point (x, y) of a polyline at arc length s."""
     segment = min(max(np.searchsorted(arc, s, side="right") - 1, 0), len(arc) - 2)
@@ -163,7 +163,7 @@ def point_at(path, arc, s):
     )
 
 
-@njit(cache=True)
+@kernel
 def _balance_point(path, arc, low, high, ax, ay, ra, bx, by, rb):
     """Arc length in [low, high] where the path changes from being deeper in disc a to being deeper in disc b.
 
@@ -181,7 +181,7 @@ def _balance_point(path, arc, low, high, ax, ay, ra, bx, by, rb):
     return 0.5 * (low + high)
 
 
-@njit(cache=True)
+@kernel
 def _shared(path, arc, s, centers, radii, a, b, shift):
     """Whether the path at s is within `shift` of both discs a and b, and these overlap."""
     if (
@@ -196,7 +196,7 @@ def _shared(path, arc, s, centers, radii, a, b, shift):
     return (px - x) ** 2 + (py - y) ** 2 <= (shift + 1e-9) ** 2
 
 
-@njit(cache=True)
+@allocating_kernel
 def place(path, arc, centers, radii, begin, end, spacing):
     """Choose the arc lengths of the waypoints and the disc of every segment.
 

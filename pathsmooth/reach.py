@@ -12,8 +12,9 @@ The corridor is passed in the order of its discs.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from surefoot.kernels import allocating_kernel, kernel
 
 UNREACHABLE = 0
 REACHED = 1
@@ -116,7 +117,7 @@ def _steps(headings: int, turn_cells: int, max_curvature: float, step: float, si
     return np.concatenate(offsets).astype(np.int32), np.array(first)
 
 
-@njit(cache=True)
+@allocating_kernel
 def _search(
     goal, goal_turn, any_start, reference, centers, radii, curvature, step, size, headings,
     turn_cells, offsets, first,
@@ -258,7 +259,7 @@ def _search(
     return REACHED, positions, discs
 
 
-@njit(cache=True)
+@allocating_kernel
 def _lens_boxes(cx, cy, radii):
     """(m - 1, 6) a box around each lens of consecutive discs: centre, unit axis, half length and half
     width."""
@@ -288,7 +289,7 @@ def _lens_boxes(cx, cy, radii):
     return boxes
 
 
-@njit(cache=True)
+@kernel
 def _meets(boxes, j, x, y, px, py, margin):
     """Whether the segment from (x, y) to (px, py) comes into box j grown by the margin."""
     enter = 0.0
@@ -310,7 +311,7 @@ def _meets(boxes, j, x, y, px, py, margin):
     return enter <= leave
 
 
-@njit(cache=True)
+@kernel
 def _arrives(dx, dy, h, goal_turn, curvature, step, size, delta, turn_cells, headings):
     """Whether a last step, of any length up to a whole one, may end at the goal."""
     half_cell = size * np.sqrt(0.5)
@@ -328,14 +329,14 @@ def _arrives(dx, dy, h, goal_turn, curvature, step, size, delta, turn_cells, hea
     return turn <= (turn_cells + 1) * delta
 
 
-@njit(cache=True)
+@allocating_kernel
 def _longer(queue):
     longer = np.empty((2 * len(queue), 4), np.int32)
     longer[: len(queue)] = queue
     return longer
 
 
-@njit(cache=True)
+@allocating_kernel
 def _longer_list(parent):
     longer = np.empty(2 * len(parent), np.int64)
     longer[: len(parent)] = parent

@@ -1,14 +1,15 @@
 """The hot loop of `runtime.render`: which face of a level each ray of a picture meets first."""
 
 import numpy as np
-from numba import njit
+
+from surefoot.kernels import allocating_kernel
 
 __all__ = ["cast_faces"]
 
 _NEAR = 0.01  # [m] depth at which faces are cut before their window is measured
 
 
-@njit(cache=True)
+@allocating_kernel
 def cast_faces(
     eye: np.ndarray, axes: np.ndarray, scale: float, rays: np.ndarray,
     corners: np.ndarray, nearest: np.ndarray, distance: np.ndarray,
@@ -49,7 +50,7 @@ def cast_faces(
     return found
 
 
-@njit(cache=True)
+@allocating_kernel
 def _window(
     corners: np.ndarray, eye: np.ndarray, axes: np.ndarray, scale: float, width: int, height: int
 ) -> tuple[int, int, int, int]:

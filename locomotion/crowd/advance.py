@@ -3,7 +3,6 @@
 from math import atan2, pi, sqrt
 
 import numpy as np
-from numba import njit
 
 from locomotion.crowd import layout as at
 from locomotion.crowd.avoidance import MOST_WALLS, body_plane, wall_planes
@@ -13,6 +12,7 @@ from locomotion.crowd.program import choose_velocity
 from locomotion.crowd.queueing import direct, waiting_wish, waits_behind
 from locomotion.crowd.steering import follow
 from navmesh.field import floor_at
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["advance_all"]
 
@@ -38,7 +38,7 @@ _SIGHTLESS = 0.5
 """[s] without sight of its corner after which a body asks for another route."""
 
 
-@njit(cache=True)
+@allocating_kernel
 def _reaches(rows):
     """How far each body looks for others [m], (n,)."""
     widest = rows[:, at.RADIUS].max()
@@ -50,7 +50,7 @@ def _reaches(rows):
     return reach
 
 
-@njit(cache=True)
+@kernel
 def _settle(rows, i, neighbours, count):
     """Whether a body has come as near to its goal as those that stand there let it."""
     row = rows[i]
@@ -78,7 +78,7 @@ def _settle(rows, i, neighbours, count):
     return False
 
 
-@njit(cache=True)
+@kernel
 def _make_way(rows, i, neighbours, count):
     """The velocity at which one that stands steps aside for those who want to pass."""
     wx = wy = 0.0
@@ -101,7 +101,7 @@ def _make_way(rows, i, neighbours, count):
     return wx, wy
 
 
-@njit(cache=True)
+@kernel
 def _in_company(rows, i, neighbours, count):
     if count == 0:
         return False
@@ -111,7 +111,7 @@ def _in_company(rows, i, neighbours, count):
     return dx * dx + dy * dy < near * near
 
 
-@njit(cache=True)
+@kernel
 def _wish(net, rows, routes, crossings, i, neighbours, count, dt):
     """The velocity that a body wishes, and notes for its owner."""
     row = rows[i]
@@ -140,7 +140,7 @@ def _wish(net, rows, routes, crossings, i, neighbours, count, dt):
     return wx, wy
 
 
-@njit(cache=True)
+@kernel
 def _turn(row, dt):
     """Face where it goes; at rest, where it was told to."""
     speed = sqrt(row[at.VX] * row[at.VX] + row[at.VY] * row[at.VY])
@@ -157,7 +157,7 @@ def _turn(row, dt):
     row[at.YAW] = (row[at.YAW] + min(max(turn, -most), most) + pi) % (2.0 * pi) - pi
 
 
-@njit(cache=True)
+@allocating_kernel
 def advance_all(net, rows, routes, crossings, gates, dt):
     """Advance all bodies of ``rows`` (n, ROW) by ``dt`` [s]; ``gates``: how many there are."""
     n = rows.shape[0]
@@ -198,7 +198,7 @@ def advance_all(net, rows, routes, crossings, gates, dt):
     _move_all(net, rows, velocity, order, neighbours, counts, dt)
 
 
-@njit(cache=True)
+@allocating_kernel
 def _move_all(net, rows, velocity, order, neighbours, counts, dt):
     """Take the steps, out of each other and along the walls."""
     n = rows.shape[0]

@@ -7,9 +7,8 @@ nearest to the body and those nearest to the cells around it each forbid to come
 
 from math import sqrt
 
-from numba import njit
-
 from navmesh.field import centre_of, gap_at
+from surefoot.kernels import kernel
 
 __all__ = ["MOST_WALLS", "body_plane", "wall_planes"]
 
@@ -22,7 +21,7 @@ _SAME = 0.97
 """Cosine of the angle up to which two places of a wall are one."""
 
 
-@njit(cache=True)
+@kernel
 def body_plane(planes, row, px, py, vx, vy, ox, oy, reach, share, horizon):
     """Write into planes[row] what a neighbour forbids.
 
@@ -59,7 +58,7 @@ def body_plane(planes, row, px, py, vx, vy, ox, oy, reach, share, horizon):
     planes[row, 2] = -(nx * vx + ny * vy) - share * off
 
 
-@njit(cache=True)
+@kernel
 def _add_wall(planes, count, x, y, qx, qy, radius):
     """Add the plane of the surface's end at (qx, qy) unless it has one; returns how many there are."""
     nx, ny = qx - x, qy - y
@@ -81,7 +80,7 @@ def _add_wall(planes, count, x, y, qx, qy, radius):
     return count + 1
 
 
-@njit(cache=True)
+@kernel
 def wall_planes(net, planes, k, x, y, radius, speed):
     """Write the planes of the walls around (x, y), a point in cell ``k``; returns how many."""
     reach = radius + speed * _WALL_TIME

@@ -8,13 +8,13 @@ a gate, and so is a long corridor.
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
 from navmesh.field import centre_of
 from navmesh.surface import Surface
+from surefoot.kernels import allocating_kernel
 
 __all__ = ["ABREAST", "Gates", "find_gates"]
 
@@ -37,7 +37,7 @@ class Gates(NamedTuple):
     """(cells, 2) unit vector along the passage, of one sense all over a short gate."""
 
 
-@njit(cache=True)
+@allocating_kernel
 def _paint(net, throats, part, of_cell, by, pairs):
     """Give the cells under the discs of ``throats`` to their parts, first come first served; returns how
     many ``pairs`` of parts were found to overlap."""

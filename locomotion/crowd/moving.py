@@ -2,10 +2,9 @@
 
 from math import sqrt
 
-from numba import njit
-
 from locomotion.crowd import layout as at
 from navmesh.field import gap_at, walk
+from surefoot.kernels import kernel
 
 __all__ = ["part", "slide"]
 
@@ -15,7 +14,7 @@ _STIFF = 0.9
 """Share of an overlap that is taken away each time."""
 
 
-@njit(cache=True)
+@kernel
 def part(rows, x, y, i, neighbours, count):
     """Move body ``i`` out of its neighbours by its share of the overlaps, in x and y (n,)."""
     px, py = x[i], y[i]
@@ -36,13 +35,13 @@ def part(rows, x, y, i, neighbours, count):
     x[i], y[i] = px, py
 
 
-@njit(cache=True)
+@kernel
 def _reach(net, k, x, y, tx, ty):
     """(reached, cell) of a step over linked cells."""
     return walk(net, k, x, y, tx, ty, 1e-3, False)[:2]
 
 
-@njit(cache=True)
+@kernel
 def slide(net, k, x, y, tx, ty, radius):
     """Where a body at (x, y) in cell ``k`` that wants to be at (tx, ty) gets: (cell, x, y).
 

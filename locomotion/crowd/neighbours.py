@@ -3,7 +3,8 @@
 from math import sqrt
 
 import numpy as np
-from numba import njit
+
+from surefoot.kernels import allocating_kernel
 
 __all__ = ["MOST", "brute_neighbours", "find_neighbours"]
 
@@ -13,7 +14,7 @@ STOREY = 1.5
 """[m] of height from which bodies are on different storeys."""
 
 
-@njit(cache=True)
+@allocating_kernel
 def _sort_into_squares(x, y, size):
     """Bodies in order of their squares: (order, first of each square (nx·ny + 1,), square of each body, ny,
     corner x, y, size). Squares grow where the bodies are far apart, so that there are not many more of them
@@ -38,7 +39,7 @@ def _sort_into_squares(x, y, size):
     return order, first, nx, ny, low_x, low_y, size
 
 
-@njit(cache=True)
+@allocating_kernel
 def find_neighbours(x, y, z, reach, wanted):
     """The nearest bodies within ``reach`` (n,) [m] of each and on the same storey, at most `MOST`, nearest
     first; of equally near ones the first. Only for those ``wanted`` (n,) bool.

@@ -8,14 +8,14 @@ references: `locomotion.crowd.reference`.
 
 from math import sqrt
 
-from numba import njit
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["choose_velocity"]
 
 _PARALLEL = 1e-9
 
 
-@njit(cache=True)
+@kernel
 def _on_border(planes, i, speed, wx, wy, outward):
     """The best velocity on the border of plane ``i`` within the disc and the planes before it: the one
     nearest to w, or with ``outward`` the one farthest along it. Returns (found, x, y)."""
@@ -49,7 +49,7 @@ def _on_border(planes, i, speed, wx, wy, outward):
     return True, px + t * dx, py + t * dy
 
 
-@njit(cache=True)
+@kernel
 def _within(planes, count, speed, wx, wy, outward):
     """The best velocity within the disc of radius ``speed`` and the first ``count`` planes.
 
@@ -71,7 +71,7 @@ def _within(planes, count, speed, wx, wy, outward):
     return count, vx, vy
 
 
-@njit(cache=True)
+@allocating_kernel
 def _least_violation(planes, count, hard, begin, speed, vx, vy, work):
     """Move (vx, vy) so that the greatest violation of the planes from ``hard`` on is least, within the disc
     and the first ``hard`` planes: the paper's three-dimensional program."""
@@ -98,7 +98,7 @@ def _least_violation(planes, count, hard, begin, speed, vx, vy, work):
     return vx, vy
 
 
-@njit(cache=True)
+@kernel
 def choose_velocity(planes, count, hard, speed, wx, wy, work):
     """The velocity (x, y) [m/s] nearest to the wish (wx, wy), no faster than ``speed`` and within the first
     ``count`` rows of ``planes`` (k, 3).

@@ -9,10 +9,10 @@ between ticks is kept in the bodies' rows.
 from math import sqrt
 
 import numpy as np
-from numba import njit
 
 from locomotion.crowd import layout as at
 from navmesh.field import cell_at, walk
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["direct", "trace_gates", "waiting_wish", "waits_behind"]
 
@@ -36,7 +36,7 @@ _LONG = 1.0
 """[m] of a gate from which its direction is told by how far along its ends are."""
 
 
-@njit(cache=True)
+@allocating_kernel
 def trace_gates(net, of_cell, along, width, axis, most, table):
     """The gates that a route goes through: rows (k, CROSSING), for a body that heeds gates up to ``most``
     [m] wide. table (m, POINT): the route."""
@@ -80,7 +80,7 @@ def trace_gates(net, of_cell, along, width, axis, most, table):
     return found[:count].copy()
 
 
-@njit(cache=True)
+@kernel
 def _next_gate(row, crossings):
     """The gate that a body is before or in; (row of crossings or -1, [m] to it, [m] to its end)."""
     while row[at.GATE_NEXT] < row[at.GATE_COUNT]:
@@ -94,7 +94,7 @@ def _next_gate(row, crossings):
     return -1, 0.0, 0.0
 
 
-@njit(cache=True)
+@allocating_kernel
 def direct(rows, crossings, gates, dt):
     """Decide who of ``rows`` may pass the ``gates`` (how many there are) now."""
     n = rows.shape[0]
@@ -129,7 +129,7 @@ def direct(rows, crossings, gates, dt):
     _let_in(rows, crossings, here, passing, coming, longest)
 
 
-@njit(cache=True)
+@allocating_kernel
 def _let_in(rows, crossings, here, passing, coming, longest):
     """Let those in whose turn it is, the nearest first, and send back those who meet others inside."""
     gates = passing.shape[0]
@@ -166,7 +166,7 @@ def _let_in(rows, crossings, here, passing, coming, longest):
                 rows[i, at.GATE_WAIT] = 0.0
 
 
-@njit(cache=True)
+@kernel
 def waits_behind(rows, crossings, i, neighbours, count):
     """Whether somebody who waits at the next gate of body ``i`` stands before it, in touch."""
     row = rows[i]
@@ -189,7 +189,7 @@ def waits_behind(rows, crossings, i, neighbours, count):
     return False
 
 
-@njit(cache=True)
+@kernel
 def waiting_wish(rows, crossings, i, neighbours, count):
     """The velocity (x, y) [m/s] of one that waits for its turn or goes back out of a gate."""
     row = rows[i]

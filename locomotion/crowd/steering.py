@@ -2,10 +2,9 @@
 
 from math import cos, sin, sqrt
 
-from numba import njit
-
 from locomotion.crowd import layout as at
 from navmesh.field import floor_at, walk
+from surefoot.kernels import kernel
 
 __all__ = ["HEADWAY", "follow"]
 
@@ -27,7 +26,7 @@ _SIDESTEP = 0.05
 """[rad] to the right that bodies keep when others are near, so that two that meet head on pass."""
 
 
-@njit(cache=True)
+@kernel
 def _sees(net, row, point):
     """Whether a body can go straight to ``point`` (x, y, z)."""
     reached, cell = walk(
@@ -36,7 +35,7 @@ def _sees(net, row, point):
     return reached and abs(floor_at(net, cell, point[0], point[1]) - point[2]) < _SEEN_STEP
 
 
-@njit(cache=True)
+@kernel
 def _look(net, row, routes, since):
     """Head for the farthest corner in sight; note when none has been seen for a while."""
     start, count, next_ = int(row[at.ROUTE_START]), int(row[at.ROUTE_COUNT]), int(row[at.NEXT])
@@ -53,7 +52,7 @@ def _look(net, row, routes, since):
         row[at.BLIND] += since
 
 
-@njit(cache=True)
+@kernel
 def follow(net, row, routes, number, dt, crowded):
     """The velocity (x, y) [m/s] that a walking body wishes; keeps its row's account of the route.
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.carriage import carry
 from locomotion.quadruped.following import place_body, spring, wrap
@@ -14,6 +12,7 @@ from locomotion.quadruped.gait import step_gait
 from locomotion.quadruped.motion import DT, advance_along
 from locomotion.quadruped.pose import write_pose
 from locomotion.quadruped.trail import trail_point
+from surefoot.kernels import kernel
 
 __all__ = ["advance_all"]
 
@@ -24,7 +23,7 @@ CRUMB_SPACING = 0.1
 """[m] between crumbs."""
 
 
-@njit(cache=True)
+@kernel
 def advance_all(state, params, gaits, pool, ground, origin, feet, crumbs, poses, pose_start, joints):
     """Advance all animals by one tick of 10 ms.
 
@@ -48,7 +47,7 @@ def advance_all(state, params, gaits, pool, ground, origin, feet, crumbs, poses,
         write_pose(st, pr, feet[i], poses[pose_start[i] : pose_start[i + 1]], joints[i])
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def _move(st, pr, pool):
     if st[at.MODE] == at.ON_TRAIL:
         advance_along(st, pr, pool)
@@ -56,7 +55,7 @@ def _move(st, pr, pool):
         st[at.SCRIPT_TIME] = min(st[at.SCRIPT_TIME] + DT, st[at.SCRIPT_LENGTH])
 
 
-@njit(cache=True)
+@kernel
 def _is_over(st):
     """Whether the motion has come to its end, and what was left of the one before has gone."""
     if st[at.MODE] == at.STANDING:
@@ -71,7 +70,7 @@ def _is_over(st):
     return True
 
 
-@njit(cache=True)
+@kernel
 def _look(st, pr, pool):
     """Turn neck and head to what is a time ahead on the trail, or to what was given."""
     x, y = st[at.LOOK_X], st[at.LOOK_Y]
@@ -93,7 +92,7 @@ def _look(st, pr, pool):
     st[at.GAZE] = wanted + off
 
 
-@njit(cache=True)
+@kernel
 def _drop_crumb(st, ring):
     """Drop a crumb where the root is on its way forwards; on its way back take them up again."""
     size = ring.shape[0]

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.following import front_of, spring
+from surefoot.kernels import kernel
 
 __all__ = ["carry"]
 
@@ -22,7 +21,7 @@ _STEEPEST = 0.75  # of the spine's length between the heights of hips and should
 _NEAR = 0.5  # of the spine's length between front and rear feet, from which a slope is told by them
 
 
-@njit(cache=True)
+@kernel
 def _highest(feet, joint_x, joint_y, direction, width, first, reach, most):
     """Height [m] at which both legs of a pair, ``first`` and the next, still reach their feet: stretched to
     ``reach`` [m], and to ``most`` in the middle of a swing. Nothing jumps when they come down."""
@@ -40,7 +39,7 @@ def _highest(feet, joint_x, joint_y, direction, width, first, reach, most):
     return highest
 
 
-@njit(cache=True)
+@kernel
 def _feel_ground(st, pr, feet):
     """Heights of the ground under hips and shoulders, as the feet feel it: on the line through the middle of
     the rear feet and that of the front feet, wherever under the body these are."""
@@ -57,7 +56,7 @@ def _feel_ground(st, pr, feet):
     st[at.GROUND_FRONT] = front_z + slope * (far - front)
 
 
-@njit(cache=True)
+@kernel
 def carry(st, pr, feet):
     """Heights of hips and shoulders: over the ground as the feet feel it, and low enough for them."""
     twice = 4.0 * math.pi * st[at.CLOCK]
@@ -105,7 +104,7 @@ def carry(st, pr, feet):
     _tilt(st, pr)
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def _below(height, limit, size):
     """``height`` [m] kept under a limit, without a kink where it comes near it; ``size`` [m] of the body."""
     soft = _SOFT * size
@@ -114,7 +113,7 @@ def _below(height, limit, size):
     return height - soft * max(down - _FAR, 0.0)
 
 
-@njit(cache=True)
+@kernel
 def _tilt(st, pr):
     """Pitch of the trunk from the heights of hips and shoulders, and the place of the front under it."""
     length = pr[at.BONES] * pr[at.BONE]

@@ -10,26 +10,26 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.motion import DT, script_at
 from locomotion.quadruped.spine import bend_for, chord
 from locomotion.quadruped.trail import trail_at, trail_point
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["front_of", "on_trail", "place_body", "root_behind", "spring", "wanted_pose", "wrap"]
 
 _HALF_LIFE = 0.16  # [s] of an offset
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def wrap(angle):
     """The same angle [rad] between -π and π."""
     return angle - 2.0 * math.pi * math.floor((angle + math.pi) / (2.0 * math.pi))
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def spring(value, rate, half_life):
     """A critically damped spring towards 0 after one tick: (value, rate)."""
     y = 2.0 * 0.69314718056 / half_life
@@ -38,7 +38,7 @@ def spring(value, rate, half_life):
     return e * (value + j * DT), e * (rate - j * y * DT)
 
 
-@njit(cache=True)
+@kernel
 def on_trail(pool, first, count, step, arc, front, bones, bone, flex, max_bend):
     """The body whose root is at ``arc`` [m] on a trail and whose spine ends on the trail too.
 
@@ -58,7 +58,7 @@ def on_trail(pool, first, count, step, arc, front, bones, bone, flex, max_bend):
     return x, y, z, heading + turn - 0.5 * (bones + 1.0) * bend, bend, front
 
 
-@njit(cache=True)
+@kernel
 def wanted_pose(st, pr, pool, arc, time):
     """(x, y, z, yaw, bend, front) that the motion wants with the root at ``arc`` [m], or ``time`` [s] into a
     script; ``front`` is the arc length of the front feet's midpoint, as it was when not on a trail."""
@@ -74,7 +74,7 @@ def wanted_pose(st, pr, pool, arc, time):
     return st[at.X], st[at.Y], st[at.HEIGHT], st[at.YAW], st[at.BEND], st[at.FRONT_ARC]
 
 
-@njit(cache=True)
+@kernel
 def front_of(x, y, yaw, bend, bones, bone):
     """(x, y) of the spine's end for a root at (x, y)."""
     seen = yaw + 0.5 * (bones + 1.0) * bend
@@ -82,7 +82,7 @@ def front_of(x, y, yaw, bend, bones, bone):
     return x + reach * math.cos(seen), y + reach * math.sin(seen)
 
 
-@njit(cache=True)
+@allocating_kernel
 def place_body(st, pr, pool):
     """Write the pose of this tick into the row ``st``: what the motion wants, and what is left of offsets."""
     x, y, z, yaw, bend, front = wanted_pose(st, pr, pool, st[at.ARC], st[at.SCRIPT_TIME])

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from locomotion.ground import height_below
 from locomotion.quadruped import layout as at
@@ -17,6 +16,7 @@ from locomotion.quadruped.following import front_of, wanted_pose
 from locomotion.quadruped.gait import leg_phase, seconds_for, swing_tempo
 from locomotion.quadruped.motion import DT, travel
 from locomotion.quadruped.trail import trail_point
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["find_ground", "foot_place", "misplaced", "step_feet"]
 
@@ -33,13 +33,13 @@ _SINK_AHEAD = 0.84  # the same for a foot before it, over which it is yet to com
 _SLACK = 0.12  # [m] above a step that a foot may find ground off the surface it is on
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def _ramp(u):
     """Way made by a speed that rises to 1 by the smoothstep while ``u`` goes from 0 to 1."""
     return u * u * u * (1.0 - 0.5 * u)
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def _stride(u, ramp):
     """Share of its way that a foot has made at the share ``u`` of its swing: it speeds up over the share
     ``ramp``, goes on evenly, and slows down as long; neither speed nor acceleration jumps."""
@@ -51,7 +51,7 @@ def _stride(u, ramp):
     return top * (u - 0.5 * ramp)
 
 
-@njit(cache=True)
+@kernel
 def find_ground(ground, origin, x, y, z, reach):
     """Height [m] of the ground at (x, y) within ``reach`` [m] of ``z``, or NaN."""
     h = height_below(
@@ -62,7 +62,7 @@ def find_ground(ground, origin, x, y, z, reach):
     return h if h >= z - reach else np.nan
 
 
-@njit(cache=True)
+@kernel
 def foot_place(st, pr, pool, leg, ahead):
     """(x, y, z, direction) where ``leg`` stands under the body ``ahead`` [s] from now; z is the surface's
     there as the motion knows it."""
@@ -79,7 +79,7 @@ def foot_place(st, pr, pool, leg, ahead):
     return x, y, z, yaw + pr[at.BONES] * bend
 
 
-@njit(cache=True)
+@kernel
 def _aim(st, pr, pool, ground, origin, foot, leg, ahead):
     """Write where ``leg`` is to come down, ``ahead`` [s] from the middle of its stance, as its AIM."""
     x, y, z, direction = foot_place(st, pr, pool, leg, ahead)
@@ -101,7 +101,7 @@ def _aim(st, pr, pool, ground, origin, foot, leg, ahead):
     return False
 
 
-@njit(cache=True)
+@kernel
 def _arch(foot, ground, origin, reach):
     """[m] by which a straight way from FROM to AIM has to be raised in its middle to clear the ground."""
     arch = 0.0
@@ -116,7 +116,7 @@ def _arch(foot, ground, origin, reach):
     return arch
 
 
-@njit(cache=True)
+@allocating_kernel
 def step_feet(st, pr, gait, pool, ground, origin, feet):
     """One tick of the four ``feet`` (4, FOOT) of one animal; returns whether all stand where they belong."""
     cycle = 1.0 / st[at.FREQUENCY_WISH]  # [s] of the strides to come
@@ -166,7 +166,7 @@ def step_feet(st, pr, gait, pool, ground, origin, feet):
     return settled
 
 
-@njit(cache=True)
+@kernel
 def _overstretched(st, pr, foot, leg):
     """Whether the body has gone so far on over a standing leg that the trunk would have to sink for it."""
     if leg < 2:
@@ -186,7 +186,7 @@ def _overstretched(st, pr, foot, leg):
     return dx * dx + dy * dy > reach * reach - needed * needed
 
 
-@njit(cache=True)
+@kernel
 def _swing(foot, done, lift, ramp):
     """Put a swinging foot at the share ``done`` of its way."""
     along = _stride(done, ramp)
@@ -197,7 +197,7 @@ def _swing(foot, done, lift, ramp):
     foot[at.FZ] = foot[at.BASE] + 4.0 * along * (1.0 - along) * foot[at.ARCH] + lift * hump * hump
 
 
-@njit(cache=True)
+@kernel
 def misplaced(st, pr, pool, feet):
     """Whether a standing foot is not where it belongs when nothing moves any more."""
     for leg in range(4):

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from locomotion.ground import Ground
@@ -22,6 +21,7 @@ from locomotion.quadruped.following import front_of, on_trail
 from locomotion.quadruped.motion import stop_place, stop_time
 from locomotion.quadruped.script import Place, Script
 from locomotion.quadruped.trail import Trail, kernel_ground
+from surefoot.kernels import kernel
 
 __all__ = [
     "PARTS",
@@ -176,7 +176,7 @@ def at_place(place: Place) -> NDArray[np.float64]:
     return np.array([[place.x, place.y, place.z, place.yaw, place.bend]])
 
 
-@njit(cache=True)
+@kernel
 def _distance_squared(px, py, pz, t):
     """Squared distance [m²] from a point to the triangle of corners ``t`` (9,) (Ericson, Real-Time Collision
     Detection, 5.1.5)."""
@@ -213,7 +213,7 @@ def _distance_squared(px, py, pz, t):
     return x * x + y * y + z * z
 
 
-@njit(cache=True)
+@kernel
 def touches(ground, cell_range, x, y, z, radius):
     """Whether a triangle comes nearer to a point than ``radius``."""
     rows, start, member, grid, shape = ground
@@ -236,7 +236,7 @@ def touches(ground, cell_range, x, y, z, radius):
     return False
 
 
-@njit(cache=True)
+@kernel
 def _first_touch(ground, cell_range, centres, radii):
     """(sample, part) of the first touch, (-1, -1) for none."""
     for k in range(centres.shape[0]):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from locomotion.giving_way import COUNT, STEP
@@ -13,6 +12,7 @@ from locomotion.quadruped.following import front_of, wanted_pose
 from locomotion.quadruped.footprint import fronts
 from locomotion.quadruped.motion import travel
 from locomotion.quadruped.script import Script
+from surefoot.kernels import allocating_kernel
 
 __all__ = ["DISCS", "between_feet", "disc_radius", "foretell_motion", "foretell_script", "nobody"]
 
@@ -31,7 +31,7 @@ def between_feet(rear: NDArray[np.float64], front: NDArray[np.float64]) -> NDArr
     return rear[:, None] + share[:, None] * (front - rear)[:, None]
 
 
-@njit(cache=True)
+@allocating_kernel
 def foretell_motion(st, pr, pool, feet):
     """Write the midpoints of rear and front feet every `STEP` from now on into ``feet`` (COUNT, 2, 2), if
     an animal of the herd's row ``st`` goes on with the stop, trail or script that it plays."""

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.motion import DT
+from surefoot.kernels import kernel
 
 __all__ = ["leg_phase", "seconds_for", "step_gait", "swing_tempo"]
 
@@ -23,12 +22,12 @@ _FORESIGHT = (
 _SHORTER = 0.6  # [1/rad] of slope by which strides become shorter and quicker
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def _eased(now, goal, rate):
     return goal + (now - goal) * math.exp(-rate * DT)
 
 
-@njit(cache=True)
+@kernel
 def step_gait(st, pr, gaits, feet):
     """One tick: choose the gait by speed, ease its numbers into the row ``st``, turn the clock.
 
@@ -77,21 +76,21 @@ def step_gait(st, pr, gaits, feet):
         st[at.CLOCK] -= math.floor(st[at.CLOCK])
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def leg_phase(st, leg):
     """Share of the stride since ``leg`` touched down, 0 to 1."""
     phase = st[at.CLOCK] - st[at.TOUCHDOWN_NOW + leg]
     return phase - math.floor(phase)
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def _late(st, gait, leg):
     """Share of the stride, 0 to 1, by which ``leg`` should come down later to be in the gait's order."""
     off = gait[at.TOUCHDOWN + leg] - st[at.TOUCHDOWN_NOW + leg]
     return off - math.floor(off)
 
 
-@njit(cache=True)
+@kernel
 def swing_tempo(st, gait, leg, duty):
     """How fast ``leg``, which leaves the ground now, goes on through its stride, against the clock: so that
     it comes down in its gait's order, or as near to that as a swing can be quick or slow."""
@@ -101,7 +100,7 @@ def swing_tempo(st, gait, leg, duty):
     return left / min(max(wanted, _QUICKEST * whole), _SLOWEST * whole)
 
 
-@njit(cache=True)
+@kernel
 def seconds_for(st, strides):
     """[s] that the clock takes for ``strides``, while its frequency comes to what is wished."""
     now, wish = st[at.FREQUENCY_NOW], st[at.FREQUENCY_WISH]

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
+from surefoot.kernels import kernel
 
 __all__ = ["solve_leg", "two_bones"]
 
@@ -21,7 +21,7 @@ _SOFT = 0.35  # of the foot bone's length over which it begins to turn down
 _UNCURL = 1.2  # of the foot bone's length over which a paw gives up its curl, around the same place
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def two_bones(x, z, upper, lower, side):
     """Angles [rad] of two bones of lengths ``upper`` and ``lower`` [m] that end at (x, z); the joint between
     them points forwards (side 1) or backwards (-1). Places out of reach get the straight or folded leg.
@@ -36,7 +36,7 @@ def two_bones(x, z, upper, lower, side):
     return first, math.atan2(x - kx, kz - z)
 
 
-@njit(cache=True)
+@kernel
 def solve_leg(x, z, upper, lower, foot, lean, curl, side):
     """(upper, lower, foot) angles [rad] of a leg whose toe is at (x, z) [m].
 

@@ -14,7 +14,6 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from locomotion.ground import Ground
@@ -25,6 +24,7 @@ from locomotion.quadruped.footprint import RESOLUTION, check_script, key_balls, 
 from locomotion.quadruped.local_motion import REACH, local_motion
 from locomotion.quadruped.script import Place, Script
 from locomotion.quadruped.trail import Trail, kernel_ground
+from surefoot.kernels import kernel
 
 __all__ = ["find_manoeuvre", "joined"]
 
@@ -199,7 +199,7 @@ class _Checked:
         return free
 
 
-@njit(cache=True)
+@kernel
 def _free_moves(ground, cell_range, origin, x, y, z, yaw, first, samples, heights, radii, reach, free, ends):
     """Write which moves touch nothing on their way, and the ground's height [m] at their ends."""
     c, s = math.cos(yaw), math.sin(yaw)

@@ -6,10 +6,9 @@ with none of the latter, its speed falls by the smoothstep. What plans a stop an
 
 from __future__ import annotations
 
-from numba import njit
-
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.trail import trail_speed
+from surefoot.kernels import kernel
 
 __all__ = [
     "DT",
@@ -33,19 +32,19 @@ SLACKEN = 2.4
 _FORESIGHT = 0.25  # [s] ahead on the trail that the speed of a bend is looked up
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def stop_time(speed, braking):
     """[s] of a stop from ``speed`` [m/s] that never brakes harder than ``braking`` [m/s²]."""
     return max(1.5 * speed / braking, _SHORTEST_STOP)
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def stop_length(speed, braking):
     """[m] that a stop from ``speed`` [m/s] takes."""
     return 0.5 * speed * stop_time(speed, braking)
 
 
-@njit(cache=True)
+@kernel
 def stop_place(speed, push, length, time, now):
     """Place [m], speed and acceleration ``now`` [s] into a stop from ``speed`` and ``push`` [m/s²] that
     takes ``time`` [s] over ``length`` [m]."""
@@ -61,7 +60,7 @@ def stop_place(speed, push, length, time, now):
     return s, sv / time, sa / (time * time)
 
 
-@njit(cache=True)
+@kernel
 def advance_along(st, pr, pool):
     """One tick on a trail: changes speed and arc length in the row ``st`` of the state."""
     if st[at.STOPPING] > 0.0:
@@ -87,7 +86,7 @@ def advance_along(st, pr, pool):
         begin_stop(st, left)
 
 
-@njit(cache=True)
+@kernel
 def begin_stop(st, left):
     """Begin the stop motion over ``left`` [m]."""
     st[at.STOPPING], st[at.STOP_BEGIN] = 1.0, 0.0
@@ -95,7 +94,7 @@ def begin_stop(st, left):
     st[at.STOP_TIME] = max(2.0 * left / max(st[at.SPEED], 1e-6), _SHORTEST_STOP) if left > 1e-9 else 0.0
 
 
-@njit(cache=True)
+@kernel
 def travel(st, pr, ahead):
     """[m] that the root will move along its trail within ``ahead`` [s], if nothing else happens."""
     speed = st[at.SPEED]
@@ -119,7 +118,7 @@ def travel(st, pr, ahead):
     return min(speed * cruise + s, left)
 
 
-@njit(cache=True)
+@kernel
 def script_at(pool, first, count, share):
     """(x, y, z, yaw, bend) at a share (0 to 1) of a script, by cubic interpolation of its rows."""
     along = min(max(share, 0.0), 1.0) * (count - 1)

@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.legs import solve_leg
+from surefoot.kernels import kernel
 
 __all__ = ["body_names", "body_parents", "count_bodies", "write_pose"]
 
@@ -42,7 +41,7 @@ def body_parents(bones: int) -> list[int]:
     return parents
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def _frame(row, x, y, z, yaw, up):
     """A frame at (x, y, z) whose x axis points to ``yaw`` and ``up`` [rad] over the horizontal."""
     cy, sy = math.cos(0.5 * yaw), math.sin(0.5 * yaw)
@@ -51,7 +50,7 @@ def _frame(row, x, y, z, yaw, up):
     row[3], row[4], row[5], row[6] = cy * cp, -sy * sp, cy * sp, sy * cp
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def _leg_frame(row, x, y, z, cy, sy, ca, sa, angle):
     """A frame at (x, y, z): turned by the half angles of yaw and abduction, x along a bone at ``angle``."""
     half = 0.5 * (0.5 * math.pi - angle)
@@ -61,7 +60,7 @@ def _leg_frame(row, x, y, z, cy, sy, ca, sa, angle):
     row[3], row[4], row[5], row[6] = w * cb - j * sb, i * cb - k * sb, w * sb + j * cb, k * cb + i * sb
 
 
-@njit(cache=True)
+@kernel
 def write_pose(st, pr, feet, out, joints):
     """Write the bodies' frames (m, 7) and the joint angles (JOINTS,) of one animal."""
     bones = int(pr[at.BONES])
@@ -110,7 +109,7 @@ def write_pose(st, pr, feet, out, joints):
     joints[at.JOINTS - 3], joints[at.JOINTS - 2], joints[at.JOINTS - 1] = bend, st[at.GAZE], pitch
 
 
-@njit(cache=True)
+@kernel
 def _leg(st, pr, foot, out, joints, leg, x, y, z, yaw, width, sizes, curl, side):
     upper, lower, last, lean = pr[sizes], pr[sizes + 1], pr[sizes + 2], pr[sizes + 3]
     c, s = math.cos(yaw), math.sin(yaw)

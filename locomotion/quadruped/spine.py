@@ -16,19 +16,20 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["bend_for", "brute_force_bend", "chord", "spine_points"]
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def bend_for(angle, bones):
     """θ [rad] that brings the end of ``bones`` bones to ``angle`` [rad] from the root's direction."""
     return 2.0 * angle / (bones + 1.0)
 
 
-@njit(cache=True, inline="always")
+@allocating_kernel(inline="always")
 def chord(bend, bones, bone):
     """[m] from the root to the end of the spine: ``bones`` of length ``bone`` [m], turned by ``bend``."""
     half = 0.5 * bend

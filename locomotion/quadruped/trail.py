@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline
 from scipy.ndimage import maximum_filter1d, uniform_filter1d
@@ -19,6 +18,7 @@ from locomotion.ground import Ground, height_below
 from locomotion.path_tracking import checked_points
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.body import Body
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["NoTrail", "Trail", "kernel_ground", "lay_trail", "trail_at", "trail_point", "trail_speed"]
 
@@ -120,7 +120,7 @@ def kernel_ground(ground: Ground) -> tuple:
     return a.rows, a.cell_start, a.cell_triangles, a.grid, a.shape
 
 
-@njit(cache=True)
+@allocating_kernel
 def _follow_ground(ground, rows, wanted, origin, heights):
     last = wanted[0]
     for i in range(len(rows)):
@@ -153,7 +153,7 @@ def _plan_speed(rows: NDArray[np.float64], step: float, body: Body) -> None:
     rows[:, at.PSPEED] = np.sqrt(np.maximum(least, _CREEP**2))
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def _place(count, step, arc):
     """Row and share of the way to the next for an arc length on the trail."""
     along = min(max(arc / step, 0.0), count - 1.0)
@@ -161,7 +161,7 @@ def _place(count, step, arc):
     return i, along - i
 
 
-@njit(cache=True)
+@kernel
 def trail_point(pool, first, count, step, arc):
     """(x, y, z) [m] at an arc length [m]; straight on before the start and behind the end."""
     i, w = _place(count, step, arc)
@@ -180,7 +180,7 @@ def trail_point(pool, first, count, step, arc):
     return x, y, z
 
 
-@njit(cache=True)
+@kernel
 def trail_at(pool, first, count, step, arc):
     """(x, y, z, heading) [m, m, m, rad] at an arc length [m], like `trail_point`."""
     x, y, z = trail_point(pool, first, count, step, arc)
@@ -194,7 +194,7 @@ def trail_at(pool, first, count, step, arc):
     return x, y, z, heading
 
 
-@njit(cache=True)
+@kernel
 def trail_speed(pool, first, count, step, arc):
     """[m/s] at which the place at an arc length [m] may be passed."""
     i, w = _place(count, step, arc)

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import mujoco
 import numpy as np
-from numba import njit
 
 from locomotion import controller as c
 from locomotion import drop_roll as dr
@@ -19,6 +18,7 @@ from locomotion.training.trial_scene import BOX_LENGTH, BOX_TOP, trial_scene
 from locomotion.walk_layout import WALK_HEADING, WALK_STANCE, WALK_STEPS, new_walk
 from locomotion.walk_skill import RISING, STEADYING_SPEED, load_walk_skill, rise_walking
 from locomotion.walking import observe_walk, walk_tick
+from surefoot.kernels import kernel
 
 __all__ = ["DropOutcome", "DropSimulator"]
 
@@ -65,7 +65,7 @@ class DropOutcome:
     low: float
 
 
-@njit(cache=True)
+@kernel
 def _touches(ncon, geoms, addresses, forces, heads):
     """Sum of the normal forces [N], and whether a geom marked in ``heads`` touches."""
     total, head = 0.0, False

@@ -5,13 +5,13 @@ from dataclasses import dataclass, field
 
 import mujoco
 import numpy as np
-from numba import njit
 
 from locomotion import controller as c
 from locomotion.human_state import restore_physics
 from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, build_person
 from locomotion.skill import RunSkill, reset_running
 from locomotion.training.walk_starts import walk_starts
+from surefoot.kernels import allocating_kernel
 
 __all__ = ["FIGURES", "Measures", "Scenario", "Simulator", "Trial", "stays_up"]
 
@@ -83,7 +83,7 @@ def stays_up(trial: Trial, duration: float) -> bool:
     return trial.figures["time"] > duration - 1.5 * CONTROL_DT
 
 
-@njit(cache=True)
+@allocating_kernel
 def _measure(sums, state, head, past, forces, chest):
     """Add one tick to ``sums``; ``past`` (8,): head at the last two ticks, ticks seen, and the highest
     reaction of the present step [body weights]."""

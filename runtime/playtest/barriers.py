@@ -10,7 +10,6 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
-from numba import njit
 from scipy.spatial import KDTree
 
 from navmesh.free_length import cells_of
@@ -18,6 +17,7 @@ from navmesh.probes import ProbeGrid, crossed, lowest_above
 from runtime.playtest.floorplan import Allowance
 from runtime.playtest.openings import Barrier, Opening
 from runtime.playtest.site import Site
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["CRACK", "SLIT", "Barriers", "opening_at"]
 
@@ -140,7 +140,7 @@ def opening_at(site: Site, ends: np.ndarray, here: np.ndarray, there: np.ndarray
     return Opening(site.mesh, box, Allowance.of(rules, CRACK), radius, *sides)
 
 
-@njit(cache=True)
+@kernel
 def _root(parent, k):
     while parent[k] != k:
         parent[k] = parent[parent[k]]
@@ -148,7 +148,7 @@ def _root(parent, k):
     return k
 
 
-@njit(cache=True)
+@allocating_kernel
 def _first_to_join(ends, of, to):
     """The first of the pairs ``ends`` (k, 2), taken in order, that joins a member of ``of`` with one of
     ``to`` (Kruskal): its index, or -1, and whether its first end is on the side of ``of``."""
@@ -166,7 +166,7 @@ def _first_to_join(ends, of, to):
     return -1, False
 
 
-@njit(cache=True)
+@allocating_kernel
 def _ledges(grid, cells, cell_column, step, headroom):
     """Neighbouring cells that one does not walk between, with nothing but a difference in height in the way.
 

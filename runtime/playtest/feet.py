@@ -7,9 +7,9 @@ and falls where there is nothing: what it meets is what the mesh holds, not what
 import math
 
 import numpy as np
-from numba import njit
 
 from navmesh.probes import crossed, surface_below
+from surefoot.kernels import kernel
 
 __all__ = ["ARRIVED", "BUMPED", "FELL", "OUT_OF_TIME", "STUCK", "TICK", "follow", "roam"]
 
@@ -33,7 +33,7 @@ _GRAVITY = 9.81
 _HOP = 0.3  # [s] that a leap takes longer than walking as far
 
 
-@njit(cache=True)
+@kernel
 def _free(grid, x, y, z, u, v, limits):
     """Whether the body gets from (x, y, z) to (u, v): nothing at hip, chest or head height, before it or
     at its sides. ``limits``: radius, step, headroom, greatest fall, widest crack."""
@@ -69,7 +69,7 @@ def _free(grid, x, y, z, u, v, limits):
     return True
 
 
-@njit(cache=True)
+@kernel
 def _over_crack(grid, x, y, z, limits):
     """The height of the floor on both sides of a crack in it at (x, y), across which a body steps; -inf where
     there is none, or a wider gap."""
@@ -90,7 +90,7 @@ def _over_crack(grid, x, y, z, limits):
     return -np.inf
 
 
-@njit(cache=True)
+@kernel
 def _step(grid, x, y, z, heading, far, limits, careful):
     """One step of ``far`` [m]: (outcome, x, y, z). Outcome 0: done, 1: not free, 2: a ledge, 3: a fall
     down to z, 4: nothing below."""
@@ -130,7 +130,7 @@ def _step(grid, x, y, z, heading, far, limits, careful):
     return 3, u, v, landing
 
 
-@njit(cache=True)
+@kernel
 def _around(grid, x, y, z, heading, far, limits):
     """A careful step that slides along what is in the way: as `_step`, with the heading taken."""
     for k in range(7):
@@ -141,12 +141,12 @@ def _around(grid, x, y, z, heading, far, limits):
     return 1, x, y, z
 
 
-@njit(cache=True)
+@kernel
 def _angle(a):
     return (a + math.pi) % (2.0 * math.pi) - math.pi
 
 
-@njit(cache=True)
+@kernel
 def follow(grid, place, heading, points, leaps, edges, speed, limits, time_limit, track):
     """Walk through ``points`` (k, 3), relative to the grid's origin, from ``place`` (3,), which is moved
     along.
@@ -236,7 +236,7 @@ def follow(grid, place, heading, points, leaps, edges, speed, limits, time_limit
     return end, time, heading, count, at
 
 
-@njit(cache=True)
+@kernel
 def roam(grid, place, headings, speed, limits, time_limit, track):
     """Walk straight on, in the next of ``headings`` (h,) [rad] whenever something is in the way, like a
     player who tries the level's edges: off ledges that are low enough, and into holes.

@@ -9,7 +9,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 from scipy.spatial import KDTree
@@ -18,6 +17,7 @@ from navmesh.probes import crossed, surface_below
 from runtime.playtest.barriers import SLIT, opening_at
 from runtime.playtest.openings import Barrier
 from runtime.playtest.site import Site
+from surefoot.kernels import allocating_kernel
 
 __all__ = ["Passage", "narrow_passages"]
 
@@ -149,7 +149,7 @@ def _narrowest(site: Site, cells: np.ndarray, ends: np.ndarray, start: int, end:
     return None if place.passes else place.narrow(SLIT)
 
 
-@njit(cache=True)
+@allocating_kernel
 def _sights(grid, points, ways, far, step, heights):
     """How far [m] one sees from each of ``points`` (k, 3) along ``ways`` (k, 2), at most ``far``, at all of
     ``heights`` (h,) over the floor, and over floor that goes on without a rise of more than a ``step``."""

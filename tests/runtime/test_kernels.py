@@ -1,0 +1,65 @@
+"""Kernels that count no references must not handle arrays that somebody owns."""
+
+import sys
+
+import numpy as np
+import pytest
+from numba.core import types
+from numba.core.dispatcher import Dispatcher
+from numba.core.errors import NumbaError
+
+import runtime
+from surefoot.compiling import PACKAGES
+from surefoot.kernels import kernel
+
+
+def _holds_array(kind: types.Type) -> bool:
+    if isinstance(kind, types.BaseTuple):
+        return any(_holds_array(part) for part in kind)
+    return isinstance(kind, types.Array)
+
+
+def _returned(dispatcher: Dispatcher) -> list[types.Type]:
+    """What the compiled versions of a kernel return, those in the cache included."""
+    index = dispatcher._cache._cache_file._load_index()
+    kinds = [overload.signature.return_type for overload in dispatcher.overloads.values()]
+    for key in index:
+        loaded = dispatcher._cache.load_overload(key[0], dispatcher.targetctx)
+        if loaded is not None:
+            kinds.append(loaded.signature.return_type)
+    return kinds
+
+
+@pytest.fixture(scope="module")
+def kernels() -> set[Dispatcher]:
+    runtime.prepare()
+    return {
+        thing
+        for name, module in list(sys.modules.items())
+        if name.partition(".")[0] in PACKAGES
+        for thing in vars(module).values()
+        if isinstance(thing, Dispatcher)
+    }
+
+
+def test_kernels_without_counting_get_and_give_no_new_arrays(kernels: set[Dispatcher]) -> None:
+    gives = {each: any(map(_holds_array, _returned(each))) for each in kernels}
+    assert sum(gives.values()) > 20
+    uncounted = [each for each in kernels if not each.targetoptions["_nrt"]]
+    assert len(uncounted) > 200
+    for each in uncounted:
+        function = each.py_func
+        assert not gives[each], f"{function.__module__}.{function.__name__} returns an array"
+        for name in function.__code__.co_names:
+            called = function.__globals__.get(name)
+            if isinstance(called, Dispatcher):
+                assert not gives[called], f"{function.__name__} gets an array from {name}"
+
+
+def test_one_that_makes_an_array_is_refused() -> None:
+    @kernel(cache=False)
+    def makes(count):
+        return np.empty(count)[0]
+
+    with pytest.raises(NumbaError):
+        makes(3)

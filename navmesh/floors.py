@@ -43,28 +43,16 @@ def _nearest_on(table, f, x, y):
     return least, at_x, at_y
 
 
-@allocating_kernel
+@kernel
 def _close_gaps(
     table, start, triangle, resolution, ny, c, x, y, hit, hits, step, headroom,
-    cell_column, height, gradient, first, cells,
+    cell_column, height, gradient, first, cells, tried,
 ):  # fmt: skip
     """Add a cell to column ``c`` for each floor whose gap, narrower than `GAP`, holds the centre (x, y).
 
-    ``hit`` (hits, 4) are the mesh parts over the centre; the column's cells begin at ``first``. Returns the
-    new number of cells.
+    ``hit`` (hits, 4) are the mesh parts over the centre; the column's cells begin at ``first``; ``tried`` has
+    room for `_LEVELS` heights. Returns the new number of cells.
     """
-    other = False  # whether there is floor that no cell of the column stands for
-    for k in range(start[c], start[c + 1]):
-        f = triangle[k]
-        if table[f, 14] == FLOOR:
-            level = table[f, 9] * x + table[f, 10] * y + table[f, 11]
-            known = False
-            for i in range(first, cells):
-                known |= abs(height[i] - level) <= step
-            other |= not known
-    if not other:
-        return cells
-    tried = np.empty(_LEVELS)
     for turn in range(_LEVELS):
         best, chosen, at_x, at_y, z = GAP, -1, x, y, 0.0
         for k in range(start[c], start[c + 1]):
@@ -130,6 +118,7 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
     column_start = np.empty(columns + 1, np.int32)
     hit = np.empty((most, 4), np.float64)
     face = np.empty(most, np.int32)
+    tried = np.empty(_LEVELS)
     cells = 0
     for c in range(columns):
         column_start[c] = cells
@@ -140,13 +129,17 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
         y = (c - ix * ny + 0.5) * resolution
         hits = 0
         walkable = False
+        lowest, highest = np.inf, -np.inf  # the floors that the column touches, at its centre
         for k in range(start[c], start[c + 1]):
             f = triangle[k]
             if table[f, 14] == UPRIGHT:
                 continue
+            level = table[f, 9] * x + table[f, 10] * y + table[f, 11]
+            if table[f, 14] == FLOOR:
+                lowest, highest = min(lowest, level), max(highest, level)
             if not is_over(table, f, x, y):
                 continue
-            hit[hits, 0] = table[f, 9] * x + table[f, 10] * y + table[f, 11]
+            hit[hits, 0] = level
             hit[hits, 1] = table[f, 9]
             hit[hits, 2] = table[f, 10]
             hit[hits, 3] = table[f, 14]
@@ -195,10 +188,14 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
             cells += 1
         if cells + _LEVELS > cell_column.shape[0]:
             cell_column, height, gradient = _with_room(cell_column, height, gradient)
-        cells = _close_gaps(
-            table, start, triangle, resolution, ny, c, x, y, hit, hits, step, headroom,
-            cell_column, height, gradient, first, cells,
-        )  # fmt: skip
+        known = highest < lowest or (
+            cells == first + 1 and highest - height[first] <= step and height[first] - lowest <= step
+        )
+        if not known:  # there may be floor that no cell of the column stands for
+            cells = _close_gaps(
+                table, start, triangle, resolution, ny, c, x, y, hit, hits, step, headroom,
+                cell_column, height, gradient, first, cells, tried,
+            )  # fmt: skip
     column_start[columns] = cells
     return column_start, cell_column[:cells].copy(), height[:cells].copy(), gradient[:cells].copy()
 

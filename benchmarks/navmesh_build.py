@@ -31,12 +31,12 @@ def components(count: int, a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return connected_components(matrix, directed=False)[1]
 
 
-def compare_connections(graph: NodeGraph, radius: float) -> tuple[int, int]:
-    """Connections lost and invented by the graph for a body of ``radius``, against a flood fill.
+def lost_connections(graph: NodeGraph, radius: float) -> int:
+    """Connections that the graph lacks for a body of ``radius``, against a flood fill of the clearance field.
 
-    Lost: parts of the graph, beyond the first, among the nodes that own the cells of one flooded part, and
-    cells whose own node is too small. Invented: flooded parts, beyond the first, in which the nodes of one
-    part of the graph lie.
+    Parts of the graph, beyond the first, among the nodes that own the cells of one flooded part, and cells
+    whose own node is too small. Whether it has some that the mesh lacks is asked by
+    `benchmarks.narrow_doors`: a door may be passed between the centres of cells, which no flood fill sees.
     """
     surface = graph.surface
     wide = surface.clearance >= radius
@@ -52,10 +52,7 @@ def compare_connections(graph: NodeGraph, radius: float) -> tuple[int, int]:
     owner = graph.label[cells]
     orphans = (owner < 0) | (graph.radii[owner] < radius)
     owned = np.unique(np.stack([flood[cells], search[owner]])[:, ~orphans], axis=1)
-    lost = owned.shape[1] - len(np.unique(owned[0])) + int(orphans.sum())
-    nodes = np.flatnonzero(graph.radii >= radius)
-    pairs = np.unique(np.stack([flood[graph.node_cell[nodes]], search[nodes]]), axis=1)
-    return lost, pairs.shape[1] - len(np.unique(pairs[1]))
+    return owned.shape[1] - len(np.unique(owned[0])) + int(orphans.sum())
 
 
 def uncovered_cells(graph: NodeGraph) -> int:
@@ -107,9 +104,7 @@ def measure(name: str, rules: WalkRules, samples: int, repeats: int, rng: np.ran
     figures["radius_error_p99_m"] = float(np.quantile(np.abs(error), 0.99))
 
     figures["uncovered_cells"] = uncovered_cells(graph)
-    both = {radius: compare_connections(graph, radius) for radius in RADII}
-    figures["connections_lost"] = {f"{radius:g}": both[radius][0] for radius in RADII}
-    figures["connections_invented"] = {f"{radius:g}": both[radius][1] for radius in RADII}
+    figures["connections_lost"] = {f"{radius:g}": lost_connections(graph, radius) for radius in RADII}
 
     ours, peer, full = math.inf, math.inf, math.inf
     for _ in range(repeats):  # in turn, so that other load on the machine hits both

@@ -64,7 +64,9 @@ def lies_on(rows, count, ax, ay, bx, by):
 
 @kernel
 def comes_near(rows, count, ax, ay, bx, by):
-    """Whether one of the first ``count`` rows comes near the segment a-b, which runs along an axis."""
+    """Whether one of the first ``count`` rows comes near the way from a to b, which runs along an axis. What
+    is near to a only does not count: it may lie behind."""
+    ax, ay = ax + 2.0 * _SEEN * ((bx > ax) - (bx < ax)), ay + 2.0 * _SEEN * ((by > ay) - (by < ay))
     low_x, high_x, low_y, high_y = min(ax, bx), max(ax, bx), min(ay, by), max(ay, by)
     middle_x, middle_y = 0.5 * (ax + bx), 0.5 * (ay + by)
     half = 0.5 * max(high_x - low_x, high_y - low_y) + _SEEN

@@ -18,6 +18,8 @@ import numpy as np
 import shapely
 import trimesh
 
+from navmesh.ledges import GAP
+
 __all__ = ["FAULTS", "LOOK_ALIKES", "Hall", "Planted", "planted"]
 
 Box = tuple[float, float, float, float, float, float]
@@ -273,7 +275,7 @@ def _wide_door(plot: _Plot) -> None:
 
 
 def _crack(plot: _Plot) -> None:
-    width, lean = plot.between(0.005, 0.12), plot.between(-0.5, 0.5)
+    width, lean = plot.between(0.005, 0.98 * GAP), plot.between(-0.5, 0.5)
     line = shapely.LineString([(plot.middle - lean * plot.y, -1), (plot.middle + lean * plot.y, plot.y + 1)])
     plot.cut(shapely.buffer(line, 0.5 * width, cap_style="flat"))
 

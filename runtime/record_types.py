@@ -1,6 +1,7 @@
 """Whether the fields of a saved record are of the types that its class gives them."""
 
 import math
+import sys
 import types
 from collections.abc import Mapping
 from functools import lru_cache
@@ -9,6 +10,8 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_typ
 import numpy as np
 
 __all__ = ["wrong_field"]
+
+_MOST = sys.float_info.max
 
 
 def wrong_field(record: Any) -> str | None:
@@ -48,7 +51,8 @@ def _is(value: Any, kind: Any) -> bool:
     if kind is np.ndarray or origin is np.ndarray:
         return isinstance(value, np.ndarray) and value.dtype == np.float64
     if kind is float:
-        return type(value) in (float, int) and not math.isnan(value)
+        # whole numbers of a text can be too great to be made one
+        return not math.isnan(value) if type(value) is float else type(value) is int and abs(value) <= _MOST
     if kind is None:
         return value is None
     return type(value) is kind if kind in (int, bool, str) else isinstance(value, kind)

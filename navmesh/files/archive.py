@@ -15,7 +15,7 @@ import zipfile
 import zlib
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any, cast
+from typing import IO, Any, NamedTuple, cast
 
 import numpy as np
 from pydantic import ValidationError
@@ -32,6 +32,7 @@ _HEADER, _ENDING = "header", ".npy"
 _SEAL = "seal"
 _ALWAYS, _PACKED = 16 * 2**20, 100  # [bytes] that any file may unpack to, and more for each of its bytes
 _MOST_MEMBERS = 100_000
+_CHUNK = 2**20  # [bytes] read at a time
 _COMPRESSIONS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 _ENCRYPTED = 0x1
 # What NumPy and zipfile raise on a file that is cut off, overwritten or not an archive at all.
@@ -152,15 +153,16 @@ class _Reader:
         wanted = self.schema.arrays_of(header)
         self._compare_names(list(members), list(wanted))
         sizes = Sizes()
+        packed = {}
         for name, kind in wanted.items():
-            shape, dtype = self._form(members[name])
-            if not kind.accepts(dtype):
-                raise self._error(f"{name} is of type {dtype}, expected {kind.dtype}")
-            if problem := sizes.problem(name, shape, kind.shape):
+            each = packed[name] = self._opened(members[name])
+            if not kind.accepts(each.dtype):
+                raise self._error(f"{name} is of type {each.dtype}, expected {kind.dtype}")
+            if problem := sizes.problem(name, each.shape, kind.shape):
                 raise self._error(problem)
         arrays = {}
         for name, kind in wanted.items():
-            arrays[name] = self._array(members[name])
+            arrays[name] = self._unpacked(packed.pop(name))
             if problem := kind.problem(name, arrays[name], sizes):
                 raise self._error(problem)
         if problem := self.schema.check(header, arrays):
@@ -194,10 +196,10 @@ class _Reader:
     def _header(self, members: dict[str, zipfile.ZipInfo]) -> Any:
         """The checked header, of the right kind and version; takes it out of ``members``."""
         member = members.pop(_HEADER)
-        shape, dtype = self._form(member)
-        if dtype != np.uint8 or len(shape) != 1:
+        packed = self._opened(member)
+        if packed.dtype != np.uint8 or len(packed.shape) != 1:
             raise self._error("its header is no text")
-        text = self._array(member).tobytes()
+        text = self._unpacked(packed).tobytes()
         found = plain_json(text.decode())
         if not isinstance(found, dict):
             raise self._error("its header is no mapping")
@@ -232,29 +234,48 @@ class _Reader:
             if missing := [name for name in names if name not in known]:
                 raise self._error(f"{problem} {_shown(missing[0])}")
 
-    def _form(self, member: zipfile.ZipInfo) -> tuple[tuple[int, ...], np.dtype]:
-        """Shape and type of an array, from the first bytes of it; its size is what these say."""
-        with self.archive.open(member) as file:
-            major = np.lib.format.read_magic(file)[0]
-            if major not in (1, 2):
-                raise self._error(f"{_shown(member.filename)} is of version {major} of its format")
-            read = np.lib.format.read_array_header_1_0 if major == 1 else np.lib.format.read_array_header_2_0
-            shape, _, dtype = read(cast(Any, file))
-            count = 1
-            for size in shape:
-                count *= size
-            if dtype.hasobject or min(shape, default=0) < 0:
-                raise self._error(f"{_shown(member.filename)} is of type {dtype} and shape {shape}")
-            if file.tell() + count * dtype.itemsize != member.file_size:
-                raise self._error(f"{_shown(member.filename)} is not as long as its shape {shape} says")
-        return shape, dtype
+    def _opened(self, member: zipfile.ZipInfo) -> "_Packed":
+        """An array of which the first bytes are read, with shape and type; its size is what these say."""
+        file = self.archive.open(member)
+        major = np.lib.format.read_magic(file)[0]
+        if major not in (1, 2):
+            raise self._error(f"{_shown(member.filename)} is of version {major} of its format")
+        read = np.lib.format.read_array_header_1_0 if major == 1 else np.lib.format.read_array_header_2_0
+        shape, is_fortran, dtype = read(cast(Any, file))
+        count = 1
+        for size in shape:
+            count *= size
+        if dtype.hasobject or min(shape, default=0) < 0:
+            raise self._error(f"{_shown(member.filename)} is of type {dtype} and shape {shape}")
+        if file.tell() + count * dtype.itemsize != member.file_size:
+            raise self._error(f"{_shown(member.filename)} is not as long as its shape {shape} says")
+        return _Packed(file, shape, dtype, is_fortran)
 
-    def _array(self, member: zipfile.ZipInfo) -> np.ndarray:
-        with self.archive.open(member) as file:
-            array = np.lib.format.read_array(file, allow_pickle=False)
-            if file.read(1):
-                raise self._error(f"{_shown(member.filename)} is longer than its shape says")
+    def _unpacked(self, packed: "_Packed") -> np.ndarray:
+        """The values, read on from where the file of ``packed`` is."""
+        order = "F" if packed.is_fortran else "C"
+        array = np.empty(packed.shape, packed.dtype, order)
+        into = array.reshape(-1, order=order).view(np.uint8).data if array.size else memoryview(b"")
+        with packed.file as file:
+            done = 0
+            while done < len(into):
+                read = file.read(min(_CHUNK, len(into) - done))
+                if not read:
+                    raise self._error(f"{_shown(file.name)} is cut off")
+                into[done : done + len(read)] = read
+                done += len(read)
+            if file.read(1):  # it reads the checksum, too
+                raise self._error(f"{_shown(file.name)} is longer than its shape says")
         return np.asarray(array, order="C")
+
+
+class _Packed(NamedTuple):
+    """An array in an archive, of which only what it is has been read."""
+
+    file: IO[bytes]
+    shape: tuple[int, ...]
+    dtype: np.dtype
+    is_fortran: bool
 
 
 def _shown(value: Any) -> str:

@@ -19,7 +19,7 @@ from runtime.playtest.openings import Barrier, Opening
 from runtime.playtest.site import Site
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["CRACK", "SLIT", "Barriers", "opening_at"]
+__all__ = ["SLIT", "Barriers", "opening_at"]
 
 HIGHEST = 6.0
 """[m] ledges higher than this are not looked for."""
@@ -27,8 +27,6 @@ SLIT = 0.3
 """[m] passages narrower than this are cracks."""
 _LOWEST = 0.5  # of the headroom: lower passages are no doors
 _WALL = np.radians(60.0)  # steeper slopes are walls, and no ramps
-CRACK = 0.02
-"""[m] gaps in the floor that nobody notices."""
 _FAR = 8.0  # [m] that two parts may be apart
 _TILE = 2.0  # [m] of a boundary that is looked at in one
 _BESIDE = 1.6  # [m] around it
@@ -55,7 +53,7 @@ class Barriers:
         high = min(highest, 0.95 * rules.headroom)
         return (
             _best(places, Opening.narrow, SLIT, 1.0)
-            or _best(places, Opening.low, low, 1.0)
+            or self._centred(_best(places, Opening.low, low, 1.0), of, to)
             or _best(places, Opening.steep, steep, -1.0)
             or _best(places, Opening.rise, high, -1.0)
             or self._across(places, Opening.gap)
@@ -69,6 +67,16 @@ class Barriers:
         probe, origin = self.site.probe, self.site.graph.surface.origin
         found = [each for place in places if (each := find(place, probe, origin)) is not None]
         return min(found, key=lambda each: each.size, default=None)
+
+    def _centred(self, low: Barrier | None, of: np.ndarray, to: np.ndarray) -> Barrier | None:
+        """A ``low`` passage once more, in the middle of a larger box: it may be wider than what was looked
+        at."""
+        if low is None:
+            return None
+        here, there = (self.site.graph.surface.centers(np.flatnonzero(side)) for side in (of, to))
+        around = np.array([_TILE, _TILE, 0.0])
+        again = opening_at(self.site, np.array([low.place - around, low.place + around]), here, there)
+        return again.low(low.size - 0.01) or low
 
     def _places(self, of: np.ndarray, to: np.ndarray) -> Iterator[Opening]:
         """Where cells ``of`` and ``to`` come near each other, the nearest first."""
@@ -137,7 +145,7 @@ def opening_at(site: Site, ends: np.ndarray, here: np.ndarray, there: np.ndarray
     margin = np.array([aside, aside, up])
     box = np.array([ends.min(axis=0) - margin, ends.max(axis=0) + margin])
     sides = (side[((side >= box[0]) & (side <= box[1])).all(axis=1)] for side in (here, there))
-    return Opening(site.mesh, box, Allowance.of(rules, CRACK), radius, *sides)
+    return Opening(site.mesh, box, Allowance.of(rules), radius, *sides)
 
 
 @kernel

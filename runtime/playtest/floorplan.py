@@ -16,7 +16,8 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 import navmesh
-from runtime.playtest.mesh import THIN, Mesh, parts_within
+from navmesh.ledges import GAP
+from runtime.playtest.mesh import THIN, Mesh, parts_within, united
 
 __all__ = ["Allowance", "FloorPlan"]
 
@@ -37,9 +38,9 @@ class Allowance(NamedTuple):
     crack: float
 
     @classmethod
-    def of(cls, rules: navmesh.WalkRules, crack: float) -> "Allowance":
-        """What ``rules`` allow."""
-        return cls(rules.max_slope, rules.max_step, rules.headroom, crack)
+    def of(cls, rules: navmesh.WalkRules) -> "Allowance":
+        """What ``rules`` allow, and the gaps that the graph takes for floor."""
+        return cls(rules.max_slope, rules.max_step, rules.headroom, GAP)
 
 
 class FloorPlan:
@@ -101,9 +102,10 @@ class FloorPlan:
         pairs = self.contacts.pairs[self.contacts.least <= self.allowed.step + 1e-6]
         one, two = pairs[self.label[pairs[:, 0]] == label].T
         half = 0.5 * max(self.allowed.crack, _TOUCH) + 1e-4
-        wide = shapely.buffer(self.pieces, half, join_style="mitre")
-        between = shapely.intersection(wide[one], wide[two])
-        return shapely.difference(shapely.difference(between, self._walls[one]), self._walls[two])
+        both = shapely.union(self.pieces[one], self.pieces[two])
+        # what is narrower than both halves closes when it is grown and shrunk again; ends and corners stay
+        closed = shapely.buffer(shapely.buffer(both, half, join_style="mitre"), -half, join_style="mitre")
+        return shapely.difference(shapely.difference(closed, self._walls[one]), self._walls[two])
 
     def _ledges(self, label: int) -> shapely.Geometry:
         """Where floors of one region lie beside each other at heights more than a step apart."""
@@ -242,5 +244,5 @@ def _united(
     order = np.argsort(owner, kind="stable")
     owners, first = np.unique(owner[order], return_index=True)
     for each, group in zip(owners.tolist(), np.split(shapes[order], first[1:]), strict=True):
-        found[each] = shapely.union_all(group)
+        found[each] = united(group)
     return found

@@ -8,10 +8,12 @@ from functools import cached_property
 import numpy as np
 import shapely
 
-__all__ = ["THIN", "Mesh", "parts_within", "standing"]
+__all__ = ["THIN", "Mesh", "parts_within", "standing", "united"]
 
 THIN = 0.001
 """[m] to every side that a wall without thickness counts."""
+_SNAP = 1e-4  # [m] lines nearer to each other than this are one,
+_TURN = 1e-5  # [rad] and turned against each other by no more
 
 
 class Mesh:
@@ -69,7 +71,7 @@ def standing(mesh: Mesh, low: np.ndarray, high: np.ndarray, bottom: float, top: 
     (2,)."""
     near = mesh.within(np.append(low, bottom), np.append(high, top))
     parts = parts_within(mesh, near, mesh.corners[near, :, 2], bottom, top)
-    return shapely.buffer(shapely.union_all(parts), THIN, join_style="mitre")
+    return shapely.buffer(united(parts), THIN, join_style="mitre")
 
 
 def parts_within(mesh: Mesh, faces: np.ndarray, above: np.ndarray, low: float, high: float) -> np.ndarray:
@@ -79,6 +81,46 @@ def parts_within(mesh: Mesh, faces: np.ndarray, above: np.ndarray, low: float, h
     cut = (above.min(axis=1) < low) | (above.max(axis=1) > high)
     parts[cut] = _outlines(_clipped(mesh.corners[faces[cut], :, :2], above[cut], low, high))
     return parts
+
+
+def united(shapes: np.ndarray) -> shapely.Geometry:
+    """The union of ``shapes`` (k,), polygons and lines of two ends."""
+    is_line = shapely.get_dimensions(shapes) == 1
+    lines = shapely.linestrings(_bundled(shapely.get_coordinates(shapes[is_line]).reshape(-1, 2, 2)))
+    return shapely.union_all([*shapes[~is_line], *lines])
+
+
+def _bundled(ends: np.ndarray) -> np.ndarray:
+    """(m, 2, 2): the lines ``ends`` (k, 2, 2), those on one straight line that meet in one piece.
+
+    A wall of small triangles is many short lines, side by side but for rounding errors; shapely takes a long
+    time to find out that they are one.
+    """
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    ends = ends[length > 0.0][np.argsort(-length[length > 0.0], kind="stable")]
+    if not len(ends):
+        return ends
+    x, y = (ends[:, 1] - ends[:, 0]).T
+    angle = np.arctan2(y, x) % np.pi
+    way = np.column_stack([np.cos(angle), np.sin(angle)])
+    middle = ends.mean(axis=(0, 1))
+    x, y = (ends[:, 0] - middle).T
+    aside = way[:, 0] * y - way[:, 1] * x
+    key = np.rint(np.column_stack([angle / _TURN, aside / _SNAP]))
+    _, first, group = np.unique(key, axis=0, return_index=True, return_inverse=True)
+    group = group.reshape(-1)
+    carrier = way[first]  # of the longest of each group
+    foot = middle + aside[first, None] * np.column_stack([-carrier[:, 1], carrier[:, 0]])
+    along = np.einsum("kec,kc->ke", ends - foot[group, None], carrier[group])
+    apart = 4.0 * np.abs(along).max() + 1.0  # so far from each other groups are laid on one line
+    low, high = along.min(axis=1) + apart * group, along.max(axis=1) + apart * group
+    order = np.argsort(low, kind="stable")
+    low, high, group = low[order], np.maximum.accumulate(high[order]), group[order]
+    begin = np.flatnonzero(np.append(True, low[1:] > high[:-1] + _SNAP))
+    stop = np.append(begin[1:], len(low)) - 1
+    group = group[begin]
+    reach = np.column_stack([low[begin], high[stop]]) - apart * group[:, None]
+    return foot[group, None] + reach[..., None] * carrier[group, None]
 
 
 def _farthest(points: np.ndarray, of: np.ndarray) -> np.ndarray:

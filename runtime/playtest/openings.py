@@ -9,6 +9,7 @@ do: what the rule was then is what the level has there.
 """
 
 import math
+from bisect import bisect_left
 from collections.abc import Callable
 from functools import cached_property
 from typing import NamedTuple
@@ -22,7 +23,8 @@ from runtime.playtest.mesh import Mesh
 
 __all__ = ["Barrier", "Opening"]
 
-_FINE = 0.002  # [m] or [rad] to which a measure is narrowed down
+_FINE = 0.002  # [m] to which a measure is narrowed down
+_ANGLE = 0.001  # [rad] the same for slopes
 _BACK = 0.004  # [m] or [rad] before the measure, where the places just do not join
 _ASIDE = 0.12  # [m] that the graph's places may be off the room that they are in
 _LEVEL = 0.3  # [m] floors on both sides of a gap differ in height by at most this
@@ -63,9 +65,13 @@ class Opening:
         self._mesh, self._allowed, self._radius = mesh, allowed, radius
         self.here, self.there = here, there
         self._low, self._high = box
+        self._plans: dict[Allowance, FloorPlan] = {}
 
     def _plan(self, **loose: float) -> FloorPlan:
-        return FloorPlan(self._mesh, self._low, self._high, self._allowed._replace(**loose))
+        allowed = self._allowed._replace(**loose)
+        if allowed not in self._plans:
+            self._plans[allowed] = FloorPlan(self._mesh, self._low, self._high, allowed)
+        return self._plans[allowed]
 
     @cached_property
     def _strict(self) -> FloorPlan:
@@ -74,7 +80,11 @@ class Opening:
     @cached_property
     def passes(self) -> bool:
         """Whether the body gets across by the rules as they are."""
-        return self._joins(self._strict, self._radius)
+        return self.passes_with()
+
+    def passes_with(self, **loose: float) -> bool:
+        """Whether the body gets across where rules of the `Allowance` are as ``loose`` as this."""
+        return self._joins(self._plan(**loose), self._radius)
 
     def narrow(self, least: float) -> Barrier | None:
         """The passage that is wide enough for everything but the body, at least ``least`` [m]."""
@@ -103,9 +113,7 @@ class Opening:
     def low(self, least: float) -> Barrier | None:
         """The passage that is high enough for everything but the body, at least ``least`` [m]."""
         height = _least_loose(
-            lambda headroom: self._joins(self._plan(headroom=headroom), self._radius),
-            self._allowed.headroom,
-            least,
+            lambda headroom: self.passes_with(headroom=headroom), self._allowed.headroom, least
         )
         if height is None:
             return None
@@ -118,11 +126,13 @@ class Opening:
 
     def steep(self, most: float) -> Barrier | None:
         """The slope that is too steep for the body, at most ``most`` [rad]."""
-        slope = _least_loose(
-            lambda angle: self._joins(self._plan(slope=angle), self._radius), self._allowed.slope, most
-        )
-        if slope is None:
+        slopes = np.arccos(self._mesh.up[self._mesh.within(self._low, self._high)])
+        slopes = slopes[(slopes > self._allowed.slope) & (slopes <= most)]
+        # only with another face can a way open
+        tried = (np.unique(np.ceil(slopes / _ANGLE)) * _ANGLE).tolist()
+        if not tried or self.passes or not self.passes_with(slope=tried[-1]):
             return None
+        slope = tried[bisect_left(tried, True, key=lambda angle: self.passes_with(slope=angle))]
         plan, strict = self._plan(slope=slope), self._plan(slope=slope - _BACK)
         way = self._way(plan, self._radius, strict, self._radius)
         if way is None:
@@ -144,9 +154,7 @@ class Opening:
 
     def rise(self, most: float) -> Barrier | None:
         """The step up (negative: down) that is too high for the body, at most ``most`` [m]."""
-        step = _least_loose(
-            lambda height: self._joins(self._plan(step=height), self._radius), self._allowed.step, most
-        )
+        step = _least_loose(lambda height: self.passes_with(step=height), self._allowed.step, most)
         if step is None:
             return None
         plan = self._plan(step=step + _BACK)

@@ -113,16 +113,10 @@ def _walked(site: Site, start: np.ndarray, end: np.ndarray) -> np.ndarray:
     """(k,) bool: whether it is no long way to walk from cells ``start`` (k,) to cells ``end``, as far as the
     nodes tell."""
     graph = site.graph
-    source = np.repeat(np.arange(len(graph)), np.diff(graph.edge_start))
-    passes = (graph.edge_width >= site.character.radius) & (site.node_part[source] >= 0)
-    passes &= site.node_part[graph.edge_target] >= 0
-    source, target = source[passes], graph.edge_target[passes]
-    length = np.linalg.norm(graph.positions[target] - graph.positions[source], axis=1)
-    ways = coo_array((length + 1e-6, (source, target)), shape=(len(graph),) * 2).tocsr()
     begin, stop = graph.label[start], graph.label[end]
     walked = np.zeros(len(start), dtype=bool)
     for nodes in np.array_split(np.unique(begin), max(1, len(graph) * len(np.unique(begin)) // 4_000_000)):
-        away = np.asarray(dijkstra(ways, indices=nodes, limit=_LONG))
+        away = np.asarray(dijkstra(site.walks, indices=nodes, limit=_LONG))
         mine = np.flatnonzero(np.isin(begin, nodes))
         walked[mine] = np.isfinite(away[np.searchsorted(nodes, begin[mine]), stop[mine]])
     return walked

@@ -7,6 +7,7 @@ from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
 import navmesh
+from navmesh.bodies import parts_of, portals_of
 from navmesh.probes import ProbeGrid
 from runtime.playtest.character import Character
 from runtime.playtest.mesh import Mesh
@@ -26,10 +27,9 @@ class Site:
         self.graph = graph
         self.character = character
         radius = character.radius
-        source = np.repeat(np.arange(len(graph)), np.diff(graph.edge_start))
         fits = graph.radii >= radius
-        passes = (graph.edge_width >= radius) & fits[source] & fits[graph.edge_target]
-        self.node_part = _numbered(source[passes], graph.edge_target[passes], fits)
+        self.node_part = np.full(len(graph), -1)
+        self.node_part[fits] = np.unique(parts_of(graph, radius)[0][fits], return_inverse=True)[1]
         part = self.node_part[graph.label]
         self.cell_part = np.where((graph.label >= 0) & (graph.surface.clearance >= radius), part, -1)
         inside = self.cell_part[self.cell_part >= 0]
@@ -49,6 +49,14 @@ class Site:
         for cell in (links.start_cell, links.end_cell):
             chosen &= (graph.label[cell] >= 0) & (self.node_part[graph.label[cell]] >= 0)
         return np.flatnonzero(chosen)
+
+    @cached_property
+    def walks(self) -> csr_array:
+        """(m, m) sparse: the distance [m] between the middles of nodes that the body walks between."""
+        start, target = portals_of(self.graph, self.character.radius)[:2]
+        source = np.repeat(np.arange(len(self.graph)), np.diff(start))
+        away = np.linalg.norm(self.graph.positions[target] - self.graph.positions[source], axis=1)
+        return coo_array((away + 1e-6, (source, target)), shape=(len(self.graph),) * 2).tocsr()
 
     @cached_property
     def arcs(self) -> csr_array:
@@ -103,15 +111,6 @@ class Site:
         return ProbeGrid(
             terrain.vertices, terrain.faces, self.graph.surface.origin, self.graph.rules.max_slope
         )
-
-
-def _numbered(source: np.ndarray, target: np.ndarray, fits: np.ndarray) -> np.ndarray:
-    count = len(fits)
-    joined = coo_array((np.ones(len(source), dtype=bool), (source, target)), shape=(count, count))
-    label = connected_components(joined, directed=False)[1]
-    part = np.full(count, -1)
-    part[fits] = np.unique(label[fits], return_inverse=True)[1]
-    return part
 
 
 def _reached(arcs: csr_array, parts: np.ndarray) -> np.ndarray:

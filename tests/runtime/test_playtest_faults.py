@@ -12,6 +12,7 @@ import trimesh
 import navmesh
 from benchmarks.planted_rooms import FAULTS, LOOK_ALIKES, planted
 from benchmarks.playtest_faults import judged
+from navmesh.ledges import GAP
 from runtime.playtest import playtest
 from runtime.playtest.character import character_of
 from runtime.playtest.closeup import close_up
@@ -77,6 +78,7 @@ HOLED = [
         (room(*door(0.5)), "narrow", 0.5, 8.15, "0.50 m wide; a person needs 0.60 m"),
         (room(*door(0.35)), "narrow", 0.35, 8.15, "0.35 m wide; a person needs 0.60 m"),
         (room(*door(1.2, 1.7)), "low", 1.7, 8.15, "1.70 m high; a person needs 1.90 m"),
+        (room(*door(4.0, 1.7)), "low", 1.7, 8.15, "1.70 m high; a person needs 1.90 m"),
         (room(*ramp(50), high=5.0), "steep", 50.0, 9.4, "50° steep; a person walks up to 20°"),
         (
             room(box(0, 8, 0, D, -0.2, 0), box(8.31, W, 0, D, -0.2, 0)),
@@ -190,6 +192,53 @@ def test_the_floor_plan_is_what_rays_find():
         agree, total = agree + same, total + 1
     # walls count a millimetre to every side, and small steep faces may be risers
     assert agree >= 0.97 * total, (agree, total)
+
+
+@pytest.mark.parametrize("crack", [0.004, 0.03, 0.099])
+def test_a_gap_that_the_graph_takes_for_floor_is_floor_in_the_plan(crack):
+    """It closes from side to side, and the floor does not grow elsewhere; what is wider stays open."""
+    for width, whole in ((crack, True), (1.02 * GAP, False)):
+        mesh = trimesh.util.concatenate([box(0, 2, 0, 3, -0.2, 0), box(2 + width, 4, 0, 3, -0.2, 0)])
+        allowed = Allowance.of(character_of("walker").rules)
+        low, high = np.array([-1.0, -1.0, -0.1]), np.array([5.0, 4.0, 0.3])
+        plan = FloorPlan(Mesh(mesh.vertices[mesh.faces]), low, high, allowed)
+        assert (len(np.unique(plan.label)) == 1) == whole
+        area = sum(shapely.area(plan.region(label)) for label in np.unique(plan.label).tolist())
+        assert area == pytest.approx(12.0 if whole else 12.0 - 3.0 * width, abs=1e-3)
+
+
+def test_a_wall_of_small_triangles_is_the_wall():
+    """The same floor around it as around one of large triangles."""
+    floor, turn = (
+        box(-3, 3, -3, 3, -0.2, 0),
+        trimesh.transformations.rotation_matrix(0.7, (0, 0, 1), (0, 0, 0)),
+    )
+    shapes = []
+    for side in (9.0, 0.2):
+        wall = box(-2, 2, 0, 0.2, 0, 2.5)
+        wall = trimesh.Trimesh(
+            *trimesh.remesh.subdivide_to_size(wall.vertices, wall.faces, side), process=False
+        )
+        mesh = trimesh.util.concatenate([floor, wall])
+        mesh.apply_transform(turn)
+        corners = mesh.vertices[mesh.faces].round(8)
+        plan = FloorPlan(
+            Mesh(corners), np.full(3, -4.0), np.full(3, 4.0), Allowance.of(character_of("walker").rules)
+        )
+        shapes.append(shapely.union_all(plan.pieces))
+    assert shapely.area(shapely.symmetric_difference(*shapes)) < 0.002
+    assert shapely.get_num_coordinates(shapes[1]) < 2 * shapely.get_num_coordinates(shapes[0])
+
+
+@pytest.mark.parametrize("name", ["narrow", "wide door", "two doors", "walled_off"])
+def test_parts_are_what_the_graph_says_can_be_walked_to(name):
+    for seed in range(3):
+        hall = planted(np.random.default_rng([77, seed]), name)
+        site = site_of(hall.mesh)
+        graph, radius = site.graph, site.character.radius
+        for node in np.flatnonzero(graph.radii >= radius + 0.05)[:40].tolist():
+            walked = graph.reachable_nodes(graph.positions[node], radius=radius)
+            assert np.array_equal(walked, np.flatnonzero(site.node_part == site.node_part[node]))
 
 
 def test_the_picture_shows_what_was_measured(tmp_path):

@@ -42,6 +42,7 @@ def test_comes_back_as_it_was_written(tmp_path):
         (("patches",), [[1.0, 2.0, 3.0]]),
         (("coverage",), 1),
         (("reachable",), float("nan")),
+        (("reachable",), 10**400),
         (("format",), None),
     ],
 )

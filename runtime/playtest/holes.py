@@ -42,9 +42,10 @@ class Hole(NamedTuple):
         return float(shapely.area(self.outline))
 
 
-def find_holes(site: Site) -> list[Hole]:
-    """The holes that a walking body can fall through, and the open edges of the level."""
-    rim, over = _open_rim(site)
+def find_holes(site: Site, reached: np.ndarray) -> list[Hole]:
+    """The holes that a body can fall through that walks in the parts ``reached`` (p,) bool, and the open
+    edges of the level there."""
+    rim, over = _open_rim(site, reached)
     left = np.ones(len(rim), dtype=bool)
     holes = []
     while left.any():
@@ -83,12 +84,12 @@ def _hole(outline: shapely.Geometry, rim: np.ndarray, enclosed: bool) -> Hole:
     return Hole(place, outline, span, float(sides[k]), rim, enclosed)
 
 
-def _open_rim(site: Site) -> tuple[np.ndarray, np.ndarray]:
-    """Where floor that a body can come to ends with nothing below and no wall between: cells' centres and, as
-    high, the centres of the empty squares beside them, (k, 3) [m] each."""
+def _open_rim(site: Site, reached: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Where floor of the parts ``reached`` ends with nothing below and no wall between: centres of cells and,
+    as high, of the empty squares beside them, (k, 3) [m] each."""
     surface, rules = site.graph.surface, site.graph.rules
     known = site.graph.label >= 0
-    known[known] = site.node_part[site.graph.label[known]] >= 0
+    known[known] = np.append(reached, False)[site.node_part[site.graph.label[known]]]
     cell, way = np.nonzero((surface.link < 0) & known[:, None])
     rim = surface.centers(cell)
     over = rim + np.column_stack([DIRECTIONS[way] * surface.resolution, np.zeros(len(way))])

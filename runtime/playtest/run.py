@@ -93,7 +93,8 @@ def playtest(
         starts = spawn_parts(site, stage.plan)
         at = place_parts(site, stage.plan, "places")
         meant = np.array([each.reachable for each in stage.plan.plan.places], dtype=bool)
-        holes = find_holes(site)
+        reached = site.reached(starts)
+        holes = find_holes(site, reached)
         proved = analyse(site, holes, starts, at[~meant], at[meant])
         proved += broken_expectations(site, stage.plan, starts, at)
     begun = time.perf_counter()
@@ -104,7 +105,6 @@ def playtest(
             pace = sum(each.seconds for each in runs) / max(time.perf_counter() - begun, 1e-9)
             bar.update(len(runs) / bots, f"{len(runs)} done, {pace:.0f} x real time")
     wall = time.perf_counter() - begun
-    reached = site.reached(starts)
     ways, trips = crossings(site, runs, stage.goals.obstacles), journeys(runs)
     faults = numbered(with_sightings(proved, observed(site, runs, ways, trips), holes))
     coverage, patches = _coverage(site, reached, runs, seconds)

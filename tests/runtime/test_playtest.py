@@ -18,6 +18,7 @@ import navmesh
 from benchmarks.playtest_faults import COURTYARD, plants
 from navmesh.files.yamlfile import FileError
 from runtime.cli import main
+from runtime.errors import RuntimeInputError
 from runtime.playtest import bots, compare, playtest, read_report, write_report
 from runtime.playtest.analysis import analyse, core_parts
 from runtime.playtest.bots import run_bot
@@ -74,19 +75,31 @@ def courtyard():
 
 def test_the_courtyard_has_no_faults(courtyard):
     site = site_of(courtyard, navmesh.load_tags(navmesh.tags_path(COURTYARD)))
-    assert [
-        fault for fault in analyse(site, find_holes(site), core_parts(site), NOBODY, NOBODY) if fault.fails
-    ] == []
+    assert [fault for fault in analysed(site) if fault.fails] == []
 
 
 @pytest.mark.parametrize("number", [0, 4, 6, 9, 12, 13, 15, 18])
 def test_a_planted_fault_is_found_where_it_is(courtyard, number):
     plant = plants()[number]
     site = site_of(plant.edit(courtyard.copy()), navmesh.load_tags(navmesh.tags_path(COURTYARD)))
-    faults = [
-        fault for fault in analyse(site, find_holes(site), core_parts(site), NOBODY, NOBODY) if fault.fails
-    ]
+    faults = [fault for fault in analysed(site) if fault.fails]
     assert [fault.kind for fault in faults if plant.is_found_as(fault)] == [plant.kind]
+
+
+def test_a_hole_that_nobody_gets_to_is_none():
+    """A block of a catalogue that stands apart, with a hole in it, as kits of levels have."""
+    ring = [slab(30, 32, 0, 6, -0.5, 0), slab(34, 36, 0, 6, -0.5, 0)]
+    ring += [slab(32, 34, 0, 2, -0.5, 0), slab(32, 34, 4, 6, -0.5, 0)]
+    site = site_of(trimesh.util.concatenate([slab(0, 12, 0, 12, -0.5, 0), *ring]))
+    inside = np.ones(len(site.areas), dtype=bool)
+    assert [hole.enclosed for hole in find_holes(site, inside)].count(True) == 1
+    assert not any(hole.enclosed for hole in find_holes(site, site.reached(core_parts(site))))
+
+
+def test_a_level_without_room_is_refused_in_a_sentence(tmp_path):
+    slab(0, 1.2, 0, 1.2, -0.5, 0).export(tmp_path / "plate.obj")
+    with pytest.raises(RuntimeInputError, match="no part with 1 m² of room for the middle of a person"):
+        playtest(tmp_path / "plate.obj", bots=1, seconds=1.0)
 
 
 def test_the_pit_is_a_trap_and_bots_meet_it(outcome):
@@ -99,8 +112,12 @@ def test_the_pit_is_a_trap_and_bots_meet_it(outcome):
 
 def unreached(mesh, body="walker"):
     """What cannot be reached, or not be left again, from the largest part of a level."""
-    site = site_of(mesh, body=body)
-    return analyse(site, find_holes(site), core_parts(site), NOBODY, NOBODY)
+    return analysed(site_of(mesh, body=body))
+
+
+def analysed(site):
+    starts = core_parts(site)
+    return analyse(site, find_holes(site, site.reached(starts)), starts, NOBODY, NOBODY)
 
 
 def test_floor_inside_a_block_is_no_fault_but_floor_inside_a_room_is():

@@ -67,8 +67,8 @@ def make_goals(site: Site, plan: LoadedPlan, rng: np.random.Generator) -> Goals:
     reached = site.reached(starts) & (site.areas >= LEAST_AREA)
     if not reached.any():
         raise RuntimeInputError(
-            f"{site.graph.terrain.name}: players reach no part with {LEAST_AREA:g} m² of room for the middle of "
-            f"a {site.character.noun}; check the unit scale, or say in the playtest file who plays"
+            f"{site.graph.terrain.name}: players reach no part with {LEAST_AREA:g} m² of room for the middle "
+            f"of a {site.character.noun}; check the unit scale, or say in the playtest file who plays"
         )
     targets, _ = patches_of(site, reached)
     spawns, places = plan.plan.spawns, [each for each in plan.plan.places if each.reachable]

@@ -139,7 +139,7 @@ def steepness(ground, memory):
     return math.hypot(gradient[0], gradient[1])
 
 
-@kernel
+@allocating_kernel
 def begin_getting_up(memory, qpos):
     """The body has fallen."""
     memory[BEGUN_FROM] = qpos[7:]
@@ -147,7 +147,7 @@ def begin_getting_up(memory, qpos):
     memory[RISEN] = 0.0
 
 
-@kernel
+@allocating_kernel
 def _go_on(memory, mode, angles):
     memory[MODE], memory[MODE_CLOCK] = mode, 0.0
     memory[BEGUN_FROM] = angles

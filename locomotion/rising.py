@@ -58,7 +58,7 @@ _ABDUCTIONS = np.array([JOINT_NAMES.index(f"{s}_shoulder_abduction") for s in ("
 _ELBOWS = np.array([JOINT_NAMES.index(f"{s}_elbow_flexion") for s in ("right", "left")])
 
 
-@kernel
+@allocating_kernel
 def gather(memory, close):
     """Where the limbs are at home from now on: ``close`` before rising, or apart for scrambling."""
     memory[STANCE] = _CLOSE if close else _HOMES

@@ -6,7 +6,7 @@ import numpy as np
 
 from navmesh.field import cell_at, floor_at, walk
 from navmesh.pulling import pull
-from navmesh.search import BEST, COMPLETE, EXPANDED, LIMIT, advance, begin, chain, resume
+from navmesh.search import BEST, COMPLETE, EXPANDED, LABELS, LIMIT, advance, begin, chain, resume
 from navmesh.snapping import nearest_reachable, snap
 from surefoot.kernels import allocating_kernel, kernel
 
@@ -18,8 +18,7 @@ SEARCHING = (_COMPLETE, _PARTIAL)
 _WHOLE = 1 << 60
 _START_CELL, _GOAL_CELL, _STATUS = 8, 9, 11  # places in scratch.numbers
 _NEARER = 0.01  # [m] that a place must be nearer to the goal than the start to be gone to
-_TRIES = 6  # chains that are pulled taut
-_CLOSE = 0.97  # share of the length found that another chain must promise to be tried
+_CLOSE = 0.985  # share of the length found that another chain must promise to be tried
 _MORE = 64  # labels that may be expanded then, on top of as many as the search took
 
 
@@ -82,7 +81,8 @@ def _trace(net, doors, scratch, leaps, count, gx, gy, goal_cell, last_try):
     """Pull the chain of ``count`` nodes taut, to g in ``goal_cell``, into ``scratch.points``.
 
     ``leaps`` (n, 2) int32 receives (leap, corner at its run-up). The cells are searched on the ``last_try``
-    only. Returns (whether the goal was reached, nodes, corners, leaps used, cost [m]).
+    only. Returns (whether the goal was reached, nodes, corners, leaps used, cost [m], how much of it rounding
+    the corners adds to what the search thought of).
     """
     ends = scratch.ends
     scratch.points[0, 0], scratch.points[0, 1], scratch.points[0, 2] = ends[0], ends[1], ends[2]
@@ -90,7 +90,7 @@ def _trace(net, doors, scratch, leaps, count, gx, gy, goal_cell, last_try):
     corners = 1
     used = 0
     first = 1
-    cost = 0.0
+    cost = rounding = 0.0
     doors_count = doors.target.size
     edges = scratch.edges
     for i in range(1, count):
@@ -99,22 +99,23 @@ def _trace(net, doors, scratch, leaps, count, gx, gy, goal_cell, last_try):
             continue
         x, y, cell = doors.leap_from[leap, 0], doors.leap_from[leap, 1], np.int64(doors.leap_from_cell[leap])
         leg = corners - 1
-        corners, reached = pull(net, doors, scratch, first, i, corners, x, y, cell, last_try)
+        corners, reached, more = pull(net, doors, scratch, first, i, corners, x, y, cell, last_try)
+        rounding += more
         cost += _length(scratch, leg, corners) + doors.leap_cost[leap]
         if not reached:
-            return False, i, corners, used, cost
+            return False, i, corners, used, cost, rounding
         leaps[used, 0] = doors.leap_id[leap]
         leaps[used, 1] = corners - 1
         used += 1
         if corners + 1 >= scratch.cells.size:
-            return False, i, corners, used, cost
+            return False, i, corners, used, cost, rounding
         scratch.points[corners] = doors.leap_to[leap]
         scratch.cells[corners] = doors.leap_to_cell[leap]
         corners += 1
         first = i + 1
     leg = corners - 1
-    corners, reached = pull(net, doors, scratch, first, count, corners, gx, gy, goal_cell, last_try)
-    return reached, count, corners, used, cost + _length(scratch, leg, corners)
+    corners, reached, more = pull(net, doors, scratch, first, count, corners, gx, gy, goal_cell, last_try)
+    return reached, count, corners, used, cost + _length(scratch, leg, corners), rounding + more
 
 
 @kernel(error_model="numpy", nogil=True)
@@ -148,9 +149,10 @@ def _early_end(net, doors, scratch):
 def _finish(net, doors, scratch, leaps):
     """Turn the search's state into corners in ``scratch.points``.
 
-    The line of the cheapest chain can be longer than the search thought. While chains are left that may lead
-    to a shorter one, they are pulled taut too, at most `_TRIES` in all and with no more than as much
-    searching again; the shortest counts. Returns (status, nodes, corners, leaps used).
+    The line of the cheapest chain can be longer than the search thought, and than rounding the corners makes
+    it. While chains are left that may lead to a shorter one, they are pulled taut too, as many as the goal
+    has labels and with no more than as much searching again; the shortest counts. Returns (status, nodes,
+    corners, leaps used).
     """
     numbers, ends = scratch.numbers, scratch.ends
     state = advance(net, doors, scratch, 0)
@@ -161,7 +163,7 @@ def _finish(net, doors, scratch, leaps):
         after = _far(x, y, floor_at(net, cell, x, y), ends[3], ends[4], ends[5])
         if after > now - _NEARER:
             return _NO_PATH, 0, 0, 0
-        _, nodes, corners, used, _ = _trace(net, doors, scratch, leaps, count, x, y, cell, True)
+        nodes, corners, used = _trace(net, doors, scratch, leaps, count, x, y, cell, True)[1:4]
         return _PARTIAL, nodes, corners, used
     x, y, cell = ends[3], ends[4], numbers[_GOAL_CELL]
     most = 2 * numbers[EXPANDED] + _MORE
@@ -170,14 +172,16 @@ def _finish(net, doors, scratch, leaps):
     kept_nodes = kept = kept_used = 0
     fresh = False
     nodes = corners = used = 0
-    for attempt in range(_TRIES):
-        reached, nodes, corners, used, cost = _trace(net, doors, scratch, leaps, count, x, y, cell, False)
+    for attempt in range(LABELS):
+        reached, nodes, corners, used, cost, rounding = _trace(
+            net, doors, scratch, leaps, count, x, y, cell, False
+        )
         fresh = reached and cost < least
         if fresh:
             least = cost
-        if attempt == _TRIES - 1 or (doors.weighted and reached):
+            ends[LIMIT] = cost * _CLOSE - rounding
+        if attempt == LABELS - 1 or (doors.weighted and reached):
             break
-        ends[LIMIT] = least * _CLOSE
         if resume(net, doors, scratch, most - numbers[EXPANDED]) != COMPLETE:
             break
         if fresh:
@@ -194,7 +198,8 @@ def _finish(net, doors, scratch, leaps):
         leaps[:kept_used] = scratch.kept_leaps[:kept_used]
         return numbers[_STATUS], kept_nodes, kept, kept_used
     numbers[BEST] = cheapest
-    reached, nodes, corners, used, _ = _trace(net, doors, scratch, leaps, chain(scratch), x, y, cell, True)
+    count = chain(scratch)
+    reached, nodes, corners, used = _trace(net, doors, scratch, leaps, count, x, y, cell, True)[:4]
     return (numbers[_STATUS] if reached else _PARTIAL), nodes, corners, used
 
 

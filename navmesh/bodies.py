@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = ["checked_radius", "doors_of", "parts_of", "portals_of"]
 
+_NO_LINKS = np.empty(0, np.int64)
 _KEPT = 16  # radii, and offers of skills, that are kept
 
 
@@ -65,6 +66,8 @@ def portals_of(graph: "NodeGraph", radius: float) -> tuple:
 
 def _checked_links(graph: "NodeGraph", links: Any) -> np.ndarray:
     """Indices of links (k,) int64, sorted."""
+    if isinstance(links, tuple) and not links:  # the default, on every query
+        return _NO_LINKS
     index = np.unique(np.asarray(links)) if np.size(links) else np.empty(0, np.int64)
     if index.dtype.kind not in "iu" or (len(index) and not 0 <= index[0] <= index[-1] < len(graph.links)):
         raise NavmeshError(

@@ -17,11 +17,11 @@ __all__ = ["cell_at", "centre_of", "floor_at", "gap_at", "same_place", "stretch_
 
 
 @kernel(error_model="numpy", inline="always")
-def _from_list(net, source, px, py, least, x, y):
-    """The least squared distance of p to the blockers in the list of cell ``source``, where that is less than
+def _from_list(net, cell, px, py, least, x, y):
+    """The least squared distance of p to the blockers that cell ``cell`` knows, where that is less than
     ``least``: (squared, the place on the blocker: x, y)."""
     blocker = net.blocker
-    for k in range(net.blocker_start[source], net.blocker_start[source + 1]):
+    for k in range(net.nearby[cell, 0], net.nearby[cell, 1]):
         ax, ay = blocker[k, 0], blocker[k, 1]
         ex, ey = blocker[k, 2] - ax, blocker[k, 3] - ay
         length = ex * ex + ey * ey
@@ -36,12 +36,12 @@ def _from_list(net, source, px, py, least, x, y):
 
 
 @kernel(error_model="numpy", inline="always")
-def _along_list(net, source, px, py, ux, uy, stretch, gap, s, x, y):
+def _along_list(net, cell, px, py, ux, uy, stretch, gap, s, x, y):
     """The least distance of a line, ``stretch`` [m] long from p along the unit vector u, to the blockers in
-    the list of cell ``source``, where that is less than ``gap``: (distance, where on the line [m], the place
+    the list of cell ``cell``, where that is less than ``gap``: (distance, where on the line [m], the place
     on the blocker: x, y)."""
     blocker = net.blocker
-    for k in range(net.blocker_start[source], net.blocker_start[source + 1]):
+    for k in range(net.nearby[cell, 0], net.nearby[cell, 1]):
         # the blocker's ends as seen from p: how far ahead, and how far to the side
         dx, dy = blocker[k, 0] - px, blocker[k, 1] - py
         ax, ay = dx * ux + dy * uy, dy * ux - dx * uy
@@ -77,23 +77,27 @@ def _along_list(net, source, px, py, ux, uy, stretch, gap, s, x, y):
 
 
 @kernel(error_model="numpy", inline="always")
-def _lists_around(net, k, right, up):
-    """The cells whose lists of blockers are nearest to cell ``k``, to the cells beside it in the directions
-    ``right`` and ``up``, and to the one between these; -1 for none and for one that comes before."""
-    link, source = net.link, net.source
-    side, other = link[k, right], link[k, up]
-    first = np.int64(source[k])
-    second = np.int64(source[side]) if side >= 0 else first
-    third = np.int64(source[other]) if other >= 0 else first
-    corner = link[side, up] if side >= 0 else (link[other, right] if other >= 0 else -1)
-    fourth = np.int64(source[corner]) if corner >= 0 else first
+def _around(net, k, right, up):
+    """Cell ``k``, those beside it in the directions ``right`` and ``up``, and the one between these; -1 for
+    one that is not there, or has no list of blockers, or the same as one before."""
+    link, nearby = net.link, net.nearby
+    side, other = np.int64(link[k, right]), np.int64(link[k, up])
+    corner = np.int64(-1)
+    if side >= 0:
+        corner = np.int64(link[side, up])
+    elif other >= 0:
+        corner = np.int64(link[other, right])
+    first = nearby[k, 0]
+    second = nearby[side, 0] if side >= 0 else first
+    third = nearby[other, 0] if other >= 0 else first
+    fourth = nearby[corner, 0] if corner >= 0 else first
     if fourth == first or fourth == second or fourth == third:
-        fourth = -1
+        corner = -1
     if third == first or third == second:
-        third = -1
+        other = -1
     if second == first:
-        second = -1
-    return first, second, third, fourth
+        side = -1
+    return np.int64(k), side, other, corner
 
 
 @kernel(error_model="numpy")
@@ -109,14 +113,14 @@ def stretch_gap(net, k, cx, cy, ax, ay, ux, uy, low, high, most):
     middle = 0.5 * (high - low)
     right = 0 if px + middle * ux > cx else 2
     up = 1 if py + middle * uy > cy else 3
-    first, second, third, fourth = _lists_around(net, k, right, up)
+    here, side, other, corner = _around(net, k, right, up)
     stretch = high - low
     if ux == 0.0 and uy == 0.0:
         ux = 1.0
     gap, s, x, y = most, 0.0, np.inf, np.inf
-    for source in (first, second, third, fourth):
-        if source >= 0:
-            gap, s, x, y = _along_list(net, source, px, py, ux, uy, stretch, gap, s, x, y)
+    for cell in (here, side, other, corner):
+        if cell >= 0:
+            gap, s, x, y = _along_list(net, cell, px, py, ux, uy, stretch, gap, s, x, y)
     return gap, low + s, x, y
 
 
@@ -133,11 +137,11 @@ def gap_at(net, k, x, y):
     """Distance [m] from (x, y), a point in cell ``k``, to the nearest place where walking ends, and that
     place."""
     cx, cy = centre_of(net, k)
-    first, second, third, fourth = _lists_around(net, k, 0 if x > cx else 2, 1 if y > cy else 3)
+    here, side, other, corner = _around(net, k, 0 if x > cx else 2, 1 if y > cy else 3)
     square, qx, qy = np.inf, np.inf, np.inf
-    for source in (first, second, third, fourth):
-        if source >= 0:
-            square, qx, qy = _from_list(net, source, x, y, square, qx, qy)
+    for cell in (here, side, other, corner):
+        if cell >= 0:
+            square, qx, qy = _from_list(net, cell, x, y, square, qx, qy)
     return sqrt(square), qx, qy
 
 

@@ -300,7 +300,7 @@ def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell, last_try):
     edges[first:last].
 
     Where straight lines cannot be mended the cells are searched, on the ``last_try``. Returns the new number
-    of corners and whether the goal was reached.
+    of corners, whether the goal was reached, and how much [m] longer the funnel's line got by rounding.
     """
     leg = count - 1
     work, at, arc = scratch.corner, scratch.corner_at, scratch.arc
@@ -308,7 +308,9 @@ def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell, last_try):
     corners = funnel(doors, scratch.edges, first, last, False, work, at, 0, sx, sy, gx, gy)
     radius = doors.radius
     edges = scratch.edges
+    lx, ly, rounding = sx, sy, 0.0
     for i in range(1, corners):
+        rounding -= sqrt((work[i, 0] - work[i - 1, 0]) ** 2 + (work[i, 1] - work[i - 1, 1]) ** 2)
         parts = 0
         door, side = 0, at[i] & 1
         if i < corners - 1:
@@ -325,6 +327,8 @@ def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell, last_try):
                 pk = _place_of(net, doors, door, side, px, py)
                 if gap_at(net, pk, px, py)[0] >= radius * (1.0 + _SLACK):
                     x, y, k = px, py, pk
+            rounding += sqrt((x - lx) ** 2 + (y - ly) ** 2)
+            lx, ly = x, y
             low, high = at[i - 1] >> 1, at[i] >> 1
             count, state = _mend(net, doors, scratch, leg, count, x, y, k, low, high, False)
             if state == _BLOCKED:
@@ -334,10 +338,10 @@ def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell, last_try):
                 )
                 state = _FITS if fits else _NO_WAY
             if state != _FITS:
-                return count, False
+                return count, False, rounding
     if not doors.weighted:
         count = tighten(net, scratch, leg, count, radius)
     points, cells = scratch.points, scratch.cells
     for i in range(leg, count):
         points[i, 2] = floor_at(net, np.int64(cells[i]), points[i, 0], points[i, 1])
-    return count, True
+    return count, True, rounding

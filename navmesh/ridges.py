@@ -29,8 +29,7 @@ class Field(NamedTuple):
     link: np.ndarray
     nearest: np.ndarray
     clearance: np.ndarray
-    source: np.ndarray
-    blocker_start: np.ndarray
+    nearby: np.ndarray
     blocker: np.ndarray
 
 
@@ -43,8 +42,7 @@ def field_of(surface: Surface) -> Field:
         surface.link,
         surface.nearest,
         surface.clearance,
-        surface.source,
-        surface.blocker_start,
+        surface.nearby(),
         surface.blocker,
     )
 

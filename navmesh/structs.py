@@ -20,8 +20,8 @@ __all__ = ["DOORS", "NET", "SCRATCH", "make_doors", "make_scratch", "net_of"]
 
 _CELL = np.dtype(
     [
-        ("nearest", "f8", 2), ("clearance", "f8"), ("height", "f8"), ("link", "i4", 4), ("label", "i4"),
-        ("cell_column", "i4"), ("gradient", "f4", 2),
+        ("clearance", "f8"), ("height", "f8"), ("link", "i4", 4), ("label", "i4"), ("cell_column", "i4"),
+        ("gradient", "f4", 2), ("nearby", "i4", 2), ("", "i4", 2),
     ]
 )  # fmt: skip
 _NODE = np.dtype([("position", "f8", 3), ("node_radius", "f8")])
@@ -39,8 +39,7 @@ NET = BundleType(
     ny=int64,
     column_start=int32[::1],
     cells=rows(_CELL),
-    source=int32[::1],
-    blocker_start=int32[::1],
+    nearest=float64[:, ::1],
     blocker=float64[:, ::1],
     nodes=rows(_NODE),
     node_cell=int32[::1],
@@ -50,9 +49,9 @@ NET = BundleType(
 """The surface and the graph.
 
 cell: side of a grid square [m]; nx, ny: columns. Of `Surface`: column_start (nx*ny + 1,) and, for each cell,
-cell_column, height, gradient (2 float32), link (4), clearance, nearest (2), source; blocker_start (n + 1,),
-blocker (k, 4). Of `NodeGraph`: label of each cell; position (3), node_radius and node_cell of each node;
-edge_start (m + 1,), edge_target (e,).
+cell_column, height, gradient (2 float32), link (4), clearance, nearby (2), nearest (2); blocker (k, 4). Of
+`NodeGraph`: label of each cell; position (3), node_radius and node_cell of each node; edge_start (m + 1,),
+edge_target (e,).
 """
 
 DOORS = BundleType(
@@ -151,16 +150,15 @@ def net_of(graph: "NodeGraph") -> Any:
             column_start=surface.column_start,
             cells=_table(
                 _CELL,
-                nearest=surface.nearest,
                 clearance=surface.clearance,
                 height=surface.height,
                 link=surface.link,
                 label=graph.label,
                 cell_column=surface.cell_column,
                 gradient=surface.gradient,
+                nearby=surface.nearby(),
             ),
-            source=surface.source,
-            blocker_start=surface.blocker_start,
+            nearest=surface.nearest,
             blocker=surface.blocker,
             nodes=_table(_NODE, position=graph.positions - surface.origin, node_radius=graph.radii),
             node_cell=graph.node_cell,

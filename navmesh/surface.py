@@ -52,6 +52,13 @@ class Surface:
     def __len__(self) -> int:
         return len(self.cell_column)
 
+    def nearby(self) -> np.ndarray:
+        """(n, 2) int32: the list of blockers with the place nearest to cell c, blocker[nearby[c, 0]:nearby[c,
+        1]]; -1 where walking ends nowhere."""
+        found = np.stack([self.blocker_start[:-1], self.blocker_start[1:]], axis=1)[self.source]
+        found[self.source < 0] = -1
+        return found
+
     def centers(self, cells: np.ndarray | None = None) -> np.ndarray:
         """World coordinates (k, 3) float64 of the centres of ``cells`` (k,), or of all."""
         columns = self.cell_column if cells is None else self.cell_column[cells]

@@ -18,13 +18,13 @@ import llvmlite.binding
 import mujoco
 import numpy as np
 from llvmlite import ir
-from numba import carray, cfunc, types
+from numba import carray, types
 from numba.extending import intrinsic
 
 from locomotion.errors import LocomotionError
 from locomotion.trimesh_build import ROW, TriangleArrays
 from locomotion.trimesh_contact import MAX_CANDIDATES, capsule_contacts
-from surefoot.kernels import allocating_kernel
+from surefoot.kernels import allocating_kernel, cfunc
 
 __all__ = ["MARK", "occupy", "release"]
 
@@ -189,7 +189,7 @@ def _install() -> None:
     if width != model.nuser_geom:
         raise LocomotionError(f"MuJoCo {mujoco.__version__} keeps its sizes elsewhere; use version 4.0")
     # made here and not with the module: compiling takes ten seconds the first time
-    round_ground = cfunc(_signature, cache=True)(_round_ground)
+    round_ground = cfunc(_signature)(_round_ground)
     library = ctypes.CDLL(str(_library()))
     kinds = int(mujoco.mjtGeom.mjGEOM_SDF) + 1
     functions = (ctypes.c_void_p * (kinds * kinds)).in_dll(library, "mjCOLLISIONFUNC")

@@ -11,7 +11,7 @@ from pathsmooth.curvature import curvature
 from pathsmooth.errors import PathSmoothError
 from pathsmooth.problem import Problem
 from pathsmooth.solution import COMPLETE, INFEASIBLE, ITERATION_LIMIT, Solution
-from surefoot.kernels import kernel
+from surefoot.kernels import allocating_kernel
 
 MAX_ITERATIONS = 5000
 """Iterations after which `solve` gives up reaching the tolerance, where the caller sets no limit."""
@@ -81,7 +81,7 @@ def warm_state(problem: Problem, warm: Solution) -> NDArray[np.float64]:
     return state
 
 
-@kernel
+@allocating_kernel  # what may overlap is copied
 def _carry_over(old_targets, old_weight, old_state, targets, weight, state, first, last):
     """Take for each waypoint the state of the nearest earlier one; a disc's force goes to one waypoint
     only."""

@@ -2,7 +2,7 @@
 
     import navmesh, runtime
 
-    runtime.prepare()    # compiles all kernels, once on a machine: 3 to 6 minutes
+    runtime.prepare()    # compiles all kernels, once on a machine: 1 to 4 minutes
     world = runtime.World(navmesh.Terrain.load("level.obj", up="z"), seed=0)
     ada = world.spawn("human", at=(6.0, 4.0, 0.0))
     ada.go_to((46.0, 4.0, 0.3), speed=3.3)

@@ -136,6 +136,25 @@ def bake(
 
 
 @app.command()
+def cache(
+    clear: Annotated[bool, typer.Option("--clear", help="Remove what is there.")] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Tell where compiled kernels are kept and how much room they take, or remove them."""
+    from surefoot.kernels import folder
+
+    if clear:
+        folder.clear()
+    kept, size = folder.cache_folder(), folder.size_of_cache()
+    if as_json:
+        print(json.dumps({"folder": kept and str(kept), "bytes": size}))
+    elif kept is None:
+        print("nowhere: no folder for caches can be written to; set NUMBA_CACHE_DIR to one that can")
+    else:
+        print(f"{kept}: {size / 1e6:.1f} MB")
+
+
+@app.command()
 def obstacles(
     level: Annotated[
         Path, typer.Argument(callback=_input, help="Mesh file, or graph that `surefoot bake` wrote.")

@@ -31,6 +31,7 @@ from runtime.people import People
 from runtime.rules import obstacle_rules, person_walk_rules
 from runtime.traffic import EVERY, Traffic
 from runtime.walkers import Walkers
+from runtime.warmup import prepare_once
 from runtime.world_state import WorldState
 from surefoot.words import several
 
@@ -67,6 +68,7 @@ class World:
     ) -> None:
         checked_whole(rehearsals, "rehearsals")
         checked_whole(seed, "seed")
+        prepare_once()
         self._skills = checked_files(skills, "skills")
         own: Mapping[str, tuple[float, float]] = {}
         if self._skills:

@@ -6,11 +6,11 @@ from contextlib import contextmanager
 
 from numba.core import event as events
 
-__all__ = ["PACKAGES", "TIME", "announce", "counted"]
+from surefoot.kernels.dependencies import PACKAGES
 
-PACKAGES = ("navmesh", "pathsmooth", "locomotion", "runtime")
-"""The packages that have kernels."""
-TIME = "3 to 6 minutes"
+__all__ = ["TIME", "announce", "counted"]
+
+TIME = "1 to 4 minutes"
 """How long it takes to compile all of them."""
 
 _log = logging.getLogger("surefoot")
@@ -60,7 +60,7 @@ def announce() -> None:
 
 
 @contextmanager
-def counted(told: Callable[[int], None]) -> Iterator[None]:
+def counted(told: Callable[[int], object]) -> Iterator[None]:
     """Within the block ``told(n)`` is called when the n-th kernel (from 1) is about to be compiled, and
     nothing is written to the log."""
     count = 0

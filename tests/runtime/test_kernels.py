@@ -9,8 +9,8 @@ from numba.core.dispatcher import Dispatcher
 from numba.core.errors import NumbaError
 
 import runtime
-from surefoot.compiling import PACKAGES
 from surefoot.kernels import kernel
+from surefoot.kernels.dependencies import PACKAGES
 
 
 def _holds_array(kind: types.Type) -> bool:
@@ -21,13 +21,9 @@ def _holds_array(kind: types.Type) -> bool:
 
 def _returned(dispatcher: Dispatcher) -> list[types.Type]:
     """What the compiled versions of a kernel return, those in the cache included."""
-    index = dispatcher._cache._cache_file._load_index()
-    kinds = [overload.signature.return_type for overload in dispatcher.overloads.values()]
-    for key in index:
-        loaded = dispatcher._cache.load_overload(key[0], dispatcher.targetctx)
-        if loaded is not None:
-            kinds.append(loaded.signature.return_type)
-    return kinds
+    for signature in dispatcher._cache.kept_signatures(dispatcher.targetctx):
+        dispatcher.compile(signature)
+    return [overload.signature.return_type for overload in dispatcher.overloads.values()]
 
 
 @pytest.fixture(scope="module")
@@ -57,7 +53,7 @@ def test_kernels_without_counting_get_and_give_no_new_arrays(kernels: set[Dispat
 
 
 def test_one_that_makes_an_array_is_refused() -> None:
-    @kernel(cache=False)
+    @kernel
     def makes(count):
         return np.empty(count)[0]
 

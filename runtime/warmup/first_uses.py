@@ -1,0 +1,158 @@
+"""Small uses of everything that has kernels: what compiles them ahead of time."""
+
+import math
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+import navmesh
+import pathsmooth
+from locomotion import MOVING, Ground, Human
+from locomotion.events import GotUp
+
+__all__ = ["FIRST_USES", "tiny_level"]
+
+_EDGE = 12.0  # [m]
+_PUSH = 650.0  # [N] that nobody withstands
+
+
+def tiny_level() -> navmesh.Terrain:
+    """A floor of 12 x 4 m, long enough to run up, before a platform of 0.4 m; a wall with a door in it."""
+    corners: list[tuple[float, float, float]] = []
+    faces: list[list[int]] = []
+
+    def quad(*ends: tuple[float, float, float]) -> None:
+        faces.extend([len(corners) + k for k in triangle] for triangle in ((0, 1, 2), (0, 2, 3)))
+        corners.extend(ends)
+
+    def wall(x0: float, x1: float, y0: float, y1: float, z: float) -> None:
+        quad((x0, y0, z), (x1, y0, z), (x1, y1, z), (x0, y1, z))
+        around = ((x0, y0), (x1, y0), (x1, y1), (x0, y1))
+        for (ax, ay), (bx, by) in zip(around, around[1:] + around[:1], strict=True):
+            quad((ax, ay, 0.0), (bx, by, 0.0), (bx, by, z), (ax, ay, z))
+
+    quad((0.0, 0.0, 0.0), (_EDGE, 0.0, 0.0), (_EDGE, 8.0, 0.0), (0.0, 8.0, 0.0))
+    quad((_EDGE, 0.0, 0.4), (18.0, 0.0, 0.4), (18.0, 8.0, 0.4), (_EDGE, 8.0, 0.4))
+    quad((_EDGE, 8.0, 0.0), (_EDGE, 0.0, 0.0), (_EDGE, 0.0, 0.4), (_EDGE, 8.0, 0.4))
+    wall(0.0, 2.5, 4.0, 4.3, 2.5)
+    wall(3.6, _EDGE, 4.0, 4.3, 2.5)
+    return navmesh.Terrain.from_arrays(np.array(corners), np.array(faces), name="warm-up level")
+
+
+def _navigate() -> None:
+    from runtime.rules import person_walk_rules
+
+    terrain = tiny_level()
+    graph = navmesh.NodeGraph.build(terrain, person_walk_rules())
+    places = graph.random_points(np.random.default_rng(0), 4, radius=0.3)
+    graph.find_path(places[0], places[1], radius=0.3)
+    graph.find_paths(places[:2], places[2:], radius=0.3)
+    search = graph.begin_path(places[0], places[1], radius=0.3)
+    while not search.advance(8):
+        pass
+    search.finish()
+    for ask in (graph.project, graph.clearance_at, graph.nearest_edge, graph.nearest_node):
+        ask(places)
+    graph.containing_node(places)
+    graph.cast_ray(places[:2], places[2:], 0.3)
+    graph.reachable_nodes(places[0], 0.3)
+    graph.room_to_turn(places, 1.0)
+    crate = [[4.0, 6.0, 0.5], [5.0, 6.0, 0.5], [5.0, 7.0, 0.5], [4.0, 7.0, 0.5]]
+    graph.update({"crate": navmesh.Terrain.from_arrays(np.array(crate), np.array([[0, 1, 2], [0, 2, 3]]))})
+
+
+def _smooth() -> None:
+    corner = np.array([[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [6.0, 6.0, 0.0]])
+    begun = pathsmooth.solve(pathsmooth.Problem.from_corridor(corner, corner, np.full(3, 4.0)))
+    for room, bound in ((3.9, None), (4.0, 0.8)):
+        like = pathsmooth.Problem.from_corridor(corner, corner, np.full(3, room), max_curvature=bound)
+        pathsmooth.solve(like, warm=begun)
+    ahead = np.array([1.0, 0.0])
+    centers = np.outer(np.arange(4.0) * 4.2, [1.0, 0.0, 0.0])
+    back = pathsmooth.Problem.from_corridor(
+        centers[[0, -1]], centers, np.full(4, 3.5), 0.25, -ahead, ahead, max_curvature=1.0
+    )
+    pathsmooth.solve(back)  # turns round, a way that is searched
+
+
+def _run_and_jump() -> None:
+    from runtime.world import World
+
+    world = World(tiny_level())
+    agent = world.spawn("human", (1.5, 2.0, 0.0))
+    agent.go_to((16.5, 2.0, 0.4), speed=3.0)
+    while agent.moving and world.time < 15.0:
+        world.step(0.1)
+
+
+def _clear() -> None:
+    from runtime.courses import make_course, run_course
+
+    run_course(make_course([("vault", 0.7, 0.3), ("drop", 1.2, 0.0), ("gap", 1.0, 0.0)], [12.0, 14.0, 12.0]))
+
+
+def _fall_and_get_up() -> None:
+    for slope in (0.0, 0.9):
+        half, rise = 30.0, 30.0 * slope
+        corners = [[-half, -half, -rise], [half, -half, rise], [half, half, rise], [-half, half, -rise]]
+        ground = Ground.from_arrays(corners, [[0, 1, 2], [0, 2, 3]], max_slope=math.atan(slope))
+        human = Human(ground, clearing=(), gets_up=True)
+        human.reset((0.0, 0.0, 0.0), 0.0)
+        human.follow(np.array([[x, 0.0, slope * x] for x in np.arange(0.0, 12.0, 0.5)]), 1.0)
+        for tick in range(1500):
+            pushed = 50 <= tick < 75
+            human.data.xfrc_applied[human.index.chest, :2] = (0.0, _PUSH) if pushed else (0.0, 0.0)
+            human.tick()
+            up = any(isinstance(event, GotUp) for event in human.events)
+            if human.status not in MOVING or (up and tick > 800):
+                break
+
+
+def _animals_and_crowds() -> None:
+    from runtime.world import World
+
+    world = World(tiny_level())
+    world.spawn("dog", (1.5, 1.0, 0.0)).go_to((7.5, 3.0, 0.0), speed=1.5)
+    world.spawn("dog", (8.0, 1.5, 0.0)).go_to((1.5, 2.5, 0.0), speed=1.5)
+    world.spawn("dog", (11.2, 4.8, 0.0), facing=-1.0).go_to((8.0, 6.0, 0.0), speed=1.0)  # in a corner
+    world.spawn("human", (5.0, 3.0, 0.0)).go_to((1.5, 2.0, 0.0), speed=1.2)
+    for k in range(6):
+        walker = world.spawn("walker", (1.0 + 0.8 * k, 1.0, 0.0), radius=0.25)
+        walker.go_to((3.0, 6.5, 0.0), speed=1.5)
+    world.step(8.0)
+
+
+def _playtest() -> None:
+    from runtime.playtest import playtest
+
+    terrain = tiny_level()
+    with tempfile.TemporaryDirectory() as folder:
+        level = Path(folder) / "level.obj"
+        lines = [f"v {x} {y} {z}" for x, y, z in terrain.vertices]
+        lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in terrain.faces]
+        level.write_text("\n".join(lines), encoding="utf-8")
+        playtest(level, bots=6, seconds=20.0)
+
+
+def _draw() -> None:
+    from runtime.render import Camera, Triangles, render
+
+    terrain = tiny_level()
+    camera = Camera(np.array([0.0, 0.0, 8.0]), np.array([6.0, 4.0, 0.0]))
+    render(Triangles(terrain.vertices, terrain.faces), [], camera, (8, 6))
+
+
+FIRST_USES: dict[str, Callable[[], None]] = {
+    "navigation": _navigate,
+    "walking and getting up": _fall_and_get_up,
+    "skills": _clear,
+    "smoothing": _smooth,
+    "animals and crowds": _animals_and_crowds,
+    "running and jumping": _run_and_jump,
+    "playtests": _playtest,
+    "pictures": _draw,
+}
+"""What each is for, and what does it; those that depend least on the others come first, the longest among
+them before the shorter."""

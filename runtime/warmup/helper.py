@@ -1,0 +1,35 @@
+"""A process that runs the uses whose names it reads: ``python -m runtime.warmup.helper``.
+
+It writes a line for each kernel that it compiles, and "done" after each use. It ends with whoever started it.
+"""
+
+import os
+import sys
+from queue import SimpleQueue
+from threading import Thread
+
+
+def main() -> None:
+    told = os.fdopen(os.dup(1), "w", buffering=1)
+    os.dup2(2, 1)  # what the uses print
+    asked: SimpleQueue[str] = SimpleQueue()
+    Thread(target=_read, args=(asked,), daemon=True).start()
+    from runtime.warmup import ahead
+    from runtime.warmup.first_uses import FIRST_USES
+    from surefoot.compiling import counted
+
+    ahead.leave_it()
+    with counted(lambda count: print("compiled", file=told)):
+        while True:
+            FIRST_USES[asked.get()]()
+            print("done", file=told)
+
+
+def _read(asked: SimpleQueue[str]) -> None:
+    for line in sys.stdin:
+        asked.put(line.strip())
+    os._exit(0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,139 @@
+"""The cache of one kernel: compiled code in the user's cache folder, named after all that it depends on."""
+
+import hashlib
+import io
+import os
+import pickle
+import platform
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import llvmlite
+import numba
+from numba.core.compiler import CompileResult
+from numba.core.dispatcher import Dispatcher
+from numba.core.serialize import dumps
+
+from surefoot.kernels import linking
+from surefoot.kernels.dependencies import digest_of_code, digest_of_type
+from surefoot.kernels.folder import cache_folder, note_use
+from surefoot.kernels.turns import Turns
+
+__all__ = ["KernelCache"]
+
+_FORMAT = 1
+"""Of what is kept; another number, and everything is compiled again."""
+_SUFFIX = ".kernel"
+_turns = Turns()
+
+
+@cache
+def _versions() -> str:
+    tag = f"{_FORMAT} {sys.implementation.cache_tag} {platform.system()}"
+    return f"{tag} {numba.__version__} {llvmlite.__version__}"
+
+
+class KernelCache:
+    """What Numba asks for compiled code, and gives it to. Numba's own cache is by file, and does not see when
+    a kernel of another file changes that this one calls."""
+
+    def __init__(self, function: Callable, options: dict[str, Any], kernel: Dispatcher | None = None) -> None:
+        self._function, self._options, self._kernel = function, options, kernel
+        self._name = f"{function.__module__}.{function.__qualname__}".replace("<", "").replace(">", "")
+
+    @property
+    def cache_path(self) -> str:
+        """The folder, for Numba's statistics."""
+        return str(cache_folder())
+
+    def load_overload(self, signature: Any, target: Any) -> CompileResult | None:
+        """Kept code for a signature, None where there is none: then it is this process's turn to compile it,
+        until `save_overload`, or until it fails."""
+        target.refresh()
+        file = self._file(signature, target.codegen())
+        if file is None:
+            return None
+        found = self._load(file, target)
+        if found is None:
+            _turns.take(file, self._kernel)
+            found = self._load(file, target)  # another process has compiled it meanwhile
+            if found is not None:
+                _turns.give_back(file)
+        return found
+
+    def save_overload(self, signature: Any, compiled: CompileResult) -> None:
+        """Keep the code that was compiled for a signature."""
+        if self._kernel is not None:
+            linking.keep_apart(compiled, self._kernel, signature)
+        file = self._file(signature, compiled.codegen)
+        if file is None:
+            return
+        try:
+            if not compiled.library.has_dynamic_globals and not any(
+                not each.can_cache for each in compiled.lifted
+            ):
+                _write(file, dumps(signature) + dumps(linking.reduce(compiled)))
+        finally:
+            _turns.give_back(file)
+
+    def enable(self) -> None:
+        """Numba may ask for it; it is always enabled."""
+
+    disable = flush = enable
+
+    def kept_signatures(self, target: Any) -> Iterator[Any]:
+        """The signatures for which there is code."""
+        folder = cache_folder()
+        for file in folder.glob(f"{self._stem(target.codegen())}-*{_SUFFIX}") if folder is not None else ():
+            with suppress(Exception), file.open("rb") as opened:
+                yield pickle.load(opened)
+
+    def _file(self, signature: Any, codegen: Any) -> Path | None:
+        folder = cache_folder()
+        if folder is None:
+            return None
+        kinds = signature if isinstance(signature, tuple) else (*signature.args, signature.return_type)
+        types = _short("\0".join(digest_of_type(kind) for kind in kinds))
+        return folder / f"{self._stem(codegen)}-{types}{_SUFFIX}"
+
+    def _stem(self, codegen: Any) -> str:
+        """How the names of this kernel's files begin: by what it is and the machine that it is for."""
+        options = repr(sorted(self._options.items()))
+        parts = _versions(), repr(codegen.magic_tuple()), options, digest_of_code(self._function)
+        return f"{self._name}-{_short(chr(0).join(parts))}"
+
+    def _load(self, file: Path, target: Any) -> CompileResult | None:
+        try:
+            data = file.read_bytes()
+        except OSError:
+            return None
+        try:
+            stream = io.BytesIO(data)
+            pickle.load(stream)  # the signature
+            compiled = linking.rebuild(target, pickle.load(stream))
+        except Exception:  # of another version, cut off, or without a kernel that it calls
+            return None
+        note_use(file)
+        return compiled
+
+
+def _short(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def _write(file: Path, data: bytes) -> None:
+    """Whole or not at all; a full or read-only disk is no reason to stop."""
+    with suppress(OSError):
+        handle, name = tempfile.mkstemp(dir=file.parent, prefix=".", suffix=".part")
+        try:
+            with os.fdopen(handle, "wb") as part:
+                part.write(data)
+            os.replace(name, file)
+        except OSError:
+            os.unlink(name)
+            raise

@@ -1,0 +1,96 @@
+"""Where compiled kernels are kept: a folder of the user's, outside the packages, so that these can be
+read-only, and nothing is left of them when they are uninstalled."""
+
+import os
+import stat
+import sys
+import tempfile
+import time
+from contextlib import suppress
+from functools import lru_cache
+from pathlib import Path
+
+from numba.core import config
+
+__all__ = ["LOCKS", "cache_folder", "clear", "forget_old", "note_use", "size_of_cache"]
+
+LOCKS = "locks"
+"""The folder in it of the empty files that processes lock."""
+_KEPT = 60 * 86400.0
+"""[s] after which kernels that no start has read are removed."""
+_NOTED = 86400.0  # [s] between notes that a kernel is still used
+
+
+def cache_folder() -> Path | None:
+    """The folder, made if it is not there: "surefoot" in ``NUMBA_CACHE_DIR`` if that is set, else in the
+    user's folder for caches; where that cannot be written to, a folder of the user's own among the temporary
+    files. None when there is no such place: then kernels are compiled in each process."""
+    return _folder(config.CACHE_DIR)  # type: ignore[attr-defined]
+
+
+@lru_cache(maxsize=8)
+def _folder(chosen: str) -> Path | None:
+    return next((folder for folder in _candidates(chosen) if _is_ours(folder)), None)
+
+
+def _candidates(chosen: str) -> list[Path]:
+    if chosen:
+        return [Path(chosen).absolute() / "surefoot"]
+    user = os.getuid() if hasattr(os, "getuid") else os.environ.get("USERNAME", "user")
+    return [_users_caches() / "surefoot", Path(tempfile.gettempdir()) / f"surefoot-{user}"]
+
+
+def _users_caches() -> Path:
+    """The platform's folder for what programs can make again."""
+    if sys.platform == "win32":
+        return Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
+    if sys.platform == "darwin":
+        return Path.home() / "Library" / "Caches"
+    chosen = Path(os.environ.get("XDG_CACHE_HOME", ""))
+    return chosen if chosen.is_absolute() else Path.home() / ".cache"
+
+
+def _is_ours(folder: Path) -> bool:
+    """Whether ``folder`` can be written to, and by nobody else: what is read from it is run."""
+    try:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        kept = folder.stat()
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError:
+        return False
+    if not hasattr(os, "getuid"):
+        return True
+    return kept.st_uid == os.getuid() and not kept.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
+
+
+def note_use(file: Path) -> None:
+    """Note in the date of a kept file that it is still read."""
+    with suppress(OSError):
+        if time.time() - file.stat().st_mtime > _NOTED:
+            os.utime(file)
+
+
+def forget_old() -> None:
+    """Remove what no start has read in 60 days: kernels of earlier versions."""
+    for file in _kept():
+        with suppress(OSError):
+            if time.time() - file.stat().st_mtime > _KEPT:
+                file.unlink()
+
+
+def size_of_cache() -> int:
+    """[bytes] of all that is kept."""
+    return sum(file.stat().st_size for file in _kept())
+
+
+def clear() -> None:
+    """Remove everything that is kept. Processes that run are not disturbed."""
+    for file in _kept():
+        with suppress(OSError):
+            file.unlink()
+
+
+def _kept() -> list[Path]:
+    folder = cache_folder()
+    return [file for file in folder.rglob("*") if file.is_file()] if folder is not None else []

@@ -1,0 +1,114 @@
+"""Large kernels are compiled once, and called where they are.
+
+Numba copies a function's code into the module of each function that calls it, with all that that one calls,
+and optimises the copies anew; half of the time of compiling went into copies of copies. LLVM does not inline
+functions of more than some dozen instructions in any case, so all but small ones stay apart: whoever calls
+them finds them by their symbol, and whoever is read from the cache has them read first.
+"""
+
+import importlib
+import sys
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import llvmlite.binding as llvm
+import numba
+from numba.core.compiler import CompileResult
+from numba.core.dispatcher import Dispatcher
+
+__all__ = ["Missing", "keep_apart", "rebuild", "reduce"]
+
+_LARGE = 300
+"""Instructions of a function from which on it stays apart."""
+_TRIED = ((0, 68),)
+"""Versions of Numba in whose insides this was tried; in others kernels are copied as Numba does it."""
+
+
+class Missing(Exception):
+    """A kernel was read from the cache that calls one which is not there any more."""
+
+
+@dataclass(frozen=True)
+class Need:
+    """A kernel that has to be there before one that calls it: what Numba calls when it reads that one."""
+
+    module: str
+    name: str
+    signature: Any
+    symbol: str
+
+    def __call__(self) -> None:
+        kernel = getattr(importlib.import_module(self.module), self.name)
+        kernel.compile(self.signature)
+
+
+@cache
+def _is_possible() -> bool:
+    version = tuple(int(part) for part in numba.__version__.split(".")[:2])
+    return sys.platform.startswith("linux") and version in _TRIED
+
+
+def keep_apart(compiled: CompileResult, kernel: Dispatcher, signature: Any) -> None:
+    """From now on functions that call ``kernel`` do not get a copy, if it is large."""
+    library = compiled.library
+    name = kernel.py_func.__name__
+    module = sys.modules.get(kernel.py_func.__module__)
+    if module is None or getattr(module, name, None) is not kernel:
+        return
+    if not _is_possible() or not _is_large(compiled):
+        return
+    library._shared_module = _empty_module(library)
+    library._reload_init = {Need(module.__name__, name, signature, compiled.fndesc.mangled_name)}
+
+
+def reduce(compiled: CompileResult) -> tuple:
+    """What is kept of a compiled kernel."""
+    payload = compiled._reduce()
+    library, own = compiled.library, compiled.fndesc.mangled_name
+    # Numba does not list what a callback needs with the callback
+    needs = {*compiled.reload_init, *library._reload_init}
+    itself = [need for need in needs if isinstance(need, Need) and need.symbol == own]
+    defined = _engine(compiled.target_context)._defined_symbols
+    called = [each.name for each in library._final_module.functions if each.is_declaration]
+    return itself, list(needs.difference(itself)), [name for name in called if name in defined], payload
+
+
+def rebuild(target: Any, kept: tuple) -> CompileResult:
+    """A compiled kernel of what `reduce` kept; those that it calls are read before.
+
+    Raises `Missing` if one of them is another by now: LLVM would end the process.
+    """
+    itself, needs, called, payload = kept
+    for need in needs:
+        need()
+    engine = _engine(target)
+    for name in called:
+        if not engine.is_symbol_defined(name):
+            raise Missing(name)
+    if itself:
+        names = payload[1]
+        engine._defined_symbols.update(
+            (names.mangled_name, names.llvm_cpython_wrapper_name, names.llvm_cfunc_wrapper_name)
+        )
+    compiled = CompileResult._rebuild(target, *payload)
+    compiled.library._reload_init = set(itself or needs)
+    return compiled
+
+
+def _is_large(compiled: CompileResult) -> bool:
+    function = compiled.library.get_function(compiled.fndesc.mangled_name)
+    count = 0
+    for block in function.blocks:
+        count += sum(1 for _ in block.instructions)
+        if count > _LARGE:
+            return True
+    return False
+
+
+def _empty_module(library: Any) -> Any:
+    return llvm.parse_assembly(str(library.codegen._create_empty_module(library.name)))
+
+
+def _engine(target: Any) -> Any:
+    return target.codegen()._engine

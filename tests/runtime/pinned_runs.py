@@ -7,6 +7,7 @@ hold while the code is moved about, and change when anybody moves by a bit other
 """
 
 import hashlib
+import itertools
 import json
 import tempfile
 from collections.abc import Callable
@@ -23,6 +24,7 @@ from runtime import World, WorldState
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 PINNED = Path(__file__).with_suffix(".json")
 _EVERY = 0.1  # [s]
+Place = tuple[float, float, float]
 
 
 def machine() -> str:
@@ -64,6 +66,13 @@ def level(name: str = "courtyard", seed: int = 5) -> World:
     return World(navmesh.Terrain.load(EXAMPLES / "levels" / f"{name}.obj", up="z"), seed=seed)
 
 
+def box(low: Place, high: Place) -> navmesh.Terrain:
+    corners = np.array(list(itertools.product(*zip(low, high, strict=True))))
+    sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    faces = [face for a, b, c, d in sides for face in ((a, b, c), (a, c, d))]
+    return navmesh.Terrain.from_arrays(corners, np.array(faces))
+
+
 def one_way(
     body: str, start: tuple, goal: tuple, speed: float, seconds: float, where: str = "courtyard"
 ) -> Recorder:
@@ -90,7 +99,14 @@ def jump() -> Recorder:
 
 
 def vault() -> Recorder:
-    return one_way("human", (41.6, 27.0, 0.0), (34.4, 27.0, 0.0), 3.3, 16.0)
+    parts = {
+        "floor": box((0.0, 0.0, -1.0), (40.0, 8.0, 0.0)),
+        "wall": box((20.0, 0.0, -1.0), (20.3, 8.0, 0.8)),
+    }
+    recorder = Recorder(World(navmesh.join_chunks(parts), seed=5))
+    recorder.world.spawn("human", (4.0, 4.0, 0.0)).go_to((30.0, 4.0, 0.0), speed=3.5)
+    recorder.go_on(10.0)
+    return recorder
 
 
 def drop_roll() -> Recorder:
@@ -157,10 +173,7 @@ def giving_way() -> Recorder:
 
 def change_of_level() -> Recorder:
     recorder = one_way("human", (4.0, 27.0, 0.0), (16.0, 27.0, 0.0), 1.6, 2.0)
-    corners = np.array([(x, y, z) for x in (9.0, 9.4) for y in (25.0, 28.5) for z in (-0.2, 2.5)])
-    sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    faces = np.array([face for a, b, c, d in sides for face in ((a, b, c), (a, c, d))])
-    recorder.world.change_level({"wall": navmesh.Terrain.from_arrays(corners, faces)})
+    recorder.world.change_level({"wall": box((9.0, 25.0, -0.2), (9.4, 28.5, 2.5))})
     recorder.go_on(8.0)
     return recorder
 

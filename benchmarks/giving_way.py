@@ -30,15 +30,17 @@ PAIRS = [
 SECONDS = 60.0
 
 
-def floor(*parts: tuple[float, float, float, float]) -> navmesh.NodeGraph:
-    """The graph of a level floor of rectangles x0, y0, x1, y1 [m], for people who walk."""
+def floor(
+    *parts: tuple[float, float, float, float], rules: navmesh.WalkRules | None = None
+) -> navmesh.NodeGraph:
+    """The graph of a level floor of rectangles x0, y0, x1, y1 [m], by default for people who walk."""
     corners, faces = [], []
     for x0, y0, x1, y1 in parts:
         n = len(corners)
         corners += [(x0, y0, 0.0), (x1, y0, 0.0), (x1, y1, 0.0), (x0, y1, 0.0)]
         faces += [(n, n + 1, n + 2), (n, n + 2, n + 3)]
     terrain = navmesh.Terrain.from_arrays(np.array(corners), np.array(faces))
-    return navmesh.NodeGraph.build(terrain, person_walk_rules())
+    return navmesh.NodeGraph.build(terrain, person_walk_rules() if rules is None else rules)
 
 
 HALL = [(0.0, 0.0, 30.0, 10.0)]

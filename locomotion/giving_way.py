@@ -34,6 +34,8 @@ AT_FIRST = 10
 """Steps in which a body can do little about where it is."""
 AT_ONCE = 1.0 / STEP
 """[1/s] Of an eagerness: it changes its speed as hard as it can, to the end."""
+HARD = 0.5
+"""[m/s] from which on a body that runs into another one is to blame for all of it."""
 _ASIDE = (0.4, 0.8, 1.2, 1.6)
 """[m] to each side that a way leads."""
 _PACES = (1.0, 0.6, 0.3, 0.0)
@@ -65,7 +67,8 @@ class Course:
         sharpest: [1/m] of a curve that it can take. begins: [m] ahead where a change of its path may begin.
         aside: whether its path may be changed. whole: whether the last point is its goal.
         stops: [m] that it wants for coming to a stand. turns: [s] for which it turns on the spot, once it is
-            slow enough for that, before it goes on.
+            slow enough for that, before it goes on. nose: [m] of ``length`` that lie before its foremost
+            disc.
     """
 
     points: NDArray[np.float64]
@@ -85,6 +88,7 @@ class Course:
     whole: bool
     stops: float
     turns: float = 0.0
+    nose: float = 0.0
 
 
 @kernel
@@ -119,7 +123,8 @@ def foretell(
 def first_meeting(own, own_radius, others, other_radius, room):
     """The number of the first step at which a disc of ``own`` (n, d, 2) comes nearer to one of ``others``
     (n, m, 2) than both radii and ``room`` [m], and nearer than if it stayed where it is; n when none does.
-    The first at which it touches one, and how deep it comes to lie in one, as a share of both radii; the
+    The first at which it touches one, and how deep it comes to lie in one, as a share of both radii, less
+    where it is slower than `HARD`: who all but stands is run into, and is not to run itself for that; the
     foremost of several discs is its head, which gives in. Who is run into from behind, or where it stands,
     has not come near. Discs that lie in each other from the beginning do not count: those of a long body, so
     that the one in front gets away; one alone only for `AT_FIRST` steps, in which it can halt."""
@@ -143,7 +148,9 @@ def first_meeting(own, own_radius, others, other_radius, room):
                     if far < both * both:
                         touches = min(touches, k)
                         if d < body:
-                            deepest = max(deepest, 1.0 - math.sqrt(far) / both)
+                            x, y = own[k, d, 0] - own[k - 1, d, 0], own[k, d, 1] - own[k - 1, d, 1]
+                            hard = min(math.sqrt(x * x + y * y) / (HARD * STEP), 1.0)
+                            deepest = max(deepest, hard * (1.0 - math.sqrt(far) / both))
     return first, touches, deepest
 
 

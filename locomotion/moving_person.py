@@ -121,6 +121,11 @@ class MovingPerson(SimulatedPerson):
         """The next obstacle on its path, or the one that it clears now."""
         return self._obstacle_run.ahead
 
+    def way_back(self) -> NDArray[np.float64] | None:
+        """(k, 3) [m] the points of its way behind it, back to the obstacle that it has cleared last, see
+        `Way.way_back`."""
+        return self.way.way_back(self._obstacle_run.passed)
+
     # --- saving
     @property
     def memories(self) -> tuple[NDArray[np.float64], ...]:

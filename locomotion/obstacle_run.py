@@ -75,6 +75,14 @@ class ObstacleRun:
         return self.obstacles[number] if number < len(self.obstacles) else None
 
     @property
+    def passed(self) -> float:
+        """Arc length [m] to which it can go back: behind the obstacle that it has cleared last, or 0."""
+        if self.plan[_NEXT] == 0.0:
+            return 0.0
+        behind = self.obstacles[int(self.plan[_NEXT]) - 1]
+        return behind.arc_length + behind.depth + _OFF_EDGE
+
+    @property
     def clearing(self) -> bool:
         """Whether a skill is at work."""
         return self.at_work is not None
@@ -128,9 +136,7 @@ class ObstacleRun:
         if self.ahead is None or self.plan[_RETURNS] >= _MOST_RETURNS:
             return None
         edge = self.ahead.arc_length
-        behind = self.obstacles[int(self.plan[_NEXT]) - 1] if self.plan[_NEXT] > 0.0 else None
-        start = 0.0 if behind is None else behind.arc_length + behind.depth + _OFF_EDGE
-        to = max(edge - _ROOM - _SETTING_OFF, start, way.straight_before(edge))
+        to = max(edge - _ROOM - _SETTING_OFF, self.passed, way.straight_before(edge))
         room = edge - to - _SETTING_OFF  # with less than `_ROOM` it tries what there is
         if not arc < edge or (edge - arc > room and self.plan[_BALKED] == 0.0):
             return None

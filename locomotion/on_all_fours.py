@@ -20,7 +20,7 @@ from locomotion.getting_up import begin_getting_up, get_up_tick, rise_on
 from locomotion.ground import Ground
 from locomotion.path_table import PathTable
 from locomotion.person import PersonIndex
-from locomotion.person_models import harder
+from locomotion.person_models import gentler, harder
 from locomotion.rising import begin_to_rise, gather, ready_to_rise, rise_tick, stands
 from locomotion.scramble_layout import AWAY, BORNE, FACING, MODE, RISEN, RISING, new_scramble
 from locomotion.scramble_seen import observe_scramble, parts_of
@@ -53,7 +53,7 @@ class OnAllFours:
     @property
     def model(self) -> mujoco.MjModel:
         """The physics of a body that hands and feet move, or that falls."""
-        return harder(self._model)
+        return gentler(self._model) if self.gentle > 0.0 else harder(self._model)
 
     @property
     def active(self) -> bool:
@@ -123,11 +123,11 @@ class OnAllFours:
         elif memory[MODE] == RISING:
             rise_tick(memory, data.qpos, data.ctrl)
         else:
-            gather(memory, stand and self.borne)
-            if stand or memory[RISEN] < 1.0:
+            close = gather(memory, stand and self.borne)
+            if close or memory[RISEN] < 1.0:
                 command = np.array([memory[FACING], 0.0, 0.0, 0.0])
             scramble_tick(lookup, memory, command, data.qpos, data.qvel, data.ctrl)
-            if stand and ready_to_rise(memory):
+            if close and ready_to_rise(memory):
                 begin_to_rise(memory, data.qpos)
 
     def observe(self, lookup: tuple[NDArray, ...], data: mujoco.MjData, state: NDArray[np.float64]) -> bool:

@@ -7,16 +7,18 @@ import threading
 import weakref
 
 import mujoco
+import numpy as np
 
-from locomotion.ground import Ground
+from locomotion.ground import FRICTION, Ground
 from locomotion.person import PersonIndex, build_person
 
-__all__ = ["harder", "person_on"]
+__all__ = ["gentler", "harder", "person_on"]
 
 _SUDDEN = 0.01  # [s] in which contacts give way to a falling body, half of MuJoCo's usual time
 _models: weakref.WeakKeyDictionary[Ground, tuple[mujoco.MjModel, PersonIndex]] = weakref.WeakKeyDictionary()
 _plane: list[tuple[mujoco.MjModel, PersonIndex]] = []
 _hard: weakref.WeakKeyDictionary[mujoco.MjModel, mujoco.MjModel] = weakref.WeakKeyDictionary()
+_gentle: weakref.WeakKeyDictionary[mujoco.MjModel, mujoco.MjModel] = weakref.WeakKeyDictionary()
 _lock = threading.Lock()
 
 
@@ -44,4 +46,17 @@ def harder(model: mujoco.MjModel) -> mujoco.MjModel:
         if found is None:
             found = _hard[model] = copy.copy(model)
             found.geom_solref[:, 0] = _SUDDEN
+        return found
+
+
+def gentler(model: mujoco.MjModel) -> mujoco.MjModel:
+    """As `harder`, but the ground has no more than the usual friction: with what steep ground is given, hands
+    and feet stick where they are, and nobody comes up from them to a stand."""
+    hard = harder(model)
+    with _lock:
+        found = _gentle.get(model)
+        if found is None:
+            found = _gentle[model] = copy.copy(hard)
+            ground = np.flatnonzero(found.geom_bodyid == 0)
+            found.geom_friction[ground, 0] = np.minimum(found.geom_friction[ground, 0], FRICTION)
         return found

@@ -12,8 +12,10 @@ from locomotion.person import CONTROL_DT, JOINT_NAMES
 from locomotion.scramble_layout import (
     ALL_DOWN,
     BEGUN_FROM,
+    BORNE,
     CENTRE,
     FACING,
+    GATHERING,
     HOMES,
     LOADS,
     MODE,
@@ -49,6 +51,7 @@ _CLOSE = np.array([_GATHERED.get(name, value) for name, value in HOMES.items()])
 _RISE_TIME = 1.4  # [s]
 _HANDED_OVER = 0.85  # share of that after which the walk takes over
 _BEHIND, _AT_REST = -0.10, 0.3  # [m] of the feet ahead of the body, [m/s]: it can begin to rise
+_GATHERS, _ROUND = 5.0, 9.0  # [s] that the feet try to come under the body, until they try again
 _OVER = 0.03  # [m] of the centre of mass ahead of the balls, below which the hands let go
 _HIPS, _LEAN = 0.80, 0.12  # [m] of the hips above the soles, [rad] at the end
 _SOLE_BACK = 0.06  # [m] from the ball back to where the weight is to be
@@ -59,9 +62,14 @@ _ELBOWS = np.array([JOINT_NAMES.index(f"{s}_elbow_flexion") for s in ("right", "
 
 
 @allocating_kernel
-def gather(memory, close):
-    """Where the limbs are at home from now on: ``close`` before rising, or apart for scrambling."""
+def gather(memory, to_rise):
+    """Where the limbs are at home from now on: close before rising, or apart for scrambling. Returns whether
+    close. Feet that do not come under the body where it is are given up after a while: it scrambles on a bit
+    before it tries again."""
+    memory[GATHERING] = (memory[GATHERING] + CONTROL_DT) % _ROUND if to_rise else 0.0
+    close = to_rise and memory[GATHERING] < _GATHERS
     memory[STANCE] = _CLOSE if close else _HOMES
+    return close
 
 
 @allocating_kernel
@@ -80,7 +88,7 @@ def ready_to_rise(memory):
 
 @allocating_kernel
 def begin_to_rise(memory, qpos):
-    memory[MODE], memory[MODE_CLOCK] = RISING, 0.0
+    memory[MODE], memory[MODE_CLOCK], memory[GATHERING] = RISING, 0.0, 0.0
     memory[BEGUN_FROM] = qpos[7:]
     turn, seen = memory[SEEN_TURN], memory[SEEN_LIMBS].reshape(4, 3)
     ch, sh = math.cos(memory[FACING]), math.sin(memory[FACING])
@@ -103,6 +111,10 @@ def rise_tick(memory, qpos, ctrl):
     over = ch * (com[0] - 0.5 * (seen[2, 0] + seen[3, 0])) + sh * (com[1] - 0.5 * (seen[2, 1] + seen[3, 1]))
     if memory[MODE_CLOCK] > 0.0 or over < _OVER:
         memory[MODE_CLOCK] += CONTROL_DT
+    else:
+        memory[GATHERING] += CONTROL_DT
+        if memory[GATHERING] >= _GATHERS:  # the weight does not come over the feet
+            memory[MODE] = BORNE
     shift = clamp(memory[MODE_CLOCK] / 0.3, 0.0, 1.0)
     up = clamp((memory[MODE_CLOCK] - 0.2) / _RISE_TIME, 0.0, 1.0)
     up = up * up * (3.0 - 2.0 * up)

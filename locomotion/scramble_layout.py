@@ -4,7 +4,7 @@ import numpy as np
 
 __all__ = [
     "AIR", "ALL_DOWN", "ANCHORS", "AWAY", "AXES", "BEGUN_FROM", "BIAS", "BORNE", "CENTRE", "CLOCK",
-    "DOWN", "FACING", "HOLDS", "HOMES", "LIE_AHEAD", "LIE_HERE", "LIFT", "LIMP", "LOADS", "MODE",
+    "DOWN", "FACING", "GATHERING", "HOLDS", "HOMES", "LIE_AHEAD", "LIE_HERE", "LIFT", "LIMP", "LOADS", "MODE",
     "MODE_CLOCK", "PAIR", "PHASE", "REACHING", "RISEN", "RISING", "ROLLING", "ROLL_SIDE", "SCRAMBLE_SIZE",
     "SEEN_BASE", "SEEN_COM", "SEEN_FORCES", "SEEN_LIMBS", "SEEN_TRUNK", "SEEN_TURN", "SEEN_VELOCITY",
     "SPOT", "STANCE", "SWINGING", "TICKS", "TRIES", "TUCKING", "TURNING", "new_scramble",
@@ -40,7 +40,9 @@ BEGUN_FROM = slice(384, 423)
 """Joint angles [rad] with which what it does began."""
 LIE_HERE, LIE_AHEAD = slice(423, 425), slice(425, 427)
 """Gradients of the ground (2,): around the body, and where it comes to."""
-SCRAMBLE_SIZE = 427
+GATHERING = 427
+"""[s] for which the feet have been stepping under the body for it to rise, in this round."""
+SCRAMBLE_SIZE = 428
 
 HOMES = {
     "hand_ahead": 0.34,  # [m] from the centre of mass to the hands

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from locomotion import path_table, path_tracking
+from locomotion.giving_way import SPACING
 from locomotion.path_table import PathTable, TrackingLimits
 from locomotion.path_tracking import back_along, new_track, shifted, track
 from locomotion.person import CONTROL_DT
@@ -13,7 +14,7 @@ from locomotion.where_to_run import SLOWS_WITHIN
 
 __all__ = ["Way"]
 
-_ROOM = 2.5, 5.0  # [m] that it goes back to let others by, the first and the second time
+_ROOM = 2.5, 5.0  # [m] that it goes back at least to let others by, the first and the second time
 _STRAIGHT, _AT_EDGE = 0.35, 0.3  # [rad] to which a run-up may bend; [m] before an edge
 _LEAST = 0.5  # [m] behind it from which it does
 
@@ -179,24 +180,26 @@ class Way:
         self.interrupted, self.back_to = self.path, to
         self._take(back, 0.0, tick)
 
-    def room(self) -> NDArray[np.float64] | None:
-        """(k, 3) [m] the way back to where it would let others by; None where there is none."""
-        backed = int(self.memory[path_tracking.BACKED])
-        if self.path is None or self.interrupted is not None or backed >= len(_ROOM) or self.arc < _LEAST:
+    def way_back(self, to: float) -> NDArray[np.float64] | None:
+        """(k, 3) [m] the points of its way, `SPACING` apart, from where it is back to arc length ``to`` [m];
+        None where there are hardly any, it goes back already, or has done so often enough."""
+        often = self.memory[path_tracking.BACKED] >= len(_ROOM)
+        if self.path is None or self.interrupted is not None or often or self.arc < to + _LEAST:
             return None
-        step = self.path.length / (len(self.path.table) - 1)
-        first, last = (round(arc / step) for arc in (self._room_at(backed), self.arc))
-        return self.path.table[first : last + 1, :3][::-1]
+        arcs = np.arange(self.arc, to, -SPACING)
+        known = np.linspace(0.0, self.path.length, len(self.path.table))
+        return np.stack([np.interp(arcs, known, self.path.table[:, k]) for k in range(3)], axis=1)
 
-    def make_room(self, walk: TrackingLimits, tick: int) -> None:
-        """Go back where there is `room`, and then on again."""
-        backed = int(self.memory[path_tracking.BACKED])
-        self.go_back(self._room_at(backed), walk, tick)
+    @property
+    def backs(self) -> float:
+        """[m] that it goes back at least, to let others by."""
+        return _ROOM[min(int(self.memory[path_tracking.BACKED]), len(_ROOM) - 1)]
+
+    def make_room(self, far: float, walk: TrackingLimits, tick: int) -> None:
+        """Go ``far`` [m] back, and then on again."""
+        backed = self.memory[path_tracking.BACKED]
+        self.go_back(max(self.arc - far, 0.0), walk, tick)
         self.memory[[path_tracking.BACKED, path_tracking.PACE]] = backed + 1.0, 1.0
-
-    def _room_at(self, backed: int) -> float:
-        """Arc length [m] at which it lets others by, having gone back so often."""
-        return max(self.arc - _ROOM[backed], 0.0)
 
     def turn_again(self, tick: int) -> None:
         """Having gone back, go on."""

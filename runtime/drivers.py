@@ -130,13 +130,23 @@ class Follower(Protocol):
         """[s] for which it has given way without headway; None for one that is not on its way."""
         ...
 
-    def room(self) -> np.ndarray | None:
-        """(k, 3) [m] the way back, from where it is, on which it would let others by; None where there is
-        none, or it has been there often enough."""
+    def way_back(self) -> np.ndarray | None:
+        """(k, 3) [m] the points, `giving_way.SPACING` apart, of the way on which it has come, back from its
+        rearmost point; None where there is none, or it has gone back often enough."""
         ...
 
-    def make_room(self) -> None:
-        """Go back there, and then on again."""
+    @property
+    def backs(self) -> float:
+        """[m] that it would go back at least, to let others by."""
+        ...
+
+    @property
+    def length(self) -> float:
+        """[m] from its rearmost point to its front."""
+        ...
+
+    def make_room(self, far: float) -> None:
+        """Go ``far`` [m] back, and then on again."""
         ...
 
     def give_up(self) -> None:

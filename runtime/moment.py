@@ -110,8 +110,8 @@ class Moment:
             follower, course = self.followers[index], self.course(index)
             if course is not None:
                 # its nose is its own concern: it is not to keep back whoever it has come behind
-                length = course.length - follower.reach
-                body = replace(course, length=length, reach=max(course.reach - follower.reach, 0.0))
+                length, reach = course.length - course.nose, max(course.reach - course.nose, 0.0)
+                body = replace(course, length=length, reach=reach, nose=0.0)
                 return foretold_on(body, course.points, course.pace, len(discs))
             planned = follower.foretold()
             if planned is not None:

@@ -174,7 +174,7 @@ class AnimalDriver:
 
     @property
     def hindrance(self) -> str:
-        return "others are in its way" if self.pace < 1.0 else "it makes no headway"
+        return "others are in its way" if self.animal.gives_way else "it makes no headway"
 
     @property
     def skills(self) -> Mapping[str, tuple[float, float]]:
@@ -241,11 +241,19 @@ class AnimalDriver:
     def waited(self) -> float | None:
         return self.animal.waited
 
-    def room(self) -> np.ndarray | None:
-        return self.animal.room()
+    def way_back(self) -> np.ndarray | None:
+        return self.animal.way_back()
 
-    def make_room(self) -> None:
-        self.animal.make_room()
+    @property
+    def backs(self) -> float:
+        return self.animal.backs
+
+    @property
+    def length(self) -> float:
+        return self.animal.body.spine.length
+
+    def make_room(self, far: float) -> None:
+        self.animal.make_room(far)
 
     def give_up(self) -> None:
         self.animal.give_up()

@@ -309,11 +309,19 @@ class HumanDriver:
     def waited(self) -> float | None:
         return self.human.way.waited if self.human.status in MOVING else None
 
-    def room(self) -> np.ndarray | None:
-        return self.human.way.room() if self.human.status == "walking" else None
+    def way_back(self) -> np.ndarray | None:
+        return self.human.way_back() if self.human.status == "walking" else None
 
-    def make_room(self) -> None:
-        self.human.way.make_room(self.human.on_feet.walk_limits, self.human.ticks)
+    @property
+    def backs(self) -> float:
+        return self.human.way.backs
+
+    @property
+    def length(self) -> float:
+        return 0.0
+
+    def make_room(self, far: float) -> None:
+        self.human.way.make_room(far, self.human.on_feet.walk_limits, self.human.ticks)
 
     def give_up(self, reason: str | None = None) -> None:
         if reason is None:

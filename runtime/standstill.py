@@ -10,6 +10,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from locomotion.gathering import ROOM
+from locomotion.giving_way import SPACING
+from navmesh import NodeGraph
 from runtime.moment import Moment
 
 __all__ = ["ANOTHER_WAY", "GIVEN_UP", "PATIENCE", "STANDSTILL", "Headway", "untangle"]
@@ -24,6 +26,7 @@ STANDSTILL = 8.0
 """[s] for which all who wait for each other have made no headway when one of them goes back."""
 GIVEN_UP = 30.0
 """[s] after which they are stuck."""
+_FURTHER = 1.0  # [m] more that one goes back where there is room, so that the others have theirs
 _MOVES = 0.2  # [m/s] of one that does not follow a path
 
 
@@ -50,16 +53,17 @@ class Headway:
         return now - max(self.since, self.tried) >= ANOTHER_WAY - 1e-9
 
 
-def untangle(moment: Moment, index: int) -> None:
-    """Let a follower that has waited for `STANDSTILL` do something about it: go back if it is the first that
-    can of those who wait for each other, and be stuck if nobody can. One that waits for somebody who gets on,
-    as in a queue, goes on waiting."""
+def untangle(moment: Moment, index: int, graph: NodeGraph) -> None:
+    """Let a follower that has waited for `STANDSTILL` do something about it: go back if it is the one of
+    those who wait for each other that has the least to go to where it lets the others by, and be stuck if
+    nobody has such a place. One that waits for somebody who gets on, as in a queue, goes on waiting."""
     knot, waited = _knot(moment, index)
     if waited < STANDSTILL:
         return
-    first = next((each for each in knot if _has_room(moment, each)), None)
+    ways = {each: far for each in knot if (far := _has_room(moment, each, knot, graph)) is not None}
+    first = min(ways, key=lambda each: (ways[each], each), default=None)
     if first == index:
-        moment.followers[index].make_room()
+        moment.followers[index].make_room(ways[index])
         moment.forget(index)
     elif first is None and waited >= GIVEN_UP:
         moment.followers[index].give_up()
@@ -88,12 +92,41 @@ def _knot(moment: Moment, index: int) -> tuple[list[int], float]:
     return sorted(knot), float(least)
 
 
-def _has_room(moment: Moment, index: int) -> bool:
-    """Whether a follower can go back, and nobody is in its way there."""
-    room = moment.followers[index].room()
-    if room is None:
-        return False
-    others, radius = moment.others(index), float(moment.discs[index][0, 5])
+def _has_room(moment: Moment, index: int, knot: list[int], graph: NodeGraph) -> float | None:
+    """[m] that a follower has to go back to let the others of a ``knot`` by; None where it does not come to
+    such a place, or somebody is in its way there."""
+    follower = moment.followers[index]
+    back = follower.way_back()
+    if back is None:
+        return None
+    radius = float(moment.discs[index][0, 5])
+    lets_by = _lets_by(moment, index, back, knot, graph)
+    least, body = round(follower.backs / SPACING), round(follower.length / SPACING)
+    # all of a long body has to be out of the way
+    whole = np.array([lets_by[max(k - body, 0) : k + 1].all() for k in range(len(back))])
+    places = np.flatnonzero(whole)
+    if not len(places):
+        return None
+    enough = places[places >= min(least, places[-1])]
+    further = enough[enough <= enough[0] + round(_FURTHER / SPACING)][-1]
+    room = back[: further + 1]
+    others = moment.others(index)
     away = np.linalg.norm(room[:, None, :2] - others[None, :, :2], axis=2)
     near = away < others[:, 5] + radius + ROOM
-    return not bool((near & (away < away[:1])).any())
+    return None if bool((near & (away < away[:1])).any()) else float(SPACING * further)
+
+
+def _lets_by(moment: Moment, index: int, back: np.ndarray, knot: list[int], graph: NodeGraph) -> np.ndarray:
+    """(k,) bool: at which points of its way ``back`` (k, 3) a follower would let the others of a ``knot`` by:
+    their ways do not lead there, or there is room for them beside it."""
+    radius = float(moment.discs[index][0, 5])
+    others = [each for each in knot if each != index]
+    widest = max((float(moment.discs[each][0, 5]) for each in others), default=radius)
+    beside = np.asarray(graph.clearance_at(back)) >= radius + 2.0 * (widest + ROOM)
+    off = np.ones(len(back), dtype=bool)
+    for each in others:
+        course = moment.course(each)
+        points = moment.discs[each][:, :2] if course is None else course.points[:, :2]
+        away = np.linalg.norm(back[:, None, :2] - points[None], axis=2).min(axis=1)
+        off &= away > radius + float(moment.discs[each][0, 5]) + ROOM
+    return beside | off

@@ -46,7 +46,7 @@ class Traffic:
         self._let_choose(moment, turns)
         for index in turns.tolist():
             if (moment.followers[index].waited or 0.0) >= STANDSTILL:
-                untangle(moment, index)
+                untangle(moment, index, self._level.graph)
 
     def look_out(self, follower: Follower, former: Course | None) -> None:
         """Let one choose that has just been told where to go; ``former`` is the course that it was on."""

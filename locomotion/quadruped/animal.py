@@ -19,9 +19,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from locomotion.errors import LocomotionError
 from locomotion.events import Arrived, BackedOut, Event, GotStuck, LostGround, MissedGoal, SetOff
-from locomotion.giving_way import COUNT, Course, first_meeting
+from locomotion.giving_way import COUNT, SPACING, Course, first_meeting
 from locomotion.quadruped import layout as at
-from locomotion.quadruped.course import course_on, shifted_points
+from locomotion.quadruped.course import course_back, course_on, shifted_points
 from locomotion.quadruped.errand import AnimalMemory, Errand, Phase, Status
 from locomotion.quadruped.following import wrap
 from locomotion.quadruped.footprint import RESOLUTION, check_script
@@ -33,7 +33,15 @@ from locomotion.quadruped.motion import DT, stop_length
 from locomotion.quadruped.script import Place, Script, into_flex, out_of_flex
 from locomotion.quadruped.spine import bend_for
 from locomotion.quadruped.trail import NoTrail, Trail, lay_trail
-from locomotion.quadruped.turning import WayBack, can_set_out, has_way, little_way_back, turn_script, way_back
+from locomotion.quadruped.turning import (
+    WayBack,
+    can_set_out,
+    has_way,
+    little_way_back,
+    step_away,
+    turn_script,
+    way_back,
+)
 from locomotion.quadruped.ways import Planner, Way, find_way, first_heading, last_free_arc, turn_onto
 
 __all__ = ["SHORT_OF_GOAL", "Animal", "AnimalMemory", "Status"]
@@ -46,10 +54,10 @@ _EXACT = 1e-3  # [rad] of facing that is left as it is
 _MOST_BACKING = 4  # times that it backs out on its way to one goal
 _MOST_MANOEUVRES = 6  # times that it manoeuvres on its way to one goal
 _STANDING = 0.05  # [m/s]
-_ROOM = 1.5  # [body lengths] that it goes back to let others by, each time more
+_ROOM = 1.5  # [body lengths] that it goes back at least to let others by, each time more
 _MOST_ROOM = 2  # times that it does
-_AGAIN = 20  # ticks until it looks again whether others let it turn around
-_PATIENCE = 20  # times that it does; then it turns all the same
+_AGAIN, _SELDOM = 20, 100  # ticks until it looks again whether others let it turn around; afterwards
+_OFTEN = 20  # times that it looks so soon again
 
 
 class Animal:
@@ -181,9 +189,11 @@ class Animal:
     def course(self) -> Course | None:
         """What it is about to do on its trail; None for one that does not follow one, or comes to a stop."""
         st = self.herd.state[self.index]
-        if self._phase != "following" or self.trail is None or st[at.STOPPING] > 0.0:
+        if st[at.STOPPING] > 0.0:
             return None
-        return course_on(self.trail, st, self.body)
+        if self._phase == "backing":
+            return course_back(self.herd.rows(self.index), st, self.body)
+        return course_on(self.trail, st, self.body) if self._phase == "following" and self.trail else None
 
     def foretold(self) -> NDArray[np.float64]:
         """(COUNT, discs, 2) [m] see `Herd.foretold`."""
@@ -207,25 +217,36 @@ class Animal:
 
     def _stands(self) -> bool:
         st = self.herd.state[self.index]
-        return self._phase == "following" and st[at.PACE] < 1.0 and st[at.SPEED] < _STANDING
+        gives_way = self._phase in ("following", "backing") and st[at.PACE] < 1.0
+        return self._phase == "waiting" or (gives_way and st[at.SPEED] < _STANDING)
 
     @property
     def waited(self) -> float | None:
-        """[s] for which it has stood on its trail, giving way; None for one that is not on its way."""
+        """[s] for which it has stood, giving way; None for one that is not on its way."""
         return self._stood * DT if self.status == "running" else None
 
-    def room(self) -> NDArray[np.float64] | None:
-        """(k, 3) [m] its crumbs on the way back on which it would let others by, from where it is; None where
-        there are none, or it has been back often enough."""
-        back = None if self._errand.backed >= _MOST_ROOM else self._little_way_back()
+    @property
+    def gives_way(self) -> bool:
+        """Whether it goes slower than it would, or waits with a turn, for others."""
+        return self._phase == "waiting" or float(self.herd.state[self.index, at.PACE]) < 1.0
+
+    def way_back(self) -> NDArray[np.float64] | None:
+        """(k, 3) [m] the points of its crumbs, `giving_way.SPACING` apart, back from where it is; None where
+        there are hardly any, or it has been back often enough."""
+        back = None if self._errand.backed >= _MOST_ROOM else self._little_way_back(math.inf)
         if back is None:
             return None
-        arcs = np.arange(back.start, back.end, -RESOLUTION)
+        arcs = np.arange(back.start, back.end, -SPACING)
         return np.array([(*back.trail.point(arc), self.position[2]) for arc in arcs])
 
-    def make_room(self) -> None:
-        """Go back there, and then set out anew."""
-        back = self._little_way_back()
+    @property
+    def backs(self) -> float:
+        """[m] that it goes back at least, to let others by."""
+        return _ROOM * (1 + self._errand.backed) * self.body.length
+
+    def make_room(self, far: float) -> None:
+        """Go ``far`` [m] back along its crumbs, and then set out anew."""
+        back = self._little_way_back(far)
         if back is not None:
             self._back(back)
 
@@ -236,9 +257,8 @@ class Animal:
         reason = "it and those around it wait for each other"
         self.events.append(GotStuck(self.time, self._point(), among_others=True, reason=reason))
 
-    def _little_way_back(self) -> WayBack | None:
+    def _little_way_back(self, far: float) -> WayBack | None:
         place, crumbs = self.herd.place(self.index), self.herd.trail_of_crumbs(self.index)
-        far = _ROOM * (1 + self._errand.backed) * self.body.length
         return little_way_back(self.body, self.herd.ground, place, crumbs, far)
 
     def end_in(self, ahead: float) -> None:
@@ -269,7 +289,7 @@ class Animal:
             return
         if self._phase == "resting" or not self.herd.resting(self.index):
             return
-        if self._phase == "waiting" and self._ticks % _AGAIN:
+        if self._phase == "waiting" and self._ticks % (_AGAIN if self._errand.waited < _OFTEN else _SELDOM):
             return
         phase, self._phase = self._phase, "resting"
         done = phase in ("following", "straightening", "moving")
@@ -362,7 +382,10 @@ class Animal:
 
     def _look_around(self) -> Callable[[Script], bool]:
         """What tells of a script that begins now whether nobody is in its way."""
-        there, radii = self._around()
+        return self._clear_of(*self._around())
+
+    def _clear_of(self, there: NDArray[np.float64], radii: NDArray[np.float64]) -> Callable[[Script], bool]:
+        """The same, with the others ``there`` (COUNT, k, 2) [m], of ``radii`` (k,) [m]."""
 
         def clear(script: Script) -> bool:
             own = foretell_script(script, self.body)
@@ -384,9 +407,8 @@ class Animal:
         script = turn_script(self.body, ground, place, yaw, self._look_around(), leads_on)
         if script is None:
             script = turn_script(self.body, ground, place, yaw, leads_on=leads_on)
-            if script is not None and self._errand.waited < _PATIENCE:
-                self._errand = replace(self._errand, waited=self._errand.waited + 1)
-                self._phase = "waiting"
+            if script is not None:
+                self._wait(place, yaw, leads_on)
                 return
         self._errand = replace(self._errand, waited=0)
         if script is not None:
@@ -394,6 +416,25 @@ class Animal:
             self._play(script, "turning")
         elif self._errand.backed >= _MOST_BACKING or not self._back_out():
             self._manoeuvre(trail, place)
+
+    def _wait(self, place: Place, yaw: float, leads_on: Callable[[Place], bool]) -> None:
+        """Others are in the way of a turn to ``yaw``: wait for them, and after a while step away from them to
+        turn there."""
+        self._errand = replace(self._errand, waited=self._errand.waited + 1)
+        self._phase = "waiting"
+        if self._errand.waited < _OFTEN:
+            return
+        there, radii = self._around()
+        at_last = np.repeat(there[-1:], COUNT, axis=0)
+        ground = self.herd.ground
+
+        def turns(stands: Place) -> bool:
+            clear = self._clear_of(at_last, radii)
+            return turn_script(self.body, ground, stands, yaw, clear, leads_on) is not None
+
+        script = step_away(self.body, ground, place, self._clear_of(there, radii), turns)
+        if script is not None:
+            self._play(script, "turning")
 
     def _manoeuvre(self, trail: Trail, place: Place) -> None:
         """Get onto the trail by several short moves. Raises `NoTrail` where there is no room for any."""
@@ -427,7 +468,7 @@ class Animal:
     def _back(self, way: WayBack) -> None:
         x, y = self.position[:2].tolist()
         self._errand = replace(self._errand, backed=self._errand.backed + 1, backed_from=(x, y))
-        self.herd.state[self.index, at.PACE] = 1.0  # it gives way to nobody meanwhile
+        self.herd.state[self.index, at.PACE] = 1.0
         speed = self.body.movement.back_speed
         self.herd.follow(self.index, way.trail, speed, start=way.start, end=way.end, backwards=True)
         self._phase = "backing"

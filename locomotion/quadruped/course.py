@@ -12,7 +12,7 @@ from locomotion.quadruped.foretold import disc_radius
 from locomotion.quadruped.motion import SLACKEN, stop_length
 from locomotion.quadruped.trail import Trail
 
-__all__ = ["course_on", "head_length", "shifted_points"]
+__all__ = ["course_back", "course_on", "head_length", "shifted_points"]
 
 _BEND = 1.0  # radius of a curve that it takes to go out of somebody's way, in body lengths
 _BEGINS = 0.1  # [m] before the front feet
@@ -44,6 +44,34 @@ def course_on(trail: Trail, state: NDArray[np.float64], body: Body) -> Course:
         begins=body.spine.length + _BEGINS,
         aside=True,
         whole=trail.length <= far,
+        stops=float(stop_length(state[at.SPEED], body.movement.braking)),
+        nose=head_length(body) - body.spine.length,
+    )
+
+
+def course_back(rows: NDArray[np.float64], state: NDArray[np.float64], body: Body) -> Course:
+    """The course of a body that goes back along a trail of ``rows`` (n, ROW), rear first: it begins at its
+    front feet."""
+    arc, end = float(state[at.ARC]), float(state[at.ARC_END])
+    along = np.arange(arc + body.spine.length, min(end, arc - SPACING) - 1e-9, -SPACING)
+    known = state[at.ROW_STEP] * np.arange(len(rows))
+    points = np.stack([np.interp(along, known, rows[:, c]) for c in (at.PX, at.PY, at.PZ)], axis=1)
+    return Course(
+        points=points,
+        speeds=np.full(len(points), float(state[at.WISH])),
+        speed=float(state[at.SPEED]),
+        pace=float(state[at.PACE]),
+        length=body.spine.length,
+        reach=0.0,
+        radius=disc_radius(body),
+        acceleration=body.movement.acceleration,
+        braking=body.movement.braking,
+        eagerness=SLACKEN,
+        slowest=0.0,
+        sharpest=1.0 / (_BEND * body.length),
+        begins=0.0,
+        aside=False,
+        whole=False,
         stops=float(stop_length(state[at.SPEED], body.movement.braking)),
     )
 

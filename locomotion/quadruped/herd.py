@@ -350,6 +350,10 @@ class Herd:
         foretell_motion(st, self._params[int(st[at.KIND])], self._pool.rows, feet)
         return between_feet(feet[:, 0], feet[:, 1])
 
+    def rows(self, index: int) -> NDArray[np.float64]:
+        """(n, ROW) the rows of the trail or script that it plays."""
+        return self._pool.table(index)
+
     def toes(self, index: int) -> NDArray[np.float64]:
         """(4, 3) [m] in the order of `LEGS`."""
         return self.feet[index, :, : at.FZ + 1].copy()

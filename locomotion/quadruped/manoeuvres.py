@@ -22,11 +22,11 @@ from locomotion.quadruped.body import Body
 from locomotion.quadruped.footfalls import find_ground
 from locomotion.quadruped.footprint import RESOLUTION, check_script, key_balls, script_places, touches
 from locomotion.quadruped.local_motion import REACH, local_motion
-from locomotion.quadruped.script import Place, Script
+from locomotion.quadruped.script import Place, Script, joined
 from locomotion.quadruped.trail import Trail, kernel_ground
 from surefoot.kernels import kernel
 
-__all__ = ["find_manoeuvre", "joined"]
+__all__ = ["find_manoeuvre"]
 
 _CELLS = 8  # places in a body's length
 _HEADINGS = 16  # in a full turn
@@ -36,7 +36,6 @@ _MOST_ASKED = 40  # of them, whether the way leads on from there
 _PAUSE = 0.3  # [s] by which a move less is better
 _AHEAD = 2.5  # [body lengths] of the path within which it is joined
 _ALIGNED = 0.8  # share of the spine's reach within which the path's direction is met
-_SAMPLE = 0.02  # [s] between the rows of what is found
 
 
 class _Moves(NamedTuple):
@@ -160,18 +159,6 @@ def _script_of(body: Body, place: Place, moves: _Moves, found: list[_Reached], i
         scripts.append(script)
         here = script.end()
     return joined(scripts)
-
-
-def joined(scripts: list[Script]) -> Script:
-    """One script that plays ``scripts`` one after the other."""
-    parts, seconds = [], 0.0
-    for k, script in enumerate(scripts):
-        steps = max(round(script.seconds / _SAMPLE), 1)
-        where = np.linspace(0.0, len(script.rows) - 1.0, steps + 1)[min(k, 1) :]
-        known = np.arange(len(script.rows))
-        parts.append(np.stack([np.interp(where, known, column) for column in script.rows.T], axis=1))
-        seconds += steps * _SAMPLE
-    return Script(np.concatenate(parts), seconds)
 
 
 class _Checked:

@@ -16,12 +16,13 @@ from locomotion.quadruped import layout as at
 from locomotion.quadruped.body import Body
 from locomotion.quadruped.following import front_of, wrap
 
-__all__ = ["Place", "Script", "into_flex", "make_script", "out_of_flex", "smooth_shares"]
+__all__ = ["Place", "Script", "into_flex", "joined", "make_script", "out_of_flex", "smooth_shares"]
 
 ROWS = 65
 _BEND_SPEED = math.radians(160.0)
 """[rad/s] of the chest when the spine bends on the spot."""
 _SHORTEST = 0.4  # [s]
+_SAMPLE = 0.02  # [s] between the rows of scripts that are joined
 
 
 @dataclass(frozen=True)
@@ -102,3 +103,15 @@ def out_of_flex(body: Body, place: Place, facing: float) -> Script:
     )
     seconds = 1.9 * max(abs(turn), abs(place.bend) * body.spine.bones) / _BEND_SPEED
     return make_script(front_x - ahead[:, 0], front_y - ahead[:, 1], place.z, yaw, bend, seconds)
+
+
+def joined(scripts: list[Script]) -> Script:
+    """One script that plays ``scripts`` one after the other."""
+    parts, seconds = [], 0.0
+    for k, script in enumerate(scripts):
+        steps = max(round(script.seconds / _SAMPLE), 1)
+        where = np.linspace(0.0, len(script.rows) - 1.0, steps + 1)[min(k, 1) :]
+        known = np.arange(len(script.rows))
+        parts.append(np.stack([np.interp(where, known, column) for column in script.rows.T], axis=1))
+        seconds += steps * _SAMPLE
+    return Script(np.concatenate(parts), seconds)

@@ -15,15 +15,18 @@ from locomotion.quadruped.body import Body
 from locomotion.quadruped.following import wrap
 from locomotion.quadruped.footprint import RESOLUTION, check_script, trail_places
 from locomotion.quadruped.local_motion import REACH, local_motion
-from locomotion.quadruped.script import Place, Script
+from locomotion.quadruped.script import Place, Script, joined
 from locomotion.quadruped.trail import Trail, lay_trail
 from locomotion.quadruped.ways import Planner, find_way, first_heading, turn_onto
 
-__all__ = ["WayBack", "can_set_out", "has_way", "little_way_back", "turn_script", "way_back"]
+__all__ = [
+    "WayBack", "can_set_out", "has_way", "little_way_back", "step_away", "turn_script", "way_back",
+]  # fmt: skip
 
 _LOOK_BACK = 40  # places with room that are tried
 _PIVOTS = (0.5, 0.0, 1.0, 0.25, 0.75)  # shares of the spine from the rear on
 _STEP = 0.1  # [m] between places
+_AWAY = (0.5, 1.0, 1.5, 2.0)  # [body lengths] that it steps away from others to turn
 
 
 class WayBack(NamedTuple):
@@ -62,6 +65,24 @@ def turn_script(
     if abs(long) > math.pi:
         for script in filter(free, _turns(body, place, 0.5 * long)):
             if any(map(whole, _turns(body, script.end(), 0.5 * long))):
+                return script
+    return None
+
+
+def step_away(
+    body: Body, ground: Ground, place: Place, clear: Callable[[Script], bool], turns: Callable[[Place], bool]
+) -> Script | None:
+    """Steps straight ahead or back, the fewest that do, to where it ``turns``: touching nothing and ``clear``
+    of others; None where there are none."""
+    for far in _AWAY:
+        for way in (far, -far):
+            count = math.ceil(far * body.length / REACH)
+            scripts, here = [], place
+            for _ in range(count):
+                scripts.append(local_motion(body).script(here, (way * body.length / count, 0.0, 0.0)))
+                here = scripts[-1].end()
+            script = joined(scripts)
+            if clear(script) and check_script(script, body, ground, RESOLUTION).free and turns(here):
                 return script
     return None
 

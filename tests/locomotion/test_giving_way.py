@@ -3,7 +3,17 @@
 import numpy as np
 import pytest
 
-from locomotion.giving_way import AT_ONCE, COUNT, STEP, Course, first_meeting, foretell, meetings, options
+from locomotion.giving_way import (
+    AT_ONCE,
+    COUNT,
+    HARD,
+    STEP,
+    Course,
+    first_meeting,
+    foretell,
+    meetings,
+    options,
+)
 
 ALONG = np.column_stack([0.1 * np.arange(200), np.zeros(200), np.zeros(200)])
 
@@ -79,14 +89,16 @@ def test_the_first_meeting_is_that_of_every_pair():
         comes = (np.vstack([np.full((1, 3, 4), -1.0), stayed]) > away) & (away[0] >= 0.2 + radii)
         near, touches = comes & (away < 0.25 + radii), comes & (away < 0.2 + radii)
         steps = [np.append(np.flatnonzero(each.any(axis=(1, 2))), COUNT)[0] for each in (near, touches)]
-        deep = np.where(touches, 1.0 - away / (0.2 + radii), 0.0)
+        moved = np.linalg.norm(np.diff(own, axis=0, prepend=own[:1]), axis=2)
+        hard = np.minimum(moved / (HARD * STEP), 1.0)
+        deep = np.where(touches, hard[:, :, None] * (1.0 - away / (0.2 + radii)), 0.0)
         depth = deep[:, :-1].max()  # of all but the head
         assert first_meeting(own, 0.2, others, radii, 0.05) == (*steps, pytest.approx(depth))
 
 
 def test_who_is_run_into_does_not_meet_anybody():
     stands, comes = np.zeros((COUNT, 1, 2)), np.zeros((COUNT, 1, 2))
-    comes[:, 0, 0] = np.linspace(2.0, 0.0, COUNT)
+    comes[:, 0, 0] = np.linspace(3.0, 0.0, COUNT)
     radius = np.array([0.3])
     assert first_meeting(stands, 0.3, comes, radius, 0.1) == (COUNT, COUNT, 0.0)
     near, touches, depth = first_meeting(comes, 0.3, stands, radius, 0.1)

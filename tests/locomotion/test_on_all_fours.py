@@ -59,6 +59,19 @@ def test_gets_up_again_however_it_was_pushed_over():
     assert max(down) < 40.0 and np.mean(np.array(down) <= 15.0) >= 0.75
 
 
+def test_gets_up_where_a_level_with_steep_ground_is_level():
+    """Hands and feet stick to what holds a body at 38 degrees; nobody came up from them."""
+    corners = [[-40.0, -40.0, 0.0], [40.0, -40.0, 0.0], [40.0, 40.0, 0.0], [-40.0, 40.0, 0.0]]
+    ground = Ground.from_arrays(corners, [[0, 1, 2], [0, 2, 3]], max_slope=math.radians(38.0))
+    assert ground.steep
+    human = Human(ground, clearing=(), gets_up=True)
+    for direction in (0.0, 2.0, 4.0):
+        push_over(human, direction, 3.0)
+        go_on(human, 5.0, Fell)
+        go_on(human, 40.0, GotUp)
+        assert any(isinstance(event, GotUp) for event in human.events)
+
+
 def test_hands_and_forearms_do_not_sink_into_the_ground_in_a_fall():
     human = Human(None, clearing=(), gets_up=True)
     names = [f"{side}_{part}" for side in ("right", "left") for part in ("hand", "forearm")]

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from benchmarks.giving_way import floor
+from benchmarks.narrow_meetings import meet
 from runtime import Stuck, World
 from runtime.standstill import GIVEN_UP, untangle
 
@@ -16,15 +17,12 @@ def until_at_rest(world, seconds):
     return [agent.status for agent in world.agents.values()]
 
 
-_PASSING = "dogs that have backed out of a corridor twice can walk through each other"
-
-
 @pytest.mark.parametrize(
     ("body", "width", "speed", "starts"),
     [
         ("human", 1.1, 1.4, (8.0, 22.0)),
         ("dog", 0.6, 1.6, (9.0, 20.0)),
-        pytest.param("dog", 0.6, 1.4, (7.0, 22.0), marks=pytest.mark.xfail(strict=True, reason=_PASSING)),
+        ("dog", 0.6, 1.4, (7.0, 22.0)),
     ],
 )
 def test_two_who_cannot_pass_in_a_corridor_say_so(body, width, speed, starts):
@@ -47,6 +45,12 @@ def test_one_of_two_in_a_corridor_goes_back_to_let_the_other_by(body, width, sta
     for k, (start, facing) in enumerate(zip(starts, (0.0, np.pi), strict=True)):
         world.spawn(body, (start, 4.0, 0.0), facing).go_to(ends[1 - k], speed=1.4)
     assert until_at_rest(world, 150.0) == ["arrived", "arrived"]
+
+
+@pytest.mark.parametrize(("kinds", "seed"), [(("dog", "human"), 101), (("cat", "horse"), 7)])
+def test_nobody_walks_through_another_in_a_passage(kinds, seed):
+    met = meet(kinds, seed)
+    assert met["overlap"] == 0.0 and "moving" not in met["ended"]
 
 
 def test_three_horses_in_a_small_yard_do_not_stand_for_ever_in_silence():
@@ -79,7 +83,7 @@ class Standing:
     def __init__(self, waited):
         self.waited, self.status = waited, "walking"
 
-    def room(self):
+    def way_back(self):
         return None
 
     def give_up(self):
@@ -102,5 +106,5 @@ def moment_of(followers):
 def test_who_waits_in_a_queue_is_not_stuck_while_the_first_gets_on(first, status):
     """The first of three: stands as long, gets on, or has arrived."""
     queue = [Standing(first), Standing(GIVEN_UP + 5.0), Standing(GIVEN_UP + 5.0)]
-    untangle(moment_of(queue), 2)
+    untangle(moment_of(queue), 2, floor((0.0, 0.0, 4.0, 4.0)))
     assert queue[2].status == status

@@ -81,7 +81,7 @@ def find_cells(terrain: Terrain, rules: WalkRules, grid: Grid, window: Window | 
     as `reach_of` and three more. Raises `NavmeshError` when there is nothing to walk on at all."""
     h, (nx, ny) = grid.resolution, grid.shape
     table = raster.prepare_triangles(
-        terrain.vertices, terrain.faces, grid.origin, math.cos(rules.max_slope) - 1e-9
+        terrain.vertices, terrain.faces, terrain.solid, grid.origin, math.cos(rules.max_slope) - 1e-9
     )
     start, triangle = raster.columns_of_triangles(table, h, nx, ny, window or (0, 0, nx, ny))
     column_start, cell_column, height, gradient = floors.find_floors(
@@ -90,8 +90,9 @@ def find_cells(terrain: Terrain, rules: WalkRules, grid: Grid, window: Window | 
     if len(cell_column) == 0 and window is None:
         raise NavmeshError(
             f"{terrain.name}: nothing to walk on: no face is within {math.degrees(rules.max_slope):g}° "
-            f"of level, faces up, and has {rules.headroom:g} m free above it; check the up axis, the unit "
-            "scale and the order of the corners of the faces (counter-clockwise seen from above)"
+            f"of level, faces up, has {rules.headroom:g} m free above it and is not inside of solids (closed "
+            "parts); check the up axis, the unit scale and the order of the corners of the faces "
+            "(counter-clockwise seen from outside, for floor from above)"
         )
     link = floors.neighbours_within_step(column_start, cell_column, height, gradient, h, ny, rules.max_step)
     base = walls.find_walls(

@@ -8,6 +8,7 @@ from numbers import Real
 import numpy as np
 
 from navmesh.errors import NavmeshError
+from navmesh.solids import closed_parts
 from navmesh.terrain import Chunk, Terrain
 
 __all__ = ["change_chunks", "chunks_of", "join_chunks", "split_terrain"]
@@ -87,15 +88,17 @@ def change_chunks(
     names = [chunk.name for chunk in terrain.chunks]
     corner = np.concatenate(([0], np.cumsum([chunk.vertices for chunk in terrain.chunks])))
     face = np.concatenate(([0], np.cumsum([chunk.faces for chunk in terrain.chunks])))
-    vertices, faces, chunks, changed = [], [], [], []
-    count, after = 0, 0  # vertices so far; the first old chunk that is still to come
+    vertices, faces, solid, chunks, changed = [], [], [], [], []
+    count, triangles, after = 0, 0, 0  # vertices and faces so far; the first old chunk that is still to come
 
     def keep(until: int) -> None:
-        nonlocal count, after
+        nonlocal count, triangles, after
         vertices.append(terrain.vertices[corner[after] : corner[until]])
         faces.append(terrain.faces[face[after] : face[until]] + np.int32(count - corner[after]))
+        was = terrain.solid[face[after] : face[until]]
+        solid.append(np.where(was < 0, -1, was + np.int32(triangles - face[after])))
         chunks.extend(terrain.chunks[after:until])
-        count, after = count + len(vertices[-1]), until
+        count, triangles, after = count + len(vertices[-1]), triangles + len(was), until
 
     for name in sorted(changes):
         at, new = bisect.bisect_left(names, name), changes[name]
@@ -116,7 +119,9 @@ def change_chunks(
             vertices.append(new.vertices)
             faces.append(new.faces + np.int32(count))
             chunks.append(Chunk(name, len(new.vertices), len(new.faces)))
-            count += len(new.vertices)
+            own = closed_parts(new.vertices, new.faces, np.zeros(1, np.int64))
+            solid.append(np.where(own < 0, -1, own + np.int32(triangles)))
+            count, triangles = count + len(new.vertices), triangles + len(new.faces)
             bounds.append(_bounds(new.vertices))
         changed.append(np.stack([np.min(bounds, axis=0)[0], np.max(bounds, axis=0)[1]]))
     keep(len(names))
@@ -124,7 +129,9 @@ def change_chunks(
         raise NavmeshError(f"{terrain.name}: the change removes all chunks; a level needs at least one")
     if not changed:
         return terrain, []
-    return Terrain(np.concatenate(vertices), np.concatenate(faces), terrain.name, tuple(chunks)), changed
+    after_all = Terrain(np.concatenate(vertices), np.concatenate(faces), terrain.name, tuple(chunks))
+    after_all.__dict__["solid"] = np.concatenate(solid)  # what stays is not worked out anew
+    return after_all, changed
 
 
 def _bounds(vertices: np.ndarray) -> np.ndarray:

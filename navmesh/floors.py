@@ -7,6 +7,7 @@ import numpy as np
 from navmesh.ledges import GAP, comes_first, floor_at
 from navmesh.raster import FLOOR, SAME_SURFACE, TOUCH, UPRIGHT, is_over
 from navmesh.risers import faces_up, on_riser
+from navmesh.solids import inside_solid
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["find_floors", "neighbours_within_step"]
@@ -46,12 +47,12 @@ def _nearest_on(table, f, x, y):
 @kernel
 def _close_gaps(
     table, start, triangle, resolution, ny, c, x, y, hit, hits, step, headroom,
-    cell_column, height, gradient, first, cells, tried,
+    cell_column, height, gradient, first, cells, tried, crossing,
 ):  # fmt: skip
     """Add a cell to column ``c`` for each floor whose gap, narrower than `GAP`, holds the centre (x, y).
 
     ``hit`` (hits, 4) are the mesh parts over the centre; the column's cells begin at ``first``; ``tried`` has
-    room for `_LEVELS` heights. Returns the new number of cells.
+    room for `_LEVELS` heights, ``crossing`` for what `inside_solid` wants. Returns the new number of cells.
     """
     for turn in range(_LEVELS):
         best, chosen, at_x, at_y, z = GAP, -1, x, y, 0.0
@@ -78,6 +79,7 @@ def _close_gaps(
         free = True
         for j in range(hits):
             free &= not z + SAME_SURFACE < hit[j, 0] < z + headroom
+        free = free and not inside_solid(table, start, triangle, c, x, y, z, crossing)
         beyond = GAP / best
         if not free or (
             floor_at(
@@ -119,6 +121,7 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
     hit = np.empty((most, 4), np.float64)
     face = np.empty(most, np.int32)
     tried = np.empty(_LEVELS)
+    crossing = np.empty((most, 4))
     cells = 0
     for c in range(columns):
         column_start[c] = cells
@@ -130,9 +133,12 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
         hits = 0
         walkable = False
         lowest, highest = np.inf, -np.inf  # the floors that the column touches, at its centre
+        lid = -np.inf  # no face of a closed part is higher here
         for k in range(start[c], start[c + 1]):
             f = triangle[k]
             if table[f, 14] == UPRIGHT:
+                if table[f, 15] >= 0.0:
+                    lid = max(lid, table[f, 13])
                 continue
             level = table[f, 9] * x + table[f, 10] * y + table[f, 11]
             if table[f, 14] == FLOOR:
@@ -146,6 +152,8 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
             if table[f, 14] != FLOOR and not faces_up(table, f):
                 hit[hits, 3] = UPRIGHT  # nobody stands on it either
             walkable |= hit[hits, 3] != UPRIGHT
+            if table[f, 15] >= 0.0:
+                lid = max(lid, level)
             face[hits] = f
             hits += 1
         first = cells
@@ -168,7 +176,9 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
                     if hit[j, 3] > hit[i, 3] or hit[j, 0] > z or later:
                         free = False
                         break
-            if not free:
+            if not free or (
+                z + SAME_SURFACE < lid and inside_solid(table, start, triangle, c, x, y, z, crossing)
+            ):
                 continue
             cut = 1.0
             if hit[i, 3] != FLOOR:
@@ -194,7 +204,7 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
         if not known:  # there may be floor that no cell of the column stands for
             cells = _close_gaps(
                 table, start, triangle, resolution, ny, c, x, y, hit, hits, step, headroom,
-                cell_column, height, gradient, first, cells, tried,
+                cell_column, height, gradient, first, cells, tried, crossing,
             )  # fmt: skip
     column_start[columns] = cells
     return column_start, cell_column[:cells].copy(), height[:cells].copy(), gradient[:cells].copy()

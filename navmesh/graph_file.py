@@ -203,7 +203,7 @@ def _apart(
 
 GRAPH_FILE = Schema(
     kind="surefoot navigation graph",
-    version=5,
+    version=6,
     header=_GraphHeader,
     arrays={prefix + name: array for prefix, part in _PARTS.items() for name, array in part.items()},
     remedy="bake it again",

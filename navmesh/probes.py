@@ -22,7 +22,8 @@ class ProbeGrid:
 
     def __init__(self, vertices: np.ndarray, faces: np.ndarray, origin: np.ndarray, max_slope: float) -> None:
         """``vertices`` (v, 3) float64 [m], ``faces`` (f, 3) int32, ``origin`` (3,) below and left of all."""
-        self.triangles = prepare_triangles(vertices, faces, origin, math.cos(max_slope))
+        open_parts = np.full(len(faces), -1, np.int32)  # what is inside of solids is no question here
+        self.triangles = prepare_triangles(vertices, faces, open_parts, origin, math.cos(max_slope))
         high = (vertices.max(axis=0) - origin)[:2] if len(vertices) else np.ones(2)
         self.size = max(0.5, float(high.max()) / 1000.0)
         """[m], side of a square."""

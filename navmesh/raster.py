@@ -44,16 +44,16 @@ def is_over(table, f, x, y):
 
 
 @allocating_kernel
-def prepare_triangles(vertices, faces, origin, steepest):
+def prepare_triangles(vertices, faces, part, origin, steepest):
     """Triangles with what the kernels ask of them.
 
-    ``vertices`` (v, 3) float64, ``faces`` (f, 3) int32, ``origin`` (3,) float64 is subtracted;
-    ``steepest`` is the least vertical part of a walkable face's unit normal. Returns (t, 15) float64,
-    without the triangles that have no area: ax ay az bx by bz cx cy cz, the plane p q s (z = p·x + q·y + s),
-    least z, greatest z, and the kind.
+    ``vertices`` (v, 3) float64, ``faces`` (f, 3) int32, ``part`` (f,) int32 the closed part of each or -1
+    (`navmesh.solids`), ``origin`` (3,) float64 is subtracted; ``steepest`` is the least vertical part of a
+    walkable face's unit normal. Returns (t, 16) float64, without the triangles that have no area: ax ay az
+    bx by bz cx cy cz, the plane p q s (z = p·x + q·y + s), least z, greatest z, the kind, and the part.
     """
     count = faces.shape[0]
-    table = np.empty((count, 15), np.float64)
+    table = np.empty((count, 16), np.float64)
     kept = 0
     for f in range(count):
         for k in range(3):
@@ -87,6 +87,7 @@ def prepare_triangles(vertices, faces, origin, steepest):
                 table[kept, 2] - table[kept, 9] * table[kept, 0] - table[kept, 10] * table[kept, 1]
             )
             table[kept, 14] = FLOOR if normal_z >= steepest * size else PLANE
+        table[kept, 15] = part[f]
         kept += 1
     return table[:kept]
 

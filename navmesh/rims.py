@@ -12,7 +12,7 @@ import numpy as np
 
 from surefoot.kernels import allocating_kernel
 
-__all__ = ["WELD", "Rims", "find_rims", "order_of"]
+__all__ = ["WELD", "Rims", "find_rims", "order_of", "weld"]
 
 WELD = 5e-4
 """[m] Vertices closer than this are one."""
@@ -46,7 +46,7 @@ def find_rims(vertices: np.ndarray, faces: np.ndarray, max_slope: float) -> Rims
     """
     if not len(faces):
         return _in_order(np.empty((0, 3)), np.empty((0, 3)))
-    index, count = _weld(vertices)
+    index, count = weld(vertices)
     kept, key, flags = _half_edges(vertices, faces, index, count, math.cos(max_slope) - 1e-9)
     if not len(key):
         return _in_order(np.empty((0, 3)), np.empty((0, 3)))
@@ -116,8 +116,9 @@ def _half_edges(vertices, faces, place, places, steepest):
     return ends[:count], key[:count], flags[:count]
 
 
-def _weld(vertices: np.ndarray) -> tuple[np.ndarray, int]:
-    """The number of each vertex's place (v,) int64, and how many places there are."""
+def weld(vertices: np.ndarray) -> tuple[np.ndarray, int]:
+    """The number of the place of each of ``vertices`` (v, 3) [m] (v,) int64, and how many places there are:
+    vertices closer than `WELD` are mostly one, those at the same place always."""
     grid = np.rint(vertices / WELD).astype(np.int64)
     grid -= grid.min(axis=0)
     span = grid.max(axis=0) + 1

@@ -68,6 +68,15 @@ class Terrain:
         points = self.vertices[used]
         return np.stack([points.min(axis=0), points.max(axis=0)])
 
+    @cached_property
+    def solid(self) -> np.ndarray:
+        """(f,) int32: for each triangle the first one of the closed part of its chunk that it belongs to
+        (`navmesh.solids`), or -1."""
+        from navmesh.solids import closed_parts
+
+        first = np.cumsum([0, *(chunk.faces for chunk in self.chunks[:-1])])
+        return closed_parts(self.vertices, self.faces, first)
+
     @classmethod
     def from_arrays(
         cls, vertices: Any, faces: Any, *, up: str = "z", scale: float = 1.0, name: str = "terrain"

@@ -326,3 +326,13 @@ def test_parts_against_a_plain_count():
             assert got[f] == (part[f] if counted else -1)
             closed, closed_once = closed + whole, closed_once + (counted and not whole)
     assert closed > 100 and closed_once > 20
+
+
+def test_no_obstacles_inside():
+    """A platform to jump onto, out in the open and inside of a block."""
+    ground, platform = plane(0.0, 12.0, 0.0, 12.0), box(4.0, 8.0, 4.0, 8.0, 0.0, 0.6)
+    block = box(0.5, 11.5, 0.5, 11.5, -1.0, 6.0)
+    assert len(NodeGraph.build(terrain(ground, platform), RULES).obstacles)
+    assert len(NodeGraph.build(terrain(ground, platform, with_flap(block)), RULES).obstacles)
+    graph = NodeGraph.build(terrain(ground, platform, block), RULES)
+    assert not (graph.obstacles.position[:, 2] < 3.0).any() and not (graph.links.start[:, 2] < 3.0).any()

@@ -27,23 +27,24 @@ SLACK = 1.0
 """[s] over 10 s that count as in time: agents look twice a second."""
 _STEP = 0.1  # [s]
 _TRIES = 60
+_BACK = "for another run-up to"  # in the reason of one that has just turned round
 
 
 def random_level(rng: np.random.Generator) -> navmesh.Terrain:
     """A floor with a gap across it, walls, platforms, boxes and a slope, at random places and of random
     sizes."""
     gap, wide = rng.uniform(14.0, 30.0), rng.uniform(0.5, 1.6)
-    boxes = [_box(0, 0, -0.3, gap, SIZE, 0), _box(gap + wide, 0, -0.3, SIZE, SIZE, 0)]
-    boxes.append(_box(gap - 1, 0, -4, gap + wide + 1, SIZE, -3.8))
+    boxes = [box(0, 0, -0.3, gap, SIZE, 0), box(gap + wide, 0, -0.3, SIZE, SIZE, 0)]
+    boxes.append(box(gap - 1, 0, -4, gap + wide + 1, SIZE, -3.8))
     for _ in range(rng.integers(3, 7)):
         x, y, z = rng.uniform(2, SIZE - 10), rng.uniform(2, SIZE - 10), rng.uniform(0.3, 0.7)
-        boxes.append(_box(x, y, 0, x + rng.uniform(2, 8), y + rng.uniform(2, 8), z))
+        boxes.append(box(x, y, 0, x + rng.uniform(2, 8), y + rng.uniform(2, 8), z))
     for _ in range(rng.integers(2, 5)):
         x, y, z = rng.uniform(2, SIZE - 4), rng.uniform(0, SIZE - 14), rng.uniform(0.6, 2.5)
-        boxes.append(_box(x, y, 0, x + rng.uniform(0.15, 0.4), y + rng.uniform(4, 14), z))
+        boxes.append(box(x, y, 0, x + rng.uniform(0.15, 0.4), y + rng.uniform(4, 14), z))
     for _ in range(rng.integers(4, 10)):
         x, y = rng.uniform(1, SIZE - 3, 2)
-        boxes.append(_box(x, y, 0, x + rng.uniform(0.4, 2), y + rng.uniform(0.4, 2), rng.uniform(0.4, 2)))
+        boxes.append(box(x, y, 0, x + rng.uniform(0.4, 2), y + rng.uniform(0.4, 2), rng.uniform(0.4, 2)))
     x, y, high, slope = (
         rng.uniform(2, 10),
         rng.uniform(2, SIZE - 8),
@@ -58,7 +59,8 @@ def random_level(rng: np.random.Generator) -> navmesh.Terrain:
     return navmesh.Terrain.from_arrays(np.asarray(mesh.vertices, np.float64), np.asarray(mesh.faces))
 
 
-def _box(x0: float, y0: float, z0: float, x1: float, y1: float, z1: float) -> trimesh.Trimesh:
+def box(x0: float, y0: float, z0: float, x1: float, y1: float, z1: float) -> trimesh.Trimesh:
+    """From its low to its high corner [m]."""
     return trimesh.creation.box(bounds=[(x0, y0, z0), (x1, y1, z1)])
 
 
@@ -93,12 +95,13 @@ def send_somebody(world: World, rng: np.random.Generator, seconds: float) -> dic
             continue
         agent = world.spawn("human", start, float(rng.uniform(-np.pi, np.pi)))
         if agent.go_to(goal, speed=float(rng.choice([1.4, 2.0, 3.3]))) != "blocked":
-            return _follow(world, agent, seconds)
+            return follow(world, agent, seconds)
         agent.remove()
     return None
 
 
-def _follow(world: World, agent: Agent, seconds: float) -> dict[str, Any]:
+def follow(world: World, agent: Agent, seconds: float) -> dict[str, Any]:
+    """What becomes of one that has just been told to go somewhere, in at most ``seconds``; it is removed."""
     begun, watch = world.time, Watch()
     events: list[Event] = [each for each in world.events if each.agent == agent.name]
     back = backwards = 0
@@ -117,6 +120,7 @@ def _follow(world: World, agent: Agent, seconds: float) -> dict[str, Any]:
         "seconds": round(world.time - begun, 1),
         "arrived": any(isinstance(each, Arrived) for each in events),
         "hindered": sum(isinstance(each, Hindered) for each in events),
+        "goings_back": sum(isinstance(each, Hindered) and _BACK in each.reason for each in events),
         "falls": back,
         "falls_going_back": backwards,
         "longest_silence": round(watch.longest, 1),

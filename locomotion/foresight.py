@@ -9,45 +9,25 @@ nothing of, it rehearses at the moment, all at once: its decisions never depend 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Generator
+from typing import TYPE_CHECKING
 
-from locomotion.human_state import HumanState, same
+from locomotion.deciding import Question, known_answer, tick_unless_asked
+from locomotion.human_state import HumanState
 from locomotion.pausing import pause
-from locomotion.rehearsal import Outcome, Trial, at_once, first_good
+from locomotion.rehearsal import Outcome, at_once, first_good
 
 if TYPE_CHECKING:
     from locomotion.body import Human
     from locomotion.foreseen import Foreseen
     from locomotion.rehearsing_person import RehearsingPerson
 
-__all__ = ["Foresight", "Question"]
+__all__ = ["Foresight"]
 
 _PER_TICK = 20  # ticks of the double in one of the person
 _FAR = 400  # ticks that the double goes ahead at most
 _LOOKS = 10  # ticks after which it is seen again whether there is something to foresee
 _REST = 50  # ticks after which it tries again where it came otherwise
-
-
-class Question(NamedTuple):
-    """What is to be decided in ``state``; see `rehearsal.first_good`."""
-
-    state: HumanState
-    choices: Sequence[Any]
-    choose: Callable[[Human, Any], None]
-    goes_well: Callable[[Human], Trial]
-
-    def is_also(self, other: Question) -> bool:
-        """Whether the answer is the same."""
-        return self.choices == other.choices and same(self.state, other.state)
-
-
-class _Undecided(Exception):
-    """The double has come to a moment at which something is to be decided."""
-
-    def __init__(self, question: Question) -> None:
-        super().__init__()
-        self.question = question
 
 
 class Foresight:
@@ -88,7 +68,7 @@ class Foresight:
         while self._task is not None and self._asked is not None and question.is_also(self._asked):
             next(self._task, None)
             pause()
-        known = self._known(question)
+        known = known_answer(question, self._answers)
         if known is not None:
             return known
         self._forget(person.ticks)
@@ -105,14 +85,14 @@ class Foresight:
         while double.ticks % _LOOKS or double.decides_soon or double.foreseen.knows(double.ticks + 1):
             double.events.clear()
             states = double.foreseen.all_come_true(double)
-            question = None if states else self._tick(double)
+            question = None if states else tick_unless_asked(double, self._answers)
             while question is not None:
                 self._asked = question
                 self._answers.append((question, (yield from self._rehearse(double, question))))
                 self._asked = None
                 double.restore_state(state)
                 double.events.clear()
-                question = self._tick(double)
+                question = tick_unless_asked(double, self._answers)
             if double.status == "fallen":
                 break  # the person may get up
             states = states or [double.save_state()]
@@ -123,26 +103,6 @@ class Foresight:
                     future.add(known)
             yield
         self._task = None
-
-    def _tick(self, double: Human) -> Question | None:
-        """A tick of the double; what is undecided in it, and then it is not made."""
-        double.decides = self._recall
-        try:
-            double.tick()
-        except _Undecided as undecided:
-            return undecided.question
-        finally:
-            double.decides = None
-        return None
-
-    def _recall(self, double: RehearsingPerson, question: Question) -> Outcome:
-        outcome = self._known(question)
-        if outcome is None:
-            raise _Undecided(question)
-        return outcome
-
-    def _known(self, question: Question) -> Outcome | None:
-        return next((outcome for asked, outcome in self._answers if question.is_also(asked)), None)
 
     def _double_of(self, person: RehearsingPerson) -> Human:
         if self._double is None or self._double.model is not person.model:

@@ -80,7 +80,7 @@ class ObstacleRun:
         if self.plan[_NEXT] == 0.0:
             return 0.0
         behind = self.obstacles[int(self.plan[_NEXT]) - 1]
-        return behind.arc_length + behind.depth + _OFF_EDGE
+        return behind.far_side + _OFF_EDGE
 
     @property
     def clearing(self) -> bool:

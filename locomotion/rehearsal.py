@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
+from locomotion.deciding import Question, tick_unless_asked
 from locomotion.events import Cleared, TookOff
 from locomotion.human_state import MOVING, HumanState, same
 from locomotion.passage import Passage, Watcher
@@ -53,6 +54,7 @@ _RUNNING, _WALKING = round(2.2 / CONTROL_DT), round(4.0 / CONTROL_DT)
 # ticks that it must stay up behind an obstacle
 _TRAPPED = 0.25  # how well it goes if it clears an obstacle and does not find a way on
 _LOOKED_AT = 2  # variations that are tried to find it: after a good landing most hold, after a bad one none
+_ASKED = 8  # times that it is tried how it slows down behind one
 _SETTLED = round(3.0 / CONTROL_DT)  # ticks that it must stay up after going over to another gait
 _WATCHED = round(1.0 / CONTROL_DT)  # ticks of these in which it may not
 _STAGGERS = 0.2  # [m] come nearer to or farther from its path
@@ -156,7 +158,8 @@ def clears(body: Human, looks_on: bool = True, notes: bool = False) -> Trial:
     """Whether it clears the obstacle ahead and stays up behind it: 1 without touching what it should not.
 
     looks_on: whether it also matters what it can do before another obstacle that is near behind it. notes:
-    whether what is seen of it is noted, until something else is to be decided. It forgets its events.
+    whether what is seen of it is noted, until something else is to be decided. It forgets its events. One
+    that falls behind the obstacle since it did not decide how to slow down there goes on from there and does.
     """
     obstacle = body.obstacle_ahead
     assert obstacle is not None
@@ -164,12 +167,17 @@ def clears(body: Human, looks_on: bool = True, notes: bool = False) -> Trial:
     watcher: Watcher | None = None  # from where it takes off
     walked = False
     seen: list[HumanState] = []
+    decided: HumanState | None = None  # before it has to decide something behind the obstacle
     body.undecided = False
     for tick in range(_LONGEST):
         body.events.clear()
+        if looks_on and cleared_at and not body.undecided:
+            decided = body.save_state()
         body.tick()
         yield
         if _failed(body) or body.status == "standing":
+            if decided is not None and body.undecided and (yield from slows_down_in_time(body, decided)):
+                return (1.0 if passage.clean(obstacle.affordance) else 0.5), seen
             return 0.0, []
         if notes and not body.undecided:
             seen.append(body.save_state())
@@ -203,6 +211,30 @@ def finds_a_way_on(body: Human) -> Generator[None, None, bool]:
         return True
     best = yield from first_good(state, body, BALKINGS[:_LOOKED_AT], begin.balk, walks_on)
     return best.went > 0.0
+
+
+def slows_down_in_time(body: Human, state: HumanState) -> Generator[None, None, bool]:
+    """Whether one that is about to slow down, in ``state``, finds a way to slow down or to brake that goes
+    well. Less is tried than what it tries when it is there."""
+    answers: list[tuple[Question, Outcome]] = []
+    for _ in range(_RUNNING):
+        body.restore_state(state)
+        body.events.clear()
+        question = tick_unless_asked(body, answers)
+        yield
+        if question is None:
+            if _failed(body):
+                return False
+            state = body.save_state()
+        elif question.choices not in (SLOWINGS, BRAKINGS) or len(answers) == _ASKED:
+            return False
+        else:
+            _, choices, choose, goes_well = question
+            outcome = yield from first_good(question.state, body, choices[:_LOOKED_AT], choose, goes_well)
+            if outcome.went > 0.0:
+                return True
+            answers.append((question, outcome))
+    return False
 
 
 @dataclass

@@ -8,9 +8,10 @@ from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
 from locomotion.clearing import ClearingSkill
+from locomotion.deciding import Question
 from locomotion.events import GotStuck, WentBack
 from locomotion.foreseen import Foreseen
-from locomotion.foresight import Foresight, Question
+from locomotion.foresight import Foresight
 from locomotion.gaits import run_entry_speed
 from locomotion.ground import Ground
 from locomotion.human_state import MOVING, HumanState

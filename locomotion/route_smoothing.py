@@ -59,7 +59,8 @@ class ObstacleAhead:
         affordance: "jump", "vault", "drop" or "gap". height: [m] as in `NodeGraph.obstacles`.
         position: (3,) float64 [m], where the path crosses the edge, at its top.
         normal: (3,) float64, horizontal unit vector at right angles to the edge, towards the run-up side.
-        depth: [m] as in `NodeGraph.obstacles`: thickness of what is vaulted, width of a gap.
+        depth: [m] as in `NodeGraph.obstacles`: thickness of what is vaulted, width of a gap, length of
+            what is jumped onto.
     """
 
     arc_length: float
@@ -73,6 +74,11 @@ class ObstacleAhead:
     def size(self) -> float:
         """What a skill's range is compared with [m]: the height, or the width of a gap."""
         return self.depth if self.affordance == "gap" else self.height
+
+    @property
+    def far_side(self) -> float:
+        """Arc length [m] at which the body is on the ground again behind it."""
+        return self.arc_length + (self.depth if self.affordance in ("vault", "gap") else 0.0)
 
 
 @dataclass(frozen=True)

@@ -178,3 +178,33 @@ def test_people_who_are_told_the_same_do_not_step_as_one():
     assert len(set(places[:, 0].round(3))) >= 7
     assert strides(seed=4)[1] == same and strides(seed=5)[1] != same
     assert np.ptp(places[:, 0]) < 0.8  # none is left behind by it
+
+
+def crates_in_a_corridor(*tops):
+    """Crates (x from, x to, height) one on or behind the other, from wall to wall."""
+    length, room = max(to for _, to, _ in tops) + 3.0, 3.2
+    crates = [((begin, 0, -0.2), (to, room, high)) for begin, to, high in tops]
+    walls = [((0, -0.3, -1), (length, 0, 3)), ((0, room, -1), (length, room + 0.3, 3))]
+    return graph_of(((0, 0, -1), (length, room, 0)), *crates, *walls)
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "speed"), [((13.9, 29.0, 0.36), (22.9, 28.5, 0.77), 1.4),
+                                   ((12.6, 30.0, 0.35), (23.8, 29.0, 0.71), 3.3)]
+)  # fmt: skip
+def test_onto_a_crate_on_a_crate_nobody_goes_back_more_than_once(first, second, speed):
+    world = World(crates_in_a_corridor(first, second))
+    agent = world.spawn("human", (2.0, 1.6, 0.0))
+    agent.go_to((second[1] - 1.0, 1.6, second[2]), speed=speed)
+    events = events_until_it_stops(world, agent, 60.0)
+    assert isinstance(events[-1], Arrived)
+    goings_back = [each for each in events if isinstance(each, Hindered) and "goes back" in each.reason]
+    assert len(goings_back) <= 1
+
+
+def test_behind_a_crate_it_can_go_back_to_where_it_has_landed():
+    graph = crates_in_a_corridor((12.6, 30.0, 0.35), (23.8, 29.0, 0.71))
+    agent = World(graph).spawn("human", (2.0, 1.6, 0.0))
+    crate, other = agent.plan((28.0, 1.6, 0.71)).obstacles
+    assert crate.depth > 8.0  # of the whole crate
+    assert crate.far_side == crate.arc_length < other.arc_length - 8.0

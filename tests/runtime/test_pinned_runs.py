@@ -11,7 +11,7 @@ TOLD = {
     "vault": "vaults",
     "drop_roll": "drops",
     "leap": "leaps over",
-    "fall_and_get_up": "gets up",
+    "fall_and_get_up": "is up again",
     "dog": "arrives",
     "save_and_restore": "runs on after",
 }

@@ -27,7 +27,7 @@ SLACK = 1.0
 """[s] over 10 s that count as in time: agents look twice a second."""
 _STEP = 0.1  # [s]
 _TRIES = 60
-_BACK = "for another run-up to"  # in the reason of one that has just turned round
+_BACK = "for another run-up to"  # is in the event's reason when a person has just turned round
 
 
 def random_level(rng: np.random.Generator) -> navmesh.Terrain:
@@ -101,7 +101,8 @@ def send_somebody(world: World, rng: np.random.Generator, seconds: float) -> dic
 
 
 def follow(world: World, agent: Agent, seconds: float) -> dict[str, Any]:
-    """What becomes of one that has just been told to go somewhere, in at most ``seconds``; it is removed."""
+    """Watch an agent that has just been told to go somewhere for at most ``seconds``, then remove it: what
+    became of it."""
     begun, watch = world.time, Watch()
     events: list[Event] = [each for each in world.events if each.agent == agent.name]
     back = backwards = 0

@@ -10,10 +10,10 @@ import math
 
 import numpy as np
 
-from navmesh.floor_ends import find_floor_ends
+from navmesh.floor_ends import EDGE, MIDDLE, find_floor_ends
 from navmesh.ledges import floor_end
 from navmesh.raster import TOUCH, UPRIGHT
-from navmesh.segments import comes_near, lies_on, part_in_square, put, sort_and_thin
+from navmesh.segments import comes_near, keep, lies_on, part_in_square, put, sort_and_thin, twice
 from navmesh.walls import clip_band, nearest_on_polygon, range_in_column, wall_base
 from surefoot.kernels import allocating_kernel, kernel
 
@@ -114,14 +114,11 @@ def _own_walls(
                 base[c], headroom, resolution, polygon, spare, own, 0,
             )  # fmt: skip
             count = sort_and_thin(own, count)
-        at = own_start[c]
-        if at + count > rows.shape[0]:
+        end = keep(rows, own_start[c], own, count)
+        if end < 0:
             return c
-        for k in range(count):
-            for i in range(4):
-                rows[at + k, i] = own[k, i]
         c += 1
-        own_start[c] = at + count
+        own_start[c] = end
     return c
 
 
@@ -195,10 +192,11 @@ def _blockers_from(
                 there = column + dx * ny + dy
                 for k in range(end_start[there], end_start[there + 1]):
                     end = floor_ends[k]
-                    level = z + p * (0.5 * (end[4] + end[6]) - x) + q * (0.5 * (end[5] + end[7]) - y)
-                    if abs(end[8] - level) > step + half * (abs(p) + abs(q)) + TOUCH:
+                    ax, ay, bx, by = end[EDGE], end[EDGE + 1], end[EDGE + 2], end[EDGE + 3]
+                    level = z + p * (0.5 * (ax + bx) - x) + q * (0.5 * (ay + by) - y)
+                    if abs(end[MIDDLE] - level) > step + half * (abs(p) + abs(q)) + TOUCH:
                         continue
-                    if not lies_on(near, walls, end[4], end[5], end[6], end[7]):
+                    if not lies_on(near, walls, ax, ay, bx, by):
                         count = put(near, count, end[0], end[1], end[2], end[3])
             for d in range(4):
                 if link[c, d] >= 0:
@@ -213,22 +211,12 @@ def _blockers_from(
                 )  # fmt: skip
                 count = put(near, count, x + t * dx, y + t * dy, x + t * dx, y + t * dy)
             count = sort_and_thin(near, count)
-        at = blocker_start[c]
-        if at + count > rows.shape[0]:
+        end = keep(rows, blocker_start[c], near, count)
+        if end < 0:
             return c
-        for k in range(count):
-            for i in range(4):
-                rows[at + k, i] = near[k, i]
         c += 1
-        blocker_start[c] = at + count
+        blocker_start[c] = end
     return c
-
-
-@allocating_kernel
-def _twice(rows):
-    more = np.empty((2 * rows.shape[0], 4))
-    more[: rows.shape[0]] = rows
-    return more
 
 
 @allocating_kernel
@@ -257,7 +245,7 @@ def find_blockers(
         )  # fmt: skip
         if c == cells:
             break
-        own_walls = _twice(own_walls)
+        own_walls = twice(own_walls)
 
     beside, asked = np.empty(cells, np.uint8), np.empty((start.shape[0] - 1, 2))
     asked[:, 0], asked[:, 1] = np.inf, -np.inf
@@ -278,7 +266,7 @@ def find_blockers(
         )  # fmt: skip
         if c == cells:
             return blocker_start, blocker[: blocker_start[cells]].copy()
-        blocker = _twice(blocker)
+        blocker = twice(blocker)
 
 
 @allocating_kernel

@@ -7,14 +7,15 @@ import numpy as np
 from navmesh.ledges import GAP, floor_at
 from navmesh.raster import FLOOR, PLANE, TOUCH, is_over
 from navmesh.risers import faces_up, on_riser
-from navmesh.segments import part_in_square
+from navmesh.segments import part_in_square, twice
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["END", "find_floor_ends"]
+__all__ = ["EDGE", "END", "MIDDLE", "find_floor_ends"]
 
 END = 9
-"""Numbers of a floor end: the ends of the part at which the floor ends, x and y each; the ends of the edge's
-part in the square; the height of its middle [m]."""
+"""Numbers of a floor end: the part of an edge at which the floor ends, as a segment; from `EDGE` on the part
+of the edge that is in the square, as a segment; and at `MIDDLE` the height of that one's middle [m]."""
+EDGE, MIDDLE = 4, 8
 _UNKNOWN, _SHARED, _ALONE = 0, 1, 2
 """What is known of a triangle's edge: not asked yet; another floor goes on beyond it; none has the same
 edge."""
@@ -115,12 +116,13 @@ def _ends_of_column(
                     begun = at
                 elif not floor_ends and begun >= 0.0:
                     if count < ends.shape[0]:
-                        row = ends[count]
-                        row[0], row[1] = ax + begun * (bx - ax), ay + begun * (by - ay)
-                        row[2], row[3] = ax + at * (bx - ax), ay + at * (by - ay)
-                        row[4], row[5] = ax + first * (bx - ax), ay + first * (by - ay)
-                        row[6], row[7] = ax + last * (bx - ax), ay + last * (by - ay)
-                        row[8] = middle
+                        for axis in range(2):
+                            corner, way = table[f, i + axis], table[f, j + axis] - table[f, i + axis]
+                            ends[count, axis] = corner + begun * way
+                            ends[count, 2 + axis] = corner + at * way
+                            ends[count, EDGE + axis] = corner + first * way
+                            ends[count, EDGE + 2 + axis] = corner + last * way
+                        ends[count, MIDDLE] = middle
                     count += 1
                     begun = -1.0
     return count
@@ -164,6 +166,4 @@ def find_floor_ends(table, start, triangle, asked, resolution, ny, step, headroo
         )
         if column == asked.shape[0]:
             return end_start, ends
-        more = np.empty((2 * ends.shape[0], END))
-        more[: ends.shape[0]] = ends
-        ends = more
+        ends = twice(ends)

@@ -17,16 +17,6 @@ _LEVELS = 8
 """Most gaps above each other that are closed in one column."""
 
 
-@allocating_kernel
-def _with_room(cell_column, height, gradient):
-    """The arrays, twice as long."""
-    count = cell_column.shape[0]
-    more_column, more_height = np.empty(2 * count, np.int32), np.empty(2 * count)
-    more_gradient = np.empty((2 * count, 2))
-    more_column[:count], more_height[:count], more_gradient[:count] = cell_column, height, gradient
-    return more_column, more_height, more_gradient
-
-
 @kernel
 def _nearest_on(table, f, x, y):
     """The place on the outline of a triangle, seen from above, that is nearest to (x, y): (distance, x,
@@ -113,7 +103,7 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
     most = 1
     for c in range(columns):
         most = max(most, start[c + 1] - start[c])
-    limit = triangle.shape[0] + _LEVELS
+    limit = triangle.shape[0]  # each cell of a column stands for another triangle of it
     cell_column = np.empty(limit, np.int32)
     height = np.empty(limit, np.float64)
     gradient = np.empty((limit, 2), np.float64)
@@ -196,8 +186,6 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
             gradient[at, 1] = cut * hit[i, 2]
             cell_column[cells] = c
             cells += 1
-        if cells + _LEVELS > cell_column.shape[0]:
-            cell_column, height, gradient = _with_room(cell_column, height, gradient)
         known = highest < lowest or (
             cells == first + 1 and highest - height[first] <= step and height[first] - lowest <= step
         )

@@ -1,10 +1,12 @@
 """Lists of line segments seen from above: rows of (ax, ay, bx, by), the lesser end first, so that a segment
 is the same row from whichever side it was found."""
 
-from navmesh.raster import TOUCH
-from surefoot.kernels import kernel
+import numpy as np
 
-__all__ = ["comes_near", "lies_on", "part_in_square", "put", "sort_and_thin"]
+from navmesh.raster import TOUCH
+from surefoot.kernels import allocating_kernel, kernel
+
+__all__ = ["comes_near", "keep", "lies_on", "part_in_square", "put", "sort_and_thin", "twice"]
 
 _SAME = 1e-3
 """[m]: edges of the floor this near to a wall are where the wall stands."""
@@ -125,3 +127,23 @@ def sort_and_thin(rows, count):
                     rows[kept, i] = rows[k, i]
             kept += 1
     return kept
+
+
+@kernel
+def keep(rows, at, found, count):
+    """Put the first ``count`` rows of ``found`` behind the first ``at`` rows; returns how many there are now.
+    Where they have no room it puts none and returns -1."""
+    if at + count > rows.shape[0]:
+        return -1
+    for k in range(count):
+        for i in range(4):
+            rows[at + k, i] = found[k, i]
+    return at + count
+
+
+@allocating_kernel
+def twice(rows):
+    """The rows, with room for as many again."""
+    more = np.empty((2 * rows.shape[0], rows.shape[1]))
+    more[: rows.shape[0]] = rows
+    return more

@@ -12,6 +12,7 @@ numbers", ACM Transactions on Graphics 32(4), 2013.
 
 import numpy as np
 
+from navmesh.disjoint_sets import root
 from navmesh.raster import SAME_SURFACE, UPRIGHT
 from navmesh.rims import weld
 from surefoot.kernels import allocating_kernel, kernel
@@ -29,14 +30,6 @@ def closed_parts(vertices: np.ndarray, faces: np.ndarray, first: np.ndarray) -> 
     place, _ = weld(vertices)
     first = np.append(first, len(faces))
     return _closed_parts(place, faces, first, _repeated(place, faces, first))
-
-
-@kernel
-def _root(parent, f):
-    while parent[f] != f:
-        parent[f] = parent[parent[f]]
-        f = parent[f]
-    return f
 
 
 @kernel
@@ -108,17 +101,17 @@ def _closed_parts(place, faces, first, repeated):
                     edges += 1
                 turns[e] += turn
                 once[e] += 0 if repeated[f] else turn
-                one, other = _root(parent, f), _root(parent, face[e])
+                one, other = root(parent, f), root(parent, face[e])
                 parent[max(one, other)] = min(one, other)
     closed, closed_once = np.ones(count, np.bool_), np.ones(count, np.bool_)
     for e in range(edges):
-        root = _root(parent, face[e])
-        closed[root] &= turns[e] == 0
-        closed_once[root] &= once[e] == 0
+        part_of = root(parent, face[e])
+        closed[part_of] &= turns[e] == 0
+        closed_once[part_of] &= once[e] == 0
     part = np.empty(count, np.int32)
     for f in range(count):
-        root = _root(parent, f)
-        part[f] = root if closed[root] or (closed_once[root] and not repeated[f]) else -1
+        part_of = root(parent, f)
+        part[f] = part_of if closed[part_of] or (closed_once[part_of] and not repeated[f]) else -1
     return part
 
 

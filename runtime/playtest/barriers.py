@@ -12,12 +12,13 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 from scipy.spatial import KDTree
 
+from navmesh.disjoint_sets import root
 from navmesh.free_length import cells_of
 from navmesh.probes import ProbeGrid, crossed, lowest_above
 from runtime.playtest.floorplan import Allowance
 from runtime.playtest.openings import Barrier, Opening
 from runtime.playtest.site import Site
-from surefoot.kernels import allocating_kernel, kernel
+from surefoot.kernels import allocating_kernel
 
 __all__ = ["SLIT", "Barriers", "opening_at"]
 
@@ -148,14 +149,6 @@ def opening_at(site: Site, ends: np.ndarray, here: np.ndarray, there: np.ndarray
     return Opening(site.mesh, box, Allowance.of(rules), radius, *sides)
 
 
-@kernel
-def _root(parent, k):
-    while parent[k] != k:
-        parent[k] = parent[parent[k]]
-        k = parent[k]
-    return k
-
-
 @allocating_kernel
 def _first_to_join(ends, of, to):
     """The first of the pairs ``ends`` (k, 2), taken in order, that joins a member of ``of`` with one of
@@ -163,7 +156,7 @@ def _first_to_join(ends, of, to):
     parent = np.arange(len(of))
     has_of, has_to = of.copy(), to.copy()
     for k in range(len(ends)):
-        a, b = _root(parent, ends[k, 0]), _root(parent, ends[k, 1])
+        a, b = root(parent, ends[k, 0]), root(parent, ends[k, 1])
         if a == b:
             continue
         if (has_of[a] and has_to[b]) or (has_of[b] and has_to[a]):

@@ -20,13 +20,13 @@ from typing import Any
 import numpy as np
 
 from locomotion import Human
-from locomotion.clearing import ClearingSkill
-from locomotion.hand_hold import let_go_both
-from locomotion.rehearsal import REHEARSALS
-from locomotion.skill import load_run_skill
-from locomotion.vault_skill import Vault, load_vault_skill
-from runtime.courses import CourseRun, held, make_course, run_course
-from runtime.evaluation import WALL, start_noise
+from locomotion.body.hand_hold import let_go_both
+from locomotion.gaits.run.skill import load_run_skill
+from locomotion.rehearsal.rehearsal import REHEARSALS
+from locomotion.skills.interface import ClearingSkill
+from locomotion.skills.vault.skill import Vault, load_vault_skill
+from runtime.evaluation.courses import CourseRun, held, make_course, run_course
+from runtime.evaluation.evaluation import WALL, start_noise
 
 NEAREST, FARTHEST = 10.0, 30.0
 

@@ -16,10 +16,10 @@ from pathlib import Path
 import numpy as np
 
 from locomotion import Human
-from locomotion.rehearsal import REHEARSALS
-from locomotion.training.vault import DEPTHS
-from runtime.courses import Course, make_course, run_course
-from runtime.evaluation import start_noise
+from locomotion.rehearsal.rehearsal import REHEARSALS
+from locomotion.training.skills.vault import DEPTHS
+from runtime.evaluation.courses import Course, make_course, run_course
+from runtime.evaluation.evaluation import start_noise
 
 APART = (8.0, 15.0)
 

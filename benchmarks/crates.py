@@ -19,7 +19,7 @@ import trimesh
 import navmesh
 from benchmarks.getting_nowhere import box, follow
 from runtime import World
-from runtime.rules import person_walk_rules
+from runtime.planning.rules import person_walk_rules
 
 KINDS = "stairs", "ramps", "leaps"
 

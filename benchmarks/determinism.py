@@ -19,8 +19,8 @@ from pathlib import Path
 
 import navmesh
 from runtime import World, WorldState
-from runtime.mission import load_mission
-from runtime.mission_run import run_mission
+from runtime.missions.mission import load_mission
+from runtime.missions.run import run_mission
 
 EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
 MISSION = EXAMPLES / "missions" / "courtyard.yaml"

@@ -13,7 +13,7 @@ import numpy as np
 import navmesh
 from locomotion.quadruped import Body, load_body
 from runtime import RuntimeInputError, World
-from runtime.rules import walk_rules
+from runtime.planning.rules import walk_rules
 
 BODIES = ("dog", "cat", "horse")
 _LIMIT = 120.0  # [s] for a goal

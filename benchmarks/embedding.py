@@ -18,7 +18,7 @@ import numpy as np
 
 import navmesh
 from runtime import Agent, World
-from runtime.traffic import EVERY
+from runtime.traffic.traffic import EVERY
 
 SIDE = 60.0  # [m]
 FRAMES = 30

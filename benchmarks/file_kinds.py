@@ -11,33 +11,33 @@ from typing import Any
 import numpy as np
 
 import navmesh
-from locomotion.brake import load_brake_skill
-from locomotion.clip import load_clip
-from locomotion.drop_roll_skill import load_drop_roll_skill
-from locomotion.jump_skill import Jump, load_jump_skill
-from locomotion.library import LEAP
-from locomotion.motion import load_motion, motion_of_clip
-from locomotion.motion_check import check_motion
+from locomotion.clips.clip import load_clip
+from locomotion.clips.motion import load_motion, motion_of_clip
+from locomotion.clips.motion_check import check_motion
+from locomotion.clips.retargeting import load_mapping
+from locomotion.gaits.brake import load_brake_skill
+from locomotion.gaits.run.skill import RUN_CLIP, load_run_skill
+from locomotion.gaits.slow_down import load_slow_down_skill
+from locomotion.gaits.speed_up import load_speed_up_skill
+from locomotion.gaits.walk.skill import load_walk_skill
 from locomotion.quadruped import load_body
-from locomotion.retargeting import load_mapping
-from locomotion.skill import RUN_CLIP, load_run_skill
-from locomotion.skill_description import load_description
-from locomotion.slow_down import load_slow_down_skill
-from locomotion.speed_up import load_speed_up_skill
-from locomotion.training.checkpoint import claim
-from locomotion.training.cma_es import CmaEs
-from locomotion.training.loop import Stage, read_search, write_search
-from locomotion.vault_skill import load_vault_skill
-from locomotion.walk_skill import load_walk_skill
+from locomotion.skills.description import load_description
+from locomotion.skills.drop_roll.skill import load_drop_roll_skill
+from locomotion.skills.jump.skill import Jump, load_jump_skill
+from locomotion.skills.library import LEAP
+from locomotion.skills.vault.skill import load_vault_skill
+from locomotion.training.search.checkpoint import claim
+from locomotion.training.search.cma_es import CmaEs
+from locomotion.training.search.loop import Stage, read_search, write_search
 from runtime import World, WorldState
-from runtime.mission import load_mission
+from runtime.bodies.pose import Pose
+from runtime.missions.mission import load_mission
 from runtime.playtest.fault import Fault, Sighting
 from runtime.playtest.observation import Crossing, Journey
 from runtime.playtest.plan import LoadedPlan
 from runtime.playtest.report import Report, Setup, read_report, write_report
-from runtime.pose import Pose
-from runtime.recording import Recorder
-from runtime.trace import Trace
+from runtime.traces.recording import Recorder
+from runtime.traces.trace import Trace
 
 __all__ = ["KINDS", "Kind", "content", "level"]
 
@@ -268,7 +268,7 @@ KINDS: dict[str, Kind] = {
     "playtest": Kind(".yaml", _written(_PLAN), LoadedPlan.read),
     "clip": Kind(".yaml", _copy(RUN_CLIP), load_clip, lambda clip: clip.sample(np.linspace(0, 1, 9))),
     "mapping": Kind(".yaml", _copy(_HERE / "examples/clips/mixamo.yaml"), load_mapping),
-    "body": Kind(".yaml", _copy(_HERE / "locomotion/quadruped/bodies/dog.yaml"), load_body),
+    "body": Kind(".yaml", _copy(_HERE / "locomotion/data/bodies/dog.yaml"), load_body),
     "description": Kind(".yaml", _copy(LEAP), load_description),
     "report": Kind(".json", _make_report, read_report),
     "configuration": Kind(

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from navmesh.files.archive import seal_of
+from surefoot.files.archive import seal_of
 
 __all__ = ["SEALS", "mutated_archive", "mutated_text"]
 

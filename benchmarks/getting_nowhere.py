@@ -18,8 +18,8 @@ import trimesh
 
 import navmesh
 from runtime import Arrived, Departed, Event, Fell, Hindered, RuntimeInputError, World
-from runtime.agent import Agent
-from runtime.rules import person_walk_rules
+from runtime.planning.rules import person_walk_rules
+from runtime.world.agent import Agent
 
 SIZE = 44.0
 """[m] of a level's sides."""

@@ -20,7 +20,7 @@ import numpy as np
 
 import navmesh
 from runtime import Agent, Fell, World
-from runtime.rules import person_walk_rules
+from runtime.planning.rules import person_walk_rules
 
 KINDS = {"dog": ("dog", 1.4), "person": ("human", 1.4), "runner": ("human", 3.0), "walker": ("walker", 1.4)}
 PAIRS = [

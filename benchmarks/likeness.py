@@ -17,12 +17,12 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.shared_data import shared_folder, why_absent
-from locomotion import controller as c
-from locomotion.bvh import read_bvh
-from locomotion.person import CONTROL_DT, JOINT_NAMES, MASS
-from locomotion.retargeting import load_mapping, retarget
-from locomotion.skill import load_run_skill
-from locomotion.training.rollout import Scenario, Simulator
+from locomotion.body.person import CONTROL_DT, JOINT_NAMES, MASS
+from locomotion.clips.bvh import read_bvh
+from locomotion.clips.retargeting import load_mapping, retarget
+from locomotion.gaits.run import controller as c
+from locomotion.gaits.run.skill import load_run_skill
+from locomotion.training.gaits.rollout import Scenario, Simulator
 
 JOINTS = ("hip_flexion", "knee_flexion", "ankle_flexion")
 MAPPING = Path(__file__).resolve().parents[1] / "examples" / "clips" / "mixamo.yaml"

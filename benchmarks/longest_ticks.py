@@ -12,10 +12,10 @@ import time
 import numpy as np
 
 from benchmarks.courses import draw_course
-from locomotion.foresight import Foresight
-from locomotion.human_state import MOVING
-from runtime.courses import enter_course
-from runtime.evaluation import start_noise
+from locomotion.human.state import MOVING
+from locomotion.rehearsal.lookahead import Foresight
+from runtime.evaluation.courses import enter_course
+from runtime.evaluation.evaluation import start_noise
 
 LONGEST = 400.0  # [s] of a course
 LIMITS_MS = (20.0, 50.0, 100.0)

@@ -24,12 +24,12 @@ import numpy as np
 import yaml
 
 import navmesh
-from navmesh.files.yamlfile import FileError
-from runtime.files import whole_file
-from runtime.mission import LoadedMission, load_mission
-from runtime.mission_check import build_graph, prepare_mission
-from runtime.mission_run import run_mission
-from runtime.progress import Progress
+from runtime.missions.check import build_graph, prepare_mission
+from runtime.missions.mission import LoadedMission, load_mission
+from runtime.missions.run import run_mission
+from surefoot.files.atomic_write import whole_file
+from surefoot.files.yamlfile import FileError
+from surefoot.progress import Progress
 
 LEVEL = [(0, 0, 12, 6, 0.0), (12, 0, 20, 6, 0.4)]
 """x0, y0, x1, y1, z of a floor and a platform."""

@@ -35,10 +35,10 @@ import numpy as np
 import navmesh
 from benchmarks.shared_data import LEVELS, level_path, shared_folder, why_absent
 from locomotion import MOVING, PERSON_RULES, Human, smooth_route
-from locomotion.arm_reach import HAND_RADIUS
-from locomotion.human_state import restore_physics, save_physics
-from locomotion.path_tracking import make_path
-from locomotion.person import CONTROL_DT, STEPS_PER_TICK
+from locomotion.body.arm_reach import HAND_RADIUS
+from locomotion.body.person import CONTROL_DT, STEPS_PER_TICK
+from locomotion.human.state import restore_physics, save_physics
+from locomotion.paths.tracking import make_path
 from navmesh.probes import ProbeGrid, brute_crossed, crossed
 from runtime import World
 from runtime.events import Departed, Fell

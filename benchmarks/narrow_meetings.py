@@ -18,8 +18,8 @@ import numpy as np
 
 from benchmarks.giving_way import floor, overlap
 from runtime import World
-from runtime.drivers import radius_of
-from runtime.rules import walk_rules
+from runtime.bodies.protocol import radius_of
+from runtime.planning.rules import walk_rules
 
 KINDS = (
     "dog,dog", "cat,cat", "horse,horse", "dog,cat", "dog,horse", "dog,human", "horse,human", "human,human",

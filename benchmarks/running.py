@@ -15,11 +15,11 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from locomotion import controller as c
-from locomotion.person import CONTROL_DT, STEPS_PER_TICK
-from locomotion.skill import RunSkill, load_run_skill
-from locomotion.training.rollout import Scenario, Simulator, stays_up
-from locomotion.training.walk_starts import WALK_STARTS
+from locomotion.body.person import CONTROL_DT, STEPS_PER_TICK
+from locomotion.gaits.run import controller as c
+from locomotion.gaits.run.skill import RunSkill, load_run_skill
+from locomotion.training.gaits.rollout import Scenario, Simulator, stays_up
+from locomotion.training.gaits.walk_starts import WALK_STARTS
 
 SPEEDS = (1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0)
 PUSHED_SPEED = 3.3

@@ -33,7 +33,7 @@ from websockets.exceptions import ConnectionClosed
 
 ROOT = Path(__file__).resolve().parents[1]
 FLOOR = "v 0 0 0\nv 12 0 0\nv 12 6 0\nv 0 6 0\nf 1 2 3\nf 1 3 4\n"
-START = "import runtime.cli; runtime.cli.main()"
+START = "import runtime.cli.app; runtime.cli.app.main()"
 GROWTH = 64.0  # [MB]
 LINES = 100  # of the log
 STATE = b'{"type":"state"'  # of which a client gets the newest only, without a number

@@ -22,13 +22,13 @@ ROOT = Path(__file__).resolve().parents[1]
 MISSION = ROOT / "examples" / "missions" / "courtyard.yaml"
 START = """
 import sys, time
-import runtime.cli
+import runtime.cli.app
 
 class FirstStep:
     # leaves when the recorder's first step has been made; sees the world's class without importing it first
     def find_spec(self, name, path=None, target=None):
-        if name == "runtime.recording":
-            from runtime.world import World
+        if name == "runtime.traces.recording":
+            from runtime.world.world import World
             step = World.step
             def first(world, dt):
                 step(world, dt)
@@ -38,7 +38,7 @@ class FirstStep:
         return None
 
 sys.meta_path.insert(0, FirstStep())
-runtime.cli.main(["run", sys.argv[1]])
+runtime.cli.app.main(["run", sys.argv[1]])
 """
 PEERS = "import time, numpy, numba, mujoco; print(time.time(), time.process_time())"
 

@@ -19,7 +19,7 @@ import numpy as np
 
 import navmesh
 from runtime import Fell, World
-from runtime.rules import walk_rules
+from runtime.planning.rules import walk_rules
 
 DEGREES = (5.0, 10.0, 15.0, 18.0, 20.0, 22.0, 25.0, 28.0, 31.0, 34.0, 37.0, 40.0)
 SPEEDS = (1.2, 2.0, 3.3)  # [m/s]

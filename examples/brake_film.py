@@ -10,9 +10,9 @@ import numpy as np
 from matplotlib.figure import Figure as Sheet
 
 from locomotion import Human
-from runtime.figure import Figure
-from runtime.filmstrip import show_frame
-from runtime.render import Camera, Triangles, render
+from runtime.bodies.figure import Figure
+from runtime.views.filmstrip import show_frame
+from runtime.views.render import Camera, Triangles, render
 
 SPEED, TOLD = 3.0, 3.5
 """[m/s] asked for; [s] after which it is told to stop."""

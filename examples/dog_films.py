@@ -15,10 +15,10 @@ import navmesh
 from locomotion import Ground
 from locomotion.quadruped import Herd, lay_trail, load_body
 from runtime import World
-from runtime.animal_figure import animal_figure
-from runtime.figure import Shapes
-from runtime.render import Camera, Triangles, render
-from runtime.rules import walk_rules
+from runtime.bodies.animal_figure import animal_figure
+from runtime.bodies.figure import Shapes
+from runtime.planning.rules import walk_rules
+from runtime.views.render import Camera, Triangles, render
 
 COLUMNS = 6
 SIZE = (260, 195)

@@ -24,7 +24,7 @@ from panda3d.core import (
 
 import navmesh
 import runtime
-from runtime.rules import walk_rules
+from runtime.planning.rules import walk_rules
 
 
 def terrain_of(node: NodePath) -> navmesh.Terrain:

@@ -8,12 +8,12 @@ import sys
 import numpy as np
 from matplotlib.figure import Figure as Sheet
 
-from locomotion import controller
-from locomotion.skill import load_run_skill
-from locomotion.training.rollout import Scenario, Simulator
-from runtime.figure import Figure
-from runtime.filmstrip import show_frame
-from runtime.render import Camera, Triangles, render
+from locomotion.gaits.run import controller
+from locomotion.gaits.run.skill import load_run_skill
+from locomotion.training.gaits.rollout import Scenario, Simulator
+from runtime.bodies.figure import Figure
+from runtime.views.filmstrip import show_frame
+from runtime.views.render import Camera, Triangles, render
 
 SPEEDS, FRAMES = (2.0, 3.5, 5.0), 8
 """[m/s], one row each; moments of two steps."""

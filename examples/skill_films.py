@@ -14,11 +14,11 @@ import numpy as np
 from matplotlib.figure import Figure as Sheet
 
 from locomotion import Human
-from runtime.courses import Course, make_course, run_course
-from runtime.evaluation import DEFAULT_HEIGHTS
-from runtime.figure import Figure
-from runtime.filmstrip import show_frame
-from runtime.render import Camera, Triangles, render
+from runtime.bodies.figure import Figure
+from runtime.evaluation.courses import Course, make_course, run_course
+from runtime.evaluation.evaluation import DEFAULT_HEIGHTS
+from runtime.views.filmstrip import show_frame
+from runtime.views.render import Camera, Triangles, render
 
 FRAMES, COLUMNS, APART = 14, 7, 12
 """Pictures, in a row, and ticks between them."""

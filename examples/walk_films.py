@@ -13,11 +13,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Sheet
 
 from locomotion import Ground, Human
-from locomotion.ground import extruded
-from locomotion.training.grounds import ground_height, training_ground
-from runtime.figure import Figure
-from runtime.filmstrip import show_frame
-from runtime.render import Camera, Triangles, render
+from locomotion.ground.ground import extruded
+from locomotion.training.gaits.grounds import ground_height, training_ground
+from runtime.bodies.figure import Figure
+from runtime.views.filmstrip import show_frame
+from runtime.views.render import Camera, Triangles, render
 
 FRAMES, APART = 8, {"walk": 0.1, "turn": 0.2, "stairs": 0.2}
 """Moments of a strip, and the time between them [s]."""

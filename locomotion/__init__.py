@@ -1,12 +1,12 @@
 """Bodies that follow a path."""
 
-from locomotion.approach import ApproachPlan, plan_approach, plan_approach_exact
-from locomotion.body import ARRIVAL_DISTANCE, PERSON_RULES, Human, HumanState
 from locomotion.errors import LocomotionError
-from locomotion.ground import Ground
-from locomotion.human_state import MOVING
-from locomotion.route_smoothing import ObstacleAhead, Smoothing, SmoothPath, smooth_route
-from locomotion.skill import RunSkill, load_run_skill
+from locomotion.gaits.run.skill import RunSkill, load_run_skill
+from locomotion.ground.ground import Ground
+from locomotion.human.human import ARRIVAL_DISTANCE, PERSON_RULES, Human, HumanState
+from locomotion.human.state import MOVING
+from locomotion.paths.smoothing import ObstacleAhead, Smoothing, SmoothPath, smooth_route
+from locomotion.skills.approach import ApproachPlan, plan_approach, plan_approach_exact
 from surefoot import __version__
 
 __all__ = [

@@ -12,8 +12,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 from annotated_types import Ge, Gt, Le, Len
 
-from navmesh.files.archive import ArchiveError, read_archive, write_archive
-from navmesh.files.schema import Array, Flags, Header, Indices, Numbers, Offsets, Schema, Words
 from navmesh.links import Links
 from navmesh.obstacle_rules import AFFORDANCES, ObstacleRules
 from navmesh.obstacles import Obstacles
@@ -22,6 +20,8 @@ from navmesh.surface import Surface
 from navmesh.tagging import TagFile
 from navmesh.tags import Tags
 from navmesh.terrain import Chunk, Terrain
+from surefoot.files.archive import ArchiveError, read_archive, write_archive
+from surefoot.files.schema import Array, Flags, Header, Indices, Numbers, Offsets, Schema, Words
 
 if TYPE_CHECKING:
     from navmesh.graph import NodeGraph

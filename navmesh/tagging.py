@@ -7,13 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from navmesh.errors import NavmeshError
-from navmesh.files.yamlfile import Located, read_yaml
+from surefoot.errors import SurefootError
 from navmesh.free_length import REACH, cells_of, room
 from navmesh.obstacle_rules import AFFORDANCES
 from navmesh.obstacles import Obstacles
 from navmesh.rules import WalkRules
 from navmesh.surface import Surface
 from navmesh.tags import Addition, NewValues, Reference, Tags
+from surefoot.files.yamlfile import Located, read_yaml
 
 __all__ = ["TagFile", "load_tags"]
 
@@ -98,7 +99,7 @@ class TagFile:
             raise self._error((*address, "at"), f"both {pair} are here; name the affordance or the tag")
         return int(order[0])
 
-    def _error(self, address: tuple[str | int, ...], problem: str) -> NavmeshError:
+    def _error(self, address: tuple[str | int, ...], problem: str) -> SurefootError:
         if self.located is None:
             return NavmeshError(f"tags: {'.'.join(str(step) for step in address)}: {problem}")
         return self.located.error(address, problem)

@@ -31,7 +31,7 @@ import yaml
 from annotated_types import Ge, Gt, Le, Len
 from pydantic import AfterValidator, BaseModel, ConfigDict, StringConstraints, model_validator
 
-from navmesh.files.whole_file import whole_file
+from surefoot.files.atomic_write import whole_file
 
 __all__ = ["Addition", "Change", "NewValues", "Reference", "Tags", "save_tags", "tags_path"]
 

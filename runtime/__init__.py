@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 from surefoot import __version__
 
 if TYPE_CHECKING:
-    from runtime.agent import Agent
+    from runtime.bodies.pose import Pose
     from runtime.errors import RuntimeInputError
     from runtime.events import (
         Arrived,
@@ -34,10 +34,10 @@ if TYPE_CHECKING:
         SkillStarted,
         Stuck,
     )
-    from runtime.live import LiveView
-    from runtime.pose import Pose
+    from runtime.views.live import LiveView
     from runtime.warmup import prepare
-    from runtime.world import World, WorldState
+    from runtime.world.agent import Agent
+    from runtime.world.world import World, WorldState
 
 __all__ = [
     "Agent",
@@ -62,11 +62,32 @@ __all__ = [
     "prepare",
 ]
 
+_MODULES = (
+    "errors", "events", "world.agent", "bodies.pose", "world.world", "world.state", "views.live", "warmup",
+)  # fmt: skip
+    "errors",
+    "events",
+    "world.agent",
+    "bodies.pose",
+    "world.world",
+    "world.state",
+    "views.live",
+    "warmup",
+)
+
 
 def __getattr__(name: str) -> Any:
     # imported when first asked for: `surefoot --help` needs neither physics nor kernels
     if name in __all__:
-        for module in ("errors", "events", "agent", "pose", "world", "live", "warmup"):
+        for module in (
+            "errors",
+            "events",
+            "world.agent",
+            "bodies.pose",
+            "world.world",
+            "views.live",
+            "warmup",
+        ):
             found = getattr(import_module(f"runtime.{module}"), name, None)
             if found is not None:
                 return found

@@ -1,5 +1,7 @@
 """The error that wrong input to this package raises."""
 
+from surefoot.errors import SurefootError
 
-class RuntimeInputError(ValueError):
+
+class RuntimeInputError(SurefootError):
     """Wrong input: the message says what is wrong, where, and what would be right."""

@@ -1,6 +1,8 @@
 """What the packages `navmesh`, `pathsmooth`, `locomotion` and `runtime` share; ``python -m surefoot`` is the
 command ``surefoot``."""
 
-__all__ = ["__version__"]
+from surefoot.errors import SurefootError
+
+__all__ = ["SurefootError", "__version__"]
 
 __version__ = "0.1.0"

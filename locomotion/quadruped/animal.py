@@ -17,9 +17,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from locomotion.avoidance.yielding import COUNT, SPACING, Course, first_meeting
 from locomotion.errors import LocomotionError
 from locomotion.events import Arrived, BackedOut, Event, GotStuck, LostGround, MissedGoal, SetOff
-from locomotion.giving_way import COUNT, SPACING, Course, first_meeting
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.course import course_back, course_on, shifted_points
 from locomotion.quadruped.errand import AnimalMemory, Errand, Phase, Status

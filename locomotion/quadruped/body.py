@@ -19,16 +19,16 @@ from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, model_validator
 
 import navmesh
+from locomotion.data import BODIES
 from locomotion.errors import LocomotionError
+from locomotion.paths.smoothing import Smoothing
 from locomotion.quadruped import layout as at
-from locomotion.route_smoothing import Smoothing
-from navmesh.files.yamlfile import FileError, read_yaml
+from surefoot.files.yamlfile import FileError, read_yaml
 
 __all__ = ["BODY_NAMES", "Body", "Gait", "is_body_file", "load_body"]
 
 BODY_NAMES = ("dog", "cat", "horse")
 """Bodies that come with the package."""
-_FOLDER = Path(__file__).parent / "bodies"
 
 Length = Annotated[float, Gt(0.0), Le(20.0)]
 Share = Annotated[float, Ge(0.0), Le(1.0)]
@@ -337,7 +337,7 @@ def is_body_file(name: str | os.PathLike[str]) -> bool:
 
 @lru_cache
 def _own_body(name: str) -> Body:
-    return _read_body(_FOLDER / f"{name}.yaml")
+    return _read_body(BODIES / f"{name}.yaml")
 
 
 def _read_body(path: Path) -> Body:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion.giving_way import HORIZON, SPACING, Course
+from locomotion.avoidance.yielding import HORIZON, SPACING, Course
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.body import Body
 from locomotion.quadruped.foretold import disc_radius

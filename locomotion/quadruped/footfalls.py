@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from locomotion.ground import height_below
+from locomotion.ground.ground import height_below
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.following import front_of, wanted_pose
 from locomotion.quadruped.gait import leg_phase, seconds_for, swing_tempo

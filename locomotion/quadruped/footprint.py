@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion.ground import Ground
+from locomotion.ground.ground import Ground
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.body import Body
 from locomotion.quadruped.following import front_of, on_trail

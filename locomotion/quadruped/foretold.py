@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion.giving_way import COUNT, STEP
+from locomotion.avoidance.yielding import COUNT, STEP
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.body import Body
 from locomotion.quadruped.following import front_of, wanted_pose

@@ -19,9 +19,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from locomotion.avoidance.yielding import COUNT
 from locomotion.errors import LocomotionError
-from locomotion.giving_way import COUNT
-from locomotion.ground import Ground
+from locomotion.ground.ground import Ground
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.advance import advance_all
 from locomotion.quadruped.body import Body

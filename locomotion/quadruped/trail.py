@@ -14,8 +14,8 @@ from scipy.interpolate import CubicSpline
 from scipy.ndimage import maximum_filter1d, uniform_filter1d
 
 from locomotion.errors import LocomotionError
-from locomotion.ground import Ground, height_below
-from locomotion.path_tracking import checked_points
+from locomotion.ground.ground import Ground, height_below
+from locomotion.paths.tracking import checked_points
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.body import Body
 from surefoot.kernels import allocating_kernel, kernel
@@ -115,7 +115,7 @@ def _drape(rows: NDArray[np.float64], wanted: NDArray[np.float64], ground: Groun
 
 
 def kernel_ground(ground: Ground) -> tuple:
-    """What kernels take to ask `locomotion.ground.height_below`."""
+    """What kernels take to ask `locomotion.ground.ground.height_below`."""
     a = ground.arrays
     return a.rows, a.cell_start, a.cell_triangles, a.grid, a.shape
 

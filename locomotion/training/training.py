@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
+from locomotion.body.person import person_digest
 from locomotion.errors import LocomotionError
-from locomotion.library import skill_digest
-from locomotion.person import person_digest
-from locomotion.training.checkpoint import anew, claim, read_checkpoint
-from locomotion.training.loop import Problem, Stage, learn, stages_digest
+from locomotion.skills.library import skill_digest
 from locomotion.training.progress import Clock, Progress, show
-from navmesh.files.archive import check_target, write_archive
-from navmesh.files.schema import Array, Header, Schema
+from locomotion.training.search.checkpoint import anew, claim, read_checkpoint
+from locomotion.training.search.loop import Problem, Stage, learn, stages_digest
+from surefoot.files.archive import check_target, write_archive
+from surefoot.files.schema import Array, Header, Schema
 
 __all__ = ["NotLearnedError", "Training"]
 
@@ -75,8 +75,8 @@ class Training:
     def learn(
         self, problem: Problem, number: int = 0, name: str = "search", clock: Clock | None = None
     ) -> np.ndarray:
-        """What search ``number`` of a skill finds, see `locomotion.training.loop.learn`. ``name``: of the
-        file for its state; ``clock``: of all searches."""
+        """What search ``number`` of a skill finds, see `locomotion.training.search.loop.learn`. ``name``: of
+        the file for its state; ``clock``: of all searches."""
         learned = learn(problem, self.seed + number, self.file(name), self.workers, self.on_progress, clock)
         assert learned is not None
         return learned

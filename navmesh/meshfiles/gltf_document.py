@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from navmesh.files.inputs import note_input
 from navmesh.meshfiles.gltf_compression import MESHOPT, meshopt_bytes
 from navmesh.meshfiles.mesh_file import MeshFileError
 from navmesh.meshfiles.text import read_bytes
+from surefoot.files.inputs import note_input
 
 __all__ = ["Document"]
 

@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 
 from navmesh.errors import NavmeshError
-from navmesh.files.inputs import note_input
 from navmesh.meshfiles.fbx import read_fbx
 from navmesh.meshfiles.gltf import read_gltf
 from navmesh.meshfiles.mesh_file import MeshFile, MeshFileError
@@ -16,6 +15,7 @@ from navmesh.meshfiles.off import read_off
 from navmesh.meshfiles.ply import read_ply
 from navmesh.meshfiles.stl import read_stl
 from navmesh.meshfiles.usd import read_usd
+from surefoot.files.inputs import note_input
 
 __all__ = ["read_mesh"]
 

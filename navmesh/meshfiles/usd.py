@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from navmesh.files.inputs import note_input
 from navmesh.meshfiles.mesh_file import MeshFile, MeshFileError, flattened, missing_extra
 from navmesh.meshfiles.polygons import CrossingPolygon, triangulate
+from surefoot.files.inputs import note_input
 
 __all__ = ["read_usd"]
 

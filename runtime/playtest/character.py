@@ -6,10 +6,10 @@ from typing import Any
 
 import navmesh
 from locomotion import PERSON_RULES, Human
-from locomotion.clearing import skill_ranges
 from locomotion.quadruped import BODY_NAMES, load_body
+from locomotion.skills.interface import skill_ranges
 from runtime.errors import RuntimeInputError
-from runtime.rules import obstacle_rules, walk_rules
+from runtime.planning.rules import obstacle_rules, walk_rules
 
 __all__ = ["BODIES", "Character", "changed", "character_of"]
 

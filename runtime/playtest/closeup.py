@@ -5,12 +5,12 @@ import math
 
 import numpy as np
 
-from runtime.camera import clearest
-from runtime.figure import Shapes
+from runtime.bodies.figure import Shapes
 from runtime.playtest.fault import Fault
 from runtime.playtest.looks import capsule
 from runtime.playtest.site import Site
-from runtime.render import Camera, Triangles, render
+from runtime.views.camera import clearest
+from runtime.views.render import Camera, Triangles, render
 
 __all__ = ["close_up"]
 

@@ -4,8 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from runtime.commands import Result, check_page, ready
-from runtime.files import check_output_folder
+from runtime.cli.commands import Result, check_page, ready
 from runtime.playtest.diff import Difference, compare
 from runtime.playtest.fault import Fault
 from runtime.playtest.junit import write_junit
@@ -13,6 +12,7 @@ from runtime.playtest.page import write_page
 from runtime.playtest.replay import replay
 from runtime.playtest.report import read_report, write_report
 from runtime.playtest.run import Outcome, playtest
+from surefoot.files.outputs import check_output_folder
 
 __all__ = ["playtest_level", "replay_finding"]
 
@@ -42,7 +42,7 @@ def playtest_level(level: Path, options: Mapping[str, Any], out: Path | None, be
 
 def replay_finding(report: Path, number: int, output: Path) -> Result:
     """Write a page that plays finding ``number`` of ``report``."""
-    from runtime.view import write_page as write_view
+    from runtime.views.view import write_page as write_view
 
     check_page(output)
     found = read_report(report)

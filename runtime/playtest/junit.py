@@ -3,9 +3,9 @@
 import os
 from xml.etree import ElementTree as xml
 
-from runtime.files import whole_file
 from runtime.playtest.fault import KINDS
 from runtime.playtest.report import Report
+from surefoot.files.atomic_write import whole_file
 
 __all__ = ["write_junit"]
 

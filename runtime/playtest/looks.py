@@ -4,8 +4,8 @@ import numpy as np
 
 from locomotion import Human
 from locomotion.quadruped import load_body
-from runtime.animal_figure import animal_figure
-from runtime.figure import Figure, Shapes
+from runtime.bodies.animal_figure import animal_figure
+from runtime.bodies.figure import Figure, Shapes
 from runtime.playtest.character import Character
 
 __all__ = ["POSED", "capsule", "figure_of", "poses_along"]

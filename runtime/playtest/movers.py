@@ -14,7 +14,7 @@ from runtime.playtest import feet
 from runtime.playtest.looks import POSED
 from runtime.playtest.site import Site
 from runtime.skill_words import AFFORDANCE_OF
-from runtime.world import World
+from runtime.world.world import World
 
 __all__ = ["Leg", "Mover", "WalkerMover", "WorldMover", "mover_of", "planned_time"]
 

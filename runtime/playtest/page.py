@@ -5,7 +5,6 @@ import os
 from importlib.resources import files
 from typing import Any
 
-from runtime.files import whole_file
 from runtime.playtest.bots import Trouble
 from runtime.playtest.closeup import close_up
 from runtime.playtest.diff import Difference
@@ -13,8 +12,9 @@ from runtime.playtest.fault import Fault
 from runtime.playtest.observation import sighted
 from runtime.playtest.pictures import address, film_strip, heat_map, level_map
 from runtime.playtest.run import Outcome
-from runtime.progress import Progress
-from runtime.render import Triangles
+from runtime.views.render import Triangles
+from surefoot.files.atomic_write import whole_file
+from surefoot.progress import Progress
 
 __all__ = ["write_page"]
 

@@ -7,15 +7,15 @@ from typing import Any
 
 import numpy as np
 
-from runtime.camera import clearest
 from runtime.playtest.bots import Trouble
 from runtime.playtest.character import Character
 from runtime.playtest.goals import PATCH
 from runtime.playtest.looks import POSED, figure_of, poses_along
 from runtime.playtest.site import Site
-from runtime.plot import draw_floors
-from runtime.recording import level_trace
-from runtime.render import Camera, Triangles, render
+from runtime.traces.recording import level_trace
+from runtime.views.camera import clearest
+from runtime.views.plot import draw_floors
+from runtime.views.render import Camera, Triangles, render
 
 __all__ = ["address", "film_strip", "heat_map", "level_map"]
 

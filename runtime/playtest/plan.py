@@ -23,9 +23,9 @@ from annotated_types import Ge, Gt, Le, Len
 from pydantic import BaseModel, ConfigDict, Field
 
 import navmesh
-from navmesh.files.yamlfile import FileError, Located, read_yaml
-from runtime.mission_model import Name, Point
+from runtime.missions.model import Name, Point
 from runtime.playtest.character import Character, changed
+from surefoot.files.yamlfile import FileError, Located, read_yaml
 
 __all__ = ["LoadedPlan", "PlaceSpec", "Plan", "RouteSpec", "SpawnSpec", "plan_path"]
 

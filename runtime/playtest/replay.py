@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from runtime.bodies.figure import Figure
 from runtime.errors import RuntimeInputError
-from runtime.figure import Figure
 from runtime.playtest.bots import run_bot
 from runtime.playtest.fault import Fault
 from runtime.playtest.looks import POSED, capsule, figure_of, poses_along
@@ -11,8 +11,8 @@ from runtime.playtest.movers import WalkerMover
 from runtime.playtest.observation import sighted
 from runtime.playtest.report import Report
 from runtime.playtest.run import Stage, open_stage
-from runtime.recording import level_trace
-from runtime.trace import AgentTrace, PathTrace, Trace
+from runtime.traces.recording import level_trace
+from runtime.traces.trace import AgentTrace, PathTrace, Trace
 
 __all__ = ["replay"]
 
@@ -21,7 +21,7 @@ _BEFORE = 8.0
 
 
 def replay(report: Report, number: int) -> Trace:
-    """The run that shows finding ``number`` of ``report`` (from 1), for `runtime.view.write_page`.
+    """The run that shows finding ``number`` of ``report`` (from 1), for `runtime.views.view.write_page`.
 
     Raises `RuntimeInputError` for a number that the report does not have, or when the level is not the one
     that was played.

@@ -7,13 +7,13 @@ from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from navmesh.errors import NavmeshError
-from navmesh.files.jsonfile import read_json
 from runtime.errors import RuntimeInputError
-from runtime.files import whole_file
 from runtime.playtest.fault import KINDS, Fault, Sighting
 from runtime.playtest.observation import Crossing, Journey
-from runtime.record_types import wrong_field
+from surefoot.errors import SurefootError
+from surefoot.files.atomic_write import whole_file
+from surefoot.files.jsonfile import read_json
+from surefoot.files.record_types import wrong_field
 
 __all__ = ["FORMAT", "Report", "Setup", "read_report", "write_report"]
 
@@ -92,7 +92,7 @@ def read_report(path: str | os.PathLike[str]) -> Report:
     file = Path(path)
     try:
         values = read_json(file, "report of a playtest")
-    except NavmeshError as error:
+    except SurefootError as error:
         raise RuntimeInputError(str(error)) from None
     if not isinstance(values, dict) or values.get("format") != FORMAT:
         raise RuntimeInputError(f"{file}: not a report of a playtest: expected format {FORMAT!r}")

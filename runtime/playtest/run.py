@@ -12,7 +12,6 @@ import numpy as np
 from scipy.spatial import KDTree
 
 import navmesh
-from locomotion.workers import worker_pool
 from runtime.errors import RuntimeInputError
 from runtime.playtest.analysis import analyse
 from runtime.playtest.bots import BotRun, Goals, run_bot
@@ -25,7 +24,8 @@ from runtime.playtest.observation import crossings, journeys, observed, with_sig
 from runtime.playtest.plan import LoadedPlan, plan_path
 from runtime.playtest.report import Report, Setup
 from runtime.playtest.site import Site
-from runtime.progress import Progress
+from surefoot.progress import Progress
+from surefoot.workers import worker_pool
 
 __all__ = ["MOST_BOTS", "Outcome", "Stage", "open_stage", "playtest"]
 

@@ -1,6 +1,6 @@
 """A world that the server runs, and how it is told in messages.
 
-What may take long (`HostedWorld.step` and most others) can be interrupted, see `locomotion.pausing`; nobody
+What may take long (`HostedWorld.step` and most others) can be interrupted, see `surefoot.pausing`; nobody
 else may use the world then. Whoever calls it holds `HostedWorld.lock`.
 """
 
@@ -14,14 +14,14 @@ import numpy as np
 from pydantic_core import to_json
 
 import navmesh
-from locomotion.pausing import pause
-from runtime.agent import Agent
 from runtime.errors import RuntimeInputError
-from runtime.planning import Plan
-from runtime.recording import level_trace
+from runtime.planning.planning import Plan
 from runtime.server.client import Client
 from runtime.server.messages import States
-from runtime.world import World, WorldState
+from runtime.traces.recording import level_trace
+from runtime.world.agent import Agent
+from runtime.world.world import World, WorldState
+from surefoot.pausing import pause
 
 __all__ = ["HostedWorld", "graph_message", "level_message", "skeleton", "way_message"]
 
@@ -187,14 +187,15 @@ def level_message(graph: navmesh.NodeGraph) -> dict[str, Any]:
 
 
 def graph_message(graph: navmesh.NodeGraph) -> dict[str, Any]:
-    """What of a level's graph and obstacles is drawn, as `runtime.trace.LevelTrace` has it."""
+    """What of a level's graph and obstacles is drawn, as `runtime.traces.trace.LevelTrace` has it."""
     level = level_trace(graph)
     drawn = {name: getattr(level, name).round(4).tolist() for name in _DRAWN}
     return {**drawn, "affordances": list(level.affordances)}
 
 
 def way_message(agent: Agent) -> dict[str, Any]:
-    """The lines of the path that an agent is on, as `runtime.trace.PathTrace` has them; empty without one."""
+    """The lines of the path that an agent is on, as `runtime.traces.trace.PathTrace` has them; empty without
+    one."""
     way = agent.way
     if way is None:
         return {"raw": [], "pulled": [], "smooth": []}

@@ -17,8 +17,8 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, TypeAdapter, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
-from runtime.drivers import BODIES
-from runtime.files import whole_file
+from runtime.bodies.protocol import BODIES
+from surefoot.files.atomic_write import whole_file
 
 __all__ = [
     "PROTOCOL",
@@ -264,8 +264,8 @@ class Gone(_Ordered):
 
 class Skeleton(_Message):
     """``parents``: -1 for the root. ``owner``: of each shape the body that carries it; ``place``: its
-    position and quaternion there; ``size``: as `runtime.figure.Shapes` has it; ``round``: an ellipsoid, else
-    a capsule along z; ``colour``: red, green, blue, 0 to 1."""
+    position and quaternion there; ``size``: as `runtime.bodies.figure.Shapes` has it; ``round``: an
+    ellipsoid, else a capsule along z; ``colour``: red, green, blue, 0 to 1."""
 
     name: str
     body: str

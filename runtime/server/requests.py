@@ -10,9 +10,9 @@ from typing import Any
 from pydantic_core import to_json
 
 import navmesh
-from locomotion.person_models import person_on
+from locomotion.body.models import person_on
 from runtime.errors import RuntimeInputError
-from runtime.level import Level
+from runtime.planning.level import Level
 from runtime.server import messages as m
 from runtime.server.client import Client
 from runtime.server.hosted import HostedWorld, graph_message, level_message, skeleton, way_message

@@ -8,7 +8,7 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-from locomotion.pausing import interruptible
+from surefoot.pausing import interruptible
 
 __all__ = ["Abandoned", "Worker"]
 

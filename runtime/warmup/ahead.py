@@ -14,12 +14,12 @@ import numba
 from llvmlite.binding import get_host_cpu_name
 
 import surefoot
-from runtime.progress import Progress
 from runtime.warmup.sharing import run_shared
 from surefoot.compiling import TIME
 from surefoot.kernels.dependencies import PACKAGES
 from surefoot.kernels.folder import cache_folder, forget_old
 from surefoot.kernels.loading import load_kept
+from surefoot.progress import Progress
 
 __all__ = ["compile_kernels", "is_compiled", "load_kernels", "prepare", "prepare_once"]
 
@@ -74,7 +74,7 @@ def load_kernels() -> None:
     """Let one of each kind take a step, so that the first one of somebody who waits for it takes no longer
     than the others."""
     from runtime.warmup.first_uses import tiny_level
-    from runtime.world import World
+    from runtime.world.world import World
 
     world = World(tiny_level())
     for y, body in enumerate(("human", "dog", "walker"), start=1):
@@ -95,7 +95,7 @@ def _compile(told: Callable[[float, str], object]) -> None:
             if mark is not None:
                 mark.write_text(_sources(), encoding="ascii")
                 forget_old()
-        import runtime.world  # noqa: F401  what a frame runs
+        import runtime.world.world  # noqa: F401  what a frame runs
 
         load_kept()
     finally:

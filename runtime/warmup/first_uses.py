@@ -42,7 +42,7 @@ def tiny_level() -> navmesh.Terrain:
 
 
 def _navigate() -> None:
-    from runtime.rules import person_walk_rules
+    from runtime.planning.rules import person_walk_rules
 
     terrain = tiny_level()
     graph = navmesh.NodeGraph.build(terrain, person_walk_rules())
@@ -78,7 +78,7 @@ def _smooth() -> None:
 
 
 def _run_and_jump() -> None:
-    from runtime.world import World
+    from runtime.world.world import World
 
     world = World(tiny_level())
     agent = world.spawn("human", (1.5, 2.0, 0.0))
@@ -88,7 +88,7 @@ def _run_and_jump() -> None:
 
 
 def _clear() -> None:
-    from runtime.courses import make_course, run_course
+    from runtime.evaluation.courses import make_course, run_course
 
     run_course(make_course([("vault", 0.7, 0.3), ("drop", 1.2, 0.0), ("gap", 1.0, 0.0)], [12.0, 14.0, 12.0]))
 
@@ -111,7 +111,7 @@ def _fall_and_get_up() -> None:
 
 
 def _animals_and_crowds() -> None:
-    from runtime.world import World
+    from runtime.world.world import World
 
     world = World(tiny_level())
     world.spawn("dog", (1.5, 1.0, 0.0)).go_to((7.5, 3.0, 0.0), speed=1.5)
@@ -137,7 +137,7 @@ def _playtest() -> None:
 
 
 def _draw() -> None:
-    from runtime.render import Camera, Triangles, render
+    from runtime.views.render import Camera, Triangles, render
 
     terrain = tiny_level()
     camera = Camera(np.array([0.0, 0.0, 8.0]), np.array([6.0, 4.0, 0.0]))

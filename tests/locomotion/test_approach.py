@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from locomotion.approach import plan_approach, plan_approach_exact
 from locomotion.errors import LocomotionError
+from locomotion.skills.approach import plan_approach, plan_approach_exact
 
 distances = st.floats(0.3, 40.0)
 speeds = st.floats(1.0, 5.0)

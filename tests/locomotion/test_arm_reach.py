@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from locomotion.arm_reach import ARM_START, hand_place, reach, shoulder_frame
-from locomotion.hand_hold import HAND_POINT, hold, holding, let_go, let_go_both
-from locomotion.person import JOINT_NAMES, build_person
+from locomotion.body.arm_reach import ARM_START, hand_place, reach, shoulder_frame
+from locomotion.body.hand_hold import HAND_POINT, hold, holding, let_go, let_go_both
+from locomotion.body.person import JOINT_NAMES, build_person
 
 SIDES = ((-1.0, "right"), (1.0, "left"))
 MODEL = build_person()

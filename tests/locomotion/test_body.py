@@ -6,16 +6,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from locomotion import controller
-from locomotion.arm_reach import hand_place
-from locomotion.body import Human
-from locomotion.clearing import foot_distance
+from locomotion.body.arm_reach import hand_place
+from locomotion.body.hand_hold import hold, holding
 from locomotion.errors import LocomotionError
 from locomotion.events import Arrived, Cleared, SetOff, TookOff
-from locomotion.ground import Ground
-from locomotion.hand_hold import hold, holding
-from locomotion.human_state import MOVING
-from locomotion.route_smoothing import ObstacleAhead
+from locomotion.gaits.run import controller
+from locomotion.ground.ground import Ground
+from locomotion.human.human import Human
+from locomotion.human.state import MOVING
+from locomotion.paths.smoothing import ObstacleAhead
+from locomotion.skills.interface import foot_distance
 
 STRAIGHT = np.array([[0.0, 0, 0], [15, 0, 0]])
 

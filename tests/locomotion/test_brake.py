@@ -5,13 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from locomotion import Human, LocomotionError, controller
-from locomotion.brake import BRAKE_SKILL, BRAKING, FIRST_STEPS, load_brake_skill
-from locomotion.person import MASS
-from locomotion.rehearsal import BRAKINGS, ComesToRest, at_once, first_good
-from locomotion.skill import load_run_skill
-from locomotion.training.brake import BrakeProblem, brake_of, draw_starts, first_guess, stop
-from locomotion.training.loop import Stage
+from locomotion import Human, LocomotionError
+from locomotion.body.person import MASS
+from locomotion.gaits.brake import BRAKE_SKILL, BRAKING, FIRST_STEPS, load_brake_skill
+from locomotion.gaits.run import controller
+from locomotion.gaits.run.skill import load_run_skill
+from locomotion.rehearsal.rehearsal import BRAKINGS, ComesToRest, at_once, first_good
+from locomotion.training.gaits.brake import BrakeProblem, brake_of, draw_starts, first_guess, stop
+from locomotion.training.search.loop import Stage
 
 WAY = np.array([[0.0, 0.0, 0.0], [60.0, 0.0, 0.0]])
 

@@ -5,14 +5,14 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from locomotion.bvh import read_bvh
-from locomotion.clip import load_clip
+from locomotion.body.person import JOINT_NAMES, person_spec
+from locomotion.clips.bvh import read_bvh
+from locomotion.clips.clip import load_clip
+from locomotion.clips.motion import Motion, load_motion, lowest_points, motion_of_clip
+from locomotion.clips.motion_check import check_motion
+from locomotion.clips.retargeting import load_mapping, retarget
 from locomotion.errors import LocomotionError
-from locomotion.motion import Motion, load_motion, lowest_points, motion_of_clip
-from locomotion.motion_check import check_motion
-from locomotion.person import JOINT_NAMES, person_spec
-from locomotion.retargeting import load_mapping, retarget
-from locomotion.skill import RUN_CLIP
+from locomotion.gaits.run.skill import RUN_CLIP
 
 pytest.importorskip("bvhio", reason="BVH files are read through bvhio")
 

@@ -6,13 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from locomotion import library
 from locomotion.errors import LocomotionError
-from locomotion.training.checkpoint import CONFIGURATION, claim
-from locomotion.training.loop import Stage
+from locomotion.skills import library
+from locomotion.training.search.checkpoint import CONFIGURATION, claim
+from locomotion.training.search.loop import Stage
 from locomotion.training.training import Training
-from navmesh.files.archive import ArchiveError
-from navmesh.files.schema import Numbers
+from surefoot.files.archive import ArchiveError
+from surefoot.files.schema import Numbers
 
 
 @pytest.fixture

@@ -5,10 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from locomotion.clip import load_clip
+from locomotion.body.person import JOINT_NAMES, build_person
+from locomotion.clips.clip import load_clip
 from locomotion.errors import LocomotionError
-from locomotion.person import JOINT_NAMES, build_person
-from locomotion.skill import RUN_CLIP
+from locomotion.gaits.run.skill import RUN_CLIP
 
 GOOD = """
 name: nod

@@ -7,10 +7,10 @@ import mujoco
 import numpy as np
 import pytest
 
-from locomotion import controller as c
-from locomotion import controller_reference as slow
-from locomotion.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, build_person
-from locomotion.skill import RunSkill, load_run_skill, reset_running
+from locomotion.body.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, build_person
+from locomotion.gaits.run import controller as c
+from locomotion.gaits.run import reference as slow
+from locomotion.gaits.run.skill import RunSkill, load_run_skill, reset_running
 
 
 class Runner:
@@ -72,7 +72,7 @@ def test_kernel_equals_reference() -> None:
 
 def test_left_stance_mirrors_right_stance(runner: Runner) -> None:
     """A mirrored situation gives mirrored targets."""
-    from locomotion.person import JOINT_NAMES
+    from locomotion.body.person import JOINT_NAMES
 
     runner.tick(70)
     other = Runner()

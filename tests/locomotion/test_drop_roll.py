@@ -3,25 +3,25 @@
 import numpy as np
 import pytest
 
-from locomotion import controller
-from locomotion import drop_roll as dr
-from locomotion.body import Human
-from locomotion.clearing_law import MIRROR, MIRROR_SIGN, mirror
-from locomotion.clip import load_clip
-from locomotion.drop_roll_reference import wanted_pose
-from locomotion.drop_roll_skill import (
+from locomotion.body.person import JOINT_NAMES, person_spec
+from locomotion.clips.clip import load_clip
+from locomotion.errors import LocomotionError
+from locomotion.events import Cleared, TookOff
+from locomotion.gaits.run import controller
+from locomotion.human.human import Human
+from locomotion.human.state import MOVING
+from locomotion.paths.smoothing import ObstacleAhead
+from locomotion.skills.drop_roll import kernel as dr
+from locomotion.skills.drop_roll.reference import wanted_pose
+from locomotion.skills.drop_roll.skill import (
     DROP_ROLL_CLIP,
     DropRoll,
     drop_roll_clip,
     load_drop_roll_skill,
     tables_of,
 )
-from locomotion.errors import LocomotionError
-from locomotion.events import Cleared, TookOff
-from locomotion.human_state import MOVING
-from locomotion.person import JOINT_NAMES, person_spec
-from locomotion.route_smoothing import ObstacleAhead
-from runtime.courses import enter_course, make_course, run_course
+from locomotion.skills.kernel import MIRROR, MIRROR_SIGN, mirror
+from runtime.evaluation.courses import enter_course, make_course, run_course
 
 N = len(JOINT_NAMES)
 

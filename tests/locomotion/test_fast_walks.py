@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from locomotion import Human
-from locomotion.anatomy import MASS
-from locomotion.human_state import MOVING
-from locomotion.run_layout import COM_VELOCITY
-from locomotion.walk_layout import CLOCK, DOUBLE, PHASE, SEEN_PELVIS, SEEN_SOLES, SINGLE, WALK_STANCE
-from locomotion.walking import legs_momentum
+from locomotion.body.anatomy import MASS
+from locomotion.gaits.run.layout import COM_VELOCITY
+from locomotion.gaits.walk.controller import legs_momentum
+from locomotion.gaits.walk.layout import CLOCK, DOUBLE, PHASE, SEEN_PELVIS, SEEN_SOLES, SINGLE, WALK_STANCE
+from locomotion.human.state import MOVING
 
 WAY = 30.0
 

@@ -2,11 +2,11 @@
 
 import pytest
 
-from locomotion.body import Human
-from locomotion.foreseen import Foreseen
-from locomotion.foresight import Foresight
-from locomotion.human_state import MOVING
-from runtime.courses import enter_course, make_course
+from locomotion.human.human import Human
+from locomotion.human.state import MOVING
+from locomotion.rehearsal.lookahead import Foresight
+from locomotion.rehearsal.predicted import Foreseen
+from runtime.evaluation.courses import enter_course, make_course
 
 COURSE = [("jump", 0.4, 0.3), ("vault", 0.7, 0.3)], [14.0, 9.0]
 

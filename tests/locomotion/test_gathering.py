@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from locomotion.gathering import ROOM, free_points, is_before, who_stands_at
-from locomotion.giving_way import SPACING, Course
+from locomotion.avoidance.goal_occupancy import ROOM, free_points, is_before, who_stands_at
+from locomotion.avoidance.yielding import SPACING, Course
 
 GOAL = np.array([10.0, 0.0, 0.0])
 

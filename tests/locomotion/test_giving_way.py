@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from locomotion.giving_way import (
+from locomotion.avoidance.yielding import (
     AT_ONCE,
     COUNT,
     HARD,

@@ -6,11 +6,11 @@ import mujoco
 import numpy as np
 import pytest
 
+from locomotion.body.person import build_person
 from locomotion.errors import LocomotionError
-from locomotion.ground import Ground
-from locomotion.person import build_person
-from locomotion.trimesh_contact import MAX_CANDIDATES, capsule_contacts
-from locomotion.trimesh_reference import reference_contacts
+from locomotion.ground.collider.contact import MAX_CANDIDATES, capsule_contacts
+from locomotion.ground.collider.reference import reference_contacts
+from locomotion.ground.ground import Ground
 
 SPHERE, CAPSULE = mujoco.mjtGeom.mjGEOM_SPHERE, mujoco.mjtGeom.mjGEOM_CAPSULE
 

@@ -6,12 +6,13 @@ import mujoco
 import numpy as np
 import pytest
 
-from locomotion import controller, jump
+from locomotion.body.person import CONTROL_DT, JOINT_NAMES
 from locomotion.errors import LocomotionError
-from locomotion.jump_reference import wanted_offset
-from locomotion.jump_skill import Jump, jump_clip, load_jump_skill, run_digest, tables_of
-from locomotion.person import CONTROL_DT, JOINT_NAMES
-from locomotion.skill import load_run_skill, run_clip
+from locomotion.gaits.run import controller
+from locomotion.gaits.run.skill import load_run_skill, run_clip
+from locomotion.skills.jump import kernel as jump
+from locomotion.skills.jump.reference import wanted_offset
+from locomotion.skills.jump.skill import Jump, jump_clip, load_jump_skill, run_digest, tables_of
 
 
 @pytest.fixture(scope="module")
@@ -168,7 +169,7 @@ def test_contents_that_do_not_fit(tmp_path, skill, change, message):
 
 
 def test_of_another_person(tmp_path, skill, monkeypatch):
-    monkeypatch.setattr("locomotion.skill_family.person_digest", lambda: "another")
+    monkeypatch.setattr("locomotion.skills.family.person_digest", lambda: "another")
     skill.save(tmp_path / "jump.npz")
     monkeypatch.undo()
     with pytest.raises(LocomotionError, match="another person"):
@@ -176,7 +177,7 @@ def test_of_another_person(tmp_path, skill, monkeypatch):
 
 
 def test_the_stair_of_a_trial_is_where_it_was_put():
-    from locomotion.training.jump_trial import JumpSimulator
+    from locomotion.training.skills.jump_trial import JumpSimulator
 
     simulator = JumpSimulator(load_run_skill())
     simulator.place(3.0, 0.4)

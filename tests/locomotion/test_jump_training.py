@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from locomotion import jump
 from locomotion.errors import LocomotionError
-from locomotion.jump_skill import Jump, load_jump_skill
-from locomotion.skill import load_run_skill, run_clip
-from locomotion.training.jump import JumpProblem, train_jump
-from locomotion.training.jump_kind import ENTRY_SPEED, WEIGHTS, cost, first_guess, scales, stair_jump
-from locomotion.training.jump_trial import JumpSimulator
-from locomotion.training.loop import Stage
+from locomotion.gaits.run.skill import load_run_skill, run_clip
+from locomotion.skills.jump import kernel as jump
+from locomotion.skills.jump.skill import Jump, load_jump_skill
+from locomotion.training.search.loop import Stage
+from locomotion.training.skills.jump import JumpProblem, train_jump
+from locomotion.training.skills.jump_kind import ENTRY_SPEED, WEIGHTS, cost, first_guess, scales, stair_jump
+from locomotion.training.skills.jump_trial import JumpSimulator
 from locomotion.training.training import Training
 
 
@@ -79,7 +79,7 @@ def test_a_checkpoint_of_another_configuration_is_refused_before_anything_runs(t
     with pytest.raises(LocomotionError, match="differs in seed "):
         train(seed=1)
     kind = replace(stair_jump(), clip=run_clip(), weights={**WEIGHTS, "pose": 5.0})
-    monkeypatch.setattr("locomotion.training.jump.stair_jump", lambda: kind)
+    monkeypatch.setattr("locomotion.training.skills.jump.stair_jump", lambda: kind)
     with pytest.raises(LocomotionError, match="differs in clip, objective "):
         train()
     assert not (tmp_path / "jump.npz").exists()

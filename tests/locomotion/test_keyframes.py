@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from locomotion.clip import load_clip
+from locomotion.body.person import JOINT_NAMES
+from locomotion.clips.clip import load_clip
+from locomotion.clips.keyframes import keyframes_of, mirrored, save_clip, stretch_of
+from locomotion.clips.motion import Motion, lowest_points, motion_of_clip
 from locomotion.errors import LocomotionError
-from locomotion.jump_skill import JUMP_CLIP
-from locomotion.keyframes import keyframes_of, mirrored, save_clip, stretch_of
-from locomotion.motion import Motion, lowest_points, motion_of_clip
-from locomotion.person import JOINT_NAMES
+from locomotion.skills.jump.skill import JUMP_CLIP
 
 
 @pytest.fixture(scope="module")

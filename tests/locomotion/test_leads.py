@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import navmesh
-from locomotion.leads import can_begin, leads
-from locomotion.path_table import TrackingLimits
-from locomotion.where_to_run import SLOWS_WITHIN, braking_length
-from runtime.rules import person_walk_rules
+from locomotion.paths.departures import can_begin, leads
+from locomotion.paths.gait_plan import SLOWS_WITHIN, braking_length
+from locomotion.paths.table import TrackingLimits
+from runtime.planning.rules import person_walk_rules
 
 LIMITS = TrackingLimits((2.5, 5.0), sideways=1.28, sharpest=0.2, steepest=0.12)
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from locomotion.errors import LocomotionError
-from locomotion.training.least_squares import fit
 from locomotion.training.progress import show
+from locomotion.training.search.least_squares import fit
 
 WANTED = np.array([0.6, -0.4, 0.3, 0.0])
 

@@ -3,8 +3,8 @@
 import mujoco
 import numpy as np
 
-from locomotion.leg_dynamics import swing_torques
-from locomotion.person import JOINT_NAMES, build_person
+from locomotion.body.leg_dynamics import swing_torques
+from locomotion.body.person import JOINT_NAMES, build_person
 
 HIP, KNEE = (JOINT_NAMES.index(f"left_{name}_flexion") for name in ("hip", "knee"))
 

@@ -3,15 +3,16 @@
 import numpy as np
 import pytest
 
-from locomotion.drop_roll_skill import load_drop_roll_skill
-from locomotion.library import LEAP
-from locomotion.skill_description import load_description
-from locomotion.training import brake, drop_roll, run, slow_down, speed_up, vault, walk
-from locomotion.training.jump import train_described
-from locomotion.training.jump_trial import JumpSimulator
-from locomotion.training.loop import Stage
+from locomotion.skills.description import load_description
+from locomotion.skills.drop_roll.skill import load_drop_roll_skill
+from locomotion.skills.library import LEAP
+from locomotion.skills.vault.skill import load_vault_skill
+from locomotion.training.gaits import brake, run, slow_down, speed_up, walk
+from locomotion.training.search.loop import Stage
+from locomotion.training.skills import drop_roll, vault
+from locomotion.training.skills.jump import train_described
+from locomotion.training.skills.jump_trial import JumpSimulator
 from locomotion.training.training import NotLearnedError, Training
-from locomotion.vault_skill import load_vault_skill
 
 
 class Darts:

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from locomotion import MOVING, Ground, Human
-from locomotion.arm_reach import HAND_RADIUS
-from locomotion.body import STRAYED
+from locomotion.body.arm_reach import HAND_RADIUS
 from locomotion.events import Arrived, Event, Fell, GotUp
-from locomotion.path_table import TrackingLimits
-from locomotion.path_tracking import make_path
-from locomotion.way import Way
+from locomotion.human.human import STRAYED
+from locomotion.paths.follower import Way
+from locomotion.paths.table import TrackingLimits
+from locomotion.paths.tracking import make_path
 
 WAY = np.array([[x, 0.0, 0.0] for x in np.arange(0.0, 30.0)])
 

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from locomotion import path_tracking as pt
 from locomotion.errors import LocomotionError
-from locomotion.on_feet import RUN_GAINS
-from locomotion.path_table import BRAKE, CURVATURE, GAIT
-from locomotion.where_to_run import SLOWS_WITHIN, braking_length
+from locomotion.human.on_feet import RUN_GAINS
+from locomotion.paths import tracking as pt
+from locomotion.paths.gait_plan import SLOWS_WITHIN, braking_length
+from locomotion.paths.table import BRAKE, CURVATURE, GAIT
 
 LIMITS = pt.TrackingLimits(speeds=(2.0, 4.0), sideways=2.0)
 

@@ -4,8 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from locomotion.errors import LocomotionError
-from locomotion.person import (
+from locomotion.body.person import (
     HEIGHT,
     JOINT_NAMES,
     MASS,
@@ -14,6 +13,7 @@ from locomotion.person import (
     build_person,
     person_digest,
 )
+from locomotion.errors import LocomotionError
 
 
 @pytest.fixture(scope="module")

@@ -3,17 +3,17 @@
 import numpy as np
 import pytest
 
-from locomotion import rehearsal
-from locomotion.body import Human
-from locomotion.clearing import foot_distance
+from locomotion.body.person import CONTROL_DT
 from locomotion.events import Arrived, Cleared, Fell, GotStuck, SetOff, TookOff, WentBack
-from locomotion.foresight import Foresight
-from locomotion.human_state import MOVING
-from locomotion.passage import Passage, Watcher
-from locomotion.person import CONTROL_DT
-from locomotion.rehearsal import RUN_UPS, STEPPINGS, at_once, clears, walks_on
-from locomotion.route_smoothing import ObstacleAhead
-from runtime.courses import make_course, run_course
+from locomotion.human.human import Human
+from locomotion.human.state import MOVING
+from locomotion.paths.smoothing import ObstacleAhead
+from locomotion.rehearsal import rehearsal
+from locomotion.rehearsal.contact_report import Passage, Watcher
+from locomotion.rehearsal.lookahead import Foresight
+from locomotion.rehearsal.rehearsal import RUN_UPS, STEPPINGS, at_once, clears, walks_on
+from locomotion.skills.interface import foot_distance
+from runtime.evaluation.courses import make_course, run_course
 
 MARK, ENTRY = 0.6, 3.0
 

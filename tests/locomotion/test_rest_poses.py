@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from locomotion.bvh import read_bvh
+from locomotion.clips.bvh import read_bvh
+from locomotion.clips.retargeting import retarget
 from locomotion.errors import LocomotionError
-from locomotion.retargeting import retarget
 
 pytest.importorskip("bvhio", reason="BVH files are read through bvhio")
 

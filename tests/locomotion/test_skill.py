@@ -8,11 +8,11 @@ import mujoco
 import numpy as np
 import pytest
 
-from locomotion import controller as c
+from locomotion.body.person import PersonIndex, build_person
 from locomotion.errors import LocomotionError
-from locomotion.person import PersonIndex, build_person
-from locomotion.skill import RUN_SKILL, load_run_skill, reset_running
-from navmesh.files.archive import write_archive
+from locomotion.gaits.run import controller as c
+from locomotion.gaits.run.skill import RUN_SKILL, load_run_skill, reset_running
+from surefoot.files.archive import write_archive
 
 
 def test_round_trip(tmp_path: Path) -> None:

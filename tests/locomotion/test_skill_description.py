@@ -10,17 +10,17 @@ import yaml
 
 import navmesh
 from locomotion import Human, LocomotionError, ObstacleAhead, load_run_skill
-from locomotion.clearing import skill_for, skill_ranges
-from locomotion.jump_skill import run_digest
-from locomotion.library import LEAP, learned_skills, skills_digest
-from locomotion.skill_description import load_described, load_description
-from locomotion.skill_family import SkillFamily
-from locomotion.training.jump import train_described
-from locomotion.training.jump_trial import JumpSimulator
+from locomotion.skills.description import load_described, load_description
+from locomotion.skills.family import SkillFamily
+from locomotion.skills.interface import skill_for, skill_ranges
+from locomotion.skills.jump.skill import run_digest
+from locomotion.skills.library import LEAP, learned_skills, skills_digest
+from locomotion.training.skills.jump import train_described
+from locomotion.training.skills.jump_trial import JumpSimulator
 from locomotion.training.training import Training
 from runtime import World
-from runtime.courses import make_course, run_course
 from runtime.errors import RuntimeInputError
+from runtime.evaluation.courses import make_course, run_course
 
 
 @pytest.fixture
@@ -141,7 +141,7 @@ def begun(monkeypatch):
 
 def test_the_packages_leap_may_come_to_clear_other_gaps(begun, tmp_path, monkeypatch):
     said = load_description(LEAP).model_copy(update={"sizes": [2.3, 2.5], "least": None})
-    monkeypatch.setattr("locomotion.training.jump.load_description", lambda path: said)
+    monkeypatch.setattr("locomotion.training.skills.jump.load_description", lambda path: said)
     with pytest.raises(begun):
         train_described(LEAP, Training(), tmp_path / "out.npz")
 

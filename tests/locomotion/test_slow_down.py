@@ -5,10 +5,10 @@ import pytest
 
 from locomotion import Human, LocomotionError
 from locomotion.events import Arrived, SetOff
-from locomotion.human_state import MOVING
-from locomotion.skill import load_run_skill
-from locomotion.slow_down import SLOW_DOWN_SKILL, load_slow_down_skill
-from locomotion.training.slow_down import draw_halt, first_guess, halt, slow_down_of
+from locomotion.gaits.run.skill import load_run_skill
+from locomotion.gaits.slow_down import SLOW_DOWN_SKILL, load_slow_down_skill
+from locomotion.human.state import MOVING
+from locomotion.training.gaits.slow_down import draw_halt, first_guess, halt, slow_down_of
 
 
 def come_to_rest(human, limit=40.0):

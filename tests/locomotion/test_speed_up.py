@@ -3,14 +3,15 @@
 import numpy as np
 import pytest
 
-from locomotion import Ground, Human, LocomotionError, controller
+from locomotion import Ground, Human, LocomotionError
 from locomotion.events import Cleared, SetOff, TookOff, WentBack
-from locomotion.human_state import MOVING
-from locomotion.skill import load_run_skill
-from locomotion.speed_up import SPEED_UP_SKILL, load_speed_up_skill
-from locomotion.training.speed_up import SpeedUpProblem, _curriculum, speed_up_of
+from locomotion.gaits.run import controller
+from locomotion.gaits.run.skill import load_run_skill
+from locomotion.gaits.speed_up import SPEED_UP_SKILL, load_speed_up_skill
+from locomotion.human.state import MOVING
+from locomotion.training.gaits.speed_up import SpeedUpProblem, _curriculum, speed_up_of
 from locomotion.training.training import Training
-from runtime.courses import enter_course, make_course
+from runtime.evaluation.courses import enter_course, make_course
 
 COURSE = make_course([("jump", 0.4, 0.0)], [14.5])
 GROUND = Ground.from_arrays(COURSE.vertices, COURSE.faces)

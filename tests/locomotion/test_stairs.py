@@ -9,14 +9,9 @@ import numpy as np
 import pytest
 
 from locomotion import Human
-from locomotion.footholds import moved, rise_over_steps, risen, steps_ahead, tread_shift
-from locomotion.foreseen import Foreseen
-from locomotion.foresight import Foresight
-from locomotion.ground import Ground, extruded
-from locomotion.human_state import MOVING, same
-from locomotion.person import CONTROL_DT
-from locomotion.rehearsal import REHEARSALS, STAYS_UP, STEPPINGS, StepsOn, at_once
-from locomotion.walk_layout import (
+from locomotion.body.person import CONTROL_DT
+from locomotion.gaits.walk.footholds import moved, rise_over_steps, risen, steps_ahead, tread_shift
+from locomotion.gaits.walk.layout import (
     FOOTHOLD,
     GAINS,
     LIFT,
@@ -27,6 +22,11 @@ from locomotion.walk_layout import (
     first_gains,
     new_walk,
 )
+from locomotion.ground.ground import Ground, extruded
+from locomotion.human.state import MOVING, same
+from locomotion.rehearsal.lookahead import Foresight
+from locomotion.rehearsal.predicted import Foreseen
+from locomotion.rehearsal.rehearsal import REHEARSALS, STAYS_UP, STEPPINGS, StepsOn, at_once
 
 _STEPS, _RISE, _TREAD = 9, 0.12, 0.52  # number; [m] of each along the way: its front, and behind it
 _LEVEL = 4.0  # [m] before and behind

@@ -8,8 +8,8 @@ import trimesh
 
 import navmesh
 from locomotion import Smoothing, smooth_route
-from locomotion.route_smoothing import RUNNING
-from runtime.rules import person_walk_rules
+from locomotion.paths.smoothing import RUNNING
+from runtime.planning.rules import person_walk_rules
 
 SKILLS = {"jump": (0.1, 0.7), "drop": (0.2, 2.0)}
 

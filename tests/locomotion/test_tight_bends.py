@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from locomotion import MOVING, Human
-from locomotion.gaits import walk_limits
-from locomotion.path_table import SPEED
-from locomotion.path_tracking import make_path
-from locomotion.walk_layout import SUDDEN, USUAL_SPEED, WALK_HEADING, new_walk
-from locomotion.walk_skill import load_walk_skill
-from locomotion.walk_steps import follow
+from locomotion.gaits.limits import walk_limits
+from locomotion.gaits.walk.layout import SUDDEN, USUAL_SPEED, WALK_HEADING, new_walk
+from locomotion.gaits.walk.skill import load_walk_skill
+from locomotion.gaits.walk.steps import follow
+from locomotion.paths.table import SPEED
+from locomotion.paths.tracking import make_path
 
 _STRAIGHT = 2.0  # [m] before the circle
 

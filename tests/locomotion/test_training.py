@@ -9,21 +9,18 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from locomotion.body import Human
+from locomotion.body.person import MASS
 from locomotion.errors import LocomotionError
-from locomotion.human_state import MOVING
-from locomotion.person import MASS
-from locomotion.run_layout import COM_VELOCITY, CONTACT, SPEED, STEP_TIME, parameter_slices
-from locomotion.skill import load_run_skill
-from locomotion.training.cma_es import CmaEs
-from locomotion.training.grounds import training_ground
-from locomotion.training.loop import Stage, learn, simulated
-from locomotion.training.path_trial import PathScenario, draw_path
-from locomotion.training.progress import Clock
-from locomotion.training.rollout import FIGURES, Scenario, Simulator, Trial, stays_up
-from locomotion.training.run import RunProblem, begin
-from locomotion.training.run_curriculum import WAYS
-from locomotion.training.run_genes import (
+from locomotion.gaits.run.layout import COM_VELOCITY, CONTACT, SPEED, STEP_TIME, parameter_slices
+from locomotion.gaits.run.skill import load_run_skill
+from locomotion.human.human import Human
+from locomotion.human.state import MOVING
+from locomotion.training.gaits.grounds import training_ground
+from locomotion.training.gaits.path_trial import PathScenario, draw_path
+from locomotion.training.gaits.rollout import FIGURES, Scenario, Simulator, Trial, stays_up
+from locomotion.training.gaits.run import RunProblem, begin
+from locomotion.training.gaits.run_curriculum import WAYS
+from locomotion.training.gaits.run_genes import (
     BLOCKS,
     SIZE,
     first_guess,
@@ -33,10 +30,13 @@ from locomotion.training.run_genes import (
     rows_scale,
     skill_of,
 )
-from locomotion.training.run_trials import cost, draw_scenario
+from locomotion.training.gaits.run_trials import cost, draw_scenario
+from locomotion.training.gaits.walk import KINDS as WALKS
+from locomotion.training.gaits.walk import draw_walk
+from locomotion.training.progress import Clock
+from locomotion.training.search.cma_es import CmaEs
+from locomotion.training.search.loop import Stage, learn, simulated
 from locomotion.training.training import Training
-from locomotion.training.walk import KINDS as WALKS
-from locomotion.training.walk import draw_walk
 
 
 def minimise(function, start: np.ndarray, generations: int, sigma: float = 0.5) -> CmaEs:
@@ -113,7 +113,7 @@ def in_process(monkeypatch) -> None:
         begin(*arguments)
         yield SimpleNamespace(map=lambda function, tasks, chunksize: [function(task) for task in tasks])
 
-    monkeypatch.setattr("locomotion.training.loop.worker_pool", pool)
+    monkeypatch.setattr("locomotion.training.search.loop.worker_pool", pool)
 
 
 @pytest.mark.usefixtures("in_process")

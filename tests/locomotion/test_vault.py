@@ -3,15 +3,16 @@
 import numpy as np
 import pytest
 
-from locomotion import controller, vault
-from locomotion.arm_reach import ARM_START, hand_place
-from locomotion.clearing_law import MIRROR, MIRROR_SIGN, mirror
+from locomotion.body.arm_reach import ARM_START, hand_place
+from locomotion.body.person import CONTROL_DT, JOINT_NAMES, STANDING_HEIGHT
 from locomotion.errors import LocomotionError
-from locomotion.jump_skill import run_digest
-from locomotion.person import CONTROL_DT, JOINT_NAMES, STANDING_HEIGHT
-from locomotion.skill import load_run_skill, run_clip
-from locomotion.vault_reference import wanted_offset
-from locomotion.vault_skill import Vault, load_vault_skill, tables_of, vault_clip
+from locomotion.gaits.run import controller
+from locomotion.gaits.run.skill import load_run_skill, run_clip
+from locomotion.skills.jump.skill import run_digest
+from locomotion.skills.kernel import MIRROR, MIRROR_SIGN, mirror
+from locomotion.skills.vault import kernel as vault
+from locomotion.skills.vault.reference import wanted_offset
+from locomotion.skills.vault.skill import Vault, load_vault_skill, tables_of, vault_clip
 
 PART = vault.parameter_slices()
 

@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from locomotion import vault
 from locomotion.errors import LocomotionError
-from locomotion.skill import load_run_skill
-from locomotion.skill_family import SkillFamily
-from locomotion.training.loop import Stage
-from locomotion.training.training import Training
-from locomotion.training.vault import (
+from locomotion.gaits.run.skill import load_run_skill
+from locomotion.skills.family import SkillFamily
+from locomotion.skills.vault import kernel as vault
+from locomotion.skills.vault.skill import KIND, Vault, tables_of
+from locomotion.training.search.loop import Stage
+from locomotion.training.skills.vault import (
     VaultProblem,
     changed,
     cost,
@@ -21,8 +21,8 @@ from locomotion.training.vault import (
     scales,
     train_vault,
 )
-from locomotion.training.vault_trial import VaultOutcome, VaultSimulator
-from locomotion.vault_skill import KIND, Vault, tables_of
+from locomotion.training.skills.vault_trial import VaultOutcome, VaultSimulator
+from locomotion.training.training import Training
 
 GOOD = VaultOutcome(
     cleared=True, time=1.0, shortfall=0.0, scrape=0, missed=0.0, planted=0.5, held=15, impulse=60.0, steps=3,

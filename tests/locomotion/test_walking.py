@@ -11,19 +11,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from locomotion import Human, LocomotionError
-from locomotion.anatomy import MASS
-from locomotion.controller import COM, COM_VELOCITY, new_state, observe
-from locomotion.footholds import bearing, foot_frame, ground_at, plan_foothold, sway
-from locomotion.ground import Ground, plane_lookup
-from locomotion.human_state import MOVING
-from locomotion.leg_kinematics import solve_leg
-from locomotion.person import JOINT_NAMES, STEPS_PER_TICK, PersonIndex, build_person
-from locomotion.training.grounds import KINDS, ground_height, training_ground
-from locomotion.training.path_trial import draw_path, draw_turns, follow_path, straight_on
-from locomotion.training.training import Training
-from locomotion.training.walk import KINDS as WALKS
-from locomotion.training.walk import WalkProblem, walk_curriculum, walk_tables
-from locomotion.walk_layout import (
+from locomotion.body.anatomy import MASS
+from locomotion.body.leg_kinematics import solve_leg
+from locomotion.body.person import JOINT_NAMES, STEPS_PER_TICK, PersonIndex, build_person
+from locomotion.gaits.run.controller import COM, COM_VELOCITY, new_state, observe
+from locomotion.gaits.walk.controller import observe_walk, walk_tick
+from locomotion.gaits.walk.footholds import bearing, foot_frame, ground_at, plan_foothold, sway
+from locomotion.gaits.walk.layout import (
     CLOCK,
     FOOTHOLD,
     FOOTHOLD_NORMAL,
@@ -37,8 +31,14 @@ from locomotion.walk_layout import (
     gain_limits,
     new_walk,
 )
-from locomotion.walk_skill import TABLES, WALK_SKILL, WalkSkill, load_walk_skill, plant, rise_walking
-from locomotion.walking import observe_walk, walk_tick
+from locomotion.gaits.walk.skill import TABLES, WALK_SKILL, WalkSkill, load_walk_skill, plant, rise_walking
+from locomotion.ground.ground import Ground, plane_lookup
+from locomotion.human.state import MOVING
+from locomotion.training.gaits.grounds import KINDS, ground_height, training_ground
+from locomotion.training.gaits.path_trial import draw_path, draw_turns, follow_path, straight_on
+from locomotion.training.gaits.walk import KINDS as WALKS
+from locomotion.training.gaits.walk import WalkProblem, walk_curriculum, walk_tables
+from locomotion.training.training import Training
 
 HIPS = [JOINT_NAMES.index(f"{side}_hip_flexion") for side in ("right", "left")]
 

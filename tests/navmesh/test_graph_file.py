@@ -7,8 +7,8 @@ import pytest
 from shapes import box, plane, terrain
 
 from navmesh import NavmeshError, NodeGraph, Terrain, WalkRules
-from navmesh.files import archive
 from navmesh.graph_file import GRAPH_FILE
+from surefoot.files import archive
 
 LEVEL = (plane(0, 6, 0, 6), box(2, 3, 2, 3, 0, 2))
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import navmesh
-from runtime.recording import Recorder
-from runtime.rules import person_walk_rules
-from runtime.world import World
+from runtime.planning.rules import person_walk_rules
+from runtime.traces.recording import Recorder
+from runtime.world.world import World
 
 FLOORS = {"near": (0.0, 0.0, 12.0, 6.0, 0.0), "island": (16.0, 0.0, 20.0, 6.0, 0.0)}
 """x0, y0, x1, y1, z of each floor of the small level; nobody gets from one to the other."""

@@ -6,10 +6,10 @@ import pytest
 import navmesh
 from benchmarks.giving_way import play
 from locomotion import PERSON_RULES
-from locomotion.giving_way import COUNT, STEP
+from locomotion.avoidance.yielding import COUNT, STEP
 from runtime import World
-from runtime.moment import Moment
-from runtime.rules import person_walk_rules
+from runtime.planning.rules import person_walk_rules
+from runtime.traffic.snapshot import Moment
 
 
 @pytest.fixture(scope="module")

@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 from conftest import MISSION
 
-from locomotion.clip import load_clip
-from locomotion.motion import load_motion
-from locomotion.skill import RUN_CLIP
-from navmesh.files.archive import write_archive
+from locomotion.clips.clip import load_clip
+from locomotion.clips.motion import load_motion
+from locomotion.gaits.run.skill import RUN_CLIP
 from navmesh.graph_file import GRAPH_FILE
-from runtime.cli import main
+from runtime.cli.app import main
+from surefoot.files.archive import write_archive
 
 
 @pytest.fixture
@@ -235,7 +235,10 @@ def test_an_interrupted_run_leaves_nothing(folder, number):
     (folder / "mission.yaml").write_text(MISSION.replace("time_limit: 20", "time_limit: 86400"))
     before = names(folder)
     # says that it is up from within main, where interruptions are looked after
-    up = "import runtime.cli as c; f = c._commands; c._commands = lambda: (print('up', flush=True), f())[1]"
+    up = (
+        "import runtime.cli.app as c; f = c._commands; "
+        "c._commands = lambda: (print('up', flush=True), f())[1]"
+    )
     command = [sys.executable, "-c", f"{up}; c.main()"]
     run = subprocess.Popen(
         [*command, "run", str(folder / "mission.yaml"), "--out", str(folder / "out")],
@@ -252,14 +255,14 @@ def test_an_interrupted_run_leaves_nothing(folder, number):
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_an_interruption_while_modules_load_waits_until_they_are(number, code):
     program = f"""
-import os, sys, runtime.cli
+import os, sys, runtime.cli.app
 class Interrupts:
     def find_spec(name, path, target=None):
-        if name == "runtime.commands":
+        if name == "runtime.cli.commands":
             os.kill(os.getpid(), {int(number)})
             print("goes on")
 sys.meta_path.insert(0, Interrupts)
-runtime.cli.main(["schema"])
+runtime.cli.app.main(["schema"])
 """
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert run.returncode == code and run.stdout == "goes on\n" and "Traceback" not in run.stderr

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from locomotion import MOVING, Ground, Human, LocomotionError
+from locomotion.body.person import CONTROL_DT, MASS
 from locomotion.events import Cleared, Fell, TookOff
-from locomotion.person import CONTROL_DT, MASS
-from runtime.courses import AFTER, Push, enter_course, make_course, run_course
+from runtime.evaluation.courses import AFTER, Push, enter_course, make_course, run_course
 
 
 def one(affordance, height, distance):

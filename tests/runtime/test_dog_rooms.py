@@ -8,7 +8,7 @@ import pytest
 import navmesh
 from benchmarks.dog_rooms import try_room
 from runtime import Arrived, Blocked, World
-from runtime.rules import walk_rules
+from runtime.planning.rules import walk_rules
 
 
 @pytest.mark.parametrize(("name", "seed"), [("dog", 1), ("cat", 2)])

@@ -7,15 +7,15 @@ import pytest
 from conftest import MISSION
 
 import navmesh
-from navmesh.files.yamlfile import FileError
 from runtime import Arrived, Blocked, Departed, RuntimeInputError, World
-from runtime.mission import load_mission
-from runtime.mission_check import prepare_mission
-from runtime.mission_run import run_mission
-from runtime.progress import Progress
-from runtime.rules import walk_rules
-from runtime.trace import Trace
-from runtime.view import write_page
+from runtime.missions.check import prepare_mission
+from runtime.missions.mission import load_mission
+from runtime.missions.run import run_mission
+from runtime.planning.rules import walk_rules
+from runtime.traces.trace import Trace
+from runtime.views.view import write_page
+from surefoot.files.yamlfile import FileError
+from surefoot.progress import Progress
 
 
 def test_a_dog_goes_where_it_is_told(graph):
@@ -124,7 +124,7 @@ def test_a_mission_with_a_dog_runs_and_is_drawn(folder):
 
 def mutt(folder, old, new):
     """The path of a dog's file with one change."""
-    text = (files("locomotion.quadruped") / "bodies" / "dog.yaml").read_text()
+    text = (files("locomotion.data") / "bodies" / "dog.yaml").read_text()
     assert old in text
     (folder / "mutt.yaml").write_text(text.replace(old, new, 1))
     return str(folder / "mutt.yaml")

@@ -46,7 +46,7 @@ def test_clicking_in_the_page_spawns_agents_that_go_where_they_are_sent(tmp_path
     command = [
         sys.executable,
         "-c",
-        "import runtime.cli; runtime.cli.main()",
+        "import runtime.cli.app; runtime.cli.app.main()",
         "serve",
         "examples/levels/room.obj",
         "--port",

@@ -8,8 +8,8 @@ import pytest
 import navmesh
 from locomotion.events import GotStuck, StrayedFromPath
 from runtime import Arrived, Departed, GotUp, Lost, Stuck, World
-from runtime.agent import Agent
-from runtime.rules import person_walk_rules
+from runtime.planning.rules import person_walk_rules
+from runtime.world.agent import Agent
 
 COURTYARD = Path(__file__).parents[2] / "examples" / "levels" / "courtyard.obj"
 GOAL = (16.0, 2.0, 0.0)

@@ -6,9 +6,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from runtime.camera import agent_named, follow
 from runtime.errors import RuntimeInputError
-from runtime.film import RATE, frames, write_film
+from runtime.views.camera import agent_named, follow
+from runtime.views.film import RATE, frames, write_film
 
 av = pytest.importorskip("av", reason="PyAV is not there: pip install -e '.[video]'")
 SIZE = (96, 64)
@@ -43,7 +43,7 @@ def test_an_interrupted_film_leaves_nothing(trace, tmp_path, monkeypatch):
         yield next(frames(trace, trace.agents[0], SIZE))
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("runtime.film.frames", interrupted)
+    monkeypatch.setattr("runtime.views.film.frames", interrupted)
     with pytest.raises(KeyboardInterrupt):
         write_film(trace, tmp_path / "run.mp4", size=SIZE)
     assert list(tmp_path.iterdir()) == []

@@ -40,7 +40,9 @@ def test_help_names_what_is_public():
         assert name in text
 
 
-@pytest.mark.parametrize("command", [["-m", "surefoot"], ["-c", "import runtime.cli; runtime.cli.main()"]])
+@pytest.mark.parametrize(
+    "command", [["-m", "surefoot"], ["-c", "import runtime.cli.app; runtime.cli.app.main()"]]
+)
 def test_the_command_tells_its_version_without_loading_anything(command):
     script = [sys.executable, "-X", "importtime", *command, "--version"]
     told = subprocess.run(script, cwd=ROOT, capture_output=True, text=True, check=True)

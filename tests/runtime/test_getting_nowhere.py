@@ -7,8 +7,8 @@ import trimesh
 import navmesh
 from locomotion.events import WentBack
 from runtime import Arrived, Blocked, Departed, Hindered, Stuck, World
-from runtime.rules import person_walk_rules
-from runtime.standstill import ANOTHER_WAY, PATIENCE, Headway
+from runtime.planning.rules import person_walk_rules
+from runtime.traffic.deadlock import ANOTHER_WAY, PATIENCE, Headway
 
 
 def graph_of(*blocks):

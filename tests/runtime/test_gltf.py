@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from runtime.figure import rotate, turn
-from runtime.gltf import write_gltf
+from runtime.bodies.figure import rotate, turn
+from runtime.views.gltf import write_gltf
 
 pygltflib = pytest.importorskip("pygltflib", reason="not there: pip install -e '.[gltf]'")
 ROOT = Path(__file__).parents[2]

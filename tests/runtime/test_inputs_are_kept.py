@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from conftest import MISSION
 
-from locomotion.skill import RUN_CLIP
+from locomotion.gaits.run.skill import RUN_CLIP
 from navmesh.errors import NavmeshError
-from navmesh.files.archive import check_target, write_archive
-from navmesh.files.inputs import keep_inputs, note_input
-from navmesh.files.whole_file import whole_file
-from runtime.cli import main
+from runtime.cli.app import main
+from surefoot.files.archive import check_target, write_archive
+from surefoot.files.atomic_write import whole_file
+from surefoot.files.inputs import keep_inputs, note_input
 
 SQUARE = "v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nf 1 2 3 4\n"
 

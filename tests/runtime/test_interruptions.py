@@ -8,12 +8,12 @@ import sys
 import numpy as np
 import pytest
 
-from navmesh.files.whole_file import whole_file
+from surefoot.files.atomic_write import whole_file
 
 HOOK = """
 import os, signal, sys, time
 from pathlib import Path
-import runtime.cli
+import runtime.cli.app
 wait, number, put = int(sys.argv.pop(1)), int(sys.argv.pop(1)), Path.replace
 def replace(self, target):
     global wait
@@ -23,7 +23,7 @@ def replace(self, target):
         time.sleep(60)
     return put(self, target)
 Path.replace = replace
-runtime.cli.main()
+runtime.cli.app.main()
 """
 
 
@@ -53,8 +53,8 @@ import os, signal, time
 from dataclasses import dataclass
 from pathlib import Path
 import numpy as np
-from locomotion.training.loop import Stage
-from navmesh.files.archive import write_archive
+from locomotion.training.search.loop import Stage
+from surefoot.files.archive import write_archive
 
 @dataclass(frozen=True)
 class Bowl:
@@ -79,8 +79,8 @@ TRAIN = ("train", "slow-down", "-o", "skill.npz", "--checkpoint", "learned.check
 BEGIN = """
 import sys
 sys.path.insert(0, ".")
-import toy, locomotion.training.slow_down
-locomotion.training.slow_down.train_slow_down = toy.train
+import toy, locomotion.training.gaits.slow_down
+locomotion.training.gaits.slow_down.train_slow_down = toy.train
 """
 
 

@@ -7,7 +7,7 @@ import pytest
 from browser import BROWSER, opened
 
 import runtime
-from runtime.window import Window
+from runtime.views.window import Window
 
 needs_browser = pytest.mark.skipif(BROWSER is None, reason="no Chromium here to open the page in")
 

@@ -7,8 +7,8 @@ from conftest import MISSION
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from navmesh.files.yamlfile import FileError
-from runtime.mission import load_mission
+from runtime.missions.mission import load_mission
+from surefoot.files.yamlfile import FileError
 
 PLACE = re.compile(r"^[^\n]*mission\.yaml:\d+:\d+: [^\n]+$")
 

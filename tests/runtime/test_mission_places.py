@@ -7,8 +7,8 @@ import pytest
 import trimesh
 
 import navmesh
-from runtime.mission_places import what_is_wrong
-from runtime.rules import person_walk_rules
+from runtime.missions.places import what_is_wrong
+from runtime.planning.rules import person_walk_rules
 
 
 @pytest.fixture(scope="module")

@@ -16,8 +16,7 @@ from conftest import obj_text
 
 import navmesh
 from benchmarks.playtest_faults import COURTYARD, plants
-from navmesh.files.yamlfile import FileError
-from runtime.cli import main
+from runtime.cli.app import main
 from runtime.errors import RuntimeInputError
 from runtime.playtest import bots, compare, playtest, read_report, write_report
 from runtime.playtest.analysis import analyse, core_parts
@@ -31,6 +30,7 @@ from runtime.playtest.page import write_page
 from runtime.playtest.plan import LoadedPlan
 from runtime.playtest.replay import replay
 from runtime.playtest.site import Site
+from surefoot.files.yamlfile import FileError
 
 NOBODY = np.empty(0, dtype=np.int64)
 

@@ -21,7 +21,7 @@ from runtime.playtest.mesh import Mesh
 from runtime.playtest.movers import WalkerMover
 from runtime.playtest.page import write_page
 from runtime.playtest.site import Site
-from runtime.render import Triangles
+from runtime.views.render import Triangles
 
 W, D = 16.0, 10.0
 PLAN = "spawns:\n  - {name: gate, at: [2.0, 5.0, 0.0]}\n"

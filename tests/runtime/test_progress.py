@@ -5,9 +5,9 @@ import io
 import pytest
 from rich.console import Console
 
-from runtime import progress
-from runtime.progress import Progress
+from surefoot import progress
 from surefoot.compiling import TIME
+from surefoot.progress import Progress
 
 LONGEST = (f"compiling kernels, once: {TIME}", "running and jumping")
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 import typer.testing
 
-from runtime.cli import app
+from runtime.cli.app import app
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]

@@ -9,7 +9,7 @@ import trimesh
 import navmesh
 from runtime import World
 from runtime.events import Arrived, Fell, Lost, SkillStarted
-from runtime.rules import person_walk_rules
+from runtime.planning.rules import person_walk_rules
 
 
 def graph_of(*boxes):

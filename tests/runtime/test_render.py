@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 import trimesh
 
-from runtime.camera import clearest
-from runtime.figure import Shapes, rotate, turn
-from runtime.filmstrip import write_filmstrip
-from runtime.plot import plot_from_above
-from runtime.ray_kernel import cast_faces
-from runtime.render import Camera, Triangles, render
+from runtime.bodies.figure import Shapes, rotate, turn
+from runtime.views.camera import clearest
+from runtime.views.filmstrip import write_filmstrip
+from runtime.views.plot import plot_from_above
+from runtime.views.ray_kernel import cast_faces
+from runtime.views.render import Camera, Triangles, render
 
 FLOOR = Triangles(
     np.array([[-20.0, -20, 0], [20, -20, 0], [20, 20, 0], [-20, 20, 0]]), np.array([[0, 1, 2], [0, 2, 3]])
@@ -91,7 +91,7 @@ def test_a_film_strip_in_a_narrow_room_is_taken_from_inside(trace, tmp_path, mon
         eyes.append(camera.eye)
         return np.zeros((size[1], size[0], 3), np.uint8)
 
-    monkeypatch.setattr("runtime.filmstrip.render", spy)
+    monkeypatch.setattr("runtime.views.filmstrip.render", spy)
     write_filmstrip(dataclasses.replace(trace, level=level), tmp_path / "film.png")
     assert len(eyes) == 8 and (np.array(eyes) > low).all() and (np.array(eyes) < high).all()
 

@@ -10,12 +10,12 @@ from conftest import obj_text
 
 from benchmarks.mission_fuzz import MISSION as EVERYTHING
 from benchmarks.mission_fuzz import Fuzz, mutated, write_level
-from navmesh.files.yamlfile import FileError
 from runtime.events import Arrived, Departed, Told
-from runtime.mission import load_mission, mission_schema
-from runtime.mission_check import prepare_mission
-from runtime.mission_run import run_mission
-from runtime.progress import Progress
+from runtime.missions.check import prepare_mission
+from runtime.missions.mission import load_mission, mission_schema
+from runtime.missions.run import run_mission
+from surefoot.files.yamlfile import FileError
+from surefoot.progress import Progress
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "missions"
 HEAD = """\

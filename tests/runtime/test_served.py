@@ -16,8 +16,8 @@ from serving import Client, serving
 from websockets.asyncio.client import connect
 
 from runtime import RuntimeInputError
-from runtime.recording import level_trace
-from runtime.served import ServedWorld
+from runtime.traces.recording import level_trace
+from runtime.views.served import ServedWorld
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -99,7 +99,7 @@ def test_the_command_shows_it_in_a_browser(graph, tmp_path):
         name = (await client.ask("create", level="small", states="none"))["world"]
         await client.ask("spawn", world=name, body="walker", at=[6, 3, 0], name="tom")
         viewer = subprocess.Popen(
-            [sys.executable, "-c", "import runtime.cli; runtime.cli.main()", "view", address],
+            [sys.executable, "-c", "import runtime.cli.app; runtime.cli.app.main()", "view", address],
             cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(ROOT)}, stdout=subprocess.PIPE, text=True,
         )  # fmt: skip
         try:

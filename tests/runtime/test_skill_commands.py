@@ -7,13 +7,13 @@ from itertools import count
 import pytest
 from filelock import FileLock
 
-from locomotion import library
+from locomotion.skills import library
 from locomotion.training.progress import Progress
 from locomotion.training.training import NotLearnedError
-from locomotion.workers import worker_pool
-from runtime.cli import main
+from runtime.cli.app import main
+from runtime.cli.skill_commands import _cpu_minutes, _trainers, train_skill
 from runtime.errors import RuntimeInputError
-from runtime.skill_commands import _cpu_minutes, _trainers, train_skill
+from surefoot.workers import worker_pool
 
 
 def surefoot(capsys, *arguments):
@@ -54,8 +54,8 @@ def interrupted_first(training, out):
 
 def test_the_time_before_an_interruption_counts(capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("runtime.skill_commands._trainers", lambda: {"sit": interrupted_first})
-    monkeypatch.setattr("runtime.skill_commands._cpu_minutes", count().__next__)
+    monkeypatch.setattr("runtime.cli.skill_commands._trainers", lambda: {"sit": interrupted_first})
+    monkeypatch.setattr("runtime.cli.skill_commands._cpu_minutes", count().__next__)
     assert surefoot(capsys, "train", "--all")[0] == 130
     code, out, _ = surefoot(capsys, "train", "--all")
     assert code == 0 and out.splitlines()[1:] == [
@@ -79,7 +79,7 @@ def never(monkeypatch):
         out.write_text(f"learned with seed {training.seed}")
 
     names = ("sit", "stand", "lie")
-    monkeypatch.setattr("runtime.skill_commands._trainers", lambda: dict.fromkeys(names, train))
+    monkeypatch.setattr("runtime.cli.skill_commands._trainers", lambda: dict.fromkeys(names, train))
 
 
 @pytest.mark.usefixtures("never")
@@ -138,11 +138,11 @@ def test_a_picture_of_tests_without_a_plane_is_refused_before_they_run(capsys, t
         raise AssertionError
 
     for skill in ("walk", "speed_up", "slow_down", "brake"):
-        monkeypatch.setattr(f"runtime.evaluation.evaluate_{skill}", run)
+        monkeypatch.setattr(f"runtime.evaluation.evaluation.evaluate_{skill}", run)
         name = skill.replace("_", "-")
         code, _, err = surefoot(capsys, "evaluate", name, "--picture", tmp_path / "x.png")
         assert code == 2 and f"the tests of {name} have no plane to draw; leave --picture out" in err
-    monkeypatch.setattr("runtime.evaluation.evaluate_run", run)
+    monkeypatch.setattr("runtime.evaluation.evaluation.evaluate_run", run)
     monkeypatch.setattr("os.access", lambda path, mode: False)
     code, _, err = surefoot(capsys, "evaluate", "run", "--picture", tmp_path / "x.png")
     assert code == 2 and "may not be written to" in err
@@ -183,7 +183,7 @@ def test_evaluate_prints_a_table_and_the_same_as_json(capsys, skill, tests):
 
 
 def test_heights_beyond_what_was_learned_count_as_not_held(capsys, monkeypatch):
-    monkeypatch.setattr("runtime.evaluation.HEIGHTS", {"jump": (3.0, 4.0)})
+    monkeypatch.setattr("runtime.evaluation.evaluation.HEIGHTS", {"jump": (3.0, 4.0)})
     _, out, _ = surefoot(capsys, "evaluate", "jump", "--trials", "1", "--json")
     beyond = json.loads(out)["attempts"][1]
     assert beyond["status"] == "not learned for this height" and beyond["held"] is False

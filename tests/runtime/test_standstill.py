@@ -8,7 +8,7 @@ import pytest
 from benchmarks.giving_way import floor
 from benchmarks.narrow_meetings import meet
 from runtime import Stuck, World
-from runtime.standstill import GIVEN_UP, untangle
+from runtime.traffic.deadlock import GIVEN_UP, untangle
 
 
 def until_at_rest(world, seconds):

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import navmesh
-from runtime.plot import plot_from_above
-from runtime.recording import level_trace
-from runtime.rules import person_walk_rules
-from runtime.storeys import cut_heights
+from runtime.planning.rules import person_walk_rules
+from runtime.traces.recording import level_trace
+from runtime.views.plot import plot_from_above
+from runtime.views.storeys import cut_heights
 
 SIZE = 12.0
 

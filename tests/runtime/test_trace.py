@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from navmesh.files.archive import ArchiveError, write_archive
-from runtime.trace import Trace
+from runtime.traces.trace import Trace
+from surefoot.files.archive import ArchiveError, write_archive
 
 
 def test_comes_back_as_it_was_written(trace, tmp_path):

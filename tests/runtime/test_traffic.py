@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from benchmarks.giving_way import floor
-from locomotion.run_layout import STEPS
+from locomotion.gaits.run.layout import STEPS
 from navmesh.holding import line_holds
 from runtime import World
 
@@ -179,7 +179,9 @@ def test_a_runner_goes_round_others_no_sharper_than_it_can_slow_down():
     world.step(5.0)
     course = runner.human.course()
     assert runner.status == "running" and course is not None
-    assert course.sharpest * course.speeds.max() ** 2 < 1.2  # [m/s^2] in `locomotion.training.slow_down`
+    assert (
+        course.sharpest * course.speeds.max() ** 2 < 1.2
+    )  # [m/s^2] in `locomotion.training.gaits.slow_down`
 
 
 def test_a_runner_that_gives_way_altogether_walks_and_runs_on():

@@ -6,10 +6,10 @@ from itertools import pairwise
 
 import pytest
 
-from locomotion.pausing import pause
 from runtime import World
 from runtime.server.logs import Sparing
 from runtime.server.turns import Abandoned, Account, Turns
+from surefoot.pausing import pause
 
 
 class Counted:

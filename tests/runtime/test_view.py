@@ -9,8 +9,8 @@ import pytest
 from browser import BROWSER, opened, screenshot
 
 from runtime.events import SkillStarted
-from runtime.page.data import page_data
-from runtime.view import write_page
+from runtime.views.page_data import page_data
+from runtime.views.view import write_page
 
 
 def test_page_is_whole_and_needs_no_network(trace, tmp_path):

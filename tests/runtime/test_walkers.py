@@ -5,10 +5,10 @@ import pytest
 from conftest import MISSION
 
 from runtime import Arrived, Blocked, Departed, RuntimeInputError, World
-from runtime.mission import load_mission
-from runtime.mission_run import run_mission
-from runtime.state_file import pack, unpack
-from runtime.trace import Trace
+from runtime.missions.mission import load_mission
+from runtime.missions.run import run_mission
+from runtime.traces.trace import Trace
+from runtime.world.state_file import pack, unpack
 
 
 def test_a_walker_goes_where_it_is_told(graph):

@@ -14,14 +14,14 @@ import navmesh
 import runtime
 from runtime import World
 from runtime.events import Departed, SkillStarted
-from runtime.progress import Progress
 from runtime.warmup import ahead, compile_kernels, is_compiled, prepare_once
 from runtime.warmup.first_uses import FIRST_USES, tiny_level
 from runtime.warmup.sharing import run_shared
 from surefoot.compiling import counted
 from surefoot.kernels.folder import cache_folder
+from surefoot.progress import Progress
 
-_MAIN = "import runtime.cli; runtime.cli.main()"
+_MAIN = "import runtime.cli.app; runtime.cli.app.main()"
 LEVELS = Path(__file__).parents[2] / "examples" / "levels"
 
 

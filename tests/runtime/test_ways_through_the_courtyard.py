@@ -8,8 +8,8 @@ import pytest
 import navmesh
 from locomotion import Ground, smooth_route
 from runtime.events import Fell
-from runtime.rules import person_walk_rules
-from runtime.world import World
+from runtime.planning.rules import person_walk_rules
+from runtime.world.world import World
 
 LEVEL = Path(__file__).parents[2] / "examples" / "levels" / "courtyard.obj"
 

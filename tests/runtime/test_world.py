@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import navmesh
-from locomotion.foresight import Foresight
-from locomotion.jump_skill import load_jump_skill
+from locomotion.rehearsal.lookahead import Foresight
+from locomotion.skills.jump.skill import load_jump_skill
 from runtime import Blocked, Departed, Event, RuntimeInputError, World
-from runtime.courses import make_course
-from runtime.figure import rotate, turn
-from runtime.rules import person_walk_rules
+from runtime.bodies.figure import rotate, turn
+from runtime.evaluation.courses import make_course
+from runtime.planning.rules import person_walk_rules
 
 
 def test_steps_of_any_length_make_whole_ticks(graph):
@@ -163,7 +163,9 @@ def test_an_unreachable_goal_blocks(graph, goal, reason):
 def test_an_obstacle_that_no_skill_clears_is_named(body, offer, monkeypatch):
     whole = load_jump_skill()
     low = {name: getattr(whole, name)[:2] for name in ("heights", "table", "references")}
-    monkeypatch.setattr("locomotion.library.load_jump_skill", lambda: dataclasses.replace(whole, **low))
+    monkeypatch.setattr(
+        "locomotion.skills.library.load_jump_skill", lambda: dataclasses.replace(whole, **low)
+    )
     course = make_course([("jump", 0.65, 0.0)], [8.0])
     terrain = navmesh.Terrain.from_arrays(course.vertices, course.faces)
     world = World(navmesh.NodeGraph.build(terrain, person_walk_rules()))

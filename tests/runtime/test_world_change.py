@@ -6,8 +6,8 @@ import pytest
 import navmesh
 from locomotion.quadruped.motion import stop_length
 from runtime import Arrived, Blocked, Departed, Fell, Lost, RuntimeInputError, World, WorldState
-from runtime.planning import make_plan, way_holds
-from runtime.rules import person_walk_rules
+from runtime.planning.planning import make_plan, way_holds
+from runtime.planning.rules import person_walk_rules
 
 FLOORS = {
     "west": (0.0, 0.0, 6.0, 8.0),

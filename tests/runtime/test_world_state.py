@@ -13,13 +13,13 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 import navmesh
-from navmesh.files.archive import ArchiveError, write_archive
 from runtime import RuntimeInputError, World, WorldState
-from runtime.drivers import BODIES
-from runtime.planning import Plan
-from runtime.rules import person_walk_rules
-from runtime.state_file import pack, unpack
-from runtime.world_state import STATE_FILE
+from runtime.bodies.protocol import BODIES
+from runtime.planning.planning import Plan
+from runtime.planning.rules import person_walk_rules
+from runtime.world.state import STATE_FILE
+from runtime.world.state_file import pack, unpack
+from surefoot.files.archive import ArchiveError, write_archive
 
 STAIR = [
     ((0.0, 0.0, 0.0), (16.0, 5.0, 0.0)),
@@ -223,8 +223,8 @@ def test_refuses_files_that_are_no_state(graph, tmp_path):
     for state in (
         None,
         {"class": "subprocess:Popen", "fields": {"args": "true"}},
-        {"class": "runtime.world:World", "fields": {"terrain": None}},
-        {"class": "runtime.world_state:WorldState", "fields": {"level": "x"}},
+        {"class": "runtime.world.world:World", "fields": {"terrain": None}},
+        {"class": "runtime.world.state:WorldState", "fields": {"level": "x"}},
         {"array": ["float64", 0, [1 << 40]]},
         {"array": "everything"},
     ):

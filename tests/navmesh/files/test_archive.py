@@ -3,8 +3,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from navmesh.files.archive import ArchiveError, read_archive, write_archive
-from navmesh.files.schema import Header, Numbers, Schema
+from surefoot.files.archive import ArchiveError, read_archive, write_archive
+from surefoot.files.schema import Header, Numbers, Schema
 
 
 class ThingHeader(Header):

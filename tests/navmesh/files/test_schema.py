@@ -8,8 +8,8 @@ import zipfile
 import numpy as np
 import pytest
 
-from navmesh.files.archive import ArchiveError, most_unpacked, read_archive, seal_of, write_archive
-from navmesh.files.schema import Array, Flags, Header, Indices, Numbers, Offsets, Rising, Schema, Words
+from surefoot.files.archive import ArchiveError, most_unpacked, read_archive, seal_of, write_archive
+from surefoot.files.schema import Array, Flags, Header, Indices, Numbers, Offsets, Rising, Schema, Words
 
 
 class ThingHeader(Header):

@@ -3,7 +3,7 @@
 import pytest
 from pydantic import BaseModel
 
-from navmesh.files.yamlfile import FileError, read_yaml
+from surefoot.files.yamlfile import FileError, read_yaml
 
 
 class Anything(BaseModel):

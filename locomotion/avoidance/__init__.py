@@ -1,0 +1,1 @@
+"""How bodies keep out of each other's way, and share a goal."""

@@ -1,0 +1,62 @@
+"""The compiled person on a ground, made once for all persons there."""
+
+from __future__ import annotations
+
+import copy
+import threading
+import weakref
+
+import mujoco
+import numpy as np
+
+from locomotion.body.person import PersonIndex, build_person
+from locomotion.ground.ground import FRICTION, Ground
+
+__all__ = ["gentler", "harder", "person_on"]
+
+_SUDDEN = 0.01  # [s] in which contacts give way to a falling body, half of MuJoCo's usual time
+_models: weakref.WeakKeyDictionary[Ground, tuple[mujoco.MjModel, PersonIndex]] = weakref.WeakKeyDictionary()
+_plane: list[tuple[mujoco.MjModel, PersonIndex]] = []
+_hard: weakref.WeakKeyDictionary[mujoco.MjModel, mujoco.MjModel] = weakref.WeakKeyDictionary()
+_gentle: weakref.WeakKeyDictionary[mujoco.MjModel, mujoco.MjModel] = weakref.WeakKeyDictionary()
+_lock = threading.Lock()
+
+
+def person_on(ground: Ground | None) -> tuple[mujoco.MjModel, PersonIndex]:
+    """The compiled person on ``ground``, None: on the endless plane z = 0."""
+    with _lock:
+        found = _models.get(ground) if ground is not None else (_plane[0] if _plane else None)
+        if found is None:
+            model = build_person(ground)
+            if ground is not None:
+                ground.check(model)
+            found = (model, PersonIndex.of(model))
+            if ground is None:
+                _plane.append(found)
+            else:
+                _models[ground] = found
+        return found
+
+
+def harder(model: mujoco.MjModel) -> mujoco.MjModel:
+    """A person's ``model`` with contacts that give way half as far, for the same `MjData`: into the usual
+    ones the hands of a falling person, 3 cm thick, sink by 5 cm."""
+    with _lock:
+        found = _hard.get(model)
+        if found is None:
+            found = _hard[model] = copy.copy(model)
+            found.geom_solref[:, 0] = _SUDDEN
+        return found
+
+
+def gentler(model: mujoco.MjModel) -> mujoco.MjModel:
+    """As `harder`, but the ground has no more than the usual friction: with what steep ground is given, hands
+    and feet stick where they are, and nobody comes up from them to a stand."""
+    hard = harder(model)
+    with _lock:
+        found = _gentle.get(model)
+        if found is None:
+            found = _gentle[model] = copy.copy(hard)
+            ground = np.flatnonzero(found.geom_bodyid == 0)
+            found.geom_friction[ground, 0] = np.minimum(found.geom_friction[ground, 0], FRICTION)
+        return found

@@ -1,0 +1,9 @@
+"""What comes with the package: learned skills, clips, descriptions of bodies. No code but the folders'
+names."""
+
+from pathlib import Path
+
+__all__ = ["BODIES", "CLIPS", "SKILLS"]
+
+_HERE = Path(__file__).parent
+SKILLS, CLIPS, BODIES = _HERE / "skills", _HERE / "clips", _HERE / "bodies"

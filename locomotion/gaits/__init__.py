@@ -1,0 +1,1 @@
+"""Walking, running, and going over from one to the other."""

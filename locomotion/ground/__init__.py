@@ -1,0 +1,1 @@
+"""The level as ground under simulated bodies."""

@@ -1,0 +1,1 @@
+"""Contacts with triangle soups, a collider of our own in MuJoCo."""

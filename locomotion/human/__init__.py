@@ -1,0 +1,1 @@
+"""The person, put together from body, gaits, skills, recovery and rehearsal."""

@@ -1,0 +1,119 @@
+"""What a person tells of its way, so that others can keep out of it."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion.avoidance.yielding import AT_ONCE, HORIZON, SPACING, TURNING_SPEED, Course
+from locomotion.gaits.limits import PERSON_RULES
+from locomotion.gaits.walk.steps import TURN_RATE
+from locomotion.paths import table as path_table
+from locomotion.paths.follower import Way
+from locomotion.paths.gait_plan import COME_TO_REST
+from locomotion.paths.table import TrackingLimits
+
+__all__ = ["TURN_FIRST", "course_on_way", "course_to_rest"]
+
+TURN_FIRST = 0.7
+"""[rad] off its way at which a walking person turns on the spot."""
+_WALK_BEND, _RUN_BEND = 1.0, 0.1
+"""[1/m] in which it goes out of somebody's way; in sharper bends than it has learned to slow down in, a
+runner falls behind those it has met (`python -m benchmarks.giving_way --pairs runner-runner`)."""
+_WALK_BEGINS, _RUN_BEGINS = 0.5, 1.0  # [m] ahead where it begins to
+_SETTING_OFF = 0.5  # [s] that it takes for the first step after a turn on the spot
+_BESIDE = 0.3  # [m] from its path from which it goes there first
+_BERTH = 0.14  # [m] besides: it sways beside its path, and drifts where it turns on the spot
+_RADIUS = PERSON_RULES["radius"] + _BERTH
+
+
+def course_on_way(
+    way: Way,
+    limits: TrackingLimits,
+    place: NDArray[np.float64],
+    velocity: NDArray[np.float64],
+    walks: bool,
+    facing: float,
+    aside: bool,
+) -> Course:
+    """The course of a person that is at ``place`` (3,) with ``velocity`` (3,) on its ``way`` and faces
+    ``facing`` [rad]; if its way leads elsewhere it comes to a stand and turns first. ``aside``: whether its
+    path may be changed."""
+    path = way.path
+    assert path is not None
+    arc, step = way.arc, path.length / (len(path.table) - 1)
+    far = arc + 2.0 * HORIZON * limits.speeds[1]
+    along = np.arange(arc, min(path.length, far) + 1e-9, SPACING)
+    rows = np.empty((len(along), path.table.shape[1]))
+    for k in range(rows.shape[1]):
+        rows[:, k] = np.interp(along / step, np.arange(len(path.table)), path.table[:, k])
+    points, speeds = rows[:, :3], np.minimum(rows[:, path_table.SPEED], limits.speeds[1])
+    speed, turns = float(np.linalg.norm(velocity[:2])), 0.0
+    ahead = rows[min(round(_WALK_BEGINS / SPACING), len(rows) - 1), path_table.HEADING]
+    off = abs(math.remainder(ahead - facing, 2.0 * math.pi))
+    before = place[None]
+    if off > TURN_FIRST:
+        turns = (off - TURN_FIRST) / TURN_RATE + _SETTING_OFF
+        if speed > TURNING_SPEED:  # it goes straight on until it is slow enough
+            before = _straight_on(place, velocity, speed * speed / (2.0 * limits.deceleration))
+    away = float(np.linalg.norm(before[-1, :2] - points[0, :2]))
+    if len(before) > 1 or away > _BESIDE:
+        back = np.linspace(before[-1], points[0], max(round(away / SPACING), 1), endpoint=False)
+        points, aside = np.concatenate([before[:-1], back, points]), False
+        speeds = np.concatenate([np.full(len(points) - len(speeds), speeds[0]), speeds])
+    goes_back = way.interrupted is not None
+    return replace(
+        _course(points, speeds, speed, limits, walks),
+        pace=way.pace,
+        aside=aside and not goes_back,
+        whole=path.length <= far and not goes_back,
+        stops=COME_TO_REST if walks else COME_TO_REST + (speed * speed) / (2.0 * limits.slowing),
+        turns=turns,
+    )
+
+
+def course_to_rest(
+    place: NDArray[np.float64], velocity: NDArray[np.float64], limits: TrackingLimits
+) -> Course:
+    """The course of a person at ``place`` (3,) that comes to a stand from ``velocity`` (3,)."""
+    speed = float(np.linalg.norm(velocity[:2]))
+    points = _straight_on(place, velocity, speed * speed / (2.0 * limits.deceleration))
+    return _course(points, np.zeros(len(points)), speed, limits, walks=True)
+
+
+def _course(
+    points: NDArray[np.float64],
+    speeds: NDArray[np.float64],
+    speed: float,
+    limits: TrackingLimits,
+    walks: bool,
+) -> Course:
+    """A course that ends in a stand and that nothing can change."""
+    return Course(
+        points=points,
+        speeds=speeds,
+        speed=speed,
+        pace=0.0,
+        length=0.0,
+        reach=0.0,
+        radius=_RADIUS,
+        acceleration=limits.acceleration,
+        braking=limits.deceleration,
+        eagerness=AT_ONCE,
+        slowest=0.0 if walks else limits.speeds[0],
+        sharpest=_WALK_BEND if walks else _RUN_BEND,
+        begins=_WALK_BEGINS if walks else _RUN_BEGINS,
+        aside=False,
+        whole=False,
+        stops=0.0,
+    )
+
+
+def _straight_on(
+    place: NDArray[np.float64], velocity: NDArray[np.float64], length: float
+) -> NDArray[np.float64]:
+    """(k, 3) points every `SPACING` from ``place`` in the direction of ``velocity``, at least two."""
+    flat = np.array([velocity[0], velocity[1], 0.0])
+    ahead = flat / max(float(np.linalg.norm(flat)), 1e-9)
+    return place + SPACING * np.arange(max(round(length / SPACING), 1) + 1)[:, None] * ahead

@@ -1,0 +1,232 @@
+"""A person on its feet: walking and running, and going over from one to the other.
+
+    feet = OnFeet(run, walk, slow_down, speed_up)
+    feet.steer(way, state, moving, planned, tick, command)
+    feet.tick(lookup, state, command, data)
+    mujoco.mj_step(model, data, STEPS_PER_TICK)
+    feet.observe(index, state, command, data)
+
+``state`` is what the running controller remembers and observes (its fields: `locomotion.gaits.run.layout`),
+also while it walks.
+"""
+
+import math
+from collections.abc import Sequence
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion.avoidance.yielding import TURNING_SPEED
+from locomotion.body.person import CONTROL_DT, PersonIndex
+from locomotion.gaits.brake import SLOWEST, BrakeSkill
+from locomotion.gaits.limits import run_limits, walk_limits
+from locomotion.gaits.run import controller
+from locomotion.gaits.run.controller import run_tick
+from locomotion.gaits.run.skill import RunSkill, run_on
+from locomotion.gaits.slow_down import SlowDownSkill, can_walk_on, walk_on
+from locomotion.gaits.speed_up import HASTE, SpeedUpSkill, is_fast_enough
+from locomotion.gaits.walk.controller import observe_walk, walk_tick
+from locomotion.gaits.walk.layout import (
+    CAUGHT,
+    CLOCK,
+    DOUBLE,
+    LONGER,
+    PHASE,
+    STANDING,
+    SUDDEN,
+    UNEVEN,
+    WALK_HEADING,
+    WALK_STANCE,
+    WALK_STEPS,
+    WALK_TICKS,
+    WALK_TURN_RATE,
+    WALKS,
+    new_walk,
+)
+from locomotion.gaits.walk.skill import RISING, STEADYING_SPEED, WalkSkill
+from locomotion.gaits.walk.steps import TURN_TIME
+from locomotion.human.intent import TURN_FIRST
+from locomotion.paths.follower import Way
+
+__all__ = ["RUN_GAINS", "OnFeet"]
+
+RUN_GAINS = np.array([0.35, 1.2, 0.15, 0.45, 0.5, 0.05])
+"""Of `path_tracking.track`; hardly any sideways speed: the run was not learned with it."""
+_WALK_GAINS = np.array([0.5, 0.6, 0.05, 0.3, 0.8, 0.25])
+_HASTE = 1.3  # [m/s] that the speed asked for may exceed the last step's: more trips it in setting off
+_FAST, _FAST_HASTE = 3.7, 0.8  # [m/s]: what is asked for above the first may exceed it by the second only
+_CHANGED = 4.0  # steps after which it has gone over to another gait
+_HELD_UP = 12.0  # steps after which one that has braked, and was pushed, need not come to rest any more
+_STILL = 0.03  # [m/s] of the centre of mass at rest
+
+
+class OnFeet:
+    """``run_skill``, ``walk_skill``, ``slow_down_skill``, ``speed_up_skill``, ``brake_skill``: how it moves.
+    ``limits``, ``walk_limits``: what it can follow. ``walk``: what the walking controller remembers
+    (`locomotion.gaits.walk.layout`). ``slowing``: [m/s^2] at which it slows down to a walk, 0: it does not.
+    ``brakes``: whether it comes to a stand as short as it goes. ``hurries``: whether it speeds up to its
+    run."""
+
+    def __init__(
+        self,
+        run: RunSkill,
+        walk: WalkSkill,
+        slow_down: SlowDownSkill,
+        speed_up: SpeedUpSkill,
+        brake: BrakeSkill,
+    ) -> None:
+        self.run_skill, self.walk_skill = run, walk
+        self.slow_down_skill, self.speed_up_skill, self.brake_skill = slow_down, speed_up, brake
+        self._quick_run, self._slow_run = speed_up.run_tables(run), slow_down.run_tables(run)
+        self._braking_run = brake.run_tables(run)
+        self._first_steps, self._braking_steps = slow_down.walk_tables(walk), brake.walk_tables(walk)
+        self.limits, self.walk_limits = run_limits(run), walk_limits(walk)
+        self.walk = new_walk()
+        self.slowing, self.brakes, self.hurries = 0.0, False, False
+
+    @property
+    def walks(self) -> bool:
+        """Whether it walks or stands."""
+        return bool(self.walk[WALKS] > 0.0)
+
+    @property
+    def runs(self) -> bool:
+        """Whether it runs and does not slow down."""
+        return not self.walks and self.slowing == 0.0
+
+    def changes(self, state: NDArray[np.float64]) -> bool:
+        """Whether it is going over from one gait to the other; told to go back meanwhile, it may fall."""
+        if self.walks:
+            return self.brakes or bool(self.walk[CAUGHT] > 0.0 and self.walk[WALK_STEPS] < _CHANGED)
+        return self.slowing > 0.0 or bool(state[controller.STEPS] < _CHANGED)
+
+    @property
+    def rises(self) -> bool:
+        """Whether it begins to walk from a crouch."""
+        return bool(self.walks and self.walk[WALK_TICKS] < RISING)
+
+    @property
+    def on_uneven_ground(self) -> bool:
+        """Whether it walks on steep ground or stairs."""
+        return bool(self.walks and self.walk[UNEVEN] > 0.0)
+
+    @property
+    def begins_uneven_step(self) -> bool:
+        """Whether it has just put a foot down on such ground."""
+        return self.on_uneven_ground and self.walk[PHASE] == DOUBLE and self.walk[CLOCK] == 0.0
+
+    def vary_step(self, longer: Sequence[float]) -> None:
+        """The transfer and the swing of the step that has just begun take longer [s]."""
+        self.walk[LONGER] = longer
+
+    def at_rest(self, state: NDArray[np.float64]) -> bool:
+        """Whether it stands and does not move."""
+        stands = self.walks and self.walk[PHASE] == STANDING and self.walk[CLOCK] == 0.0
+        return bool(stands and np.abs(state[controller.COM_VELOCITY]).max() < _STILL)
+
+    def stir(self, state: NDArray[np.float64]) -> None:
+        """It is not at rest any more."""
+        state[controller.COM_VELOCITY] = 0.0, 0.0, -_STILL
+
+    # --- a tick
+    def steer(
+        self, way: Way, state: NDArray, moving: bool, planned: float, tick: int, command: NDArray
+    ) -> None:
+        """Track the path: write heading and speeds to ask of the controllers into ``command`` (4,).
+
+        moving: whether it is to go on along the path. planned [m/s]: speed of this step of a run-up, 0 where
+        there is none.
+        """
+        (x, y), speed = state[controller.COM][:2], state[controller.SPEED]
+        way.track(_WALK_GAINS if self.walks else RUN_GAINS, x, y, speed, tick, command)
+        if self.walks:
+            most = self.walk_skill.speed if way.walks_fast else self.walk_limits.calm
+            self._steer_walk(state, moving, way.pace, most, command)
+        elif self.slowing > 0.0:
+            slower = state[controller.SPEED] - self.slowing * CONTROL_DT
+            command[1:3] = slower, 0.0
+            if self.brakes:  # straight on; the reference itself would follow too slowly
+                state[controller.SPEED] = max(slower, SLOWEST)
+                command[0] = state[controller.HEADING]
+        else:
+            if state[controller.STEPS] >= 2.0:
+                haste = HASTE if self.hurries else _HASTE
+                made = state[controller.STEP_SPEED]
+                command[1] = min(command[1], max(min(made + haste, _FAST), made + _FAST_HASTE))
+            slowest = min(command[1], self.limits.speeds[0])
+            command[1] = planned if planned > 0.0 else max(way.pace * command[1], slowest)
+
+    def _steer_walk(self, state: NDArray, moving: bool, pace: float, most: float, command: NDArray) -> None:
+        """``pace``: share of the speed asked for at which it goes; ``most`` [m/s]."""
+        heading = self.walk[WALK_HEADING]
+        if self.walk[WALK_STEPS] < 0.0:
+            command[:] = heading, STEADYING_SPEED, 0.0, 0.0
+            return
+        off = command[0] - heading
+        if self.walk[SUDDEN] == 0.0:
+            off -= TURN_TIME * self.walk[WALK_TURN_RATE]  # a bend in which it is turning already
+        if not moving or abs(math.remainder(off, 2.0 * math.pi)) > TURN_FIRST:
+            command[1:3] = 0.0
+            if np.hypot(*state[controller.COM_VELOCITY][:2]) > TURNING_SPEED:
+                command[0] = heading
+        if self.brakes:
+            pace = 0.0  # whatever it is told meanwhile: it has rehearsed to come to a stand
+        command[1] = pace * min(command[1], most)
+        if pace == 0.0:  # it waits: whoever steps about in place drifts into those before it
+            command[0], command[2] = heading, 0.0
+
+    def tick(
+        self, lookup: tuple[NDArray, ...], state: NDArray, command: NDArray, data: mujoco.MjData
+    ) -> None:
+        """Control: write the PD targets into ``data.ctrl``."""
+        if self.walks:
+            tables = self._walk_tables()
+            walk_tick(tables, lookup, self.walk, state, command, data.qpos, data.qvel, data.ctrl)
+        else:
+            tables = self._quick_run if self.hurries else self.run_skill.tables
+            if self.slowing > 0.0:
+                tables = self._braking_run if self.brakes else self._slow_run
+            run_tick(*tables, state, command, data.qpos, data.qvel, data.ctrl)
+
+    def _walk_tables(self) -> NDArray[np.float64]:
+        """The gains with which it walks now."""
+        steps = int(self.walk[WALK_STEPS])
+        first_steps = self._braking_steps if self.brakes else self._first_steps
+        if self.walk[CAUGHT] > 0.0 and steps < len(first_steps):
+            return first_steps[steps]
+        return self.walk_skill.tables
+
+    def observe(self, index: PersonIndex, state: NDArray, command: NDArray, data: mujoco.MjData) -> None:
+        """After the physics and `controller.observe`."""
+        if self.hurries and (self.walks or is_fast_enough(state, float(command[1]))):
+            self.hurries = False
+        if self.walks:
+            observe_walk(index, data, self.walk)
+            if self.brakes and self.walk[PHASE] == STANDING:
+                self.walk[CAUGHT] = 0.0
+                self.brakes = not self.at_rest(state)
+            self.brakes &= bool(self.walk[WALK_STEPS] < _HELD_UP)
+
+    # --- from one gait to the other
+    def run(self, state: NDArray, quickly: bool, speed: float) -> None:
+        """Go over from walking to running, from ``speed`` [m/s]."""
+        run_on(state, self.walk[WALK_STANCE], self.walk[WALK_HEADING], speed)
+        self.walk[WALKS] = 0.0
+        self.hurries, self.brakes = quickly, False
+
+    def slow_down(self, deceleration: float, brakes: bool = False) -> None:
+        """Begin to slow down from the run to a walk [m/s^2]; ``brakes``: to a stand, as short as it goes."""
+        self.slowing, self.brakes = deceleration, brakes
+
+    def walk_if_slow(self, index: PersonIndex, state: NDArray, data: mujoco.MjData) -> bool:
+        """Go over to walking, if it slows down and is on a foot from which it can; whether it has."""
+        can = self.brake_skill.can_walk_on if self.brakes else can_walk_on
+        if not (self.slowing > 0.0 and can(state)):
+            return False
+        if self.brakes:
+            walk_on(data, index, self._braking_steps[0], 0.0, state, self.walk)
+        else:
+            walk_on(data, index, self._first_steps[0], self.walk_limits.calm, state, self.walk)
+        self.slowing = 0.0
+        return True

@@ -1,0 +1,263 @@
+"""Saved states of persons."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion.body.person import JOINT_NAMES
+from locomotion.errors import LocomotionError
+from locomotion.gaits.run import layout as run
+from locomotion.gaits.walk import layout as walk
+from locomotion.human.human import Human
+from locomotion.human.state import CLEARING, HumanState
+from locomotion.paths import tracking as path_tracking
+from locomotion.paths.smoothing import ObstacleAhead
+from locomotion.paths.table import BRAKE, FAST_WALK, GAIT, RUN, SPEED, WALK, PathTable
+from locomotion.recovery import layout as scramble
+from locomotion.saved_arrays import FARTHEST, Slots, check_array, check_number
+from locomotion.skills import kernel as law
+from locomotion.skills.drop_roll import kernel as drop_roll
+from locomotion.skills.drop_roll.skill import DropRoll
+from locomotion.skills.interface import skill_for
+from locomotion.skills.jump import kernel as jump
+from locomotion.skills.jump.skill import Jump
+from locomotion.skills.run_up import RUN_UP_SIZE
+from locomotion.skills.vault import kernel as vault
+from locomotion.skills.vault.skill import Vault
+
+__all__ = ["check_person"]
+
+_COUNT, _FLAG, _SIDE = (0.0, FARTHEST), (0.0, 1.0), (-1.0, 1.0)
+_SPEED, _TURNS, _TIME = (-100.0, 100.0), (-1e4, 1e4), (0.0, FARTHEST)
+_UNIT = 1e-2  # by which the length of a quaternion may be off 1
+_OFF_LEVEL = 1e3  # [m] beside the level
+_FASTEST, _MOST_ANGLE = 1e3, 100.0  # [m/s, rad/s], [rad] of a joint
+
+_PARTS = (
+    Slots(
+        "the run of a person",
+        run.STATE_SIZE,
+        [
+            (run.PHASE, _FLAG),
+            (run.STANCE, _SIDE),
+            (run.HEADING, _TURNS),
+            (run.SPEED, _SPEED),
+            (run.TRIM, _SPEED),
+            (run.STEPS, _COUNT),
+            (run.STEP_TIME, _TIME),
+            (run.SLOPE, _SPEED),
+            (run.TICKS, _COUNT),
+            (run.FALLEN, _FLAG),
+        ],
+        whole=(run.STANCE, run.STEPS, run.TICKS, run.FALLEN),
+    ),
+    Slots("the command of a person", 4, [(0, _TURNS), (1, _SPEED), (2, _SPEED), (3, _SPEED)]),
+    Slots(
+        "the walk of a person",
+        walk.WALK_SIZE,
+        [
+            (walk.PHASE, (walk.STANDING, walk.DOUBLE)),
+            (walk.CLOCK, _TIME),
+            (walk.WALK_STANCE, _SIDE),
+            (walk.WALK_HEADING, _TURNS),
+            (walk.WALK_SPEED, _SPEED),
+            (walk.SIDEWAYS, _SPEED),
+            (walk.SETTING_OFF, _FLAG),
+            (walk.SWING_TIME, (0.0, 10.0)),
+            (walk.WALK_STEPS, (-3.0, FARTHEST)),
+            (walk.WALK_TICKS, _COUNT),
+            (walk.FOOTHOLD_YAW, _TURNS),
+            (walk.LIFT_YAW, _TURNS),
+            (walk.WALKS, _FLAG),
+            (walk.STEPPED_AT, _COUNT),
+            (walk.CAUGHT, _FLAG),
+            (walk.UNEVEN, _FLAG),
+            (walk.LONGER, (-10.0, 10.0)),
+            (walk.TOLD, _TURNS),
+        ],
+        whole=(
+            walk.PHASE,
+            walk.WALK_STANCE,
+            walk.WALK_STEPS,
+            walk.WALK_TICKS,
+            walk.WALKS,
+            walk.CAUGHT,
+        ),
+        open_ended=(walk.BODY_HEIGHT,),
+    ),
+    Slots(
+        "the way of a person",
+        path_tracking.TRACK_SIZE,
+        [
+            (path_tracking.ARC, _COUNT),
+            (path_tracking.PACE, _FLAG),
+            (path_tracking.BACKED, (0.0, 1e3)),
+            (path_tracking.WAITED, _COUNT),
+            (path_tracking.TRIED, _COUNT),
+        ],
+        whole=(path_tracking.BACKED, path_tracking.TRIED),
+    ),
+    Slots(
+        "what a person on hands and feet remembers",
+        scramble.SCRAMBLE_SIZE,
+        [
+            (scramble.PHASE, (scramble.ALL_DOWN, scramble.SWINGING)),
+            (scramble.CLOCK, _TIME),
+            (scramble.PAIR, _FLAG),
+            (scramble.FACING, _TURNS),
+            (scramble.TICKS, _COUNT),
+            (scramble.RISEN, (0.0, 2.0)),
+            (scramble.LOADS, _FLAG),
+            (scramble.DOWN, _FLAG),
+            (scramble.STANCE, (-10.0, 10.0)),
+            (scramble.MODE, (scramble.AWAY, scramble.RISING)),
+            (scramble.MODE_CLOCK, _TIME),
+            (scramble.ROLL_SIDE, _FLAG),
+            (scramble.TRIES, _COUNT),
+        ],
+        whole=(
+            scramble.PHASE,
+            scramble.PAIR,
+            scramble.TICKS,
+            scramble.DOWN,
+            scramble.MODE,
+            scramble.ROLL_SIDE,
+            scramble.TRIES,
+        ),
+    ),
+    Slots(
+        "the run-up of a person",
+        RUN_UP_SIZE,
+        [(0, _COUNT), (1, _COUNT), (2, _SPEED), (3, _SPEED), (4, _SPEED)],
+        whole=(0, 1),
+    ),
+)
+"""In the order of `MovingPerson.memories`."""
+
+_AT_WORK: Mapping[type, Slots] = {
+    Jump: Slots(
+        "the jump of a person",
+        jump.MEMORY_SIZE,
+        [(law.ACTIVE, _FLAG), (law.FIRST_STEP, _COUNT), (law.LAST_STEP, _COUNT)],
+        whole=(law.ACTIVE, law.FIRST_STEP, law.LAST_STEP),
+    ),
+    Vault: Slots(
+        "the vault of a person",
+        vault.MEMORY_SIZE,
+        [
+            (law.ACTIVE, _FLAG),
+            (law.FIRST_STEP, _COUNT),
+            (law.LAST_STEP, _COUNT),
+            (vault.HOLD, (0.0, 2.0)),
+            (vault.HELD, _COUNT),
+            (vault.SIDE, _SIDE),
+            (vault.PHASE, (0.0, vault.PHASES - 1.0)),
+        ],
+        whole=(law.ACTIVE, law.FIRST_STEP, law.LAST_STEP, vault.HOLD, vault.PHASE),
+    ),
+    DropRoll: Slots(
+        "the roll of a person",
+        drop_roll.MEMORY_SIZE,
+        [
+            (drop_roll.ACTIVE, _FLAG),
+            (drop_roll.PHASE, (drop_roll.TAKE_OFF, drop_roll.RISE)),
+            (drop_roll.SHARE, _FLAG),
+            (drop_roll.SIDE, _SIDE),
+            (drop_roll.PHASE_TICKS, _COUNT),
+            (drop_roll.ENDED, _FLAG),
+        ],
+        whole=(drop_roll.ACTIVE, drop_roll.PHASE, drop_roll.ENDED),
+    ),
+}
+
+
+def check_person(state: HumanState, human: Human) -> None:
+    """Raises `LocomotionError` for a ``state`` that ``human`` cannot be in."""
+    numbers, end = state.numbers, 0
+    held = sum(part.size for part in _PARTS)
+    if numbers.shape != (held + mujoco.mj_stateSize(human.model, _PHYSICS),):
+        raise LocomotionError("the saved state belongs to another model")
+    for part in _PARTS:
+        begin, end = end, end + part.size
+        part.check(numbers[begin:end])
+    _check_physics(numbers[held:], human)
+    for path in (state.path, state.interrupted):
+        if path is not None:
+            _check_path(path)
+    on_path = state.interrupted is not None or state.status in ("walking", "running", *CLEARING.values())
+    if state.path is None and on_path:
+        raise LocomotionError(f"a person is {state.status} along no path")
+    for what in (state.ticks, state.ended_at):
+        check_number("a tick of a person", what, 0, 2**53)
+    for what in (state.slowing, state.back_to, *state.on_all_fours):
+        check_number("a mood of a person", what)
+    for obstacle in state.obstacles:
+        _check_obstacle(obstacle)
+    _check_clearing(state, human)
+
+
+_PHYSICS = mujoco.mjtState.mjSTATE_INTEGRATION
+
+
+def _check_physics(physics: NDArray[np.float64], human: Human) -> None:
+    """Time, coordinates, their rates, and whatever else MuJoCo keeps, which has only to be finite."""
+    check_array("the physics of a person", physics, None)
+    nq, nv = human.model.nq, human.model.nv
+    time, qpos, qvel = physics[0], physics[1 : 1 + nq], physics[1 + nq : 1 + nq + nv]
+    check_number("the physics' time", time, 0.0)
+    if human.ground is not None:
+        low, high = human.ground.low - _OFF_LEVEL, human.ground.high + _OFF_LEVEL
+        if not ((qpos[:3] >= low) & (qpos[:3] <= high)).all():
+            raise LocomotionError("a person is far from the level")
+    check_number(
+        "the length of a person's quaternion", float(np.linalg.norm(qpos[3:7])), 1 - _UNIT, 1 + _UNIT
+    )
+    check_number("a joint of a person", float(np.abs(qpos[7 : 7 + len(JOINT_NAMES)]).max()), 0.0, _MOST_ANGLE)
+    check_number("a speed of a person", float(np.abs(qvel).max()), 0.0, _FASTEST)
+
+
+def _check_path(path: PathTable) -> None:
+    table = path.table
+    check_array("the path of a person", table, None, 8, least=2)
+    check_array("the goal of a path", path.goal, 3)
+    check_number("the length of a path", path.length, 1e-9, float(len(table)))
+    if not np.isin(table[:, GAIT], (BRAKE, FAST_WALK, WALK, RUN)).all() or (table[:, SPEED] < 0.0).any():
+        raise LocomotionError("a path of a person is gone in no gait")
+
+
+def _check_obstacle(obstacle: ObstacleAhead) -> None:
+    if obstacle.affordance not in CLEARING:
+        raise LocomotionError(f"an obstacle affords {obstacle.affordance!r}; valid: {', '.join(CLEARING)}")
+    check_array("the place of an obstacle", obstacle.position, 3)
+    check_array("the normal of an obstacle", obstacle.normal, 3)
+    check_number("the normal of an obstacle", float(np.hypot(*obstacle.normal[:2])), 1 - _UNIT, 1 + _UNIT)
+    for what in (obstacle.arc_length, obstacle.height, obstacle.depth):
+        check_number("a measure of an obstacle", what)
+
+
+def _check_clearing(state: HumanState, human: Human) -> None:
+    """What it clears, and will clear, can be cleared."""
+    run_up = sum(part.size for part in _PARTS[:-1])
+    number = int(state.numbers[run_up])
+    ahead = [skill_for(human.clearing, obstacle) for obstacle in state.obstacles[number:]]
+    if None in ahead:
+        raise LocomotionError("a person is before an obstacle that it cannot clear")
+    if state.obstacles and state.path is None:
+        raise LocomotionError("a person has obstacles before it and no path")
+    if state.skill is None:
+        if state.status in CLEARING.values():
+            raise LocomotionError(f"a person is {state.status} by no skill")
+        return
+    if not ahead:
+        raise LocomotionError("a person clears no obstacle")
+    slots = _AT_WORK.get(type(ahead[0]))
+    if slots is None:
+        check_array("the skill of a person", state.skill, None)
+        return
+    slots.check(state.skill)
+    if slots.what != _AT_WORK[DropRoll].what and state.skill[law.FIRST_STEP] > state.numbers[run.STEPS]:
+        raise LocomotionError("a person clears an obstacle with a step that is still to come")

@@ -1,0 +1,191 @@
+"""Where along its path a body runs, walks, slows down and comes to a stand."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import maximum_filter1d
+
+from locomotion.paths.table import (
+    BRAKE,
+    CURVATURE,
+    FAST_WALK,
+    GAIT,
+    RUN,
+    SLOPE,
+    SPACING,
+    SPEED,
+    WALK,
+    TrackingLimits,
+)
+
+__all__ = [
+    "COME_TO_REST",
+    "LANDED",
+    "RUN_UP",
+    "SET_OFF",
+    "SLOWS_WITHIN",
+    "braking_length",
+    "hard_again",
+    "plan_gaits",
+]
+
+RUN_UP = 15.0
+"""[m] before an obstacle, along the path, from which a body runs and the speed of each step is planned."""
+SET_OFF = 7.7
+"""[m] before an obstacle at which a body that walks turns to it: it gets up to speed in that."""
+LANDED = 5.0
+"""[m] behind an obstacle's edge that are run, unless it has to come to a stand sooner."""
+COME_TO_REST = 2.0
+"""[m] that are walked before the end."""
+SLOWS_WITHIN = 1.0
+"""[m] that it may run on where it is to slow down or to brake, until it finds how."""
+_OFF_EDGE = 2.0  # [m] behind an obstacle's edge that are run in any case
+_WORTH_IT = 4.0  # [m] that are run at least, before it slows down
+_BEFORE = 1.0  # [m] that are walked before what cannot be run
+_BETWEEN = 4.0  # [m] that are walked between two runs at least
+_LEVEL, _STRAIGHT = 0.05, 0.15  # slope, and curvature [1/m], up to which it walks faster than usual
+_BEGINS = 2.0  # [m] that are walked as usual first, unless one is faster already:
+_ALREADY = 0.15  # [m/s] faster than usual
+_CALM = 4.0  # [m] before a run that are walked no faster than usual: runs are begun from that
+_SURELY = 0.75  # [m/s^2] at which it slows down to a walk at least, mostly
+_BRAKING = 2.5  # [m/s^2] at which it comes to a stand, at least: see `surefoot evaluate brake`
+
+
+def plan_gaits(
+    table: NDArray[np.float64],
+    at: NDArray[np.float64],
+    speed: float,
+    limits: TrackingLimits,
+    walk: TrackingLimits,
+    edges: NDArray[np.float64],
+    present_speed: float,
+    running: bool,
+) -> list[TrackingLimits]:
+    """Write the gaits into ``table`` (n, 8); the limits at each of its points, whose arc lengths are ``at``
+    (n,) [m]. Other arguments as of `path_tracking.make_path`."""
+    fastest = min(max(speed, limits.speeds[0]), limits.speeds[1])
+    slowing = _length_of_slowing(fastest, limits, walk)
+    slowest = 0.5 * (walk.speeds[1] + limits.speeds[0])  # below it is nearer to a walk
+    hard = _too_hard(table, limits)
+    runs = _where_to_run(hard, at, speed >= slowest, edges, running, slowing)
+    entering = present_speed if running else 0.0
+    brakes = _where_to_brake(hard, at, edges, runs, fastest, entering, walk.calm)
+    last_run = np.maximum.accumulate(np.where(runs, at, -math.inf))
+    stood = np.maximum.accumulate(np.where(brakes, at, -math.inf)) > last_run
+    near = (at - last_run <= slowing) & ~stood & (at <= at[-1] - COME_TO_REST)  # runs, or slows down
+    fast = (speed < slowest) & _can_walk_fast(table, at, runs, walk.foresight) & ~near
+    if present_speed < walk.calm + _ALREADY:  # who is told elsewhere all the time does not get fast
+        fast &= at >= _BEGINS
+    table[:, GAIT] = np.select([runs, brakes, fast], [RUN, BRAKE, FAST_WALK], WALK)
+    usual = replace(walk, speeds=(walk.speeds[0], walk.calm))
+    return [limits if n else walk if f else usual for n, f in zip(near, fast, strict=True)]
+
+
+def hard_again(table: NDArray[np.float64], step: float, limits: TrackingLimits, walk: TrackingLimits) -> None:
+    """Let it walk where a path that has been moved has become too hard to run. step: [m] between the points
+    of ``table`` (n, 8)."""
+    fastest = min(max(float(table[:, SPEED].max()), limits.speeds[0]), limits.speeds[1])
+    slowing = _length_of_slowing(fastest, limits, walk)
+    along = np.asarray(step * np.arange(len(table)), dtype=np.float64)
+    table[~_can_run(_too_hard(table, limits), along, slowing), GAIT] = WALK
+
+
+def braking_length(speed: float) -> float:
+    """[m] in which a body that runs at ``speed`` [m/s] comes to a stand."""
+    return speed * speed / (2.0 * _BRAKING)
+
+
+def _length_of_slowing(speed: float, limits: TrackingLimits, walk: TrackingLimits) -> float:
+    """[m] in which a body that runs at ``speed`` [m/s] slows down to a walk, as planned."""
+    return max(speed**2 - walk.calm**2, 0.0) / (2.0 * limits.slowing)
+
+
+def _where_to_run(
+    hard: NDArray[np.bool_],
+    at: NDArray[np.float64],
+    worth: bool,
+    edges: NDArray[np.float64],
+    running: bool,
+    slowing: float,
+) -> NDArray[np.bool_]:
+    """(n,) bool: where the body runs, if it is ``worth`` it; behind that it needs ``slowing`` [m] to slow
+    down."""
+    runs = _can_run(hard, at, slowing) & (at <= at[-1] - COME_TO_REST - slowing) & worth
+    for begin, end in _stretches(runs):
+        if at[end - 1] - at[begin] < _WORTH_IT and not (running and begin == 0):
+            runs[begin:end] = False
+    for edge in edges:
+        bends = at[hard & (at < edge - SET_OFF)]
+        runs[(at >= max(edge - RUN_UP, bends.max(initial=0.0))) & (at <= edge + LANDED)] = True
+    between = np.flatnonzero(np.diff(runs.astype(np.int8), prepend=0, append=0))[1:-1]
+    for end, begin in between.reshape(-1, 2):
+        if at[begin] - at[end] < slowing + _BETWEEN and not hard[end:begin].any():
+            runs[end:begin] = True
+    return runs
+
+
+def _where_to_brake(
+    hard: NDArray[np.bool_],
+    at: NDArray[np.float64],
+    edges: NDArray[np.float64],
+    runs: NDArray[np.bool_],
+    fastest: float,
+    entering: float,
+    calm: float,
+) -> NDArray[np.bool_]:
+    """(n,) bool: where a body that runs at up to ``fastest`` [m/s], and enters the path at ``entering``,
+    comes to a stand, since it cannot slow down to a walk at ``calm`` before what cannot be run or the end;
+    changes ``runs``, which it does before that, in place."""
+    brakes = np.zeros(len(at), dtype=bool)
+    stretches = _stretches(runs)
+    if entering > 0.0 and not runs[0]:
+        stretches = [(0, 0), *stretches]
+    for begin, end in stretches:
+        speed = max(entering, fastest if end else 0.0) if begin == 0 else fastest
+        left = at[min(end, len(at) - 1)]
+        passed = edges[edges <= left]
+        earliest = max(at[begin], passed.max(initial=-math.inf) + _OFF_EDGE)
+        ahead = at[hard & (at >= max(at[begin], passed.max(initial=-math.inf)))]
+        stop = float(ahead[0]) if len(ahead) else float(at[-1])
+        if stop - left >= (speed**2 - calm**2) / (2.0 * _SURELY):
+            continue
+        first = max(stop - braking_length(speed) - SLOWS_WITHIN, earliest)
+        runs[(at >= at[begin]) & (at < first)] = True
+        stands = (at >= first) & (at <= max(stop, first + _BEFORE))
+        runs[stands] = False
+        brakes |= stands
+    return brakes
+
+
+def _stretches(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """Begin and end of each row of True ones."""
+    ends = np.flatnonzero(np.diff(flags.astype(np.int8), prepend=0, append=0))
+    return [(int(begin), int(end)) for begin, end in ends.reshape(-1, 2)]
+
+
+def _can_walk_fast(
+    table: NDArray[np.float64], at: NDArray[np.float64], runs: NDArray[np.bool_], foresight: float
+) -> NDArray[np.bool_]:
+    """(n,) bool: where the way is level and straight, for ``foresight`` [m] before and behind, and no run
+    begins soon."""
+    hardest = np.maximum(np.abs(table[:, SLOPE]) / _LEVEL, np.abs(table[:, CURVATURE]) / _STRAIGHT)
+    easy = maximum_filter1d(hardest, 2 * round(foresight / SPACING) + 1) <= 1.0
+    next_run = np.minimum.accumulate(np.where(runs, at, math.inf)[::-1])[::-1]
+    return easy & (next_run - at >= _CALM)
+
+
+def _too_hard(table: NDArray[np.float64], limits: TrackingLimits) -> NDArray[np.bool_]:
+    """(n,) bool: where bends or slopes are too much for these limits."""
+    return (np.abs(table[:, CURVATURE]) > limits.sharpest) | (np.abs(table[:, SLOPE]) > limits.steepest)
+
+
+def _can_run(hard: NDArray[np.bool_], at: NDArray[np.float64], slowing: float) -> NDArray[np.bool_]:
+    """(n,) bool: where nothing ``hard`` is, nor so near before the body that it has to slow down."""
+    runs = ~hard
+    for each in at[hard]:
+        runs[(at >= each - _BEFORE - slowing) & (at <= each)] = False
+    return runs

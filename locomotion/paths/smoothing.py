@@ -1,0 +1,185 @@
+"""From a route through the graph to what a body follows: one smooth path, and the obstacles on it.
+
+Each walked leg is smoothed inside its corridor; the legs are joined by the straight lines over the obstacles
+between them, which the path meets at right angles, straight from as far as the run-up needs
+(`locomotion.paths.approach_legs`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+import pathsmooth
+from locomotion.errors import LocomotionError
+from locomotion.paths.approach_legs import set_legs
+from locomotion.paths.gait_plan import LANDED, SET_OFF, braking_length
+from navmesh.draping import drape_curve
+from navmesh.route import Leg, Route
+
+__all__ = ["RUNNING", "ObstacleAhead", "SmoothPath", "Smoothing", "smooth_route"]
+
+_ITERATIONS = 600  # per bound on curvature, some milliseconds; to look for every last curve takes seconds
+
+
+@dataclass(frozen=True)
+class Smoothing:
+    """What a kind of body wants of its path.
+
+    Attributes:
+        curvatures: [1/m] bounds to try in turn, widest first, until one is not reached in a few
+        milliseconds; a leg on which none
+            is reached is smoothed without.
+        spacing: [m] between waypoints, at most.
+        roundness: [m^3] smoothness of the path; corners are rounded over about its cube root.
+        run_up, landing: [m] straight before an obstacle's edge and behind it, where there is room; no more
+            than the link over it leads straight on when 0.
+    """
+
+    curvatures: tuple[float, ...]
+    spacing: float
+    roundness: float
+    run_up: float = 0.0
+    landing: float = 0.0
+
+
+RUNNING = Smoothing((0.12, 0.18, 0.3, 0.5, 0.8), 0.25, 2.0, SET_OFF, LANDED + braking_length(3.5))
+"""A running person's: corners are rounded over about 1.3 m. The run-up is what one that walks needs to get up
+to speed, the landing what is run at 3.5 m/s before it stands."""
+
+
+@dataclass(frozen=True)
+class ObstacleAhead:
+    """An obstacle that the path crosses.
+
+    Attributes:
+        arc_length: [m] horizontal length of the path up to the obstacle's edge.
+        affordance: "jump", "vault", "drop" or "gap". height: [m] as in `NodeGraph.obstacles`.
+        position: (3,) float64 [m], where the path crosses the edge, at its top.
+        normal: (3,) float64, horizontal unit vector at right angles to the edge, towards the run-up side.
+        depth: [m] as in `NodeGraph.obstacles`: thickness of what is vaulted, width of a gap, length of
+            what is jumped onto.
+    """
+
+    arc_length: float
+    affordance: str
+    height: float
+    position: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    depth: float = 0.0
+
+    @property
+    def size(self) -> float:
+        """What a skill's range is compared with [m]: the height, or the width of a gap."""
+        return self.depth if self.affordance == "gap" else self.height
+
+    @property
+    def far_side(self) -> float:
+        """Arc length [m] at which the body is on the ground again behind it."""
+        return self.arc_length + (self.depth if self.affordance in ("vault", "gap") else 0.0)
+
+
+@dataclass(frozen=True)
+class SmoothPath:
+    """points: (n, 3) float64 [m] on the surface. obstacles: in order. bounded: whether the curvature stays
+    within one of the bounds that were asked for on every leg (a narrow corner may not admit it)."""
+
+    points: NDArray[np.float64]
+    obstacles: tuple[ObstacleAhead, ...]
+    bounded: bool
+
+    def __repr__(self) -> str:
+        over = "".join(f", over a {each.affordance}" for each in self.obstacles)
+        return f"<SmoothPath: {len(self.points)} points{over}>"
+
+
+def smooth_route(
+    route: Route, smoothing: Smoothing = RUNNING, start_direction: ArrayLike | None = None
+) -> SmoothPath:
+    """Smooth a route of status "complete" or "partial".
+
+    start_direction: (2,) or (3,) direction in which the body is moving, or None.
+    Raises `LocomotionError` for a route without waypoints.
+    """
+    if len(route.waypoints) < 2:
+        raise LocomotionError(f"a route of status {route.status!r} has no path to smooth")
+    heading = None if start_direction is None else np.asarray(start_direction, dtype=np.float64)
+    legs = set_legs(route, smoothing.run_up, smoothing.landing, smoothing.spacing, heading)
+    pieces: list[NDArray[np.float64]] = []
+    crossings: list[tuple[int, NDArray[np.float64]]] = []
+    bounded = True
+    for i, leg in enumerate(legs):
+        points, held = _smooth_leg(leg.leg, smoothing, leg.before, leg.after)
+        bounded = bounded and held
+        pieces += [leg.behind, drape_curve(route.graph, points), leg.ahead]
+        if i < len(legs) - 1:
+            edge = _edge_point(route, i)
+            crossings.append((route.links[i].obstacle, edge))
+            start, end = route.waypoints[route.links[i].first], route.waypoints[route.links[i].last]
+            pieces.append(_over(start, edge, end))
+    points = np.concatenate(pieces)
+    obstacles = tuple(_obstacle(route, points, index, edge) for index, edge in crossings)
+    return SmoothPath(points, obstacles, bounded)
+
+
+def _smooth_leg(
+    leg: Leg, smoothing: Smoothing, before: ArrayLike | None, after: ArrayLike | None
+) -> tuple[NDArray[np.float64], bool]:
+    """Points of one leg, and whether they keep one of the bounds; end tangents give way first."""
+    length = float(np.linalg.norm(np.diff(leg.waypoints[:, :2], axis=0), axis=1).sum())
+    if length < 1e-3:
+        return leg.waypoints, True
+    for start, end in ((before, after), (None, after), (None, None)):
+        best, held = None, False
+        for bound in (None, *sorted(smoothing.curvatures, reverse=True)):
+            problem = pathsmooth.Problem.from_corridor(
+                leg.waypoints, leg.centers, leg.radii, spacing=smoothing.spacing, start_tangent=start,
+                end_tangent=end, max_curvature=bound, smoothness=smoothing.roundness,
+            )  # fmt: skip
+            solution = pathsmooth.solve(problem, None if bound is None else _ITERATIONS)
+            if solution.status == "infeasible" or (bound is not None and solution.status != "complete"):
+                break
+            best, held = solution, bound is not None
+        if best is not None:
+            return best.points, held
+    return leg.waypoints, False
+
+
+def _edge_point(route: Route, index: int) -> NDArray[np.float64]:
+    """Where the straight line over a link crosses its obstacle's edge, at the height of the edge."""
+    use = route.links[index]
+    start, end = route.waypoints[use.first], route.waypoints[use.last]
+    obstacles = route.graph.obstacles
+    position, normal = obstacles.position[use.obstacle], obstacles.normal[use.obstacle]
+    along = float((end - start)[:2] @ normal[:2])
+    share = float((position - start)[:2] @ normal[:2]) / along if abs(along) > 1e-9 else 0.5
+    point = start + np.clip(share, 0.0, 1.0) * (end - start)
+    return np.array([point[0], point[1], position[2]])
+
+
+def _over(
+    start: NDArray[np.float64], edge: NDArray[np.float64], end: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """The line over an obstacle: level up to the edge, then level with the landing."""
+    direction = end - start
+    direction = direction / max(float(np.linalg.norm(direction[:2])), 1e-9)
+    before = np.array([edge[0] - 1e-3 * direction[0], edge[1] - 1e-3 * direction[1], start[2]])
+    after = np.array([edge[0] + 1e-3 * direction[0], edge[1] + 1e-3 * direction[1], end[2]])
+    return np.stack([before, after])
+
+
+def _obstacle(
+    route: Route, points: NDArray[np.float64], index: int, edge: NDArray[np.float64]
+) -> ObstacleAhead:
+    obstacles = route.graph.obstacles
+    steps = np.linalg.norm(np.diff(points[:, :2], axis=0), axis=1)
+    arc = np.concatenate([[0.0], np.cumsum(steps)])
+    nearest = int(np.argmin(np.linalg.norm(points[:, :2] - edge[:2], axis=1)))
+    normal = obstacles.normal[index]
+    forward = float((edge - points[nearest])[:2] @ -normal[:2])
+    return ObstacleAhead(
+        float(arc[nearest]) + forward, str(obstacles.affordance[index]), float(obstacles.height[index]),
+        edge, normal.copy(), float(obstacles.depth[index]),
+    )  # fmt: skip

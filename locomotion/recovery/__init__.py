@@ -1,0 +1,1 @@
+"""After a fall: on hands and feet, and getting up."""

@@ -1,0 +1,241 @@
+"""Getting up after a fall, as far as hands and feet (numba).
+
+Per tick of 10 ms `get_up_tick` while `MODE` is below `BORNE`; from then on `scrambling.scramble_tick` carries
+the body. The figure goes limp until it lies still, rolls onto its front over the side that is nearer, reaches
+out with its arms, draws its legs under itself, and pushes itself up. No posture is assumed: each phase ends
+by what is seen, and a body that does not come onto its front tries the other side.
+"""
+
+import math
+
+import numpy as np
+
+from locomotion.body.person import CONTROL_DT, JOINT_NAMES
+from locomotion.gaits.walk.layout import clamp
+from locomotion.recovery.layout import (
+    ALL_DOWN,
+    BEGUN_FROM,
+    BORNE,
+    CLOCK,
+    DOWN,
+    FACING,
+    LIMP,
+    LOADS,
+    MODE,
+    MODE_CLOCK,
+    PHASE,
+    REACHING,
+    RISEN,
+    ROLL_SIDE,
+    ROLLING,
+    SEEN_COM,
+    SEEN_FORCES,
+    SEEN_LIMBS,
+    SEEN_TURN,
+    SEEN_VELOCITY,
+    TICKS,
+    TRIES,
+    TUCKING,
+    TURNING,
+)  # fmt: skip
+from locomotion.recovery.scrambling import lie_of
+from surefoot.kernels import allocating_kernel, kernel
+
+__all__ = ["bear_on", "begin_getting_up", "get_up_tick", "lies_on_front", "rise_on"]
+
+_STILL, _LIMP_LEAST, _LIMP_MOST = 0.25, 0.3, 1.5  # [m/s], [s]
+_GATHER_TIME, _SWING_TIME, _FOLLOW_TIME, _REACH_TIME, _SETTLE_TIME, _TUCK_TIME, _RISE_TIME = (
+    0.6,
+    0.35,
+    0.5,
+    0.7,
+    0.15,
+    1.3,
+    1.2,
+)  # [s]
+_ROLLS, _SPREAD_TIME = 0.4, 0.3  # slope on which a limp body rolls down; [s]
+_STEADY, _BEARS, _STEADY_MOST = 0.15, 20.0, 8.0  # [m/s], [N] of each limb: it has come to rest on them; [s]
+_LOOKS = 4.0  # ticks after which it looks again whether it has tipped over
+_NEARLY = 0.98  # share of its height to which it comes before that
+_SUNK = 0.3  # [m] of the centre of mass above a foot, below which it does not rise any more
+_ON_FRONT, _OFF_FRONT = (
+    -0.5,
+    0.1,
+)  # upward share of the body's forward axis: lies on its front; does not any more
+
+
+def _posture(**degrees: float) -> np.ndarray:
+    """(39,) joint angles [rad] by name; without a side for both."""
+    angles = np.zeros(len(JOINT_NAMES))
+    for name, angle in degrees.items():
+        for i, joint in enumerate(JOINT_NAMES):
+            if joint == name or joint in (f"right_{name}", f"left_{name}"):
+                angles[i] = math.radians(angle)
+    return angles
+
+
+# over the right side: arched, arms overhead, the left leg swings across; then the left arm follows
+_SWING_OVER = _posture(
+    waist_pitch=-25, waist_yaw=-29, chest_pitch=-12, chest_roll=-20, chest_yaw=35,
+    right_shoulder_flexion=159, right_shoulder_abduction=-22, right_shoulder_rotation=-37,
+    left_shoulder_flexion=164, left_shoulder_abduction=14, left_shoulder_rotation=-42,
+    right_hip_flexion=-29, right_hip_abduction=-15, right_hip_rotation=-34, right_knee_flexion=89,
+    right_ankle_flexion=29, left_hip_flexion=125, left_hip_abduction=-27, left_hip_rotation=24,
+    left_ankle_flexion=-50,
+)  # fmt: skip
+_FOLLOW_OVER = _posture(
+    waist_pitch=-23, waist_roll=22, waist_yaw=-29, chest_pitch=-11, chest_yaw=-35,
+    right_shoulder_flexion=178, right_shoulder_abduction=-16, right_shoulder_rotation=-56,
+    left_shoulder_flexion=58, left_shoulder_abduction=-29, left_shoulder_rotation=61,
+    right_hip_flexion=-29, right_hip_abduction=-7, right_hip_rotation=32, right_knee_flexion=99,
+    right_ankle_flexion=-50, left_hip_flexion=20, left_hip_abduction=45, left_hip_rotation=-34,
+    left_knee_flexion=150,
+)  # fmt: skip
+_GATHERED = _posture(shoulder_flexion=20, elbow_flexion=20)
+_REACH = _posture(
+    shoulder_flexion=0, shoulder_abduction=85, shoulder_rotation=-50, elbow_flexion=25, neck_pitch=-20,
+    hip_abduction=20,
+)  # fmt: skip
+_TUCK = _posture(
+    shoulder_flexion=35, shoulder_abduction=70, shoulder_rotation=-20, elbow_flexion=80, hip_flexion=80,
+    hip_abduction=35, knee_flexion=100, ankle_flexion=20, toe_extension=40, neck_pitch=-20,
+)  # fmt: skip
+
+
+def _mirrored(angles: np.ndarray) -> np.ndarray:
+    """The same posture of the other side."""
+    out = angles.copy()
+    for i, name in enumerate(JOINT_NAMES):
+        if name.startswith("right_"):
+            k = JOINT_NAMES.index("left_" + name[6:])
+            out[i], out[k] = angles[k], angles[i]
+        elif name.endswith(("_roll", "_yaw")):
+            out[i] = -angles[i]
+    return out
+
+
+_OVER = np.array([[_SWING_OVER, _FOLLOW_OVER], [_mirrored(_SWING_OVER), _mirrored(_FOLLOW_OVER)]])
+
+
+@allocating_kernel
+def lies_on_front(ground, memory):
+    """How far the body's forward axis points away from the ground, -1 (on its front) to 1 (on its back), and
+    how far its left side does."""
+    com = memory[SEEN_COM]
+    gradient = np.empty(2)
+    lie_of(ground, com[0], com[1], com[2] - 0.2, gradient)
+    n = math.sqrt(1.0 + gradient[0] ** 2 + gradient[1] ** 2)
+    turn = memory[SEEN_TURN]
+    front = (turn[6] - gradient[0] * turn[0] - gradient[1] * turn[3]) / n
+    left = (turn[7] - gradient[0] * turn[1] - gradient[1] * turn[4]) / n
+    return front, left
+
+
+@allocating_kernel
+def steepness(ground, memory):
+    """Slope [rise over run] of the ground around the body."""
+    com, gradient = memory[SEEN_COM], np.empty(2)
+    lie_of(ground, com[0], com[1], com[2] - 0.2, gradient)
+    return math.hypot(gradient[0], gradient[1])
+
+
+@allocating_kernel
+def begin_getting_up(memory, qpos):
+    """The body has fallen."""
+    memory[BEGUN_FROM] = qpos[7:]
+    memory[MODE], memory[MODE_CLOCK], memory[TRIES] = LIMP, 0.0, 0.0
+    memory[RISEN] = 0.0
+
+
+@allocating_kernel
+def _go_on(memory, mode, angles):
+    memory[MODE], memory[MODE_CLOCK] = mode, 0.0
+    memory[BEGUN_FROM] = angles
+
+
+@kernel
+def _move(begun, target, share, ctrl):
+    """From one posture to another (39,), ``share`` of the way in time."""
+    u = clamp(share, 0.0, 1.0)
+    u = u * u * (3.0 - 2.0 * u)
+    for j in range(39):
+        ctrl[j] = begun[j] + u * (target[j] - begun[j])
+
+
+@allocating_kernel
+def get_up_tick(ground, memory, qpos, ctrl):
+    """One control tick: advance ``memory``, write the PD targets ``ctrl`` (39,) [rad]."""
+    memory[MODE_CLOCK] += CONTROL_DT
+    clock, mode, begun = memory[MODE_CLOCK], memory[MODE], memory[BEGUN_FROM]
+    if mode == LIMP:
+        ctrl[:] = qpos[7:]
+        if steepness(ground, memory) > _ROLLS:  # a body that spreads out does not roll down
+            _move(begun, _REACH, clock / _SPREAD_TIME, ctrl)
+        v = memory[SEEN_VELOCITY]
+        slow = math.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) < _STILL
+        if (slow and clock > _LIMP_LEAST) or clock > _LIMP_MOST:
+            front, left = lies_on_front(ground, memory)
+            # over the side that is down already; if that failed, over the other
+            memory[ROLL_SIDE] = (
+                (0.0 if left >= 0.0 else 1.0) if memory[TRIES] % 2.0 == 0.0 else 1.0 - memory[ROLL_SIDE]
+            )
+            _go_on(memory, REACHING if front < _ON_FRONT else ROLLING, qpos[7:])
+    elif mode == ROLLING:
+        over = _OVER[int(memory[ROLL_SIDE])]
+        if memory[TRIES] > 0.0:
+            clock -= _GATHER_TIME  # arms and legs that are spread keep it from rolling
+        if clock <= 0.0:
+            _move(begun, _GATHERED, 1.0 + clock / _GATHER_TIME, ctrl)
+        elif clock <= _SWING_TIME:
+            _move(begun if memory[TRIES] == 0.0 else _GATHERED, over[0], clock / _SWING_TIME, ctrl)
+        else:
+            _move(over[0], over[1], (clock - _SWING_TIME) / _FOLLOW_TIME, ctrl)
+        if clock > _SWING_TIME + _FOLLOW_TIME:
+            _go_on(memory, REACHING, over[1])
+    elif mode == REACHING:
+        _move(begun, _REACH, clock / _REACH_TIME, ctrl)
+        if clock > _REACH_TIME + _SETTLE_TIME:
+            if lies_on_front(ground, memory)[0] > _ON_FRONT:
+                memory[TRIES] += 1.0
+                _go_on(memory, LIMP, qpos[7:])
+            else:
+                _go_on(memory, TUCKING, _REACH)
+    else:
+        _move(begun, _TUCK, clock / _TUCK_TIME, ctrl)
+        if lies_on_front(ground, memory)[0] > _OFF_FRONT:
+            _go_on(memory, LIMP, qpos[7:])
+        elif clock > _TUCK_TIME:
+            _go_on(memory, BORNE, _TUCK)
+            bear_on(memory, 0.0)
+
+
+@kernel
+def bear_on(memory, risen):
+    """From the next tick on hands and feet bear the body, where they are; ``risen``: share of its height."""
+    turn = memory[SEEN_TURN]
+    memory[MODE], memory[MODE_CLOCK], memory[RISEN] = BORNE, 0.0, risen
+    memory[FACING] = math.atan2(turn[3] + turn[5], turn[0] + turn[2])
+    memory[TURNING] = memory[TICKS] = memory[CLOCK] = 0.0
+    memory[PHASE] = ALL_DOWN
+    memory[DOWN] = 1.0
+    memory[LOADS] = risen
+
+
+@kernel
+def rise_on(ground, memory, qpos, to_stand):
+    """Every tick of a body that hands or feet bear, after what was observed: the trunk comes up; a body that
+    has tipped over, or sunk while it rose, begins anew. One that goes on on hands and feet, and does not rise
+    ``to_stand``, first comes to rest on all four: else every third falls again at once."""
+    if memory[MODE] == BORNE:
+        memory[MODE_CLOCK] += CONTROL_DT
+        v = memory[SEEN_VELOCITY]
+        steady = memory[PHASE] == ALL_DOWN and math.hypot(v[0], v[1]) < _STEADY
+        for k in range(4):
+            steady = steady and memory[SEEN_FORCES.start + k] > _BEARS
+        most = 1.0 if to_stand or steady or memory[MODE_CLOCK] > _STEADY_MOST else _NEARLY
+        memory[RISEN] = max(memory[RISEN], min(memory[RISEN] + CONTROL_DT / _RISE_TIME, most))
+        looks = memory[TICKS] % _LOOKS == 0.0
+        if looks and lies_on_front(ground, memory)[0] > _OFF_FRONT:
+            begin_getting_up(memory, qpos)
+    elif memory[SEEN_COM.start + 2] - memory[SEEN_LIMBS.start + 8] < _SUNK:
+        begin_getting_up(memory, qpos)

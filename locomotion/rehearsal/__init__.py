@@ -1,0 +1,1 @@
+"""Looking ahead: trying out what a person is about to do, before it does it."""

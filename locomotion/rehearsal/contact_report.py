@@ -1,0 +1,82 @@
+"""How an obstacle is cleared, tick by tick: what touches what, how long a hand holds on, how hard the ground
+pushes."""
+
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from locomotion.body.hand_hold import holding
+from locomotion.body.person import CONTROL_DT, MASS, PersonIndex
+from locomotion.human.state import restore_physics, save_physics
+from locomotion.paths.smoothing import ObstacleAhead
+
+__all__ = ["Passage", "Watcher"]
+
+_STAIR = 1.0  # [m] behind the edge of what is jumped onto that only feet may touch
+_SOLES = 0.02  # [m] above the floor before it from which a contact is one with the obstacle
+_BEHIND = 0.05  # [m] behind a wall's far edge to which a contact is one with the wall
+_MAY_TOUCH = {
+    "jump": ("foot", "toes"),
+    "vault": ("hand", "forearm"),
+}
+
+
+@dataclass
+class Passage:
+    """How one obstacle was cleared.
+
+    takeoff_error [m], speed_error [m/s]: as in `locomotion.events.TookOff`; NaN where there was none.
+    cleared: whether the skill came to its end. touched: whether anything but feet touched what is jumped
+    onto, or anything but hands and forearms what is vaulted. held: time that a hand held on [s]. planted:
+    where it did, as share of the thickness from the near edge. head: time that the head touched the ground
+    [s]. peak: highest reaction of the ground, after a physics step [body weights].
+    """
+
+    takeoff_error: float = np.nan
+    speed_error: float = np.nan
+    cleared: bool = False
+    touched: bool = False
+    held: float = 0.0
+    planted: float = np.nan
+    head: float = 0.0
+    peak: float = 0.0
+
+    def clean(self, affordance: str) -> bool:
+        """Whether it touched nothing that it should not have, and held on where it should have: a hand in
+        the middle half of a wall."""
+        held = affordance != "vault" or (self.held > 0.0 and abs(self.planted - 0.5) <= 0.25)
+        return held and not self.touched and self.head == 0.0
+
+
+class Watcher:
+    """Looks at what a person touches where it is after a tick. Its own contacts are those of before the last
+    physics step, and in a tick that is taken over from a rehearsal it has none."""
+
+    def __init__(self, index: PersonIndex, model: mujoco.MjModel) -> None:
+        self._index, self._model, self._moment = index, model, mujoco.MjData(model)
+
+    def look(self, data: mujoco.MjData, obstacle: ObstacleAhead, passage: Passage) -> None:
+        """Note in ``passage`` what touches what in ``data``."""
+        model, moment, index = self._model, self._moment, self._index
+        restore_physics(model, moment, save_physics(model, data))
+        mujoco.mj_forward(model, moment)
+        contact = moment.contact
+        pushes = contact.efc_address >= 0
+        force = moment.efc_force[contact.efc_address[pushes][:, None] + np.arange(4)].sum()
+        passage.peak = max(passage.peak, float(force) / (MASS * 9.81))
+        bodies = model.geom_bodyid[contact.geom].max(axis=1)  # the level's geoms belong to body 0
+        passage.head += CONTROL_DT * bool((bodies[pushes] == index.head).any())
+        for side in (-1.0, 1.0):
+            if holding(moment, side):
+                passage.held += CONTROL_DT
+                hand = moment.mocap_pos[int(side > 0)] - obstacle.position
+                passage.planted = -float(hand[:2] @ obstacle.normal[:2]) / max(obstacle.depth, 1e-9)
+        if obstacle.affordance in _MAY_TOUCH:
+            names = _MAY_TOUCH[obstacle.affordance]
+            allowed = [index.bodies[f"{side}_{name}"] for side in ("left", "right") for name in names]
+            deep = obstacle.depth + _BEHIND if obstacle.affordance == "vault" else _STAIR
+            behind = -(contact.pos[:, :2] - obstacle.position[:2]) @ obstacle.normal[:2]
+            floor = obstacle.position[2] - obstacle.height + _SOLES
+            with_it = (behind > -0.1) & (behind < deep) & (contact.pos[:, 2] > floor)
+            passage.touched |= bool((with_it & ~np.isin(bodies, allowed)).any())

@@ -1,0 +1,379 @@
+"""Trying out what a person is about to do, before it does it.
+
+Whether a landing holds is nearly a matter of chance: a foot set down 4 cm earlier or an entry 0.1 m/s faster
+decides it. But the simulation is exact, so a second body, the understudy, can go ahead from the present state
+and tell. A person rehearses its take-offs, and how it slows down from a run to a walk: it tries variations,
+the smallest first, until one goes well, and does that. Undisturbed, it then comes as foreseen.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Generator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
+
+import numpy as np
+
+from locomotion.body.person import CONTROL_DT
+from locomotion.events import Cleared, TookOff
+from locomotion.gaits.walk.layout import LONGER, WALK_HEADING, WALK_SPEED
+from locomotion.human.state import MOVING, HumanState, same
+from locomotion.rehearsal.contact_report import Passage, Watcher
+from locomotion.rehearsal.deciding import Question, tick_unless_asked
+from surefoot.pausing import pause
+
+if TYPE_CHECKING:
+    import mujoco
+
+    from locomotion.human.human import Human
+
+__all__ = [
+    "BALKINGS",
+    "BRAKINGS",
+    "HOLDS",
+    "REHEARSALS",
+    "RUN_UPS",
+    "SETTING_OFF",
+    "SLOWINGS",
+    "STAYS_UP",
+    "STEPPINGS",
+    "ComesToRest",
+    "Outcome",
+    "StepsOn",
+    "Trial",
+    "at_once",
+    "clears",
+    "first_good",
+    "walks_on",
+]
+
+_RUNNING, _WALKING = round(2.2 / CONTROL_DT), round(4.0 / CONTROL_DT)
+# ticks that it must stay up behind an obstacle
+_TRAPPED = 0.25  # how well it goes if it clears an obstacle and does not find a way on
+_LOOKED_AT = 2  # variations that are tried to find it: after a good landing most hold, after a bad one none
+_ASKED = 8  # times that it is tried how it slows down behind one
+_SETTLED = round(3.0 / CONTROL_DT)  # ticks that it must stay up after going over to another gait
+_WATCHED = round(1.0 / CONTROL_DT)  # ticks of these in which it may not
+_STAGGERS = 0.2  # [m] come nearer to or farther from its path
+_AT_REST = round(3.5 / CONTROL_DT)  # ticks in which one that brakes must stand still
+_ASKEW = 0.5  # [rad] off its heading, at which it has not lost much time when it goes on
+_SLOWEST = 0.1  # [m/s] of one that brakes
+_FAILED = ("fallen", "lost", "stuck")
+_LONGEST = round(12.0 / CONTROL_DT)
+_HEADWAY, _LITTLE = 0.4, 0.3  # share of the way that it is to make meanwhile; [m] less
+_RESTLESS = round(2.0 / CONTROL_DT)  # ticks after which it is not to step on where it is to stand
+_STEPPING = round(3.0 / CONTROL_DT)  # ticks that it must stay up on uneven ground
+_MARKS, _ENTRIES = (0.0, 0.04, -0.04, 0.08, -0.08), (0.0, 0.1, -0.1, 0.2, -0.2)
+
+_T = TypeVar("_T")
+_R = TypeVar("_R")
+
+
+def _nearest_first(*spans: Sequence[float]) -> tuple[tuple[float, ...], ...]:
+    """All combinations of numbers, those of the smallest changes first."""
+    greatest = [max(span) for span in spans]
+    choices = itertools.product(*spans)
+    return tuple(sorted(choices, key=lambda choice: float(np.hypot.reduce(np.divide(choice, greatest)))))
+
+
+REHEARSALS = 16
+"""Variations that are tried at one time at most, unless told otherwise."""
+RUN_UPS = _nearest_first(_MARKS, _ENTRIES)
+"""Variations of a run-up: [m] that the mark is farther from the obstacle, [m/s] that the entry is faster."""
+SETTING_OFF = tuple((quickly, run_up) for run_up in RUN_UPS[:3] for quickly in (True, False))
+"""How it begins to run towards an obstacle: whether it speeds up quickly, and the variation of its run-up.
+Few, since it may as well begin at its next step."""
+SLOWINGS = (1.0, 0.92, 1.08, 0.84, 1.16, 0.76, 1.24, 0.68, 1.32, 0.6, 1.4)
+"""[m/s^2] by which the run's reference speed is lowered."""
+BALKINGS = (1.2, 0.9, 1.6, 0.7, 2.2, 3.0)
+"""[m/s^2], the same where a run-up is broken off: harder ones hold as well, and the obstacle is near."""
+BRAKINGS = (1.65, 1.4, 2.0, 1.3, 1.8, 0.9, 2.5, 2.8)
+"""How hard it brakes, as a share of what was learned: those first that mostly come to stand sooner, so that
+others can be given up early."""
+STEPPINGS = (
+    (0.0, 0.0), (0.05, 0.0), (-0.05, 0.0), (0.0, 0.08), (0.0, -0.08), (0.05, 0.08),
+    (0.1, 0.0), (0.1, 0.08), (0.0, 0.15), (0.05, -0.08), (-0.05, 0.08), (0.15, 0.0),
+)  # fmt: skip
+"""Variations of a step on uneven ground: [s] that its transfer, and its swing, take longer. Few, since there
+are many steps: where none of them goes well, hardly any other does, and the next step may still mend it."""
+STAYS_UP = 0.5
+"""How well a step goes, at least, after which a person stays up."""
+HOLDS = 0.5
+"""How well a run-up has to go, at least, that it is begun and not broken off."""
+
+
+class Outcome(NamedTuple, Generic[_T]):
+    """The choice that was made, how well it went, and what was seen of it: its states after each tick, each
+    with the events of that tick only; empty where nothing was noted."""
+
+    choice: _T
+    went: float
+    seen: list[HumanState]
+
+
+Trial = Generator[None, None, tuple[float, list[HumanState]]]
+"""A body goes on by a tick at a time; in the end, how well it went and what was seen of it (`Outcome`)."""
+
+
+def at_once(task: Generator[None, None, _R]) -> _R:
+    """What comes of a task in the end."""
+    while True:
+        try:
+            next(task)
+        except StopIteration as end:
+            return end.value
+        pause()
+
+
+def first_good(
+    state: HumanState,
+    understudy: Human,
+    choices: Sequence[_T],
+    choose: Callable[[Human, _T], None],
+    goes_well: Callable[[Human], Trial],
+) -> Generator[None, None, Outcome[_T]]:
+    """The first of ``choices`` in ``state`` that goes perfectly, or else the first of the best; tick by tick
+    of the ``understudy``.
+
+    choose: tells a body to take a choice. goes_well: lets it go on and says how well it went, 0 (it fell) to
+    1 (perfectly).
+    """
+    best = Outcome(choices[0], 0.0, [])
+    for choice in choices:
+        understudy.restore_state(state)
+        understudy.data.xfrc_applied[:] = 0.0
+        choose(understudy, choice)
+        went, seen = yield from goes_well(understudy)
+        if went > best.went:
+            best = Outcome(choice, went, seen)
+        if went >= 1.0:
+            break
+    return best
+
+
+def clears(body: Human, looks_on: bool = True, notes: bool = False) -> Trial:
+    """Whether it clears the obstacle ahead and stays up behind it: 1 without touching what it should not.
+
+    looks_on: whether it also matters what it can do before another obstacle that is near behind it. notes:
+    whether what is seen of it is noted, until something else is to be decided. It forgets its events. One
+    that falls behind the obstacle since it did not decide how to slow down there goes on from there and does.
+    """
+    obstacle = body.obstacle_ahead
+    assert obstacle is not None
+    passage, cleared_at = Passage(), 0
+    watcher: Watcher | None = None  # from where it takes off
+    walked = False
+    seen: list[HumanState] = []
+    decided: HumanState | None = None  # before it has to decide something behind the obstacle
+    body.undecided = False
+    for tick in range(_LONGEST):
+        body.events.clear()
+        if looks_on and cleared_at and not body.undecided:
+            decided = body.save_state()
+        body.tick()
+        yield
+        if _failed(body) or body.status == "standing":
+            if decided is not None and body.undecided and (yield from slows_down_in_time(body, decided)):
+                return (1.0 if passage.clean(obstacle.affordance) else 0.5), seen
+            return 0.0, []
+        if notes and not body.undecided:
+            seen.append(body.save_state())
+        again = False
+        for event in body.events:
+            if isinstance(event, Cleared):
+                cleared_at = tick
+            elif isinstance(event, TookOff):
+                watcher, again = watcher or Watcher(body.index, body.model), cleared_at > 0
+        if cleared_at:
+            walks = body.gait_now == "walk"
+            again |= walked and not walks
+            walked = walks
+            good = 1.0 if passage.clean(obstacle.affordance) else 0.5
+            if looks_on and body.begins_run_up and body.hemmed_in:
+                goes_on = yield from finds_a_way_on(body)
+                return (good if goes_on else _TRAPPED), seen
+            if again or tick - cleared_at >= (_WALKING if walks else _RUNNING) or body.held:
+                return good, seen
+        elif watcher is not None:
+            watcher.look(body.data, obstacle, passage)
+    return 0.0, []
+
+
+def finds_a_way_on(body: Human) -> Generator[None, None, bool]:
+    """Whether one that begins a run-up and looks no farther clears the obstacle, or can break it off."""
+    begin, state = type(body), body.save_state()
+    goes_on = partial(clears, looks_on=False)
+    best = yield from first_good(state, body, RUN_UPS[:_LOOKED_AT], begin.vary_run_up, goes_on)
+    if best.went > 0.0:
+        return True
+    best = yield from first_good(state, body, BALKINGS[:_LOOKED_AT], begin.balk, walks_on)
+    return best.went > 0.0
+
+
+def slows_down_in_time(body: Human, state: HumanState) -> Generator[None, None, bool]:
+    """Whether one that is about to slow down, in ``state``, finds a way to slow down or to brake that goes
+    well. Less is tried than what it tries when it is there."""
+    answers: list[tuple[Question, Outcome]] = []
+    for _ in range(_RUNNING):
+        body.restore_state(state)
+        body.events.clear()
+        question = tick_unless_asked(body, answers)
+        yield
+        if question is None:
+            if _failed(body):
+                return False
+            state = body.save_state()
+        elif question.choices not in (SLOWINGS, BRAKINGS) or len(answers) == _ASKED:
+            return False
+        else:
+            _, choices, choose, goes_well = question
+            outcome = yield from first_good(question.state, body, choices[:_LOOKED_AT], choose, goes_well)
+            if outcome.went > 0.0:
+                return True
+            answers.append((question, outcome))
+    return False
+
+
+@dataclass
+class ComesToRest:
+    """Whether a body that brakes stands still in the end, and in how little room: 1 / (1 + the way there and
+    back again [m]), and much less if it then does not face where it went; with what was seen of it.
+
+    within: least room [m] so far; one that comes farther is given up.
+    """
+
+    within: float = math.inf
+
+    def __call__(self, body: Human) -> Trial:
+        """Try it."""
+        seen: list[HumanState] = []
+        body.undecided = False
+        begun, velocity, way = body.com, body.velocity, 0.0
+        along = velocity / max(float(np.linalg.norm(velocity)), _SLOWEST)
+        for _ in range(_AT_REST):
+            body.events.clear()
+            body.tick()
+            yield
+            if not body.undecided:
+                seen.append(body.save_state())
+            now = float(along @ (body.com - begun))
+            way = max(way, now)
+            if _failed(body) or way >= self.within:
+                return 0.0, []
+            if body.on_feet.at_rest(body.control):
+                askew = math.remainder(body.yaw - body.on_feet.walk[WALK_HEADING], 2.0 * math.pi)
+                room = way + (way - now)
+                if abs(askew) >= _ASKEW:
+                    return 0.1 / (1.0 + room), seen
+                self.within = min(self.within, room)
+                return 1.0 / (1.0 + room), seen
+        return 0.0, []
+
+
+class _Moment(NamedTuple):
+    """One tick of a trial on uneven ground."""
+
+    state: HumanState
+    undecided: bool  # whether there was something to be decided in it
+    left: float  # [m] of the way
+    asked: float  # [m/s] that it is to walk
+    rests: bool
+
+
+class StepsOn:
+    """Whether a body that walks on uneven ground stays up and makes headway, or comes to rest where it is to
+    stand: 1, less if it makes little or does not, much less if it falls, the sooner the less; with what was
+    seen of it until something else is to be decided. It forgets the body's events.
+
+    It remembers what came of the best variation of a step. If the next one is not varied, that goes on, and
+    need not be simulated again.
+    """
+
+    def __init__(self) -> None:
+        self._model: mujoco.MjModel | None = None
+        self._moments: list[_Moment] = []
+        self._best = 0.0
+
+    def __call__(self, body: Human) -> Trial:
+        """Try it."""
+        varied, left = bool(body.on_feet.walk[LONGER].any()), body.way.remaining
+        moments = self._known(body)
+        if moments:
+            body.become(moments[-1].state)
+        while not (moments and _ends(moments[-1])) and len(moments) < _STEPPING:
+            body.events.clear()
+            body.undecided = False
+            body.tick()
+            yield
+            rests = body.held or not body.on_feet.walks
+            asked = abs(float(body.on_feet.walk[WALK_SPEED]))
+            moments.append(_Moment(body.save_state(), body.undecided, body.way.remaining, asked, rests))
+        went = _headway(left, moments)
+        if not varied or went > self._best:
+            self._model, self._moments, self._best = body.model, moments, went
+        known = itertools.takewhile(lambda at: not at.undecided and at.state.status not in _FAILED, moments)
+        return went, [moment.state for moment in known]
+
+    def _known(self, body: Human) -> list[_Moment]:
+        """What is to come, as far as it was seen."""
+        if body.model is self._model:
+            begun = body.save_state()
+            for number, moment in enumerate(self._moments, 1):
+                if moment.state.ticks == begun.ticks and same(moment.state, begun):
+                    return self._moments[number:]
+        return []
+
+
+def _ends(moment: _Moment) -> bool:
+    return moment.rests or moment.state.status in _FAILED
+
+
+def _headway(left: float, moments: Sequence[_Moment]) -> float:
+    """How well it went; ``left``: [m] of the way at the beginning."""
+    last = moments[-1]
+    if last.state.status in _FAILED:
+        return STAYS_UP * len(moments) / _STEPPING
+    if last.rests:
+        return 1.0
+    if sum(moment.state.status not in MOVING for moment in moments) > _RESTLESS:
+        return STAYS_UP
+    meant = _HEADWAY * sum(moment.asked for moment in moments) * CONTROL_DT - _LITTLE
+    made = max(left - last.left, 0.0)
+    return STAYS_UP + (1.0 - STAYS_UP) * (1.0 if made >= meant else made / meant)
+
+
+def _failed(body: Human) -> bool:
+    """Whether it fell, lost its way or got stuck; one that has come past its goal can go back."""
+    came_past = body.status == "lost" and body.way.ended
+    return body.status in _FAILED and not came_past
+
+
+def walks_on(body: Human, notes: bool = False) -> Trial:
+    """Whether a body that slows down comes to walk or stand, and stays up: 1 if it does not stagger to one
+    side in the end, which would make it fall later. ``notes``: whether what is seen of it is noted; it then
+    forgets its events."""
+    seen: list[HumanState] = []
+    walked, beside = 0, 0.0
+    body.undecided = False
+    for _ in range(_LONGEST):
+        if notes:
+            body.events.clear()
+        body.tick()
+        yield
+        if notes and not body.undecided:
+            seen.append(body.save_state())
+        if _failed(body):
+            return 0.0, []
+        if walked and body.gait_now == "run":
+            return 1.0, seen[:-1]  # that it runs again is to be rehearsed in its turn
+        if body.held:
+            return 1.0, seen
+        if walked == _SETTLED - _WATCHED:
+            beside = body.lateral_error
+        if walked >= _SETTLED:
+            return (1.0 if abs(body.lateral_error - beside) < _STAGGERS else 0.5), seen
+        walked = walked + 1 if body.gait_now == "walk" else 0
+    return 0.0, []

@@ -1,0 +1,1 @@
+"""Clearing obstacles: the run-up, and the skills that take over at take-off."""

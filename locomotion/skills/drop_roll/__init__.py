@@ -1,0 +1,1 @@
+"""Dropping off a ledge and rolling."""

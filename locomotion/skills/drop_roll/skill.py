@@ -1,0 +1,97 @@
+"""Learned drop-rolls, and the drop-roll as a skill that the body can use."""
+
+import os
+from functools import lru_cache
+from typing import Literal
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion.clips.clip import Clip, load_clip
+from locomotion.data import CLIPS, SKILLS
+from locomotion.gaits.run import controller
+from locomotion.paths.smoothing import ObstacleAhead
+from locomotion.skills.drop_roll import kernel as drop_roll
+from locomotion.skills.drop_roll.kernel import drop_roll_tick, start_drop_roll
+from locomotion.skills.family import SkillFamily, load_family
+from locomotion.skills.kernel import MIRROR, MIRROR_SIGN
+from locomotion.skills.learned import LawTables, LearnedSkill
+
+__all__ = [
+    "DROP_ROLL_CLIP",
+    "DROP_ROLL_SKILL",
+    "KIND",
+    "DropRoll",
+    "drop_roll_clip",
+    "load_drop_roll_skill",
+    "tables_of",
+]  # fmt: skip
+
+DROP_ROLL_CLIP = CLIPS / "drop_roll.yaml"
+DROP_ROLL_SKILL = SKILLS / "drop_roll.npz"
+KIND = "drop-roll skill"
+_SAMPLES = 201
+_MARK = drop_roll.parameter_slices()["mark"].start
+
+
+@lru_cache(maxsize=1)
+def drop_roll_clip() -> Clip:
+    """The reference clip that comes with the package."""
+    return load_clip(DROP_ROLL_CLIP)
+
+
+@lru_cache(maxsize=1)
+def _poses() -> NDArray[np.float64]:
+    return np.ascontiguousarray(drop_roll_clip().sample(np.linspace(0.0, 1.0, _SAMPLES)))
+
+
+def tables_of(parameters: NDArray[np.float64], reference: NDArray[np.float64]) -> LawTables:
+    """Put the arguments of the kernels together."""
+    rest = (_poses(), reference, MIRROR, MIRROR_SIGN)
+    return LawTables(parameters, float(parameters[_MARK + 1]), float(parameters[_MARK]), rest)
+
+
+def load_drop_roll_skill(path: str | os.PathLike[str] = DROP_ROLL_SKILL) -> SkillFamily:
+    """Read a drop-roll skill; `LocomotionError` if it is missing, cut off, of another version or of another
+    person."""
+    width = sum(drop_roll.PARAMETERS.values())
+    return load_family(path, KIND, width, (drop_roll.BINS, len(drop_roll.SENSORS)))
+
+
+class DropRoll(LearnedSkill):
+    """Rolling off drops as a `locomotion.skills.interface.ClearingSkill`."""
+
+    affordance = "drop"
+    ends: Literal["running", "walking"] = "walking"
+
+    def __init__(self, skill: SkillFamily) -> None:
+        """``skill``: the learned drop-rolls."""
+        super().__init__(skill, lambda height: tables_of(*skill.at(height)))
+
+    def start(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Begin at a stance switch, before that tick's `tick`; gives all that it remembers, (k,) float64. Who
+        takes off with the left foot rolls over the right shoulder."""
+        memory = np.zeros(drop_roll.MEMORY_SIZE)
+        side = 1.0 if state[controller.STANCE] > 0 else -1.0
+        x, y, z = (float(v) for v in obstacle.position)
+        ahead_x, ahead_y = -float(obstacle.normal[0]), -float(obstacle.normal[1])
+        start_drop_roll(memory, side, z - obstacle.height, x, y, ahead_x, ahead_y)
+        return memory
+
+    def tick(
+        self,
+        obstacle: ObstacleAhead,
+        memory: NDArray[np.float64],
+        state: NDArray[np.float64],
+        data: mujoco.MjData,
+    ) -> bool:
+        """One control tick after `run_tick`'s and before the physics; True when the feet carry it again."""
+        tables = self.tables(obstacle.height)
+        drop_roll_tick(tables.parameters, *tables.rest, memory, state, data.qpos, data.qvel, data.ctrl)
+        return bool(memory[drop_roll.ENDED] > 0.0)
+
+    def fell(self, memory: NDArray[np.float64], state: NDArray[np.float64]) -> bool:
+        """Whether the body has fallen: from the take-off until it is over it may lie on the ground."""
+        rolls = memory[drop_roll.ACTIVE] > 0.0 and memory[drop_roll.PHASE] != drop_roll.TAKE_OFF
+        return bool(state[controller.FALLEN] > 0.0 and not rolls)

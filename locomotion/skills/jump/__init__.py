@@ -1,0 +1,1 @@
+"""Jumping onto a stair, and over a gap."""

@@ -1,0 +1,84 @@
+"""The skills that a body clears obstacles with: those that come with the package, and one's own."""
+
+import hashlib
+import os
+from collections.abc import Sequence
+from functools import lru_cache
+from pathlib import Path
+
+from locomotion.data import CLIPS, SKILLS
+from locomotion.gaits.run.skill import RunSkill
+from locomotion.skills.description import load_described, load_description
+from locomotion.skills.drop_roll.skill import DROP_ROLL_SKILL, DropRoll, load_drop_roll_skill
+from locomotion.skills.interface import ClearingSkill, skill_ranges
+from locomotion.skills.jump.skill import JUMP_SKILL, Jump, load_jump_skill
+from locomotion.skills.vault.skill import VAULT_SKILL, Vault, load_vault_skill
+
+__all__ = ["LEAP", "described_ranges", "learned_skills", "package_skill", "skill_digest", "skills_digest"]
+
+LEAP = SKILLS / "leap.yaml"
+"""Description of the leap over gaps."""
+
+
+def package_skill(name: str) -> Path:
+    """File of one of the package's skills, such as "drop-roll"."""
+    return SKILLS / f"{name.replace('-', '_')}.npz"
+
+
+def skill_digest(name: str) -> str:
+    """Hex digest of one of the package's skills, with its clip, as their files are now."""
+    learned = package_skill(name)
+    clip = CLIPS / f"{learned.stem}.yaml"
+    return _digest_now([learned, clip] if clip.exists() else [learned])
+
+
+def skills_digest(own: tuple[Path, ...] = ()) -> str:
+    """Hex digest of everything that the package has learned and of the skills described by ``own``, as their
+    files are now: a person does the same only with the same."""
+    files = sorted(SKILLS.glob("*.npz"))
+    for path in own:
+        description = load_description(path)
+        files += [path, description.clip, description.learned]
+    return _digest_now(files)
+
+
+def _digest_now(files: Sequence[Path]) -> str:
+    stats = [file.stat() for file in files]
+    return _digest(tuple(files), tuple((stat.st_mtime_ns, stat.st_size) for stat in stats))
+
+
+@lru_cache(maxsize=8)
+def _digest(files: tuple[Path, ...], stamps: tuple[tuple[int, int], ...]) -> str:
+    """``stamps``: when the files were changed and their sizes, so that what is kept belongs to them."""
+    hasher = hashlib.sha256()
+    for file in files:
+        hasher.update(file.name.encode() + file.read_bytes())
+    return hasher.hexdigest()[:16]
+
+
+def described_ranges(run: RunSkill, own: Sequence[str | os.PathLike[str]]) -> dict[str, tuple[float, float]]:
+    """Least and greatest size [m] that the skills described by the files ``own`` have learned, by
+    affordance. `LocomotionError` for files with a mistake."""
+    ranges: dict[str, tuple[float, float]] = {}
+    for path in own:
+        skill = load_described(path, run)
+        low, high = ranges.get(skill.affordance, skill.heights)
+        ranges[skill.affordance] = min(low, skill.heights[0]), max(high, skill.heights[1])
+    return ranges
+
+
+def learned_skills(run: RunSkill, own: Sequence[str | os.PathLike[str]] = ()) -> tuple[ClearingSkill, ...]:
+    """What clears obstacles on top of a run: the skills described by the files ``own``
+    (`locomotion.skills.description`), and then those of the package. `LocomotionError` for files with a
+    mistake, and where the skills for one kind of obstacle leave out sizes in between."""
+    skills = [load_described(path, run) for path in own]
+    if JUMP_SKILL.exists():
+        skills.append(Jump(load_jump_skill(), run))
+    if VAULT_SKILL.exists():
+        skills.append(Vault(load_vault_skill(), run))
+    if DROP_ROLL_SKILL.exists():
+        skills.append(DropRoll(load_drop_roll_skill()))
+    if LEAP.with_suffix(".npz").exists():
+        skills.append(load_described(LEAP, run))
+    skill_ranges(skills)
+    return tuple(skills)

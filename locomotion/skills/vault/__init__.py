@@ -1,0 +1,1 @@
+"""Vaulting over a wall, one hand on its top."""

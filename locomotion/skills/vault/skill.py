@@ -1,0 +1,98 @@
+"""Learned vaults, and the vault as a skill that the body can use."""
+
+import os
+from functools import lru_cache
+from typing import Literal
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion.body.hand_hold import hold, let_go
+from locomotion.clips.clip import Clip, load_clip
+from locomotion.data import CLIPS, SKILLS
+from locomotion.gaits.run.skill import RunSkill
+from locomotion.paths.smoothing import ObstacleAhead
+from locomotion.skills.family import SkillFamily, load_family
+from locomotion.skills.learned import LawTables, LearnedSkill, tables_over_run
+from locomotion.skills.vault import kernel as vault
+from locomotion.skills.vault.kernel import start_vault, vault_fell, vault_tick
+
+__all__ = [
+    "KIND", "VAULT_CLIP", "VAULT_SKILL", "Vault", "grip", "load_vault_skill",
+    "tables_of", "vault_clip",
+]  # fmt: skip
+
+VAULT_CLIP = CLIPS / "vault.yaml"
+VAULT_SKILL = SKILLS / "vault.npz"
+KIND = "vault skill"
+
+
+@lru_cache(maxsize=1)
+def vault_clip() -> Clip:
+    """The reference clip that comes with the package."""
+    return load_clip(VAULT_CLIP)
+
+
+def tables_of(parameters: NDArray[np.float64], reference: NDArray[np.float64], run: RunSkill) -> LawTables:
+    """Put the arguments of the kernels together; ``reference`` (4, 6, 18): expected sensors."""
+    return tables_over_run(parameters, vault.parameter_slices(), reference, vault_clip(), run)
+
+
+def load_vault_skill(path: str | os.PathLike[str] = VAULT_SKILL) -> SkillFamily:
+    """Read learned vaults; `LocomotionError` if the file is missing, cut off, of another version or of
+    another person."""
+    width = sum(vault.PARAMETERS.values())
+    return load_family(path, KIND, width, (vault.STEPS * vault.BINS, vault.SENSORS))
+
+
+class Vault(LearnedSkill):
+    """Vaulting over walls as a `locomotion.skills.interface.ClearingSkill`, on top of a given run."""
+
+    affordance = "vault"
+    ends: Literal["running", "walking"] = "running"
+
+    def __init__(self, skill: SkillFamily, run: RunSkill) -> None:
+        """``skill``: the learned vaults; ``run``: the run under them."""
+
+        def law(height: float) -> LawTables:
+            parameters, reference = skill.at(height)
+            return tables_of(parameters, reference.reshape(vault.STEPS, vault.BINS, vault.SENSORS), run)
+
+        super().__init__(skill, law)
+
+    def start(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Begin a vault at a stance switch, before that tick's `tick`; gives all that it remembers, (k,)
+        float64."""
+        tables = self.tables(obstacle.height)
+        memory = np.zeros(vault.MEMORY_SIZE)
+        edge = np.ascontiguousarray(obstacle.position[:2], dtype=np.float64)
+        ahead = np.ascontiguousarray(-obstacle.normal[:2], dtype=np.float64)
+        top, height, depth = float(obstacle.position[2]), float(obstacle.height), float(obstacle.depth)
+        start_vault(tables.parameters, memory, state, edge, ahead, top, height, depth)
+        return memory
+
+    def tick(
+        self,
+        obstacle: ObstacleAhead,
+        memory: NDArray[np.float64],
+        state: NDArray[np.float64],
+        data: mujoco.MjData,
+    ) -> bool:
+        """One control tick after `run_tick`'s and before the physics; True when the vault is over."""
+        tables = self.tables(obstacle.height)
+        vault_tick(tables.parameters, *tables.rest, memory, state, data.qpos, data.ctrl)
+        grip(memory, data)
+        return bool(memory[vault.ACTIVE] == 0.0)
+
+    def fell(self, memory: NDArray[np.float64], state: NDArray[np.float64]) -> bool:
+        """Whether the body has fallen; over the wall it may lie and tuck its legs."""
+        return vault_fell(memory, state)
+
+
+def grip(memory: NDArray[np.float64], data: mujoco.MjData) -> None:
+    """Switch the supporting hand's joint as `vault_tick` has decided."""
+    if memory[vault.HOLD] == 1.0:
+        hold(data, memory[vault.SIDE], memory[vault.ANCHOR])
+    else:
+        let_go(data, memory[vault.SIDE])

@@ -1,0 +1,55 @@
+"""Persons that walk and are about to run, from which trials of setting off start."""
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion.errors import LocomotionError
+from locomotion.gaits.limits import run_entry_speed
+from locomotion.gaits.run.skill import run_on
+from locomotion.gaits.walk.layout import WALK_HEADING, WALK_STANCE
+from locomotion.human.human import Human
+from locomotion.human.state import HumanState, save_physics
+
+__all__ = ["WALK_STARTS", "WalkStart", "walk_starts"]
+
+WALK_STARTS = 24
+"""How many there are."""
+_NOISE = 0.05  # [m/s, rad/s] of the velocities with which they begin to walk
+_WAY = np.array([[0.0, 0.0, 0.0], [60.0, 0.0, 0.0]])
+
+
+class WalkStart(NamedTuple):
+    """A person in the tick in which it can go over from its walk to its run, and its speed [m/s]; of that
+    state, the physics, and what the running controller remembers when it goes over."""
+
+    state: HumanState
+    speed: float
+    physics: NDArray[np.float64]
+    running: NDArray[np.float64]
+
+
+@lru_cache(maxsize=1)
+def walk_starts() -> tuple[WalkStart, ...]:
+    """The package's walk on a plane along x, each time with other velocities at its start.
+
+    Raises `LocomotionError` where it does not come to a speed from which people run.
+    """
+    human, starts = Human(None, clearing=(), rehearsals=0), []
+    for seed in range(WALK_STARTS):
+        rng = np.random.default_rng(seed)
+        human.reset(_WAY[0], 0.0)
+        human.data.qvel[:] += _NOISE * rng.normal(size=human.model.nv)
+        human.follow(_WAY, float(rng.uniform(3.0, 3.6)))
+        while (speed := run_entry_speed(human.on_feet.walk, human.control, 0.0)) is None:
+            if human.status != "walking":
+                raise LocomotionError(
+                    f"people who walk end {human.status} before they can run: learn to walk anew"
+                )
+            human.tick()
+        walk, running = human.on_feet.walk, human.control.copy()
+        run_on(running, walk[WALK_STANCE], walk[WALK_HEADING], speed)
+        starts.append(WalkStart(human.save_state(), speed, save_physics(human.model, human.data), running))
+    return tuple(starts)

@@ -1,0 +1,1 @@
+"""What training searches with: CMA-ES and least squares, with checkpoints."""

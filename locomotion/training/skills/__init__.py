@@ -1,0 +1,1 @@
+"""Learning to jump, vault and drop."""

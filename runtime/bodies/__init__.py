@@ -1,0 +1,1 @@
+"""The bodies that agents have: people, animals, walkers."""

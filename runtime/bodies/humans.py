@@ -1,0 +1,355 @@
+"""Simulated persons in a world, each with a simulation of its own."""
+
+from collections import deque
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from locomotion import MOVING, PERSON_RULES, Human, HumanState, load_run_skill
+from locomotion.avoidance.yielding import SPACING, Course
+from locomotion.human.saved_state import check_person
+from locomotion.paths.departures import can_begin, leads
+from locomotion.paths.run_up_room import cramped_links
+from locomotion.rehearsal.rehearsal import REHEARSALS
+from locomotion.skills.interface import skill_ranges
+from locomotion.skills.library import learned_skills
+from runtime.bodies.figure import Figure
+from runtime.bodies.protocol import PLANS_KEPT, Driver, Follower, radius_of, recall, saved_parts
+from runtime.errors import RuntimeInputError
+from runtime.planning.level import Level
+from runtime.planning.planning import NoWay, Plan, make_plan, way_holds
+from runtime.traffic.snapshot import foretold_on
+from surefoot.numeric import is_finite
+from surefoot.pausing import pause
+
+__all__ = ["HumanDriver", "People"]
+
+_STEEP = 20.0  # [degrees] of ground that is worth mentioning
+_HESITATES = 0.4  # [s] at most, from a stand: less than half a step
+_HERE = 1e-3  # [m] long ways lead to where it is: one that moves has to come back there
+
+
+class People:
+    """Simulated persons. ``skills``: descriptions of those of one's own that they have besides the
+    package's; ``rehearsals``: as of `Human`; ``seed`` decides how long each of them hesitates."""
+
+    bodies: tuple[str, ...] = ("human",)
+
+    def __init__(
+        self, level: Level, skills: Sequence[Path] = (), rehearsals: int = REHEARSALS, seed: int = 0
+    ) -> None:
+        self._level, self._skills, self._rehearsals = level, skills, rehearsals
+        self._seed = seed
+        self._drivers: list[HumanDriver] = []
+
+    def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> Driver:
+        driver = self._make()
+        driver.human.reset(place, facing)
+        millimetres = (np.round(1000.0 * place).astype(np.int64) % 2**32).tolist()
+        chance = np.random.default_rng((self._seed, *millimetres))
+        driver.hesitates = round(float(chance.uniform(0.0, _HESITATES)), 2)
+        self._drivers.append(driver)
+        return driver
+
+    def revive(self, body: str, state: Any) -> Driver:
+        driver = self._make()
+        driver.restore(state)  # raises for one of another release, who is then not here
+        self._drivers.append(driver)
+        return driver
+
+    def _make(self) -> "HumanDriver":
+        run = load_run_skill()
+        skills = learned_skills(run, self._skills)
+        human = Human(self._level.ground, run, skills, rehearsals=self._rehearsals, gets_up=True)
+        return HumanDriver(self._level, human)
+
+    def remove(self, driver: Driver) -> None:
+        self._drivers = [each for each in self._drivers if each is not driver]
+
+    def in_the_way(self) -> np.ndarray:
+        humans = [driver.human for driver in self._drivers]
+        rows = [[*each.position, *each.velocity[:2], PERSON_RULES["radius"]] for each in humans]
+        return np.array(rows).reshape(-1, 6)
+
+    def followers(self) -> Sequence[Follower]:
+        return self._drivers
+
+    def remember(self) -> None:
+        for driver in self._drivers:
+            driver.before = driver.human.qpos
+
+    def change_level(self) -> None:
+        for driver in self._drivers:
+            driver.human.change_ground(self._level.ground)
+
+    def tick(self) -> None:
+        for driver in self._drivers:
+            driver.human.tick()
+            pause()
+
+
+class HumanDriver:
+    """A person. ``before``: (46,) its joints as they were when `People.remember` was called, or None.
+    ``hesitates``: [s] after which it sets out from a stand: people told the same do not step as one."""
+
+    def __init__(self, level: Level, human: Human) -> None:
+        self._level, self.human = level, human
+        self.radius = radius_of("human")
+        self.figure = Figure.from_model(human.model)
+        self.events = human.events
+        self.plans: deque[Plan] = deque(maxlen=PLANS_KEPT)
+        self.before: np.ndarray | None = None
+        self.hesitates = 0.0
+
+    @property
+    def time(self) -> float:
+        return self.human.time
+
+    @property
+    def status(self) -> str:
+        return self.human.status
+
+    @property
+    def position(self) -> np.ndarray:
+        return self.human.position
+
+    @property
+    def facing(self) -> float:
+        return self.human.yaw
+
+    @property
+    def progress(self) -> float:
+        length = self.plans[-1].length if self.plans else 0.0
+        return self.human.arc_length / length if length > 0.0 else 1.0
+
+    @property
+    def left(self) -> float:
+        return self.plans[-1].length - self.human.arc_length if self.plans else 0.0
+
+    @property
+    def hindrance(self) -> str:
+        human, ahead = self.human, self.human.obstacle_ahead
+        if human.status == "getting up":
+            return f"it has not got up again{self._lie}"
+        if human.status == "scrambling":
+            return f"it finds no hold{self._lie}"
+        if human.pace < 1.0:
+            return "others are in its way"
+        if human.way.interrupted is not None:
+            return "it goes back for another run-up" if ahead else "it goes back to let others by"
+        if ahead is not None:
+            return f"it finds no run-up to the {ahead.affordance} of {ahead.size:.2f} m"
+        return f"it makes no headway{self._lie}"
+
+    @property
+    def _lie(self) -> str:
+        """Where the ground under it is steep, how steep it is."""
+        degrees = np.degrees(np.arctan(self.human.slope_here))
+        return f" on ground of {degrees:.0f} degrees" if degrees >= _STEEP else ""
+
+    @property
+    def can_turn(self) -> bool:
+        """Whether it is on its way and can be told another one: it does not wait for others, and does not lie
+        on the ground."""
+        return self.human.pace >= 1.0 and self.human.status in ("walking", "running", "scrambling")
+
+    @property
+    def tag_ahead(self) -> str:
+        """Of the obstacle that it comes to next; empty where there is none."""
+        obstacles, ahead = self._level.graph.obstacles, self.human.obstacle_ahead
+        if ahead is None:
+            return ""
+        links = self._level.graph.links
+        away = np.linalg.norm(links.edge[:, :2] - ahead.position[:2], axis=1)
+        away[links.affordance != ahead.affordance] = np.inf
+        return str(obstacles.tag[links.obstacle[np.argmin(away)]]) if len(away) else ""
+
+    @property
+    def skills(self) -> Mapping[str, tuple[float, float]]:
+        return skill_ranges(self.human.clearing)
+
+    def transforms(self) -> np.ndarray:
+        return self.human.body_transforms()[1 : 1 + len(self.figure.bodies)]
+
+    def transforms_between(self, share: float) -> np.ndarray:
+        if self.before is None:
+            return self.transforms()
+        model, joints = self.human.model, self.human.data.qpos
+        now, change = joints.copy(), np.empty(model.nv)
+        mujoco.mj_differentiatePos(model, change, 1.0, self.before, now)
+        joints[:] = self.before
+        mujoco.mj_integratePos(model, joints, change, share)
+        transforms = self.transforms()
+        joints[:] = now
+        return transforms
+
+    def plan(self, goals: np.ndarray) -> Plan:
+        return self._plan(goals, self.skills)
+
+    def _plan(
+        self, goals: np.ndarray, skills: Mapping[str, tuple[float, float]], closed: Sequence[str] = ()
+    ) -> Plan:
+        velocity = self.human.velocity[:2]
+        moving = velocity if np.linalg.norm(velocity) > 0.5 else None
+        plan_from = partial(self._plan_from, list(goals), skills, self._closed_links(closed))
+        try:
+            plan: Plan | NoWay = plan_from(self.position, moving)
+        except NoWay as error:  # it may fit where it comes to, or have to come back
+            plan = error
+        if moving is None:
+            if isinstance(plan, NoWay):
+                raise plan
+            return plan
+        limits = self.human.on_feet.limits
+        if isinstance(plan, Plan) and plan.length > _HERE:
+            if self.human.on_feet.walks or can_begin(plan.points, velocity, limits):
+                return plan
+        target = plan.pulled[1] if isinstance(plan, Plan) else goals[0]
+        for lead, runs_on in leads(self._level.graph, self.position, velocity, target, limits, self.radius):
+            try:
+                led = plan_from(lead[-1], lead[-1, :2] - lead[-2, :2] if runs_on else None, lead)
+            except NoWay:
+                continue
+            if not runs_on or can_begin(led.points, velocity, limits):
+                return led
+        if isinstance(plan, NoWay):
+            raise plan
+        return plan
+
+    def _plan_from(
+        self,
+        goals: Sequence[np.ndarray],
+        skills: Mapping[str, tuple[float, float]],
+        closed_links: np.ndarray,
+        start: np.ndarray,
+        direction: np.ndarray | None,
+        lead: np.ndarray | None = None,
+    ) -> Plan:
+        graph, radius = self._level.graph, PERSON_RULES["radius"]
+        return make_plan(graph, start, goals, radius, skills, direction, lead=lead, closed_links=closed_links)
+
+    def _closed_links(self, tags: Sequence[str]) -> np.ndarray:
+        """Indices of the links over obstacles of these ``tags``, and of those without room for a run-up."""
+        graph = self._level.graph
+        of_tags = np.flatnonzero(np.isin(graph.obstacles.tag[graph.links.obstacle], list(tags)))
+        return np.union1d(cramped_links(graph, PERSON_RULES["radius"]), of_tags)
+
+    def go_to(self, goals: np.ndarray, speed: float, facing: float | None) -> Plan:
+        if facing is not None:
+            raise RuntimeInputError("a human cannot turn to a facing at its goal yet; leave it out")
+        if self.human.status == "fallen":
+            raise RuntimeInputError("it has fallen and cannot go anywhere")
+        return self._take(self.plan(goals), speed)
+
+    def go_without(self, goals: np.ndarray, speed: float, closed: Sequence[str]) -> Plan:
+        """As `go_to`, over none of the obstacles of the tags ``closed``."""
+        return self._take(self._plan(goals, self.skills, closed), speed)
+
+    def go_round(
+        self, goals: np.ndarray, speed: float, closed: tuple[str, ...]
+    ) -> tuple[Plan, tuple[str, ...]]:
+        """As `go_without`, over no obstacle at all, or not over the next one, if there is such a way; and the
+        tags of what is closed then."""
+        ahead = self.tag_ahead
+        choices = [({}, closed), (self.skills, closed)]
+        if ahead:
+            choices.insert(1, (self.skills, (*closed, ahead)))
+        for number, (skills, tags) in enumerate(choices, start=1):
+            try:
+                return self._take(self._plan(goals, skills, tags), speed), tags
+            except NoWay:
+                if number == len(choices):
+                    raise
+        raise AssertionError
+
+    def _take(self, plan: Plan, speed: float) -> Plan:
+        if plan.length > _HERE:
+            self.human.follow(plan.points, speed, plan.obstacles, self.hesitates)
+        else:
+            self.human.arrive()
+        self.plans.append(plan)
+        return plan
+
+    @property
+    def goals_left(self) -> int:
+        return max(sum(end > self.human.arc_length for end in self.plans[-1].ends), 1)
+
+    def way_holds(self) -> bool:
+        return way_holds(self._level.graph, self.plans[-1], self.radius, self.human.arc_length)
+
+    def stop(self) -> None:
+        self.human.stop()
+
+    @property
+    def pace(self) -> float:
+        return self.human.pace
+
+    @property
+    def reach(self) -> float:
+        return 0.0
+
+    def course(self) -> Course | None:
+        return self.human.course()
+
+    def foretold(self) -> np.ndarray | None:
+        course = self.human.prospect()
+        return None if course is None else foretold_on(course, course.points, course.pace, 1)
+
+    def give_way(self, pace: float, shift: np.ndarray | None) -> None:
+        self.human.give_way(pace, shift)
+        if shift is not None:
+            self.plans[-1] = replace(self.plans[-1], points=self.human.path)
+
+    @property
+    def waited(self) -> float | None:
+        return self.human.way.waited if self.human.status in MOVING else None
+
+    def way_back(self) -> np.ndarray | None:
+        return self.human.way_back() if self.human.status == "walking" else None
+
+    @property
+    def backs(self) -> float:
+        return self.human.way.backs
+
+    @property
+    def length(self) -> float:
+        return 0.0
+
+    def make_room(self, far: float) -> None:
+        self.human.way.make_room(far, self.human.on_feet.walk_limits, self.human.ticks)
+
+    def give_up(self, reason: str | None = None) -> None:
+        if reason is None:
+            self.human.give_up()
+        else:
+            self.human.give_up(reason)
+
+    def end_in(self, ahead: float) -> None:
+        course, count = self.human.course(), round(ahead / SPACING) + 1
+        if course is None or min(count, len(course.points)) < 2:
+            self.human.arrive()
+            return
+        points = course.points[:count]
+        self.human.follow(points, float(course.speeds.max()))
+        self.plans[-1] = replace(self.plans[-1], points=points, obstacles=(), ends=(ahead,))
+
+    def save(self) -> tuple[HumanState, tuple[Plan, ...], float]:
+        return self.human.save_state(), tuple(self.plans)[-1:], self.hesitates
+
+    def restore(self, state: Any) -> None:
+        if not (isinstance(state, tuple) and len(state) == 3 and is_finite(state[2]) and state[2] >= 0.0):
+            raise RuntimeInputError("expected a person's state, its plans, and how long it hesitates [s]")
+        body, plans = saved_parts(state[:2], HumanState)
+        check_person(body, self.human)
+        self.human.restore_state(body)
+        recall(self.plans, plans)
+        self.hesitates = state[2]
+        self.before = None
+
+    def state_hash(self) -> str:
+        return self.human.state_hash()

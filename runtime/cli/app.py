@@ -1,0 +1,526 @@
+"""The ``surefoot`` command."""
+
+import gc
+import importlib.util
+import json
+import os
+import signal
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from typer import exceptions as typer_exceptions
+
+from surefoot import __version__
+from surefoot.errors import SurefootError
+
+app = typer.Typer(
+    no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None,
+    help="Navigation and locomotion for game characters. "
+    "Exit codes: 0 what was asked held, 1 it did not, 2 wrong input.",
+)  # fmt: skip
+
+
+_INTERRUPTED = 130
+"""Exit code after Ctrl-C."""
+
+
+_inputs: list[str | Path] = []
+"""Files that the command reads: none of them is ever written to (`surefoot.files.inputs`)."""
+_after = ExitStack()
+"""What is undone when the command ends."""
+
+
+def _input(value: Any) -> Any:
+    """Callback of every argument and option that names what is read."""
+    _inputs.extend(value if isinstance(value, list) else [] if value is None else [value])
+    return value
+
+
+class Up(StrEnum):
+    """The axis of a mesh file that points up."""
+
+    x = "x"
+    y = "y"
+    z = "z"
+
+
+class Skill(StrEnum):
+    """What can be learned."""
+
+    run = "run"
+    walk = "walk"
+    speed_up = "speed-up"
+    slow_down = "slow-down"
+    brake = "brake"
+    jump = "jump"
+    vault = "vault"
+    drop_roll = "drop-roll"
+    leap = "leap"
+
+
+def _skill(name: str) -> str:
+    if name not in list(Skill) and not name.endswith((".yaml", ".yml")):
+        raise typer.BadParameter(f"{name!r}: valid: {', '.join(Skill)}, or the .yaml file that describes one")
+    return name
+
+
+SkillArgument = typer.Argument(
+    metavar=f"[{'|'.join(Skill)}|FILE.yaml]", parser=_skill, callback=_input,
+    help="A skill of the package, or the file that describes one of your own.",
+)  # fmt: skip
+MESH_HELP = "Mesh file: OBJ, PLY, STL, OFF, glTF (.gltf, .glb), FBX or USD (docs/meshes.md)."
+TraceArgument = Annotated[
+    Path, typer.Argument(callback=_input, help="Trace (.npz), or a mission (.yaml) to be run first.")
+]
+UpOption = Annotated[
+    Up | None,
+    typer.Option(help="Axis of the file that points up; default: what the file says, y for glTF, else z."),
+]
+ScaleOption = Annotated[
+    float | None, typer.Option(help="Metres per unit of the file; default: what the file says, else 1.")
+]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print the result as JSON on standard output.")]
+FollowOption = Annotated[
+    str | None, typer.Option(help="Agent that the camera goes with; default: the first.")
+]
+SlopeOption = Annotated[float | None, typer.Option(help="[°] Steeper faces end the walkable surface.")]
+StepOption = Annotated[float | None, typer.Option(help="[m] Higher steps end the walkable surface.")]
+HeadroomOption = Annotated[float | None, typer.Option(help="[m] Free height that walking needs.")]
+ResolutionOption = Annotated[float | None, typer.Option(help="[m] Spacing of the samples of the surface.")]
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        print(f"surefoot {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _surefoot(
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_show_version, is_eager=True, help="Print the version and leave."),
+    ] = False,
+) -> None:
+    pass
+
+
+@app.command()
+def bake(
+    level: Annotated[Path, typer.Argument(callback=_input, help=MESH_HELP)],
+    output: Annotated[Path, typer.Option("--output", "-o", help="File for the baked graph (.npz).")],
+    up: UpOption = None,
+    scale: ScaleOption = None,
+    tags: Annotated[
+        Path | None,
+        typer.Option(callback=_input, help="Authored tags; default: LEVEL.tags.yaml if there is one."),
+    ] = None,
+    max_slope_deg: SlopeOption = None,
+    max_step: StepOption = None,
+    headroom: HeadroomOption = None,
+    resolution: ResolutionOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Build a level's navigation graph, by default for a person, and write it to a file."""
+    rules = {
+        "max_slope_deg": max_slope_deg,
+        "max_step": max_step,
+        "headroom": headroom,
+        "resolution": resolution,
+    }
+    _finish(_commands().bake_level(level, output, up, scale, tags, rules), as_json)
+
+
+@app.command()
+def cache(
+    clear: Annotated[bool, typer.Option("--clear", help="Remove what is there.")] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Tell where compiled kernels are kept and how much room they take, or remove them."""
+    from surefoot.kernels import folder
+
+    if clear:
+        folder.clear()
+    kept, size = folder.cache_folder(), folder.size_of_cache()
+    if as_json:
+        print(json.dumps({"folder": kept and str(kept), "bytes": size}))
+    elif kept is None:
+        print("nowhere: no folder for caches can be written to; set NUMBA_CACHE_DIR to one that can")
+    else:
+        print(f"{kept}: {size / 1e6:.1f} MB")
+
+
+@app.command()
+def obstacles(
+    level: Annotated[
+        Path, typer.Argument(callback=_input, help="Mesh file, or graph that `surefoot bake` wrote.")
+    ],
+    up: UpOption = None,
+    scale: ScaleOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """List the obstacles of a level that a skill can clear: the names that missions use, sizes and places."""
+    _finish(_commands().list_obstacles(level, up, scale), as_json)
+
+
+@app.command()
+def path(
+    graph: Annotated[Path, typer.Argument(help="Graph that `surefoot bake` wrote.")],
+    start: Annotated[tuple[float, float, float], typer.Option(metavar="X Y Z", help="[m] Z is up.")],
+    goal: Annotated[tuple[float, float, float], typer.Option(metavar="X Y Z", help="[m] Z is up.")],
+    radius: Annotated[float, typer.Option(help="[m] Radius of the body.")] = 0.3,
+    jump: Annotated[
+        tuple[float, float],
+        typer.Option(
+            metavar="LEAST GREATEST", help="[m] Heights to jump onto; 0 0: none.", show_default="0 0"
+        ),
+    ] = (0.0, 0.0),
+    smooth: Annotated[bool, typer.Option(help="Give the smoothed path instead of the pulled one.")] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Find a path on a baked graph."""
+    _finish(_commands().find_path(graph, start, goal, radius, jump, smooth), as_json)
+
+
+@app.command()
+def run(
+    mission: Annotated[Path, typer.Argument(callback=_input, help="Mission file (YAML).")],
+    out: Annotated[Path | None, typer.Option(help="Folder for trace, plot, film strip and page.")] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Run a mission as fast as possible and say what happened."""
+    _finish(_commands().run_mission_file(mission, out), as_json)
+
+
+@app.command()
+def check(
+    mission: Annotated[Path, typer.Argument(callback=_input, help="Mission file (YAML).")],
+    as_json: JsonOption = False,
+) -> None:
+    """Check a mission without running it: the file, its level, and that every place can be reached."""
+    _finish(_commands().check_mission_file(mission), as_json)
+
+
+@app.command()
+def schema(
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="File for the schema; default: standard output.")
+    ] = None,
+) -> None:
+    """Write the JSON schema of mission files, which editors check them by while they are written."""
+    _commands().write_schema(output)
+
+
+@app.command()
+def view(
+    source: Annotated[
+        str,
+        typer.Argument(
+            callback=_input,
+            help="Trace (.npz), mission (.yaml) to be run first, or a server's address (ws://…).",
+        ),
+    ],
+    output: Annotated[Path, typer.Option("--output", "-o", help="File for the page (.html).")] = Path(
+        "view.html"
+    ),
+    follow: Annotated[
+        str | None, typer.Option(help="Agent that the camera goes with; default: it stands still.")
+    ] = None,
+    live: Annotated[bool, typer.Option(help="Run the mission in real time and show it as it goes.")] = False,
+    world: Annotated[
+        str | None, typer.Option(help="Of a server: the world to watch; default: the only one.")
+    ] = None,
+    token: Annotated[str, typer.Option(envvar="SUREFOOT_TOKEN", help="Of a server, if it wants one.")] = "",
+    port: Annotated[int, typer.Option(min=0, max=65535, help="Of the live page; 0: any that is free.")] = 0,
+    as_json: JsonOption = False,
+) -> None:
+    """Write a page that plays a run in a browser, without a server and without a network; or show a world of
+    `surefoot serve` as it goes."""
+    commands = _view_commands()
+    if source.startswith(("ws://", "wss://")):
+        _finish(commands.watch_served(source, world, token, port), as_json)
+    elif live:
+        _finish(commands.watch_mission(Path(source), port), as_json)
+    else:
+        _finish(commands.write_view(Path(source), output, follow), as_json)
+
+
+@app.command()
+def export(
+    source: TraceArgument,
+    output: Annotated[Path, typer.Option("--output", "-o", help="File to write (.glb).")] = Path("run.glb"),
+    as_json: JsonOption = False,
+) -> None:
+    """Write a run as animated glTF, which Blender, Godot, three.js and other engines open."""
+    _finish(_view_commands().export_gltf(source, output), as_json)
+
+
+@app.command()
+def film(
+    source: TraceArgument,
+    output: Annotated[Path, typer.Option("--output", "-o", help="File to write (.mp4).")] = Path("run.mp4"),
+    follow: FollowOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Draw a run as a video: needs no GPU and no display, but about half a second for each frame."""
+    _finish(_view_commands().write_video(source, output, follow), as_json)
+
+
+@app.command()
+def serve(
+    levels: Annotated[
+        list[Path], typer.Argument(callback=_input, help="Mesh files, or graphs that `surefoot bake` wrote.")
+    ],
+    host: Annotated[
+        str, typer.Option(help="Address to listen on; other than this machine: with a token.")
+    ] = ("127.0.0.1"),
+    port: Annotated[int, typer.Option(min=0, max=65535, help="0: any that is free.")] = 8765,
+    token: Annotated[
+        str, typer.Option(envvar="SUREFOOT_TOKEN", help="What clients must say to be let in.")
+    ] = "",
+    pages: Annotated[Path | None, typer.Option(help="Folder whose files are served over HTTP.")] = None,
+    up: UpOption = None,
+    scale: ScaleOption = None,
+) -> None:
+    """Run worlds for engines in other languages, over WebSockets. Ctrl-C ends it."""
+    _commands().serve_worlds(levels, up, scale, host, port, token, pages)
+
+
+@app.command()
+def playtest(
+    level: Annotated[Path, typer.Argument(callback=_input, help=MESH_HELP)],
+    bots: Annotated[int, typer.Option(min=0, help="How many bots.")] = 64,
+    seconds: Annotated[float, typer.Option(help="[s] that each of them plays.")] = 300.0,
+    seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same report.")] = 0,
+    body: Annotated[str, typer.Option(help="walker (quick), human, dog, cat or horse.")] = "walker",
+    plan: Annotated[
+        Path | None,
+        typer.Option(callback=_input, help="Spawns, places, expectations; default: LEVEL.playtest.yaml."),
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for report.html, report.json and junit.xml.")
+    ] = None,
+    before: Annotated[
+        Path | None, typer.Option(callback=_input, help="An earlier report.json to compare with.")
+    ] = None,
+    processes: Annotated[int, typer.Option(min=1, help="Processes; the report is the same.")] = 1,
+    up: UpOption = None,
+    scale: ScaleOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Send bots through a level and say what is wrong with it: exit code 1 when there are faults."""
+    options = {
+        "bots": bots, "seconds": seconds, "seed": seed, "body": body, "plan": plan, "up": up,
+        "scale": scale, "processes": processes,
+    }  # fmt: skip
+    _commands()
+    from runtime.playtest.command import playtest_level
+
+    _finish(playtest_level(level, options, out, before), as_json)
+
+
+@app.command()
+def replay(
+    report: Annotated[
+        Path, typer.Argument(callback=_input, help="report.json of `surefoot playtest --out`.")
+    ],
+    number: Annotated[int, typer.Argument(help="Number of the finding.")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="File for the page (.html).")] = Path(
+        "replay.html"
+    ),
+    as_json: JsonOption = False,
+) -> None:
+    """Write a page that plays a finding of a playtest: the bot that met it runs again."""
+    _commands()
+    from runtime.playtest.command import replay_finding
+
+    _finish(replay_finding(report, number, output), as_json)
+
+
+@app.command()
+def train(
+    skill: Annotated[str | None, SkillArgument] = None,
+    everything: Annotated[
+        bool, typer.Option("--all", help="Learn the whole library, for the package, one skill after another.")
+    ] = False,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output",
+            "-o",
+            help="File for the skill; default: where FILE.yaml says, or the package's (see --replace).",
+        ),
+    ] = None,
+    seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same skill.")] = 0,
+    workers: Annotated[int, typer.Option(min=1, help="Processes.")] = 2,
+    checkpoint: Annotated[
+        Path | None,
+        typer.Option(help="Folder for what was learned so far; default: SKILL.checkpoint here."),
+    ] = None,
+    effort: Annotated[
+        float, typer.Option(min=0.01, max=100.0, help="Scales the number of generations.")
+    ] = 1.0,
+    replace: Annotated[
+        bool, typer.Option("--replace", help="Write the package's skills over those that it comes with.")
+    ] = False,
+) -> None:
+    """Learn a skill, with progress. Interrupted, it goes on from its checkpoint when started again. A skill
+    that never works is not written, and the exit code is 1."""
+    if (skill is None) is not everything or (everything and (output or checkpoint)):
+        raise typer.BadParameter("name one skill, or --all without --output and --checkpoint")
+    _commands()
+    from runtime.cli import skill_commands
+
+    if skill is None:
+        result = skill_commands.train_library(seed, workers, effort, replace)
+    else:
+        result = skill_commands.train_skill(skill, output, seed, workers, checkpoint, effort, replace)
+    _finish(result, as_json=False)
+
+
+@app.command()
+def evaluate(
+    skill: Annotated[str, SkillArgument],
+    trials: Annotated[int, typer.Option(min=1, help="How many trials of each test.")] = 20,
+    seed: Annotated[int, typer.Option(min=0, help="Of the trials.")] = 0,
+    picture: Annotated[
+        Path | None, typer.Option(help="File for a picture of what is covered and what is not (.png).")
+    ] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Try a learned skill from many starts and say how often it holds."""
+    _commands()
+    from runtime.cli.skill_commands import evaluate_skill
+
+    _finish(evaluate_skill(skill, trials, seed, picture), as_json)
+
+
+@app.command()
+def clip(
+    source: Annotated[
+        Path,
+        typer.Argument(
+            callback=_input, help="Clip of keyframes (.yaml), captured motion (.bvh) or saved motion (.npz)."
+        ),
+    ],
+    mapping: Annotated[
+        Path | None,
+        typer.Option("--map", callback=_input, help="Joints of the capture by parts of the person (.yaml)."),
+    ] = None,
+    units: Annotated[str, typer.Option(help="Units of length of a .bvh file: m, cm, mm, in or ft.")] = "cm",
+    up: Annotated[Up, typer.Option(help="Axis of a .bvh file that points up.")] = Up.y,
+    film: Annotated[Path | None, typer.Option(help="File for a film strip (.png).")] = None,
+    stretch: Annotated[
+        tuple[float, float] | None,
+        typer.Option(metavar="BEGIN END", help="[s] What is shown."),
+    ] = None,
+    mirror: Annotated[bool, typer.Option("--mirror", help="Exchange left and right.")] = False,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output", "-o", help="File for the motion of the person (.npz), or for its keyframes (.yaml)."
+        ),
+    ] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Show a motion and say where it breaks the joints' ranges, sinks into the ground or floats."""
+    _commands()
+    from runtime.cli.skill_commands import show_clip
+
+    _finish(show_clip(source, mapping, units, up.value, stretch, mirror, film, output), as_json)
+
+
+def _commands() -> Any:
+    """The module `runtime.cli.commands`, imported when a command needs it.
+
+    What is imported stays to the end, and looking through it for garbage, again and again while it grows and
+    once more on leaving, takes as long as the imports themselves: so it is set aside. MuJoCo need not look
+    for a display: no command draws with it. Interruptions wait meanwhile: extension modules that load drop
+    them or call them an ImportError.
+    """
+    os.environ.setdefault("MUJOCO_GL", "disable")
+    gc.disable()
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT, signal.SIGTERM))
+    try:
+        with _told_that_it_loads():
+            from runtime.cli import commands
+            from surefoot.files.inputs import keep_inputs
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    _after.enter_context(keep_inputs(_inputs))
+    gc.freeze()
+    gc.enable()
+    return commands
+
+
+@contextmanager
+def _told_that_it_loads() -> Iterator[None]:
+    """Say that modules are loaded: on a terminal until they are; elsewhere only at the first start, when
+    Python has not compiled them yet and it takes longest."""
+    begin, end = "", ""
+    if "runtime.cli.commands" not in sys.modules:
+        if sys.stderr.isatty():
+            begin, end = "loading ...", "\r\x1b[2K"
+        elif not Path(
+            importlib.util.cache_from_source(str(Path(__file__).with_name("commands.py")))
+        ).exists():
+            begin = "loading for the first time: up to half a minute\n"
+    print(begin, end="", file=sys.stderr, flush=True)
+    yield
+    print(end, end="", file=sys.stderr, flush=True)
+
+
+def _view_commands() -> Any:
+    """The module `runtime.cli.view_commands`, as `_commands`."""
+    _commands()
+    from runtime.cli import view_commands
+
+    return view_commands
+
+
+def _finish(result: Any, as_json: bool) -> None:
+    """Print a command's result and leave with 0 when it held, 1 when it did not."""
+    if as_json:
+        print(json.dumps(result.values, indent=1))
+    else:
+        result.show()
+    if not result.held:
+        raise typer.Exit(1)
+
+
+def _refuse(message: str) -> int:
+    print(f"surefoot: {' '.join(message.split())}", file=sys.stderr)
+    return 2
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run the command line; leaves with exit code 0, 1 or 2, 130 when interrupted."""
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
+    _inputs.clear()
+    with _after:
+        code = _exit_code(arguments)
+    if code == _INTERRUPTED:  # typer makes it an exit of its own
+        print("surefoot: interrupted; nothing half-written is left", file=sys.stderr)
+    sys.exit(code)
+
+
+def _exit_code(arguments: list[str] | None) -> int:
+    try:
+        command: Callable[..., Any] = typer.main.get_command(app)
+        code = command(arguments, prog_name="surefoot", standalone_mode=False) or 0
+    except (KeyboardInterrupt, typer.Abort):
+        code = _INTERRUPTED
+    except typer.Exit as leave:
+        code = leave.exit_code
+    except typer_exceptions.TyperException as error:
+        code = _refuse(f"{error.format_message()} (see surefoot --help)")
+    except SurefootError as error:
+        code = _refuse(str(error))
+    except OSError as error:
+        code = _refuse(f"{error.filename}: {error.strerror}" if error.filename else str(error))
+    return code

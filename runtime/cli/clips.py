@@ -1,0 +1,66 @@
+"""Clips and captured motions for the command line: reading any of them, and their film strips."""
+
+import os
+from pathlib import Path
+
+import mujoco
+import numpy as np
+
+from locomotion.body.person import person_spec
+from locomotion.clips.bvh import read_bvh
+from locomotion.clips.clip import load_clip
+from locomotion.clips.motion import Motion, load_motion, motion_of_clip
+from locomotion.clips.retargeting import load_mapping, retarget
+from runtime.bodies.figure import Figure
+from runtime.errors import RuntimeInputError
+from runtime.views.filmstrip import show_frame
+from runtime.views.render import Camera, Triangles, render
+from surefoot.files.atomic_write import whole_file
+from surefoot.progress import Progress
+
+__all__ = ["read_motion", "write_motion_film"]
+
+_FRAMES, _COLUMNS = 8, 4
+_SIZE = (400, 330)
+_FROM = np.array([-0.8, -3.2, 0.3])  # [m] from the figure to the camera
+_GROUND = 50.0  # [m]
+
+
+def read_motion(source: Path, mapping: Path | None, units: str, up: str) -> Motion:
+    """A clip of keyframes (.yaml), a capture (.bvh, with a ``mapping``) or a motion (.npz), by its suffix."""
+    kind = source.suffix.lower()
+    if kind in (".yaml", ".yml"):
+        return motion_of_clip(load_clip(source))
+    if kind == ".npz":
+        return load_motion(source)
+    if kind != ".bvh":
+        raise RuntimeInputError(f"{source}: a motion is a .yaml, .bvh or .npz file, not {kind or 'this'}")
+    if mapping is None:
+        raise RuntimeInputError(f"{source}: a capture needs a mapping of its joints (--map FILE)")
+    joints = load_mapping(mapping)
+    return retarget(read_bvh(source, units, up), joints)
+
+
+def write_motion_film(motion: Motion, path: str | os.PathLike[str], progress: Progress) -> None:
+    """Draw eight moments of a motion, seen from its right, to ``path`` (PNG), whole or not at all."""
+    from matplotlib.figure import Figure as Page
+
+    model = person_spec().compile()
+    data, figure = mujoco.MjData(model), Figure.from_model(model)
+    corners = _GROUND * np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+    ground = Triangles(corners, np.array([[0, 1, 2], [0, 2, 3]]))
+    rows = -(-_FRAMES // _COLUMNS)
+    page = Page(figsize=(_COLUMNS * 3.2, rows * 2.64 + 0.4), dpi=125, layout="constrained")
+    page.suptitle(motion.name, fontsize=11)
+    picks = np.linspace(0, len(motion.qpos) - 1, _FRAMES).round().astype(int)
+    with progress.stage("drawing the film strip") as stage:
+        for k, (axes, pick) in enumerate(zip(page.subplots(rows, _COLUMNS).flat, picks, strict=True)):
+            stage.update(k / _FRAMES)
+            data.qpos[:] = motion.qpos[pick]
+            mujoco.mj_kinematics(model, data)
+            target = motion.qpos[pick, :3] - [0.0, 0.0, 0.1]
+            shapes = figure.posed(np.hstack([data.xpos, data.xquat])[1:])
+            picture = render(ground, [shapes], Camera(target + _FROM, target, 0.62), _SIZE)
+            show_frame(axes, picture, f"{pick / motion.rate:.2f} s")
+    with whole_file(path) as temporary:
+        page.savefig(temporary, format="png")

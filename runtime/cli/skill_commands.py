@@ -1,0 +1,294 @@
+"""What the commands on skills and clips do, apart from reading their arguments."""
+
+import os
+import sys
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import psutil
+from filelock import FileLock, Timeout
+
+from runtime.cli.commands import Result, check_picture, ready
+from runtime.errors import RuntimeInputError
+from surefoot.files.archive import check_target
+from surefoot.files.atomic_write import whole_file
+from surefoot.progress import Progress
+
+if TYPE_CHECKING:
+    from locomotion.training import progress
+    from runtime.evaluation.evaluation import Attempt
+
+__all__ = ["evaluate_skill", "show_clip", "train_library", "train_skill"]
+
+_WITHOUT_A_PLANE = ("walk", "speed-up", "slow-down", "brake")
+"""Skills whose trials do not differ in two numbers, so that no picture of what they cover can be drawn."""
+
+
+def _trainers() -> Mapping[str, Callable[..., Any]]:
+    """What learns each skill, in the order in which they build on one another."""
+    from locomotion.skills.library import LEAP
+    from locomotion.training.gaits.brake import train_brake
+    from locomotion.training.gaits.run import train_run
+    from locomotion.training.gaits.slow_down import train_slow_down
+    from locomotion.training.gaits.speed_up import train_speed_up
+    from locomotion.training.gaits.walk import train_walk
+    from locomotion.training.skills.drop_roll import train_drop_roll
+    from locomotion.training.skills.jump import train_described, train_jump
+    from locomotion.training.skills.vault import train_vault
+
+    return {
+        "walk": train_walk, "run": train_run, "speed-up": train_speed_up, "slow-down": train_slow_down,
+        "brake": train_brake,
+        "jump": train_jump, "vault": train_vault, "drop-roll": train_drop_roll,
+        "leap": partial(train_described, LEAP),
+    }  # fmt: skip
+
+
+def train_skill(
+    skill: str,
+    output: Path | None,
+    seed: int,
+    workers: int,
+    checkpoint: Path | None,
+    effort: float,
+    replace: bool,
+) -> Result:
+    """Learn ``skill``, one of the package's or one that a file describes, and write it to ``output`` (None:
+    where its description says, or where the package keeps it). Holds when what was learned works, which is
+    written only then. Its values tell the CPU time [min], with what it took before it was interrupted.
+    Raises `RuntimeInputError` where a skill of the package would be replaced without ``replace``, and
+    while another process learns with the same checkpoint."""
+    name = Path(skill).stem
+    kept = checkpoint or Path(f"{name}.checkpoint")
+    if not kept.parent.is_dir():
+        raise RuntimeInputError(f"{kept}: there is no folder {str(kept.parent)!r} to keep checkpoints in")
+    from locomotion.training.skills.jump import train_described
+    from locomotion.training.training import NotLearnedError, Training
+
+    trainers = _trainers()
+    train, fault = trainers.get(skill, partial(train_described, skill)), ""
+    out = _package_file(skill, replace) if output is None and skill in trainers else output
+    try:
+        with FileLock(f"{kept}.lock", timeout=0):
+            timer = _Timer(kept)
+            try:
+                train(Training(seed, kept, workers, effort, timer.told), out=out)
+            except NotLearnedError as error:
+                fault = str(error)
+            timer.keep()
+    except Timeout:
+        raise RuntimeInputError(
+            f"{kept}: another process learns with this checkpoint; wait for it, or name another --checkpoint"
+        ) from None
+    values = {"skill": skill, "works": not fault, "core-minutes": timer.minutes}
+
+    def show() -> None:
+        if fault:
+            print(f"surefoot: {fault}. No skill was written; {kept} holds what was learned", file=sys.stderr)
+        else:
+            print(f"{name} learned in {timer.minutes:.1f} core-minutes; {kept} is not needed any more")
+
+    return Result(values, not fault, show)
+
+
+def _package_file(skill: str, replace: bool) -> Path:
+    """Where the package keeps ``skill``; `RuntimeInputError` if it has it and is not to ``replace`` it."""
+    from locomotion.skills.library import package_skill
+
+    file = package_skill(skill)
+    if file.exists() and not replace:
+        raise RuntimeInputError(
+            f"{file}: is the package's own {skill}; say --replace to learn it anew in its place, or learn "
+            f"one skill for a file of yours (-o {file.name})"
+        )
+    return file
+
+
+class _Timer:
+    """CPU time of learning, kept in a file beside its checkpoint, so that none is lost between commands."""
+
+    def __init__(self, checkpoint: Path) -> None:
+        self._file = Path(f"{checkpoint}.minutes")
+        self.minutes = self._before() if checkpoint.exists() and self._file.exists() else 0.0
+        self._begun = _cpu_minutes() - self.minutes
+
+    def _before(self) -> float:
+        try:
+            return float(self._file.read_text(encoding="utf-8"))
+        except ValueError:
+            raise RuntimeInputError(
+                f"{self._file}: expected minutes of learning so far; remove it to count from now on"
+            ) from None
+
+    def told(self, now: "progress.Progress") -> None:
+        from locomotion.training.progress import show
+
+        show(now)
+        self.keep()
+
+    def keep(self) -> None:
+        self.minutes = _cpu_minutes() - self._begun
+        with whole_file(self._file) as temporary:
+            temporary.write_text(f"{self.minutes:.3f}\n", encoding="utf-8")
+
+
+def _cpu_minutes() -> float:
+    """CPU time of this process, the workers it has had and those it has."""
+    running = (worker.cpu_times() for worker in psutil.Process().children())
+    return (sum(os.times()[:4]) + sum(each.user + each.system for each in running)) / 60.0
+
+
+def train_library(seed: int, workers: int, effort: float, replace: bool) -> Result:
+    """Learn all skills of the package, one after the other, and say what each has cost; what comes after one
+    that does not work is not learned. Raises `RuntimeInputError` where one would be replaced and is not to
+    be."""
+    for skill in _trainers():
+        _package_file(skill, replace)
+    minutes: dict[str, float] = {}
+    for skill in _trainers():
+        result = train_skill(skill, None, seed, workers, None, effort, replace)
+        if not result.held:
+            return result
+        result.show()
+        minutes[skill] = result.values["core-minutes"]
+    minutes["in all"] = sum(minutes.values())
+
+    def show() -> None:
+        for skill, each in minutes.items():
+            print(f"{skill:12} {each:7.1f} core-minutes")
+
+    return Result({"core-minutes": minutes}, True, show)
+
+
+def evaluate_skill(skill: str, trials: int, seed: int, picture: Path | None = None) -> Result:
+    """Try ``skill``; holds when at least nine of ten trials of each test do. ``picture``: where to draw which
+    of what was tried is covered."""
+    if picture is not None:
+        if skill in _WITHOUT_A_PLANE:
+            raise RuntimeInputError(f"the tests of {skill} have no plane to draw; leave --picture out")
+        check_picture(picture)
+    from runtime.evaluation.evaluation import (
+        evaluate_brake,
+        evaluate_clearing,
+        evaluate_described,
+        evaluate_run,
+        evaluate_slow_down,
+        evaluate_speed_up,
+        evaluate_walk,
+    )
+
+    evaluate: Mapping[str, Callable[..., Sequence[Attempt]]] = {
+        "run": evaluate_run, "walk": evaluate_walk, "speed-up": evaluate_speed_up,
+        "slow-down": evaluate_slow_down, "brake": evaluate_brake,
+        "jump": partial(evaluate_clearing, "jump"), "vault": partial(evaluate_clearing, "vault"),
+        "drop-roll": partial(evaluate_clearing, "drop"),
+        "leap": partial(evaluate_clearing, "gap"),
+    }  # fmt: skip
+    attempts = evaluate.get(skill, partial(evaluate_described, skill))(trials, seed, ready())
+    if picture is not None:
+        from runtime.evaluation.coverage_plot import plot_coverage
+
+        plot_coverage(skill, attempts, picture)
+    tests = [
+        {
+            "test": test,
+            "trials": len(tried),
+            "held": sum(each.held for each in tried),
+            "ends": dict(Counter(each.status for each in tried)),
+            "means": _over(tried, np.mean),
+            "medians": _over(tried, np.median),
+            "percentiles 95": _over(tried, partial(np.percentile, q=95)),
+        }
+        for test, tried in _by_test(attempts).items()
+    ]
+    values = {"skill": skill, "seed": seed, "tests": tests, "attempts": [asdict(each) for each in attempts]}
+
+    def show() -> None:
+        for attempt in attempts:
+            if not attempt.held:
+                print(f"{attempt.test}: {attempt.what}: {attempt.status}")
+        print(f"| {skill} | held | of those |")
+        print("| --- | --- | --- |")
+        for test in tests:
+            share = 100.0 * test["held"] / test["trials"]
+            figures = ", ".join(_shown(test, name) for name in test["means"])
+            print(f"| {test['test']} | {share:.1f} % of {test['trials']} | {figures} |")
+
+    return Result(values, all(test["held"] >= 0.9 * test["trials"] for test in tests), show)
+
+
+def _shown(test: dict[str, Any], name: str) -> str:
+    """One of a test's figures: its mean, and of lengths also how they are spread."""
+    mean = f"{name} {test['means'][name]:.3g}"
+    if not name.endswith("[m]"):
+        return mean
+    return f"{mean} (median {test['medians'][name]:.3g}, 95 % up to {test['percentiles 95'][name]:.3g})"
+
+
+def _by_test(attempts: Sequence["Attempt"]) -> dict[str, list["Attempt"]]:
+    """The attempts of each test, in order."""
+    return {test: [a for a in attempts if a.test == test] for test in dict.fromkeys(a.test for a in attempts)}
+
+
+def _over(attempts: Sequence["Attempt"], statistic: Callable[[list[float]], Any]) -> dict[str, float]:
+    """A ``statistic`` of each of the figures, over the attempts that have it."""
+    names = dict.fromkeys(name for each in attempts for name in each.figures)
+    return {
+        name: float(statistic([each.figures[name] for each in attempts if name in each.figures]))
+        for name in names
+    }
+
+
+def show_clip(
+    source: Path,
+    mapping: Path | None,
+    units: str,
+    up: str,
+    stretch: tuple[float, float] | None,
+    mirror: bool,
+    film: Path | None,
+    output: Path | None,
+) -> Result:
+    """Check a clip or a captured motion, or a ``stretch`` of it [s]; draw it to ``film``, save it as the
+    person's motion or as keyframes to ``output``."""
+    from locomotion.clips.keyframes import keyframes_of, mirrored, save_clip, stretch_of
+    from locomotion.clips.motion_check import check_motion
+    from runtime.cli.clips import read_motion, write_motion_film
+
+    motion = read_motion(source, mapping, units, up)
+    if film is not None:
+        check_picture(film)
+    if output is not None:
+        check_target(output)
+    keyframes = output is not None and output.suffix.lower() in (".yaml", ".yml")
+    if output is not None and not keyframes and output.suffix.lower() != ".npz":
+        raise RuntimeInputError(f"{output}: a motion is written to .npz, keyframes to .yaml")
+    if stretch is not None:
+        motion = stretch_of(motion, *stretch)
+    if mirror:
+        motion = mirrored(motion)
+    faults = check_motion(motion)
+    if film is not None:
+        write_motion_film(motion, film, Progress())
+    if output is not None:
+        if keyframes:
+            save_clip(keyframes_of(motion), output)
+        else:
+            motion.save(output)
+    values = {
+        "name": motion.name,
+        "seconds": round(motion.duration, 3),
+        "rate": motion.rate,
+        "faults": [asdict(fault) for fault in faults],
+    }
+
+    def show() -> None:
+        print(f"{motion.name}: {motion.duration:.2f} s at {motion.rate:.0f} Hz")
+        print("\n".join(f"  {fault}" for fault in faults) or "  within its joints, on the ground")
+
+    return Result(values, not faults, show)

@@ -1,0 +1,1 @@
+"""Trying learned skills from many starts."""

@@ -1,0 +1,1 @@
+"""Missions: what agents are told to do, and what is expected of them."""

@@ -1,0 +1,184 @@
+"""Actions: what one step of a script makes an agent do, asked again after every step of the world."""
+
+import math
+from collections.abc import Sequence
+from typing import Literal, Protocol
+
+import numpy as np
+
+from runtime.errors import RuntimeInputError
+from runtime.events import Arrived, Event, SkillFinished
+from runtime.planning.planning import NoWay
+from runtime.world.agent import Agent
+
+__all__ = ["Action", "Clear", "Follow", "Go", "Patrol", "Progress", "Wait", "first_far"]
+
+THERE = 0.25
+"""[m] An agent this near to a place is there and need not go."""
+_LOOK = 0.5  # [s] between looks at the agent that is followed
+_STIRRED = 0.5  # [m] that it has to move before the follower takes another way
+
+Progress = Literal["going", "done", "failed"]
+"""How an action goes: "going", "done" or "failed"."""
+
+
+class Action(Protocol):
+    """``endless``: whether it never ends by itself. ``share``: how much of it is done, 0 to 1."""
+
+    endless: bool
+    share: float
+
+    def begin(self, agent: Agent, now: float) -> Progress: ...
+    def go_on(self, agent: Agent, now: float, events: Sequence[Event]) -> Progress:
+        """After a step of the world: ``now`` [s] and what has happened to ``agent`` since."""
+        ...
+
+
+class Go:
+    """Go through ``points`` (k, 3) [m] in order; done on arrival at the last."""
+
+    endless = False
+    share = 0.0
+
+    def __init__(self, points: np.ndarray, speed: float) -> None:
+        self.points, self.speed = points, speed
+
+    def begin(self, agent: Agent, now: float) -> Progress:
+        left = self.points[first_far(agent.position, self.points) :]
+        return _send(agent, left, self.speed) if len(left) else "done"
+
+    def go_on(self, agent: Agent, now: float, events: Sequence[Event]) -> Progress:
+        self.share = agent.progress
+        if any(isinstance(event, Arrived) for event in events):
+            return "done"
+        return "going" if agent.moving else "failed"
+
+
+class Clear(Go):
+    """Go through ``points``, over an obstacle between them; done on arrival if ``skill`` was used."""
+
+    def __init__(self, points: np.ndarray, speed: float, skill: str) -> None:
+        super().__init__(points, speed)
+        self._skill, self._used = skill, False
+
+    def go_on(self, agent: Agent, now: float, events: Sequence[Event]) -> Progress:
+        self._used |= any(isinstance(each, SkillFinished) and each.skill == self._skill for each in events)
+        progress = super().go_on(agent, now, events)
+        return "failed" if progress == "done" and not self._used else progress
+
+
+class Wait:
+    """Stand for ``seconds``; an agent that is on its way comes to a stand first."""
+
+    endless = False
+    share = 0.0
+
+    def __init__(self, seconds: float) -> None:
+        self._seconds, self._begun = seconds, 0.0
+
+    def begin(self, agent: Agent, now: float) -> Progress:
+        self._begun = now
+        agent.stop()
+        return "going"
+
+    def go_on(self, agent: Agent, now: float, events: Sequence[Event]) -> Progress:
+        self.share = min((now - self._begun) / self._seconds, 1.0)
+        return "done" if now >= self._begun + self._seconds - 1e-9 else "going"
+
+
+class Patrol:
+    """Go through ``points`` (k, 3), ``rounds`` times, for ``seconds``, or for ever (both None)."""
+
+    def __init__(self, points: np.ndarray, speed: float, rounds: int | None, seconds: float | None) -> None:
+        self._points, self._speed = points, speed
+        self._rounds, self._seconds = rounds or math.inf, seconds or math.inf
+        self._ends, self._made = math.inf, 0
+        self._round = Go(points, speed)
+        self.endless = rounds is None and seconds is None
+        self.share = 0.0
+
+    def begin(self, agent: Agent, now: float) -> Progress:
+        self._ends, self._made = now + self._seconds, 0
+        return self._round.begin(agent, now)
+
+    def go_on(self, agent: Agent, now: float, events: Sequence[Event]) -> Progress:
+        progress = self._round.go_on(agent, now, events)
+        if now >= self._ends - 1e-9:
+            agent.stop()
+            return "done"
+        if progress == "done":
+            self._made += 1
+            if self._made >= self._rounds:
+                return "done"
+            self._round = Go(self._points, self._speed)
+            progress = self._round.begin(agent, now)
+        rounds = (self._made + self._round.share) / self._rounds
+        self.share = max(rounds, 1.0 - (self._ends - now) / self._seconds if self._ends < math.inf else 0.0)
+        return progress
+
+
+class Follow:
+    """Stay ``distance`` [m] behind ``target`` along the way to it, for ``seconds`` or for ever (None)."""
+
+    def __init__(self, target: Agent, distance: float, speed: float, seconds: float | None) -> None:
+        self._target, self._distance, self._speed = target, distance, speed
+        self._seconds = seconds or math.inf
+        self._ends, self._looks = math.inf, -math.inf
+        self._seen = np.full(3, np.inf)
+        self.endless = seconds is None
+        self.share = 0.0
+
+    def begin(self, agent: Agent, now: float) -> Progress:
+        self._ends = now + self._seconds
+        return self.go_on(agent, now, ())
+
+    def go_on(self, agent: Agent, now: float, events: Sequence[Event]) -> Progress:
+        if agent.status == "fallen":
+            return "failed"
+        if now >= self._ends - 1e-9:
+            agent.stop()
+            return "done"
+        if self._ends < math.inf:
+            self.share = 1.0 - (self._ends - now) / self._seconds
+        if now >= self._looks - 1e-9:
+            self._looks = now + _LOOK
+            self._look(agent)
+        return "going"
+
+    def _look(self, agent: Agent) -> None:
+        there = self._target.position
+        if (agent.moving or agent.status == "arrived") and np.linalg.norm(there - self._seen) < _STIRRED:
+            return  # one that has arrived farther off has found others in its place
+        if not agent.moving and np.linalg.norm(there - agent.position) < self._distance + _STIRRED:
+            return
+        try:
+            plan = agent.plan(there)
+        except NoWay:
+            return
+        if plan.length < self._distance + THERE:
+            agent.stop()
+        else:
+            goal = _along(plan.points, plan.length - self._distance)
+            if _send(agent, goal[None], self._speed) == "going":
+                self._seen = there
+
+
+def _send(agent: Agent, points: np.ndarray, speed: float) -> Progress:
+    """Tell ``agent`` to go; "failed" when there is no way or it cannot go anywhere."""
+    try:
+        return "failed" if agent.go_to(points, speed) == "blocked" else "going"
+    except RuntimeInputError:  # it has fallen
+        return "failed"
+
+
+def first_far(position: np.ndarray, points: Sequence[np.ndarray] | np.ndarray) -> int:
+    """Index of the first of ``points``, (3,) each, that a body at ``position`` is not already at."""
+    far = (k for k, point in enumerate(points) if np.linalg.norm(point - position) > THERE)
+    return next(far, len(points))
+
+
+def _along(points: np.ndarray, length: float) -> np.ndarray:
+    """The (3,) point of a polyline at the horizontal arc length ``length`` [m]."""
+    steps = np.linalg.norm(np.diff(points[:, :2], axis=0), axis=1)
+    arc = np.concatenate([[0.0], np.cumsum(steps)])
+    return np.array([np.interp(length, arc, points[:, axis]) for axis in range(3)])

@@ -1,0 +1,158 @@
+"""Checking a mission against its level without running it: agents stand, places can be reached."""
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+import navmesh
+from locomotion import LocomotionError, load_run_skill
+from locomotion.skills.library import described_ranges
+from runtime.bodies.protocol import radius_of
+from runtime.errors import RuntimeInputError
+from runtime.missions.actions import first_far
+from runtime.missions.clearing import find_clearing
+from runtime.missions.mission import Address, LoadedMission, places_in, steps_of
+from runtime.missions.model import AgentSpec, Step
+from runtime.missions.places import what_is_wrong
+from runtime.planning.planning import NoWay
+from runtime.planning.rules import obstacle_rules
+from runtime.world.agent import Agent
+from runtime.world.world import World
+from surefoot.errors import SurefootError
+from surefoot.files.yamlfile import FileError
+from surefoot.progress import Progress
+
+__all__ = ["Prepared", "build_graph", "prepare_mission"]
+
+
+class Prepared(NamedTuple):
+    """A mission that can be run."""
+
+    world: World
+    """With the agents at their starts."""
+    clearings: dict[Address, np.ndarray]
+    """For every `use` step, by its address, the run-up and the place beyond, (2, 3) [m]."""
+
+
+def prepare_mission(
+    loaded: LoadedMission, progress: Progress, graph: navmesh.NodeGraph | None = None
+) -> Prepared:
+    """Make the mission's world: level read, graph built (unless it is given), all places reachable.
+
+    Raises `FileError` that names line and column for a level that is no mesh, a start off
+    the walkable surface, a place that cannot be reached from the agent's start, and a skill or an obstacle
+    that is not there.
+    """
+    _check_ends(loaded)
+    if graph is None:
+        with progress.stage(f"reading {loaded.level_path.name} and building its graph"):
+            graph = build_graph(loaded)
+    try:
+        world = World(graph, loaded.mission.seed, loaded.skill_paths)
+    except RuntimeInputError as error:
+        raise loaded.error(("skills",), str(error)) from None
+    prepared = Prepared(world, {})
+    with progress.stage("placing the agents and checking their ways"):
+        for index, spec in enumerate(loaded.mission.agents):
+            _place(loaded, world, index, spec)
+        for _, name, steps in steps_of(loaded.mission):
+            agent = world.agents[name]
+            for chain in _chains(loaded, prepared, agent, steps):
+                _check_ways(loaded, agent, chain)
+    return prepared
+
+
+def build_graph(loaded: LoadedMission) -> navmesh.NodeGraph:
+    """The graph of the mission's level; raises `FileError`."""
+    level = loaded.mission.level
+    rules, beside = loaded.rules(), navmesh.tags_path(loaded.level_path)
+    tags_path = loaded.tags_path or (beside if beside.is_file() else None)
+    try:
+        tags = None if tags_path is None else navmesh.load_tags(tags_path)
+        terrain = navmesh.Terrain.load(loaded.level_path, up=level.up, scale=level.scale)
+        own = described_ranges(load_run_skill(), loaded.skill_paths)
+        return navmesh.NodeGraph.build(terrain, rules, obstacle_rules(own), tags=tags)
+    except LocomotionError as error:
+        raise loaded.error(("skills",), str(error)) from None
+    except FileError:
+        raise
+    except SurefootError as error:
+        raise loaded.error(("level", "file"), str(error)) from None
+
+
+def _place(loaded: LoadedMission, world: World, index: int, spec: AgentSpec) -> None:
+    point, body = loaded.point(spec.start), loaded.bodies[index]
+    wrong = what_is_wrong(world.graph, point, radius_of(body), Path(body).stem)
+    if wrong is not None:
+        raise loaded.error(("agents", index, "start"), wrong)
+    try:
+        world.spawn(body, point, math.radians(spec.facing_deg), spec.name)
+    except ValueError as error:
+        raise loaded.error(("agents", index, "start"), str(error)) from None
+
+
+Chain = list[tuple[Address, np.ndarray]]
+"""Places (3,) [m] that are visited one after the other, with their addresses."""
+
+
+def _chains(
+    loaded: LoadedMission, prepared: Prepared, agent: Agent, steps: list[tuple[Address, Step]]
+) -> Iterator[Chain]:
+    """The places of a script, broken where it is not known where the agent will be."""
+    chain: Chain = []
+    for address, step in steps:
+        if step.use is not None:
+            here = (*address, "use")
+            clearing = prepared.clearings[address] = find_clearing(
+                loaded, prepared.world, agent, here, step.use
+            )
+            chain += [(here, point) for point in clearing]
+            continue
+        if step.follow is not None:
+            yield chain
+            chain = []
+        for below, place in places_in(step):
+            here, point = (*address, *below), loaded.point(place)
+            wrong = what_is_wrong(prepared.world.graph, point, agent.radius, Path(agent.body).stem)
+            if wrong is not None:
+                raise loaded.error(here, wrong)
+            chain.append((here, point))
+    yield chain
+
+
+def _check_ways(loaded: LoadedMission, agent: Agent, chain: Chain) -> None:
+    left = chain[first_far(agent.position, [point for _, point in chain]) :]
+    if not left:
+        return
+    try:
+        agent.plan(np.array([point for _, point in left]))
+    except NoWay as error:
+        address, point = left[error.goal]
+        raise loaded.error(address, f"{point.tolist()} cannot be reached: {error.reason}") from None
+
+
+def _check_ends(loaded: LoadedMission) -> None:
+    """Nothing comes after what never ends, and nobody is expected to arrive who has no end."""
+    told = {order.agent for trigger in loaded.mission.triggers for order in trigger.then}
+    for address, name, steps in steps_of(loaded.mission):
+        endless = [here for here, step in steps if _is_endless(step)]
+        if endless and endless[0] != steps[-1][0]:
+            raise loaded.error(
+                endless[0], "this never ends, and more comes after it; give it seconds or rounds"
+            )
+        if endless and address[0] == "agents" and name not in told:
+            expect = loaded.mission.agents[int(address[1])].expect
+            if expect.arrives_within is not None:
+                where = (*address, "expect", "arrives_within")
+                raise loaded.error(
+                    where, f"{name!r} never ends what it does; give its last step seconds or rounds"
+                )
+
+
+def _is_endless(step: Step) -> bool:
+    if step.patrol is not None:
+        return step.patrol.rounds is None and step.patrol.seconds is None
+    return step.follow is not None and step.follow.seconds is None

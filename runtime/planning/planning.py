@@ -1,0 +1,213 @@
+"""Plans: from where an agent is, through its goals in order, to one path that a body can follow."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+import navmesh
+from locomotion import LocomotionError, ObstacleAhead, Smoothing, smooth_route
+from locomotion.paths.aligned_obstacles import lined_up
+from locomotion.paths.run_up_room import LEAST_RUN_UP, straight_before
+from locomotion.paths.smoothing import RUNNING
+from navmesh.holding import line_holds
+from navmesh.route import Route
+from surefoot.pausing import pause
+
+__all__ = ["NoWay", "Plan", "make_plan", "way_holds", "why_not"]
+
+_SHORT = 0.05  # [m] by which a smoothed path may be nearer to a wall than its radius
+_SAME = 0.01  # [m] by which a link's ends and height may differ
+
+
+class NoWay(ValueError):
+    """No plan: ``goal`` is the index of the first goal that cannot be reached, ``reason`` says why."""
+
+    def __init__(self, goal: int, reason: str) -> None:
+        self.goal, self.reason = goal, reason
+        super().__init__(f"goal {goal}: {reason}")
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """A path through all goals, and how it came about; all points in the world [m].
+
+    ``raw`` (a, 3) are the centres of the discs that A* chose, ``pulled`` (b, 3) the shortest line through
+    them, ``points`` (n, 3) the smoothed path that a body follows. ``obstacles`` are what it crosses, in
+    order; their arc lengths count from the beginning of ``points``. ``skills`` are their affordances.
+    ``ends`` are the arc lengths at which it is at its goals, where that is known.
+    """
+
+    raw: np.ndarray
+    pulled: np.ndarray
+    points: np.ndarray
+    obstacles: tuple[ObstacleAhead, ...]
+    ends: tuple[float, ...] = ()
+
+    def __repr__(self) -> str:
+        over = "".join(f", over a {each}" for each in self.skills)
+        return f"<Plan: {self.length:.2f} m, {len(self.points)} points{over}>"
+
+    @property
+    def length(self) -> float:
+        """Horizontal length of the smoothed path [m]."""
+        return _length(self.points)
+
+    @property
+    def skills(self) -> tuple[str, ...]:
+        """Affordances of the obstacles on the way, in order."""
+        return tuple(obstacle.affordance for obstacle in self.obstacles)
+
+
+def make_plan(
+    graph: navmesh.NodeGraph,
+    start: np.ndarray,
+    goals: Sequence[np.ndarray],
+    radius: float,
+    skills: Mapping[str, tuple[float, float]],
+    direction: np.ndarray | None = None,
+    smoothing: Smoothing = RUNNING,
+    lead: np.ndarray | None = None,
+    closed_links: np.ndarray | Sequence[int] = (),
+) -> Plan:
+    """Plan from ``start`` (3,) through ``goals``, each (3,), for a body of ``radius`` [m] with ``skills``,
+    over no link of ``closed_links`` (indices).
+
+    ``direction`` (2,) is where the body is moving, None when it stands; ``smoothing`` is what it wants of its
+    path. ``lead`` (n, 3) [m] is how the path begins in any case, from ``start``. Raises `NoWay`.
+    """
+    raw, pulled, points, obstacles, ends = [], [], [], [], []
+    begun = 0.0
+    if lead is not None:
+        points.append(lead)
+        begun, start = _length(lead), lead[-1]
+    for index, goal in enumerate(goals):
+        pause()
+        route = graph.find_path(start, goal, radius=radius, skills=skills, closed_links=closed_links)
+        if route.status != "complete":
+            raise NoWay(index, why_not(graph, route, start, goal, radius, skills, closed_links))
+        if len(route.waypoints) < 2:
+            ends.append(begun)
+            continue
+        route = lined_up(route, skills, closed_links)
+        if index > 0 and direction is not None and _turns_back(direction, route.waypoints):
+            direction = None  # it stands at its goal and turns: a bend would lead past it
+        try:
+            smooth = smooth_route(route, smoothing, direction)
+        except LocomotionError as error:
+            raise NoWay(index, str(error)) from error
+        raw.append(graph.positions[route.nodes])
+        pulled.append(route.waypoints)
+        points.append(smooth.points)
+        obstacles += [replace(each, arc_length=each.arc_length + begun) for each in smooth.obstacles]
+        begun += _length(smooth.points)
+        ends.append(begun)
+        start = smooth.points[-1]
+        direction = _heading(smooth.points)
+    if not points:
+        raise NoWay(len(goals) - 1, "it is where the body already is")
+    raw, pulled = raw or [points[0]], pulled or [points[0]]
+    return Plan(
+        np.concatenate(raw), np.concatenate(pulled), np.concatenate(points), tuple(obstacles), tuple(ends)
+    )
+
+
+def way_holds(graph: navmesh.NodeGraph, plan: Plan, radius: float, arc: float) -> bool:
+    """Whether a body of ``radius`` [m] that is ``arc`` [m] along ``plan`` can go the rest of it on ``graph``:
+    as `navmesh.Route.holds`, but of the smoothed path, which may be a little short of the radius."""
+    points = plan.points
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points[:, :2], axis=0), axis=1))])
+    first = max(int(np.searchsorted(along, arc, side="right")) - 1, 0)
+    for obstacle in plan.obstacles:
+        # the points just before and behind the edge lie between the ends of the link
+        edge = int(np.argmin(np.abs(along - obstacle.arc_length)))
+        before = edge if along[edge] <= obstacle.arc_length else edge - 1
+        if obstacle.arc_length <= arc:
+            first = max(first, before + 2)
+            continue
+        walked = points[min(first, before - 1) : before]
+        if not line_holds(graph, walked, radius - _SHORT):
+            return False
+        if not _link_holds(graph, obstacle, points[before - 1], points[before + 2]):
+            return False
+        first = before + 2
+    return line_holds(graph, points[first:], radius - _SHORT)
+
+
+def _link_holds(
+    graph: navmesh.NodeGraph, obstacle: ObstacleAhead, start: np.ndarray, end: np.ndarray
+) -> bool:
+    """Whether ``graph`` has a link over ``obstacle`` from ``start`` to ``end`` (3,)."""
+    links = graph.links
+    alike = (links.affordance == obstacle.affordance) & (np.abs(links.height - obstacle.size) <= _SAME)
+    alike &= (np.abs(links.start - start) <= _SAME).all(axis=1)
+    alike &= (np.abs(links.end - end) <= _SAME).all(axis=1)
+    return bool(alike.any())
+
+
+def why_not(
+    graph: navmesh.NodeGraph,
+    route: Route,
+    start: np.ndarray,
+    goal: np.ndarray,
+    radius: float,
+    skills: Mapping[str, tuple[float, float]],
+    closed_links: np.ndarray | Sequence[int] = (),
+) -> str:
+    """Why ``route``, found from ``start`` to ``goal`` (3,) for a body of ``radius`` [m] with ``skills`` but
+    over none of ``closed_links``, does not lead there: over what a way would lead is named."""
+    if route.status == "off_graph":
+        if graph.find_path(start, start, radius=radius).status == "off_graph":
+            return "the way there begins at a place where the body does not fit"
+        return "it is not near a place where the body fits"
+    links = graph.links
+    shut = graph.find_path(start, goal, radius=radius, skills=skills) if len(closed_links) else route
+    if shut.status == "complete":
+        return "no way leads there without " + ", ".join(_cramped(graph, shut, radius, closed_links))
+    every = dict.fromkeys(np.unique(links.affordance).tolist(), (0.0, float(links.height.max(initial=0.0))))
+    over = graph.find_path(start, goal, radius=radius, skills=every)
+    reason = "no way leads there on foot or with the skills at hand"
+    if over.status != "complete":
+        return reason
+    kinds, sizes = graph.obstacles.affordance, graph.obstacles.size
+    beyond = [
+        f"{kinds[use.obstacle]} {sizes[use.obstacle]:.2f} m"
+        for use in over.links
+        if not _offered(skills, str(kinds[use.obstacle]), float(sizes[use.obstacle]))
+    ]
+    offer = ", ".join(f"{kind} {low:g} to {high:g} m" for kind, (low, high) in skills.items())
+    return f"{reason}: a way would lead over {', '.join(beyond)}; there are {offer or 'no skills'}"
+
+
+def _cramped(
+    graph: navmesh.NodeGraph, route: Route, radius: float, closed_links: np.ndarray | Sequence[int]
+) -> list[str]:
+    """What is wrong with each of the ``closed_links`` on a route."""
+    kinds, sizes = graph.obstacles.affordance, graph.obstacles.size
+    straight = straight_before(graph, radius, LEAST_RUN_UP)
+    return [
+        f"the {kinds[use.obstacle]} of {sizes[use.obstacle]:.2f} m, which has {straight[use.link]:.1f} m for "
+        f"a straight run-up (at least {LEAST_RUN_UP:g} m are needed)"
+        for use in route.links
+        if use.link in set(np.asarray(closed_links).tolist())
+    ]
+
+
+def _offered(skills: Mapping[str, tuple[float, float]], kind: str, height: float) -> bool:
+    low, high = skills.get(kind, (np.inf, -np.inf))
+    return low <= height <= high
+
+
+def _heading(points: np.ndarray) -> np.ndarray | None:
+    """(2,) where a path leads at its end; None for one that goes nowhere."""
+    steps = np.diff(points[:, :2], axis=0)
+    onward = np.flatnonzero(np.linalg.norm(steps, axis=1) > 1e-6)
+    return steps[onward[-1]] if len(onward) else None
+
+
+def _turns_back(direction: np.ndarray, waypoints: np.ndarray) -> bool:
+    return float(direction @ (waypoints[1] - waypoints[0])[:2]) < 0.0
+
+
+def _length(points: np.ndarray) -> float:
+    return float(np.linalg.norm(np.diff(points[:, :2], axis=0), axis=1).sum())

@@ -1,0 +1,67 @@
+"""Recording a world while it runs, as a `runtime.traces.trace.Trace`."""
+
+import numpy as np
+
+import navmesh
+from runtime.events import Event
+from runtime.traces.trace import AgentTrace, LevelTrace, PathTrace, Trace
+from runtime.world.world import World
+
+__all__ = ["Recorder", "level_trace"]
+
+
+class Recorder:
+    """Collects poses and events of ``world``; call `sample` at each moment that is to be kept."""
+
+    def __init__(self, world: World) -> None:
+        self._world = world
+        self._times: list[float] = []
+        self._poses: dict[str, list[np.ndarray]] = {name: [] for name in world.agents}
+        self.events: list[Event] = []
+
+    def sample(self) -> list[Event]:
+        """Keep the present poses; returns the events since the last call."""
+        fresh = self._world.events
+        self.events += fresh
+        self._times.append(self._world.time)
+        for name, poses in self._poses.items():
+            poses.append(self._world.agents[name].pose.transforms.astype(np.float32))
+        return fresh
+
+    def trace(self, report: dict) -> Trace:
+        """Everything that was kept, with a ``report`` of plain values."""
+        agents = tuple(
+            AgentTrace(
+                name=name,
+                figure=agent.figure,
+                poses=np.stack(self._poses[name]),
+                paths=tuple(PathTrace(plan.raw, plan.pulled, plan.points) for plan in agent.plans),
+            )
+            for name, agent in self._world.agents.items()
+        )
+        return Trace(
+            level=level_trace(self._world.graph),
+            times=np.array(self._times),
+            agents=agents,
+            events=tuple(event.to_dict() for event in self.events),
+            state_hash=self._world.state_hash(),
+            report=report,
+        )
+
+
+def level_trace(graph: navmesh.NodeGraph) -> LevelTrace:
+    """What of a graph is drawn."""
+    source = np.repeat(np.arange(len(graph), dtype=np.int32), np.diff(graph.edge_start))
+    once = source < graph.edge_target
+    obstacles = graph.obstacles
+    return LevelTrace(
+        vertices=graph.terrain.vertices,
+        faces=graph.terrain.faces,
+        positions=graph.positions,
+        radii=graph.radii,
+        edges=np.stack([source[once], graph.edge_target[once]], axis=1),
+        affordances=tuple(str(each) for each in obstacles.affordance),
+        rim=obstacles.rim,
+        normal=obstacles.normal,
+        height=obstacles.size,
+    )

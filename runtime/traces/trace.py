@@ -1,0 +1,215 @@
+"""Trace files: everything that a run left behind, enough to draw and replay it without the level."""
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, Any
+
+import numpy as np
+from annotated_types import Ge, Le, Len
+from pydantic import BaseModel, ConfigDict
+
+from runtime.bodies.figure import Figure, Shapes
+from surefoot.files.archive import read_archive, write_archive
+from surefoot.files.schema import Array, Flags, Header, Indices, Numbers, Rising, Schema
+
+__all__ = ["AgentTrace", "LevelTrace", "PathTrace", "Trace"]
+
+_LONGEST_PAUSE = 10.0  # [s] between two poses
+_UNIT = 0.01  # by which the length of a quaternion may be off 1
+
+
+@dataclass(frozen=True)
+class PathTrace:
+    """One planned path: node centres that A* chose, pulled line, smoothed line, each (k, 3) float64 [m]."""
+
+    raw: np.ndarray
+    pulled: np.ndarray
+    smooth: np.ndarray
+
+
+@dataclass(frozen=True)
+class LevelTrace:
+    """The level as it was drawn and walked.
+
+    ``vertices`` (v, 3) float64 [m], ``faces`` (f, 3) int32; graph: ``positions`` (n, 3), ``radii`` (n,) [m],
+    ``edges`` (e, 2) int32; obstacles: ``affordances`` (k,) names, ``rim`` (k, 2, 3) [m], ``normal`` (k, 3)
+    and ``height`` (k,) [m] as in `NodeGraph.obstacles`.
+    """
+
+    vertices: np.ndarray
+    faces: np.ndarray
+    positions: np.ndarray
+    radii: np.ndarray
+    edges: np.ndarray
+    affordances: tuple[str, ...]
+    rim: np.ndarray
+    normal: np.ndarray
+    height: np.ndarray
+
+
+@dataclass(frozen=True)
+class AgentTrace:
+    """One figure: ``poses`` (t, nbody, 7) float32, position [m] and quaternion wxyz; its paths in order."""
+
+    name: str
+    figure: Figure
+    poses: np.ndarray
+    paths: tuple[PathTrace, ...]
+
+
+@dataclass(frozen=True)
+class Trace:
+    """A run: ``times`` (t,) float64 [s] of the poses, events as plain values, hash of the last state.
+
+    ``report`` is what `mission_run` found: expectations and whether they held.
+    """
+
+    level: LevelTrace
+    times: np.ndarray
+    agents: tuple[AgentTrace, ...]
+    events: tuple[Mapping[str, Any], ...]
+    state_hash: str
+    report: Mapping[str, Any] = field(default_factory=dict)
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Write the trace to ``path``, whole or not at all."""
+        arrays: dict[str, np.ndarray] = {"times": self.times}
+        header: dict[str, Any] = {
+            "events": list(self.events),
+            "state_hash": self.state_hash,
+            "report": dict(self.report),
+            "affordances": list(self.level.affordances),
+            "agents": [],
+        }
+        for name in _LEVEL_ARRAYS:
+            arrays[f"level.{name}"] = getattr(self.level, name)
+        for i, agent in enumerate(self.agents):
+            header["agents"].append(
+                {"name": agent.name, "bodies": list(agent.figure.bodies), "paths": len(agent.paths)}
+            )
+            arrays[f"agent{i}.poses"] = agent.poses
+            arrays[f"agent{i}.parents"], arrays[f"agent{i}.owner"] = agent.figure.parents, agent.figure.owner
+            for name in _SHAPE_ARRAYS:
+                arrays[f"agent{i}.{name}"] = getattr(agent.figure.shapes, name)
+            for j, planned in enumerate(agent.paths):
+                for name in _PATH_ARRAYS:
+                    arrays[f"agent{i}.path{j}.{name}"] = getattr(planned, name)
+        write_archive(path, TRACE_FILE.kind, TRACE_FILE.version, header, arrays)
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> "Trace":
+        """Read what `write` wrote; raises `surefoot.files.archive.ArchiveError` for any other file."""
+        header, arrays = read_archive(path, TRACE_FILE)
+        return cls(
+            level=LevelTrace(
+                affordances=header.affordances, **{name: arrays[f"level.{name}"] for name in _LEVEL_ARRAYS}
+            ),
+            times=arrays["times"],
+            agents=tuple(_agent(i, entry, arrays) for i, entry in enumerate(header.agents)),
+            events=tuple(event.model_dump() for event in header.events),
+            state_hash=header.state_hash,
+            report=header.report,
+        )
+
+
+class _AgentEntry(Header):
+    name: str
+    bodies: Annotated[tuple[str, ...], Len(1)]
+    paths: Annotated[int, Ge(0), Le(100_000)]
+
+
+class _EventEntry(BaseModel):
+    """An event as plain values: what all have, and more."""
+
+    model_config = ConfigDict(extra="allow", strict=True, frozen=True, allow_inf_nan=False)
+
+    kind: str
+    time: float
+    agent: str
+    position: Annotated[list[float], Len(3, 3)]
+
+
+class _TraceHeader(Header):
+    events: tuple[_EventEntry, ...]
+    state_hash: str
+    report: dict[str, Any]
+    affordances: tuple[str, ...]
+    agents: Annotated[tuple[_AgentEntry, ...], Len(1)]
+
+
+_LEVEL_ARRAYS: dict[str, Array] = {
+    "vertices": Numbers("vertices", 3),
+    "faces": Indices("faces", 3, into="vertices"),
+    "positions": Numbers("nodes", 3),
+    "radii": Numbers("nodes", low=0.0),
+    "edges": Indices("edges", 2, into="nodes"),
+    "rim": Numbers("obstacles", 2, 3),
+    "normal": Numbers("obstacles", 3),
+    "height": Numbers("obstacles"),
+}
+_SHAPE_ARRAYS = ("place", "size", "round", "colour")
+_PATH_ARRAYS = ("raw", "pulled", "smooth")
+
+
+def _arrays_of(header: _TraceHeader) -> dict[str, Array]:
+    arrays: dict[str, Array] = {"times": Rising("times", low=0.0)}
+    arrays |= {f"level.{name}": kind for name, kind in _LEVEL_ARRAYS.items()}
+    for i, agent in enumerate(header.agents):
+        own, bodies, shapes = f"agent{i}.", len(agent.bodies), f"shapes of agent {i}"
+        arrays |= {
+            f"{own}poses": Numbers("times", bodies, 7, dtype="float32"),
+            f"{own}parents": Indices(bodies, into=bodies, none=True),
+            f"{own}owner": Indices(shapes, into=bodies),
+            f"{own}place": Numbers(shapes, 7),
+            f"{own}size": Numbers(shapes, 3, low=0.0, high=1e3),
+            f"{own}round": Flags(shapes),
+            f"{own}colour": Numbers(shapes, 3, low=0.0, high=1.0),
+        }
+        for j in range(agent.paths):
+            for name in _PATH_ARRAYS:
+                arrays[f"{own}path{j}.{name}"] = Numbers(f"{name} points of path {i}.{j}", 3)
+    return arrays
+
+
+def _check(header: _TraceHeader, arrays: dict[str, np.ndarray]) -> str | None:
+    """What does not hold between the arrays of a trace; None where all does."""
+    if len(arrays["level.height"]) != len(header.affordances):
+        return f"names {len(header.affordances)} obstacles and holds {len(arrays['level.height'])}"
+    if (np.diff(arrays["times"]) > _LONGEST_PAUSE).any():
+        return f"times are more than {_LONGEST_PAUSE:g} s apart"
+    names = [agent.name for agent in header.agents]
+    if len(set(names)) < len(names):
+        return "two of its agents have one name"
+    if unknown := [event.agent for event in header.events if event.agent not in names]:
+        return f"tells of {unknown[0][:40]!r}, who is none of its agents"
+    for i in range(len(names)):
+        parents = arrays[f"agent{i}.parents"]
+        if (parents >= np.arange(len(parents))).any():
+            return f"agent{i}.parents lead to bodies that do not come before"
+        for name in ("poses", "place"):
+            length = np.linalg.norm(arrays[f"agent{i}.{name}"][..., 3:], axis=-1)
+            if (np.abs(length - 1.0) > _UNIT).any():
+                return f"agent{i}.{name} holds what is no unit quaternion"
+    return None
+
+
+TRACE_FILE = Schema(
+    kind="surefoot trace",
+    version=1,
+    header=_TraceHeader,
+    arrays=_arrays_of,
+    remedy="run the mission again",
+    check=_check,
+)
+
+
+def _agent(index: int, entry: _AgentEntry, arrays: Mapping[str, np.ndarray]) -> AgentTrace:
+    own = f"agent{index}."
+    shapes = Shapes(**{name: arrays[own + name] for name in _SHAPE_ARRAYS})
+    figure = Figure(entry.bodies, arrays[own + "parents"], arrays[own + "owner"], shapes)
+    paths = tuple(
+        PathTrace(**{name: arrays[f"{own}path{j}.{name}"] for name in _PATH_ARRAYS})
+        for j in range(entry.paths)
+    )
+    return AgentTrace(name=entry.name, figure=figure, poses=arrays[own + "poses"], paths=paths)

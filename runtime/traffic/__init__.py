@@ -1,0 +1,1 @@
+"""Who is where, who gives way to whom, and who gets nowhere."""

@@ -1,0 +1,137 @@
+"""All bodies of a world at one time: where they are, and where they will be as far as anybody asks."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from locomotion.avoidance.goal_occupancy import STOREY, free_points, who_stands_at
+from locomotion.avoidance.yielding import COUNT, STEP, Course, foretell, meetings
+from runtime.bodies.protocol import Follower, Population
+
+__all__ = ["Moment", "foretold_on"]
+
+_SOON = 5  # points ahead on a course that tell where it leads
+_ABREAST = 0.2  # cosine up to which who is there is not ahead
+_SLACK = 3.5  # [m] between two that go straight on, from which what they do is looked at closely
+
+
+class Moment:
+    """``followers`` are those who can give way; they come first in ``discs``: for each body of
+    ``populations`` its discs (d, 6), as `Population.in_the_way` gives them."""
+
+    def __init__(self, populations: Sequence[Population]) -> None:
+        self.followers: list[Follower] = []
+        groups: list[np.ndarray] = []  # (bodies, discs of each, 6)
+        others: list[np.ndarray] = []
+        for population in populations:
+            each, discs = population.followers(), population.in_the_way()
+            if len(discs):
+                self.followers += each
+                (groups if each else others).append(discs.reshape(len(each) or len(discs), -1, 6))
+        groups += others
+        self._rows = np.concatenate([np.empty((0, 6)), *(group[:, group.shape[1] // 2] for group in groups)])
+        self.discs = [discs for group in groups for discs in group]
+        self._courses: dict[int, Course | None] = {}
+        self._groups: dict[int, np.ndarray] = {}
+        self._told: dict[int, np.ndarray] = {}
+
+    def __len__(self) -> int:
+        return len(self.discs)
+
+    def near(self, indices: np.ndarray) -> np.ndarray:
+        """(k, n) bool: which of all bodies come near to those of ``indices`` (k,), if all go straight on."""
+        rows = self._rows
+        return meetings(
+            rows[:, :2].copy(), rows[:, 3:5].copy(), rows[:, 2].copy(), indices, _SLACK, STOREY
+        )  # fmt: skip
+
+    def others(self, index: int) -> np.ndarray:
+        """(k, 6) the discs of all other bodies."""
+        return np.concatenate([np.empty((0, 6)), *self.discs[:index], *self.discs[index + 1 :]])
+
+    def course(self, index: int) -> Course | None:
+        """The course of a follower, as far as those who stand at its goal let it; it is not `Course.whole` if
+        they are in its way."""
+        if index not in self._courses:
+            course, group = self.followers[index].course(), self._rows[:0]
+            if course is not None and course.whole:
+                group = who_stands_at(course.points[-1], course.radius, self.others(index))
+                free = free_points(course, group) if len(group) else len(course.points)
+                if free < len(course.points):
+                    free = max(free, 1)
+                    points, speeds = course.points[:free], course.speeds[:free]
+                    course = replace(course, points=points, speeds=speeds, reach=0.0, whole=False)
+            self._courses[index], self._groups[index] = course, group
+        return self._courses[index]
+
+    def group(self, index: int) -> np.ndarray:
+        """(k, 6) the discs of those who stand at a follower's goal."""
+        self.course(index)
+        return self._groups[index]
+
+    def gets_away(self, index: int, other: int) -> bool:
+        """Whether a follower that lies in another body's discs goes on all the same, lest both wait for ever:
+        of two followers the one that is ahead, abreast of each other the first."""
+        own, its = self.discs[index], self.discs[other]
+        apart = np.linalg.norm(own[:, None, :2] - its[None, :, :2], axis=2)
+        deep = own[:, None, 5] + its[None, :, 5] - apart
+        if deep.max() <= 0.0 or other >= len(self.followers):
+            return False
+        mine, theirs = np.unravel_index(int(deep.argmax()), deep.shape)
+        if len(own) > 1 and len(its) > 1:
+            return bool((mine, index) < (theirs, other))
+        there = its[theirs, :2] - own[mine, :2]
+        leaves, follows = self._leaves(index, there), self._leaves(other, -there)
+        return leaves and (index < other or not follows)
+
+    def _leaves(self, index: int, there: np.ndarray) -> bool:
+        """Whether the way of a follower does not lead towards ``there`` (2,) from it."""
+        course = self.course(index)
+        if course is None:
+            return False
+        ahead = course.points[min(_SOON, len(course.points) - 1), :2] - course.points[0, :2]
+        return bool(ahead @ there <= _ABREAST * np.linalg.norm(ahead) * np.linalg.norm(there))
+
+    def forget(self, index: int) -> None:
+        """A follower has changed its course."""
+        self._courses.pop(index, None)
+        self._told.pop(index, None)
+
+    def foretold(self, index: int) -> np.ndarray:
+        """(COUNT, d, 2) where a body will be."""
+        if index not in self._told:
+            self._told[index] = self._foretell(index)
+        return self._told[index]
+
+    def _foretell(self, index: int) -> np.ndarray:
+        discs = self.discs[index]
+        if index < len(self.followers):
+            follower, course = self.followers[index], self.course(index)
+            if course is not None:
+                # its nose is its own concern: it is not to keep back whoever it has come behind
+                length, reach = course.length - course.nose, max(course.reach - course.nose, 0.0)
+                body = replace(course, length=length, reach=reach, nose=0.0)
+                return foretold_on(body, course.points, course.pace, len(discs))
+            planned = follower.foretold()
+            if planned is not None:
+                return planned
+        moments = STEP * np.arange(COUNT)[:, None, None]
+        return discs[None, :, :2] + moments * discs[None, :, 3:5]
+
+    def all_foretold(self, indices: Sequence[int]) -> tuple[np.ndarray, np.ndarray]:
+        """Where the discs of some bodies will be (COUNT, k, 2), and their radii (k,) [m]."""
+        if not indices:
+            return np.empty((COUNT, 0, 2)), np.empty(0)
+        there = np.concatenate([self.foretold(index) for index in indices], axis=1)
+        return there, np.concatenate([self.discs[index][:, 5] for index in indices])
+
+
+def foretold_on(course: Course, points: np.ndarray, pace: float, discs: int) -> np.ndarray:
+    """(COUNT, discs, 2) where a body will be on a course, or with its path changed to ``points``."""
+    places = np.empty((COUNT, discs, 2))
+    foretell(
+        points, course.speeds, course.speed, pace, course.slowest, course.acceleration, course.braking,
+        course.eagerness, course.length, course.reach, course.turns, places,
+    )  # fmt: skip
+    return places

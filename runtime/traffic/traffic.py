@@ -1,0 +1,148 @@
+"""Bodies that follow paths, dogs and people, give way to each other and to everybody else."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from locomotion.avoidance.goal_occupancy import ROOM, is_before, who_stands_at
+from locomotion.avoidance.yielding import (
+    COUNT,
+    SPACING,
+    Course,
+    Options,
+    cost_of_meeting,
+    first_meeting,
+    options,
+)
+from navmesh.holding import line_holds
+from runtime.bodies.protocol import Follower, Population
+from runtime.planning.level import Level
+from runtime.traffic.deadlock import STANDSTILL, untangle
+from runtime.traffic.snapshot import Moment, foretold_on
+from surefoot.pausing import pause
+
+__all__ = ["EVERY", "Traffic"]
+
+EVERY = 4
+"""Ticks between choices."""
+_TURNS = 5  # choices in which everybody has its turn once, so that no tick has to bear all of them
+_UNTIL_NEXT = 0.01 * EVERY * _TURNS  # [s]
+_MORE = 0.2  # [m] before it has to, from which a body prepares to stop beside those at its goal
+
+
+class Traffic:
+    """Lets the followers among ``populations`` give way, one after the other in order of their making.
+
+    All that is remembered between choices is kept in the bodies: their paths and paces.
+    """
+
+    def __init__(self, level: Level, populations: Sequence[Population]) -> None:
+        self._level, self._populations = level, populations
+
+    def direct(self, tick: int) -> None:
+        """Let those choose whose turn it is; called before every `EVERY`th ``tick``."""
+        moment = Moment(self._populations)
+        turns = np.arange(tick // EVERY % _TURNS, len(moment.followers), _TURNS)
+        self._let_choose(moment, turns)
+        for index in turns.tolist():
+            if (moment.followers[index].waited or 0.0) >= STANDSTILL:
+                untangle(moment, index, self._level.graph)
+
+    def look_out(self, follower: Follower, former: Course | None) -> None:
+        """Let one choose that has just been told where to go; ``former`` is the course that it was on."""
+        moment = Moment(self._populations)
+        self._let_choose(moment, np.array([moment.followers.index(follower)]), former)
+
+    def around(self, follower: Follower) -> tuple[np.ndarray, np.ndarray]:
+        """Where the discs of those near a body will be (COUNT, k, 2), and their radii (k,) [m]."""
+        moment = Moment(self._populations)
+        near = moment.near(np.array([moment.followers.index(follower)]))[0]
+        return moment.all_foretold(np.flatnonzero(near).tolist())
+
+    def _let_choose(self, moment: Moment, turns: np.ndarray, former: Course | None = None) -> None:
+        if len(turns) == 0 or len(moment) < 2:
+            return
+        for index, near in zip(turns.tolist(), moment.near(turns), strict=True):
+            pause()
+            follower = moment.followers[index]
+            course = moment.course(index) if near.any() or follower.pace < 1.0 else None
+            if course is None:
+                continue
+            group = moment.group(index)
+            others = [
+                each
+                for each in np.flatnonzero(near).tolist()
+                if not (moment.discs[each][:, None, :2] == group[:, :2]).all(axis=2).any()
+                and not moment.gets_away(index, each)
+            ]
+            # who halts at once gives way to who does not
+            halts = any(_rushes(moment, other) for other in others)
+            there, radii = moment.all_foretold(others)
+            chosen = self._chosen(course, len(moment.discs[index]), there, radii, halts, former)
+            if chosen.shift is not None or chosen.pace != course.pace:
+                follower.give_way(chosen.pace, chosen.shift)
+                moment.forget(index)
+            self._stop_at_the_group(follower, moment.course(index), group)
+
+    def has_come(self, agent: Follower, goal: np.ndarray) -> bool:
+        """Whether one at rest stands in the group of those at rest around ``goal`` (3,)."""
+        moment = Moment(self._populations)
+        index = moment.followers.index(agent)
+        own = moment.discs[index]
+        group = who_stands_at(goal, float(own[0, 5]), moment.others(index))
+        return is_before(own, agent.reach, group)
+
+    def _stop_at_the_group(self, follower: Follower, course: Course | None, group: np.ndarray) -> None:
+        """Let a body that has to stop soon, before those who stand at its goal, do that."""
+        if course is None or not len(group) or not course.aside:
+            return
+        ahead = max((len(course.points) - 1) * SPACING - course.length, 0.0)
+        if not course.whole and ahead <= course.stops + course.speed * _UNTIL_NEXT + _MORE:
+            follower.end_in(ahead)
+
+    def _chosen(
+        self,
+        course: Course,
+        discs: int,
+        there: np.ndarray,
+        radii: np.ndarray,
+        halts: bool,
+        former: Course | None,
+    ) -> Options:
+        """The option that costs least; ``halts``: also for one that does not halt easily."""
+
+        def meeting(option: Options) -> tuple[int, float]:
+            """When it would come too near to somebody, and what that costs."""
+            points = course.points
+            if option.shift is not None:
+                points = points.copy()
+                points[:, :2] += option.shift
+            places = foretold_on(course, points, option.pace, discs)
+            met = first_meeting(places, course.radius, there, radii, ROOM)
+            return met[0], cost_of_meeting(*met)
+
+        onward = Options(1.0, None, 0.0)
+        first, least = meeting(onward)
+        if first >= COUNT:
+            return onward
+        best = onward
+        for option in options(course, first, halts, former):
+            if option.cost >= least:
+                break
+            cost = option.cost + meeting(option)[1]
+            if cost < least and (option.shift is None or self._is_free(course, option.shift)):
+                best, least = option, cost
+        return best
+
+    def _is_free(self, course: Course, shift: np.ndarray) -> bool:
+        """Whether the way that a shift makes of a course stays on the surface, clear of its ends."""
+        moved = np.flatnonzero(np.linalg.norm(shift, axis=1) > 0.02)
+        points = course.points[moved].copy()
+        points[:, :2] += shift[moved]
+        return line_holds(self._level.graph, points, course.radius)
+
+
+def _rushes(moment: Moment, index: int) -> bool:
+    """Whether a body does not halt easily."""
+    course = moment.course(index) if index < len(moment.followers) else None
+    return course is not None and course.slowest > 0.0

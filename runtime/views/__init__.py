@@ -1,0 +1,1 @@
+"""What one sees of a run: pictures, films, pages, windows, files for engines."""

@@ -1,0 +1,81 @@
+"""A video of a run: frames drawn by `runtime.views.render`, encoded as H.264 by PyAV."""
+
+import os
+from collections.abc import Iterator
+
+import numpy as np
+
+from runtime.bodies.figure import Shapes
+from runtime.bodies.pose import between
+from runtime.traces.trace import AgentTrace, Trace
+from runtime.views.camera import agent_named, follow, size_of
+from runtime.views.meshes import optional
+from runtime.views.render import Triangles, render
+from surefoot.files.atomic_write import whole_file
+from surefoot.progress import Progress
+
+__all__ = ["RATE", "frames", "write_film"]
+
+RATE = 25
+"""Frames per second."""
+_SIZE = (640, 360)
+_AWAY = 3.2  # [sizes of the figure] from the camera to it
+
+
+def write_film(
+    trace: Trace,
+    path: str | os.PathLike[str],
+    of: str | None = None,
+    progress: Progress | None = None,
+    size: tuple[int, int] = _SIZE,
+) -> None:
+    """Write the run as a video (.mp4) to ``path``, whole or not at all.
+
+    The camera goes with the agent ``of``, by default the first; ``size`` [pixels] is even. Raises
+    `RuntimeInputError` without PyAV and for an agent that is not there.
+    """
+    av = optional("av", "video", "a video")
+    agent = agent_named(trace, of)
+    count = len(_moments(trace))
+    with (
+        (progress or Progress(shown=False)).stage("drawing the film") as stage,
+        whole_file(path) as temporary,
+    ):
+        with av.open(str(temporary), "w", format="mp4") as container:
+            stream = container.add_stream("libx264", rate=RATE, options={"crf": "20"})
+            stream.width, stream.height = size
+            stream.pix_fmt, stream.thread_count = "yuv420p", 1
+            for k, picture in enumerate(frames(trace, agent, size)):
+                container.mux(stream.encode(av.VideoFrame.from_ndarray(picture, format="rgb24")))
+                stage.update((k + 1) / count, f"frame {k + 1} of {count}")
+            container.mux(stream.encode())
+
+
+def frames(trace: Trace, agent: AgentTrace, size: tuple[int, int]) -> Iterator[np.ndarray]:
+    """The pictures (height, width, 3) uint8 of the run, 25 for each second of it."""
+    level = Triangles(trace.level.vertices, trace.level.faces)
+    moments = _moments(trace)
+    distance = _AWAY * size_of(agent)
+    for moment, camera in zip(moments, follow(agent, trace.times, moments, distance), strict=True):
+        yield render(level, _posed(trace, moment), camera, size, cutaway=0.75 * distance)
+
+
+def _moments(trace: Trace) -> np.ndarray:
+    """[s] of the frames."""
+    length = float(trace.times[-1] - trace.times[0])
+    return trace.times[0] + np.arange(int(length * RATE + 1e-9) + 1) / RATE
+
+
+def _posed(trace: Trace, moment: float) -> list[Shapes]:
+    """All figures at a moment between two poses."""
+    after = int(np.clip(np.searchsorted(trace.times, moment), 1, max(len(trace.times) - 1, 1)))
+    if len(trace.times) == 1:
+        return [agent.figure.posed(agent.poses[0]) for agent in trace.agents]
+    begin, end = trace.times[after - 1 : after + 1]
+    share = float(np.clip((moment - begin) / (end - begin), 0.0, 1.0))
+    return [
+        agent.figure.posed(
+            between(agent.poses[after - 1].astype(np.float64), agent.poses[after].astype(np.float64), share)
+        )
+        for agent in trace.agents
+    ]

@@ -1,0 +1,116 @@
+"""What the page of a run is given: one JSON header, and one block of bytes with the arrays that it names."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from runtime.events import event_text
+from runtime.traces.trace import AgentTrace, LevelTrace, PathTrace, Trace
+from runtime.views.camera import calm_track, size_of
+
+__all__ = ["page_data"]
+
+FRAME = 0.03
+"""[s] least time between frames of the page."""
+_WIDEST_QUATERNION = 32767.0
+
+
+class _Block:
+    """Arrays behind one another; `add` gives what a header says of one: kind, shape, first byte."""
+
+    def __init__(self) -> None:
+        self._parts: list[bytes] = []
+        self._size = 0
+
+    def add(self, array: np.ndarray, kind: str) -> dict[str, Any]:
+        data = np.ascontiguousarray(array, dtype=kind).tobytes()
+        data += bytes(-len(data) % 4)  # every array begins where four bytes do
+        entry = {"kind": kind, "shape": list(array.shape), "at": self._size}
+        self._parts.append(data)
+        self._size += len(data)
+        return entry
+
+    def joined(self) -> bytes:
+        return b"".join(self._parts)
+
+
+def page_data(trace: Trace, follow: str | None) -> tuple[dict[str, Any], bytes]:
+    """The header and the arrays of ``trace``'s page, which opens on the agent ``follow``, None: on the first.
+
+    Lengths are metres; places are told from the middle of the level, so that single precision is enough.
+    """
+    block = _Block()
+    origin = 0.5 * (trace.level.vertices.min(axis=0) + trace.level.vertices.max(axis=0))
+    frames = _frames(trace.times)
+    header = {
+        "follow": follow if follow is not None else next((agent.name for agent in trace.agents), None),
+        "times": block.add(trace.times[frames], "<f4"),
+        "level": _level(block, trace.level, origin),
+        "agents": [_agent(block, agent, trace.times, frames, origin) for agent in trace.agents],
+        "events": [
+            {"time": float(event["time"]), "agent": event["agent"], "text": event_text(event)}
+            for event in _in_short(trace.events)
+        ],
+    }
+    return header, block.joined()
+
+
+def _in_short(events: Sequence[Mapping[str, Any]]) -> Iterator[Mapping[str, Any]]:
+    """The events, of departures of an agent in a row only the first: one that follows another changes its way
+    twice a second."""
+    latest: dict[str, str] = {}
+    for event in events:
+        kind, before = event["kind"], latest.get(event["agent"])
+        latest[event["agent"]] = kind
+        if not kind == before == "Departed":
+            yield event
+
+
+def _frames(times: np.ndarray) -> np.ndarray:
+    """Indices of the poses that are shown: no two nearer to each other than `FRAME`."""
+    kept = [0]
+    for k, moment in enumerate(times):
+        if moment - times[kept[-1]] >= FRAME - 1e-6:
+            kept.append(k)
+    return np.array(kept, dtype=np.int64)
+
+
+def _level(block: _Block, level: LevelTrace, origin: np.ndarray) -> Mapping[str, Any]:
+    wide = level.radii > 0.3
+    edges = level.edges[wide[level.edges].all(axis=1)] if len(level.edges) else level.edges
+    return {
+        "vertices": block.add(level.vertices - origin, "<f4"),
+        "faces": block.add(level.faces, "<u4"),
+        "discs": block.add(np.column_stack([level.positions - origin, level.radii])[wide], "<f4"),
+        "edges": block.add((level.positions - origin)[edges], "<f4"),
+        "rims": block.add(level.rim - origin, "<f4"),
+        "obstacles": [
+            {"affordance": affordance, "label": f"{affordance} {abs(height):.2f} m"}
+            for affordance, height in zip(level.affordances, level.height.tolist(), strict=True)
+        ],
+    }
+
+
+def _agent(
+    block: _Block, agent: AgentTrace, times: np.ndarray, frames: np.ndarray, origin: np.ndarray
+) -> Mapping[str, Any]:
+    shapes = agent.figure.shapes
+    poses = agent.poses[frames]
+    return {
+        "name": agent.name,
+        "size": size_of(agent),
+        "positions": block.add(poses[..., :3].astype(np.float64) - origin, "<f4"),
+        "turns": block.add(np.rint(poses[..., 3:] * _WIDEST_QUATERNION), "<i2"),
+        "calm": block.add(calm_track(agent, times, times[frames]) - origin, "<f4"),
+        "owner": block.add(agent.figure.owner, "<u4"),
+        "place": block.add(shapes.place, "<f4"),
+        "sizes": block.add(shapes.size, "<f4"),
+        "round": block.add(shapes.round, "<u4"),
+        "colours": block.add(shapes.colour, "<f4"),
+        "paths": [_path(block, planned, origin) for planned in agent.paths],
+    }
+
+
+def _path(block: _Block, planned: PathTrace, origin: np.ndarray) -> Mapping[str, Any]:
+    return {name: block.add(getattr(planned, name) - origin, "<f4") for name in ("raw", "pulled", "smooth")}

@@ -1,0 +1,155 @@
+"""A world of `surefoot serve`, as one sees it who only watches."""
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from runtime.bodies.figure import Figure, Shapes
+from runtime.errors import RuntimeInputError
+from runtime.server.messages import PROTOCOL
+from runtime.traces.trace import LevelTrace, PathTrace
+from runtime.views.window import Moment
+
+__all__ = ["ServedWorld"]
+
+
+class ServedWorld:
+    """The world called ``name`` of the server at ``address`` (ws://…), by default the only one that is there.
+
+    ``name``: its own in the server. ``level``: what it takes place on. Raises `RuntimeInputError` where
+    there is no server, one that refuses the ``token``, or no such world.
+    """
+
+    def __init__(self, address: str, name: str | None = None, token: str = "") -> None:
+        try:
+            from websockets.exceptions import ConnectionClosed, WebSocketException
+            from websockets.sync.client import connect
+        except ImportError as error:
+            raise RuntimeInputError(f"{error}; in Surefoot's folder: pip install -e '.[serve]'") from None
+
+        self._closed, self._id = ConnectionClosed, 0
+        self._figures: dict[str, Figure] = {}
+        self._ways: dict[str, tuple[int, PathTrace]] = {}
+        self._state: Mapping[str, Any] | None = None
+        self._gone = False
+        try:
+            self._socket = connect(address, compression=None, max_size=None)
+        except (OSError, WebSocketException, ValueError) as error:
+            raise RuntimeInputError(f"{address}: cannot be reached: {error}") from None
+        try:
+            worlds = self._ask("hello", version=PROTOCOL, token=token)["worlds"]
+            self.name = _chosen(address, worlds, name)
+            joined = self._ask("join", world=self.name, states="world")
+            self._figures.update({each["name"]: _figure(each) for each in joined["agents"]})
+            mesh, graph = (self._ask(kind, level=joined["level"]) for kind in ("level", "graph"))
+        except BaseException:
+            self.close()
+            raise
+        self.level = _level(mesh, graph)
+
+    def moment(self) -> Moment | None:
+        """The newest state, once there is one; None when the world or its server is no more."""
+        try:
+            while self._state is None and not self._gone:
+                self._heed(self._hear())
+            if self._gone or self._state is None:
+                return None
+            state, self._state = self._state, None
+            return self._seen(state)
+        except self._closed:
+            return None
+
+    def close(self) -> None:
+        """Leave."""
+        self._socket.close()
+
+    def __enter__(self) -> "ServedWorld":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def _seen(self, state: Mapping[str, Any]) -> Moment:
+        agents = [each for each in state["agents"] if each["name"] in self._figures]
+        ways = {}
+        for agent in agents:
+            name, number = agent["name"], agent["way"]
+            if number is not None:
+                known = self._ways.get(name)
+                ways[name] = known if known and known[0] == number else (number, self._way(name))
+        self._ways = ways
+        poses = [np.reshape(each["transforms"], (-1, 7)) for each in agents]
+        return Moment(
+            state["time"],
+            self.level,
+            {each["name"]: self._figures[each["name"]] for each in agents},
+            np.concatenate([np.empty((0, 7)), *poses]),
+            tuple(way for _, way in ways.values()),
+        )
+
+    def _way(self, agent: str) -> PathTrace:
+        try:
+            told = self._ask("way", world=self.name, agent=agent)
+        except RuntimeInputError:  # it has gone meanwhile
+            told = {}
+        return PathTrace(*(np.reshape(told.get(line, ()), (-1, 3)) for line in ("raw", "pulled", "smooth")))
+
+    # --- messages
+    def _ask(self, kind: str, **fields: Any) -> dict[str, Any]:
+        """The result of a request. Raises `RuntimeInputError` with what the server has against it."""
+        self._id += 1
+        self._socket.send(json.dumps({"type": kind, "id": self._id, **fields}))
+        while True:
+            message = self._hear()
+            if message["type"] not in ("reply", "error"):
+                self._heed(message)
+            elif message["type"] == "error":
+                raise RuntimeInputError(f"the server refuses: {message['message']}")
+            elif message["id"] == self._id:
+                return message["result"]
+
+    def _hear(self) -> dict[str, Any]:
+        return json.loads(self._socket.recv())
+
+    def _heed(self, message: Mapping[str, Any]) -> None:
+        if message["type"] == "state":
+            self._state = message
+        elif message["type"] == "agent":
+            self._figures[message["agent"]["name"]] = _figure(message["agent"])
+        elif message["type"] == "gone":
+            self._gone |= message["agent"] is None
+            self._figures.pop(message["agent"], None)
+
+
+def _chosen(address: str, worlds: list[str], name: str | None) -> str:
+    if name is None and len(worlds) == 1:
+        return worlds[0]
+    if not worlds:
+        raise RuntimeInputError(f"{address}: there is no world yet; let a client create one")
+    if name not in worlds:
+        missing = "choose one" if name is None else f"no world {name!r}"
+        raise RuntimeInputError(f"{address}: {missing}; there are: {', '.join(worlds)} (--world)")
+    return name
+
+
+def _level(mesh: Mapping[str, Any], graph: Mapping[str, Any]) -> LevelTrace:
+    shapes = {"positions": (-1, 3), "radii": -1, "rim": (-1, 2, 3), "normal": (-1, 3), "height": -1}
+    return LevelTrace(
+        vertices=np.reshape(mesh["vertices"], (-1, 3)),
+        faces=np.reshape(mesh["faces"], (-1, 3)).astype(np.int32),
+        edges=np.reshape(graph["edges"], (-1, 2)).astype(np.int32),
+        affordances=tuple(graph["affordances"]),
+        **{name: np.reshape(np.array(graph[name], dtype=np.float64), s) for name, s in shapes.items()},
+    )
+
+
+def _figure(told: Mapping[str, Any]) -> Figure:
+    shapes = Shapes(
+        place=np.reshape(told["place"], (-1, 7)),
+        size=np.reshape(told["size"], (-1, 3)),
+        round=np.array(told["round"], dtype=bool),
+        colour=np.reshape(told["colour"], (-1, 3)),
+    )
+    return Figure(tuple(told["bodies"]), np.array(told["parents"]), np.array(told["owner"]), shapes)

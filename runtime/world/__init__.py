@@ -1,0 +1,1 @@
+"""A world: its level, its agents, and its state."""

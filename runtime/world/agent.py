@@ -1,0 +1,424 @@
+"""An agent: a body in a world that is told where to go."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from itertools import chain
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from locomotion import MOVING, Human, LocomotionError
+from locomotion import events as bodily
+from locomotion.avoidance.yielding import Course
+from locomotion.human.state import CLEARING
+from locomotion.quadruped import Animal
+from runtime.bodies.humans import HumanDriver
+from runtime.bodies.pose import Pose
+from runtime.bodies.protocol import Driver
+from runtime.bodies.quadrupeds import AnimalDriver
+from runtime.errors import RuntimeInputError
+from runtime.events import (
+    Arrived,
+    BackedOut,
+    Blocked,
+    Departed,
+    Event,
+    Fell,
+    GotUp,
+    Hindered,
+    Lost,
+    SkillFinished,
+    SkillStarted,
+    Stuck,
+)
+from runtime.planning.planning import NoWay, Plan
+from runtime.skill_words import SKILL_OF
+from runtime.traffic.deadlock import Headway
+from runtime.world.arguments import checked_number, checked_points
+
+if TYPE_CHECKING:
+    from runtime.world.world import World
+
+__all__ = ["Agent", "AgentState", "Pose"]
+
+_CARRIED_OFF = 0.5  # [m] beside its path from which a person that has got up takes another one
+_ATTEMPTS = 3  # of a person that is stuck or lost to find another way to its goals
+_TURNINGS = 6  # times that it goes back before the same obstacle, until it is stuck
+_HELPLESS = bodily.GotStuck, bodily.StrayedFromPath, bodily.MissedGoal
+
+
+@dataclass(frozen=True)
+class Errand:
+    """What an agent was told: `Agent.go_to`'s arguments. ``doubtful``: the level has changed while it could
+    not look for another way. ``attempts``: how often it was stuck or lost on its way. ``balked``: tags of the
+    obstacles before which it went back for another run-up, once for each time; ``closed``: of those that it
+    has given up."""
+
+    goals: tuple[tuple[float, float, float], ...] = ()
+    speed: float = 0.0
+    facing: float | None = None
+    doubtful: bool = False
+    attempts: int = 0
+    balked: tuple[str, ...] = ()
+    closed: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class AgentState:
+    """What `World.save` keeps of an agent."""
+
+    body: str
+    born: float
+    driver: Any
+    blocked: bool
+    goal: tuple[float, float, float]
+    errand: Errand
+    headway: Headway
+
+    def check(self, name: str) -> None:
+        """Raises `RuntimeInputError` for what no agent can have saved, as far as that shows without its
+        body."""
+        errand = self.errand
+        numbers = [self.born, *self.goal, errand.speed, errand.facing or 0.0, *chain(*errand.goals)]
+        if not np.isfinite(numbers).all():
+            raise RuntimeInputError(f"{name} has been told numbers that are not finite")
+        headway = self.headway
+        if np.isnan([headway.left, headway.since, headway.told, headway.tried]).any():
+            raise RuntimeInputError(f"{name} remembers of its way what is no number")
+        if not name or errand.attempts < 0 or (errand.goals and errand.speed <= 0.0):
+            raise RuntimeInputError(f"{name!r} has been told what nobody can do")
+
+
+class Agent:
+    """One figure in a world; made by `World.spawn`.
+
+    ``name`` is unique in its world, ``body`` is one of `runtime.bodies.protocol.BODIES`; ``news`` are its
+    body's events that the world has not been told of.
+    """
+
+    def __init__(self, world: "World", name: str, body: str, driver: Driver) -> None:
+        self.name = name
+        self.body = body
+        self.figure = driver.figure
+        self.take(driver)
+        self._world = world
+        self._blocked = False
+        self._born = world.time - driver.time
+        self._goal = _triple(driver.position)
+        self._errand = Errand()
+        self._headway = Headway()
+
+    def __repr__(self) -> str:
+        if self._body is None:
+            return f"<Agent {self.name!r}: a {self.body}, removed from its world>"
+        return f"<Agent {self.name!r}: a {self.body}, {self.status} at {self.position.round(2).tolist()}>"
+
+    @property
+    def human(self) -> Human:
+        """The simulated person. Raises `RuntimeInputError` for other bodies."""
+        if not isinstance(self._driver, HumanDriver):
+            raise RuntimeInputError(f"{self.name} is a {self.body}, not a human")
+        return self._driver.human
+
+    @property
+    def animal(self) -> Animal:
+        """The quadruped. Raises `RuntimeInputError` for other bodies."""
+        if not isinstance(self._driver, AnimalDriver):
+            raise RuntimeInputError(f"{self.name} is a {self.body}, not a quadruped")
+        return self._driver.animal
+
+    @property
+    def plans(self) -> list[Plan]:
+        """The last paths that it was given or made, the present one at the end."""
+        return list(self._driver.plans)
+
+    @property
+    def way(self) -> Plan | None:
+        """The path that it is on, None while it is not on its way."""
+        return self._driver.plans[-1] if self.moving and self._driver.plans else None
+
+    @property
+    def status(self) -> str:
+        """What it does: "standing", "walking", "running" (of a quadruped: on its way), "arrived", "lost",
+        "stuck", of a human also "jumping", "vaulting", "dropping", "leaping", "scrambling", "getting
+        up" and "fallen"; or "blocked": the last goal cannot be reached."""
+        return "blocked" if self._blocked else self._driver.status
+
+    @property
+    def moving(self) -> bool:
+        """Whether it is on its way: walking, running or clearing an obstacle."""
+        return self._driver.status in MOVING
+
+    @property
+    def position(self) -> np.ndarray:
+        """(3,) float64 [m]: of a human the point of the ground under its centre of mass, of a quadruped the
+        middle between its front feet."""
+        return self._driver.position
+
+    @property
+    def facing(self) -> float:
+        """[rad, -π to π] counter-clockwise from the X axis."""
+        return self._driver.facing
+
+    @property
+    def radius(self) -> float:
+        """[m] that the graph's queries keep free around it."""
+        return self._driver.radius
+
+    @property
+    def progress(self) -> float:
+        """Share of its path that is behind it, 0 to 1."""
+        return self._driver.progress
+
+    @property
+    def skills(self) -> Mapping[str, tuple[float, float]]:
+        """For each affordance that it can clear the least and the greatest height (of a gap: width) [m], as
+        `NodeGraph.find_path` takes them."""
+        return self._driver.skills
+
+    @property
+    def pose(self) -> Pose:
+        """Where its skeleton is, at the last tick."""
+        return Pose(self.figure.bodies, self.figure.parents, self._driver.transforms())
+
+    @property
+    def blended_pose(self) -> Pose:
+        """Where to draw its skeleton: `World.blend` of the way from the last tick but one to the last. Moves
+        evenly at any frame rate, one tick behind `pose`."""
+        transforms = self._driver.transforms_between(self._world.blend)
+        return Pose(self.figure.bodies, self.figure.parents, transforms)
+
+    def plan(self, point: ArrayLike) -> Plan:
+        """The way that `go_to` would take, not taken. Raises `runtime.planning.planning.NoWay`, and
+        `RuntimeInputError` as `go_to` does."""
+        return self._driver.plan(checked_points(point, "point"))
+
+    def go_to(self, point: ArrayLike, speed: float = 3.5, facing: float | None = None) -> str:
+        """Set out for ``point`` (3,) [m], or through several (k, 3) in order, at up to ``speed`` [m/s]; a
+        quadruped and a walker can be told the ``facing`` [rad] in which to end.
+
+        Returns the status: "walking", "running", or "blocked" when there is no way (an event says why; the
+        agent then keeps doing what it did). Raises `RuntimeInputError` for a point that is not finite
+        numbers, a speed that is not above 0, or an agent that has fallen or was removed.
+        """
+        goals, speed = checked_points(point, "point"), checked_number(speed, "speed", "m/s")
+        if speed <= 0.0:
+            raise RuntimeInputError(f"speed must be above 0 m/s, not {speed!r}")
+        facing = None if facing is None else checked_number(facing, "facing", "rad")
+        if len(goals) == 1 and not self.moving and self._world.has_come(self, goals[0]):
+            self._goal, self._blocked = _triple(goals[0]), False
+            return self.status
+        former = self._world.course(self)
+        try:
+            plan = self._driver.go_to(goals, speed, facing)
+        except NoWay as error:
+            self._report_blocked(goals[error.goal], error.reason)
+            return self.status
+        self._errand = Errand(tuple(_triple(each) for each in goals), speed, facing)
+        self._depart(plan, former)
+        return self.status
+
+    def stop(self) -> None:
+        """Give up its way and come to a stand, as soon as it can without falling; an obstacle that it is
+        clearing is cleared first. One that is not on its way stays as it is."""
+        if self.moving:
+            self._driver.stop()
+        self._errand, self._blocked = Errand(), False
+
+    def _depart(self, plan: Plan, former: Course | None = None) -> None:
+        """Report that it has taken the way of ``plan``; ``former`` is the course that it was on."""
+        self._blocked = False
+        here, goal = _triple(self.position), self._errand.goals[-1]
+        self._goal = _triple(plan.points[-1])
+        self._world.look_out(self, former)
+        now = self._world.time
+        self._headway = Headway(since=now, tried=now)
+        skills = tuple(SKILL_OF[each] for each in plan.skills)
+        self._tell(Departed(now, self.name, here, goal, plan.length, skills))
+
+    def _report_blocked(self, goal: np.ndarray, reason: str) -> None:
+        self._blocked = True
+        here = _triple(self.position)
+        self._tell(Blocked(self._world.time, self.name, here, _triple(goal), reason))
+
+    def _tell(self, event: Event) -> None:
+        self._headway = replace(self._headway, told=self._world.time)
+        self._world.report(event)
+
+    def watch(self) -> None:
+        """Say so if it is on its way and gets nowhere, and do something else after a while; `World.step`
+        calls this every half second."""
+        if not self.moving:
+            return
+        now = self._world.time
+        self._headway = self._headway.seen(self._driver.left, now)
+        if self._headway.late(now):
+            self._hindered(self._driver.hindrance)
+        if isinstance(self._driver, HumanDriver) and self._headway.desperate(now):
+            self._headway = replace(self._headway, tried=now)
+            if self._driver.can_turn and not self._tries_again():
+                self._driver.give_up()
+
+    def _hindered(self, reason: str) -> None:
+        self._tell(Hindered(self._world.time, self.name, _triple(self.position), reason))
+
+    def look_at_way(self) -> None:
+        """After a change of the level: go on where the way holds, look for another one where it does not, and
+        stop where there is none. One that is clearing an obstacle first does that."""
+        if self.status in CLEARING.values():
+            self._errand = replace(self._errand, doubtful=True)
+            return
+        self._errand = replace(self._errand, doubtful=False)
+        if not self.moving or self._driver.way_holds():
+            return
+        goals = self._goals_left
+        try:
+            status = self.go_to(goals, self._errand.speed, self._errand.facing)
+        except (RuntimeInputError, LocomotionError) as error:  # a ground that the graph does not tell of
+            self._report_blocked(goals[0], str(error))
+            status = self.status
+        if status == "blocked":
+            self._driver.stop()
+
+    @property
+    def _goals_left(self) -> np.ndarray:
+        """(k, 3) [m]: the goals that are still before it."""
+        return np.array(self._errand.goals[-self._driver.goals_left :])
+
+    def _goes_another_way(self, round_it: bool = False) -> bool:
+        """Whether a person finds another way to its goals from where it is, and takes it; ``round_it``: over
+        no obstacle, or at least not over the next one, if there is such a way."""
+        if not self._errand.goals or not isinstance(self._driver, HumanDriver):
+            return False
+        goals, speed, closed = self._goals_left, self._errand.speed, self._errand.closed
+        try:
+            if round_it:
+                plan, closed = self._driver.go_round(goals, speed, closed)
+            else:
+                plan = self._driver.go_without(goals, speed, closed)
+        except (NoWay, RuntimeInputError, LocomotionError):
+            return False
+        self._errand = replace(self._errand, closed=closed)
+        self._depart(plan)
+        return True
+
+    def _tries_again(self) -> bool:
+        """Whether one that is stuck or lost takes another way, if it can round what it has not cleared."""
+        attempts = self._errand.attempts + 1
+        self._errand = replace(self._errand, attempts=attempts)
+        return attempts <= _ATTEMPTS and self._goes_another_way(round_it=True)
+
+    def _balks(self, event: bodily.WentBack) -> None:
+        """A person goes back for another run-up: the second time it goes another way if there is one, or else
+        straight to the beginning of a run-up of its own."""
+        driver = self._driver
+        assert isinstance(driver, HumanDriver)
+        obstacle = f"the {event.affordance} of {event.size:.2f} m"
+        self._hindered(f"it goes back {event.distance:.1f} m for another run-up to {obstacle}")
+        tag = driver.tag_ahead
+        self._errand = replace(self._errand, balked=(*self._errand.balked, tag))
+        times = self._errand.balked.count(tag)
+        if times >= _TURNINGS:
+            driver.give_up(f"it has gone back {times} times and finds no run-up to {obstacle}")
+        elif times % 2 == 0:
+            self._goes_another_way(round_it=times == 2)
+
+    @property
+    def _carried_off(self) -> bool:
+        """Whether a person on its way is so far beside its path that it should not go back there."""
+        return self.moving and abs(self.human.lateral_error) > _CARRIED_OFF
+
+    def notice(self) -> None:
+        """Report what has happened to the body; `World.step` calls this after every tick in which there is
+        `news`."""
+        if isinstance(self._driver, AnimalDriver):
+            self._driver.take_note()
+        for event in self.news:
+            if isinstance(event, bodily.WentBack):
+                self._balks(event)
+                continue
+            among_others = isinstance(event, bodily.GotStuck) and event.among_others
+            if isinstance(event, _HELPLESS) and not among_others and self._tries_again():
+                continue
+            told = self._translated(event)
+            if isinstance(told, Fell | Lost):
+                self._blocked = False
+            if told is not None:
+                self._tell(told)
+            if isinstance(told, GotUp) and self._carried_off:
+                self._goes_another_way()
+        self.news.clear()
+        if self._errand.doubtful:
+            self.look_at_way()
+
+    @property
+    def driver(self) -> Driver:
+        """What moves its body. Raises `RuntimeInputError` for one that was removed from its world, as does
+        everything that asks it of its body."""
+        if self._body is None:
+            raise RuntimeInputError(f"{self.name} has been removed from its world; spawn another")
+        return self._body
+
+    _driver = driver
+
+    def take(self, driver: Driver) -> None:
+        """Go on with another body of the same kind."""
+        self._body: Driver | None = driver
+        self.news = driver.events
+
+    def leave(self) -> None:
+        """Have no body any more; `World.remove` calls this."""
+        self._body = None
+
+    def remove(self) -> None:
+        """Take it out of its world; it cannot be used any more."""
+        self._world.remove(self)
+
+    def save(self) -> AgentState:
+        """Everything needed to continue from here."""
+        return AgentState(
+            self.body, self._born, self._driver.save(), self._blocked, self._goal, self._errand, self._headway
+        )
+
+    def restore(self, state: AgentState) -> None:
+        """Continue from a state of this agent."""
+        self._driver.restore(state.driver)
+        self._born, self._blocked, self._goal = state.born, state.blocked, state.goal
+        self._errand, self._headway = state.errand, state.headway
+
+    def state_hash(self) -> str:
+        """Hexadecimal digest of everything that decides how it goes on."""
+        return self._driver.state_hash()
+
+    def _translated(self, event: bodily.Event) -> Event | None:
+        """A body's event as one of the world's, None for what the world reports on its own."""
+        base: dict[str, Any] = {
+            "time": event.time + self._born, "agent": self.name, "position": _triple(event.position)
+        }  # fmt: skip
+        if isinstance(event, bodily.Arrived):
+            return Arrived(**base, goal=self._goal)
+        if isinstance(event, bodily.Fell):
+            return Fell(**base)
+        if isinstance(event, bodily.GotUp):
+            return GotUp(**base, seconds=event.seconds)
+        if isinstance(event, bodily.TookOff):
+            return SkillStarted(**base, skill=SKILL_OF[event.affordance], height=event.height)
+        if isinstance(event, bodily.Cleared):
+            return SkillFinished(**base, skill=SKILL_OF[event.affordance], height=event.height)
+        if isinstance(event, bodily.GotStuck):
+            return Stuck(**base, reason=event.reason)
+        if isinstance(event, bodily.MissedGoal):
+            return Lost(**base, reason=f"passed the goal at a distance of {event.distance:.1f} m")
+        if isinstance(event, bodily.BackedOut):
+            return BackedOut(**base, length=event.distance)
+        if isinstance(event, bodily.LostGround):
+            return Lost(**base, reason="there is no ground under it or ahead of it any more")
+        if isinstance(event, bodily.StrayedFromPath):
+            return Lost(**base, reason=f"is {event.distance:.1f} m beside its path")
+        return None
+
+
+def _triple(point: ArrayLike) -> tuple[float, float, float]:
+    x, y, z = (float(value) for value in np.asarray(point))
+    return x, y, z

@@ -1,0 +1,413 @@
+"""A world: a level, its graph, and the agents in it, advanced in steps of 10 ms."""
+
+import hashlib
+import math
+import os
+from collections import deque
+from collections.abc import Callable, Mapping, Sequence
+from itertools import count
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+import navmesh
+from locomotion import LocomotionError, load_run_skill
+from locomotion.avoidance.yielding import Course
+from locomotion.body.person import CONTROL_DT
+from locomotion.quadruped import is_body_file, load_body
+from locomotion.rehearsal.rehearsal import REHEARSALS
+from locomotion.skills.library import described_ranges, learned_skills, skills_digest
+from runtime.bodies.humans import People
+from runtime.bodies.protocol import BODIES, Follower, Population, radius_of
+from runtime.bodies.quadrupeds import Pack
+from runtime.bodies.walkers import Walkers
+from runtime.errors import RuntimeInputError
+from runtime.events import Event
+from runtime.planning.level import Level
+from runtime.planning.rules import obstacle_rules, person_walk_rules
+from runtime.traffic.traffic import EVERY, Traffic
+from runtime.warmup import prepare_once
+from runtime.world.agent import Agent
+from runtime.world.arguments import checked_files, checked_number, checked_points, checked_whole
+from runtime.world.state import WorldState
+from surefoot.pausing import pause
+from surefoot.words import several
+
+__all__ = ["BODIES", "World", "WorldState"]
+
+_UNREAD = 100_000
+"""Events that are kept for one who does not read them; the oldest are forgotten first."""
+_LOOKS = 50  # ticks between two looks at whether an agent makes headway
+_E = TypeVar("_E", bound=Event)
+
+
+class World:
+    """A level with agents. No threads, no display, no state outside the object.
+
+    ``terrain`` is the level; or a graph that was built or loaded, whose rules should suit a person. The same
+    seed and the same calls give the same run, bit for bit.
+
+    ``skills``: files that describe skills of your own (`locomotion.skills.description`), which its people
+    have besides the package's; a graph that it builds counts what they clear among the obstacles. Raises
+    `RuntimeInputError` for one with a mistake. ``rehearsals``: how many variations of a take-off or a
+    slowing-down a person tries within one tick at most; with fewer the longest ticks are shorter, and skills
+    hold less often.
+
+    ``agents``: by name, in order of their making. ``random``: the
+    `numpy.random.Generator` for whatever chance the host needs, saved, restored and hashed with the rest.
+    """
+
+    def __init__(
+        self,
+        terrain: navmesh.Terrain | navmesh.NodeGraph,
+        seed: int = 0,
+        skills: Sequence[str | os.PathLike[str]] = (),
+        rehearsals: int = REHEARSALS,
+    ) -> None:
+        checked_whole(rehearsals, "rehearsals")
+        checked_whole(seed, "seed")
+        prepare_once()
+        self._skills = checked_files(skills, "skills")
+        own: Mapping[str, tuple[float, float]] = {}
+        if self._skills:
+            try:
+                own = described_ranges(load_run_skill(), self._skills)
+                learned_skills(load_run_skill(), self._skills)
+            except LocomotionError as error:
+                raise RuntimeInputError(str(error)) from None
+        if isinstance(terrain, navmesh.NodeGraph):
+            graph = terrain
+        elif isinstance(terrain, navmesh.Terrain):
+            graph = navmesh.NodeGraph.build(terrain, person_walk_rules(), obstacle_rules(own))
+        else:
+            raise RuntimeInputError(
+                f"a world is made of a Terrain or a NodeGraph, not of a {type(terrain).__name__}"
+            )
+        self.agents: dict[str, Agent] = {}
+        self.random = np.random.default_rng(seed)
+        self._level = Level.of(graph)
+        self._populations: list[Population] = []
+        self._traffic = Traffic(self._level, self._populations)
+        others = People(self._level, self._skills, rehearsals, seed), Pack(self._level, self._traffic)
+        self._populations += [*others, Walkers(self._level, others)]
+        self._ticks = 0
+        self._owed = 0.0
+        self._stepping = False
+        self._events: deque[Event] = deque(maxlen=_UNREAD)
+        self._untold: deque[Event] = deque()
+        self._listeners: list[tuple[type[Event], Callable[[Event], object]]] = []
+
+    def __repr__(self) -> str:
+        level, agents = Path(self.graph.terrain.name).name, several(len(self.agents), "agent")
+        return f"<World on {level}: {agents}, {self.time:.2f} s>"
+
+    @property
+    def graph(self) -> navmesh.NodeGraph:
+        """The graph of the level as it is now."""
+        return self._level.graph
+
+    @property
+    def level_digest(self) -> str:
+        """Hexadecimal digest of the level and the rules of its graph."""
+        rules = repr(sorted(self.graph.rules.to_dict().items()))
+        return hashlib.sha256(f"{self.graph.terrain.digest}{rules}".encode()).hexdigest()[:32]
+
+    @property
+    def time(self) -> float:
+        """Simulated time [s]: whole ticks of 10 ms."""
+        return self._ticks * CONTROL_DT
+
+    @property
+    def blend(self) -> float:
+        """How far between the last tick but one (0) and the last (towards 1) to draw: the share of a tick
+        that is owed."""
+        return min(self._owed / CONTROL_DT, 1.0)
+
+    @property
+    def events(self) -> list[Event]:
+        """What has happened since this was last read, in order; reading empties it. Of more than 100,000 the
+        last ones."""
+        events = list(self._events)
+        self._events.clear()
+        return events
+
+    def listen(self, callback: Callable[[_E], object], kind: type[_E] = Event) -> Callable[[], None]:
+        """Have ``callback(event)`` called for each event of type ``kind``; returns a function that ends it.
+
+        Callbacks are called by `step`, at the end of the tick, in order of the events and then of `listen`,
+        also for what happened between steps. What they cause themselves is told at the end of the next tick.
+        They may do with the world what they like, except step or restore it. An error in one comes out of
+        `step`, which can be called again.
+        """
+        if not callable(callback) or not (isinstance(kind, type) and issubclass(kind, Event)):
+            raise RuntimeInputError(
+                f"listen takes a function and a class of events, not {callback!r} and {kind!r}"
+            )
+        entry: tuple[type[Event], Callable[[Event], object]] = (kind, callback)  # type: ignore[assignment]
+        self._listeners.append(entry)
+
+        def stop() -> None:
+            self._listeners = [each for each in self._listeners if each is not entry]
+
+        return stop
+
+    def spawn(
+        self,
+        body: str,
+        at: ArrayLike,
+        facing: float = 0.0,
+        name: str | None = None,
+        radius: float | None = None,
+    ) -> Agent:
+        """Put a standing ``body`` on the walkable surface at ``at`` (3,) [m], facing ``facing`` [rad].
+
+        ``body`` is "human", "dog", "cat" or "horse", or "walker": a cheap body that slides over the surface
+        and avoids others, by the thousand; or the path of a YAML file with a quadruped of your own (see
+        `locomotion.quadruped.load_body`). A quadruped stands with its rear feet there. ``radius`` [m] is
+        for walkers only, by default a person's.
+        The place is moved to the nearest one where the body fits (see `NodeGraph.find_path`). ``name`` is
+        its own in this world; by default "human1" and so on. Raises `RuntimeInputError` for an unknown body,
+        a body file with a mistake, a taken name, a place off the walkable surface, or a quadruped without
+        room for its head.
+        """
+        if not isinstance(body, str) or not isinstance(name, str | None) or name == "":
+            raise RuntimeInputError(
+                f"body and name must be text that is not empty, not {body!r} and {name!r}"
+            )
+        if is_body_file(body):
+            try:
+                load_body(body)
+            except LocomotionError as error:
+                raise RuntimeInputError(str(error)) from None
+        elif body not in BODIES:
+            known = ", ".join(map(repr, BODIES))
+            raise RuntimeInputError(f"body {body!r}: valid: {known}, or a quadruped's .yaml file")
+        if name is None:
+            numbered = (f"{Path(body).stem}{number}" for number in count(len(self.agents) + 1))
+            name = next(each for each in numbered if each not in self.agents)
+        if name in self.agents:
+            raise RuntimeInputError(f"name {name!r} is taken; names are unique in a world")
+        place = checked_points(at, "at")
+        if len(place) != 1 or np.ndim(at) != 1:
+            raise RuntimeInputError(f"at must be one point (3,) [m], not {at!r}")
+        place, facing = place[0], checked_number(facing, "facing", "rad")
+        if radius is not None and body != "walker":
+            raise RuntimeInputError(f"a {body} has a radius of its own; only a walker can be given one")
+        if radius is not None and checked_number(radius, "radius", "m") <= 0.0:
+            raise RuntimeInputError(f"radius must be above 0 m, not {radius!r}")
+        size = radius_of(body) if radius is None else float(radius)
+        here = self.graph.find_path(place, place, radius=size)
+        if here.status != "complete":
+            raise RuntimeInputError(f"{place.tolist()} is not near a place where a {body} fits")
+        driver = self._population(body).spawn(body, here.waypoints[0], facing, size)
+        agent = self.agents[name] = Agent(self, name, body, driver)
+        return agent
+
+    def remove(self, agent: Agent) -> None:
+        """Take an agent out of the world; it cannot be used any more. Raises `RuntimeInputError` for one that
+        is not in it."""
+        if not isinstance(agent, Agent):
+            raise RuntimeInputError(f"an Agent is removed, such as world.agents['human1'], not {agent!r}")
+        if self.agents.get(agent.name) is not agent:
+            raise RuntimeInputError(f"{agent.name} is not in this world")
+        self._population(agent.body).remove(agent.driver)
+        del self.agents[agent.name]
+        agent.leave()
+
+    def change_level(self, changes: Mapping[str, navmesh.Terrain | None]) -> None:
+        """Change the level's chunks, between two ticks: by name, a `navmesh.Terrain` to be added or to
+        replace the one of that name, None to remove it; see `navmesh.NodeGraph.update`.
+
+        Nobody is moved. Who is on a way that still holds goes on; the others look for another to the same
+        goals, and stop, with `Blocked`, where there is none. Whose ground has gone: a dog stands still and a
+        walker stays where it is (both with `Lost`), a person falls. Raises `navmesh.NavmeshError` for the
+        removal of a chunk that is not there and when nothing walkable is left, `RuntimeInputError` for what
+        is no mapping; the world is then as it was.
+        """
+        if not isinstance(changes, Mapping):
+            raise RuntimeInputError(f"changes are a {type(changes).__name__}; give {{chunk's name: Terrain}}")
+        graph = self.graph.update(changes)
+        if graph is self.graph:
+            return
+        level = Level.of(graph)
+        self._level.graph, self._level.ground = level.graph, level.ground
+        for population in self._populations:
+            population.change_level()
+        for agent in self.agents.values():
+            agent.look_at_way()
+
+    def _population(self, body: str) -> Population:
+        kind = "dog" if is_body_file(body) else body
+        for population in self._populations:
+            if kind in population.bodies:
+                return population
+        raise RuntimeInputError(f"there is no body {body!r}")
+
+    def step(self, dt: float) -> int:
+        """Advance by ``dt`` [s] ≥ 0, in whole ticks of 10 ms; the rest is owed to later calls.
+
+        It can be interrupted between short pieces, see `surefoot.pausing`. Returns how many ticks were
+        made. Raises `RuntimeInputError` for a ``dt`` below 0 or not finite.
+        """
+        dt = checked_number(dt, "dt", "s", 0.0)
+        self._refuse_in_callback("step")
+        total = self._owed + dt
+        due = math.floor(total / CONTROL_DT + 1e-6)
+        self._owed = total
+        self._stepping = True
+        try:
+            for made in range(1, due + 1):
+                if made == due:
+                    for population in self._populations:
+                        population.remember()
+                if self._ticks % EVERY == 0:
+                    self._traffic.direct(self._ticks)
+                self._ticks += 1
+                self._owed = max(total - made * CONTROL_DT, 0.0)
+                for population in self._populations:
+                    population.tick()
+                    pause()
+                for agent in self.agents.values():
+                    if agent.news:
+                        agent.notice()
+                        pause()
+                for agent in list(self.agents.values())[self._ticks % _LOOKS :: _LOOKS]:
+                    agent.watch()
+                    pause()
+                self._tell()
+        finally:
+            self._stepping = False
+        return due
+
+    def has_come(self, agent: Agent, goal: np.ndarray) -> bool:
+        """Whether an agent at rest that gives way by its path is as near to ``goal`` (3,) as those who stand
+        there let it, see `locomotion.avoidance.goal_occupancy`: it has then arrived. `Agent.go_to` asks."""
+        follower = self._follower(agent)
+        there = follower is not None and agent.status != "fallen" and self._traffic.has_come(follower, goal)
+        if there and follower is not None:
+            follower.end_in(0.0)
+        return there
+
+    def course(self, agent: Agent) -> Course | None:
+        """What an agent that gives way by its path is about to do."""
+        follower = self._follower(agent)
+        return None if follower is None else follower.course()
+
+    def look_out(self, agent: Agent, former: Course | None) -> None:
+        """Let an agent that has just been told where to go, ``former`` was its `course`, give way;
+        `Agent.go_to` asks."""
+        follower = self._follower(agent)
+        if follower is not None:
+            self._traffic.look_out(follower, former)
+
+    def _follower(self, agent: Agent) -> Follower | None:
+        followers = self._population(agent.body).followers()
+        return next((each for each in followers if each is agent.driver), None)
+
+    def report(self, event: Event) -> None:
+        """Add an event to `events`, and tell who listens at the end of the tick. Raises `RuntimeInputError`
+        for what is none."""
+        if not isinstance(event, Event):
+            raise RuntimeInputError(f"an Event is reported, not {event!r}")
+        self._events.append(event)
+        if self._listeners:
+            self._untold.append(event)
+
+    def _tell(self) -> None:
+        for _ in range(len(self._untold)):
+            event = self._untold.popleft()
+            for kind, callback in tuple(self._listeners):
+                if isinstance(event, kind):
+                    callback(event)
+
+    def _refuse_in_callback(self, what: str) -> None:
+        if self._stepping:
+            raise RuntimeInputError(f"a callback may not {what} its world; do it when step has returned")
+
+    def state_hash(self) -> str:
+        """Hexadecimal digest of everything that decides how the world goes on; equal for equal runs."""
+        checksum = hashlib.sha256(repr((self._ticks, self._owed)).encode())
+        checksum.update(repr(self.random.bit_generator.state).encode())
+        for name, agent in self.agents.items():
+            checksum.update(f"{name}:{agent.state_hash()}".encode())
+            pause()
+        return checksum.hexdigest()[:32]
+
+    def save(self) -> WorldState:
+        """This moment, for `restore`."""
+        agents = {}
+        for name, agent in self.agents.items():
+            agents[name] = agent.save()
+            pause()
+        return WorldState(
+            level=self.level_digest,
+            skills=skills_digest(self._skills)
+            if any(each.body == "human" for each in self.agents.values())
+            else "",
+            ticks=self._ticks,
+            owed=self._owed,
+            events=tuple(self._events),
+            untold=tuple(self._untold),
+            random=self.random.bit_generator.state,
+            agents=agents,
+        )
+
+    def restore(self, state: WorldState) -> None:
+        """Go back to a moment that `save` gave, in this world or any other with the same level; the run then
+        goes on bit for bit as it did. Agents are made and removed as needed; those that were there by the
+        same name and body stay the same objects.
+
+        Raises `RuntimeInputError` when the level or the release is another, or from within a callback; the
+        world is then as it was.
+        """
+        self._refuse_in_callback("restore")
+        if not isinstance(state, WorldState):
+            raise RuntimeInputError(f"a world is restored from what save gave, not from {state!r}")
+        if state.level != self.level_digest:
+            raise RuntimeInputError(
+                f"the state is of the level {state.level[:12]}…, this world's is {self.level_digest[:12]}…; "
+                "restore it in a world of the same mesh and walk rules"
+            )
+        own = skills_digest(self._skills)
+        if state.skills not in ("", own):
+            raise RuntimeInputError(
+                f"the state is of people with other skills ({state.skills}) than these ({own}), "
+                "who would go on in another way; restore it with the learned skills that it was saved with"
+            )
+        before, agents = self.save(), dict(self.agents)
+        try:
+            state.check()
+            self._become(state, agents)
+        except (
+            ValueError, TypeError, IndexError, KeyError, AttributeError, OverflowError, ArithmeticError,
+        ) as error:  # fmt: skip
+            self._become(before, agents)
+            raise RuntimeInputError(f"the state does not fit this release: {error}") from error
+
+    def _become(self, state: WorldState, known: Mapping[str, Agent]) -> None:
+        """Go to ``state``; those of its agents that are ``known`` by name and body are the same objects."""
+        here = [(name, agent.body) for name, agent in self.agents.items()]
+        if here != [(name, saved.body) for name, saved in state.agents.items()]:
+            self._populate(state, known)
+        for name, saved in state.agents.items():
+            self.agents[name].restore(saved)
+            pause()
+        self.random.bit_generator.state = dict(state.random)
+        self._ticks, self._owed = state.ticks, state.owed
+        self._events, self._untold = deque(state.events, maxlen=_UNREAD), deque(state.untold)
+
+    def _populate(self, state: WorldState, known: Mapping[str, Agent]) -> None:
+        """Make the agents those of ``state``, in their order."""
+        for agent in tuple(self.agents.values()):
+            self.remove(agent)
+        for name, saved in state.agents.items():
+            driver = self._population(saved.body).revive(saved.body, saved.driver)
+            agent = known.get(name)
+            if agent is not None and agent.body == saved.body:
+                agent.take(driver)
+            else:
+                agent = Agent(self, name, saved.body, driver)
+            self.agents[name] = agent
+            pause()

@@ -1,0 +1,55 @@
+"""Files that appear whole or not at all."""
+
+import glob
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from surefoot.files.inputs import refuse_input
+
+__all__ = ["whole_file"]
+
+
+@contextmanager
+def whole_file(path: str | os.PathLike[str]) -> Iterator[Path]:
+    """A file beside ``path`` to write to: takes its place when the block ends well, vanishes otherwise.
+
+    Its name begins with a dot and says which process writes it. What a process that was killed has left there
+    is swept up by the next one that writes to ``path``. Raises `SurefootError` if ``path`` is an input of
+    this command.
+    """
+    target = Path(path)
+    refuse_input(target)
+    own = f".{target.name}."
+    for left in target.parent.glob(f"{glob.escape(own)}*.part{glob.escape(target.suffix)}"):
+        if _has_ended(left.name.removeprefix(own).partition(".")[0]):
+            left.unlink(missing_ok=True)
+    handle, name = tempfile.mkstemp(
+        dir=target.parent, prefix=f"{own}{os.getpid()}.", suffix=f".part{target.suffix}"
+    )
+    os.close(handle)
+    temporary = Path(name)
+    try:
+        yield temporary
+        umask = os.umask(0)
+        os.umask(umask)
+        temporary.chmod(0o666 & ~umask)
+        with temporary.open("rb") as written:
+            os.fsync(written.fileno())
+        temporary.replace(target)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def _has_ended(process: str) -> bool:
+    if not process.isdecimal() or os.name != "posix":
+        return False
+    try:
+        os.kill(int(process), 0)
+    except (ProcessLookupError, OverflowError):
+        return True
+    except PermissionError:
+        pass
+    return False

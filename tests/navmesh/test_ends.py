@@ -12,7 +12,7 @@ from benchmarks.visibility import Boxes, boxes_level, gaps_to_boxes, random_boxe
 from navmesh import NodeGraph, Terrain, WalkRules
 
 FIELD_ERROR = 0.03
-"""[m] by which the clearance field may read too wide, see docs/navmesh.md."""
+"""[m] by which the clearance field may read too wide, see docs/how-it-works/navmesh.md."""
 
 
 def platform(rng: np.random.Generator) -> tuple[NodeGraph, np.ndarray, float]:

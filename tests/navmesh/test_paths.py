@@ -27,7 +27,8 @@ from navmesh.structs import make_scratch, net_of
 
 RADII = st.sampled_from([0.15, 0.3, 0.6, 0.9])
 FIELD_ERROR = 0.002
-"""[m] by which the clearance field may read too wide, see docs/navmesh.md. It never reads too narrow."""
+"""[m] by which the clearance field may read too wide, see docs/how-it-works/navmesh.md. It
+never reads too narrow."""
 SEEDS = st.integers(0, 10_000)
 
 

@@ -2,7 +2,7 @@
 
     python -m runtime.server.messages docs/reference/server.schema.json
 
-writes the JSON schema of all of them
+writes the JSON schema of all of them.
 
 Metres, seconds, radians; Z up; quaternions (w, x, y, z). A client sends requests, each with an ``id`` of its
 choice that the reply repeats, `Hello` first. Replies, errors and events carry ``seq``, which counts up by 1

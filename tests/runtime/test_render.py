@@ -13,6 +13,7 @@ from runtime.filmstrip import write_filmstrip
 from runtime.plot import plot_from_above
 from runtime.ray_kernel import cast_faces
 from runtime.render import Camera, Triangles, render
+from runtime.shape_kernel import cast_shapes, in_shadow
 
 FLOOR = Triangles(
     np.array([[-20.0, -20, 0], [20, -20, 0], [20, 20, 0], [-20, 20, 0]]), np.array([[0, 1, 2], [0, 2, 3]])
@@ -120,7 +121,8 @@ def test_film_strip_and_plot_are_pictures(trace, tmp_path):
     for name in ("film.png", "level.png"):
         image = matplotlib.image.imread(tmp_path / name)
         assert image.shape[0] > 300 and image.shape[1] > 600
-        assert np.unique(image.reshape(-1, image.shape[2]), axis=0).shape[0] > 100
+        colours = (image[..., :3] * 255.0).round().astype(int) @ [65536, 256, 1]
+        assert len(np.unique(colours)) > 100
     assert sorted(each.name for each in tmp_path.iterdir()) == ["film.png", "level.png"]
 
 
@@ -155,3 +157,69 @@ def test_rays_meet_the_same_faces_as_without_windows(seed):
     assert (face >= 0).mean() > 0.01
     np.testing.assert_array_equal(face, expected_face)
     np.testing.assert_allclose(distance, expected, rtol=1e-9)
+
+
+def first_hit(start, rays, shapes, k):
+    """Distance along each of ``rays`` (..., 3) to shape k (inf: missed), outward normal (..., 3) there."""
+    back = shapes.place[k, 3:] * np.array([1.0, -1.0, -1.0, -1.0])
+    size = shapes.size[k]
+    eye, direction = rotate(back, start - shapes.place[k, :3]), rotate(back, rays)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        if shapes.round[k]:
+            distance = to_sphere(eye / size, direction / size, 1.0)
+            outward = (eye + distance[..., None] * direction) / size**2
+        else:
+            a, b = (
+                np.sum(direction[..., :2] ** 2, axis=-1),
+                np.sum(direction[..., :2] * eye[..., :2], axis=-1),
+            )
+            side = (-b - np.sqrt(b * b - a * (np.sum(eye[..., :2] ** 2, axis=-1) - size[0] ** 2))) / a
+            height = eye[..., 2] + side * direction[..., 2]
+            distance = np.where((side > 0.0) & (np.abs(height) < size[1]), side, np.inf)
+            for end in (-size[1], size[1]):
+                distance = np.minimum(distance, to_sphere(eye - [0.0, 0.0, end], direction, size[0]))
+            outward = eye + distance[..., None] * direction
+            outward[..., 2] -= np.clip(outward[..., 2], -size[1], size[1])
+        outward /= np.linalg.norm(outward, axis=-1, keepdims=True)
+        return distance, rotate(shapes.place[k, 3:], outward)
+
+
+def to_sphere(eye, rays, radius):
+    """First positive distance to a sphere about the origin, in units of the rays' length."""
+    a, b = np.sum(rays * rays, axis=-1), np.sum(rays * eye, axis=-1)
+    near = (-b - np.sqrt(b * b - a * (np.sum(eye * eye, axis=-1) - radius**2))) / a
+    return np.where(near > 0.0, near, np.inf)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_rays_meet_the_same_shapes_and_shadows_as_by_the_formulas(seed):
+    random = np.random.default_rng(seed)
+    quaternions = random.normal(size=(12, 4))
+    quaternions /= np.linalg.norm(quaternions, axis=1, keepdims=True)
+    place = np.hstack([random.normal(size=(12, 3)), quaternions])
+    shapes = Shapes(place, random.uniform(0.05, 0.6, (12, 3)), random.random(12) < 0.5, np.ones((12, 3)))
+    camera = Camera(random.normal(size=3) * random.choice([1.0, 4.0]), random.normal(size=3) * 0.3, 0.9)
+    rays = camera.rays(90, 60)
+    distance, normal = np.full((60, 90), 5.0), np.zeros((60, 90, 3))
+    everywhere = np.tile([0, 60, 0, 90], (12, 1))
+    found = cast_shapes(
+        camera.eye, rays, everywhere, shapes.place, shapes.size, shapes.round, distance, normal
+    )
+    hits = [first_hit(camera.eye, rays, shapes, k) for k in range(12)]
+    distances = np.stack([np.full((60, 90), 5.0), *(each[0] for each in hits)])
+    expected = np.argmin(distances, axis=0) - 1
+    seen = expected >= 0
+    assert seen.mean() > 0.01
+    np.testing.assert_array_equal(found, expected)
+    np.testing.assert_allclose(distance, distances.min(axis=0), rtol=1e-9)
+    rows, columns = np.nonzero(seen)
+    np.testing.assert_allclose(
+        normal[seen], np.stack([each[1] for each in hits])[expected[seen], rows, columns], atol=1e-7
+    )
+
+    points, sun = random.normal(size=(4000, 3)) * 2.0, random.normal(size=3)
+    sun /= np.linalg.norm(sun)
+    towards = np.broadcast_to(sun, points.shape)
+    between = np.any([np.isfinite(first_hit(points, towards, shapes, k)[0]) for k in range(12)], axis=0)
+    assert 0.05 < between.mean() < 0.95
+    np.testing.assert_array_equal(in_shadow(points, sun, shapes.place, shapes.size, shapes.round), between)

@@ -87,9 +87,9 @@ class Problem:
     ) -> Problem:
         """Subdivide a pulled path and assign its waypoints to the discs of its corridor.
 
-        waypoints: (k, 2) or (k, 3) [m], k >= 2, the pulled path. Only x and y are smoothed, z is carried along.
-        centers, radii: (m, 2) or (m, 3) [m], (m,) [m] >= 0, the discs in the order of the path, already shrunk
-            by the body's radius. There are increasing arc lengths between which the path lies in disc j, so
+        waypoints: (k, 2) or (k, 3) [m], k >= 2, the pulled path. Only x and y are smoothed, z is carried on.
+        centers, radii: (m, 2) or (m, 3) [m], (m,) [m] >= 0, the discs in the order of the path, shrunk by
+            the body's radius. There are increasing arc lengths between which the path lies in disc j, so
             consecutive discs overlap on the path. Missing it by up to 1e-9 m counts as rounding.
         spacing: [m] > 0, greatest distance between waypoints. Short paths get at least four segments.
         start_tangent, end_tangent: (2,) or (3,), directions of travel at the two ends, of any length; the

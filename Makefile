@@ -1,11 +1,12 @@
 # make demo    bakes a level, runs a mission on it, leaves trace, plot, film strip and page in out/
 # make test    the tests, in two processes
-# make check   what the continuous integration runs: linter, format, types, tests
+# make check   what the continuous integration runs: linter, format, types, docs, tests
+# make docs    the documentation as a site, in out/docs
 PYTHON ?= python3
 VENV := .venv
 OUT := out
 
-.PHONY: demo test check clean
+.PHONY: demo test check docs clean
 export PYTHON
 
 demo: $(VENV)/.installed
@@ -21,6 +22,10 @@ test: $(VENV)/.installed-dev
 
 check:
 	bash .ci/run
+
+docs: $(VENV)/.installed-dev
+	$(VENV)/bin/python -m sphinx -q -W --keep-going docs $(OUT)/docs
+	@echo "== open $(OUT)/docs/index.html"
 
 $(VENV)/.installed: pyproject.toml
 	@sh scripts/environment.sh $(VENV)

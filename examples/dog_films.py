@@ -1,4 +1,4 @@
-"""Makes the film strips of ``docs/dogs.md``: each motion in six moments, from the side and from above.
+"""Makes the film strips of ``docs/guides/dogs.md``: each motion in six moments, from the side and from above.
 
 python examples/dog_films.py [folder] [name ...]
 """

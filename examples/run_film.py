@@ -1,4 +1,5 @@
-"""Makes the picture of ``docs/running.md``: the person runs at three speeds, eight moments of two steps each.
+"""Makes the picture of ``docs/how-it-works/running.md``: the person runs at three speeds,
+eight moments of two steps each.
 
 python examples/run_film.py [file]
 """

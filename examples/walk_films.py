@@ -1,4 +1,5 @@
-"""Makes the pictures of ``docs/walking.md``, eight moments each: a person walks over rolling ground, fast on
+"""Makes the pictures of ``docs/how-it-works/walking.md``, eight moments each: a person walks
+over rolling ground, fast on
 level ground, round a circle of 0.5 m of radius, goes up steps of 0.17 m and down steps of 0.15 m.
 
     python examples/walk_films.py [folder]

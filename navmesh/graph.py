@@ -115,7 +115,8 @@ class NodeGraph:
         one of that name, None to remove it. This graph stays as it is.
 
         Bit for bit what `build` gives for the changed terrain with this graph's `extent`. Only the
-        neighbourhood of the chunks is looked at again, see docs/navmesh.md; where they reach beyond the
+        neighbourhood of the chunks is looked at again, see
+        docs/how-it-works/navmesh.md; where they reach beyond the
         extent,
         or this graph was loaded and not yet updated, the whole is built anew. Raises `NavmeshError` for the
         removal of a chunk that is not there, when nothing walkable is left, and for tags that fit no more.

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from navmesh.errors import NavmeshError
-from surefoot.errors import SurefootError
 from navmesh.free_length import REACH, cells_of, room
 from navmesh.obstacle_rules import AFFORDANCES
 from navmesh.obstacles import Obstacles
 from navmesh.rules import WalkRules
 from navmesh.surface import Surface
 from navmesh.tags import Addition, NewValues, Reference, Tags
+from surefoot.errors import SurefootError
 from surefoot.files.yamlfile import Located, read_yaml
 
 __all__ = ["TagFile", "load_tags"]

@@ -127,7 +127,7 @@ class Terrain:
     def load(
         cls, path: str | os.PathLike[str], *, up: str | None = None, scale: float | None = None
     ) -> "Terrain":
-        """Read a mesh file: OBJ, PLY, STL, OFF, glTF, FBX or USD (docs/meshes.md).
+        """Read a mesh file: OBJ, PLY, STL, OFF, glTF, FBX or USD (docs/guides/meshes.md).
 
         Scenes are flattened: every instance with its transform. ``up`` and ``scale`` as in `from_arrays`; by
         default what the file or its format says, which is y and metres for glTF, and z and 1 where neither

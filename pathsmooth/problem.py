@@ -87,16 +87,15 @@ class Problem:
     ) -> Problem:
         """Subdivide a pulled path and assign its waypoints to the discs of its corridor.
 
-        waypoints      (k, 2) or (k, 3) [m], k >= 2: the pulled path. Only x and y are smoothed, z is carried
-        along. centers        (m, 2) or (m, 3) [m], radii (m,) [m] >= 0: discs in the order of the path,
-                       already shrunk by the body's radius; there are increasing arc lengths between which the
-                       path lies in disc j, so consecutive discs overlap on the path. Missing it by up to 1e-9
-                       m is taken for rounding.
-        spacing        [m] > 0: greatest distance between waypoints. Short paths get at least four segments.
-        start_tangent, end_tangent  (2,) or (3,): directions of travel at the two ends, of any length; the
-                       horizontal part is kept exactly.
-        max_curvature  [1/m] > 0: bound on the curvature of the result.
-        smoothness     λ [m³] > 0: larger is smoother and farther from the pulled path.
+        waypoints: (k, 2) or (k, 3) [m], k >= 2, the pulled path. Only x and y are smoothed, z is carried on.
+        centers, radii: (m, 2) or (m, 3) [m], (m,) [m] >= 0, the discs in the order of the path, shrunk by
+            the body's radius. There are increasing arc lengths between which the path lies in disc j, so
+            consecutive discs overlap on the path. Missing it by up to 1e-9 m counts as rounding.
+        spacing: [m] > 0, greatest distance between waypoints. Short paths get at least four segments.
+        start_tangent, end_tangent: (2,) or (3,), directions of travel at the two ends, of any length; the
+            horizontal part is kept exactly.
+        max_curvature: [1/m] > 0, bound on the curvature of the result.
+        smoothness: λ [m³] > 0; larger is smoother and farther from the pulled path.
 
         Raises PathSmoothError for wrong shapes, values that are not finite, and discs that do not cover the
         path.

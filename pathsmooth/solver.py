@@ -27,12 +27,13 @@ def solve(
     """Smooth a path: Chambolle and Pock's primal-dual algorithm with a pentadiagonal solve in the primal
     step.
 
-    iterations  greatest number of iterations, >= 0: the budget of a frame. None: until the tolerance is
-    reached. tolerance   >= 0: stop where the objective is proven to be at most this fraction above the
-                optimum. 0 uses up the iterations.
-    warm        an earlier solution of this problem or of one like it, such as before the path was replanned;
-                with or without a bound on curvature. Under a bound it saves a tenth of the iterations only,
-                because each round of spreading the waypoints anew changes the problem.
+    iterations: greatest number of iterations, >= 0: the budget of a frame. None: until the tolerance is
+        reached.
+    tolerance: >= 0; stop where the objective is proven to be at most this fraction above the optimum. 0 uses
+        up the iterations.
+    warm: an earlier solution of this problem or of one like it, such as before the path was replanned; with
+        or without a bound on curvature. Under a bound it saves only a tenth of the iterations, because each
+        round of spreading the waypoints anew changes the problem.
 
     Raises PathSmoothError for a negative limit or tolerance.
     """

@@ -65,15 +65,6 @@ __all__ = [
 _MODULES = (
     "errors", "events", "world.agent", "bodies.pose", "world.world", "world.state", "views.live", "warmup",
 )  # fmt: skip
-    "errors",
-    "events",
-    "world.agent",
-    "bodies.pose",
-    "world.world",
-    "world.state",
-    "views.live",
-    "warmup",
-)
 
 
 def __getattr__(name: str) -> Any:

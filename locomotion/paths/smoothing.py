@@ -30,8 +30,7 @@ class Smoothing:
 
     Attributes:
         curvatures: [1/m] bounds to try in turn, widest first, until one is not reached in a few
-        milliseconds; a leg on which none
-            is reached is smoothed without.
+            milliseconds; a leg on which none is reached is smoothed without.
         spacing: [m] between waypoints, at most.
         roundness: [m^3] smoothness of the path; corners are rounded over about its cube root.
         run_up, landing: [m] straight before an obstacle's edge and behind it, where there is room; no more

@@ -279,13 +279,16 @@ def plan_approach(
     """Speeds of the remaining steps of a run-up (equation 15, in closed form; with bounds, an active set).
 
     distance: from the stance foot to the obstacle's edge, along the run-up [m].
-    speed: present speed [m/s], >= 0. entry: wanted speed of the last step, v_in [m/s], > 0.
+    speed: present speed [m/s], >= 0.
+    entry: wanted speed of the last step, v_in [m/s], > 0.
     takeoff: wanted distance from the last stance foot to the edge, u_h [m].
     step_length: (a, b) of the step length a v + b: a [s] >= 0, b [m]; the default is the paper's character.
     bounds: lowest and highest planned speed [m/s]; must hold `entry`. None: unbounded.
-    error_weight: w_u [1/m²], >= 0. change_weights: w_i [s²/m²], > 0: one for all changes of speed, or
-        several counted from the last step backwards, the last given serving all earlier steps.
+    error_weight: w_u [1/m²], >= 0.
+    change_weights: w_i [s²/m²], > 0: one for all changes of speed, or several counted from the last step
+        backwards; the last one given serves all earlier steps.
     steps: number of steps; None: the best of the numbers that the distance suggests (0 to 512).
+
     Raises LocomotionError for values out of these ranges.
     """
     gap, a, b, low, high, tail = _check(

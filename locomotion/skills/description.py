@@ -1,5 +1,5 @@
 """Skills that are described by a file: a jump over obstacles of a kind, by a clip, the sizes to learn, an
-objective and what was learned. How to make one is in docs/own-skills.md.
+objective and what was learned. How to make one is in docs/guides/own-skills.md.
 
     skill = load_described("leap.yaml", load_run_skill())
     human = Human(ground, clearing=[*learned_skills(run), skill])

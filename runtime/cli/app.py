@@ -73,7 +73,7 @@ SkillArgument = typer.Argument(
     metavar=f"[{'|'.join(Skill)}|FILE.yaml]", parser=_skill, callback=_input,
     help="A skill of the package, or the file that describes one of your own.",
 )  # fmt: skip
-MESH_HELP = "Mesh file: OBJ, PLY, STL, OFF, glTF (.gltf, .glb), FBX or USD (docs/meshes.md)."
+MESH_HELP = "Mesh file: OBJ, PLY, STL, OFF, glTF (.gltf, .glb), FBX or USD (docs/guides/meshes.md)."
 TraceArgument = Annotated[
     Path, typer.Argument(callback=_input, help="Trace (.npz), or a mission (.yaml) to be run first.")
 ]

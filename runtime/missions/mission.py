@@ -1,4 +1,6 @@
-"""Mission files: a level, agents with what they do, what is expected of them. See ``docs/missions.md``.
+"""Mission files: a level, agents with what they do, what is expected of them.
+
+See ``docs/guides/missions.md``.
 
 ```yaml
 level: {file: ../levels/courtyard.obj, up: z, scale: 1.0}

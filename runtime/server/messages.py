@@ -1,6 +1,8 @@
 """What clients and server say to each other: one JSON object for each WebSocket text message.
 
-    python -m runtime.server.messages docs/server.schema.json     writes the JSON schema of all of them
+    python -m runtime.server.messages docs/reference/server.schema.json
+
+writes the JSON schema of all of them.
 
 Metres, seconds, radians; Z up; quaternions (w, x, y, z). A client sends requests, each with an ``id`` of its
 choice that the reply repeats, `Hello` first. Replies, errors and events carry ``seq``, which counts up by 1
@@ -222,7 +224,7 @@ class _Ordered(_Message):
 
 
 class Reply(_Ordered):
-    """What a request led to; which fields ``result`` has is in docs/embedding.md."""
+    """What a request led to; which fields ``result`` has is in docs/guides/server.md."""
 
     type: Literal["reply"]
     id: int

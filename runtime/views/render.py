@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from runtime.bodies.figure import Shapes, rotate
+from runtime.bodies.figure import Shapes
 from runtime.views.ray_kernel import cast_faces
+from runtime.views.shape_kernel import cast_shapes, in_shadow
 
 __all__ = ["Camera", "Triangles", "render"]
 
@@ -76,8 +77,7 @@ def render(
     frame = _Frame(camera, width, height, rays)
     _draw_level(frame, triangles, reach, cutaway)
     for shapes in figures:
-        for k in range(len(shapes.size)):
-            _draw_shape(frame, shapes, k)
+        _draw_shapes(frame, shapes)
     image = _shade(frame, figures, reach)
     small = image.reshape(size[1], 2, size[0], 2, 3).mean(axis=(1, 3))
     return (np.clip(small, 0.0, 1.0) * 255.0 + 0.5).astype(np.uint8)
@@ -94,30 +94,21 @@ class _Frame:
         self.axes = np.stack(camera.axes())
         self.scale = height / (2.0 * np.tan(camera.fov / 2.0))
 
-    def window(self, points: np.ndarray, margin: float) -> tuple[slice, slice] | None:
-        """Rows and columns that ``points`` (n, 3), widened by ``margin`` [m], may cover; None when unseen."""
-        local = (points - self.camera.eye) @ self.axes.T
-        depth = local[:, 0]
-        if np.all(depth < -margin):
-            return None
-        if np.any(depth < margin + 0.05):
-            return slice(0, self.height), slice(0, self.width)
-        spread = margin / (depth - margin) * 1.5
-        across = local[:, 1] / depth * self.scale + self.width / 2.0
-        down = self.height / 2.0 - local[:, 2] / depth * self.scale
-        spread = spread * self.scale + 1.0
-        top, bottom = int(max(np.min(down - spread), 0)), int(min(np.max(down + spread) + 1, self.height))
-        left, right = int(max(np.min(across - spread), 0)), int(min(np.max(across + spread) + 1, self.width))
-        return None if top >= bottom or left >= right else (slice(top, bottom), slice(left, right))
-
-    def put(
-        self, window: tuple[slice, slice], distance: np.ndarray, normal: np.ndarray, colour: np.ndarray
-    ) -> None:
-        """Keep the surface at ``distance`` wherever it is nearer than what is there (inf: not hit)."""
-        nearer = distance < self.distance[window]
-        self.distance[window][nearer] = distance[nearer]
-        self.normal[window][nearer] = normal[nearer] if normal.ndim == 3 else normal
-        self.colour[window][nearer] = colour
+    def window(self, middle: np.ndarray, radius: float) -> tuple[int, int, int, int]:
+        """First and last row, first and last column that a ball may cover, the last ones exclusive; all 0 if
+        it is behind the camera."""
+        depth, across, up = self.axes @ (middle - self.camera.eye)
+        if depth < -radius:
+            return 0, 0, 0, 0
+        if depth < radius + 0.05:
+            return 0, self.height, 0, self.width
+        spread = radius / (depth - radius) * 1.5 * self.scale + 1.0
+        across = across / depth * self.scale + self.width / 2.0
+        down = self.height / 2.0 - up / depth * self.scale
+        return (
+            int(max(down - spread, 0)), int(min(down + spread + 1, self.height)),
+            int(max(across - spread, 0)), int(min(across + spread + 1, self.width)),
+        )  # fmt: skip
 
 
 def _draw_level(frame: _Frame, triangles: Triangles, reach: float, cutaway: float) -> None:
@@ -137,52 +128,14 @@ def _draw_level(frame: _Frame, triangles: Triangles, reach: float, cutaway: floa
     frame.colour[hit] = np.where(level[face[hit], None], FLOOR, WALL)
 
 
-def _draw_shape(frame: _Frame, shapes: Shapes, k: int) -> None:
-    place, size = shapes.place[k], shapes.size[k]
-    window = frame.window(place[None, :3], float(np.max(size) if shapes.round[k] else size[0] + size[1]))
-    if window is not None:
-        distance, normal = _cast_shape(frame.camera.eye, frame.rays[window], shapes, k)
-        frame.put(window, distance, normal, shapes.colour[k])
-
-
-def _cast_shape(start: np.ndarray, rays: np.ndarray, shapes: Shapes, k: int) -> tuple[np.ndarray, np.ndarray]:
-    """Distance along each of ``rays`` (..., 3) to shape k (inf: missed), outward normal (..., 3) there."""
-    back = shapes.place[k, 3:] * np.array([1.0, -1.0, -1.0, -1.0])
-    size = shapes.size[k]
-    eye, direction = rotate(back, start - shapes.place[k, :3]), rotate(back, rays)
-    if shapes.round[k]:
-        distance = _cast_sphere(eye / size, direction / size, 1.0)
-        outward = (eye + np.where(np.isfinite(distance), distance, 0.0)[..., None] * direction) / size**2
-    else:
-        distance = _cast_tube(eye, direction, size[0], size[1])
-        outward = eye + np.where(np.isfinite(distance), distance, 0.0)[..., None] * direction
-        outward[..., 2] -= np.clip(outward[..., 2], -size[1], size[1])
-    outward /= np.maximum(np.linalg.norm(outward, axis=-1, keepdims=True), 1e-12)
-    return distance, rotate(shapes.place[k, 3:], outward)
-
-
-def _cast_sphere(eye: np.ndarray, rays: np.ndarray, radius: float) -> np.ndarray:
-    """First positive distance to a sphere about the origin, in units of the rays' length."""
-    a = np.sum(rays * rays, axis=-1)
-    b = np.sum(rays * eye, axis=-1)
-    c = np.sum(eye * eye, axis=-1) - radius**2
-    with np.errstate(invalid="ignore"):
-        near = (-b - np.sqrt(b * b - a * c)) / a
-    return np.where(near > 0.0, near, np.inf)
-
-
-def _cast_tube(eye: np.ndarray, rays: np.ndarray, radius: float, half: float) -> np.ndarray:
-    """First positive distance to a capsule about the z axis, from -half to half."""
-    a = rays[..., 0] ** 2 + rays[..., 1] ** 2
-    b = rays[..., 0] * eye[..., 0] + rays[..., 1] * eye[..., 1]
-    c = eye[..., 0] ** 2 + eye[..., 1] ** 2 - radius**2
-    with np.errstate(divide="ignore", invalid="ignore"):
-        side = (-b - np.sqrt(b * b - a * c)) / a
-        height = eye[..., 2] + side * rays[..., 2]
-        best = np.where((side > 0.0) & (np.abs(height) < half), side, np.inf)
-    for end in (-half, half):
-        best = np.minimum(best, _cast_sphere(eye - np.array([0.0, 0.0, end]), rays, radius))
-    return best
+def _draw_shapes(frame: _Frame, shapes: Shapes) -> None:
+    reach = np.where(shapes.round, shapes.size.max(axis=1), shapes.size[:, 0] + shapes.size[:, 1])
+    windows = [frame.window(at, float(r)) for at, r in zip(shapes.place[:, :3], reach, strict=True)]
+    hit = cast_shapes(
+        frame.camera.eye, frame.rays, np.array(windows, np.int64).reshape(-1, 4),
+        shapes.place, shapes.size, shapes.round, frame.distance, frame.normal,
+    )  # fmt: skip
+    frame.colour[hit >= 0] = shapes.colour[hit[hit >= 0]]
 
 
 def _shade(frame: _Frame, figures: list[Shapes], reach: float) -> np.ndarray:
@@ -211,10 +164,6 @@ def _sunlit(point: np.ndarray, normal: np.ndarray, hit: np.ndarray, figures: lis
         aside = np.sum(offset * offset, axis=-1) - to_sun**2
         near = hit & (aside < size**2) & (to_sun < size)
         start = point[near] + 0.01 * normal[near]
-        rays = np.broadcast_to(SUN, start.shape)
-        seen = np.ones(len(start))
-        for k in range(len(shapes.size)):
-            distance, _ = _cast_shape(start, rays, shapes, k)
-            seen[np.isfinite(distance)] = 0.0
-        free[near] = np.minimum(free[near], seen)
+        shaded = in_shadow(start, SUN, shapes.place, shapes.size, shapes.round)
+        free[near] = np.where(shaded, 0.0, free[near])
     return free

@@ -137,11 +137,14 @@ def _playtest() -> None:
 
 
 def _draw() -> None:
+    from runtime.bodies.figure import Shapes
     from runtime.views.render import Camera, Triangles, render
 
     terrain = tiny_level()
+    place, size = np.array([[6.0, 4.0, 0.0, 1.0, 0.0, 0.0, 0.0]]), np.full((1, 3), 0.5)
+    ball = Shapes(place, size, np.array([True]), np.ones((1, 3)))
     camera = Camera(np.array([0.0, 0.0, 8.0]), np.array([6.0, 4.0, 0.0]))
-    render(Triangles(terrain.vertices, terrain.faces), [], camera, (8, 6))
+    render(Triangles(terrain.vertices, terrain.faces), [ball], camera, (8, 6))
 
 
 FIRST_USES: dict[str, Callable[[], None]] = {

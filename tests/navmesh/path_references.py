@@ -4,9 +4,9 @@ import heapq
 import math
 
 import numpy as np
-from shapes import box, join, plane
 
 from navmesh import NodeGraph, Terrain, WalkRules
+from tests.navmesh.shapes import box, join, plane
 
 __all__ = [
     "build",

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from shapes import box, join, plane, quad, terrain
 
 from benchmarks.mesh_truth import MeshTruth
 from benchmarks.navmesh_build import lost_connections, uncovered_cells
 from benchmarks.shared_data import LEVELS, level_path, shared_folder, why_absent
 from navmesh import NodeGraph, Terrain, WalkRules
+from tests.navmesh.shapes import box, join, plane, quad, terrain
 
 RULES = WalkRules(max_step=0.4, headroom=2.0, resolution=0.25)
 

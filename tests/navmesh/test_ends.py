@@ -4,15 +4,15 @@ import math
 
 import numpy as np
 import pytest
-from path_references import build, turned
 from scipy.ndimage import label
-from shapes import box, join, plane
 
 from benchmarks.visibility import Boxes, boxes_level, gaps_to_boxes, random_boxes
 from navmesh import NodeGraph, Terrain, WalkRules
+from tests.navmesh.path_references import build, turned
+from tests.navmesh.shapes import box, join, plane
 
 FIELD_ERROR = 0.03
-"""[m] by which the clearance field may read too wide, see docs/navmesh.md."""
+"""[m] by which the clearance field may read too wide, see docs/how-it-works/navmesh.md."""
 
 
 def platform(rng: np.random.Generator) -> tuple[NodeGraph, np.ndarray, float]:

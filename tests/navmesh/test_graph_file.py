@@ -4,11 +4,11 @@ import json
 
 import numpy as np
 import pytest
-from shapes import box, plane, terrain
 
 from navmesh import NavmeshError, NodeGraph, Terrain, WalkRules
 from navmesh.graph_file import GRAPH_FILE
 from surefoot.files import archive
+from tests.navmesh.shapes import box, plane, terrain
 
 LEVEL = (plane(0, 6, 0, 6), box(2, 3, 2, 3, 0, 2))
 

@@ -3,10 +3,10 @@ grid."""
 
 import numpy as np
 import pytest
-from shapes import join, plane
 
 from benchmarks.narrow_doors import door
 from navmesh import NodeGraph, Terrain, WalkRules
+from tests.navmesh.shapes import join, plane
 
 
 def door_passed(rng, width: float, thick: float, radius: float) -> tuple[str, bool]:

@@ -7,7 +7,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from path_references import (
+
+from navmesh import NavmeshError, NodeGraph
+from navmesh.bodies import doors_of, portals_of
+from navmesh.field import gap_at, walk
+from navmesh.search import BEST, COMPLETE, advance, begin
+from navmesh.snapping import snap
+from navmesh.structs import make_scratch, net_of
+from tests.navmesh.path_references import (
     build,
     dense_walk,
     pillars,
@@ -16,18 +23,12 @@ from path_references import (
     rounded_shortest,
     turned,
 )
-from shapes import box, join, plane
-
-from navmesh import NavmeshError, NodeGraph
-from navmesh.bodies import doors_of, portals_of
-from navmesh.field import gap_at, walk
-from navmesh.search import BEST, COMPLETE, advance, begin
-from navmesh.snapping import snap
-from navmesh.structs import make_scratch, net_of
+from tests.navmesh.shapes import box, join, plane
 
 RADII = st.sampled_from([0.15, 0.3, 0.6, 0.9])
 FIELD_ERROR = 0.002
-"""[m] by which the clearance field may read too wide, see docs/navmesh.md. It never reads too narrow."""
+"""[m] by which the clearance field may read too wide, see docs/how-it-works/navmesh.md. It
+never reads too narrow."""
 SEEDS = st.integers(0, 10_000)
 
 

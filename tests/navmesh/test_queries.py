@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from shapes import box, plane, terrain
 
 from navmesh import NavmeshError, NodeGraph, WalkRules
+from tests.navmesh.shapes import box, plane, terrain
 
 RULES = WalkRules(max_step=0.2, headroom=2.0)
 

@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from shapes import Mesh, box, join, plane, terrain
-from test_update import assert_same, rebuilt
 
 from navmesh import NavmeshError, NodeGraph, Terrain, WalkRules, join_chunks, split_terrain
 from navmesh.build import build_surface
 from navmesh.raster import SAME_SURFACE
 from navmesh.surface import Surface
+from tests.navmesh.shapes import Mesh, box, join, plane, terrain
+from tests.navmesh.test_update import assert_same, rebuilt
 
 RULES = WalkRules(max_step=0.3, headroom=1.8)
 

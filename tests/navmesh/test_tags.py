@@ -8,6 +8,7 @@ import pytest
 import navmesh
 from navmesh.tagging import TagFile
 from navmesh.tags import Addition, Change, NewValues, Reference, Tags
+from surefoot import SurefootError
 
 LEVELS = Path(__file__).resolve().parents[2] / "examples" / "levels"
 
@@ -139,7 +140,7 @@ def test_tags_are_written_whole_and_read_back(tmp_path: Path) -> None:
 )
 def test_wrong_files_are_answered_with_line_and_column(tmp_path: Path, text: str, said: str) -> None:
     path = _file(tmp_path, text)
-    with pytest.raises(navmesh.NavmeshError) as raised:
+    with pytest.raises(SurefootError) as raised:
         navmesh.load_tags(path)
     message = str(raised.value)
     assert message.startswith(f"{path}:{said}"), message
@@ -178,7 +179,7 @@ def test_tags_that_do_not_fit_the_level_say_where(
     plain: navmesh.NodeGraph, tmp_path: Path, text: str, said: str
 ) -> None:
     path = _file(tmp_path, text)
-    with pytest.raises(navmesh.NavmeshError) as raised:
+    with pytest.raises(SurefootError) as raised:
         _apply(plain, navmesh.load_tags(path))
     assert str(raised.value).startswith(f"{path}:{said}"), str(raised.value)
 
@@ -190,5 +191,5 @@ def test_tags_made_in_memory_are_named_by_their_entry(plain: navmesh.NodeGraph) 
 
 
 def test_a_missing_file_is_named(tmp_path: Path) -> None:
-    with pytest.raises(navmesh.NavmeshError, match="no such file; expected a tag file"):
+    with pytest.raises(SurefootError, match="no such file; expected a tag file"):
         navmesh.load_tags(tmp_path / "none.tags.yaml")

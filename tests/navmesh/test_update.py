@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from shapes import Mesh, box, join, plane, quad, terrain
 
 from benchmarks.shared_data import level_path, shared_folder
 from navmesh import NavmeshError, NodeGraph, Terrain, WalkRules, chunks_of, join_chunks, split_terrain
 from navmesh.tagging import TagFile
 from navmesh.tags import Addition, Tags
+from tests.navmesh.shapes import Mesh, box, join, plane, quad, terrain
 
 SKILLS = {"jump": (0.3, 0.7), "vault": (0.6, 1.0), "drop": (0.9, 2.0), "gap": (0.4, 2.5)}
 TILE = 4.0

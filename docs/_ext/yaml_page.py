@@ -1,0 +1,167 @@
+"""The page of the YAML files that people write: every key, from the models that check them."""
+
+import inspect
+import json
+import re
+from typing import Any
+
+from pydantic import BaseModel
+from sphinx.pycode import ModuleAnalyzer
+
+from locomotion.skills.description import SkillDescription
+from navmesh.tags import Tags
+from runtime.missions.model import Mission
+from runtime.playtest.plan import Plan
+
+FILES: list[tuple[str, str, type[BaseModel]]] = [
+    ("Mission", "What `surefoot run` runs: [missions](../../guides/missions.md).", Mission),
+    ("Playtest plan", "`LEVEL.playtest.yaml`: [playtests](../../guides/playtests.md).", Plan),
+    ("Tags", "`LEVEL.tags.yaml`: an author's corrections to the obstacles that were found.", Tags),
+    (
+        "Skill",
+        "What `surefoot train` learns: [skills of your own](../../guides/own-skills.md).",
+        SkillDescription,
+    ),
+]
+
+
+def page() -> str:
+    """Markdown: a table of keys for each kind of file, and one for each kind of value in it."""
+    parts = [
+        "# YAML files",
+        "Every key, its values, and its default; keys in **bold** must be there. Lengths are in metres, "
+        "times in seconds. A mistake is reported with its line and column.",
+    ]
+    for title, about, model in FILES:
+        parts += [f"## {title}", about, *_tables(model)]
+    return "\n\n".join(parts) + "\n"
+
+
+def _tables(model: type[BaseModel]) -> list[str]:
+    schema = model.model_json_schema(by_alias=True)
+    found = {kind.__name__: kind for kind in _models(model)}
+    parts = [_table(model, schema, found)]
+    for name in _order(schema):
+        about = " ".join(inspect.cleandoc(found[name].__doc__ or "").split())
+        parts += [
+            f"### {model.__name__.lower()}: {_words(name)}",
+            about,
+            _table(found[name], schema["$defs"][name], found),
+        ]
+    return parts
+
+
+def _order(schema: dict[str, Any]) -> list[str]:
+    """The parts with keys of their own, in the order in which they are mentioned."""
+    parts, found, waiting = schema.get("$defs", {}), [], [schema.get("properties", {})]
+    while waiting:
+        for name in re.findall(r"#/\$defs/(\w+)", json.dumps(waiting.pop(0))):
+            if name not in found and "properties" in parts[name]:
+                found.append(name)
+                waiting.append(parts[name]["properties"])
+    return found
+
+
+def _words(name: str) -> str:
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name.removesuffix("Spec")).lower()
+
+
+def _table(model: type[BaseModel], schema: dict[str, Any], found: dict[str, type[BaseModel]]) -> str:
+    about = _attribute_docs(model)
+    rows = ["| key | value | default | meaning |", "| --- | --- | --- | --- |"]
+    for key, part in schema["properties"].items():
+        needed = key in schema.get("required", ())
+        field = next((n for n, f in model.model_fields.items() if key in (n, f.alias)), key)
+        default = "" if needed else _default(part)
+        text = part.get("description") or about.get(field, "") or _first_sentence(part, found)
+        shown = f"**{key}**" if needed else key
+        rows.append(f"| {shown} | {_cell(_value(part))} | {default} | {_cell(text)} |")
+    return "\n".join(rows)
+
+
+def _first_sentence(part: dict[str, Any], found: dict[str, type[BaseModel]]) -> str:
+    """What is said of the model that a key holds."""
+    names = re.findall(r"#/\$defs/(\w+)", json.dumps(part))
+    about = (
+        " ".join(inspect.cleandoc(found[names[0]].__doc__ or "").split())
+        if names and names[0] in found
+        else ""
+    )
+    return about.split(". ")[0].split("; ")[0].rstrip(".:") + "." if about else ""
+
+
+def _value(part: dict[str, Any]) -> str:
+    if "$ref" in part:
+        return _words(part["$ref"].rsplit("/", 1)[1])
+    for choice in ("anyOf", "oneOf"):
+        if choice in part:
+            return " or ".join(dict.fromkeys(_value(p) for p in part[choice] if p.get("type") != "null"))
+    if "allOf" in part:
+        return _value(part["allOf"][0])
+    if "const" in part:
+        return f"`{part['const']}`"
+    if "enum" in part:
+        return ", ".join(f"`{value}`" for value in part["enum"])
+    kind = part.get("type", "anything")
+    if kind == "array":
+        if "prefixItems" in part:
+            return f"[{', '.join(_value(p) for p in part['prefixItems'])}]"
+        inner = _value(part.get("items", {}))
+        if part.get("minItems") == part.get("maxItems") == 3 and inner.startswith("number"):
+            return "`[x, y, z]`"
+        if part.get("minItems") == part.get("maxItems") == 2:
+            return f"[{inner}, {inner}]"
+        return f"list of ({inner})" if " or " in inner else f"list of {inner}"
+    if kind == "object":
+        inner = part.get("additionalProperties") or next(
+            iter(part.get("patternProperties", {}).values()), None
+        )
+        return f"name: {_value(inner)}, …" if isinstance(inner, dict) else "mapping"
+    words = {"number": "number", "integer": "whole number", "string": "text", "boolean": "`true`, `false`"}
+    return words.get(kind, kind) + _range(part)
+
+
+def _range(part: dict[str, Any]) -> str:
+    least, above = part.get("minimum"), part.get("exclusiveMinimum")
+    most, below = part.get("maximum"), part.get("exclusiveMaximum")
+    bounds = [
+        f"{word} {value:g}"
+        for word, value in (("≥", least), (">", above), ("≤", most), ("<", below))
+        if value is not None and abs(value) < 1e9
+    ]
+    return f" {', '.join(bounds)}" if bounds else ""
+
+
+def _default(part: dict[str, Any]) -> str:
+    value = part.get("default")
+    return "" if value is None or value in ({}, []) or isinstance(value, dict) else f"`{value}`"
+
+
+def _models(model: type[BaseModel]) -> set[type[BaseModel]]:
+    """All models that the fields of ``model`` can hold, itself included."""
+    found: set[type[BaseModel]] = set()
+    waiting: list[Any] = [model]
+    while waiting:
+        kind = waiting.pop()
+        if inspect.isclass(kind) and issubclass(kind, BaseModel):
+            if kind not in found:
+                found.add(kind)
+                waiting += [field.annotation for field in kind.model_fields.values()]
+        else:
+            waiting += getattr(kind, "__args__", ())
+    return found
+
+
+def _attribute_docs(model: type[BaseModel]) -> dict[str, str]:
+    """The docstrings below the attributes of ``model`` and what it inherits."""
+    docs: dict[str, str] = {}
+    for kind in reversed(model.__mro__):
+        if issubclass(kind, BaseModel) and kind is not BaseModel:
+            for (owner, name), lines in ModuleAnalyzer.for_module(kind.__module__).find_attr_docs().items():
+                if owner == kind.__name__:
+                    docs[name] = " ".join(lines)
+    return docs
+
+
+def _cell(text: str) -> str:
+    return " ".join(text.split()).replace("|", "\\|")

@@ -1,0 +1,141 @@
+"""Compiled kernels are known for what they are, so that a later start does not warm up again."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numba
+import numpy as np
+import pytest
+from numba.core.dispatcher import Dispatcher
+
+import navmesh
+import runtime
+from runtime import World
+from runtime.events import Departed, SkillStarted
+from runtime.warmup import ahead, compile_kernels, is_compiled, prepare_once
+from runtime.warmup.first_uses import FIRST_USES, tiny_level
+from runtime.warmup.sharing import run_shared
+from surefoot.compiling import counted
+from surefoot.kernels.folder import cache_folder
+from surefoot.progress import Progress
+
+_MAIN = "import runtime.cli.app; runtime.cli.app.main()"
+LEVELS = Path(__file__).parents[3] / "examples" / "levels"
+
+
+@pytest.fixture(scope="module", autouse=True)
+def prepared():
+    runtime.prepare()
+
+
+def test_a_warm_up_is_not_repeated_until_a_kernel_changes(monkeypatch):
+    assert is_compiled()
+    monkeypatch.setattr(ahead, "run_shared", None)
+    told = []
+    runtime.prepare(lambda share, what: told.append(share))
+    assert told == [1.0]
+    monkeypatch.setattr(ahead, "_sources", lambda: "others")
+    assert not is_compiled()
+
+
+def test_the_uses_do_what_they_are_for(monkeypatch):
+    """A person runs and jumps, dogs and walkers go."""
+    happened, report = [], World.report
+    monkeypatch.setattr(World, "report", lambda world, event: (happened.append(event), report(world, event)))
+    for use in ("running and jumping", "animals and crowds"):
+        FIRST_USES[use]()
+    assert any(isinstance(event, SkillStarted) for event in happened)
+    departed = {event.agent for event in happened if isinstance(event, Departed)}
+    assert {"human1", "dog1", "dog2", "walker5"} <= departed
+
+
+def test_every_kernel_of_a_world_was_used():
+    kept = {file.name.partition("-")[0] for file in cache_folder().glob("*.kernel")}
+    unused = []
+    for name, module in sorted(sys.modules.items()):
+        if name.partition(".")[0] in ("navmesh", "pathsmooth", "locomotion") and "training" not in name:
+            for kernel in vars(module).values():
+                if isinstance(kernel, Dispatcher) and kernel.py_func.__module__ == name:
+                    inlined = kernel.targetoptions.get("inline") == "always"
+                    if not inlined and f"{name}.{kernel.py_func.__qualname__}" not in kept:
+                        unused.append(f"{name}.{kernel.py_func.__qualname__}")
+    assert unused == []
+
+
+def test_nothing_compiles_in_a_world():
+    """Neither on another level, nor for bodies, queries and calls that the uses do not have together."""
+    compiled = []
+    with counted(compiled.append):
+        graph = navmesh.NodeGraph.build(
+            navmesh.Terrain.load(str(LEVELS / "room.obj"), up="z"), navmesh.WalkRules(resolution=0.2)
+        )
+        world = World(graph, seed=3)
+        places = graph.random_points(np.random.default_rng(2), 12, radius=0.4)
+        for k, body in enumerate(("human", "human", "walker", "walker", "walker")):
+            world.spawn(body, places[k]).go_to(places[k + 5], speed=1.4)
+        world.spawn("cat", (4.0, 3.0, 0.0)).go_to(places[11], speed=1.0)
+        world.step(2.0)
+        saved = world.save()
+        world.step(1.0)
+        world.restore(saved)
+        world.step(0.5)
+        graph.find_paths(places[:6], places[6:], radius=0.25)
+        graph.cast_ray(places[0], places[1], 0.2)
+        graph.random_points(np.random.default_rng(3), 2)
+    assert compiled == []
+
+
+def test_a_world_prepares_once_and_not_within_a_use(monkeypatch, tmp_path):
+    done = []
+    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(ahead, "run_shared", lambda uses, told: done.append(World(tiny_level())))
+    monkeypatch.setattr(ahead, "load_kept", lambda: None)
+    prepare_once()
+    prepare_once()
+    assert len(done) == 1 and is_compiled()
+
+
+def test_kernels_elsewhere_do_not_count_when_the_cache_has_a_place_of_its_own(monkeypatch, tmp_path):
+    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
+    assert not is_compiled()
+
+
+def test_what_a_process_cannot_do_is_done_here(monkeypatch):
+    """A program that has Python built in cannot start it."""
+    done, told = [], []
+    uses = {"one": lambda: done.append(1), "two": lambda: done.append(2)}
+    monkeypatch.setattr(sys, "executable", "/opt/engine/editor")
+    run_shared(uses, lambda count, what: told.append((count, what)))
+    assert done == [1, 2] and told == [(0, "one"), (0, "two")]
+
+
+def test_what_fails_in_a_process_fails_here(monkeypatch):
+    """Its name is not known there."""
+
+    def fail():
+        raise ValueError("as it should")
+
+    with pytest.raises(ValueError, match="as it should"):
+        run_shared({"unheard of": fail}, lambda count, what: None)
+
+
+def test_telling_how_far_it_is(capsys):
+    compile_kernels(Progress())
+    assert capsys.readouterr().err.startswith("compiling kernels, once")
+
+
+def test_a_server_that_is_started_by_a_program_says_at_once_that_it_compiles(tmp_path):
+    level = LEVELS / "room.obj"
+    command = [sys.executable, "-c", _MAIN, "serve", str(level), "--port", "0"]
+    place = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+    server = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=place)
+    try:
+        assert server.stdout is not None
+        said = [server.stdout.readline() for _ in range(2)]
+        assert said[0].startswith("loading") and "compiling kernels" in said[1]
+        assert server.poll() is None
+    finally:
+        server.kill()
+        server.communicate()

@@ -18,7 +18,7 @@ from benchmarks.shared_data import shared_folder, why_absent
 Lines = list[tuple[str, str, str, bool | None]]
 _VERDICT = {True: "yes", False: "NO", None: "-"}
 _CHANGE = 25.0
-"""[rad/s] by which a joint's speed may change from one tick to the next, see docs/guides/dogs.md."""
+"""[rad/s] by which a joint's speed may change from one tick to the next, see docs/how-it-works/animals.md."""
 _HEIGHT_OFF, _PITCH_OFF = 0.07, 3.5
 """Of its own height, and [deg], by which hips, shoulders and trunk may leave the range of even speeds."""
 _SHARED = ("following", "footprint", "gait", "herd")

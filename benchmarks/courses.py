@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from locomotion import Human
-from locomotion.rehearsal.rehearsal import REHEARSALS
+from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.training.skills.vault import DEPTHS
 from runtime.evaluation.courses import Course, make_course, run_course
 from runtime.evaluation.evaluation import start_noise

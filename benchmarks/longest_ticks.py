@@ -13,7 +13,7 @@ import numpy as np
 
 from benchmarks.courses import draw_course
 from locomotion.human.state import MOVING
-from locomotion.rehearsal.lookahead import Foresight
+from locomotion.rehearsal.lookahead import Lookahead
 from runtime.evaluation.courses import enter_course
 from runtime.evaluation.evaluation import start_noise
 
@@ -55,7 +55,7 @@ def main() -> None:
     limits = "".join(f"{f'> {limit:g} ms':>10}" for limit in LIMITS_MS)
     print(f"{'rehearses':14}{'ticks':>9}{'median':>9}{'longest':>9}{limits}{'real time':>12}")
     beforehand = report("beforehand", courses)
-    Foresight.go_on = lambda *_: None
+    Lookahead.go_on = lambda *_: None
     if report("at the moment", courses) != beforehand:
         raise SystemExit("they do not end alike")
 

@@ -37,7 +37,7 @@ from benchmarks.shared_data import LEVELS, level_path, shared_folder, why_absent
 from locomotion import MOVING, PERSON_RULES, Human, smooth_route
 from locomotion.body.arm_reach import HAND_RADIUS
 from locomotion.body.person import CONTROL_DT, STEPS_PER_TICK
-from locomotion.human.state import restore_physics, save_physics
+from locomotion.body.physics import restore_physics, save_physics
 from locomotion.paths.tracking import make_path
 from navmesh.probes import ProbeGrid, brute_crossed, crossed
 from runtime import World

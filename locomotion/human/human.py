@@ -27,17 +27,7 @@ from locomotion.avoidance.yielding import Course
 from locomotion.body.hand_hold import let_go_both
 from locomotion.body.person import CONTROL_DT, STEPS_PER_TICK
 from locomotion.errors import LocomotionError
-from locomotion.events import (
-    Arrived,
-    Cleared,
-    Fell,
-    GotStuck,
-    GotUp,
-    MissedGoal,
-    SetOff,
-    StrayedFromPath,
-    TookOff,
-)  # fmt: skip
+from locomotion.events import Arrived, Cleared, GotStuck, SetOff, TookOff
 from locomotion.gaits.brake import BRAKING, BrakeSkill, load_brake_skill
 from locomotion.gaits.limits import PERSON_RULES
 from locomotion.gaits.run import controller
@@ -45,18 +35,22 @@ from locomotion.gaits.run.controller import observe
 from locomotion.gaits.run.skill import RunSkill, load_run_skill
 from locomotion.gaits.slow_down import SlowDownSkill, load_slow_down_skill
 from locomotion.gaits.speed_up import SpeedUpSkill, load_speed_up_skill
-from locomotion.gaits.walk.controller import observe_walk
-from locomotion.gaits.walk.layout import WALK_HEADING, new_walk
+from locomotion.gaits.walk.layout import WALK_HEADING
 from locomotion.gaits.walk.skill import WalkSkill, load_walk_skill, rise_walking
 from locomotion.ground.ground import Ground
+from locomotion.human.falls import fall, tick_on_all_fours
+from locomotion.human.gait_changes import GaitChanges
+from locomotion.human.headway import ARRIVAL_DISTANCE, STRAYED, notice
 from locomotion.human.intent import course_on_way, course_to_rest
 from locomotion.human.on_feet import OnFeet
-from locomotion.human.rehearsing import RehearsingPerson
+from locomotion.human.person import Person
 from locomotion.human.state import CLEARING, MOVING, HumanState, Status
 from locomotion.paths.smoothing import ObstacleAhead
-from locomotion.paths.tracking import SLOPE_HERE, make_path
+from locomotion.paths.tracking import make_path
 from locomotion.recovery.on_all_fours import OnAllFours
-from locomotion.rehearsal.rehearsal import REHEARSALS
+from locomotion.rehearsal.deciding import Decider
+from locomotion.rehearsal.lookahead import Lookahead
+from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.skills.interface import ClearingSkill
 from locomotion.skills.library import learned_skills
 from locomotion.skills.obstacle_check import check_obstacles
@@ -65,22 +59,10 @@ from surefoot.numeric import as_floats, is_finite, is_whole
 
 __all__ = ["ARRIVAL_DISTANCE", "PERSON_RULES", "Human", "HumanState", "Status"]
 
-ARRIVAL_DISTANCE = 0.5
-"""A person has arrived when its centre of mass is within this horizontal distance of the goal [m]."""
-STRAYED = 2.0
-"""[m] beside the path at which a person gives up following it."""
-STUCK_TIME = 8.0
-"""[s] without headway along the path after which a person counts as stuck."""
-_WALK_ARRIVAL = 0.15  # [m] before the end of its path at which a walking person stops
 _CHANGE = 0.01  # [m] by which the ground under a person at rest may change unnoticed
-_LONGEST_DOWN = 12000  # ticks after which a body that has not got up stays down
-_STAYS = 1.0  # [m/s] up to which one that comes to its goal stays there
-_COMES_BACK = 3.5  # [m] beside its path up to which one that does not run may slow down and turn first
-_CLIMBS_BACK = 6.0  # [m] beside its path, where it has slid to, from which it climbs back
-_LOOKS = 20  # ticks after which one on hands and feet looks again whether it can walk on
 
 
-class Human(RehearsingPerson):
+class Human(Person):
     """A person under physics. `tick` advances it by 10 ms.
 
     Attributes:
@@ -89,8 +71,10 @@ class Human(RehearsingPerson):
             "stuck".
             `held` tells whether it is simulated.
         events: list of `locomotion.events.Event` in order of time.
-        model, data: as of `SimulatedPerson`.
+        decider: who chooses among variations of what it is about to do.
     """
+
+    status: Status
 
     def __init__(
         self,
@@ -109,7 +93,7 @@ class Human(RehearsingPerson):
         ``walk``, ``slow_down``, ``brake``: how it walks, how it comes to it from a run, and how to a stand;
         None loads the package's.
         ``rehearsals``: how many variations of a take-off it tries out at most before it takes off
-        (`locomotion.rehearsal.rehearsal`); 0: none. ``gets_up``: whether it gets up after a fall and goes on;
+        (`locomotion.rehearsal.trials`); 0: none. ``gets_up``: whether it gets up after a fall and goes on;
         else a fall is the end. Raises `LocomotionError` for a ground or a number of rehearsals that is
         none."""
         if ground is not None and not isinstance(ground, Ground):
@@ -124,8 +108,21 @@ class Human(RehearsingPerson):
             load_speed_up_skill() if speed_up is None else speed_up,
             load_brake_skill() if brake is None else brake,
         )
-        super().__init__(ground, on_feet, learned_skills(run) if clearing is None else clearing, rehearsals)
+        super().__init__(ground, on_feet, learned_skills(run) if clearing is None else clearing)
         self.gets_up = gets_up
+        self.decider = Decider()
+        self._changes = GaitChanges(self, self.decider)
+        self._lookahead = Lookahead(self, self._double, rehearsals) if rehearsals else None
+        if self._lookahead is not None:
+            self.decider.answer = self._lookahead.decide
+
+    def restore_state(self, state: HumanState) -> None:
+        """Continue from a state of a person on the same ground with the same skills. Raises
+        `LocomotionError`, and changes nothing, for what is no such state."""
+        if not isinstance(state, HumanState):
+            raise LocomotionError(f"a person goes on from a HumanState, not from a {type(state).__name__}")
+        self.become(state)
+        self.decider.predicted.forget()
 
     # --- what it is told
     def reset(self, position: ArrayLike, yaw: float, speed: float = 0.0) -> None:
@@ -140,9 +137,9 @@ class Human(RehearsingPerson):
             raise LocomotionError(f"position and yaw must be finite (3,) and (), not {position} and {yaw}")
         if not (is_finite(speed) and speed >= 0.0):
             raise LocomotionError(f"speed must be a finite number >= 0 m/s, not {speed}")
-        self._place(place if self.ground is None else self._on_ground(place), yaw, speed)
+        self.put(self.simulation.on_ground(place), yaw, speed)
         self.way.forget()
-        self._obstacle_run.begin(())
+        self.run_up.begin(())
         self.status = "standing" if speed == 0.0 else "running"
 
     def follow(
@@ -168,38 +165,38 @@ class Human(RehearsingPerson):
         if gap > STRAYED or abs(start[2] - here[2]) > STRAYED:
             raise LocomotionError(f"the path begins at {start.round(2)}, the person is at {here.round(2)}")
         if not self.on_feet.walks and not running:
-            self._place(here, self.yaw, 0.0)
+            self.put(here, self.yaw, 0.0)
         stands = self.status not in MOVING and self.on_feet.walks
-        self.way.begin(table, self._ticks)
-        self.way.starts = self._ticks + round(hesitates / CONTROL_DT) if stands else 0
-        self._obstacle_run.begin(obstacles)
+        self.way.begin(table, self.ticks)
+        self.way.starts = self.ticks + round(hesitates / CONTROL_DT) if stands else 0
+        self.run_up.begin(obstacles)
         let_go_both(self.data)
-        self._fours.on_way = 1.0
-        if not self._fours.active:
+        self.fours.on_way = 1.0
+        if not self.fours.active:
             self.status = "running" if running else "walking"
         elif self.status != "getting up":
             self.status = "scrambling"
         goal = (float(table.goal[0]), float(table.goal[1]), float(table.goal[2]))
-        self.events.append(SetOff(self.time, self._point(), goal, table.length))
+        self.events.append(SetOff(self.time, self.point, goal, table.length))
 
     def arrive(self) -> None:
         """Take where it is for its goal."""
         goal = self.position if self.way.path is None else self.way.path.goal
         distance = float(np.linalg.norm(goal[:2] - self.position[:2]))
-        self._end("arrived", Arrived(self.time, self._point(), distance))
+        self.end("arrived", Arrived(self.time, self.point, distance))
 
     def give_up(self, reason: str = "it and those around it wait for each other") -> None:
         """Be stuck where it is."""
-        self._end("stuck", GotStuck(self.time, self._point(), among_others=True, reason=reason))
+        self.end("stuck", GotStuck(self.time, self.point, among_others=True, reason=reason))
 
     def stop(self) -> None:
         """Give up the path and come to a stand, as soon as it can without falling; what is being cleared is
         cleared first. A person that does not rehearse slows down and walks first."""
-        self._fours.on_way = 0.0
+        self.fours.on_way = 0.0
         if self.status in MOVING and self.status != "getting up":
-            self.status, self._ended_at = "standing", self._ticks
-            if not self._obstacle_run.clearing:
-                self._obstacle_run.begin(())
+            self.status, self.ended_at = "standing", self.ticks
+            if not self.run_up.clearing:
+                self.run_up.begin(())
 
     def change_ground(self, ground: Ground) -> None:
         """Go on as it is on another ground. One at rest whose footing has changed by more than 1 cm is
@@ -209,24 +206,24 @@ class Human(RehearsingPerson):
         if self.ground is None or not isinstance(ground, Ground):
             here = "the endless plane" if self.ground is None else "a ground"
             raise LocomotionError(f"a person on {here} cannot go on on a {type(ground).__name__}")
-        before, state = self._footing(), self.save_state()
-        self._stand_on(ground)
-        self._fours = OnAllFours(self.model, self.index)
+        before, state = self.simulation.footing, self.save_state()
+        self.simulation.stand_on(ground)
+        self.fours = OnAllFours(self.model, self.index)
         self.restore_state(state)
-        now = self._footing()
+        now = self.simulation.footing
         bottomless = bool(np.isnan(now).all() and not np.isnan(before).all())
         if bottomless or (self.held and not np.all(np.abs(now - before) <= _CHANGE)):
             if self.status != "fallen" and (bottomless or not self.on_feet.walks):
-                self._fall()
-            self._ended_at = self._ticks
-            self.on_feet.stir(self._control)
+                fall(self, self.gets_up)
+            self.ended_at = self.ticks
+            self.on_feet.stir(self.control)
 
     def course(self) -> Course | None:
         """What it is about to do; None for one that is not on its way, clears an obstacle, or is going over
         from a walk to a run or back."""
         if self.way.path is None or self.status not in ("walking", "running"):
             return None
-        if self.on_feet.changes(self._control):
+        if self.on_feet.changes(self.control):
             return None
         return self.prospect()
 
@@ -234,11 +231,11 @@ class Human(RehearsingPerson):
         """What it will do on its feet, whether that can be changed or not; None for one that is not on
         them."""
         feet, way, here, velocity = self.on_feet, self.way, self.position, self.velocity
-        if self._fours.active or self.status in CLEARING.values():
+        if self.fours.active or self.status in CLEARING.values():
             return None
         if way.path is None or self.status not in ("walking", "running"):
             limits = feet.walk_limits if feet.walks else feet.limits
-            will_brake = feet.runs and self.decides is not None
+            will_brake = feet.runs and self.decider.answer is not None
             if feet.brakes or will_brake:
                 limits = replace(limits, deceleration=BRAKING)
             return course_to_rest(here, velocity, limits)
@@ -246,7 +243,7 @@ class Human(RehearsingPerson):
         limits, facing = feet.walk_limits, float(feet.walk[WALK_HEADING])
         if not walks:
             limits, facing = feet.limits, math.atan2(velocity[1], velocity[0])
-        aside = self._obstacle_run.ahead is None
+        aside = self.run_up.ahead is None
         course = course_on_way(way, limits, here, velocity, walks, facing, aside)
         if feet.slowing == 0.0:
             return course
@@ -257,171 +254,82 @@ class Human(RehearsingPerson):
         every 0.1 m from where it is."""
         self.way.pace = pace
         if shift is not None:
-            self._obstacle_run.disturb()
+            self.run_up.disturb()
             walk = self.on_feet.walk_limits if self.status == "walking" else None
             self.way.shift(shift, self.on_feet.limits, walk)
 
     # --- time
-    @property
-    def physics(self) -> mujoco.MjModel:
-        """What its next tick is simulated with: one on hands and feet, or that has fallen, touches the ground
-        more firmly than `model` has it."""
-        return self._fours.model if self._fours.active else self.model
-
     def tick(self) -> None:
         """Advance by 10 ms: track the path, control, physics, observe, notice what happened."""
-        came_true = self.foreseen.comes_true(self)
+        came_true = self.decider.predicted.comes_true(self)
         if not came_true:
             self._tick()
-        if self._foresight is not None:
-            self._foresight.go_on(self, came_true)
+        if self._lookahead is not None:
+            self._lookahead.go_on(came_true)
 
     def _tick(self) -> None:
         """A tick that was not foreseen."""
-        self._ticks += 1
+        self.ticks += 1
         if self.held:
             return
-        if self._fours.active:
-            self._tick_on_all_fours()
+        if self.fours.active:
+            tick_on_all_fours(self, self.gets_up)
             return
-        state, data, feet, way = self._control, self.data, self.on_feet, self.way
+        state, data, feet, way = self.control, self.data, self.on_feet, self.way
         if way.path is not None and self.status != "fallen":
-            moving = self.status in MOVING and self._ticks >= way.starts
-            planned = self._obstacle_run.planned
-            feet.steer(way, state, moving, planned, self._ticks, self._command)
-        feet.tick(self._lookup, state, self._command, data)
+            moving = self.status in MOVING and self.ticks >= way.starts
+            planned = self.run_up.planned
+            feet.steer(way, state, moving, planned, self.ticks, self.command)
+        feet.tick(self.simulation.lookup, state, self.command, data)
         if feet.runs and self.status != "fallen":
             self._clear()
-        if self._obstacle_run.rehearsed and data.xfrc_applied.any():
-            self._obstacle_run.disturb()
+        if self.run_up.rehearsed and data.xfrc_applied.any():
+            self.run_up.disturb()
         mujoco.mj_step(self.model, data, STEPS_PER_TICK)
         observe(self.index, self.model, data, state)
-        feet.observe(self.index, state, self._command, data)
+        feet.observe(self.index, state, self.command, data)
         if self.status == "fallen":
             return
-        if self._obstacle_run.clearing:
-            state[controller.FALLEN] = float(self._obstacle_run.fell(state))
+        if self.run_up.clearing:
+            state[controller.FALLEN] = float(self.run_up.fell(state))
         elif feet.rises:
             state[controller.FALLEN] = 0.0  # after a roll it begins to walk from a crouch
         if state[controller.FALLEN] > 0.0:
-            self._fall()
+            fall(self, self.gets_up)
             return
         if way.path is not None and self.status in MOVING:
-            self._notice()
-        if way.path is not None and not self._obstacle_run.clearing:
+            notice(self)
+        if way.path is not None and not self.run_up.clearing:
             if feet.walks:
-                self._run_if_due()
-                self._rehearse_step()
+                self._changes.run_if_due()
+                self._changes.choose_step()
             else:
-                self._walk_if_due()
-                self._rehearse_take_off()
-
-    def _fall(self) -> None:
-        """It has lost its balance."""
-        let_go_both(self.data)
-        state, on_way = self._control, self.status in MOVING
-        speed, slope = float(state[controller.SPEED]), float(self.way.memory[SLOPE_HERE])
-        self._end("fallen", Fell(self.time, self._point(), speed, slope, self.arc_length))
-        over_ground = self.ground is None or np.isfinite(self.ground.surface_below(self.com)[0][0])
-        if self.gets_up and over_ground:
-            self.status, self.on_feet.slowing = "getting up", 0.0
-            self.on_feet.walk[:] = new_walk()
-            self._obstacle_run.give_up()
-            self._fours.fall(self.data)
-            self._fours.fell_at, self._fours.on_way = float(self._ticks), float(on_way)
-
-    def _tick_on_all_fours(self) -> None:
-        """A tick on hands and feet, on the way to them after a fall, or from them to a stand."""
-        fours = self._fours
-        way = self.way if fours.on_way > 0.0 and self.status in MOVING else None
-        if self._ticks % _LOOKS == 0:
-            fours.look(self.ground, self.position, way)
-        fours.steer(way, self._control[controller.COM], self._ticks, self._command)
-        fours.tick(self._lookup, self._command, self.data, fours.gentle > 0.0)
-        mujoco.mj_step(self.physics, self.data, STEPS_PER_TICK)
-        self._control[controller.FALLEN] = 0.0
-        stands = fours.observe(self._lookup, self.data, self._control)
-        gets_up = self.status == "getting up"
-        if fours.fallen and self.status != "getting up":
-            self._fall()
-        elif stands:
-            self._stand_up()
-        elif fours.borne and fours.gentle == 0.0 and self.status == "getting up":
-            self._got_up("scrambling")
-        if self.status == "getting up":
-            self.way.make_headway(self._ticks)
-            if self._ticks - fours.fell_at > _LONGEST_DOWN:
-                self.status, self._ended_at = "fallen", self._ticks
-                fours.leave()
-        elif way is not None and way.path is not None and self.status in MOVING and not gets_up:
-            self._notice()  # but one that has just got up, which may be told to take another way
-
-    def _got_up(self, status: Status) -> None:
-        self.way.go_on_from(self.position, self._ticks)
-        self.status, self._ended_at = status if self._fours.on_way > 0.0 else "standing", self._ticks
-        down = (self._ticks - self._fours.fell_at) * CONTROL_DT
-        self.events.append(GotUp(self.time, self._point(), down))
-
-    def _stand_up(self) -> None:
-        """The walk takes over."""
-        rise_walking(self.on_feet.walk, self._control, self._fours.facing)
-        observe_walk(self.index, self.data, self.on_feet.walk)
-        self._fours.leave()
-        if self.status == "getting up":
-            self._got_up("walking")
-        elif self.status == "scrambling":
-            self.status = "walking"
+                self._changes.walk_if_due()
+                self._changes.choose_take_off()
 
     def _clear(self) -> None:
         """After the run's tick: what has to be done for the obstacle ahead."""
-        happened = self._obstacle_run.tick(self.arc_length, self._control, self.data)
-        obstacle = self._obstacle_run.ahead
+        happened = self.run_up.tick(self.arc_length, self.control, self.data)
+        obstacle = self.run_up.ahead
         if isinstance(happened, TakeOff):
             assert obstacle is not None
             kind, size = obstacle.affordance, obstacle.size
             self.status = CLEARING[kind]
-            self.events.append(TookOff(self.time, self._point(), kind, size, happened.early, happened.fast))
+            self.events.append(TookOff(self.time, self.point, kind, size, happened.early, happened.fast))
         elif happened is not None:
-            ends = self._obstacle_run.skill_for(happened).ends
+            ends = self.run_up.skill_for(happened).ends
             if self.status in MOVING:
                 self.status = ends
             else:
-                self._obstacle_run.begin(())  # it was told to stop meanwhile
+                self.run_up.begin(())  # it was told to stop meanwhile
             if ends == "walking":
-                rise_walking(self.on_feet.walk, self._control, self.yaw)
-            self.events.append(Cleared(self.time, self._point(), happened.affordance, happened.size))
+                rise_walking(self.on_feet.walk, self.control, self.yaw)
+            self.events.append(Cleared(self.time, self.point, happened.affordance, happened.size))
 
-    def double(self) -> Human:
+    def _double(self) -> Human:
+        """One that moves as it does, on the same ground, and does not rehearse."""
         feet = self.on_feet
         return Human(
             self.ground, feet.run_skill, self.clearing, feet.walk_skill, feet.slow_down_skill, 0,
             speed_up=feet.speed_up_skill, brake=feet.brake_skill,
         )  # fmt: skip
-
-    def _notice(self) -> None:
-        """Arrived, lost, stuck?"""
-        way, com = self.way, self._control[controller.COM]
-        assert way.path is not None
-        if way.interrupted is not None and way.remaining < _WALK_ARRIVAL:
-            way.turn_again(self._ticks)
-            return
-        on_foot = self.status in ("walking", "scrambling")  # who runs comes past, and has to come back
-        if on_foot and way.remaining < _WALK_ARRIVAL:
-            goal = way.path.goal
-            distance = math.hypot(goal[0] - com[0], goal[1] - com[1])
-            if distance <= ARRIVAL_DISTANCE and float(np.linalg.norm(self.velocity[:2])) <= _STAYS:
-                self._end("arrived", Arrived(self.time, self._point(), distance))
-            elif distance > ARRIVAL_DISTANCE and way.ended and self.status != "scrambling":
-                self._end("lost", MissedGoal(self.time, self._point(), distance))
-        elif abs(way.lateral) > self._may_stray():
-            self._end("lost", StrayedFromPath(self.time, self._point(), abs(way.lateral)))
-        elif way.pace < 1.0:
-            way.wait()
-        elif way.without_headway(self._ticks) > STUCK_TIME:
-            self._end("stuck", GotStuck(self.time, self._point()))
-
-    def _may_stray(self) -> float:
-        """[m] beside its path from which it is lost."""
-        if self._fours.active:
-            return _CLIMBS_BACK
-        return STRAYED if self.on_feet.runs else _COMES_BACK

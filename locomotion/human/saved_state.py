@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from locomotion.body.person import JOINT_NAMES
+from locomotion.body.physics import physics_size
 from locomotion.errors import LocomotionError
 from locomotion.gaits.run import layout as run
 from locomotion.gaits.walk import layout as walk
@@ -136,7 +136,7 @@ _PARTS = (
         whole=(0, 1),
     ),
 )
-"""In the order of `MovingPerson.memories`."""
+"""In the order of the arrays in `locomotion.human.state`."""
 
 _AT_WORK: Mapping[type, Slots] = {
     Jump: Slots(
@@ -179,7 +179,7 @@ def check_person(state: HumanState, human: Human) -> None:
     """Raises `LocomotionError` for a ``state`` that ``human`` cannot be in."""
     numbers, end = state.numbers, 0
     held = sum(part.size for part in _PARTS)
-    if numbers.shape != (held + mujoco.mj_stateSize(human.model, _PHYSICS),):
+    if numbers.shape != (held + physics_size(human.model),):
         raise LocomotionError("the saved state belongs to another model")
     for part in _PARTS:
         begin, end = end, end + part.size
@@ -198,9 +198,6 @@ def check_person(state: HumanState, human: Human) -> None:
     for obstacle in state.obstacles:
         _check_obstacle(obstacle)
     _check_clearing(state, human)
-
-
-_PHYSICS = mujoco.mjtState.mjSTATE_INTEGRATION
 
 
 def _check_physics(physics: NDArray[np.float64], human: Human) -> None:

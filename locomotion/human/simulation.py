@@ -1,4 +1,4 @@
-"""A person under physics: its simulation on a ground, and where it is."""
+"""The simulation of a person on a ground, and where the person is."""
 
 from __future__ import annotations
 
@@ -13,44 +13,39 @@ from locomotion.errors import LocomotionError
 from locomotion.gaits.run import controller
 from locomotion.ground.ground import Ground, plane_lookup
 
-__all__ = ["SimulatedPerson"]
+__all__ = ["Simulation"]
 
 
-class SimulatedPerson:
-    """The simulation of a person and what its controllers observe of it.
-
-    Attributes:
-        ground: what it stands on; None is the endless plane z = 0.
-        model, data: the MuJoCo model (shared by all persons on the same ground) and this person's own data;
-            after a tick its state is current; what follows from that (contacts, places of bodies) may not be.
-        index: where the person's parts are in the model.
+class Simulation:
+    """Attributes:
+    ground: what the person stands on; None is the endless plane z = 0. lookup: its triangles, for kernels.
+    model, data: the MuJoCo model (shared by all persons on the same ground) and this person's own data;
+        after a tick its state is current; what follows from that (contacts, places of bodies) may not be.
+    index: where the person's parts are in the model.
+    control: what the running controller remembers and observes (its fields:
+        `locomotion.gaits.run.layout`), also while the person walks.
     """
 
     def __init__(self, ground: Ground | None) -> None:
-        self._control = controller.new_state()
-        self._stand_on(ground)
+        self.control = controller.new_state()
+        self.stand_on(ground)
 
-    def _stand_on(self, ground: Ground | None) -> None:
+    def stand_on(self, ground: Ground | None) -> None:
         """Have a new simulation on another ground."""
         self.ground = ground
         self.model, self.index = person_on(ground)
         self.data = mujoco.MjData(self.model)
-        self._lookup = plane_lookup() if ground is None else ground.lookup
-
-    @property
-    def control(self) -> NDArray[np.float64]:
-        """What the running controller remembers (its fields: `locomotion.gaits.run.layout`); a view."""
-        return self._control
+        self.lookup = plane_lookup() if ground is None else ground.lookup
 
     @property
     def com(self) -> NDArray[np.float64]:
         """Centre of mass, (3,) float64 [m]."""
-        return self._control[controller.COM].copy()
+        return self.control[controller.COM].copy()
 
     @property
     def position(self) -> NDArray[np.float64]:
         """The point of the ground under the centre of mass, (3,) float64 [m]."""
-        com, feet = self._control[controller.COM], self._control[controller.FEET]
+        com, feet = self.control[controller.COM], self.control[controller.FEET]
         x, y, z = float(com[0]), float(com[1]), float(min(feet[2], feet[5]))
         if self.ground is None:
             return np.array([x, y, 0.0])
@@ -66,32 +61,32 @@ class SimulatedPerson:
         return math.hypot(x, y) / z if z > 0.0 else 0.0
 
     @property
+    def over_ground(self) -> bool:
+        """Whether there is ground under the centre of mass."""
+        return self.ground is None or bool(np.isfinite(self.ground.surface_below(self.com)[0][0]))
+
+    @property
+    def footing(self) -> NDArray[np.float64]:
+        """(2,) heights of the ground under the feet [m], NaN where there is none."""
+        assert self.ground is not None
+        return self.ground.surface_below(self.control[controller.FEET].reshape(2, 3))[0]
+
+    @property
     def yaw(self) -> float:
         """Direction that the pelvis faces [rad, -π to π]."""
         w, x, y, z = self.data.qpos[3:7]
         return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
-
-    @property
-    def qpos(self) -> NDArray[np.float64]:
-        """(46,) float64: root position [m], quaternion (w, x, y, z), angles [rad] of `person.JOINT_NAMES`."""
-        return self.data.qpos.copy()
 
     def body_transforms(self) -> NDArray[np.float64]:
         """Position [m] and quaternion (w, x, y, z) of each body of the model, (nbody, 7) float64."""
         mujoco.mj_kinematics(self.model, self.data)
         return np.hstack([self.data.xpos, self.data.xquat])
 
-    def _footing(self) -> NDArray[np.float64]:
-        """(2,) heights of the ground under the feet [m], NaN where there is none."""
-        assert self.ground is not None
-        return self.ground.surface_below(self._control[controller.FEET].reshape(2, 3))[0]
-
-    def _point(self) -> tuple[float, float, float]:
-        x, y, z = self.position
-        return float(x), float(y), float(z)
-
-    def _on_ground(self, place: NDArray[np.float64]) -> NDArray[np.float64]:
-        assert self.ground is not None
+    def on_ground(self, place: NDArray[np.float64]) -> NDArray[np.float64]:
+        """``place`` (3,) moved up or down onto the ground. Raises `LocomotionError` where that is farther
+        than 0.5 m."""
+        if self.ground is None:
+            return place
         z = float(self.ground.surface_below([[place[0], place[1], place[2] + 0.5]])[0][0])
         if not abs(z - place[2]) <= 0.5:
             raise LocomotionError(f"there is no ground within 0.5 m of {place.round(2)}")

@@ -1,31 +1,22 @@
-"""What a simulated person is made of at one moment, to be kept, restored and compared."""
+"""What a person remembers: listed once, and from that list kept, restored, compared and hashed."""
 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable
-from typing import Literal, NamedTuple
+import operator
+from collections.abc import Callable
+from typing import Any, Literal, NamedTuple, Protocol
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion.errors import LocomotionError
+from locomotion.body.physics import restore_physics, save_physics
 from locomotion.events import Event
+from locomotion.human.simulation import Simulation
 from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.paths.table import PathTable
 
-__all__ = [
-    "CLEARING",
-    "MOVING",
-    "Gait",
-    "HumanState",
-    "Status",
-    "hash_of",
-    "restore_physics",
-    "same",
-    "save_physics",
-]
+__all__ = ["CLEARING", "MOVING", "Gait", "HumanState", "Status", "hash_of", "restore", "same", "save"]
 
 Status = Literal[
     "standing", "walking", "running", "jumping", "vaulting", "dropping", "leaping", "scrambling",
@@ -41,13 +32,11 @@ MOVING: tuple[Status, ...] = (
 )  # fmt: skip
 """What a person that is on its way does."""
 
-_STATE = mujoco.mjtState.mjSTATE_INTEGRATION
-
 
 class HumanState(NamedTuple):
     """Everything that a `Human` remembers; restoring it continues the run bit for bit on the same ground.
-    ``numbers``: what its parts remember (`MovingPerson.memories`), and behind that what `save_physics` gives;
-    in one array, since one is kept and compared in every foreseen tick."""
+    ``numbers``: the arrays of its parts, and behind them what `save_physics` gives; in one array, since one
+    is kept and compared in every predicted tick. ``events``: what has happened and was not asked for yet."""
 
     numbers: NDArray[np.float64]
     slowing: float
@@ -65,38 +54,88 @@ class HumanState(NamedTuple):
     events: tuple[Event, ...]
 
 
+def _same_path(one: PathTable | None, other: PathTable | None) -> bool:
+    return one is other or (one is not None and other is not None and np.array_equal(one.table, other.table))
+
+
+def _same_memory(one: NDArray | None, other: NDArray | None) -> bool:
+    return one is other or (one is not None and other is not None and one.tobytes() == other.tobytes())
+
+
+class _Field(NamedTuple):
+    """A field of `HumanState` apart from numbers and events: which attribute of which part of the person it
+    is ("": of the person itself), and whether two of it go on in the same way."""
+
+    name: str
+    part: str
+    attribute: str
+    same: Callable[[Any, Any], bool] = operator.eq
+
+
+_ARRAYS = operator.attrgetter(
+    "simulation.control", "command", "on_feet.walk", "way.memory", "fours.memory", "run_up.plan"
+)
+# what the parts of a person remember from tick to tick in arrays of their own
+_FIELDS = (
+    _Field("slowing", "on_feet", "slowing"),
+    _Field("brakes", "on_feet", "brakes"),
+    _Field("hurries", "on_feet", "hurries"),
+    _Field("on_all_fours", "fours", "mood"),
+    _Field("path", "way", "path", _same_path),
+    _Field("interrupted", "way", "interrupted", _same_path),
+    _Field("back_to", "way", "back_to"),
+    _Field("obstacles", "run_up", "obstacles", operator.is_),
+    _Field("skill", "run_up", "at_work", _same_memory),
+    _Field("status", "", "status"),
+    _Field("ticks", "", "ticks"),
+    _Field("ended_at", "", "ended_at"),
+)
+_VALUES = operator.attrgetter(
+    *(f"{field.part}.{field.attribute}" if field.part else field.attribute for field in _FIELDS)
+)
+
+
+class _Person(Protocol):
+    simulation: Simulation
+    events: list[Event]
+
+
+def save(person: _Person) -> HumanState:
+    """All that ``person`` needs to go on from here."""
+    body = person.simulation
+    numbers = np.concatenate((*_ARRAYS(person), save_physics(body.model, body.data)))
+    values = (value.copy() if isinstance(value, np.ndarray) else value for value in _VALUES(person))
+    return HumanState._make((numbers, *values, tuple(person.events)))
+
+
+def restore(person: _Person, state: HumanState) -> None:
+    """Make ``person`` what it was when ``state`` was saved. Raises `LocomotionError`, and changes nothing, if
+    that was a person of another model."""
+    body, arrays, end = person.simulation, _ARRAYS(person), 0
+    restore_physics(body.model, body.data, state.numbers[sum(map(len, arrays)) :])
+    for array in arrays:
+        begin, end = end, end + len(array)
+        array[:] = state.numbers[begin:end]
+    for field in _FIELDS:
+        value = getattr(state, field.name)
+        part = getattr(person, field.part) if field.part else person
+        setattr(part, field.attribute, value.copy() if isinstance(value, np.ndarray) else value)
+    person.events[:] = state.events
+
+
 def same(one: HumanState, other: HumanState) -> bool:
     """Whether two states go on in the same way; what has happened before does not matter."""
-
-    def rest(state: HumanState) -> tuple:
-        way = state.interrupted is None, state.back_to, id(state.obstacles)
-        skill = None if state.skill is None else state.skill.tobytes()
-        mood = state.slowing, state.brakes, state.hurries, state.on_all_fours
-        return state.status, state.ticks, state.ended_at, *mood, *way, skill
-
-    if rest(one) != rest(other) or one.numbers.tobytes() != other.numbers.tobytes():
+    if not all(field.same(getattr(one, field.name), getattr(other, field.name)) for field in _FIELDS):
         return False
-    paths = (one.path, other.path), (one.interrupted, other.interrupted)
-    return all(a is b or (a and b and np.array_equal(a.table, b.table)) for a, b in paths)
+    return one.numbers.tobytes() == other.numbers.tobytes()
 
 
-def save_physics(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float64]:
-    """All that the next physics step depends on, (k,) float64."""
-    state = np.empty(mujoco.mj_stateSize(model, _STATE))
-    mujoco.mj_getState(model, data, state, _STATE)
-    return state
-
-
-def restore_physics(model: mujoco.MjModel, data: mujoco.MjData, physics: NDArray[np.float64]) -> None:
-    """Go back to what `save_physics` gave; raises `LocomotionError` when it was of another model."""
-    if len(physics) != mujoco.mj_stateSize(model, _STATE):
-        raise LocomotionError("the saved state belongs to another model")
-    mujoco.mj_setState(model, data, physics, _STATE)
-
-
-def hash_of(status: Status, parts: Iterable[NDArray[np.float64]]) -> str:
-    """Hex digest of a status and arrays; equal for equal ones."""
-    hasher = hashlib.sha256(status.encode())
-    for part in parts:
-        hasher.update(part.tobytes())
+def hash_of(state: HumanState) -> str:
+    """Hexadecimal digest of a state; equal for equal ones."""
+    hasher = hashlib.sha256(state.numbers.tobytes())
+    for field in _FIELDS:
+        value = getattr(state, field.name)
+        if isinstance(value, PathTable):
+            value = value.table
+        hasher.update(value.tobytes() if isinstance(value, np.ndarray) else repr(value).encode())
     return hasher.hexdigest()[:16]

@@ -8,7 +8,7 @@ import numpy as np
 
 from locomotion.body.hand_hold import holding
 from locomotion.body.person import CONTROL_DT, MASS, PersonIndex
-from locomotion.human.state import restore_physics, save_physics
+from locomotion.body.physics import restore_physics, save_physics
 from locomotion.paths.smoothing import ObstacleAhead
 
 __all__ = ["Passage", "Watcher"]

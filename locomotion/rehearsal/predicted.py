@@ -4,16 +4,29 @@ nothing disturbs it, it takes that over instead of simulating it once more."""
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Protocol
 
 import mujoco
 
-from locomotion.human.moving import MovingPerson
+from locomotion.events import Event
 from locomotion.human.state import HumanState, same
 
-__all__ = ["Foreseen"]
+__all__ = ["Predicted"]
 
 
-class Foreseen:
+class _Person(Protocol):
+    events: list[Event]
+    ticks: int
+
+    @property
+    def model(self) -> mujoco.MjModel: ...
+    @property
+    def data(self) -> mujoco.MjData: ...
+    def save_state(self) -> HumanState: ...
+    def become(self, state: HumanState) -> None: ...
+
+
+class Predicted:
     """The states of the next ticks. They come true as long as the person is as it was seen to be: a push,
     another path, pace or ground end it."""
 
@@ -21,7 +34,7 @@ class Foreseen:
         self._states: dict[int, HumanState] = {}  # by tick
         self._model: mujoco.MjModel | None = None
 
-    def expect(self, person: MovingPerson, states: Iterable[HumanState]) -> None:
+    def expect(self, person: _Person, states: Iterable[HumanState]) -> None:
         """From now on ``states`` are to come, one each tick; each holds the events of its tick only. None of
         them know of a force that pushes it now."""
         self.forget()
@@ -30,7 +43,7 @@ class Foreseen:
             for state in states:
                 self.add(state)
 
-    def begin(self, person: MovingPerson) -> None:
+    def begin(self, person: _Person) -> None:
         """What is added from now on comes after what ``person`` is now."""
         self.forget()
         self._model = person.model
@@ -48,7 +61,7 @@ class Foreseen:
         """Nothing is known."""
         self._states.clear()
 
-    def comes_true(self, person: MovingPerson) -> bool:
+    def comes_true(self, person: _Person) -> bool:
         """Whether the next tick is known; ``person`` is then what it will be after it."""
         now, soon = self._states.pop(person.ticks, None), self._states.get(person.ticks + 1)
         if soon is None:
@@ -61,7 +74,7 @@ class Foreseen:
         person.events[:] = events
         return True
 
-    def all_come_true(self, person: MovingPerson) -> list[HumanState]:
+    def all_come_true(self, person: _Person) -> list[HumanState]:
         """The states of all the next ticks that are known; ``person`` is then what it will be after them."""
         states: list[HumanState] = []
         if self.comes_true(person):

@@ -15,7 +15,7 @@ from locomotion.avoidance.yielding import SPACING, Course
 from locomotion.human.saved_state import check_person
 from locomotion.paths.departures import can_begin, leads
 from locomotion.paths.run_up_room import cramped_links
-from locomotion.rehearsal.rehearsal import REHEARSALS
+from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.skills.interface import skill_ranges
 from locomotion.skills.library import learned_skills
 from runtime.bodies.figure import Figure

@@ -10,7 +10,7 @@ from locomotion import MOVING, Ground, Human, ObstacleAhead
 from locomotion.events import Cleared, TookOff
 from locomotion.ground.ground import extruded
 from locomotion.rehearsal.contact_report import Passage, Watcher
-from locomotion.rehearsal.rehearsal import REHEARSALS
+from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.skills.interface import ClearingSkill
 
 __all__ = [

@@ -17,7 +17,7 @@ from locomotion import LocomotionError, load_run_skill
 from locomotion.avoidance.yielding import Course
 from locomotion.body.person import CONTROL_DT
 from locomotion.quadruped import is_body_file, load_body
-from locomotion.rehearsal.rehearsal import REHEARSALS
+from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.skills.library import described_ranges, learned_skills, skills_digest
 from runtime.bodies.humans import People
 from runtime.bodies.protocol import BODIES, Follower, Population, radius_of

@@ -7,9 +7,9 @@ import mujoco
 import numpy as np
 
 from locomotion.body.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, build_person
+from locomotion.body.physics import restore_physics
 from locomotion.gaits.run import controller as c
 from locomotion.gaits.run.skill import RunSkill, reset_running
-from locomotion.human.state import restore_physics
 from locomotion.training.gaits.walk_starts import walk_starts
 from surefoot.kernels import allocating_kernel
 

@@ -6,12 +6,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from locomotion.body.physics import save_physics
 from locomotion.errors import LocomotionError
 from locomotion.gaits.limits import run_entry_speed
 from locomotion.gaits.run.skill import run_on
 from locomotion.gaits.walk.layout import WALK_HEADING, WALK_STANCE
 from locomotion.human.human import Human
-from locomotion.human.state import HumanState, save_physics
+from locomotion.human.state import HumanState
 
 __all__ = ["WALK_STARTS", "WalkStart", "walk_starts"]
 

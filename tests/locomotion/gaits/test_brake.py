@@ -10,7 +10,7 @@ from locomotion.body.person import MASS
 from locomotion.gaits.brake import BRAKE_SKILL, BRAKING, FIRST_STEPS, load_brake_skill
 from locomotion.gaits.run import controller
 from locomotion.gaits.run.skill import load_run_skill
-from locomotion.rehearsal.rehearsal import BRAKINGS, ComesToRest, at_once, first_good
+from locomotion.rehearsal.trials import BRAKINGS, ComesToRest, at_once, first_good
 from locomotion.training.gaits.brake import BrakeProblem, brake_of, draw_starts, first_guess, stop
 from locomotion.training.search.loop import Stage
 
@@ -112,10 +112,10 @@ def test_told_to_go_on_while_it_brakes_it_comes_to_a_stand_first(ticks):
 
 def test_of_all_that_end_in_a_stand_it_does_what_takes_the_least_room():
     human, understudy = running(310), running(0, rehearsals=0)
-    decide, decided = human.decides, []
+    decide, decided = human.decider.answer, []
     assert decide is not None
-    human.decides = lambda person, question: (
-        decided.append((question, decide(person, question))) or decided[-1][1]
+    human.decider.answer = lambda question: (
+        decided.append((question, decide(question))) or decided[-1][1]
     )
     begun, way = human.com[0], way_of_stop(human)
     ((question, outcome),) = decided

@@ -4,8 +4,8 @@ import pytest
 
 from locomotion.human.human import Human
 from locomotion.human.state import MOVING
-from locomotion.rehearsal.lookahead import Foresight
-from locomotion.rehearsal.predicted import Foreseen
+from locomotion.rehearsal.lookahead import Lookahead
+from locomotion.rehearsal.predicted import Predicted
 from runtime.evaluation.courses import enter_course, make_course
 
 COURSE = [("jump", 0.4, 0.3), ("vault", 0.7, 0.3)], [14.0, 9.0]
@@ -40,9 +40,9 @@ def push(human):
 @pytest.mark.parametrize("disturb", [None, push])
 def test_it_decides_as_if_it_rehearsed_at_the_moment(monkeypatch, disturb):
     foreseeing = hashes(enter(), disturb)
-    monkeypatch.setattr(Foresight, "go_on", lambda *_: None)
+    monkeypatch.setattr(Lookahead, "go_on", lambda *_: None)
     assert foreseeing == hashes(enter(), disturb)
-    monkeypatch.setattr(Foreseen, "comes_true", lambda *_: False)
+    monkeypatch.setattr(Predicted, "comes_true", lambda *_: False)
     assert foreseeing == hashes(enter(), disturb)
 
 
@@ -73,7 +73,7 @@ def test_no_tick_bears_a_whole_rehearsal(monkeypatch):
         return result
 
     beforehand = most(enter())
-    monkeypatch.setattr(Foresight, "go_on", lambda *_: None)
+    monkeypatch.setattr(Lookahead, "go_on", lambda *_: None)
     assert beforehand <= 50 and most(enter()) > 300
 
 

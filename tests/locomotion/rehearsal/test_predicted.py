@@ -12,7 +12,7 @@ def slowing_down(takes_over: bool) -> Human:
     """A person that has just begun to slow down to a walk; ``takes_over``: what it has rehearsed."""
     human = Human()
     if not takes_over:
-        human.foreseen.expect = lambda *_: None  # type: ignore[method-assign]
+        human.decider.predicted.expect = lambda *_: None  # type: ignore[method-assign]
     human.reset(WAY[0], 0.0, speed=3.0)
     human.follow(WAY, 3.0)
     while human.gait_now != "slow run":

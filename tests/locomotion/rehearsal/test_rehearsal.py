@@ -10,8 +10,8 @@ from locomotion.human.state import MOVING
 from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.rehearsal import rehearsal
 from locomotion.rehearsal.contact_report import Passage, Watcher
-from locomotion.rehearsal.lookahead import Foresight
-from locomotion.rehearsal.rehearsal import RUN_UPS, STEPPINGS, at_once, clears, walks_on
+from locomotion.rehearsal.lookahead import Lookahead
+from locomotion.rehearsal.trials import RUN_UPS, STEPPINGS, at_once, clears, walks_on
 from locomotion.skills.interface import foot_distance
 from runtime.evaluation.courses import make_course, run_course
 
@@ -88,7 +88,7 @@ def test_a_choice_that_goes_well_is_not_rehearsed_again():
 
 
 def test_it_does_not_run_at_what_never_holds_and_keeps_its_budget(monkeypatch):
-    monkeypatch.setattr(Foresight, "go_on", lambda *_: None)  # each rehearsal in one tick
+    monkeypatch.setattr(Lookahead, "go_on", lambda *_: None)  # each rehearsal in one tick
     skill = Picky(100.0)
     human = about_to_run_up(skill, 2)
     here, returns, most = 0.0, 0, 0
@@ -180,9 +180,9 @@ def test_a_rehearsal_leaves_no_trace():
 def test_a_person_saved_in_the_run_up_goes_on_bit_for_bit():
     needed = distance_unrehearsed() + 0.02
     human, twin = (about_to_run_up(Picky(needed), 16) for _ in range(2))
-    while not human._obstacle_run.planned:
+    while not human.run_up.planned:
         human.tick()
-    run = human._obstacle_run
+    run = human.run_up
     while run.planned and not run.clearing:
         twin.restore_state(human.save_state())
         human.tick()

@@ -164,7 +164,7 @@ def test_a_person_finishes_going_over_to_another_gait_before_it_gives_way():
     while runner.moving:
         world.step(0.01)
         human = runner.human
-        slows, steps = human.gait_now == "slow run", human._control[STEPS]
+        slows, steps = human.gait_now == "slow run", human.control[STEPS]
         free = human.course() is not None
         if slows or (human.gait_now == "run" and steps < 4.0):
             assert not free

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import navmesh
-from locomotion.rehearsal.lookahead import Foresight
+from locomotion.rehearsal.lookahead import Lookahead
 from locomotion.skills.jump.skill import load_jump_skill
 from runtime import Blocked, Departed, Event, RuntimeInputError, World
 from runtime.bodies.figure import rotate, turn
@@ -59,7 +59,7 @@ def test_people_rehearse_as_much_as_their_world_says(graph, monkeypatch):
         yield
         return 0.0, []
 
-    monkeypatch.setattr(Foresight, "go_on", lambda *_: None)  # all at the moment
+    monkeypatch.setattr(Lookahead, "go_on", lambda *_: None)  # all at the moment
     with pytest.raises(RuntimeInputError, match="rehearsals must be"):
         World(graph, rehearsals=-1)
     course = make_course([("jump", 0.4, 0.0)], [10.0])
@@ -69,9 +69,9 @@ def test_people_rehearse_as_much_as_their_world_says(graph, monkeypatch):
         world = World(terrain, rehearsals=most)
         human = world.spawn("human", (0.0, 0.0, 0.0)).human
         seen = []
-        choose = human._rehearse
-        human._rehearse = lambda choices, do, goes, seen=seen, choose=choose: choose(
-            choices, lambda body, choice: (seen.append(choice), do(body, choice)), fails
+        choose = human.decider.best
+        human.decider.best = lambda body, choices, do, goes, seen=seen, choose=choose: choose(
+            body, choices, lambda body, choice: (seen.append(choice), do(body, choice)), fails
         )
         world.agents["human1"].go_to((20.0, 0.0, 0.4), speed=3.0)
         while not seen and world.time < 12.0:

@@ -24,9 +24,9 @@ from locomotion.gaits.walk.layout import (
 )
 from locomotion.ground.ground import Ground, extruded
 from locomotion.human.state import MOVING, same
-from locomotion.rehearsal.lookahead import Foresight
-from locomotion.rehearsal.predicted import Foreseen
-from locomotion.rehearsal.rehearsal import REHEARSALS, STAYS_UP, STEPPINGS, StepsOn, at_once
+from locomotion.rehearsal.lookahead import Lookahead
+from locomotion.rehearsal.predicted import Predicted
+from locomotion.rehearsal.trials import REHEARSALS, STAYS_UP, STEPPINGS, StepsOn, at_once
 
 _STEPS, _RISE, _TREAD = 9, 0.12, 0.52  # number; [m] of each along the way: its front, and behind it
 _LEVEL = 4.0  # [m] before and behind
@@ -134,9 +134,9 @@ def test_it_decides_as_if_it_rehearsed_every_step_at_the_moment(monkeypatch, dis
         return seen
 
     foreseeing = hashes()
-    monkeypatch.setattr(Foresight, "go_on", lambda *_: None)
+    monkeypatch.setattr(Lookahead, "go_on", lambda *_: None)
     assert foreseeing == hashes()
-    monkeypatch.setattr(Foreseen, "comes_true", lambda *_: False)
+    monkeypatch.setattr(Predicted, "comes_true", lambda *_: False)
     assert foreseeing == hashes()
 
 
@@ -218,10 +218,11 @@ class Stepping:
     stand."""
 
     events: ClassVar[list] = []
-    model, held, undecided = None, False, False
+    model, held = None, False
 
     def __init__(self, falls=math.inf, headway=0.5, status="walking", rests=math.inf):
         self.ticks, self.falls, self.headway, self.status, self.rests = 0, falls, headway, status, rests
+        self.decider = SimpleNamespace(undecided=False)
         walk = new_walk()
         walk[WALK_SPEED] = 0.5
         self.on_feet, self.way = SimpleNamespace(walks=True, walk=walk), SimpleNamespace(remaining=5.0)
@@ -257,7 +258,7 @@ def test_what_is_seen_ends_where_something_else_is_to_be_decided_or_it_falls():
 
         def tick(body=body, tick=body.tick, undecided=undecided):
             tick()
-            body.undecided = body.ticks == undecided
+            body.decider.undecided = body.ticks == undecided
 
         body.tick = tick
         assert [state.ticks for state in at_once(StepsOn()(body))[1]] == list(range(1, known + 1))

@@ -13,8 +13,9 @@ import math
 from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar
 
+import mujoco
 import numpy as np
 
 from locomotion.body.person import CONTROL_DT
@@ -22,13 +23,9 @@ from locomotion.events import Cleared, TookOff
 from locomotion.gaits.walk.layout import LONGER, WALK_HEADING, WALK_SPEED
 from locomotion.human.state import MOVING, HumanState, same
 from locomotion.rehearsal.contact_report import Passage, Watcher
-from locomotion.rehearsal.deciding import Question, tick_unless_asked
+from locomotion.rehearsal.deciding import Outcome, Question, Trial, tick_unless_asked
+from locomotion.rehearsal.understudy import Chooser, Understudy
 from surefoot.pausing import pause
-
-if TYPE_CHECKING:
-    import mujoco
-
-    from locomotion.human.human import Human
 
 __all__ = [
     "BALKINGS",
@@ -41,12 +38,12 @@ __all__ = [
     "STAYS_UP",
     "STEPPINGS",
     "ComesToRest",
-    "Outcome",
     "StepsOn",
-    "Trial",
     "at_once",
+    "balk",
     "clears",
     "first_good",
+    "vary_run_up",
     "walks_on",
 ]
 
@@ -105,19 +102,6 @@ HOLDS = 0.5
 """How well a run-up has to go, at least, that it is begun and not broken off."""
 
 
-class Outcome(NamedTuple, Generic[_T]):
-    """The choice that was made, how well it went, and what was seen of it: its states after each tick, each
-    with the events of that tick only; empty where nothing was noted."""
-
-    choice: _T
-    went: float
-    seen: list[HumanState]
-
-
-Trial = Generator[None, None, tuple[float, list[HumanState]]]
-"""A body goes on by a tick at a time; in the end, how well it went and what was seen of it (`Outcome`)."""
-
-
 def at_once(task: Generator[None, None, _R]) -> _R:
     """What comes of a task in the end."""
     while True:
@@ -130,10 +114,10 @@ def at_once(task: Generator[None, None, _R]) -> _R:
 
 def first_good(
     state: HumanState,
-    understudy: Human,
+    understudy: Understudy,
     choices: Sequence[_T],
-    choose: Callable[[Human, _T], None],
-    goes_well: Callable[[Human], Trial],
+    choose: Callable[[Chooser, _T], None],
+    goes_well: Callable[[Understudy], Trial],
 ) -> Generator[None, None, Outcome[_T]]:
     """The first of ``choices`` in ``state`` that goes perfectly, or else the first of the best; tick by tick
     of the ``understudy``.
@@ -154,7 +138,7 @@ def first_good(
     return best
 
 
-def clears(body: Human, looks_on: bool = True, notes: bool = False) -> Trial:
+def clears(body: Understudy, looks_on: bool = True, notes: bool = False) -> Trial:
     """Whether it clears the obstacle ahead and stays up behind it: 1 without touching what it should not.
 
     looks_on: whether it also matters what it can do before another obstacle that is near behind it. notes:
@@ -168,18 +152,22 @@ def clears(body: Human, looks_on: bool = True, notes: bool = False) -> Trial:
     walked = False
     seen: list[HumanState] = []
     decided: HumanState | None = None  # before it has to decide something behind the obstacle
-    body.undecided = False
+    body.decider.undecided = False
     for tick in range(_LONGEST):
         body.events.clear()
-        if looks_on and cleared_at and not body.undecided:
+        if looks_on and cleared_at and not body.decider.undecided:
             decided = body.save_state()
         body.tick()
         yield
         if _failed(body) or body.status == "standing":
-            if decided is not None and body.undecided and (yield from slows_down_in_time(body, decided)):
+            if (
+                decided is not None
+                and body.decider.undecided
+                and (yield from slows_down_in_time(body, decided))
+            ):
                 return (1.0 if passage.clean(obstacle.affordance) else 0.5), seen
             return 0.0, []
-        if notes and not body.undecided:
+        if notes and not body.decider.undecided:
             seen.append(body.save_state())
         again = False
         for event in body.events:
@@ -202,18 +190,27 @@ def clears(body: Human, looks_on: bool = True, notes: bool = False) -> Trial:
     return 0.0, []
 
 
-def finds_a_way_on(body: Human) -> Generator[None, None, bool]:
+def vary_run_up(body: Chooser, choice: Sequence[float]) -> None:
+    """Take one of `RUN_UPS`."""
+    body.vary_run_up(choice)
+
+
+def balk(body: Chooser, deceleration: float) -> None:
+    """Take one of `BALKINGS`."""
+    body.balk(deceleration)
+
+
+def finds_a_way_on(body: Understudy) -> Generator[None, None, bool]:
     """Whether one that begins a run-up and looks no farther clears the obstacle, or can break it off."""
-    begin, state = type(body), body.save_state()
-    goes_on = partial(clears, looks_on=False)
-    best = yield from first_good(state, body, RUN_UPS[:_LOOKED_AT], begin.vary_run_up, goes_on)
+    state, goes_on = body.save_state(), partial(clears, looks_on=False)
+    best = yield from first_good(state, body, RUN_UPS[:_LOOKED_AT], vary_run_up, goes_on)
     if best.went > 0.0:
         return True
-    best = yield from first_good(state, body, BALKINGS[:_LOOKED_AT], begin.balk, walks_on)
+    best = yield from first_good(state, body, BALKINGS[:_LOOKED_AT], balk, walks_on)
     return best.went > 0.0
 
 
-def slows_down_in_time(body: Human, state: HumanState) -> Generator[None, None, bool]:
+def slows_down_in_time(body: Understudy, state: HumanState) -> Generator[None, None, bool]:
     """Whether one that is about to slow down, in ``state``, finds a way to slow down or to brake that goes
     well. Less is tried than what it tries when it is there."""
     answers: list[tuple[Question, Outcome]] = []
@@ -247,17 +244,17 @@ class ComesToRest:
 
     within: float = math.inf
 
-    def __call__(self, body: Human) -> Trial:
+    def __call__(self, body: Understudy) -> Trial:
         """Try it."""
         seen: list[HumanState] = []
-        body.undecided = False
+        body.decider.undecided = False
         begun, velocity, way = body.com, body.velocity, 0.0
         along = velocity / max(float(np.linalg.norm(velocity)), _SLOWEST)
         for _ in range(_AT_REST):
             body.events.clear()
             body.tick()
             yield
-            if not body.undecided:
+            if not body.decider.undecided:
                 seen.append(body.save_state())
             now = float(along @ (body.com - begun))
             way = max(way, now)
@@ -297,7 +294,7 @@ class StepsOn:
         self._moments: list[_Moment] = []
         self._best = 0.0
 
-    def __call__(self, body: Human) -> Trial:
+    def __call__(self, body: Understudy) -> Trial:
         """Try it."""
         varied, left = bool(body.on_feet.walk[LONGER].any()), body.way.remaining
         moments = self._known(body)
@@ -305,19 +302,21 @@ class StepsOn:
             body.become(moments[-1].state)
         while not (moments and _ends(moments[-1])) and len(moments) < _STEPPING:
             body.events.clear()
-            body.undecided = False
+            body.decider.undecided = False
             body.tick()
             yield
             rests = body.held or not body.on_feet.walks
             asked = abs(float(body.on_feet.walk[WALK_SPEED]))
-            moments.append(_Moment(body.save_state(), body.undecided, body.way.remaining, asked, rests))
+            moments.append(
+                _Moment(body.save_state(), body.decider.undecided, body.way.remaining, asked, rests)
+            )
         went = _headway(left, moments)
         if not varied or went > self._best:
             self._model, self._moments, self._best = body.model, moments, went
         known = itertools.takewhile(lambda at: not at.undecided and at.state.status not in _FAILED, moments)
         return went, [moment.state for moment in known]
 
-    def _known(self, body: Human) -> list[_Moment]:
+    def _known(self, body: Understudy) -> list[_Moment]:
         """What is to come, as far as it was seen."""
         if body.model is self._model:
             begun = body.save_state()
@@ -345,25 +344,25 @@ def _headway(left: float, moments: Sequence[_Moment]) -> float:
     return STAYS_UP + (1.0 - STAYS_UP) * (1.0 if made >= meant else made / meant)
 
 
-def _failed(body: Human) -> bool:
+def _failed(body: Understudy) -> bool:
     """Whether it fell, lost its way or got stuck; one that has come past its goal can go back."""
     came_past = body.status == "lost" and body.way.ended
     return body.status in _FAILED and not came_past
 
 
-def walks_on(body: Human, notes: bool = False) -> Trial:
+def walks_on(body: Understudy, notes: bool = False) -> Trial:
     """Whether a body that slows down comes to walk or stand, and stays up: 1 if it does not stagger to one
     side in the end, which would make it fall later. ``notes``: whether what is seen of it is noted; it then
     forgets its events."""
     seen: list[HumanState] = []
     walked, beside = 0, 0.0
-    body.undecided = False
+    body.decider.undecided = False
     for _ in range(_LONGEST):
         if notes:
             body.events.clear()
         body.tick()
         yield
-        if notes and not body.undecided:
+        if notes and not body.decider.undecided:
             seen.append(body.save_state())
         if _failed(body):
             return 0.0, []

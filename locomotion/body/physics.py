@@ -1,0 +1,31 @@
+"""All that the next physics step depends on, kept and restored."""
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion.errors import LocomotionError
+
+__all__ = ["PHYSICS", "physics_size", "restore_physics", "save_physics"]
+
+PHYSICS = mujoco.mjtState.mjSTATE_INTEGRATION
+"""What of MuJoCo's state that is."""
+
+
+def physics_size(model: mujoco.MjModel) -> int:
+    """How many numbers that are."""
+    return mujoco.mj_stateSize(model, PHYSICS)
+
+
+def save_physics(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float64]:
+    """The state of ``data``, (k,) float64."""
+    state = np.empty(physics_size(model))
+    mujoco.mj_getState(model, data, state, PHYSICS)
+    return state
+
+
+def restore_physics(model: mujoco.MjModel, data: mujoco.MjData, physics: NDArray[np.float64]) -> None:
+    """Go back to what `save_physics` gave; raises `LocomotionError` if that was of another model."""
+    if len(physics) != physics_size(model):
+        raise LocomotionError("the saved state belongs to another model")
+    mujoco.mj_setState(model, data, physics, PHYSICS)

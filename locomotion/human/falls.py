@@ -1,0 +1,82 @@
+"""A person that falls, and its ticks on hands and feet until it stands again."""
+
+from __future__ import annotations
+
+import mujoco
+
+from locomotion.body.hand_hold import let_go_both
+from locomotion.body.person import CONTROL_DT, STEPS_PER_TICK
+from locomotion.events import Fell, GotUp
+from locomotion.gaits.run import controller
+from locomotion.gaits.walk.controller import observe_walk
+from locomotion.gaits.walk.layout import new_walk
+from locomotion.gaits.walk.skill import rise_walking
+from locomotion.human.headway import notice
+from locomotion.human.person import Person
+from locomotion.human.state import MOVING, Status
+from locomotion.paths.tracking import SLOPE_HERE
+
+__all__ = ["fall", "tick_on_all_fours"]
+
+_LONGEST_DOWN = 12000  # ticks after which a body that has not got up stays down
+_LOOKS = 20  # ticks after which one on hands and feet looks again whether it can walk on
+
+
+def fall(person: Person, gets_up: bool) -> None:
+    """It has lost its balance; ``gets_up``: whether it gets up again where there is ground."""
+    let_go_both(person.data)
+    on_way = person.status in MOVING
+    speed, slope = float(person.control[controller.SPEED]), float(person.way.memory[SLOPE_HERE])
+    person.end("fallen", Fell(person.time, person.point, speed, slope, person.arc_length))
+    if gets_up and person.simulation.over_ground:
+        person.status, person.on_feet.slowing = "getting up", 0.0
+        person.on_feet.walk[:] = new_walk()
+        person.run_up.give_up()
+        person.fours.fall(person.data)
+        person.fours.fell_at, person.fours.on_way = float(person.ticks), float(on_way)
+
+
+def tick_on_all_fours(person: Person, gets_up: bool) -> None:
+    """A tick on hands and feet, on the way to them after a fall, or from them to a stand."""
+    fours, lookup = person.fours, person.simulation.lookup
+    way = person.way if fours.on_way > 0.0 and person.status in MOVING else None
+    if person.ticks % _LOOKS == 0:
+        fours.look(person.ground, person.position, way)
+    fours.steer(way, person.control[controller.COM], person.ticks, person.command)
+    fours.tick(lookup, person.command, person.data, fours.gentle > 0.0)
+    mujoco.mj_step(person.physics, person.data, STEPS_PER_TICK)
+    person.control[controller.FALLEN] = 0.0
+    stands = fours.observe(lookup, person.data, person.control)
+    got_up = person.status == "getting up"
+    if fours.fallen and person.status != "getting up":
+        fall(person, gets_up)
+    elif stands:
+        _stand_up(person)
+    elif fours.borne and fours.gentle == 0.0 and person.status == "getting up":
+        _got_up(person, "scrambling")
+    if person.status == "getting up":
+        person.way.make_headway(person.ticks)
+        if person.ticks - fours.fell_at > _LONGEST_DOWN:
+            person.status, person.ended_at = "fallen", person.ticks
+            fours.leave()
+    elif way is not None and way.path is not None and person.status in MOVING and not got_up:
+        notice(person)  # but one that has just got up, which may be told to take another way
+
+
+def _stand_up(person: Person) -> None:
+    """The walk takes over."""
+    rise_walking(person.on_feet.walk, person.control, person.fours.facing)
+    observe_walk(person.index, person.data, person.on_feet.walk)
+    person.fours.leave()
+    if person.status == "getting up":
+        _got_up(person, "walking")
+    elif person.status == "scrambling":
+        person.status = "walking"
+
+
+def _got_up(person: Person, status: Status) -> None:
+    person.way.go_on_from(person.position, person.ticks)
+    person.status = status if person.fours.on_way > 0.0 else "standing"
+    person.ended_at = person.ticks
+    down = (person.ticks - person.fours.fell_at) * CONTROL_DT
+    person.events.append(GotUp(person.time, person.point, down))

@@ -1,0 +1,54 @@
+"""How far a person has come with its path: arrived, lost, stuck."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from locomotion.events import Arrived, GotStuck, MissedGoal, StrayedFromPath
+from locomotion.gaits.run import controller
+from locomotion.human.person import Person
+
+__all__ = ["ARRIVAL_DISTANCE", "STRAYED", "STUCK_TIME", "notice"]
+
+ARRIVAL_DISTANCE = 0.5
+"""A person has arrived when its centre of mass is within this horizontal distance of the goal [m]."""
+STRAYED = 2.0
+"""[m] beside the path at which a person gives up following it."""
+STUCK_TIME = 8.0
+"""[s] without headway along the path after which a person counts as stuck."""
+_WALK_ARRIVAL = 0.15  # [m] before the end of its path at which a walking person stops
+_STAYS = 1.0  # [m/s] up to which one that comes to its goal stays there
+_COMES_BACK = 3.5  # [m] beside its path up to which one that does not run may slow down and turn first
+_CLIMBS_BACK = 6.0  # [m] beside its path, where it has slid to, from which it climbs back
+
+
+def notice(person: Person) -> None:
+    """End the way of a person that has arrived, is lost or is stuck."""
+    way, com = person.way, person.control[controller.COM]
+    assert way.path is not None
+    if way.interrupted is not None and way.remaining < _WALK_ARRIVAL:
+        way.turn_again(person.ticks)
+        return
+    on_foot = person.status in ("walking", "scrambling")  # who runs comes past, and has to come back
+    if on_foot and way.remaining < _WALK_ARRIVAL:
+        goal = way.path.goal
+        distance = math.hypot(goal[0] - com[0], goal[1] - com[1])
+        if distance <= ARRIVAL_DISTANCE and float(np.linalg.norm(person.velocity[:2])) <= _STAYS:
+            person.end("arrived", Arrived(person.time, person.point, distance))
+        elif distance > ARRIVAL_DISTANCE and way.ended and person.status != "scrambling":
+            person.end("lost", MissedGoal(person.time, person.point, distance))
+    elif abs(way.lateral) > _may_stray(person):
+        person.end("lost", StrayedFromPath(person.time, person.point, abs(way.lateral)))
+    elif way.pace < 1.0:
+        way.wait()
+    elif way.without_headway(person.ticks) > STUCK_TIME:
+        person.end("stuck", GotStuck(person.time, person.point))
+
+
+def _may_stray(person: Person) -> float:
+    """[m] beside its path from which it is lost."""
+    if person.fours.active:
+        return _CLIMBS_BACK
+    return STRAYED if person.on_feet.runs else _COMES_BACK

@@ -8,7 +8,7 @@ from locomotion.events import Arrived, Cleared, Fell, GotStuck, SetOff, TookOff,
 from locomotion.human.human import Human
 from locomotion.human.state import MOVING
 from locomotion.paths.smoothing import ObstacleAhead
-from locomotion.rehearsal import rehearsal
+from locomotion.rehearsal import trials
 from locomotion.rehearsal.contact_report import Passage, Watcher
 from locomotion.rehearsal.lookahead import Lookahead
 from locomotion.rehearsal.trials import RUN_UPS, STEPPINGS, at_once, clears, walks_on
@@ -136,7 +136,7 @@ def test_clearing_an_obstacle_without_a_way_on_behind_it_is_worth_less(monkeypat
         yield
         return 0.0, []
 
-    monkeypatch.setattr(rehearsal, "walks_on", never_walks_on)
+    monkeypatch.setattr(trials, "walks_on", never_walks_on)
     human.restore_state(here)
     assert 0.0 < at_once(clears(human))[0] < 1.0
 
@@ -214,7 +214,7 @@ def test_a_rehearsal_sees_all_that_is_touched(affordance, height, monkeypatch):
             super().look(data, obstacle, passage)
             rehearsed.append(passage)
 
-    monkeypatch.setattr(rehearsal, "Watcher", Recorder)
+    monkeypatch.setattr(trials, "Watcher", Recorder)
     (came,) = run_course(make_course([(affordance, height, 0.3)], [14.0])).passages
     assert came.cleared and came.peak > 1.0
     for name in ("touched", "held", "planted", "head", "peak"):

@@ -4,6 +4,7 @@ import re
 import shlex
 from functools import cache
 from pathlib import Path
+from pkgutil import resolve_name
 
 import pytest
 import typer
@@ -48,10 +49,14 @@ def test_every_page_is_linked_from_the_index() -> None:
 
 
 @every_page
-def test_modules_that_are_named_exist(page: Path) -> None:
+def test_what_is_named_exists(page: Path) -> None:
     for span in pages.spans(page):
         if re.fullmatch(r"[\w/]+\.py", span):
             assert any(file.endswith(f"/{span}") for file in _code()), f"{name(page)} names {span}"
+        elif re.fullmatch(rf"({'|'.join(FOLDERS)})/[\w/.]+", span):
+            assert (ROOT / span).exists(), f"{name(page)} names {span}"
+        elif re.fullmatch(rf"({'|'.join(FOLDERS)})(\.\w+)+", span):
+            resolve_name(span)
 
 
 @cache

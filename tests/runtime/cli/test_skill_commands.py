@@ -161,8 +161,8 @@ def compute(seconds):
 
 def test_what_workers_compute_counts_while_they_live_and_after():
     before, least = _cpu_minutes(), 1.9 / 60.0  # the system counts whole ticks of 10 ms
-    with worker_pool(1, compute, (2.0,)) as pool:
-        pool.map(compute, [2.0])
+    with worker_pool(2, compute, (1.0,)) as pool:
+        pool.map(compute, [1.0, 1.0])
         assert _cpu_minutes() - before >= least
     assert _cpu_minutes() - before >= least
 

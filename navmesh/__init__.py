@@ -4,6 +4,8 @@ from navmesh.chunks import chunks_of, join_chunks, split_terrain
 from navmesh.errors import NavmeshError
 from navmesh.graph import NodeGraph
 from navmesh.obstacle_rules import ObstacleRules
+from navmesh.obstacles import Obstacles
+from navmesh.route import Route, Routes
 from navmesh.rules import WalkRules
 from navmesh.tagging import load_tags
 from navmesh.tags import save_tags, tags_path
@@ -15,6 +17,9 @@ __all__ = [
     "NavmeshError",
     "NodeGraph",
     "ObstacleRules",
+    "Obstacles",
+    "Route",
+    "Routes",
     "Terrain",
     "WalkRules",
     "__version__",

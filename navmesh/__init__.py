@@ -3,6 +3,7 @@
 from navmesh.chunks import chunks_of, join_chunks, split_terrain
 from navmesh.errors import NavmeshError
 from navmesh.graph import NodeGraph
+from navmesh.kinds import ObstacleKind
 from navmesh.obstacle_rules import ObstacleRules
 from navmesh.obstacles import Obstacles
 from navmesh.route import Route, Routes
@@ -16,6 +17,7 @@ from surefoot.compiling import announce
 __all__ = [
     "NavmeshError",
     "NodeGraph",
+    "ObstacleKind",
     "ObstacleRules",
     "Obstacles",
     "Route",

@@ -161,7 +161,8 @@ def test_results_need_a_folder(surefoot, folder):
 
 
 def test_bake_tells_the_size_of_the_level(surefoot, folder):
-    code, out, _ = surefoot("bake", folder / "level.obj", "--scale", "2", "-o", folder / "graph.npz", "--json")
+    graph = folder / "graph.npz"
+    code, out, _ = surefoot("bake", folder / "level.obj", "--scale", "2", "-o", graph, "--json")
     low, high = navmesh.Terrain.load(folder / "level.obj").bounds
     assert code == 0 and json.loads(out)["size"] == pytest.approx((2.0 * (high - low)).tolist(), abs=0.01)
 

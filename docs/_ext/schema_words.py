@@ -1,0 +1,60 @@
+"""What a JSON schema says of a value, in words."""
+
+import re
+from typing import Any
+
+
+def words_of(name: str) -> str:
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name.removesuffix("Spec")).lower()
+
+
+def value(part: dict[str, Any]) -> str:
+    if "$ref" in part:
+        return words_of(part["$ref"].rsplit("/", 1)[1])
+    for choice in ("anyOf", "oneOf"):
+        if choice in part:
+            return " or ".join(dict.fromkeys(value(p) for p in part[choice] if p.get("type") != "null"))
+    if "allOf" in part:
+        return value(part["allOf"][0])
+    if "const" in part:
+        return f"`{part['const']}`"
+    if "enum" in part:
+        return ", ".join(f"`{value}`" for value in part["enum"])
+    kind = part.get("type", "anything")
+    if kind == "array":
+        if "prefixItems" in part:
+            return f"[{', '.join(value(p) for p in part['prefixItems'])}]"
+        inner = value(part.get("items", {}))
+        if part.get("minItems") == part.get("maxItems") == 3 and inner.startswith("number"):
+            return "`[x, y, z]`"
+        if part.get("minItems") == part.get("maxItems") == 2:
+            return f"[{inner}, {inner}]"
+        return f"list of ({inner})" if " or " in inner else f"list of {inner}"
+    if kind == "object":
+        inner = part.get("additionalProperties") or next(
+            iter(part.get("patternProperties", {}).values()), None
+        )
+        return f"name: {value(inner)}, …" if isinstance(inner, dict) else "mapping"
+    words = {"number": "number", "integer": "whole number", "string": "text", "boolean": "`true`, `false`"}
+    return words.get(kind, kind) + _range(part)
+
+
+def _range(part: dict[str, Any]) -> str:
+    least, above = part.get("minimum"), part.get("exclusiveMinimum")
+    most, below = part.get("maximum"), part.get("exclusiveMaximum")
+    bounds = [
+        f"{word} {value:g}"
+        for word, value in (("≥", least), (">", above), ("≤", most), ("<", below))
+        if value is not None and abs(value) < 1e9
+    ]
+    return f" {', '.join(bounds)}" if bounds else ""
+
+
+def default(part: dict[str, Any]) -> str:
+    value = part.get("default")
+    return "" if value is None or value in ({}, []) or isinstance(value, dict) else f"`{value}`"
+
+
+def cell(text: str) -> str:
+    """``text`` as it may stand in a cell of a table."""
+    return " ".join(text.split()).replace("|", "\\|")

@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from schema_words import cell, default, value, words_of
+from schema_words import cell, default_words, value_words, words_of
 
 SCHEMA = Path(__file__).parents[1] / "reference" / "server.schema.json"
 
@@ -14,7 +14,7 @@ def page() -> str:
     schema = json.loads(SCHEMA.read_text())
     parts = [
         "# Server messages",
-        "What `surefoot serve` and its clients say to each other: JSON objects, one for each WebSocket text message "
+        "What `surefoot serve` and its clients say to each other: one JSON object in each WebSocket message "
         "([in another language](../../guides/server.md)). Fields in **bold** must be there.",
         "## From clients",
         *_messages(schema["from_client"]),
@@ -41,6 +41,6 @@ def _table(schema: dict[str, Any]) -> str:
     for key, part in schema["properties"].items():
         shown = f"**{key}**" if key in schema.get("required", ()) else key
         rows.append(
-            f"| {shown} | {cell(value(part))} | {default(part)} | {cell(part.get('description', ''))} |"
+            f"| {shown} | {cell(value_words(part))} | {default_words(part)} | {cell(part.get('description', ''))} |"
         )
     return "\n".join(rows)

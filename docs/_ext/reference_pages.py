@@ -1,7 +1,7 @@
 """Writes the pages of the reference that follow from the code: `reference/generated`, anew at each build.
 
-The public names of the packages, the commands, the keys of the YAML files and the server's messages. Nothing of it is committed, so
-nothing of it can be out of date.
+The public names of the packages, the commands, the keys of the YAML files and the messages of the server.
+Nothing of it is committed, so nothing of it can be out of date.
 """
 
 from importlib import import_module

@@ -5,17 +5,19 @@ from typing import Any
 
 
 def words_of(name: str) -> str:
+    """The name of a model as words: ``NewValues`` is "new values"."""
     return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name.removesuffix("Spec")).lower()
 
 
-def value(part: dict[str, Any]) -> str:
+def value_words(part: dict[str, Any]) -> str:
+    """What may stand there: a type with its range, or the choices."""
     if "$ref" in part:
         return words_of(part["$ref"].rsplit("/", 1)[1])
     for choice in ("anyOf", "oneOf"):
         if choice in part:
-            return " or ".join(dict.fromkeys(value(p) for p in part[choice] if p.get("type") != "null"))
+            return " or ".join(dict.fromkeys(value_words(p) for p in part[choice] if p.get("type") != "null"))
     if "allOf" in part:
-        return value(part["allOf"][0])
+        return value_words(part["allOf"][0])
     if "const" in part:
         return f"`{part['const']}`"
     if "enum" in part:
@@ -23,8 +25,8 @@ def value(part: dict[str, Any]) -> str:
     kind = part.get("type", "anything")
     if kind == "array":
         if "prefixItems" in part:
-            return f"[{', '.join(value(p) for p in part['prefixItems'])}]"
-        inner = value(part.get("items", {}))
+            return f"[{', '.join(value_words(p) for p in part['prefixItems'])}]"
+        inner = value_words(part.get("items", {}))
         if part.get("minItems") == part.get("maxItems") == 3 and inner.startswith("number"):
             return "`[x, y, z]`"
         if part.get("minItems") == part.get("maxItems") == 2:
@@ -34,7 +36,7 @@ def value(part: dict[str, Any]) -> str:
         inner = part.get("additionalProperties") or next(
             iter(part.get("patternProperties", {}).values()), None
         )
-        return f"name: {value(inner)}, …" if isinstance(inner, dict) else "mapping"
+        return f"name: {value_words(inner)}, …" if isinstance(inner, dict) else "mapping"
     words = {"number": "number", "integer": "whole number", "string": "text", "boolean": "`true`, `false`"}
     return words.get(kind, kind) + _range(part)
 
@@ -50,7 +52,8 @@ def _range(part: dict[str, Any]) -> str:
     return f" {', '.join(bounds)}" if bounds else ""
 
 
-def default(part: dict[str, Any]) -> str:
+def default_words(part: dict[str, Any]) -> str:
+    """What counts when nothing stands there; empty if that is nothing."""
     value = part.get("default")
     return "" if value is None or value in ({}, []) or isinstance(value, dict) else f"`{value}`"
 

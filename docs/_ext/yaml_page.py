@@ -6,7 +6,7 @@ import re
 from typing import Any
 
 from pydantic import BaseModel
-from schema_words import cell, default, value, words_of
+from schema_words import cell, default_words, value_words, words_of
 from sphinx.pycode import ModuleAnalyzer
 
 from locomotion.skills.description import SkillDescription
@@ -69,10 +69,10 @@ def _table(model: type[BaseModel], schema: dict[str, Any], found: dict[str, type
     for key, part in schema["properties"].items():
         needed = key in schema.get("required", ())
         field = next((n for n, f in model.model_fields.items() if key in (n, f.alias)), key)
-        default = "" if needed else default(part)
+        default = "" if needed else default_words(part)
         text = part.get("description") or about.get(field, "") or _first_sentence(part, found)
         shown = f"**{key}**" if needed else key
-        rows.append(f"| {shown} | {cell(value(part))} | {default} | {cell(text)} |")
+        rows.append(f"| {shown} | {cell(value_words(part))} | {default} | {cell(text)} |")
     return "\n".join(rows)
 
 

@@ -40,7 +40,6 @@ def _table(schema: dict[str, Any]) -> str:
     rows = ["| field | value | default | meaning |", "| --- | --- | --- | --- |"]
     for key, part in schema["properties"].items():
         shown = f"**{key}**" if key in schema.get("required", ()) else key
-        rows.append(
-            f"| {shown} | {cell(value_words(part))} | {default_words(part)} | {cell(part.get('description', ''))} |"
-        )
+        about = cell(part.get("description", ""))
+        rows.append(f"| {shown} | {cell(value_words(part))} | {default_words(part)} | {about} |")
     return "\n".join(rows)

@@ -25,9 +25,10 @@ def value_words(part: dict[str, Any]) -> str:
     kind = part.get("type", "anything")
     if kind == "array":
         if "prefixItems" in part:
-            return f"[{', '.join(value_words(p) for p in part['prefixItems'])}]"
+            inner = [value_words(p) for p in part["prefixItems"]]
+            return "`[x, y, z]`" if inner == ["number"] * 3 else f"[{', '.join(inner)}]"
         inner = value_words(part.get("items", {}))
-        if part.get("minItems") == part.get("maxItems") == 3 and inner.startswith("number"):
+        if part.get("minItems") == part.get("maxItems") == 3 and inner == "number":
             return "`[x, y, z]`"
         if part.get("minItems") == part.get("maxItems") == 2:
             return f"[{inner}, {inner}]"
@@ -47,7 +48,7 @@ def _range(part: dict[str, Any]) -> str:
     bounds = [
         f"{word} {value:g}"
         for word, value in (("≥", least), (">", above), ("≤", most), ("<", below))
-        if value is not None and abs(value) < 1e9
+        if value is not None and abs(value) < 1e6
     ]
     return f" {', '.join(bounds)}" if bounds else ""
 

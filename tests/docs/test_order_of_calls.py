@@ -18,7 +18,9 @@ MOST = 15
 def test_the_modules_are_called_in_the_order_of_the_page() -> None:
     (drawing,) = pages.blocks(PAGE, "text")
     named = re.findall(r"([\w/]+\.py) +([\w.]+)", drawing.text)
-    assert len({module for module, _ in named}) <= MOST
+    numbers = [int(number) for number in re.findall(r"^ ?(\d+) ", drawing.text, re.MULTILINE)]
+    assert len(numbers) == len({module for module, _ in named}) <= MOST
+    assert numbers == sorted(numbers)
     calls = iter(_calls())
     for call in named:
         assert call in calls, f"{call} is not called, or not after those before it on the page"

@@ -18,8 +18,8 @@ from benchmarks.obstacle_scenes import KINDS, Scene, random_scene
 from benchmarks.shared_data import LEVELS, level_path, shared_folder, why_absent
 from navmesh.affordances import detect_obstacles
 from navmesh.build import build_surface
+from navmesh.kinds import affordances
 from navmesh.links import make_links
-from navmesh.obstacle_rules import AFFORDANCES
 from navmesh.obstacles import Obstacles
 
 ERRORS = ("edge", "middle", "normal", "height", "depth", "width")
@@ -97,7 +97,7 @@ def on_level(path: Path, up: str, repeats: int) -> dict[str, float | dict[str, i
     counts = Counter(obstacles.affordance.tolist())
     return {
         "triangles": len(terrain.faces),
-        "counts": {name: counts.get(name, 0) for name in AFFORDANCES},
+        "counts": {name: counts.get(name, 0) for name in affordances()},
         "links": len(links) if links is not None else 0,
         "build_ms": 1e3 * min(builds),
         "detect_ms": 1e3 * min(finds),

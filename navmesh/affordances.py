@@ -10,8 +10,9 @@ from collections.abc import Callable
 import numpy as np
 
 from navmesh.free_length import REACH, cells_of
-from navmesh.measuring import DROP, GAP, JUMP, VAULT, Limits, measure
-from navmesh.obstacle_rules import AFFORDANCES, ObstacleRules
+from navmesh.kinds import ObstacleKind, kind_of, obstacle_kinds
+from navmesh.measuring import FOUND, Limits, measure
+from navmesh.obstacle_rules import ObstacleRules
 from navmesh.obstacles import Obstacles
 from navmesh.probes import ProbeGrid
 from navmesh.rims import Rims
@@ -21,9 +22,7 @@ from navmesh.stretches import Samples, Stretch, join_samples
 from navmesh.surface import Surface
 from navmesh.terrain import Terrain
 
-__all__ = ["detect_obstacles", "obstacles_at", "tag_names"]
-
-_SLOT = {JUMP: 0, VAULT: 0, DROP: 1, GAP: 2}
+__all__ = ["detect_obstacles", "obstacles_at", "tag_names", "with_own_kinds"]
 
 
 def detect_obstacles(
@@ -36,7 +35,15 @@ def detect_obstacles(
     """
     rules = rules or ObstacleRules()
     grid = ProbeGrid(terrain.vertices, terrain.faces, surface.origin, walking.max_slope)
-    return obstacles_at(take_soundings(terrain, surface, walking, rules, grid), surface, walking, rules, grid)
+    soundings = take_soundings(terrain, surface, walking, rules, grid)
+    found = obstacles_at(soundings, surface, walking, rules, grid)
+    return with_own_kinds(found, terrain, surface, walking)
+
+
+def with_own_kinds(found: Obstacles, terrain: Terrain, surface: Surface, walking: WalkRules) -> Obstacles:
+    """``found`` and what the kinds find that look for their obstacles themselves (`ObstacleKind.find`)."""
+    own = [kind.find(terrain, surface, walking) for kind in obstacle_kinds() if kind.find is not None]
+    return Obstacles.joined([found, *own]).sorted() if own else found
 
 
 def obstacles_at(
@@ -55,22 +62,20 @@ def obstacles_at(
         return measure(grid.arrays, cells, points, points, outward, every, limits, REACH)
 
     found = []
-    for code, name in enumerate(AFFORDANCES, start=1):
-        slot = _SLOT[code]
+    for name, code, slot in FOUND:
+        kind = kind_of(name)
         there = soundings.kind[:, slot] == code
         if not there.any():
             continue
         hits, size = soundings.sample[there], soundings.size[there, slot]
-        samples = _samples(rims, along / length[:, None], length / parts, first, hits, size, code)
+        samples = _samples(rims, along / length[:, None], length / parts, first, hits, size, kind)
         stretches = join_samples(samples, 2.0 * rules.body_radius)
         if stretches:
-            found.append(_frames(name, code, stretches, samples, rules.body_radius, again))
+            here = _frames(kind, code, slot, stretches, samples, rules.body_radius, again)
+            found.append(here)
     if not found:
         return Obstacles.empty()
-    joined = Obstacles(
-        **{name: np.concatenate([part.arrays()[name] for part in found]) for name in found[0].arrays()}
-    )
-    world = joined.arrays()
+    world = Obstacles.joined(found).arrays()
     world["position"] = world["position"] + surface.origin
     world["rim"] = world["rim"] + surface.origin
     world["tag"] = tag_names(world["affordance"], world["position"], world["normal"])
@@ -93,7 +98,7 @@ def _samples(
     first: np.ndarray,
     hits: np.ndarray,
     size: np.ndarray,
-    code: int,
+    kind: ObstacleKind,
 ) -> Samples:
     rim = np.searchsorted(first, hits, side="right") - 1
     part = (hits - first[rim] + 0.5) / (first[rim + 1] - first[rim])
@@ -103,13 +108,14 @@ def _samples(
         outward=rims.outward[rim],
         half=0.5 * spacing[rim],
         height=size[:, 0],
-        depth=size[:, 1] if code in (VAULT, GAP) else np.zeros(len(hits)),
+        depth=size[:, 1] if kind.has_depth else np.zeros(len(hits)),
     )
 
 
 def _frames(
-    name: str,
+    what: ObstacleKind,
     code: int,
+    slot: int,
     stretches: list[Stretch],
     samples: Samples,
     body_radius: float,
@@ -124,7 +130,6 @@ def _frames(
     points = np.stack((middle, *(samples.point[beside[:, k]] for k in range(3))), axis=1)
     facing = np.stack((outward, *(samples.outward[beside[:, k]] for k in range(3))), axis=1)
     kind, size = again(points.reshape(-1, 3), facing.reshape(-1, 2))
-    slot = _SLOT[code]
     values = size[:, slot].reshape(count, 4, 5)
     there = kind[:, slot].reshape(count, 4) == code
     # where nothing fits half-way (a seam of the mesh), the sample nearest to it stands in
@@ -135,7 +140,7 @@ def _frames(
     free = np.where(there[:, :, None], values[:, :, 2:4], np.inf).min(axis=1)
     values = values[:, 0]
     values[:, 2:4] = free
-    from_above = code in (DROP, GAP)
+    from_above = not what.from_below
     rim = np.array([(stretch.start, stretch.end) for stretch in stretches])
     rim_height = samples.height[[(stretch.members[0], stretch.members[-1]) for stretch in stretches]]
     # the fall is to the right of start → end: start is on the left for who comes from below
@@ -143,11 +148,11 @@ def _frames(
         rim, rim_height = rim[:, ::-1], rim_height[:, ::-1]
     normal = np.column_stack((-outward if from_above else outward, np.zeros(count)))
     return Obstacles(
-        affordance=np.full(count, name, "<U5"),
+        affordance=np.full(count, what.affordance, "<U5"),
         position=middle,
         normal=normal + 0.0,
         height=values[:, 0].round(4),
-        depth=values[:, 3] if code == JUMP else values[:, 1],
+        depth=values[:, 3] if what.crossing == "onto" else values[:, 1],
         width=np.array([stretch.width for stretch in stretches]),
         rim=rim,
         rim_height=rim_height.round(4),

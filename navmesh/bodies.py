@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from navmesh.errors import NavmeshError
-from navmesh.obstacle_rules import AFFORDANCES
+from navmesh.kinds import affordances
 from navmesh.parts import leaps_by_part, parts_of_nodes, parts_of_tiles
 from navmesh.portals import open_portals
 from navmesh.structs import make_doors, net_of
@@ -39,8 +39,8 @@ def _checked_skills(skills: Mapping[str, tuple[float, float]] | None) -> tuple:
         )
     offered = []
     for name, limits in (skills or {}).items():
-        if name not in AFFORDANCES:
-            raise NavmeshError(f"skill {name!r}: expected one of {', '.join(AFFORDANCES)}")
+        if name not in affordances():
+            raise NavmeshError(f"skill {name!r}: expected one of {', '.join(affordances())}")
         try:
             low, high = (float(value) for value in limits)
         except (TypeError, ValueError):

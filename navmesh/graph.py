@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from navmesh import edges, nodes, pathfinding, queries
-from navmesh.affordances import obstacles_at
+from navmesh.affordances import obstacles_at, with_own_kinds
 from navmesh.build import Cells, Grid, find_cells, surface_of
 from navmesh.chunks import change_chunks
 from navmesh.errors import NavmeshError
@@ -163,6 +163,7 @@ class NodeGraph:
         if obstacle_rules is not None:
             soundings, probes = all_soundings(before, changed, terrain, surface, rules, obstacle_rules)
             obstacles = obstacles_at(soundings, surface, rules, obstacle_rules, probes)
+            obstacles = with_own_kinds(obstacles, terrain, surface, rules)
         if tags is not None:
             obstacles = tags.apply(obstacles, surface, rules)
         return cls(

@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 from annotated_types import Ge, Gt, Le, Len
 
+from navmesh.kinds import LONGEST_NAME, affordances
 from navmesh.links import Links
-from navmesh.obstacle_rules import AFFORDANCES, ObstacleRules
+from navmesh.obstacle_rules import ObstacleRules
 from navmesh.obstacles import Obstacles
 from navmesh.rules import WalkRules
 from navmesh.surface import Surface
@@ -72,7 +73,7 @@ _GRAPH: dict[str, Array] = {
     "edge_cells": Indices("edges", 2, into="cells"),
 }
 _OBSTACLES: dict[str, Array] = {
-    "affordance": Words("obstacles", longest=5, among=AFFORDANCES),
+    "affordance": Words("obstacles", longest=LONGEST_NAME, among=affordances),
     "position": Numbers("obstacles", 3),
     "normal": Numbers("obstacles", 3, low=-1.0 - _UNIT, high=1.0 + _UNIT),
     "height": Numbers("obstacles"),
@@ -93,7 +94,7 @@ _LINKS: dict[str, Array] = {
     "start_cell": Indices("links", into="cells"),
     "end_cell": Indices("links", into="cells"),
     "obstacle": Indices("links", into="obstacles"),
-    "affordance": Words("links", longest=5, among=AFFORDANCES),
+    "affordance": Words("links", longest=LONGEST_NAME, among=affordances),
     "height": Numbers("links"),
     "run_up": Numbers("links", low=0.0),
     "radius": Numbers("links", low=0.0),

@@ -10,7 +10,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from navmesh.free_length import cells_of, room
-from navmesh.obstacle_rules import AFFORDANCES
+from navmesh.kinds import CROSSINGS, kind_of
 from navmesh.obstacles import Obstacles
 from navmesh.rules import WalkRules
 from navmesh.surface import Surface
@@ -25,6 +25,7 @@ _SHORTEST = 0.5  # [m] both, at least
 _WIDE = 0.6  # [m] clearance that is enough at an end: a wider place is not worth a shorter run-up
 _STRIDE = 0.125  # [m] between the points that are tried
 _ABREAST = 1.0  # [m] between links side by side
+_ONTO, _OVER, _OFF, _ACROSS = range(len(CROSSINGS))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -54,8 +55,9 @@ class Links:
     """(l,) float64 [m], of the widest body that passes: room to both ends of the rim and clearance at both
     ends of the link."""
     cost: np.ndarray
-    """(l,) float64 [m]: its length and, on top, what the effort is worth in metres walked: 1 + 2·height for a
-    jump, 3 for a vault, 2 + height for a drop, 1 + width for a gap."""
+    """(l,) float64 [m]: its length and, on top, what the effort is worth in metres walked
+    (`ObstacleKind.effort`): 1 + 2·height for a jump, 3 for a vault, 2 + height for a drop, 1 + width for a
+    gap."""
 
     def __len__(self) -> int:
         return len(self.cost)
@@ -83,11 +85,12 @@ def make_links(obstacles: Obstacles, surface: Surface, walking: WalkRules, body_
     if not len(obstacles):
         return Links.empty()
     rim = obstacles.rim - surface.origin
-    kind = np.array([AFFORDANCES.index(name) for name in obstacles.affordance], np.int64)
+    kinds = [kind_of(name) for name in obstacles.affordance.tolist()]
     table = _trace_links(
         cells_of(surface),
         surface.clearance,
-        kind,
+        np.array([CROSSINGS.index(kind.crossing) for kind in kinds], np.int64),
+        np.array([kind.effort for kind in kinds], np.float64),
         np.stack((rim[:, 0], obstacles.position - surface.origin, rim[:, 1]), axis=1),
         np.column_stack((obstacles.rim_height[:, 0], obstacles.height, obstacles.rim_height[:, 1])),
         -obstacles.normal[:, :2],
@@ -153,15 +156,16 @@ def _place(cells, clearance, x, y, z, dx, dy, slope, longest, lateral, point):
 
 
 @allocating_kernel
-def _trace_links(cells, clearance, kind, rim, height, heading, size, slope, body_radius):
+def _trace_links(cells, clearance, crossing, efforts, rim, height, heading, size, slope, body_radius):
     """Rows of links, see `_COLUMNS`. ``rim`` (k, 3, 3): left, middle, right; ``height`` (k, 3) at these;
-    ``heading`` (k, 2) of the run; ``size`` (k, 3): depth, rise, width; ``kind`` (k,) indexes AFFORDANCES."""
+    ``heading`` (k, 2) of the run; ``size`` (k, 3): depth, rise, width; ``crossing`` (k,) indexes
+    CROSSINGS; ``efforts`` (k, 2): of the kind."""
     total = 0
-    for i in range(len(kind)):
+    for i in range(len(crossing)):
         total += 2 * int(0.5 * size[i, 2] / _ABREAST) + 1
     table = np.zeros((total, _COLUMNS), np.float64)
     count = 0
-    for i in range(len(kind)):
+    for i in range(len(crossing)):
         width = size[i, 2]
         dx, dy = heading[i, 0], heading[i, 1]
         margin = min(0.5 * width, body_radius + 0.05)
@@ -179,22 +183,19 @@ def _trace_links(cells, clearance, kind, rim, height, heading, size, slope, body
             before = z
             behind = z
             depth = 0.0
-            effort = 0.0
-            if kind[i] == 0:
+            if crossing[i] == _ONTO:
                 before = z - tall
-                effort = 1.0 + 2.0 * tall
-            elif kind[i] == 1:
+            elif crossing[i] == _OVER:
                 before = z - tall
                 behind = before + size[i, 1]
                 depth = size[i, 0]
-                effort = 3.0
-            elif kind[i] == 2:
+            elif crossing[i] == _OFF:
                 behind = z - tall
-                effort = 2.0 + tall
             else:
                 behind = z + tall
                 depth = size[i, 0]
-                effort = 1.0 + depth
+            measured = depth if crossing[i] == _ACROSS else tall
+            effort = efforts[i, 0] + efforts[i, 1] * measured
             away, start, gap = _place(
                 cells, clearance, x, y, before, -dx, -dy, slope, LONGEST_RUN_UP, lateral, row[0:3]
             )
@@ -210,7 +211,7 @@ def _trace_links(cells, clearance, kind, rim, height, heading, size, slope, body
             row[9] = start
             row[10] = end
             row[11] = i
-            row[12] = depth if kind[i] == 3 else tall
+            row[12] = measured
             row[13] = away
             row[14] = min(lateral, gap, gap_there)
             row[15] = away + depth + onward + effort

@@ -15,9 +15,11 @@ from navmesh.probes import crossed, lowest_above, surface_below
 from navmesh.rules import WalkRules
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["DROP", "GAP", "JUMP", "VAULT", "Limits", "measure"]
+__all__ = ["FOUND", "Limits", "measure"]
 
 JUMP, VAULT, DROP, GAP = 1, 2, 3, 4
+FOUND = (("jump", JUMP, 0), ("vault", VAULT, 0), ("drop", DROP, 1), ("gap", GAP, 2))
+"""What `measure` finds: affordance, code, and slot of its answer."""
 _NEAR = 0.03  # [m] beside an edge
 _SCAN = 0.05  # [m] stride of a scan across an obstacle, refined by halving
 _BEND = 0.02  # [m] a face that hangs from an edge may lean this little and still count as its foot

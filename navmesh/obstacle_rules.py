@@ -6,10 +6,7 @@ from typing import Any
 
 from navmesh.errors import NavmeshError
 
-__all__ = ["AFFORDANCES", "ObstacleRules"]
-
-AFFORDANCES = ("jump", "vault", "drop", "gap")
-"""What an obstacle can afford, in the order of their numbers in the kernels (from 1)."""
+__all__ = ["ObstacleRules"]
 
 Range = tuple[float, float]
 
@@ -61,15 +58,6 @@ class ObstacleRules:
             if isinstance(value, bool) or not isinstance(value, int | float) or not low <= value <= high:
                 raise NavmeshError(f"{name} = {value!r}: expected a number from {low:g} to {high:g} [m]")
             object.__setattr__(self, name, float(value))
-
-    def range_of(self, affordance: str) -> Range:
-        """The range that an obstacle of ``affordance`` is measured by: heights, or widths for a gap."""
-        return {
-            "jump": self.jump_rise,
-            "vault": self.vault_height,
-            "drop": self.drop_height,
-            "gap": self.gap_width,
-        }[affordance]
 
     def to_dict(self) -> dict[str, Any]:
         """The rules as plain numbers and lists, for a file's header."""

@@ -1,10 +1,11 @@
 """Obstacles that a skill can clear, as a structure of arrays."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
 
-from navmesh.obstacle_rules import AFFORDANCES
+from navmesh.kinds import affordances, obstacle_kinds
 
 __all__ = ["Obstacles"]
 
@@ -16,7 +17,9 @@ class Obstacles:
     from both sides is two obstacles."""
 
     affordance: np.ndarray
-    """(k,) str: "jump" (onto it), "vault" (over it), "drop" (off it) or "gap" (across it)."""
+    """(k,) str: name of its kind (`navmesh.kinds`): "jump" (onto it), "vault" (over it), "drop" (off it),
+    "gap" (across it), or one that was registered. What is said below of one of the four holds for all kinds
+    that are crossed in the same way."""
     position: np.ndarray
     """(k, 3) float64 [m]: the middle of the usable edge, a point of the mesh's own edge: the top of the edge
     nearest the run-up side."""
@@ -55,12 +58,18 @@ class Obstacles:
     @property
     def size(self) -> np.ndarray:
         """(k,) float64 [m], what a skill's range is compared with: `height`, or for a gap its width."""
-        return np.where(self.affordance == "gap", self.depth, self.height)
+        wide = [kind.affordance for kind in obstacle_kinds() if kind.measure == "width"]
+        return np.where(np.isin(self.affordance, wide), self.depth, self.height)
 
     @classmethod
     def empty(cls) -> "Obstacles":
         """No obstacles."""
         return cls(**{name: np.zeros((0, *shape), kind) for name, (kind, shape) in LAYOUT.items()})
+
+    @classmethod
+    def joined(cls, parts: Sequence["Obstacles"]) -> "Obstacles":
+        """The obstacles of all ``parts``, of which there is at least one."""
+        return cls(**{name: np.concatenate([part.arrays()[name] for part in parts]) for name in LAYOUT})
 
     def arrays(self) -> dict[str, np.ndarray]:
         """The arrays by name, for an archive; ``Obstacles(**arrays)`` makes them obstacles again."""
@@ -81,7 +90,8 @@ class Obstacles:
 
     def sorted(self) -> "Obstacles":
         """In the order of affordance, place (to the centimetre) and heading."""
-        kind = np.array([AFFORDANCES.index(name) for name in self.affordance], np.int64)
+        number = {name: k for k, name in enumerate(affordances())}
+        kind = np.array([number[name] for name in self.affordance], np.int64)
         place = np.rint(self.position * 100.0)
         heading = np.rint(np.arctan2(self.normal[:, 1], self.normal[:, 0]) * 100.0)
         return self.select(np.lexsort((heading, place[:, 2], place[:, 1], place[:, 0], kind)))

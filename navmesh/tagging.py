@@ -8,7 +8,7 @@ import numpy as np
 
 from navmesh.errors import NavmeshError
 from navmesh.free_length import REACH, cells_of, room
-from navmesh.obstacle_rules import AFFORDANCES
+from navmesh.kinds import kind_of
 from navmesh.obstacles import Obstacles
 from navmesh.rules import WalkRules
 from navmesh.surface import Surface
@@ -54,10 +54,10 @@ class TagFile:
                         where = "before" if side == "run_up" else "behind"
                         problem = f"no floor {where} {addition.name!r} at the height that it says"
                         raise self._error(("add", i, "position"), problem)
-            if addition.affordance == "jump":
+            if kind_of(addition.affordance).crossing == "onto":
                 row["depth"] = row["landing"]
             kept = {name: np.concatenate((array, [row[name]])) for name, array in kept.items()}
-        result = Obstacles(**{name: kept[name].astype(array.dtype) for name, array in arrays.items()})
+        result = Obstacles(**kept)
         self._check_names(result)
         return result.sorted()
 
@@ -118,7 +118,7 @@ def _change(arrays: dict[str, np.ndarray], index: int, values: NewValues) -> Non
         shift = values.height - arrays["height"][index]
         arrays["height"][index] = values.height
         arrays["rim_height"][index] += shift
-        arrays["rise"][index] += {"vault": 0.0, "drop": -shift}.get(str(arrays["affordance"][index]), shift)
+        arrays["rise"][index] += kind_of(str(arrays["affordance"][index])).rises * shift
     if values.width is not None:
         middle = arrays["position"][index]
         factor = values.width / arrays["width"][index]
@@ -140,7 +140,6 @@ def _row(addition: Addition) -> dict:
     left = np.array([-run[1], run[0], 0.0])
     position = np.array(addition.position, np.float64)
     height = addition.height or 0.0
-    rise = {"jump": height, "vault": 0.0, "drop": -height, "gap": height}[addition.affordance]
     return {
         "affordance": addition.affordance,
         "position": position,
@@ -152,7 +151,7 @@ def _row(addition: Addition) -> dict:
         "rim_height": np.array([height, height]),
         "run_up": addition.run_up,
         "landing": addition.landing,
-        "rise": rise,
+        "rise": kind_of(addition.affordance).rises * height,
         "tag": addition.name,
         "authored": True,
     }
@@ -160,10 +159,9 @@ def _row(addition: Addition) -> dict:
 
 def _measured(row: dict, side: str, surface: Surface, walking: WalkRules) -> float:
     """Free length [m] before (``side`` "run_up") or behind ("landing") an added obstacle; 0 without floor."""
-    from_below = row["affordance"] in AFFORDANCES[:2]
     x, y, z = row["position"] - surface.origin
     dx, dy, _ = row["normal"] if side == "run_up" else -row["normal"]
-    floor = z - row["height"] if from_below else z
+    floor = z - row["height"] if kind_of(row["affordance"]).from_below else z
     if side == "landing":
         x, y = x + row["depth"] * dx, y + row["depth"] * dy
         floor += row["rise"]

@@ -31,13 +31,13 @@ import yaml
 from annotated_types import Ge, Gt, Le, Len
 from pydantic import AfterValidator, BaseModel, ConfigDict, StringConstraints, model_validator
 
+from navmesh.kinds import affordances, kind_of
 from surefoot.files.atomic_write import whole_file
+from surefoot.files.choices import OneOf
 
 __all__ = ["Addition", "Change", "NewValues", "Reference", "Tags", "save_tags", "tags_path"]
 
-Affordance = Literal["jump", "vault", "drop", "gap"]
-NEEDED = {"jump": ("height",), "vault": ("height", "depth"), "drop": ("height",), "gap": ("depth",)}
-"""What an addition of each affordance has to say."""
+Affordance = Annotated[str, OneOf(affordances)]
 
 
 def _coordinate(value: float) -> float:
@@ -79,12 +79,15 @@ class Addition(_Strict):
 
     @model_validator(mode="after")
     def _is_whole(self) -> Self:
-        for needed in NEEDED[self.affordance]:
-            if not getattr(self, needed):
-                raise ValueError(f"a {self.affordance} needs {needed}, above 0 [m]")
-        if self.affordance != "gap" and self.height is not None and self.height <= 0:
+        kind = kind_of(self.affordance)
+        tall = kind.measure == "height"
+        if tall and not self.height:
+            raise ValueError(f"a {self.affordance} needs height, above 0 [m]")
+        if kind.has_depth and not self.depth:
+            raise ValueError(f"a {self.affordance} needs depth, above 0 [m]")
+        if tall and self.height is not None and self.height <= 0:
             raise ValueError(f"the height of a {self.affordance} is above 0 [m]")
-        if self.affordance in ("jump", "drop") and self.depth is not None:
+        if not kind.has_depth and self.depth is not None:
             raise ValueError(f"a {self.affordance} has no depth of its own; leave it out")
         return self
 

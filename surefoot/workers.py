@@ -3,21 +3,45 @@
 import multiprocessing
 import signal
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from multiprocessing.pool import Pool
-from typing import Any
+from typing import Any, Protocol
 
-__all__ = ["worker_pool"]
+__all__ = ["Workers", "worker_pool"]
+
+
+class Workers(Protocol):
+    """What is used of `multiprocessing.pool.Pool`."""
+
+    def map(self, func: Callable[[Any], Any], iterable: Iterable[Any], chunksize: int | None = None) -> list:
+        """What ``func`` returns for each."""
+        ...
+
+    def imap(self, func: Callable[[Any], Any], iterable: Iterable[Any]) -> Iterator[Any]:
+        """The same, one after the other."""
+        ...
+
+
+class _ThisProcess:
+    def map(self, func: Callable[[Any], Any], iterable: Iterable[Any], chunksize: int | None = None) -> list:
+        return list(map(func, iterable))
+
+    def imap(self, func: Callable[[Any], Any], iterable: Iterable[Any]) -> Iterator[Any]:
+        return map(func, iterable)
 
 
 @contextmanager
-def worker_pool(count: int, begin: Callable[..., None], arguments: tuple[Any, ...]) -> Iterator[Pool]:
-    """``count`` fresh processes, each after ``begin(*arguments)``, until the block ends.
+def worker_pool(count: int, begin: Callable[..., None], arguments: tuple[Any, ...]) -> Iterator[Workers]:
+    """``count`` fresh processes, each after ``begin(*arguments)``, until the block ends. One worker is this
+    process: a fresh one takes seconds to import everything.
 
-    They leave Ctrl-C, which reaches all processes of a terminal, to this one, which ends them. From their
-    very start: they inherit that the signal is ignored.
+    Fresh processes leave Ctrl-C, which reaches all processes of a terminal, to this one, which ends them.
+    From their very start: they inherit that the signal is ignored.
     """
+    if count == 1:
+        begin(*arguments)
+        yield _ThisProcess()
+        return
     is_main = threading.current_thread() is threading.main_thread()
     before = signal.signal(signal.SIGINT, signal.SIG_IGN) if is_main else None
     try:

@@ -1,6 +1,11 @@
 """A small level and what can be made of it, shared by the tests of the runtime."""
 
+import os
 import signal
+
+os.environ.setdefault(
+    "OPENBLAS_NUM_THREADS", "1"
+)  # threads wait for each other where several tests run at a time
 
 import numpy as np
 import pytest

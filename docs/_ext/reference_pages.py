@@ -1,7 +1,7 @@
 """Writes the pages of the reference that follow from the code: `reference/generated`, anew at each build.
 
-The public names of the packages, the commands, and the keys of the YAML files. Nothing of it is committed, so
-nothing of it can be out of date.
+The public names of the packages, the commands, the keys of the YAML files and the messages of the server.
+Nothing of it is committed, so nothing of it can be out of date.
 """
 
 from importlib import import_module
@@ -9,6 +9,7 @@ from pathlib import Path
 
 import api_page
 import cli_page
+import messages_page
 import yaml_page
 from sphinx.application import Sphinx
 from sphinx.config import Config
@@ -29,6 +30,7 @@ def write_pages(app: Sphinx, config: Config) -> None:
     pages = {f"{package}.rst": api_page.page(import_module(package)) for package in PACKAGES}
     pages["cli.md"] = cli_page.page()
     pages["yaml.md"] = yaml_page.page()
+    pages["messages.md"] = messages_page.page()
     for name, text in pages.items():
         path = folder / name
         if not path.exists() or path.read_text() != text:

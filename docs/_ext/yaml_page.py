@@ -6,6 +6,7 @@ import re
 from typing import Any
 
 from pydantic import BaseModel
+from schema_words import cell, default_words, value_words, words_of
 from sphinx.pycode import ModuleAnalyzer
 
 from locomotion.skills.description import SkillDescription
@@ -44,7 +45,7 @@ def _tables(model: type[BaseModel]) -> list[str]:
     for name in _order(schema):
         about = " ".join(inspect.cleandoc(found[name].__doc__ or "").split())
         parts += [
-            f"### {model.__name__.lower()}: {_words(name)}",
+            f"### {model.__name__.lower()}: {words_of(name)}",
             about,
             _table(found[name], schema["$defs"][name], found),
         ]
@@ -62,20 +63,16 @@ def _order(schema: dict[str, Any]) -> list[str]:
     return found
 
 
-def _words(name: str) -> str:
-    return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name.removesuffix("Spec")).lower()
-
-
 def _table(model: type[BaseModel], schema: dict[str, Any], found: dict[str, type[BaseModel]]) -> str:
     about = _attribute_docs(model)
     rows = ["| key | value | default | meaning |", "| --- | --- | --- | --- |"]
     for key, part in schema["properties"].items():
         needed = key in schema.get("required", ())
         field = next((n for n, f in model.model_fields.items() if key in (n, f.alias)), key)
-        default = "" if needed else _default(part)
+        default = "" if needed else default_words(part)
         text = part.get("description") or about.get(field, "") or _first_sentence(part, found)
         shown = f"**{key}**" if needed else key
-        rows.append(f"| {shown} | {_cell(_value(part))} | {default} | {_cell(text)} |")
+        rows.append(f"| {shown} | {cell(value_words(part))} | {default} | {cell(text)} |")
     return "\n".join(rows)
 
 
@@ -88,53 +85,6 @@ def _first_sentence(part: dict[str, Any], found: dict[str, type[BaseModel]]) -> 
         else ""
     )
     return about.split(". ")[0].split("; ")[0].rstrip(".:") + "." if about else ""
-
-
-def _value(part: dict[str, Any]) -> str:
-    if "$ref" in part:
-        return _words(part["$ref"].rsplit("/", 1)[1])
-    for choice in ("anyOf", "oneOf"):
-        if choice in part:
-            return " or ".join(dict.fromkeys(_value(p) for p in part[choice] if p.get("type") != "null"))
-    if "allOf" in part:
-        return _value(part["allOf"][0])
-    if "const" in part:
-        return f"`{part['const']}`"
-    if "enum" in part:
-        return ", ".join(f"`{value}`" for value in part["enum"])
-    kind = part.get("type", "anything")
-    if kind == "array":
-        if "prefixItems" in part:
-            return f"[{', '.join(_value(p) for p in part['prefixItems'])}]"
-        inner = _value(part.get("items", {}))
-        if part.get("minItems") == part.get("maxItems") == 3 and inner.startswith("number"):
-            return "`[x, y, z]`"
-        if part.get("minItems") == part.get("maxItems") == 2:
-            return f"[{inner}, {inner}]"
-        return f"list of ({inner})" if " or " in inner else f"list of {inner}"
-    if kind == "object":
-        inner = part.get("additionalProperties") or next(
-            iter(part.get("patternProperties", {}).values()), None
-        )
-        return f"name: {_value(inner)}, …" if isinstance(inner, dict) else "mapping"
-    words = {"number": "number", "integer": "whole number", "string": "text", "boolean": "`true`, `false`"}
-    return words.get(kind, kind) + _range(part)
-
-
-def _range(part: dict[str, Any]) -> str:
-    least, above = part.get("minimum"), part.get("exclusiveMinimum")
-    most, below = part.get("maximum"), part.get("exclusiveMaximum")
-    bounds = [
-        f"{word} {value:g}"
-        for word, value in (("≥", least), (">", above), ("≤", most), ("<", below))
-        if value is not None and abs(value) < 1e9
-    ]
-    return f" {', '.join(bounds)}" if bounds else ""
-
-
-def _default(part: dict[str, Any]) -> str:
-    value = part.get("default")
-    return "" if value is None or value in ({}, []) or isinstance(value, dict) else f"`{value}`"
 
 
 def _models(model: type[BaseModel]) -> set[type[BaseModel]]:
@@ -161,7 +111,3 @@ def _attribute_docs(model: type[BaseModel]) -> dict[str, str]:
                 if owner == kind.__name__:
                     docs[name] = " ".join(lines)
     return docs
-
-
-def _cell(text: str) -> str:
-    return " ".join(text.split()).replace("|", "\\|")

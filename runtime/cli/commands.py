@@ -80,6 +80,7 @@ def bake_level(
     values = {
         "level": str(level),
         "output": str(output),
+        "size": (terrain.bounds[1] - terrain.bounds[0]).round(2).tolist(),
         "triangles": len(terrain.faces),
         "nodes": len(graph),
         "edges": len(graph.edge_target) // 2,

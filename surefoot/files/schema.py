@@ -9,7 +9,7 @@ one more than "nodes". `surefoot.files.archive` checks types and shapes before i
 values.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
 
@@ -157,12 +157,15 @@ class Offsets(Array):
 
 @dataclass(frozen=True, init=False)
 class Words(Array):
-    """Texts of at most ``longest`` characters; with ``among`` only these."""
+    """Texts of at most ``longest`` characters; with ``among`` only those that it gives when a file is
+    read."""
 
     longest: int
-    among: tuple[str, ...]
+    among: Callable[[], Sequence[str]] | None
 
-    def __init__(self, *shape: Size, longest: int = 64, among: tuple[str, ...] = ()) -> None:
+    def __init__(
+        self, *shape: Size, longest: int = 64, among: Callable[[], Sequence[str]] | None = None
+    ) -> None:
         super().__init__("str", shape)
         object.__setattr__(self, "longest", longest)
         object.__setattr__(self, "among", among)
@@ -174,9 +177,10 @@ class Words(Array):
         codes = np.ascontiguousarray(values).reshape(-1).view(np.uint32)
         if (codes > 0x10FFFF).any() or ((codes >= 0xD800) & (codes <= 0xDFFF)).any():
             return f"{name} holds what is no text"
-        if self.among and not np.isin(values, self.among).all():
-            wrong = str(values[~np.isin(values, self.among)][0])
-            return f"{name} holds {wrong!r}, expected {', '.join(self.among)}"
+        if self.among is not None:
+            known = np.isin(values, list(self.among()))
+            if not known.all():
+                return f"{name} holds {str(values[~known][0])!r}, expected {', '.join(self.among())}"
         return None
 
 

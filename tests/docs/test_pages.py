@@ -4,6 +4,7 @@ import re
 import shlex
 from functools import cache
 from pathlib import Path
+from pkgutil import resolve_name
 
 import pytest
 import typer
@@ -18,10 +19,11 @@ from tests.docs.pages import PAGES, ROOT, Block, name
 CODE = [block for page in PAGES for block in pages.blocks(page, "python")]
 DATA = [block for page in PAGES for block in pages.blocks(page, "yaml")]
 FOLDERS = ("navmesh", "pathsmooth", "locomotion", "runtime", "surefoot", "benchmarks", "examples", "tests")
+MENTIONED = r"\bdocs/[\w/.-]+\.(?:md|json)\b"
 every_page = pytest.mark.parametrize("page", PAGES, ids=name)
 
 
-@every_page
+@pytest.mark.parametrize("page", [*PAGES, ROOT / "CHANGELOG.md"], ids=name)
 def test_links_lead_somewhere(page: Path) -> None:
     for link in pages.links(page):
         target, _, anchor = link.partition("#")
@@ -48,10 +50,14 @@ def test_every_page_is_linked_from_the_index() -> None:
 
 
 @every_page
-def test_modules_that_are_named_exist(page: Path) -> None:
+def test_what_is_named_exists(page: Path) -> None:
     for span in pages.spans(page):
         if re.fullmatch(r"[\w/]+\.py", span):
             assert any(file.endswith(f"/{span}") for file in _code()), f"{name(page)} names {span}"
+        elif re.fullmatch(rf"({'|'.join(FOLDERS)})/[\w/.]+", span):
+            assert (ROOT / span).exists(), f"{name(page)} names {span}"
+        elif re.fullmatch(rf"({'|'.join(FOLDERS)})(\.\w+)+", span):
+            resolve_name(span)
 
 
 @cache
@@ -59,10 +65,12 @@ def _code() -> list[str]:
     return [f"/{name(file)}" for folder in FOLDERS for file in (ROOT / folder).rglob("*.py")]
 
 
-def test_pages_that_the_code_names_exist() -> None:
+def test_pages_that_code_and_changelog_name_exist() -> None:
+    for mentioned in re.findall(MENTIONED, (ROOT / "CHANGELOG.md").read_text()):
+        assert (ROOT / mentioned).exists(), f"CHANGELOG.md names {mentioned}"
     for folder in FOLDERS:
         for file in (*(ROOT / folder).rglob("*.py"), *(ROOT / folder).rglob("*.yaml")):
-            for mentioned in re.findall(r"\bdocs/[\w/.-]+\.(?:md|json)\b", file.read_text()):
+            for mentioned in re.findall(MENTIONED, file.read_text()):
                 assert (ROOT / mentioned).exists(), f"{name(file)} names {mentioned}"
 
 

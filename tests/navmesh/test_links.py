@@ -7,8 +7,8 @@ import pytest
 
 import navmesh
 from benchmarks.obstacle_scenes import box, merged, plate, random_scene
+from navmesh.kinds import affordances
 from navmesh.links import LONGEST_RUN_UP
-from navmesh.obstacle_rules import AFFORDANCES
 
 COURTYARD = Path(__file__).resolve().parents[2] / "examples" / "levels" / "courtyard.obj"
 
@@ -20,7 +20,7 @@ def graph() -> navmesh.NodeGraph:
 
 def test_links_are_straight_and_at_right_angles_to_the_edge(graph: navmesh.NodeGraph) -> None:
     links, obstacles = graph.links, graph.obstacles
-    assert len(links) > 50 and set(links.affordance) == set(AFFORDANCES)
+    assert len(links) > 50 and set(links.affordance) == set(affordances())
     normal = obstacles.normal[links.obstacle]
     before = links.start - links.edge
     behind = links.end - links.edge
@@ -64,7 +64,7 @@ def test_heights_of_links_follow_a_slanting_edge() -> None:
 
 
 def test_every_kind_of_obstacle_gets_a_link() -> None:
-    for kind in AFFORDANCES:
+    for kind in affordances():
         for seed in range(5):
             scene = random_scene(kind, np.random.default_rng(seed))
             graph = navmesh.NodeGraph.build(scene.terrain)

@@ -15,6 +15,7 @@ from locomotion.skills.family import SkillFamily
 from locomotion.skills.interface import skill_for, skill_ranges
 from locomotion.skills.jump.skill import run_digest
 from locomotion.skills.library import LEAP, learned_skills, skills_digest
+from locomotion.training.skills import jump
 from locomotion.training.skills.jump import train_described
 from locomotion.training.skills.jump_trial import JumpSimulator
 from locomotion.training.training import Training
@@ -205,7 +206,8 @@ def test_ranges_of_skills_for_the_same_join_or_are_refused(own, tmp_path):
 
 @pytest.fixture(scope="module")
 def learned(tmp_path_factory):
-    """A hop over a narrow gap, learned with hardly any effort."""
+    """A hop over a narrow gap, learned with hardly any effort: in each stage one generation of six, judged in
+    two trials."""
     folder = tmp_path_factory.mktemp("own")
     shutil.copy(load_description(LEAP).clip, folder / "clip.yaml")
     path = folder / "hop.yaml"
@@ -213,7 +215,14 @@ def learned(tmp_path_factory):
         "{name: hop, affordance: gap, sizes: [0.6], least: 0.4, entry: 3.5, clip: clip.yaml,"
         " marks: [1.3, 0.25], pace: [1, 0.8, 1, 1], share: 0.5, learned: hop.npz}"
     )
-    train_described(path, Training(workers=1, effort=0.01, on_progress=lambda progress: None))
+
+    def small(training, name, count, sigma, feedback, population, options):
+        return whole(training, name, count, sigma, feedback, 6, {**options, "states": 2})
+
+    whole = jump._stage
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(jump, "_stage", small)
+        train_described(path, Training(workers=1, effort=0.01, on_progress=lambda progress: None))
     return path
 
 

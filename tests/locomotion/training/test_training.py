@@ -2,7 +2,6 @@
 
 import itertools
 from collections import Counter
-from contextlib import contextmanager
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -106,17 +105,6 @@ class Bowl:
         return float(np.mean([np.sum((candidate - 1.0 - askew) ** 2) for askew in scenarios])), 1.0
 
 
-@pytest.fixture
-def in_process(monkeypatch) -> None:
-    @contextmanager
-    def pool(count, begin, arguments):
-        begin(*arguments)
-        yield SimpleNamespace(map=lambda function, tasks, chunksize: [function(task) for task in tasks])
-
-    monkeypatch.setattr("locomotion.training.search.loop.worker_pool", pool)
-
-
-@pytest.mark.usefixtures("in_process")
 @pytest.mark.parametrize(
     ("trials", "least", "each"),
     [
@@ -136,7 +124,6 @@ def test_only_the_better_half_of_a_generation_is_judged_on_all_trials(
     np.testing.assert_allclose(learned, 1.0, atol=0.15)
 
 
-@pytest.mark.usefixtures("in_process")
 def test_where_all_trials_are_alike_it_learns_as_if_candidates_did_not_race() -> None:
     learned = learn(Bowl(4, 0.0), seed=3, workers=1, on_progress=lambda progress: None)
     search = CmaEs(np.zeros(2), 0.5, np.ones(2), population=8)

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import navmesh
 from locomotion.clips.clip import load_clip
 from locomotion.clips.motion import load_motion
 from locomotion.gaits.run.skill import RUN_CLIP
@@ -157,6 +158,13 @@ def test_results_need_a_folder(surefoot, folder):
     assert code == 2 and one_line(err) and "not a folder" in err
     code, _, err = surefoot("bake", folder / "level.obj", "-o", folder / "nowhere" / "graph.npz")
     assert code == 2 and one_line(err) and "no folder" in err
+
+
+def test_bake_tells_the_size_of_the_level(surefoot, folder):
+    graph = folder / "graph.npz"
+    code, out, _ = surefoot("bake", folder / "level.obj", "--scale", "2", "-o", graph, "--json")
+    low, high = navmesh.Terrain.load(folder / "level.obj").bounds
+    assert code == 0 and json.loads(out)["size"] == pytest.approx((2.0 * (high - low)).tolist(), abs=0.01)
 
 
 def raw(path):

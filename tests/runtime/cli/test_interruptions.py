@@ -1,5 +1,6 @@
 """Commands that are interrupted just before a result is in its place leave a finished or no file."""
 
+import json
 import os
 import signal
 import subprocess
@@ -27,14 +28,54 @@ runtime.cli.app.main()
 """
 
 
-def interrupted(folder, number, which, *arguments, begin=""):
-    """Run the command in ``folder``; it gets the signal (Ctrl-C: all of its processes do) just before its
-    result number ``which`` is in place. Its exit status and what it says."""
-    command = [sys.executable, "-c", begin + HOOK, str(which), str(int(number)), *map(str, arguments)]
-    done = subprocess.run(
-        command, cwd=folder, capture_output=True, text=True, timeout=300, check=False, start_new_session=True
+FORKS = """
+import json, os, signal, sys
+import runtime, runtime.cli.app, runtime.playtest.run, runtime.views.film, runtime.views.plot
+runtime.prepare()
+for line in sys.stdin:
+    folder, code, arguments = json.loads(line)
+    child = os.fork()
+    if child == 0:
+        os.setsid()
+        signal.alarm(300)
+        os.chdir(folder)
+        os.dup2(os.open(os.devnull, os.O_RDWR), 1)
+        os.dup2(os.open("said", os.O_WRONLY | os.O_CREAT | os.O_TRUNC), 2)
+        sys.argv = ["surefoot", *arguments]
+        break
+    print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), flush=True)
+else:
+    sys.exit()
+exec(code)
+"""
+"""Imports everything and reads all kernels once, which takes a command longer than what it does; then forks a
+process for each command that it reads, and says how it ended."""
+
+
+@pytest.fixture(scope="module")
+def forks():
+    process = subprocess.Popen(
+        [sys.executable, "-c", FORKS], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     )
-    return done.returncode, done.stderr
+    with process:
+        yield process
+        process.stdin.close()
+
+
+@pytest.fixture(scope="module")
+def interrupted(forks):
+    def run(folder, number, which, *arguments, begin=""):
+        """Run the command in ``folder``; it gets the signal (Ctrl-C: all of its processes do) just before its
+        result number ``which`` is in place. Its exit status and what it says."""
+        given = [str(which), str(int(number)), *map(str, arguments)]
+        print(json.dumps([str(folder), begin + HOOK, given]), file=forks.stdin, flush=True)
+        code = int(forks.stdout.readline())
+        said = folder / "said"
+        text = said.read_text()
+        said.unlink()
+        return code, text
+
+    return run
 
 
 COMMANDS = {
@@ -90,7 +131,7 @@ def files(folder):
 
 @pytest.mark.parametrize("command", COMMANDS)
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
-def test_an_interrupted_command_leaves_no_half_result(command, number, folder, trace):
+def test_an_interrupted_command_leaves_no_half_result(command, number, folder, trace, interrupted):
     trace.write(folder / "trace.npz")
     before = files(folder)
     code, said = interrupted(folder, number, 1, *COMMANDS[command])
@@ -102,14 +143,18 @@ def test_an_interrupted_command_leaves_no_half_result(command, number, folder, t
         assert not left
 
 
-def learned(folder, number, which):
-    """Exit status of learning the toy that is interrupted, or not at all, and what it says."""
-    (folder / "toy.py").write_text(TOY)
-    return interrupted(folder, number, which, *TRAIN, begin=BEGIN)
+@pytest.fixture(scope="module")
+def learned(interrupted):
+    def learn(folder, number, which, workers=1):
+        """Exit status of learning the toy that is interrupted, or not at all, and what it says."""
+        (folder / "toy.py").write_text(TOY)
+        return interrupted(folder, number, which, *TRAIN, "--workers", workers, begin=BEGIN)
+
+    return learn
 
 
 @pytest.fixture(scope="module")
-def undisturbed(tmp_path_factory):
+def undisturbed(learned, tmp_path_factory):
     folder = tmp_path_factory.mktemp("undisturbed")
     assert learned(folder, 0, 0)[0] == 0
     return np.load(folder / "skill.npz")["x"]
@@ -117,17 +162,19 @@ def undisturbed(tmp_path_factory):
 
 # its results are the configuration, of each of four generations the state and the time so far, and the skill
 @pytest.mark.parametrize(
-    ("number", "which", "status"),
+    ("number", "which", "status", "workers"),
     [
-        (signal.SIGKILL, 1, -9),
-        (signal.SIGTERM, 3, 143),
-        (signal.SIGKILL, 4, -9),
-        (signal.SIGINT, 6, 130),
-        (signal.SIGKILL, 10, -9),
+        (signal.SIGKILL, 1, -9, 1),
+        (signal.SIGTERM, 3, 143, 1),
+        (signal.SIGKILL, 4, -9, 2),
+        (signal.SIGINT, 6, 130, 2),
+        (signal.SIGKILL, 10, -9, 1),
     ],
 )
-def test_interrupted_learning_goes_on_from_its_checkpoint(number, which, status, undisturbed, tmp_path):
-    code, said = learned(tmp_path, number, which)
+def test_interrupted_learning_goes_on_from_its_checkpoint(
+    number, which, status, workers, learned, undisturbed, tmp_path
+):
+    code, said = learned(tmp_path, number, which, workers)
     assert code == status and "Traceback" not in said, said
     assert not (tmp_path / "skill.npz").exists()
     if which > 1:
@@ -136,20 +183,21 @@ def test_interrupted_learning_goes_on_from_its_checkpoint(number, which, status,
     assert np.array_equal(np.load(tmp_path / "skill.npz")["x"], undisturbed)
 
 
-def test_control_c_while_candidates_are_judged_says_so_once(tmp_path):
+@pytest.mark.parametrize("workers", [1, 2])
+def test_control_c_while_candidates_are_judged_says_so_once(workers, learned, tmp_path):
     (tmp_path / "ctrl-c").touch()
-    code, said = learned(tmp_path, 0, 0)
+    code, said = learned(tmp_path, 0, 0, workers)
     assert code == 130 and "Traceback" not in said, said
     assert said.count("surefoot: interrupted") == 1 and not (tmp_path / "skill.npz").exists()
 
 
-def test_control_c_says_so(folder):
+def test_control_c_says_so(folder, interrupted):
     code, said = interrupted(folder, signal.SIGINT, 1, *COMMANDS["bake"])
     assert code == 130 and said.splitlines()[-1].startswith("surefoot: interrupted"), said
     assert not (folder / "result.npz").exists()
 
 
-def test_results_before_the_interruption_are_whole(folder):
+def test_results_before_the_interruption_are_whole(folder, interrupted):
     interrupted(folder, signal.SIGTERM, 2, *COMMANDS["playtest"])
     found = files(folder / "out")
     assert found == {"report.json"}

@@ -114,11 +114,11 @@ def test_noise_changes_the_start_only():
 def test_who_falls_in_the_run_up_gets_up_goes_back_and_clears_it():
     course = make_course([("jump", 0.4, 0.3)], [12.0])
     ground, cleared = Ground.from_arrays(course.vertices, course.faces), 0
-    for k in range(10):
+    for k in range(5):
         human = Human(ground, gets_up=True)
         human.reset(course.path[0], 0.0)
         human.follow(course.path, 3.5, course.obstacles)
-        while human.arc_length < 6.0 + 0.2 * k:
+        while human.arc_length < 6.0 + 0.4 * k:
             human.tick()
         while human.status == "running":
             human.data.xfrc_applied[human.index.root, :2] = -500.0, 60.0 * (-1.0) ** k
@@ -128,4 +128,4 @@ def test_who_falls_in_the_run_up_gets_up_goes_back_and_clears_it():
             human.tick()
         assert any(isinstance(event, Fell) for event in human.events)
         cleared += human.status == "arrived" and any(isinstance(event, Cleared) for event in human.events)
-    assert cleared >= 8
+    assert cleared >= 4

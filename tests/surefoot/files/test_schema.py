@@ -27,7 +27,7 @@ THING = Schema(
         "start": Offsets("rows", into="parts"),
         "part": Indices("parts", into=7),
         "time": Rising("times"),
-        "kind": Words("rows", longest=5, among=("floor", "wall")),
+        "kind": Words("rows", longest=5, among=lambda: ("floor", "wall")),
         "seen": Flags("rows"),
     },
     remedy="make it again",

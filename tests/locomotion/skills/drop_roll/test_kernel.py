@@ -117,7 +117,7 @@ def test_heights_that_were_not_learned_are_refused(skill):
 @pytest.mark.parametrize("height", [0.9, 1.5, 2.0])
 def test_rolls_off_a_ledge_and_goes_on(height):
     arrived = 0
-    for distance in np.arange(12.0, 22.0):
+    for distance in np.linspace(12.0, 21.0, 5):
         human = dropper(height, distance)
         turned, upside_down = 0.0, False
         while human.status in MOVING and human.time < 40.0:
@@ -129,7 +129,7 @@ def test_rolls_off_a_ledge_and_goes_on(height):
         kinds = [type(event) for event in human.events]
         assert kinds.index(TookOff) < kinds.index(Cleared)
         arrived += human.status == "arrived"
-    assert arrived >= 9
+    assert arrived == 5
 
 
 def test_most_drops_succeed():

@@ -114,9 +114,7 @@ def test_of_all_that_end_in_a_stand_it_does_what_takes_the_least_room():
     human, understudy = running(310), running(0, rehearsals=0)
     decide, decided = human.decider.answer, []
     assert decide is not None
-    human.decider.answer = lambda question: (
-        decided.append((question, decide(question))) or decided[-1][1]
-    )
+    human.decider.answer = lambda question: decided.append((question, decide(question))) or decided[-1][1]
     begun, way = human.com[0], way_of_stop(human)
     ((question, outcome),) = decided
     each = [

@@ -54,7 +54,7 @@ def dense_walk(
     count = max(1, math.ceil(float(np.linalg.norm(b - a)) / step))
     least = math.inf
     ix, iy = divmod(int(surface.cell_column[cell]), surface.shape[1])
-    here, ends = -1, []
+    here, ends, along, squared = -1, np.empty((0, 4)), np.empty((0, 2)), np.empty(0)
     for i in range(count + 1):
         p = a + (b - a) * (i / count)
         jx, jy = (int(v // surface.resolution) for v in p)
@@ -66,21 +66,23 @@ def dense_walk(
             ix, iy = divmod(int(surface.cell_column[cell]), surface.shape[1])
         if cell != here:
             here, ends = cell, _ends_about(surface, cell)
-        for ax, ay, bx, by in ends:
-            along = np.array([bx - ax, by - ay])
-            t = (p - (ax, ay)) @ along / max(along @ along, 1e-18)
-            nearest = np.array([ax, ay]) + min(max(t, 0.0), 1.0) * along
-            least = min(least, float(np.linalg.norm(p - nearest)))
+            along = ends[:, 2:] - ends[:, :2]
+            squared = np.maximum(np.sum(along**2, axis=1), 1e-18)
+        if len(ends):
+            away = p - ends[:, :2]
+            share = np.clip(np.sum(away * along, axis=1) / squared, 0.0, 1.0)
+            least = min(least, float(np.linalg.norm(away - share[:, None] * along, axis=1).min()))
     return True, cell, least
 
 
-def _ends_about(surface, cell: int) -> list[np.ndarray]:
-    """Segments (4,) at which walking ends that a cell and those beside it know."""
+def _ends_about(surface, cell: int) -> np.ndarray:
+    """Segments (n, 4) at which walking ends that a cell and those beside it know."""
     beside = [int(k) for k in surface.link[cell] if k >= 0]
     around = {cell, *beside, *(int(k) for other in beside for k in surface.link[other] if k >= 0)}
     sources = {int(surface.source[k]) for k in around} - {-1}
     starts = surface.blocker_start
-    return [each for k in sources for each in surface.blocker[starts[k] : starts[k + 1]]]
+    segments = [surface.blocker[starts[k] : starts[k + 1]] for k in sources]
+    return np.concatenate([np.empty((0, 4)), *segments])
 
 
 def _crosses(a, b, portal) -> bool:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from locomotion.ground.collider.build import FLAT_ANGLE, WELD
 from locomotion.ground.collider.contact import BESIDE, MAX_CONTACTS, PARALLEL, SAME, SIDE_TOLERANCE
 
-__all__ = ["Contact", "reference_contacts"]
+__all__ = ["Contact", "ReferenceMesh", "reference_contacts"]
 
 
 @dataclass(frozen=True)
@@ -34,24 +34,52 @@ class Contact:
         return self.position - 0.5 * self.distance * self.normal
 
 
+class ReferenceMesh:
+    """A mesh of vertices (v, 3) and faces (f, 3) without degenerate triangles, and what its edges and corners
+    leave free.
+
+    depth_limits (f,): how far behind each face [m] a centre is still pushed out.
+    """
+
+    def __init__(
+        self, vertices: NDArray[np.float64], faces: NDArray[np.int64], depth_limits: NDArray[np.float64]
+    ) -> None:
+        _, first, welded = np.unique(
+            np.round(vertices / WELD), axis=0, return_index=True, return_inverse=True
+        )
+        self.points, self.corners = vertices[first], welded.reshape(-1)[faces]
+        self.normals, self.depth_limits = _normals(self.points[self.corners]), depth_limits
+        around: dict[tuple[int, int], list[int]] = {}
+        for t, triangle in enumerate(self.corners):
+            for k in range(3):
+                a, b = int(triangle[k]), int(triangle[(k + 1) % 3])
+                around.setdefault((min(a, b), max(a, b)), []).append(t)
+        self.edges = []
+        """(a, b, faces beside it, the directions out of them) of each edge that sticks out."""
+        for (a, b), beside in around.items():
+            outward = [_outward(self.points, self.corners[t], self.normals[t], a, b) for t in beside]
+            if _edge_sticks_out(outward, [self.normals[t] for t in beside]):
+                self.edges.append((a, b, beside, outward))
+        self.tips = []
+        """(v, the directions of its edges) of each corner that sticks out."""
+        for v in range(len(self.points)):
+            edges = [e for e in around if v in e]
+            if edges and _corner_sticks_out(v, edges, around, self.points, self.corners, self.normals):
+                along = [_unit(self.points[a + b - v] - self.points[v])[0] for a, b in edges]
+                self.tips.append((v, along))
+
+
 def reference_contacts(
-    vertices: NDArray[np.float64],
-    faces: NDArray[np.int64],
-    depth_limits: NDArray[np.float64],
+    mesh: ReferenceMesh,
     start: NDArray[np.float64],
     end: NDArray[np.float64],
     radius: float,
     margin: float = 0.0,
 ) -> list[Contact]:
-    """Contacts of a capsule, deepest first. The mesh (v, 3), (f, 3) must have no degenerate triangles.
-
-    depth_limits (f,): how far behind each face [m] a centre is still pushed out.
-    """
-    _, first, welded = np.unique(np.round(vertices / WELD), axis=0, return_index=True, return_inverse=True)
-    points, corners = vertices[first], welded.reshape(-1)[faces]
+    """Contacts of a capsule, deepest first."""
+    points, corners, normals, depth_limits = mesh.points, mesh.corners, mesh.normals, mesh.depth_limits
     length = float(np.linalg.norm(end - start))
     found: list[Contact] = []
-    normals = _normals(points[corners])
     ends = [(start, 0.0)] + ([(end, length)] if length > 0 else [])
 
     for t, normal in enumerate(normals):
@@ -62,16 +90,8 @@ def reference_contacts(
             if touches and not (height < 0 and _outside(points, corners, normals, t, q, q - height * normal)):
                 found.append(_contact(q, at, normal, height - radius, radius, True, height))
 
-    around: dict[tuple[int, int], list[int]] = {}
-    for t, triangle in enumerate(corners):
-        for k in range(3):
-            a, b = int(triangle[k]), int(triangle[(k + 1) % 3])
-            around.setdefault((min(a, b), max(a, b)), []).append(t)
-    for (a, b), beside in around.items():
+    for a, b, beside, outward in mesh.edges:
         p, along = points[a], points[b] - points[a]
-        outward = [_outward(points, corners[t], normals[t], a, b) for t in beside]
-        if not _edge_sticks_out(outward, [normals[t] for t in beside]):
-            continue
         for q, at in [*ends, *_nearest_inside(start, end, length, p, along)]:
             w = float((q - p) @ along / (along @ along))
             if 0.0 < w < 1.0:
@@ -92,14 +112,11 @@ def reference_contacts(
                 if back and outside and 1e-9 < distance <= limit:
                     found.append(_contact(q, at, direction, -distance - radius, radius, False, 1.0))
 
-    for v in range(len(points)):
-        edges = [e for e in around if v in e]
-        if not edges or not _corner_sticks_out(v, edges, around, points, corners, normals):
-            continue
+    for v, along in mesh.tips:
         s = float(np.clip((points[v] - start) @ (end - start) / length**2, 0, 1)) if length > 0 else 0.0
         q = start + s * (end - start)
         direction, distance = _unit(q - points[v])
-        free = all(direction @ _unit(points[a + b - v] - points[v])[0] <= 1e-9 for a, b in edges)
+        free = all(direction @ each <= 1e-9 for each in along)
         if free and distance > 1e-9 and distance - radius < margin:
             found.append(_contact(q, s * length, direction, distance - radius, radius, False, 1.0))
     return _reduced(found)

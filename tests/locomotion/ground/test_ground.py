@@ -9,7 +9,7 @@ import pytest
 from locomotion.body.person import build_person
 from locomotion.errors import LocomotionError
 from locomotion.ground.collider.contact import MAX_CANDIDATES, capsule_contacts
-from locomotion.ground.collider.reference import reference_contacts
+from locomotion.ground.collider.reference import ReferenceMesh, reference_contacts
 from locomotion.ground.ground import Ground
 
 SPHERE, CAPSULE = mujoco.mjtGeom.mjGEOM_SPHERE, mujoco.mjtGeom.mjGEOM_CAPSULE
@@ -184,12 +184,12 @@ def test_kernel_equals_the_slow_reference(shape):
     local = vertices - ground.origin
     limits = ground.arrays.rows[:, 25]
     assert len(limits) == len(faces)
-    touching = 0
+    mesh, touching = ReferenceMesh(local, faces, limits), 0
     for i in range(250):
         start = rng.uniform(local.min(axis=0) - 0.1, local.max(axis=0) + 0.2)
         end = start if i % 3 == 0 else start + rng.normal(0, 0.15, 3)
         radius = rng.uniform(0.02, 0.25)
-        expected = reference_contacts(local, faces, limits, start, end, radius)
+        expected = reference_contacts(mesh, start, end, radius)
         found = contacts(ground, start + ground.origin, end + ground.origin, radius)
         found = found[np.argsort(found[:, 0], kind="stable")]
         assert len(found) == len(expected), (i, found, expected)

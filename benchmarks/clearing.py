@@ -55,8 +55,8 @@ def run_up(
 def summary(affordance: str, height: float, distances: np.ndarray, rehearsals: int) -> dict[str, Any]:
     """The figures of one height."""
     runs = [run_up(affordance, height, d, rehearsals) for d in distances]
-    good = [run.passages[0] for run in runs if held(affordance, run)]
-    taken = [run.passages[0] for run in runs if run.passages]
+    good = [run.reports[0] for run in runs if held(affordance, run)]
+    taken = [run.reports[0] for run in runs if run.reports]
 
     def mean(values: list) -> float:
         return float(np.mean(values)) if values else np.nan
@@ -70,7 +70,7 @@ def summary(affordance: str, height: float, distances: np.ndarray, rehearsals: i
         "speed_error_mean": mean([p.speed_error for p in taken]),
         "peak_median": float(np.median([p.peak for p in good])) if good else np.nan,
         "ends": dict(Counter(run.ended for run in runs)),
-        "runs": [{"ended": run.ended, "passages": [asdict(p) for p in run.passages]} for run in runs],
+        "runs": [{"ended": run.ended, "reports": [asdict(p) for p in run.reports]} for run in runs],
     }
     if affordance == "vault":
         without: list[ClearingSkill] = [Handless(load_vault_skill(), load_run_skill())]

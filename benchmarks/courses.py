@@ -48,11 +48,11 @@ def main() -> None:
         course = draw_course(np.random.default_rng([5, number]), options.obstacles, options.kinds)
         run = run_course(course, noise=start_noise(5, number), rehearsals=options.rehearsals)
         kinds = [obstacle.affordance for obstacle in course.obstacles]
-        cleared = sum(p.cleared for p in run.passages)
+        cleared = sum(p.cleared for p in run.reports)
         rows.append({"kinds": kinds, "ended": run.ended, "cleared": cleared, "seconds": run.seconds})
-        met.update(kinds[: len(run.passages)])
+        met.update(kinds[: len(run.reports)])
         if run.ended != "arrived":
-            at = kinds[len(run.passages) - 1] if run.passages else "no obstacle yet"
+            at = kinds[len(run.reports) - 1] if run.reports else "no obstacle yet"
             last[f"{run.ended}, {at}"] += 1
         if (number + 1) % 20 == 0:
             print(f"{number + 1} courses, {sum(row['ended'] == 'arrived' for row in rows)} whole", flush=True)

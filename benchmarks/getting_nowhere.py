@@ -108,7 +108,7 @@ def follow(world: World, agent: Agent, seconds: float) -> dict[str, Any]:
     back = backwards = 0
     watch.look(agent, 0.0, True)
     while agent.moving and world.time - begun < seconds:
-        goes_back = agent.human.way.interrupted is not None
+        goes_back = agent.human.follower.interrupted is not None
         world.step(_STEP)
         new = world.events
         events += new

@@ -26,7 +26,7 @@ def fall(person: Person, gets_up: bool) -> None:
     """It has lost its balance; ``gets_up``: whether it gets up again where there is ground."""
     let_go_both(person.data)
     on_way = person.status in MOVING
-    speed, slope = float(person.control[controller.SPEED]), float(person.way.memory[SLOPE_HERE])
+    speed, slope = float(person.control[controller.SPEED]), float(person.follower.memory[SLOPE_HERE])
     person.end("fallen", Fell(person.time, person.point, speed, slope, person.arc_length))
     if gets_up and person.simulation.over_ground:
         person.status, person.on_feet.slowing = "getting up", 0.0
@@ -39,10 +39,10 @@ def fall(person: Person, gets_up: bool) -> None:
 def tick_on_all_fours(person: Person, gets_up: bool) -> None:
     """A tick on hands and feet, on the way to them after a fall, or from them to a stand."""
     fours, lookup = person.fours, person.simulation.lookup
-    way = person.way if fours.on_way > 0.0 and person.status in MOVING else None
+    follower = person.follower if fours.on_way > 0.0 and person.status in MOVING else None
     if person.ticks % _LOOKS == 0:
-        fours.look(person.ground, person.position, way)
-    fours.steer(way, person.control[controller.COM], person.ticks, person.command)
+        fours.look(person.ground, person.position, follower)
+    fours.steer(follower, person.control[controller.COM], person.ticks, person.command)
     fours.tick(lookup, person.command, person.data, fours.gentle > 0.0)
     mujoco.mj_step(person.physics, person.data, STEPS_PER_TICK)
     person.control[controller.FALLEN] = 0.0
@@ -55,11 +55,11 @@ def tick_on_all_fours(person: Person, gets_up: bool) -> None:
     elif fours.borne and fours.gentle == 0.0 and person.status == "getting up":
         _got_up(person, "scrambling")
     if person.status == "getting up":
-        person.way.make_headway(person.ticks)
+        person.follower.make_headway(person.ticks)
         if person.ticks - fours.fell_at > _LONGEST_DOWN:
             person.status, person.ended_at = "fallen", person.ticks
             fours.leave()
-    elif way is not None and way.path is not None and person.status in MOVING and not got_up:
+    elif follower is not None and follower.path is not None and person.status in MOVING and not got_up:
         notice(person)  # but one that has just got up, which may be told to take another way
 
 
@@ -75,7 +75,7 @@ def _stand_up(person: Person) -> None:
 
 
 def _got_up(person: Person, status: Status) -> None:
-    person.way.go_on_from(person.position, person.ticks)
+    person.follower.go_on_from(person.position, person.ticks)
     person.status = status if person.fours.on_way > 0.0 else "standing"
     person.ended_at = person.ticks
     down = (person.ticks - person.fours.fell_at) * CONTROL_DT

@@ -60,7 +60,7 @@ class GaitChanges:
     def run_if_due(self) -> None:
         """Go over from walking to running, just after a foot was put down."""
         person = self._person
-        if person.status not in MOVING or not person.way.runs or person.way.pace < 1.0:
+        if person.status not in MOVING or not person.follower.runs or person.follower.pace < 1.0:
             return
         run_up, arc = person.run_up, person.arc_length
         near = run_up.comes_within(arc, _TOO_NEAR)
@@ -99,13 +99,13 @@ class GaitChanges:
     def walk_if_due(self) -> None:
         """Where it is to stand, or cannot slow down in time, brake; where the path is not run, slow down;
         and go over to walking when it can."""
-        person, feet, way = self._person, self._person.on_feet, self._person.way
+        person, feet, follower = self._person, self._person.on_feet, self._person.follower
         told = person.status == "standing"
-        stops = told or way.pace == 0.0 or way.brakes
+        stops = told or follower.pace == 0.0 or follower.brakes
         if stops and not feet.brakes and self._brakes_or_will(told):
             return
         if feet.slowing == 0.0:
-            if person.status not in MOVING or not way.runs or way.pace == 0.0:
+            if person.status not in MOVING or not follower.runs or follower.pace == 0.0:
                 self._slow_down_or_will(stops)
         if feet.walk_if_slow(person.index, person.control, person.data) and person.status in MOVING:
             person.status = "walking"
@@ -133,22 +133,22 @@ class GaitChanges:
             return False
         person = self._person
         since, runs = person.ticks - person.ended_at, person.on_feet.slowing == 0.0
-        may_wait = runs and (since < _TRIES if told else person.way.begins_to_slow)
+        may_wait = runs and (since < _TRIES if told else person.follower.begins_to_slow)
         now = (since if told else person.ticks) % _AGAIN == 1 or (runs and not may_wait)
         return (now and self._brakes_well()) or may_wait
 
     def _slow_down_or_will(self, must: bool) -> None:
         """Slow down to a walk; where that does not go well, brake, or run on for a moment if it need not."""
-        way, ticks = self._person.way, self._person.ticks
-        may_wait = not must and self._decider.answer is not None and way.begins_to_slow
-        if may_wait and way.tried_to_slow and ticks - way.tried_to_slow < _AGAIN:
+        follower, ticks = self._person.follower, self._person.ticks
+        may_wait = not must and self._decider.answer is not None and follower.begins_to_slow
+        if may_wait and follower.tried_to_slow and ticks - follower.tried_to_slow < _AGAIN:
             return
         if self._slow_as_rehearsed(SLOWINGS, _slow_down, _WALKS_ON):
             return
         if not must and self._brakes_well():
             return
         if may_wait:
-            way.tried_to_slow = ticks
+            follower.tried_to_slow = ticks
         else:
             self._person.slow_down(SLOWINGS[0])
 

@@ -26,24 +26,24 @@ _CLIMBS_BACK = 6.0  # [m] beside its path, where it has slid to, from which it c
 
 def notice(person: Person) -> None:
     """End the way of a person that has arrived, is lost or is stuck."""
-    way, com = person.way, person.control[controller.COM]
-    assert way.path is not None
-    if way.interrupted is not None and way.remaining < _WALK_ARRIVAL:
-        way.turn_again(person.ticks)
+    follower, com = person.follower, person.control[controller.COM]
+    assert follower.path is not None
+    if follower.interrupted is not None and follower.remaining < _WALK_ARRIVAL:
+        follower.turn_again(person.ticks)
         return
     on_foot = person.status in ("walking", "scrambling")  # who runs comes past, and has to come back
-    if on_foot and way.remaining < _WALK_ARRIVAL:
-        goal = way.path.goal
+    if on_foot and follower.remaining < _WALK_ARRIVAL:
+        goal = follower.path.goal
         distance = math.hypot(goal[0] - com[0], goal[1] - com[1])
         if distance <= ARRIVAL_DISTANCE and float(np.linalg.norm(person.velocity[:2])) <= _STAYS:
             person.end("arrived", Arrived(person.time, person.point, distance))
-        elif distance > ARRIVAL_DISTANCE and way.ended and person.status != "scrambling":
+        elif distance > ARRIVAL_DISTANCE and follower.ended and person.status != "scrambling":
             person.end("lost", MissedGoal(person.time, person.point, distance))
-    elif abs(way.lateral) > _may_stray(person):
-        person.end("lost", StrayedFromPath(person.time, person.point, abs(way.lateral)))
-    elif way.pace < 1.0:
-        way.wait()
-    elif way.without_headway(person.ticks) > STUCK_TIME:
+    elif abs(follower.lateral) > _may_stray(person):
+        person.end("lost", StrayedFromPath(person.time, person.point, abs(follower.lateral)))
+    elif follower.pace < 1.0:
+        follower.wait()
+    elif follower.without_headway(person.ticks) > STUCK_TIME:
         person.end("stuck", GotStuck(person.time, person.point))
 
 

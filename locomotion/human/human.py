@@ -138,7 +138,7 @@ class Human(Person):
         if not (is_finite(speed) and speed >= 0.0):
             raise LocomotionError(f"speed must be a finite number >= 0 m/s, not {speed}")
         self.put(self.simulation.on_ground(place), yaw, speed)
-        self.way.forget()
+        self.follower.forget()
         self.run_up.begin(())
         self.status = "standing" if speed == 0.0 else "running"
 
@@ -167,8 +167,8 @@ class Human(Person):
         if not self.on_feet.walks and not running:
             self.put(here, self.yaw, 0.0)
         stands = self.status not in MOVING and self.on_feet.walks
-        self.way.begin(table, self.ticks)
-        self.way.starts = self.ticks + round(hesitates / CONTROL_DT) if stands else 0
+        self.follower.begin(table, self.ticks)
+        self.follower.starts = self.ticks + round(hesitates / CONTROL_DT) if stands else 0
         self.run_up.begin(obstacles)
         let_go_both(self.data)
         self.fours.on_way = 1.0
@@ -181,7 +181,7 @@ class Human(Person):
 
     def arrive(self) -> None:
         """Take where it is for its goal."""
-        goal = self.position if self.way.path is None else self.way.path.goal
+        goal = self.position if self.follower.path is None else self.follower.path.goal
         distance = float(np.linalg.norm(goal[:2] - self.position[:2]))
         self.end("arrived", Arrived(self.time, self.point, distance))
 
@@ -221,7 +221,7 @@ class Human(Person):
     def course(self) -> Course | None:
         """What it is about to do; None for one that is not on its way, clears an obstacle, or is going over
         from a walk to a run or back."""
-        if self.way.path is None or self.status not in ("walking", "running"):
+        if self.follower.path is None or self.status not in ("walking", "running"):
             return None
         if self.on_feet.changes(self.control):
             return None
@@ -230,10 +230,10 @@ class Human(Person):
     def prospect(self) -> Course | None:
         """What it will do on its feet, whether that can be changed or not; None for one that is not on
         them."""
-        feet, way, here, velocity = self.on_feet, self.way, self.position, self.velocity
+        feet, follower, here, velocity = self.on_feet, self.follower, self.position, self.velocity
         if self.fours.active or self.status in CLEARING.values():
             return None
-        if way.path is None or self.status not in ("walking", "running"):
+        if follower.path is None or self.status not in ("walking", "running"):
             limits = feet.walk_limits if feet.walks else feet.limits
             will_brake = feet.runs and self.decider.answer is not None
             if feet.brakes or will_brake:
@@ -244,7 +244,7 @@ class Human(Person):
         if not walks:
             limits, facing = feet.limits, math.atan2(velocity[1], velocity[0])
         aside = self.run_up.ahead is None
-        course = course_on_way(way, limits, here, velocity, walks, facing, aside)
+        course = course_on_way(follower, limits, here, velocity, walks, facing, aside)
         if feet.slowing == 0.0:
             return course
         return replace(course, slowest=0.0, braking=BRAKING if feet.brakes else feet.slowing)
@@ -252,11 +252,11 @@ class Human(Person):
     def give_way(self, pace: float, shift: NDArray[np.float64] | None) -> None:
         """Go at a share of the planned speed; with ``shift`` (k, 2) [m] change the path by it, one row for
         every 0.1 m from where it is."""
-        self.way.pace = pace
+        self.follower.pace = pace
         if shift is not None:
             self.run_up.disturb()
             walk = self.on_feet.walk_limits if self.status == "walking" else None
-            self.way.shift(shift, self.on_feet.limits, walk)
+            self.follower.shift(shift, self.on_feet.limits, walk)
 
     # --- time
     def tick(self) -> None:
@@ -275,11 +275,11 @@ class Human(Person):
         if self.fours.active:
             tick_on_all_fours(self, self.gets_up)
             return
-        state, data, feet, way = self.control, self.data, self.on_feet, self.way
-        if way.path is not None and self.status != "fallen":
-            moving = self.status in MOVING and self.ticks >= way.starts
+        state, data, feet, follower = self.control, self.data, self.on_feet, self.follower
+        if follower.path is not None and self.status != "fallen":
+            moving = self.status in MOVING and self.ticks >= follower.starts
             planned = self.run_up.planned
-            feet.steer(way, state, moving, planned, self.ticks, self.command)
+            feet.steer(follower, state, moving, planned, self.ticks, self.command)
         feet.tick(self.simulation.lookup, state, self.command, data)
         if feet.runs and self.status != "fallen":
             self._clear()
@@ -297,9 +297,9 @@ class Human(Person):
         if state[controller.FALLEN] > 0.0:
             fall(self, self.gets_up)
             return
-        if way.path is not None and self.status in MOVING:
+        if follower.path is not None and self.status in MOVING:
             notice(self)
-        if way.path is not None and not self.run_up.clearing:
+        if follower.path is not None and not self.run_up.clearing:
             if feet.walks:
                 self._changes.run_if_due()
                 self._changes.choose_step()

@@ -10,7 +10,7 @@ from locomotion.avoidance.yielding import AT_ONCE, HORIZON, SPACING, TURNING_SPE
 from locomotion.gaits.limits import PERSON_RULES
 from locomotion.gaits.walk.steps import TURN_RATE
 from locomotion.paths import table as path_table
-from locomotion.paths.follower import Way
+from locomotion.paths.follower import PathFollower
 from locomotion.paths.gait_plan import COME_TO_REST
 from locomotion.paths.table import TrackingLimits
 
@@ -29,7 +29,7 @@ _RADIUS = PERSON_RULES["radius"] + _BERTH
 
 
 def course_on_way(
-    way: Way,
+    follower: PathFollower,
     limits: TrackingLimits,
     place: NDArray[np.float64],
     velocity: NDArray[np.float64],
@@ -37,12 +37,12 @@ def course_on_way(
     facing: float,
     aside: bool,
 ) -> Course:
-    """The course of a person that is at ``place`` (3,) with ``velocity`` (3,) on its ``way`` and faces
+    """The course of a person that is at ``place`` (3,) with ``velocity`` (3,), and faces
     ``facing`` [rad]; if its way leads elsewhere it comes to a stand and turns first. ``aside``: whether its
     path may be changed."""
-    path = way.path
+    path = follower.path
     assert path is not None
-    arc, step = way.arc, path.length / (len(path.table) - 1)
+    arc, step = follower.arc, path.length / (len(path.table) - 1)
     far = arc + 2.0 * HORIZON * limits.speeds[1]
     along = np.arange(arc, min(path.length, far) + 1e-9, SPACING)
     rows = np.empty((len(along), path.table.shape[1]))
@@ -62,10 +62,10 @@ def course_on_way(
         back = np.linspace(before[-1], points[0], max(round(away / SPACING), 1), endpoint=False)
         points, aside = np.concatenate([before[:-1], back, points]), False
         speeds = np.concatenate([np.full(len(points) - len(speeds), speeds[0]), speeds])
-    goes_back = way.interrupted is not None
+    goes_back = follower.interrupted is not None
     return replace(
         _course(points, speeds, speed, limits, walks),
-        pace=way.pace,
+        pace=follower.pace,
         aside=aside and not goes_back,
         whole=path.length <= far and not goes_back,
         stops=COME_TO_REST if walks else COME_TO_REST + (speed * speed) / (2.0 * limits.slowing),

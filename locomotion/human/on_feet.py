@@ -47,7 +47,7 @@ from locomotion.gaits.walk.layout import (
 from locomotion.gaits.walk.skill import RISING, STEADYING_SPEED, WalkSkill
 from locomotion.gaits.walk.steps import TURN_TIME
 from locomotion.human.intent import TURN_FIRST
-from locomotion.paths.follower import Way
+from locomotion.paths.follower import PathFollower
 
 __all__ = ["RUN_GAINS", "OnFeet"]
 
@@ -131,7 +131,13 @@ class OnFeet:
 
     # --- a tick
     def steer(
-        self, way: Way, state: NDArray, moving: bool, planned: float, tick: int, command: NDArray
+        self,
+        follower: PathFollower,
+        state: NDArray,
+        moving: bool,
+        planned: float,
+        tick: int,
+        command: NDArray,
     ) -> None:
         """Track the path: write heading and speeds to ask of the controllers into ``command`` (4,).
 
@@ -139,10 +145,10 @@ class OnFeet:
         there is none.
         """
         (x, y), speed = state[controller.COM][:2], state[controller.SPEED]
-        way.track(_WALK_GAINS if self.walks else RUN_GAINS, x, y, speed, tick, command)
+        follower.track(_WALK_GAINS if self.walks else RUN_GAINS, x, y, speed, tick, command)
         if self.walks:
-            most = self.walk_skill.speed if way.walks_fast else self.walk_limits.calm
-            self._steer_walk(state, moving, way.pace, most, command)
+            most = self.walk_skill.speed if follower.walks_fast else self.walk_limits.calm
+            self._steer_walk(state, moving, follower.pace, most, command)
         elif self.slowing > 0.0:
             slower = state[controller.SPEED] - self.slowing * CONTROL_DT
             command[1:3] = slower, 0.0
@@ -155,7 +161,7 @@ class OnFeet:
                 made = state[controller.STEP_SPEED]
                 command[1] = min(command[1], max(min(made + haste, _FAST), made + _FAST_HASTE))
             slowest = min(command[1], self.limits.speeds[0])
-            command[1] = planned if planned > 0.0 else max(way.pace * command[1], slowest)
+            command[1] = planned if planned > 0.0 else max(follower.pace * command[1], slowest)
 
     def _steer_walk(self, state: NDArray, moving: bool, pace: float, most: float, command: NDArray) -> None:
         """``pace``: share of the speed asked for at which it goes; ``most`` [m/s]."""

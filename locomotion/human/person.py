@@ -21,12 +21,12 @@ from locomotion.human import state as person_state
 from locomotion.human.on_feet import OnFeet
 from locomotion.human.simulation import Simulation
 from locomotion.human.state import MOVING, Gait, HumanState, Status
-from locomotion.paths.follower import Way
+from locomotion.paths.follower import PathFollower
 from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.paths.tracking import new_track
 from locomotion.recovery.on_all_fours import OnAllFours, too_steep_around
 from locomotion.skills.interface import ClearingSkill
-from locomotion.skills.run_up import ObstacleRun
+from locomotion.skills.run_up import RunUp
 
 __all__ = ["Person"]
 
@@ -39,7 +39,7 @@ _SOON_WALKED, _SOON_RUN, _SOON_SLOWS = 2.5, 4.0, 1.5
 
 class Person:
     """Attributes:
-    simulation: its physics. on_feet: how it walks and runs. way: the path that it follows. run_up: the
+    simulation: its physics. on_feet: how it walks and runs. follower: the path that it follows. run_up: the
         obstacles on it, and how it clears them. fours: how it goes on hands and feet.
     command: heading and speeds asked of the controllers, (4,).
     status, events: see `locomotion.human.human.Human`. ticks: made since the person was made. ended_at: the
@@ -48,8 +48,8 @@ class Person:
 
     def __init__(self, ground: Ground | None, on_feet: OnFeet, clearing: Sequence[ClearingSkill]) -> None:
         self.simulation = Simulation(ground)
-        self.on_feet, self.way = on_feet, Way()
-        self.run_up = ObstacleRun(clearing, on_feet.run_skill)
+        self.on_feet, self.follower = on_feet, PathFollower()
+        self.run_up = RunUp(clearing, on_feet.run_skill)
         self.fours = OnAllFours(self.model, self.index)
         self.command = np.zeros(4)
         self.events: list[Event] = []
@@ -75,7 +75,7 @@ class Person:
             plant(body.model, body.data, body.index, body.lookup, body.control, walk, position, yaw)
         self.command[:] = yaw, speed, 0.0, 0.0
         self.on_feet.slowing, self.on_feet.brakes = 0.0, False
-        self.way.memory[:] = new_track()
+        self.follower.memory[:] = new_track()
 
     # --- of its simulation
     @property
@@ -180,22 +180,22 @@ class Person:
     @property
     def arc_length(self) -> float:
         """Length of the path behind the person [m]."""
-        return self.way.arc_length
+        return self.follower.arc_length
 
     @property
     def lateral_error(self) -> float:
         """Distance of the centre of mass to the left of the path [m]."""
-        return self.way.lateral
+        return self.follower.lateral
 
     @property
     def pace(self) -> float:
         """Share of its planned speed at which it goes."""
-        return self.way.pace
+        return self.follower.pace
 
     @property
     def path(self) -> NDArray[np.float64]:
         """(n, 3) float64 [m]: the path that it follows or followed last."""
-        return self.way.points
+        return self.follower.points
 
     @property
     def obstacle_ahead(self) -> ObstacleAhead | None:
@@ -210,8 +210,8 @@ class Person:
 
     def way_back(self) -> NDArray[np.float64] | None:
         """(k, 3) [m] the points of its way behind it, back to the obstacle that it has cleared last, see
-        `Way.way_back`."""
-        return self.way.way_back(self.run_up.passed)
+        `PathFollower.way_back`."""
+        return self.follower.way_back(self.run_up.passed)
 
     # --- what it is about to decide
     @property
@@ -227,16 +227,16 @@ class Person:
     @property
     def decides_soon(self) -> bool:
         """Whether it may come to something to be rehearsed within the next seconds."""
-        way, feet, arc = self.way, self.on_feet, self.arc_length
+        follower, feet, arc = self.follower, self.on_feet, self.arc_length
         if feet.on_uneven_ground and not self.fours.active and not self.held:
             return True
-        if way.path is None or self.status not in MOVING or self.fours.active or feet.slowing > 0.0:
+        if follower.path is None or self.status not in MOVING or self.fours.active or feet.slowing > 0.0:
             return False
         if feet.walks:
-            begins = way.interrupted is None and way.path.runs(way.arc + _SOON_WALKED)
-            turns = way.interrupted is not None and way.remaining < _SOON_WALKED
+            begins = follower.interrupted is None and follower.path.runs(follower.arc + _SOON_WALKED)
+            turns = follower.interrupted is not None and follower.remaining < _SOON_WALKED
             return (begins or turns) and self.run_up.rehearses_within(arc, _SOON_WALKED)
-        ends = not self.run_up.clearing and not way.path.runs(way.arc + _SOON_SLOWS)
+        ends = not self.run_up.clearing and not follower.path.runs(follower.arc + _SOON_SLOWS)
         return ends or self.run_up.rehearses_within(arc, _SOON_RUN)
 
     # --- what it can be made to do
@@ -276,15 +276,15 @@ class Person:
 
     def go_back(self) -> bool:
         """Turn round for a longer run-up to the obstacle ahead; gives whether there is one to go back for."""
-        way = self.way
-        to = None if way.interrupted is not None else self.run_up.turning_point(way.arc, way)
-        if way.path is None or to is None:
+        follower = self.follower
+        to = None if follower.interrupted is not None else self.run_up.turning_point(follower.arc, follower)
+        if follower.path is None or to is None:
             return False
         ahead = self.run_up.ahead
         assert ahead is not None
-        self.events.append(WentBack(self.time, self.point, ahead.affordance, ahead.size, way.arc - to))
+        self.events.append(WentBack(self.time, self.point, ahead.affordance, ahead.size, follower.arc - to))
         self.run_up.go_back()
-        way.go_back(to, self.on_feet.walk_limits, self.ticks)
+        follower.go_back(to, self.on_feet.walk_limits, self.ticks)
         return True
 
     def end(self, status: Status, event: Event) -> None:

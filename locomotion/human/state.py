@@ -73,7 +73,7 @@ class _Field(NamedTuple):
 
 
 _ARRAYS = operator.attrgetter(
-    "simulation.control", "command", "on_feet.walk", "way.memory", "fours.memory", "run_up.plan"
+    "simulation.control", "command", "on_feet.walk", "follower.memory", "fours.memory", "run_up.plan"
 )
 # what the parts of a person remember from tick to tick in arrays of their own
 _FIELDS = (
@@ -81,9 +81,9 @@ _FIELDS = (
     _Field("brakes", "on_feet", "brakes"),
     _Field("hurries", "on_feet", "hurries"),
     _Field("on_all_fours", "fours", "mood"),
-    _Field("path", "way", "path", _same_path),
-    _Field("interrupted", "way", "interrupted", _same_path),
-    _Field("back_to", "way", "back_to"),
+    _Field("path", "follower", "path", _same_path),
+    _Field("interrupted", "follower", "interrupted", _same_path),
+    _Field("back_to", "follower", "back_to"),
     _Field("obstacles", "run_up", "obstacles", operator.is_),
     _Field("skill", "run_up", "at_work", _same_memory),
     _Field("status", "", "status"),

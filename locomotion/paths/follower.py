@@ -13,14 +13,14 @@ from locomotion.paths.gait_plan import SLOWS_WITHIN
 from locomotion.paths.table import PathTable, TrackingLimits
 from locomotion.paths.tracking import back_along, new_track, shifted, track
 
-__all__ = ["Way"]
+__all__ = ["PathFollower"]
 
 _ROOM = 2.5, 5.0  # [m] that it goes back at least to let others by, the first and the second time
 _STRAIGHT, _AT_EDGE = 0.35, 0.3  # [rad] to which a run-up may bend; [m] before an edge
 _LEAST = 0.5  # [m] behind it from which it does
 
 
-class Way:
+class PathFollower:
     """``path``: what is followed now, None before the first. ``interrupted``: the path to which it returns,
     at arc length ``back_to`` [m], after having gone back along it; else None. ``memory``: what
     `path_tracking.track` remembers."""

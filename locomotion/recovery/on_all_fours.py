@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from locomotion.body.models import gentler, harder
 from locomotion.body.person import PersonIndex
 from locomotion.ground.ground import Ground
-from locomotion.paths.follower import Way
+from locomotion.paths.follower import PathFollower
 from locomotion.paths.table import PathTable
 from locomotion.recovery.getting_up import begin_getting_up, get_up_tick, rise_on
 from locomotion.recovery.layout import AWAY, BORNE, FACING, MODE, RISEN, RISING, new_scramble
@@ -91,27 +91,29 @@ class OnAllFours:
         """Put the person on hands and feet over the ground point ``place`` (3,), to go towards ``yaw``."""
         crouch(self._model, data, self._parts, lookup, self.memory, place, yaw)
 
-    def look(self, ground: Ground | None, place: NDArray[np.float64], way: Way | None) -> None:
-        """See whether it can stand up at ``place`` (3,), and walk on along ``way``."""
-        path, arc = (None, 0.0) if way is None else (way.path, way.arc)
+    def look(self, ground: Ground | None, place: NDArray[np.float64], follower: PathFollower | None) -> None:
+        """See whether it can stand up at ``place`` (3,), and walk on with ``follower``."""
+        path, arc = (None, 0.0) if follower is None else (follower.path, follower.arc)
         self.gentle = float(_gentle_ahead(ground, place, path, arc))
 
-    def steer(self, way: Way | None, com: NDArray[np.float64], tick: int, command: NDArray) -> None:
-        """Write into ``command`` (4,) how it goes on along ``way``, None: it stays. com (3,) [m]."""
-        if way is None or way.path is None:
+    def steer(
+        self, follower: PathFollower | None, com: NDArray[np.float64], tick: int, command: NDArray
+    ) -> None:
+        """Write into ``command`` (4,) how it goes on with ``follower``, None: it stays. com (3,) [m]."""
+        if follower is None or follower.path is None:
             command[:] = self.facing, 0.0, 0.0, 0.0
             return
-        table, (x, y, _) = way.path.table, com.tolist()
-        ahead = min(int((way.arc + _LOOK) / way.path.length * (len(table) - 1)), len(table) - 1)
-        way.track(_GAINS, x, y, _SPEED, tick, command)
+        table, (x, y, _) = follower.path.table, com.tolist()
+        ahead = min(int((follower.arc + _LOOK) / follower.path.length * (len(table) - 1)), len(table) - 1)
+        follower.track(_GAINS, x, y, _SPEED, tick, command)
         command[0] = math.atan2(table[ahead, 1] - y, table[ahead, 0] - x)
         command[1] = _SPEED
         command[2] = 0.0
-        waits = way.without_headway(tick) / (1.0 - _SLOW_HEADWAY)
+        waits = follower.without_headway(tick) / (1.0 - _SLOW_HEADWAY)
         if waits > _NO_HEADWAY:
             command[0] += _ROUND if waits % (2.0 * _NO_HEADWAY) < _NO_HEADWAY else -_ROUND
             command[2] = 1.0
-        way.excuse(_SLOW_HEADWAY)
+        follower.excuse(_SLOW_HEADWAY)
 
     def tick(
         self, lookup: tuple[NDArray, ...], command: NDArray[np.float64], data: mujoco.MjData, stand: bool

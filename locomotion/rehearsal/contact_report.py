@@ -11,7 +11,7 @@ from locomotion.body.person import CONTROL_DT, MASS, PersonIndex
 from locomotion.body.physics import restore_physics, save_physics
 from locomotion.paths.smoothing import ObstacleAhead
 
-__all__ = ["Passage", "Watcher"]
+__all__ = ["ContactReport", "Watcher"]
 
 _STAIR = 1.0  # [m] behind the edge of what is jumped onto that only feet may touch
 _SOLES = 0.02  # [m] above the floor before it from which a contact is one with the obstacle
@@ -23,7 +23,7 @@ _MAY_TOUCH = {
 
 
 @dataclass
-class Passage:
+class ContactReport:
     """How one obstacle was cleared.
 
     takeoff_error [m], speed_error [m/s]: as in `locomotion.events.TookOff`; NaN where there was none.
@@ -56,7 +56,7 @@ class Watcher:
     def __init__(self, index: PersonIndex, model: mujoco.MjModel) -> None:
         self._index, self._model, self._moment = index, model, mujoco.MjData(model)
 
-    def look(self, data: mujoco.MjData, obstacle: ObstacleAhead, passage: Passage) -> None:
+    def look(self, data: mujoco.MjData, obstacle: ObstacleAhead, report: ContactReport) -> None:
         """Note in ``passage`` what touches what in ``data``."""
         model, moment, index = self._model, self._moment, self._index
         restore_physics(model, moment, save_physics(model, data))
@@ -64,14 +64,14 @@ class Watcher:
         contact = moment.contact
         pushes = contact.efc_address >= 0
         force = moment.efc_force[contact.efc_address[pushes][:, None] + np.arange(4)].sum()
-        passage.peak = max(passage.peak, float(force) / (MASS * 9.81))
+        report.peak = max(report.peak, float(force) / (MASS * 9.81))
         bodies = model.geom_bodyid[contact.geom].max(axis=1)  # the level's geoms belong to body 0
-        passage.head += CONTROL_DT * bool((bodies[pushes] == index.head).any())
+        report.head += CONTROL_DT * bool((bodies[pushes] == index.head).any())
         for side in (-1.0, 1.0):
             if holding(moment, side):
-                passage.held += CONTROL_DT
+                report.held += CONTROL_DT
                 hand = moment.mocap_pos[int(side > 0)] - obstacle.position
-                passage.planted = -float(hand[:2] @ obstacle.normal[:2]) / max(obstacle.depth, 1e-9)
+                report.planted = -float(hand[:2] @ obstacle.normal[:2]) / max(obstacle.depth, 1e-9)
         if obstacle.affordance in _MAY_TOUCH:
             names = _MAY_TOUCH[obstacle.affordance]
             allowed = [index.bodies[f"{side}_{name}"] for side in ("left", "right") for name in names]
@@ -79,4 +79,4 @@ class Watcher:
             behind = -(contact.pos[:, :2] - obstacle.position[:2]) @ obstacle.normal[:2]
             floor = obstacle.position[2] - obstacle.height + _SOLES
             with_it = (behind > -0.1) & (behind < deep) & (contact.pos[:, 2] > floor)
-            passage.touched |= bool((with_it & ~np.isin(bodies, allowed)).any())
+            report.touched |= bool((with_it & ~np.isin(bodies, allowed)).any())

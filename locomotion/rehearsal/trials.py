@@ -22,7 +22,7 @@ from locomotion.body.person import CONTROL_DT
 from locomotion.events import Cleared, TookOff
 from locomotion.gaits.walk.layout import LONGER, WALK_HEADING, WALK_SPEED
 from locomotion.human.state import MOVING, HumanState, same
-from locomotion.rehearsal.contact_report import Passage, Watcher
+from locomotion.rehearsal.contact_report import ContactReport, Watcher
 from locomotion.rehearsal.deciding import Outcome, Question, Trial, tick_unless_asked
 from locomotion.rehearsal.understudy import Chooser, Understudy
 from surefoot.pausing import pause
@@ -147,7 +147,7 @@ def clears(body: Understudy, looks_on: bool = True, notes: bool = False) -> Tria
     """
     obstacle = body.obstacle_ahead
     assert obstacle is not None
-    passage, cleared_at = Passage(), 0
+    report, cleared_at = ContactReport(), 0
     watcher: Watcher | None = None  # from where it takes off
     walked = False
     seen: list[HumanState] = []
@@ -165,7 +165,7 @@ def clears(body: Understudy, looks_on: bool = True, notes: bool = False) -> Tria
                 and body.decider.undecided
                 and (yield from slows_down_in_time(body, decided))
             ):
-                return (1.0 if passage.clean(obstacle.affordance) else 0.5), seen
+                return (1.0 if report.clean(obstacle.affordance) else 0.5), seen
             return 0.0, []
         if notes and not body.decider.undecided:
             seen.append(body.save_state())
@@ -179,14 +179,14 @@ def clears(body: Understudy, looks_on: bool = True, notes: bool = False) -> Tria
             walks = body.gait_now == "walk"
             again |= walked and not walks
             walked = walks
-            good = 1.0 if passage.clean(obstacle.affordance) else 0.5
+            good = 1.0 if report.clean(obstacle.affordance) else 0.5
             if looks_on and body.begins_run_up and body.hemmed_in:
                 goes_on = yield from finds_a_way_on(body)
                 return (good if goes_on else _TRAPPED), seen
             if again or tick - cleared_at >= (_WALKING if walks else _RUNNING) or body.held:
                 return good, seen
         elif watcher is not None:
-            watcher.look(body.data, obstacle, passage)
+            watcher.look(body.data, obstacle, report)
     return 0.0, []
 
 
@@ -296,7 +296,7 @@ class StepsOn:
 
     def __call__(self, body: Understudy) -> Trial:
         """Try it."""
-        varied, left = bool(body.on_feet.walk[LONGER].any()), body.way.remaining
+        varied, left = bool(body.on_feet.walk[LONGER].any()), body.follower.remaining
         moments = self._known(body)
         if moments:
             body.become(moments[-1].state)
@@ -308,7 +308,7 @@ class StepsOn:
             rests = body.held or not body.on_feet.walks
             asked = abs(float(body.on_feet.walk[WALK_SPEED]))
             moments.append(
-                _Moment(body.save_state(), body.decider.undecided, body.way.remaining, asked, rests)
+                _Moment(body.save_state(), body.decider.undecided, body.follower.remaining, asked, rests)
             )
         went = _headway(left, moments)
         if not varied or went > self._best:
@@ -346,7 +346,7 @@ def _headway(left: float, moments: Sequence[_Moment]) -> float:
 
 def _failed(body: Understudy) -> bool:
     """Whether it fell, lost its way or got stuck; one that has come past its goal can go back."""
-    came_past = body.status == "lost" and body.way.ended
+    came_past = body.status == "lost" and body.follower.ended
     return body.status in _FAILED and not came_past
 
 

@@ -13,7 +13,7 @@ from locomotion.body.person import PersonIndex
 from locomotion.events import Event
 from locomotion.human.on_feet import OnFeet
 from locomotion.human.state import Gait, HumanState, Status
-from locomotion.paths.follower import Way
+from locomotion.paths.follower import PathFollower
 from locomotion.paths.smoothing import ObstacleAhead
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ class Understudy(Chooser, Protocol):
     on_feet: OnFeet
     status: Status
     ticks: int
-    way: Way
+    follower: PathFollower
 
     @property
     def begins_run_up(self) -> bool: ...

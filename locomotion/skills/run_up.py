@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 
 from locomotion.gaits.run import controller
 from locomotion.gaits.run.skill import RunSkill
-from locomotion.paths.follower import Way
+from locomotion.paths.follower import PathFollower
 from locomotion.paths.gait_plan import RUN_UP, SET_OFF
 from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.skills.approach import ApproachPlan
 from locomotion.skills.interface import ClearingSkill, distance_to, foot_distance, plan_run_up, skill_for
 
-__all__ = ["RUN_UP_SIZE", "ObstacleRun", "TakeOff"]
+__all__ = ["RUN_UP_SIZE", "RunUp", "TakeOff"]
 
 _NEXT, _STEPS_SEEN, _PLANNED, _FARTHER, _FASTER, _REHEARSED, _RETURNS, _BALKED, _BEND = range(9)
 # number of the next obstacle, steps made when the run-up was last planned, speed planned for this step or 0;
@@ -25,7 +25,7 @@ _NEXT, _STEPS_SEEN, _PLANNED, _FARTHER, _FASTER, _REHEARSED, _RETURNS, _BALKED, 
 # once a choice has gone well; how often it has gone back for another run-up; 1 after a run-up broken off;
 # [m] by which the path to the obstacle is longer than the distance at right angles to its edge
 RUN_UP_SIZE = 9
-"""Numbers that `ObstacleRun` remembers."""
+"""Numbers that `RunUp` remembers."""
 _MOST_RETURNS = 8
 _ROOM = 5.2  # [m] before an obstacle in which a body that begins to run comes to its entry speed
 _SETTING_OFF = SET_OFF - _ROOM  # [m] that it walks before it runs
@@ -41,7 +41,7 @@ class TakeOff:
     fast: float
 
 
-class ObstacleRun:
+class RunUp:
     """The obstacles of a path, and how far the body has come with them. ``plan`` (9,): what it remembers of
     the run-up; ``at_work``: what the skill that is at work remembers, None where there is none."""
 
@@ -129,14 +129,14 @@ class ObstacleRun:
             return obstacle
         return began
 
-    def turning_point(self, arc: float, way: Way) -> float | None:
-        """Arc length [m] to which a body that walks at ``arc`` of its ``way`` should go back so that its
+    def turning_point(self, arc: float, follower: PathFollower) -> float | None:
+        """Arc length [m] to which a body that walks at ``arc`` of ``follower`` should go back so that its
         run-up is long enough, or as long as the obstacle behind and the last bend of the way allow; None: it
         need not, cannot, or has been back often enough."""
         if self.ahead is None or self.plan[_RETURNS] >= _MOST_RETURNS:
             return None
         edge = self.ahead.arc_length
-        to = max(edge - _ROOM - _SETTING_OFF, self.passed, way.straight_before(edge))
+        to = max(edge - _ROOM - _SETTING_OFF, self.passed, follower.straight_before(edge))
         room = edge - to - _SETTING_OFF  # with less than `_ROOM` it tries what there is
         if not arc < edge or (edge - arc > room and self.plan[_BALKED] == 0.0):
             return None

@@ -140,7 +140,7 @@ class HumanDriver:
             return f"it finds no hold{self._lie}"
         if human.pace < 1.0:
             return "others are in its way"
-        if human.way.interrupted is not None:
+        if human.follower.interrupted is not None:
             return "it goes back for another run-up" if ahead else "it goes back to let others by"
         if ahead is not None:
             return f"it finds no run-up to the {ahead.affordance} of {ahead.size:.2f} m"
@@ -307,21 +307,21 @@ class HumanDriver:
 
     @property
     def waited(self) -> float | None:
-        return self.human.way.waited if self.human.status in MOVING else None
+        return self.human.follower.waited if self.human.status in MOVING else None
 
     def way_back(self) -> np.ndarray | None:
         return self.human.way_back() if self.human.status == "walking" else None
 
     @property
     def backs(self) -> float:
-        return self.human.way.backs
+        return self.human.follower.backs
 
     @property
     def length(self) -> float:
         return 0.0
 
     def make_room(self, far: float) -> None:
-        self.human.way.make_room(far, self.human.on_feet.walk_limits, self.human.ticks)
+        self.human.follower.make_room(far, self.human.on_feet.walk_limits, self.human.ticks)
 
     def give_up(self, reason: str | None = None) -> None:
         if reason is None:

@@ -9,15 +9,15 @@ from numpy.typing import NDArray
 from locomotion import MOVING, Ground, Human, ObstacleAhead
 from locomotion.events import Cleared, TookOff
 from locomotion.ground.ground import extruded
-from locomotion.rehearsal.contact_report import Passage, Watcher
+from locomotion.rehearsal.contact_report import ContactReport, Watcher
 from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.skills.interface import ClearingSkill
 
 __all__ = [
     "AFTER",
+    "ContactReport",
     "Course",
     "CourseRun",
-    "Passage",
     "Push",
     "enter_course",
     "held",
@@ -65,7 +65,7 @@ class CourseRun:
 
     ended: str = ""
     seconds: float = 0.0
-    passages: list[Passage] = field(default_factory=list)
+    reports: list[ContactReport] = field(default_factory=list)
     frames: list[NDArray[np.float64]] = field(default_factory=list)
 
 
@@ -133,7 +133,7 @@ def run_course(
     human = enter_course(course, clearing, noise, rehearsals)
     longest = float(course.path[-1, 0]) / _SLOWEST
     run, seen, where = CourseRun(), 0, 0
-    passage: Passage | None = None
+    report: ContactReport | None = None
     watcher = Watcher(human.index, human.model)
     pushed = 0
     while human.status in MOVING and human.time < longest:
@@ -145,13 +145,13 @@ def run_course(
             run.frames.append(human.qpos)
         for event in human.events[seen:]:
             if isinstance(event, TookOff):
-                passage, where = Passage(event.takeoff_error, event.speed_error), 1
-                run.passages.append(passage)
-            elif isinstance(event, Cleared) and passage is not None:
-                passage.cleared, where = True, 2
+                report, where = ContactReport(event.takeoff_error, event.speed_error), 1
+                run.reports.append(report)
+            elif isinstance(event, Cleared) and report is not None:
+                report.cleared, where = True, 2
         seen = len(human.events)
-        if passage is not None and not passage.cleared:
-            watcher.look(human.data, course.obstacles[len(run.passages) - 1], passage)
+        if report is not None and not report.cleared:
+            watcher.look(human.data, course.obstacles[len(run.reports) - 1], report)
     run.ended = human.status if human.status not in MOVING else "too slow"
     run.seconds = human.time
     if run.ended == "fallen":
@@ -161,6 +161,6 @@ def run_course(
 
 def held(affordance: str, run: CourseRun) -> bool:
     """Whether a course with one obstacle ended at its goal, by the skill: who vaults has held on."""
-    if run.ended != "arrived" or not run.passages:
+    if run.ended != "arrived" or not run.reports:
         return False
-    return affordance != "vault" or run.passages[0].held > 0.0
+    return affordance != "vault" or run.reports[0].held > 0.0

@@ -142,9 +142,9 @@ def _push_at(seed: int, distance: float) -> Push:
 
 def _judged(test: str, what: str, affordance: str, run: CourseRun) -> Attempt:
     """What became of a course with one obstacle."""
-    if not run.passages:
+    if not run.reports:
         return Attempt(test, what, run.ended, False)
-    passage = run.passages[0]
+    passage = run.reports[0]
     status, good = run.ended, held(affordance, run)
     figures = {"peak reaction [body weights]": passage.peak}
     if affordance == "drop":

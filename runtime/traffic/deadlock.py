@@ -12,7 +12,7 @@ import numpy as np
 from locomotion.avoidance.goal_occupancy import ROOM
 from locomotion.avoidance.yielding import SPACING
 from navmesh import NodeGraph
-from runtime.traffic.snapshot import Moment
+from runtime.traffic.snapshot import Snapshot
 
 __all__ = ["ANOTHER_WAY", "GIVEN_UP", "PATIENCE", "STANDSTILL", "Headway", "untangle"]
 
@@ -53,54 +53,54 @@ class Headway:
         return now - max(self.since, self.tried) >= ANOTHER_WAY - 1e-9
 
 
-def untangle(moment: Moment, index: int, graph: NodeGraph) -> None:
+def untangle(snapshot: Snapshot, index: int, graph: NodeGraph) -> None:
     """Let a follower that has waited for `STANDSTILL` do something about it: go back if it is the one of
     those who wait for each other that has the least to go to where it lets the others by, and be stuck if
     nobody has such a place. One that waits for somebody who gets on, as in a queue, goes on waiting."""
-    knot, waited = _knot(moment, index)
+    knot, waited = _knot(snapshot, index)
     if waited < STANDSTILL:
         return
-    ways = {each: far for each in knot if (far := _has_room(moment, each, knot, graph)) is not None}
+    ways = {each: far for each in knot if (far := _has_room(snapshot, each, knot, graph)) is not None}
     first = min(ways, key=lambda each: (ways[each], each), default=None)
     if first == index:
-        moment.followers[index].make_room(ways[index])
-        moment.forget(index)
+        snapshot.followers[index].make_room(ways[index])
+        snapshot.forget(index)
     elif first is None and waited >= GIVEN_UP:
-        moment.followers[index].give_up()
-        moment.forget(index)
+        snapshot.followers[index].give_up()
+        snapshot.forget(index)
 
 
-def _knot(moment: Moment, index: int) -> tuple[list[int], float]:
+def _knot(snapshot: Snapshot, index: int) -> tuple[list[int], float]:
     """The followers that wait for each other, of whom ``index`` is one, in order; and for how many seconds
     nobody among them has got on."""
     knot, new, least = {index}, [index], np.inf
     while new:
-        found = np.flatnonzero(moment.near(np.array(new)).any(axis=0)).tolist()
+        found = np.flatnonzero(snapshot.near(np.array(new)).any(axis=0)).tolist()
         new = []
         for each in found:
-            if each >= len(moment.followers):
-                if np.hypot(*moment.discs[each][0, 3:5]) > _MOVES:
+            if each >= len(snapshot.followers):
+                if np.hypot(*snapshot.discs[each][0, 3:5]) > _MOVES:
                     return sorted(knot), 0.0
             elif each not in knot:
-                waited = moment.followers[each].waited
+                waited = snapshot.followers[each].waited
                 if waited is not None:
                     knot.add(each)
                     new.append(each)
-        least = min([least, *(moment.followers[each].waited or 0.0 for each in knot)])
+        least = min([least, *(snapshot.followers[each].waited or 0.0 for each in knot)])
         if least < STANDSTILL:
             break
     return sorted(knot), float(least)
 
 
-def _has_room(moment: Moment, index: int, knot: list[int], graph: NodeGraph) -> float | None:
+def _has_room(snapshot: Snapshot, index: int, knot: list[int], graph: NodeGraph) -> float | None:
     """[m] that a follower has to go back to let the others of a ``knot`` by; None where it does not come to
     such a place, or somebody is in its way there."""
-    follower = moment.followers[index]
+    follower = snapshot.followers[index]
     back = follower.way_back()
     if back is None:
         return None
-    radius = float(moment.discs[index][0, 5])
-    lets_by = _lets_by(moment, index, back, knot, graph)
+    radius = float(snapshot.discs[index][0, 5])
+    lets_by = _lets_by(snapshot, index, back, knot, graph)
     least, body = round(follower.backs / SPACING), round(follower.length / SPACING)
     # all of a long body has to be out of the way
     whole = np.array([lets_by[max(k - body, 0) : k + 1].all() for k in range(len(back))])
@@ -110,23 +110,25 @@ def _has_room(moment: Moment, index: int, knot: list[int], graph: NodeGraph) -> 
     enough = places[places >= min(least, places[-1])]
     further = enough[enough <= enough[0] + round(_FURTHER / SPACING)][-1]
     room = back[: further + 1]
-    others = moment.others(index)
+    others = snapshot.others(index)
     away = np.linalg.norm(room[:, None, :2] - others[None, :, :2], axis=2)
     near = away < others[:, 5] + radius + ROOM
     return None if bool((near & (away < away[:1])).any()) else float(SPACING * further)
 
 
-def _lets_by(moment: Moment, index: int, back: np.ndarray, knot: list[int], graph: NodeGraph) -> np.ndarray:
+def _lets_by(
+    snapshot: Snapshot, index: int, back: np.ndarray, knot: list[int], graph: NodeGraph
+) -> np.ndarray:
     """(k,) bool: at which points of its way ``back`` (k, 3) a follower would let the others of a ``knot`` by:
     their ways do not lead there, or there is room for them beside it."""
-    radius = float(moment.discs[index][0, 5])
+    radius = float(snapshot.discs[index][0, 5])
     others = [each for each in knot if each != index]
-    widest = max((float(moment.discs[each][0, 5]) for each in others), default=radius)
+    widest = max((float(snapshot.discs[each][0, 5]) for each in others), default=radius)
     beside = np.asarray(graph.clearance_at(back)) >= radius + 2.0 * (widest + ROOM)
     off = np.ones(len(back), dtype=bool)
     for each in others:
-        course = moment.course(each)
-        points = moment.discs[each][:, :2] if course is None else course.points[:, :2]
+        course = snapshot.course(each)
+        points = snapshot.discs[each][:, :2] if course is None else course.points[:, :2]
         away = np.linalg.norm(back[:, None, :2] - points[None], axis=2).min(axis=1)
-        off &= away > radius + float(moment.discs[each][0, 5]) + ROOM
+        off &= away > radius + float(snapshot.discs[each][0, 5]) + ROOM
     return beside | off

@@ -9,14 +9,14 @@ from locomotion.avoidance.goal_occupancy import STOREY, free_points, who_stands_
 from locomotion.avoidance.yielding import COUNT, STEP, Course, foretell, meetings
 from runtime.bodies.protocol import Follower, Population
 
-__all__ = ["Moment", "foretold_on"]
+__all__ = ["Snapshot", "foretold_on"]
 
 _SOON = 5  # points ahead on a course that tell where it leads
 _ABREAST = 0.2  # cosine up to which who is there is not ahead
 _SLACK = 3.5  # [m] between two that go straight on, from which what they do is looked at closely
 
 
-class Moment:
+class Snapshot:
     """``followers`` are those who can give way; they come first in ``discs``: for each body of
     ``populations`` its discs (d, 6), as `Population.in_the_way` gives them."""
 

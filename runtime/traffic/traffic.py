@@ -18,7 +18,7 @@ from navmesh.holding import line_holds
 from runtime.bodies.protocol import Follower, Population
 from runtime.planning.level import Level
 from runtime.traffic.deadlock import STANDSTILL, untangle
-from runtime.traffic.snapshot import Moment, foretold_on
+from runtime.traffic.snapshot import Snapshot, foretold_on
 from surefoot.pausing import pause
 
 __all__ = ["EVERY", "Traffic"]
@@ -41,55 +41,55 @@ class Traffic:
 
     def direct(self, tick: int) -> None:
         """Let those choose whose turn it is; called before every `EVERY`th ``tick``."""
-        moment = Moment(self._populations)
-        turns = np.arange(tick // EVERY % _TURNS, len(moment.followers), _TURNS)
-        self._let_choose(moment, turns)
+        snapshot = Snapshot(self._populations)
+        turns = np.arange(tick // EVERY % _TURNS, len(snapshot.followers), _TURNS)
+        self._let_choose(snapshot, turns)
         for index in turns.tolist():
-            if (moment.followers[index].waited or 0.0) >= STANDSTILL:
-                untangle(moment, index, self._level.graph)
+            if (snapshot.followers[index].waited or 0.0) >= STANDSTILL:
+                untangle(snapshot, index, self._level.graph)
 
     def look_out(self, follower: Follower, former: Course | None) -> None:
         """Let one choose that has just been told where to go; ``former`` is the course that it was on."""
-        moment = Moment(self._populations)
-        self._let_choose(moment, np.array([moment.followers.index(follower)]), former)
+        snapshot = Snapshot(self._populations)
+        self._let_choose(snapshot, np.array([snapshot.followers.index(follower)]), former)
 
     def around(self, follower: Follower) -> tuple[np.ndarray, np.ndarray]:
         """Where the discs of those near a body will be (COUNT, k, 2), and their radii (k,) [m]."""
-        moment = Moment(self._populations)
-        near = moment.near(np.array([moment.followers.index(follower)]))[0]
-        return moment.all_foretold(np.flatnonzero(near).tolist())
+        snapshot = Snapshot(self._populations)
+        near = snapshot.near(np.array([snapshot.followers.index(follower)]))[0]
+        return snapshot.all_foretold(np.flatnonzero(near).tolist())
 
-    def _let_choose(self, moment: Moment, turns: np.ndarray, former: Course | None = None) -> None:
-        if len(turns) == 0 or len(moment) < 2:
+    def _let_choose(self, snapshot: Snapshot, turns: np.ndarray, former: Course | None = None) -> None:
+        if len(turns) == 0 or len(snapshot) < 2:
             return
-        for index, near in zip(turns.tolist(), moment.near(turns), strict=True):
+        for index, near in zip(turns.tolist(), snapshot.near(turns), strict=True):
             pause()
-            follower = moment.followers[index]
-            course = moment.course(index) if near.any() or follower.pace < 1.0 else None
+            follower = snapshot.followers[index]
+            course = snapshot.course(index) if near.any() or follower.pace < 1.0 else None
             if course is None:
                 continue
-            group = moment.group(index)
+            group = snapshot.group(index)
             others = [
                 each
                 for each in np.flatnonzero(near).tolist()
-                if not (moment.discs[each][:, None, :2] == group[:, :2]).all(axis=2).any()
-                and not moment.gets_away(index, each)
+                if not (snapshot.discs[each][:, None, :2] == group[:, :2]).all(axis=2).any()
+                and not snapshot.gets_away(index, each)
             ]
             # who halts at once gives way to who does not
-            halts = any(_rushes(moment, other) for other in others)
-            there, radii = moment.all_foretold(others)
-            chosen = self._chosen(course, len(moment.discs[index]), there, radii, halts, former)
+            halts = any(_rushes(snapshot, other) for other in others)
+            there, radii = snapshot.all_foretold(others)
+            chosen = self._chosen(course, len(snapshot.discs[index]), there, radii, halts, former)
             if chosen.shift is not None or chosen.pace != course.pace:
                 follower.give_way(chosen.pace, chosen.shift)
-                moment.forget(index)
-            self._stop_at_the_group(follower, moment.course(index), group)
+                snapshot.forget(index)
+            self._stop_at_the_group(follower, snapshot.course(index), group)
 
     def has_come(self, agent: Follower, goal: np.ndarray) -> bool:
         """Whether one at rest stands in the group of those at rest around ``goal`` (3,)."""
-        moment = Moment(self._populations)
-        index = moment.followers.index(agent)
-        own = moment.discs[index]
-        group = who_stands_at(goal, float(own[0, 5]), moment.others(index))
+        snapshot = Snapshot(self._populations)
+        index = snapshot.followers.index(agent)
+        own = snapshot.discs[index]
+        group = who_stands_at(goal, float(own[0, 5]), snapshot.others(index))
         return is_before(own, agent.reach, group)
 
     def _stop_at_the_group(self, follower: Follower, course: Course | None, group: np.ndarray) -> None:
@@ -142,7 +142,7 @@ class Traffic:
         return line_holds(self._level.graph, points, course.radius)
 
 
-def _rushes(moment: Moment, index: int) -> bool:
+def _rushes(snapshot: Snapshot, index: int) -> bool:
     """Whether a body does not halt easily."""
-    course = moment.course(index) if index < len(moment.followers) else None
+    course = snapshot.course(index) if index < len(snapshot.followers) else None
     return course is not None and course.slowest > 0.0

@@ -132,10 +132,10 @@ def test_who_is_held_in_place_says_so_within_ten_seconds():
     world = World(graph_of(((-5, -5, -0.3), (25, 5, 0))))
     agent = world.spawn("human", (0.0, 0.0, 0.0))
     agent.go_to((20.0, 0.0, 0.0), speed=1.4)
-    agent.human.way.pace = 0.0
+    agent.human.follower.pace = 0.0
     events = []
     for _ in range(120):
-        agent.human.way.pace = 0.0
+        agent.human.follower.pace = 0.0
         world.step(0.1)
         events += world.events
     assert [type(event) for event in events] == [Departed, Hindered]
@@ -148,14 +148,14 @@ def test_what_it_knows_of_its_standstill_is_saved_and_restored():
     agent = world.spawn("human", (0.0, 0.0, 0.0), name="ada")
     agent.go_to((20.0, 0.0, 0.0), speed=1.4)
     for _ in range(80):
-        agent.human.way.pace = 0.0
+        agent.human.follower.pace = 0.0
         world.step(0.1)
     other = World(graph)
     other.restore(world.save())
     world.events, other.events  # noqa: B018 - read, and so emptied
     for _ in range(40):
         for each in (world, other):
-            each.agents["ada"].human.way.pace = 0.0
+            each.agents["ada"].human.follower.pace = 0.0
             each.step(0.1)
     told = world.events
     assert [type(event) for event in told] == [Hindered] and told == other.events

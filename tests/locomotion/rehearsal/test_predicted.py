@@ -79,4 +79,4 @@ def test_it_is_simulated_once(monkeypatch):
     while human.gait_now == "slow run":
         human.tick()
     assert human.gait_now == "walk" and not simulated
-    assert human.way.memory.any()
+    assert human.follower.memory.any()

@@ -9,7 +9,7 @@ from locomotion.human.human import Human
 from locomotion.human.state import MOVING
 from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.rehearsal import trials
-from locomotion.rehearsal.contact_report import Passage, Watcher
+from locomotion.rehearsal.contact_report import ContactReport, Watcher
 from locomotion.rehearsal.lookahead import Lookahead
 from locomotion.rehearsal.trials import RUN_UPS, STEPPINGS, at_once, clears, walks_on
 from locomotion.skills.interface import foot_distance
@@ -193,12 +193,12 @@ def test_a_person_saved_in_the_run_up_goes_on_bit_for_bit():
 @pytest.mark.parametrize(
     ("affordance", "passage", "clean"),
     [
-        ("jump", Passage(), True),
-        ("jump", Passage(touched=True), False),
-        ("drop", Passage(head=0.02), False),
-        ("vault", Passage(), False),
-        ("vault", Passage(held=0.1, planted=0.6), True),
-        ("vault", Passage(held=0.1, planted=0.9), False),
+        ("jump", ContactReport(), True),
+        ("jump", ContactReport(touched=True), False),
+        ("drop", ContactReport(head=0.02), False),
+        ("vault", ContactReport(), False),
+        ("vault", ContactReport(held=0.1, planted=0.6), True),
+        ("vault", ContactReport(held=0.1, planted=0.9), False),
     ],
 )
 def test_what_counts_as_clean(affordance, passage, clean):
@@ -215,7 +215,7 @@ def test_a_rehearsal_sees_all_that_is_touched(affordance, height, monkeypatch):
             rehearsed.append(passage)
 
     monkeypatch.setattr(trials, "Watcher", Recorder)
-    (came,) = run_course(make_course([(affordance, height, 0.3)], [14.0])).passages
+    (came,) = run_course(make_course([(affordance, height, 0.3)], [14.0])).reports
     assert came.cleared and came.peak > 1.0
     for name in ("touched", "held", "planted", "head", "peak"):
         np.testing.assert_equal(getattr(rehearsed[-1], name), getattr(came, name))
@@ -224,7 +224,7 @@ def test_a_rehearsal_sees_all_that_is_touched(affordance, height, monkeypatch):
 @pytest.mark.parametrize(("affordance", "height"), [("vault", 0.8), ("drop", 1.5), ("jump", 0.5)])
 def test_skills_hold_from_any_distance(affordance, height):
     runs = [run_course(make_course([(affordance, height, 0.3)], [d])) for d in np.linspace(12.0, 17.0, 8)]
-    assert sum(run.ended == "arrived" and run.passages[0].clean(affordance) for run in runs) >= 7
+    assert sum(run.ended == "arrived" and run.reports[0].clean(affordance) for run in runs) >= 7
 
 
 @pytest.mark.parametrize("room", [5.0, 6.0])

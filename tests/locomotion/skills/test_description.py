@@ -309,7 +309,7 @@ def test_the_package_leaps_over_gaps():
     for width in (low + 0.02, 0.8, 0.5 * (low + high), high - 0.02):
         for distance in (11.3, 14.7, 18.2):
             run = run_course(make_course([("gap", width, 0.0)], [distance]))
-            arrived += run.ended == "arrived" and run.passages[0].cleared
+            arrived += run.ended == "arrived" and run.reports[0].cleared
     assert arrived >= 11
 
 

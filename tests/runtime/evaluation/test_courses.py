@@ -30,8 +30,8 @@ def test_clears_obstacles_and_goes_on(affordance, heights, least):
     for height in heights:
         for distance in (11.3, 14.7, 18.2, 21.9):
             run = run_course(one(affordance, height, distance))
-            assert run.passages
-            passage = run.passages[0]
+            assert run.reports
+            passage = run.reports[0]
             by_hand = affordance != "vault" or 0.0 <= passage.planted <= 1.0
             arrived += run.ended == "arrived" and passage.cleared and by_hand
     assert arrived >= least
@@ -48,7 +48,7 @@ def test_a_push_comes_where_it_is_told_and_moves_the_person_so_much():
     assert left.frames[begun][0] == pytest.approx(6.0, abs=0.2)
     after = (sideways[begun + 20] - sideways[begun + 10]) / (10 * CONTROL_DT)  # [m/s], of the pelvis
     assert 0.5 < after / (2.0 * 150.0 * 0.1 / MASS) < 2.5
-    assert left.passages[0].cleared and right.passages[0].cleared
+    assert left.reports[0].cleared and right.reports[0].cleared
 
 
 def test_several_obstacles_one_after_another():

@@ -225,11 +225,11 @@ class Stepping:
         self.decider = SimpleNamespace(undecided=False)
         walk = new_walk()
         walk[WALK_SPEED] = 0.5
-        self.on_feet, self.way = SimpleNamespace(walks=True, walk=walk), SimpleNamespace(remaining=5.0)
+        self.on_feet, self.follower = SimpleNamespace(walks=True, walk=walk), SimpleNamespace(remaining=5.0)
 
     def tick(self):
         self.ticks += 1
-        self.way.remaining -= self.headway * CONTROL_DT
+        self.follower.remaining -= self.headway * CONTROL_DT
         self.held = self.ticks >= self.rests
         if self.ticks >= self.falls:
             self.status = "fallen"

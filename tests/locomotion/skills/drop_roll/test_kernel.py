@@ -137,7 +137,7 @@ def test_most_drops_succeed():
     starts = [(float(rng.uniform(0.9, 2.0)), float(rng.uniform(10, 20))) for _ in range(12)]
     results = [run_course(make_course([("drop", height, 0.0)], [distance])) for height, distance in starts]
     assert sum(result.ended == "arrived" for result in results) >= 10
-    assert all(result.passages[0].peak < 25.0 for result in results)
+    assert all(result.reports[0].peak < 25.0 for result in results)
 
 
 def test_a_body_that_does_not_come_up_has_fallen(skill):

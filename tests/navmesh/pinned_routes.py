@@ -1,7 +1,7 @@
 """Routes between random places of the example levels, as they were.
 
-``python -m tests.navmesh.pinned_routes`` writes them anew, for a change that is meant to change them. Pinned is
-what a user sees of a route: its status, its length to the millimetre, and the obstacles on its way.
+``python -m tests.navmesh.pinned_routes`` writes them anew, for a change that is meant to change them. Pinned
+is what a user sees of a route: its status, its length to the millimetre, and the obstacles on its way.
 """
 
 import json

@@ -110,13 +110,21 @@ def _fall_and_get_up() -> None:
                 break
 
 
-def _animals_and_crowds() -> None:
+def _animals() -> None:
     from runtime.world.world import World
 
     world = World(tiny_level())
     world.spawn("dog", (1.5, 1.0, 0.0)).go_to((7.5, 3.0, 0.0), speed=1.5)
     world.spawn("dog", (8.0, 1.5, 0.0)).go_to((1.5, 2.5, 0.0), speed=1.5)
     world.spawn("dog", (11.2, 4.8, 0.0), facing=-1.0).go_to((8.0, 6.0, 0.0), speed=1.0)  # in a corner
+    world.spawn("human", (5.0, 3.0, 0.0)).go_to((1.5, 2.0, 0.0), speed=1.2)
+    world.step(8.0)
+
+
+def _crowds() -> None:
+    from runtime.world.world import World
+
+    world = World(tiny_level())
     world.spawn("human", (5.0, 3.0, 0.0)).go_to((1.5, 2.0, 0.0), speed=1.2)
     for k in range(6):
         walker = world.spawn("walker", (1.0 + 0.8 * k, 1.0, 0.0), radius=0.25)
@@ -152,7 +160,8 @@ FIRST_USES: dict[str, Callable[[], None]] = {
     "walking and getting up": _fall_and_get_up,
     "skills": _clear,
     "smoothing": _smooth,
-    "animals and crowds": _animals_and_crowds,
+    "animals": _animals,
+    "crowds": _crowds,
     "running and jumping": _run_and_jump,
     "playtests": _playtest,
     "pictures": _draw,

@@ -11,8 +11,11 @@ import typer
 import typer.testing
 import yaml
 
+import navmesh
 from locomotion.skills.description import load_description
 from runtime.cli.app import app
+from runtime.planning.rules import person_walk_rules
+from runtime.playtest.plan import LoadedPlan
 from tests.docs import pages
 from tests.docs.pages import PAGES, ROOT, Block, name
 
@@ -107,8 +110,13 @@ def test_yaml_is_what_it_is_said_to_be(block: Block, tmp_path: Path) -> None:
     if "agents" in content:
         checked = typer.testing.CliRunner().invoke(app, ["check", str(file)])
         assert checked.exit_code == 0, checked.output or checked.exception
-    else:
+    elif "spawns" in content:
+        assert len(LoadedPlan.read(file).plan.spawns) == len(content["spawns"])
+    elif "affordance" in content:
         assert load_description(file).name == content["name"]
+    else:  # the author's tags of the courtyard
+        courtyard = navmesh.Terrain.load(tmp_path / "levels" / "courtyard.obj", up="z")
+        navmesh.NodeGraph.build(courtyard, person_walk_rules(), tags=navmesh.load_tags(file))
 
 
 @every_page

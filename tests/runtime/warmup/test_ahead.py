@@ -44,7 +44,7 @@ def test_the_uses_do_what_they_are_for(monkeypatch):
     """A person runs and jumps, dogs and walkers go."""
     happened, report = [], World.report
     monkeypatch.setattr(World, "report", lambda world, event: (happened.append(event), report(world, event)))
-    for use in ("running and jumping", "animals and crowds"):
+    for use in ("running and jumping", "animals", "crowds"):
         FIRST_USES[use]()
     assert any(isinstance(event, SkillStarted) for event in happened)
     departed = {event.agent for event in happened if isinstance(event, Departed)}

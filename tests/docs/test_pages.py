@@ -2,9 +2,11 @@
 
 import re
 import shlex
+from dataclasses import fields
 from functools import cache
 from pathlib import Path
 from pkgutil import resolve_name
+from typing import get_args
 
 import pytest
 import typer
@@ -12,6 +14,8 @@ import typer.testing
 import yaml
 
 import navmesh
+import runtime
+from locomotion.human.state import Status
 from locomotion.skills.description import load_description
 from runtime.cli.app import app
 from runtime.planning.rules import person_walk_rules
@@ -160,3 +164,29 @@ def _exists(line: str) -> None:
     text = file.read_text()
     for word in words[3:]:
         assert not word.startswith("--") or f'"{word}"' in text, f"{word} of: {line}"
+
+
+def test_the_page_of_events_has_all_of_them_with_their_fields() -> None:
+    rows = _rows(ROOT / "docs" / "reference" / "events.md")
+    kinds = [getattr(runtime, word) for word in runtime.__all__ if _is_event(getattr(runtime, word))]
+    assert len(kinds) >= 11
+    common = {field.name for field in fields(runtime.Event)}
+    for kind in kinds:
+        own = {field.name for field in fields(kind)} - common
+        assert set(re.findall(r"`(\w+)`", rows[kind.__name__][0])) == own, kind.__name__
+
+
+def test_the_page_of_events_has_all_statuses() -> None:
+    page = (ROOT / "docs" / "reference" / "events.md").read_text().partition("## Statuses")[2]
+    first_cells = " ".join(line.split("|")[1] for line in page.splitlines() if line.startswith("| `"))
+    assert set(re.findall(r"`([a-z ]+)`", first_cells)) == {*get_args(Status), "blocked"}
+
+
+def _is_event(value: object) -> bool:
+    return isinstance(value, type) and issubclass(value, runtime.Event) and value is not runtime.Event
+
+
+def _rows(page: Path) -> dict[str, list[str]]:
+    """The rows of the page's tables: the other cells by the code in the first."""
+    rows = [line.strip("| ").split(" | ") for line in page.read_text().splitlines() if line.startswith("| `")]
+    return {first.strip("`"): rest for first, *rest in rows}

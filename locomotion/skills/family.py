@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from scipy.interpolate import RBFInterpolator
 
 from locomotion.body.learned_file import RELEARN, SkillHeader, learned_numbers, read_skill
 from locomotion.body.person import person_digest
@@ -65,17 +66,11 @@ class SkillFamily:
 
 def smoothest(heights: np.ndarray, values: np.ndarray, height: float) -> np.ndarray:
     """``values`` (k, ...) at ``height``: biharmonic spline r plus a linear term (equation 7 of "Terrain
-    Runner")."""
-    k = len(heights)
-    if k == 1:
+    Runner"), which in one dimension is piecewise linear."""
+    if len(heights) == 1:
         return values[0].copy()
-    flat = values.reshape(k, -1)
-    distance = np.abs(heights[:, None] - heights[None, :])
-    ones = np.stack([np.ones(k), heights], 1)
-    system = np.block([[distance, ones], [ones.T, np.zeros((2, 2))]])
-    weights = np.linalg.solve(system, np.concatenate([flat, np.zeros((2, flat.shape[1]))]))
-    basis = np.concatenate([np.abs(height - heights), [1.0, height]])
-    return np.ascontiguousarray((basis @ weights).reshape(values.shape[1:]))
+    spline = RBFInterpolator(heights[:, None], values.reshape(len(heights), -1), kernel="linear", degree=1)
+    return spline([[height]])[0].reshape(values.shape[1:])
 
 
 class _FamilyHeader(SkillHeader):

@@ -12,7 +12,7 @@ import numpy as np
 
 from navmesh.floor_ends import EDGE, MIDDLE, find_floor_ends
 from navmesh.ledges import floor_end
-from navmesh.raster import TOUCH, UPRIGHT
+from navmesh.raster import KIND, TOUCH, UPRIGHT
 from navmesh.segments import comes_near, keep, lies_on, part_in_square, put, sort_and_thin, twice
 from navmesh.walls import clip_band, nearest_on_polygon, range_in_column, wall_base
 from surefoot.kernels import allocating_kernel, kernel
@@ -51,7 +51,7 @@ def _outline(table, f, x, y, z, p, q, low, high, rx, ry, half, polygon, spare, r
     corners = clip_band(table, f, x, y, z, p, q, low, high, polygon, spare)
     if corners == 0:
         return count, 0
-    flat = table[f, 14] == UPRIGHT
+    flat = table[f, KIND] == UPRIGHT
     least = most = 0
     if flat:  # all on one line: from its one end to the other
         for k in range(1, corners):
@@ -89,7 +89,7 @@ def _walls_in_square(
         count, corners = _outline(
             table, f, x, y, z, p, q, low, headroom, rx, ry, half + TOUCH, polygon, spare, rows, count
         )
-        if corners > 0 and rx == x and ry == y and table[f, 14] != UPRIGHT:
+        if corners > 0 and rx == x and ry == y and table[f, KIND] != UPRIGHT:
             vx, vy = nearest_on_polygon(polygon, corners, x, y)
             if vx == 0.0 and vy == 0.0:
                 count = put(rows, count, x, y, x, y)

@@ -5,7 +5,16 @@ import math
 import numpy as np
 
 from navmesh.ledges import GAP, floor_at
-from navmesh.raster import FLOOR, PLANE, TOUCH, is_over
+from navmesh.raster import (
+    FLOOR,
+    HIGHEST,
+    KIND,
+    LOWEST,
+    PLANE,
+    TOUCH,
+    height_at,
+    is_over,
+)
 from navmesh.risers import faces_up, on_riser
 from navmesh.segments import part_in_square, twice
 from surefoot.kernels import allocating_kernel, kernel
@@ -35,9 +44,9 @@ def _walked_on(table, start, triangle, resolution, ny, x, y, z, step, headroom):
         return True
     for k in range(start[column], start[column + 1]):
         f = triangle[k]
-        if table[f, 14] != PLANE or not faces_up(table, f):
+        if table[f, KIND] != PLANE or not faces_up(table, f):
             continue
-        here = table[f, 9] * x + table[f, 10] * y + table[f, 11]
+        here = height_at(table, f, x, y)
         if abs(here - z) <= step + TOUCH and is_over(table, f, x, y):
             if on_riser(table, start, triangle, resolution, ny, f, x, y, step, headroom):
                 return True
@@ -49,7 +58,7 @@ def _is_shared(table, start, triangle, column, f, i, j):
     """Whether another floor in the column has the same edge, from corner j to corner i, as triangle f."""
     for k in range(start[column], start[column + 1]):
         g = triangle[k]
-        if table[g, 14] != FLOOR or g == f:
+        if table[g, KIND] != FLOOR or g == f:
             continue
         for m in range(3):
             n = 3 * m + 3 if m < 2 else 0
@@ -73,7 +82,7 @@ def _ends_of_column(
     x, y = (ix + 0.5) * resolution, (column - ix * ny + 0.5) * resolution
     for k in range(start[column], start[column + 1]):
         f = triangle[k]
-        if table[f, 14] != FLOOR or table[f, 13] < low or table[f, 12] > high:
+        if table[f, KIND] != FLOOR or table[f, HIGHEST] < low or table[f, LOWEST] > high:
             continue
         for m in range(3):
             if shared[f, m] == _SHARED:

@@ -5,7 +5,19 @@ import math
 import numpy as np
 
 from navmesh.ledges import GAP, comes_first, floor_at
-from navmesh.raster import FLOOR, SAME_SURFACE, TOUCH, UPRIGHT, is_over
+from navmesh.raster import (
+    FLOOR,
+    HIGHEST,
+    KIND,
+    PART,
+    SAME_SURFACE,
+    SLOPE_X,
+    SLOPE_Y,
+    TOUCH,
+    UPRIGHT,
+    height_at,
+    is_over,
+)
 from navmesh.risers import faces_up, on_riser
 from navmesh.solids import inside_solid
 from surefoot.kernels import allocating_kernel, kernel
@@ -48,9 +60,9 @@ def _close_gaps(
         best, chosen, at_x, at_y, z = GAP, -1, x, y, 0.0
         for k in range(start[c], start[c + 1]):
             f = triangle[k]
-            if table[f, 14] != FLOOR:
+            if table[f, KIND] != FLOOR:
                 continue
-            level = table[f, 9] * x + table[f, 10] * y + table[f, 11]
+            level = height_at(table, f, x, y)
             known = False
             for i in range(first, cells):
                 known |= abs(height[i] - level) <= step
@@ -84,7 +96,7 @@ def _close_gaps(
             gradient[at, 0], gradient[at, 1] = gradient[at - 1, 0], gradient[at - 1, 1]
             at -= 1
         height[at] = z
-        gradient[at, 0], gradient[at, 1] = table[chosen, 9], table[chosen, 10]
+        gradient[at, 0], gradient[at, 1] = table[chosen, SLOPE_X], table[chosen, SLOPE_Y]
         cell_column[cells] = c
         cells += 1
     return cells
@@ -126,23 +138,23 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
         lid = -np.inf  # no face of a closed part is higher here
         for k in range(start[c], start[c + 1]):
             f = triangle[k]
-            if table[f, 14] == UPRIGHT:
-                if table[f, 15] >= 0.0:
-                    lid = max(lid, table[f, 13])
+            if table[f, KIND] == UPRIGHT:
+                if table[f, PART] >= 0.0:
+                    lid = max(lid, table[f, HIGHEST])
                 continue
-            level = table[f, 9] * x + table[f, 10] * y + table[f, 11]
-            if table[f, 14] == FLOOR:
+            level = height_at(table, f, x, y)
+            if table[f, KIND] == FLOOR:
                 lowest, highest = min(lowest, level), max(highest, level)
             if not is_over(table, f, x, y):
                 continue
             hit[hits, 0] = level
-            hit[hits, 1] = table[f, 9]
-            hit[hits, 2] = table[f, 10]
-            hit[hits, 3] = table[f, 14]
-            if table[f, 14] != FLOOR and not faces_up(table, f):
+            hit[hits, 1] = table[f, SLOPE_X]
+            hit[hits, 2] = table[f, SLOPE_Y]
+            hit[hits, 3] = table[f, KIND]
+            if table[f, KIND] != FLOOR and not faces_up(table, f):
                 hit[hits, 3] = UPRIGHT  # nobody stands on it either
             walkable |= hit[hits, 3] != UPRIGHT
-            if table[f, 15] >= 0.0:
+            if table[f, PART] >= 0.0:
                 lid = max(lid, level)
             face[hits] = f
             hits += 1

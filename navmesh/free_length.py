@@ -5,14 +5,16 @@ a few centimetres.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
 from navmesh.probes import crossed, lowest_above, surface_below
+from navmesh.raster import FLOOR, KIND
 from navmesh.surface import Surface
 from surefoot.kernels import kernel
 
-__all__ = ["REACH", "SAME", "cells_of", "free_length", "march", "room", "seek"]
+__all__ = ["REACH", "SAME", "CellArrays", "cells_of", "free_length", "march", "room", "seek"]
 
 REACH = 50.0
 """[m] free lengths are measured up to this."""
@@ -22,18 +24,26 @@ SAME = 0.05
 _STRIDE = 0.05  # [m] between the points at which the end of a free length is looked for
 
 
-def cells_of(surface: Surface) -> tuple:
-    """A `Surface` as the tuple that the kernels take as ``cells``."""
-    return (
-        surface.column_start,
-        surface.cell_column,
-        surface.height,
-        surface.gradient,
-        surface.link,
-        surface.resolution,
-        surface.shape[0],
-        surface.shape[1],
-    )
+class CellArrays(NamedTuple):
+    """A `Surface` as kernels take it; what it says of its fields holds for those of the same name."""
+
+    column_start: np.ndarray
+    cell_column: np.ndarray
+    height: np.ndarray
+    gradient: np.ndarray
+    link: np.ndarray
+    size: float
+    """[m], side of a cell."""
+    nx: int
+    ny: int
+
+
+def cells_of(surface: Surface) -> CellArrays:
+    """What the kernels take as ``cells``."""
+    return CellArrays(
+        surface.column_start, surface.cell_column, surface.height, surface.gradient, surface.link,
+        surface.resolution, *surface.shape,
+    )  # fmt: skip
 
 
 @kernel
@@ -42,8 +52,8 @@ def seek(cells, x, y, z, dx, dy, slope, nearest, farthest):
 
     Returns (distance [m], cell), cell -1 when there is none from ``nearest`` to ``farthest``.
     """
-    size = cells[5]
-    ny = cells[7]
+    size = cells.size
+    ny = cells.ny
     stride = 0.25 * size
     ahead = nearest
     while ahead <= farthest:
@@ -51,15 +61,19 @@ def seek(cells, x, y, z, dx, dy, slope, nearest, farthest):
         py = y + ahead * dy
         ix = math.floor(px / size)
         iy = math.floor(py / size)
-        if 0 <= ix < cells[6] and 0 <= iy < ny:
+        if 0 <= ix < cells.nx and 0 <= iy < ny:
             ux = (ix + 0.5) * size - x
             uy = (iy + 0.5) * size - y
             if ux * dx + uy * dy > 1e-6:
                 column = ix * ny + iy
                 best = -1
                 least = SAME + ahead * slope
-                for k in range(cells[0][column], cells[0][column + 1]):
-                    there = cells[2][k] + cells[3][k, 0] * (px - x - ux) + cells[3][k, 1] * (py - y - uy)
+                for k in range(cells.column_start[column], cells.column_start[column + 1]):
+                    there = (
+                        cells.height[k]
+                        + cells.gradient[k, 0] * (px - x - ux)
+                        + cells.gradient[k, 1] * (py - y - uy)
+                    )
                     if abs(there - z) < least:
                         least = abs(there - z)
                         best = k
@@ -75,10 +89,10 @@ def march(cells, cell, x, y, dx, dy, limit):
 
     Returns (length, cell where it ends).
     """
-    size = cells[5]
-    column = cells[1][cell]
-    ix = column // cells[7]
-    iy = column - ix * cells[7]
+    size = cells.size
+    column = cells.cell_column[cell]
+    ix = column // cells.ny
+    iy = column - ix * cells.ny
     way_x = 1 if dx > 0.0 else -1
     way_y = 1 if dy > 0.0 else -1
     next_x = ((ix + (dx > 0.0)) * size - x) / dx if abs(dx) > 1e-12 else np.inf
@@ -96,7 +110,7 @@ def march(cells, cell, x, y, dx, dy, limit):
             next_y += step_y
         if gone >= limit:
             return limit, cell
-        following = cells[4][cell, direction]
+        following = cells.link[cell, direction]
         if following < 0:
             return gone, cell
         cell = following
@@ -110,7 +124,7 @@ def room(cells, x, y, z, dx, dy, slope, limit):
     a slanting wall: where the line ends at once, it is tried again from the next square.
     Returns (length [m], distance to the first cell [m], first cell or -1, last cell).
     """
-    farthest = 1.6 * cells[5]
+    farthest = 1.6 * cells.size
     best, at, first, last = 0.0, 0.0, -1, -1
     nearest = 0.02
     while nearest <= farthest:
@@ -120,9 +134,9 @@ def room(cells, x, y, z, dx, dy, slope, limit):
         length, end = march(cells, cell, x + ahead * dx, y + ahead * dy, dx, dy, limit - ahead)
         if ahead + length > best:
             best, at, first, last = ahead + length, ahead, cell, end
-        if length >= 1.5 * cells[5] or ahead + length >= limit:
+        if length >= 1.5 * cells.size or ahead + length >= limit:
             break
-        nearest = ahead + 0.25 * cells[5]
+        nearest = ahead + 0.25 * cells.size
     return best, at, first, last
 
 
@@ -135,20 +149,24 @@ def free_length(grid, cells, x, y, z, dx, dy, slope, step, headroom, limit):
     length, ahead, first, last = room(cells, x, y, z, dx, dy, slope, limit)
     if first < 0 or length >= limit:
         return length, ahead, first
-    size = cells[5]
-    column = cells[1][last]
-    ix = column // cells[7]
+    size = cells.size
+    column = cells.cell_column[last]
+    ix = column // cells.ny
     ux = x - (ix + 0.5) * size
-    uy = y - (column - ix * cells[7] + 0.5) * size
+    uy = y - (column - ix * cells.ny + 0.5) * size
     end = max(length - 0.5 * size, ahead)
     farthest = min(length + 0.5 * size, limit)
     before = np.nan
     while True:
         at = end + _STRIDE
         px, py = x + at * dx, y + at * dy
-        expected = cells[2][last] + cells[3][last, 0] * (ux + at * dx) + cells[3][last, 1] * (uy + at * dy)
+        expected = (
+            cells.height[last]
+            + cells.gradient[last, 0] * (ux + at * dx)
+            + cells.gradient[last, 1] * (uy + at * dy)
+        )
         floor, t = surface_below(grid, px, py, expected - step - SAME, expected + step + SAME)
-        if t < 0 or grid[0][t, 14] != 2.0:
+        if t < 0 or grid.triangles[t, KIND] != FLOOR:
             break
         if lowest_above(grid, px, py, floor + step + SAME, floor + headroom) < np.inf:
             break

@@ -4,7 +4,15 @@ import math
 
 import numpy as np
 
-from navmesh.raster import FLOOR, SAME_SURFACE, TOUCH, UPRIGHT, is_over
+from navmesh.raster import (
+    FLOOR,
+    KIND,
+    SAME_SURFACE,
+    TOUCH,
+    UPRIGHT,
+    height_at,
+    is_over,
+)
 from surefoot.kernels import kernel
 
 __all__ = ["GAP", "comes_first", "floor_at", "floor_end"]
@@ -33,9 +41,9 @@ def floor_at(table, start, triangle, resolution, ny, x, y, z, step, headroom):
     at = -np.inf
     for k in range(start[column], start[column + 1]):
         f = triangle[k]
-        if table[f, 14] != FLOOR:
+        if table[f, KIND] != FLOOR:
             continue
-        here = table[f, 9] * x + table[f, 10] * y + table[f, 11]
+        here = height_at(table, f, x, y)
         if abs(here - z) > step + TOUCH or here < at or not is_over(table, f, x, y):
             continue
         if here == at and chosen >= 0 and not comes_first(table, f, chosen):
@@ -46,9 +54,9 @@ def floor_at(table, start, triangle, resolution, ny, x, y, z, step, headroom):
         return -1
     for k in range(start[column], start[column + 1]):
         f = triangle[k]
-        if table[f, 14] == UPRIGHT:
+        if table[f, KIND] == UPRIGHT:
             continue
-        here = table[f, 9] * x + table[f, 10] * y + table[f, 11]
+        here = height_at(table, f, x, y)
         if at + SAME_SURFACE < here < at + headroom and is_over(table, f, x, y):
             return -1
     return chosen

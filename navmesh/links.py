@@ -72,7 +72,9 @@ class Links:
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
 
-# Columns of the kernel's table: start xyz, edge xyz, end xyz, 2 cells, obstacle, height, run-up, radius, cost
+# Columns of the kernel's table: points [m]; cells; index of the obstacle; height or width [m]; [m]; [m]; [m]
+_START, _EDGE, _END = slice(0, 3), slice(3, 6), slice(6, 9)
+_START_CELL, _END_CELL, _OWNER, _MEASURED, _RUN_UP, _RADIUS, _COST = range(9, 16)
 _COLUMNS = 16
 
 
@@ -98,26 +100,26 @@ def make_links(obstacles: Obstacles, surface: Surface, walking: WalkRules, body_
         math.tan(walking.max_slope),
         body_radius,
     )
-    for column in (0, 3, 6):
-        table[:, column : column + 3] += surface.origin
+    for point in (_START, _EDGE, _END):
+        table[:, point] += surface.origin
     return make_links_from(table, obstacles)
 
 
 def make_links_from(table: np.ndarray, obstacles: Obstacles) -> Links:
     """Links from the rows of the kernel's ``table`` (l, 16), in world coordinates."""
-    owner = table[:, 11].astype(np.int32)
+    owner = table[:, _OWNER].astype(np.int32)
     return Links(
-        start=table[:, 0:3].copy(),
-        edge=table[:, 3:6].copy(),
-        end=table[:, 6:9].copy(),
-        start_cell=table[:, 9].astype(np.int32),
-        end_cell=table[:, 10].astype(np.int32),
+        start=table[:, _START].copy(),
+        edge=table[:, _EDGE].copy(),
+        end=table[:, _END].copy(),
+        start_cell=table[:, _START_CELL].astype(np.int32),
+        end_cell=table[:, _END_CELL].astype(np.int32),
         obstacle=owner,
         affordance=obstacles.affordance[owner],
-        height=table[:, 12].round(4),
-        run_up=table[:, 13].copy(),
-        radius=table[:, 14].copy(),
-        cost=table[:, 15].copy(),
+        height=table[:, _MEASURED].round(4),
+        run_up=table[:, _RUN_UP].copy(),
+        radius=table[:, _RADIUS].copy(),
+        cost=table[:, _COST].copy(),
     )
 
 
@@ -128,7 +130,7 @@ def _place(cells, clearance, x, y, z, dx, dy, slope, longest, lateral, point):
 
     Returns (distance or -1, cell, clearance), all distances in metres.
     """
-    size = cells[5]
+    size = cells.size
     free, _, cell, _ = room(cells, x, y, z, dx, dy, slope, longest)
     if cell < 0 or free < _SHORTEST:
         return -1.0, -1, 0.0
@@ -138,17 +140,17 @@ def _place(cells, clearance, x, y, z, dx, dy, slope, longest, lateral, point):
     while away >= _SHORTEST - 1e-9:
         _, _, first, k = room(cells, x, y, z, dx, dy, slope, away)
         if first >= 0:
-            column = cells[1][k]
-            ix = column // cells[7]
+            column = cells.cell_column[k]
+            ix = column // cells.ny
             ux = x + away * dx - (ix + 0.5) * size
-            uy = y + away * dy - (column - ix * cells[7] + 0.5) * size
+            uy = y + away * dy - (column - ix * cells.ny + 0.5) * size
             inside = abs(ux) <= 0.5 * size + 1e-9 and abs(uy) <= 0.5 * size + 1e-9
             gap = clearance[k] - math.sqrt(ux * ux + uy * uy)
             if inside and gap > best_gap + 1e-9:
                 best, best_cell, best_gap = away, k, gap
                 point[0] = x + away * dx
                 point[1] = y + away * dy
-                point[2] = cells[2][k] + cells[3][k, 0] * ux + cells[3][k, 1] * uy
+                point[2] = cells.height[k] + cells.gradient[k, 0] * ux + cells.gradient[k, 1] * uy
                 if gap >= enough:
                     break
         away -= _STRIDE
@@ -175,10 +177,11 @@ def _trace_links(cells, clearance, crossing, efforts, rim, height, heading, size
             share = min(abs(offset) / (0.5 * width), 1.0)
             side = 2 if j > 0 else 0
             row = table[count]
+            edge = row[_EDGE]
             for axis in range(3):
-                row[3 + axis] = (1.0 - share) * rim[i, 1, axis] + share * rim[i, side, axis]
+                edge[axis] = (1.0 - share) * rim[i, 1, axis] + share * rim[i, side, axis]
             tall = (1.0 - share) * height[i, 1] + share * height[i, side]
-            x, y, z = row[3], row[4], row[5]
+            x, y, z = edge
             lateral = 0.5 * width - abs(offset)
             before = z
             behind = z
@@ -197,23 +200,23 @@ def _trace_links(cells, clearance, crossing, efforts, rim, height, heading, size
             measured = depth if crossing[i] == _ACROSS else tall
             effort = efforts[i, 0] + efforts[i, 1] * measured
             away, start, gap = _place(
-                cells, clearance, x, y, before, -dx, -dy, slope, LONGEST_RUN_UP, lateral, row[0:3]
+                cells, clearance, x, y, before, -dx, -dy, slope, LONGEST_RUN_UP, lateral, row[_START]
             )
             if start < 0:
                 continue
             fx, fy = x + depth * dx, y + depth * dy
             reach = _LONGEST_LANDING
             onward, end, gap_there = _place(
-                cells, clearance, fx, fy, behind, dx, dy, slope, reach, lateral, row[6:9]
+                cells, clearance, fx, fy, behind, dx, dy, slope, reach, lateral, row[_END]
             )
             if end < 0:
                 continue
-            row[9] = start
-            row[10] = end
-            row[11] = i
-            row[12] = measured
-            row[13] = away
-            row[14] = min(lateral, gap, gap_there)
-            row[15] = away + depth + onward + effort
+            row[_START_CELL] = start
+            row[_END_CELL] = end
+            row[_OWNER] = i
+            row[_MEASURED] = measured
+            row[_RUN_UP] = away
+            row[_RADIUS] = min(lateral, gap, gap_there)
+            row[_COST] = away + depth + onward + effort
             count += 1
     return table[:count]

@@ -12,6 +12,7 @@ import numpy as np
 from navmesh.free_length import SAME, free_length
 from navmesh.obstacle_rules import ObstacleRules
 from navmesh.probes import crossed, lowest_above, surface_below
+from navmesh.raster import FLOOR, KIND, PLANE, height_at
 from navmesh.rules import WalkRules
 from surefoot.kernels import allocating_kernel, kernel
 
@@ -80,11 +81,11 @@ def _foot(grid, x, y, z, dx, dy, lowest):
         found, t = surface_below(grid, px, py, lowest, z + _BEND)
         if t < 0:
             continue
-        if grid[0][t, 14] == 2.0:
+        if grid.triangles[t, KIND] == FLOOR:
             if found > z - SAME:
                 return 0, 0.0
-            return 1, grid[0][t, 9] * x + grid[0][t, 10] * y + grid[0][t, 11]
-        if grid[0][t, 14] == 1.0 and found > z - 1e-4:
+            return 1, height_at(grid.triangles, t, x, y)
+        if grid.triangles[t, KIND] == PLANE and found > z - 1e-4:
             return 0, 0.0
     return 2, 0.0
 
@@ -113,7 +114,7 @@ def _behind(grid, x, y, z, dx, dy, floor, limits):
                 last = t
                 if last > limits.vault_depth:
                     return -1.0, 0.0
-            elif grid[0][which, 14] == 2.0 and abs(found - floor) <= limits.level + 1e-6:
+            elif grid.triangles[which, KIND] == FLOOR and abs(found - floor) <= limits.level + 1e-6:
                 low, high = last, last + _SCAN
                 while high - low > 5e-4:
                     middle = 0.5 * (low + high)
@@ -123,7 +124,7 @@ def _behind(grid, x, y, z, dx, dy, floor, limits):
                     else:
                         high = middle
                 return 0.5 * (low + high), found
-            elif grid[0][which, 14] == 2.0:
+            elif grid.triangles[which, KIND] == FLOOR:
                 return -1.0, 0.0
         t += _SCAN
     return -1.0, 0.0
@@ -132,16 +133,16 @@ def _behind(grid, x, y, z, dx, dy, floor, limits):
 @kernel
 def _floor_below(cells, x, y, z, dx, dy, limits, deepest):
     """Whether there are cells close by, at most ``deepest`` below z: a quick look before the triangles."""
-    size = cells[5]
-    ny = cells[7]
+    size = cells.size
+    ny = cells.ny
     slack = SAME + 2.0 * size * limits.slope
     t = 0.02
     while t <= 1.6 * size:
         ix = math.floor((x + t * dx) / size)
         iy = math.floor((y + t * dy) / size)
-        if 0 <= ix < cells[6] and 0 <= iy < ny:
-            for k in range(cells[0][ix * ny + iy], cells[0][ix * ny + iy + 1]):
-                if -deepest - slack <= cells[2][k] - z <= slack - limits.step:
+        if 0 <= ix < cells.nx and 0 <= iy < ny:
+            for k in range(cells.column_start[ix * ny + iy], cells.column_start[ix * ny + iy + 1]):
+                if -deepest - slack <= cells.height[k] - z <= slack - limits.step:
                     return True
         t += 0.25 * size
     return False
@@ -150,16 +151,16 @@ def _floor_below(cells, x, y, z, dx, dy, limits, deepest):
 @kernel
 def _floor_opposite(cells, x, y, z, dx, dy, limits):
     """Whether there are cells at about height z within the width of a gap: a quick look before a scan."""
-    size = cells[5]
-    ny = cells[7]
+    size = cells.size
+    ny = cells.ny
     near = limits.level + size * limits.slope
     t = max(0.5 * size, limits.gap_low - size)
     while t <= limits.gap_high + size:
         ix = math.floor((x + t * dx) / size)
         iy = math.floor((y + t * dy) / size)
-        if 0 <= ix < cells[6] and 0 <= iy < ny:
-            for k in range(cells[0][ix * ny + iy], cells[0][ix * ny + iy + 1]):
-                if abs(cells[2][k] - z) <= near:
+        if 0 <= ix < cells.nx and 0 <= iy < ny:
+            for k in range(cells.column_start[ix * ny + iy], cells.column_start[ix * ny + iy + 1]):
+                if abs(cells.height[k] - z) <= near:
                     return True
         t += 0.5 * size
     return False
@@ -173,7 +174,7 @@ def _across(grid, x, y, z, dx, dy, limits):
     while t <= limits.gap_high + _SCAN:
         found, which = surface_below(grid, x + t * dx, y + t * dy, below, z + limits.headroom)
         if which >= 0:
-            if found > z + limits.level or grid[0][which, 14] != 2.0:
+            if found > z + limits.level or grid.triangles[which, KIND] != FLOOR:
                 return -1.0, 0.0
             low, high = t - _SCAN, t
             while high - low > 5e-4:
@@ -189,7 +190,7 @@ def _across(grid, x, y, z, dx, dy, limits):
             # floor that comes up gently to the other side is walked, not leapt
             before = max(low - _NEAR, 0.0)
             there, which = surface_below(grid, x + before * dx, y + before * dy, -np.inf, found)
-            if which >= 0 and grid[0][which, 14] == 2.0 and there > found - limits.step - SAME:
+            if which >= 0 and grid.triangles[which, KIND] == FLOOR and there > found - limits.step - SAME:
                 return -1.0, 0.0
             return width, found
         t += _SCAN
@@ -232,7 +233,7 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, reach, kind, size):
     if lowest_above(grid, x - _NEAR * ox, y - _NEAR * oy, z + lean, z + limits.headroom) < np.inf:
         return
     _, t = surface_below(grid, x - _NEAR * ox, y - _NEAR * oy, z - lean, z + lean)
-    rim = t >= 0 and grid[0][t, 14] == 2.0
+    rim = t >= 0 and grid.triangles[t, KIND] == FLOOR
     top, top_ahead, top_cell = 0.0, 0.0, -1
     if rim:
         top, top_ahead, top_cell = _free(grid, cells, x, y, z, -ox, -oy, limits, reach)
@@ -241,7 +242,7 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, reach, kind, size):
         low, low_ahead, low_cell = _free(grid, cells, x, y, floor, ox, oy, limits, reach)
     lx, ly = x + low_ahead * ox, y + low_ahead * oy
     tx, ty = x - top_ahead * ox, y - top_ahead * oy
-    top_z = max(z, cells[2][top_cell]) if top_cell >= 0 else z
+    top_z = max(z, cells.height[top_cell]) if top_cell >= 0 else z
     if low_cell >= 0 and low >= limits.run_up:
         if top >= limits.landing and limits.jump_low <= height <= limits.jump_high:
             if _air(grid, lx, ly, z, tx, ty, top_z, limits.headroom):
@@ -271,7 +272,7 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, reach, kind, size):
         free, ahead, cell = _free(grid, cells, bx, by, other, ox, oy, limits, reach)
         if cell >= 0 and free >= limits.landing:
             fx, fy = bx + ahead * ox, by + ahead * oy
-            if _air(grid, tx, ty, top_z, fx, fy, max(other, cells[2][cell]), limits.headroom):
+            if _air(grid, tx, ty, top_z, fx, fy, max(other, cells.height[cell]), limits.headroom):
                 kind[2] = GAP
                 _note(size[2], other - z, width, top, free, other - z)
 

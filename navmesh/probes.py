@@ -6,15 +6,56 @@ references of the tests.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
-from navmesh.raster import columns_of_triangles, prepare_triangles
+from navmesh.raster import (
+    AX,
+    AY,
+    AZ,
+    BX,
+    BY,
+    BZ,
+    CX,
+    CY,
+    CZ,
+    FLOOR,
+    HIGHEST,
+    KIND,
+    LOWEST,
+    UPRIGHT,
+    columns_of_triangles,
+    height_at,
+    prepare_triangles,
+)
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["ProbeGrid", "brute_crossed", "brute_surface_below", "crossed", "lowest_above", "surface_below"]
+__all__ = [
+    "ProbeArrays",
+    "ProbeGrid",
+    "brute_crossed",
+    "brute_surface_below",
+    "crossed",
+    "lowest_above",
+    "surface_below",
+]
 
 _EDGE = 1e-7  # [m] points this close to a triangle's edge are on it
+
+
+class ProbeArrays(NamedTuple):
+    """A `ProbeGrid` as kernels take it."""
+
+    triangles: np.ndarray
+    """(t, COLUMNS) float64, see `navmesh.raster`."""
+    start: np.ndarray
+    """(nx·ny + 1,): the triangles that touch square c = ix·ny + iy are member[start[c]:start[c + 1]]."""
+    member: np.ndarray
+    size: float
+    """[m], side of a square."""
+    nx: int
+    ny: int
 
 
 class ProbeGrid:
@@ -33,18 +74,18 @@ class ProbeGrid:
         )
 
     @property
-    def arrays(self) -> tuple:
-        """What the kernels take as ``grid``: triangles, start, member, size, nx, ny."""
-        return self.triangles, self.start, self.member, self.size, self.shape[0], self.shape[1]
+    def arrays(self) -> ProbeArrays:
+        """What the kernels take as ``grid``."""
+        return ProbeArrays(self.triangles, self.start, self.member, self.size, *self.shape)
 
 
 @kernel(inline="always")
 def _column(grid, x, y):
-    ix = math.floor(x / grid[3])
-    iy = math.floor(y / grid[3])
-    if ix < 0 or iy < 0 or ix >= grid[4] or iy >= grid[5]:
+    ix = math.floor(x / grid.size)
+    iy = math.floor(y / grid.size)
+    if ix < 0 or iy < 0 or ix >= grid.nx or iy >= grid.ny:
         return -1
-    return ix * grid[5] + iy
+    return ix * grid.ny + iy
 
 
 @kernel(inline="always")
@@ -73,20 +114,24 @@ def surface_below(grid, x, y, low, high):
     Returns (height [m], triangle): the triangle is -1 when there is none. Of surfaces at the same height
     a floor counts before anything else.
     """
-    table = grid[0]
+    table = grid.triangles
     column = _column(grid, x, y)
     best = -np.inf
     which = -1
     if column < 0:
         return best, which
-    for k in range(grid[1][column], grid[1][column + 1]):
-        t = grid[2][k]
-        if table[t, 14] == 0.0 or table[t, 12] > high or table[t, 13] < best - 1e-6:
+    for k in range(grid.start[column], grid.start[column + 1]):
+        t = grid.member[k]
+        if table[t, KIND] == UPRIGHT or table[t, LOWEST] > high or table[t, HIGHEST] < best - 1e-6:
             continue
-        z = table[t, 9] * x + table[t, 10] * y + table[t, 11]
+        z = height_at(table, t, x, y)
         if z > high or z < low or z < best - 1e-6:
             continue
-        if which >= 0 and abs(z - best) <= 1e-6 and not (table[t, 14] == 2.0 and table[which, 14] != 2.0):
+        if (
+            which >= 0
+            and abs(z - best) <= 1e-6
+            and not (table[t, KIND] == FLOOR and table[which, KIND] != FLOOR)
+        ):
             continue
         if _over(table, t, x, y):
             best = z
@@ -97,16 +142,16 @@ def surface_below(grid, x, y, low, high):
 @kernel
 def lowest_above(grid, x, y, low, high):
     """Height [m] of the lowest surface over (x, y) strictly between ``low`` and ``high``, or infinity."""
-    table = grid[0]
+    table = grid.triangles
     column = _column(grid, x, y)
     best = np.inf
     if column < 0:
         return best
-    for k in range(grid[1][column], grid[1][column + 1]):
-        t = grid[2][k]
-        if table[t, 14] == 0.0 or table[t, 13] <= low or table[t, 12] >= high:
+    for k in range(grid.start[column], grid.start[column + 1]):
+        t = grid.member[k]
+        if table[t, KIND] == UPRIGHT or table[t, HIGHEST] <= low or table[t, LOWEST] >= high:
             continue
-        z = table[t, 9] * x + table[t, 10] * y + table[t, 11]
+        z = height_at(table, t, x, y)
         if low < z < high and z < best and _over(table, t, x, y):
             best = z
     return best
@@ -115,8 +160,8 @@ def lowest_above(grid, x, y, low, high):
 @kernel
 def _hits(table, f, px, py, pz, dx, dy, dz):
     """Whether the segment p to p + d meets a prepared triangle."""
-    e1x, e1y, e1z = table[f, 3] - table[f, 0], table[f, 4] - table[f, 1], table[f, 5] - table[f, 2]
-    e2x, e2y, e2z = table[f, 6] - table[f, 0], table[f, 7] - table[f, 1], table[f, 8] - table[f, 2]
+    e1x, e1y, e1z = table[f, BX] - table[f, AX], table[f, BY] - table[f, AY], table[f, BZ] - table[f, AZ]
+    e2x, e2y, e2z = table[f, CX] - table[f, AX], table[f, CY] - table[f, AY], table[f, CZ] - table[f, AZ]
     hx = dy * e2z - dz * e2y
     hy = dz * e2x - dx * e2z
     hz = dx * e2y - dy * e2x
@@ -124,7 +169,7 @@ def _hits(table, f, px, py, pz, dx, dy, dz):
     scale = (abs(e1x) + abs(e1y) + abs(e1z)) * (abs(hx) + abs(hy) + abs(hz))
     if abs(a) <= 1e-12 * scale or a == 0.0:
         return False
-    sx, sy, sz = px - table[f, 0], py - table[f, 1], pz - table[f, 2]
+    sx, sy, sz = px - table[f, AX], py - table[f, AY], pz - table[f, AZ]
     u = (sx * hx + sy * hy + sz * hz) / a
     if u < -1e-9 or u > 1.0 + 1e-9:
         return False
@@ -141,13 +186,13 @@ def _hits(table, f, px, py, pz, dx, dy, dz):
 @allocating_kernel
 def crossed(grid, px, py, pz, qx, qy, qz):
     """Whether anything of the mesh crosses the segment p-q (metres)."""
-    table, size = grid[0], grid[3]
+    table, size = grid.triangles, grid.size
     dx, dy, dz = qx - px, qy - py, qz - pz
     low = min(pz, qz)
     high = max(pz, qz)
     left, right = min(px, qx), max(px, qx)
     first = max(0, math.floor(left / size))
-    last = min(grid[4] - 1, math.floor(right / size))
+    last = min(grid.nx - 1, math.floor(right / size))
     for ix in range(first, last + 1):
         # the stretch of the segment over this strip of squares
         y0, y1 = py, qy
@@ -159,12 +204,12 @@ def crossed(grid, px, py, pz, qx, qy, qz):
         if y0 > y1:
             y0, y1 = y1, y0
         for iy in range(
-            max(0, math.floor(y0 / size - 1e-9)), min(grid[5] - 1, math.floor(y1 / size + 1e-9)) + 1
+            max(0, math.floor(y0 / size - 1e-9)), min(grid.ny - 1, math.floor(y1 / size + 1e-9)) + 1
         ):
-            column = ix * grid[5] + iy
-            for k in range(grid[1][column], grid[1][column + 1]):
-                t = grid[2][k]
-                if table[t, 12] > high or table[t, 13] < low:
+            column = ix * grid.ny + iy
+            for k in range(grid.start[column], grid.start[column + 1]):
+                t = grid.member[k]
+                if table[t, LOWEST] > high or table[t, HIGHEST] < low:
                     continue
                 if _hits(table, t, px, py, pz, dx, dy, dz):
                     return True
@@ -172,11 +217,12 @@ def crossed(grid, px, py, pz, qx, qy, qz):
 
 
 def brute_surface_below(triangles: np.ndarray, x: float, y: float, low: float, high: float) -> float:
-    """`surface_below` over all prepared ``triangles`` (t, 15), by barycentric coordinates; height or -inf."""
+    """`surface_below` over all prepared ``triangles`` (t, COLUMNS), by barycentric
+    coordinates; height or -inf."""
     best = -math.inf
     for row in triangles:
         a, b, c = row[:9].reshape(3, 3)
-        if row[14] == 0.0:
+        if row[KIND] == UPRIGHT:
             continue
         weights = np.linalg.solve(np.array([[a[0], b[0], c[0]], [a[1], b[1], c[1]], [1, 1, 1]]), [x, y, 1.0])
         z = float(weights @ (a[2], b[2], c[2]))
@@ -186,7 +232,8 @@ def brute_surface_below(triangles: np.ndarray, x: float, y: float, low: float, h
 
 
 def brute_crossed(triangles: np.ndarray, p: np.ndarray, q: np.ndarray) -> bool:
-    """`crossed` over all prepared ``triangles`` (t, 15): solves p + t·(q - p) = a + u·(b - a) + v·(c - a)."""
+    """`crossed` over all prepared ``triangles`` (t, COLUMNS): solves
+    p + t·(q - p) = a + u·(b - a) + v·(c - a)."""
     for row in triangles:
         a, b, c = row[:9].reshape(3, 3)
         matrix = np.column_stack((p - q, b - a, c - a))

@@ -14,15 +14,22 @@ import numpy as np
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = [
-    "FLOOR",
-    "PLANE",
-    "SAME_SURFACE",
-    "TOUCH",
-    "UPRIGHT",
-    "columns_of_triangles",
-    "is_over",
-    "prepare_triangles",
-]
+    "AX", "AY", "AZ", "BX", "BY", "BZ", "COLUMNS", "CX", "CY", "CZ", "FLOOR", "HEIGHT_AT_ORIGIN", "HIGHEST",
+    "KIND", "LOWEST", "PART", "PLANE", "SAME_SURFACE", "SLOPE_X", "SLOPE_Y", "TOUCH", "UPRIGHT",
+    "columns_of_triangles", "height_at", "is_over", "prepare_triangles",
+]  # fmt: skip
+
+AX, AY, AZ, BX, BY, BZ, CX, CY, CZ = range(9)
+"""Columns of a table of triangles: the corners [m]."""
+SLOPE_X, SLOPE_Y, HEIGHT_AT_ORIGIN = 9, 10, 11
+"""The plane: dz/dx, dz/dy, and z [m] at x = y = 0; all 0 if the triangle is upright."""
+LOWEST, HIGHEST = 12, 13
+"""[m] least and greatest z."""
+KIND = 14
+"""`UPRIGHT`, `PLANE` or `FLOOR`."""
+PART = 15
+"""The closed part of the mesh that it belongs to (`navmesh.solids`), or -1."""
+COLUMNS = 16
 
 UPRIGHT, PLANE, FLOOR = 0.0, 1.0, 2.0
 """Kinds of triangle: without a height as a function of (x, y); with one; walkable by its slope."""
@@ -33,11 +40,23 @@ SAME_SURFACE = 0.01
 
 
 @kernel
+def height_at(table, f, x, y):
+    """Height [m] of triangle ``f``'s plane at (x, y); it is not upright."""
+    return table[f, SLOPE_X] * x + table[f, SLOPE_Y] * y + table[f, HEIGHT_AT_ORIGIN]
+
+
+@kernel
 def is_over(table, f, x, y):
     """Whether a prepared triangle that has a height covers (x, y); its edges belong to it."""
-    one = (table[f, 3] - table[f, 0]) * (y - table[f, 1]) - (table[f, 4] - table[f, 1]) * (x - table[f, 0])
-    two = (table[f, 6] - table[f, 3]) * (y - table[f, 4]) - (table[f, 7] - table[f, 4]) * (x - table[f, 3])
-    three = (table[f, 0] - table[f, 6]) * (y - table[f, 7]) - (table[f, 1] - table[f, 7]) * (x - table[f, 6])
+    one = (table[f, BX] - table[f, AX]) * (y - table[f, AY]) - (table[f, BY] - table[f, AY]) * (
+        x - table[f, AX]
+    )
+    two = (table[f, CX] - table[f, BX]) * (y - table[f, BY]) - (table[f, CY] - table[f, BY]) * (
+        x - table[f, BX]
+    )
+    three = (table[f, AX] - table[f, CX]) * (y - table[f, CY]) - (table[f, AY] - table[f, CY]) * (
+        x - table[f, CX]
+    )
     return (one >= -1e-9 and two >= -1e-9 and three >= -1e-9) or (
         one <= 1e-9 and two <= 1e-9 and three <= 1e-9
     )
@@ -49,25 +68,24 @@ def prepare_triangles(vertices, faces, part, origin, steepest):
 
     ``vertices`` (v, 3) float64, ``faces`` (f, 3) int32, ``part`` (f,) int32 the closed part of each or -1
     (`navmesh.solids`), ``origin`` (3,) float64 is subtracted; ``steepest`` is the least vertical part of a
-    walkable face's unit normal. Returns (t, 16) float64, without the triangles that have no area: ax ay az
-    bx by bz cx cy cz, the plane p q s (z = p·x + q·y + s), least z, greatest z, the kind, and the part.
+    walkable face's unit normal. Returns (t, COLUMNS) float64, without the triangles that have no area.
     """
     count = faces.shape[0]
-    table = np.empty((count, 16), np.float64)
+    table = np.empty((count, COLUMNS), np.float64)
     kept = 0
     for f in range(count):
         for k in range(3):
             for j in range(3):
                 table[kept, 3 * k + j] = vertices[faces[f, k], j] - origin[j]
         ux, uy, uz = (
-            table[kept, 3] - table[kept, 0],
-            table[kept, 4] - table[kept, 1],
-            table[kept, 5] - table[kept, 2],
+            table[kept, BX] - table[kept, AX],
+            table[kept, BY] - table[kept, AY],
+            table[kept, BZ] - table[kept, AZ],
         )
         vx, vy, vz = (
-            table[kept, 6] - table[kept, 0],
-            table[kept, 7] - table[kept, 1],
-            table[kept, 8] - table[kept, 2],
+            table[kept, CX] - table[kept, AX],
+            table[kept, CY] - table[kept, AY],
+            table[kept, CZ] - table[kept, AZ],
         )
         normal_x = uy * vz - uz * vy
         normal_y = uz * vx - ux * vz
@@ -75,19 +93,21 @@ def prepare_triangles(vertices, faces, part, origin, steepest):
         size = math.sqrt(normal_x * normal_x + normal_y * normal_y + normal_z * normal_z)
         if size < 1e-12:
             continue
-        table[kept, 12] = min(table[kept, 2], table[kept, 5], table[kept, 8])
-        table[kept, 13] = max(table[kept, 2], table[kept, 5], table[kept, 8])
+        table[kept, LOWEST] = min(table[kept, AZ], table[kept, BZ], table[kept, CZ])
+        table[kept, HIGHEST] = max(table[kept, AZ], table[kept, BZ], table[kept, CZ])
         if abs(normal_z) < 1e-3 * size:
-            table[kept, 9] = table[kept, 10] = table[kept, 11] = 0.0
-            table[kept, 14] = UPRIGHT
+            table[kept, SLOPE_X] = table[kept, SLOPE_Y] = table[kept, HEIGHT_AT_ORIGIN] = 0.0
+            table[kept, KIND] = UPRIGHT
         else:
-            table[kept, 9] = -normal_x / normal_z
-            table[kept, 10] = -normal_y / normal_z
-            table[kept, 11] = (
-                table[kept, 2] - table[kept, 9] * table[kept, 0] - table[kept, 10] * table[kept, 1]
+            table[kept, SLOPE_X] = -normal_x / normal_z
+            table[kept, SLOPE_Y] = -normal_y / normal_z
+            table[kept, HEIGHT_AT_ORIGIN] = (
+                table[kept, AZ]
+                - table[kept, SLOPE_X] * table[kept, AX]
+                - table[kept, SLOPE_Y] * table[kept, AY]
             )
-            table[kept, 14] = FLOOR if normal_z >= steepest * size else PLANE
-        table[kept, 15] = part[f]
+            table[kept, KIND] = FLOOR if normal_z >= steepest * size else PLANE
+        table[kept, PART] = part[f]
         kept += 1
     return table[:kept]
 
@@ -105,8 +125,8 @@ def columns_of_triangles(table, resolution, nx, ny, window):
     inverse = 1.0 / resolution
     strips = 0
     for t in range(count):
-        low = min(table[t, 0], table[t, 3], table[t, 6]) - TOUCH
-        high = max(table[t, 0], table[t, 3], table[t, 6]) + TOUCH
+        low = min(table[t, AX], table[t, BX], table[t, CX]) - TOUCH
+        high = max(table[t, AX], table[t, BX], table[t, CX]) + TOUCH
         strips += max(
             min(window[2] - 1, math.floor(high * inverse)) - max(window[0], math.floor(low * inverse)) + 1, 0
         )
@@ -114,8 +134,8 @@ def columns_of_triangles(table, resolution, nx, ny, window):
     start = np.zeros(nx * ny + 2, np.int32)
     spans = 0
     for t in range(count):
-        low = min(table[t, 0], table[t, 3], table[t, 6]) - TOUCH
-        high = max(table[t, 0], table[t, 3], table[t, 6]) + TOUCH
+        low = min(table[t, AX], table[t, BX], table[t, CX]) - TOUCH
+        high = max(table[t, AX], table[t, BX], table[t, CX]) + TOUCH
         first = max(window[0], math.floor(low * inverse))
         last = min(window[2] - 1, math.floor(high * inverse))
         for ix in range(first, last + 1):

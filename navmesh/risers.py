@@ -5,7 +5,23 @@ import math
 import numpy as np
 
 from navmesh.ledges import comes_first, floor_at
-from navmesh.raster import FLOOR, SAME_SURFACE, TOUCH, UPRIGHT, is_over
+from navmesh.raster import (
+    AX,
+    AY,
+    BX,
+    BY,
+    CX,
+    CY,
+    FLOOR,
+    KIND,
+    SAME_SURFACE,
+    SLOPE_X,
+    SLOPE_Y,
+    TOUCH,
+    UPRIGHT,
+    height_at,
+    is_over,
+)
 from surefoot.kernels import kernel
 
 __all__ = ["faces_up", "on_riser"]
@@ -19,8 +35,8 @@ _BEYOND = 1e-4
 @kernel
 def faces_up(table, f):
     """Whether a prepared triangle faces up."""
-    return (table[f, 3] - table[f, 0]) * (table[f, 7] - table[f, 1]) - (table[f, 4] - table[f, 1]) * (
-        table[f, 6] - table[f, 0]
+    return (table[f, BX] - table[f, AX]) * (table[f, CY] - table[f, AY]) - (table[f, BY] - table[f, AY]) * (
+        table[f, CX] - table[f, AX]
     ) > 0.0
 
 
@@ -45,14 +61,14 @@ def _next_face(table, start, triangle, resolution, ny, x, y, z, left):
     level = False
     for k in range(start[column], start[column + 1]):
         t = triangle[k]
-        reach = left + TOUCH if table[t, 14] == FLOOR else SAME_SURFACE
+        reach = left + TOUCH if table[t, KIND] == FLOOR else SAME_SURFACE
         if (
-            table[t, 14] == UPRIGHT
-            or abs(table[t, 9] * x + table[t, 10] * y + table[t, 11] - z) > reach
+            table[t, KIND] == UPRIGHT
+            or abs(height_at(table, t, x, y) - z) > reach
             or not is_over(table, t, x, y)
         ):
             continue
-        if table[t, 14] == FLOOR:
+        if table[t, KIND] == FLOOR:
             level = True
         elif faces_up(table, t) and (chosen < 0 or comes_first(table, t, chosen)):
             chosen = t
@@ -63,11 +79,11 @@ def _next_face(table, start, triangle, resolution, ny, x, y, z, left):
 def _height_to_floor(table, start, triangle, resolution, ny, t, x, y, way, step, headroom):
     """Height from (x, y) on the steep face ``t`` along the fall line, up (way 1) or down (way -1), to the
     first floor [m], or inf when that is more than ``step``."""
-    z = table[t, 9] * x + table[t, 10] * y + table[t, 11]
+    z = height_at(table, t, x, y)
     begin = z
     for _ in range(_FACES):
-        fall = math.hypot(table[t, 9], table[t, 10])
-        dx, dy = way * table[t, 9] / fall, way * table[t, 10] / fall
+        fall = math.hypot(table[t, SLOPE_X], table[t, SLOPE_Y])
+        dx, dy = way * table[t, SLOPE_X] / fall, way * table[t, SLOPE_Y] / fall
         out = _way_out(table, t, x, y, dx, dy)
         z += way * out * fall
         left = step - abs(z - begin)
@@ -79,7 +95,7 @@ def _height_to_floor(table, start, triangle, resolution, ny, t, x, y, way, step,
         if level:
             floor = floor_at(table, start, triangle, resolution, ny, x, y, z, left, headroom)
             if floor >= 0:
-                return abs(table[floor, 9] * x + table[floor, 10] * y + table[floor, 11] - begin)
+                return abs(height_at(table, floor, x, y) - begin)
         if t < 0:
             return np.inf
     return np.inf
@@ -89,8 +105,8 @@ def _height_to_floor(table, start, triangle, resolution, ny, t, x, y, way, step,
 def on_riser(table, start, triangle, resolution, ny, t, x, y, step, headroom):
     """Whether (x, y) on the steep face ``t``, which faces up, is on a riser: the fall line through it leads
     over steep faces to floor above and to floor below that are at most ``step`` apart in height."""
-    fall = math.hypot(table[t, 9], table[t, 10])
-    dx, dy = table[t, 9] / fall, table[t, 10] / fall
+    fall = math.hypot(table[t, SLOPE_X], table[t, SLOPE_Y])
+    dx, dy = table[t, SLOPE_X] / fall, table[t, SLOPE_Y] / fall
     # most steep faces are too high, by themselves or with those above them
     below = _way_out(table, t, x, y, -dx, -dy) * fall
     if below + _way_out(table, t, x, y, dx, dy) * fall > step + TOUCH:

@@ -13,7 +13,24 @@ numbers", ACM Transactions on Graphics 32(4), 2013.
 import numpy as np
 
 from navmesh.disjoint_sets import root
-from navmesh.raster import SAME_SURFACE, UPRIGHT
+from navmesh.raster import (
+    AX,
+    AY,
+    AZ,
+    BX,
+    BY,
+    BZ,
+    CX,
+    CY,
+    CZ,
+    HIGHEST,
+    KIND,
+    LOWEST,
+    PART,
+    SAME_SURFACE,
+    UPRIGHT,
+    height_at,
+)
 from navmesh.rims import weld
 from surefoot.kernels import allocating_kernel, kernel
 
@@ -140,16 +157,16 @@ def _turn_about(table, f, x, y):
 @kernel
 def _height(table, f, x, y):
     """The height of a prepared triangle over (x, y), also of one that is all but upright."""
-    if table[f, 14] != UPRIGHT:
-        return table[f, 9] * x + table[f, 10] * y + table[f, 11]
-    ux, uy, uz = table[f, 3] - table[f, 0], table[f, 4] - table[f, 1], table[f, 5] - table[f, 2]
-    vx, vy, vz = table[f, 6] - table[f, 0], table[f, 7] - table[f, 1], table[f, 8] - table[f, 2]
+    if table[f, KIND] != UPRIGHT:
+        return height_at(table, f, x, y)
+    ux, uy, uz = table[f, BX] - table[f, AX], table[f, BY] - table[f, AY], table[f, BZ] - table[f, AZ]
+    vx, vy, vz = table[f, CX] - table[f, AX], table[f, CY] - table[f, AY], table[f, CZ] - table[f, AZ]
     area = ux * vy - uy * vx
     if area == 0.0:
-        return table[f, 12]
+        return table[f, LOWEST]
     along_x, along_y = (uy * vz - uz * vy) / area, (uz * vx - ux * vz) / area
-    z = table[f, 2] - along_x * (x - table[f, 0]) - along_y * (y - table[f, 1])
-    return min(max(z, table[f, 12]), table[f, 13])
+    z = table[f, AZ] - along_x * (x - table[f, AX]) - along_y * (y - table[f, AY])
+    return min(max(z, table[f, LOWEST]), table[f, HIGHEST])
 
 
 @kernel
@@ -185,11 +202,11 @@ def inside_solid(table, start, triangle, column, x, y, z, crossing):
     count = 0
     for k in range(start[column], start[column + 1]):
         f = triangle[k]
-        if table[f, 15] < 0.0:
+        if table[f, PART] < 0.0:
             continue
         turn = _turn_about(table, f, x, y)
         if turn != 0:
-            crossing[count, 0], crossing[count, 1] = table[f, 15], turn
+            crossing[count, 0], crossing[count, 1] = table[f, PART], turn
             crossing[count, 2] = _height(table, f, x, y)
             count += 1
     hollows = False

@@ -2,7 +2,17 @@
 
 import numpy as np
 
-from navmesh.raster import FLOOR, TOUCH, UPRIGHT
+from navmesh.raster import (
+    FLOOR,
+    HIGHEST,
+    KIND,
+    LOWEST,
+    SLOPE_X,
+    SLOPE_Y,
+    TOUCH,
+    UPRIGHT,
+    height_at,
+)
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = [
@@ -130,11 +140,11 @@ def _crosses_polygon(polygon, count, ax, ay, bx, by):
 @kernel
 def range_in_column(table, f, x, y, reach):
     """Bounds of a triangle's height within ``reach`` of (x, y) along both axes."""
-    if table[f, 14] == UPRIGHT:
-        return table[f, 12], table[f, 13]
-    middle = table[f, 9] * x + table[f, 10] * y + table[f, 11]
-    spread = (abs(table[f, 9]) + abs(table[f, 10])) * reach
-    return max(table[f, 12], middle - spread), min(table[f, 13], middle + spread)
+    if table[f, KIND] == UPRIGHT:
+        return table[f, LOWEST], table[f, HIGHEST]
+    middle = height_at(table, f, x, y)
+    spread = (abs(table[f, SLOPE_X]) + abs(table[f, SLOPE_Y])) * reach
+    return max(table[f, LOWEST], middle - spread), min(table[f, HIGHEST], middle + spread)
 
 
 @kernel
@@ -147,7 +157,7 @@ def wall_base(table, start, triangle, column, x, y, z, resolution, step):
         grew = False
         for k in range(start[column], start[column + 1]):
             f = triangle[k]
-            if table[f, 14] != FLOOR:
+            if table[f, KIND] != FLOOR:
                 continue
             low, high = range_in_column(table, f, x, y, 0.5 * resolution)
             if low - z <= reach + step + TOUCH and high - z > reach:

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pathsmooth import bounded_kernels, reach
+from pathsmooth import bounded_kernels, kernels, reach
 from pathsmooth.curvature import curvature
 from pathsmooth.errors import PathSmoothError
 from pathsmooth.geometry import nearest_in_lens
@@ -169,10 +169,11 @@ def _carried(
     free = slice(problem.first, problem.last)
     for axis in range(2):
         place = np.interp(problem.arc, along, points[:, axis])
-        moved[0, free, axis] = (place - problem.targets[:, axis])[free]
-        for row in (1, 2):
+        moved[kernels.DISPLACEMENT, free, axis] = (place - problem.targets[:, axis])[free]
+        for row in (kernels.NORM_DUAL, kernels.DISC_DUAL):
             moved[row, free, axis] = np.interp(problem.arc, along, state[row, :, axis])[free]
-        moved[3, 1:-1, axis] = np.interp(problem.arc, along, state[3, :, axis])[1:-1]
+        force = np.interp(problem.arc, along, state[kernels.CURVE_DUAL, :, axis])
+        moved[kernels.CURVE_DUAL, 1:-1, axis] = force[1:-1]
     return moved
 
 

@@ -16,14 +16,21 @@ from __future__ import annotations
 import numpy as np
 
 from pathsmooth.kernels import (
+    AR,
+    AX,
+    AY,
     BEND,
+    CURVE_DUAL,
     CURVE_STEP,
+    DISC_DUAL,
     DISC_STEP,
+    DISPLACEMENT,
     EX,
     EY,
     GX,
     GY,
     LEFT,
+    NORM_DUAL,
     NORM_STEP,
     PIVOT,
     RIGHT,
@@ -173,7 +180,7 @@ def _bounds(packed, kappa, d, y, u, force, pull, first, last):
         if size > w:
             f = 1.0 - w / size
             low += max(lowest(packed, i, f * g0, f * g1), lowest(packed, i, g0 + y[i, 0], g1 + y[i, 1]))
-        high += w * (np.sqrt(packed[0, i] ** 2 + packed[1, i] ** 2) + packed[2, i])
+        high += w * (np.sqrt(packed[AX, i] ** 2 + packed[AY, i] ** 2) + packed[AR, i])
     return low, high
 
 
@@ -186,7 +193,7 @@ def solve_bounded(packed, kappa, first, last, relaxation, limit, tolerance, slac
     Returns (code, iterations, objective, bound on the optimum).
     """
     n = packed.shape[1]
-    d, y, v, u = state[0], state[1], state[2], state[3]
+    d, y, v, u = state[DISPLACEMENT], state[NORM_DUAL], state[DISC_DUAL], state[CURVE_DUAL]
     new = np.zeros((n, 2))
     force = np.zeros((n, 2))
     pull = np.zeros((n, 2))

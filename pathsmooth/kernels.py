@@ -44,6 +44,9 @@ CURVE_STEP = 20  # dual step size c of the bound on curvature; 0 where there is 
 SUB1, SUB2, PIVOT = 21, 22, 23  # factors L and 1 / E of Hessian of f2 + D^T diag(c) D + diag(s + r) = L E L^T
 ROWS = 24
 
+DISPLACEMENT, NORM_DUAL, DISC_DUAL, CURVE_DUAL = 0, 1, 2, 3
+# rows of a state (4, n, 2), which a solution begins with and leaves: d, y, v; with a bound on curvature u
+
 ROUNDING = 1.0 + 1e-12
 NOTHING = 1e-12  # [m^2] objective that is as good as zero
 EXACT = 1e-10  # relative gap that is as good as none
@@ -285,12 +288,12 @@ def solve(
 ):
     """Iterate until the gap is at most `tolerance` of the bound, or `limit` iterations.
 
-    state (3, n, 2): start of d, y and v, changed in place. points (n, 3): the best feasible path found,
+    state (4, n, 2): start of d, y and v, changed in place. points (n, 3): the best feasible path found,
     written.
     Returns (iterations, objective, bound).
     """
     n = packed.shape[1]
-    d, y, v = state[0], state[1], state[2]
+    d, y, v = state[DISPLACEMENT], state[NORM_DUAL], state[DISC_DUAL]
     best = np.zeros((n, 2))
     candidate = np.zeros((n, 2))
     primal = d.copy()

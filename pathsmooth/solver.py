@@ -100,10 +100,10 @@ def _carry_over(old_targets, old_weight, old_state, targets, weight, state, firs
             elif dx * dx + dy * dy > 4.0 * nearest + 1.0:
                 break
         j = best
-        state[0, i] = old_state[0, j]
+        state[kernels.DISPLACEMENT, i] = old_state[kernels.DISPLACEMENT, j]
         if old_weight[j] > 0.0:
-            for row in (1, 3):
+            for row in (kernels.NORM_DUAL, kernels.CURVE_DUAL):
                 state[row, i] = old_state[row, j] * (weight[i] / old_weight[j])
         if j != taken:
-            state[2, i] = old_state[2, j]
+            state[kernels.DISC_DUAL, i] = old_state[kernels.DISC_DUAL, j]
             taken = j

@@ -23,6 +23,19 @@ from numpy.typing import ArrayLike, NDArray
 from locomotion.errors import LocomotionError
 from locomotion.ground.collider.build import build_triangle_arrays
 from locomotion.ground.collider.install import MARK, occupy, release
+from locomotion.ground.collider.layout import (
+    CORNER,
+    NX,
+    NY,
+    NZ,
+    OFFSET,
+    PER_METRE,
+    SIDE,
+    SIDE_ROW,
+    SIDES_END,
+    SOUTH,
+    WEST,
+)
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["FRICTION", "Ground", "extruded", "height_below", "plane_lookup"]
@@ -148,7 +161,7 @@ class Ground:
         return geom
 
     def _add_visual(self, spec: mujoco.MjSpec) -> None:
-        triangles = self._arrays.rows[:_MESH_FACES, 16:25].reshape(-1, 3)
+        triangles = self._arrays.rows[:_MESH_FACES, CORNER : CORNER + 9].reshape(-1, 3)
         spec.add_mesh(
             name="ground", uservert=triangles.reshape(-1).astype(np.float32),
             userface=np.arange(len(triangles), dtype=np.int32),
@@ -248,19 +261,19 @@ def extruded(profile: ArrayLike, half_width: float) -> tuple[NDArray[np.float64]
 def height_below(rows, cell_start, cell_triangles, grid, shape, x, y, z):
     """Height of the first upward face at or below (x, y, z), NaN where there is none, and its row or -1."""
     best, which = -np.inf, -1
-    fx, fy = (x - grid[0]) * grid[2], (y - grid[1]) * grid[2]
+    fx, fy = (x - grid[WEST]) * grid[PER_METRE], (y - grid[SOUTH]) * grid[PER_METRE]
     if not (fx >= 0.0 and fy >= 0.0 and fx <= shape[0] and fy <= shape[1]):
         return np.nan, which
     cell = min(int(fx), shape[0] - 1) * shape[1] + min(int(fy), shape[1] - 1)
     for i in range(cell_start[cell], cell_start[cell + 1]):
         row = rows[cell_triangles[i]]
-        if row[2] < 1e-6:
+        if row[NZ] < 1e-6:
             continue
-        h = (row[3] - row[0] * x - row[1] * y) / row[2]
+        h = (row[OFFSET] - row[NX] * x - row[NY] * y) / row[NZ]
         if h > z + 1e-9 or best >= h:
             continue
         inside = True
-        for k in range(4, 16, 4):
+        for k in range(SIDE, SIDES_END, SIDE_ROW):
             if row[k] * x + row[k + 1] * y + row[k + 2] * h - row[k + 3] > 1e-6:
                 inside = False
                 break
@@ -275,4 +288,4 @@ def _surface_below(rows, cell_start, cell_triangles, grid, shape, points, height
         x, y, z = points[p]
         heights[p], t = height_below(rows, cell_start, cell_triangles, grid, shape, x, y, z)
         if t >= 0:
-            normals[p] = rows[t, 0:3]
+            normals[p] = rows[t, NX:OFFSET]

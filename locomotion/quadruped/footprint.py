@@ -14,6 +14,18 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from locomotion.ground.collider.layout import (
+    CORNER,
+    HIGH_X,
+    HIGH_Y,
+    HIGH_Z,
+    LOW_X,
+    LOW_Y,
+    LOW_Z,
+    PER_METRE,
+    SOUTH,
+    WEST,
+)
 from locomotion.ground.ground import Ground
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.body import Body
@@ -217,8 +229,14 @@ def _distance_squared(px, py, pz, t):
 def touches(ground, cell_range, x, y, z, radius):
     """Whether a triangle comes nearer to a point than ``radius``."""
     rows, start, member, grid, shape = ground
-    x0, x1 = int((x - radius - grid[0]) * grid[2]), int((x + radius - grid[0]) * grid[2])
-    y0, y1 = int((y - radius - grid[1]) * grid[2]), int((y + radius - grid[1]) * grid[2])
+    x0, x1 = (
+        int((x - radius - grid[WEST]) * grid[PER_METRE]),
+        int((x + radius - grid[WEST]) * grid[PER_METRE]),
+    )
+    y0, y1 = (
+        int((y - radius - grid[SOUTH]) * grid[PER_METRE]),
+        int((y + radius - grid[SOUTH]) * grid[PER_METRE]),
+    )
     for ix in range(max(x0, 0), min(x1, shape[0] - 1) + 1):
         for iy in range(max(y0, 0), min(y1, shape[1] - 1) + 1):
             c = ix * shape[1] + iy
@@ -227,11 +245,11 @@ def touches(ground, cell_range, x, y, z, radius):
             for k in range(start[c], start[c + 1]):
                 row = rows[member[k]]
                 if (
-                    row[44] > x + radius or row[47] < x - radius or row[45] > y + radius
-                    or row[48] < y - radius or row[46] > z + radius or row[49] < z - radius
+                    row[LOW_X] > x + radius or row[HIGH_X] < x - radius or row[LOW_Y] > y + radius
+                    or row[HIGH_Y] < y - radius or row[LOW_Z] > z + radius or row[HIGH_Z] < z - radius
                 ):  # fmt: skip
                     continue
-                if _distance_squared(x, y, z, row[16:25]) < radius * radius:
+                if _distance_squared(x, y, z, row[CORNER : CORNER + 9]) < radius * radius:
                     return True
     return False
 

@@ -9,6 +9,7 @@ import math
 import numpy as np
 
 from navmesh.probes import crossed, surface_below
+from navmesh.raster import FLOOR, KIND
 from surefoot.kernels import kernel
 
 __all__ = ["ARRIVED", "BUMPED", "FELL", "OUT_OF_TIME", "STUCK", "TICK", "follow", "roam"]
@@ -100,13 +101,13 @@ def _step(grid, x, y, z, heading, far, limits, careful):
     low = z - limits[1] - far
     floor, which = surface_below(grid, u, v, low, z + limits[1] + far)
     if which >= 0:
-        if grid[0][which, 14] == 2.0:
+        if grid.triangles[which, KIND] == FLOOR:
             return 0, u, v, floor
         # a steep face: a riser if the floor goes on behind it
         floor, which = surface_below(
             grid, u + far * math.cos(heading), v + far * math.sin(heading), low, z + limits[1] + far
         )
-        if which >= 0 and grid[0][which, 14] == 2.0:
+        if which >= 0 and grid.triangles[which, KIND] == FLOOR:
             return 0, u, v, floor
         return 1, x, y, z
     floor = _over_crack(grid, u, v, z, limits)
@@ -123,7 +124,7 @@ def _step(grid, x, y, z, heading, far, limits, careful):
     if (
         z - floor > limits[3]
         or which < 0
-        or grid[0][which, 14] != 2.0
+        or grid.triangles[which, KIND] != FLOOR
         or not _free(grid, x, y, z, u, v, limits)
     ):
         return 2, x, y, z

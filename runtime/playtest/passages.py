@@ -14,6 +14,7 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 from scipy.spatial import KDTree
 
 from navmesh.probes import crossed, surface_below
+from navmesh.raster import FLOOR, KIND
 from runtime.playtest.barriers import SLIT, opening_at
 from runtime.playtest.openings import Barrier
 from runtime.playtest.site import Site
@@ -154,7 +155,7 @@ def _sights(grid, points, ways, far, step, heights):
         while along < far - 1e-9:
             u, v = x + _ALONG * ways[k, 0], y + _ALONG * ways[k, 1]
             floor, which = surface_below(grid, u, v, z - step, z + step)
-            if which < 0 or grid[0][which, 14] != 2.0:
+            if which < 0 or grid.triangles[which, KIND] != FLOOR:
                 break
             free = True
             for up in heights:

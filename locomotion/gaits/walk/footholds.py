@@ -34,6 +34,7 @@ from locomotion.gaits.walk.layout import (
     WALK_TURN_RATE,
     steep_share,
 )
+from locomotion.ground.collider.layout import NX, NY, NZ
 from locomotion.ground.ground import height_below
 from surefoot.kernels import allocating_kernel, kernel
 
@@ -88,7 +89,7 @@ def ground_at(ground, px, py, pz):
     )
     if t < 0:
         return math.nan, 0.0, 0.0, 1.0
-    return z + origin[2], rows[t, 0], rows[t, 1], rows[t, 2]
+    return z + origin[2], rows[t, NX], rows[t, NY], rows[t, NZ]
 
 
 @allocating_kernel

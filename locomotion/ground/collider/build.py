@@ -12,9 +12,37 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from locomotion.ground.collider.layout import (
+    CONE,
+    CONE_ROW,
+    CORNER,
+    DEPTH_LIMIT,
+    EDGE_DEPTH_LIMIT,
+    EXPOSED,
+    FIRST_X,
+    FIRST_Y,
+    FLAGS,
+    HIGH_X,
+    HIGH_Y,
+    HIGH_Z,
+    LOW_X,
+    LOW_Y,
+    LOW_Z,
+    NX,
+    NY,
+    NZ,
+    OFFSET,
+    PER_METRE,
+    ROW,
+    SIDE,
+    SIDE_ROW,
+    SOUTH,
+    VERTEX,
+    WEST,
+)
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["DEPTH_CAP", "ROW", "TriangleArrays", "build_triangle_arrays", "share_corner"]
+__all__ = ["DEPTH_CAP", "TriangleArrays", "build_triangle_arrays", "share_corner"]
 
 #: [m] how far behind a face the centre of a body may be and still be pushed out through it.
 DEPTH_CAP = 0.10
@@ -24,23 +52,17 @@ DEPTH_FLOOR = 0.01
 WELD = 1e-5
 #: [rad] edges that stick out by less are seams of a flat surface.
 FLAT_ANGLE = 2e-3
-#: number of float64 in a triangle's row.
-ROW = 53
-# Layout of a row: 0:3 normal, 3 offset, 4:16 three side planes (outward in the plane, offset),
-# 16:25 corners, 25 depth limit, 26:44 two cone sides for each edge, 44:50 bounds (low, high), 50:53 depth
-# limit of each edge.
 
 
 @dataclass(frozen=True)
 class TriangleArrays:
     """What the kernel reads. Coordinates are relative to the ground's origin.
 
-    rows: (n, 53) float64, layout above; flags: (n, 6) int32: bits 0-2 exposed edges that this triangle
-    owns, bits 3-5 exposed corners; the three welded vertex ids; the first cell
-    (ix, iy) that lists it. vertex_start (v + 1,) int32 and
+    rows (n, ROW) float64, flags (n, FLAGS) int32, grid (4,) float64: see
+    `locomotion.ground.collider.layout`. vertex_start (v + 1,) int32 and
     vertex_edges (e, 3) float64: unit directions of the edges that leave each vertex. Grid: cell_start
     (nx * ny + 1,) int32, cell_triangles int32, cell_range (nx * ny, 2) float64 lowest and highest z.
-    grid: (4,) float64 x0, y0, 1 / cell size, unused; shape (2,) int32.
+    shape (2,) int32.
     """
 
     rows: NDArray[np.float64]
@@ -77,20 +99,21 @@ def build_triangle_arrays(vertices: NDArray[np.float64], faces: NDArray[np.int64
 
     rows = np.zeros((n, ROW))
     normal = cross / length[:, None]
-    rows[:, 0:3] = normal
-    rows[:, 3] = np.einsum("ij,ij->i", normal, triangle[:, 0])
+    rows[:, NX:OFFSET] = normal
+    rows[:, OFFSET] = np.einsum("ij,ij->i", normal, triangle[:, 0])
     for k in range(3):
         along = triangle[:, (k + 1) % 3] - triangle[:, k]
         outward = np.cross(along, normal)
         outward /= np.linalg.norm(outward, axis=1)[:, None]
-        rows[:, 4 + 4 * k : 7 + 4 * k] = outward
-        rows[:, 7 + 4 * k] = np.einsum("ij,ij->i", outward, triangle[:, k])
-    rows[:, 16:25] = triangle.reshape(n, 9)
-    rows[:, 44:47] = triangle.min(axis=1)
-    rows[:, 47:50] = triangle.max(axis=1)
+        side = SIDE + SIDE_ROW * k
+        rows[:, side : side + 3] = outward
+        rows[:, side + 3] = np.einsum("ij,ij->i", outward, triangle[:, k])
+    rows[:, CORNER : CORNER + 9] = triangle.reshape(n, 9)
+    rows[:, LOW_X : LOW_Z + 1] = triangle.min(axis=1)
+    rows[:, HIGH_X : HIGH_Z + 1] = triangle.max(axis=1)
 
-    flags = np.zeros((n, 6), np.int32)
-    flags[:, 1:4] = corners
+    flags = np.zeros((n, FLAGS), np.int32)
+    flags[:, VERTEX : VERTEX + 3] = corners
     edge_start, edge_sides = _edges(corners)
     bisectors = np.zeros((len(points), 3))
     _edge_cones(edge_start, edge_sides, rows, flags, bisectors)
@@ -120,15 +143,17 @@ def _edge_cones(edge_start, edge_sides, rows, flags, bisectors):
     for e in range(len(edge_start) - 1):
         owner = edge_sides[edge_start[e]]
         t, k = owner // 3, owner % 3
-        x = rows[t, 4 + 4 * k : 7 + 4 * k]
-        y = rows[t, 0:3]
+        side = SIDE + SIDE_ROW * k
+        x = rows[t, side : side + 3]
+        y = rows[t, NX:OFFSET]
         # angles in the plane across the edge, from the owner's outward direction towards its normal;
         # each face leaves the half circle around its own outward direction free
         low, high = -0.5 * np.pi, 0.5 * np.pi
         faces = edge_start[e + 1] - edge_start[e]
         for i in range(edge_start[e] + 1, edge_start[e + 1]):
             s, j = edge_sides[i] // 3, edge_sides[i] % 3
-            m = rows[s, 4 + 4 * j : 7 + 4 * j]
+            side = SIDE + SIDE_ROW * j
+            m = rows[s, side : side + 3]
             angle = np.arctan2(np.dot(m, y), np.dot(m, x))
             low, high = max(low, angle - 0.5 * np.pi), min(high, angle + 0.5 * np.pi)
         if faces == 1:
@@ -139,15 +164,16 @@ def _edge_cones(edge_start, edge_sides, rows, flags, bisectors):
         direction = np.cos(middle) * x + np.sin(middle) * y
         front = True
         for i in range(edge_start[e], edge_start[e + 1]):
-            if np.dot(direction, rows[edge_sides[i] // 3, 0:3]) < -1e-6:
+            if np.dot(direction, rows[edge_sides[i] // 3, NX:OFFSET]) < -1e-6:
                 front = False
         if not front:
             continue
-        flags[t, 0] |= 1 << k
-        rows[t, 26 + 6 * k : 29 + 6 * k] = -np.sin(low) * x + np.cos(low) * y
-        rows[t, 29 + 6 * k : 32 + 6 * k] = np.sin(high) * x - np.cos(high) * y
+        flags[t, EXPOSED] |= 1 << k
+        cone = CONE + CONE_ROW * k
+        rows[t, cone : cone + 3] = -np.sin(low) * x + np.cos(low) * y
+        rows[t, cone + 3 : cone + 6] = np.sin(high) * x - np.cos(high) * y
         for c in (k, (k + 1) % 3):
-            bisectors[flags[t, 1 + c]] += direction
+            bisectors[flags[t, VERTEX + c]] += direction
 
 
 def _vertex_edges(
@@ -170,7 +196,7 @@ def _exposed_corners(vertex_start, vertex_edges, bisectors, flags):
     seen = np.zeros(len(vertex_start) - 1, np.bool_)
     for t in range(len(flags)):
         for k in range(3):
-            v = flags[t, 1 + k]
+            v = flags[t, VERTEX + k]
             if seen[v]:
                 continue
             seen[v] = True
@@ -180,22 +206,22 @@ def _exposed_corners(vertex_start, vertex_edges, bisectors, flags):
                 if np.dot(vertex_edges[i], bisectors[v]) >= -FLAT_ANGLE * length:
                     exposed = False
             if exposed:
-                flags[t, 0] |= 8 << k
+                flags[t, EXPOSED] |= 8 << k
 
 
 def _grid(rows: NDArray[np.float64], flags: NDArray[np.int32]):
     """Uniform grid over x and y; a triangle is listed in every cell that its bounds touch."""
     if len(rows):
-        low, high = rows[:, 44:46].min(axis=0), rows[:, 47:49].max(axis=0)
+        low, high = rows[:, LOW_X : LOW_Y + 1].min(axis=0), rows[:, HIGH_X : HIGH_Y + 1].max(axis=0)
     else:
         low, high = np.zeros(2), np.zeros(2)
     extent = np.maximum(high - low, 1e-3)
     cell = float(np.clip(np.sqrt(extent[0] * extent[1] / max(len(rows), 1)), 0.25, 2.0))
     cell = max(cell, float(np.sqrt(extent[0] * extent[1] / 4e6)))
     shape = np.maximum(np.ceil(extent / cell), 1).astype(np.int32)
-    first = np.clip(((rows[:, 44:46] - low) / cell).astype(np.int64), 0, shape - 1)
-    last = np.clip(((rows[:, 47:49] - low) / cell).astype(np.int64), 0, shape - 1)
-    flags[:, 4:6] = first
+    first = np.clip(((rows[:, LOW_X : LOW_Y + 1] - low) / cell).astype(np.int64), 0, shape - 1)
+    last = np.clip(((rows[:, HIGH_X : HIGH_Y + 1] - low) / cell).astype(np.int64), 0, shape - 1)
+    flags[:, FIRST_X : FIRST_Y + 1] = first
     start, triangles, span = _fill_grid(first, last, rows, int(shape[0]), int(shape[1]))
     return start, triangles, span, np.array([low[0], low[1], 1.0 / cell, 0.0]), shape
 
@@ -210,8 +236,8 @@ def _fill_grid(first, last, rows, nx, ny):
             for iy in range(first[t, 1], last[t, 1] + 1):
                 c = ix * ny + iy
                 start[c + 1] += 1
-                span[c, 0] = min(span[c, 0], rows[t, 46])
-                span[c, 1] = max(span[c, 1], rows[t, 49])
+                span[c, 0] = min(span[c, 0], rows[t, LOW_Z])
+                span[c, 1] = max(span[c, 1], rows[t, HIGH_Z])
     start = np.cumsum(start).astype(np.int32)
     fill = start[:-1].copy()
     triangles = np.empty(start[-1], np.int32)
@@ -243,22 +269,22 @@ def _depth_limits(rows, flags, cell_start, cell_triangles, grid, shape):
     reach = 2.0 * DEPTH_CAP
     for t in range(len(rows)):
         thickness = reach
-        x0 = max(int((rows[t, 44] - reach - grid[0]) * grid[2]), 0)
-        x1 = min(int((rows[t, 47] + reach - grid[0]) * grid[2]), shape[0] - 1)
-        y0 = max(int((rows[t, 45] - reach - grid[1]) * grid[2]), 0)
-        y1 = min(int((rows[t, 48] + reach - grid[1]) * grid[2]), shape[1] - 1)
+        x0 = max(int((rows[t, LOW_X] - reach - grid[WEST]) * grid[PER_METRE]), 0)
+        x1 = min(int((rows[t, HIGH_X] + reach - grid[WEST]) * grid[PER_METRE]), shape[0] - 1)
+        y0 = max(int((rows[t, LOW_Y] - reach - grid[SOUTH]) * grid[PER_METRE]), 0)
+        y1 = min(int((rows[t, HIGH_Y] + reach - grid[SOUTH]) * grid[PER_METRE]), shape[1] - 1)
         for ix in range(x0, x1 + 1):
             for iy in range(y0, y1 + 1):
                 c = ix * shape[1] + iy
                 for i in range(cell_start[c], cell_start[c + 1]):
                     s = cell_triangles[i]
-                    if rows[s, 46] > rows[t, 49] or rows[s, 49] < rows[t, 46] - reach:
+                    if rows[s, LOW_Z] > rows[t, HIGH_Z] or rows[s, HIGH_Z] < rows[t, LOW_Z] - reach:
                         continue
-                    facing = rows[t, 0] * rows[s, 0] + rows[t, 1] * rows[s, 1] + rows[t, 2] * rows[s, 2]
+                    facing = rows[t, NX] * rows[s, NX] + rows[t, NY] * rows[s, NY] + rows[t, NZ] * rows[s, NZ]
                     if facing > -0.1 or share_corner(flags, s, t):
                         continue
                     thickness = min(thickness, _depth_behind(rows[t], rows[s], thickness))
-        rows[t, 25] = max(0.5 * thickness, DEPTH_FLOOR)
+        rows[t, DEPTH_LIMIT] = max(0.5 * thickness, DEPTH_FLOOR)
 
 
 @kernel
@@ -269,7 +295,9 @@ def _edge_depth_limits(edge_start, edge_sides, rows):
         i = edge_start[e]
         if edge_start[e + 1] - i == 2:
             t, k = edge_sides[i] // 3, edge_sides[i] % 3
-            rows[t, 50 + k] = min(rows[t, 25], rows[edge_sides[i + 1] // 3, 25])
+            rows[t, EDGE_DEPTH_LIMIT + k] = min(
+                rows[t, DEPTH_LIMIT], rows[edge_sides[i + 1] // 3, DEPTH_LIMIT]
+            )
 
 
 @allocating_kernel
@@ -277,14 +305,15 @@ def _depth_behind(front, back, limit):
     """Least depth [m] of triangle row `back` within the prism behind triangle row `front`, or `limit`."""
     polygon = np.zeros((8, 3))
     clipped = np.zeros((8, 3))
-    polygon[:3] = back[16:25].copy().reshape(3, 3)
+    polygon[:3] = back[CORNER : CORNER + 9].copy().reshape(3, 3)
     count = 3
     plane = np.empty(4)
     for k in range(4):
         if k < 3:
-            plane[:] = front[4 + 4 * k : 8 + 4 * k]
+            side = SIDE + SIDE_ROW * k
+            plane[:] = front[side : side + SIDE_ROW]
         else:
-            plane[:] = front[0:4]
+            plane[:] = front[NX : OFFSET + 1]
         kept = 0
         for i in range(count):
             p, q = polygon[i], polygon[(i + 1) % count]
@@ -300,5 +329,5 @@ def _depth_behind(front, back, limit):
         if count == 0:
             return limit
     for i in range(count):
-        limit = min(limit, front[3] - np.dot(front[0:3], polygon[i]))
+        limit = min(limit, front[OFFSET] - np.dot(front[NX:OFFSET], polygon[i]))
     return max(limit, 0.0)

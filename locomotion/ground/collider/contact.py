@@ -15,6 +15,33 @@ from __future__ import annotations
 import math
 
 from locomotion.ground.collider.build import DEPTH_CAP, share_corner
+from locomotion.ground.collider.layout import (
+    CONE,
+    CONE_ROW,
+    CORNER,
+    DEPTH_LIMIT,
+    EDGE_DEPTH_LIMIT,
+    EXPOSED,
+    FIRST_X,
+    FIRST_Y,
+    HIGH_X,
+    HIGH_Y,
+    HIGH_Z,
+    LOW_X,
+    LOW_Y,
+    LOW_Z,
+    NX,
+    NY,
+    NZ,
+    OFFSET,
+    PER_METRE,
+    SIDE,
+    SIDE_ROW,
+    SIDES_END,
+    SOUTH,
+    VERTEX,
+    WEST,
+)
 from surefoot.kernels import kernel
 
 __all__ = ["MAX_CONTACTS", "capsule_contacts"]
@@ -23,6 +50,13 @@ __all__ = ["MAX_CONTACTS", "capsule_contacts"]
 MAX_CONTACTS = 8
 #: candidates kept before the reduction; the kernel's output has as many rows.
 MAX_CANDIDATES = 32
+#: Columns of a candidate: distance [m, negative: depth]; position (3) [m] halfway between the two surfaces;
+#: unit normal (3) away from the ground; place on the axis [m]; height [m] of the axis over a face; 1 for a
+#: face, or 0.
+DISTANCE, POSITION, NORMAL, AT, HEIGHT, IS_FACE = 0, 1, 4, 7, 8, 9
+CANDIDATE = 10
+#: where MuJoCo reads the first tangent (3) of a contact, from the same row.
+TANGENT = 7
 #: [m] a face reaches this far beyond its sides, so that nothing falls between two of them.
 SIDE_TOLERANCE = 5e-4
 #: [m] a side of a wedge lies across a way this far beyond its own sides, too.
@@ -37,22 +71,27 @@ PARALLEL = 0.9995
 def _add(out, count, dist, qx, qy, qz, radius, nx, ny, nz, at, height, is_face):
     """Append a candidate; one that repeats another keeps the deeper of the two."""
     for i in range(count):
-        if abs(out[i, 7] - at) < SAME and out[i, 4] * nx + out[i, 5] * ny + out[i, 6] * nz > PARALLEL:
-            if dist >= out[i, 0]:
+        if (
+            abs(out[i, AT] - at) < SAME
+            and out[i, NORMAL] * nx + out[i, NORMAL + 1] * ny + out[i, NORMAL + 2] * nz > PARALLEL
+        ):
+            if dist >= out[i, DISTANCE]:
                 return count
             count -= 1
-            for j in range(10):
+            for j in range(CANDIDATE):
                 out[i, j] = out[count, j]
             break
     if count >= MAX_CANDIDATES:
         return count
     reach = radius + 0.5 * dist
-    out[count, 0] = dist
-    out[count, 1], out[count, 2], out[count, 3] = qx - reach * nx, qy - reach * ny, qz - reach * nz
-    out[count, 4], out[count, 5], out[count, 6] = nx, ny, nz
-    out[count, 7] = at
-    out[count, 8] = height
-    out[count, 9] = is_face
+    out[count, DISTANCE] = dist
+    out[count, POSITION] = qx - reach * nx
+    out[count, POSITION + 1] = qy - reach * ny
+    out[count, POSITION + 2] = qz - reach * nz
+    out[count, NORMAL], out[count, NORMAL + 1], out[count, NORMAL + 2] = nx, ny, nz
+    out[count, AT] = at
+    out[count, HEIGHT] = height
+    out[count, IS_FACE] = is_face
     return count + 1
 
 
@@ -62,23 +101,29 @@ def _outside(rows, flags, cell_start, cell_triangles, grid, shape, t, x, y, z, h
     that shares a corner with ``t`` lies across the way straight out. (Depth limits tell it of other faces.)
     """
     row = rows[t]
-    sx, sy, sz = x - height * row[0], y - height * row[1], z - height * row[2]
-    x0, x1 = int((min(x, sx) - grid[0]) * grid[2]), int((max(x, sx) - grid[0]) * grid[2])
-    y0, y1 = int((min(y, sy) - grid[1]) * grid[2]), int((max(y, sy) - grid[1]) * grid[2])
+    sx, sy, sz = x - height * row[NX], y - height * row[NY], z - height * row[NZ]
+    x0, x1 = (
+        int((min(x, sx) - grid[WEST]) * grid[PER_METRE]),
+        int((max(x, sx) - grid[WEST]) * grid[PER_METRE]),
+    )
+    y0, y1 = (
+        int((min(y, sy) - grid[SOUTH]) * grid[PER_METRE]),
+        int((max(y, sy) - grid[SOUTH]) * grid[PER_METRE]),
+    )
     for ix in range(max(x0, 0), min(x1, shape[0] - 1) + 1):
         for iy in range(max(y0, 0), min(y1, shape[1] - 1) + 1):
             cell = ix * shape[1] + iy
             for i in range(cell_start[cell], cell_start[cell + 1]):
                 s = cell_triangles[i]
                 side = rows[s]
-                before = side[0] * x + side[1] * y + side[2] * z - side[3]
-                behind = side[0] * sx + side[1] * sy + side[2] * sz - side[3]
+                before = side[NX] * x + side[NY] * y + side[NZ] * z - side[OFFSET]
+                behind = side[NX] * sx + side[NY] * sy + side[NZ] * sz - side[OFFSET]
                 if before <= SIDE_TOLERANCE or behind >= SIDE_TOLERANCE or not share_corner(flags, s, t):
                     continue
                 share = before / (before - behind)
                 px, py, pz = x + share * (sx - x), y + share * (sy - y), z + share * (sz - z)
                 across = True
-                for k in range(4, 16, 4):
+                for k in range(SIDE, SIDES_END, SIDE_ROW):
                     if side[k] * px + side[k + 1] * py + side[k + 2] * pz - side[k + 3] > BESIDE:
                         across = False
                         break
@@ -91,17 +136,17 @@ def _outside(rows, flags, cell_start, cell_triangles, grid, shape, t, x, y, z, h
 def _face(rows, flags, cell_start, cell_triangles, grid, shape, t, x, y, z, radius, margin, at, out, count):
     """Candidate between face ``t`` and one end of the axis."""
     row = rows[t]
-    height = row[0] * x + row[1] * y + row[2] * z - row[3]
-    if height - radius >= margin or height < -row[25]:
+    height = row[NX] * x + row[NY] * y + row[NZ] * z - row[OFFSET]
+    if height - radius >= margin or height < -row[DEPTH_LIMIT]:
         return count
-    for k in range(4, 16, 4):
+    for k in range(SIDE, SIDES_END, SIDE_ROW):
         if row[k] * x + row[k + 1] * y + row[k + 2] * z - row[k + 3] > SIDE_TOLERANCE:
             return count
     if height < 0.0 and _outside(
         rows, flags, cell_start, cell_triangles, grid, shape, t, x, y, z, height
     ):  # fmt: skip
         return count
-    return _add(out, count, height - radius, x, y, z, radius, row[0], row[1], row[2], at, height, 1.0)
+    return _add(out, count, height - radius, x, y, z, radius, row[NX], row[NY], row[NZ], at, height, 1.0)
 
 
 @kernel
@@ -111,7 +156,7 @@ def _edge_point(row, k, x, y, z, radius, margin, at, cx, cy, cz, out, count):
     length = math.sqrt(ux * ux + uy * uy + uz * uz)
     if length - radius >= margin or length < 1e-9:
         return count
-    c = 26 + 6 * k
+    c = CONE + CONE_ROW * k
     ux, uy, uz = ux / length, uy / length, uz / length
     if ux * row[c] + uy * row[c + 1] + uz * row[c + 2] < -1e-9:
         return count
@@ -126,26 +171,29 @@ def _through(row, k, ax, ay, az, bx, by, bz, x, y, z, radius, at, cx, cy, cz, ou
     through it."""
     ux, uy, uz = cx - x, cy - y, cz - z
     length = math.sqrt(ux * ux + uy * uy + uz * uz)
-    if length > row[50 + k] or length < 1e-9:
+    if length > row[EDGE_DEPTH_LIMIT + k] or length < 1e-9:
         return count
     ux, uy, uz = ux / length, uy / length, uz / length
-    c, side = 26 + 6 * k, 4 + 4 * k  # of two faces the cone has the directions out of them across the edge
+    # of two faces the cone has the directions out of them across the edge
+    c, side = CONE + CONE_ROW * k, SIDE + SIDE_ROW * k
     if ux * row[c] + uy * row[c + 1] + uz * row[c + 2] < 0.0:
         return count
     if ux * row[side] + uy * row[side + 1] + uz * row[side + 2] < 0.0:
         return count
     # along the edge, and the normal of the other face
-    ex = row[side + 1] * row[2] - row[side + 2] * row[1]
-    ey = row[side + 2] * row[0] - row[side] * row[2]
-    ez = row[side] * row[1] - row[side + 1] * row[0]
+    ex = row[side + 1] * row[NZ] - row[side + 2] * row[NY]
+    ey = row[side + 2] * row[NX] - row[side] * row[NZ]
+    ez = row[side] * row[NY] - row[side + 1] * row[NX]
     nx = row[c + 1] * ez - row[c + 2] * ey
     ny = row[c + 2] * ex - row[c] * ez
     nz = row[c] * ey - row[c + 1] * ex
-    if ux * row[0] + uy * row[1] + uz * row[2] < 0.0 or ux * nx + uy * ny + uz * nz < 0.0:
+    if ux * row[NX] + uy * row[NY] + uz * row[NZ] < 0.0 or ux * nx + uy * ny + uz * nz < 0.0:
         return count
     offset = nx * cx + ny * cy + nz * cz
-    before_a = max(row[0] * ax + row[1] * ay + row[2] * az - row[3], nx * ax + ny * ay + nz * az - offset)
-    before_b = max(row[0] * bx + row[1] * by + row[2] * bz - row[3], nx * bx + ny * by + nz * bz - offset)
+    own_a = row[NX] * ax + row[NY] * ay + row[NZ] * az - row[OFFSET]
+    own_b = row[NX] * bx + row[NY] * by + row[NZ] * bz - row[OFFSET]
+    before_a = max(own_a, nx * ax + ny * ay + nz * az - offset)
+    before_b = max(own_b, nx * bx + ny * by + nz * bz - offset)
     if min(before_a, before_b) <= 0.0:
         return count
     return _add(out, count, -length - radius, x, y, z, radius, ux, uy, uz, at, 1.0, 0.0)
@@ -154,7 +202,7 @@ def _through(row, k, ax, ay, az, bx, by, bz, x, y, z, radius, at, cx, cy, cz, ou
 @kernel
 def _edge(row, k, ax, ay, az, bx, by, bz, length, radius, margin, out, count):
     """Candidates between exposed edge k and both ends and the inside of the axis."""
-    i, j = 16 + 3 * k, 16 + 3 * ((k + 1) % 3)
+    i, j = CORNER + 3 * k, CORNER + 3 * ((k + 1) % 3)
     px, py, pz = row[i], row[i + 1], row[i + 2]
     ex, ey, ez = row[j] - px, row[j + 1] - py, row[j + 2] - pz
     ee = ex * ex + ey * ey + ez * ez
@@ -196,7 +244,8 @@ def _corner(
     row, k, vertex, vertex_start, vertex_edges, ax, ay, az, bx, by, bz, length, radius, margin, out, count
 ):
     """Candidate between exposed corner k and the nearest point of the axis."""
-    px, py, pz = row[16 + 3 * k], row[17 + 3 * k], row[18 + 3 * k]
+    i = CORNER + 3 * k
+    px, py, pz = row[i], row[i + 1], row[i + 2]
     s = 0.0
     dx, dy, dz = bx - ax, by - ay, bz - az
     if length > 0.0:
@@ -220,37 +269,37 @@ def _reduce(out, count):
     dropped = 0
     for i in range(count):
         for j in range(count):
-            if i == j or out[j, 9] == 0.0 or abs(out[i, 7] - out[j, 7]) >= SAME:
+            if i == j or out[j, IS_FACE] == 0.0 or abs(out[i, AT] - out[j, AT]) >= SAME:
                 continue
-            if out[i, 9] > 0.0:
+            if out[i, IS_FACE] > 0.0:
                 # an end behind several faces leaves through the nearest
-                nearer = out[i, 8] < out[j, 8] or (out[i, 8] == out[j, 8] and j < i)
-                if out[i, 8] < 0.0 and nearer and out[j, 8] < SIDE_TOLERANCE:
+                nearer = out[i, HEIGHT] < out[j, HEIGHT] or (out[i, HEIGHT] == out[j, HEIGHT] and j < i)
+                if out[i, HEIGHT] < 0.0 and nearer and out[j, HEIGHT] < SIDE_TOLERANCE:
                     dropped |= 1 << i
             else:
                 # an edge or corner in the plane of a face that carries the same point of the axis: a seam
                 height = 0.0
                 for k in range(3):
-                    surface_i = out[i, 1 + k] - 0.5 * out[i, 0] * out[i, 4 + k]
-                    surface_j = out[j, 1 + k] - 0.5 * out[j, 0] * out[j, 4 + k]
-                    height += (surface_i - surface_j) * out[j, 4 + k]
+                    surface_i = out[i, POSITION + k] - 0.5 * out[i, DISTANCE] * out[i, NORMAL + k]
+                    surface_j = out[j, POSITION + k] - 0.5 * out[j, DISTANCE] * out[j, NORMAL + k]
+                    height += (surface_i - surface_j) * out[j, NORMAL + k]
                 if abs(height) < SAME:
                     dropped |= 1 << i
     kept = 0
     for i in range(count):
         if not dropped & (1 << i):
             if kept != i:
-                for k in range(10):
+                for k in range(CANDIDATE):
                     out[kept, k] = out[i, k]
             kept += 1
     while kept > MAX_CONTACTS:
         worst = 0
         for i in range(1, kept):
-            if out[i, 0] >= out[worst, 0]:
+            if out[i, DISTANCE] >= out[worst, DISTANCE]:
                 worst = i
         kept -= 1
         for i in range(worst, kept):
-            for k in range(10):
+            for k in range(CANDIDATE):
                 out[i, k] = out[i + 1, k]
     return kept
 
@@ -262,18 +311,16 @@ def capsule_contacts(
 ):  # fmt: skip
     """Contacts of the capsule with axis a-b (a sphere if a == b) and `radius`; returns how many.
 
-    out: (MAX_CANDIDATES, 10) float64, filled with: distance (negative: depth), position (3) halfway
-    between the two surfaces, unit normal (3) away from the ground, place on the axis [m], height
-    of the axis over a face [m], 1 for a face or 0. Only contacts with a distance below `margin` are listed.
-    All in the ground's own frame.
+    out: (MAX_CANDIDATES, CANDIDATE) float64, filled with them. Only contacts with a distance below
+    `margin` are listed. All in the ground's own frame.
     """
     reach = radius + margin
     pad = max(reach, DEPTH_CAP)  # a face pushes back from its depth limit behind it
     low_z, high_z = min(az, bz) - reach, max(az, bz) + pad
     low_x, high_x = min(ax, bx) - pad, max(ax, bx) + pad
     low_y, high_y = min(ay, by) - pad, max(ay, by) + pad
-    fx0, fx1 = (low_x - grid[0]) * grid[2], (high_x - grid[0]) * grid[2]
-    fy0, fy1 = (low_y - grid[1]) * grid[2], (high_y - grid[1]) * grid[2]
+    fx0, fx1 = (low_x - grid[WEST]) * grid[PER_METRE], (high_x - grid[WEST]) * grid[PER_METRE]
+    fy0, fy1 = (low_y - grid[SOUTH]) * grid[PER_METRE], (high_y - grid[SOUTH]) * grid[PER_METRE]
     # not (a > b) rather than a <= b: a NaN position is off the level too
     if not (fx1 >= 0.0 and fy1 >= 0.0 and fx0 < shape[0] and fy0 < shape[1] and low_z < high_z):
         return 0
@@ -290,17 +337,17 @@ def capsule_contacts(
             for i in range(cell_start[cell], cell_start[cell + 1]):
                 t = cell_triangles[i]
                 row = rows[t]
-                if row[46] > high_z or row[49] < low_z:
+                if row[LOW_Z] > high_z or row[HIGH_Z] < low_z:
                     continue
-                if row[44] > high_x or row[47] < low_x:
+                if row[LOW_X] > high_x or row[HIGH_X] < low_x:
                     continue
-                if row[45] > high_y or row[48] < low_y:
+                if row[LOW_Y] > high_y or row[HIGH_Y] < low_y:
                     continue
                 # listed in several cells: only the first of them counts
-                if ix != max(x0, flags[t, 4]) or iy != max(y0, flags[t, 5]):
+                if ix != max(x0, flags[t, FIRST_X]) or iy != max(y0, flags[t, FIRST_Y]):
                     continue
-                ha = row[0] * ax + row[1] * ay + row[2] * az - row[3]
-                hb = row[0] * bx + row[1] * by + row[2] * bz - row[3]
+                ha = row[NX] * ax + row[NY] * ay + row[NZ] * az - row[OFFSET]
+                hb = row[NX] * bx + row[NY] * by + row[NZ] * bz - row[OFFSET]
                 if min(ha, hb) > reach or max(ha, hb) < -pad:
                     continue
                 count = _face(
@@ -312,7 +359,7 @@ def capsule_contacts(
                         rows, flags, cell_start, cell_triangles, grid, shape, t, bx, by, bz, radius, margin,
                         length, out, count,
                     )  # fmt: skip
-                flag = flags[t, 0]
+                flag = flags[t, EXPOSED]
                 if flag == 0:
                     continue
                 for k in range(3):
@@ -320,7 +367,7 @@ def capsule_contacts(
                         count = _edge(row, k, ax, ay, az, bx, by, bz, length, radius, margin, out, count)
                     if flag & (8 << k):
                         count = _corner(
-                            row, k, flags[t, 1 + k], vertex_start, vertex_edges,
+                            row, k, flags[t, VERTEX + k], vertex_start, vertex_edges,
                             ax, ay, az, bx, by, bz, length, radius, margin, out, count,
                         )  # fmt: skip
     if count > 1:

@@ -22,8 +22,16 @@ from numba import carray, types
 from numba.extending import intrinsic
 
 from locomotion.errors import LocomotionError
-from locomotion.ground.collider.build import ROW, TriangleArrays
-from locomotion.ground.collider.contact import MAX_CANDIDATES, capsule_contacts
+from locomotion.ground.collider.build import TriangleArrays
+from locomotion.ground.collider.contact import (
+    CANDIDATE,
+    MAX_CANDIDATES,
+    NORMAL,
+    POSITION,
+    TANGENT,
+    capsule_contacts,
+)
+from locomotion.ground.collider.layout import FLAGS, ROW
 from surefoot.kernels import allocating_kernel, cfunc
 
 __all__ = ["MARK", "occupy", "release"]
@@ -98,7 +106,7 @@ def _collide(table, model, data, contacts, g1, g2, margin, capsule):
         return _call(table[6 + capsule], model, data, contacts, g1, g2, margin)
     h = carray(_as_int64(table[9 + 2 * slot]), (HEADER,))
     rows = carray(_as_float64(h[0]), (h[9], ROW))
-    flags = carray(_as_int32(h[1]), (h[9], 6))
+    flags = carray(_as_int32(h[1]), (h[9], FLAGS))
     vertex_start = carray(_as_int32(h[2]), (h[10],))
     vertex_edges = carray(_as_float64(h[3]), (h[11], 3))
     cell_start = carray(_as_int32(h[4]), (h[12] + 1,))
@@ -115,20 +123,19 @@ def _collide(table, model, data, contacts, g1, g2, margin, capsule):
         matrix = carray(_as_float64(carray(_as_int64(data + table[4]), (1,))[0] + 72 * g2), (9,))
         ux, uy, uz, half = matrix[2], matrix[5], matrix[8], size[1]
     dx, dy, dz = half * ux, half * uy, half * uz
-    out = carray(_as_float64(contacts), (MAX_CANDIDATES, 10))
+    out = carray(_as_float64(contacts), (MAX_CANDIDATES, CANDIDATE))
     count = capsule_contacts(
         rows, flags, vertex_start, vertex_edges, cell_start, cell_triangles, cell_range, grid, shape,
         x + dx, y + dy, z + dz, x - dx, y - dy, z - dz, size[0], margin, out,
     )  # fmt: skip
     for i in range(count):
-        out[i, 1] += origin[0]
-        out[i, 2] += origin[1]
-        out[i, 3] += origin[2]
+        for k in range(3):
+            out[i, POSITION + k] += origin[k]
         # first tangent along the axis, as MuJoCo has it on a plane; zero: it chooses one
-        upright = abs(ux * out[i, 4] + uy * out[i, 5] + uz * out[i, 6]) > 0.99
-        out[i, 7] = 0.0 if upright else ux
-        out[i, 8] = 0.0 if upright else uy
-        out[i, 9] = 0.0 if upright else uz
+        upright = abs(ux * out[i, NORMAL] + uy * out[i, NORMAL + 1] + uz * out[i, NORMAL + 2]) > 0.99
+        out[i, TANGENT] = 0.0 if upright else ux
+        out[i, TANGENT + 1] = 0.0 if upright else uy
+        out[i, TANGENT + 2] = 0.0 if upright else uz
     return types.int32(count)
 
 

@@ -1,15 +1,14 @@
-"""Motion capture files (BVH) read through `bvhio` into plain arrays."""
+"""Captured motion of any skeleton, from BVH files."""
 
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from locomotion.clips.bvh_check import check_bvh
+from locomotion.clips.bvh_file import BvhFile, read_bvh_file
 from locomotion.errors import LocomotionError
 
 __all__ = ["UNITS", "Capture", "read_bvh"]
@@ -88,14 +87,9 @@ class Capture:
 def read_bvh(path: str | os.PathLike[str], units: str = "cm", up: str = "y") -> Capture:
     """Read a BVH file whose lengths are in ``units`` (one of `UNITS`) and whose axis ``up`` points up.
 
-    Raises `LocomotionError` for a file that is missing or that `bvh_check.check_bvh` refuses, naming the
+    Raises `LocomotionError` for a file that is missing or that `bvh_file.read_bvh_file` refuses, naming the
     line, and for a figure of an impossible size (wrong units) or one that is flat in all frames (wrong axis).
     """
-    try:
-        import bvhio
-    except ImportError as error:
-        how = "in Surefoot's folder, pip install -e '.[clips]'"
-        raise LocomotionError(f"reading BVH needs bvhio: {how}") from error
     if units not in UNITS or up not in _TO_Z_UP:
         raise LocomotionError(
             f"units are one of {', '.join(UNITS)} and up is x, y or z, not {units!r} and {up!r}"
@@ -103,38 +97,7 @@ def read_bvh(path: str | os.PathLike[str], units: str = "cm", up: str = "y") -> 
     source = Path(path)
     if not source.is_file():
         raise LocomotionError(f"{source}: there is no such file")
-    check_bvh(source)
-    try:
-        found = bvhio.readAsBvh(str(source))
-        joints = [(joint, depth) for joint, _, depth in found.Root.layout()]
-    except Exception as error:  # bvhio raises whatever its parser meets
-        raise LocomotionError(f"{source}: not a BVH file: {error}") from error
-    return _capture(source, found, joints, UNITS[units], _TO_Z_UP[up])
-
-
-def _capture(
-    source: Path, found: Any, joints: list[tuple[Any, int]], scale: float, axes: NDArray[np.float64]
-) -> Capture:
-    """The arrays of what bvhio ``found``, turned by ``axes`` (3, 3) and scaled."""
-    parents, last = [], {}
-    for number, (_, depth) in enumerate(joints):
-        parents.append(last.get(depth - 1, -1))
-        last[depth] = number
-    offsets = scale * np.array([list(joint.Offset) for joint, _ in joints], dtype=np.float64) @ axes.T
-    root = scale * np.array([list(key.Position) for key in joints[0][0].Keyframes], dtype=np.float64) @ axes.T
-    turns = np.empty((found.FrameCount, len(joints), 3, 3))
-    for j, (joint, _) in enumerate(joints):
-        quaternions = np.array([[getattr(key.Rotation, axis) for axis in "xyzw"] for key in joint.Keyframes])
-        turns[:, j] = axes @ Rotation.from_quat(quaternions).as_matrix() @ axes.T
-    capture = Capture(
-        source.stem,
-        1.0 / found.FrameTime,
-        tuple(joint.Name for joint, _ in joints),
-        np.array(parents, dtype=np.int64),
-        offsets,
-        root,
-        turns,
-    )
+    capture = _capture(source.stem, read_bvh_file(source), UNITS[units], _TO_Z_UP[up])
     tall = capture.height()
     if not _SMALLEST < tall < _TALLEST:
         raise LocomotionError(
@@ -145,3 +108,32 @@ def _capture(
             f"{source}: the figure is flat in every frame; name another axis that points up"
         )
     return capture
+
+
+def _capture(name: str, file: BvhFile, scale: float, axes: NDArray[np.float64]) -> Capture:
+    """What a ``file`` holds, turned by ``axes`` (3, 3) and scaled."""
+    root = np.tile(np.array(file.offsets[0]), (len(file.frames), 1))
+    turns = np.empty((len(file.frames), len(file.names), 3, 3))
+    column = 0
+    for j, channels in enumerate(file.channels):
+        values = file.frames[:, column : column + len(channels)]
+        column += len(channels)
+        about = [k for k, channel in enumerate(channels) if channel.endswith("rotation")]
+        turn = Rotation.identity(len(values))
+        if about:
+            order = "".join(channels[k][0] for k in about)  # upper case: about axes that turn along
+            turn = Rotation.from_euler(order, values[:, about], degrees=True)
+        turns[:, j] = axes @ turn.as_matrix() @ axes.T
+        if j == 0:
+            for k, channel in enumerate(channels):
+                if channel.endswith("position"):
+                    root[:, "XYZ".index(channel[0])] = values[:, k]
+    return Capture(
+        name,
+        1.0 / file.frame_time,
+        tuple(file.names),
+        np.array(file.parents, dtype=np.int64),
+        scale * np.array(file.offsets) @ axes.T,
+        scale * root @ axes.T,
+        turns,
+    )

@@ -9,8 +9,6 @@ from locomotion.clips.bvh import read_bvh
 from locomotion.clips.retargeting import retarget
 from locomotion.errors import LocomotionError
 
-pytest.importorskip("bvhio", reason="BVH files are read through bvhio")
-
 # Joints with their parents and places [m] in a person that stands in a T pose: X ahead, Y left, Z up.
 BONES: dict[str, tuple[str | None, tuple[float, float, float]]] = {
     "pelvis": (None, (0, 0, 0.94)), "waist": ("pelvis", (0, 0, 1.07)), "chest": ("waist", (0, 0, 1.2)),

@@ -14,8 +14,6 @@ from locomotion.clips.retargeting import load_mapping, retarget
 from locomotion.errors import LocomotionError
 from locomotion.gaits.run.skill import RUN_CLIP
 
-pytest.importorskip("bvhio", reason="BVH files are read through bvhio")
-
 # A skeleton with the person's own proportions in a T pose, Y up, facing +Z, in centimetres.
 BONES = {
     "Hips": (None, (0, 90, 0)),

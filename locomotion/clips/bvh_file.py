@@ -1,15 +1,20 @@
-"""A BVH file checked line by line before `bvhio` reads it, which names no lines and does not notice the end.
+"""The text of a BVH file, read and checked line by line.
 
 A file holds, a line each, HIERARCHY, the joints within each other, MOTION, the number of frames, their
 distance in time, and a row of numbers per frame: one for each channel of each joint, in the joints' order.
+The parsers that there are (bvhio, bvh) name no line in their errors and do not notice a file that is cut off.
 """
 
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
 
 from locomotion.errors import LocomotionError
 
-__all__ = ["check_bvh"]
+__all__ = ["BvhFile", "read_bvh_file"]
 
 _CHANNELS = [axis + kind for kind in ("position", "rotation") for axis in "XYZ"]
 _MOST = 1e9  # of a length or an angle, in the file's unit: far from what single precision holds
@@ -17,26 +22,50 @@ _CLOSEST, _FARTHEST = 1e-4, 1.0  # [s] between two frames
 _LONGEST = 600.0  # [s] of a capture
 
 
-def check_bvh(path: Path) -> None:
-    """Raise `LocomotionError`, which names the line and what is expected there, for a file that cannot be
-    read, is not BVH or ends early, has unknown channels, numbers that are not finite, rows that are shorter
-    or longer than its channels need, no frames, frames nearer than 0.1 ms or farther than 1 s from each
-    other, or more than ten minutes of them."""
-    lines = _Lines(path)
+@dataclass
+class BvhFile:
+    """What a file says, in its own units and axes.
+
+    Attributes:
+        names, parents, offsets: of the joints, parents before children; -1 is the parent of the root.
+        channels: of each joint, such as "Zrotation", in the order in which they are applied.
+        frame_time: [s]. frames: (n, c) float64, a column for each channel of each joint; angles in degrees.
+    """
+
+    names: list[str] = field(default_factory=list)
+    parents: list[int] = field(default_factory=list)
+    offsets: list[list[float]] = field(default_factory=list)
+    channels: list[list[str]] = field(default_factory=list)
+    frame_time: float = 0.0
+    frames: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)))
+
+
+def read_bvh_file(path: Path) -> BvhFile:
+    """Read a file. Raises `LocomotionError`, which names the line and what is expected there, for a file that
+    cannot be read, is not BVH or ends early, has unknown channels, numbers that are not finite, rows that are
+    shorter or longer than its channels need, no frames, frames nearer than 0.1 ms or farther than 1 s from
+    each other, or more than ten minutes of them."""
+    lines, found = _Lines(path), BvhFile()
     words = lines.words("HIERARCHY")
     if words != ["HIERARCHY"]:
         raise lines.error(f"not a BVH file: it must begin with HIERARCHY, not {_shown(words)}")
-    channels = _joints(lines)
+    _read_joints(lines, found)
     if lines.words("MOTION") != ["MOTION"]:
         raise lines.error("expected MOTION: a file has one ROOT, and its last } closes it")
-    count = _frames(lines)
-    for frame in range(1, count + 1):
-        where = f"frame {frame} of {count}"
+    columns = [
+        f"{name} {channel}"
+        for name, channels in zip(found.names, found.channels, strict=True)
+        for channel in channels
+    ]
+    count = _read_times(lines, found)
+    found.frames = np.empty((count, len(columns)))
+    for frame in range(count):
+        where = f"frame {frame + 1} of {count}"
         row = lines.words(where)
-        if len(row) != len(channels):
-            raise lines.error(f"{where} has {len(row)} numbers; its joints have {len(channels)} channels")
-        if any(_number(word) is None for word in row):
-            raise _not_a_number(lines, row, [f"{channel} in {where}" for channel in channels])
+        if len(row) != len(columns):
+            raise lines.error(f"{where} has {len(row)} numbers; its joints have {len(columns)} channels")
+        found.frames[frame] = lines.numbers(row, [f"{column} in {where}" for column in columns])
+    return found
 
 
 class _Lines:
@@ -50,7 +79,7 @@ class _Lines:
             raise LocomotionError(f"{path}: cannot be read: {error.strerror}") from error
         except UnicodeDecodeError as error:
             raise LocomotionError(f"{path}: not a BVH file: {error}") from error
-        # bvhio ends lines here too; splitlines would end them at form feeds and some more
+        # splitlines would end lines at form feeds and some more, too
         self._rest: Iterator[tuple[int, str]] = iter(enumerate(text.split("\n"), 1))
 
     def words(self, expected: str) -> list[str]:
@@ -61,42 +90,50 @@ class _Lines:
                 return words
         raise self.error(f"not a whole BVH file: it ends where {expected} is expected")
 
+    def numbers(self, words: list[str], names: list[str]) -> list[float]:
+        """``words`` of the line that was read last as numbers; ``names`` tell what each of them is."""
+        numbers = []
+        for word, name in zip(words, names, strict=True):
+            number = _number(word)
+            if number is None:
+                raise self.error(f"{name}: expected a number of at most {_MOST:g}, not {_shown([word])}")
+            numbers.append(number)
+        return numbers
+
     def error(self, problem: str) -> LocomotionError:
         """The error ``problem`` in the line that was read last."""
         return LocomotionError(f"{self._path}:{self._number}: {problem}")
 
 
-def _joints(lines: _Lines) -> list[str]:
-    """The channels of all joints, each with the name of its joint, in the order of a frame's numbers."""
+def _read_joints(lines: _Lines, found: BvhFile) -> None:
     words = lines.words("ROOT")
     if words[0] != "ROOT":
         raise lines.error(f"expected ROOT and a name, not {_shown(words)}")
-    channels = _joint(lines, words)
-    depth = 1
-    while depth:
+    _read_joint(lines, words, found, -1)
+    above = [0]  # joints that are not closed yet
+    while above:
         words = lines.words("}")
         if words[0] == "JOINT":
-            channels += _joint(lines, words)
-            depth += 1
+            _read_joint(lines, words, found, above[-1])
+            above.append(len(found.names) - 1)
         elif words[0] == "End":
             _opening(lines)
             _offset(lines, "End Site")
             if lines.words("}")[0] != "}":
                 raise lines.error("expected the } of End Site")
         elif words[0] == "}":
-            depth -= 1
+            above.pop()
         else:
             raise lines.error(f"expected JOINT, End Site or }}, not {_shown(words)}")
-    return channels
 
 
-def _joint(lines: _Lines, words: list[str]) -> list[str]:
-    """The channels of the joint that ``words`` begin, each with its name; reads up to them."""
+def _read_joint(lines: _Lines, words: list[str], found: BvhFile, parent: int) -> None:
+    """Read the joint that ``words`` begin, up to its channels."""
     if len(words) < 2:
         raise lines.error(f"expected a name after {words[0]}")
     name = words[1]
     _opening(lines)
-    _offset(lines, name)
+    offset = _offset(lines, name)
     words = lines.words("CHANNELS")
     if words[0] != "CHANNELS" or words[1:2] != [str(len(words) - 2)]:
         raise lines.error(f"expected CHANNELS of {name!r}: how many, and as many names")
@@ -107,7 +144,10 @@ def _joint(lines: _Lines, words: list[str]) -> list[str]:
             raise lines.error(
                 f"{name!r} has the channel {_shown([channel])}, {what}; valid: {', '.join(_CHANNELS)}"
             )
-    return [f"{name} {channel}" for channel in channels]
+    found.names.append(name)
+    found.parents.append(parent)
+    found.offsets.append(offset)
+    found.channels.append(channels)
 
 
 def _opening(lines: _Lines) -> None:
@@ -115,16 +155,15 @@ def _opening(lines: _Lines) -> None:
         raise lines.error("expected a line with { alone")
 
 
-def _offset(lines: _Lines, name: str) -> None:
+def _offset(lines: _Lines, name: str) -> list[float]:
     words = lines.words("OFFSET")
     if words[0] != "OFFSET" or len(words) != 4:
         raise lines.error(f"expected OFFSET of {name!r} and three numbers")
-    if any(_number(word) is None for word in words[1:]):
-        raise _not_a_number(lines, words[1:], [f"the OFFSET of {name}"] * 3)
+    return lines.numbers(words[1:], [f"the OFFSET of {name}"] * 3)
 
 
-def _frames(lines: _Lines) -> int:
-    """How many frames there are; reads the two lines after MOTION."""
+def _read_times(lines: _Lines, found: BvhFile) -> int:
+    """Read the two lines after MOTION; gives how many frames there are."""
     words = lines.words("Frames:")
     count = _number(words[1]) if len(words) == 2 and words[0] == "Frames:" and words[1].isdecimal() else None
     if not count:
@@ -141,6 +180,7 @@ def _frames(lines: _Lines) -> int:
             f"{count:.0f} frames of {time:g} s take {count * time / 60.0:.3g} minutes; a capture has at most"
             f" {_LONGEST / 60.0:g}"
         )
+    found.frame_time = time
     return int(count)
 
 
@@ -151,12 +191,6 @@ def _number(word: str) -> float | None:
     except ValueError:
         return None
     return value if abs(value) <= _MOST else None
-
-
-def _not_a_number(lines: _Lines, words: list[str], names: list[str]) -> LocomotionError:
-    """The error of the first of ``words`` that says no number; ``names`` tell what each of them is."""
-    word, name = next(pair for pair in zip(words, names, strict=True) if _number(pair[0]) is None)
-    return lines.error(f"{name}: expected a number of at most {_MOST:g}, not {_shown([word])}")
 
 
 def _shown(words: list[str]) -> str:

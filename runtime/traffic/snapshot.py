@@ -13,6 +13,8 @@ __all__ = ["Snapshot", "foretold_on"]
 
 _SOON = 5  # points ahead on a course that tell where it leads
 _ABREAST = 0.2  # cosine up to which who is there is not ahead
+_YIELDS, _AWAY = round(1.0 / STEP), 1e6
+# steps for which walkers are foreseen: they keep out of everybody's way; [m] where they are taken to be then
 _SLACK = 3.5  # [m] between two that go straight on, from which what they do is looked at closely
 
 
@@ -120,11 +122,16 @@ class Snapshot:
         return discs[None, :, :2] + moments * discs[None, :, 3:5]
 
     def all_foretold(self, indices: Sequence[int]) -> tuple[np.ndarray, np.ndarray]:
-        """Where the discs of some bodies will be (COUNT, k, 2), and their radii (k,) [m]."""
+        """Where the discs of some bodies will be (COUNT, k, 2), and their radii (k,) [m]. Walkers are
+        foreseen for a second only, since they step aside for others: whoever waited for a gap of `HORIZON`
+        in a crowd would wait for ever."""
         if not indices:
             return np.empty((COUNT, 0, 2)), np.empty(0)
         there = np.concatenate([self.foretold(index) for index in indices], axis=1)
-        return there, np.concatenate([self.discs[index][:, 5] for index in indices])
+        discs = [self.discs[index] for index in indices]
+        yields = np.repeat([index >= len(self.followers) for index in indices], [len(each) for each in discs])
+        there[_YIELDS:, yields] = _AWAY
+        return there, np.concatenate(discs)[:, 5]
 
 
 def foretold_on(course: Course, points: np.ndarray, pace: float, discs: int) -> np.ndarray:

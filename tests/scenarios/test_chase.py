@@ -9,7 +9,7 @@ from locomotion import PERSON_RULES
 from locomotion.avoidance.yielding import COUNT, STEP
 from runtime import World
 from runtime.planning.rules import person_walk_rules
-from runtime.traffic.snapshot import Moment
+from runtime.traffic.snapshot import Snapshot
 
 
 @pytest.fixture(scope="module")
@@ -21,7 +21,7 @@ def hall():
 
 def overlap(world):
     """[m] how deep the discs of any two bodies lie in each other, below 0 if they do not."""
-    bodies = Moment(world._populations).discs
+    bodies = Snapshot(world._populations).discs
     return max(
         float((a[:, None, 5] + b[:, 5] - np.linalg.norm(a[:, None, :2] - b[:, :2], axis=2)).max())
         for i, a in enumerate(bodies)
@@ -119,7 +119,7 @@ def test_a_dog_is_foretold_where_it_will_be(hall):
     seen = set()
 
     def hold(seconds):
-        told = Moment(world._populations).foretold(0)
+        told = Snapshot(world._populations).foretold(0)
         for k in range(round(seconds / STEP)):
             away = np.linalg.norm(world._populations[1].in_the_way()[:, :2] - told[k], axis=1)
             assert away.max() < 0.1, (driver.animal._phase, k)
@@ -145,7 +145,7 @@ def test_a_dog_is_foretold_where_it_will_be(hall):
 
 def told_and_real(world, seconds):
     """(k, 2) each: where the only one was foretold to be, and where it came to be."""
-    told = Moment(world._populations).foretold(0)[:, 0]
+    told = Snapshot(world._populations).foretold(0)[:, 0]
     agent, real = next(iter(world.agents.values())), []
     for _ in range(round(seconds / STEP)):
         real.append(agent.position[:2])

@@ -11,6 +11,7 @@ import navmesh
 import pathsmooth
 from locomotion import MOVING, Ground, Human
 from locomotion.events import GotUp
+from locomotion.skills.registry import skill_kinds
 from navmesh.area_paths import priced_route
 from navmesh.areas import checked_costs
 from navmesh.bodies import doors_of
@@ -113,7 +114,8 @@ def _run_and_jump() -> None:
 def _clear() -> None:
     from runtime.evaluation.courses import make_course, run_course
 
-    run_course(make_course([("vault", 0.7, 0.3), ("drop", 1.2, 0.0), ("gap", 1.0, 0.0)], [12.0, 14.0, 12.0]))
+    obstacles = [(kind.affordance, kind.usual, 0.3) for kind in skill_kinds()]
+    run_course(make_course(obstacles, [13.0] * len(obstacles)))
 
 
 def _fall_and_get_up() -> None:

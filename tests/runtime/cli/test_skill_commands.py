@@ -2,12 +2,14 @@
 
 import json
 import time
+from dataclasses import replace
 from itertools import count
 
 import pytest
 from filelock import FileLock
 
 from locomotion.skills import library
+from locomotion.skills.jump.kind import JUMP
 from locomotion.training.progress import Progress
 from locomotion.training.training import NotLearnedError
 from runtime.cli.app import main
@@ -179,7 +181,8 @@ def test_evaluate_prints_a_table_and_the_same_as_json_and_draws_it(capsys, tmp_p
 
 
 def test_heights_beyond_what_was_learned_count_as_not_held(capsys, monkeypatch):
-    monkeypatch.setattr("runtime.evaluation.evaluation.HEIGHTS", {"jump": (3.0, 4.0)})
+    high = replace(JUMP, sizes=(3.0, 4.0), usual=3.0)
+    monkeypatch.setattr("locomotion.skills.registry._kinds", {"jump": high})
     _, out, _ = surefoot(capsys, "evaluate", "jump", "--trials", "1", "--json")
     beyond = json.loads(out)["attempts"][1]
     assert beyond["status"] == "not learned for this height" and beyond["held"] is False

@@ -97,7 +97,7 @@ def test_a_skill_that_never_works_is_said_so_and_fails(capsys, tmp_path, monkeyp
 @pytest.mark.usefixtures("never")
 def test_the_library_ends_with_what_never_works(capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(library, "_SKILLS", tmp_path)
+    monkeypatch.setattr(library, "SKILLS", tmp_path)
     code, out, err = surefoot(capsys, "train", "--all")
     assert code == 1 and "sit learned in" in out and "stand does not work" in err
     assert (tmp_path / "sit.npz").exists() and not (tmp_path / "lie.npz").exists()
@@ -106,7 +106,7 @@ def test_the_library_ends_with_what_never_works(capsys, tmp_path, monkeypatch):
 @pytest.mark.usefixtures("never")
 def test_the_packages_skills_are_replaced_only_when_asked_to(capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(library, "_SKILLS", tmp_path / "package")
+    monkeypatch.setattr(library, "SKILLS", tmp_path / "package")
     (tmp_path / "package").mkdir()
     mine, other = tmp_path / "package" / "lie.npz", tmp_path / "lie.npz"
     mine.write_text("as it came")

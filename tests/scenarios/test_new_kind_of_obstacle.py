@@ -48,6 +48,11 @@ agents:
     script: [{use: {skill: bound, obstacle: brook}}]
     expect: {never_falls: true, uses_skills: [bound]}
 """
+PLAN = """\
+character: {skills: {brook: [0.4, 1.8]}}
+spawns: [{name: here, at: [4, 4, 0]}]
+places: [{name: beyond, at: [26, 4, 0]}]
+"""
 
 
 def load_bound(run: RunSkill) -> Jump:
@@ -183,10 +188,15 @@ def test_a_playtest_tries_it(level):
     assert walker.leaps(3.0) == "a person leaps 0.40 to 2.50 m and bounds 0.40 to 1.80 m"
 
 
-def test_a_person_plays_it(level):
-    report = playtest(level, bots=1, seconds=30.0, seed=3, body="human").report
+def test_people_play_it_by_a_plan_that_names_it(level):
+    plan = level.with_name("people.yaml")
+    plan.write_text(PLAN)
+    report = playtest(level, bots=2, seconds=30.0, seed=3, body="human", plan=plan).report
     (crossing,) = report.crossings
-    assert crossing.attempts == crossing.cleared > 0
+    assert crossing.cleared > 0
+    plan.write_text(PLAN.replace("brook:", "ford:"))
+    with pytest.raises(FileError, match="'gap' or 'brook', not 'ford'"):
+        playtest(level, bots=2, seconds=30.0, seed=3, body="human", plan=plan)
 
 
 def test_the_command_lists_it(level, capsys):

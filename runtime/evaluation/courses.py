@@ -61,7 +61,7 @@ class Push:
 
 @dataclass
 class CourseRun:
-    """A run over a course. ended: "arrived", or the status at the end, "fallen" with where; passages: of the
+    """A run over a course. ended: "arrived", or the status at the end, "fallen" with where; reports: of the
     obstacles that the person took off for, in order. seconds: simulated [s]. frames: qpos (46,) of each
     tick, if they were asked for."""
 

@@ -24,7 +24,7 @@ from locomotion.quadruped import load_body
 from locomotion.skills.description import load_description
 from locomotion.skills.drop_roll.skill import load_drop_roll_skill
 from locomotion.skills.jump.skill import Jump, load_jump_skill
-from locomotion.skills.library import LEAP
+from locomotion.skills.leap.kind import LEAP_DESCRIPTION
 from locomotion.skills.vault.skill import load_vault_skill
 from locomotion.training.search.checkpoint import claim
 from locomotion.training.search.cma_es import CmaEs
@@ -269,7 +269,7 @@ KINDS: dict[str, Kind] = {
     "clip": Kind(".yaml", _copy(RUN_CLIP), load_clip, lambda clip: clip.sample(np.linspace(0, 1, 9))),
     "mapping": Kind(".yaml", _copy(_HERE / "examples/clips/mixamo.yaml"), load_mapping),
     "body": Kind(".yaml", _copy(_HERE / "locomotion/data/bodies/dog.yaml"), load_body),
-    "description": Kind(".yaml", _copy(LEAP), load_description),
+    "description": Kind(".yaml", _copy(LEAP_DESCRIPTION), load_description),
     "report": Kind(".json", _make_report, read_report),
     "configuration": Kind(
         ".json", _written(json.dumps({"seed": 3, "marks": [1.3, 0.25], "clip": "ab"})), _claim

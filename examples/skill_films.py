@@ -13,10 +13,9 @@ import mujoco
 import numpy as np
 from matplotlib.figure import Figure as Sheet
 
-from locomotion import Human
+from locomotion import Human, skill_kinds
 from runtime.bodies.figure import Figure
 from runtime.evaluation.courses import Course, make_course, run_course
-from runtime.evaluation.evaluation import DEFAULT_HEIGHTS
 from runtime.views.filmstrip import show_frame
 from runtime.views.render import Camera, Triangles, render
 
@@ -45,9 +44,10 @@ def strip(course: Course, frames: list[np.ndarray], before: float, file: Path) -
 def main() -> None:
     """Try starts until one arrives, and draw it."""
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else "docs/pictures")
+    usual = {kind.affordance: kind.usual for kind in skill_kinds()}
     for skill in Human().clearing:
         low, high = skill.heights
-        for height in (low, DEFAULT_HEIGHTS[skill.affordance], high):
+        for height in (low, usual[skill.affordance], high):
             for distance in np.arange(12.0, 20.0, 0.7):
                 course = make_course([(skill.affordance, height, 0.3)], [float(distance)])
                 run = run_course(course, keep_frames=True)

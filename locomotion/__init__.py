@@ -7,6 +7,8 @@ from locomotion.human.human import ARRIVAL_DISTANCE, PERSON_RULES, Human, HumanS
 from locomotion.human.state import MOVING
 from locomotion.paths.smoothing import ObstacleAhead, Smoothing, SmoothPath, smooth_route
 from locomotion.skills.approach import ApproachPlan, plan_approach, plan_approach_exact
+from locomotion.skills.kind import SkillKind
+from locomotion.skills.registry import register_skill, skill_kinds, unregister_skill
 from surefoot import __version__
 
 __all__ = [
@@ -20,11 +22,15 @@ __all__ = [
     "LocomotionError",
     "ObstacleAhead",
     "RunSkill",
+    "SkillKind",
     "SmoothPath",
     "Smoothing",
     "__version__",
     "load_run_skill",
     "plan_approach",
     "plan_approach_exact",
+    "register_skill",
+    "skill_kinds",
     "smooth_route",
+    "unregister_skill",
 ]

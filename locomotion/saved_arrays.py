@@ -9,10 +9,12 @@ from numpy.typing import NDArray
 
 from locomotion.errors import LocomotionError
 
-__all__ = ["FARTHEST", "Slots", "check_array", "check_number"]
+__all__ = ["COUNT", "FARTHEST", "FLAG", "SIDE", "Slots", "check_array", "check_number"]
 
 FARTHEST = 1e9
 """The greatest number that is no mistake; coordinates [m] reach as far."""
+COUNT, FLAG, SIDE = (0.0, FARTHEST), (0.0, 1.0), (-1.0, 1.0)
+"""Ranges of a count, of what is 0 or 1, and of left (1) or right (-1)."""
 Slot = int | slice
 
 

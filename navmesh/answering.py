@@ -10,14 +10,23 @@ from navmesh.search import BEST, COMPLETE, EXPANDED, LABELS, LIMIT, advance, beg
 from navmesh.snapping import nearest_reachable, snap
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["SEARCHING", "answer", "answer_all", "answer_search", "start_search"]
+__all__ = [
+    "GOAL_CELL",
+    "NEARER",
+    "SEARCHING",
+    "START_CELL",
+    "answer",
+    "answer_all",
+    "answer_search",
+    "start_search",
+]
 
 _COMPLETE, _PARTIAL, _NO_PATH, _OFF_GRAPH = range(4)  # indices into navmesh.route.STATUSES
 SEARCHING = (_COMPLETE, _PARTIAL)
 """What `start_search` returns where there is something to search for."""
 _WHOLE = 1 << 60
-_START_CELL, _GOAL_CELL, _STATUS = 8, 9, 11  # places in scratch.numbers
-_NEARER = 0.01  # [m] that a place must be nearer to the goal than the start to be gone to
+START_CELL, GOAL_CELL, _STATUS = 8, 9, 11  # places in scratch.numbers
+NEARER = 0.01  # [m] that a place must be nearer to the goal than the start to be gone to
 _CLOSE = 0.985  # share of the length found that another chain must promise to be tried
 _MORE = 64  # labels that may be expanded then, on top of as many as the search took
 
@@ -66,10 +75,10 @@ def start_search(net, doors, scratch, sx, sy, sz, gx, gy, gz, reach, rise, step)
             status = _PARTIAL
             goal_node, goal_cell, bx, by, near = nearest_reachable(net, doors, scratch, gx, gy, gz)
             now = sqrt((ax - gx) * (ax - gx) + (ay - gy) * (ay - gy) + (az - gz) * (az - gz))
-            if goal_node < 0 or near > now - _NEARER:
+            if goal_node < 0 or near > now - NEARER:
                 return _NO_PATH
-    scratch.numbers[_START_CELL] = start_cell
-    scratch.numbers[_GOAL_CELL] = goal_cell
+    scratch.numbers[START_CELL] = start_cell
+    scratch.numbers[GOAL_CELL] = goal_cell
     scratch.numbers[_STATUS] = status
     bz = floor_at(net, goal_cell, bx, by)
     begin(net, doors, scratch, start_node, goal_node, ax, ay, az, bx, by, bz)
@@ -86,7 +95,7 @@ def _trace(net, doors, scratch, leaps, count, gx, gy, goal_cell, last_try):
     """
     ends = scratch.ends
     scratch.points[0, 0], scratch.points[0, 1], scratch.points[0, 2] = ends[0], ends[1], ends[2]
-    scratch.cells[0] = scratch.numbers[_START_CELL]
+    scratch.cells[0] = scratch.numbers[START_CELL]
     corners = 1
     used = 0
     first = 1
@@ -161,11 +170,11 @@ def _finish(net, doors, scratch, leaps):
         x, y, cell = _early_end(net, doors, scratch)
         now = _far(ends[0], ends[1], ends[2], ends[3], ends[4], ends[5])
         after = _far(x, y, floor_at(net, cell, x, y), ends[3], ends[4], ends[5])
-        if after > now - _NEARER:
+        if after > now - NEARER:
             return _NO_PATH, 0, 0, 0
         nodes, corners, used = _trace(net, doors, scratch, leaps, count, x, y, cell, True)[1:4]
         return _PARTIAL, nodes, corners, used
-    x, y, cell = ends[3], ends[4], numbers[_GOAL_CELL]
+    x, y, cell = ends[3], ends[4], numbers[GOAL_CELL]
     most = 2 * numbers[EXPANDED] + _MORE
     cheapest = numbers[BEST]
     least = 1e300

@@ -9,7 +9,7 @@ import numpy as np
 
 from navmesh.errors import NavmeshError
 from navmesh.solids import closed_parts
-from navmesh.terrain import Chunk, Terrain
+from navmesh.terrain import Chunk, Terrain, coded_materials
 
 __all__ = ["change_chunks", "chunks_of", "join_chunks", "split_terrain"]
 
@@ -30,6 +30,7 @@ def join_chunks(chunks: Mapping[str, Terrain], name: str = "terrain") -> Terrain
     if not chunks:
         raise NavmeshError(f"{name}: no chunks; a level needs at least one")
     names = sorted(chunks)
+    painted = any(chunk.materials for chunk in chunks.values())
     counts = [len(chunks[key].vertices) for key in names]
     shift = np.concatenate(([0], np.cumsum(counts)))
     faces = [chunks[key].faces + np.int32(at) for key, at in zip(names, shift[:-1], strict=True)]
@@ -38,6 +39,7 @@ def join_chunks(chunks: Mapping[str, Terrain], name: str = "terrain") -> Terrain
         np.concatenate(faces).astype(np.int32),
         name,
         tuple(Chunk(key, len(chunks[key].vertices), len(chunks[key].faces)) for key in names),
+        *_materials([chunks[key].material_of_faces for key in names] if painted else []),
     )
 
 
@@ -47,7 +49,8 @@ def chunks_of(terrain: Terrain) -> dict[str, Terrain]:
     for chunk in terrain.chunks:
         vertices = terrain.vertices[vertex : vertex + chunk.vertices]
         faces = terrain.faces[face : face + chunk.faces] - np.int32(vertex)
-        found[chunk.name] = Terrain(vertices, faces, chunk.name)
+        own = slice(face, face + chunk.faces)
+        found[chunk.name] = Terrain(vertices, faces, chunk.name, (), *_materials_of(terrain, own))
         vertex, face = vertex + chunk.vertices, face + chunk.faces
     return found
 
@@ -63,9 +66,11 @@ def split_terrain(terrain: Terrain, side: float) -> dict[str, Terrain]:
     squares, owner = np.unique(square, axis=0, return_inverse=True)
     found = {}
     for k, (ix, iy) in enumerate(squares.tolist()):
-        used, faces = np.unique(terrain.faces[owner.reshape(-1) == k], return_inverse=True)
+        own = owner.reshape(-1) == k
+        used, faces = np.unique(terrain.faces[own], return_inverse=True)
         name = f"{ix},{iy}"
-        found[name] = Terrain(terrain.vertices[used], faces.reshape(-1, 3).astype(np.int32), name)
+        triangles = faces.reshape(-1, 3).astype(np.int32)
+        found[name] = Terrain(terrain.vertices[used], triangles, name, (), *_materials_of(terrain, own))
     return found
 
 
@@ -89,6 +94,9 @@ def change_chunks(
     corner = np.concatenate(([0], np.cumsum([chunk.vertices for chunk in terrain.chunks])))
     face = np.concatenate(([0], np.cumsum([chunk.faces for chunk in terrain.chunks])))
     vertices, faces, solid, chunks, changed = [], [], [], [], []
+    paints: list[np.ndarray] = []
+    painted = bool(terrain.materials) or any(each is not None and each.materials for each in changes.values())
+    paint = terrain.material_of_faces if painted else np.empty(0, "U1")
     count, triangles, after = 0, 0, 0  # vertices and faces so far; the first old chunk that is still to come
 
     def keep(until: int) -> None:
@@ -97,6 +105,8 @@ def change_chunks(
         faces.append(terrain.faces[face[after] : face[until]] + np.int32(count - corner[after]))
         was = terrain.solid[face[after] : face[until]]
         solid.append(np.where(was < 0, -1, was + np.int32(triangles - face[after])))
+        if painted:
+            paints.append(paint[face[after] : face[until]])
         chunks.extend(terrain.chunks[after:until])
         count, triangles, after = count + len(vertices[-1]), triangles + len(was), until
 
@@ -107,7 +117,13 @@ def change_chunks(
         if at < len(names) and names[at] == name:
             old = terrain.vertices[corner[at] : corner[at + 1]]
             old_faces = terrain.faces[face[at] : face[at + 1]] - np.int32(corner[at])
-            if new is not None and np.array_equal(new.vertices, old) and np.array_equal(new.faces, old_faces):
+            own = slice(face[at], face[at + 1])
+            if (
+                new is not None
+                and np.array_equal(new.vertices, old)
+                and np.array_equal(new.faces, old_faces)
+                and (not painted or np.array_equal(new.material_of_faces, paint[own]))
+            ):
                 continue
             after = at + 1
             bounds.append(_bounds(old))
@@ -118,6 +134,8 @@ def change_chunks(
         if new is not None:
             vertices.append(new.vertices)
             faces.append(new.faces + np.int32(count))
+            if painted:
+                paints.append(new.material_of_faces)
             chunks.append(Chunk(name, len(new.vertices), len(new.faces)))
             own = closed_parts(new.vertices, new.faces, np.zeros(1, np.int64))
             solid.append(np.where(own < 0, -1, own + np.int32(triangles)))
@@ -129,9 +147,22 @@ def change_chunks(
         raise NavmeshError(f"{terrain.name}: the change removes all chunks; a level needs at least one")
     if not changed:
         return terrain, []
-    after_all = Terrain(np.concatenate(vertices), np.concatenate(faces), terrain.name, tuple(chunks))
+    after_all = Terrain(
+        np.concatenate(vertices), np.concatenate(faces), terrain.name, tuple(chunks), *_materials(paints)
+    )
     after_all.__dict__["solid"] = np.concatenate(solid)  # what stays is not worked out anew
     return after_all, changed
+
+
+def _materials(of_faces: list[np.ndarray]) -> tuple:
+    """The materials of parts, by the names of each part's faces, put together: the last fields of a
+    `Terrain`. Nothing where no part has any."""
+    return coded_materials(np.concatenate(of_faces)) if of_faces else ()
+
+
+def _materials_of(terrain: Terrain, faces: slice | np.ndarray) -> tuple:
+    """The materials of some ``faces`` of a terrain: the last fields of their `Terrain`."""
+    return coded_materials(terrain.material_of_faces[faces]) if terrain.materials else ()
 
 
 def _bounds(vertices: np.ndarray) -> np.ndarray:

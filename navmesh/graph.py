@@ -24,7 +24,7 @@ from navmesh.rules import WalkRules
 from navmesh.stages import Stages, all_soundings, grid_for, renew_cells
 from navmesh.surface import Surface
 from navmesh.tagging import TagFile
-from navmesh.terrain import Terrain
+from navmesh.terrain import DEFAULT_MATERIAL, Terrain
 from surefoot.words import several
 
 if TYPE_CHECKING:
@@ -187,6 +187,11 @@ class NodeGraph:
         )
 
     @property
+    def areas(self) -> tuple[str, ...]:
+        """Names of the level's materials, in alphabetical order; "default" for what has none."""
+        return self.terrain.materials or (DEFAULT_MATERIAL,)
+
+    @property
     def extent(self) -> np.ndarray:
         """(2, 3) float64 [m]: the room that `update` can fill without building everything anew."""
         surface = self.surface
@@ -234,6 +239,7 @@ class NodeGraph:
         node_costs: np.ndarray | None = None,
         closed_links: Any = (),
         extent: tuple[float, float] | None = None,
+        costs: Mapping[str, float] | None = None,
     ) -> Route:
         """The route from ``start`` to ``goal`` (3,) [m] for a body of ``radius`` [m].
 
@@ -245,10 +251,15 @@ class NodeGraph:
         the status is "partial". ``skills`` offers typed links: for each affordance
         the least and greatest height [m] that the body can clear, as in {"jump": (0.3, 0.5)}. ``node_costs``
         (m,), at least 1, multiply the length walked in each node. ``closed_links`` (k,) int are indices of
-        `links` that are not offered. Never raises because of where the ends are: see
-        `navmesh.route.STATUSES`. Raises `NavmeshError` for arguments of a wrong kind.
+        `links` that are not offered. ``costs`` say what a metre costs in each of the `areas`, as in {"mud":
+        3.0}: 1 to 1e6, 1 for areas that are not named, math.inf for those that must not be entered. The route
+        is cheap by the sum (`Route.cost`; docs/how-it-works/navmesh.md says how cheap), its length is in
+        metres all the same. Never raises because of where the ends are: see `navmesh.route.STATUSES`.
+        Raises `NavmeshError` for arguments of a wrong kind.
         """
-        return pathfinding.find_path(self, start, goal, radius, skills, node_costs, closed_links, extent)
+        return pathfinding.find_path(
+            self, start, goal, radius, skills, node_costs, closed_links, extent, costs
+        )
 
     def find_paths(
         self,
@@ -259,10 +270,11 @@ class NodeGraph:
         node_costs: np.ndarray | None = None,
         workers: int = 1,
         extent: tuple[float, float] | None = None,
+        costs: Mapping[str, float] | None = None,
     ) -> Routes:
         """The routes from ``starts`` to ``goals`` (q, 3) [m] each: bit for bit what `find_path` gives
         one by one. ``workers`` threads share the work."""
-        return pathfinding.find_paths(self, starts, goals, radius, skills, node_costs, workers, extent)
+        return pathfinding.find_paths(self, starts, goals, radius, skills, node_costs, workers, extent, costs)
 
     def begin_path(
         self,
@@ -272,9 +284,10 @@ class NodeGraph:
         skills: Mapping[str, tuple[float, float]] | None = None,
         node_costs: np.ndarray | None = None,
         extent: tuple[float, float] | None = None,
+        costs: Mapping[str, float] | None = None,
     ) -> PathSearch:
         """`find_path` as a search that is spread over frames: ``advance`` it, then ``finish`` it."""
-        return PathSearch(self, start, goal, radius, skills, node_costs, extent)
+        return PathSearch(self, start, goal, radius, skills, node_costs, extent, costs)
 
     def project(self, points: Any) -> tuple[Any, Any]:
         """The floor at ``points`` (3,) or (k, 3): (cell, world z); see `navmesh.queries`."""

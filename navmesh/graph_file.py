@@ -103,6 +103,8 @@ _LINKS: dict[str, Array] = {
 _TERRAIN: dict[str, Array] = {
     "vertices": Numbers("vertices", 3),
     "faces": Indices("faces", 3, into="vertices"),
+    "materials": Words("materials"),
+    "face_material": Indices("painted", into="materials"),
 }
 _PARTS = {"surface_": _SURFACE, "": _GRAPH, "obstacles_": _OBSTACLES, "links_": _LINKS, "terrain_": _TERRAIN}
 
@@ -122,6 +124,11 @@ def _check_terrain(header: _GraphHeader, arrays: dict[str, np.ndarray]) -> str |
         return "its chunks are not made of the terrain's vertices"
     if sum(each[2] for each in header.chunks) != faces or any(a >= b for a, b in pairwise(names)):
         return "its chunks are not made of the terrain's triangles, or not in the order of their names"
+    materials = arrays["terrain_materials"].tolist()
+    if len(arrays["terrain_face_material"]) != (faces if materials else 0):
+        return "its triangles do not have one material each"
+    if sorted(set(materials)) != materials:
+        return "its materials are not in the order of their names"
     count, owned = [each[1] for each in header.chunks], [each[2] for each in header.chunks]
     last = np.repeat(np.cumsum(count), owned)[:, None]
     used = arrays["terrain_faces"]
@@ -204,7 +211,7 @@ def _apart(
 
 GRAPH_FILE = Schema(
     kind="surefoot navigation graph",
-    version=6,
+    version=7,
     header=_GraphHeader,
     arrays={prefix + name: array for prefix, part in _PARTS.items() for name, array in part.items()},
     remedy="bake it again",
@@ -218,7 +225,12 @@ def write_graph(path: str | os.PathLike[str], graph: NodeGraph) -> None:
         "surface_": graph.surface, "": graph, "obstacles_": graph.obstacles, "links_": graph.links,
         "terrain_": graph.terrain,
     }  # fmt: skip
-    arrays = {prefix + name: getattr(part, name) for prefix, part in parts.items() for name in _PARTS[prefix]}
+    arrays = {
+        prefix + name: np.asarray(getattr(part, name))
+        for prefix, part in parts.items()
+        for name in _PARTS[prefix]
+    }
+    arrays["terrain_materials"] = np.array(graph.terrain.materials, dtype=np.str_)
     header = {
         "terrain": graph.terrain.digest,
         "level": graph.terrain.name,
@@ -241,7 +253,12 @@ def read_graph(path: str | os.PathLike[str]) -> dict[str, Any]:
     header, arrays = read_archive(path, GRAPH_FILE)
     part = {prefix: {name: arrays[prefix + name] for name in names} for prefix, names in _PARTS.items()}
     terrain = Terrain(
-        **part["terrain_"], name=header.level, chunks=tuple(Chunk(*chunk) for chunk in header.chunks)
+        vertices=part["terrain_"]["vertices"],
+        faces=part["terrain_"]["faces"],
+        name=header.level,
+        chunks=tuple(Chunk(*chunk) for chunk in header.chunks),
+        materials=tuple(part["terrain_"]["materials"].tolist()),
+        face_material=part["terrain_"]["face_material"],
     )
     if terrain.digest != header.terrain:
         raise ArchiveError(f"{path}: the navigation graph's terrain is damaged; bake it again")

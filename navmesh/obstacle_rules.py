@@ -5,6 +5,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from navmesh.errors import NavmeshError
+from navmesh.kinds import ObstacleKind
 
 __all__ = ["ObstacleRules"]
 
@@ -58,6 +59,10 @@ class ObstacleRules:
             if isinstance(value, bool) or not isinstance(value, int | float) or not low <= value <= high:
                 raise NavmeshError(f"{name} = {value!r}: expected a number from {low:g} to {high:g} [m]")
             object.__setattr__(self, name, float(value))
+
+    def range_of(self, kind: ObstacleKind) -> Range | None:
+        """The range of sizes of ``kind`` that is looked for; None for a kind that is not looked for."""
+        return getattr(self, kind.rule) if kind.rule else None
 
     def to_dict(self) -> dict[str, Any]:
         """The rules as plain numbers and lists, for a file's header."""

@@ -6,6 +6,7 @@ discs (`navmesh.search`), string pulling turns it into the line to walk (`navmes
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from functools import cache
 from math import inf, isfinite
 from numbers import Integral
@@ -15,9 +16,12 @@ import numpy as np
 from numba import float64
 
 from navmesh.answering import SEARCHING, answer, answer_all, answer_search, start_search
+from navmesh.area_paths import AreaSearch, are_plain, priced_route
+from navmesh.areas import checked_costs
 from navmesh.bodies import checked_radius, doors_of
 from navmesh.errors import NavmeshError
-from navmesh.route import STATUSES, Route, Routes, link_uses
+from navmesh.pricing import Priced, priced_of
+from navmesh.route import STATUSES, Route, Routes, gathered, link_uses
 from navmesh.search import RUNNING, advance
 from navmesh.structs import DOORS, NET, SCRATCH, make_scratch, net_of
 
@@ -75,19 +79,50 @@ def find_path(
     node_costs: np.ndarray | None = None,
     closed_links: Any = (),
     extent: tuple[float, float] | None = None,
+    costs: Mapping[str, float] | None = None,
 ) -> Route:
     """See `NodeGraph.find_path`."""
     sx, sy, sz = _point("start", start)
     gx, gy, gz = _point("goal", goal)
     radius = checked_radius(radius)
     doors = doors_of(graph, radius, skills, node_costs, closed_links)
-    scratch = _scratch_for(graph)
     reach, rise, step = _limits(graph, radius, extent)
+    if costs is not None:
+        priced = _priced(graph, doors, costs, node_costs)
+        ends = (sx, sy, sz), (gx, gy, gz)
+        return _cheap_path(graph, *ends, doors, priced, (reach, rise, step), (skills, closed_links, extent))
+    scratch = _scratch_for(graph)
     status, length, expanded, nodes, waypoints, leaps = _compiled_answer()(
         net_of(graph), doors, scratch, graph.surface.origin, sx, sy, sz, gx, gy, gz, reach, rise, step
     )
     graph.cache["scratch"].append(scratch)
     return Route(STATUSES[status], radius, nodes, waypoints, length, link_uses(graph, leaps), expanded, graph)
+
+
+def _priced(graph: "NodeGraph", doors: Any, costs: Any, node_costs: Any) -> float | Priced:
+    """The roadmap that ``costs`` price; or the cost of a metre, where that is the same everywhere."""
+    if node_costs is not None:
+        raise NavmeshError("costs and node_costs: expected one of them, not both")
+    factor = checked_costs(graph, costs)
+    return float(factor[0]) if are_plain(factor, doors) else priced_of(graph, doors, factor)
+
+
+def _cheap_path(
+    graph: "NodeGraph", start: Any, goal: Any, doors: Any, priced: float | Priced, limits: Any, offer: Any
+) -> Route:
+    """`find_path` with costs. ``offer``: skills, closed links and extent."""
+    if not isinstance(priced, Priced):
+        route = find_path(graph, start, goal, doors.radius, offer[0], None, *offer[1:])
+        return replace(route, _cost=priced * route.length)
+    scratch = _scratch_for(graph)
+    search = AreaSearch(graph, doors, scratch, priced)
+    route = search.answer(start, goal, limits)
+    search.give_back()
+    graph.cache["scratch"].append(scratch)
+    if route is None:
+        route = find_path(graph, start, goal, doors.radius, offer[0], None, *offer[1:])
+        return priced_route(graph, route, priced)
+    return route
 
 
 def _points(name: str, values: Any) -> np.ndarray:
@@ -113,6 +148,7 @@ def find_paths(
     node_costs: np.ndarray | None = None,
     workers: int = 1,
     extent: tuple[float, float] | None = None,
+    costs: Mapping[str, float] | None = None,
 ) -> Routes:
     """See `NodeGraph.find_paths`."""
     first, second = _points("starts", starts), _points("goals", goals)
@@ -124,6 +160,15 @@ def find_paths(
     doors = doors_of(graph, radius, skills, node_costs)
     net = net_of(graph)
     reach, rise, step = _limits(graph, radius, extent)
+    if costs is not None:
+        priced = _priced(graph, doors, costs, node_costs)  # before there are threads
+
+        def one(start: np.ndarray, goal: np.ndarray) -> Route:
+            ends = tuple(start.tolist()), tuple(goal.tolist())
+            return _cheap_path(graph, *ends, doors, priced, (reach, rise, step), (skills, (), extent))
+
+        with ThreadPoolExecutor(int(workers)) as pool:
+            return gathered(graph, radius, list(pool.map(one, first, second)))
 
     def run(low: int, high: int) -> tuple:
         scratch = _scratch_for(graph)
@@ -144,6 +189,7 @@ def find_paths(
     return Routes(
         status=_STATUSES[status],
         length=length,
+        cost=length,
         radius=radius,
         expanded=expanded,
         waypoints=waypoints,
@@ -181,29 +227,50 @@ class PathSearch:
         skills: Mapping[str, tuple[float, float]] | None = None,
         node_costs: np.ndarray | None = None,
         extent: tuple[float, float] | None = None,
+        costs: Mapping[str, float] | None = None,
     ) -> None:
-        sx, sy, sz = (np.array(_point("start", start)) - graph.surface.origin).tolist()
-        gx, gy, gz = (np.array(_point("goal", goal)) - graph.surface.origin).tolist()
+        first, second = _point("start", start), _point("goal", goal)
         self._graph = graph
         self._radius = checked_radius(radius)
         self._doors = doors_of(graph, self._radius, skills, node_costs)
         self._net = net_of(graph)
         self._scratch = make_scratch(graph)
-        reach, rise, step = _limits(graph, self._radius, extent)
-        self._status = start_search(
-            self._net, self._doors, self._scratch, sx, sy, sz, gx, gy, gz, reach, rise, step
-        )
+        limits = _limits(graph, self._radius, extent)
+        self._priced = 1.0 if costs is None else _priced(graph, self._doors, costs, node_costs)
+        self._area = None
+        if isinstance(self._priced, Priced):
+            self._area = AreaSearch(graph, self._doors, self._scratch, self._priced)
+            self._area.begin(first, second, limits)
+            self._again = first, second, self._radius, skills, None, (), extent
+            return
+        origin = graph.surface.origin
+        sx, sy, sz = (np.array(first) - origin).tolist()
+        gx, gy, gz = (np.array(second) - origin).tolist()
+        self._status = start_search(self._net, self._doors, self._scratch, sx, sy, sz, gx, gy, gz, *limits)
 
     def advance(self, nodes: int) -> bool:
         """Expand at most ``nodes`` nodes (each about 0.1 µs); True when the search is done."""
         if not isinstance(nodes, Integral) or nodes < 1:
             raise NavmeshError(f"nodes = {nodes!r}: expected a whole number of at least 1")
+        if self._area is not None:
+            return self._area.advance(int(nodes))
         if self._status not in SEARCHING:
             return True
         return advance(self._net, self._doors, self._scratch, nodes) != RUNNING
 
     def finish(self) -> Route:
         """The route to the goal, or a partial one if the search is not done."""
+        if self._area is not None and isinstance(self._priced, Priced):
+            route = self._area.finish()
+            if route is None:
+                route = priced_route(self._graph, find_path(self._graph, *self._again), self._priced)
+            return route
+        route = self._plain()
+        return (
+            route if isinstance(self._priced, Priced) else replace(route, _cost=self._priced * route.length)
+        )
+
+    def _plain(self) -> Route:
         if self._status not in SEARCHING:
             nodes, waypoints = np.empty(0, np.int32), np.empty((0, 3))
             return Route(STATUSES[self._status], self._radius, nodes, waypoints, 0.0, [], 0, self._graph)

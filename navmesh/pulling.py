@@ -25,11 +25,11 @@ from navmesh.ridges import middle
 from navmesh.tightening import tighten
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["pull"]
+__all__ = ["FITS", "mend", "pull"]
 
 _SLACK = 0.01
 """Share of the radius kept on top of it where there is room: discs of the corridor hold the path inside."""
-_FITS, _BLOCKED, _NO_WAY = range(3)
+FITS, _BLOCKED, _NO_WAY = range(3)
 """What can come of mending a line."""
 _ROUNDS = 4
 """Times that a line is led round what ends walking on it before it is pulled through the lenses."""
@@ -199,10 +199,10 @@ def _fits_on(net, scratch, count, x, y, radius):
 
 
 @allocating_kernel(error_model="numpy")
-def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_try):
+def mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_try):
     """Add a walked line from the leg's last corner to g, through nodes[low:high].
 
-    Returns the new count and _FITS; _BLOCKED, with only a part of the line added, where walking ends on it
+    Returns the new count and FITS; _BLOCKED, with only a part of the line added, where walking ends on it
     and this is not the ``last_try``; or _NO_WAY.
     """
     radius = doors.radius
@@ -264,7 +264,7 @@ def _mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_
             return count, _NO_WAY
         count = _append(net, doors, scratch, first, count, bx, by, target)
         height -= 1
-    return count, _FITS
+    return count, FITS
 
 
 @kernel(error_model="numpy")
@@ -288,8 +288,8 @@ def _through_lenses(net, doors, scratch, first, count, low, high, free, gx, gy, 
         if i < free + corners - 1:
             k = _place_of(net, doors, scratch.edges[at[i] >> 1], at[i] & 1, x, y)
         before, here = at[i - 1] >> 1, at[i] >> 1
-        count, state = _mend(net, doors, scratch, first, count, x, y, k, before, here, last_try)
-        if state != _FITS:
+        count, state = mend(net, doors, scratch, first, count, x, y, k, before, here, last_try)
+        if state != FITS:
             return count, False
     return count, True
 
@@ -330,14 +330,14 @@ def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell, last_try):
             rounding += sqrt((x - lx) ** 2 + (y - ly) ** 2)
             lx, ly = x, y
             low, high = at[i - 1] >> 1, at[i] >> 1
-            count, state = _mend(net, doors, scratch, leg, count, x, y, k, low, high, False)
+            count, state = mend(net, doors, scratch, leg, count, x, y, k, low, high, False)
             if state == _BLOCKED:
                 low, high = max(low, first), min(high + 1, last)
                 count, fits = _through_lenses(
                     net, doors, scratch, leg, count, low, high, corners, x, y, k, last_try
                 )
-                state = _FITS if fits else _NO_WAY
-            if state != _FITS:
+                state = FITS if fits else _NO_WAY
+            if state != FITS:
                 return count, False, rounding
     if not doors.weighted:
         count = tighten(net, scratch, leg, count, radius)

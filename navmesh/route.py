@@ -16,7 +16,7 @@ from surefoot.words import several
 if TYPE_CHECKING:
     from navmesh.graph import NodeGraph
 
-__all__ = ["STATUSES", "Leg", "LinkUse", "Route", "Routes"]
+__all__ = ["STATUSES", "Leg", "LinkUse", "Route", "Routes", "gathered", "link_uses"]
 
 STATUSES = ("complete", "partial", "no_path", "off_graph")
 """What a route's status can be.
@@ -76,12 +76,19 @@ class Route:
     """Nodes that the search expanded."""
     graph: "NodeGraph" = field(repr=False)
     """Where the route was found."""
+    _cost: float | None = field(default=None, repr=False)
     _legs: list[Leg] | None = field(default=None, repr=False)
 
     def __repr__(self) -> str:
         over = "".join(f", over {self.graph.obstacles.tag[use.obstacle]}" for use in self.links)
         waypoints = several(len(self.waypoints), "waypoint")
         return f"<Route {self.status}: {self.length:.2f} m, {waypoints}{over}>"
+
+    @property
+    def cost(self) -> float:
+        """[m]: the length, where every metre walked counts as much as its area costs, and a link as much as
+        its `cost`; `length` where no ``costs`` were given."""
+        return self.length if self._cost is None else self._cost
 
     def legs(self) -> list[Leg]:
         """The walked parts of the route, in order, each with its corridor; the links lie between them."""
@@ -133,6 +140,8 @@ class Routes:
     """(q,) str: one of `STATUSES` each."""
     length: np.ndarray
     """(q,) float64 [m]; 0 where there is no route."""
+    cost: np.ndarray
+    """(q,) float64 [m]: `Route.cost` of each."""
     radius: float
     """[m], of the body that the routes were found for."""
     expanded: np.ndarray
@@ -171,6 +180,7 @@ class Routes:
             links=link_uses(self.graph, self.leaps[self.leap_start[i] : self.leap_start[i + 1]]),
             expanded=int(self.expanded[i]),
             graph=self.graph,
+            _cost=float(self.cost[i]),
         )
 
     def __iter__(self) -> Iterator[Route]:
@@ -180,6 +190,30 @@ class Routes:
         """(k, 3) float64 [m]: the waypoints of one query."""
         i = range(len(self))[index]
         return self.waypoints[self.waypoint_start[i] : self.waypoint_start[i + 1]]
+
+
+def gathered(graph: "NodeGraph", radius: float, routes: list[Route]) -> Routes:
+    """``routes`` for bodies of one ``radius`` as a batch."""
+
+    def starts(sizes: list[int]) -> np.ndarray:
+        return np.concatenate([[0], np.cumsum(sizes, dtype=np.int64)]).astype(np.int64)
+
+    return Routes(
+        status=np.array([route.status for route in routes], dtype=np.array(STATUSES).dtype),
+        length=np.array([route.length for route in routes], dtype=np.float64),
+        cost=np.array([route.cost for route in routes], dtype=np.float64),
+        radius=radius,
+        expanded=np.array([route.expanded for route in routes], dtype=np.int64),
+        waypoints=np.concatenate([np.empty((0, 3)), *(route.waypoints for route in routes)]),
+        waypoint_start=starts([len(route.waypoints) for route in routes]),
+        nodes=np.concatenate([np.empty(0, np.int32), *(route.nodes for route in routes)]),
+        node_start=starts([len(route.nodes) for route in routes]),
+        leaps=np.array([(use.link, use.first) for route in routes for use in route.links], np.int32).reshape(
+            -1, 2
+        ),
+        leap_start=starts([len(route.links) for route in routes]),
+        graph=graph,
+    )
 
 
 def link_uses(graph: Any, leaps: np.ndarray) -> list[LinkUse]:

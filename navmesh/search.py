@@ -22,6 +22,7 @@ __all__ = [
     "COMPLETE",
     "EMPTY",
     "EXPANDED",
+    "GOAL_NODE",
     "LABELS",
     "LIMIT",
     "RUNNING",
@@ -39,7 +40,7 @@ LABELS = 2
 """Kept for each node."""
 
 # Places in scratch.numbers
-_STAMP, _HEAP, _STATE, _GOAL_NODE, BEST, EXPANDED = 0, 1, 2, 3, 4, 5
+_STAMP, _HEAP, _STATE, GOAL_NODE, BEST, EXPANDED = 0, 1, 2, 3, 4, 5
 LIMIT = 7
 """Place in scratch.ends: ways that cost so much [m] are not looked for."""
 _NEAREST = 6  # in scratch.ends: how near [m] to the goal a portal seen is
@@ -96,7 +97,7 @@ def begin(net, doors, scratch, start_node, goal_node, sx, sy, sz, gx, gy, gz):
     numbers[_STAMP] += 1
     numbers[_HEAP] = 1
     numbers[_STATE] = RUNNING
-    numbers[_GOAL_NODE] = goal_node
+    numbers[GOAL_NODE] = goal_node
     numbers[EXPANDED] = 0
     label = LABELS * start_node
     numbers[BEST] = label
@@ -150,7 +151,7 @@ def advance(net, doors, scratch, budget):
     if numbers[_STATE] != RUNNING:
         return numbers[_STATE]
     stamp = numbers[_STAMP]
-    goal_node = numbers[_GOAL_NODE]
+    goal_node = numbers[GOAL_NODE]
     gx, gy, gz = scratch.ends[3], scratch.ends[4], scratch.ends[5]
     # arrays taken out of their bundle in a loop are counted as used each time
     seen, costs, totals = scratch.stamp, scratch.cost, scratch.total

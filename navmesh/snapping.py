@@ -14,7 +14,7 @@ from navmesh.field import centre_of, floor_at, gap_at, same_place, walk
 from navmesh.parts import TILE
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["nearest_reachable", "roomy_cell", "snap"]
+__all__ = ["nearest_reachable", "node_at", "roomy_cell", "snap"]
 
 _MARGIN = 0.015  # share of the radius: a little more than what string pulling keeps
 _THIN = 1e-3  # [m] radius of a line that only must not cross anything
@@ -66,7 +66,7 @@ def roomy_cell(net, k, x, y, radius, reach):
 
 
 @kernel(error_model="numpy")
-def _node_at(net, k, x, y, radius):
+def node_at(net, k, x, y, radius):
     """The node that a body at (x, y) in cell ``k`` starts from: that of the cell, or of a cell beside it that
     the body can go straight to the centre of, or of the node itself; -1 where there is none."""
     if net.clearance[k] >= radius and net.label[k] >= 0:
@@ -213,7 +213,7 @@ def snap(net, x, y, z, radius, reach, rise, step):
                         continue
                     if abs(floor_at(net, k, px, py) - z) > rise:
                         continue
-                    other = _node_at(net, k, px, py, radius)
+                    other = node_at(net, k, px, py, radius)
                     if other >= 0:
                         best, node, cell, bx, by = off, other, k, px, py
     return node, cell, bx, by
@@ -245,7 +245,7 @@ def _search_tile(net, doors, scratch, tile, x, y, z, best, node, cell, bx, by):
                 off, px, py = _place_in(net, k, x, y, z, radius, 0.0, best)
                 if off >= best:
                     continue
-                other = _node_at(net, k, px, py, radius)
+                other = node_at(net, k, px, py, radius)
                 if other >= 0 and reached[doors.part[other]] == mark:
                     best, node, cell, bx, by = off, other, k, px, py
     return best, node, cell, bx, by

@@ -2,7 +2,7 @@
 
 import hashlib
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -12,10 +12,18 @@ import numpy as np
 from navmesh.errors import NavmeshError
 from surefoot.words import several
 
-__all__ = ["Chunk", "Terrain"]
+__all__ = ["DEFAULT_MATERIAL", "Chunk", "Terrain", "coded_materials"]
 
 _AXES = {"x": (1, 2, 0), "y": (0, 2, 1), "z": (0, 1, 2)}
 _SIGNS = {"x": (1.0, 1.0, 1.0), "y": (1.0, -1.0, 1.0), "z": (1.0, 1.0, 1.0)}
+
+
+DEFAULT_MATERIAL = "default"
+"""The material of triangles that have none, where others have one."""
+
+
+def _none() -> np.ndarray:
+    return np.empty(0, np.int32)
 
 
 class Chunk(NamedTuple):
@@ -43,6 +51,12 @@ class Terrain:
     chunks: tuple[Chunk, ...] = ()
     """What it is made of, by rising name; a level that was loaded whole is one chunk, called "level"."""
 
+    materials: tuple[str, ...] = ()
+    """Names of the materials that its triangles have, in alphabetical order; none where no triangle has
+    one."""
+    face_material: np.ndarray = field(default_factory=_none, repr=False)
+    """(f,) int32 into `materials`; (0,) where there are none."""
+
     def __post_init__(self) -> None:
         if not self.chunks:
             whole = (Chunk("level", len(self.vertices), len(self.faces)),)
@@ -54,10 +68,13 @@ class Terrain:
 
     @cached_property
     def digest(self) -> str:
-        """SHA-256 of vertices and faces (hexadecimal): names the geometry that a baked graph was made
-        from."""
+        """SHA-256 of vertices, faces and materials (hexadecimal): names the geometry that a baked graph was
+        made from."""
         checksum = hashlib.sha256(np.ascontiguousarray(self.vertices).tobytes())
         checksum.update(np.ascontiguousarray(self.faces).tobytes())
+        if self.materials:
+            checksum.update("\n".join(self.materials).encode())
+            checksum.update(np.ascontiguousarray(self.face_material).tobytes())
         return checksum.hexdigest()
 
     @cached_property
@@ -77,15 +94,30 @@ class Terrain:
         first = np.cumsum([0, *(chunk.faces for chunk in self.chunks[:-1])])
         return closed_parts(self.vertices, self.faces, first)
 
+    @property
+    def material_of_faces(self) -> np.ndarray:
+        """(f,) str: the material of each triangle, "default" where it has none."""
+        if not self.materials:
+            return np.full(len(self.faces), DEFAULT_MATERIAL)
+        return np.array(self.materials)[self.face_material]
+
     @classmethod
     def from_arrays(
-        cls, vertices: Any, faces: Any, *, up: str = "z", scale: float = 1.0, name: str = "terrain"
+        cls,
+        vertices: Any,
+        faces: Any,
+        *,
+        up: str = "z",
+        scale: float = 1.0,
+        name: str = "terrain",
+        materials: Any = None,
     ) -> "Terrain":
         """A terrain from ``vertices`` (v, 3) and ``faces`` (f, 3) in the file's units and axes.
 
         ``up`` is the axis of the input that points up: "z" keeps (x, y, z), "y" makes it (x, -z, y),
-        "x" makes it (y, z, x). ``scale`` [m per unit] is above 0. Raises `NavmeshError` for wrong
-        shapes, coordinates that are not finite, indices out of range, and when there is no triangle.
+        "x" makes it (y, z, x). ``scale`` [m per unit] is above 0. ``materials`` (f,) str names the material
+        of each triangle; "" means "default", and names are cut to 64 characters. Raises `NavmeshError` for
+        wrong shapes, coordinates that are not finite, indices out of range, and when there is no triangle.
         """
         if up not in _AXES:
             raise NavmeshError(f"{name}: up = {up!r}: expected one of 'x', 'y', 'z'")
@@ -121,7 +153,17 @@ class Terrain:
         moved = np.ascontiguousarray(moved)
         if not np.isfinite(moved).all() or np.abs(moved).max(initial=0.0) > 1e9:
             raise NavmeshError(f"{name}: coordinates reach beyond 1e9 m after scaling by {scale:g}")
-        return cls(moved, np.ascontiguousarray(triangles, dtype=np.int32), name)
+        names, coded = (), _none()
+        if materials is not None:
+            given = np.asarray(materials)
+            if given.shape != (len(triangles),) or given.dtype.kind != "U":
+                raise NavmeshError(
+                    f"{name}: materials are {given.dtype} {given.shape}, expected a name for each of the "
+                    f"{len(triangles)} triangles"
+                )
+            names, coded = coded_materials(given)
+        indices = np.ascontiguousarray(triangles, dtype=np.int32)
+        return cls(moved, indices, name, materials=names, face_material=coded)
 
     @classmethod
     def load(
@@ -146,4 +188,15 @@ class Terrain:
             up=mesh.up if up is None else up,
             scale=mesh.scale if scale is None else scale,
             name=str(path),
+            materials=mesh.materials,
         )
+
+
+def coded_materials(names: np.ndarray) -> tuple[tuple[str, ...], np.ndarray]:
+    """The materials among ``names`` (f,) str, in alphabetical order, and for each name its place among them,
+    (f,) int32; nothing where all are "default"."""
+    named = np.where(names == "", DEFAULT_MATERIAL, names).astype("<U64")
+    found, coded = np.unique(named, return_inverse=True)
+    if found.tolist() == [DEFAULT_MATERIAL]:
+        return (), _none()
+    return tuple(found.tolist()), coded.reshape(-1).astype(np.int32)

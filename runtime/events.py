@@ -5,7 +5,8 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from runtime.skill_words import clears
+from locomotion.errors import LocomotionError
+from locomotion.skills.registry import in_words
 from surefoot.words import several
 
 __all__ = [
@@ -99,14 +100,14 @@ class BackedOut(Event):
 
 @dataclass(frozen=True)
 class SkillStarted(Event):
-    """The agent left the run for ``skill`` ("jump", "vault", "drop-roll" or "leap"), at an obstacle of
-    ``height`` [m] (of a gap its width)."""
+    """The agent left the run for ``skill``, as missions call it ("jump", "vault", "drop-roll", "leap"), at an
+    obstacle of ``height`` [m] (of a gap its width)."""
 
     skill: str
     height: float
 
     def _what(self) -> str:
-        return clears(self.skill, self.height)
+        return in_words(self.skill, self.height)
 
 
 @dataclass(frozen=True)
@@ -186,7 +187,7 @@ def event_text(values: Mapping[str, Any]) -> str:
     told = {name: value for name, value in values.items() if name != "kind"}
     try:
         return str(kinds[values["kind"]](**told))
-    except (KeyError, TypeError):
+    except (KeyError, TypeError, LocomotionError):
         return f"{values['agent']}: {values['kind']}"
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,25 +11,17 @@ from locomotion.errors import LocomotionError
 from locomotion.gaits.run import layout as run
 from locomotion.gaits.walk import layout as walk
 from locomotion.human.human import Human
-from locomotion.human.state import CLEARING, HumanState
+from locomotion.human.state import BUSY, CLEARING, HumanState
 from locomotion.paths import tracking as path_tracking
 from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.paths.table import BRAKE, FAST_WALK, GAIT, RUN, SPEED, WALK, PathTable
 from locomotion.recovery import layout as scramble
-from locomotion.saved_arrays import FARTHEST, Slots, check_array, check_number
-from locomotion.skills import kernel as law
-from locomotion.skills.drop_roll import kernel as drop_roll
-from locomotion.skills.drop_roll.skill import DropRoll
+from locomotion.saved_arrays import COUNT, FARTHEST, FLAG, SIDE, Slots, check_array, check_number
 from locomotion.skills.interface import skill_for
-from locomotion.skills.jump import kernel as jump
-from locomotion.skills.jump.skill import Jump
 from locomotion.skills.run_up import RUN_UP_SIZE
-from locomotion.skills.vault import kernel as vault
-from locomotion.skills.vault.skill import Vault
 
 __all__ = ["check_person"]
 
-_COUNT, _FLAG, _SIDE = (0.0, FARTHEST), (0.0, 1.0), (-1.0, 1.0)
 _SPEED, _TURNS, _TIME = (-100.0, 100.0), (-1e4, 1e4), (0.0, FARTHEST)
 _UNIT = 1e-2  # by which the length of a quaternion may be off 1
 _OFF_LEVEL = 1e3  # [m] beside the level
@@ -42,16 +32,16 @@ _PARTS = (
         "the run of a person",
         run.STATE_SIZE,
         [
-            (run.PHASE, _FLAG),
-            (run.STANCE, _SIDE),
+            (run.PHASE, FLAG),
+            (run.STANCE, SIDE),
             (run.HEADING, _TURNS),
             (run.SPEED, _SPEED),
             (run.TRIM, _SPEED),
-            (run.STEPS, _COUNT),
+            (run.STEPS, COUNT),
             (run.STEP_TIME, _TIME),
             (run.SLOPE, _SPEED),
-            (run.TICKS, _COUNT),
-            (run.FALLEN, _FLAG),
+            (run.TICKS, COUNT),
+            (run.FALLEN, FLAG),
         ],
         whole=(run.STANCE, run.STEPS, run.TICKS, run.FALLEN),
     ),
@@ -62,20 +52,20 @@ _PARTS = (
         [
             (walk.PHASE, (walk.STANDING, walk.DOUBLE)),
             (walk.CLOCK, _TIME),
-            (walk.WALK_STANCE, _SIDE),
+            (walk.WALK_STANCE, SIDE),
             (walk.WALK_HEADING, _TURNS),
             (walk.WALK_SPEED, _SPEED),
             (walk.SIDEWAYS, _SPEED),
-            (walk.SETTING_OFF, _FLAG),
+            (walk.SETTING_OFF, FLAG),
             (walk.SWING_TIME, (0.0, 10.0)),
             (walk.WALK_STEPS, (-3.0, FARTHEST)),
-            (walk.WALK_TICKS, _COUNT),
+            (walk.WALK_TICKS, COUNT),
             (walk.FOOTHOLD_YAW, _TURNS),
             (walk.LIFT_YAW, _TURNS),
-            (walk.WALKS, _FLAG),
-            (walk.STEPPED_AT, _COUNT),
-            (walk.CAUGHT, _FLAG),
-            (walk.UNEVEN, _FLAG),
+            (walk.WALKS, FLAG),
+            (walk.STEPPED_AT, COUNT),
+            (walk.CAUGHT, FLAG),
+            (walk.UNEVEN, FLAG),
             (walk.LONGER, (-10.0, 10.0)),
             (walk.TOLD, _TURNS),
         ],
@@ -93,11 +83,11 @@ _PARTS = (
         "the way of a person",
         path_tracking.TRACK_SIZE,
         [
-            (path_tracking.ARC, _COUNT),
-            (path_tracking.PACE, _FLAG),
+            (path_tracking.ARC, COUNT),
+            (path_tracking.PACE, FLAG),
             (path_tracking.BACKED, (0.0, 1e3)),
-            (path_tracking.WAITED, _COUNT),
-            (path_tracking.TRIED, _COUNT),
+            (path_tracking.WAITED, COUNT),
+            (path_tracking.TRIED, COUNT),
         ],
         whole=(path_tracking.BACKED, path_tracking.TRIED),
     ),
@@ -107,17 +97,17 @@ _PARTS = (
         [
             (scramble.PHASE, (scramble.ALL_DOWN, scramble.SWINGING)),
             (scramble.CLOCK, _TIME),
-            (scramble.PAIR, _FLAG),
+            (scramble.PAIR, FLAG),
             (scramble.FACING, _TURNS),
-            (scramble.TICKS, _COUNT),
+            (scramble.TICKS, COUNT),
             (scramble.RISEN, (0.0, 2.0)),
-            (scramble.LOADS, _FLAG),
-            (scramble.DOWN, _FLAG),
+            (scramble.LOADS, FLAG),
+            (scramble.DOWN, FLAG),
             (scramble.STANCE, (-10.0, 10.0)),
             (scramble.MODE, (scramble.AWAY, scramble.RISING)),
             (scramble.MODE_CLOCK, _TIME),
-            (scramble.ROLL_SIDE, _FLAG),
-            (scramble.TRIES, _COUNT),
+            (scramble.ROLL_SIDE, FLAG),
+            (scramble.TRIES, COUNT),
         ],
         whole=(
             scramble.PHASE,
@@ -132,47 +122,11 @@ _PARTS = (
     Slots(
         "the run-up of a person",
         RUN_UP_SIZE,
-        [(0, _COUNT), (1, _COUNT), (2, _SPEED), (3, _SPEED), (4, _SPEED)],
+        [(0, COUNT), (1, COUNT), (2, _SPEED), (3, _SPEED), (4, _SPEED)],
         whole=(0, 1),
     ),
 )
 """In the order of the arrays in `locomotion.human.state`."""
-
-_AT_WORK: Mapping[type, Slots] = {
-    Jump: Slots(
-        "the jump of a person",
-        jump.MEMORY_SIZE,
-        [(law.ACTIVE, _FLAG), (law.FIRST_STEP, _COUNT), (law.LAST_STEP, _COUNT)],
-        whole=(law.ACTIVE, law.FIRST_STEP, law.LAST_STEP),
-    ),
-    Vault: Slots(
-        "the vault of a person",
-        vault.MEMORY_SIZE,
-        [
-            (law.ACTIVE, _FLAG),
-            (law.FIRST_STEP, _COUNT),
-            (law.LAST_STEP, _COUNT),
-            (vault.HOLD, (0.0, 2.0)),
-            (vault.HELD, _COUNT),
-            (vault.SIDE, _SIDE),
-            (vault.PHASE, (0.0, vault.PHASES - 1.0)),
-        ],
-        whole=(law.ACTIVE, law.FIRST_STEP, law.LAST_STEP, vault.HOLD, vault.PHASE),
-    ),
-    DropRoll: Slots(
-        "the roll of a person",
-        drop_roll.MEMORY_SIZE,
-        [
-            (drop_roll.ACTIVE, _FLAG),
-            (drop_roll.PHASE, (drop_roll.TAKE_OFF, drop_roll.RISE)),
-            (drop_roll.SHARE, _FLAG),
-            (drop_roll.SIDE, _SIDE),
-            (drop_roll.PHASE_TICKS, _COUNT),
-            (drop_roll.ENDED, _FLAG),
-        ],
-        whole=(drop_roll.ACTIVE, drop_roll.PHASE, drop_roll.ENDED),
-    ),
-}
 
 
 def check_person(state: HumanState, human: Human) -> None:
@@ -188,6 +142,8 @@ def check_person(state: HumanState, human: Human) -> None:
     for path in (state.path, state.interrupted):
         if path is not None:
             _check_path(path)
+    if state.status not in BUSY and state.status not in CLEARING.values():
+        raise LocomotionError(f"a person is {state.status!r}, which nobody can be")
     on_path = state.interrupted is not None or state.status in ("walking", "running", *CLEARING.values())
     if state.path is None and on_path:
         raise LocomotionError(f"a person is {state.status} along no path")
@@ -249,12 +205,7 @@ def _check_clearing(state: HumanState, human: Human) -> None:
         if state.status in CLEARING.values():
             raise LocomotionError(f"a person is {state.status} by no skill")
         return
-    if not ahead:
+    if not ahead or ahead[0] is None:
         raise LocomotionError("a person clears no obstacle")
-    slots = _AT_WORK.get(type(ahead[0]))
-    if slots is None:
-        check_array("the skill of a person", state.skill, None)
-        return
-    slots.check(state.skill)
-    if slots.what != _AT_WORK[DropRoll].what and state.skill[law.FIRST_STEP] > state.numbers[run.STEPS]:
-        raise LocomotionError("a person clears an obstacle with a step that is still to come")
+    check_array("the skill of a person", state.skill, None)
+    ahead[0].check(state.skill, state.numbers[run.STEPS])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import operator
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Iterator
 from typing import Any, Literal, NamedTuple, Protocol
 
 import numpy as np
@@ -15,22 +15,34 @@ from locomotion.events import Event
 from locomotion.human.simulation import Simulation
 from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.paths.table import PathTable
+from locomotion.skills.registry import BUSY, CLEARING
 
-__all__ = ["CLEARING", "MOVING", "Gait", "HumanState", "Status", "hash_of", "restore", "same", "save"]
+__all__ = ["BUSY", "CLEARING", "MOVING", "Gait", "HumanState", "Status", "hash_of", "restore", "same", "save"]
 
-Status = Literal[
-    "standing", "walking", "running", "jumping", "vaulting", "dropping", "leaping", "scrambling",
-    "getting up", "fallen", "arrived", "lost", "stuck",
-]  # fmt: skip
+Status = str
+"""One of `BUSY`, or of the statuses in `CLEARING`."""
 Gait = Literal["walk", "run", "slow run", "scramble"]
-CLEARING: dict[str, Status] = {
-    "jump": "jumping", "vault": "vaulting", "drop": "dropping", "gap": "leaping",
-}  # fmt: skip
-"""What a person does that clears an obstacle of an affordance."""
-MOVING: tuple[Status, ...] = (
-    "walking", "running", *dict.fromkeys(CLEARING.values()), "scrambling", "getting up",
-)  # fmt: skip
-"""What a person that is on its way does."""
+
+
+class _Moving(Collection[Status]):
+    """What a person that is on its way does; more of it after `register_skill`."""
+
+    def __contains__(self, status: object) -> bool:
+        return status in _ON_ITS_WAY or status in CLEARING.values()
+
+    def __iter__(self) -> Iterator[Status]:
+        return iter((*_ON_ITS_WAY, *CLEARING.values()))
+
+    def __len__(self) -> int:
+        return len(_ON_ITS_WAY) + len(CLEARING)
+
+    def __repr__(self) -> str:
+        return f"<{', '.join(self)}>"
+
+
+_ON_ITS_WAY = ("walking", "running", "scrambling", "getting up")
+MOVING: Collection[Status] = _Moving()
+"""What a person that is on its way does: what `CLEARING` lists, too."""
 
 
 class HumanState(NamedTuple):

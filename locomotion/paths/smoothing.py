@@ -17,6 +17,7 @@ from locomotion.errors import LocomotionError
 from locomotion.paths.approach_legs import set_legs
 from locomotion.paths.gait_plan import LANDED, SET_OFF, braking_length
 from navmesh.draping import drape_curve
+from navmesh.kinds import kind_of
 from navmesh.route import Leg, Route
 
 __all__ = ["RUNNING", "ObstacleAhead", "SmoothPath", "Smoothing", "smooth_route"]
@@ -55,7 +56,7 @@ class ObstacleAhead:
 
     Attributes:
         arc_length: [m] horizontal length of the path up to the obstacle's edge.
-        affordance: "jump", "vault", "drop" or "gap". height: [m] as in `NodeGraph.obstacles`.
+        affordance, height [m]: as in `NodeGraph.obstacles`.
         position: (3,) float64 [m], where the path crosses the edge, at its top.
         normal: (3,) float64, horizontal unit vector at right angles to the edge, towards the run-up side.
         depth: [m] as in `NodeGraph.obstacles`: thickness of what is vaulted, width of a gap, length of
@@ -72,12 +73,12 @@ class ObstacleAhead:
     @property
     def size(self) -> float:
         """What a skill's range is compared with [m]: the height, or the width of a gap."""
-        return self.depth if self.affordance == "gap" else self.height
+        return kind_of(self.affordance).size(self.height, self.depth)
 
     @property
     def far_side(self) -> float:
         """Arc length [m] at which the body is on the ground again behind it."""
-        return self.arc_length + (self.depth if self.affordance in ("vault", "gap") else 0.0)
+        return self.arc_length + (self.depth if kind_of(self.affordance).has_depth else 0.0)
 
 
 @dataclass(frozen=True)

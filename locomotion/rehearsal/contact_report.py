@@ -10,16 +10,13 @@ from locomotion.body.hand_hold import holding
 from locomotion.body.person import CONTROL_DT, MASS, PersonIndex
 from locomotion.body.physics import restore_physics, save_physics
 from locomotion.paths.smoothing import ObstacleAhead
+from locomotion.skills.registry import skill_kind
 
 __all__ = ["ContactReport", "Watcher"]
 
 _STAIR = 1.0  # [m] behind the edge of what is jumped onto that only feet may touch
 _SOLES = 0.02  # [m] above the floor before it from which a contact is one with the obstacle
 _BEHIND = 0.05  # [m] behind a wall's far edge to which a contact is one with the wall
-_MAY_TOUCH = {
-    "jump": ("foot", "toes"),
-    "vault": ("hand", "forearm"),
-}
 
 
 @dataclass
@@ -27,8 +24,9 @@ class ContactReport:
     """How one obstacle was cleared.
 
     takeoff_error [m], speed_error [m/s]: as in `locomotion.events.TookOff`; NaN where there was none.
-    cleared: whether the skill came to its end. touched: whether anything but feet touched what is jumped
-    onto, or anything but hands and forearms what is vaulted. held: time that a hand held on [s]. planted:
+    cleared: whether the skill came to its end. touched: whether anything touched it that must not
+    (`SkillKind.may_touch`): anything but feet what is jumped onto, anything but hands and forearms what is
+    vaulted. held: time that a hand held on [s]. planted:
     where it did, as share of the thickness from the near edge. head: time that the head touched the ground
     [s]. peak: highest reaction of the ground, after a physics step [body weights].
     """
@@ -45,7 +43,8 @@ class ContactReport:
     def clean(self, affordance: str) -> bool:
         """Whether it touched nothing that it should not have, and held on where it should have: a hand in
         the middle half of a wall."""
-        held = affordance != "vault" or (self.held > 0.0 and abs(self.planted - 0.5) <= 0.25)
+        holds_on = skill_kind(affordance).holds_on
+        held = not holds_on or (self.held > 0.0 and abs(self.planted - 0.5) <= 0.25)
         return held and not self.touched and self.head == 0.0
 
 
@@ -72,10 +71,12 @@ class Watcher:
                 report.held += CONTROL_DT
                 hand = moment.mocap_pos[int(side > 0)] - obstacle.position
                 report.planted = -float(hand[:2] @ obstacle.normal[:2]) / max(obstacle.depth, 1e-9)
-        if obstacle.affordance in _MAY_TOUCH:
-            names = _MAY_TOUCH[obstacle.affordance]
-            allowed = [index.bodies[f"{side}_{name}"] for side in ("left", "right") for name in names]
-            deep = obstacle.depth + _BEHIND if obstacle.affordance == "vault" else _STAIR
+        kind = skill_kind(obstacle.affordance)
+        if kind.may_touch is not None:
+            allowed = [
+                index.bodies[f"{side}_{part}"] for side in ("left", "right") for part in kind.may_touch
+            ]
+            deep = obstacle.depth + _BEHIND if kind.obstacle.has_depth else _STAIR
             behind = -(contact.pos[:, :2] - obstacle.position[:2]) @ obstacle.normal[:2]
             floor = obstacle.position[2] - obstacle.height + _SOLES
             with_it = (behind > -0.1) & (behind < deep) & (contact.pos[:, 2] > floor)

@@ -8,7 +8,7 @@ objective and what was learned. How to make one is in docs/guides/own-skills.md.
 import os
 from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
@@ -17,6 +17,8 @@ from locomotion.errors import LocomotionError
 from locomotion.gaits.run.skill import RunSkill
 from locomotion.skills.interface import ClearingSkill
 from locomotion.skills.jump.skill import Jump, load_jump_skill, run_digest
+from navmesh.kinds import obstacle_kinds
+from surefoot.files.choices import OneOf
 from surefoot.files.yamlfile import FileError, read_yaml
 
 __all__ = ["SkillDescription", "load_described", "load_description"]
@@ -26,6 +28,11 @@ def _increase(sizes: list[float]) -> list[float]:
     if any(later <= earlier for earlier, later in pairwise(sizes)):
         raise ValueError("sizes must increase")
     return sizes
+
+
+def _jumped() -> list[str]:
+    """The kinds that a jump may clear: all but those that one has to get over something tall to clear."""
+    return [kind.affordance for kind in obstacle_kinds() if kind.crossing != "over"]
 
 
 _Size = Annotated[float, Field(gt=0.0, le=10.0)]
@@ -49,7 +56,7 @@ class SkillDescription(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     name: Annotated[str, Field(pattern=r"^[a-z][a-z0-9-]*$")]
-    affordance: Literal["jump", "drop", "gap"]
+    affordance: Annotated[str, OneOf(_jumped)]
     sizes: Annotated[list[_Size], Field(min_length=1), AfterValidator(_increase)]
     least: _Size | None = None
     entry: Annotated[float, Field(ge=1.0, le=6.0)] = 3.3

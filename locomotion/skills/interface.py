@@ -48,7 +48,7 @@ class Clears(Protocol):
 
     @property
     def affordance(self) -> str:
-        """The kind of obstacle that it clears: "jump", "vault", "drop" or "gap"."""
+        """The kind of obstacle that it clears, as in `locomotion.skills.registry`."""
         ...
 
     @property
@@ -96,6 +96,11 @@ class ClearingSkill(Clears, Protocol):
     def fell(self, memory: NDArray[np.float64], state: NDArray[np.float64]) -> bool:
         """Whether the body has fallen, asked after each tick's physics; ``state`` says what
         `controller.observe` takes it for, which a body that lies over a wall or rolls is too."""
+        ...
+
+    def check(self, memory: NDArray[np.float64], steps: float) -> None:
+        """Raises `LocomotionError` for a ``memory``, read from a file, that it cannot have after so many
+        ``steps`` of the run."""
         ...
 
 

@@ -10,9 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from locomotion.clips.clip import Clip
+from locomotion.errors import LocomotionError
 from locomotion.gaits.run import controller
 from locomotion.gaits.run.skill import RunSkill
-from locomotion.skills.kernel import MIRROR, MIRROR_SIGN
+from locomotion.saved_arrays import Slots
+from locomotion.skills.kernel import FIRST_STEP, MIRROR, MIRROR_SIGN
 
 __all__ = ["LawTables", "LearnedSkill", "tables_over_run"]
 
@@ -66,7 +68,14 @@ class _Family(Protocol):
 
 
 class LearnedSkill:
-    """A family of laws over the height; a skill adds how it starts, ticks and falls."""
+    """A family of laws over the height; a skill adds how it starts, ticks and falls.
+
+    slots: what its memory may hold. over_run: whether it works on top of the run, whose step it began with is
+    in its memory.
+    """
+
+    slots: Slots
+    over_run = True
 
     def __init__(self, family: _Family, law: Callable[[float], LawTables]) -> None:
         """``law``: the kernels' arguments at a height [m] within the family's range."""
@@ -91,6 +100,12 @@ class LearnedSkill:
         if size not in self._tables:
             self._tables[size] = self._law(size)
         return self._tables[size]
+
+    def check(self, memory: NDArray[np.float64], steps: float) -> None:
+        """Raises `LocomotionError` for a ``memory`` that it cannot have after so many steps of the run."""
+        self.slots.check(memory)
+        if self.over_run and memory[FIRST_STEP] > steps:
+            raise LocomotionError("a person clears an obstacle with a step that is still to come")
 
     def approach(self, size: float) -> tuple[float, float]:
         """(entry speed [m/s], distance [m] from the stance foot's ankle to the edge at which the skill

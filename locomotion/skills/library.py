@@ -9,19 +9,14 @@ from pathlib import Path
 from locomotion.data import CLIPS, SKILLS
 from locomotion.gaits.run.skill import RunSkill
 from locomotion.skills.description import load_described, load_description
-from locomotion.skills.drop_roll.skill import DROP_ROLL_SKILL, DropRoll, load_drop_roll_skill
 from locomotion.skills.interface import ClearingSkill, skill_ranges
-from locomotion.skills.jump.skill import JUMP_SKILL, Jump, load_jump_skill
-from locomotion.skills.vault.skill import VAULT_SKILL, Vault, load_vault_skill
+from locomotion.skills.registry import skill_kinds
 
-__all__ = ["LEAP", "described_ranges", "learned_skills", "package_skill", "skill_digest", "skills_digest"]
-
-LEAP = SKILLS / "leap.yaml"
-"""Description of the leap over gaps."""
+__all__ = ["described_ranges", "learned_skills", "package_skill", "skill_digest", "skills_digest"]
 
 
 def package_skill(name: str) -> Path:
-    """File of one of the package's skills, such as "drop-roll"."""
+    """File of one of the package's skills, with dashes in its name as underscores."""
     return SKILLS / f"{name.replace('-', '_')}.npz"
 
 
@@ -69,16 +64,10 @@ def described_ranges(run: RunSkill, own: Sequence[str | os.PathLike[str]]) -> di
 
 def learned_skills(run: RunSkill, own: Sequence[str | os.PathLike[str]] = ()) -> tuple[ClearingSkill, ...]:
     """What clears obstacles on top of a run: the skills described by the files ``own``
-    (`locomotion.skills.description`), and then those of the package. `LocomotionError` for files with a
+    (`locomotion.skills.description`), and then those of all kinds (`locomotion.skills.registry`) that have
+    been learned. `LocomotionError` for files with a
     mistake, and where the skills for one kind of obstacle leave out sizes in between."""
     skills = [load_described(path, run) for path in own]
-    if JUMP_SKILL.exists():
-        skills.append(Jump(load_jump_skill(), run))
-    if VAULT_SKILL.exists():
-        skills.append(Vault(load_vault_skill(), run))
-    if DROP_ROLL_SKILL.exists():
-        skills.append(DropRoll(load_drop_roll_skill()))
-    if LEAP.with_suffix(".npz").exists():
-        skills.append(load_described(LEAP, run))
+    skills += [skill for kind in skill_kinds() if (skill := kind.load(run)) is not None]
     skill_ranges(skills)
     return tuple(skills)

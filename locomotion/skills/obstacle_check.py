@@ -8,7 +8,7 @@ import numpy as np
 from locomotion.errors import LocomotionError
 from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.skills.interface import ClearingSkill, skill_for
-from navmesh.kinds import affordances
+from locomotion.skills.registry import CLEARING
 from surefoot.numeric import as_floats, is_finite
 
 __all__ = ["check_obstacles"]
@@ -42,8 +42,8 @@ def check_obstacles(obstacles: Sequence[ObstacleAhead], skills: Sequence[Clearin
 
 
 def _mistake(obstacle: ObstacleAhead) -> str | None:
-    if obstacle.affordance not in affordances():
-        return f"affordance {obstacle.affordance!r}: valid: {', '.join(map(repr, affordances()))}"
+    if obstacle.affordance not in CLEARING:
+        return f"affordance {obstacle.affordance!r}: valid: {', '.join(map(repr, CLEARING))}"
     for name in ("arc_length", "height", "depth"):
         value = getattr(obstacle, name)
         if not is_finite(value):

@@ -35,6 +35,8 @@ class _Part(NamedTuple):
     """(v, 4) integers, a set for each four joints"""
     weights: list[np.ndarray]
     """(v, 4) float64"""
+    material: str
+    """its name; "" for none"""
 
 
 @np.errstate(over="ignore", invalid="ignore")  # what comes out infinite is refused as a whole
@@ -49,6 +51,7 @@ def read_gltf(path: str | os.PathLike[str]) -> MeshFile:
     shown = _shown(document, nodes, order)
     shapes: dict[int, list[_Part]] = {}
     parts: list[tuple[np.ndarray, np.ndarray]] = []
+    materials: list[str] = []
     total = 0
     for index in [each for each, _ in order if each in shown]:
         node, where = nodes[index], f"nodes[{index}]"
@@ -67,13 +70,17 @@ def read_gltf(path: str | os.PathLike[str]) -> MeshFile:
             bones = _bones(document, node["skin"], placed, where)
             parts += [(_skinned(document, part, points, bones, where), part.faces) for part, points in
                       zip(shapes[number], moved, strict=True)]  # fmt: skip
+            materials += [part.material for part in shapes[number]]
             continue
         for place in places:
             turned = np.linalg.det(place[:3, :3]) < 0.0  # mirrored: what was seen clockwise is not any more
             for part, points in zip(shapes[number], moved, strict=True):
+                materials.append(part.material)
                 parts.append((points @ place[:3, :3].T + place[:3, 3], part.faces[:, :: -1 if turned else 1]))
     vertices, faces = flattened(parts)
-    return MeshFile(vertices, faces, up="y")
+    if not any(materials):
+        return MeshFile(vertices, faces, up="y")
+    return MeshFile(vertices, faces, up="y", materials=np.repeat(materials, [len(part[1]) for part in parts]))
 
 
 def _order(document: Document, nodes: list[dict[str, Any]]) -> list[tuple[int, int]]:
@@ -228,6 +235,7 @@ def _part(document: Document, primitive: dict[str, Any], mode: int, where: str) 
         ],
         [numbers(f"JOINTS_{k}", "VEC4") for k in sets],
         [numbers(f"WEIGHTS_{k}", "VEC4") for k in sets],
+        _material(document, primitive, where),
     )
     for each in (*part.targets, *part.joints, *part.weights):
         if len(each) != len(points):
@@ -235,6 +243,14 @@ def _part(document: Document, primitive: dict[str, Any], mode: int, where: str) 
     if not np.isfinite(part.points).all():
         raise document.error(where, "a point is not finite")
     return part
+
+
+def _material(document: Document, primitive: dict[str, Any], where: str) -> str:
+    """The name of a primitive's material; "" for none, or for one without a name."""
+    if "material" not in primitive:
+        return ""
+    name = document.item("materials", primitive["material"], where).get("name", "")
+    return name if isinstance(name, str) else ""
 
 
 def _faces(document: Document, named: np.ndarray, mode: int, where: str) -> np.ndarray:

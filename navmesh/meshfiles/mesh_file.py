@@ -22,6 +22,8 @@ class MeshFile:
     """Axis that points up, where the caller names none."""
     scale: float = 1.0
     """Metres per unit, where the caller names none."""
+    materials: np.ndarray | None = None
+    """(f,) str: the name of each triangle's material, "" for none; None where the file names none."""
 
 
 class MeshFileError(NavmeshError):

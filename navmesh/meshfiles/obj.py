@@ -1,4 +1,5 @@
-"""Wavefront OBJ: vertices and polygons; materials, normals, lines and groups are passed over.
+"""Wavefront OBJ: vertices, polygons and the names of their materials; normals, lines and groups are
+passed over.
 
 After the format's description of Alias|Wavefront (Advanced Visualizer, appendix B1). Free-form surfaces and
 `call` are refused: without them the level would have holes.
@@ -11,7 +12,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from navmesh.meshfiles.mesh_file import MeshFile, MeshFileError
-from navmesh.meshfiles.polygons import CrossingPolygon, triangulate
+from navmesh.meshfiles.polygons import CrossingPolygon, triangulate_owned
 from navmesh.meshfiles.text import as_lines, finite_rows, quoted, read_bytes, whole_numbers
 
 __all__ = ["read_obj"]
@@ -34,6 +35,7 @@ def read_obj(path: str | os.PathLike[str]) -> MeshFile:
     """The polygons of an OBJ file as triangles. Raises `MeshFileError` with the line for what is wrong."""
     points, point_lines = [], []
     rows, lines, before = [], [], []
+    named_from: list[tuple[int, str]] = []  # the first face of a material, and its name
     for number, statement in _statements(as_lines(read_bytes(path))):
         word, rest = statement.split(None, 1) if b" " in statement or b"\t" in statement else (statement, b"")
         if word == b"v":
@@ -43,6 +45,8 @@ def read_obj(path: str | os.PathLike[str]) -> MeshFile:
             rows.append(rest)
             lines.append(number)
             before.append(len(points))
+        elif word == b"usemtl":
+            named_from.append((len(rows), rest.strip().decode(errors="replace")))
         elif word in _REFUSED:
             problem = (
                 f"{quoted(statement)}: {_REFUSED[word]}, which is not read; export polygons, in one file"
@@ -60,9 +64,14 @@ def read_obj(path: str | os.PathLike[str]) -> MeshFile:
     )
     corners = _from_zero(path, named, np.repeat(before, sizes), len(vertices), np.repeat(lines, sizes))
     try:
-        return MeshFile(vertices, triangulate(vertices, corners, sizes))
+        faces, owner = triangulate_owned(vertices, corners, sizes)
     except CrossingPolygon as error:
         raise MeshFileError(path, f"line {lines[error.index]}", str(error)) from None
+    if not named_from:
+        return MeshFile(vertices, faces)
+    first = np.array([0, *(at for at, _ in named_from), len(rows)])
+    names = np.array(["", *(name for _, name in named_from)])
+    return MeshFile(vertices, faces, materials=np.repeat(names, np.diff(first))[owner])
 
 
 def _statements(lines: list[bytes]) -> Iterator[tuple[int, bytes]]:

@@ -3,7 +3,7 @@
 import mapbox_earcut
 import numpy as np
 
-__all__ = ["CrossingPolygon", "triangulate"]
+__all__ = ["CrossingPolygon", "triangulate", "triangulate_owned"]
 
 _FLAT = 1e-9  # areas below this share of the polygon's squared size are rounding
 _PLANAR = 1e-3  # a polygon is planar if no corner is farther from its plane than this share of its size
@@ -27,10 +27,17 @@ def triangulate(points: np.ndarray, corners: np.ndarray, sizes: np.ndarray) -> n
     with fewer than three corners, or all in a line, have no triangles. Raises `CrossingPolygon` for a planar
     one whose outline crosses itself; one that is bent so far that it seems to is taken as it comes.
     """
+    return triangulate_owned(points, corners, sizes)[0]
+
+
+def triangulate_owned(
+    points: np.ndarray, corners: np.ndarray, sizes: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """`triangulate`'s triangles, and for each the polygon that it is of, (f,) int64."""
     corners, sizes = np.asarray(corners, dtype=np.int64), np.asarray(sizes, dtype=np.int64)
     starts = np.cumsum(sizes) - sizes
     if len(sizes) and (sizes == 3).all():
-        return corners.reshape(-1, 3)
+        return corners.reshape(-1, 3), np.arange(len(sizes))
     faces, owners = [np.empty((0, 3), np.int64)], [np.empty(0, np.int64)]
     for size in np.unique(sizes[sizes >= 3]).tolist():
         own = np.flatnonzero(sizes == size)
@@ -45,7 +52,9 @@ def triangulate(points: np.ndarray, corners: np.ndarray, sizes: np.ndarray) -> n
             fans, own = fans[good], own[good]
         faces.append(fans.reshape(-1, 3))
         owners.append(np.repeat(own, size - 2))
-    return np.concatenate(faces)[np.argsort(np.concatenate(owners), kind="stable")]
+    owner = np.concatenate(owners)
+    order = np.argsort(owner, kind="stable")
+    return np.concatenate(faces)[order], owner[order]
 
 
 def _fan(ring: np.ndarray) -> np.ndarray:

@@ -14,6 +14,7 @@ from typing import Annotated, Any
 
 import typer
 from typer import exceptions as typer_exceptions
+from typer.core import TyperCommand
 
 from surefoot import __version__
 from surefoot.errors import SurefootError
@@ -49,30 +50,39 @@ class Up(StrEnum):
     z = "z"
 
 
-class Skill(StrEnum):
-    """What can be learned."""
+def _skills() -> tuple[str, ...]:
+    """What can be learned: gaits, and what clears obstacles."""
+    _loaded()
+    from locomotion.skills.registry import skill_words
 
-    run = "run"
-    walk = "walk"
-    speed_up = "speed-up"
-    slow_down = "slow-down"
-    brake = "brake"
-    jump = "jump"
-    vault = "vault"
-    drop_roll = "drop-roll"
-    leap = "leap"
+    return ("run", "walk", "speed-up", "slow-down", "brake", *skill_words())
 
 
 def _skill(name: str) -> str:
-    if name not in list(Skill) and not name.endswith((".yaml", ".yml")):
-        raise typer.BadParameter(f"{name!r}: valid: {', '.join(Skill)}, or the .yaml file that describes one")
+    if not name.endswith((".yaml", ".yml")) and name not in _skills():
+        raise typer.BadParameter(
+            f"{name!r}: valid: {', '.join(_skills())}, or the .yaml file that describes one"
+        )
     return name
 
 
 SkillArgument = typer.Argument(
-    metavar=f"[{'|'.join(Skill)}|FILE.yaml]", parser=_skill, callback=_input,
+    parser=_skill, callback=_input,
     help="A skill of the package, or the file that describes one of your own.",
 )  # fmt: skip
+
+
+class _OnSkills(TyperCommand):
+    """A command on a skill. Which there are is looked up only when it is called: that imports a lot."""
+
+    def get_params(self, ctx: Any) -> list[Any]:
+        parameters = super().get_params(ctx)
+        for parameter in parameters:
+            if parameter.name == "skill":
+                parameter.metavar = f"[{'|'.join(_skills())}|FILE.yaml]"
+        return parameters
+
+
 MESH_HELP = "Mesh file: OBJ, PLY, STL, OFF, glTF (.gltf, .glb), FBX or USD (docs/guides/meshes.md)."
 TraceArgument = Annotated[
     Path, typer.Argument(callback=_input, help="Trace (.npz), or a mission (.yaml) to be run first.")
@@ -342,7 +352,7 @@ def replay(
     _finish(replay_finding(report, number, output), as_json)
 
 
-@app.command()
+@app.command(cls=_OnSkills)
 def train(
     skill: Annotated[str | None, SkillArgument] = None,
     everything: Annotated[
@@ -383,7 +393,7 @@ def train(
     _finish(result, as_json=False)
 
 
-@app.command()
+@app.command(cls=_OnSkills)
 def evaluate(
     skill: Annotated[str, SkillArgument],
     trials: Annotated[int, typer.Option(min=1, help="How many trials of each test.")] = 20,
@@ -436,6 +446,15 @@ def clip(
 
 
 def _commands() -> Any:
+    """The module `runtime.cli.commands`; from now on nothing is written to what the command reads."""
+    commands = _loaded()
+    from surefoot.files.inputs import keep_inputs
+
+    _after.enter_context(keep_inputs(_inputs))
+    return commands
+
+
+def _loaded() -> Any:
     """The module `runtime.cli.commands`, imported when a command needs it.
 
     What is imported stays to the end, and looking through it for garbage, again and again while it grows and
@@ -449,10 +468,8 @@ def _commands() -> Any:
     try:
         with _told_that_it_loads():
             from runtime.cli import commands
-            from surefoot.files.inputs import keep_inputs
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
-    _after.enter_context(keep_inputs(_inputs))
     gc.freeze()
     gc.enable()
     return commands

@@ -11,13 +11,13 @@ from typing import Any
 
 import navmesh
 from locomotion import smooth_route
+from locomotion.skills.registry import skill_kind
 from runtime.errors import RuntimeInputError
 from runtime.events import Departed, Event
 from runtime.missions.check import prepare_mission
 from runtime.missions.mission import load_mission, mission_schema
 from runtime.missions.run import MissionResult, run_mission
 from runtime.planning.rules import person_walk_rules
-from runtime.skill_words import SKILL_OF
 from runtime.traces.trace import Trace
 from runtime.warmup import compile_kernels, is_compiled, load_kernels
 from surefoot.files.archive import check_target
@@ -98,7 +98,7 @@ def list_obstacles(level: Path, up: str | None, scale: float | None) -> Result:
     rows = [
         {
             "tag": str(found.tag[k]),
-            "skill": SKILL_OF[str(found.affordance[k])],
+            "skill": skill_kind(str(found.affordance[k])).skill,
             "affordance": str(found.affordance[k]),
             "authored": bool(found.authored[k]),
             **{name: round(float(getattr(found, name)[k]), 3) for name in _MEASURES},

@@ -31,21 +31,17 @@ _WITHOUT_A_PLANE = ("walk", "speed-up", "slow-down", "brake")
 
 def _trainers() -> Mapping[str, Callable[..., Any]]:
     """What learns each skill, in the order in which they build on one another."""
-    from locomotion.skills.library import LEAP
+    from locomotion.skills.registry import skill_kinds
     from locomotion.training.gaits.brake import train_brake
     from locomotion.training.gaits.run import train_run
     from locomotion.training.gaits.slow_down import train_slow_down
     from locomotion.training.gaits.speed_up import train_speed_up
     from locomotion.training.gaits.walk import train_walk
-    from locomotion.training.skills.drop_roll import train_drop_roll
-    from locomotion.training.skills.jump import train_described, train_jump
-    from locomotion.training.skills.vault import train_vault
 
     return {
         "walk": train_walk, "run": train_run, "speed-up": train_speed_up, "slow-down": train_slow_down,
         "brake": train_brake,
-        "jump": train_jump, "vault": train_vault, "drop-roll": train_drop_roll,
-        "leap": partial(train_described, LEAP),
+        **{kind.skill: kind.train for kind in skill_kinds() if kind.train is not None},
     }  # fmt: skip
 
 
@@ -172,6 +168,7 @@ def evaluate_skill(skill: str, trials: int, seed: int, picture: Path | None = No
         if skill in _WITHOUT_A_PLANE:
             raise RuntimeInputError(f"the tests of {skill} have no plane to draw; leave --picture out")
         check_picture(picture)
+    from locomotion.skills.registry import skill_kinds
     from runtime.evaluation.evaluation import (
         evaluate_brake,
         evaluate_clearing,
@@ -185,9 +182,7 @@ def evaluate_skill(skill: str, trials: int, seed: int, picture: Path | None = No
     evaluate: Mapping[str, Callable[..., Sequence[Attempt]]] = {
         "run": evaluate_run, "walk": evaluate_walk, "speed-up": evaluate_speed_up,
         "slow-down": evaluate_slow_down, "brake": evaluate_brake,
-        "jump": partial(evaluate_clearing, "jump"), "vault": partial(evaluate_clearing, "vault"),
-        "drop-roll": partial(evaluate_clearing, "drop"),
-        "leap": partial(evaluate_clearing, "gap"),
+        **{kind.skill: partial(evaluate_clearing, kind) for kind in skill_kinds()},
     }  # fmt: skip
     attempts = evaluate.get(skill, partial(evaluate_described, skill))(trials, seed, ready())
     if picture is not None:

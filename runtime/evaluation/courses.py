@@ -12,6 +12,8 @@ from locomotion.ground.ground import extruded
 from locomotion.rehearsal.contact_report import ContactReport, Watcher
 from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.skills.interface import ClearingSkill
+from locomotion.skills.registry import skill_kind
+from navmesh.kinds import kind_of
 
 __all__ = [
     "AFTER",
@@ -59,7 +61,7 @@ class Push:
 
 @dataclass
 class CourseRun:
-    """A run over a course. ended: "arrived", or the status at the end, "fallen" with where; passages: of the
+    """A run over a course. ended: "arrived", or the status at the end, "fallen" with where; reports: of the
     obstacles that the person took off for, in order. seconds: simulated [s]. frames: qpos (46,) of each
     tick, if they were asked for."""
 
@@ -73,24 +75,25 @@ def make_course(
     obstacles: Sequence[tuple[str, float, float]], distances: Sequence[float], margin: float = 5.0
 ) -> Course:
     """A course of ``obstacles``, each (affordance, height (gap: width) [m], thickness [m]), ``distances`` [m]
-    after the start and after each other. Thickness is that of a wall ("vault"); elsewhere it does not
+    after the start and after each other. Thickness is that of what one gets over; elsewhere it does not
     count."""
     x = z = 0.0
     profile, path, ahead = [(-margin, 0.0)], [(0.0, 0.0)], []
     for (affordance, size, thickness), distance in zip(obstacles, distances, strict=True):
         x += distance
         path.append((x - _EDGE, z))
-        height, depth = {"vault": (size, thickness), "gap": (0.0, size)}.get(affordance, (size, 0.0))
-        top = z + height if affordance != "drop" else z
+        crossing = kind_of(affordance).crossing
+        height, depth = {"over": (size, thickness), "across": (0.0, size)}.get(crossing, (size, 0.0))
+        top = z + height if crossing != "off" else z
         edge = np.array([x, 0.0, top])
         ahead.append(ObstacleAhead(x, affordance, height, edge, np.array([-1.0, 0.0, 0.0]), depth))
         profile.append((x, z))
-        if affordance == "vault":
+        if crossing == "over":
             profile += [(x, top), (x + depth, top), (x + depth, z)]
-        elif affordance == "gap":
+        elif crossing == "across":
             profile += [(x, z - _PIT), (x + depth, z - _PIT), (x + depth, z)]
         else:
-            z += height if affordance == "jump" else -height
+            z += height if crossing == "onto" else -height
             profile.append((x, z))
         path.append((x + _EDGE, z))
     path.append((x + AFTER, z))
@@ -160,7 +163,7 @@ def run_course(
 
 
 def held(affordance: str, run: CourseRun) -> bool:
-    """Whether a course with one obstacle ended at its goal, by the skill: who vaults has held on."""
+    """Whether a course with one obstacle ended at its goal, by the skill: who has to has held on."""
     if run.ended != "arrived" or not run.reports:
         return False
-    return affordance != "vault" or run.reports[0].held > 0.0
+    return not skill_kind(affordance).holds_on or run.reports[0].held > 0.0

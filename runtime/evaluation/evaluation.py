@@ -20,21 +20,19 @@ from locomotion.human.state import HumanState
 from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.skills.description import load_described
 from locomotion.skills.interface import ClearingSkill
+from locomotion.skills.jump.kind import JUMP
+from locomotion.skills.kind import SkillKind
 from locomotion.skills.library import learned_skills
+from locomotion.skills.registry import skill_kind
 from locomotion.training.gaits.rollout import Scenario, Simulator, stays_up
 from runtime.evaluation.courses import CourseRun, Push, held, make_course, run_course
-from runtime.skill_words import SKILL_OF
 from surefoot.progress import Progress
 
 __all__ = [
-    "DEFAULT_HEIGHTS", "HEIGHTS", "Attempt", "evaluate_brake", "evaluate_clearing", "evaluate_described",
+    "Attempt", "evaluate_brake", "evaluate_clearing", "evaluate_described",
     "evaluate_run", "evaluate_slow_down", "evaluate_speed_up", "evaluate_walk", "start_noise",
 ]  # fmt: skip
 
-DEFAULT_HEIGHTS = {"jump": 0.4, "vault": 0.7, "drop": 1.5, "gap": 1.2}
-"""[m], of a gap its width"""
-HEIGHTS = {"jump": (0.1, 0.7), "vault": (0.6, 1.0), "drop": (0.9, 2.0), "gap": (0.4, 1.8)}
-"""[m] that a person is to clear, by affordance; of gaps their widths."""
 WALL = 0.3
 """Thickness of a wall [m]."""
 NOISE = 0.02
@@ -69,12 +67,11 @@ class Attempt:
     at: dict[str, float] = field(default_factory=dict)
 
 
-def evaluate_clearing(affordance: str, trials: int, seed: int, progress: Progress) -> list[Attempt]:
-    """Three tests of ``trials`` each: the default height from 30 to 100 m, evenly; heights drawn from
-    `HEIGHTS` from 10 to 30 m; the same with a push from any side somewhere in `PUSHED_WITHIN`."""
-    skills = [skill for skill in Human().clearing if skill.affordance == affordance]
-    default, heights = DEFAULT_HEIGHTS[affordance], HEIGHTS[affordance]
-    return _evaluate(affordance, default, heights, skills, None, trials, seed, progress)
+def evaluate_clearing(kind: SkillKind, trials: int, seed: int, progress: Progress) -> list[Attempt]:
+    """Three tests of ``trials`` each: the usual size from 30 to 100 m, evenly; sizes drawn from those of
+    ``kind`` from 10 to 30 m; the same with a push from any side somewhere in `PUSHED_WITHIN`."""
+    skills = [skill for skill in Human().clearing if skill.affordance == kind.affordance]
+    return _evaluate(kind, kind.usual, kind.sizes, skills, None, trials, seed, progress)
 
 
 def evaluate_described(path: str, trials: int, seed: int, progress: Progress) -> list[Attempt]:
@@ -85,11 +82,12 @@ def evaluate_described(path: str, trials: int, seed: int, progress: Progress) ->
     low, high = skill.heights
     middle = round(0.5 * (low + high), 2)
     every = learned_skills(run, [path])
-    return _evaluate(skill.affordance, middle, (low, high), [skill], every, trials, seed, progress)
+    kind = skill_kind(skill.affordance)
+    return _evaluate(kind, middle, (low, high), [skill], every, trials, seed, progress)
 
 
 def _evaluate(
-    affordance: str,
+    kind: SkillKind,
     height: float,
     heights: tuple[float, float],
     skills: Sequence[ClearingSkill],
@@ -98,7 +96,7 @@ def _evaluate(
     seed: int,
     progress: Progress,
 ) -> list[Attempt]:
-    """``skills``: those for the affordance; ``clearing``: all that the person has."""
+    """``skills``: those for the kind; ``clearing``: all that the person has."""
     low, high = heights
     rng = np.random.default_rng(seed)
     drawn = [
@@ -114,16 +112,16 @@ def _evaluate(
 
     def attempt(test: str, height: float, distance: float) -> Attempt:
         what = f"{height:.2f} m from {distance:.1f} m"
-        at = {"run-up [m]": distance, f"{'width' if affordance == 'gap' else 'height'} [m]": height}
+        at = {"run-up [m]": distance, f"{kind.obstacle.measure} [m]": height}
         if not any(each.heights[0] - 1e-9 <= height <= each.heights[1] + 1e-9 for each in skills):
             return Attempt(test, what, "not learned for this height", False, at=at)
-        course = make_course([(affordance, height, WALL)], [distance])
+        course = make_course([(kind.affordance, height, WALL)], [distance])
         push = _push_at(seed, distance) if test == pushed else None
         run = run_course(course, clearing, start_noise(seed, distance), push=push)
-        return replace(_judged(test, what, affordance, run), at=at)
+        return replace(_judged(test, what, kind, run), at=at)
 
     todo = [(test, *start) for test, starts in tests.items() for start in starts]
-    return _tried(SKILL_OF[affordance], [lambda each=each: attempt(*each) for each in todo], progress)
+    return _tried(kind.skill, [lambda each=each: attempt(*each) for each in todo], progress)
 
 
 def start_noise(seed: int, distance: float) -> np.ndarray:
@@ -140,20 +138,20 @@ def _push_at(seed: int, distance: float) -> Push:
     return Push(float(at), force, round(PUSH_TIME / CONTROL_DT))
 
 
-def _judged(test: str, what: str, affordance: str, run: CourseRun) -> Attempt:
+def _judged(test: str, what: str, kind: SkillKind, run: CourseRun) -> Attempt:
     """What became of a course with one obstacle."""
     if not run.reports:
         return Attempt(test, what, run.ended, False)
     passage = run.reports[0]
-    status, good = run.ended, held(affordance, run)
+    status, good = run.ended, held(kind.affordance, run)
     figures = {"peak reaction [body weights]": passage.peak}
-    if affordance == "drop":
+    if kind.obstacle.crossing == "off":
         figures["touches with the head"] = float(passage.head > 0.0)
         status += f", head on the ground for {passage.head:.2f} s" * (passage.head > 0.0)
     else:
         figures["touches it"] = float(passage.touched)
         status += ", touched it" * passage.touched
-    if affordance == "vault":
+    if kind.holds_on:
         figures["hand in the middle half"] = float(abs(passage.planted - 0.5) <= 0.25)
         status += ", without its hand" * (passage.held == 0.0)
     return Attempt(test, what, status, good, figures if good else {})
@@ -254,7 +252,7 @@ def evaluate_walk(trials: int, seed: int, progress: Progress) -> list[Attempt]:
 def evaluate_speed_up(trials: int, seed: int, progress: Progress) -> list[Attempt]:
     """Starts from standing, with noise: does the person run up to a stair, and after how many metres was a
     step as fast as it takes for most obstacles?"""
-    course = make_course([("jump", 0.4, WALL)], [_RUNS_ON + 3.0])
+    course = make_course([(JUMP.affordance, JUMP.usual, WALL)], [_RUNS_ON + 3.0])
     ground = Ground.from_arrays(course.vertices, course.faces)
 
     def attempt(k: int) -> Attempt:

@@ -2,10 +2,11 @@
 
 import numpy as np
 
+from locomotion.skills.registry import skill_called, skill_kind
+from navmesh.kinds import kind_of
 from navmesh.obstacles import Obstacles
 from runtime.missions.mission import Address, LoadedMission
 from runtime.missions.model import Use
-from runtime.skill_words import AFFORDANCE_OF, SKILL_OF
 from runtime.world.agent import Agent
 from runtime.world.world import World
 
@@ -25,16 +26,16 @@ def find_clearing(
     Raises `FileError` for a skill that the body has not, an obstacle that is not there, is
     too high or too low, and one that the way leads around.
     """
-    affordance = AFFORDANCE_OF[use.skill]
-    if affordance not in agent.skills:
-        valid = ", ".join(repr(SKILL_OF[each]) for each in agent.skills) or "none"
+    kind = skill_called(use.skill).obstacle
+    if kind.affordance not in agent.skills:
+        valid = ", ".join(repr(skill_kind(each).skill) for each in agent.skills) or "none"
         raise loaded.error((*address, "skill"), f"a {agent.body} has no skill {use.skill!r}; valid: {valid}")
     obstacles = world.graph.obstacles
     index = _obstacle(loaded, obstacles, address, use)
-    low, high = agent.skills[affordance]
+    low, high = agent.skills[kind.affordance]
     size = float(obstacles.size[index])
     if not low <= size <= high:
-        measure = "wide" if affordance == "gap" else "high"
+        measure = "wide" if kind.measure == "width" else "high"
         raise loaded.error(
             address, f"{obstacles.tag[index]} is {size:.2f} m {measure}; {agent.name} can {use.skill} "
             f"{low:.2f} to {high:.2f} m",
@@ -49,18 +50,19 @@ def find_clearing(
 
 
 def _obstacle(loaded: LoadedMission, obstacles: Obstacles, address: Address, use: Use) -> int:
+    affordance = skill_called(use.skill).affordance
     if use.near is not None:
         place = loaded.point(use.near)
-        index, away = obstacles.near(place, AFFORDANCE_OF[use.skill])
+        index, away = obstacles.near(place, affordance)
         if away > _NEAR:
             raise loaded.error(
                 (*address, "near"), f"no obstacle to {use.skill} lies within {_NEAR:g} m of {place.tolist()}"
             )
         return index
-    kind = obstacles.affordance == AFFORDANCE_OF[use.skill]
-    found = np.flatnonzero(kind & (obstacles.tag == use.obstacle))
+    cleared = obstacles.affordance == affordance
+    found = np.flatnonzero(cleared & (obstacles.tag == use.obstacle))
     if len(found) == 0:
-        named = obstacles.tag[kind & obstacles.authored].tolist()
+        named = obstacles.tag[cleared & obstacles.authored].tolist()
         raise loaded.unknown((*address, "obstacle"), str(use.obstacle), f"obstacle to {use.skill}", named)
     return int(found[0])
 
@@ -69,9 +71,9 @@ def _ends(obstacles: Obstacles, index: int) -> tuple[np.ndarray, np.ndarray]:
     """Points (3,) [m] on the floors before and behind, on the line over the middle of the edge."""
     edge, outward = obstacles.position[index], obstacles.normal[index]
     upward = np.array([0.0, 0.0, 1.0])
-    stands = obstacles.affordance[index] in ("jump", "vault")
-    across = 0.0 if obstacles.affordance[index] == "jump" else float(obstacles.depth[index])
+    kind = kind_of(str(obstacles.affordance[index]))
+    across = float(obstacles.depth[index]) if kind.has_depth else 0.0
     run_up = np.clip(obstacles.run_up[index] - _MARGIN, 0.5, _RUN_UP)
     landing = np.clip(obstacles.landing[index] - _MARGIN, 0.5, _BEYOND)
-    floor = edge - upward * (obstacles.height[index] if stands else 0.0)
+    floor = edge - upward * (obstacles.height[index] if kind.from_below else 0.0)
     return floor + outward * run_up, floor + upward * obstacles.rise[index] - outward * (across + landing)

@@ -16,8 +16,9 @@ from pydantic import (
 )
 
 from locomotion.quadruped import is_body_file
+from locomotion.skills.registry import CLEARING, skill_called, skill_words
 from runtime.bodies.protocol import BODIES
-from runtime.skill_words import SKILL_OF
+from surefoot.files.choices import OneOf
 
 __all__ = [
     "AgentSpec", "Distance", "Entering", "Expectation", "Follow", "LevelSpec", "Mission", "Order", "Patrol",
@@ -74,11 +75,19 @@ Places = Annotated[
 """One place, or several in order."""
 Seconds = Annotated[float, Gt(0.0), Le(86400.0)]
 Speed = Annotated[float, Ge(0.5), Le(6.0)]
+
+
+def _as_called_now(said: Any) -> Any:
+    """Files of earlier versions call a skill as its obstacle."""
+    return skill_called(said).skill if isinstance(said, str) and said in CLEARING else said
+
+
 Skill = Annotated[
-    Literal["jump", "vault", "drop-roll", "leap"],
-    BeforeValidator(lambda said: SKILL_OF.get(said, said) if isinstance(said, str) else said),
+    str,
+    OneOf(skill_words),
+    BeforeValidator(_as_called_now),
 ]
-"""What clears an obstacle; files of earlier versions call it as the obstacle: drop, gap."""
+"""What clears an obstacle."""
 if TYPE_CHECKING:
     Body = str
 else:

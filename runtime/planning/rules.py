@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 import navmesh
 from locomotion import PERSON_RULES
 from locomotion.quadruped import load_body
+from navmesh.kinds import obstacle_kinds
 from runtime.errors import RuntimeInputError
 
 __all__ = ["obstacle_rules", "person_walk_rules", "walk_rules"]
@@ -60,14 +61,11 @@ def obstacle_rules(
 ) -> navmesh.ObstacleRules:
     """What counts as an obstacle for a body of ``body_radius`` [m] with ``skills`` (least and greatest size
     [m] by affordance): all that it can clear, and the usual rest."""
-    usual = navmesh.ObstacleRules()
-    return navmesh.ObstacleRules(
-        jump_rise=_both(usual.jump_rise, skills.get("jump")),
-        vault_height=_both(usual.vault_height, skills.get("vault")),
-        drop_height=_both(usual.drop_height, skills.get("drop")),
-        gap_width=_both(usual.gap_width, skills.get("gap")),
-        body_radius=body_radius,
-    )
+    usual, ranges = navmesh.ObstacleRules(), {}
+    for kind in obstacle_kinds():
+        if (looked_for := usual.range_of(kind)) is not None:
+            ranges[kind.rule] = _both(looked_for, skills.get(kind.affordance))
+    return navmesh.ObstacleRules(**ranges, body_radius=body_radius)
 
 
 def _both(usual: tuple[float, float], own: tuple[float, float] | None) -> tuple[float, float]:

@@ -93,7 +93,7 @@ def _explained(
     character = site.character
     here, there = _cells(site, reached), np.isin(site.cell_part, parts)
     centre, area = site.centre_of(int(parts[0])), float(site.areas[parts].sum())
-    climb = max(character.reach("jump"), site.graph.rules.max_step) + ALMOST
+    climb = max(character.reach("onto"), site.graph.rules.max_step) + ALMOST
     barrier = barriers.between(here, there, climb)
     kind, fails = "unreachable", False
     if barrier is None:
@@ -107,7 +107,7 @@ def _explained(
     elif barrier.kind == "rise" and barrier.size > 0.0:
         kind, fails = "step" if barrier.size <= _LOW_STEP else "ledge", True
     elif barrier.kind == "gap":
-        low, high = character.skills.get("gap", (0.0, 0.0))
+        low, high = character.span("across")
         if 0.0 < high and (barrier.size < low or high <= barrier.size <= high + _ALMOST_GAP):
             kind, fails = "gap", True
     text = words.unreachable(centre, area, barrier)

@@ -8,6 +8,9 @@ import navmesh
 from locomotion import PERSON_RULES, Human
 from locomotion.quadruped import BODY_NAMES, load_body
 from locomotion.skills.interface import skill_ranges
+from locomotion.skills.kind import SkillKind
+from locomotion.skills.registry import skill_kinds
+from navmesh.kinds import Crossing
 from runtime.errors import RuntimeInputError
 from runtime.planning.rules import obstacle_rules, walk_rules
 
@@ -45,9 +48,22 @@ class Character:
         """What counts as an obstacle for it: all that it can clear, and the usual rest."""
         return obstacle_rules(self.skills, max(self.radius, 0.05))
 
-    def reach(self, affordance: str) -> float:
-        """The greatest height (width) of ``affordance`` that it clears [m]; 0 without the skill."""
-        return self.skills.get(affordance, (0.0, 0.0))[1]
+    def clears(self, crossing: Crossing) -> list[tuple[SkillKind, float, float]]:
+        """With what it gets past obstacles in this way, from and up to which size [m]."""
+        return [
+            (kind, *self.skills[kind.affordance])
+            for kind in skill_kinds()
+            if kind.obstacle.crossing == crossing and self.skills.get(kind.affordance, (0.0, 0.0))[1] > 0.0
+        ]
+
+    def span(self, crossing: Crossing) -> tuple[float, float]:
+        """Least and greatest size [m] that it gets past in this way; (0, 0) if it does not."""
+        ranges = [limits for _, *limits in self.clears(crossing)]
+        return (min(low for low, _ in ranges), max(high for _, high in ranges)) if ranges else (0.0, 0.0)
+
+    def reach(self, crossing: Crossing) -> float:
+        """The greatest size [m] that it gets past in this way; 0 if it does not."""
+        return self.span(crossing)[1]
 
     def to_dict(self) -> dict[str, Any]:
         """As plain values, for a report."""
@@ -69,11 +85,19 @@ def character_of(body: str) -> Character:
         return Character(body, PERSON_RULES["radius"], 3.3, walk_rules(["human"]), skills)
     if body == "walker":
         rules = walk_rules(["human"])
-        low = rules.max_step
-        skills = {"jump": (low, 0.7), "vault": (0.6, 1.0), "drop": (low, 2.0), "gap": (0.4, 2.5)}
-        return Character(body, PERSON_RULES["radius"], 3.0, rules, skills)
+        return Character(body, PERSON_RULES["radius"], 3.0, rules, _all_that_is_found(rules.max_step))
     kind = load_body(body)
     return Character(body, kind.radius, 1.5, kind.walk_rules(), {})
+
+
+def _all_that_is_found(step: float) -> dict[str, tuple[float, float]]:
+    """The sizes [m] of every kind that are looked for, or that people are to clear; what a body gets onto or
+    off it clears from ``step`` [m] on."""
+    skills, usual = {}, navmesh.ObstacleRules()
+    for kind in skill_kinds():
+        low, high = usual.range_of(kind.obstacle) or kind.sizes
+        skills[kind.affordance] = (low if kind.obstacle.has_depth else step, high)
+    return skills
 
 
 def changed(character: Character, radius: float | None, speed: float | None, rules: Mapping[str, float],

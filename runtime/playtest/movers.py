@@ -7,13 +7,13 @@ from typing import Protocol
 
 import numpy as np
 
+from locomotion.skills.registry import skill_called
 from navmesh.route import Route
 from runtime.errors import RuntimeInputError
 from runtime.events import SkillFinished, SkillStarted
 from runtime.playtest import feet
 from runtime.playtest.looks import POSED
 from runtime.playtest.site import Site
-from runtime.skill_words import AFFORDANCE_OF
 from runtime.world.world import World
 
 __all__ = ["Leg", "Mover", "WalkerMover", "WorldMover", "mover_of", "planned_time"]
@@ -85,7 +85,7 @@ class WalkerMover:
         self._site = site
         character, rules = site.character, site.graph.rules
         self._limits = np.array(
-            [character.radius, rules.max_step, rules.headroom, character.reach("drop"), character.stride]
+            [character.radius, rules.max_step, rules.headroom, character.reach("off"), character.stride]
         )
         self.place = np.zeros(3)
         self._heading = 0.0
@@ -183,7 +183,7 @@ class WorldMover:
         for event in world.events:
             if isinstance(event, SkillStarted):
                 cleared = self._site.graph.obstacles.near(
-                    np.array(event.position), AFFORDANCE_OF[event.skill]
+                    np.array(event.position), skill_called(event.skill).affordance
                 )[0]
             elif isinstance(event, SkillFinished):
                 cleared = -1

@@ -17,14 +17,16 @@ Everything may be left out. ``level.obj`` is played by ``level.playtest.yaml`` w
 import math
 import os
 from pathlib import Path
-from typing import Annotated, Literal, Self
+from typing import Annotated, Self
 
 from annotated_types import Ge, Gt, Le, Len
 from pydantic import BaseModel, ConfigDict, Field
 
 import navmesh
+from navmesh.kinds import affordances
 from runtime.missions.model import Name, Point
 from runtime.playtest.character import Character, changed
+from surefoot.files.choices import OneOf
 from surefoot.files.yamlfile import FileError, Located, read_yaml
 
 __all__ = ["LoadedPlan", "PlaceSpec", "Plan", "RouteSpec", "SpawnSpec", "plan_path"]
@@ -51,7 +53,7 @@ class CharacterSpec(_Strict):
     """[°] that it walks up."""
     speed: Annotated[float, Ge(0.5), Le(6.0)] | None = None
     """[m/s]"""
-    skills: dict[Literal["jump", "vault", "drop", "gap"], Range] | None = None
+    skills: dict[Annotated[str, OneOf(affordances)], Range] | None = None
     """Least and greatest height (gap: width) [m] that it clears; replaces those of the body."""
 
 

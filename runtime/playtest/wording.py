@@ -3,6 +3,8 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
+from locomotion.skills.registry import skill_kinds
+from navmesh.kinds import Crossing
 from navmesh.obstacles import Obstacles
 from runtime.playtest.character import Character
 from runtime.playtest.holes import Hole
@@ -32,28 +34,33 @@ class Wording:
 
     def ups(self, rise: float) -> str:
         """What the body does about ``rise`` [m]: "a person steps 0.20 m and jumps 0.28 to 0.52 m"."""
-        step = self.character.rules.max_step
-        if step < rise and self._in_range("jump", rise):
-            return f"a {self.noun} jumps that only where there is room to run up and to land"
-        return f"a {self.noun} steps {step:.2f} m and {self._range('jump')}"
+        step, can = self.character.rules.max_step, self._can("onto", rise)
+        if step < rise and can:
+            return f"a {self.noun} {can} that only where there is room to run up and to land"
+        return f"a {self.noun} steps {step:.2f} m and {self._ranges('onto', step)}"
 
     def downs(self, fall: float) -> str:
         """What the body does about a ``fall`` [m]."""
-        if self._in_range("drop", fall):
-            return f"a {self.noun} drops that only where there is room before it and to land"
-        return f"a {self.noun} {self._range('drop')}"
+        if can := self._can("off", fall):
+            return f"a {self.noun} {can} that only where there is room before it and to land"
+        return f"a {self.noun} {self._ranges('off', self.character.rules.max_step)}"
 
-    def _in_range(self, skill: str, size: float) -> bool:
-        low, high = self.character.skills.get(skill, (1.0, 0.0))
-        return low <= size <= high
+    def _can(self, crossing: Crossing, size: float) -> str:
+        """As in "jumps", of what is so large [m]; empty where the body does not clear it."""
+        able = [kind for kind, low, high in self.character.clears(crossing) if low <= size <= high]
+        return able[0].does.split()[0] if able else ""
 
-    def _range(self, skill: str) -> str:
-        """As in "jumps 0.28 to 0.52 m", or "jumps 0.70 m" where what is less is no obstacle."""
-        low, high = self.character.skills.get(skill, (0.0, 0.0))
-        if not high:
-            return f"does not {skill}"
-        least = f"{low:.2f} to " if low > self.character.rules.max_step else ""
-        return f"{skill}s {least}{high:.2f} m"
+    def _ranges(self, crossing: Crossing, no_obstacle: float = 0.0, what: str = "") -> str:
+        """As in "jumps 0.28 to 0.52 m", or "jumps 0.70 m" where what is less is ``no_obstacle`` [m]; or "does
+        not leap gaps", with ``what`` behind the verb."""
+        clears = self.character.clears(crossing)
+        if not clears:
+            usual = next(kind for kind in skill_kinds() if kind.obstacle.crossing == crossing)
+            return f"does not {usual.verb}{what}"
+        return " and ".join(
+            f"{kind.does.split()[0]} {f'{low:.2f} to ' if low > no_obstacle else ''}{high:.2f} m"
+            for kind, low, high in clears
+        )
 
     def unreachable(self, centre: np.ndarray, area: float, barrier: Barrier | None) -> str:
         """Why a part of the level cannot be reached."""
@@ -86,12 +93,9 @@ class Wording:
 
     def leaps(self, width: float) -> str:
         """What the body does about a gap of ``width`` [m]."""
-        low, high = self.character.skills.get("gap", (0.0, 0.0))
-        if not high:
-            return f"a {self.noun} does not leap gaps"
-        if low <= width <= high:
-            return f"a {self.noun} leaps that only where there is room to run up and to land"
-        return f"a {self.noun} leaps {low:.2f} to {high:.2f} m"
+        if can := self._can("across", width):
+            return f"a {self.noun} {can} that only where there is room to run up and to land"
+        return f"a {self.noun} {self._ranges('across', what=' gaps')}"
 
     def tops(self, centre: np.ndarray, count: int, area: float, width: float) -> str:
         """Parts that nobody reaches nor is meant to."""

@@ -8,6 +8,7 @@ import numpy as np
 from runtime.events import event_text
 from runtime.traces.trace import AgentTrace, LevelTrace, PathTrace, Trace
 from runtime.views.camera import calm_track, size_of
+from runtime.views.colours import in_order, obstacle_colour, parts_of_colour
 
 __all__ = ["page_data"]
 
@@ -89,6 +90,10 @@ def _level(block: _Block, level: LevelTrace, origin: np.ndarray) -> Mapping[str,
             {"affordance": affordance, "label": f"{affordance} {abs(height):.2f} m"}
             for affordance, height in zip(level.affordances, level.height.tolist(), strict=True)
         ],
+        "colours": {
+            affordance: [part / 255.0 for part in parts_of_colour(obstacle_colour(affordance))]
+            for affordance in in_order(level.affordances)
+        },
     }
 
 

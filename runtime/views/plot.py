@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 
 from runtime.traces.trace import AgentTrace, LevelTrace, Trace
+from runtime.views.colours import in_order, obstacle_colour
 from runtime.views.storeys import cut_heights
 from surefoot.files.atomic_write import whole_file
 
 __all__ = ["draw_floors", "plot_from_above"]
 
-_AFFORDANCE_COLOURS = {"jump": "#d1495b", "vault": "#8e44ad", "drop": "#edae49", "gap": "#00798c"}
 _LONG_SIDE = 15.0  # [in]
 _MOST = 6  # storeys that are shown; of more those in which most happens
 _SHOWN = 0.3  # [m]: smaller discs are not drawn
@@ -117,7 +117,7 @@ def _draw_storey(axes: Any, trace: Trace, storey: _Storey) -> Any:
     _draw_graph(axes, level, storey)
     for k, affordance in enumerate(level.affordances):
         if storey.holds(level.rim[k, :, 2].max()):
-            colour = _AFFORDANCE_COLOURS[affordance]
+            colour = obstacle_colour(affordance)
             axes.plot(*level.rim[k, :, :2].T, color=colour, lw=3.0, solid_capstyle="butt", zorder=5)
     for agent in trace.agents:
         for planned in agent.paths:
@@ -202,7 +202,7 @@ def _label_obstacles(axes: Any, level: LevelTrace, storey: _Storey) -> None:
             continue
         taken.append(shown)
         text = f"{level.affordances[k]} {abs(level.height[k]):.2f}"
-        colour = _AFFORDANCE_COLOURS[level.affordances[k]]
+        colour = obstacle_colour(level.affordances[k])
         note = {"xy": at[:2], "ha": "center", "va": "center", "fontsize": 6.5, "color": colour}
         box = {"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.7}
         axes.annotate(text, **note, bbox=box, zorder=8)
@@ -227,5 +227,5 @@ def _legend(affordances: set[str]) -> list[Any]:
         Line2D([], [], color="#d62728", lw=2.2, label="smoothed path"),
         Line2D([], [], color="black", lw=0.9, label="where the figure went"),
     ]
-    shown = [name for name in _AFFORDANCE_COLOURS if name in affordances]
-    return lines + [Line2D([], [], color=_AFFORDANCE_COLOURS[name], lw=3, label=name) for name in shown]
+    shown = in_order(affordances)
+    return lines + [Line2D([], [], color=obstacle_colour(name), lw=3, label=name) for name in shown]

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from runtime.traces.trace import LevelTrace, PathTrace
+from runtime.views.colours import obstacle_colour, parts_of_colour
 
 __all__ = ["ALL", "draw_level", "draw_paths", "silent"]
 
@@ -15,7 +16,6 @@ ALL = "/run"
 """The frame that everything hangs on."""
 _LEVEL = f"{ALL}/level"
 _RAW, _PULLED, _SMOOTH = (120, 120, 120), (31, 119, 180), (214, 39, 40)
-_AFFORDANCES = {"jump": (209, 73, 91), "vault": (142, 68, 173), "drop": (237, 174, 73), "gap": (0, 121, 140)}
 
 
 @contextlib.contextmanager
@@ -49,8 +49,9 @@ def draw_level(scene: Any, level: LevelTrace) -> Any:
         name = f"{_LEVEL}/obstacles/{affordance} {k}"
         rim = (level.rim[k] + lift).astype(np.float32)[None]
         scene.add_line_segments(
-            name, rim, colors=_AFFORDANCES[affordance], thickness=5.0, thickness_units="screen"
-        )
+            name, rim, colors=parts_of_colour(obstacle_colour(affordance)), thickness=5.0,
+            thickness_units="screen",
+        )  # fmt: skip
         if np.linalg.norm(rim[0, 1] - rim[0, 0]) > 2.0:
             text = f"{affordance} {abs(level.height[k]):.2f} m"
             scene.add_label(f"{name}/label", text, position=rim[0].mean(axis=0) + np.array([0.0, 0.0, 0.3]))

@@ -11,6 +11,11 @@ import navmesh
 import pathsmooth
 from locomotion import MOVING, Ground, Human
 from locomotion.events import GotUp
+from locomotion.skills.registry import skill_kinds
+from navmesh.area_paths import priced_route
+from navmesh.areas import checked_costs
+from navmesh.bodies import doors_of
+from navmesh.pricing import priced_of
 
 __all__ = ["FIRST_USES", "tiny_level"]
 
@@ -63,6 +68,25 @@ def _navigate() -> None:
     graph.update({"crate": navmesh.Terrain.from_arrays(np.array(crate), np.array([[0, 1, 2], [0, 2, 3]]))})
 
 
+def _find_by_costs() -> None:
+    bare = tiny_level()
+    in_mud = bare.vertices[bare.faces].mean(axis=1)[:, 1] > 4.0
+    painted = navmesh.Terrain.from_arrays(
+        bare.vertices, bare.faces, materials=np.where(in_mud, "mud", "grass"), name=bare.name
+    )
+    graph = navmesh.NodeGraph.build(painted)
+    start, goal = (1.0, 1.0, 0.0), (1.0, 7.0, 0.0)
+    for cost in (3.0, np.inf):
+        graph.find_path(start, goal, costs={"mud": cost})
+    search = graph.begin_path(start, goal, costs={"mud": 3.0})
+    while not search.advance(8):
+        pass
+    search.finish()
+    doors = doors_of(graph, 0.3, None, None)
+    priced = priced_of(graph, doors, checked_costs(graph, {"mud": 3.0}))
+    priced_route(graph, graph.find_path(start, goal), priced)
+
+
 def _smooth() -> None:
     corner = np.array([[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [6.0, 6.0, 0.0]])
     begun = pathsmooth.solve(pathsmooth.Problem.from_corridor(corner, corner, np.full(3, 4.0)))
@@ -90,7 +114,8 @@ def _run_and_jump() -> None:
 def _clear() -> None:
     from runtime.evaluation.courses import make_course, run_course
 
-    run_course(make_course([("vault", 0.7, 0.3), ("drop", 1.2, 0.0), ("gap", 1.0, 0.0)], [12.0, 14.0, 12.0]))
+    obstacles = [(kind.affordance, kind.usual, 0.3) for kind in skill_kinds()]
+    run_course(make_course(obstacles, [13.0] * len(obstacles)))
 
 
 def _fall_and_get_up() -> None:
@@ -157,6 +182,7 @@ def _draw() -> None:
 
 FIRST_USES: dict[str, Callable[[], None]] = {
     "navigation": _navigate,
+    "area costs": _find_by_costs,
     "walking and getting up": _fall_and_get_up,
     "skills": _clear,
     "smoothing": _smooth,

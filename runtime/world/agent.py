@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 from locomotion import MOVING, Human, LocomotionError
 from locomotion import events as bodily
 from locomotion.avoidance.yielding import Course
-from locomotion.human.state import CLEARING
 from locomotion.quadruped import Animal
+from locomotion.skills.registry import CLEARING, skill_kind
 from runtime.bodies.humans import HumanDriver
 from runtime.bodies.pose import Pose
 from runtime.bodies.protocol import Driver
@@ -33,7 +33,6 @@ from runtime.events import (
     Stuck,
 )
 from runtime.planning.planning import NoWay, Plan
-from runtime.skill_words import SKILL_OF
 from runtime.traffic.deadlock import Headway
 from runtime.world.arguments import checked_number, checked_points
 
@@ -234,7 +233,7 @@ class Agent:
         self._world.look_out(self, former)
         now = self._world.time
         self._headway = Headway(since=now, tried=now)
-        skills = tuple(SKILL_OF[each] for each in plan.skills)
+        skills = tuple(skill_kind(each).skill for each in plan.skills)
         self._tell(Departed(now, self.name, here, goal, plan.length, skills))
 
     def _report_blocked(self, goal: np.ndarray, reason: str) -> None:
@@ -403,9 +402,9 @@ class Agent:
         if isinstance(event, bodily.GotUp):
             return GotUp(**base, seconds=event.seconds)
         if isinstance(event, bodily.TookOff):
-            return SkillStarted(**base, skill=SKILL_OF[event.affordance], height=event.height)
+            return SkillStarted(**base, skill=skill_kind(event.affordance).skill, height=event.height)
         if isinstance(event, bodily.Cleared):
-            return SkillFinished(**base, skill=SKILL_OF[event.affordance], height=event.height)
+            return SkillFinished(**base, skill=skill_kind(event.affordance).skill, height=event.height)
         if isinstance(event, bodily.GotStuck):
             return Stuck(**base, reason=event.reason)
         if isinstance(event, bodily.MissedGoal):

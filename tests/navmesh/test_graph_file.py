@@ -8,14 +8,14 @@ import pytest
 from navmesh import NavmeshError, NodeGraph, Terrain, WalkRules
 from navmesh.graph_file import GRAPH_FILE
 from surefoot.files import archive
-from tests.navmesh.shapes import box, plane, terrain
+from tests.navmesh.shapes import box, join, plane, terrain
 
 LEVEL = (plane(0, 6, 0, 6), box(2, 3, 2, 3, 0, 2))
 
 
 @pytest.fixture(scope="module")
 def level() -> Terrain:
-    return terrain(*LEVEL)
+    return Terrain.from_arrays(*join(*LEVEL), materials=["floor"] * 2 + ["wall"] * 12)
 
 
 @pytest.fixture(scope="module")
@@ -91,7 +91,9 @@ def raw(path):
 def written(tmp_path_factory):
     """Header and arrays of a graph with obstacles and links."""
     path = tmp_path_factory.mktemp("graph") / "level.nav"
-    NodeGraph.build(terrain(plane(0, 6, 0, 6), box(2, 4, 2, 4, 0, 0.4))).save(path)
+    mesh = join(plane(0, 6, 0, 6), box(2, 4, 2, 4, 0, 0.4))
+    level = Terrain.from_arrays(*mesh, materials=["floor"] * 2 + ["wall"] * 12)
+    NodeGraph.build(level).save(path)
     return raw(path)
 
 

@@ -13,7 +13,8 @@ import navmesh
 import pathsmooth
 import runtime
 import surefoot
-from runtime.skill_words import AFFORDANCE_OF, SKILL_OF, clears
+from locomotion.skills.registry import in_words, skill_called, skill_kinds
+from navmesh.kinds import affordances
 
 ROOT = Path(__file__).parents[2]
 PACKAGES = ("navmesh", "pathsmooth", "locomotion", "runtime", "surefoot")
@@ -71,9 +72,9 @@ def test_objects_tell_what_they_are(graph):
 
 
 def test_skills_and_obstacles_have_one_word_each():
-    assert {AFFORDANCE_OF[skill]: skill for skill in SKILL_OF.values()} == SKILL_OF
-    assert clears("leap", 1.2) == clears("gap", 1.2) == "leaps over 1.20 m"
-    assert clears("drop-roll", 1.0) == "drops 1.00 m and rolls"
+    assert [skill_called(kind.skill).affordance for kind in skill_kinds()] == list(affordances())
+    assert in_words("leap", 1.2) == in_words("gap", 1.2) == "leaps over 1.20 m"
+    assert in_words("drop-roll", 1.0) == "drops 1.00 m and rolls"
 
 
 def test_terrain_of_arrays_is_called_a_terrain():

@@ -12,6 +12,7 @@ from locomotion.clips.clip import Clip, load_clip
 from locomotion.data import CLIPS, SKILLS
 from locomotion.gaits.run import controller
 from locomotion.paths.smoothing import ObstacleAhead
+from locomotion.saved_arrays import COUNT, FLAG, SIDE, Slots
 from locomotion.skills.drop_roll import kernel as drop_roll
 from locomotion.skills.drop_roll.kernel import drop_roll_tick, start_drop_roll
 from locomotion.skills.family import SkillFamily, load_family
@@ -64,6 +65,20 @@ class DropRoll(LearnedSkill):
 
     affordance = "drop"
     ends: Literal["running", "walking"] = "walking"
+    over_run = False
+    slots = Slots(
+        "the roll of a person",
+        drop_roll.MEMORY_SIZE,
+        [
+            (drop_roll.ACTIVE, FLAG),
+            (drop_roll.PHASE, (drop_roll.TAKE_OFF, drop_roll.RISE)),
+            (drop_roll.SHARE, FLAG),
+            (drop_roll.SIDE, SIDE),
+            (drop_roll.PHASE_TICKS, COUNT),
+            (drop_roll.ENDED, FLAG),
+        ],
+        whole=(drop_roll.ACTIVE, drop_roll.PHASE, drop_roll.ENDED),
+    )
 
     def __init__(self, skill: SkillFamily) -> None:
         """``skill``: the learned drop-rolls."""

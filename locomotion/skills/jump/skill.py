@@ -14,9 +14,11 @@ from locomotion.data import CLIPS, SKILLS
 from locomotion.gaits.run import controller
 from locomotion.gaits.run.skill import RunSkill
 from locomotion.paths.smoothing import ObstacleAhead
+from locomotion.saved_arrays import COUNT, FLAG, Slots
 from locomotion.skills.family import SkillFamily, load_family
 from locomotion.skills.jump import kernel as jump
 from locomotion.skills.jump.kernel import jump_tick, start_jump
+from locomotion.skills.kernel import FIRST_STEP, LAST_STEP
 from locomotion.skills.learned import LawTables, LearnedSkill, tables_over_run
 
 __all__ = [
@@ -73,6 +75,12 @@ class Jump(LearnedSkill):
     """A jump as a `locomotion.skills.interface.ClearingSkill`, on top of a given run."""
 
     ends: Literal["running", "walking"] = "running"
+    slots = Slots(
+        "the jump of a person",
+        jump.MEMORY_SIZE,
+        [(jump.ACTIVE, FLAG), (FIRST_STEP, COUNT), (LAST_STEP, COUNT)],
+        whole=(jump.ACTIVE, FIRST_STEP, LAST_STEP),
+    )
 
     def __init__(
         self, skill: SkillFamily, run: RunSkill, affordance: str = "jump", clip: Clip | None = None

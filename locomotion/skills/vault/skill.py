@@ -13,7 +13,9 @@ from locomotion.clips.clip import Clip, load_clip
 from locomotion.data import CLIPS, SKILLS
 from locomotion.gaits.run.skill import RunSkill
 from locomotion.paths.smoothing import ObstacleAhead
+from locomotion.saved_arrays import COUNT, FLAG, SIDE, Slots
 from locomotion.skills.family import SkillFamily, load_family
+from locomotion.skills.kernel import FIRST_STEP, LAST_STEP
 from locomotion.skills.learned import LawTables, LearnedSkill, tables_over_run
 from locomotion.skills.vault import kernel as vault
 from locomotion.skills.vault.kernel import start_vault, vault_fell, vault_tick
@@ -51,6 +53,20 @@ class Vault(LearnedSkill):
 
     affordance = "vault"
     ends: Literal["running", "walking"] = "running"
+    slots = Slots(
+        "the vault of a person",
+        vault.MEMORY_SIZE,
+        [
+            (vault.ACTIVE, FLAG),
+            (FIRST_STEP, COUNT),
+            (LAST_STEP, COUNT),
+            (vault.HOLD, (0.0, 2.0)),
+            (vault.HELD, COUNT),
+            (vault.SIDE, SIDE),
+            (vault.PHASE, (0.0, vault.PHASES - 1.0)),
+        ],
+        whole=(vault.ACTIVE, FIRST_STEP, LAST_STEP, vault.HOLD, vault.PHASE),
+    )
 
     def __init__(self, skill: SkillFamily, run: RunSkill) -> None:
         """``skill``: the learned vaults; ``run``: the run under them."""

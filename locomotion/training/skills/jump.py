@@ -23,12 +23,14 @@ from locomotion.skills.jump.skill import (
     run_digest,
     tables_of,
 )
-from locomotion.skills.library import LEAP, learned_skills
+from locomotion.skills.leap.kind import LEAP_DESCRIPTION
+from locomotion.skills.library import learned_skills
 from locomotion.training.progress import Clock
 from locomotion.training.search.loop import Stage, simulated
 from locomotion.training.skills.jump_kind import WEIGHTS, JumpKind, cost, first_guess, scales, stair_jump
 from locomotion.training.skills.jump_trial import JumpOutcome, JumpSimulator, LedgeSimulator, StartState
 from locomotion.training.training import NotLearnedError, Training
+from navmesh.kinds import kind_of
 
 __all__ = ["FURTHER", "HEIGHTS", "LOWEST", "JumpProblem", "train_described", "train_jump"]
 
@@ -195,11 +197,11 @@ def train_described(
     if unknown:
         raise LocomotionError(f"{path}: objective: {unknown[0]!r}: valid terms: {', '.join(WEIGHTS)}")
     _check_use(path, description)
-    clip = description.load_clip()
+    clip, crossing = description.load_clip(), kind_of(description.affordance).crossing
     simulator = (
         partial(JumpSimulator, clip=clip)
-        if description.affordance == "jump"
-        else partial(LedgeSimulator, clip=clip, affordance=description.affordance)
+        if crossing == "onto"
+        else partial(LedgeSimulator, clip=clip, crossing=crossing)
     )
     kind = JumpKind(
         description.kind, description.affordance, clip, simulator, description.entry, description.marks,
@@ -223,7 +225,7 @@ def _check_use(path: str | os.PathLike[str], description: SkillDescription) -> N
     low, high = run.speeds
     if not low <= entry <= high:
         raise LocomotionError(f"{path}: entry: {entry:g} m/s: the run goes from {low:g} to {high:g} m/s")
-    if Path(path).samefile(LEAP):
+    if Path(path).samefile(LEAP_DESCRIPTION):
         return  # it takes its own place
     try:
         skill_ranges([*learned_skills(run), description])

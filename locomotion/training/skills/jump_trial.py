@@ -19,6 +19,7 @@ from locomotion.skills.jump.kernel import jump_tick, start_jump
 from locomotion.skills.jump.skill import jump_clip
 from locomotion.skills.learned import LawTables
 from locomotion.training.skills.trial_scene import BOX_LENGTH, BOX_TOP, trial_scene
+from navmesh.kinds import Crossing
 
 __all__ = ["JumpOutcome", "JumpSimulator", "LedgeSimulator", "StartState"]
 
@@ -280,18 +281,18 @@ class JumpSimulator:
 
 
 class LedgeSimulator(JumpSimulator):
-    """A person on a ledge, and a ledge behind it: across a gap, or lower. ``affordance``: "gap" or "drop"."""
+    """A person on a ledge, and a ledge behind it: across a gap, or lower. ``crossing``: "across" or "off"."""
 
-    def __init__(self, run: RunSkill, clip: Clip, affordance: str) -> None:
+    def __init__(self, run: RunSkill, clip: Clip, crossing: Crossing) -> None:
         super().__init__(run, clip)
-        self._affordance = affordance
+        self._crossing = crossing
         self._ground, self._ledge = self.model.geom("ground").id, self.model.geom("ledge").id
 
     def _make_model(self) -> mujoco.MjModel:
         return trial_scene("stair", "ledge")
 
     def place(self, edge_x: float, size: float) -> tuple[float, float]:
-        landing = (edge_x + size, 0.0) if self._affordance == "gap" else (edge_x, -size)
+        landing = (edge_x + size, 0.0) if self._crossing == "across" else (edge_x, -size)
         super().place(*landing)
         self.model.geom_pos[self._ledge] = [edge_x - BOX_LENGTH / 2, 0.0, -BOX_TOP]
         self.model.geom_pos[self._ground, 2] = -BOX_TOP

@@ -1,6 +1,6 @@
 // The page: layers, time line, events, and a picture of every moment.
 
-const COLOURS = { jump: [0.82, 0.29, 0.36], vault: [0.56, 0.27, 0.68], drop: [0.85, 0.58, 0.10], gap: [0, 0.47, 0.55] };
+const OBSTACLES = [0.82, 0.29, 0.36];
 const PATHS = { raw: [0.47, 0.47, 0.47], pulled: [0.12, 0.47, 0.71], smooth: [0.84, 0.15, 0.16] };
 const NOBODY = "nobody";
 const SAID = 2.5; // [s] that what has happened is told
@@ -50,15 +50,15 @@ class Page {
     this.layer("level", " level", null, true);
     this.surface = drawing.level(level.vertices, level.faces);
     const lift = (points, by) => points.map((value, k) => (k % 3 === 2 ? value + by : value));
-    const rims = { jump: [], vault: [], drop: [], gap: [] };
-    const layer = this.layer("obstacles", " obstacles", COLOURS.jump, true);
+    const rims = Object.fromEntries(Object.keys(level.colours).map((affordance) => [affordance, []]));
+    const layer = this.layer("obstacles", " obstacles", Object.values(level.colours)[0] || OBSTACLES, true);
     this.tags = level.obstacles.map(({ affordance, label }, k) => {
       const rim = lift(Array.from(level.rims.subarray(6 * k, 6 * k + 6)), 0.05);
       rims[affordance].push(...rim);
       const middle = mix(rim.slice(0, 3), rim.slice(3), 0.5);
-      return [this.labels.add(label, "obstacle", css(COLOURS[affordance])), add(middle, [0, 0, 0.25])];
+      return [this.labels.add(label, "obstacle", css(level.colours[affordance])), add(middle, [0, 0, 0.25])];
     });
-    for (const [affordance, ends] of Object.entries(rims)) layer.lines.push(drawing.lines(ends, [...COLOURS[affordance], 1], 5));
+    for (const [affordance, ends] of Object.entries(rims)) layer.lines.push(drawing.lines(ends, [...level.colours[affordance], 1], 5));
     this.layer("labels", " labels", null, true);
     const graph = this.layer("graph", " graph", [0.16, 0.62, 0.56], false);
     const circles = [];

@@ -14,7 +14,8 @@ from locomotion.skills.description import load_described, load_description
 from locomotion.skills.family import SkillFamily
 from locomotion.skills.interface import skill_for, skill_ranges
 from locomotion.skills.jump.skill import run_digest
-from locomotion.skills.library import LEAP, learned_skills, skills_digest
+from locomotion.skills.leap.kind import LEAP_DESCRIPTION
+from locomotion.skills.library import learned_skills, skills_digest
 from locomotion.training.skills import jump
 from locomotion.training.skills.jump import train_described
 from locomotion.training.skills.jump_trial import JumpSimulator
@@ -27,8 +28,8 @@ from runtime.evaluation.courses import make_course, run_course
 @pytest.fixture
 def own(tmp_path):
     """A folder with a description of one's own: the leap's, over less."""
-    values = yaml.safe_load(LEAP.read_text())
-    description = load_description(LEAP)
+    values = yaml.safe_load(LEAP_DESCRIPTION.read_text())
+    description = load_description(LEAP_DESCRIPTION)
     shutil.copy(description.clip, tmp_path / "clip.yaml")
     shutil.copy(description.learned, tmp_path / "hop.npz")
 
@@ -141,10 +142,10 @@ def begun(monkeypatch):
 
 
 def test_the_packages_leap_may_come_to_clear_other_gaps(begun, tmp_path, monkeypatch):
-    said = load_description(LEAP).model_copy(update={"sizes": [2.3, 2.5], "least": None})
+    said = load_description(LEAP_DESCRIPTION).model_copy(update={"sizes": [2.3, 2.5], "least": None})
     monkeypatch.setattr("locomotion.training.skills.jump.load_description", lambda path: said)
     with pytest.raises(begun):
-        train_described(LEAP, Training(), tmp_path / "out.npz")
+        train_described(LEAP_DESCRIPTION, Training(), tmp_path / "out.npz")
 
 
 def test_a_checkpoint_is_of_what_the_description_and_its_clip_say(own, begun, tmp_path):
@@ -209,7 +210,7 @@ def learned(tmp_path_factory):
     """A hop over a narrow gap, learned with hardly any effort: in each stage one generation of six, judged in
     two trials."""
     folder = tmp_path_factory.mktemp("own")
-    shutil.copy(load_description(LEAP).clip, folder / "clip.yaml")
+    shutil.copy(load_description(LEAP_DESCRIPTION).clip, folder / "clip.yaml")
     path = folder / "hop.yaml"
     path.write_text(
         "{name: hop, affordance: gap, sizes: [0.6], least: 0.4, entry: 3.5, clip: clip.yaml,"

@@ -2,12 +2,14 @@
 
 import json
 import time
+from dataclasses import replace
 from itertools import count
 
 import pytest
 from filelock import FileLock
 
 from locomotion.skills import library
+from locomotion.skills.jump.kind import JUMP
 from locomotion.training.progress import Progress
 from locomotion.training.training import NotLearnedError
 from runtime.cli.app import main
@@ -95,7 +97,7 @@ def test_a_skill_that_never_works_is_said_so_and_fails(capsys, tmp_path, monkeyp
 @pytest.mark.usefixtures("never")
 def test_the_library_ends_with_what_never_works(capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(library, "_SKILLS", tmp_path)
+    monkeypatch.setattr(library, "SKILLS", tmp_path)
     code, out, err = surefoot(capsys, "train", "--all")
     assert code == 1 and "sit learned in" in out and "stand does not work" in err
     assert (tmp_path / "sit.npz").exists() and not (tmp_path / "lie.npz").exists()
@@ -104,7 +106,7 @@ def test_the_library_ends_with_what_never_works(capsys, tmp_path, monkeypatch):
 @pytest.mark.usefixtures("never")
 def test_the_packages_skills_are_replaced_only_when_asked_to(capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(library, "_SKILLS", tmp_path / "package")
+    monkeypatch.setattr(library, "SKILLS", tmp_path / "package")
     (tmp_path / "package").mkdir()
     mine, other = tmp_path / "package" / "lie.npz", tmp_path / "lie.npz"
     mine.write_text("as it came")
@@ -179,7 +181,8 @@ def test_evaluate_prints_a_table_and_the_same_as_json_and_draws_it(capsys, tmp_p
 
 
 def test_heights_beyond_what_was_learned_count_as_not_held(capsys, monkeypatch):
-    monkeypatch.setattr("runtime.evaluation.evaluation.HEIGHTS", {"jump": (3.0, 4.0)})
+    high = replace(JUMP, sizes=(3.0, 4.0), usual=3.0)
+    monkeypatch.setattr("locomotion.skills.registry._kinds", {"jump": high})
     _, out, _ = surefoot(capsys, "evaluate", "jump", "--trials", "1", "--json")
     beyond = json.loads(out)["attempts"][1]
     assert beyond["status"] == "not learned for this height" and beyond["held"] is False

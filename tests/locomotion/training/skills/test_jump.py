@@ -5,7 +5,7 @@ import pytest
 
 from locomotion.skills.description import load_description
 from locomotion.skills.drop_roll.skill import load_drop_roll_skill
-from locomotion.skills.library import LEAP
+from locomotion.skills.leap.kind import LEAP_DESCRIPTION
 from locomotion.skills.vault.skill import load_vault_skill
 from locomotion.training.gaits import brake, run, slow_down, speed_up, walk
 from locomotion.training.search.loop import Stage
@@ -51,7 +51,7 @@ def as_it_began(monkeypatch):
 
 
 def own(folder, **changes):
-    clip = load_description(LEAP).clip
+    clip = load_description(LEAP_DESCRIPTION).clip
     said = {"name": "hop", "affordance": "gap", "sizes": [1.6], "least": 0.5, "clip": str(clip), **changes}
     path = folder / "hop.yaml"
     path.write_text("".join(f"{key}: {value}\n" for key, value in {**said, "learned": "hop.npz"}.items()))

@@ -1,0 +1,1 @@
+"""Leaping across gaps: a jump that is described by a file."""

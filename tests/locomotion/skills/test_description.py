@@ -113,7 +113,7 @@ def test_an_unknown_term_of_the_objective_is_refused_before_learning(own, tmp_pa
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"learned": "missing/hop.npz"}, "missing/hop.npz: there is no folder"),
+        ({"learned": "missing/hop.npz"}, "missing/hop.npz: no folder"),
         ({"sizes": [2.3, 2.5], "least": None}, "hop.yaml: sizes: .*nothing is learned from 1.82 to 2.28 m"),
         ({"affordance": "drop"}, "hop.yaml: sizes: .*nothing is learned from"),
         ({"entry": 5.5}, "hop.yaml: entry: 5.5 m/s: the run goes from 1.5 to 5 m/s"),

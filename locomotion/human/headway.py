@@ -20,9 +20,7 @@ STUCK_TIME = 8.0
 """[s] without progress along the path after which a person counts as stuck."""
 _WALK_ARRIVAL = 0.15  # [m] before the end of its path at which a walking person stops
 _STAYS = 1.0  # [m/s] a person slower than this stays at its goal
-_COMES_BACK = (
-    3.5  # [m] beside its path within which a person that is not running may slow down and turn first
-)
+_COMES_BACK = 3.5  # [m] beside its path within which one not running may slow down and turn first
 _CLIMBS_BACK = 6.0  # [m] beside its path, after sliding there, from which a person climbs back
 
 

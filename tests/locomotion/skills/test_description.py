@@ -170,7 +170,7 @@ def test_a_checkpoint_is_of_what_the_description_and_its_clip_say(own, begun, tm
     values = yaml.safe_load(clip.read_text())
     next(iter(values["channels"].values()))[0][1] += 1.0
     clip.write_text(yaml.safe_dump(values))
-    with pytest.raises(LocomotionError, match=r"kept: .* differs in clip .*remove .*kept to begin anew"):
+    with pytest.raises(LocomotionError, match=r"kept: .* differs in clip .*remove .*kept to start over"):
         train_described(own(), training)
 
 

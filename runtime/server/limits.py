@@ -36,9 +36,10 @@ class Limits:
         most, of = (self.worlds, self.all_worlds) if what == "worlds" else (self.agents, self.all_agents)
         wanted = own + more
         if wanted > most:
-            raise RuntimeInputError(f"you have {own} {what} already of at most {most}; remove one")
+            raise RuntimeInputError(f"you have {own} {what} already, of at most {most}; remove one")
         share = of // max(clients, 1)
         if total + more > of and wanted > share:
             raise RuntimeInputError(
-                f"the server has {total} {what} of at most {of}; you have {own}, and your share is {share}"
+                f"the server has {total} {what} already, of at most {of}; "
+                f"you have {own}, and your share is {share}"
             )

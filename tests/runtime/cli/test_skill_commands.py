@@ -114,7 +114,7 @@ def test_the_packages_skills_are_replaced_only_when_asked_to(capsys, tmp_path, m
         code, _, err = surefoot(capsys, "train", *arguments)
         assert code == 2 and f"{mine}: is the built-in lie" in err and "--replace" in err
     assert list(tmp_path.glob("**/*.npz")) == [mine]
-    with pytest.raises(RuntimeInputError, match=r"package's own lie.* \(-o lie\.npz\)"):
+    with pytest.raises(RuntimeInputError, match=r"built-in lie.* \(-o lie\.npz\)"):
         train_skill("lie", None, 0, 1, None, 1.0, False)
     assert train_skill("lie", other, 5, 1, None, 1.0, False).held
     assert (mine.read_text(), other.read_text()) == ("as it came", "learned with seed 5")

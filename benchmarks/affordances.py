@@ -1,4 +1,4 @@
-"""What detection finds: on synthetic obstacles against the truth, on levels as counts, and how long it takes.
+"""Obstacle detection: synthetic obstacles against the truth, counts on levels, and time.
 
 python -m benchmarks.affordances [--scenes 200] [--json affordances.json]
 """

@@ -1,13 +1,13 @@
-"""How well the person clears an obstacle from the run, height by height, and what went wrong.
+"""How well people clear obstacles from a run, height by height, and what goes wrong.
 
     python -m benchmarks.clearing jump [--heights 0.3 0.4 0.5] [--every 0.1] [--json jumping.json]
 
-For every height the person starts from standing at d = 10 to 30 m before the obstacle (a stair up, a wall
-0.3 m thick, a ledge), runs up, clears it and goes on to a goal 15 m behind: the whole way that a mission
-takes (path tracking, speed planner, skill) on a triangle mesh, with noise of 0.02 m/s and rad/s in the
-start. Held: it arrives, and if it vaults its hand has held on. Clean: of these, nothing but the feet
-(vault: hands and forearms; drop: anything but the head) has touched. Middle: a vaulting hand held within
-the middle half of the top. No joint: the starts that vaulted, once more with the hand's joint switched off.
+For every height the person starts from standing, 10 to 30 m before the obstacle (a stair up, a wall 0.3 m
+thick, a ledge), runs up, clears it and goes on to a goal 15 m behind: as in a mission (path tracking, speed
+planner, skill), on a triangle mesh, with noise of 0.02 m/s and rad/s in the start. Held: it arrives, and in a
+vault its hand has held on. Clean: of these, only permitted parts have touched (feet; vault: hands and
+forearms; drop: all but the head). Middle: a vaulting hand held within the middle half of the top. No joint:
+the same starts with the hand's joint switched off.
 """
 
 import argparse

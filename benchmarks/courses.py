@@ -1,10 +1,10 @@
-"""Ten obstacles in a row: how many courses does the person run to the end, and where do the others end?
+"""How many courses of ten obstacles people complete, and where the others end.
 
     python -m benchmarks.courses [--courses 200] [--obstacles 10] [--kinds jump vault drop] [--rehearsals 16]
 
-Kinds and heights are drawn evenly (heights from what each skill has learned), 8 to 15 m apart, on a level
-of triangles; from standing, with noise of 0.02 m/s and rad/s. Nothing is authored for it: path tracking,
-speed planner and skills as in a mission.
+Kinds and heights are drawn evenly (heights from what each skill has learned), 8 to 15 m apart, on a level of
+triangles; from standing, with noise of 0.02 m/s and rad/s. Path tracking, speed planner and skills are those
+of missions.
 """
 
 import argparse

@@ -1,11 +1,11 @@
-"""Two crates of about 0.4 m in a row: how many people get over both, and how often do they go back for it?
+"""Two crates of about 0.4 m in a row: how many people get over both, and how often they go back first.
 
     python -m benchmarks.crates [--seeds 30] [--seed 0] [--seconds 150] [--json FILE]
 
-Of each seed three levels, in a corridor or on a plane: "stairs", a crate with another one on it, 4 to 12 m
+Each seed gives three levels, in a corridor or on a plane: "stairs", a crate with another one on it, 4 to 12 m
 behind its edge; "ramps", a crate with a ramp down, and another one 0.5 to 12 m behind that; "leaps", a crate
-and another one 0.5 to 3 m behind it. A person is told to go onto the second. Only levels on which a way leads
-there count.
+and another one 0.5 to 3 m behind it. A person is sent onto the second crate. Only levels with a route there
+count.
 """
 
 import argparse

@@ -1,16 +1,16 @@
-"""Do crowds keep out of each other's way, at what price? Prints a table and writes JSON.
+"""How well crowds avoid each other, and at what cost. Prints a table and writes JSON.
 
     python -m benchmarks.crowd [--agents 1000] [--ticks 300] [--rounds 3] [--json FILE] [--only open|door]
 
 Open: kinematic agents (radius 0.6 m, 3.5 m/s, 8 m/s²) walk between random places of the largest part of the
-shared level nav_test, in ticks of 1/30 s, on one core, in turn with Detour's crowd of as many agents with the
-same body (quality 1, the peer's default). Overlaps are pairs nearer than 90 % of the sum of their radii, as
-the peer counts them: every tenth tick. Times are processor time of the mean tick, the least of all rounds,
-because other load on the machine counts little in it; the peer's includes its counting of overlaps, some per
+shared level nav_test, in ticks of 1/30 s, on one core, alternating with Detour's crowd of as many agents with
+the same body (quality 1, the peer's default). Overlaps are pairs nearer than 90 % of the sum of their radii,
+as the peer counts them, every tenth tick. Times are processor time of the mean tick, least of all rounds,
+which reduces the effect of other load on the machine; the peer's includes its counting of overlaps, some per
 cent.
 
 Door: two halls joined by a doorway of 1.2 m, half of the agents (radius 0.2 and 0.3 m) on each side, each
-going to where one of the other side stood.
+sent to the start of one on the other side.
 """
 
 import argparse

@@ -1,10 +1,10 @@
-"""Does one mission end the same way every time, in one process and in two?
+"""Whether a mission ends the same way every time, in one process and in two.
 
     python -m benchmarks.determinism [--runs 100] [--mission examples/missions/courtyard.yaml]
 
-The mission is run that often in one process and as often in a pool of two; every run gives the hash of its
-last state and of its events. Then a person runs the courtyard's first lane without a pause, and once more
-from a file that was saved in mid-air, in a process of its own. Exit code 0 when all runs of a kind agree.
+The mission runs that often in one process and as often in a pool of two; every run gives the hash of its last
+state and of its events. Then a person runs the courtyard's first lane without a break, and again from a file
+saved in mid-air, in another process. Exit code 0 if all runs of a kind agree.
 """
 
 import argparse

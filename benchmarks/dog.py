@@ -1,9 +1,9 @@
-"""What the dog is measured by: paths, feet, spine, head, stops, moves, dead ends, gaits, their changes.
+"""All measurements of the dog: paths, feet, spine, head, stops, moves, dead ends, gaits and their changes.
 
     python -m benchmarks.dog [--quick] [--only following stops ...] [--json FILE]
 
-Prints one line per row of the table, with the figure that is asked for, and writes every figure to JSON.
-Levels, scans and recordings are shared data; rows that need them say so when they are absent.
+Prints each figure next to its target, and writes all figures to JSON. Levels, scans and recordings are shared
+data; rows without their data say so.
 """
 
 import argparse

@@ -1,5 +1,5 @@
-"""Rows of `benchmarks.dog` that ask single questions: the spine, the head, stops, short moves, footprints,
-dead ends."""
+"""Rows of `benchmarks.dog` with a single question: the spine, the head, stops, short moves, footprints, dead
+ends."""
 
 import math
 from dataclasses import dataclass

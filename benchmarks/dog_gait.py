@@ -1,4 +1,4 @@
-"""Rows of `benchmarks.dog` about gaits: our dog against a real one, by one and the same measurement."""
+"""Rows of `benchmarks.dog` about gaits: our dog against a real one, measured in the same way."""
 
 from typing import Any
 

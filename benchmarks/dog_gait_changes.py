@@ -1,8 +1,9 @@
-"""Row of `benchmarks.dog` about changes of gait: the trunk keeps within what it does at even speeds.
+"""Row of `benchmarks.dog` about changes of gait: the trunk moves no more than at even speeds.
 
-Animals of one body go at even speeds first: how high hips and shoulders are, how the trunk tilts, how fast
-joints speed up. Then others start, change their speed from each to each, change their gait as told, and stop,
-at all moments of the stride. They must stay within that, bones over the ground, standing feet in place.
+Animals of one body first move at even speeds, which gives the ranges of hip and shoulder heights, trunk tilt
+and joint acceleration. Then others start, change speed between all pairs, change gait on command, and stop,
+at all moments of the stride. They must stay within these ranges, bones above the ground, standing feet in
+place.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""Row of `benchmarks.dog` about rooms: from any place among furniture to any other, and a reason where not.
+"""Row of `benchmarks.dog` about rooms: from any place among furniture to any other, or a reason why not.
 
-Rooms are as large as suits the body, with boxes for furniture, a wall with a door, and alcoves that are dead
-ends. An animal is put at a random place in a random direction, and told one random goal after the other.
+Rooms are sized to the body, with boxes for furniture, a wall with a door, and alcoves that are dead ends. An
+animal starts at a random place in a random direction and gets one random goal after the other.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""Rows of `benchmarks.dog` that need dogs walking on levels: paths, feet, joints, time."""
+"""Rows of `benchmarks.dog` with dogs walking on levels: paths, feet, joints, time."""
 
 import time
 from dataclasses import dataclass, field

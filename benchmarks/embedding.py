@@ -1,12 +1,11 @@
-"""What does a world's step cost over the sum of its parts?
+"""What a world's step costs on top of the sum of its parts.
 
     python -m benchmarks.embedding [--agents 100] [--repeats 15] [--json embedding.json]
 
-A hundred agents are on their way over a floor. From one saved moment, in turns, the world is stepped
-by frames of 1/60 s with its events read, and its bodies are ticked directly as often: each person, the herd,
-each animal, and those who give way. CPU time; the fastest of the repeats counts, so that what else runs on
-the machine does not. Both must end with the same hash. "blended" is the world's step with every pose asked
-for at every frame.
+A hundred agents move over a floor. From one saved moment, alternately, the world is stepped by frames of 1/60
+s with its events read, and its bodies are ticked directly as often: each person, the herd, each animal, and
+giving way. CPU time, fastest of the repeats, to exclude other load. Both must end with the same hash.
+"blended" is the world's step with every pose read in every frame.
 """
 
 import argparse

@@ -1,17 +1,18 @@
-"""Files of every kind with something wrong in them: each refused in one sentence, or as good as it was?
+"""Damaged files of every kind: is each refused in one sentence, or as good as before?
 
     python -m benchmarks.file_fuzz [--files 10000] [--seed 0] [--kinds graph state] [--out fuzz.json]
 
-A good file of each kind is made, spoiled (`benchmarks.file_mutations`), read, and used if it is taken: routes
-are asked of a graph, a world goes on from a state. All that happens in processes of their own. Counted are:
+A good file of each kind is made, damaged (`benchmarks.file_mutations`), read, and used if accepted: a graph
+answers queries, a world continues from a state. Everything runs in separate processes. Counted are:
 
-refused   one sentence, of the error that the kind's reader raises
-same      taken, and everything in it as in the good file
-other     taken, and something else in it: right for text and for archives whose seal was made right or
-          removed, which are then files that say something else; wrong for an archive whose seal was kept
-wrong     anything else that is raised, or more than a sentence
-signal    the process died, or took more than 60 s for a file
-memory    the most that the process took for a file, as a share of what it takes for the good one
+  refused   one sentence, of the error that the kind's reader raises
+  same      accepted, with the same content as the good file
+  other     accepted, with other content: right for text, and for archives whose seal was corrected or
+  removed,
+            which are then different files; wrong for an archive whose seal was kept
+  wrong     any other exception, or more than a sentence
+  signal    the process died, or took more than 60 s for a file
+  memory    greatest memory for a file, relative to the good one
 
 Exit code 1 if anything is wrong, dies, takes more than four times the memory, or is other with its seal kept.
 """

@@ -1,4 +1,5 @@
-"""A good file of every kind that Surefoot reads, and how it is read and used: for `benchmarks.file_fuzz`."""
+"""A good file of every kind that Surefoot reads, with functions to read and use it, for
+`benchmarks.file_fuzz`."""
 
 import dataclasses
 import hashlib

@@ -1,7 +1,7 @@
-"""Files with something wrong in them: what `benchmarks.file_fuzz` lets the product read.
+"""Damaged files for `benchmarks.file_fuzz`.
 
 Archives are changed as bytes, as zip files, in their arrays and in their headers; text as bytes, as lines and
-in single words. All chance comes from the generator that the caller seeds.
+in single words. All randomness comes from the generator that the caller seeds.
 """
 
 import io

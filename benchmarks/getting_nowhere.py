@@ -1,11 +1,10 @@
-"""Random levels of boxes, gaps, platforms, walls and slopes: does anybody get nowhere without a word?
+"""Agents that get nowhere without an event, on random levels of boxes, gaps, platforms, walls and slopes.
 
     python -m benchmarks.getting_nowhere [--levels 20] [--seed 0] [--people 2] [--seconds 120] [--json FILE]
 
-On each level people are told to go from random places to others that a way leads to, one after the other. The
-table counts who arrives, who is stuck in the end, who falls, and who falls while it goes back for a run-up.
-"Silent": agents that get nowhere for more than 10 s (and `SLACK`) without an event: no less is left of their
-way, or they stay within 1 m.
+On each level people are sent between random connected places. The table counts who arrives, is stuck at the
+end, falls, and falls while going back for a run-up. "Silent": agents without progress for more than 10 s (and
+`SLACK`) without an event: no less is left of their path, or they stay within 1 m.
 """
 
 import argparse

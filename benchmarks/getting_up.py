@@ -1,10 +1,10 @@
-"""Persons that are pushed over: do they get up, how soon, and do they go on?
+"""People who are pushed over: whether they get up, how soon, and whether they go on.
 
     python -m benchmarks.getting_up [--falls 100] [--slope 0] [--seed 0]
 
-On a plane they walk or run straight on and are pushed at the chest by 300 to 700 N for 0.15 to 0.3 s from any
-side, at a time of its own; pushes that do not fell them do not count. With a slope (rise over run; 0.45 and
-more) they go along the slope on hands and feet instead.
+On a plane they walk or run straight ahead and are pushed at the chest with 300 to 700 N for 0.15 to 0.3 s
+from any side at a random time; pushes without a fall do not count. With a slope (rise over run; from 0.45)
+they move along it on hands and feet instead.
 """
 
 import argparse

@@ -1,14 +1,14 @@
-"""Do dogs, people and walkers give way to each other?
+"""Whether dogs, people and walkers give way to each other.
 
     python -m benchmarks.giving_way [--starts 10] [--scenes crossing] [--pairs dog-dog] [--without]
 
-Scenes: two that meet head-on on a floor, two whose ways cross, one and two from each side of a door 1.2 m
-wide, three that are sent to one place, and three that chase a point that moves at 1.2 m/s and then stays
-(told twice a second where it is); each from `--starts` random starts, for every pair of kinds. "overlap" is
-the deepest of any two discs (three for a dog) in any tick, as a share of the smaller radius; "touching" the
-starts in which there was any; "at rest" those in which there was any at the end; "falls" are counted whether
-somebody got up or not.
-With `--without` nobody gives way but walkers: what it was like before.
+Scenes: two that meet head-on, two whose paths cross, one and two from each side of a door 1.2 m wide, three
+sent to one place, and three that chase a point that moves at 1.2 m/s and then stops (told twice a second
+where it is); each from `--starts` random starts, for every pair of kinds. "overlap" is the deepest of any two
+discs (three for a dog) in any tick, as a share of the smaller radius; "touching" the starts with any overlap;
+"at rest" those with any at the end; "falls" count whether or not the person got up.
+
+With `--without` only walkers give way, for comparison.
 """
 
 import argparse

@@ -1,12 +1,12 @@
-"""Does the run look human? Ground reaction, step frequency, and joint angles against a captured run.
+"""How human the run looks: ground reaction, step frequency, and joint angles against a captured run.
 
     python -m benchmarks.likeness [--speed 3.5] [--json likeness.json]
 
-The person runs 20 s on a plane; the last 10 s count. Peak reaction: of the ground, the greatest of each step,
-read after every tick of 10 ms. Step frequency: against equation 8 of "Terrain Runner" with its own constants
-and with those of the captured run. Joint angles: hip, knee and ankle in the sagittal plane over the mean
-cycle, against the captured run of the shared data (one stride), after the shift in time that brings them
-nearest to each other.
+The person runs 20 s on a plane; the last 10 s count. Peak reaction: the greatest ground reaction of each
+step, read after every tick of 10 ms. Step frequency: against equation 8 of "Terrain Runner" with its own
+constants and with those of the captured run. Joint angles: hip, knee and ankle in the sagittal plane over the
+mean cycle, against the captured run of the shared data (one stride), after the time shift that aligns them
+best.
 """
 
 import argparse

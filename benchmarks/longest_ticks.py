@@ -1,8 +1,8 @@
-"""How long a game waits for the longest ticks of a person: with rehearsals beforehand, and all at the moment.
+"""The longest ticks of a person: with rehearsals ahead of time, and all at once.
 
     python -m benchmarks.longest_ticks [--courses 5]
 
-On the courses of `benchmarks.courses`, processor time. Both end in the same state to the last bit.
+On the courses of `benchmarks.courses`, processor time. Both end in bit-identical states.
 """
 
 import argparse

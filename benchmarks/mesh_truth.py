@@ -1,8 +1,8 @@
-"""The walking rule asked of the mesh itself, without anything of the builder: rays against triangles.
+"""The walking rule checked on the mesh itself, independent of the graph builder: rays against triangles.
 
-A walker goes along a straight line in small strides. At each stride a vertical ray finds the floor (rule 1
+A walker moves along a straight line in small strides. At each stride a vertical ray finds the floor (rule 1
 of `navmesh.WalkRules`, risers included), horizontal rays at many heights look for walls (rule 2), and the
-floor may be missing for at most one cell (rule 3). Slow and plain on purpose.
+floor may be missing for at most one cell (rule 3). Deliberately slow and simple.
 """
 
 import math

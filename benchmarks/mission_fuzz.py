@@ -1,13 +1,13 @@
-"""Mission files mutated at random: does each run, or is it refused with a message that names the place?
+"""Randomly mutated mission files: does each run, or get refused with a message that says where?
 
     python -m benchmarks.mission_fuzz [--files 10000] [--seed 0] [--seconds 0.3] [--kept fuzz.json]
 
-A mission that uses everything is mutated: a third of the time as text (bytes removed, inserted, doubled,
-cut off), a third as data (keys and values removed, exchanged, renamed, replaced by odd ones), and a third
-so mildly that it may still be right (other numbers, other names, steps left out or exchanged). What is
-accepted is run for the first `--seconds` of its simulated time. A file counts as wrong when anything but a
-one-line message ``file:line:column: ...`` about a place in the file comes of it. Exit code 1 when any is.
-With `--kept` what was found so far is kept in a file, and a run with the same seed goes on from there.
+A mission that uses every feature is mutated: a third of the time as text (bytes removed, inserted, doubled,
+cut off), a third as data (keys and values removed, swapped, renamed, replaced by odd ones), and a third so
+mildly that it may still be valid (other numbers, other names, steps left out or swapped). Accepted files run
+for the first `--seconds` of simulated time. A file is wrong if it causes anything but a one-line message
+``file:line:column: ...`` about a place in it. Exit code 1 if any is. With `--kept` results so far are saved
+in a file, and a run with the same seed continues.
 """
 
 import argparse

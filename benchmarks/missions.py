@@ -1,23 +1,22 @@
-"""Missions between random reachable points: does the person arrive, how far from its path, at what cost?
+"""Missions between random reachable points: arrivals, distance from the path, and cost.
 
     python -m benchmarks.missions [--levels undulating courtyard] [--missions 50] [--speed 3.0] [--json FILE]
 
 For each level the graph is built with a person's rules (`locomotion.PERSON_RULES`), start and goal are drawn
-from its nodes, 10 to 60 m of route apart, and a person of a `runtime.World` is told to go there from a stand,
-as users tell it. The table says how many arrive (in 60 s and 10 s per metre: enough for hands and feet at 0.1
-m/s), how often they fell on their way and got up again, how many ways they took, and what stopped the others;
-JSON holds every mission. A person that has been carried off by a fall (more than 0.5 m), or is stuck, takes a
-new way from where it is; its distance from its path is that from the way that it follows at the time, while
-it goes and not while it gets up: "lateral". "Unfallen" is the same until its first fall. "In walls":
-missions in which a bone (the line between two joints) went through the level's surface at any time by more
-than the radius of a hand (2.8 cm), to its nearer joint or to the edge that it passes: less, soft contacts
-press in a limb that comes down fast. Then the longest mission is timed, whole ticks and
-bare physics with the same controls from the same state in turns: the columns "control", "rehearsal" and
-"planning" say what comes on top of bare physics, "all" their sum.
+from its nodes, 10 to 60 m of route apart, and a person in a `runtime.World` is sent there from standing. The
+table says how many arrive (within 60 s plus 10 s per metre: enough for hands and feet at 0.1 m/s), how often
+they fell and got up, how many paths they took, and what stopped the others; JSON holds every mission. A
+person that a fall has moved by more than 0.5 m, or that is stuck, takes a new path from where it is.
+"lateral" is its distance from its present path while it moves on it, not while it gets up; "unfallen" the
+same until its first fall. "in walls": missions in which a bone (the line between two joints) went through the
+level's surface by more than the radius of a hand (2.8 cm), measured to its nearer joint or to the edge that
+it passes; less is normal, since soft contacts yield. Then the longest mission is timed, alternating whole
+ticks with bare physics under the same controls: "control", "rehearsal" and "planning" are costs on top of
+bare physics, "all" their sum.
 
-Undulating has hardly any ground that is less steep than a person's limit (7 % below 20 degrees; it falls into
-patches of 4 m), so its slope limit is 45 degrees there; steps of 0.2 m between slopes like that are beyond
-what people do (87 of 100 arrive), so theirs is 0.15 m.
+Hardly any ground of undulating is within a person's slope limit (7 % below 20 degrees; it falls into patches
+of 4 m), so the limit there is 45 degrees; steps of 0.2 m between such slopes are too much for people (87 of
+100 arrive), so the step limit there is 0.15 m.
 """
 
 import argparse

@@ -1,10 +1,10 @@
-"""Do doors hardly wider than the body let it pass, and narrower ones not? Prints a table.
+"""Whether bodies fit through doors hardly wider than they are, and not through narrower ones. Prints a table.
 
     python -m benchmarks.narrow_doors [--doors 60] [--seed 1]
 
-Two rooms of 5 x 5 m with one door between them, somewhere on the grid and turned by any angle, in walls of no
-thickness, 2 cm, 20 cm and 1.5 m, at the default resolution. A door counts as passed where the route from room
-to room is complete.
+Two rooms of 5 x 5 m with one door between them, anywhere on the grid and turned by any angle, in walls of no
+thickness, 2 cm, 20 cm and 1.5 m, at the default resolution. A door counts as passed if the route from room to
+room is complete.
 """
 
 import argparse

@@ -1,12 +1,13 @@
-"""Do those who meet in a passage too narrow for both ever walk through each other, and do they get by?
+"""Whether bodies that meet in a passage too narrow for both walk through each other, and whether they get
+past.
 
     python -m benchmarks.narrow_meetings [--starts 20] [--seed 0] [--kinds dog,dog cat,horse ...]
 
-Two or three bodies are sent through a passage from both sides. Its width lets one through and not two, its
-length is drawn from 1 to 12 m; it lies between two rooms ("rooms"), or has ends that nobody can pass at
-("closed"). "overlap" is the deepest of any two bodies in any tick, as a share of the smaller radius (people
-sway: theirs are not held to 0); "ended" counts the bodies that arrived, that are stuck and said why, and
-that are neither after `SECONDS`; "silent" is the longest [s] that one on its way stood without an event.
+Two or three bodies are sent through a passage from both sides. It is wide enough for one and not two, and 1
+to 12 m long; it joins two rooms ("rooms"), or has ends without room to pass ("closed"). "overlap" is the
+deepest of any two bodies in any tick, as a share of the smaller radius (people sway: theirs need not be 0);
+"ended" counts the bodies that arrived, that are stuck and said why, and that are neither after `SECONDS`;
+"silent" is the longest time [s] that one on its way stood without an event.
 """
 
 import argparse

@@ -1,11 +1,11 @@
-"""Is the graph right, and how fast is it built? Prints a table and writes JSON.
+"""Correctness and build time of the graph. Prints a table and writes JSON.
 
     python -m benchmarks.navmesh_build [--levels LEVEL ...] [--json FILE] [--resolution 0.25]
-        [--samples 20000] [--repeats 7]
+                                       [--samples 20000] [--repeats 7]
 
 On the three shared levels, with the body of the shared queries (height 2.0 m, step 0.9 m, slope 45°): what
-the discs hold and leave out, asked of the mesh itself (`mesh_truth`), connections against a flood fill of
-the clearance field, the error of small radii, and the time of the build against Recast in the same run.
+the discs include and leave out, checked on the mesh itself (`mesh_truth`), connections against a flood fill
+of the clearance field, the error of small radii, and the build time against Recast in the same run.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""What the benchmarks of the graph and of the routes share: levels, the peer, the table and the JSON."""
+"""Common parts of the benchmarks of graph and routes: levels, the peer, the table and the JSON."""
 
 import argparse
 import json

@@ -1,14 +1,13 @@
-"""Are routes found, short, clear of walls and fast? Prints a table and writes JSON.
+"""Routes: found, short, clear of walls, and fast? Prints a table and writes JSON.
 
     python -m benchmarks.navmesh_routes [--levels LEVEL ...] [--json FILE] [--resolution 0.25]
-        [--samples 4000] [--repeats 7]
+                                        [--samples 4000] [--repeats 7]
 
 On the three shared levels and their 2,000 pairs each, for the body of the shared queries (radius 0.6 m,
 height 2.0 m, step 0.9 m, slope 45°): pairs answered "complete", length of the pulled path against the peer's,
-clearance along the pulled and the smoothed path, asked of the mesh itself (`mesh_truth`), and the time of a
+clearance along the pulled and the smoothed path, checked on the mesh itself (`mesh_truth`), and the time of a
 query in a batch and from Python against Detour's in the same run. Times are the least of all rounds, for each
-query (single calls; Detour: median of its passes) or batch of 100, so that other load on the machine counts
-little.
+query (single calls; Detour: median of its passes) or batch of 100, to reduce the effect of other load.
 """
 
 import json

@@ -1,11 +1,10 @@
-"""What an update of the graph costs against a build of the whole. Prints a table and writes JSON.
+"""What a graph update costs relative to a full build. Prints a table and writes JSON.
 
     python -m benchmarks.navmesh_update [--levels LEVEL ...] [--changes 12] [--json FILE]
 
 Each level is split into chunks of 2 m and of 10 m; random ones are removed and put back. After each change
-the
-same level is built as a whole, in turn with the update, and both must agree bit for bit. Ratios are of
-processor time, of the medians.
+the same level is also built in full, alternating with the update, and both must be bit-identical. Ratios are
+of median processor times.
 """
 
 import argparse

@@ -1,4 +1,4 @@
-"""Small levels with obstacles whose frames are known exactly: what detection is measured against."""
+"""Small levels with obstacles whose frames are known exactly, to measure detection."""
 
 from dataclasses import dataclass
 

@@ -1,14 +1,13 @@
-"""Plants faults and harmless look-alikes and asks the playtest to tell them apart; and how fast a playtest
-is.
+"""Whether the playtest tells planted faults from harmless look-alikes, and how fast it is.
 
     python -m benchmarks.playtest_faults [--seed 1] [--count 40] [--bots 8] [--seconds 60] [--json FILE]
     python -m benchmarks.playtest_faults --courtyard | --dungeon
 
 Forty halls with one fault each, and forty with something that only looks like one, at random sizes, places
-and angles (`benchmarks.planted_rooms`). A fault is found when it is the one thing that fails, by its kind,
-within 0.5 m of where it is, and measured within 5 cm (slopes: 1 degree); a look-alike holds when nothing
-fails. With --courtyard twenty faults are planted in our courtyard, one at a time. With --dungeon 64 bots play
-Recast's dungeon for 300 s each, in 1 and in 2 processes, and the reports are compared.
+and angles (`benchmarks.planted_rooms`). A fault is found if it is the only failure, with its kind, within 0.5
+m of its place, and measured within 5 cm (slopes: 1 degree); a look-alike holds if nothing fails. With
+--courtyard twenty faults are planted in our courtyard, one at a time. With --dungeon 64 bots play Recast's
+dungeon for 300 s each, in 1 and in 2 processes, and the reports are compared.
 """
 
 import argparse

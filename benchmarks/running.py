@@ -1,9 +1,9 @@
-"""How well the person runs: survival under pushes, speeds, turns, slopes, step length, ground reaction, time.
+"""How well people run: survival under pushes, speeds, turns, slopes, step length, ground reaction, time.
 
     python -m benchmarks.running [--seeds 100] [--json running.json]
 
-Needs nothing but the package. Each figure is printed with how it was measured; 100 seeds of 60 s take some
-minutes.
+Needs no data outside the package. Each figure is printed with how it was measured; 100 seeds of 60 s take
+some minutes.
 """
 
 import argparse

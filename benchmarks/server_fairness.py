@@ -1,13 +1,13 @@
-"""What one client of the server does to the others, as ratios of times measured in one run.
+"""How much one client of the server slows the others down, as ratios of times in one run.
 
     python -m benchmarks.server_fairness [--people 15 60 240] [--asks 300] [--json fairness.json]
 
-The server is a process of its own on a floor of 40 x 40 m. A light client steps a world with one dog by a
-tick, time after time, alone and then while a heavy one is there. That has people who walk, in a world of
-its own, and asks for a step of a second again and again: what the light one waits, by how many people there
-are. Then heavy ones ask for ways through 64 points; and leave in the middle of a step, having made as many
-worlds as they may. Exit code 0 when the light client waits at most 10 times as long on the mean, however
-many people there are: with two clients, twice as long would be an equal share.
+The server is a separate process with a floor of 40 x 40 m. A light client steps a world with one dog by one
+tick at a time, alone and then beside a heavy client, which has walking people in its own world and keeps
+requesting steps of a second. Measured is the light client's wait by number of people. Then heavy clients
+request paths through 64 points, and leave in the middle of a step with as many worlds as allowed. Exit code 0
+if the light client waits at most 10 times as long on average, whatever the number of people; with two
+clients, an equal share would be twice as long.
 """
 
 import argparse

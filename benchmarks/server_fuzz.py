@@ -1,15 +1,15 @@
-"""Wrong messages by the million, and fifty clients at once: does the server keep its word?
+"""A million wrong messages, and fifty clients at once: does the server hold up?
 
     python -m benchmarks.server_fuzz [--messages 1000000] [--clients 50] [--seconds 20] [--json server.json]
 
-The server is a process of its own on a small floor. First fifty clients each ask at 60 Hz for a step of a
-world of their own with a dog on its way; the time to each answer is printed, and that answers and events
-came whole and in order is checked by their numbers. Then eight clients send malformed, cut, oversized and
-out-of-order messages, and right ones with one value of a wrong type (one in 500 is too long and ends the
-connection, which is opened again), while a ninth steps a world and counts. At last come attacks: floods of
-pings, pings and requests whose answers nobody reads, connections that say nothing, and paths to files. Exit
-code 0 when nothing was lost, no wrong type passed, the ninth was served all along, no file was found, the
-server wrote no more than 100 lines to its log and its memory did not grow by more than 64 MB.
+The server is a separate process with a small floor. First fifty clients each request, at 60 Hz, a step of
+their own world with a moving dog; response times are printed, and sequence numbers show that answers and
+events came completely and in order. Then eight clients send malformed, cut, oversized and out-of-order
+messages, and valid ones with one value of a wrong type (one in 500 is too long and ends the connection, which
+is opened again), while a ninth steps a world. Finally attacks: floods of pings, pings and requests whose
+answers nobody reads, silent connections, and paths to files. Exit code 0 if nothing was lost, no wrong type
+passed, the ninth was always served, no file was found, the server logged no more than 100 lines and its
+memory grew by no more than 64 MB.
 """
 
 import argparse

@@ -1,7 +1,8 @@
-"""Where the measured levels, queries and peers lie, for benchmarks and tests; they are not in the product.
+"""Location of the shared levels, queries and peers for benchmarks and tests, which are not part of the
+product.
 
-The folder is named by the environment variable ``SUREFOOT_SHARED``; without it, ``shared`` beside the
-repository is taken.
+The environment variable ``SUREFOOT_SHARED`` names the folder; the default is ``shared`` beside the
+repository.
 """
 
 import os

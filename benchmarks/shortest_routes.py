@@ -1,10 +1,10 @@
-"""How much longer than the shortest way are routes, and than the same way back? Prints the figures.
+"""How much longer routes are than the shortest way, and than the same way back. Prints the figures.
 
     python -m benchmarks.shortest_routes [--scenes 300] [--first 1000] [--pairs 60]
 
 Each scene is a floor with one to seven boxes on it, of any size, at any angle, some of them thin walls, for a
-body of a random radius. The oracle is exact (`benchmarks.visibility`); it is asked for a body 2 cm wider than
-the route's, because passages that leave less than that need not be found.
+body of a random radius. The oracle is exact (`benchmarks.visibility`), for a body 2 cm wider than the
+route's, because narrower passages need not be found.
 """
 
 import argparse

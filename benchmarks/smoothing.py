@@ -1,12 +1,11 @@
-"""How valid, how near the optimum and how fast is smoothing? Prints a table and writes JSON.
+"""How valid, how near the optimum and how fast path smoothing is. Prints a table and writes JSON.
 
     python -m benchmarks.smoothing [--json FILE] [--routes 1002] [--exact 1002] [--bounded 60] [--constructed
     40]
 
 On routes between the shared queries' pairs on the three shared levels (body radius 0.6 m), or on random
-corridors where the shared data is absent: points of the curve outside the corridor, the objective against
-cvxpy, times against cvxpy and against springs at equal objective, and the bound on curvature with end
-tangents.
+corridors without the shared data: points of the curve outside the corridor, the objective against cvxpy,
+times against cvxpy and against springs at equal objective, and the bound on curvature with end tangents.
 """
 
 import argparse

@@ -1,8 +1,7 @@
-"""The talk's first approach to smoothing: torsion springs that even out the path, linear springs that hold
-its shape.
+"""The talk's first approach to smoothing: torsion springs straighten the path, linear springs hold its shape.
 
-The springs pull as the objective's two terms do, so that they come to rest where the solver ends, and only
-the way there differs. Each waypoint's mass makes its own spring as fast as a step of the simulation allows;
+The springs pull as the objective's two terms do, so that they come to rest at the solver's result, and only
+the way there differs. Each waypoint's mass makes its own spring as fast as a simulation step allows;
 waypoints that leave their discs are put back.
 """
 

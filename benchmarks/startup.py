@@ -1,12 +1,11 @@
-"""How long from starting `surefoot run` to the first simulated step, once the kernels are compiled?
+"""Time from starting `surefoot run` to the first simulated step, with compiled kernels.
 
     python -m benchmarks.startup [--repeats 5] [--json startup.json]
 
-Each start is a process of its own that runs the courtyard's mission through the command line and leaves
-after the first step. "to the first step" is counted from before Python is started; "whole process" goes on
-until it has ended. Wall time is what a user waits; CPU time says the same on a machine that others use, too.
-The peers' limit is a process that only imports NumPy, Numba and MuJoCo, in turns with the starts. Kernels are
-compiled by a first start that is not counted.
+Each start is a new process that runs the courtyard's mission through the command line and exits after the
+first step. "to the first step" counts from before Python starts; "whole process" until it has ended. Wall
+time is what a user waits; CPU time is comparable on a shared machine. For comparison, a process that only
+imports NumPy, Numba and MuJoCo alternates with the starts. A first start, not counted, compiles the kernels.
 """
 
 import argparse

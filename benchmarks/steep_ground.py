@@ -1,12 +1,11 @@
-"""Up to which slope do people walk and run?
+"""How steep a slope people can walk and run on.
 
     python -m benchmarks.steep_ground [--degrees 10 20 30] [--starts 5] [--seed 0]
 
-A plane of that slope, 8 m long on the map, lies between two level floors. One person each goes up it, down
-it, and across it from side to side, told 1.2, 2 and 3.3 m/s, from `--starts` random places. "falls" are the
-shares of the ways on which it fell; "arrives" those on which it came to its goal within `SECONDS`; "seconds"
-the median of these; "ends" how the others ended; "silent" is the longest [s] in which one on its way got
-nowhere without an event.
+A plane of that slope, 8 m long on the map, lies between two level floors. People go up, down and across it,
+told 1.2, 2 and 3.3 m/s, from `--starts` random places. "falls" is the share of runs with a fall; "arrives"
+the share that reached the goal within `SECONDS`; "seconds" the median time of these; "ends" how the others
+ended; "silent" the longest time [s] without progress or event.
 """
 
 import argparse

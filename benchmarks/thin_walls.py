@@ -1,9 +1,9 @@
-"""Does any leg of a route cross a thin wall? Prints how many do, for each radius.
+"""How many legs of routes cross a thin wall, for each radius.
 
     python -m benchmarks.thin_walls [--scenes 200] [--first 3000] [--pairs 300]
 
 Each scene is a floor of 6 x 6 m with four upright cards on it, which have no thickness, at any angle. Every
-leg of every route between random places is tested against every card exactly.
+leg of every route between random places is tested exactly against every card.
 """
 
 import argparse

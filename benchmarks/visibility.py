@@ -1,9 +1,8 @@
-"""An exact planner round boxes on a plane, without anything of the graph: the shortest way of a round body.
+"""An exact planner around boxes on a plane, independent of the graph: the shortest path of a round body.
 
-The body may not come nearer to a box than its radius, so its shortest way goes along straight lines and along
-arcs about the corners of the boxes. The arcs are replaced by polygons around them (`_PARTS` sides for a whole
-circle, at most 0.2 % longer), their corners are joined wherever they see each other, and Dijkstra's algorithm
-does the rest.
+The body may not come nearer to a box than its radius, so its shortest path follows straight lines and arcs
+about the boxes' corners. Polygons around the arcs replace them (`_PARTS` sides for a whole circle, at most
+0.2 % longer), their corners are joined wherever they see each other, and Dijkstra's algorithm does the rest.
 """
 
 from dataclasses import dataclass

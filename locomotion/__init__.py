@@ -1,4 +1,4 @@
-"""Bodies that follow a path."""
+"""Bodies that follow paths: people, animals and crowds."""
 
 from locomotion.errors import LocomotionError
 from locomotion.gaits.run.skill import RunSkill, load_run_skill

@@ -1,4 +1,4 @@
-"""What happens to a body, as typed events with the simulation time at which it happened."""
+"""What happens to a body, as typed events with their simulation time."""
 
 from dataclasses import dataclass
 
@@ -10,7 +10,8 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Event:
-    """time: simulation time [s] since the body was made; position: its point (x, y, z) on the ground [m]."""
+    """time: simulation time [s] since the body was created; position: its point (x, y, z) on the ground
+    [m]."""
 
     time: float
     position: tuple[float, float, float]
@@ -18,7 +19,7 @@ class Event:
 
 @dataclass(frozen=True)
 class SetOff(Event):
-    """The body begins to follow a path of this length [m] to this goal."""
+    """The body starts to follow a path of this length [m] to this goal."""
 
     goal: tuple[float, float, float]
     length: float
@@ -33,34 +34,34 @@ class Arrived(Event):
 
 @dataclass(frozen=True)
 class BackedOut(Event):
-    """The body has gone backwards along its own trail, this far [m], to where it can turn around."""
+    """The body has backed up along its own trail, this far [m], to where it can turn round."""
 
     distance: float
 
 
 @dataclass(frozen=True)
 class MissedGoal(Event):
-    """The body has come to the end of its path, but this far from the goal [m, horizontally]."""
+    """The body has reached the end of its path, but this far from the goal [m, horizontally]."""
 
     distance: float
 
 
 @dataclass(frozen=True)
 class StrayedFromPath(Event):
-    """The body is this far beside its path [m] and does not follow it any more."""
+    """The body is this far from its path [m] and stops following it."""
 
     distance: float
 
 
 @dataclass(frozen=True)
 class LostGround(Event):
-    """The ground under the body, or just ahead of it on its path, is not there any more."""
+    """The ground under the body, or just ahead on its path, is gone."""
 
 
 @dataclass(frozen=True)
 class GotStuck(Event):
-    """The body has made no headway along its path for some seconds; ``among_others``: it and those around it
-    wait for each other. ``reason`` says why, as far as that is known."""
+    """The body has made no progress along its path for some seconds; ``among_others``: it and others wait for
+    each other. ``reason``: as far as it is known."""
 
     among_others: bool = False
     reason: str = "it makes no headway"
@@ -68,7 +69,7 @@ class GotStuck(Event):
 
 @dataclass(frozen=True)
 class Fell(Event):
-    """The body lies on the ground; its wished speed [m/s], the path's slope and arc length [m] there."""
+    """The body has fallen; its wanted speed [m/s], the path's slope and arc length [m] there."""
 
     speed: float
     slope: float
@@ -77,15 +78,15 @@ class Fell(Event):
 
 @dataclass(frozen=True)
 class GotUp(Event):
-    """The body has got up after a fall, ``seconds`` [s] after it: it stands, or goes on on hands and feet."""
+    """The body has got up ``seconds`` [s] after a fall: it stands, or goes on on hands and feet."""
 
     seconds: float
 
 
 @dataclass(frozen=True)
 class TookOff(Event):
-    """The body begins to clear an obstacle: its affordance and height [m], the error of the take-off
-    distance [m, positive: too early] and of the entry speed [m/s]."""
+    """The body starts to clear an obstacle: its affordance and height [m], the error of the take-off distance
+    [m, positive: too early] and of the entry speed [m/s]."""
 
     affordance: str
     height: float
@@ -95,7 +96,7 @@ class TookOff(Event):
 
 @dataclass(frozen=True)
 class WentBack(Event):
-    """The body turns round before an obstacle, of this affordance and size [m], to run up to it from
+    """The body turns round before an obstacle of this affordance and size [m], to run up to it from
     ``distance`` [m] farther away."""
 
     affordance: str

@@ -1,4 +1,4 @@
-"""Ranges of the numbers that a body remembers in one array."""
+"""Ranges of the numbers in a body's memory arrays."""
 
 from __future__ import annotations
 
@@ -19,8 +19,10 @@ Slot = int | slice
 
 
 class Slots:
-    """``what`` has ``size`` numbers. ``ranges``: the least and greatest of some of them; the others are
-    finite. ``whole``: those that are whole numbers. ``open_ended``: those that may be infinite or NaN."""
+    """``what`` is an array of ``size`` numbers. ``ranges``: least and greatest of some of them; the others
+    are only finite. ``whole``: those that are whole numbers. ``open_ended``: those that may be infinite or
+    NaN.
+    """
 
     def __init__(
         self,
@@ -41,7 +43,7 @@ class Slots:
             self._open[slot] = True
 
     def check(self, values: NDArray[np.float64]) -> None:
-        """Raises `LocomotionError` for numbers that are none of ``what``."""
+        """Raise `LocomotionError` if the numbers are not valid for ``what``."""
         if values.shape != (self.size,) or values.dtype != np.float64:
             raise LocomotionError(f"{self.what} has shape {values.shape}, expected ({self.size},)")
         fits = (values >= self._low) & (values <= self._high) | self._open
@@ -56,14 +58,14 @@ class Slots:
 
 
 def check_number(what: str, value: float, low: float = -FARTHEST, high: float = FARTHEST) -> None:
-    """Raises `LocomotionError` for a ``value`` outside of ``low`` to ``high``, or NaN."""
+    """Raise `LocomotionError` for a ``value`` outside of ``low`` to ``high``, or NaN."""
     if not low <= value <= high:
         raise LocomotionError(f"{what} is {value}, expected {low:g} to {high:g}")
 
 
 def check_array(what: str, values: NDArray[np.float64], *shape: int | None, least: int = 0) -> None:
-    """Raises `LocomotionError` unless ``values`` are finite float64 of this ``shape``, None: of any size,
-    with ``least`` rows at least."""
+    """Raise `LocomotionError` unless ``values`` are finite float64 of this ``shape`` (None: any size), with
+    at least ``least`` rows."""
     fits = values.ndim == len(shape) and all(
         want in (None, size) for size, want in zip(values.shape, shape, strict=True)
     )

@@ -1,12 +1,11 @@
 """Smoothing under a bound on curvature.
 
-Curvature is not convex in the waypoints, but the second divided difference is, and the two agree where the
-waypoints are as far apart as their nominal spacing says. So the convex problem is solved, the waypoints are
-spread evenly along the result, and it is solved again, tightening the bound where the true curvature came out
-above it, until the true curvature of the result holds.
+Curvature is not convex in the waypoints, but the second divided difference is, and the two agree if the
+waypoints lie as far apart as their nominal spacing. So the solver solves the convex problem, spreads the
+waypoints evenly along the result and solves again, tightening the bound where the true curvature exceeds it,
+until the true curvature is within the bound.
 
-Where that fails, `reach` either proves that no curve exists, or finds the way of one, from which to try once
-more.
+If that fails, `reach` either proves that no such curve exists, or finds a rough one to start again from.
 """
 
 from __future__ import annotations
@@ -69,9 +68,9 @@ def solve_with_bound(
 ) -> Solution:
     """Smooth a path under problem.max_curvature.
 
-    limit: greatest number of iterations over all rounds; None: as many as it takes, and then the search.
-    without: the solution of the problem without the bound, returned where there is none with it.
-    state: (4, n, 2) of an earlier solution, to start from.
+    limit: greatest number of iterations over all rounds; None: no limit, and the search if they fail.
+    without: solution of the problem without the bound, returned if the bound cannot be met. state: (4, n, 2)
+    of an earlier solution, to start from.
     """
     trial = _rounds(problem, limit, tolerance, state)
     if trial.complete or limit is not None:
@@ -110,12 +109,10 @@ def _rounds(
     state: NDArray[np.float64] | None,
     free: bool = False,
 ) -> _Trial:
-    """Solve, spread the waypoints, tighten where the curvature is above the bound; until it holds.
+    """Solve, spread the waypoints and tighten the bound where the curvature exceeds it, until it holds.
 
-    Each round starts from the state of the one before it.
-
-    free: each round has the last one's curve as its pulled path and stays near it, so that a loop is not
-    pulled tight.
+    Each round starts from the state of the round before. free: each round takes the previous curve as its
+    pulled path and stays near it, so that a loop is not pulled tight.
     """
     bound = float(problem.max_curvature or np.inf)
     margin = np.ones(problem.count)
@@ -163,8 +160,8 @@ def _rounds(
 def _carried(
     state: NDArray[np.float64], along: NDArray[np.float64], points: NDArray[np.float64], problem: Problem
 ) -> NDArray[np.float64]:
-    """The state (4, n, 2) of waypoints at `points` (n, 2), arc lengths `along` (n,), for those of a problem
-    that are spread along the same points."""
+    """State (4, n, 2) interpolated at `points` (n, 2), arc lengths `along` (n,), from that of a problem whose
+    waypoints are spread along the same points."""
     moved = np.zeros((4, problem.count, 2))
     free = slice(problem.first, problem.last)
     for axis in range(2):

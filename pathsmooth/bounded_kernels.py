@@ -1,14 +1,14 @@
 """Compiled loops of the solver with a bound on the second divided difference, a convex stand-in for
 curvature.
 
-The problem of `kernels` with the constraint |D(p + d)_i| <= kappa_i added. K = (I; I; D) has a third dual
+This is the problem of `kernels` with the constraint |D(p + d)_i| <= kappa_i. K = (I; I; D) has a third dual
 variable, u, and the metric of the primal step is K^T S K for the dual step sizes S, so that the step stays
 one pentadiagonal solve:
 
     d' = argmin f2(d) + <y + v + D^T u, d> + 1/2 |d - d_i|^2 in the metric diag(s + r) + D^T diag(c) D
     u' = z - c clip(z / c, kappa),  z = u + c D(p + 2 d' - d)
 
-and y', v' as there. Targets need not lie in their discs here.
+y' and v' are as in `kernels`. Targets need not lie in their discs here.
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
-"""The exact optimum of the same problem through cvxpy: the reference of tests and benchmarks, too slow for
-a frame."""
+"""Exact optimum of the same problem with cvxpy: a reference for tests and benchmarks, too slow for a game
+frame."""
 
 from __future__ import annotations
 

@@ -1,12 +1,11 @@
-"""Where a curve of bounded curvature can get to inside a corridor: a search that never misses a curve.
+"""Where a curve of bounded curvature can go inside a corridor: a search that never misses a curve.
 
-Positions and headings are divided into cells, and a curve into steps of one length. From a cell, a step can
-lead to every cell that some curve from somewhere in the cell can end in, so the cells found include all that
-are reachable. If the goal is not among them, no curve exists, however it is drawn. If it is, the chain of
-cells is a first guess for the solver; the cells allow a little more than the bound does, so it proves
-nothing.
+Positions and headings are divided into cells, and a curve into steps of equal length. From a cell, a step
+leads to every cell in which some curve from somewhere in the cell can end, so the search finds all reachable
+cells. If the goal is not among them, no curve exists. If it is, the chain of cells is a first guess for the
+solver; it proves nothing, because the cells allow a little more than the bound.
 
-The corridor is passed in the order of its discs.
+The corridor's discs are passed in order.
 """
 
 from __future__ import annotations

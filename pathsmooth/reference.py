@@ -1,5 +1,4 @@
-"""The solver's algorithms written plainly with NumPy and SciPy: slow, obvious, and what the tests compare
-with."""
+"""The solver's algorithms in plain NumPy and SciPy: slow, obvious, for tests to compare with."""
 
 from __future__ import annotations
 

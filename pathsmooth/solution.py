@@ -1,4 +1,4 @@
-"""What the solver hands back."""
+"""The solver's result."""
 
 from __future__ import annotations
 
@@ -19,20 +19,21 @@ class Solution:
     """A smoothed path and how good it is.
 
     The status is one of
-        "complete"         without a bound on curvature: the objective is within the tolerance of the optimum.
-                           With one: the true curvature of the points, see `curvature`, is at most 3 % above
-                           it. The objective is then not the least one: `objective` and `gap` are those of the
-                           last convex problem, whose targets and spacing the solver has chosen (`problem`),
-                           and where the bound could only be held by another way through the corridor, of the
-                           path along that way.
-        "iteration_limit"  stopped before that; the points are valid all the same: inside the corridor, ends
-                           and tangents exact. Without a bound the objective is no higher than the pulled
-                           path's. With one, the curvature is above it: the points are the least bent that
-                           were found, and whether any path holds the bound is not known. Without a limit on
-                           the iterations this is rare: it takes a corridor that pinches to a small part of
-                           the tightest curve
-        "infeasible"       proven: no path in the corridor has the wanted tangents and curvature; the points
-                           are then the smoothest without that bound
+
+      "complete"         without a bound on curvature: the objective is within the tolerance of the optimum.
+                         With one: the true curvature of the points, see `curvature`, is at most 3 % above it.
+                         The objective is then not the least possible: `objective` and `gap` are those of the
+                         last convex problem, whose targets and spacing the solver chose (`problem`), possibly
+                         along another way through the corridor.
+      "iteration_limit"  stopped early; the points are still valid: inside the corridor, ends and tangents
+                         exact. Without a bound the objective is no higher than the pulled path's. With one,
+                         the
+                         curvature is above it: the points are the least curved ones found, and whether any
+                         path
+                         meets the bound is unknown. Without a limit on iterations this is rare: the corridor
+                         must narrow to a fraction of the tightest curve.
+      "infeasible"       proven: no path in the corridor has these tangents and this curvature; the points are
+                         the smoothest without the bound.
     """
 
     points: NDArray[np.float64]

@@ -1,4 +1,4 @@
-"""Solving a smoothing problem: the entry point that a frame calls."""
+"""Solve a smoothing problem."""
 
 from __future__ import annotations
 

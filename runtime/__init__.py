@@ -1,4 +1,4 @@
-"""Worlds with agents, missions, and what a user sees of them.
+"""Worlds with agents, missions, playtests, and ways to see them.
 
     import navmesh, runtime
 

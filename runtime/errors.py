@@ -1,4 +1,4 @@
-"""The error that wrong input to this package raises."""
+"""The error raised for wrong input to this package."""
 
 from surefoot.errors import SurefootError
 

@@ -55,7 +55,7 @@ class Event:
 
 @dataclass(frozen=True)
 class Departed(Event):
-    """The agent set out along a path of ``length`` [m] to ``goal``, over obstacles that need ``skills``."""
+    """The agent started along a path of ``length`` [m] to ``goal``, over obstacles that need ``skills``."""
 
     goal: Point
     length: float
@@ -79,7 +79,7 @@ class Arrived(Event):
 
 @dataclass(frozen=True)
 class Blocked(Event):
-    """There is no way to ``goal``; ``reason`` says why."""
+    """There is no path to ``goal``; ``reason`` says why."""
 
     goal: Point
     reason: str
@@ -90,7 +90,7 @@ class Blocked(Event):
 
 @dataclass(frozen=True)
 class BackedOut(Event):
-    """The agent went backwards along its own trail for ``length`` [m], to where it can turn around."""
+    """The agent backed up along its own trail for ``length`` [m], to where it can turn round."""
 
     length: float
 
@@ -112,8 +112,7 @@ class SkillStarted(Event):
 
 @dataclass(frozen=True)
 class SkillFinished(Event):
-    """The agent is back in its run after ``skill``, over an obstacle of ``height`` [m] (of a gap its
-    width)."""
+    """The agent finished ``skill`` and runs on, past an obstacle of ``height`` [m] (a gap: its width)."""
 
     skill: str
     height: float
@@ -124,7 +123,7 @@ class SkillFinished(Event):
 
 @dataclass(frozen=True)
 class Fell(Event):
-    """The agent lost its balance. A human gets up and goes on (`GotUp`), unless there is no ground."""
+    """The agent lost its balance. A human gets up and continues (`GotUp`), unless there is no ground."""
 
     def _what(self) -> str:
         return f"falls at {_place(self.position)}"
@@ -132,7 +131,7 @@ class Fell(Event):
 
 @dataclass(frozen=True)
 class GotUp(Event):
-    """The agent stands again, or is on hands and feet on steep ground, ``seconds`` [s] after it fell."""
+    """The agent is up again, or on hands and feet on steep ground, ``seconds`` [s] after it fell."""
 
     seconds: float
 
@@ -152,8 +151,8 @@ class Lost(Event):
 
 @dataclass(frozen=True)
 class Hindered(Event):
-    """The agent gets nowhere: it goes back for another run-up, or has made no headway for 10 s. ``reason``
-    says why. It goes on trying, by another way if need be, until it gets on or is `Stuck`."""
+    """The agent makes no progress: it goes back for another run-up, or has been without progress for 10 s.
+    ``reason`` says why. It keeps trying, by another way if need be, until it gets on or is `Stuck`."""
 
     reason: str
 
@@ -163,7 +162,7 @@ class Hindered(Event):
 
 @dataclass(frozen=True)
 class Stuck(Event):
-    """The agent makes no headway any more and has given up; ``reason`` says why."""
+    """The agent has given up after making no progress; ``reason`` says why."""
 
     reason: str
 
@@ -173,7 +172,7 @@ class Stuck(Event):
 
 @dataclass(frozen=True)
 class Told(Event):
-    """A trigger has given the agent a new script; ``why`` says what happened."""
+    """A trigger gave the agent a new script; ``why`` says what happened."""
 
     why: str
 
@@ -182,7 +181,7 @@ class Told(Event):
 
 
 def event_text(values: Mapping[str, Any]) -> str:
-    """What `Event.to_dict` has told of, in words; of a kind of another version only its name."""
+    """The sentence for an event stored by `Event.to_dict`; only its name if it is of an unknown kind."""
     kinds = {kind.__name__: kind for kind in Event.__subclasses__()}
     told = {name: value for name, value in values.items() if name != "kind"}
     try:

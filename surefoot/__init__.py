@@ -1,5 +1,5 @@
-"""What the packages `navmesh`, `pathsmooth`, `locomotion` and `runtime` share; ``python -m surefoot`` is the
-command ``surefoot``."""
+"""Code shared by the packages `navmesh`, `pathsmooth`, `locomotion` and `runtime`; ``python -m surefoot``
+runs the command ``surefoot``."""
 
 from surefoot.errors import SurefootError
 

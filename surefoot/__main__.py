@@ -1,4 +1,4 @@
-"""``python -m surefoot``: the command, where no script of this name is on the path."""
+"""``python -m surefoot`` runs the command where its script is not on the path."""
 
 from runtime.cli.app import main
 

@@ -1,4 +1,4 @@
-"""Says so when kernels are compiled, which takes minutes, once on a machine."""
+"""Tell the user when kernels are compiled, which takes minutes, once per machine."""
 
 import logging
 from collections.abc import Callable, Iterator
@@ -11,7 +11,7 @@ from surefoot.kernels.dependencies import PACKAGES
 __all__ = ["TIME", "announce", "counted"]
 
 TIME = "1 to 4 minutes"
-"""How long it takes to compile all of them."""
+"""How long compiling all kernels takes."""
 
 _log = logging.getLogger("surefoot")
 
@@ -33,8 +33,8 @@ class _Listener(events.Listener):
 
 
 class _Announcer:
-    """Writes one line to the log "surefoot", which ends on standard error unless the host sends it elsewhere,
-    before the first kernel of the process is compiled."""
+    """Logs one line to "surefoot" before the first kernel of the process is compiled. The log goes to
+    standard error unless the host redirects it."""
 
     def __init__(self) -> None:
         self.silent = False
@@ -54,15 +54,14 @@ _announcer: list[_Announcer] = []
 
 
 def announce() -> None:
-    """From now on say so before the first kernel of this process is compiled. Called by the packages."""
+    """Announce the first kernel that this process compiles. Called by the packages."""
     if not _announcer:
         _announcer.append(_Announcer())
 
 
 @contextmanager
 def counted(told: Callable[[int], object]) -> Iterator[None]:
-    """Within the block ``told(n)`` is called when the n-th kernel (from 1) is about to be compiled, and
-    nothing is written to the log."""
+    """Within the block, call ``told(n)`` before the n-th kernel (from 1) is compiled, and log nothing."""
     count = 0
 
     def one() -> None:

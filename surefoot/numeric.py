@@ -1,5 +1,4 @@
-"""Whether what a caller gives is numbers at all: asked at the edge of the public calls, before it is compared
-with anything."""
+"""Check that a caller's values are numbers, at the edge of the public API."""
 
 import math
 from numbers import Integral
@@ -25,8 +24,8 @@ def is_whole(value: Any) -> bool:
 
 
 def as_floats(value: Any) -> NDArray[np.float64] | None:
-    """``value`` as an array of float64, of any shape and finite or not; None for what holds anything but
-    numbers, or rows of different lengths."""
+    """``value`` as a float64 array of any shape, finite or not; None if it holds anything but numbers, or
+    rows of different lengths."""
     try:
         array = np.asarray(value)
         return None if array.dtype.kind in "USc" else array.astype(np.float64)

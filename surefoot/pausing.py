@@ -1,12 +1,11 @@
-"""Long work that can be interrupted between its pieces, none of which takes long.
+"""Long work that can be interrupted between short pieces.
 
-What does much at once calls `pause` between the pieces. That does nothing, unless the host has said what
-is to be done there::
+Long functions call `pause` between pieces. It does nothing, unless the host has registered a callback::
 
     with interruptible(serve_others):
         world.step(1.0)
 
-What it does must not touch the world that is at work: that is in the middle of something.
+The callback must not touch the world that is being stepped, which is in the middle of its work.
 """
 
 from collections.abc import Callable, Iterator
@@ -24,14 +23,14 @@ _meanwhile: ContextVar[Callable[[], None]] = ContextVar("meanwhile", default=_no
 
 
 def pause() -> None:
-    """Let the host do something else."""
+    """Let the host run its callback, if any."""
     _meanwhile.get()()
 
 
 @contextmanager
 def interruptible(meanwhile: Callable[[], None]) -> Iterator[None]:
-    """Within the block call ``meanwhile`` between the pieces of long work; an error that it raises ends the
-    work where it is."""
+    """Within the block, call ``meanwhile`` between pieces of long work; an error that it raises stops the
+    work there."""
     token = _meanwhile.set(meanwhile)
     try:
         yield

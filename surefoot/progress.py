@@ -1,4 +1,4 @@
-"""What a user sees while something takes long: bars on a terminal, elsewhere plain lines."""
+"""Progress of long work: bars on a terminal, plain lines elsewhere."""
 
 import sys
 from collections.abc import Iterator
@@ -12,19 +12,19 @@ __all__ = ["Progress"]
 
 _TENTHS = 10
 _WIDE = 110
-"""[columns] of a terminal in which a bar and the time left have room beside the words."""
+"""[columns] Narrowest terminal with room for a bar and the time left beside the text."""
 
 
 class Progress:
-    """Tells how far each stage is, on the standard error output: on a terminal with a bar; in a pipe or a
-    file with a line at its beginning, after each tenth of it and at its end. Quiet with ``shown=False``."""
+    """Shows the progress of each stage on standard error: as a bar on a terminal; in a pipe or file as a line
+    at its start, after each tenth and at its end. Silent with ``shown=False``."""
 
     def __init__(self, shown: bool = True) -> None:
         self.shown = shown
 
     @contextmanager
     def stage(self, label: str) -> Iterator["Stage"]:
-        """Tell of ``label`` until the block ends."""
+        """Show the stage ``label`` until the block ends."""
         if not self.shown:
             yield Stage(label)
             return
@@ -34,17 +34,17 @@ class Progress:
 
 
 class Stage:
-    """One stage of `Progress`; this one is told to nobody."""
+    """One stage of `Progress`; this base class shows nothing."""
 
     def __init__(self, label: str) -> None:
         self.label = label
 
     def update(self, share: float, note: str = "") -> None:
-        """Say that ``share`` (0…1) of the stage is done, and a few words more."""
+        """Report that ``share`` (0 to 1) of the stage is done, with an optional short note."""
 
 
 class _Lines(Stage):
-    """A stage that is told in lines, which depend on how far it is and not on the clock."""
+    """A stage shown as lines; they depend on progress only, not on the clock."""
 
     def __init__(self, label: str) -> None:
         super().__init__(label)
@@ -68,7 +68,7 @@ class _Lines(Stage):
 
 
 class _Bar(Stage):
-    """A stage with a bar on a terminal: words that do not fit into one line are continued in the next."""
+    """A stage with a bar on a terminal; text too long for one line continues on the next."""
 
     def __init__(self, label: str, console: "Console | None" = None) -> None:
         from rich.console import Console

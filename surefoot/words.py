@@ -1,8 +1,8 @@
-"""Words for numbers of things."""
+"""Words for counted things."""
 
 __all__ = ["several"]
 
 
 def several(count: int, thing: str) -> str:
-    """``count`` and the ``thing``, in the plural unless there is one: "1 agent", "3 agents"."""
+    """``count`` and ``thing``, in the plural unless it is one: "1 agent", "3 agents"."""
     return f"{count} {thing}{'' if count == 1 else 's'}"

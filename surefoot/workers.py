@@ -1,4 +1,4 @@
-"""Pools of processes for long work."""
+"""Process pools for long work."""
 
 import multiprocessing
 import signal
@@ -11,14 +11,14 @@ __all__ = ["Workers", "worker_pool"]
 
 
 class Workers(Protocol):
-    """What is used of `multiprocessing.pool.Pool`."""
+    """The methods of `multiprocessing.pool.Pool` that we use."""
 
     def map(self, func: Callable[[Any], Any], iterable: Iterable[Any], chunksize: int | None = None) -> list:
-        """What ``func`` returns for each."""
+        """Results of ``func`` for each item."""
         ...
 
     def imap(self, func: Callable[[Any], Any], iterable: Iterable[Any]) -> Iterator[Any]:
-        """The same, one after the other."""
+        """Like `map`, one item after the other."""
         ...
 
 
@@ -32,11 +32,11 @@ class _ThisProcess:
 
 @contextmanager
 def worker_pool(count: int, begin: Callable[..., None], arguments: tuple[Any, ...]) -> Iterator[Workers]:
-    """``count`` fresh processes, each after ``begin(*arguments)``, until the block ends. One worker is this
-    process: a fresh one takes seconds to import everything.
+    """``count`` new processes, each initialised by ``begin(*arguments)``, until the block ends. A single
+    worker is this process, since a new one takes seconds to import everything.
 
-    Fresh processes leave Ctrl-C, which reaches all processes of a terminal, to this one, which ends them.
-    From their very start: they inherit that the signal is ignored.
+    New processes ignore Ctrl-C, which a terminal sends to all processes; this one ends them. They inherit
+    that from the start.
     """
     if count == 1:
         begin(*arguments)

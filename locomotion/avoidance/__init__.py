@@ -1,1 +1,1 @@
-"""How bodies keep out of each other's way, and share a goal."""
+"""How bodies avoid each other and share a goal."""

@@ -1,11 +1,10 @@
-"""Giving way: how a body that follows a path keeps out of the way of others.
+"""Giving way: how a body that follows a path avoids others.
 
-A body that needs room to turn cannot take any velocity at any time, as optimal reciprocal collision
-avoidance wants it (`locomotion.crowd`). It chooses among what it can do: paces, and ways that leave its path
-to one side ahead of it, as curved as it can turn, and come back. Each is foretold for `HORIZON` seconds
-beside what is foretold of the others, and the one that costs least is taken; of equal ones that to the right.
-Bodies choose one after the other, knowing what the others have chosen, so that two do not step aside to the
-same side.
+A body that needs room to turn cannot take any velocity at any time, as optimal reciprocal collision avoidance
+requires (`locomotion.crowd`). It chooses among its options: slower paces, and paths that swing out to one
+side ahead, as sharply as it can turn, and come back. Each option is predicted for `HORIZON` seconds along
+with the others' predictions, and the cheapest is taken; of equal ones, that to the right. Bodies choose one
+after the other, knowing the others' choices, so that two do not step aside to the same side.
 """
 
 from __future__ import annotations
@@ -22,33 +21,33 @@ from surefoot.kernels import allocating_kernel, kernel
 __all__ = ["HORIZON", "SPACING", "Course", "Options", "first_meeting", "foretell", "meetings", "options"]
 
 HORIZON = 4.5
-"""[s] that bodies are foretold."""
+"""[s] length of a prediction."""
 STEP = 0.1
-"""[s] between the places that are foretold."""
+"""[s] between predicted places."""
 SPACING = 0.1
 """[m] between the points of a course."""
 COUNT = round(HORIZON / STEP)
 TURNING_SPEED = 0.5
-"""[m/s] from which a body begins to turn on the spot."""
+"""[m/s] below which a body starts to turn on the spot."""
 AT_FIRST = 10
-"""Steps in which a body can do little about where it is."""
+"""Steps within which a body can hardly change where it is."""
 AT_ONCE = 1.0 / STEP
-"""[1/s] Of an eagerness: it changes its speed as hard as it can, to the end."""
+"""[1/s] eagerness of a body that changes its speed as hard as it can until the end."""
 HARD = 0.5
-"""[m/s] from which on a body that runs into another one is to blame for all of it."""
+"""[m/s] from which a body that runs into another bears all the blame."""
 _ASIDE = (0.4, 0.8, 1.2, 1.6)
-"""[m] to each side that a way leads."""
+"""[m] to each side that a sidestep leads."""
 _PACES = (1.0, 0.6, 0.3, 0.0)
 _LEFT_COSTS, _SLOW_COSTS = 1.2, 2.0
-"""For each metre to the left in place of the right; for standing."""
+"""Cost for each metre to the left instead of the right; cost of standing."""
 _NEAR_COSTS, _TOUCHING_COSTS, _SOONER_COSTS, _DEEPER_COSTS = 1.5, 2.5, 6.0, 20.0
-"""For coming too near to somebody, less than standing, lest two wait for each other for ever; for touching
-it, for that at once rather than at the end of what is foretold, and for going through it."""
+"""Costs of coming too near to somebody (less than standing, lest two wait for each other for ever), of
+touching them, of doing so soon, and of passing through them."""
 _KEPT = (4.0, 2.0, 1.0)
-"""[m] for which a body keeps to the way that it had."""
+"""[m] for which a body keeps its former path."""
 _KEEPING_COSTS = 0.2
-_QUINTIC = 5.7735  # most second derivative of the step from 0 to 1 whose ends are smooth to the second order
-_AFTERWARDS = 1.0  # [m] that a body stays aside behind the place where it would have met somebody
+_QUINTIC = 5.7735  # largest second derivative of a smooth step from 0 to 1
+_AFTERWARDS = 1.0  # [m] that a body stays aside beyond the place of meeting
 
 
 @dataclass(frozen=True)
@@ -56,19 +55,21 @@ class Course:
     """What a body that follows a path is about to do.
 
     Attributes:
-        points: (k, 3) float64 [m] the path from the body on, every `SPACING`.
-        speeds: (k,) float64 [m/s] at which it wants to pass them, if nobody is in the way.
-        speed: [m/s] now. pace: share of ``speeds`` at which it goes at present.
-        length: [m] from its rearmost point, which follows the path, to its front. reach: [m] of it that lies
-            beyond the last point when it has come to its end. radius: [m].
-        acceleration, braking: [m/s²] at most. eagerness: [1/s] by which a difference of speed becomes one of
-            these, up to `AT_ONCE`.
-        slowest: [m/s] that it can go, unless it halts; 0: it halts as easily as it slows down.
-        sharpest: [1/m] of a curve that it can take. begins: [m] ahead where a change of its path may begin.
-        aside: whether its path may be changed. whole: whether the last point is its goal.
-        stops: [m] that it wants for coming to a stand. turns: [s] for which it turns on the spot, once it is
-            slow enough for that, before it goes on. nose: [m] of ``length`` that lie before its foremost
-            disc.
+      points: (k, 3) float64 [m] the path from the body on, every `SPACING`.
+      speeds: (k,) float64 [m/s] at which it wants to pass them if nobody is in the way.
+      speed: [m/s] now. pace: present share of ``speeds``.
+      length: [m] from its rearmost point, which follows the path, to its front. reach: [m] by which it
+      extends
+        beyond the last point at the end. radius: [m].
+      acceleration, braking: [m/s²] at most. eagerness: [1/s] factor from a difference of speed to one of
+      these,
+        up to `AT_ONCE`.
+      slowest: [m/s] its slowest speed short of a halt; 0: it halts as easily as it slows down.
+      sharpest: [1/m] sharpest curve it can take. begins: [m] ahead where a change of its path may begin.
+      aside: whether its path may be changed. whole: whether the last point is its goal.
+      stops: [m] it needs for a stop. turns: [s] that it turns on the spot, once slow enough, before it goes
+      on.
+      nose: [m] of ``length`` in front of its foremost disc.
     """
 
     points: NDArray[np.float64]
@@ -178,8 +179,8 @@ def meetings(places, velocities, heights, followers, slack, storey):
 
 @dataclass(frozen=True)
 class Options:
-    """Something that a body could do: a ``pace``, and ``shift`` (k, 2) [m] that its course is moved by, None
-    for not at all; ``cost`` without meetings."""
+    """An option of a body: a ``pace``, and ``shift`` (k, 2) [m] added to its course, None for none; ``cost``
+    without meetings."""
 
     pace: float
     shift: NDArray[np.float64] | None
@@ -187,7 +188,7 @@ class Options:
 
 
 def cost_of_meeting(near: int, touches: int, depth: float) -> float:
-    """What it costs to meet somebody as `first_meeting` says; 0 for nobody."""
+    """Cost of a meeting found by `first_meeting`; 0 for none."""
     cost = _NEAR_COSTS if near < COUNT else 0.0
     if touches < COUNT:
         cost += _TOUCHING_COSTS + _SOONER_COSTS * (1.0 - touches / COUNT) + _DEEPER_COSTS * depth
@@ -195,9 +196,10 @@ def cost_of_meeting(near: int, touches: int, depth: float) -> float:
 
 
 def options(course: Course, meeting: int, halts: bool = True, former: Course | None = None) -> list[Options]:
-    """What a body can do that would meet somebody at step ``meeting``, the cheapest first; ``halts``: whether
-    one that does not halt easily does so; ``former``: the course that it was on until it was told another
-    goal just now."""
+    """Options of a body that would meet somebody at step ``meeting``, cheapest first. ``halts``: whether to
+    include a halt for one that does not halt easily. ``former``: its course before it was given another
+    goal just now.
+    """
     paces = _paces(course, halts)
     found = [Options(pace, None, _SLOW_COSTS * (1.0 - pace)) for pace in paces]
     if course.aside and former is not None:
@@ -228,8 +230,8 @@ def options(course: Course, meeting: int, halts: bool = True, former: Course | N
 
 
 def _kept(course: Course, former: Course, paces: list[float]) -> list[Options]:
-    """To go on for a while as in ``former``: that may be about to step aside, for which it would be too late
-    on ``course``."""
+    """Option to continue as in ``former`` for a while, if that was about to step aside: on ``course`` it
+    would be too late for that."""
     arcs = SPACING * np.arange(len(course.points))
     same = np.minimum(np.arange(len(arcs)), len(former.points) - 1)
     apart = former.points[same, :2] - course.points[:, :2]
@@ -244,7 +246,7 @@ def _kept(course: Course, former: Course, paces: list[float]) -> list[Options]:
 
 
 def _paces(course: Course, halts: bool) -> list[float]:
-    """Those that make a difference; ``halts``: also 0 for one that does not halt easily."""
+    """Paces that make a difference; ``halts``: includes 0 also for one that does not halt easily."""
     wanted = float(course.speeds[0])
     slows = course.slowest < 0.8 * wanted
     return [

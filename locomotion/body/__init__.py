@@ -1,1 +1,1 @@
-"""The figure of a person: its parts, its limbs, its state under physics."""
+"""The figure of a person: its parts, its limbs, its physical state."""

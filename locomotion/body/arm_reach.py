@@ -1,9 +1,9 @@
-"""Where a hand is and how an arm reaches for a point: closed forms on the person's coordinates (numba
+"""Where a hand is and how an arm reaches a point, in closed form from the person's coordinates (numba
 kernels).
 
-The arm is a chain of two links. Its elbow follows from the distance (law of cosines), the shoulder's
-abduction and flexion from the direction, at a given rotation of the upper arm, which decides where the
-elbow points. Everything is computed from ``qpos``, so that a controller that uses it depends on nothing else.
+The arm is a chain of two links. Its elbow angle follows from the distance (law of cosines), the shoulder's
+abduction and flexion from the direction, for a given rotation of the upper arm, which decides where the elbow
+points. Everything is computed from ``qpos``, so that a controller that uses it depends on nothing else.
 """
 
 import math
@@ -24,7 +24,7 @@ ARM_START = (JOINT_NAMES.index("right_shoulder_flexion"), JOINT_NAMES.index("lef
 
 _R_CLAVICLE, _L_CLAVICLE = ARM_START[0] - 1, ARM_START[1] - 1
 _R_ARM, _L_ARM = ARM_START
-_LINK = FOREARM - HAND_POINT[2]  # elbow to the hand's point, with a straight wrist
+_LINK = FOREARM - HAND_POINT[2]  # elbow to the hand's point, wrist straight
 _WAIST_UP, _CHEST_UP = 0.12, 0.20  # [m] as in locomotion.body.person
 _CLAVICLE_OUT, _CLAVICLE_UP, _SHOULDER_OUT = 0.035, 0.165, 0.150
 _MAX_REACH = 0.995  # share of the arm's length

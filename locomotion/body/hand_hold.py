@@ -1,9 +1,9 @@
-"""Hands that hold on to the world: a ball joint between a hand and a point that does not move.
+"""Hands that hold on to the world: a ball joint between a hand and a fixed point.
 
-Each hand has a body without shape or mass that only marks the point ("mocap" in MuJoCo's words) and a
-`connect` constraint between the two, which is off until the hand holds on. Point and switch are part of the
-data, not of the model (as the constraint's own anchor would be), so they are saved with the state, and
-persons that share a model hold on to different points.
+Each hand has a body without shape or mass that marks the point ("mocap" in MuJoCo's terms) and a `connect`
+constraint between the two, which is inactive until the hand holds on. Point and switch belong to MuJoCo's
+data, not to its model as the constraint's own anchor would; so they are saved with the state, and persons
+that share a model can hold different points.
 """
 
 from typing import Any
@@ -20,7 +20,7 @@ _SIDES = ("right", "left")
 
 
 def add_hand_holds(spec: mujoco.MjSpec) -> None:
-    """Add both hands' points and switched-off joints to the person's description."""
+    """Add both hands' points and inactive joints to the person's description."""
     for side in _SIDES:
         point, hand = f"{side}_hold", f"{side}_hand"
         spec.worldbody.add_body(name=point, mocap=True).add_site(name=point, group=4)
@@ -40,12 +40,12 @@ def hold(data: mujoco.MjData, side: float, point: NDArray[np.float64]) -> None:
 
 
 def let_go(data: mujoco.MjData, side: float) -> None:
-    """The hand of ``side`` holds nothing any more."""
+    """Release the hand of ``side``."""
     data.eq_active[_number(side)] = 0
 
 
 def let_go_both(data: mujoco.MjData) -> None:
-    """Both hands hold nothing any more."""
+    """Release both hands."""
     data.eq_active[:] = 0
 
 

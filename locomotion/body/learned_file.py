@@ -1,4 +1,4 @@
-"""Files of what the person has learned: archives that belong to one model of the person."""
+"""Files of what a person has learned: archives tied to one model of the person."""
 
 import os
 from typing import Any, TypeVar
@@ -19,7 +19,7 @@ _GREATEST = 1e6  # of a learned number
 
 
 class SkillHeader(Header):
-    """``person``: digest of the model of the person that learned it. ``meta``: what made it."""
+    """``person``: digest of the person's model at training. ``meta``: how it was made."""
 
     person: str
     meta: dict[str, Any] = Field(default_factory=dict)
@@ -29,20 +29,20 @@ HeaderType = TypeVar("HeaderType", bound=SkillHeader)
 
 
 def learned_numbers(*shape: Size) -> Numbers:
-    """Learned numbers, in an archive."""
+    """Learned numbers in an archive."""
     return Numbers(*shape, low=-_GREATEST, high=_GREATEST)
 
 
 def speeds(size: Size, least: int = 2) -> Rising:
-    """At which something was learned [m/s], in an archive; ``least``: how many there are at least."""
+    """Speeds at which something was learned [m/s], in an archive; at least ``least`` of them."""
     return Rising(size, least, low=0.0, high=20.0)
 
 
 def read_skill(
     path: str | os.PathLike[str], schema: Schema[HeaderType]
 ) -> tuple[HeaderType, dict[str, np.ndarray]]:
-    """Header and arrays of what was learned; `LocomotionError` if it is missing, cut off, of another kind or
-    version, of another person, or not as the ``schema`` says."""
+    """Header and arrays of a learned file; raises `LocomotionError` if it is missing, cut off, of another
+    kind, version or person, or does not match the ``schema``."""
     pause()
     try:
         header, arrays = read_archive(path, schema)

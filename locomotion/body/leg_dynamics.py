@@ -1,8 +1,8 @@
-"""What it takes to swing a leg: two links in the plane of its way (numba).
+"""What it takes to swing a leg: two links in the plane of its motion (numba).
 
-The thigh hangs from the hip, and from the knee what is below it, as one body with the ankle at rest: a
-double pendulum, whose torques follow by Lagrange's equations. Angles are forward from straight down; the hip
-is taken to move steadily.
+The thigh hangs from the hip; the rest hangs from the knee as one body with a fixed ankle: a double pendulum,
+whose torques follow from Lagrange's equations. Angles are forward from straight down; the hip is taken to
+move at constant velocity.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""The compiled person on a ground, made once for all persons there."""
+"""The compiled person on a ground, built once and shared by all persons there."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from locomotion.ground.ground import FRICTION, Ground
 
 __all__ = ["gentler", "harder", "person_on"]
 
-_SUDDEN = 0.01  # [s] in which contacts give way to a falling body, half of MuJoCo's usual time
+_SUDDEN = 0.01  # [s] time constant of contacts with a falling body, half of MuJoCo's default
 _models: weakref.WeakKeyDictionary[Ground, tuple[mujoco.MjModel, PersonIndex]] = weakref.WeakKeyDictionary()
 _plane: list[tuple[mujoco.MjModel, PersonIndex]] = []
 _hard: weakref.WeakKeyDictionary[mujoco.MjModel, mujoco.MjModel] = weakref.WeakKeyDictionary()
@@ -23,7 +23,7 @@ _lock = threading.Lock()
 
 
 def person_on(ground: Ground | None) -> tuple[mujoco.MjModel, PersonIndex]:
-    """The compiled person on ``ground``, None: on the endless plane z = 0."""
+    """The compiled person on ``ground``; None is the endless plane z = 0."""
     with _lock:
         found = _models.get(ground) if ground is not None else (_plane[0] if _plane else None)
         if found is None:
@@ -39,8 +39,8 @@ def person_on(ground: Ground | None) -> tuple[mujoco.MjModel, PersonIndex]:
 
 
 def harder(model: mujoco.MjModel) -> mujoco.MjModel:
-    """A person's ``model`` with contacts that give way half as far, for the same `MjData`: into the usual
-    ones the hands of a falling person, 3 cm thick, sink by 5 cm."""
+    """A person's ``model`` with contacts that yield half as far, for the same `MjData`: the hands of a
+    falling person, 3 cm thick, would sink 5 cm into the usual ones."""
     with _lock:
         found = _hard.get(model)
         if found is None:
@@ -50,8 +50,8 @@ def harder(model: mujoco.MjModel) -> mujoco.MjModel:
 
 
 def gentler(model: mujoco.MjModel) -> mujoco.MjModel:
-    """As `harder`, but the ground has no more than the usual friction: with what steep ground is given, hands
-    and feet stick where they are, and nobody comes up from them to a stand."""
+    """Like `harder`, but the ground has at most the usual friction: on steep ground's higher friction, hands
+    and feet stick in place and nobody manages to stand up."""
     hard = harder(model)
     with _lock:
         found = _gentle.get(model)

@@ -84,10 +84,10 @@ class PersonIndex:
     """Addresses in a person's model, looked up by name.
 
     Attributes:
-        bodies: body id by name.
-        geom_side: (ngeom,) int8, +1 for the geoms of the left foot and toes, -1 for the right ones, else 0.
-        feet: (2,) int64, body ids of the right and the left foot.
-        root: body id of the pelvis. head: body id of the head. chest: body id of the chest.
+      bodies: body id by name.
+      geom_side: (ngeom,) int8, +1 for the geoms of the left foot and toes, -1 for the right ones, else 0.
+      feet: (2,) int64, body ids of the right and the left foot.
+      root, head, chest: body ids of pelvis, head and chest.
     """
 
     bodies: dict[str, int]
@@ -99,7 +99,7 @@ class PersonIndex:
 
     @classmethod
     def of(cls, model: mujoco.MjModel) -> "PersonIndex":
-        """Look the names up in ``model``; raises `LocomotionError` if it holds no person."""
+        """Look the names up in ``model``; raises `LocomotionError` if it is not a person's model."""
         bodies = {model.body(i).name: i for i in range(model.nbody)}
         missing = [name for name in BODY_NAMES if name not in bodies]
         if missing:
@@ -115,7 +115,7 @@ class PersonIndex:
 def _add_body(
     parent: Any, segment: Segment, name: str, pos: tuple[float, float, float], joints: tuple, mirror: bool
 ) -> Any:
-    """Add one segment with its hinges; ``mirror`` reflects it from the left to the right side."""
+    """Add one segment with its hinges; ``mirror`` mirrors it from the left to the right side."""
     sign = -1.0 if mirror else 1.0
     body = parent.add_body(name=name, pos=[pos[0], sign * pos[1], pos[2]])
     mass = segment.mass * MASS
@@ -155,7 +155,7 @@ def _capsule(
 
 
 def _ellipsoid(body: Any, pos: tuple, size: tuple, color: tuple, mirror: bool = False) -> None:
-    """A shape that is only seen."""
+    """Add a shape that is only visible."""
     sign = -1.0 if mirror else 1.0
     body.add_geom(
         type=mujoco.mjtGeom.mjGEOM_ELLIPSOID,
@@ -247,12 +247,11 @@ BODY_NAMES: tuple[str, ...] = (
     *TRUNK_SEGMENTS,
     *(f"{side}_{part}" for side in ("right", "left") for part in SIDE_SEGMENTS),
 )
-"""Names of the bodies, for looking up their ids; the model's own order differs."""
+"""Names of the bodies, to look up their ids; the model's own order differs."""
 
 
 def person_spec() -> mujoco.MjSpec:
-    """The description of the person and nothing else (no ground), to be extended and compiled by the
-    caller."""
+    """The description of the person without a ground, for the caller to extend and compile."""
     spec = mujoco.MjSpec()
     spec.modelname = "person"
     spec.compiler.degree = False
@@ -261,7 +260,7 @@ def person_spec() -> mujoco.MjSpec:
     spec.option.cone = mujoco.mjtCone.mjCONE_PYRAMIDAL
     spec.option.iterations = 30
     spec.option.ls_iterations = 20
-    # one body on one ground is one island, and its few geoms need no tree: looking for them changes nothing
+    # islands and trees do not pay for one body on one ground; results are equal without
     disabled = mujoco.mjtDisableBit.mjDSBL_ISLAND | mujoco.mjtDisableBit.mjDSBL_MIDPHASE
     spec.option.disableflags |= int(disabled)
     spec.visual.global_.offwidth, spec.visual.global_.offheight = 1280, 720
@@ -304,10 +303,10 @@ def _add_plane(spec: mujoco.MjSpec) -> None:
 
 
 def build_person(ground: GroundLike | None = None) -> mujoco.MjModel:
-    """The person on ``ground``, compiled; without a ground on an endless plane z = 0 (geom ``ground``).
+    """The person on ``ground``, compiled; without one, on an endless plane z = 0 (geom ``ground``).
 
     ``ground`` is anything with ``add_to(spec)``, such as `locomotion.ground.ground.Ground`. All geoms of the
-    person have contype 0 and conaffinity 1: they touch whatever has contype 1 and never each other.
+    person have contype 0 and conaffinity 1: they touch whatever has contype 1, but never each other.
     """
     spec = person_spec()
     if ground is None:

@@ -1,4 +1,4 @@
-"""All that the next physics step depends on, kept and restored."""
+"""Save and restore everything that the next physics step depends on."""
 
 import mujoco
 import numpy as np
@@ -9,11 +9,11 @@ from locomotion.errors import LocomotionError
 __all__ = ["PHYSICS", "physics_size", "restore_physics", "save_physics"]
 
 PHYSICS = mujoco.mjtState.mjSTATE_INTEGRATION
-"""What of MuJoCo's state that is."""
+"""The parts of MuJoCo's state to save."""
 
 
 def physics_size(model: mujoco.MjModel) -> int:
-    """How many numbers that are."""
+    """Count of numbers in it."""
     return mujoco.mj_stateSize(model, PHYSICS)
 
 
@@ -25,7 +25,7 @@ def save_physics(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float
 
 
 def restore_physics(model: mujoco.MjModel, data: mujoco.MjData, physics: NDArray[np.float64]) -> None:
-    """Go back to what `save_physics` gave; raises `LocomotionError` if that was of another model."""
+    """Restore a state from `save_physics`; raises `LocomotionError` if it is of another model."""
     if len(physics) != physics_size(model):
         raise LocomotionError("the saved state belongs to another model")
     mujoco.mj_setState(model, data, physics, PHYSICS)

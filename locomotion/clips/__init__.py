@@ -1,1 +1,1 @@
-"""Recorded motion: keyframes, motion capture files, and what becomes of them on our figure."""
+"""Recorded motion: keyframes and motion capture, and their transfer to our figure."""

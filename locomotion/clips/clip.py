@@ -1,8 +1,8 @@
 """Reference clips: keyframes of joint angles in a YAML file, checked and sampled.
 
-A clip names channels (joints of `locomotion.body.person.JOINT_NAMES`) and gives each a list of
-``[share of the duration, degrees]``. Channels that are not named stay at zero. A *cyclic* clip is periodic; a
-*mirrored* one gives the right side and the trunk only, and the left side does the same half a cycle later.
+A clip lists for each channel (joints of `locomotion.body.person.JOINT_NAMES`) keyframes ``[share of the
+duration, degrees]``. Other channels stay at zero. A *cyclic* clip is periodic; a *mirrored* one gives only
+the right side and the trunk, and the left side does the same half a cycle later.
 """
 
 import hashlib
@@ -20,7 +20,7 @@ from surefoot.files.yamlfile import FileError, Located, nearest, read_yaml
 
 __all__ = ["Clip", "load_clip"]
 
-_APART = 1e-6  # least difference of two shares: nearer ones bend the curve beyond all numbers
+_APART = 1e-6  # least distance of two shares; nearer ones make the curve overflow
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +46,7 @@ class Clip:
 
     @property
     def digest(self) -> str:
-        """Hex digest of the motion, however its file is written."""
+        """Hex digest of the motion, independent of the file's formatting."""
         numbers = self.cyclic, self.duration, self.speed, self.root_height, self.root_pitch
         hasher = hashlib.sha256(repr(numbers).encode())
         for name in sorted(self.channels):
@@ -69,8 +69,8 @@ class Clip:
 
 
 def _interpolate(keys: np.ndarray, at: np.ndarray, cyclic: bool) -> np.ndarray:
-    """One channel at ``at`` (n,): a periodic cubic through the keys, or a monotone one that holds its
-    ends."""
+    """One channel at ``at`` (n,): a periodic cubic through the keys, or a monotone one held constant beyond
+    its ends."""
     if cyclic:
         times = np.append(keys[:, 0], keys[0, 0] + 1.0)
         angles = np.append(keys[:, 1], keys[0, 1])
@@ -83,8 +83,8 @@ def _interpolate(keys: np.ndarray, at: np.ndarray, cyclic: bool) -> np.ndarray:
 
 
 def load_clip(path: str | os.PathLike[str]) -> Clip:
-    """Read and check a clip; raises `LocomotionError` that names the file, line and column, the key and what
-    would be right."""
+    """Read and check a clip; raises `LocomotionError` with file, line, column, key and what would be
+    right."""
     try:
         file, located = read_yaml(path, ClipFile, "clip of keyframes")
         channels = {name: _table(located, name, keys, file.cyclic) for name, keys in file.channels.items()}

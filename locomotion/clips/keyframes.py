@@ -1,4 +1,4 @@
-"""A stretch of a recorded motion as a clip of keyframes, which a skill can be learned from."""
+"""Convert part of a recorded motion to a clip of keyframes, which a skill can be trained from."""
 
 import os
 from pathlib import Path
@@ -17,16 +17,16 @@ from surefoot.files.atomic_write import whole_file
 
 __all__ = ["keyframes_of", "mirrored", "save_clip", "stretch_of"]
 
-_CLOSE = np.deg2rad(1.0)  # [rad] that the keyframes may be off
-_STILL = np.deg2rad(0.5)  # [rad] up to which a joint stays at zero
+_CLOSE = np.deg2rad(1.0)  # [rad] error allowed between keyframes and motion
+_STILL = np.deg2rad(0.5)  # [rad] joints that move less stay at zero
 
 
 def stretch_of(motion: Motion, begin: float, end: float) -> Motion:
-    """The frames of ``motion`` from ``begin`` to ``end`` [s]. `LocomotionError` for a stretch that is not
-    within it, or has fewer than two frames."""
+    """The frames of ``motion`` from ``begin`` to ``end`` [s]. Raises `LocomotionError` if they are outside of
+    the motion, or fewer than two frames."""
     if not 0.0 <= begin < end <= motion.duration + 1e-9:
         raise LocomotionError(
-            f"{motion.name}: {begin:g} to {end:g} s is no stretch of its {motion.duration:.3f} s"
+            f"{motion.name}: {begin:g} to {end:g} s is not within its {motion.duration:.3f} s"
         )
     first, last = round(begin * motion.rate), round(end * motion.rate)
     if last <= first:
@@ -35,7 +35,7 @@ def stretch_of(motion: Motion, begin: float, end: float) -> Motion:
 
 
 def mirrored(motion: Motion) -> Motion:
-    """``motion`` with left and right exchanged: clips of skills begin on the right foot."""
+    """``motion`` with left and right swapped: clips of skills begin on the right foot."""
     qpos = motion.qpos.copy()
     qpos[:, [1, 4, 6]] *= -1.0
     for index, name in enumerate(JOINT_NAMES):
@@ -49,8 +49,8 @@ def mirrored(motion: Motion) -> Motion:
 
 
 def keyframes_of(motion: Motion) -> Clip:
-    """``motion`` as a clip that is played once, within 1 degree of it: for each joint as few of its frames as
-    do. The root's height, lean and speed are those of its way on the mean."""
+    """``motion`` as a non-cyclic clip, within 1 degree: for each joint as few of its frames as suffice. The
+    root's height, lean and speed are the means over the motion."""
     qpos = motion.qpos
     shares = np.linspace(0.0, 1.0, len(qpos))
     channels = {}
@@ -72,8 +72,8 @@ def keyframes_of(motion: Motion) -> Clip:
 
 
 def _keys(shares: NDArray[np.float64], angles: NDArray[np.float64]) -> list[int]:
-    """Frames between which the others lie, as a clip is interpolated: the ends, then the one that is off
-    most, until none is."""
+    """Frames to interpolate between: both ends, then the frame with the largest error until none is too
+    large."""
     if np.ptp(angles) <= _CLOSE:
         return [0]
     keys = [0, len(angles) - 1]

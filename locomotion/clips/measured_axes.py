@@ -1,8 +1,7 @@
-"""How a captured skeleton's joints lie in its limbs, measured on a motion in which it never stands.
+"""How a captured skeleton's joints lie in its limbs, measured on a motion in which it never stands upright.
 
-Bones tell where a part points, the hips and shoulders where its left is, and the plane in which a knee or an
-elbow bends about which axis it does. What no bone tells (head, hands, toes, shoulders) is on the mean as the
-part before it.
+Bones give the direction of a part, hips and shoulders its left side, and the bending plane of a knee or elbow
+its axis. Parts without such clues (head, hands, toes, shoulders) align on average with the part before.
 """
 
 import numpy as np
@@ -13,8 +12,8 @@ from locomotion.body.anatomy import TOE_JOINT
 
 __all__ = ["measured_axes"]
 
-_APART = 0.03  # [m] that joints are apart whose direction says something
-_BENT = 0.05  # mean sine of its angle with which a joint shows its axis
+_APART = 0.03  # [m] least distance of joints that gives a direction
+_BENT = 0.05  # least mean sine of its angle with which a joint shows its axis
 _LIKE_BEFORE = {"head": "chest", "clavicle": "chest", "hand": "forearm", "toes": "foot"}
 
 Vectors = NDArray[np.float64]
@@ -28,7 +27,7 @@ def measured_axes(places: Vectors, turns: Vectors, source: dict[str, int]) -> di
         return places[:, source[part]]
 
     def within(part: str, vectors: Vectors) -> Vectors:
-        """Mean of vectors (n, 3) as the joint of a part sees them."""
+        """Mean of vectors (n, 3) in the frame of a part's joint."""
         return np.einsum("nji,nj->i", turns[:, source[part]], vectors) / len(vectors)
 
     def world(part: str) -> Vectors:
@@ -108,7 +107,7 @@ def _foot(y: Vectors, toes: Vectors) -> Vectors:
 
 
 def _as(turns: Vectors, before: Vectors) -> Vectors:
-    """Axes in those of a joint, (n, 3, 3) in the world, with which it is on the mean as the part before."""
+    """Axes (n, 3, 3) in those of a joint, so that it aligns on average with the part before."""
     mean = (np.swapaxes(turns, 1, 2) @ before).mean(axis=0)
     u, _, v = np.linalg.svd(mean)
     return u @ np.diag([1.0, 1.0, np.linalg.det(u @ v)]) @ v

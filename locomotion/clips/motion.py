@@ -18,8 +18,8 @@ from surefoot.files.schema import Header, Numbers, Schema
 __all__ = ["Motion", "load_motion", "lowest_points", "motion_of_clip", "place_on_ground"]
 
 _RATES = (1.0, 1e4)  # [Hz] of a file
-_UNIT = 1e-3  # by which the length of a quaternion may be off 1
-_RATE = 60.0  # [Hz] at which a clip of keyframes is played
+_UNIT = 1e-3  # tolerance of a quaternion's length
+_RATE = 60.0  # [Hz] frame rate of keyframes played as a motion
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,11 +27,11 @@ class Motion:
     """A motion of the person.
 
     Attributes:
-        name: what is shown. rate: frames per second.
-        qpos: (n, 46) float64 per frame: root position [m], quaternion (w, x, y, z), angles [rad] of
-            `person.JOINT_NAMES`; the ground is z = 0.
-        grounded: whether the height of the root was chosen so that the figure stands on the ground, and
-            therefore says nothing.
+      name: for display. rate: frames per second.
+      qpos: (n, 46) float64 per frame: root position [m], quaternion (w, x, y, z), angles [rad] of
+        `person.JOINT_NAMES`; the ground is z = 0.
+      grounded: whether the root's height was chosen to put the figure on the ground, so that it was not
+      measured.
     """
 
     name: str
@@ -72,7 +72,11 @@ def _check(header: _MotionHeader, arrays: dict[str, np.ndarray]) -> str | None:
     if not len(qpos):
         return "qpos has no frames"
     off = np.abs(np.linalg.norm(qpos[:, 3:7], axis=1) - 1.0) > _UNIT
-    return f"frame {int(np.argmax(off))} is turned by no unit quaternion" if off.any() else None
+    return (
+        f"frame {int(np.argmax(off))} has a root rotation that is not a unit quaternion"
+        if off.any()
+        else None
+    )
 
 
 MOTION_FILE = Schema(
@@ -86,7 +90,8 @@ MOTION_FILE = Schema(
 
 
 def load_motion(path: str | os.PathLike[str]) -> Motion:
-    """Read a motion; `LocomotionError` if it is missing, cut off, of another version or another person."""
+    """Read a motion; raises `LocomotionError` if it is missing, cut off, of another version or another
+    person."""
     try:
         header, arrays = read_archive(path, MOTION_FILE)
     except ArchiveError as error:
@@ -95,7 +100,7 @@ def load_motion(path: str | os.PathLike[str]) -> Motion:
 
 
 def motion_of_clip(clip: Clip) -> Motion:
-    """A clip of keyframes as a motion: one pass at 60 Hz, straight on at the clip's speed, standing on the
+    """A clip of keyframes as a motion: one pass at 60 Hz, straight ahead at the clip's speed, on the
     ground."""
     count = max(round(clip.duration * _RATE), 1) + 1
     shares = np.linspace(0.0, 1.0, count)
@@ -123,8 +128,8 @@ def lowest_points(qpos: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def place_on_ground(qpos: NDArray[np.float64]) -> NDArray[np.float64]:
-    """``qpos`` (n, 46) raised or lowered as a whole, so that the figure's lowest point is below the ground
-    z = 0 in one frame of ten: at the push-off, where a foot that differs from the captured one digs in."""
+    """``qpos`` (n, 46) raised or lowered as a whole, so that the figure's lowest point is below the ground z
+    = 0 in one frame of ten: at the push-off, where our foot differs from the captured one and digs in."""
     placed = qpos.copy()
     placed[:, 2] -= np.quantile(lowest_points(qpos), 0.1)
     return placed

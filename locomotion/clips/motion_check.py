@@ -1,4 +1,4 @@
-"""What a motion does that a body cannot: joints beyond their range, limbs in the ground, floating."""
+"""Find what a body cannot do in a motion: joints beyond their range, limbs in the ground, floating."""
 
 from dataclasses import dataclass
 
@@ -12,8 +12,8 @@ from locomotion.clips.motion import Motion, lowest_points
 __all__ = ["Fault", "check_motion"]
 
 _SPARE = np.radians(1.0)  # by which a joint may exceed its range
-_SINKS, _OFF = 0.03, 0.03  # [m] below the ground; above it from which the figure counts as off it
-_FALLS = 4.0  # [m/s^2] by which a figure off the ground may differ from free fall
+_SINKS, _OFF = 0.03, 0.03  # [m] below the ground; height above it from which the figure counts as off it
+_FALLS = 4.0  # [m/s^2] allowed difference from free fall while off the ground
 _SHORTEST = 0.05  # [s]
 _SMOOTH = 0.06  # [s] over which the acceleration is taken
 
@@ -42,8 +42,8 @@ class Fault:
 
 
 def check_motion(motion: Motion) -> list[Fault]:
-    """Every `Fault` of a motion, by kind and time. A motion whose root was put on the ground is not asked
-    whether it floats."""
+    """Every `Fault` of a motion, by kind and time. Floating is not checked if the root was put on the
+    ground."""
     model = person_spec().compile()
     low, high = model.jnt_range[1:].T
     angles = motion.qpos[:, 7:]

@@ -1,10 +1,10 @@
 """How a captured skeleton stands upright, whatever its rest pose is.
 
 A joint of a capture turns a part of the person, but its axes are those of the file's rest pose, which may
-stand, lie, or be no pose of a body at all. What they mean for the part is seen in a pose in which the figure
-stands straight: there the limbs' parts lie along the capture's bones, and all others stand as in the person's
-own rest pose. That is the rest pose, if it stands along any axis of the file; else the frame that stands
-straightest. Where none does, the axes are measured on the limbs, on the mean of the motion.
+stand, lie, or be no possible pose at all. Their meaning for the part shows in a pose in which the figure
+stands straight: there the limbs lie along the capture's bones, and all other parts stand as in the person's
+own rest pose. That is the rest pose if it stands along any axis of the file, else the frame that stands
+straightest. If none does, the axes are measured on the limbs, averaged over the motion.
 """
 
 from itertools import product
@@ -22,22 +22,22 @@ __all__ = ["LIMBS", "SIDES", "neutral_axes"]
 SIDES = ("right", "left")
 LIMBS = {"thigh": "shank", "shank": "foot", "upper_arm": "forearm", "forearm": "hand"}
 """Parts that are bones, and the part at the end of each."""
-_STRAIGHT = np.radians(30.0)  # that trunk, thighs and shanks may lean in a rest pose that stands
-_STILL = np.radians(20.0)  # in a frame: people who walk do not count
+_STRAIGHT = np.radians(30.0)  # largest lean of trunk, thighs and shanks in a standing rest pose
+_STILL = np.radians(20.0)  # the same in a frame; walking people do not pass
 _AXES = tuple(
     np.array(axis) for axis in ((0, 0, 1), (0, 1, 0), (1, 0, 0), (0, 0, -1), (0, -1, 0), (-1, 0, 0))
 )
-_ALIKE = 1e-3  # [rad] of leaning by which two frames do not differ
-_LEVEL = np.sin(np.radians(60.0))  # height that the hips may differ by, per their distance
+_ALIKE = 1e-3  # [rad] differences of lean below this do not count
+_LEVEL = np.sin(np.radians(60.0))  # allowed height difference of the hips, relative to their distance
 
 
 def neutral_axes(
     capture: Capture, places: NDArray[np.float64], source: dict[str, int]
 ) -> dict[str, NDArray[np.float64]]:
     """For each part of ``source`` (the joint that turns it, by part) its axes (3, 3) in those of its joint.
-    ``places`` (n, j, 3) [m]: of the joints in each frame.
 
-    Raises `LocomotionError` for a rest pose and frames that stand along an axis that does not point up.
+    ``places`` (n, j, 3) [m]: of the joints in each frame. Raises `LocomotionError` if rest pose and frames
+    stand along an axis that does not point up.
     """
     leaning = _leans(places, _AXES[0], source)
     rest = capture.rest_places()
@@ -63,8 +63,8 @@ def neutral_axes(
 def _leans(
     places: NDArray[np.float64], up: NDArray[np.float64], source: dict[str, int]
 ) -> NDArray[np.float64]:
-    """How far [rad] the trunk, a thigh or a shank leans at most in each of the poses (n, j, 3); infinite
-    where the hips are above each other."""
+    """Largest lean [rad] of the trunk, a thigh or a shank in each of the poses (n, j, 3); infinite if one hip
+    is above the other."""
     right, left = places[:, source["right_thigh"]], places[:, source["left_thigh"]]
     bones = [places[:, source["chest"]] - 0.5 * (right + left)]
     for side, (above, below) in product(SIDES, (("thigh", "shank"), ("shank", "foot"))):
@@ -76,7 +76,7 @@ def _leans(
 
 
 def _upright(up: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rotation (3, 3) that brings a coordinate axis ``up`` to z."""
+    """Rotation (3, 3) that turns a coordinate axis ``up`` to z."""
     if up[2]:
         return np.diag([1.0, up[2], up[2]])
     other = np.cross(up, [0.0, 0.0, 1.0])
@@ -89,7 +89,7 @@ def _axes(
     upright: NDArray[np.float64],
     source: dict[str, int],
 ) -> dict[str, NDArray[np.float64]]:
-    """`neutral_axes` from a pose that stands when turned by ``upright`` (3, 3): places (j, 3) and
+    """`neutral_axes` from a pose that stands once turned by ``upright`` (3, 3): places (j, 3) and
     orientations (j, 3, 3) of the joints."""
     stands = places @ upright.T
     left = stands[source["left_thigh"]] - stands[source["right_thigh"]]
@@ -101,7 +101,7 @@ def _axes(
 def _standing(part: str, places: NDArray[np.float64], source: dict[str, int]) -> NDArray[np.float64]:
     """Orientation (3, 3) of a part of the person in a pose that stands and faces +X."""
     side, _, kind = part.partition("_")
-    if kind == "hand":  # straight on from the forearm
+    if kind == "hand":  # in line with the forearm
         kind, part = "forearm", f"{side}_forearm"
     child = f"{side}_{LIMBS.get(kind, '')}"
     if side not in SIDES or child not in source or part not in source:

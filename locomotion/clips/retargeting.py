@@ -36,18 +36,18 @@ _LIMB_PARTS = ("thigh", "shank", "foot", "upper_arm", "forearm")
 _NEEDED = ("pelvis", "chest", *(f"{side}_{part}" for side in SIDES for part in _LIMB_PARTS))
 _AXES = "XYZ"
 _SHORTEST, _LONGEST = 1e-3, 2.0  # [m] of a limb's bone
-_UNDECIDED = 1e-6  # quarter turns: what faces halfway between two axes is not left to rounding
+_UNDECIDED = 1e-6  # ties between quarter turns do not depend on rounding
 
 
 class _Mapping(RootModel[dict[str, str]]):
-    """Joints of a capture by parts of the person."""
+    """Joint of the capture for each part of the person."""
 
 
 def load_mapping(path: str | os.PathLike[str]) -> dict[str, str]:
-    """Read a mapping: joints of a capture by parts of the person (YAML).
+    """Read a mapping: joints of a capture for parts of the person (YAML).
 
-    Raises `LocomotionError` for a file that cannot be read, parts that the person does not have, parts that
-    must be mapped and are not, and joints that two parts are mapped to.
+    Raises `LocomotionError` for an unreadable file, unknown parts, missing parts that must be mapped, and
+    joints mapped to two parts.
     """
     try:
         file, located = read_yaml(path, _Mapping, "mapping of parts to joints")
@@ -60,14 +60,14 @@ def load_mapping(path: str | os.PathLike[str]) -> dict[str, str]:
 
 
 def _wrong(mapping: dict[str, str]) -> tuple[list[str], str] | None:
-    """The first mistake of a mapping: the part that it stands at, if it does at one, and what it is."""
+    """The first mistake in a mapping: the part where it is, if any, and a description."""
     for part in mapping:
         if part not in BODY_NAMES:
             hint = nearest(part, BODY_NAMES)
             return [part], f"no part is called {part!r}; {hint}the parts are {', '.join(BODY_NAMES)}"
     missing = [part for part in _NEEDED if part not in mapping]
     if missing:
-        return [], f"says no joint for {', '.join(missing)}"
+        return [], f"has no joint for {', '.join(missing)}"
     turned: dict[str, str] = {}
     for part, joint in mapping.items():
         other = turned.setdefault(joint, part)
@@ -82,11 +82,10 @@ def _wrong(mapping: dict[str, str]) -> tuple[list[str], str] | None:
 
 def retarget(capture: Capture, mapping: dict[str, str]) -> Motion:
     """The captured motion on the person, on the ground z = 0. It begins above the origin, and is turned by
-    quarter turns, so that it faces within 45 degrees of +X there.
+    quarter turns so that it faces within 45 degrees of +X there.
 
-    Raises `LocomotionError` for a mapping with a mistake, joints that the capture does not have or has twice,
-    limbs without a length or longer than 2 m, and a figure that stands along
-    an axis that does not point up.
+    Raises `LocomotionError` for an invalid mapping, joints that are missing or ambiguous in the capture,
+    limbs of no length or longer than 2 m, and a figure that stands along an axis that does not point up.
     """
     if wrong := _wrong(mapping):
         raise LocomotionError(f"{capture.name}: the mapping: {wrong[1]}")
@@ -131,8 +130,8 @@ def retarget(capture: Capture, mapping: dict[str, str]) -> Motion:
 
 
 def _check_lengths(capture: Capture, places: NDArray[np.float64], source: dict[str, int]) -> float:
-    """Length [m] of both legs together. Raises `LocomotionError` for limbs without a length, or of an
-    impossible one, and hips that are not apart; ``places`` (n, j, 3) [m]: of the joints in each frame."""
+    """Length [m] of both legs together. Raises `LocomotionError` for limbs of no or impossible length, and
+    for hips that coincide; ``places`` (n, j, 3) [m]: of the joints in each frame."""
 
     def apart(one: str, other: str) -> float:
         return float(np.linalg.norm(places[:, source[other]] - places[:, source[one]], axis=1).mean())
@@ -159,9 +158,10 @@ def _check_lengths(capture: Capture, places: NDArray[np.float64], source: dict[s
 
 
 def _facing(pelvis: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Quarter turns (3, 3) about z that bring what the pelvis, (n, 3, 3), faces nearest to +X, in the first
-    frame in which its sides are more beside than above each other; if there is none, what its upper end
-    points at in the first."""
+    """Quarter turn (3, 3) about z that brings the direction in which the pelvis, (n, 3, 3), faces nearest to
+    +X in the first frame in which its sides are more beside than above each other; without such a frame,
+    the direction of its upper end in the first frame.
+    """
     left = pelvis[:, :, 1]
     beside = np.flatnonzero(np.abs(left[:, 2]) < np.sqrt(0.5))
     x, y = (left[beside[0], 1], -left[beside[0], 0]) if len(beside) else pelvis[0, :2, 2]
@@ -170,8 +170,8 @@ def _facing(pelvis: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _hinge_angles(relative: NDArray[np.float64], axes: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Angles (n, k) [rad] of k hinges, one after another about ``axes`` (k, 3) (signed coordinate axes), that
-    turn a part as ``relative`` (n, 3, 3) as nearly as they can."""
+    """Angles (n, k) [rad] of k hinges in series about ``axes`` (k, 3) (signed coordinate axes) that turn a
+    part as nearly as ``relative`` (n, 3, 3) as they can."""
     turn = Rotation.from_matrix(relative)
     if len(axes) == 1:
         x, y, z, w = turn.as_quat().T

@@ -1,7 +1,6 @@
-"""What a file of keyframes may say: its keys, and the units and ranges of its numbers.
+"""Format of a keyframe file: its keys, and the units and ranges of its numbers.
 
-The ranges are wide for a motion and narrow for a mistake: milliseconds or centimetres in place of seconds and
-metres do not fit them.
+The ranges are wide for motions but narrow enough to catch wrong units, such as milliseconds or centimetres.
 """
 
 from typing import Annotated
@@ -12,7 +11,7 @@ __all__ = ["ClipFile"]
 
 
 def _within(low: float, high: float, unit: str) -> BeforeValidator:
-    """Takes numbers from ``low`` to ``high``, also those that YAML reads as text, as it does 1e-3."""
+    """Accepts numbers from ``low`` to ``high``, also those that YAML reads as text, such as 1e-3."""
 
     def check(value: object) -> float:
         try:
@@ -45,11 +44,11 @@ class _Root(BaseModel):
 
 
 class ClipFile(BaseModel):
-    """A file of keyframes; every length of time in s, every angle in degrees.
+    """A keyframe file; durations in s, angles in degrees.
 
-    name: None stands for the file's. duration: of one pass or cycle. speed: forward [m/s]. root: its mean
-    height [m] and forward lean. channels: per joint of `locomotion.body.person.JOINT_NAMES` the keyframes,
-    pairs of a share of the duration and an angle.
+    name: None means the file's name. duration: of one pass or cycle. speed: forward [m/s]. root: its mean
+    height [m] and forward lean. channels: keyframes per joint of `locomotion.body.person.JOINT_NAMES`, pairs
+    of a share of the duration and an angle.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, coerce_numbers_to_str=True)

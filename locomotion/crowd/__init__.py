@@ -1,4 +1,4 @@
-"""Crowds: many bodies that walk their routes and keep out of each other's way."""
+"""Crowds: many bodies that walk routes and avoid each other."""
 
 from locomotion.crowd.crowd import Crowd
 from locomotion.crowd.walker import NoRoute, Walker, WalkerState

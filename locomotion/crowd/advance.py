@@ -17,25 +17,25 @@ from surefoot.kernels import allocating_kernel, kernel
 __all__ = ["advance_all"]
 
 _HORIZON = 0.6
-"""[s] that a body looks ahead for others."""
+"""[s] for which a body predicts others."""
 _FARTHEST = 3.5
-"""[m] between the rims of two bodies that take notice of each other, at most."""
+"""[m] greatest distance between the rims of two bodies that notice each other."""
 _ROUNDS = 4
-"""Times that overlaps are taken away in a tick."""
+"""Passes per tick that resolve overlaps."""
 _TURN_RATE = 6.0
-"""[rad/s] of the figure."""
+"""[rad/s] greatest turn of the figure."""
 _ASIDE, _EARLY = 0.5, 1.5
-"""[m/s] at which one that stands makes way, and [m] before it is touched by one that has the right of way."""
+"""[m/s] at which a standing body makes way, and [m] before one with the right of way touches it."""
 _TOUCH = 0.1
-"""[m] between two bodies that are in touch."""
+"""[m] largest gap between two bodies in contact."""
 _AT_REST = 0.05
-"""[m/s] below which one that is led stands."""
+"""[m/s] below which an externally moved body counts as standing."""
 _COMPANY = 1.0
-"""[m] between two bodies that are near each other."""
+"""[m] between two bodies that count as near each other."""
 _PATIENCE_ALONE, _PATIENCE = 8.0, 300.0
-"""[s] without headway after which a body is stuck: with nobody in touch, and among others."""
+"""[s] without progress after which a body is stuck: with nobody in contact, and among others."""
 _SIGHTLESS = 0.5
-"""[s] without sight of its corner after which a body asks for another route."""
+"""[s] without seeing its next corner after which a body requests another route."""
 
 
 @allocating_kernel

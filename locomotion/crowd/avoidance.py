@@ -1,8 +1,8 @@
-"""What is forbidden to a body: a half-plane of velocities for each neighbour and each wall nearby.
+"""Velocities that are forbidden to a body: a half-plane for each neighbour and each wall nearby.
 
 Rows (nx, ny, c) as in `locomotion.crowd.program`. The planes of neighbours are those of van den Berg and
-others (2011), sections 4 and 5.1, with shares by weight in place of halves; the place of the surface's end
-nearest to the body and those nearest to the cells around it each forbid to come closer than the radius.
+others (2011), sections 4 and 5.1, with shares by weight instead of halves. Walls: the nearest points of the
+surface's end, to the body and to the cells around it, each forbid coming closer than the radius.
 """
 
 from math import sqrt
@@ -14,11 +14,11 @@ __all__ = ["MOST_WALLS", "body_plane", "wall_planes"]
 
 MOST_WALLS = 5
 _SETTLE = 0.15
-"""[s] in which bodies that overlap part, and a body too near a wall leaves it."""
+"""[s] within which overlapping bodies separate, and a body too near a wall leaves it."""
 _WALL_TIME = 0.3
 """[s] that a body looks ahead for walls."""
 _SAME = 0.97
-"""Cosine of the angle up to which two places of a wall are one."""
+"""Cosine of the angle up to which two points of a wall count as one."""
 
 
 @kernel

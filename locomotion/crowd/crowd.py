@@ -31,14 +31,14 @@ from navmesh.structs import net_of
 __all__ = ["Crowd"]
 
 _MOST_RADIUS = 10.0  # [m]
-_UNMOVED = 1e9  # weight of a body that others move
+_UNMOVED = 1e9  # weight of a body that is moved externally
 
 
 class Crowd:
-    """Bodies that walk over the surface of ``graph`` and keep out of each other's way.
+    """Bodies that walk on the surface of ``graph`` and avoid each other.
 
-    ``graph`` is replaced by `change_graph`. ``dt`` [s] is how far a tick goes. The same calls give the same
-    run, bit for bit. ``walkers`` are the bodies, in order of their making; ``routes`` holds their routes by
+    ``graph`` is replaced by `change_graph`. ``dt`` [s] is the length of a tick. Equal calls give
+    bit-identical runs. ``walkers`` are the bodies in order of creation; ``routes`` holds their routes by
     index.
     """
 
@@ -66,7 +66,7 @@ class Crowd:
 
     @property
     def positions(self) -> NDArray[np.float64]:
-        """(n, 3) float64 [m]: the points of the floor under the bodies."""
+        """(n, 3) float64 [m]: the floor points under the bodies."""
         return self.rows[:, at.X : at.Z + 1] + self._origin
 
     @property
@@ -87,10 +87,10 @@ class Crowd:
     def add(
         self, position: ArrayLike, radius: float = 0.3, yaw: float = 0.0, acceleration: float = 4.0
     ) -> Walker:
-        """Put a standing body of ``radius`` [m] at ``position`` (3,) [m], facing ``yaw`` [rad].
+        """Add a standing body of ``radius`` [m] at ``position`` (3,) [m], facing ``yaw`` [rad].
 
-        ``acceleration`` [m/s²] is the most by which its velocity changes. Raises `LocomotionError` for
-        numbers out of range or a place with no room for it nearby.
+        ``acceleration`` [m/s²] limits the change of its velocity. Raises `LocomotionError` for numbers out of
+        range, or if there is no room for it near that place.
         """
         place = np.asarray(position, dtype=np.float64)
         if place.shape != (3,) or not np.isfinite(place).all() or not math.isfinite(yaw):
@@ -113,14 +113,14 @@ class Crowd:
         return self._take_in()
 
     def adopt(self, state: WalkerState) -> Walker:
-        """Put a body where and as it was when it was saved."""
+        """Add a body in a saved state."""
         self._new_row()
         walker = self._take_in()
         walker.restore(state)
         return walker
 
     def remove(self, index: int) -> None:
-        """Take a body away; the indices of those after it go down by one."""
+        """Remove a body; the indices of those after it decrease by one."""
         self._table = np.delete(self._table, index, axis=0)
         self._table = np.vstack([self._table, np.zeros(at.ROW)])
         self._count -= 1
@@ -132,14 +132,14 @@ class Crowd:
             later.index -= 1
 
     def _take_in(self) -> Walker:
-        """Count the row that `_new_row` has given."""
+        """Make the row of `_new_row` part of the crowd."""
         self._count += 1
         self._heed(self._count - 1)
         self.walkers.append(Walker(self, self._count - 1))
         return self.walkers[-1]
 
     def _new_row(self) -> NDArray[np.float64]:
-        """A row of zeros behind the last one, not counted yet."""
+        """A row of zeros behind the last one, not part of the crowd yet."""
         if self._count == len(self._table):
             self._double()
         self._led = 0
@@ -150,7 +150,7 @@ class Crowd:
         self._table = np.concatenate([self._table, np.zeros_like(self._table)])
 
     def _put_down(self, row: NDArray[np.float64]) -> bool:
-        """Put a body on the place nearest to where it is at which it fits; False where there is none."""
+        """Move a body to the nearest place where it fits; False if there is none."""
         radius = float(row[at.RADIUS])
         reach = 2.0 * (radius + self.graph.surface.resolution)
         x, y, z = row[at.X : at.Z + 1].tolist()
@@ -164,7 +164,7 @@ class Crowd:
 
     # --- routes
     def find_routes(self, index: int, goals: NDArray[np.float64]) -> list[Route]:
-        """The routes from where a body is through ``goals`` (k, 3) [m], one for each. Raises `NoRoute`."""
+        """One route for each of ``goals`` (k, 3) [m], in series from where the body is. Raises `NoRoute`."""
         here = self.positions[index]
         radius = float(self.rows[index, at.RADIUS])
         routes: list[Route] = []
@@ -177,7 +177,7 @@ class Crowd:
         return routes
 
     def lay_routes(self, index: int, routes: list[Route]) -> None:
-        """Let a body follow ``routes``, the first of which begins where it is; it visits the end of each."""
+        """Let a body follow ``routes``, the first of which begins where it is, and visit the end of each."""
         counts = [max(len(route.waypoints) - 1, 1) for route in routes]
         table = np.zeros((1 + sum(counts), at.POINT))
         table[1:, :3] = np.concatenate([r.waypoints[-n:] for r, n in zip(routes, counts, strict=True)])
@@ -187,7 +187,7 @@ class Crowd:
         self.rows[index, at.GOAL_X : at.GOAL_Z + 1] = table[-1, :3]
 
     def _lay(self, index: int, table: NDArray[np.float64]) -> None:
-        """Let a body follow the corners of ``table`` but the first, which becomes the place where it is."""
+        """Let a body follow the corners of ``table``, of which the first is replaced by its place."""
         row = self.rows[index]
         table[0, :3] = row[at.X : at.Z + 1]
         legs = np.hypot(*np.diff(table[:, :2], axis=0).T)
@@ -200,7 +200,7 @@ class Crowd:
         row[at.MODE], row[at.NOTE] = at.WALKING, at.QUIET
 
     def left(self, index: int) -> float:
-        """[m] of a body's route that are still before it."""
+        """[m] left of a body's route."""
         row = self.rows[index]
         if row[at.MODE] != at.WALKING:
             return 0.0
@@ -213,12 +213,12 @@ class Crowd:
         return ahead[ahead[:, at.VIA] > 0.0][:, :3] + self._origin
 
     def way_left(self, index: int) -> NDArray[np.float64]:
-        """(k, 3) [m]: where a walking body is, and the corners of its route that are before it."""
+        """(k, 3) [m]: a walking body's place and the remaining corners of its route."""
         ahead = self.routes.table(index)[int(self.rows[index, at.NEXT]) :, :3]
         return np.vstack([self.rows[index, at.X : at.Z + 1], ahead]) + self._origin
 
     def restore(self, index: int, row: NDArray[np.float64], route: NDArray[np.float64]) -> None:
-        """Put back a row and a route."""
+        """Restore a row and a route."""
         self.rows[index] = row
         self._heed(index)
         self._keep_route(index, route)
@@ -232,7 +232,7 @@ class Crowd:
             self._trace_gates(index)
 
     def _heed(self, index: int) -> None:
-        """Take notice of how wide a body is."""
+        """Account for a body's width."""
         if self.rows[index, at.RADIUS] > self._widest:
             self._widest, self._gates = float(self.rows[index, at.RADIUS]), None
 
@@ -243,7 +243,7 @@ class Crowd:
         return gates
 
     def _trace_gates(self, index: int) -> None:
-        """Note which gates are on a body's route."""
+        """Record the gates on a body's route."""
         assert self._gates is not None
         table = self.routes.table(index)
         crossings = np.zeros((0, at.CROSSING))
@@ -256,10 +256,10 @@ class Crowd:
         self.rows[index, [at.GATE_START, at.GATE_COUNT]] = self._crossings.region(index)
 
     def lead(self, bodies: NDArray[np.float64]) -> None:
-        """Where the bodies are that others move and the crowd has to avoid, until the next call.
+        """Bodies that others move and the crowd has to avoid, until the next call.
 
-        bodies: (k, 6) float64: x, y, z of the floor under each [m], its velocity in x and y [m/s], its
-        radius [m].
+        bodies: (k, 6) float64: x, y, z of the floor under each [m], its velocity in x and y [m/s], its radius
+        [m].
         """
         while len(self._table) < self._count + len(bodies):
             self._double()
@@ -272,9 +272,10 @@ class Crowd:
         rows[:, at.WEIGHT], rows[:, at.CELL] = _UNMOVED, -1.0
 
     def change_graph(self, graph: navmesh.NodeGraph) -> None:
-        """Go on on another graph. Everybody stays where it is and keeps its route, whether that holds or not
-        (`way_left`). One whose floor has gone, or is more than a step higher or lower now, stands still and
-        is stuck until a floor comes back."""
+        """Continue on another graph. All bodies keep their place and their route, whether or not it is still
+        valid (`way_left`). A body whose floor is gone, or now more than a step higher or lower, stands
+        still and is stuck until a floor comes back.
+        """
         shift = self._origin - graph.surface.origin
         cells, floors = project(graph, self.positions)
         self.graph, self._net, self._gates = graph, net_of(graph), None

@@ -1,8 +1,8 @@
 """Gates: passages where fewer than three bodies fit side by side, found in the clearance field.
 
-A throat is a pair of linked cells whose nearest walls lie on opposite sides. Throats that hang together, with
-all cells that their discs cover, are one gate; whoever goes through the passage crosses its discs. A door is
-a gate, and so is a long corridor.
+A throat is a pair of linked cells whose nearest walls lie on opposite sides. Connected throats, with all
+cells covered by their discs, form one gate; whoever uses the passage crosses its discs. Doors and long
+corridors are gates.
 """
 
 from typing import NamedTuple
@@ -19,22 +19,22 @@ from surefoot.kernels import allocating_kernel
 __all__ = ["ABREAST", "Gates", "find_gates"]
 
 ABREAST = 3.25
-"""A passage is a gate to a body when half its width is less than this many of the body's radii."""
+"""A passage is a gate for a body if half its width is less than this many of the body's radii."""
 _OPPOSITE = -0.5
-"""Cosine of the angle from which on two walls lie on opposite sides."""
+"""Cosine of the angle from which two walls are on opposite sides."""
 
 
 class Gates(NamedTuple):
     """The gates of a surface."""
 
     of_cell: NDArray[np.int32]
-    """(cells,) number of the gate that a cell belongs to, or -1."""
+    """(cells,) the gate that a cell belongs to, or -1."""
     along: NDArray[np.float64]
-    """(cells,) [m] of the way through its gate, from one end."""
+    """(cells,) [m] distance from one end of its gate."""
     width: NDArray[np.float64]
-    """(gates,) [m]: half the width where it is least."""
+    """(gates,) [m] half the least width."""
     axis: NDArray[np.float64]
-    """(cells, 2) unit vector along the passage, of one sense all over a short gate."""
+    """(cells, 2) unit vector along the passage, with a consistent sense within a short gate."""
 
 
 @allocating_kernel
@@ -84,7 +84,7 @@ def _throats(surface: Surface, limit: float) -> NDArray[np.int64]:
 
 
 def _joined(surface: Surface, throats: NDArray[np.int64]) -> coo_array:
-    """The throats as a graph: which are linked, straight or across a corner."""
+    """The throats as a graph of links, straight or across a corner."""
     at = np.full(len(surface), -1, dtype=np.int64)
     at[throats] = np.arange(len(throats))
     source, target = [], []
@@ -101,7 +101,7 @@ def _joined(surface: Surface, throats: NDArray[np.int64]) -> coo_array:
 
 
 def _half_widths(surface: Surface, throats: NDArray[np.int64]) -> NDArray[np.float64]:
-    """(t,) [m]: the clearance of each throat or of the one across from it, whichever is nearer the middle."""
+    """(t,) [m]: clearance of each throat or of the one across from it, whichever is nearer the middle."""
     clearance = np.zeros(len(surface) + 1)
     clearance[throats] = surface.clearance[throats]
     return np.maximum(clearance[throats], clearance[surface.link[throats]].max(axis=1))
@@ -133,7 +133,7 @@ def find_gates(surface: Surface, net: object, limit: float) -> Gates:
         width[number] = half[members].min()
         against = passage[members] @ passage[members[np.argmin(half[members])]] < 0.0
         passage[members[against]] *= -1.0
-    for number in range(part.max() + 1):  # how far along, from the farthest end
+    for number in range(part.max() + 1):  # distance from the farthest end
         members = np.flatnonzero(part == number)
         own = joined.tocsr()[members][:, members]
         end = int(np.argmax(dijkstra(own, indices=0)))

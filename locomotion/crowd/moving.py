@@ -1,4 +1,4 @@
-"""Moving bodies over the surface: out of each other, and never off it or into a wall."""
+"""Move bodies over the surface, out of each other, never off it or into a wall."""
 
 from math import sqrt
 
@@ -11,7 +11,7 @@ __all__ = ["part", "slide"]
 _PRESSED = 0.995
 """Share of the radius that is always kept free of walls."""
 _STIFF = 0.9
-"""Share of an overlap that is taken away each time."""
+"""Share of an overlap that is resolved per pass."""
 
 
 @kernel
@@ -30,7 +30,7 @@ def part(rows, x, y, i, neighbours, count):
         if far > 1e-6:
             px += share * (reach - far) * dx / far
             py += share * (reach - far) * dy / far
-        else:  # one in the other: apart by number
+        else:  # coincident bodies: separate them by number
             px += share * reach * (1.0 if i > j else -1.0)
     x[i], y[i] = px, py
 
@@ -60,7 +60,7 @@ def slide(net, k, x, y, tx, ty, radius):
             if gap >= needed:
                 return cell, tx, ty
         else:
-            # the end of the surface lies between: back along what is nearest to where it began
+            # the surface ends in between: slide back along what is nearest to the start
             gap, qx, qy = gap_at(net, k, x, y)
             nx, ny = (qx - x) / max(gap, 1e-9), (qy - y) / max(gap, 1e-9)
             over = nx * (tx - x) + ny * (ty - y) - (gap - radius)

@@ -1,4 +1,4 @@
-"""Who is near whom: a uniform grid, made anew each tick by a counting sort."""
+"""Nearby bodies: a uniform grid, rebuilt each tick by a counting sort."""
 
 from math import sqrt
 
@@ -9,9 +9,9 @@ from surefoot.kernels import allocating_kernel
 __all__ = ["MOST", "brute_neighbours", "find_neighbours"]
 
 MOST = 10
-"""Neighbours that a body looks at."""
+"""Most neighbours of a body that are considered."""
 STOREY = 1.5
-"""[m] of height from which bodies are on different storeys."""
+"""[m] height difference from which bodies are on different storeys."""
 
 
 @allocating_kernel

@@ -1,7 +1,7 @@
 """The velocity nearest to a wish within half-planes and a disc: the linear programs of ORCA.
 
 J. van den Berg, S. Guy, M. Lin, D. Manocha, "Reciprocal n-Body Collision Avoidance", Robotics Research, STAR
-70 (2011), sections 5.2 and 5.3; the incremental method is that of M. de Berg and others, "Computational
+70 (2011), sections 5.2 and 5.3; the incremental method follows M. de Berg and others, "Computational
 Geometry", chapter 4. A half-plane is a row (nx, ny, c): velocities v with n·v ≤ c, n a unit vector. Slow
 references: `locomotion.crowd.reference`.
 """
@@ -92,7 +92,7 @@ def _least_violation(planes, count, hard, begin, speed, vx, vy, work):
             work[used, 2] = (planes[j, 2] - planes[i, 2]) / size
             used += 1
         kept, x, y = _within(work, used, speed, -planes[i, 0], -planes[i, 1], True)
-        if kept == used:  # else by rounding only: the last velocity is as good
+        if kept == used:  # infeasible only by rounding: keep the last velocity
             vx, vy = x, y
         worst = planes[i, 0] * vx + planes[i, 1] * vy - planes[i, 2]
     return vx, vy
@@ -109,6 +109,6 @@ def choose_velocity(planes, count, hard, speed, wx, wy, work):
     kept, vx, vy = _within(planes, count, speed, wx, wy, False)
     if kept == count:
         return vx, vy
-    if kept < hard:  # walls on both sides are nearer than the body is wide
+    if kept < hard:  # the walls on both sides are nearer than the body's width
         return _least_violation(planes, count, 0, 0, speed, vx, vy, work)
     return _least_violation(planes, count, hard, kept, speed, vx, vy, work)

@@ -1,9 +1,9 @@
 """Who goes through a gate when: one direction at a time, a few bodies at a time, the longest wait first.
 
-Bodies near a gate wait to the right of its way in, out of the way of those who come out, until they are let
-in; they do not push those before them. When nobody of the other side has been let in for a while, nobody more
-is let in on this side; when the gate is empty, the side that has waited longest goes on. All that is known
-between ticks is kept in the bodies' rows.
+Bodies near a gate wait to the right of its entrance, clear of those coming out, until they are admitted; they
+do not push those ahead. If the other side has waited for a while, no more are admitted on this side; once the
+gate is empty, the side that has waited longest goes. Everything remembered between ticks is in the bodies'
+rows.
 """
 
 from math import sqrt
@@ -19,21 +19,21 @@ __all__ = ["direct", "trace_gates", "waiting_wish", "waits_behind"]
 NEAR = 2.5
 """[m] before a gate from which a body waits for its turn."""
 _AHEAD = 4
-"""Bodies that are let in and not inside yet, at most, on each gate."""
+"""Most bodies admitted and not yet inside, for each gate."""
 _PATIENCE = 8.0
-"""[s] that one waits until the other side is let in no more."""
+"""[s] of one side's wait after which the other side's admission stops."""
 _CLEAR, _OUT = 0.5, 6.0
 """[m] behind a gate where a body is through, and up to where it keeps the right of way."""
 _FIRST, _URGENT = 1.0, 6.0
-"""Weight of a body, and of one that has the right of way."""
+"""Weight of a body, and of one with the right of way."""
 _SPOT_BACK, _SPOT_RIGHT = 1.3, 1.0
-"""[m] from a gate's way in to where bodies wait, back and to the right."""
+"""[m] from a gate's entrance to where bodies wait, backwards and to the right."""
 _LANE = 1.2
-"""[m] to the left of a gate's way in that those who wait keep free for those who come out."""
+"""[m] to the left of a gate's entrance that waiting bodies keep free for those coming out."""
 _BEHIND = 0.25
-"""[m] that one who waits keeps from those before it."""
+"""[m] that a waiting body keeps from those ahead."""
 _LONG = 1.0
-"""[m] of a gate from which its direction is told by how far along its ends are."""
+"""[m] of a gate over which its direction is measured."""
 
 
 @allocating_kernel
@@ -98,8 +98,8 @@ def _next_gate(row, crossings):
 def direct(rows, crossings, gates, dt):
     """Decide who of ``rows`` may pass the ``gates`` (how many there are) now."""
     n = rows.shape[0]
-    passing = np.zeros((gates, 2), np.int64)  # by direction: those who have been let in and are not out
-    coming = np.zeros((gates, 2), np.int64)  # of them those who are not inside yet
+    passing = np.zeros((gates, 2), np.int64)  # by direction: admitted and not out yet
+    coming = np.zeros((gates, 2), np.int64)  # of these, not inside yet
     longest = np.zeros((gates, 2))
     here = np.full(n, -1, np.int64)
     for i in range(n):

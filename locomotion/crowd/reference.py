@@ -1,4 +1,4 @@
-"""Slow and obvious versions of the crowd's kernels, for tests."""
+"""Slow, obvious versions of the crowd's kernels, for tests."""
 
 import numpy as np
 from scipy.optimize import minimize_scalar
@@ -7,7 +7,7 @@ __all__ = ["orca_plane", "velocity", "worst_violation"]
 
 
 def velocity(planes: np.ndarray, hard: int, speed: float, wish: np.ndarray) -> tuple[np.ndarray, bool]:
-    """`program.choose_velocity` through cvxpy, and whether all planes (k, 3) could be kept."""
+    """`program.choose_velocity` with cvxpy, and whether all planes (k, 3) could be satisfied."""
     import cvxpy as cp
 
     v = cp.Variable(2)
@@ -31,15 +31,15 @@ def velocity(planes: np.ndarray, hard: int, speed: float, wish: np.ndarray) -> t
 
 
 def worst_violation(planes: np.ndarray, v: np.ndarray) -> float:
-    """[m/s] by which ``v`` (2,) violates the worst of ``planes`` (k, 3); negative when it keeps all."""
+    """[m/s] by which ``v`` (2,) violates the worst of ``planes`` (k, 3); negative if it satisfies all."""
     return float((planes[:, :2] @ v - planes[:, 2]).max()) if len(planes) else -np.inf
 
 
 def orca_plane(
     offset: np.ndarray, own: np.ndarray, other: np.ndarray, reach: float, share: float, horizon: float
 ) -> np.ndarray:
-    """`avoidance.body_plane` from the definition: the relative velocities that lead to a collision within
-    ``horizon`` are a cone cut off by a disc; u is the least change that leaves it, found by sampling its
+    """`avoidance.body_plane` from its definition: the relative velocities that lead to a collision within
+    ``horizon`` form a cone cut off by a disc; u is the least change that leaves it, found by sampling its
     border.
 
     offset (2,): where the other is [m]. own, other (2,) velocities. reach: sum of the radii, less than the
@@ -85,6 +85,6 @@ def orca_plane(
 
 
 def _collides(relative: np.ndarray, offset: np.ndarray, reach: float, horizon: float) -> bool:
-    """Whether going at ``relative`` comes within ``reach`` of ``offset`` by the time ``horizon``."""
+    """Whether moving at ``relative`` comes within ``reach`` of ``offset`` before ``horizon``."""
     t = float(np.clip(relative @ offset / max(float(relative @ relative), 1e-300), 0.0, horizon))
     return float(np.linalg.norm(t * relative - offset)) < reach

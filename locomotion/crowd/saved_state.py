@@ -1,4 +1,4 @@
-"""Saved states of walkers."""
+"""Check saved states of walkers."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ _LEAST_ROUTE = 2
 
 
 def check_walker(state: WalkerState, graph: navmesh.NodeGraph) -> None:
-    """Raises `LocomotionError` for a ``state`` that no walker on ``graph`` can have."""
+    """Raise `LocomotionError` if no walker on ``graph`` can have this ``state``."""
     row, route, surface = state.row, state.route, graph.surface
     _ROW.check(row)
     check_array("the route of a walker", route, None, at.POINT)

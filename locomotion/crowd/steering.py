@@ -1,4 +1,4 @@
-"""Where a body wants to go: along its route, from corner to corner, as far ahead as it sees."""
+"""The velocity a body wants: along its route, from corner to corner, as far ahead as it sees."""
 
 from math import cos, sin, sqrt
 
@@ -9,7 +9,7 @@ from surefoot.kernels import kernel
 __all__ = ["HEADWAY", "follow"]
 
 HEADWAY = 0.25
-"""[m] that count as headway."""
+"""[m] that count as progress."""
 _ARRIVED = 0.15
 """[m] from its goal at which a body has arrived."""
 _STEADY = 0.8
@@ -17,13 +17,13 @@ _STEADY = 0.8
 _LOOKS = 4
 """Ticks between looks at the corners ahead."""
 _THIN = 0.95
-"""Share of the radius that has to be free on a line to a corner: a body may be pressed against a wall."""
+"""Share of the radius that must be free on a line to a corner: a body may be pressed against a wall."""
 _VISITED = 0.3
-"""[m] from its rim at which a body has visited a place on its way."""
+"""[m] from its rim within which a body has visited a place on its route."""
 _SEEN_STEP = 0.5
-"""[m] of height by which what is reached may differ from what was looked at."""
+"""[m] allowed difference in height between the point reached and the one looked at."""
 _SIDESTEP = 0.05
-"""[rad] to the right that bodies keep when others are near, so that two that meet head on pass."""
+"""[rad] to the right that bodies keep when others are near, so that two that meet head-on pass."""
 
 
 @kernel

@@ -1,4 +1,4 @@
-"""One body of a crowd, with somewhere to go."""
+"""One body of a crowd and its goals."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ __all__ = ["NoRoute", "Walker", "WalkerState"]
 
 Status = Literal["standing", "walking", "arrived", "stuck"]
 
-_MOST_REPLANS = 3  # times that a route is planned anew without headway before the body is stuck
+_MOST_REPLANS = 3  # replans without progress before the body is stuck
 
 
 class NoRoute(LocomotionError):
-    """There is no way to the goal of number ``goal``: ``route`` is the answer for it from ``start`` (3,)."""
+    """There is no route to goal number ``goal``: ``route`` is the answer for it from ``start`` (3,)."""
 
     def __init__(self, goal: int, route: Route, start: NDArray[np.float64]) -> None:
         self.goal, self.route, self.start = goal, route, start
@@ -35,7 +35,7 @@ class NoRoute(LocomotionError):
 
 @dataclass(frozen=True)
 class WalkerState:
-    """Everything that a crowd knows of one body."""
+    """Everything that a crowd stores of one body."""
 
     row: NDArray[np.float64]
     route: NDArray[np.float64]
@@ -46,10 +46,10 @@ class WalkerState:
 
 
 class Walker:
-    """One body of a crowd; made by `Crowd.add`.
+    """One body of a crowd; created by `Crowd.add`.
 
-    ``index`` is its row. ``status`` is "standing", "walking", "arrived" or "stuck" (no headway: for 8 s with
-    nobody near, for 90 s among others; or no way is left). ``events`` are in order of time.
+    ``index`` is its row. ``status`` is "standing", "walking", "arrived" or "stuck" (no progress for 8 s with
+    nobody near, or 300 s among others; or no route is left). ``events`` are in order of time.
     """
 
     def __init__(self, crowd: Crowd, index: int) -> None:
@@ -65,12 +65,12 @@ class Walker:
 
     @property
     def time(self) -> float:
-        """[s] since it was made."""
+        """[s] since it was created."""
         return float(self._row[at.AGE]) * self.crowd.dt
 
     @property
     def position(self) -> NDArray[np.float64]:
-        """(3,) float64 [m]: the point of the floor under it."""
+        """(3,) float64 [m]: the floor point under it."""
         return self.crowd.positions[self.index]
 
     @property
@@ -80,7 +80,7 @@ class Walker:
 
     @property
     def yaw(self) -> float:
-        """[rad, -π to π] where it faces."""
+        """[rad, -π to π] direction it faces."""
         return float(self._row[at.YAW])
 
     @property
@@ -90,7 +90,7 @@ class Walker:
 
     @property
     def left(self) -> float:
-        """[m] of its route that are still before it."""
+        """[m] left of its route."""
         return self.crowd.left(self.index)
 
     @property
@@ -99,11 +99,11 @@ class Walker:
         return bool(self._row[at.PASSAGE] in (at.WAITING, at.RETREATING))
 
     def go_to(self, goals: ArrayLike, speed: float = 1.4, facing: float | None = None) -> list[Route]:
-        """Go through ``goals`` (k, 3) [m] at up to ``speed`` [m/s], then face ``facing`` [rad], by default
-        as it arrives. Returns the routes to them.
+        """Go through ``goals`` (k, 3) [m] at up to ``speed`` [m/s], then face ``facing`` [rad], by default as
+        it arrives. Returns the routes to them.
 
-        Raises `NoRoute` where there is none (it then goes on with what it did), and `LocomotionError` for
-        numbers that are not finite or a speed that is not above 0.
+        Raises `NoRoute` if there is none, and `LocomotionError` for numbers that are not finite or a speed
+        that is not above 0; the body then continues as before.
         """
         points = np.asarray(goals, dtype=np.float64)
         if points.ndim != 2 or points.shape[1] != 3 or not len(points) or not np.isfinite(points).all():
@@ -123,8 +123,7 @@ class Walker:
         return routes
 
     def lose_ground(self) -> None:
-        """There is no floor under it any more: be stuck where it is, without moving; `Crowd.change_graph`
-        calls this."""
+        """Its floor is gone: become stuck without moving. Called by `Crowd.change_graph`."""
         row = self._row
         if row[at.MODE] != at.LED:
             row[[at.VX, at.VY, at.GO_X, at.GO_Y]] = 0.0
@@ -133,14 +132,14 @@ class Walker:
             self.events.append(LostGround(self.time, self._point()))
 
     def stop(self) -> None:
-        """Stand where it is."""
+        """Stop here."""
         if self._row[at.MODE] == at.LED:
             return
         self._row[at.MODE], self._row[at.NOTE] = at.STANDING, at.QUIET
         self.status = "standing"
 
     def notice(self) -> None:
-        """Act on what the last tick has noted; `Crowd.tick` calls this."""
+        """Act on the last tick's message; called by `Crowd.tick`."""
         row = self._row
         note, row[at.NOTE] = row[at.NOTE], at.QUIET
         if note == at.OFF_ROUTE and self._replan():
@@ -155,7 +154,7 @@ class Walker:
             self.events.append(GotStuck(self.time, self._point()))
 
     def _replan(self) -> bool:
-        """Another way through the goals that are left; False where there is none."""
+        """Replan to the remaining goals; False if there is no route."""
         row = self._row
         self._replans = self._replans + 1 if row[at.WAITED] > 2.0 else 0
         if self._replans > _MOST_REPLANS:
@@ -175,22 +174,22 @@ class Walker:
 
     # --- saving
     def save(self) -> WalkerState:
-        """Everything needed to go on from here."""
+        """Everything needed to continue from here."""
         return WalkerState(
             self._row.copy(), self.crowd.routes.table(self.index), self.status, self._goals, self._replans,
             tuple(self.events),
         )  # fmt: skip
 
     def restore(self, state: WalkerState) -> None:
-        """Go on from a state of this body."""
+        """Restore a state of this body."""
         self.crowd.restore(self.index, state.row, state.route)
         self.status, self._goals, self._replans = state.status, state.goals, state.replans
         self.events[:] = state.events
 
     def state_hash(self) -> str:
-        """Hex digest of everything that decides how it goes on."""
+        """Hex digest of everything that decides its future."""
         row = self._row.copy()
-        row[at.ROUTE_START] = row[at.GATE_START] = 0.0  # where things lie in the pools is no part of it
+        row[at.ROUTE_START] = row[at.GATE_START] = 0.0  # positions in the pools do not count
         hasher = hashlib.sha256(row.tobytes())
         hasher.update(self.crowd.routes.table(self.index).tobytes())
         return f"{hasher.hexdigest()[:16]}{self.status}{self._replans}"

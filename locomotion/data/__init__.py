@@ -1,5 +1,4 @@
-"""What comes with the package: learned skills, clips, descriptions of bodies. No code but the folders'
-names."""
+"""Data of the package: learned skills, clips, descriptions of bodies. No code."""
 
 from pathlib import Path
 

@@ -1,1 +1,1 @@
-"""The level as ground under simulated bodies."""
+"""The level as ground for simulated bodies."""

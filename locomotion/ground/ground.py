@@ -1,11 +1,11 @@
-"""The level's own surface as ground under simulated bodies.
+"""The level's own surface as ground for simulated bodies.
 
     ground = Ground.from_arrays(vertices, faces)
     model = build_person(ground)
 
-The model gets a height-field geom called ``ground`` that only stands for the level: contacts of spheres
-and capsules with it come from the level's triangles (`locomotion.ground.collider.contact`), exactly where the
-mesh is. Faces are one-sided: a body is pushed out on the side from which the corners run counter-clockwise.
+The model gets a height-field geom called ``ground`` that only stands for the level: contacts of spheres and
+capsules with it come from the level's triangles (`locomotion.ground.collider.contact`), exactly where the
+mesh is. Faces are one-sided: a body is pushed out to the side from which the corners run counter-clockwise.
 """
 
 from __future__ import annotations
@@ -41,14 +41,14 @@ from surefoot.kernels import allocating_kernel, kernel
 __all__ = ["FRICTION", "Ground", "extruded", "height_below", "plane_lookup"]
 
 FRICTION = 0.9
-"""Friction of shoes on a usual ground."""
+"""Friction of shoes on ordinary ground."""
 _HOLD = 1.4 * math.sqrt(2.0)
 # friction per slope with which a foot still has force to spare, in the worst direction of the pyramid that
 # stands for the cone of friction: it holds 1 / sqrt(2) of its coefficient there
 _STEEPEST_FRONT, _LOWEST_FRONT = 1.0, 0.05
 # slope beyond which the front of a step is not trodden on; [m] of height below which it does not matter
 _HARD = (0.999, 0.9999, 0.001, 0.5, 2.0)
-# impedance of contacts with steep ground: with the usual one hands and feet creep downhill by 3 to 5 cm/s
+# impedance of contacts with steep ground: with the default, hands and feet creep downhill by 3 to 5 cm/s
 _USUAL = (0.9, 0.95, 0.001, 0.5, 2.0)  # MuJoCo's impedance of contacts
 _TORSIONAL, _ROLLING = 0.005, 0.0001
 _MESH_FACES = 200_000  # MuJoCo's renderer draws larger meshes badly; only pictures are cut off
@@ -57,15 +57,15 @@ _MESH_FACES = 200_000  # MuJoCo's renderer draws larger meshes badly; only pictu
 class Ground:
     """A triangle mesh that bodies in MuJoCo can stand on.
 
-    Several grounds may live in one process. Keep the ground as long as models made with it are stepped: when
-    it is gone, their bodies fall through.
+    Several grounds may exist in one process. Keep a ground as long as models made with it are stepped:
+    without it, their bodies fall through.
 
     Attributes:
-        vertices: (v, 3) float64, faces: (f, 3) int64, as given.
-        low, high: (3,) float64, bounds [m].
-        digest: hex digest of the mesh.
-        friction: coefficient of friction.
-        steep: whether floors are steeper than the usual friction holds.
+      vertices: (v, 3) float64, faces: (f, 3) int64, as given.
+      low, high: (3,) float64, bounds [m].
+      digest: hex digest of the mesh.
+      friction: coefficient of friction.
+      steep: whether floors are too steep for the default friction.
     """
 
     def __init__(
@@ -92,13 +92,11 @@ class Ground:
         cls, vertices: ArrayLike, faces: ArrayLike, *, max_slope: float = 0.0, max_step: float = 0.0
     ) -> Ground:
         """vertices (v, 3) [m], faces (f, 3) indices of corners, counter-clockwise seen from outside.
-
-        max_slope [rad], max_step [m]: floors up to which are walked on, and steps up to which are taken
-        without a skill, as of `navmesh.WalkRules`; the ground has the friction that takes, and `FRICTION` at
-        least: on floors and on fronts of steps that are steeper than that holds, nobody could stand.
+        max_slope [rad], max_step [m]: steepest floor to walk on and highest step without a skill, as in
+        `navmesh.WalkRules`. The ground gets the friction that these require, at least `FRICTION`.
 
         Raises `LocomotionError` for wrong shapes, coordinates that are not finite, indices out of range, and
-        slopes or steps that are below 0 or too great.
+        slopes or steps below 0 or too great.
         """
         points = np.ascontiguousarray(vertices, dtype=np.float64)
         triangles = np.asarray(faces)
@@ -126,20 +124,20 @@ class Ground:
 
     @property
     def lookup(self) -> tuple[NDArray[Any], ...]:
-        """What `locomotion.gaits.walk.footholds.ground_at` looks the ground up in."""
+        """Lookup table for `locomotion.gaits.walk.footholds.ground_at`."""
         a = self._arrays
         return a.rows, a.cell_start, a.cell_triangles, a.grid, a.shape, self._origin
 
     @property
     def origin(self) -> NDArray[np.float64]:
-        """(3,) point [m] that the kernel's coordinates are relative to."""
+        """(3,) origin [m] of the kernel's coordinates."""
         return self._origin
 
     def add_to(self, spec: mujoco.MjSpec, visual: bool = True) -> Any:
         """Add the ground to a model's description; returns the geom ``ground`` that stands for it.
 
-        With ``visual`` the mesh is also added as a geom that is only seen (``ground_mesh``). Bodies collide
-        with their spheres and capsules only; `check` tells whether a model has others.
+        With ``visual`` the mesh is also added as a visible geom (``ground_mesh``). Bodies collide only with
+        their spheres and capsules; `check` tells whether a model has others.
         """
         half = 0.5 * (self.high - self.low) + 1.0
         spec.nuser_geom = max(spec.nuser_geom, 3)
@@ -204,8 +202,8 @@ class Ground:
 
 
 def _usually_hard(friction: float) -> tuple[float, ...]:
-    """Impedance with which contacts give way about as much as with `FRICTION`: the pyramid of a greater
-    coefficient is softer by its square."""
+    """Impedance that makes contacts as stiff as with `FRICTION`: with more friction they soften with its
+    square."""
     softer = (FRICTION / friction) ** 2
     least, most = (1.0 / (1.0 + softer * (1.0 / each - 1.0)) for each in _USUAL[:2])
     return (least, most, *_USUAL[2:])
@@ -214,11 +212,11 @@ def _usually_hard(friction: float) -> tuple[float, ...]:
 def _steepest_front(
     vertices: NDArray[np.float64], faces: NDArray[np.int64], max_slope: float, max_step: float
 ) -> float:
-    """Slope of the steepest front of a step that feet come down on, 0 where there is none: of the faces that
-    are steeper than floors and rise by a step at most over their width."""
+    """Slope of the steepest step front that feet land on, 0 if there is none: of the faces that are steeper
+    than floors and rise by at most a step over their width."""
     corners = vertices[faces]
     edges = np.roll(corners, -1, axis=1) - corners
-    normals = np.cross(edges[:, 0], edges[:, 1])  # twice as long as the face is large
+    normals = np.cross(edges[:, 0], edges[:, 1])  # twice its area
     flat, level = np.hypot(normals[:, 0], normals[:, 1]), normals[:, 2]
     facing_up = level > 0.0
     slopes = flat[facing_up] / level[facing_up]

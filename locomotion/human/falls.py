@@ -1,4 +1,4 @@
-"""A person that falls, and its ticks on hands and feet until it stands again."""
+"""A person that falls, from losing its balance until it stands again."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from locomotion.paths.tracking import SLOPE_HERE
 
 __all__ = ["fall", "tick_on_all_fours"]
 
-_LONGEST_DOWN = 12000  # ticks after which a body that has not got up stays down
-_LOOKS = 20  # ticks after which one on hands and feet looks again whether it can walk on
+_LONGEST_DOWN = 12000  # ticks after which a fallen body stays down for good
+_LOOKS = 20  # ticks between checks whether one on hands and feet can walk on
 
 
 def fall(person: Person, gets_up: bool) -> None:
-    """It has lost its balance; ``gets_up``: whether it gets up again where there is ground."""
+    """The person has lost its balance; ``gets_up``: whether it gets up again if there is ground."""
     let_go_both(person.data)
     on_way = person.status in MOVING
     speed, slope = float(person.control[controller.SPEED]), float(person.follower.memory[SLOPE_HERE])
@@ -37,7 +37,7 @@ def fall(person: Person, gets_up: bool) -> None:
 
 
 def tick_on_all_fours(person: Person, gets_up: bool) -> None:
-    """A tick on hands and feet, on the way to them after a fall, or from them to a stand."""
+    """One tick on hands and feet, getting there after a fall, or standing up from there."""
     fours, lookup = person.fours, person.simulation.lookup
     follower = person.follower if fours.on_way > 0.0 and person.status in MOVING else None
     if person.ticks % _LOOKS == 0:
@@ -60,11 +60,11 @@ def tick_on_all_fours(person: Person, gets_up: bool) -> None:
             person.status, person.ended_at = "fallen", person.ticks
             fours.leave()
     elif follower is not None and follower.path is not None and person.status in MOVING and not got_up:
-        notice(person)  # but one that has just got up, which may be told to take another way
+        notice(person)  # except one that has just got up, which may be given another path
 
 
 def _stand_up(person: Person) -> None:
-    """The walk takes over."""
+    """Hand over to the walking controller."""
     rise_walking(person.on_feet.walk, person.control, person.fours.facing)
     observe_walk(person.index, person.data, person.on_feet.walk)
     person.fours.leave()

@@ -1,4 +1,4 @@
-"""When a person goes over from one gait to another, and what it tries out before it does."""
+"""When a person changes gait, and what it rehearses before."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ from locomotion.rehearsal.understudy import Chooser, Understudy
 
 __all__ = ["GaitChanges"]
 
-_TOO_NEAR = 2.0  # [m] before an obstacle up to which a walking person comes
-_AGAIN, _TRIES = 5, 40  # ticks after which one told to stop tries to brake again; in which it tries
+_TOO_NEAR = 2.0  # [m] before an obstacle at which a walking person stops
+_AGAIN, _TRIES = 5, 40  # ticks between attempts to brake after a stop command; ticks during which it attempts
 
 _CLEARS = partial(clears, notes=True)
 _WALKS_ON = partial(walks_on, notes=True)
@@ -50,7 +50,7 @@ def _vary_step(body: Chooser, longer: Sequence[float]) -> None:
 
 
 class GaitChanges:
-    """Of ``person``, who has ``decider`` choose among variations."""
+    """Gait changes of ``person``; ``decider`` chooses among variations."""
 
     def __init__(self, person: Person, decider: Decider) -> None:
         self._person, self._decider = person, decider
@@ -58,7 +58,7 @@ class GaitChanges:
 
     # --- walking
     def run_if_due(self) -> None:
-        """Go over from walking to running, just after a foot was put down."""
+        """Change from walking to running, just after a foot came down."""
         person = self._person
         if person.status not in MOVING or not person.follower.runs or person.follower.pace < 1.0:
             return
@@ -88,7 +88,7 @@ class GaitChanges:
             self._decider.predicted.expect(person, seen)
 
     def choose_step(self) -> None:
-        """Just after a foot was put down on uneven ground: choose how long the next step takes."""
+        """Just after a foot came down on uneven ground: choose the duration of the next step."""
         person = self._person
         if person.on_feet.begins_uneven_step:
             choice, _, seen = self._decider.best(person, STEPPINGS, _vary_step, self._steps_on)
@@ -97,8 +97,8 @@ class GaitChanges:
 
     # --- running
     def walk_if_due(self) -> None:
-        """Where it is to stand, or cannot slow down in time, brake; where the path is not run, slow down;
-        and go over to walking when it can."""
+        """Brake before a stop, or if it cannot slow down in time; slow down where the path is not run; and
+        change to walking when possible."""
         person, feet, follower = self._person, self._person.on_feet, self._person.follower
         told = person.status == "standing"
         stops = told or follower.pace == 0.0 or follower.brakes
@@ -111,7 +111,7 @@ class GaitChanges:
             person.status = "walking"
 
     def choose_take_off(self) -> None:
-        """Just after a step of a run-up has begun: choose among its variations, or break it off."""
+        """Just after a step of a run-up has begun: choose its variation, or abort the run-up."""
         person = self._person
         if not person.begins_run_up:
             return
@@ -126,9 +126,11 @@ class GaitChanges:
             self._slow_as_rehearsed(BALKINGS, balk, _WALKS_ON)
 
     def _brakes_or_will(self, told: bool) -> bool:
-        """Whether it begins to brake, because that goes well, or, if it was ``told`` to stop just now or has
-        just come to where it is to brake, will try it again in a moment. One that slows down meanwhile tries
-        it again and again."""
+        """Try to brake; return whether it does, or will try again shortly.
+
+        If rehearsals fail but the person was just ``told`` to stop, or has just reached its braking point, it
+        waits for the next attempt; one that slows down meanwhile keeps trying.
+        """
         if self._decider.answer is None:
             return False
         person = self._person
@@ -138,7 +140,7 @@ class GaitChanges:
         return (now and self._brakes_well()) or may_wait
 
     def _slow_down_or_will(self, must: bool) -> None:
-        """Slow down to a walk; where that does not go well, brake, or run on for a moment if it need not."""
+        """Slow down to a walk; if rehearsals fail, brake, or run on for a moment if there is room."""
         follower, ticks = self._person.follower, self._person.ticks
         may_wait = not must and self._decider.answer is not None and follower.begins_to_slow
         if may_wait and follower.tried_to_slow and ticks - follower.tried_to_slow < _AGAIN:
@@ -153,7 +155,7 @@ class GaitChanges:
             self._person.slow_down(SLOWINGS[0])
 
     def _brakes_well(self) -> bool:
-        """Whether it begins to brake, because that goes well."""
+        """Brake if rehearsals succeed; return whether it does."""
         return self._slow_as_rehearsed(BRAKINGS, _brake, ComesToRest())
 
     def _slow_as_rehearsed(
@@ -162,7 +164,7 @@ class GaitChanges:
         slow: Callable[[Chooser, float], None],
         goes_well: Callable[[Understudy], Trial],
     ) -> bool:
-        """Slow down in the way that goes well, if there is one; gives whether there is."""
+        """Slow down in a way that succeeds in rehearsal; return whether there is one."""
         deceleration, went, seen = self._decider.best(self._person, decelerations, slow, goes_well)
         if went > 0.0:
             slow(self._person, deceleration)

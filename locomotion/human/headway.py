@@ -1,4 +1,4 @@
-"""How far a person has come with its path: arrived, lost, stuck."""
+"""A person's progress on its path: arrived, lost or stuck."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ ARRIVAL_DISTANCE = 0.5
 STRAYED = 2.0
 """[m] beside the path at which a person gives up following it."""
 STUCK_TIME = 8.0
-"""[s] without headway along the path after which a person counts as stuck."""
+"""[s] without progress along the path after which a person counts as stuck."""
 _WALK_ARRIVAL = 0.15  # [m] before the end of its path at which a walking person stops
-_STAYS = 1.0  # [m/s] up to which one that comes to its goal stays there
-_COMES_BACK = 3.5  # [m] beside its path up to which one that does not run may slow down and turn first
-_CLIMBS_BACK = 6.0  # [m] beside its path, where it has slid to, from which it climbs back
+_STAYS = 1.0  # [m/s] a person slower than this stays at its goal
+_COMES_BACK = 3.5  # [m] beside its path within which one not running may slow down and turn first
+_CLIMBS_BACK = 6.0  # [m] beside its path, after sliding there, from which a person climbs back
 
 
 def notice(person: Person) -> None:
-    """End the way of a person that has arrived, is lost or is stuck."""
+    """End the path of a person that has arrived, is lost or is stuck."""
     follower, com = person.follower, person.control[controller.COM]
     assert follower.path is not None
     if follower.interrupted is not None and follower.remaining < _WALK_ARRIVAL:
         follower.turn_again(person.ticks)
         return
-    on_foot = person.status in ("walking", "scrambling")  # who runs comes past, and has to come back
+    on_foot = person.status in ("walking", "scrambling")  # a runner overshoots and has to come back
     if on_foot and follower.remaining < _WALK_ARRIVAL:
         goal = follower.path.goal
         distance = math.hypot(goal[0] - com[0], goal[1] - com[1])
@@ -48,7 +48,7 @@ def notice(person: Person) -> None:
 
 
 def _may_stray(person: Person) -> float:
-    """[m] beside its path from which it is lost."""
+    """[m] beside its path beyond which it is lost."""
     if person.fours.active:
         return _CLIMBS_BACK
     return STRAYED if person.on_feet.runs else _COMES_BACK

@@ -1,16 +1,15 @@
-"""One simulated person that follows paths: physics, running controller and path tracking put together.
+"""One simulated person that follows paths: physics, gaits and path tracking together.
 
     human = Human(ground)
     human.reset(position=(x, y, z), yaw=0.0)
-    human.follow(path, speed=3.5)                       # obstacles=... where the path crosses some
+    human.follow(path, speed=3.5)                       # obstacles=... if the path crosses some
     while human.status == "running":
         human.tick()                                    # 10 ms
 
-A person stands and walks by `locomotion.gaits.walk.controller`, and runs by
-`locomotion.gaits.run.controller`: it runs where its path allows it and a run is worth it, slows down
-(`locomotion.gaits.slow_down`) and walks elsewhere (`make_path`), and comes to a stand at its goal. On ground
-that is too steep for that it goes on hands and feet, and after a fall it gets up, if it is told to
-(`locomotion.recovery.on_all_fours`).
+A person stands and walks with `locomotion.gaits.walk.controller`, and runs with
+`locomotion.gaits.run.controller`. It runs where its path allows it and running is worth it; elsewhere it
+slows down (`locomotion.gaits.slow_down`) and walks (`make_path`); it stops at its goal. On ground too steep
+to walk it goes on hands and feet, and after a fall it can get up (`locomotion.recovery.on_all_fours`).
 """
 
 from __future__ import annotations
@@ -59,19 +58,18 @@ from surefoot.numeric import as_floats, is_finite, is_whole
 
 __all__ = ["ARRIVAL_DISTANCE", "PERSON_RULES", "Human", "HumanState", "Status"]
 
-_CHANGE = 0.01  # [m] by which the ground under a person at rest may change unnoticed
+_CHANGE = 0.01  # [m] largest change of the ground under a person at rest that needs no new simulation
 
 
 class Human(Person):
-    """A person under physics. `tick` advances it by 10 ms.
+    """A simulated person. `tick` advances it by 10 ms.
 
     Attributes:
-        status: "standing", "walking", "running", "jumping", "vaulting", "dropping", "leaping", "scrambling",
-            "getting up", "fallen" (for good), "arrived", "lost" (strayed from its path or missed its goal) or
-            "stuck".
-            `held` tells whether it is simulated.
-        events: list of `locomotion.events.Event` in order of time.
-        decider: who chooses among variations of what it is about to do.
+      status: "standing", "walking", "running", "jumping", "vaulting", "dropping", "leaping", "scrambling",
+        "getting up", "fallen" (for good), "arrived", "lost" (strayed from its path or missed its goal) or
+        "stuck". `held` says whether it is simulated.
+      events: list of `locomotion.events.Event` in order of time.
+      decider: chooses among variations of the next action.
     """
 
     status: Status
@@ -88,14 +86,15 @@ class Human(Person):
         speed_up: SpeedUpSkill | None = None,
         brake: BrakeSkill | None = None,
     ) -> None:
-        """``ground``: None is the endless plane z = 0. ``skill``: how it runs; None loads the package's.
-        ``clearing``: how it clears obstacles; None: by what comes with the package (`learned_skills`).
-        ``walk``, ``slow_down``, ``brake``: how it walks, how it comes to it from a run, and how to a stand;
-        None loads the package's.
-        ``rehearsals``: how many variations of a take-off it tries out at most before it takes off
-        (`locomotion.rehearsal.trials`); 0: none. ``gets_up``: whether it gets up after a fall and goes on;
-        else a fall is the end. Raises `LocomotionError` for a ground or a number of rehearsals that is
-        none."""
+        """``ground``: None is the endless plane z = 0. ``skill``, ``walk``, ``slow_down``, ``brake``: how it
+        runs, walks, slows from a run to a walk, and stops; None loads the built-in skill. ``clearing``:
+        skills for obstacles; None loads the built-in ones (`learned_skills`). ``rehearsals``: most
+        variations of a take-off to try before it (`locomotion.rehearsal.trials`); 0 turns rehearsing off.
+        ``gets_up``: whether it gets up after a fall and continues, or stays down.
+
+        Raises `LocomotionError` if ``ground`` is not a ground, or ``rehearsals`` not a whole number of at
+        least 0.
+        """
         if ground is not None and not isinstance(ground, Ground):
             raise LocomotionError(f"ground must be a Ground, or None for a plane, not {ground!r}")
         if not is_whole(rehearsals):
@@ -118,7 +117,7 @@ class Human(Person):
 
     def restore_state(self, state: HumanState) -> None:
         """Continue from a state of a person on the same ground with the same skills. Raises
-        `LocomotionError`, and changes nothing, for what is no such state."""
+        `LocomotionError`, and changes nothing, if ``state`` is no such state."""
         if not isinstance(state, HumanState):
             raise LocomotionError(f"a person goes on from a HumanState, not from a {type(state).__name__}")
         self.become(state)
@@ -127,10 +126,10 @@ class Human(Person):
     # --- what it is told
     def reset(self, position: ArrayLike, yaw: float, speed: float = 0.0) -> None:
         """Put the person on the ground point ``position`` (3,) [m], facing ``yaw`` [rad]: standing, or
-        running at ``speed`` [m/s]. It forgets its path; events and time go on.
+        running at ``speed`` [m/s]. Its path is dropped; events and time continue.
 
-        Raises `LocomotionError` for numbers that are not finite, a speed below 0, or a position more than
-        0.5 m off the ground.
+        Raises `LocomotionError` for numbers that are not finite, a speed below 0, or a position more than 0.5
+        m off the ground.
         """
         place = as_floats(position)
         if place is None or place.shape != (3,) or not np.isfinite(place).all() or not is_finite(yaw):
@@ -145,13 +144,12 @@ class Human(Person):
     def follow(
         self, path: ArrayLike, speed: float, obstacles: Sequence[ObstacleAhead] = (), hesitates: float = 0.0
     ) -> None:
-        """Go along ``path`` (n, 3) [m, on the ground] at up to ``speed`` [m/s]; slower in bends, on slopes
-        and before the end. ``obstacles``: what the path crosses, in order. ``hesitates``: [s] after which one
-        that stands sets out.
+        """Follow ``path`` (n, 3) [m, on the ground] at up to ``speed`` [m/s]; slower in bends, on slopes and
+        before the end. ``obstacles``: those that the path crosses, in order. ``hesitates``: [s] that a
+        standing person waits before it starts.
 
-        It walks and runs as the module's text says. Raises
-        `LocomotionError` for a bad path or speed, a path that begins more than 2 m from the person, an
-        obstacle with a mistake or that none of its skills clears, or a person that has fallen.
+        Raises `LocomotionError` for an invalid path, speed or obstacle, a path that begins more than 2 m from
+        the person, an obstacle that none of its skills clears, or a person that has fallen.
         """
         if self.status == "fallen":
             raise LocomotionError("the person has fallen for good; reset it")
@@ -180,18 +178,18 @@ class Human(Person):
         self.events.append(SetOff(self.time, self.point, goal, table.length))
 
     def arrive(self) -> None:
-        """Take where it is for its goal."""
+        """Take its present position as its goal."""
         goal = self.position if self.follower.path is None else self.follower.path.goal
         distance = float(np.linalg.norm(goal[:2] - self.position[:2]))
         self.end("arrived", Arrived(self.time, self.point, distance))
 
     def give_up(self, reason: str = "it and those around it wait for each other") -> None:
-        """Be stuck where it is."""
+        """Mark it as stuck where it is."""
         self.end("stuck", GotStuck(self.time, self.point, among_others=True, reason=reason))
 
     def stop(self) -> None:
-        """Give up the path and come to a stand, as soon as it can without falling; what is being cleared is
-        cleared first. A person that does not rehearse slows down and walks first."""
+        """Give up the path and stop as soon as it can without falling; an obstacle in progress is cleared
+        first. A person without rehearsals slows down and walks first."""
         self.fours.on_way = 0.0
         if self.status in MOVING and self.status != "getting up":
             self.status, self.ended_at = "standing", self.ticks
@@ -199,10 +197,12 @@ class Human(Person):
                 self.run_up.begin(())
 
     def change_ground(self, ground: Ground) -> None:
-        """Go on as it is on another ground. One at rest whose footing has changed by more than 1 cm is
-        simulated again; one with no ground at all below it counts as fallen from now on, and so does one
-        that is held though it did not come to rest from a run and whose footing has changed. Raises
-        `LocomotionError` for one on the endless plane, and for what is no ground."""
+        """Continue on another ground. A person at rest is simulated again if its footing has changed by more
+        than 1 cm. It counts as fallen if there is no ground below it, or if it is held without having come
+        to rest and its footing has changed.
+
+        Raises `LocomotionError` for a person on the endless plane, or if ``ground`` is not a ground.
+        """
         if self.ground is None or not isinstance(ground, Ground):
             here = "the endless plane" if self.ground is None else "a ground"
             raise LocomotionError(f"a person on {here} cannot go on on a {type(ground).__name__}")
@@ -219,8 +219,8 @@ class Human(Person):
             self.on_feet.stir(self.control)
 
     def course(self) -> Course | None:
-        """What it is about to do; None for one that is not on its way, clears an obstacle, or is going over
-        from a walk to a run or back."""
+        """What it is about to do; None if it is not on its way, is clearing an obstacle, or is changing
+        between walking and running."""
         if self.follower.path is None or self.status not in ("walking", "running"):
             return None
         if self.on_feet.changes(self.control):
@@ -228,8 +228,7 @@ class Human(Person):
         return self.prospect()
 
     def prospect(self) -> Course | None:
-        """What it will do on its feet, whether that can be changed or not; None for one that is not on
-        them."""
+        """What it will do on its feet, whether or not that can be changed; None if it is not on its feet."""
         feet, follower, here, velocity = self.on_feet, self.follower, self.position, self.velocity
         if self.fours.active or self.status in CLEARING.values():
             return None
@@ -250,8 +249,8 @@ class Human(Person):
         return replace(course, slowest=0.0, braking=BRAKING if feet.brakes else feet.slowing)
 
     def give_way(self, pace: float, shift: NDArray[np.float64] | None) -> None:
-        """Go at a share of the planned speed; with ``shift`` (k, 2) [m] change the path by it, one row for
-        every 0.1 m from where it is."""
+        """Move at a share of the planned speed; with ``shift`` (k, 2) [m] also shift the path ahead, one row
+        for every 0.1 m."""
         self.follower.pace = pace
         if shift is not None:
             self.run_up.disturb()
@@ -260,7 +259,7 @@ class Human(Person):
 
     # --- time
     def tick(self) -> None:
-        """Advance by 10 ms: track the path, control, physics, observe, notice what happened."""
+        """Advance by 10 ms: track the path, control, step the physics, observe, report events."""
         came_true = self.decider.predicted.comes_true(self)
         if not came_true:
             self._tick()
@@ -268,7 +267,7 @@ class Human(Person):
             self._lookahead.go_on(came_true)
 
     def _tick(self) -> None:
-        """A tick that was not foreseen."""
+        """A tick that was not predicted."""
         self.ticks += 1
         if self.held:
             return
@@ -293,7 +292,7 @@ class Human(Person):
         if self.run_up.clearing:
             state[controller.FALLEN] = float(self.run_up.fell(state))
         elif feet.rises:
-            state[controller.FALLEN] = 0.0  # after a roll it begins to walk from a crouch
+            state[controller.FALLEN] = 0.0  # after a roll it starts to walk from a crouch
         if state[controller.FALLEN] > 0.0:
             fall(self, self.gets_up)
             return
@@ -308,7 +307,7 @@ class Human(Person):
                 self._changes.choose_take_off()
 
     def _clear(self) -> None:
-        """After the run's tick: what has to be done for the obstacle ahead."""
+        """After a running tick: act on the obstacle ahead."""
         happened = self.run_up.tick(self.arc_length, self.control, self.data)
         obstacle = self.run_up.ahead
         if isinstance(happened, TakeOff):
@@ -321,13 +320,13 @@ class Human(Person):
             if self.status in MOVING:
                 self.status = ends
             else:
-                self.run_up.begin(())  # it was told to stop meanwhile
+                self.run_up.begin(())  # it was told to stop in the meantime
             if ends == "walking":
                 rise_walking(self.on_feet.walk, self.control, self.yaw)
             self.events.append(Cleared(self.time, self.point, happened.affordance, happened.size))
 
     def _double(self) -> Human:
-        """One that moves as it does, on the same ground, and does not rehearse."""
+        """A copy with the same skills on the same ground that does not rehearse."""
         feet = self.on_feet
         return Human(
             self.ground, feet.run_skill, self.clearing, feet.walk_skill, feet.slow_down_skill, 0,

@@ -1,4 +1,4 @@
-"""What a person tells of its way, so that others can keep out of it."""
+"""The path a person intends to take, for others to avoid."""
 
 import math
 from dataclasses import replace
@@ -17,14 +17,14 @@ from locomotion.paths.table import TrackingLimits
 __all__ = ["TURN_FIRST", "course_on_way", "course_to_rest"]
 
 TURN_FIRST = 0.7
-"""[rad] off its way at which a walking person turns on the spot."""
+"""[rad] off its path's direction at which a walking person turns on the spot."""
 _WALK_BEND, _RUN_BEND = 1.0, 0.1
-"""[1/m] in which it goes out of somebody's way; in sharper bends than it has learned to slow down in, a
+"""[1/m] sharpest curve with which it steps aside; in bends sharper than it has learned to slow down in, a
 runner falls behind those it has met (`python -m benchmarks.giving_way --pairs runner-runner`)."""
-_WALK_BEGINS, _RUN_BEGINS = 0.5, 1.0  # [m] ahead where it begins to
-_SETTING_OFF = 0.5  # [s] that it takes for the first step after a turn on the spot
-_BESIDE = 0.3  # [m] from its path from which it goes there first
-_BERTH = 0.14  # [m] besides: it sways beside its path, and drifts where it turns on the spot
+_WALK_BEGINS, _RUN_BEGINS = 0.5, 1.0  # [m] ahead where it starts to step aside
+_SETTING_OFF = 0.5  # [s] for the first step after a turn on the spot
+_BESIDE = 0.3  # [m] from its path beyond which it walks there first
+_BERTH = 0.14  # [m] added: it sways beside its path, and drifts while turning on the spot
 _RADIUS = PERSON_RULES["radius"] + _BERTH
 
 
@@ -37,9 +37,8 @@ def course_on_way(
     facing: float,
     aside: bool,
 ) -> Course:
-    """The course of a person that is at ``place`` (3,) with ``velocity`` (3,), and faces
-    ``facing`` [rad]; if its way leads elsewhere it comes to a stand and turns first. ``aside``: whether its
-    path may be changed."""
+    """Course of a person at ``place`` (3,) with ``velocity`` (3,), facing ``facing`` [rad]; if its path leads
+    elsewhere, it stops and turns first. ``aside``: whether its path may be changed."""
     path = follower.path
     assert path is not None
     arc, step = follower.arc, path.length / (len(path.table) - 1)
@@ -76,7 +75,7 @@ def course_on_way(
 def course_to_rest(
     place: NDArray[np.float64], velocity: NDArray[np.float64], limits: TrackingLimits
 ) -> Course:
-    """The course of a person at ``place`` (3,) that comes to a stand from ``velocity`` (3,)."""
+    """Course of a person at ``place`` (3,) that stops from ``velocity`` (3,)."""
     speed = float(np.linalg.norm(velocity[:2]))
     points = _straight_on(place, velocity, speed * speed / (2.0 * limits.deceleration))
     return _course(points, np.zeros(len(points)), speed, limits, walks=True)
@@ -89,7 +88,7 @@ def _course(
     limits: TrackingLimits,
     walks: bool,
 ) -> Course:
-    """A course that ends in a stand and that nothing can change."""
+    """A course that ends standing and cannot be changed."""
     return Course(
         points=points,
         speeds=speeds,

@@ -1,4 +1,4 @@
-"""A person on its feet: walking and running, and going over from one to the other.
+"""A person on its feet: walking, running and changing between them.
 
     feet = OnFeet(run, walk, slow_down, speed_up)
     feet.steer(way, state, moving, planned, tick, command)
@@ -6,8 +6,8 @@
     mujoco.mj_step(model, data, STEPS_PER_TICK)
     feet.observe(index, state, command, data)
 
-``state`` is what the running controller remembers and observes (its fields: `locomotion.gaits.run.layout`),
-also while it walks.
+``state`` is the running controller's memory and observations (fields: `locomotion.gaits.run.layout`), also
+while the person walks.
 """
 
 import math
@@ -52,21 +52,22 @@ from locomotion.paths.follower import PathFollower
 __all__ = ["RUN_GAINS", "OnFeet"]
 
 RUN_GAINS = np.array([0.35, 1.2, 0.15, 0.45, 0.5, 0.05])
-"""Of `path_tracking.track`; hardly any sideways speed: the run was not learned with it."""
+"""Gains of `path_tracking.track`; hardly any sideways speed, which the run was not trained with."""
 _WALK_GAINS = np.array([0.5, 0.6, 0.05, 0.3, 0.8, 0.25])
-_HASTE = 1.3  # [m/s] that the speed asked for may exceed the last step's: more trips it in setting off
-_FAST, _FAST_HASTE = 3.7, 0.8  # [m/s]: what is asked for above the first may exceed it by the second only
-_CHANGED = 4.0  # steps after which it has gone over to another gait
-_HELD_UP = 12.0  # steps after which one that has braked, and was pushed, need not come to rest any more
+_HASTE = 1.3  # [m/s] asked for above the last step's speed at most, lest it trip
+_FAST, _FAST_HASTE = 3.7, 0.8  # [m/s] from the first speed on, only this much above
+_CHANGED = 4.0  # steps after which a change of gait is complete
+_HELD_UP = 12.0  # steps after which a pushed person that has braked need not come to rest
 _STILL = 0.03  # [m/s] of the centre of mass at rest
 
 
 class OnFeet:
     """``run_skill``, ``walk_skill``, ``slow_down_skill``, ``speed_up_skill``, ``brake_skill``: how it moves.
-    ``limits``, ``walk_limits``: what it can follow. ``walk``: what the walking controller remembers
-    (`locomotion.gaits.walk.layout`). ``slowing``: [m/s^2] at which it slows down to a walk, 0: it does not.
-    ``brakes``: whether it comes to a stand as short as it goes. ``hurries``: whether it speeds up to its
-    run."""
+    ``limits``, ``walk_limits``: paths that it can follow. ``walk``: memory of the walking controller
+    (`locomotion.gaits.walk.layout`). ``slowing``: [m/s^2] of slowing down to a walk, 0 if it does not.
+    ``brakes``: whether it stops in the shortest distance. ``hurries``: whether it accelerates into its
+    run.
+    """
 
     def __init__(
         self,
@@ -92,18 +93,18 @@ class OnFeet:
 
     @property
     def runs(self) -> bool:
-        """Whether it runs and does not slow down."""
+        """Whether it runs without slowing down."""
         return not self.walks and self.slowing == 0.0
 
     def changes(self, state: NDArray[np.float64]) -> bool:
-        """Whether it is going over from one gait to the other; told to go back meanwhile, it may fall."""
+        """Whether it is changing gait; reversing the change now could make it fall."""
         if self.walks:
             return self.brakes or bool(self.walk[CAUGHT] > 0.0 and self.walk[WALK_STEPS] < _CHANGED)
         return self.slowing > 0.0 or bool(state[controller.STEPS] < _CHANGED)
 
     @property
     def rises(self) -> bool:
-        """Whether it begins to walk from a crouch."""
+        """Whether it starts to walk from a crouch."""
         return bool(self.walks and self.walk[WALK_TICKS] < RISING)
 
     @property
@@ -113,20 +114,20 @@ class OnFeet:
 
     @property
     def begins_uneven_step(self) -> bool:
-        """Whether it has just put a foot down on such ground."""
+        """Whether a foot has just come down on such ground."""
         return self.on_uneven_ground and self.walk[PHASE] == DOUBLE and self.walk[CLOCK] == 0.0
 
     def vary_step(self, longer: Sequence[float]) -> None:
-        """The transfer and the swing of the step that has just begun take longer [s]."""
+        """Lengthen the transfer and the swing of the step that has just begun [s]."""
         self.walk[LONGER] = longer
 
     def at_rest(self, state: NDArray[np.float64]) -> bool:
-        """Whether it stands and does not move."""
+        """Whether it stands still."""
         stands = self.walks and self.walk[PHASE] == STANDING and self.walk[CLOCK] == 0.0
         return bool(stands and np.abs(state[controller.COM_VELOCITY]).max() < _STILL)
 
     def stir(self, state: NDArray[np.float64]) -> None:
-        """It is not at rest any more."""
+        """End its rest."""
         state[controller.COM_VELOCITY] = 0.0, 0.0, -_STILL
 
     # --- a tick
@@ -139,10 +140,10 @@ class OnFeet:
         tick: int,
         command: NDArray,
     ) -> None:
-        """Track the path: write heading and speeds to ask of the controllers into ``command`` (4,).
+        """Track the path: write the wanted heading and speeds into ``command`` (4,).
 
-        moving: whether it is to go on along the path. planned [m/s]: speed of this step of a run-up, 0 where
-        there is none.
+        moving: whether to continue along the path. planned: speed [m/s] of this step of a run-up, 0 outside
+        of one.
         """
         (x, y), speed = state[controller.COM][:2], state[controller.SPEED]
         follower.track(_WALK_GAINS if self.walks else RUN_GAINS, x, y, speed, tick, command)
@@ -152,7 +153,7 @@ class OnFeet:
         elif self.slowing > 0.0:
             slower = state[controller.SPEED] - self.slowing * CONTROL_DT
             command[1:3] = slower, 0.0
-            if self.brakes:  # straight on; the reference itself would follow too slowly
+            if self.brakes:  # straight ahead; the reference itself would follow too slowly
                 state[controller.SPEED] = max(slower, SLOWEST)
                 command[0] = state[controller.HEADING]
         else:
@@ -164,22 +165,22 @@ class OnFeet:
             command[1] = planned if planned > 0.0 else max(follower.pace * command[1], slowest)
 
     def _steer_walk(self, state: NDArray, moving: bool, pace: float, most: float, command: NDArray) -> None:
-        """``pace``: share of the speed asked for at which it goes; ``most`` [m/s]."""
+        """``pace``: share of the wanted speed; ``most``: upper limit [m/s]."""
         heading = self.walk[WALK_HEADING]
         if self.walk[WALK_STEPS] < 0.0:
             command[:] = heading, STEADYING_SPEED, 0.0, 0.0
             return
         off = command[0] - heading
         if self.walk[SUDDEN] == 0.0:
-            off -= TURN_TIME * self.walk[WALK_TURN_RATE]  # a bend in which it is turning already
+            off -= TURN_TIME * self.walk[WALK_TURN_RATE]  # it is already turning in a bend
         if not moving or abs(math.remainder(off, 2.0 * math.pi)) > TURN_FIRST:
             command[1:3] = 0.0
             if np.hypot(*state[controller.COM_VELOCITY][:2]) > TURNING_SPEED:
                 command[0] = heading
         if self.brakes:
-            pace = 0.0  # whatever it is told meanwhile: it has rehearsed to come to a stand
+            pace = 0.0  # despite new commands: it has rehearsed this stop
         command[1] = pace * min(command[1], most)
-        if pace == 0.0:  # it waits: whoever steps about in place drifts into those before it
+        if pace == 0.0:  # waiting: a person stepping in place drifts into those ahead
             command[0], command[2] = heading, 0.0
 
     def tick(
@@ -196,7 +197,7 @@ class OnFeet:
             run_tick(*tables, state, command, data.qpos, data.qvel, data.ctrl)
 
     def _walk_tables(self) -> NDArray[np.float64]:
-        """The gains with which it walks now."""
+        """The gains of its present walk."""
         steps = int(self.walk[WALK_STEPS])
         first_steps = self._braking_steps if self.brakes else self._first_steps
         if self.walk[CAUGHT] > 0.0 and steps < len(first_steps):
@@ -216,17 +217,18 @@ class OnFeet:
 
     # --- from one gait to the other
     def run(self, state: NDArray, quickly: bool, speed: float) -> None:
-        """Go over from walking to running, from ``speed`` [m/s]."""
+        """Change from walking to running, from ``speed`` [m/s]."""
         run_on(state, self.walk[WALK_STANCE], self.walk[WALK_HEADING], speed)
         self.walk[WALKS] = 0.0
         self.hurries, self.brakes = quickly, False
 
     def slow_down(self, deceleration: float, brakes: bool = False) -> None:
-        """Begin to slow down from the run to a walk [m/s^2]; ``brakes``: to a stand, as short as it goes."""
+        """Begin to slow down from the run to a walk [m/s^2]; ``brakes``: stop in the shortest distance
+        instead."""
         self.slowing, self.brakes = deceleration, brakes
 
     def walk_if_slow(self, index: PersonIndex, state: NDArray, data: mujoco.MjData) -> bool:
-        """Go over to walking, if it slows down and is on a foot from which it can; whether it has."""
+        """Change to walking if it is slowing down and on a suitable foot; return whether it did."""
         can = self.brake_skill.can_walk_on if self.brakes else can_walk_on
         if not (self.slowing > 0.0 and can(state)):
             return False

@@ -1,5 +1,5 @@
-"""The parts of a person, what it is doing, and what it can be made to do; `locomotion.human.gait_changes` and
-`locomotion.human.human` decide about that."""
+"""The parts of a person, its state, and the actions it can take; `locomotion.human.gait_changes` and
+`locomotion.human.human` decide on them."""
 
 from __future__ import annotations
 
@@ -30,20 +30,22 @@ from locomotion.skills.run_up import RunUp
 
 __all__ = ["Person"]
 
-_SETTLING = 600  # ticks in which a person that has stopped walking comes to rest
-_FALL_TICKS = 100  # a fallen body is simulated for this long, then held
-_HEMMED_IN = 9.0  # [m] before an obstacle in which it may not come to a walk
+_SETTLING = 600  # ticks for a person that has stopped walking to come to rest
+_FALL_TICKS = 100  # ticks for which a fallen body is simulated before it is held
+_HEMMED_IN = 9.0  # [m] before an obstacle in which it may not change to a walk
 _SOON_WALKED, _SOON_RUN, _SOON_SLOWS = 2.5, 4.0, 1.5
 # [m] before something is to be rehearsed from which it looks ahead: a run-up, walking, running; slowing down
 
 
 class Person:
-    """Attributes:
-    simulation: its physics. on_feet: how it walks and runs. follower: the path that it follows. run_up: the
-        obstacles on it, and how it clears them. fours: how it goes on hands and feet.
-    command: heading and speeds asked of the controllers, (4,).
-    status, events: see `locomotion.human.human.Human`. ticks: made since the person was made. ended_at: the
-        tick in which it fell or stopped.
+    """The parts of a person.
+
+    Attributes:
+      simulation: its physics. on_feet: how it walks and runs. follower: the path that it follows.
+      run_up: the obstacles on the path and how it clears them. fours: how it goes on hands and feet.
+      command: heading and speeds for the controllers, (4,).
+      status, events: see `locomotion.human.human.Human`. ticks: since the person was made. ended_at: the tick
+        in which it fell or stopped.
     """
 
     def __init__(self, ground: Ground | None, on_feet: OnFeet, clearing: Sequence[ClearingSkill]) -> None:
@@ -58,7 +60,7 @@ class Person:
         self.put(np.zeros(3) if ground is None else 0.5 * (ground.low + ground.high), 0.0, 0.0)
 
     def put(self, position: NDArray[np.float64], yaw: float, speed: float) -> None:
-        """Have it stand, or run at ``speed`` [m/s], on the ground point ``position`` (3,) [m]; on hands and
+        """Let it stand, or run at ``speed`` [m/s], on the ground point ``position`` (3,) [m]; on hands and
         feet where it is too steep to stand."""
         self.fours.leave()
         body, walk = self.simulation, self.on_feet.walk
@@ -90,8 +92,8 @@ class Person:
 
     @property
     def data(self) -> mujoco.MjData:
-        """Its state in MuJoCo; after a tick it is current; what follows from it (contacts, places of bodies)
-        may not be."""
+        """Its state in MuJoCo, current after a tick; derived values (contacts, places of bodies) may be
+        outdated."""
         return self.simulation.data
 
     @property
@@ -146,7 +148,7 @@ class Person:
 
     @property
     def held(self) -> bool:
-        """Whether the person is kept still: it stands at rest, did not come to rest, or lay for a second."""
+        """Whether the person is kept still and not simulated: at rest, or fallen for a second."""
         if self.status in MOVING:
             return False
         stopped = self.ticks - self.ended_at
@@ -168,8 +170,8 @@ class Person:
 
     @property
     def physics(self) -> mujoco.MjModel:
-        """What its next tick is simulated with: one on hands and feet, or that has fallen, touches the ground
-        more firmly than `model` has it."""
+        """The model for its next tick: on hands and feet or after a fall, contacts with the ground are
+        stiffer than in `model`."""
         return self.fours.model if self.fours.active else self.model
 
     @property
@@ -189,44 +191,44 @@ class Person:
 
     @property
     def pace(self) -> float:
-        """Share of its planned speed at which it goes."""
+        """Share of its planned speed at which it moves."""
         return self.follower.pace
 
     @property
     def path(self) -> NDArray[np.float64]:
-        """(n, 3) float64 [m]: the path that it follows or followed last."""
+        """(n, 3) float64 [m]: its present or last path."""
         return self.follower.points
 
     @property
     def obstacle_ahead(self) -> ObstacleAhead | None:
-        """The next obstacle on its path, or the one that it clears now."""
+        """The next obstacle on its path, or the one that it is clearing."""
         return self.run_up.ahead
 
     @property
     def point(self) -> tuple[float, float, float]:
-        """`position`, as events have it."""
+        """`position` as events report it."""
         x, y, z = self.position
         return float(x), float(y), float(z)
 
     def way_back(self) -> NDArray[np.float64] | None:
-        """(k, 3) [m] the points of its way behind it, back to the obstacle that it has cleared last, see
+        """(k, 3) [m] the points of its path behind it, back to the last obstacle that it cleared, see
         `PathFollower.way_back`."""
         return self.follower.way_back(self.run_up.passed)
 
     # --- what it is about to decide
     @property
     def begins_run_up(self) -> bool:
-        """Whether a step of a run-up has just begun, and it was not rehearsed yet."""
+        """Whether a step of a run-up has just begun and was not rehearsed yet."""
         return self.on_feet.runs and self.run_up.to_rehearse(self.control)
 
     @property
     def hemmed_in(self) -> bool:
-        """Whether the next obstacle may be too near to slow down before it."""
+        """Whether the next obstacle may be too near to slow down first."""
         return self.run_up.comes_within(self.arc_length, _HEMMED_IN)
 
     @property
     def decides_soon(self) -> bool:
-        """Whether it may come to something to be rehearsed within the next seconds."""
+        """Whether something may have to be rehearsed within the next seconds."""
         follower, feet, arc = self.follower, self.on_feet, self.arc_length
         if feet.on_uneven_ground and not self.fours.active and not self.held:
             return True
@@ -241,24 +243,24 @@ class Person:
 
     # --- what it can be made to do
     def run(self, quickly: bool, speed: float) -> None:
-        """Go over from walking to running, from ``speed`` [m/s]."""
+        """Change from walking to running, from ``speed`` [m/s]."""
         self.on_feet.run(self.control, quickly, speed)
         self.status = "running"
 
     def set_off(self, choice: tuple[bool, Sequence[float]], speed: float) -> None:
-        """Begin to run towards the obstacle ahead, from ``speed`` [m/s]: whether it speeds up quickly, and
-        how its run-up is varied (`vary_run_up`)."""
+        """Begin to run towards the obstacle ahead, from ``speed`` [m/s]: whether it accelerates quickly, and
+        its variation of the run-up (`vary_run_up`)."""
         quickly, run_up = choice
         self.run(quickly, speed)
         self.run_up.set_off(run_up, True)
 
     def vary_run_up(self, choice: Sequence[float]) -> None:
-        """Plan the step of the run-up that has just begun with a mark that is farther from the obstacle [m],
-        and an entry that is faster [m/s]."""
+        """Plan the run-up step that has just begun with a take-off mark farther from the obstacle [m] and a
+        faster entry [m/s]."""
         self.run_up.vary(choice, self.control, True)
 
     def balk(self, deceleration: float) -> None:
-        """Break the run-up off, slowing down [m/s^2]."""
+        """Abort the run-up, slowing down [m/s^2]."""
         self.run_up.balk()
         self.slow_down(deceleration)
 
@@ -267,15 +269,15 @@ class Person:
         self.on_feet.slow_down(deceleration)
 
     def brake(self, harder: float) -> None:
-        """Begin to brake, ``harder`` by that share than learned."""
+        """Begin to brake, ``harder`` than learned by that share."""
         self.on_feet.slow_down(harder * self.on_feet.brake_skill.deceleration, brakes=True)
 
     def vary_step(self, longer: Sequence[float]) -> None:
-        """Make the step that has just begun, its transfer and its swing, take longer [s]."""
+        """Lengthen the transfer and the swing of the step that has just begun [s]."""
         self.on_feet.vary_step(longer)
 
     def go_back(self) -> bool:
-        """Turn round for a longer run-up to the obstacle ahead; gives whether there is one to go back for."""
+        """Turn round for a longer run-up to the obstacle ahead; return whether there is one."""
         follower = self.follower
         to = None if follower.interrupted is not None else self.run_up.turning_point(follower.arc, follower)
         if follower.path is None or to is None:
@@ -288,7 +290,7 @@ class Person:
         return True
 
     def end(self, status: Status, event: Event) -> None:
-        """It has come to an end: ``status`` from now on, and ``event`` is what happened."""
+        """Its path has ended: set ``status`` and report ``event``."""
         self.status, self.ended_at = status, self.ticks
         self.events.append(event)
 
@@ -298,10 +300,10 @@ class Person:
         return person_state.save(self)
 
     def become(self, state: HumanState) -> None:
-        """Be as it was, or will be, in a state of a person on the same ground with the same skills. Raises
+        """Restore or advance to a ``state`` of a person on the same ground with the same skills. Raises
         `LocomotionError`, and changes nothing, if it belongs to another model."""
         person_state.restore(self, state)
 
     def state_hash(self) -> str:
-        """Hex digest of the physical and mental state; equal for equal runs."""
+        """Hex digest of the complete state; equal for equal runs."""
         return person_state.hash_of(self.save_state())

@@ -1,4 +1,4 @@
-"""Saved states of persons."""
+"""Check saved states of persons."""
 
 from __future__ import annotations
 
@@ -130,7 +130,7 @@ _PARTS = (
 
 
 def check_person(state: HumanState, human: Human) -> None:
-    """Raises `LocomotionError` for a ``state`` that ``human`` cannot be in."""
+    """Raise `LocomotionError` if ``human`` cannot be in this ``state``."""
     numbers, end = state.numbers, 0
     held = sum(part.size for part in _PARTS)
     if numbers.shape != (held + physics_size(human.model),):
@@ -157,7 +157,7 @@ def check_person(state: HumanState, human: Human) -> None:
 
 
 def _check_physics(physics: NDArray[np.float64], human: Human) -> None:
-    """Time, coordinates, their rates, and whatever else MuJoCo keeps, which has only to be finite."""
+    """Check time, coordinates and their rates; MuJoCo's other numbers must only be finite."""
     check_array("the physics of a person", physics, None)
     nq, nv = human.model.nq, human.model.nv
     time, qpos, qvel = physics[0], physics[1 : 1 + nq], physics[1 + nq : 1 + nq + nv]
@@ -193,7 +193,7 @@ def _check_obstacle(obstacle: ObstacleAhead) -> None:
 
 
 def _check_clearing(state: HumanState, human: Human) -> None:
-    """What it clears, and will clear, can be cleared."""
+    """Check that its skills clear its present and coming obstacles."""
     run_up = sum(part.size for part in _PARTS[:-1])
     number = int(state.numbers[run_up])
     ahead = [skill_for(human.clearing, obstacle) for obstacle in state.obstacles[number:]]

@@ -17,13 +17,16 @@ __all__ = ["Simulation"]
 
 
 class Simulation:
-    """Attributes:
-    ground: what the person stands on; None is the endless plane z = 0. lookup: its triangles, for kernels.
-    model, data: the MuJoCo model (shared by all persons on the same ground) and this person's own data;
-        after a tick its state is current; what follows from that (contacts, places of bodies) may not be.
-    index: where the person's parts are in the model.
-    control: what the running controller remembers and observes (its fields:
-        `locomotion.gaits.run.layout`), also while the person walks.
+    """A person's physics.
+
+    Attributes:
+      ground: None is the endless plane z = 0. lookup: its triangles, for kernels.
+      model, data: the MuJoCo model (shared by all persons on the same ground) and this person's own data,
+      current
+        after a tick; derived values (contacts, places of bodies) may be outdated.
+      index: addresses of the person's parts in the model.
+      control: memory and observations of the running controller (fields: `locomotion.gaits.run.layout`), also
+        while the person walks.
     """
 
     def __init__(self, ground: Ground | None) -> None:
@@ -31,7 +34,7 @@ class Simulation:
         self.stand_on(ground)
 
     def stand_on(self, ground: Ground | None) -> None:
-        """Have a new simulation on another ground."""
+        """Start a new simulation on another ground."""
         self.ground = ground
         self.model, self.index = person_on(ground)
         self.data = mujoco.MjData(self.model)
@@ -83,8 +86,8 @@ class Simulation:
         return np.hstack([self.data.xpos, self.data.xquat])
 
     def on_ground(self, place: NDArray[np.float64]) -> NDArray[np.float64]:
-        """``place`` (3,) moved up or down onto the ground. Raises `LocomotionError` where that is farther
-        than 0.5 m."""
+        """``place`` (3,) moved vertically onto the ground. Raises `LocomotionError` if that is more than 0.5
+        m away."""
         if self.ground is None:
             return place
         z = float(self.ground.surface_below([[place[0], place[1], place[2] + 0.5]])[0][0])

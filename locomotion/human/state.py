@@ -1,4 +1,4 @@
-"""What a person remembers: listed once, and from that list kept, restored, compared and hashed."""
+"""The memory of a person: one list of fields, from which it is saved, restored, compared and hashed."""
 
 from __future__ import annotations
 
@@ -46,9 +46,11 @@ MOVING: Collection[Status] = _Moving()
 
 
 class HumanState(NamedTuple):
-    """Everything that a `Human` remembers; restoring it continues the run bit for bit on the same ground.
-    ``numbers``: the arrays of its parts, and behind them what `save_physics` gives; in one array, since one
-    is kept and compared in every predicted tick. ``events``: what has happened and was not asked for yet."""
+    """The complete memory of a `Human`; restoring it continues the run bit-identically on the same ground.
+
+    ``numbers``: the arrays of its parts, then those of `save_physics`; a single array, since one is kept and
+    compared in every predicted tick. ``events``: reported but not yet polled.
+    """
 
     numbers: NDArray[np.float64]
     slowing: float
@@ -75,8 +77,8 @@ def _same_memory(one: NDArray | None, other: NDArray | None) -> bool:
 
 
 class _Field(NamedTuple):
-    """A field of `HumanState` apart from numbers and events: which attribute of which part of the person it
-    is ("": of the person itself), and whether two of it go on in the same way."""
+    """A field of `HumanState` apart from numbers and events: the part of the person and its attribute ("": of
+    the person itself), and whether two values continue in the same way."""
 
     name: str
     part: str
@@ -87,7 +89,7 @@ class _Field(NamedTuple):
 _ARRAYS = operator.attrgetter(
     "simulation.control", "command", "on_feet.walk", "follower.memory", "fours.memory", "run_up.plan"
 )
-# what the parts of a person remember from tick to tick in arrays of their own
+# memory arrays of the person's parts
 _FIELDS = (
     _Field("slowing", "on_feet", "slowing"),
     _Field("brakes", "on_feet", "brakes"),
@@ -113,7 +115,7 @@ class _Person(Protocol):
 
 
 def save(person: _Person) -> HumanState:
-    """All that ``person`` needs to go on from here."""
+    """Everything that ``person`` needs to continue from here."""
     body = person.simulation
     numbers = np.concatenate((*_ARRAYS(person), save_physics(body.model, body.data)))
     values = (value.copy() if isinstance(value, np.ndarray) else value for value in _VALUES(person))
@@ -121,8 +123,8 @@ def save(person: _Person) -> HumanState:
 
 
 def restore(person: _Person, state: HumanState) -> None:
-    """Make ``person`` what it was when ``state`` was saved. Raises `LocomotionError`, and changes nothing, if
-    that was a person of another model."""
+    """Restore ``person`` to ``state``. Raises `LocomotionError`, and changes nothing, if it belongs to
+    another model."""
     body, arrays, end = person.simulation, _ARRAYS(person), 0
     restore_physics(body.model, body.data, state.numbers[sum(map(len, arrays)) :])
     for array in arrays:
@@ -136,14 +138,14 @@ def restore(person: _Person, state: HumanState) -> None:
 
 
 def same(one: HumanState, other: HumanState) -> bool:
-    """Whether two states go on in the same way; what has happened before does not matter."""
+    """Whether two states continue in the same way; past events do not matter."""
     if not all(field.same(getattr(one, field.name), getattr(other, field.name)) for field in _FIELDS):
         return False
     return one.numbers.tobytes() == other.numbers.tobytes()
 
 
 def hash_of(state: HumanState) -> str:
-    """Hexadecimal digest of a state; equal for equal ones."""
+    """Hex digest of a state; equal states, equal digests."""
     hasher = hashlib.sha256(state.numbers.tobytes())
     for field in _FIELDS:
         value = getattr(state, field.name)

@@ -1,1 +1,1 @@
-"""From a smooth path to where on it a body is, how fast it goes there and in which gait."""
+"""From a smooth path to a body's place, speed and gait along it."""

@@ -1,9 +1,8 @@
-"""Straight ways over obstacles that follow each other.
+"""Straight ways over successive obstacles.
 
-A route takes, of the links side by side over each obstacle, those that make it shortest. Where two obstacles
-follow each other closely, a step to the side between them leaves no straight run-up to the second: a person
-then breaks its run-up off, goes back and finds no better one. Here such a route is led over links in one
-line, where there are any.
+Of the parallel links over each obstacle, a route takes those that make it shortest. Where two obstacles are
+close together, a sidestep between them leaves no straight run-up to the second: a person then aborts its
+run-up, goes back and finds no better one. Here such a route is moved to links in one line, if there are any.
 """
 
 from __future__ import annotations
@@ -20,19 +19,19 @@ from navmesh.route import LinkUse, Route
 __all__ = ["lined_up"]
 
 _CLOSE = 14.0  # [m] between two obstacles: landing, a bend and a run-up
-_BEGINS = 6.0  # [m] from the start to the first link within which a bend takes of the run-up
-_ALIKE = 0.7  # cosine between two links that follow each other
+_BEGINS = 6.0  # [m] from the start to the first link within which a bend shortens the run-up
+_ALIKE = 0.7  # cosine of the largest angle between successive links in line
 _ASIDE = 0.05  # [m] beside the line of a link that does not matter
-_SIDEWAYS = 6.0  # [m] of way that a metre to the side between two such links is worth
-_LONGER = 4.0  # [m] that the way may become longer
-_SPREAD = 6.0  # [m] between the link that the route takes and those that are tried
+_SIDEWAYS = 6.0  # [m] of way that avoiding one metre sideways between two such links is worth
+_LONGER = 4.0  # [m] by which the way may become longer
+_SPREAD = 6.0  # [m] from the route's link to alternatives
 
 
 def lined_up(
     route: Route, skills: Mapping[str, tuple[float, float]], closed_links: Sequence[int] | NDArray = ()
 ) -> Route:
-    """``route``, found with ``skills`` and ``closed_links``, over links of the same obstacles that lie in one
-    line as far as that is possible; itself where they do already."""
+    """``route``, found with ``skills`` and ``closed_links``, moved to links of the same obstacles that are as
+    nearly in line as possible; unchanged if they already are."""
     if not route.links:
         return route
     begins = _from_start(route.graph, route.waypoints[0], route.links[0].link) > _SIDEWAYS * _ASIDE
@@ -51,8 +50,8 @@ def _needs_it(route: Route, one: LinkUse, other: LinkUse) -> bool:
 
 
 def _offset(graph: NodeGraph, one: int, other: int) -> tuple[float, float]:
-    """[m] from the end of a link to the start of the next, along that one and across it; (0, 0) where the two
-    lead into different directions."""
+    """[m] from the end of a link to the start of the next, along and across it; (0, 0) if the two have
+    different directions."""
     links = graph.links
     first, second = _unit(links.end[one] - links.start[one]), _unit(links.end[other] - links.start[other])
     if float(first @ second) < _ALIKE:
@@ -64,7 +63,7 @@ def _offset(graph: NodeGraph, one: int, other: int) -> tuple[float, float]:
 def _beside(
     route: Route, use: LinkUse, skills: Mapping[str, tuple[float, float]], closed: Sequence[int] | NDArray
 ) -> list[int]:
-    """The links over the obstacle of ``use`` that the body can take, near to that."""
+    """Links over the obstacle of ``use`` that the body can take, near that one."""
     links = route.graph.links
     low, high = skills.get(str(links.affordance[use.link]), (np.inf, -np.inf))
     fits = (links.obstacle == use.obstacle) & (links.radius >= route.radius)
@@ -78,7 +77,7 @@ def _beside(
 def _straightest(
     graph: NodeGraph, start: NDArray[np.float64], goal: NDArray[np.float64], choices: list[list[int]]
 ) -> list[int]:
-    """One link of each of ``choices``: the shortest way over them with what steps to the side cost."""
+    """One link of each of ``choices``: the shortest way over them, with costs for sidesteps."""
     links = graph.links
     costs = [_away(start, links.start[each]) + _from_start(graph, start, each) for each in choices[0]]
     cames: list[list[int]] = []
@@ -96,7 +95,7 @@ def _straightest(
 
 
 def _from_start(graph: NodeGraph, start: NDArray[np.float64], link: int) -> float:
-    """[m] that a step to the side right before the first link is worth."""
+    """[m] cost of a sidestep right before the first link."""
     along = _unit(graph.links.end[link] - graph.links.start[link])
     way = (graph.links.start[link] - start)[:2]
     aside = abs(float(along[0] * way[1] - along[1] * way[0]))
@@ -104,14 +103,14 @@ def _from_start(graph: NodeGraph, start: NDArray[np.float64], link: int) -> floa
 
 
 def _between(graph: NodeGraph, one: int, other: int) -> float:
-    """[m] the way from a link to the next is worth."""
+    """[m] cost of the way from a link to the next."""
     forward, aside = _offset(graph, one, other)
     extra = _SIDEWAYS * aside if 0.0 < forward < _CLOSE else 0.0
     return _away(graph.links.end[one], graph.links.start[other]) + extra
 
 
 def _over(route: Route, chosen: list[int]) -> Route | None:
-    """The route over ``chosen`` links; None where no way that is hardly longer leads there."""
+    """The route over ``chosen`` links; None if none is only slightly longer."""
     graph, links = route.graph, route.graph.links
     starts = [route.waypoints[0], *links.end[chosen]]
     ends = [*links.start[chosen], route.waypoints[-1]]

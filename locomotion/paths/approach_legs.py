@@ -1,8 +1,8 @@
-"""Straight ways up to obstacles and on behind them, longer than those of the graph's links.
+"""Straight ways up to obstacles and on behind them, longer than the graph's links.
 
-A link leads straight over its obstacle, from 3 m before the edge to 1.5 m behind it at most: so much any body
-needs. Who runs at it needs more, and finds no stand behind it as soon; where there is room, the walked legs
-before and behind the link end on its line farther away.
+A link leads straight over its obstacle, from at most 3 m before the edge to 1.5 m behind it, which any body
+needs. A runner needs more; where there is room, the walked legs before and behind the link are changed to
+join its line farther away.
 """
 
 from __future__ import annotations
@@ -20,23 +20,24 @@ from navmesh.route import Leg, Route
 
 __all__ = ["SetLeg", "set_legs", "straight_on"]
 
-_LEAST = 0.25  # [m] by which a straight end is worth being lengthened
-_ENOUGH = 5.0  # [m] of run-up with which one that stands before an obstacle need not go back first
-_BEND = 1.5  # [m] of a run-up that a metre to the side at its beginning takes
-_ALIKE = 0.7  # cosine between two directions up to which one leads on from the other without turning round
+_LEAST = 0.25  # [m] least extension of a straight end that is worth making
+_ENOUGH = 5.0  # [m] of run-up with which a standing person need not go back first
+_BEND = 1.5  # [m] of run-up lost to each metre sideways at its beginning
+_ALIKE = 0.7  # least cosine between two directions that need no turning round
 _LEADS_ON = 0.5  # cosine of the greatest turn behind a straight end that is made in a bend
-_ABREAST = 0.5  # [m] beside a line at which what lies ahead is reached along it
+_ABREAST = 0.5  # [m] beside a line within which what lies ahead is reached along it
 _OFF_WALL = 0.02  # [m] kept from what ends a straight way
-_SAME = 1e-3  # [m] by which the ends of a way may differ from where it was asked for
-_TURNS_IN = 0.4  # [m] kept from what lies behind a place where it turns round: so far it swings out
-_DETOUR = 3.0  # [m] that the way between two straight ends may be longer than the one that they replace
+_SAME = 1e-3  # [m] by which the ends of a way may differ from those asked for
+_TURNS_IN = 0.4  # [m] kept from what is behind a place where it turns round, since it swings out
+_DETOUR = 3.0  # [m] by which the way between two straight ends may be longer than the one it replaces
 
 
 @dataclass(frozen=True, eq=False)
 class SetLeg:
     """A walked leg between its straight ends. ``behind``: (a, 3) [m] on the surface, straight on from the
-    obstacle behind; ``ahead``: (b, 3) straight up to the next one; both empty where the leg itself begins or
-    ends there. ``before``, ``after``: (2,) its directions at its ends, None: any."""
+    obstacle behind; ``ahead``: (b, 3) straight up to the next one; both empty where the leg itself begins
+    or ends there. ``before``, ``after``: (2,) its directions at its ends, None: any.
+    """
 
     leg: Leg
     behind: NDArray[np.float64]
@@ -49,8 +50,9 @@ def set_legs(
     route: Route, run_up: float, landing: float, spacing: float, start_direction: NDArray[np.float64] | None
 ) -> list[SetLeg]:
     """The legs of ``route``, with straight ends of ``run_up`` and ``landing`` [m] from the edges where there
-    is room; points of these at most ``spacing`` [m] apart. ``start_direction``: (2,) in which the body moves,
-    or None."""
+    is room, their points at most ``spacing`` [m] apart. ``start_direction``: (2,) of the body's motion, or
+    None.
+    """
     legs = route.legs()
     over = [_unit(route.waypoints[use.last] - route.waypoints[use.first]) for use in route.links]
     before = [None if start_direction is None else _unit(start_direction), *over]
@@ -70,8 +72,8 @@ def _ends(
     run_up: float,
     landing: float,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64] | None]:
-    """(3,) each: where a leg may bend first and last; and the direction in which it ends there: ``after``, or
-    None where a bend would lead too near to what ends the run-up and the body turns on the spot."""
+    """(3,) each: where a leg may first and last bend; and its direction at the end: ``after``, or None if a
+    bend would lead too near to what ends the run-up, and the body turns on the spot."""
     first, last = leg.waypoints[0], leg.waypoints[-1]
     way = (last - first)[:2]
     follows = before is not None and after is not None and float(before @ after) > _ALIKE
@@ -106,7 +108,7 @@ def _between(
     before: NDArray[np.float64] | None,
     after: NDArray[np.float64] | None,
 ) -> SetLeg:
-    """The leg that may bend between ``first`` and ``last`` (3,) only; as it is where no way leads there."""
+    """The leg, bending only between ``first`` and ``last`` (3,); unchanged if no way leads there."""
     none, begin, end = np.empty((0, 3)), leg.waypoints[0], leg.waypoints[-1]
     as_it_is = SetLeg(leg, none, none, before, after)
     longer = float(np.linalg.norm(first - begin) + np.linalg.norm(end - last))
@@ -122,7 +124,7 @@ def _between(
     onward = (way.waypoints[1] - way.waypoints[0])[:2]
     turns = before is not None and float(before @ onward) < _LEADS_ON * np.linalg.norm(onward)
     if first is not begin and turns:
-        before = None  # it stands there and turns: a bend would lead farther on
+        before = None  # it stops and turns there: a bend would lead farther out
     behind = drape(route.graph, np.stack([begin, first]), spacing)[:-1] if first is not begin else none
     ahead = drape(route.graph, np.stack([last, end]), spacing)[1:] if last is not end else none
     return SetLeg(Leg(way.waypoints, corridor.centers, corridor.radii), behind, ahead, before, after)
@@ -137,7 +139,7 @@ def straight_on(
     room: float = 0.0,
 ) -> NDArray[np.float64]:
     """The farthest place (3,), up to ``length`` [m] straight on from ``start``, to which a body of ``radius``
-    [m] can walk with ``room`` [m] left behind it; ``start`` itself where that is hardly away."""
+    [m] can walk with ``room`` [m] left behind it; ``start`` itself if that is hardly any distance."""
     if length < _LEAST:
         return start
     far = length + room

@@ -1,4 +1,4 @@
-"""The first metres of a new way for a person that is running: it can neither turn nor stop at once."""
+"""The first metres of a new path for a running person, which can neither turn nor stop at once."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from navmesh.holding import line_holds
 __all__ = ["can_begin", "leads"]
 
 _SPACING = 0.25  # [m] between the points of a lead
-_ASIDE = 0.3  # [rad] off its direction in which a way may begin
-_MOST = 2.0  # [m/s^2] to the side in which it still keeps to a bend at the beginning
-_RESERVE = 0.3  # [m] besides what braking takes
+_ASIDE = 0.3  # [rad] off its direction in which a path may begin
+_MOST = 2.0  # [m/s^2] sideways with which it still follows a bend at the beginning
+_RESERVE = 0.3  # [m] in addition to braking
 _SHARPEST = 0.1  # [1/m] of a bend that begins at once
-_FARTHEST = math.radians(120.0)  # that it turns running: farther round, it is sooner there when it stops
+_FARTHEST = math.radians(120.0)  # turn made while running; for a larger one it is quicker to stop
 
 
 def can_begin(points: NDArray[np.float64], velocity: NDArray[np.float64], limits: TrackingLimits) -> bool:
-    """Whether one that runs at ``velocity`` (2,) [m/s] can follow the path ``points`` (n, 3) [m] from its
-    beginning, or come to a stand on it before that bends too sharply or ends."""
+    """Whether a runner at ``velocity`` (2,) [m/s] can follow the path ``points`` (n, 3) [m] from its
+    beginning, or stop on it before it bends too sharply or ends."""
     speed = float(np.linalg.norm(velocity))
     steps = np.diff(points[:, :2], axis=0)
     lengths = np.linalg.norm(steps, axis=1)
@@ -54,9 +54,10 @@ def leads(
     limits: TrackingLimits,
     radius: float,
 ) -> Iterator[tuple[NDArray[np.float64], bool]]:
-    """Ways (n, 3) [m] on which one that runs at ``place`` (3,) with ``velocity`` (2,) [m/s] can begin to go
-    to ``target`` (3,), best first, as far as there is room for a body of ``radius`` [m]; and whether it runs
-    on behind it: in a bend until it runs towards the target; straight on until it stands."""
+    """Leads (n, 3) [m], best first, on which a runner at ``place`` (3,) with ``velocity`` (2,) [m/s] can
+    begin to go to ``target`` (3,), as far as there is room for a body of ``radius`` [m]; each with whether
+    it keeps running: in a bend until it runs towards the target, or straight on until it stops.
+    """
     speed = float(np.linalg.norm(velocity))
     forward = velocity / speed
     bend = _bend(place, forward, target, max(speed**2 / limits.sideways, 1.0 / _SHARPEST))
@@ -74,11 +75,11 @@ def _bend(
     place: NDArray[np.float64], forward: NDArray[np.float64], target: NDArray[np.float64], radius: float
 ) -> NDArray[np.float64] | None:
     """(n, 3) points of the circle of ``radius`` [m] that begins in the direction ``forward`` (2,), until it
-    leads to ``target``; None where it does not, or turns too far."""
+    points at ``target``; None if it never does, or turns too far."""
     way = (target - place)[:2]
     ahead, beside = float(forward @ way), float(forward[0] * way[1] - forward[1] * way[0])
     side = math.copysign(1.0, beside)
-    # seen from the middle of the circle, which is `radius` to that side
+    # seen from the centre of the circle, which is `radius` to that side
     away = math.hypot(ahead, abs(beside) - radius)
     if away <= radius:
         return None

@@ -1,4 +1,4 @@
-"""The way of a person: the path that it follows, how far it has come along it, and back for a run-up."""
+"""The path of a person, its progress along it, and going back for a run-up."""
 
 from __future__ import annotations
 
@@ -15,15 +15,14 @@ from locomotion.paths.tracking import back_along, new_track, shifted, track
 
 __all__ = ["PathFollower"]
 
-_ROOM = 2.5, 5.0  # [m] that it goes back at least to let others by, the first and the second time
-_STRAIGHT, _AT_EDGE = 0.35, 0.3  # [rad] to which a run-up may bend; [m] before an edge
-_LEAST = 0.5  # [m] behind it from which it does
+_ROOM = 2.5, 5.0  # [m] that it goes back at least to let others pass, the first and the second time
+_STRAIGHT, _AT_EDGE = 0.35, 0.3  # [rad] by which a run-up may bend; [m] before an edge
+_LEAST = 0.5  # [m] behind the edge from which it does
 
 
 class PathFollower:
-    """``path``: what is followed now, None before the first. ``interrupted``: the path to which it returns,
-    at arc length ``back_to`` [m], after having gone back along it; else None. ``memory``: what
-    `path_tracking.track` remembers."""
+    """``path``: the present path, None before the first. ``interrupted``: the path to which it returns, at
+    arc length ``back_to`` [m], after going back along it; else None. ``memory``: of `path_tracking.track`."""
 
     def __init__(self) -> None:
         self.path: PathTable | None = None
@@ -44,24 +43,24 @@ class PathFollower:
 
     @property
     def arc(self) -> float:
-        """[m] behind the person of the path that it follows now."""
+        """[m] travelled along the present path."""
         return float(self.memory[path_tracking.ARC])
 
     @property
     def arc_length(self) -> float:
-        """[m] behind the person of the whole path, also while it goes back."""
+        """[m] travelled along the whole path, also while it goes back."""
         if self.interrupted is not None:
             return self.back_to + self.remaining
         return self.arc
 
     @property
     def remaining(self) -> float:
-        """[m] left of the path that it follows now."""
+        """[m] left of the present path."""
         return float(self.memory[path_tracking.REMAINING])
 
     @property
     def ended(self) -> bool:
-        """Whether it is at the end, or past it."""
+        """Whether it is at the end, or beyond."""
         return self.remaining <= 1e-9
 
     @property
@@ -71,7 +70,7 @@ class PathFollower:
 
     @property
     def pace(self) -> float:
-        """Share of the planned speed at which it goes."""
+        """Share of the planned speed at which it moves."""
         return float(self.memory[path_tracking.PACE])
 
     @pace.setter
@@ -86,17 +85,17 @@ class PathFollower:
 
     @property
     def runs(self) -> bool:
-        """Whether it is to run here."""
+        """Whether the plan says to run here."""
         return self.path is not None and self.path.runs(self.arc)
 
     @property
     def brakes(self) -> bool:
-        """Whether it is to come to a stand here if it runs."""
+        """Whether the plan says to stop here if it runs."""
         return self.path is not None and self.path.brakes(self.arc)
 
     @property
     def begins_to_slow(self) -> bool:
-        """Whether it is where it may as well slow down or brake in a moment."""
+        """Whether it may still slow down or brake a moment later."""
         return self.path is not None and self.path.changed(self.arc, SLOWS_WITHIN)
 
     @property
@@ -110,7 +109,7 @@ class PathFollower:
 
     @property
     def starts(self) -> int:
-        """Tick before which it does not set out."""
+        """Tick before which it does not start."""
         return int(self.memory[path_tracking.STARTS])
 
     @starts.setter
@@ -123,7 +122,7 @@ class PathFollower:
         return self.path is not None and self.path.walks_fast(self.arc)
 
     def straight_before(self, arc: float) -> float:
-        """Arc length [m] from which on the path leads straight up to ``arc`` [m]."""
+        """Arc length [m] from which the path leads straight to ``arc`` [m]."""
         assert self.path is not None
         table, step = self.path.table, self.path.length / (len(self.path.table) - 1)
         end = min(max(int((arc - _AT_EDGE) / step), 0), len(table) - 1)
@@ -138,30 +137,29 @@ class PathFollower:
         track(self.path.table, self.path.length, gains, self.memory, x, y, speed, tick, command)
 
     def without_headway(self, tick: float) -> float:
-        """[s] in which it has made no headway."""
+        """[s] without progress."""
         return float(tick - self.memory[path_tracking.HEADWAY_TICK]) * CONTROL_DT
 
     def wait(self) -> None:
-        """It gives way for a tick, which does not count as without headway."""
+        """Count a tick of giving way, which does not count as without progress."""
         self.excuse(1.0)
         self.memory[path_tracking.WAITED] += 1.0
 
     @property
     def waited(self) -> float:
-        """[s] for which it has given way since it made headway last."""
+        """[s] of giving way since its last progress."""
         return float(self.memory[path_tracking.WAITED]) * CONTROL_DT
 
     def excuse(self, ticks: float) -> None:
-        """Do not count so many ticks as without headway."""
+        """Exclude so many ticks from the time without progress."""
         self.memory[path_tracking.HEADWAY_TICK] += ticks
 
     def make_headway(self, tick: int) -> None:
-        """Count time without headway from this ``tick`` on."""
+        """Count the time without progress from this ``tick``."""
         self.memory[path_tracking.HEADWAY_TICK] = tick
 
     def go_on_from(self, place: NDArray[np.float64], tick: int) -> None:
-        """It has been carried along the path by a fall: go on from the point that is nearest to ``place``
-        (3,)."""
+        """A fall has moved it along the path: continue from the point nearest to ``place`` (3,)."""
         if self.path is not None:
             table = self.path.table
             nearest = int(np.argmin(np.linalg.norm(table[:, :3] - place, axis=1)))
@@ -182,8 +180,8 @@ class PathFollower:
         self._take(back, 0.0, tick)
 
     def way_back(self, to: float) -> NDArray[np.float64] | None:
-        """(k, 3) [m] the points of its way, `SPACING` apart, from where it is back to arc length ``to`` [m];
-        None where there are hardly any, it goes back already, or has done so often enough."""
+        """(k, 3) [m] the points of its path, `SPACING` apart, from where it is back to arc length ``to`` [m];
+        None if there are hardly any, it is already going back, or it has done so often enough."""
         often = self.memory[path_tracking.BACKED] >= len(_ROOM)
         if self.path is None or self.interrupted is not None or often or self.arc < to + _LEAST:
             return None
@@ -193,23 +191,23 @@ class PathFollower:
 
     @property
     def backs(self) -> float:
-        """[m] that it goes back at least, to let others by."""
+        """[m] that it goes back at least, to let others pass."""
         return _ROOM[min(int(self.memory[path_tracking.BACKED]), len(_ROOM) - 1)]
 
     def make_room(self, far: float, walk: TrackingLimits, tick: int) -> None:
-        """Go ``far`` [m] back, and then on again."""
+        """Go ``far`` [m] back, then forward again."""
         backed = self.memory[path_tracking.BACKED]
         self.go_back(max(self.arc - far, 0.0), walk, tick)
         self.memory[[path_tracking.BACKED, path_tracking.PACE]] = backed + 1.0, 1.0
 
     def turn_again(self, tick: int) -> None:
-        """Having gone back, go on."""
+        """Having gone back, continue."""
         assert self.interrupted is not None
         path, self.interrupted = self.interrupted, None
         self._take(path, self.back_to, tick)
 
     def _take(self, path: PathTable, arc: float, tick: int) -> None:
-        """Go along another path from arc length ``arc`` [m] on."""
+        """Follow another path from arc length ``arc`` [m]."""
         pace, backed = self.memory[[path_tracking.PACE, path_tracking.BACKED]]
         self.path = path
         self.memory[:] = new_track()

@@ -1,4 +1,4 @@
-"""Where along its path a body runs, walks, slows down and comes to a stand."""
+"""Where along its path a body runs, walks, slows down and stops."""
 
 from __future__ import annotations
 
@@ -34,25 +34,25 @@ __all__ = [
 ]
 
 RUN_UP = 15.0
-"""[m] before an obstacle, along the path, from which a body runs and the speed of each step is planned."""
+"""[m] before an obstacle, along the path, from which a body runs and each step's speed is planned."""
 SET_OFF = 7.7
-"""[m] before an obstacle at which a body that walks turns to it: it gets up to speed in that."""
+"""[m] before an obstacle at which a walking body turns to it, to gain speed from there."""
 LANDED = 5.0
-"""[m] behind an obstacle's edge that are run, unless it has to come to a stand sooner."""
+"""[m] behind an obstacle's edge that are run, unless it has to stop sooner."""
 COME_TO_REST = 2.0
-"""[m] that are walked before the end."""
+"""[m] at the end that are walked."""
 SLOWS_WITHIN = 1.0
-"""[m] that it may run on where it is to slow down or to brake, until it finds how."""
+"""[m] that it may run on beyond a point to slow down or brake, until it finds how."""
 _OFF_EDGE = 2.0  # [m] behind an obstacle's edge that are run in any case
-_WORTH_IT = 4.0  # [m] that are run at least, before it slows down
+_WORTH_IT = 4.0  # [m] least length of a run before it slows down
 _BEFORE = 1.0  # [m] that are walked before what cannot be run
-_BETWEEN = 4.0  # [m] that are walked between two runs at least
+_BETWEEN = 4.0  # [m] least walk between two runs
 _LEVEL, _STRAIGHT = 0.05, 0.15  # slope, and curvature [1/m], up to which it walks faster than usual
-_BEGINS = 2.0  # [m] that are walked as usual first, unless one is faster already:
+_BEGINS = 2.0  # [m] first walked at usual speed, unless it is faster already
 _ALREADY = 0.15  # [m/s] faster than usual
-_CALM = 4.0  # [m] before a run that are walked no faster than usual: runs are begun from that
-_SURELY = 0.75  # [m/s^2] at which it slows down to a walk at least, mostly
-_BRAKING = 2.5  # [m/s^2] at which it comes to a stand, at least: see `surefoot evaluate brake`
+_CALM = 4.0  # [m] before a run walked at usual speed, from which runs begin
+_SURELY = 0.75  # [m/s^2] usual least deceleration to a walk
+_BRAKING = 2.5  # [m/s^2] least deceleration to a stand: see `surefoot evaluate brake`
 
 
 def plan_gaits(
@@ -65,11 +65,11 @@ def plan_gaits(
     present_speed: float,
     running: bool,
 ) -> list[TrackingLimits]:
-    """Write the gaits into ``table`` (n, 8); the limits at each of its points, whose arc lengths are ``at``
-    (n,) [m]. Other arguments as of `path_tracking.make_path`."""
+    """Write the gaits into ``table`` (n, 8); ``at`` (n,) [m]: arc lengths of its points, with the limits at
+    each. Other arguments as in `path_tracking.make_path`."""
     fastest = min(max(speed, limits.speeds[0]), limits.speeds[1])
     slowing = _length_of_slowing(fastest, limits, walk)
-    slowest = 0.5 * (walk.speeds[1] + limits.speeds[0])  # below it is nearer to a walk
+    slowest = 0.5 * (walk.speeds[1] + limits.speeds[0])  # slower is nearer to a walk
     hard = _too_hard(table, limits)
     runs = _where_to_run(hard, at, speed >= slowest, edges, running, slowing)
     entering = present_speed if running else 0.0
@@ -78,7 +78,7 @@ def plan_gaits(
     stood = np.maximum.accumulate(np.where(brakes, at, -math.inf)) > last_run
     near = (at - last_run <= slowing) & ~stood & (at <= at[-1] - COME_TO_REST)  # runs, or slows down
     fast = (speed < slowest) & _can_walk_fast(table, at, runs, walk.foresight) & ~near
-    if present_speed < walk.calm + _ALREADY:  # who is told elsewhere all the time does not get fast
+    if present_speed < walk.calm + _ALREADY:  # keeps a person with ever-changing orders slow
         fast &= at >= _BEGINS
     table[:, GAIT] = np.select([runs, brakes, fast], [RUN, BRAKE, FAST_WALK], WALK)
     usual = replace(walk, speeds=(walk.speeds[0], walk.calm))
@@ -86,8 +86,8 @@ def plan_gaits(
 
 
 def hard_again(table: NDArray[np.float64], step: float, limits: TrackingLimits, walk: TrackingLimits) -> None:
-    """Let it walk where a path that has been moved has become too hard to run. step: [m] between the points
-    of ``table`` (n, 8)."""
+    """Let it walk where a shifted path has become too hard to run. step: [m] between the points of ``table``
+    (n, 8)."""
     fastest = min(max(float(table[:, SPEED].max()), limits.speeds[0]), limits.speeds[1])
     slowing = _length_of_slowing(fastest, limits, walk)
     along = np.asarray(step * np.arange(len(table)), dtype=np.float64)
@@ -95,12 +95,12 @@ def hard_again(table: NDArray[np.float64], step: float, limits: TrackingLimits, 
 
 
 def braking_length(speed: float) -> float:
-    """[m] in which a body that runs at ``speed`` [m/s] comes to a stand."""
+    """[m] in which a body running at ``speed`` [m/s] stops."""
     return speed * speed / (2.0 * _BRAKING)
 
 
 def _length_of_slowing(speed: float, limits: TrackingLimits, walk: TrackingLimits) -> float:
-    """[m] in which a body that runs at ``speed`` [m/s] slows down to a walk, as planned."""
+    """[m] in which a body running at ``speed`` [m/s] slows down to a walk, as planned."""
     return max(speed**2 - walk.calm**2, 0.0) / (2.0 * limits.slowing)
 
 
@@ -112,7 +112,7 @@ def _where_to_run(
     running: bool,
     slowing: float,
 ) -> NDArray[np.bool_]:
-    """(n,) bool: where the body runs, if it is ``worth`` it; behind that it needs ``slowing`` [m] to slow
+    """(n,) bool: where the body runs, if it is ``worth`` it; it needs ``slowing`` [m] afterwards to slow
     down."""
     runs = _can_run(hard, at, slowing) & (at <= at[-1] - COME_TO_REST - slowing) & worth
     for begin, end in _stretches(runs):
@@ -138,8 +138,9 @@ def _where_to_brake(
     calm: float,
 ) -> NDArray[np.bool_]:
     """(n,) bool: where a body that runs at up to ``fastest`` [m/s], and enters the path at ``entering``,
-    comes to a stand, since it cannot slow down to a walk at ``calm`` before what cannot be run or the end;
-    changes ``runs``, which it does before that, in place."""
+    brakes to a stop, because it cannot slow down to a walk at ``calm`` before what cannot be run or the
+    end; changes ``runs``, where it runs before that, in place.
+    """
     brakes = np.zeros(len(at), dtype=bool)
     stretches = _stretches(runs)
     if entering > 0.0 and not runs[0]:
@@ -170,7 +171,7 @@ def _stretches(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
 def _can_walk_fast(
     table: NDArray[np.float64], at: NDArray[np.float64], runs: NDArray[np.bool_], foresight: float
 ) -> NDArray[np.bool_]:
-    """(n,) bool: where the way is level and straight, for ``foresight`` [m] before and behind, and no run
+    """(n,) bool: where the path is level and straight for ``foresight`` [m] before and behind, and no run
     begins soon."""
     hardest = np.maximum(np.abs(table[:, SLOPE]) / _LEVEL, np.abs(table[:, CURVATURE]) / _STRAIGHT)
     easy = maximum_filter1d(hardest, 2 * round(foresight / SPACING) + 1) <= 1.0
@@ -179,12 +180,12 @@ def _can_walk_fast(
 
 
 def _too_hard(table: NDArray[np.float64], limits: TrackingLimits) -> NDArray[np.bool_]:
-    """(n,) bool: where bends or slopes are too much for these limits."""
+    """(n,) bool: where bends or slopes exceed these limits."""
     return (np.abs(table[:, CURVATURE]) > limits.sharpest) | (np.abs(table[:, SLOPE]) > limits.steepest)
 
 
 def _can_run(hard: NDArray[np.bool_], at: NDArray[np.float64], slowing: float) -> NDArray[np.bool_]:
-    """(n,) bool: where nothing ``hard`` is, nor so near before the body that it has to slow down."""
+    """(n,) bool: where nothing ``hard`` is here or so near ahead that the body has to slow down."""
     runs = ~hard
     for each in at[hard]:
         runs[(at >= each - _BEFORE - slowing) & (at <= each)] = False

@@ -1,4 +1,4 @@
-"""Links before which there is no room for a person's run-up."""
+"""Links without room for a person's run-up."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,13 +9,13 @@ from navmesh.queries import cast_ray
 __all__ = ["LEAST_RUN_UP", "cramped_links", "straight_before"]
 
 LEAST_RUN_UP = 4.0
-"""[m] free straight before an edge: with less nobody has come to take off, whether to jump, vault, drop or
-leap over a gap, of whatever size."""
+"""[m] of free straight run-up before an edge; with less, nobody has managed to take off, whatever the skill
+and size."""
 
 
 def cramped_links(graph: NodeGraph, radius: float) -> NDArray[np.int64]:
-    """(k,) indices of the links of ``graph`` with less than `LEAST_RUN_UP` straight before their edge for a
-    body of ``radius`` [m]; worked out once."""
+    """(k,) indices of the links of ``graph`` with less than `LEAST_RUN_UP` of straight run-up for a body of
+    ``radius`` [m]; computed once."""
     kept = graph.cache.setdefault("cramped_links", {})
     if radius not in kept:
         kept[radius] = np.flatnonzero(straight_before(graph, radius, LEAST_RUN_UP) < LEAST_RUN_UP - 1e-6)
@@ -23,8 +23,8 @@ def cramped_links(graph: NodeGraph, radius: float) -> NDArray[np.int64]:
 
 
 def straight_before(graph: NodeGraph, radius: float, most: float) -> NDArray[np.float64]:
-    """(l,) [m] that a body of ``radius`` [m] can walk straight up to the edge of each link, looked at up to
-    ``most`` [m] from it."""
+    """(l,) [m] that a body of ``radius`` [m] can walk straight up to the edge of each link, up to ``most``
+    [m]."""
     links = graph.links
     if not len(links):
         return np.empty(0)

@@ -1,8 +1,7 @@
-"""From a route through the graph to what a body follows: one smooth path, and the obstacles on it.
+"""From a route through the graph to a smooth path with the obstacles on it.
 
-Each walked leg is smoothed inside its corridor; the legs are joined by the straight lines over the obstacles
-between them, which the path meets at right angles, straight from as far as the run-up needs
-(`locomotion.paths.approach_legs`).
+Each walked leg is smoothed inside its corridor; straight lines over the obstacles join the legs. The path
+meets obstacles at right angles, straight from as far as the run-up needs (`locomotion.paths.approach_legs`).
 """
 
 from __future__ import annotations
@@ -22,20 +21,22 @@ from navmesh.route import Leg, Route
 
 __all__ = ["RUNNING", "ObstacleAhead", "SmoothPath", "Smoothing", "smooth_route"]
 
-_ITERATIONS = 600  # per bound on curvature, some milliseconds; to look for every last curve takes seconds
+_ITERATIONS = 600  # per bound on curvature, some milliseconds; an exhaustive search takes seconds
 
 
 @dataclass(frozen=True)
 class Smoothing:
-    """What a kind of body wants of its path.
+    """Requirements of a kind of body on its path.
 
     Attributes:
-        curvatures: [1/m] bounds to try in turn, widest first, until one is not reached in a few
-            milliseconds; a leg on which none is reached is smoothed without.
-        spacing: [m] between waypoints, at most.
-        roundness: [m^3] smoothness of the path; corners are rounded over about its cube root.
-        run_up, landing: [m] straight before an obstacle's edge and behind it, where there is room; no more
-            than the link over it leads straight on when 0.
+      curvatures: [1/m] bounds to try in turn, widest first, until one is not reached within a few
+      milliseconds; a
+        leg that reaches none is smoothed without.
+      spacing: [m] between waypoints, at most.
+      roundness: [m^3] smoothness of the path; corners are rounded over about its cube root.
+      run_up, landing: [m] straight before an obstacle's edge and behind it, where there is room; 0: only as
+      far as
+        the link over it is straight.
     """
 
     curvatures: tuple[float, ...]
@@ -46,8 +47,8 @@ class Smoothing:
 
 
 RUNNING = Smoothing((0.12, 0.18, 0.3, 0.5, 0.8), 0.25, 2.0, SET_OFF, LANDED + braking_length(3.5))
-"""A running person's: corners are rounded over about 1.3 m. The run-up is what one that walks needs to get up
-to speed, the landing what is run at 3.5 m/s before it stands."""
+"""For a running person: corners are rounded over about 1.3 m. The run-up is what a walking person needs to
+gain speed; the landing what is run at 3.5 m/s before it stops."""
 
 
 @dataclass(frozen=True)
@@ -83,8 +84,11 @@ class ObstacleAhead:
 
 @dataclass(frozen=True)
 class SmoothPath:
-    """points: (n, 3) float64 [m] on the surface. obstacles: in order. bounded: whether the curvature stays
-    within one of the bounds that were asked for on every leg (a narrow corner may not admit it)."""
+    """A smooth path.
+
+    points: (n, 3) float64 [m] on the surface. obstacles: in order. bounded: whether the curvature of every
+    leg is within one of the bounds (a narrow corner may not allow it).
+    """
 
     points: NDArray[np.float64]
     obstacles: tuple[ObstacleAhead, ...]
@@ -127,7 +131,7 @@ def smooth_route(
 def _smooth_leg(
     leg: Leg, smoothing: Smoothing, before: ArrayLike | None, after: ArrayLike | None
 ) -> tuple[NDArray[np.float64], bool]:
-    """Points of one leg, and whether they keep one of the bounds; end tangents give way first."""
+    """Points of one leg, and whether they meet one of the bounds; end tangents are dropped first."""
     length = float(np.linalg.norm(np.diff(leg.waypoints[:, :2], axis=0), axis=1).sum())
     if length < 1e-3:
         return leg.waypoints, True

@@ -1,4 +1,4 @@
-"""The table of a path that a body follows: where it leads, and how fast and in which gait it is gone."""
+"""The table of a path: its course, and the speed and gait along it."""
 
 from __future__ import annotations
 
@@ -31,26 +31,27 @@ SPACING = 0.1
 X, Y, Z, HEADING, CURVATURE, SLOPE, SPEED, GAIT = range(8)
 """Columns of a path's table; `GAIT` is one of the following."""
 BRAKE, FAST_WALK, WALK, RUN = -2.0, -1.0, 0.0, 1.0
-"""Who runs comes to a stand, whoever walks goes on; the body walks as fast as the path says; walks at its
-usual speed at most, or slows down to that; runs."""
+"""Gaits of a path. Brake: runners stop, walkers walk on; walk as fast as the path's speed; walk at usual
+speed at most, or slow down to it; run."""
 
 
 @dataclass(frozen=True)
 class TrackingLimits:
-    """What a running body can follow.
+    """What a body can follow.
 
     Attributes:
-        speeds: lowest and highest speed [m/s].
-        sideways: [m/s^2] highest sideways acceleration in a bend.
-        acceleration, deceleration: [m/s^2] of the planned speed along the path.
-        uphill, downhill: [m/s per unit of slope] taken off the wished speed on a slope.
-        sharpest: curvature [1/m] and steepest: slope [rise over run] above which it does not go this way.
-        slowing: [m/s^2] at which it slows down from a run to a walk.
-        foresight: [m] before a slope at which it already goes as fast as on it.
-        usual: [m/s] of a walk at most, but where a faster walk is asked for, straight on, on level ground,
-            away from runs.
-        tight: [m/s] at which it goes through a bend on level ground if that turns it by no more than so much
-            [rad/s], whatever the sideways acceleration.
+      speeds: lowest and highest speed [m/s].
+      sideways: [m/s^2] highest sideways acceleration in a bend.
+      acceleration, deceleration: [m/s^2] of the planned speed along the path.
+      uphill, downhill: [m/s per unit of slope] subtracted from the wanted speed on a slope.
+      sharpest: curvature [1/m] and steepest: slope [rise over run] above which this gait is not used.
+      slowing: [m/s^2] of slowing from a run to a walk.
+      foresight: [m] before a slope at which it already moves as slowly as on it.
+      usual: [m/s] walking speed at most, unless a faster walk is asked for on straight, level ground away
+      from
+        runs.
+      tight: [m/s] speed in a bend on level ground that turns it by no more than the second number [rad/s],
+        whatever the sideways acceleration.
     """
 
     speeds: tuple[float, float]
@@ -68,7 +69,7 @@ class TrackingLimits:
 
     @property
     def calm(self) -> float:
-        """[m/s] of a walk at most, where no faster one is asked for."""
+        """[m/s] fastest walk unless a faster one is asked for."""
         return min(self.usual, self.speeds[1])
 
 
@@ -88,15 +89,15 @@ class PathTable:
     goal: NDArray[np.float64]
 
     def runs(self, arc: float) -> bool:
-        """Whether the body is to run at this arc length [m]."""
+        """Whether to run at this arc length [m]."""
         return bool(self._gait(arc) == RUN)
 
     def brakes(self, arc: float) -> bool:
-        """Whether one that runs is to come to a stand there."""
+        """Whether a runner must stop there."""
         return bool(self._gait(arc) == BRAKE)
 
     def changed(self, arc: float, within: float) -> bool:
-        """Whether it has come into another gait less than ``within`` [m] before this arc length [m]."""
+        """Whether the gait has changed less than ``within`` [m] before this arc length [m]."""
         return arc < within or self._gait(arc) != self._gait(arc - within)
 
     def walks_fast(self, arc: float) -> bool:

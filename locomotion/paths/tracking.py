@@ -1,4 +1,4 @@
-"""Following a path: where the body is on it, and the heading and speed to ask of the controller."""
+"""Path tracking: where the body is on its path, and the heading and speed to ask of the controller."""
 
 from __future__ import annotations
 
@@ -40,11 +40,12 @@ __all__ = [
     ARC, LATERAL, INTEGRAL, REMAINING, SPEED_HERE, SLOPE_HERE, HEADWAY, HEADWAY_TICK, PACE, WAITED, BACKED,
     TRIED, STARTS,
 ) = range(13)  # fmt: skip
-"""What the tracker remembers: arc length of the body's foot point [m], distance to the left of the path [m],
-its integral [m s], length left [m], planned speed [m/s] and slope here, greatest arc length so far and the
-tick at which it grew last by `_STEP`, share of the planned speed at which it goes to give way, ticks for
-which it has done so since then, how often it has gone back to let others by, the tick at which it found no
-way to slow down, and the tick before which it does not set out."""
+"""The tracker's memory: arc length of the body's foot point [m], distance to the left of the path [m], its
+integral [m s], length left [m], planned speed [m/s] and slope here, greatest arc length so far and the
+tick at which it last grew by `_STEP`, present share of the planned speed while giving way, ticks of giving
+way since then, how often it has gone back to let others pass, the tick at which it found no way to slow
+down, and the tick before which it does not start.
+"""
 TRACK_SIZE = 13
 _STEP = 0.25
 _STEP_REACH = 0.7  # [m] around an obstacle's edge where its height would show as slope
@@ -74,15 +75,15 @@ def make_path(
     walk: TrackingLimits | None = None,
     running: bool = False,
 ) -> PathTable:
-    """Resample ``points`` (n, 3) [m] and plan the speed along it: at most ``speed`` [m/s], slower in bends,
-    on slopes and before the end, starting from ``present_speed`` [m/s]. ``edges`` (k,) are arc lengths [m] at
-    which the path goes over an obstacle: the step in height there is no slope.
+    """Resample ``points`` (n, 3) [m] and plan the speed along them: at most ``speed`` [m/s], slower in bends,
+    on slopes and before the end, starting from ``present_speed`` [m/s]. ``edges`` (k,) are arc lengths [m]
+    at which the path crosses an obstacle: the step in height there is not a slope.
 
     ``limits`` are those of running; without ``walk`` the body runs all the way. With ``walk`` it runs where
-    bends and slopes allow it and where a run is worth it (or it is ``running`` already), and over an edge,
-    from `RUN_UP` before it; it walks elsewhere and before the end, and slows down to that in time, or comes
-    to a stand where there is not room enough for that. Whose ``speed`` is nearer to a walk walks all the way
-    but over edges, faster than usual where that is easy.
+    bends and slopes allow it and running is worth it (or it is ``running`` already), and over each edge, from
+    `RUN_UP` before it. It walks elsewhere and before the end, and slows down to that in time, or stops where
+    there is no room for that. If ``speed`` is nearer to a walk it walks all the way except over edges, faster
+    than usual where that is easy.
 
     Raises `LocomotionError` for fewer than two distinct points, coordinates that are not finite, or a speed
     that is not above 0.
@@ -166,9 +167,10 @@ def _speed_in_bends(
 def shifted(
     path: PathTable, arc: float, shift: ArrayLike, limits: TrackingLimits, walk: TrackingLimits | None = None
 ) -> PathTable:
-    """``path`` with what comes after ``arc`` [m] moved by ``shift`` (k, 2) [m], one row for every 0.1 m; no
-    faster than the new bends allow. Arc lengths are still those of the path before. ``limits`` and ``walk``
-    as for `make_path`."""
+    """``path`` with the part after ``arc`` [m] moved by ``shift`` (k, 2) [m], one row for every 0.1 m; slower
+    where the new bends require it. Arc lengths are still those of the old path. ``limits`` and ``walk`` as
+    for `make_path`.
+    """
     move = np.asarray(shift, dtype=np.float64)
     table = path.table.copy()
     step = path.length / (len(table) - 1)
@@ -199,7 +201,7 @@ def back_along(path: PathTable, arc: float, to: float, walk: TrackingLimits) -> 
 
 
 def new_track() -> NDArray[np.float64]:
-    """What the tracker remembers at the beginning of a path, (TRACK_SIZE,) float64."""
+    """Initial memory of the tracker, (TRACK_SIZE,) float64."""
     memory = np.zeros(TRACK_SIZE)
     memory[PACE] = 1.0
     return memory

@@ -1,4 +1,4 @@
-"""One call that advances every animal of a herd by one tick."""
+"""Advance every animal of a herd by one tick."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from surefoot.kernels import kernel
 __all__ = ["advance_all"]
 
 _GAZE_HALF_LIFE = 0.10  # [s]
-_GAZE_NEAR = 0.12  # [m] nearer targets do not say where to look
-_STILL = 1e-4  # [m, rad] of an offset that counts as gone
+_GAZE_NEAR = 0.12  # [m] nearer targets give no direction to look in
+_STILL = 1e-4  # [m, rad] an offset below this counts as gone
 CRUMB_SPACING = 0.1
 """[m] between crumbs."""
 

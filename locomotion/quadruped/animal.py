@@ -1,10 +1,10 @@
-"""One animal with somewhere to go: which motions bring it there, one after the other.
+"""One animal with goals, and the motions that take it there.
 
-It turns its front onto the path (or the whole body, where the path begins behind it), follows the path, stops
-where its front feet are at the goal, and slides its rear out until it faces its target. Short moves are made
-by local motion. Before any of these plays, its footprint is checked, and whether others are in its way: it
-waits with a turn until they let it. Where there is no room to turn, it goes back along its crumbs to where
-the graph knows room, turns, and goes on.
+It turns its front onto the path (or the whole body, if the path begins behind it), follows the path, stops
+with its front feet at the goal, and swings its rear round until it faces its target. Local motion makes short
+moves. Before each of these it checks its footprint and whether others are in its way; it waits with a turn
+until they clear it. Without room to turn, it backs up along its crumbs to where the graph knows room, turns,
+and goes on.
 """
 
 from __future__ import annotations
@@ -47,30 +47,31 @@ from locomotion.quadruped.ways import Planner, Way, find_way, first_heading, las
 __all__ = ["SHORT_OF_GOAL", "Animal", "AnimalMemory", "Status"]
 
 SHORT_OF_GOAL = 0.6
-"""[body lengths] from the goal within which an animal has arrived: it stops short of a goal at a wall, where
+"""[body lengths] from the goal within which an animal has arrived: at a goal by a wall it stops early, where
 its head has no room."""
 _LITTLE = math.radians(3.5)  # a turn onto the path without a motion of its own: 3 cm beside it, for a dog
-_EXACT = 1e-3  # [rad] of facing that is left as it is
-_MOST_BACKING = 4  # times that it backs out on its way to one goal
-_MOST_MANOEUVRES = 6  # times that it manoeuvres on its way to one goal
+_EXACT = 1e-3  # [rad] facing error that is not corrected
+_MOST_BACKING = 4  # times that it backs up on its way to one goal
+_MOST_MANOEUVRES = 6  # manoeuvres on its way to one goal
 _STANDING = 0.05  # [m/s]
-_ROOM = 1.5  # [body lengths] that it goes back at least to let others by, each time more
+_ROOM = 1.5  # [body lengths] that it backs up at least to let others pass, more each time
 _MOST_ROOM = 2  # times that it does
-_AGAIN, _SELDOM = 20, 100  # ticks until it looks again whether others let it turn around; afterwards
-_OFTEN = 20  # times that it looks so soon again
+_AGAIN, _SELDOM = 20, 100  # ticks until it checks again whether others let it turn: at first; later
+_OFTEN = 20  # number of the quick checks
 
 
 class Animal:
-    """A quadruped in a herd. `tick` is called after the herd's.
+    """A quadruped in a herd. Call `tick` after the herd's.
 
-    ``around`` tells where the discs of all others near it will be, every `giving_way.STEP` from now on
+    ``around`` returns predicted places of the discs of all others nearby, every `giving_way.STEP` from now on
     (COUNT, k, 2) [m], and their radii (k,) [m].
 
     Attributes:
-        herd, index: where its state lies. body: its kind. events: in order of time.
-        status: "standing", "running" (on its way, whatever it does for it), "arrived", "stuck" (no room to
-            turn and nowhere to back out to) or "lost" (the ground under its path has gone).
-        trail: the path that it follows or followed last, or None. ways: what it was made of.
+      herd, index: its state. body: its kind. events: in order of time.
+      status: "standing", "running" (on its way, in whatever motion), "arrived", "stuck" (no room to turn and
+      nowhere
+        to back up to) or "lost" (the ground under its path is gone).
+      trail: its present or last path, or None. ways: the planner's paths it was made of.
     """
 
     def __init__(
@@ -90,12 +91,12 @@ class Animal:
         self._errand = Errand()
         self._pending = False
         self._ticks = 0
-        self._stood = 0  # ticks for which it has stood on its trail, giving way
+        self._stood = 0  # ticks that it has stood on its trail, giving way
 
     # --- where it is
     @property
     def time(self) -> float:
-        """[s] since it was made."""
+        """[s] since it was created."""
         return self._ticks * DT
 
     @property
@@ -121,7 +122,7 @@ class Animal:
 
     @property
     def progress(self) -> float:
-        """Share of its trail that is behind it, 0 to 1."""
+        """Share of its trail that it has covered, 0 to 1."""
         st = self.herd.state[self.index]
         if self.trail is None or st[at.MODE] != at.ON_TRAIL:
             return 1.0 if self.status == "arrived" else 0.0
@@ -129,12 +130,12 @@ class Animal:
 
     @property
     def following(self) -> bool:
-        """Whether it goes along its trail, or will as soon as it has bent onto it."""
+        """Whether it follows its trail, or will once it has bent onto it."""
         return self._phase in ("following", "flexing")
 
     @property
     def goals_left(self) -> int:
-        """How many of the goals that it was told are still before it."""
+        """Number of its goals still ahead."""
         left = len(self._errand.goals)
         if self._phase == "following":
             steps = [np.diff(way.points[:, :2], axis=0) for way in self.ways[:-1]]
@@ -147,11 +148,10 @@ class Animal:
         self, goals: ArrayLike, speed: float = 1.5, facing: float | None = None, gait: str | None = None
     ) -> None:
         """Go through ``goals`` (3,) or (k, 3) [m] at up to ``speed`` [m/s], until the front feet's midpoint
-        is at the last of them; then face ``facing`` [rad], by default as it arrives.
+        is at the last; then face ``facing`` [rad], by default as it arrives.
 
-        Raises ValueError (the planner's error, or `NoTrail` where it has no room to turn) where there is no
-        way; then it goes on with what it did. It looks for paths and turns, which takes up to about a second
-        where there is hardly any room.
+        Raises ValueError (the planner's error, or `NoTrail` if it has no room to turn) if there is no way; it
+        then continues as before. Planning takes up to about a second where there is hardly any room.
         """
         points = np.asarray(goals, dtype=np.float64)
         if points.size == 0 or points.size % 3 or points.ndim > 2 or not np.isfinite(points).all():
@@ -179,7 +179,7 @@ class Animal:
         self.status = "running" if self._phase != "resting" else self.status
 
     def stop(self) -> None:
-        """Come to a stop where it can, and stand."""
+        """Stop as soon as it can, and stand."""
         self._errand, self._pending = replace(self._errand, goals=()), False
         self.herd.state[self.index, at.NO_GROUND] = 0.0
         if self._phase == "following":
@@ -187,7 +187,7 @@ class Animal:
             self._phase = "halting"
 
     def course(self) -> Course | None:
-        """What it is about to do on its trail; None for one that does not follow one, or comes to a stop."""
+        """What it is about to do on its trail; None if it follows none, or is stopping."""
         st = self.herd.state[self.index]
         if st[at.STOPPING] > 0.0:
             return None
@@ -200,8 +200,8 @@ class Animal:
         return self.herd.foretold(self.index)
 
     def give_way(self, pace: float, shift: NDArray[np.float64] | None) -> None:
-        """Go at a share of its speed; with ``shift`` (k, 2) [m] change its trail by it, as its course tells
-        it, where there is ground."""
+        """Move at a share of its speed; with ``shift`` (k, 2) [m] also shift its trail ahead, as its course
+        describes, where there is ground."""
         self.herd.state[self.index, at.PACE] = pace
         if shift is not None and self.trail is not None:
             arc = float(self.herd.state[self.index, at.ARC])
@@ -222,17 +222,17 @@ class Animal:
 
     @property
     def waited(self) -> float | None:
-        """[s] for which it has stood, giving way; None for one that is not on its way."""
+        """[s] that it has stood giving way; None if it is not on its way."""
         return self._stood * DT if self.status == "running" else None
 
     @property
     def gives_way(self) -> bool:
-        """Whether it goes slower than it would, or waits with a turn, for others."""
+        """Whether it slows down or waits with a turn, for others."""
         return self._phase == "waiting" or float(self.herd.state[self.index, at.PACE]) < 1.0
 
     def way_back(self) -> NDArray[np.float64] | None:
-        """(k, 3) [m] the points of its crumbs, `giving_way.SPACING` apart, back from where it is; None where
-        there are hardly any, or it has been back often enough."""
+        """(k, 3) [m] the points of its crumbs, `giving_way.SPACING` apart, back from where it is; None if
+        there are hardly any, or it has backed up often enough."""
         back = None if self._errand.backed >= _MOST_ROOM else self._little_way_back(math.inf)
         if back is None:
             return None
@@ -241,17 +241,17 @@ class Animal:
 
     @property
     def backs(self) -> float:
-        """[m] that it goes back at least, to let others by."""
+        """[m] that it backs up at least, to let others pass."""
         return _ROOM * (1 + self._errand.backed) * self.body.length
 
     def make_room(self, far: float) -> None:
-        """Go ``far`` [m] back along its crumbs, and then set out anew."""
+        """Back up ``far`` [m] along its crumbs, then start again."""
         back = self._little_way_back(far)
         if back is not None:
             self._back(back)
 
     def give_up(self) -> None:
-        """Be stuck among others."""
+        """Become stuck among others."""
         self.stop()
         self.status = "stuck"
         reason = "it and those around it wait for each other"
@@ -262,7 +262,7 @@ class Animal:
         return little_way_back(self.body, self.herd.ground, place, crumbs, far)
 
     def end_in(self, ahead: float) -> None:
-        """Take the place ``ahead`` [m] further on for the goal to which it is going; where it is, at rest."""
+        """Take the place ``ahead`` [m] further on as its goal; its own place, if at rest."""
         if self._phase == "resting" or self.trail is None:
             distance = math.dist(self._errand.goals[-1][:2], self.front[:2]) if self._errand.goals else 0.0
             self._end("arrived", Arrived(self.time, self._point(), distance))
@@ -281,7 +281,7 @@ class Animal:
 
     # --- time
     def tick(self) -> None:
-        """Notice what has come to an end, and begin what is next; call it after `Herd.tick`."""
+        """Notice finished motions and start the next; call it after `Herd.tick`."""
         self._ticks += 1
         self._stood = self._stood + 1 if self._stands() else 0
         if self.herd.state[self.index, at.NO_GROUND] > 0.0:
@@ -327,13 +327,12 @@ class Animal:
 
     # --- beginning
     def _way(self, errand: Errand) -> tuple[Trail, tuple[Way, ...]]:
-        """The path from where it is; raises ValueError where there is none."""
+        """The path from where it is; raises ValueError if there is none."""
         return find_way(self.planner, self.body, self.herd.ground, errand.goals, self.herd.place(self.index))
 
     def _set_out(self, errand: Errand, flexed: bool = False) -> None:
-        """From rest: turn onto the path if need be, else follow it. ``flexed``: it has just turned its front
-        onto another path, and does not do so again for one that leads elsewhere: it would never get away
-        where it is told anew all the time."""
+        """From rest: turn onto the path if needed, else follow it. ``flexed``: it has just turned its front
+        onto another path, and does not repeat that; with ever new orders it would never move off."""
         place = self.herd.place(self.index)
         trail, ways = self._way(errand)
         self._errand, self.ways = errand, ways
@@ -352,7 +351,7 @@ class Animal:
             self._follow(trail)
 
     def _redirect(self, errand: Errand) -> None:
-        """On the way: change over to the new path where it leads on, else stop first."""
+        """On the way: change to the new path if it leads on, else stop first."""
         place = self.herd.place(self.index)
         trail, ways = self._way(errand)
         if abs(turn_onto(trail, self.body, place)) < self.body.spine_reach:
@@ -360,14 +359,14 @@ class Animal:
             self._follow(trail)
         else:
             self._errand, self._pending = errand, True
-            self.herd.state[self.index, at.NO_GROUND] = 0.0  # of the old path; its feet look for themselves
+            self.herd.state[self.index, at.NO_GROUND] = 0.0  # of the old path
             self.herd.stop(self.index)
             self._phase = "halting"
 
     def _follow(self, trail: Trail) -> None:
         end = last_free_arc(trail, self.body, self.herd.ground, self.herd.last_arc(self.index, trail))
         self.trail = trail
-        if end <= 0.0:  # the goal is nearer than it is long
+        if end <= 0.0:  # the goal is nearer than the body is long
             end = 0.0
         self.herd.follow(self.index, trail, self._errand.speed, end=end, gait=self._errand.gait)
         self.herd.look_at(self.index, None)
@@ -376,12 +375,12 @@ class Animal:
         self.events.append(SetOff(self.time, self._point(), goal, trail.length))  # type: ignore[arg-type]
 
     def _free(self, script: Script) -> bool:
-        """Whether nothing and nobody is in the way of a script, with the resolution of the check to spare."""
+        """Whether a script touches nothing and nobody, with a margin of the check's resolution."""
         clear = self._look_around()
         return clear(script) and check_script(script, self.body, self.herd.ground, RESOLUTION).free
 
     def _look_around(self) -> Callable[[Script], bool]:
-        """What tells of a script that begins now whether nobody is in its way."""
+        """Function that tells whether a script started now would meet nobody."""
         return self._clear_of(*self._around())
 
     def _clear_of(self, there: NDArray[np.float64], radii: NDArray[np.float64]) -> Callable[[Script], bool]:
@@ -418,8 +417,8 @@ class Animal:
             self._manoeuvre(trail, place)
 
     def _wait(self, place: Place, yaw: float, leads_on: Callable[[Place], bool]) -> None:
-        """Others are in the way of a turn to ``yaw``: wait for them, and after a while step away from them to
-        turn there."""
+        """Others block a turn to ``yaw``: wait for them, and after a while step away from them to turn
+        there."""
         self._errand = replace(self._errand, waited=self._errand.waited + 1)
         self._phase = "waiting"
         if self._errand.waited < _OFTEN:
@@ -437,11 +436,11 @@ class Animal:
             self._play(script, "turning")
 
     def _manoeuvre(self, trail: Trail, place: Place) -> None:
-        """Get onto the trail by several short moves. Raises `NoTrail` where there is no room for any."""
+        """Get onto the trail by several short moves. Raises `NoTrail` if there is no room for any."""
         most = self._errand.manoeuvres >= _MOST_MANOEUVRES
         goals, ground = self._errand.goals, self.herd.ground
 
-        # it looks for no way around others, that may go on before it is there
+        # it plans no way around others, who may leave before it gets there
         alone = len(self._around()[1]) == 0
 
         def leads_on(there: Place) -> bool:
@@ -457,7 +456,7 @@ class Animal:
         self._play(script, "turning")
 
     def _back_out(self) -> bool:
-        """Go back along the crumbs to the nearest place with room for a turn; False where there is none."""
+        """Back up along the crumbs to the nearest place with room for a turn; False if there is none."""
         place, crumbs = self.herd.place(self.index), self.herd.trail_of_crumbs(self.index)
         back = way_back(self.planner, self.body, self.herd.ground, self._errand.goals, place, crumbs)
         if back is None:
@@ -475,7 +474,7 @@ class Animal:
 
     # --- short moves
     def _move_locally(self, errand: Errand) -> bool:
-        """Make a short move by local motion, if the goal is near and nothing is in the way."""
+        """Make a short move by local motion, if the goal is near and the way clear."""
         if len(errand.goals) != 1:
             return False
         script, length = short_move(self.body, self.herd.place(self.index), errand.goals[0], errand.facing)
@@ -488,7 +487,7 @@ class Animal:
 
     # --- the end
     def _straighten(self) -> None:
-        """Slide the rear out; stay as it is where there is no room for that."""
+        """Swing the rear round; stay as it is if there is no room."""
         if len(self.ways) < len(self._errand.goals):
             self._next_goal()
             return
@@ -503,7 +502,7 @@ class Animal:
         self._arrive()
 
     def _next_goal(self) -> None:
-        """At a goal from which the way turns back: set out for those that are left."""
+        """At a goal from which the path turns back: start towards those that are left."""
         self._errand = replace(self._errand, goals=self._errand.goals[len(self.ways) :], backed=0)
         self._go_on("halting")
 
@@ -525,14 +524,14 @@ class Animal:
 
     # --- saving
     def save(self) -> AnimalMemory:
-        """Everything needed to go on from here."""
+        """Everything needed to continue from here."""
         return AnimalMemory(
             self.herd.save(self.index), self._phase, self.status, self._errand, self._pending, self.trail,
             self.ways, self._ticks, self._stood, tuple(self.events),
         )  # fmt: skip
 
     def restore(self, memory: AnimalMemory) -> None:
-        """Go on from a state of this animal."""
+        """Restore a state of this animal."""
         self.herd.restore(self.index, memory.herd)
         self._phase, self.status, self._errand = memory.phase, memory.status, memory.errand
         self._pending, self.trail, self.ways = memory.pending, memory.trail, memory.ways
@@ -540,6 +539,6 @@ class Animal:
         self.events[:] = memory.events
 
     def state_hash(self) -> str:
-        """Hex digest of everything that decides how it goes on."""
+        """Hex digest of everything that decides its future."""
         mind = repr((self._phase, self.status, self._errand, self._pending, self._stood))
         return f"{self.herd.state_hash(self.index)}{hashlib.sha256(mind.encode()).hexdigest()[:8]}"

@@ -1,4 +1,4 @@
-"""A quadruped's body as data: bones, gaits, limits, read from a YAML file and checked.
+"""A quadruped's body as data: bones, gaits and limits, read from a YAML file and checked.
 
     body = load_body("dog")            # or "cat", "horse", or the path of a file of your own
 
@@ -46,7 +46,7 @@ class Spine(_Strict):
     bones: Annotated[int, Ge(2), Le(16)]
     bone_length: Length
     flex: Annotated[float, Ge(0.0), Le(2.0)]
-    """Share of a turn that the spine takes: 0 a plank, 1 the rear goes along the path, above 1 a cat."""
+    """Share of a turn that the spine takes: 0 a plank, 1 the rear follows the path, above 1 a cat."""
     max_bend_deg: Annotated[float, Gt(0.0), Le(60.0)]
     """Largest angle between two bones."""
 
@@ -66,16 +66,16 @@ class Legs(_Strict):
     """A pair of legs, each of an upper, a lower and a foot bone."""
 
     height: Length
-    """Of the upper joint over the ground when standing."""
+    """Height of the upper joint above the ground when standing."""
     track: Length
     """Between the left and the right foot."""
     upper: Length
     lower: Length
     foot: Length
     lean_deg: Annotated[float, Ge(-60.0), Le(60.0)]
-    """Of the foot bone when standing: its upper end is this far behind the vertical."""
+    """Of the foot bone when standing: how far its upper end is behind the vertical."""
     curl_deg: Annotated[float, Ge(0.0), Le(120.0)]
-    """By which the foot bone folds backwards in the swing."""
+    """Angle by which the foot bone folds backwards in the swing."""
 
     @model_validator(mode="after")
     def _reaches(self) -> Self:
@@ -140,7 +140,7 @@ class Movement(_Strict):
 
 
 class _Window(_Strict):
-    """During which share of the whole motion it plays."""
+    """Share of the whole motion during which it plays."""
 
     begin: Share
     end: Share
@@ -161,7 +161,7 @@ class Turn(_Window):
 
 
 class LocalMotions(_Strict):
-    """What is blended for short moves: to and fro, to the sides, and around."""
+    """Motions blended for short moves: forwards and back, sideways, and around."""
 
     step: Move
     sidestep: Move
@@ -169,16 +169,16 @@ class LocalMotions(_Strict):
 
 
 class Gait(_Strict):
-    """Footfalls at a range of speeds; two numbers are a value at rest and its change per m/s."""
+    """Footfalls for a range of speeds; two numbers are a value at rest and its change per m/s."""
 
     up_to: Annotated[float, Gt(0.0), Le(30.0)]
     on_request: bool = False
-    """Whether it is used only when it is asked for by name."""
+    """Whether it is used only when requested by name."""
     frequency: Annotated[list[float], Len(2, 2)]
     """[Hz] strides per second."""
     duty_front: Annotated[list[float], Len(2, 2)]
     duty_rear: Annotated[list[float], Len(2, 2)]
-    """Share of the stride that a foot stands."""
+    """Share of the stride during which a foot stands."""
     touchdown: dict[Leg, Share]
     """Share of the stride at which each foot comes down."""
     lift: Length
@@ -211,7 +211,7 @@ class Gait(_Strict):
 
 
 class Body(_Strict):
-    """A kind of quadruped. ``radius`` is what the graph's queries keep free: half the shoulder width."""
+    """A kind of quadruped. ``radius``: clearance in the graph's queries, half the shoulder width."""
 
     name: Annotated[str, Len(1, 40)]
     colour: Annotated[list[Share], Len(3, 3)]
@@ -246,7 +246,7 @@ class Body(_Strict):
 
     @property
     def length(self) -> float:
-        """[m] from rump to nose, as it needs it for turning around."""
+        """[m] from rump to nose, in the pose for turning."""
         reach = self.neck.length * math.cos(math.radians(self.neck.rise_deg))
         return self.spine.length + reach + self.head.length + self.trunk.loin
 
@@ -257,12 +257,12 @@ class Body(_Strict):
 
     @cached_property
     def gait_order(self) -> tuple[str, ...]:
-        """Names of the gaits as the kernels number them: by speed, then those on request."""
+        """Names of the gaits by the kernels' numbers: by speed, then those on request."""
         return tuple(sorted(self.gaits, key=lambda name: self.gaits[name].on_request))
 
     def walk_rules(self, resolution: float | None = None) -> navmesh.WalkRules:
-        """Where this body can walk, for `navmesh.NodeGraph.build`. ``resolution`` [m] is by default no more
-        than its radius: what is narrower than a cell can be missed."""
+        """Where this body can walk, for `navmesh.NodeGraph.build`. ``resolution`` [m] defaults to no more
+        than its radius: passages narrower than a cell can be missed."""
         move = self.movement
         resolution = min(0.25, self.radius) if resolution is None else resolution
         return navmesh.WalkRules(
@@ -272,14 +272,14 @@ class Body(_Strict):
 
     @property
     def smoothing(self) -> Smoothing:
-        """What it wants of its paths."""
+        """Requirements on its paths."""
         rounding, radius = self.movement.path_rounding, self.movement.turn_radius
         bounds = () if radius is None else (1.0 / radius,)
         return Smoothing(bounds, 0.25 * rounding, 2.0 * rounding**3)
 
     @property
     def spine_reach(self) -> float:
-        """[rad] by which the spine alone can bring the front out of the rear's direction."""
+        """[rad] by which the spine alone can turn the front away from the rear's direction."""
         return 0.5 * (self.spine.bones + 1) * math.radians(self.spine.max_bend_deg)
 
     def params(self) -> NDArray[np.float64]:
@@ -310,7 +310,8 @@ class Body(_Strict):
         return np.stack([self.gaits[name].row() for name in self.gait_order])
 
     def gait_index(self, name: str | None) -> int:
-        """The kernels' number of a gait; -1 for None: chosen by speed. Raises `LocomotionError`."""
+        """The kernels' number of a gait; -1 for None: chosen by speed. Raises `LocomotionError` for an
+        unknown one."""
         if name is None:
             return -1
         if name not in self.gaits:
@@ -331,7 +332,7 @@ def load_body(name: str | os.PathLike[str]) -> Body:
 
 
 def is_body_file(name: str | os.PathLike[str]) -> bool:
-    """Whether `load_body` takes ``name`` for a file."""
+    """Whether `load_body` treats ``name`` as a file."""
     return Path(name).suffix in (".yaml", ".yml")
 
 

@@ -1,4 +1,4 @@
-"""How high hips and shoulders are carried: over the ground as the feet feel it, low enough for the legs."""
+"""How high hips and shoulders are carried: above the ground as the feet feel it, low enough for the legs."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from surefoot.kernels import kernel
 __all__ = ["carry"]
 
 _HEIGHT_HALF_LIFE = 0.07  # [s]
-_STRETCH, _TAUT = 0.90, 0.95  # shares of its length to which a standing leg should and can be stretched
-_SWUNG = 0.97  # share of its length to which a leg is stretched in the middle of a swing at most
-_SOFT = 0.03  # share of a length over which a limit begins to pull the trunk down
+_STRETCH, _TAUT = 0.90, 0.95  # shares of its length to which a standing leg should, and can, be stretched
+_SWUNG = 0.97  # greatest share of a leg's length in the middle of a swing
+_SOFT = 0.03  # share of a length over which a limit starts to pull the trunk down
 _FAR = math.log1p(math.exp(-4.0))  # so that nothing pulls four times as far from it
-_CROUCH = 0.25  # [1/rad²] of slope by which a body goes lower on it
-_STEEPEST = 0.75  # of the spine's length between the heights of hips and shoulders; the higher ones come down
+_CROUCH = 0.25  # [1/rad²] lowering of the body with slope
+_STEEPEST = 0.75  # height difference of hips and shoulders, relative to the spine; the higher ones come down
 # for it, so that no foot leaves the ground
-_NEAR = 0.5  # of the spine's length between front and rear feet, from which a slope is told by them
+_NEAR = 0.5  # distance of front and rear feet, relative to the spine, from which they tell a slope
 
 
 @kernel
@@ -85,7 +85,7 @@ def carry(st, pr, feet):
         st[z] = _below(
             wanted + off, _highest(feet, x, y, direction, width, leg, _TAUT * reach, _SWUNG * reach), reach
         )
-    # the trunk tilts about the hips, which moves the shoulders, which may be too high there for their feet
+    # the trunk tilts about the hips and moves the shoulders, perhaps too high for their feet
     reach = pr[at.UPPER_FRONT] + pr[at.LOWER_FRONT] + pr[at.FOOT_FRONT]
     wanted = st[at.Z_FRONT]
     for _ in range(2):

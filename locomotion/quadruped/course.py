@@ -1,4 +1,4 @@
-"""What a quadruped on a trail tells of its way, and that way changed to one side."""
+"""The course of a quadruped on a trail, for others, and trails shifted to one side."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from locomotion.quadruped.trail import Trail
 
 __all__ = ["course_back", "course_on", "head_length", "shifted_points"]
 
-_BEND = 1.0  # radius of a curve that it takes to go out of somebody's way, in body lengths
+_BEND = 1.0  # radius of the curve with which it steps aside, in body lengths
 _BEGINS = 0.1  # [m] before the front feet
 
 
@@ -50,8 +50,7 @@ def course_on(trail: Trail, state: NDArray[np.float64], body: Body) -> Course:
 
 
 def course_back(rows: NDArray[np.float64], state: NDArray[np.float64], body: Body) -> Course:
-    """The course of a body that goes back along a trail of ``rows`` (n, ROW), rear first: it begins at its
-    front feet."""
+    """The course of a body that backs up along a trail of ``rows`` (n, ROW): it begins at its front feet."""
     arc, end = float(state[at.ARC]), float(state[at.ARC_END])
     along = np.arange(arc + body.spine.length, min(end, arc - SPACING) - 1e-9, -SPACING)
     known = state[at.ROW_STEP] * np.arange(len(rows))

@@ -1,4 +1,4 @@
-"""What an animal has been told, how far it has come with that, and all of it to be kept."""
+"""An animal's orders and its progress with them, in a form that can be saved."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ Phase = Literal[
 
 @dataclass(frozen=True)
 class Errand:
-    """What it was told; how often it has ``waited`` for others to let it turn around, ``backed`` out, and
-    made ``manoeuvres``."""
+    """Its orders; how often it has ``waited`` for others to let it turn, ``backed`` up, and made
+    ``manoeuvres``."""
 
     goals: tuple[tuple[float, float, float], ...] = ()
     speed: float = 1.0
@@ -35,7 +35,7 @@ class Errand:
 
 @dataclass(frozen=True)
 class AnimalMemory:
-    """Everything needed to go on from here."""
+    """Everything needed to continue from here."""
 
     herd: AnimalState
     phase: Phase

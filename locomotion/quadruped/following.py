@@ -1,8 +1,8 @@
 """Where the body is: root between the rear feet, spine bent so that the front feet are on the path too.
 
-A motion (trail or script) gives the pose that is wanted; when one motion takes over from another, the
-difference at that moment is kept as an offset and dies away like a critically damped spring, so that every
-part moves on without a jump (Bollo, "Inertialization", 2016; Holden's exact spring).
+A motion (trail or script) gives the wanted pose. When one motion takes over from another, the difference at
+that moment is kept as an offset and decays like a critically damped spring, so that no part jumps (Bollo,
+"Inertialization", 2016; Holden's exact spring).
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""Feet: each stands where it came down until its turn comes, then swings to where it will be needed.
+"""Feet: each stands where it came down until its turn, then swings to where it will be needed.
 
-A foot comes down where its place under the body will be in the middle of its stance: the body is asked where
-it will be then. So feet fall on the path, and do not slide, whatever path and speed do.
+A foot aims for its place under the body in the middle of its coming stance, at the body's predicted place. So
+feet fall on the path and do not slide, whatever path and speed do.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ __all__ = ["find_ground", "foot_place", "misplaced", "step_feet"]
 
 CLOSE = 0.012
 """[m] A foot this near to its place stays."""
-_FREEZE = 0.72  # share of the swing after which its end is not changed any more
+_FREEZE = 0.72  # share of the swing after which its end is fixed
 _RAMP, _RAMP_SLOPE, _SHORTEST_RAMP = 0.36, 0.07, 0.14
 # share of the swing in which a foot speeds up, and in which it slows down: at rest, less by this times the
 # body's way in the swing over the leg's height, and at least
-_HASTE = 4.0  # how much faster than evenly a swing follows a change of where it is to come down
-_STRETCH = 0.90  # share of its length to which a standing leg may be stretched
-_SINK = 0.96  # share of its height to which the trunk may sink for a standing foot
+_HASTE = 4.0  # how much faster than evenly a swing follows a change of its aim
+_STRETCH = 0.90  # share of a leg's length to which it may be stretched when standing
+_SINK = 0.96  # share of its height by which the trunk may sink for a standing foot
 _SINK_AHEAD = 0.84  # the same for a foot before it, over which it is yet to come
 _SLACK = 0.12  # [m] above a step that a foot may find ground off the surface it is on
 
@@ -119,7 +119,7 @@ def _arch(foot, ground, origin, reach):
 @allocating_kernel
 def step_feet(st, pr, gait, pool, ground, origin, feet):
     """One tick of the four ``feet`` (4, FOOT) of one animal; returns whether all stand where they belong."""
-    cycle = 1.0 / st[at.FREQUENCY_WISH]  # [s] of the strides to come
+    cycle = 1.0 / st[at.FREQUENCY_WISH]  # [s] of the coming strides
     settled = True
     for leg in range(4):
         foot = feet[leg]

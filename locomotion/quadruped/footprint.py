@@ -1,8 +1,8 @@
-"""Footprint check: would head, shoulders or root touch the level while a motion plays?
+"""Footprint check: would head, shoulders or root touch the level during a motion?
 
-Before anything plays, its trajectory is projected: the places of head, shoulders and root along it, each a
-ball, against the level's triangles. Between two samples no ball moves by more than `RESOLUTION`, so a motion
-that passes comes nowhere nearer than half of that less than the ball's radius.
+Before a motion plays, the places of head, shoulders and root along it, each a ball, are tested against the
+level's triangles. Between two samples no ball moves by more than `RESOLUTION`, so in a motion that passes,
+balls may touch the level by less than half of that.
 """
 
 from __future__ import annotations
@@ -52,14 +52,14 @@ __all__ = [
 ]
 
 PARTS = ("head", "shoulders", "root")
-"""What is tested, in order."""
+"""The parts tested, in order."""
 RESOLUTION = 0.02
-"""[m] farthest that a ball moves between two samples."""
-_ASSUMED_SPEED = 2.5  # of a ball over the root's own way, when samples are chosen
+"""[m] greatest distance that a ball moves between two samples."""
+_ASSUMED_SPEED = 2.5  # motion of a ball relative to the root's, when samples are chosen
 
 
 class Footprint(NamedTuple):
-    """``free``: whether nothing is touched. Else ``part`` of `PARTS` touches first, or "ground": there is
+    """``free``: whether nothing is touched. Else ``part`` of `PARTS` is the first to touch, or "ground" has
     none to stand on, at ``place`` (3,) [m], in sample ``index``."""
 
     free: bool
@@ -77,7 +77,7 @@ class _Balls:
 
 
 def script_places(script: Script, body: Body) -> NDArray[np.float64]:
-    """(k, 5) x, y, z, yaw, bend along a script, close enough for `RESOLUTION`."""
+    """(k, 5) x, y, z, yaw, bend along a script, dense enough for `RESOLUTION`."""
     rows = script.rows[:, [at.SX, at.SY, at.SZ, at.SYAW, at.SBEND]]
     return _densified(rows, body)
 
@@ -96,7 +96,7 @@ def trail_places(trail: Trail, body: Body, start: float, end: float) -> NDArray[
 
 
 def _densified(rows: NDArray[np.float64], body: Body) -> NDArray[np.float64]:
-    """Rows with more between them, so that no ball moves farther than `RESOLUTION` from one to the next."""
+    """The rows with more in between, so that no ball moves farther than `RESOLUTION` from one to the next."""
     balls = key_balls(rows, body)
     jumps = np.linalg.norm(np.diff(balls.centres[:, :, :2], axis=0), axis=2).max(axis=1)
     parts = np.maximum(np.ceil(jumps / RESOLUTION).astype(int), 1)
@@ -178,7 +178,7 @@ def check_trail(trail: Trail, body: Body, ground: Ground, start: float, end: flo
 
 
 def stopping_distance(body: Body, speed: float) -> float:
-    """[m] that a stop from ``speed`` [m/s] takes: the place at which the stop motion ends."""
+    """[m] in which it stops from ``speed`` [m/s]: where the stop motion ends."""
     time = stop_time(speed, body.movement.braking)
     return float(stop_place(speed, 0.0, 0.5 * speed * time, time, time)[0])
 

@@ -1,4 +1,5 @@
-"""Where the discs of an animal will be, that cannot or will not change what it does: for who is around it."""
+"""Predicted places of an animal's discs while it cannot or will not change its motion, for bodies around
+it."""
 
 from __future__ import annotations
 
@@ -17,7 +18,7 @@ from surefoot.kernels import allocating_kernel
 __all__ = ["DISCS", "between_feet", "disc_radius", "foretell_motion", "foretell_script", "nobody"]
 
 DISCS = 3
-"""That cover an animal on the ground: at the rear feet, the middle and the front feet."""
+"""Number of discs that cover an animal on the ground: at the rear feet, the middle and the front feet."""
 
 
 def disc_radius(body: Body) -> float:
@@ -55,5 +56,5 @@ def foretell_script(script: Script, body: Body) -> NDArray[np.float64]:
 
 
 def nobody() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """What there is around an animal that is alone."""
+    """The surroundings of an animal that is alone."""
     return np.empty((COUNT, 0, 2)), np.empty(0)

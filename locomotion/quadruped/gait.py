@@ -1,4 +1,4 @@
-"""Which gait, and when each foot touches down in it."""
+"""The present gait, and when each foot touches down in it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ["leg_phase", "seconds_for", "step_gait", "swing_tempo"]
 
 _HYSTERESIS = 0.12  # share of the speed of the change by which it must be missed to change back
 _FADE = 0.25 / 0.69314718056  # strides: half of a change of the strides' frequency in a quarter of one
-_HURRY = 0.5  # share of the clock's pace by which a standing foot goes ahead of it at most
+_HURRY = 0.5  # greatest share by which a standing foot runs ahead of the clock
 _SOONER = 0.62  # of the stride: a foot that would have to come down later by more comes down sooner instead
 _QUICKEST, _SLOWEST = 0.65, 1.6  # shares of its gait's own swing that a swing takes at least and at most
 _SCRIPT_DUTY = 0.62

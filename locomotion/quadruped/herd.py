@@ -6,8 +6,8 @@
     while not herd.resting(rex):
         herd.tick()
 
-A herd plays motions: trails and scripts. What an animal has to do to reach a goal is in
-`locomotion.quadruped.animal`.
+A herd plays motions: trails and scripts. `locomotion.quadruped.animal` chooses the motions that lead to a
+goal.
 """
 
 from __future__ import annotations
@@ -36,14 +36,14 @@ from locomotion.quadruped.trail import Trail, kernel_ground
 __all__ = ["AnimalState", "Herd"]
 
 RING = 512
-"""Crumbs that are kept: about 50 m of the way."""
-_CHANGE = 0.01  # [m] by which ground may change unnoticed
-_DROP = 0.5  # [m] off the ground that an animal may be put
+"""Number of crumbs kept: about 50 m of the way."""
+_CHANGE = 0.01  # [m] by which ground may change without effect
+_DROP = 0.5  # [m] off the ground that an animal may be placed
 
 
 @dataclass(frozen=True)
 class AnimalState:
-    """Everything that a herd knows of one animal; ``body`` is the name of its kind."""
+    """Everything that a herd stores of one animal; ``body``: name of its kind."""
 
     body: str
     row: NDArray[np.float64]
@@ -53,7 +53,7 @@ class AnimalState:
 
 
 class Herd:
-    """Quadrupeds on one ground. ``bodies`` is the kind of each animal; animals are known by their index."""
+    """Quadrupeds on one ground. ``bodies``: kind of each animal; animals are addressed by index."""
 
     def __init__(self, ground: Ground) -> None:
         self.ground = ground
@@ -84,13 +84,13 @@ class Herd:
         return index
 
     def adopt(self, body: Body, saved: AnimalState) -> int:
-        """Put an animal where and as it was when it was saved; returns its index."""
+        """Add an animal in a saved state; returns its index."""
         index = self._grow(body)
         self.restore(index, saved)
         return index
 
     def remove(self, index: int) -> None:
-        """Take an animal away; the indices of those after it go down by one."""
+        """Remove an animal; the indices of those after it decrease by one."""
         first, last = self.pose_start[index : index + 2]
         del self.bodies[index]
         self.state, self.feet, self.crumbs, self.joints = (
@@ -102,7 +102,7 @@ class Herd:
         self._pool.remove(index)
 
     def _grow(self, body: Body) -> int:
-        """Room for one more animal; its index."""
+        """Make room for one more animal; returns its index."""
         index = len(self.bodies)
         self.bodies.append(body)
         kind = self._kind(body)
@@ -117,7 +117,7 @@ class Herd:
         return index
 
     def reset(self, index: int, position: ArrayLike, yaw: float) -> None:
-        """Put an animal down anew, standing; it forgets its motion and its crumbs. Raises as `add` does."""
+        """Place an animal anew, standing; its motion and crumbs are dropped. Raises as `add` does."""
         place = self._checked(position, yaw)
         body, st = self.bodies[index], self.state[index]
         kind = st[at.KIND]
@@ -137,7 +137,7 @@ class Herd:
         self._stand(index)
 
     def _stand(self, index: int) -> None:
-        """Put the feet where they belong, on the ground, and the trunk over them."""
+        """Put the feet in place on the ground, and the trunk over them."""
         body, st, feet = self.bodies[index], self.state[index], self.feet[index]
         feet[:] = 0.0
         left = np.array([-math.sin(st[at.YAW]), math.cos(st[at.YAW])])
@@ -161,7 +161,7 @@ class Herd:
         write_pose(st, self._params[int(st[at.KIND])], self.feet[index], own, self.joints[index])
 
     def _kind(self, body: Body) -> int:
-        """The row of params of a body, made when it is new."""
+        """Row of a body in params, added if it is new."""
         if body not in self._kinds:
             self._kinds.append(body)
             self._params = np.stack([each.params() for each in self._kinds])
@@ -181,7 +181,7 @@ class Herd:
         return np.array([place[0], place[1], z])
 
     def ground_near(self, point: ArrayLike, body: Body) -> float:
-        """Height [m] of the ground under or over ``point`` (3,) as a foot finds it; its own z if none is."""
+        """Height [m] of the ground near ``point`` (3,) as a foot finds it; the point's z if there is none."""
         x, y, z = np.asarray(point, dtype=np.float64)
         reach = body.movement.step + 0.12
         found = float(self.ground.surface_below([[x, y, z + reach]])[0][0])
@@ -192,12 +192,12 @@ class Herd:
         self, index: int, trail: Trail, speed: float, *, start: float = 0.0, end: float | None = None,
         backwards: bool = False, gait: str | None = None,
     ) -> None:  # fmt: skip
-        """Follow a trail with the root, from arc length ``start`` [m] until it stops at ``end`` [m]: by
-        default where the front feet reach the trail's end. ``backwards``: rear first, towards a smaller arc
-        length. ``gait``: by name, no faster than that goes; None: by speed. An animal that is on its way goes
-        on at its speed.
+        """Follow a trail with the root, from arc length ``start`` [m] until it stops at ``end`` [m], by
+        default where the front feet reach the trail's end. ``backwards``: rear first, towards a smaller
+        arc length. ``gait``: a name, which also limits the speed; None: chosen by speed. A moving animal
+        keeps its speed.
 
-        Raises `LocomotionError` for a speed that is not above 0, an unknown gait, or an end behind the start.
+        Raises `LocomotionError` for a speed that is not above 0, an unknown gait, or an end before the start.
         """
         if not (math.isfinite(speed) and speed > 0.0):
             raise LocomotionError(f"speed must be a finite number above 0 m/s, not {speed}")
@@ -228,7 +228,7 @@ class Herd:
         self._blend(index)
 
     def stop(self, index: int) -> None:
-        """Come to a stop on the trail as soon as the body can."""
+        """Stop on the trail as soon as the body can."""
         st = self.state[index]
         if st[at.MODE] == at.ON_TRAIL and st[at.STOPPING] == 0.0:
             left = stop_length(st[at.SPEED], self.bodies[index].movement.braking)
@@ -258,7 +258,7 @@ class Herd:
         st[at.ROW_STEP], st[at.MODE], st[at.REST], st[at.NO_GROUND] = step, mode, 0.0, 0.0
 
     def _blend(self, index: int) -> None:
-        """Keep the difference between where the animal is and where its new motion begins, to let it die."""
+        """Keep the difference between the animal's pose and its new motion as an offset that decays."""
         st, pool = self.state[index], self._pool.rows
         pr = self._params[int(st[at.KIND])]
         now = wanted_pose(st, pr, pool, st[at.ARC], st[at.SCRIPT_TIME])
@@ -272,8 +272,8 @@ class Herd:
         st[at.FRONT_ARC] = now[5]
 
     def change_ground(self, ground: Ground) -> NDArray[np.int64]:
-        """Go on on another ground. Animals whose standing feet or way ahead are not on it any more, or more
-        than 1 cm off it, are returned: they are told so, and come to a stop where they stand."""
+        """Continue on another ground. Returns the animals whose standing feet or path ahead are no longer on
+        it, or more than 1 cm off it; they stop where they stand."""
         self.ground = ground
         lost = [index for index in range(len(self)) if self._has_lost_ground(index)]
         self.state[lost, at.NO_GROUND] = 1.0
@@ -309,7 +309,7 @@ class Herd:
 
     # --- what can be asked
     def resting(self, index: int) -> bool:
-        """Whether the motion is over and all feet stand where they belong."""
+        """Whether the motion is over and all feet are in place."""
         return bool(self.state[index, at.REST])
 
     def pose(self, index: int) -> NDArray[np.float64]:
@@ -344,14 +344,14 @@ class Herd:
         return rows.reshape(-1, 6)
 
     def foretold(self, index: int) -> NDArray[np.float64]:
-        """(COUNT, DISCS, 2) [m] where an animal's discs are every `giving_way.STEP` from now on, if it goes
-        on with what it plays."""
+        """(COUNT, DISCS, 2) [m] predicted places of an animal's discs, every `giving_way.STEP`, if it
+        continues its motion."""
         st, feet = self.state[index], np.empty((COUNT, 2, 2))
         foretell_motion(st, self._params[int(st[at.KIND])], self._pool.rows, feet)
         return between_feet(feet[:, 0], feet[:, 1])
 
     def rows(self, index: int) -> NDArray[np.float64]:
-        """(n, ROW) the rows of the trail or script that it plays."""
+        """(n, ROW) the rows of the present trail or script."""
         return self._pool.table(index)
 
     def toes(self, index: int) -> NDArray[np.float64]:
@@ -363,7 +363,7 @@ class Herd:
         return self.feet[index, :, at.IN_SWING] == 0.0
 
     def trail_of_crumbs(self, index: int) -> NDArray[np.float64]:
-        """(k, 3) [m] where the root has come from, oldest first."""
+        """(k, 3) [m] the root's past places, oldest first."""
         st = self.state[index]
         count, last = int(st[at.CRUMBS]), int(st[at.CRUMB_LAST])
         return self.crumbs[index, (last - np.arange(count)[::-1]) % RING]
@@ -374,19 +374,19 @@ class Herd:
 
     # --- saving
     def save(self, index: int) -> AnimalState:
-        """Everything that is needed to go on from here."""
+        """Everything needed to continue from here."""
         return AnimalState(
             self.bodies[index].name, self.state[index].copy(), self.feet[index].copy(),
             self.crumbs[index].copy(), self._pool.table(index),
         )  # fmt: skip
 
     def restore(self, index: int, saved: AnimalState) -> None:
-        """Go on from a state of this animal."""
+        """Restore a state of this animal."""
         if saved.body != self.bodies[index].name:
             raise LocomotionError(
                 f"the saved state belongs to a {saved.body}, not to a {self.bodies[index].name}"
             )
-        kind = self.state[index, at.KIND]  # is counted anew by each herd
+        kind = self.state[index, at.KIND]  # each herd counts these itself
         self.state[index], self.feet[index], self.crumbs[index] = saved.row, saved.feet, saved.crumbs
         self.state[index, at.KIND] = kind
         if len(saved.table):
@@ -396,9 +396,9 @@ class Herd:
         self._write_pose(index)
 
     def state_hash(self, index: int) -> str:
-        """Hex digest of everything that decides how an animal goes on."""
+        """Hex digest of everything that decides an animal's future."""
         row = self.state[index].copy()
-        row[at.ROW_START] = row[at.KIND] = 0.0  # how the herd counts tables and kinds is no part of it
+        row[at.ROW_START] = row[at.KIND] = 0.0  # indices into the herd's tables do not count
         hasher = hashlib.sha256(self.bodies[index].name.encode() + row.tobytes())
         for part in (self.feet[index], self.trail_of_crumbs(index), self._pool.table(index)):
             hasher.update(np.ascontiguousarray(part).tobytes())

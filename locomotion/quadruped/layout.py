@@ -1,6 +1,6 @@
-"""Columns of the flat arrays that hold many quadrupeds: what the kernels index, and nothing else.
+"""Columns of the flat arrays of quadrupeds, as kernels index them.
 
-All arrays are float64. ``params`` (bodies, PARAMS) is one row per kind of body, ``gaits`` (bodies, gaits,
+All arrays are float64. ``params`` (bodies, PARAMS) has one row per kind of body, ``gaits`` (bodies, gaits,
 GAIT) its gaits, ``state`` (n, STATE) one row per animal, ``feet`` (n, 4, FOOT) its feet in the order of
 `LEGS`, ``pool`` (rows, ROW) the trails and scripted motions of all of them, one after the other.
 """
@@ -88,7 +88,7 @@ X, Y, YAW, BEND = 27, 28, 29, 30
 RATE = 31
 """Four columns: their rates per second."""
 OFFSET = 35
-"""Four columns: what is left of the difference to the motion before, by which it is continuous."""
+"""Four columns: remaining difference to the motion before, which keeps the pose continuous."""
 OFFSET_RATE = 39
 """Four columns."""
 FRONT_X, FRONT_Y, CHEST = 43, 44, 45
@@ -106,7 +106,7 @@ ROW_START, ROW_COUNT, ROW_STEP = 56, 57, 58
 KIND = 59
 """Row of params."""
 REST = 60
-"""1 when nothing moves any more: the motion is over and all feet stand where they belong."""
+"""1 when at rest: the motion is over and all feet are in place."""
 FIRST_TICK = 61
 """1 until rates are known."""
 NO_GROUND = 62
@@ -120,9 +120,9 @@ FIXED_LOOK = 65
 CRUMBS, CRUMB_LAST = 66, 67
 """How many crumbs lie on the trail behind; index of the last one in the ring."""
 PACE = 68
-"""Share of its speed at which it goes, to give way to others."""
+"""Share of its speed at which it moves while giving way."""
 FREQUENCY_WISH = 69
-"""[Hz] that FREQUENCY_NOW comes to."""
+"""[Hz] target of FREQUENCY_NOW."""
 GROUND_REAR, GROUND_FRONT = 70, 71
 """[m] heights of the ground under hips and shoulders, as the feet feel it."""
 STATE = 72
@@ -141,16 +141,16 @@ BASE = 11
 ARCH = 12
 """[m] by which the middle of the swing's way is raised over ground that bulges between its ends."""
 AIM = 13
-"""Three columns: where it is wanted to come down now; TO follows."""
+"""Three columns: where it should come down now; TO follows."""
 STANCE = 16
 """Share of the stride that it stands: as it was when the place was chosen where it stands, or will."""
 TEMPO = 17
-"""How fast it goes through its stride in this swing, against the clock."""
+"""Rate at which it goes through its stride in this swing, relative to the clock."""
 HUMP = 18
 """0 where a swing begins and ends, 1 in its middle."""
 FOOT = 19
 
-# --- joints, for whoever wants angles: (n, JOINTS)
+# --- joints, for users of angles: (n, JOINTS)
 JOINTS_PER_LEG = 4
 """abduction, upper, lower and foot bone [rad]."""
 JOINTS = 4 * JOINTS_PER_LEG + 3

@@ -1,7 +1,7 @@
 """Legs: analytic inverse kinematics of two bones and a foot bone, from the upper joint to the toe.
 
-Everything happens in the leg's plane, which contains the trunk's direction and the toe: x forwards, z up,
-from the upper joint. Angles of bones are counted from straight down, forwards positive.
+Everything is in the leg's plane, which contains the trunk's direction and the toe: x forwards, z up, from the
+upper joint. Bone angles are from straight down, forwards positive.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ from surefoot.kernels import kernel
 __all__ = ["solve_leg", "two_bones"]
 
 _REACH = 0.97
-"""Share of the two bones' length to which they are stretched at most: the foot bone gives way before. A knee
-that is nearly straight turns ever faster for a centimetre of way."""
+"""Greatest share of the two bones' length to which they are stretched; beyond it the foot bone yields. A
+nearly straight knee would have to turn ever faster for each centimetre."""
 _FOLD = 0.36
-"""Share of the two bones' length to which they fold: the foot bone turns down for a toe that comes nearer."""
+"""Share of the two bones' length to which they fold; for nearer toes the foot bone turns down."""
 _SOFT = 0.35  # of the foot bone's length over which it begins to turn down
 _UNCURL = 1.2  # of the foot bone's length over which a paw gives up its curl, around the same place
 
@@ -53,6 +53,6 @@ def solve_leg(x, z, upper, lower, foot, lean, curl, side):
     cosine = (far * far + foot * foot - (_REACH * (upper + lower)) ** 2) / (2.0 * far * foot)
     most = max(math.acos(min(max(cosine, -1.0), 1.0)), 1e-6)
     lean = most * math.tanh(bent / most) + math.atan2(x, -z)
-    # where the leg is too short the toe comes off its place: measured by whoever asks, not hidden
+    # if the leg is too short the toe misses its place; this is not hidden, so that it can be measured
     first, second = two_bones(x - foot * math.sin(lean), z + foot * math.cos(lean), upper, lower, side)
     return first, second, lean

@@ -1,9 +1,9 @@
-"""Local motion: short moves without path finding, by a table from what is wanted to what is blended.
+"""Local motion: short moves without path finding, from a table of the blends that lead to each place.
 
-The body's own motions (to and fro, to the sides, around) are played together, each with a weight; since the
-turn carries the other two around while they play, where a blend leads is found by playing it. The table is
-built once for a body: for every wanted place and facing on a grid the weights that lead there, found by
-Newton's method on played blends. Looking up is interpolation.
+The body's own motions (forwards and back, sideways, around) are played together, each with a weight. Since
+the turn carries the other two around while they play, where a blend leads is found by playing it. The table
+is built once for a body: for every wanted place and facing on a grid the weights that lead there, found by
+Newton's method on played blends. Lookups interpolate.
 """
 
 from __future__ import annotations
@@ -24,17 +24,15 @@ __all__ = ["REACH", "LocalMotion", "local_motion", "play_blends", "short_move"]
 
 REACH = 1.25
 """[m] ahead, behind and to the sides that the table covers; every facing."""
-_SHORT_MOVE = 0.8  # [m] up to which local motion is used instead of a path; within `REACH`
+_SHORT_MOVE = 0.8  # [m] up to which local motion replaces a path; within `REACH`
 _PLACES, _FACINGS = 11, 37
-_BEND = 0.5  # share of its greatest bend with which the spine leads into a turn of a quarter
-_PEAK = 1.875  # of the speed of a smooth share over its mean
+_BEND = 0.5  # share of its greatest bend with which the spine leads into a quarter turn
+_PEAK = 1.875  # top speed of a smooth share relative to its mean
 
 
 def play_blends(body: Body, weights: NDArray[np.float64]) -> NDArray[np.float64]:
     """Play blends of ``weights`` (k, 3): metres ahead and to the left, radians around, each as if alone.
-
-    Returns (ROWS, k, 3): x, y [m], yaw [rad] over time, from a root at the origin that looks along x.
-    """
+    Returns (ROWS, k, 3): x, y [m], yaw [rad] over time, from a root at the origin that faces x."""
     moves = body.local_motions
     step, side, turn = (
         smooth_shares(each.begin, each.end)[:, None] for each in (moves.step, moves.sidestep, moves.turn)
@@ -77,8 +75,8 @@ class LocalMotion:
         self._table = RegularGridInterpolator((self.places, self.places, self.facings), self.weights)
 
     def look_up(self, wanted: ArrayLike) -> NDArray[np.float64]:
-        """Weights (3,) of the blend for a wanted (ahead [m], left [m], facing [rad]) of the root against
-        where it is. Raises `LocomotionError` outside of `REACH`."""
+        """Weights (3,) of the blend to a wanted (ahead [m], left [m], facing [rad]) relative to the root.
+        Raises `LocomotionError` outside of `REACH`."""
         target = np.asarray(wanted, dtype=np.float64)
         if target.shape != (3,) or not np.isfinite(target).all():
             raise LocomotionError(f"a local motion needs finite (ahead, left, facing), not {wanted!r}")
@@ -90,7 +88,7 @@ class LocalMotion:
         return self._table(target)[0]
 
     def script(self, place: Place, wanted: ArrayLike) -> Script:
-        """The motion from ``place`` to ``wanted`` (as in `look_up`), as long as the body needs for it."""
+        """The motion from ``place`` to ``wanted`` (as in `look_up`), at the body's own pace."""
         weights = self.look_up(wanted)
         x, y, yaw = play_blends(self.body, weights[None])[:, 0].T
         c, s = math.cos(place.yaw), math.sin(place.yaw)
@@ -116,7 +114,7 @@ def _table_for(body_json: str) -> LocalMotion:
 
 
 def local_motion(body: Body) -> LocalMotion:
-    """The table of a body, built when it is first asked for."""
+    """The table of a body, built on first use."""
     return _table_for(body.model_dump_json())
 
 
@@ -124,7 +122,7 @@ def short_move(
     body: Body, place: Place, goal: tuple[float, float, float], facing: float | None
 ) -> tuple[Script | None, float]:
     """The motion that brings the front feet to ``goal`` [m] and ends in ``facing`` [rad], by default that of
-    ``place``; None where that is too far or not on the same floor. And how far the root has to go [m]."""
+    ``place``, and the distance of the root [m]; None if the goal is too far or on another floor."""
     facing = place.yaw if facing is None else facing
     x, y, z = goal
     length = body.spine.length

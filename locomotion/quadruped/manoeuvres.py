@@ -1,8 +1,7 @@
-"""Manoeuvres: short moves in a row that bring a body onto its path where one turn on the spot has no room.
+"""Manoeuvres: series of short moves that bring a body onto its path where one turn on the spot has no room.
 
-Steps to and fro, to the sides, turns around rear, middle and front, and arcs are tried from place to place,
-the quickest first (A* over places and directions). Each is checked by the footprint as it would play. What is
-found is one script.
+A* over places and directions combines steps forwards, back and sideways, turns around rear, middle and front,
+and arcs, quickest first. Each is checked by its footprint as it would play. The result is one script.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ _HEADINGS = 16  # in a full turn
 _PIVOTS = (0.0, 0.5, 1.0)  # shares of the spine from the rear on
 _MOST_PLACES = 1500  # that are looked at
 _MOST_ASKED = 40  # of them, whether the way leads on from there
-_PAUSE = 0.3  # [s] by which a move less is better
+_PAUSE = 0.3  # [s] that one move less is worth
 _AHEAD = 2.5  # [body lengths] of the path within which it is joined
 _ALIGNED = 0.8  # share of the spine's reach within which the path's direction is met
 
@@ -88,9 +87,10 @@ class _Reached(NamedTuple):
 def find_manoeuvre(
     body: Body, ground: Ground, place: Place, trail: Trail, leads_on: Callable[[Place], bool]
 ) -> Script | None:
-    """What brings a body from ``place`` to where it can set out along the beginning of ``trail``, touching
-    nothing, and from where the way ``leads_on``; None where nothing is found among `_MOST_PLACES` places.
-    Takes up to about a second."""
+    """The script that brings a body from ``place`` to where it can start along ``trail``, touching nothing,
+    and from where the way ``leads_on``; None if none is found among `_MOST_PLACES` places. Takes up to
+    about a second.
+    """
     moves, goals = _moves_for(body.model_dump_json()), _goals(body, trail)
     cell, angle = body.length / _CELLS, 2.0 * math.pi / _HEADINGS
     turning = math.radians(body.local_motions.turn.speed_deg)
@@ -100,7 +100,7 @@ def find_manoeuvre(
         return round((at_.x - place.x) / cell), round((at_.y - place.y) / cell), turn
 
     def left(x: float, y: float, yaw: float) -> float:
-        """[s] that it takes from there at least; 0 where it is there."""
+        """[s] needed from there at least; 0 if it is there."""
         off = np.maximum(np.hypot(goals[:, 0] - x, goals[:, 1] - y) - cell, 0.0)
         turn = np.maximum(np.abs(_wrapped(goals[:, 2] - yaw)) - _ALIGNED * body.spine_reach, 0.0)
         return float((off / body.local_motions.step.speed + turn / turning).min())

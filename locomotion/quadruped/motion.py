@@ -1,7 +1,7 @@
-"""How far along: speed on a trail, the stop that ends where it should, and the time of a script.
+"""Progress along a motion: speed on a trail, the stop that ends in place, and the time of a script.
 
-The stop is one polynomial from the present speed and acceleration to rest, of the length that is left:
-with none of the latter, its speed falls by the smoothstep. What plans a stop and what plays it is the same.
+The stop is one polynomial from the present speed and acceleration to rest over the remaining length; without
+acceleration, its speed falls by the smoothstep. Planning and playing a stop use the same code.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Tables of different lengths in one array, one for each owner."""
+"""Tables of different lengths in one array, one per owner."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class Pool:
         self._regions: dict[int, tuple[int, int]] = {}
 
     def put(self, owner: int, table: NDArray[np.float64]) -> bool:
-        """Give ``owner`` a table (k, width) in place of the one it had; True when others' have moved."""
+        """Set the table (k, width) of ``owner``; True if those of others have moved."""
         self._regions.pop(owner, None)
         moved = self._used + len(table) > len(self.rows)
         if moved:
@@ -28,7 +28,7 @@ class Pool:
         return moved
 
     def remove(self, owner: int) -> None:
-        """Take the table of ``owner`` away; owners of greater numbers count one less from now on."""
+        """Remove the table of ``owner``; the numbers of owners after it decrease by one."""
         self._regions.pop(owner, None)
         self._regions = {each - (each > owner): region for each, region in self._regions.items()}
 

@@ -1,4 +1,4 @@
-"""Saved states of quadrupeds."""
+"""Check saved states of quadrupeds."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _TURN = 1e4  # [rad] that a direction is off at most
 
 
 def _row_of(gaits: int) -> Slots:
-    """The row of an animal with so many gaits."""
+    """Ranges of the row of an animal with so many gaits."""
     return Slots(
         "the row of an animal",
         at.STATE,
@@ -59,7 +59,7 @@ def _row_of(gaits: int) -> Slots:
 
 
 def check_animal(memory: AnimalMemory, body: Body) -> None:
-    """Raises `LocomotionError` for a ``memory`` that no animal with this ``body`` can have."""
+    """Raise `LocomotionError` if no animal with this ``body`` can have this ``memory``."""
     state = memory.herd
     if state.body != body.name:
         raise LocomotionError(f"the saved state belongs to a {state.body}, not to a {body.name}")

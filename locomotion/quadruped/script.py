@@ -1,7 +1,7 @@
-"""Scripts: short motions on the spot, laid down as rows before they are played.
+"""Scripts: short motions on the spot, as tables of rows.
 
-A script is a table of the root's place, direction and the spine's bend over time. What is checked against the
-level (`footprint`) and what is played (`herd`) is the same table.
+A script is a table of the root's place, direction and the spine's bend over time. The same table is checked
+against the level (`footprint`) and played (`herd`).
 """
 
 from __future__ import annotations
@@ -88,8 +88,8 @@ def into_flex(body: Body, place: Place, bend: float) -> Script:
 
 
 def out_of_flex(body: Body, place: Place, facing: float) -> Script:
-    """Slide the rear out until the animal is straight and faces ``facing`` [rad]; the front feet's midpoint
-    stays where it is, so that whoever looks at a target goes on looking at it."""
+    """Swing the rear round until the animal is straight and faces ``facing`` [rad]; the front feet's midpoint
+    stays in place, so that the animal keeps looking at its target."""
     share = smooth_shares()
     front_x, front_y = place.front(body)
     bend = place.bend * (1.0 - share)

@@ -1,7 +1,7 @@
-"""A trail: the path that a quadruped follows, as a table of evenly spaced rows that kernels can ask.
+"""A trail: a quadruped's path as a table of evenly spaced rows for kernels.
 
-A path of points becomes a cubic spline through them, so that directions and curvatures have no jumps, laid
-onto the ground and given the speed at which each place may be passed.
+The path's points become a cubic spline, so that directions and curvatures have no jumps; it is laid onto the
+ground, with the highest speed at each place.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ __all__ = ["NoTrail", "Trail", "kernel_ground", "lay_trail", "trail_at", "trail_
 
 SPACING = 0.05
 """[m] between rows, at most."""
-_KNOTS = 0.1  # [m] between the spline's knots, at most: keeps it at corners that nobody smoothed
+_KNOTS = 0.1  # [m] between the spline's knots, at most: stays close at corners that were not smoothed
 _GRAVITY = 9.81  # [m/s²]
 _CREEP = 0.25  # [m/s] slowest speed of a bend, however tight
-_CLIMBING = 0.25  # of √(g · height of the hips): the fastest change of height on a slope, up or down
-_CLIMB = 0.35  # [m] above the last row's ground from which the next is looked for
+_CLIMBING = 0.25  # of √(g · height of the hips): fastest change of height on a slope, up or down
+_CLIMB = 0.35  # [m] above the last row's ground from which the next is searched
 
 
 class NoTrail(LocomotionError):
-    """A path that no animal can follow."""
+    """A path that an animal cannot follow."""
 
 
 @dataclass(frozen=True)
@@ -104,7 +104,7 @@ def _subdivided(points: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _drape(rows: NDArray[np.float64], wanted: NDArray[np.float64], ground: Ground) -> NDArray[np.float64]:
-    """Heights [m] of the ground under the rows, found by following it from the first point on."""
+    """Heights [m] of the ground under the rows, followed from the first point on."""
     heights = np.empty(len(rows))
     _follow_ground(kernel_ground(ground), rows, wanted - ground.origin[2], ground.origin, heights)
     lost = np.flatnonzero(~np.isfinite(heights))
@@ -115,7 +115,7 @@ def _drape(rows: NDArray[np.float64], wanted: NDArray[np.float64], ground: Groun
 
 
 def kernel_ground(ground: Ground) -> tuple:
-    """What kernels take to ask `locomotion.ground.ground.height_below`."""
+    """Arguments of `locomotion.ground.ground.height_below`."""
     a = ground.arrays
     return a.rows, a.cell_start, a.cell_triangles, a.grid, a.shape
 
@@ -126,7 +126,7 @@ def _follow_ground(ground, rows, wanted, origin, heights):
     for i in range(len(rows)):
         x, y = rows[i, at.PX] - origin[0], rows[i, at.PY] - origin[1]
         h = height_below(ground[0], ground[1], ground[2], ground[3], ground[4], x, y, last + _CLIMB)[0]
-        if not abs(h - last) < 3.0 * _CLIMB:  # a crack in a scan, or a jump of the path: where it says
+        if not abs(h - last) < 3.0 * _CLIMB:  # crack in a scan, or jump of the path: the path's height
             h = height_below(ground[0], ground[1], ground[2], ground[3], ground[4], x, y, wanted[i] + _CLIMB)[
                 0
             ]
@@ -137,7 +137,7 @@ def _follow_ground(ground, rows, wanted, origin, heights):
 
 
 def _plan_speed(rows: NDArray[np.float64], step: float, body: Body) -> None:
-    """Highest speed at each row: by the bends between rear and front feet, then by braking before them."""
+    """Highest speed at each row: by the bends between rear and front feet, then by braking ahead of them."""
     bend = uniform_filter1d(np.abs(rows[:, at.PCURVATURE]), max(round(0.15 / step), 1), mode="nearest")
     reach = max(round(body.spine.length / step), 1)
     bend = maximum_filter1d(bend, reach + 1, origin=-(reach // 2), mode="nearest")
@@ -148,7 +148,7 @@ def _plan_speed(rows: NDArray[np.float64], step: float, body: Body) -> None:
     steep = (climbing / np.maximum(rise, climbing / body.top_speed)) ** 2
     squares = np.maximum(np.minimum(body.movement.sideways / np.maximum(bend, 1e-6), steep), _CREEP**2)
     brake = 1.2 * body.movement.braking * step
-    braked = brake * np.arange(len(squares))  # from the end to the beginning: no more than braking takes
+    braked = brake * np.arange(len(squares))  # from the end to the beginning: limited by braking
     least = np.minimum.accumulate((squares + braked)[::-1])[::-1] - braked
     rows[:, at.PSPEED] = np.sqrt(np.maximum(least, _CREEP**2))
 

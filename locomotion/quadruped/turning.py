@@ -1,4 +1,5 @@
-"""Turning around: on the spot where nothing is in the way, else back along the crumbs to where room is."""
+"""Turning round: on the spot if the way is clear, else after backing up along the crumbs to where there is
+room."""
 
 from __future__ import annotations
 
@@ -23,14 +24,14 @@ __all__ = [
     "WayBack", "can_set_out", "has_way", "little_way_back", "step_away", "turn_script", "way_back",
 ]  # fmt: skip
 
-_LOOK_BACK = 40  # places with room that are tried
+_LOOK_BACK = 40  # candidate places with room
 _PIVOTS = (0.5, 0.0, 1.0, 0.25, 0.75)  # shares of the spine from the rear on
 _STEP = 0.1  # [m] between places
 _AWAY = (0.5, 1.0, 1.5, 2.0)  # [body lengths] that it steps away from others to turn
 
 
 class WayBack(NamedTuple):
-    """Rear first along ``trail``, from arc length ``start`` to ``end`` [m]."""
+    """Motion backwards along ``trail``, from arc length ``start`` to ``end`` [m]."""
 
     trail: Trail
     start: float
@@ -45,10 +46,11 @@ def turn_script(
     clear: Callable[[Script], bool] = lambda script: True,
     leads_on: Callable[[Place], bool] = lambda place: True,
 ) -> Script | None:
-    """A turn on the spot to ``yaw`` [rad] that touches nothing, with the resolution of the check to spare,
-    is ``clear`` of others, and ends where the way ``leads_on``: around the middle, the rear or the front, the
-    short way, the long one, or the first half of a long one that takes more than half a turn. None where
-    there is none."""
+    """A turn on the spot to ``yaw`` [rad] that touches nothing, with a margin of the check's resolution, is
+    ``clear`` of others, and ends where the way ``leads_on``: around the middle, the rear or the front, the
+    short way, the long one, or the first half of a long one that takes more than half a turn. None if
+    there is none.
+    """
 
     def free(script: Script) -> bool:
         return clear(script) and check_script(script, body, ground, RESOLUTION).free
@@ -72,8 +74,8 @@ def turn_script(
 def step_away(
     body: Body, ground: Ground, place: Place, clear: Callable[[Script], bool], turns: Callable[[Place], bool]
 ) -> Script | None:
-    """Steps straight ahead or back, the fewest that do, to where it ``turns``: touching nothing and ``clear``
-    of others; None where there are none."""
+    """The fewest steps straight ahead or back to where it ``turns``, touching nothing and ``clear`` of
+    others; None if there are none."""
     for far in _AWAY:
         for way in (far, -far):
             count = math.ceil(far * body.length / REACH)
@@ -92,15 +94,15 @@ def _turns(body: Body, place: Place, turn: float) -> Iterator[Script]:
     for pivot in _PIVOTS:
         ahead = pivot * body.spine.length
         wanted = ahead * (1.0 - math.cos(turn)), -ahead * math.sin(turn), turn
-        if max(abs(wanted[0]), abs(wanted[1])) <= REACH:  # not of a long body, around its front
+        if max(abs(wanted[0]), abs(wanted[1])) <= REACH:  # a long body does not turn around its front
             yield local_motion(body).script(place, wanted)
 
 
 def little_way_back(
     body: Body, ground: Ground, place: Place, crumbs: NDArray[np.float64], far: float
 ) -> WayBack | None:
-    """Back along ``crumbs`` (k, 3) [m], oldest first, from ``place`` by ``far`` [m], or as far as they reach;
-    None if that is hardly anything."""
+    """The way back along ``crumbs`` (k, 3) [m], oldest first, from ``place`` by ``far`` [m], or as far as
+    they reach; None if that is hardly anything."""
     trail, here = _trail_behind(body, ground, place, crumbs)
     if here < max(body.spine.length, _STEP):
         return None
@@ -125,7 +127,7 @@ def way_back(
     crumbs: NDArray[np.float64],
 ) -> WayBack | None:
     """The way back along ``crumbs`` (k, 3) [m], oldest first, from ``place`` to the nearest place with room
-    for a turn towards ``goals``; None where there is none."""
+    for a turn towards ``goals``; None if there is none."""
     if len(crumbs) < 2:
         return None
     trail, here = _trail_behind(body, ground, place, crumbs)
@@ -156,7 +158,7 @@ def has_way(
 def can_set_out(
     planner: Planner, body: Body, ground: Ground, goals: Sequence[tuple[float, float, float]], there: Place
 ) -> bool:
-    """Whether one at ``there`` could set out for ``goals``, at once or after a turn on the spot."""
+    """Whether it could start for ``goals`` from ``there``, at once or after a turn on the spot."""
     try:
         trail, _ = find_way(planner, body, ground, goals, there)
     except ValueError:

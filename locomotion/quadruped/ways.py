@@ -1,4 +1,4 @@
-"""Ways to goals: what an animal asks of who knows the level, and the trail that it makes of the answer."""
+"""Ways to goals: what an animal asks of a planner, and the trail made of the answer."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ __all__ = ["Planner", "Way", "find_way", "first_heading", "last_free_arc", "turn
 
 
 class Way(Protocol):
-    """What a planner finds; the animal reads its points and keeps the rest for whoever asks."""
+    """A planner's path; the animal reads its points and keeps the rest for its users."""
 
     @property
     def points(self) -> NDArray[np.float64]:
@@ -29,17 +29,17 @@ class Way(Protocol):
 
 
 class Planner(Protocol):
-    """Who knows the level: `way` for paths, `room_to_turn` for places."""
+    """A planner: `way` for paths, `room_to_turn` for places."""
 
     def way(
         self, start: NDArray[np.float64], goal: NDArray[np.float64], direction: NDArray[np.float64]
     ) -> Way:
-        """The way from ``start`` to ``goal`` (3,) [m] for one that moves or looks in ``direction`` (2,).
-        Raises ValueError where there is none."""
+        """The way from ``start`` to ``goal`` (3,) [m] for one that moves or faces in ``direction`` (2,).
+        Raises ValueError if there is none."""
         ...
 
     def room_to_turn(self, points: NDArray[np.float64], length: float) -> NDArray[np.bool_]:
-        """(k,) whether there is room to turn around for a body of ``length`` [m] at ``points`` (k, 3)."""
+        """(k,) whether a body of ``length`` [m] has room to turn round at ``points`` (k, 3)."""
         ...
 
 
@@ -50,8 +50,10 @@ def find_way(
     goals: Sequence[tuple[float, float, float]],
     place: Place,
 ) -> tuple[Trail, tuple[Way, ...]]:
-    """The trail for one that stands or moves at ``place``, through as many ``goals`` [m] as it can go without
-    turning back, and the ways that it is made of, one a goal. Raises ValueError where there is none."""
+    """The trail for one that stands or moves at ``place``, through as many ``goals`` [m] as it can reach
+    without turning back, and the ways that it is made of, one per goal. Raises ValueError if there is
+    none.
+    """
     here = np.array([place.x, place.y, place.z])
     ahead = np.array([math.cos(place.yaw), math.sin(place.yaw)])
     ways: list[Way] = []
@@ -94,7 +96,7 @@ def first_heading(trail: Trail, body: Body) -> float:
 
 
 def last_free_arc(trail: Trail, body: Body, ground: Ground, end: float) -> float:
-    """[m] where the root stops: at ``end`` [m], or before it where head or shoulders have no room there."""
+    """[m] where the root stops: at ``end`` [m], or before it if head or shoulders have no room there."""
     places = trail_places(trail, body, end, end - min(body.length, end))
     arcs = np.linspace(end, end - min(body.length, end), len(places))
     for arc, place in zip(arcs, places, strict=True):

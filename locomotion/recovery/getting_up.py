@@ -1,9 +1,9 @@
 """Getting up after a fall, as far as hands and feet (numba).
 
-Per tick of 10 ms `get_up_tick` while `MODE` is below `BORNE`; from then on `scrambling.scramble_tick` carries
-the body. The figure goes limp until it lies still, rolls onto its front over the side that is nearer, reaches
-out with its arms, draws its legs under itself, and pushes itself up. No posture is assumed: each phase ends
-by what is seen, and a body that does not come onto its front tries the other side.
+Each tick of 10 ms calls `get_up_tick` while `MODE` is below `BORNE`; from then on `scrambling.scramble_tick`
+supports the body. The figure goes limp until it lies still, rolls onto its front over the nearer side,
+reaches out with its arms, draws its legs up, and pushes itself up. No posture is assumed: each phase ends
+when its result is observed, and a body that does not get onto its front tries the other side.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""What a person on hands and feet remembers: places in its array, and the numbers of its stance."""
+"""The memory of a person on hands and feet: indices into its array, and the numbers of its stance."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Arms and legs of a person on hands and feet: angles that put them somewhere, torques that bear (numba)."""
+"""Arms and legs of a person on hands and feet: angles that place them, torques that carry weight (numba)."""
 
 import math
 

@@ -7,7 +7,7 @@
         mujoco.mj_step(four.model, data, STEPS_PER_TICK)
         four.observe(lookup, data, state)                # not active any more once it stands
 
-What it remembers is one array, `memory` (its fields: `locomotion.recovery.layout`).
+Its memory is one array, `memory` (fields: `locomotion.recovery.layout`).
 """
 
 import math
@@ -57,7 +57,7 @@ class OnAllFours:
 
     @property
     def active(self) -> bool:
-        """Whether hands and feet move the body now."""
+        """Whether it moves on hands and feet now."""
         return bool(self.memory[MODE] != AWAY)
 
     @property
@@ -76,11 +76,11 @@ class OnAllFours:
         return float(self.memory[FACING])
 
     def leave(self) -> None:
-        """Hand the body over."""
+        """End its support of the body."""
         self.memory[MODE] = AWAY
 
     def fall(self, data: mujoco.MjData) -> None:
-        """The body has fallen, however it lies."""
+        """The body has fallen, in whatever position."""
         self.memory[:] = new_scramble()
         observe_scramble(self._parts, data, self.memory)
         begin_getting_up(self.memory, data.qpos)
@@ -92,14 +92,14 @@ class OnAllFours:
         crouch(self._model, data, self._parts, lookup, self.memory, place, yaw)
 
     def look(self, ground: Ground | None, place: NDArray[np.float64], follower: PathFollower | None) -> None:
-        """See whether it can stand up at ``place`` (3,), and walk on with ``follower``."""
+        """Check whether it can stand up at ``place`` (3,), and walk on with ``follower``."""
         path, arc = (None, 0.0) if follower is None else (follower.path, follower.arc)
         self.gentle = float(_gentle_ahead(ground, place, path, arc))
 
     def steer(
         self, follower: PathFollower | None, com: NDArray[np.float64], tick: int, command: NDArray
     ) -> None:
-        """Write into ``command`` (4,) how it goes on with ``follower``, None: it stays. com (3,) [m]."""
+        """Write into ``command`` (4,) how it continues with ``follower``, None: it stays. com (3,) [m]."""
         if follower is None or follower.path is None:
             command[:] = self.facing, 0.0, 0.0, 0.0
             return
@@ -133,8 +133,8 @@ class OnAllFours:
                 begin_to_rise(memory, data.qpos)
 
     def observe(self, lookup: tuple[NDArray, ...], data: mujoco.MjData, state: NDArray[np.float64]) -> bool:
-        """After the physics: also into ``state``, a running controller's. Whether it stands now, for the walk
-        to take over."""
+        """After the physics: update its observations and ``state``, the running controller's. Returns whether
+        it now stands, so that the walk can take over."""
         memory = self.memory
         observe_scramble(self._parts, data, memory, state)
         if memory[MODE] >= BORNE:
@@ -143,7 +143,7 @@ class OnAllFours:
 
     @property
     def mood(self) -> tuple[float, float, float]:
-        """What it keeps in mind besides its ``memory``."""
+        """Its memory besides ``memory``."""
         return self.fell_at, self.on_way, self.gentle
 
     @mood.setter

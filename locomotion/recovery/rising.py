@@ -1,7 +1,7 @@
 """From hands and feet to a stand (numba).
 
-First the feet step forward under the body, by the ordinary gait with homes of its own (`gather`); then the
-weight goes over to them and hips and trunk come up over the soles together (`rise_tick`).
+First the feet step forward under the body, with the ordinary gait and home positions of their own (`gather`);
+then the weight shifts to them, and hips and trunk rise over the soles together (`rise_tick`).
 """
 
 import math

@@ -1,13 +1,12 @@
 """Scrambling on hands and feet over steep ground (numba).
 
-Per control tick of 10 ms, in this order: `scramble_tick`, physics, `observe_scramble`.
+Each control tick of 10 ms: `scramble_tick`, physics, `observe_scramble`.
 
-The body faces uphill where it is steep and ahead where it is not, and goes into any direction at a trot: one
-hand and the opposite foot swing while the others bear. Nothing is played back and no posture is remembered:
-each tick the wanted place of the trunk follows from where hands and feet are (`_posture`), limbs that bear
-are asked for the angles that would put the trunk there, and on top of it for the torques of vertical forces
-under hands and feet that carry the weight (`bear`). A hand that slips is simply somewhere else at the next
-tick. The trunk may touch the ground.
+The body faces uphill where it is steep and ahead where it is not, and moves in any direction at a trot: one
+hand and the opposite foot swing while the others carry. No posture is played back or remembered: each tick,
+the wanted place of the trunk follows from where hands and feet are (`_posture`); limbs that carry get the
+angles that would put the trunk there, plus the torques of vertical forces under hands and feet that carry the
+weight (`bear`). A hand that slips is simply somewhere else at the next tick. The trunk may touch the ground.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""What a person on hands and feet sees of its body after each physics step."""
+"""What a person on hands and feet observes of its body after each physics step."""
 
 from typing import NamedTuple
 

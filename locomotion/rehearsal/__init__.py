@@ -1,1 +1,1 @@
-"""Looking ahead: trying out what a person is about to do, before it does it."""
+"""Rehearsals: trying actions on a copy of the person before it takes them."""

@@ -1,5 +1,4 @@
-"""How an obstacle is cleared, tick by tick: what touches what, how long a hand holds on, how hard the ground
-pushes."""
+"""How an obstacle is cleared, tick by tick: contacts, hand holds and ground reactions."""
 
 from dataclasses import dataclass
 
@@ -49,14 +48,14 @@ class ContactReport:
 
 
 class Watcher:
-    """Looks at what a person touches where it is after a tick. Its own contacts are those of before the last
-    physics step, and in a tick that is taken over from a rehearsal it has none."""
+    """Finds a person's contacts after a tick. MuJoCo's own are those before the last physics step, and a tick
+    copied from a rehearsal has none."""
 
     def __init__(self, index: PersonIndex, model: mujoco.MjModel) -> None:
         self._index, self._model, self._moment = index, model, mujoco.MjData(model)
 
     def look(self, data: mujoco.MjData, obstacle: ObstacleAhead, report: ContactReport) -> None:
-        """Note in ``passage`` what touches what in ``data``."""
+        """Record the contacts of ``data`` in ``passage``."""
         model, moment, index = self._model, self._moment, self._index
         restore_physics(model, moment, save_physics(model, data))
         mujoco.mj_forward(model, moment)

@@ -1,5 +1,4 @@
-"""What a person has to decide, who tells it how, and a tick of its double up to the moment at which it has
-to."""
+"""Decisions of a person, who answers them, and ticks of its double up to the next decision."""
 
 from __future__ import annotations
 
@@ -15,12 +14,12 @@ __all__ = ["Decider", "Outcome", "Question", "Trial", "known_answer", "tick_unle
 _T = TypeVar("_T")
 
 Trial = Generator[None, None, tuple[float, list[HumanState]]]
-"""A body goes on by a tick at a time; in the end, how well it went and what was seen of it (`Outcome`)."""
+"""Advances a body tick by tick; returns how well it did and what was recorded (`Outcome`)."""
 
 
 class Outcome(NamedTuple, Generic[_T]):
-    """The choice that was made, how well it went, and what was seen of it: its states after each tick, each
-    with the events of that tick only; empty where nothing was noted."""
+    """The choice made, how well it did, and the states recorded after each tick, each with that tick's events
+    only; empty if nothing was recorded."""
 
     choice: _T
     went: float
@@ -28,7 +27,7 @@ class Outcome(NamedTuple, Generic[_T]):
 
 
 class Question(NamedTuple):
-    """What is to be decided in ``state``; see `trials.first_good`."""
+    """A decision to be made in ``state``; see `trials.first_good`."""
 
     state: HumanState
     choices: Sequence[Any]
@@ -41,9 +40,10 @@ class Question(NamedTuple):
 
 
 class Decider:
-    """Which variation of what it is about to do a body takes. ``answer``: who knows; None: nobody, it takes
-    the first. ``undecided``: whether nobody knew, since that was set to False. ``predicted``: what the body
-    knows of its next ticks."""
+    """Chooses a variation of the next action. ``answer``: function that knows the answers; None: take the
+    first choice. ``undecided``: whether a question had no answer since this was set to False.
+    ``predicted``: known next ticks.
+    """
 
     def __init__(self) -> None:
         self.answer: Callable[[Question], Outcome] | None = None
@@ -57,8 +57,8 @@ class Decider:
         choose: Callable[[Chooser, _T], None],
         goes_well: Callable[[Understudy], Trial],
     ) -> Outcome[_T]:
-        """The best of ``choices``, see `trials.first_good`; without rehearsals the first is taken to go
-        well. What was seen of it is there to be taken over, and not simulated again."""
+        """The best of ``choices``, see `trials.first_good`; without rehearsals the first one, assumed to
+        succeed. Recorded ticks are kept, so that they need not be simulated again."""
         if self.answer is None:
             self.undecided = True
             return Outcome(choices[0], 1.0, [])
@@ -66,7 +66,7 @@ class Decider:
 
 
 class _Undecided(Exception):
-    """The double has come to a moment at which something is to be decided."""
+    """The double has reached a decision."""
 
     def __init__(self, question: Question) -> None:
         super().__init__()
@@ -74,8 +74,8 @@ class _Undecided(Exception):
 
 
 def tick_unless_asked(double: Understudy, answers: Sequence[tuple[Question, Outcome]]) -> Question | None:
-    """A tick of the double, which knows ``answers``; or what is undecided in it, and then it is not made: the
-    double has to be restored to the state before."""
+    """Advance the double, which knows ``answers``, by one tick. If it meets an unanswered decision, return
+    that instead; the double must then be restored to its state before."""
 
     def recall(question: Question) -> Outcome:
         outcome = known_answer(question, answers)
@@ -94,5 +94,5 @@ def tick_unless_asked(double: Understudy, answers: Sequence[tuple[Question, Outc
 
 
 def known_answer(question: Question, answers: Sequence[tuple[Question, Outcome]]) -> Outcome | None:
-    """The one of ``answers`` that answers ``question``."""
+    """The one of ``answers`` for ``question``."""
     return next((outcome for asked, outcome in answers if question.is_also(asked)), None)

@@ -1,11 +1,10 @@
-"""Rehearsing before the moment comes, so that no single tick has to bear a whole rehearsal.
+"""Rehearse ahead of time, so that no single tick has to pay for a whole rehearsal.
 
-What a person decides by rehearsal (`locomotion.rehearsal.trials`) depends on its state at that moment
-alone, and the simulation is exact. So its double goes ahead, a few ticks in each tick of the person's, to the
-moment at which something is to be decided, and rehearses there. The person takes over what the double went
-through (`locomotion.rehearsal.predicted`), decisions included. After a push, or when it has to give way,
-which the double knew nothing of, it rehearses at the moment, all at once: its decisions never depend on how
-far its double is.
+What a person decides by rehearsal (`locomotion.rehearsal.trials`) depends only on its state at that moment,
+and the simulation is exact. So a double runs ahead, a few ticks in each tick of the person, to the next
+decision, and rehearses there. The person then replays the double's ticks (`locomotion.rehearsal.predicted`),
+decisions included. After a push, or when it gives way, the prediction no longer holds and it rehearses on the
+spot, all at once: decisions never depend on how far the double is ahead.
 """
 
 from __future__ import annotations
@@ -21,29 +20,29 @@ from surefoot.pausing import pause
 
 __all__ = ["Lookahead"]
 
-_PER_TICK = 20  # ticks of the double in one of the person
-_FAR = 400  # ticks that the double goes ahead at most
-_LOOKS = 10  # ticks after which it is seen again whether there is something to foresee
-_REST = 50  # ticks after which it tries again where it came otherwise
+_PER_TICK = 20  # ticks of the double in each of the person's
+_FAR = 400  # most ticks that the double is ahead
+_LOOKS = 10  # ticks between checks whether there is something to predict
+_REST = 50  # ticks before the next attempt after a wrong prediction
 
 
 class Lookahead:
-    """What a person knows beforehand."""
+    """What a person knows in advance."""
 
     def __init__(self, person: Understudy, double: Callable[[], Understudy], most: int) -> None:
-        """``double``: makes one that moves as ``person`` does, on the same ground, and does not rehearse.
-        ``most``: choices that are rehearsed at one time at most."""
+        """``double``: makes a copy of ``person`` on the same ground that does not rehearse. ``most``: most
+        choices to rehearse for one decision."""
         self._person, self._make_double, self._most = person, double, most
         self._double: Understudy | None = None
         self._task: Generator[None, None, None] | None = None
-        self._asked: Question | None = None  # what the double rehearses now
+        self._asked: Question | None = None  # the double's rehearsal in progress
         self._answers: list[tuple[Question, Outcome]] = []
         self._until = self._last = self._begins = 0
-        # tick to which the double has come; the person's last; from which it may begin to look ahead
+        # the double's tick; the person's last tick; the tick from which to look ahead
 
     def go_on(self, came_true: bool) -> None:
-        """After each tick of the person: let its double go on for some ticks of its own, and add them to what
-        the person foresees. came_true: whether the tick was taken over from that."""
+        """After each tick of the person: advance its double and add the new ticks to the prediction.
+        came_true: whether this tick was predicted."""
         person = self._person
         now = person.ticks
         if now != self._last + 1:
@@ -63,7 +62,7 @@ class Lookahead:
                 next(self._task, None)
 
     def decide(self, question: Question) -> Outcome:
-        """The best choice and how well it goes."""
+        """The best choice and how well it does."""
         double = self._double_now()
         while self._task is not None and self._asked is not None and question.is_also(self._asked):
             next(self._task, None)
@@ -81,7 +80,7 @@ class Lookahead:
     def _go_ahead(
         self, state: HumanState, double: Understudy, future: Predicted
     ) -> Generator[None, None, None]:
-        """Let the double go on from ``state``, and rehearse whatever is to be decided on its way."""
+        """Advance the double from ``state`` and rehearse each decision on its way."""
         double.restore_state(state)
         self._until = double.ticks
         while (
@@ -115,7 +114,7 @@ class Lookahead:
         return self._double
 
     def _forget(self, begins: int) -> None:
-        """Begin anew, at the tick ``begins`` or later."""
+        """Start over at tick ``begins`` or later."""
         if self._task is not None:
             self._task.close()
         self._task = self._asked = None

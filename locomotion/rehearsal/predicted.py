@@ -1,5 +1,5 @@
-"""What a person has seen of its own future: in a rehearsal, or because its double is ahead of it. While
-nothing disturbs it, it takes that over instead of simulating it once more."""
+"""The ticks that a person knows in advance, from a rehearsal or from its double. While undisturbed, it
+replays them instead of simulating them again."""
 
 from __future__ import annotations
 
@@ -27,16 +27,16 @@ class _Person(Protocol):
 
 
 class Predicted:
-    """The states of the next ticks. They come true as long as the person is as it was seen to be: a push,
-    another path, pace or ground end it."""
+    """The states of the next ticks. They are valid as long as the person is in the predicted state: a push,
+    or another path, pace or ground, invalidates them."""
 
     def __init__(self) -> None:
         self._states: dict[int, HumanState] = {}  # by tick
         self._model: mujoco.MjModel | None = None
 
     def expect(self, person: _Person, states: Iterable[HumanState]) -> None:
-        """From now on ``states`` are to come, one each tick; each holds the events of its tick only. None of
-        them know of a force that pushes it now."""
+        """Replace the prediction by ``states``, one for each tick, each with that tick's events only. They do
+        not include any force that is pushing the person now."""
         self.forget()
         if not person.data.xfrc_applied.any():
             self.begin(person)
@@ -44,17 +44,17 @@ class Predicted:
                 self.add(state)
 
     def begin(self, person: _Person) -> None:
-        """What is added from now on comes after what ``person`` is now."""
+        """Later additions follow the present state of ``person``."""
         self.forget()
         self._model = person.model
         self.add(person.save_state())
 
     def add(self, state: HumanState) -> None:
-        """``state`` is to come in its tick."""
+        """Add ``state`` for its tick."""
         self._states[state.ticks] = state
 
     def knows(self, tick: int) -> bool:
-        """Whether it is known what is to come in ``tick``."""
+        """Whether ``tick`` is predicted."""
         return tick in self._states
 
     def forget(self) -> None:
@@ -62,7 +62,7 @@ class Predicted:
         self._states.clear()
 
     def comes_true(self, person: _Person) -> bool:
-        """Whether the next tick is known; ``person`` is then what it will be after it."""
+        """If the next tick is known, advance ``person`` to it; return whether it was."""
         now, soon = self._states.pop(person.ticks, None), self._states.get(person.ticks + 1)
         if soon is None:
             return False
@@ -75,7 +75,7 @@ class Predicted:
         return True
 
     def all_come_true(self, person: _Person) -> list[HumanState]:
-        """The states of all the next ticks that are known; ``person`` is then what it will be after them."""
+        """Advance ``person`` through all known ticks; return their states."""
         states: list[HumanState] = []
         if self.comes_true(person):
             while self.knows(tick := person.ticks + len(states)):

@@ -1,9 +1,9 @@
-"""Trying out what a person is about to do, before it does it.
+"""Try actions on a copy of the person before it takes them.
 
-Whether a landing holds is nearly a matter of chance: a foot set down 4 cm earlier or an entry 0.1 m/s faster
-decides it. But the simulation is exact, so a second body, the understudy, can go ahead from the present state
-and tell. A person rehearses its take-offs, and how it slows down from a run to a walk: it tries variations,
-the smallest first, until one goes well, and does that. Undisturbed, it then comes as foreseen.
+Whether a landing holds is nearly a matter of chance: a foot that lands 4 cm earlier or an entry 0.1 m/s
+faster decides it. But the simulation is exact, so a second body, the understudy, can start from the present
+state and tell. A person rehearses its take-offs, and how it slows from a run to a walk: it tries variations,
+the smallest first, until one succeeds, and uses that. If undisturbed, the result is the same.
 """
 
 from __future__ import annotations
@@ -49,19 +49,19 @@ __all__ = [
 
 _RUNNING, _WALKING = round(2.2 / CONTROL_DT), round(4.0 / CONTROL_DT)
 # ticks that it must stay up behind an obstacle
-_TRAPPED = 0.25  # how well it goes if it clears an obstacle and does not find a way on
-_LOOKED_AT = 2  # variations that are tried to find it: after a good landing most hold, after a bad one none
-_ASKED = 8  # times that it is tried how it slows down behind one
-_SETTLED = round(3.0 / CONTROL_DT)  # ticks that it must stay up after going over to another gait
-_WATCHED = round(1.0 / CONTROL_DT)  # ticks of these in which it may not
-_STAGGERS = 0.2  # [m] come nearer to or farther from its path
-_AT_REST = round(3.5 / CONTROL_DT)  # ticks in which one that brakes must stand still
-_ASKEW = 0.5  # [rad] off its heading, at which it has not lost much time when it goes on
+_TRAPPED = 0.25  # score if it clears an obstacle but finds no way to continue
+_LOOKED_AT = 2  # variations tried for continuing: after a good landing most work, after a bad one none
+_ASKED = 8  # attempts to slow down behind an obstacle
+_SETTLED = round(3.0 / CONTROL_DT)  # ticks that it must stay up after a change of gait
+_WATCHED = round(1.0 / CONTROL_DT)  # last ticks of these, in which it must not stagger
+_STAGGERS = 0.2  # [m] nearer to or farther from its path: that much is staggering
+_AT_REST = round(3.5 / CONTROL_DT)  # ticks that it must stand still after braking
+_ASKEW = 0.5  # [rad] off its heading up to which it loses little time when it goes on
 _SLOWEST = 0.1  # [m/s] of one that brakes
 _FAILED = ("fallen", "lost", "stuck")
 _LONGEST = round(12.0 / CONTROL_DT)
 _HEADWAY, _LITTLE = 0.4, 0.3  # share of the way that it is to make meanwhile; [m] less
-_RESTLESS = round(2.0 / CONTROL_DT)  # ticks after which it is not to step on where it is to stand
+_RESTLESS = round(2.0 / CONTROL_DT)  # ticks after which it must not step where it is to stand
 _STEPPING = round(3.0 / CONTROL_DT)  # ticks that it must stay up on uneven ground
 _MARKS, _ENTRIES = (0.0, 0.04, -0.04, 0.08, -0.08), (0.0, 0.1, -0.1, 0.2, -0.2)
 
@@ -70,40 +70,40 @@ _R = TypeVar("_R")
 
 
 def _nearest_first(*spans: Sequence[float]) -> tuple[tuple[float, ...], ...]:
-    """All combinations of numbers, those of the smallest changes first."""
+    """All combinations of numbers, smallest changes first."""
     greatest = [max(span) for span in spans]
     choices = itertools.product(*spans)
     return tuple(sorted(choices, key=lambda choice: float(np.hypot.reduce(np.divide(choice, greatest)))))
 
 
 REHEARSALS = 16
-"""Variations that are tried at one time at most, unless told otherwise."""
+"""Default for the most variations tried for one decision."""
 RUN_UPS = _nearest_first(_MARKS, _ENTRIES)
-"""Variations of a run-up: [m] that the mark is farther from the obstacle, [m/s] that the entry is faster."""
+"""Variations of a run-up: take-off mark farther from the obstacle [m], faster entry [m/s]."""
 SETTING_OFF = tuple((quickly, run_up) for run_up in RUN_UPS[:3] for quickly in (True, False))
-"""How it begins to run towards an obstacle: whether it speeds up quickly, and the variation of its run-up.
-Few, since it may as well begin at its next step."""
+"""Ways to begin the run towards an obstacle: whether to accelerate quickly, and the variation of the run-up.
+Only a few, because it may as well begin at its next step."""
 SLOWINGS = (1.0, 0.92, 1.08, 0.84, 1.16, 0.76, 1.24, 0.68, 1.32, 0.6, 1.4)
 """[m/s^2] by which the run's reference speed is lowered."""
 BALKINGS = (1.2, 0.9, 1.6, 0.7, 2.2, 3.0)
-"""[m/s^2], the same where a run-up is broken off: harder ones hold as well, and the obstacle is near."""
+"""[m/s^2] the same for aborting a run-up: harder ones hold as well, and the obstacle is near."""
 BRAKINGS = (1.65, 1.4, 2.0, 1.3, 1.8, 0.9, 2.5, 2.8)
-"""How hard it brakes, as a share of what was learned: those first that mostly come to stand sooner, so that
-others can be given up early."""
+"""How hard it brakes, relative to what was learned; those that usually stop sooner come first, so that others
+can be given up early."""
 STEPPINGS = (
     (0.0, 0.0), (0.05, 0.0), (-0.05, 0.0), (0.0, 0.08), (0.0, -0.08), (0.05, 0.08),
     (0.1, 0.0), (0.1, 0.08), (0.0, 0.15), (0.05, -0.08), (-0.05, 0.08), (0.15, 0.0),
 )  # fmt: skip
-"""Variations of a step on uneven ground: [s] that its transfer, and its swing, take longer. Few, since there
-are many steps: where none of them goes well, hardly any other does, and the next step may still mend it."""
+"""Variations of a step on uneven ground: [s] added to its transfer and to its swing. Only a few, because
+there are many steps: where these fail, others rarely succeed, and the next step may still save it."""
 STAYS_UP = 0.5
-"""How well a step goes, at least, after which a person stays up."""
+"""Least score of a step after which a person stays up."""
 HOLDS = 0.5
-"""How well a run-up has to go, at least, that it is begun and not broken off."""
+"""Least score at which a run-up is begun and not aborted."""
 
 
 def at_once(task: Generator[None, None, _R]) -> _R:
-    """What comes of a task in the end."""
+    """Outcome of a finished task."""
     while True:
         try:
             next(task)
@@ -119,11 +119,11 @@ def first_good(
     choose: Callable[[Chooser, _T], None],
     goes_well: Callable[[Understudy], Trial],
 ) -> Generator[None, None, Outcome[_T]]:
-    """The first of ``choices`` in ``state`` that goes perfectly, or else the first of the best; tick by tick
-    of the ``understudy``.
+    """The first of ``choices`` in ``state`` that succeeds perfectly, else the first of the best; advances the
+    ``understudy`` tick by tick.
 
-    choose: tells a body to take a choice. goes_well: lets it go on and says how well it went, 0 (it fell) to
-    1 (perfectly).
+    choose: makes a body take a choice. goes_well: advances it and returns a score from 0 (it fell) to 1
+    (perfect).
     """
     best = Outcome(choices[0], 0.0, [])
     for choice in choices:
@@ -139,11 +139,11 @@ def first_good(
 
 
 def clears(body: Understudy, looks_on: bool = True, notes: bool = False) -> Trial:
-    """Whether it clears the obstacle ahead and stays up behind it: 1 without touching what it should not.
+    """Whether it clears the obstacle ahead and stays up behind it: 1 if it touches nothing it should not.
 
-    looks_on: whether it also matters what it can do before another obstacle that is near behind it. notes:
-    whether what is seen of it is noted, until something else is to be decided. It forgets its events. One
-    that falls behind the obstacle since it did not decide how to slow down there goes on from there and does.
+    looks_on: whether its options at a near next obstacle count too. notes: whether to record its ticks until
+    the next decision; its events are dropped. If it falls behind the obstacle because it did not decide how
+    to slow down, it restarts from there and decides.
     """
     obstacle = body.obstacle_ahead
     assert obstacle is not None
@@ -151,7 +151,7 @@ def clears(body: Understudy, looks_on: bool = True, notes: bool = False) -> Tria
     watcher: Watcher | None = None  # from where it takes off
     walked = False
     seen: list[HumanState] = []
-    decided: HumanState | None = None  # before it has to decide something behind the obstacle
+    decided: HumanState | None = None  # before a decision behind the obstacle
     body.decider.undecided = False
     for tick in range(_LONGEST):
         body.events.clear()
@@ -201,7 +201,7 @@ def balk(body: Chooser, deceleration: float) -> None:
 
 
 def finds_a_way_on(body: Understudy) -> Generator[None, None, bool]:
-    """Whether one that begins a run-up and looks no farther clears the obstacle, or can break it off."""
+    """Whether one that begins a run-up without looking further clears the obstacle, or can abort."""
     state, goes_on = body.save_state(), partial(clears, looks_on=False)
     best = yield from first_good(state, body, RUN_UPS[:_LOOKED_AT], vary_run_up, goes_on)
     if best.went > 0.0:
@@ -211,8 +211,8 @@ def finds_a_way_on(body: Understudy) -> Generator[None, None, bool]:
 
 
 def slows_down_in_time(body: Understudy, state: HumanState) -> Generator[None, None, bool]:
-    """Whether one that is about to slow down, in ``state``, finds a way to slow down or to brake that goes
-    well. Less is tried than what it tries when it is there."""
+    """Whether one about to slow down in ``state`` finds a way to slow down or brake that succeeds. Tries
+    fewer variations than at the moment itself."""
     answers: list[tuple[Question, Outcome]] = []
     for _ in range(_RUNNING):
         body.restore_state(state)
@@ -236,10 +236,10 @@ def slows_down_in_time(body: Understudy, state: HumanState) -> Generator[None, N
 
 @dataclass
 class ComesToRest:
-    """Whether a body that brakes stands still in the end, and in how little room: 1 / (1 + the way there and
-    back again [m]), and much less if it then does not face where it went; with what was seen of it.
+    """Whether a braking body ends up standing, and in how little room: 1 / (1 + distance [m] there and back),
+    much less if it ends facing away from its direction of travel; with its recorded ticks.
 
-    within: least room [m] so far; one that comes farther is given up.
+    within: best distance [m] so far; one that needs more is given up.
     """
 
     within: float = math.inf
@@ -274,19 +274,19 @@ class _Moment(NamedTuple):
     """One tick of a trial on uneven ground."""
 
     state: HumanState
-    undecided: bool  # whether there was something to be decided in it
+    undecided: bool  # whether it contained a decision
     left: float  # [m] of the way
-    asked: float  # [m/s] that it is to walk
+    asked: float  # [m/s] wanted walking speed
     rests: bool
 
 
 class StepsOn:
-    """Whether a body that walks on uneven ground stays up and makes headway, or comes to rest where it is to
-    stand: 1, less if it makes little or does not, much less if it falls, the sooner the less; with what was
-    seen of it until something else is to be decided. It forgets the body's events.
+    """Whether a body walking on uneven ground stays up and makes progress, or comes to rest where it should:
+    1; less for little progress or no rest; much less for a fall, the sooner the less. Includes its ticks
+    recorded until the next decision. Drops the body's events.
 
-    It remembers what came of the best variation of a step. If the next one is not varied, that goes on, and
-    need not be simulated again.
+    The best variation's ticks are kept: if the next step is not varied, they continue and need not be
+    simulated again.
     """
 
     def __init__(self) -> None:
@@ -317,7 +317,7 @@ class StepsOn:
         return went, [moment.state for moment in known]
 
     def _known(self, body: Understudy) -> list[_Moment]:
-        """What is to come, as far as it was seen."""
+        """What will happen, as far as recorded."""
         if body.model is self._model:
             begun = body.save_state()
             for number, moment in enumerate(self._moments, 1):
@@ -331,7 +331,7 @@ def _ends(moment: _Moment) -> bool:
 
 
 def _headway(left: float, moments: Sequence[_Moment]) -> float:
-    """How well it went; ``left``: [m] of the way at the beginning."""
+    """Its score; ``left``: [m] of path left at the beginning."""
     last = moments[-1]
     if last.state.status in _FAILED:
         return STAYS_UP * len(moments) / _STEPPING
@@ -345,15 +345,16 @@ def _headway(left: float, moments: Sequence[_Moment]) -> float:
 
 
 def _failed(body: Understudy) -> bool:
-    """Whether it fell, lost its way or got stuck; one that has come past its goal can go back."""
+    """Whether it fell, got lost or got stuck; one that overshot its goal can still return."""
     came_past = body.status == "lost" and body.follower.ended
     return body.status in _FAILED and not came_past
 
 
 def walks_on(body: Understudy, notes: bool = False) -> Trial:
-    """Whether a body that slows down comes to walk or stand, and stays up: 1 if it does not stagger to one
-    side in the end, which would make it fall later. ``notes``: whether what is seen of it is noted; it then
-    forgets its events."""
+    """Whether a body that slows down comes to walk or stand, and stays up: 1 if it does not end staggering to
+    one side, which would make it fall later. ``notes``: whether to record its ticks; its events are then
+    dropped.
+    """
     seen: list[HumanState] = []
     walked, beside = 0, 0.0
     body.decider.undecided = False
@@ -367,7 +368,7 @@ def walks_on(body: Understudy, notes: bool = False) -> Trial:
         if _failed(body):
             return 0.0, []
         if walked and body.gait_now == "run":
-            return 1.0, seen[:-1]  # that it runs again is to be rehearsed in its turn
+            return 1.0, seen[:-1]  # running again has its own rehearsal
         if body.held:
             return 1.0, seen
         if walked == _SETTLED - _WATCHED:

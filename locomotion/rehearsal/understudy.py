@@ -1,4 +1,4 @@
-"""What a rehearsal asks of a body that chooses, and of one that goes ahead to see what comes of it."""
+"""Interfaces that a rehearsal needs of a body that chooses, and of one that runs ahead."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ __all__ = ["Chooser", "Understudy"]
 
 
 class Chooser(Protocol):
-    """What can be chosen, as of `locomotion.human.person.Person`."""
+    """Actions to choose from, as in `locomotion.human.person.Person`."""
 
     def save_state(self) -> HumanState: ...
     def set_off(self, choice: tuple[bool, Sequence[float]], speed: float) -> None: ...
@@ -35,7 +35,7 @@ class Chooser(Protocol):
 
 
 class Understudy(Chooser, Protocol):
-    """Members: as of `locomotion.human.human.Human`."""
+    """Members as in `locomotion.human.human.Human`."""
 
     decider: Decider
     events: list[Event]

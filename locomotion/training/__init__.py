@@ -1,1 +1,1 @@
-"""Learning of skills: CMA-ES over simulated trials, with checkpoints."""
+"""Training of skills: CMA-ES over simulated trials, with checkpoints."""

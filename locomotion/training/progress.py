@@ -1,4 +1,4 @@
-"""How far learning has come, and how long it will still take."""
+"""Progress of training and the time left."""
 
 import sys
 import time
@@ -9,7 +9,7 @@ __all__ = ["Clock", "Progress", "show"]
 
 @dataclass(frozen=True)
 class Progress:
-    """Where learning stands: shown on a terminal, or given to the caller's function."""
+    """Progress of training: shown on a terminal, or passed to the caller's function."""
 
     stage: str
     generation: int
@@ -21,26 +21,26 @@ class Progress:
 
 
 class Clock:
-    """Tells the time left of all the searches by which a skill is learned from how long the trials so far
-    took. ``ahead``: what will be simulated [s], about."""
+    """Estimates the time left of all searches of a skill from the duration of the trials so far. ``ahead``:
+    approximate simulated time to come [s]."""
 
     def __init__(self, ahead: float) -> None:
         self.ahead = ahead
         self._begun, self._done = time.monotonic(), 0.0
 
     def skip(self, simulated: float) -> None:
-        """So much [s] was simulated before."""
+        """Count [s] simulated by an earlier process."""
         self.ahead -= simulated
 
     def advance(self, simulated: float) -> tuple[float, float]:
-        """So much [s] was simulated now: the time since the beginning and the time left [s]."""
+        """Count [s] simulated now; returns the elapsed time and the time left [s]."""
         self.ahead, self._done = max(self.ahead - simulated, 0.0), self._done + simulated
         elapsed = time.monotonic() - self._begun
         return elapsed, elapsed / self._done * self.ahead
 
 
 def show(p: Progress) -> None:
-    """One line that is rewritten on a terminal; elsewhere a line per ten generations."""
+    """One line that is rewritten on a terminal; elsewhere one line per ten generations."""
     line = (
         f"{p.stage}: generation {p.generation}/{p.generations}  cost {p.cost:.2f}"
         f"  survives {100 * p.survival:.0f} %  {p.elapsed / 60:.1f} min done, {p.remaining / 60:.1f} min left"

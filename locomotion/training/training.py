@@ -1,4 +1,4 @@
-"""What all trainings have in common: what a user asks for, and the files of what was learned so far."""
+"""Common parts of all trainings: the user's options, and files of intermediate results."""
 
 import os
 from collections.abc import Callable, Mapping, Sequence
@@ -21,26 +21,27 @@ __all__ = ["NotLearnedError", "Training"]
 
 _VERSION = 1
 _TRIALS = 24
-"""In which what was learned has to succeed once."""
+"""Trials in which the result has to succeed once."""
 _SUCCESS = 0.991
-"""Of a trial's figure: more is a success. Those of who does not come to the end of a path are cut at 0.99."""
+"""A trial's figure above this is a success. On a path that is not completed it is at most 0.99."""
 
 
 class NotLearnedError(LocomotionError):
-    """Learning came to its end and what it found never works."""
+    """Training finished, but its result never works."""
 
 
 @dataclass(frozen=True)
 class Training:
-    """How a skill is learned.
+    """How to train a skill.
 
     Attributes:
-        seed: the same gives the same skill, with any number of workers.
-        checkpoint: folder for what was learned so far; what was interrupted goes on from there and gives the
-            same result. None: it is kept nowhere.
-        workers: processes.
-        effort: scales the number of generations, and below 1 some numbers of start states.
-        on_progress: told after each generation.
+      seed: the same seed gives the same skill, with any number of workers.
+      checkpoint: folder for intermediate results; an interrupted training continues from there with the same
+      result.
+        None: they are not kept.
+      workers: processes.
+      effort: scales the number of generations, and below 1 some numbers of start states.
+      on_progress: called after each generation.
     """
 
     seed: int = 0
@@ -57,13 +58,11 @@ class Training:
         builds_on: Sequence[str] = (),
         **more: Any,
     ) -> None:
-        """Find what would be in the way of a training, before it takes its time, and claim its folder.
+        """Check before a training that it can finish, and claim its folder.
 
-        skill: its name. out: file for it. builds_on: names of the package's skills that learning needs.
-        more: what else decides what is learned, to be written as JSON.
-
-        Raises `ArchiveError` if ``out`` cannot be written; `LocomotionError` if the folder holds what was
-        learned with another configuration.
+        skill: its name. out: its file. builds_on: names of the built-in skills that training needs. more:
+        JSON values that also decide the result. Raises `ArchiveError` if ``out`` cannot be written;
+        `LocomotionError` if the folder belongs to another configuration.
         """
         check_target(out)
         if self.checkpoint is None:
@@ -75,27 +74,27 @@ class Training:
     def learn(
         self, problem: Problem, number: int = 0, name: str = "search", clock: Clock | None = None
     ) -> np.ndarray:
-        """What search ``number`` of a skill finds, see `locomotion.training.search.loop.learn`. ``name``: of
-        the file for its state; ``clock``: of all searches."""
+        """Result of search ``number`` of a skill, see `locomotion.training.search.loop.learn`. ``name``: of
+        its checkpoint file; ``clock``: of all searches."""
         learned = learn(problem, self.seed + number, self.file(name), self.workers, self.on_progress, clock)
         assert learned is not None
         return learned
 
     def demand_success(self, skill: str, problem: Problem, learned: np.ndarray) -> None:
-        """Raises `NotLearnedError` if ``learned`` (n,) does what ``skill`` is to do in none of `_TRIALS`
-        trials of the problem's last stage."""
+        """Raises `NotLearnedError` if ``learned`` (n,) fails in all `_TRIALS` trials of the problem's last
+        stage."""
         stage, rng = problem.stages()[-1], np.random.default_rng(self.seed)
         trials: list[Any] = []
         while len(trials) < _TRIALS:
             trials += problem.scenarios(stage, stage.generations, rng)
         if not any(problem.evaluate(stage, learned, [trial])[1] > _SUCCESS for trial in trials):
             raise NotLearnedError(
-                f"{skill} does not work: after {stage.name!r} none of {len(trials)} trials succeeds; learn "
+                f"{skill} does not work: after {stage.name!r} none of {len(trials)} trials succeeds; train "
                 "with another --seed or more --effort, or from a better beginning"
             )
 
     def generations(self, count: int) -> int:
-        """So many with this effort, at least one."""
+        """``number`` scaled by effort, at least one."""
         return max(round(count * self.effort), 1)
 
     def file(self, name: str) -> Path | None:
@@ -103,18 +102,18 @@ class Training:
         return None if self.checkpoint is None else self.checkpoint / f"{name}.npz"
 
     def recall(self, kind: str, number: int, arrays: Mapping[str, Array]) -> dict[str, np.ndarray] | None:
-        """What `keep` has kept of search ``number``, the ``arrays``; None where it is not done."""
+        """The ``arrays`` that `keep` saved for search ``number``; None if it is not finished."""
         path = self.file(f"done-{number}")
         if path is None or not path.exists():
             return None
         return read_checkpoint(path, Schema(kind, _VERSION, Header, arrays, anew(path)))[1]
 
     def keep(self, kind: str, number: int, arrays: dict[str, np.ndarray]) -> None:
-        """Remember what search ``number`` has found."""
+        """Save the result of search ``number``."""
         path = self.file(f"done-{number}")
         if path is not None:
             write_archive(path, kind, _VERSION, {}, arrays)
 
     def made_by(self, skill: str) -> dict[str, Any]:
-        """What a skill's file says about how it was made."""
+        """Entry of a skill's file about how it was made."""
         return {"made by": f"surefoot train {skill}", "seed": self.seed, "effort": self.effort}

@@ -22,7 +22,7 @@ from surefoot.errors import SurefootError
 app = typer.Typer(
     no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None,
     help="Navigation and locomotion for game characters. "
-    "Exit codes: 0 what was asked held, 1 it did not, 2 wrong input.",
+    "Exit codes: 0: it worked or passed, 1: it did not, 2: wrong input.",
 )  # fmt: skip
 
 
@@ -31,19 +31,19 @@ _INTERRUPTED = 130
 
 
 _inputs: list[str | Path] = []
-"""Files that the command reads: none of them is ever written to (`surefoot.files.inputs`)."""
+"""Files that the command reads; it never writes to any of them (`surefoot.files.inputs`)."""
 _after = ExitStack()
-"""What is undone when the command ends."""
+"""Cleanup to run when the command ends."""
 
 
 def _input(value: Any) -> Any:
-    """Callback of every argument and option that names what is read."""
+    """Callback of every argument and option that names an input file."""
     _inputs.extend(value if isinstance(value, list) else [] if value is None else [value])
     return value
 
 
 class Up(StrEnum):
-    """The axis of a mesh file that points up."""
+    """Up axis of a mesh file."""
 
     x = "x"
     y = "y"
@@ -85,23 +85,23 @@ class _OnSkills(TyperCommand):
 
 MESH_HELP = "Mesh file: OBJ, PLY, STL, OFF, glTF (.gltf, .glb), FBX or USD (docs/guides/meshes.md)."
 TraceArgument = Annotated[
-    Path, typer.Argument(callback=_input, help="Trace (.npz), or a mission (.yaml) to be run first.")
+    Path, typer.Argument(callback=_input, help="Trace (.npz), or a mission (.yaml), which is run first.")
 ]
 UpOption = Annotated[
     Up | None,
-    typer.Option(help="Axis of the file that points up; default: what the file says, y for glTF, else z."),
+    typer.Option(help="Up axis of the file; default: as the file says, y for glTF, else z."),
 ]
 ScaleOption = Annotated[
-    float | None, typer.Option(help="Metres per unit of the file; default: what the file says, else 1.")
+    float | None, typer.Option(help="Metres per unit of the file; default: as the file says, else 1.")
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print the result as JSON on standard output.")]
-FollowOption = Annotated[
-    str | None, typer.Option(help="Agent that the camera goes with; default: the first.")
+FollowOption = Annotated[str | None, typer.Option(help="Agent that the camera follows; default: the first.")]
+SlopeOption = Annotated[float | None, typer.Option(help="[°] Steepest walkable slope.")]
+StepOption = Annotated[float | None, typer.Option(help="[m] Highest walkable step.")]
+HeadroomOption = Annotated[float | None, typer.Option(help="[m] Headroom that walking needs.")]
+ResolutionOption = Annotated[
+    float | None, typer.Option(help="[m] Spacing of the samples taken on the surface.")
 ]
-SlopeOption = Annotated[float | None, typer.Option(help="[°] Steeper faces end the walkable surface.")]
-StepOption = Annotated[float | None, typer.Option(help="[m] Higher steps end the walkable surface.")]
-HeadroomOption = Annotated[float | None, typer.Option(help="[m] Free height that walking needs.")]
-ResolutionOption = Annotated[float | None, typer.Option(help="[m] Spacing of the samples of the surface.")]
 
 
 def _show_version(wanted: bool) -> None:
@@ -114,7 +114,7 @@ def _show_version(wanted: bool) -> None:
 def _surefoot(
     version: Annotated[
         bool,
-        typer.Option("--version", callback=_show_version, is_eager=True, help="Print the version and leave."),
+        typer.Option("--version", callback=_show_version, is_eager=True, help="Print the version and exit."),
     ] = False,
 ) -> None:
     pass
@@ -123,12 +123,15 @@ def _surefoot(
 @app.command()
 def bake(
     level: Annotated[Path, typer.Argument(callback=_input, help=MESH_HELP)],
-    output: Annotated[Path, typer.Option("--output", "-o", help="File for the baked graph (.npz).")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="Output file for the baked graph (.npz).")],
     up: UpOption = None,
     scale: ScaleOption = None,
     tags: Annotated[
         Path | None,
-        typer.Option(callback=_input, help="Authored tags; default: LEVEL.tags.yaml if there is one."),
+        typer.Option(
+            callback=_input,
+            help="File with your corrections of the obstacles; default: LEVEL.tags.yaml if it exists.",
+        ),
     ] = None,
     max_slope_deg: SlopeOption = None,
     max_step: StepOption = None,
@@ -136,7 +139,7 @@ def bake(
     resolution: ResolutionOption = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Build a level's navigation graph, by default for a person, and write it to a file."""
+    """Build a level's navigation graph and write it to a file. The defaults suit a person."""
     rules = {
         "max_slope_deg": max_slope_deg,
         "max_step": max_step,
@@ -148,10 +151,10 @@ def bake(
 
 @app.command()
 def cache(
-    clear: Annotated[bool, typer.Option("--clear", help="Remove what is there.")] = False,
+    clear: Annotated[bool, typer.Option("--clear", help="Remove all compiled kernels.")] = False,
     as_json: JsonOption = False,
 ) -> None:
-    """Tell where compiled kernels are kept and how much room they take, or remove them."""
+    """Show where compiled kernels are kept and how much space they take, or remove them."""
     from surefoot.kernels import folder
 
     if clear:
@@ -160,7 +163,7 @@ def cache(
     if as_json:
         print(json.dumps({"folder": kept and str(kept), "bytes": size}))
     elif kept is None:
-        print("nowhere: no folder for caches can be written to; set NUMBA_CACHE_DIR to one that can")
+        print("nowhere: no cache folder is writable; set NUMBA_CACHE_DIR to one that is")
     else:
         print(f"{kept}: {size / 1e6:.1f} MB")
 
@@ -168,29 +171,36 @@ def cache(
 @app.command()
 def obstacles(
     level: Annotated[
-        Path, typer.Argument(callback=_input, help="Mesh file, or graph that `surefoot bake` wrote.")
+        Path, typer.Argument(callback=_input, help="Mesh file, or a graph written by `surefoot bake`.")
     ],
     up: UpOption = None,
     scale: ScaleOption = None,
     as_json: JsonOption = False,
 ) -> None:
-    """List the obstacles of a level that a skill can clear: the names that missions use, sizes and places."""
+    """List the obstacles of a level that a skill can clear, with their sizes, positions and the names that
+    missions use."""
     _finish(_commands().list_obstacles(level, up, scale), as_json)
 
 
 @app.command()
 def path(
-    graph: Annotated[Path, typer.Argument(help="Graph that `surefoot bake` wrote.")],
-    start: Annotated[tuple[float, float, float], typer.Option(metavar="X Y Z", help="[m] Z is up.")],
-    goal: Annotated[tuple[float, float, float], typer.Option(metavar="X Y Z", help="[m] Z is up.")],
+    graph: Annotated[Path, typer.Argument(help="Graph written by `surefoot bake`.")],
+    start: Annotated[
+        tuple[float, float, float], typer.Option(metavar="X Y Z", help="[m] Start x y z, Z up.")
+    ],
+    goal: Annotated[tuple[float, float, float], typer.Option(metavar="X Y Z", help="[m] Goal x y z, Z up.")],
     radius: Annotated[float, typer.Option(help="[m] Radius of the body.")] = 0.3,
     jump: Annotated[
         tuple[float, float],
         typer.Option(
-            metavar="LEAST GREATEST", help="[m] Heights to jump onto; 0 0: none.", show_default="0 0"
+            metavar="LEAST GREATEST",
+            help="[m] Lowest and highest platform to jump onto; 0 0: none.",
+            show_default="0 0",
         ),
     ] = (0.0, 0.0),
-    smooth: Annotated[bool, typer.Option(help="Give the smoothed path instead of the pulled one.")] = False,
+    smooth: Annotated[
+        bool, typer.Option(help="Print the smoothed path instead of the string-pulled one.")
+    ] = False,
     as_json: JsonOption = False,
 ) -> None:
     """Find a path on a baked graph."""
@@ -200,10 +210,10 @@ def path(
 @app.command()
 def run(
     mission: Annotated[Path, typer.Argument(callback=_input, help="Mission file (YAML).")],
-    out: Annotated[Path | None, typer.Option(help="Folder for trace, plot, film strip and page.")] = None,
+    out: Annotated[Path | None, typer.Option(help="Folder for the trace, plot, film strip and page.")] = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Run a mission as fast as possible and say what happened."""
+    """Run a mission as fast as possible and print what happened."""
     _finish(_commands().run_mission_file(mission, out), as_json)
 
 
@@ -212,17 +222,18 @@ def check(
     mission: Annotated[Path, typer.Argument(callback=_input, help="Mission file (YAML).")],
     as_json: JsonOption = False,
 ) -> None:
-    """Check a mission without running it: the file, its level, and that every place can be reached."""
+    """Check a mission without running it: its file, its level, and that every place can be reached."""
     _finish(_commands().check_mission_file(mission), as_json)
 
 
 @app.command()
 def schema(
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="File for the schema; default: standard output.")
+        Path | None,
+        typer.Option("--output", "-o", help="Output file for the schema; default: standard output."),
     ] = None,
 ) -> None:
-    """Write the JSON schema of mission files, which editors check them by while they are written."""
+    """Write the JSON schema of mission files, which editors use to check and complete them."""
     _commands().write_schema(output)
 
 
@@ -232,25 +243,27 @@ def view(
         str,
         typer.Argument(
             callback=_input,
-            help="Trace (.npz), mission (.yaml) to be run first, or a server's address (ws://…).",
+            help="Trace (.npz), mission (.yaml), which is run first, or a server's address (ws://…).",
         ),
     ],
-    output: Annotated[Path, typer.Option("--output", "-o", help="File for the page (.html).")] = Path(
+    output: Annotated[Path, typer.Option("--output", "-o", help="Output file for the page (.html).")] = Path(
         "view.html"
     ),
     follow: Annotated[
-        str | None, typer.Option(help="Agent that the camera goes with; default: it stands still.")
+        str | None, typer.Option(help="Agent that the camera follows; default: the camera stands still.")
     ] = None,
-    live: Annotated[bool, typer.Option(help="Run the mission in real time and show it as it goes.")] = False,
+    live: Annotated[bool, typer.Option(help="Run the mission in real time and watch it live.")] = False,
     world: Annotated[
-        str | None, typer.Option(help="Of a server: the world to watch; default: the only one.")
+        str | None, typer.Option(help="With a server: the world to watch; default: the only one.")
     ] = None,
-    token: Annotated[str, typer.Option(envvar="SUREFOOT_TOKEN", help="Of a server, if it wants one.")] = "",
-    port: Annotated[int, typer.Option(min=0, max=65535, help="Of the live page; 0: any that is free.")] = 0,
+    token: Annotated[
+        str, typer.Option(envvar="SUREFOOT_TOKEN", help="With a server: its token, if it needs one.")
+    ] = "",
+    port: Annotated[int, typer.Option(min=0, max=65535, help="Port of the live page; 0: any free port.")] = 0,
     as_json: JsonOption = False,
 ) -> None:
-    """Write a page that plays a run in a browser, without a server and without a network; or show a world of
-    `surefoot serve` as it goes."""
+    """Write a page that replays a run in a browser, without server or network; or watch a world of `surefoot
+    serve` live."""
     commands = _view_commands()
     if source.startswith(("ws://", "wss://")):
         _finish(commands.watch_served(source, world, token, port), as_json)
@@ -263,41 +276,41 @@ def view(
 @app.command()
 def export(
     source: TraceArgument,
-    output: Annotated[Path, typer.Option("--output", "-o", help="File to write (.glb).")] = Path("run.glb"),
+    output: Annotated[Path, typer.Option("--output", "-o", help="Output file (.glb).")] = Path("run.glb"),
     as_json: JsonOption = False,
 ) -> None:
-    """Write a run as animated glTF, which Blender, Godot, three.js and other engines open."""
+    """Export a run as animated glTF for Blender, Godot, three.js and other tools."""
     _finish(_view_commands().export_gltf(source, output), as_json)
 
 
 @app.command()
 def film(
     source: TraceArgument,
-    output: Annotated[Path, typer.Option("--output", "-o", help="File to write (.mp4).")] = Path("run.mp4"),
+    output: Annotated[Path, typer.Option("--output", "-o", help="Output file (.mp4).")] = Path("run.mp4"),
     follow: FollowOption = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Draw a run as a video: needs no GPU and no display, but about half a second for each frame."""
+    """Render a run as a video. Needs no GPU or display, but about half a second for each frame."""
     _finish(_view_commands().write_video(source, output, follow), as_json)
 
 
 @app.command()
 def serve(
     levels: Annotated[
-        list[Path], typer.Argument(callback=_input, help="Mesh files, or graphs that `surefoot bake` wrote.")
+        list[Path], typer.Argument(callback=_input, help="Mesh files, or graphs written by `surefoot bake`.")
     ],
     host: Annotated[
-        str, typer.Option(help="Address to listen on; other than this machine: with a token.")
+        str, typer.Option(help="Address to listen on; any other than this machine needs --token.")
     ] = ("127.0.0.1"),
-    port: Annotated[int, typer.Option(min=0, max=65535, help="0: any that is free.")] = 8765,
+    port: Annotated[int, typer.Option(min=0, max=65535, help="Port to listen on; 0: any free port.")] = 8765,
     token: Annotated[
-        str, typer.Option(envvar="SUREFOOT_TOKEN", help="What clients must say to be let in.")
+        str, typer.Option(envvar="SUREFOOT_TOKEN", help="Secret that clients must send to connect.")
     ] = "",
-    pages: Annotated[Path | None, typer.Option(help="Folder whose files are served over HTTP.")] = None,
+    pages: Annotated[Path | None, typer.Option(help="Folder of web pages to serve over HTTP.")] = None,
     up: UpOption = None,
     scale: ScaleOption = None,
 ) -> None:
-    """Run worlds for engines in other languages, over WebSockets. Ctrl-C ends it."""
+    """Run worlds for engines in other languages, over WebSockets. Stop with Ctrl-C."""
     _commands().serve_worlds(levels, up, scale, host, port, token, pages)
 
 
@@ -305,25 +318,29 @@ def serve(
 def playtest(
     level: Annotated[Path, typer.Argument(callback=_input, help=MESH_HELP)],
     bots: Annotated[int, typer.Option(min=0, help="How many bots.")] = 64,
-    seconds: Annotated[float, typer.Option(help="[s] that each of them plays.")] = 300.0,
+    seconds: Annotated[float, typer.Option(help="[s] How long each bot plays.")] = 300.0,
     seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same report.")] = 0,
     body: Annotated[str, typer.Option(help="walker (quick), human, dog, cat or horse.")] = "walker",
     plan: Annotated[
         Path | None,
-        typer.Option(callback=_input, help="Spawns, places, expectations; default: LEVEL.playtest.yaml."),
+        typer.Option(
+            callback=_input, help="File with spawns, places and expectations; default: LEVEL.playtest.yaml."
+        ),
     ] = None,
     out: Annotated[
         Path | None, typer.Option(help="Folder for report.html, report.json and junit.xml.")
     ] = None,
     before: Annotated[
-        Path | None, typer.Option(callback=_input, help="An earlier report.json to compare with.")
+        Path | None, typer.Option(callback=_input, help="Earlier report.json to compare with.")
     ] = None,
-    processes: Annotated[int, typer.Option(min=1, help="Processes; the report is the same.")] = 1,
+    processes: Annotated[
+        int, typer.Option(min=1, help="Number of processes; does not change the report.")
+    ] = 1,
     up: UpOption = None,
     scale: ScaleOption = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Send bots through a level and say what is wrong with it: exit code 1 when there are faults."""
+    """Send bots through a level and report its faults. The exit code is 1 if there are any."""
     options = {
         "bots": bots, "seconds": seconds, "seed": seed, "body": body, "plan": plan, "up": up,
         "scale": scale, "processes": processes,
@@ -337,15 +354,15 @@ def playtest(
 @app.command()
 def replay(
     report: Annotated[
-        Path, typer.Argument(callback=_input, help="report.json of `surefoot playtest --out`.")
+        Path, typer.Argument(callback=_input, help="report.json written by `surefoot playtest --out`.")
     ],
-    number: Annotated[int, typer.Argument(help="Number of the finding.")],
-    output: Annotated[Path, typer.Option("--output", "-o", help="File for the page (.html).")] = Path(
+    number: Annotated[int, typer.Argument(help="Number of the finding in the report.")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="Output file for the page (.html).")] = Path(
         "replay.html"
     ),
     as_json: JsonOption = False,
 ) -> None:
-    """Write a page that plays a finding of a playtest: the bot that met it runs again."""
+    """Write a page that replays a finding of a playtest: the bot that found it runs again."""
     _commands()
     from runtime.playtest.command import replay_finding
 
@@ -356,31 +373,31 @@ def replay(
 def train(
     skill: Annotated[str | None, SkillArgument] = None,
     everything: Annotated[
-        bool, typer.Option("--all", help="Learn the whole library, for the package, one skill after another.")
+        bool, typer.Option("--all", help="Train all built-in skills, one after another.")
     ] = False,
     output: Annotated[
         Path | None,
         typer.Option(
             "--output",
             "-o",
-            help="File for the skill; default: where FILE.yaml says, or the package's (see --replace).",
+            help="Output file for the skill; default: as FILE.yaml says, or the built-in one (--replace).",
         ),
     ] = None,
     seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same skill.")] = 0,
     workers: Annotated[int, typer.Option(min=1, help="Processes.")] = 2,
     checkpoint: Annotated[
         Path | None,
-        typer.Option(help="Folder for what was learned so far; default: SKILL.checkpoint here."),
+        typer.Option(
+            help="Folder for intermediate results; default: SKILL.checkpoint in the current folder."
+        ),
     ] = None,
     effort: Annotated[
-        float, typer.Option(min=0.01, max=100.0, help="Scales the number of generations.")
+        float, typer.Option(min=0.01, max=100.0, help="Multiplies the number of generations.")
     ] = 1.0,
-    replace: Annotated[
-        bool, typer.Option("--replace", help="Write the package's skills over those that it comes with.")
-    ] = False,
+    replace: Annotated[bool, typer.Option("--replace", help="Overwrite the built-in skills.")] = False,
 ) -> None:
-    """Learn a skill, with progress. Interrupted, it goes on from its checkpoint when started again. A skill
-    that never works is not written, and the exit code is 1."""
+    """Train a skill. If interrupted, run it again to continue from its checkpoint. A skill that never works
+    is not written, and the exit code is 1."""
     if (skill is None) is not everything or (everything and (output or checkpoint)):
         raise typer.BadParameter("name one skill, or --all without --output and --checkpoint")
     _commands()
@@ -396,14 +413,14 @@ def train(
 @app.command(cls=_OnSkills)
 def evaluate(
     skill: Annotated[str, SkillArgument],
-    trials: Annotated[int, typer.Option(min=1, help="How many trials of each test.")] = 20,
+    trials: Annotated[int, typer.Option(min=1, help="Number of trials in each test.")] = 20,
     seed: Annotated[int, typer.Option(min=0, help="Of the trials.")] = 0,
     picture: Annotated[
-        Path | None, typer.Option(help="File for a picture of what is covered and what is not (.png).")
+        Path | None, typer.Option(help="Output file for a picture of which trials held (.png).")
     ] = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Try a learned skill from many starts and say how often it holds."""
+    """Try a learned skill from many starts and print how often it holds."""
     _commands()
     from runtime.cli.skill_commands import evaluate_skill
 
@@ -420,25 +437,27 @@ def clip(
     ],
     mapping: Annotated[
         Path | None,
-        typer.Option("--map", callback=_input, help="Joints of the capture by parts of the person (.yaml)."),
+        typer.Option(
+            "--map",
+            callback=_input,
+            help="File that maps parts of the person to joints of the capture (.yaml).",
+        ),
     ] = None,
-    units: Annotated[str, typer.Option(help="Units of length of a .bvh file: m, cm, mm, in or ft.")] = "cm",
-    up: Annotated[Up, typer.Option(help="Axis of a .bvh file that points up.")] = Up.y,
-    film: Annotated[Path | None, typer.Option(help="File for a film strip (.png).")] = None,
+    units: Annotated[str, typer.Option(help="Unit of length of a .bvh file: m, cm, mm, in or ft.")] = "cm",
+    up: Annotated[Up, typer.Option(help="Up axis of a .bvh file.")] = Up.y,
+    film: Annotated[Path | None, typer.Option(help="Output file for a film strip (.png).")] = None,
     stretch: Annotated[
         tuple[float, float] | None,
-        typer.Option(metavar="BEGIN END", help="[s] What is shown."),
+        typer.Option(metavar="BEGIN END", help="[s] Part of the motion to use."),
     ] = None,
-    mirror: Annotated[bool, typer.Option("--mirror", help="Exchange left and right.")] = False,
+    mirror: Annotated[bool, typer.Option("--mirror", help="Swap left and right.")] = False,
     output: Annotated[
         Path | None,
-        typer.Option(
-            "--output", "-o", help="File for the motion of the person (.npz), or for its keyframes (.yaml)."
-        ),
+        typer.Option("--output", "-o", help="Output file for the motion (.npz) or its keyframes (.yaml)."),
     ] = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Show a motion and say where it breaks the joints' ranges, sinks into the ground or floats."""
+    """Show a motion and report where it exceeds joint ranges, sinks into the ground or floats."""
     _commands()
     from runtime.cli.skill_commands import show_clip
 
@@ -457,10 +476,9 @@ def _commands() -> Any:
 def _loaded() -> Any:
     """The module `runtime.cli.commands`, imported when a command needs it.
 
-    What is imported stays to the end, and looking through it for garbage, again and again while it grows and
-    once more on leaving, takes as long as the imports themselves: so it is set aside. MuJoCo need not look
-    for a display: no command draws with it. Interruptions wait meanwhile: extension modules that load drop
-    them or call them an ImportError.
+    The imported modules live until exit, so they are frozen out of garbage collection: scanning them would
+    take as long as the imports. MuJoCo need not look for a display, because no command draws with it. Ctrl-C
+    waits until the imports are done: extension modules drop it while loading, or turn it into an ImportError.
     """
     os.environ.setdefault("MUJOCO_GL", "disable")
     gc.disable()
@@ -477,8 +495,8 @@ def _loaded() -> Any:
 
 @contextmanager
 def _told_that_it_loads() -> Iterator[None]:
-    """Say that modules are loaded: on a terminal until they are; elsewhere only at the first start, when
-    Python has not compiled them yet and it takes longest."""
+    """Say that modules are loading: on a terminal every time; elsewhere only on the first start, which is
+    slowest because Python has yet to compile them."""
     begin, end = "", ""
     if "runtime.cli.commands" not in sys.modules:
         if sys.stderr.isatty():
@@ -501,7 +519,7 @@ def _view_commands() -> Any:
 
 
 def _finish(result: Any, as_json: bool) -> None:
-    """Print a command's result and leave with 0 when it held, 1 when it did not."""
+    """Print a command's result and exit with 0 if it held, else 1."""
     if as_json:
         print(json.dumps(result.values, indent=1))
     else:
@@ -516,13 +534,13 @@ def _refuse(message: str) -> int:
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Run the command line; leaves with exit code 0, 1 or 2, 130 when interrupted."""
+    """Run the command line. Exits with 0, 1 or 2; 130 when interrupted."""
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     _inputs.clear()
     with _after:
         code = _exit_code(arguments)
-    if code == _INTERRUPTED:  # typer makes it an exit of its own
-        print("surefoot: interrupted; nothing half-written is left", file=sys.stderr)
+    if code == _INTERRUPTED:  # typer turns Ctrl-C into an exit of its own
+        print("surefoot: interrupted; no half-written files are left", file=sys.stderr)
     sys.exit(code)
 
 

@@ -1,4 +1,4 @@
-"""Clips and captured motions for the command line: reading any of them, and their film strips."""
+"""Load clips and captured motions for the command line, and draw them as film strips."""
 
 import os
 from pathlib import Path
@@ -27,7 +27,8 @@ _GROUND = 50.0  # [m]
 
 
 def read_motion(source: Path, mapping: Path | None, units: str, up: str) -> Motion:
-    """A clip of keyframes (.yaml), a capture (.bvh, with a ``mapping``) or a motion (.npz), by its suffix."""
+    """A motion from keyframes (.yaml), a capture (.bvh, which needs a ``mapping``) or a saved motion
+    (.npz)."""
     kind = source.suffix.lower()
     if kind in (".yaml", ".yml"):
         return motion_of_clip(load_clip(source))
@@ -36,13 +37,14 @@ def read_motion(source: Path, mapping: Path | None, units: str, up: str) -> Moti
     if kind != ".bvh":
         raise RuntimeInputError(f"{source}: a motion is a .yaml, .bvh or .npz file, not {kind or 'this'}")
     if mapping is None:
-        raise RuntimeInputError(f"{source}: a capture needs a mapping of its joints (--map FILE)")
+        raise RuntimeInputError(f"{source}: a capture needs a file that maps its joints (--map FILE)")
     joints = load_mapping(mapping)
     return retarget(read_bvh(source, units, up), joints)
 
 
 def write_motion_film(motion: Motion, path: str | os.PathLike[str], progress: Progress) -> None:
-    """Draw eight moments of a motion, seen from its right, to ``path`` (PNG), whole or not at all."""
+    """Draw eight moments of a motion, seen from its right, to ``path`` (PNG). The file appears whole or not
+    at all."""
     from matplotlib.figure import Figure as Page
 
     model = person_spec().compile()

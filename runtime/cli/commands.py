@@ -1,4 +1,4 @@
-"""What the commands of ``surefoot`` do, apart from reading their arguments."""
+"""What the ``surefoot`` commands do once their arguments are parsed."""
 
 import json
 import signal
@@ -43,12 +43,13 @@ __all__ = [
 
 _MEASURES = ("height", "depth", "width", "run_up", "landing")
 _NO_FOLD = 400
-"""[columns]: also in a pipe a row stays one line."""
+"""[columns] in a pipe: rows stay on one line."""
 
 
 @dataclass(frozen=True)
 class Result:
-    """What a command found: ``values`` for a program, ``show`` for a person, ``held`` for the exit code."""
+    """Result of a command: ``values`` for programs, ``show`` to print for people, ``held`` for the exit
+    code."""
 
     values: Mapping[str, Any]
     held: bool
@@ -73,7 +74,7 @@ def bake_level(
     with progress.stage(f"building the graph of {level.name}"):
         begun = time.perf_counter()
         terrain = navmesh.Terrain.load(level, up=up, scale=scale)
-        check_target(output)  # files that the level's names are inputs, too
+        check_target(output)  # files that the level refers to are inputs too
         graph = navmesh.NodeGraph.build(terrain, walk_rules, tags=loaded)
         seconds = time.perf_counter() - begun
         graph.save(output)
@@ -93,7 +94,7 @@ def bake_level(
 
 
 def list_obstacles(level: Path, up: str | None, scale: float | None) -> Result:
-    """What a skill can clear on a mesh or a baked graph."""
+    """List what a skill can clear in a mesh or a baked graph."""
     found = _graph_of(level, up, scale, ready()).obstacles
     rows = [
         {
@@ -121,7 +122,7 @@ def list_obstacles(level: Path, up: str | None, scale: float | None) -> Result:
 
 
 def _graph_of(level: Path, up: str | None, scale: float | None, progress: Progress) -> navmesh.NodeGraph:
-    """The baked graph, or the graph of the mesh, in ``level``."""
+    """The baked graph in ``level``, or one built from the mesh there."""
     if level.suffix == ".npz":
         return navmesh.NodeGraph.load(level)
     with progress.stage(f"building the graph of {level.name}"):
@@ -139,7 +140,7 @@ def find_path(
     jump: tuple[float, float],
     smooth: bool,
 ) -> Result:
-    """A path on a baked graph; holds when it is complete."""
+    """Find a path on a baked graph; holds if the path is complete."""
     graph = navmesh.NodeGraph.load(graph_file)
     ready()
     route = graph.find_path(start, goal, radius=radius, skills={"jump": jump} if jump[1] > 0.0 else None)
@@ -163,7 +164,7 @@ def find_path(
 
 
 def run_mission_file(mission: Path, out: Path | None) -> Result:
-    """Run a mission; with ``out`` leave trace, plot, film strip and page there."""
+    """Run a mission; write trace, plot, film strip and page to ``out`` if given."""
     loaded = load_mission(mission)
     written = [] if out is None else check_output_folder(out, _RESULTS)
     progress = ready()
@@ -178,12 +179,12 @@ def run_mission_file(mission: Path, out: Path | None) -> Result:
 
 
 def check_mission_file(mission: Path) -> Result:
-    """Check a mission and its level; `surefoot.files.yamlfile.FileError` says what is wrong."""
+    """Check a mission and its level; raises `surefoot.files.yamlfile.FileError` that says what is wrong."""
     loaded = load_mission(mission)
     prepare_mission(loaded, ready())
     agents = [{"name": agent.name, "body": agent.body} for agent in loaded.mission.agents]
     values = {"mission": str(mission), "level": str(loaded.level_path), "agents": agents}
-    return Result(values, True, lambda: print(f"{mission}: can be run ({several(len(agents), 'agent')})"))
+    return Result(values, True, lambda: print(f"{mission}: ready to run ({several(len(agents), 'agent')})"))
 
 
 def write_schema(output: Path | None) -> None:
@@ -215,12 +216,12 @@ def serve_worlds(
         raise RuntimeInputError(f"{error}; in Surefoot's folder: pip install -e '.[serve]'") from None
 
     if pages is not None and not pages.is_dir():
-        raise RuntimeInputError(f"{pages}: is no folder; pages are served from one")
+        raise RuntimeInputError(f"{pages}: not a folder; --pages needs one")
     graphs: dict[str, navmesh.NodeGraph] = {}
     progress = ready()
     for level in levels:
         if level.stem in graphs:
-            raise RuntimeInputError(f"{level}: there is another level called {level.stem!r}")
+            raise RuntimeInputError(f"{level}: two levels are called {level.stem!r}")
         graphs[level.stem] = _graph_of(level, up, scale, progress)
     load_kernels()
     server = SurefootServer(graphs, host, port, token, pages)
@@ -229,13 +230,13 @@ def serve_worlds(
     async def serve_until_ended() -> None:
         own = asyncio.current_task()
         assert own is not None
-        with suppress(NotImplementedError):  # only Linux and the like have it
+        with suppress(NotImplementedError):  # only on Unix
             asyncio.get_running_loop().add_signal_handler(signal.SIGTERM, own.cancel)
         await server.run(lambda port: print(f"serving on ws://{where}:{port}", flush=True))
 
     try:
         asyncio.run(serve_until_ended())
-    except asyncio.CancelledError:  # all that was going on has been put in order
+    except asyncio.CancelledError:  # everything has been cleaned up
         raise SystemExit(128 + signal.SIGTERM) from None
 
 
@@ -243,7 +244,7 @@ _RESULTS = ("trace.npz", "level.png", "film.png", "run.html")
 
 
 def _write_results(trace: Trace, files: Sequence[Path], progress: Progress) -> None:
-    """Write the trace to ``files``, in the order of `_RESULTS`; nothing where there are none."""
+    """Write the trace to ``files``, in the order of `_RESULTS`; does nothing if there are none."""
     from runtime.views.filmstrip import write_filmstrip
     from runtime.views.plot import plot_from_above
     from runtime.views.view import write_page
@@ -260,14 +261,14 @@ def _write_results(trace: Trace, files: Sequence[Path], progress: Progress) -> N
 
 
 def show_mission(mission: Path, result: MissionResult, written: list[Path]) -> None:
-    """Print what happened in a mission, and what held."""
+    """Print what happened in a mission and which expectations held."""
     from rich.console import Console
     from rich.table import Table
 
     console = Console(highlight=False)
     happened = Table("time", "what happened", title=mission.name, title_justify="left")
     for event, more in _in_short(result.events):
-        again = f" (and changes its way {several(more, 'time')})" if more else ""
+        again = f" (and replans {several(more, 'time')})" if more else ""
         happened.add_row(f"{event.time:6.2f} s", f"{event}{again}")
     console.print(happened)
     checks = Table("agent", "expected", "found", "held")
@@ -282,7 +283,8 @@ def show_mission(mission: Path, result: MissionResult, written: list[Path]) -> N
 
 
 def _in_short(events: Sequence[Event]) -> list[tuple[Event, int]]:
-    """The events, of departures in a row only the first, each with how many of its agent's were left out."""
+    """The events, with only the first of several departures in a row, each with the number of that agent's
+    departures left out."""
     shown: list[tuple[Event, int]] = []
     latest: dict[str, int] = {}
     for event in events:
@@ -296,7 +298,7 @@ def _in_short(events: Sequence[Event]) -> list[tuple[Event, int]]:
 
 
 def ready() -> Progress:
-    """What tells how far a command is; the kernels are compiled."""
+    """Progress display for a command; compiles the kernels first."""
     progress = Progress()
     if not is_compiled():
         compile_kernels(progress)
@@ -304,17 +306,17 @@ def ready() -> Progress:
 
 
 def check_picture(picture: Path) -> None:
-    """Raises `ArchiveError` or `RuntimeInputError` when ``picture`` cannot be a PNG file."""
+    """Raise `ArchiveError` or `RuntimeInputError` if ``picture`` cannot be a PNG file."""
     check_target(picture)
     if picture.suffix.lower() != ".png":
-        raise RuntimeInputError(f"{picture}: pictures are written as .png; name it so")
+        raise RuntimeInputError(f"{picture}: pictures are written as .png; use that ending")
 
 
 def check_page(page: Path) -> None:
-    """Raises `ArchiveError` or `RuntimeInputError` when ``page`` cannot be an HTML file."""
+    """Raise `ArchiveError` or `RuntimeInputError` if ``page`` cannot be an HTML file."""
     check_target(page)
     if page.suffix.lower() not in (".html", ".htm"):
-        raise RuntimeInputError(f"{page}: pages are written as .html; name it so")
+        raise RuntimeInputError(f"{page}: pages are written as .html; use that ending")
 
 
 def _kinds(graph: navmesh.NodeGraph) -> list[str]:

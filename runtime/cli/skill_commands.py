@@ -1,4 +1,4 @@
-"""What the commands on skills and clips do, apart from reading their arguments."""
+"""What the commands for skills and clips do once their arguments are parsed."""
 
 import os
 import sys
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["evaluate_skill", "show_clip", "train_library", "train_skill"]
 
 _WITHOUT_A_PLANE = ("walk", "speed-up", "slow-down", "brake")
-"""Skills whose trials do not differ in two numbers, so that no picture of what they cover can be drawn."""
+"""Skills whose trials do not vary in two numbers, so that no coverage picture can be drawn."""
 
 
 def _trainers() -> Mapping[str, Callable[..., Any]]:
@@ -54,15 +54,17 @@ def train_skill(
     effort: float,
     replace: bool,
 ) -> Result:
-    """Learn ``skill``, one of the package's or one that a file describes, and write it to ``output`` (None:
-    where its description says, or where the package keeps it). Holds when what was learned works, which is
-    written only then. Its values tell the CPU time [min], with what it took before it was interrupted.
-    Raises `RuntimeInputError` where a skill of the package would be replaced without ``replace``, and
-    while another process learns with the same checkpoint."""
+    """Train ``skill``, a built-in one or one described by a file, and write it to ``output`` (None: where its
+    description says, or the built-in place).
+
+    Holds if the learned skill works; only then is it written. The values include the CPU time [min], also
+    that of interrupted runs. Raises `RuntimeInputError` if a built-in skill would be overwritten without
+    ``replace``, or if another process uses the same checkpoint.
+    """
     name = Path(skill).stem
     kept = checkpoint or Path(f"{name}.checkpoint")
     if not kept.parent.is_dir():
-        raise RuntimeInputError(f"{kept}: there is no folder {str(kept.parent)!r} to keep checkpoints in")
+        raise RuntimeInputError(f"{kept}: no folder {str(kept.parent)!r} to keep checkpoints in")
     from locomotion.training.skills.jump import train_described
     from locomotion.training.training import NotLearnedError, Training
 
@@ -79,7 +81,7 @@ def train_skill(
             timer.keep()
     except Timeout:
         raise RuntimeInputError(
-            f"{kept}: another process learns with this checkpoint; wait for it, or name another --checkpoint"
+            f"{kept}: another process is using this checkpoint; wait for it, or use another --checkpoint"
         ) from None
     values = {"skill": skill, "works": not fault, "core-minutes": timer.minutes}
 
@@ -87,26 +89,26 @@ def train_skill(
         if fault:
             print(f"surefoot: {fault}. No skill was written; {kept} holds what was learned", file=sys.stderr)
         else:
-            print(f"{name} learned in {timer.minutes:.1f} core-minutes; {kept} is not needed any more")
+            print(f"{name} learned in {timer.minutes:.1f} core-minutes; {kept} is no longer needed")
 
     return Result(values, not fault, show)
 
 
 def _package_file(skill: str, replace: bool) -> Path:
-    """Where the package keeps ``skill``; `RuntimeInputError` if it has it and is not to ``replace`` it."""
+    """File of a built-in ``skill``; raises `RuntimeInputError` if it exists and must not be replaced."""
     from locomotion.skills.library import package_skill
 
     file = package_skill(skill)
     if file.exists() and not replace:
         raise RuntimeInputError(
-            f"{file}: is the package's own {skill}; say --replace to learn it anew in its place, or learn "
-            f"one skill for a file of yours (-o {file.name})"
+            f"{file}: is the built-in {skill}; use --replace to overwrite it, or write "
+            f"one skill to a file of your own (-o {file.name})"
         )
     return file
 
 
 class _Timer:
-    """CPU time of learning, kept in a file beside its checkpoint, so that none is lost between commands."""
+    """CPU time of training, kept in a file beside the checkpoint so that it adds up over interrupted runs."""
 
     def __init__(self, checkpoint: Path) -> None:
         self._file = Path(f"{checkpoint}.minutes")
@@ -118,7 +120,7 @@ class _Timer:
             return float(self._file.read_text(encoding="utf-8"))
         except ValueError:
             raise RuntimeInputError(
-                f"{self._file}: expected minutes of learning so far; remove it to count from now on"
+                f"{self._file}: expected the minutes trained so far; remove the file to count from zero"
             ) from None
 
     def told(self, now: "progress.Progress") -> None:
@@ -134,15 +136,14 @@ class _Timer:
 
 
 def _cpu_minutes() -> float:
-    """CPU time of this process, the workers it has had and those it has."""
+    """CPU time [s] of this process and its past and present workers."""
     running = (worker.cpu_times() for worker in psutil.Process().children())
     return (sum(os.times()[:4]) + sum(each.user + each.system for each in running)) / 60.0
 
 
 def train_library(seed: int, workers: int, effort: float, replace: bool) -> Result:
-    """Learn all skills of the package, one after the other, and say what each has cost; what comes after one
-    that does not work is not learned. Raises `RuntimeInputError` where one would be replaced and is not to
-    be."""
+    """Train all built-in skills in order and print what each cost; stops after the first that does not work.
+    Raises `RuntimeInputError` if one would be overwritten without ``replace``."""
     for skill in _trainers():
         _package_file(skill, replace)
     minutes: dict[str, float] = {}
@@ -162,11 +163,13 @@ def train_library(seed: int, workers: int, effort: float, replace: bool) -> Resu
 
 
 def evaluate_skill(skill: str, trials: int, seed: int, picture: Path | None = None) -> Result:
-    """Try ``skill``; holds when at least nine of ten trials of each test do. ``picture``: where to draw which
-    of what was tried is covered."""
+    """Try ``skill``; holds if at least nine of ten trials of each test do. ``picture``: file for a plot of
+    which trials held."""
     if picture is not None:
         if skill in _WITHOUT_A_PLANE:
-            raise RuntimeInputError(f"the tests of {skill} have no plane to draw; leave --picture out")
+            raise RuntimeInputError(
+                f"the tests of {skill} do not vary in two numbers that could be plotted; leave --picture out"
+            )
         check_picture(picture)
     from locomotion.skills.registry import skill_kinds
     from runtime.evaluation.evaluation import (
@@ -218,7 +221,7 @@ def evaluate_skill(skill: str, trials: int, seed: int, picture: Path | None = No
 
 
 def _shown(test: dict[str, Any], name: str) -> str:
-    """One of a test's figures: its mean, and of lengths also how they are spread."""
+    """One figure of a test: its mean, and for lengths also median and 95th percentile."""
     mean = f"{name} {test['means'][name]:.3g}"
     if not name.endswith("[m]"):
         return mean
@@ -231,7 +234,7 @@ def _by_test(attempts: Sequence["Attempt"]) -> dict[str, list["Attempt"]]:
 
 
 def _over(attempts: Sequence["Attempt"], statistic: Callable[[list[float]], Any]) -> dict[str, float]:
-    """A ``statistic`` of each of the figures, over the attempts that have it."""
+    """A ``statistic`` of each figure, over the attempts that have it."""
     names = dict.fromkeys(name for each in attempts for name in each.figures)
     return {
         name: float(statistic([each.figures[name] for each in attempts if name in each.figures]))
@@ -249,8 +252,8 @@ def show_clip(
     film: Path | None,
     output: Path | None,
 ) -> Result:
-    """Check a clip or a captured motion, or a ``stretch`` of it [s]; draw it to ``film``, save it as the
-    person's motion or as keyframes to ``output``."""
+    """Check a clip or captured motion, or a ``stretch`` of it [s]; draw it to ``film``, and save it to
+    ``output`` as a motion or as keyframes."""
     from locomotion.clips.keyframes import keyframes_of, mirrored, save_clip, stretch_of
     from locomotion.clips.motion_check import check_motion
     from runtime.cli.clips import read_motion, write_motion_film
@@ -284,6 +287,6 @@ def show_clip(
 
     def show() -> None:
         print(f"{motion.name}: {motion.duration:.2f} s at {motion.rate:.0f} Hz")
-        print("\n".join(f"  {fault}" for fault in faults) or "  within its joints, on the ground")
+        print("\n".join(f"  {fault}" for fault in faults) or "  within its joint ranges, on the ground")
 
     return Result(values, not faults, show)

@@ -17,7 +17,7 @@ __all__ = ["export_gltf", "watch_mission", "watch_served", "write_video", "write
 
 
 def write_view(source: Path, output: Path, follow: str | None) -> Result:
-    """Write the page of a trace, or of a mission that is run for it; the camera goes with ``follow``."""
+    """Write the page of a trace, or of a mission, which is run first; the camera follows ``follow``."""
     from runtime.views.view import write_page
 
     check_page(output)
@@ -28,7 +28,7 @@ def write_view(source: Path, output: Path, follow: str | None) -> Result:
 
 
 def watch_mission(mission: Path, port: int) -> Result:
-    """Run a mission in real time on a page that a browser shows, until interrupted."""
+    """Run a mission in real time and show it in a browser until interrupted."""
     from runtime.views.live import LiveView
 
     loaded = load_mission(mission)
@@ -53,7 +53,7 @@ def watch_mission(mission: Path, port: int) -> Result:
 
 
 def watch_served(address: str, name: str | None, token: str, port: int) -> Result:
-    """Show a world of `surefoot serve` on a page, until it is closed or the command is interrupted."""
+    """Show a world of `surefoot serve` in a browser until it is closed or the command is interrupted."""
     from runtime.views.served import ServedWorld
     from runtime.views.window import Window
 
@@ -69,12 +69,12 @@ def watch_served(address: str, name: str | None, token: str, port: int) -> Resul
 
 
 def export_gltf(source: Path, output: Path) -> Result:
-    """Write a trace, or a mission that is run for it, as animated glTF."""
+    """Export a trace, or a mission, which is run first, as animated glTF."""
     from runtime.views.gltf import write_gltf
 
     check_target(output)
     if output.suffix.lower() != ".glb":
-        raise RuntimeInputError(f"{output}: glTF is written as one binary file; name it .glb")
+        raise RuntimeInputError(f"{output}: glTF is written as one binary file; use the ending .glb")
     trace, progress = _trace_of(source, output)
     with progress.stage("writing the animation"):
         write_gltf(trace, output)
@@ -82,13 +82,13 @@ def export_gltf(source: Path, output: Path) -> Result:
 
 
 def write_video(source: Path, output: Path, of: str | None) -> Result:
-    """Draw a trace, or a mission that is run for it, as a video."""
+    """Render a trace, or a mission, which is run first, as a video."""
     from runtime.views.camera import agent_named
     from runtime.views.film import write_film
 
     check_target(output)
     if output.suffix.lower() != ".mp4":
-        raise RuntimeInputError(f"{output}: a video is written as .mp4; name it so")
+        raise RuntimeInputError(f"{output}: a video is written as .mp4; use that ending")
     trace, progress = _trace_of(source, output)
     agent_named(trace, of)
     write_film(trace, output, of, progress)
@@ -96,7 +96,7 @@ def write_video(source: Path, output: Path, of: str | None) -> Result:
 
 
 def _trace_of(source: Path, output: Path) -> tuple[Trace, Progress]:
-    """The trace at ``source``, or of the mission there, which is run; ``output`` is none of its files."""
+    """Load the trace at ``source``, or run the mission there; ``output`` must not be one of its files."""
     if source.suffix.lower() in (".yaml", ".yml"):
         loaded = load_mission(source)
         check_target(output)

@@ -1,1 +1,1 @@
-"""A local WebSocket server for engines that are not written in Python."""
+"""A WebSocket server that runs worlds for engines in other languages."""

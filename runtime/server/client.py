@@ -1,4 +1,4 @@
-"""One who is connected to the server."""
+"""A client of the server."""
 
 import time
 
@@ -11,8 +11,8 @@ __all__ = ["Client"]
 
 
 class Client:
-    """``outbox``: what is to be sent. ``account``: its share of the server's time. ``heard``: when [s] it
-    last said something."""
+    """``outbox``: messages to send. ``account``: its share of the server's time. ``heard``: when [s] it last
+    sent anything."""
 
     def __init__(self, connection: ServerConnection, outbox: Outbox) -> None:
         self.connection, self.outbox, self.account = connection, outbox, Account()

@@ -1,6 +1,6 @@
-"""A connection that ends when its client sends more than can be meant well.
+"""A connection that is closed when its client floods it.
 
-What is counted here never comes to those who read messages: pings are answered on the way.
+Pings are answered by the library and never reach the readers of messages, so they are counted here.
 """
 
 import asyncio
@@ -13,11 +13,11 @@ from runtime.server.limits import Limits
 
 __all__ = ["connection_with"]
 
-_PIECE = 8192  # [bytes] read at a time: what comes from one client is looked at for as long at most
+_PIECE = 8192  # [bytes] read at a time, which bounds the time spent on one client
 
 
 def connection_with(limits: Limits) -> type[ServerConnection]:
-    """The class of connections that keep to ``limits``."""
+    """The class of connections that enforce ``limits``."""
 
     class Connection(ServerConnection):
         _begun, _pings = 0.0, 0  # of the present second
@@ -29,7 +29,7 @@ def connection_with(limits: Limits) -> type[ServerConnection]:
         def data_received(self, data: bytes) -> None:
             super().data_received(data)
             if self.transport.get_write_buffer_size() > limits.waiting:
-                self.transport.abort()  # it asks and does not read
+                self.transport.abort()  # a client that asks but does not read
 
         def process_event(self, event: Any) -> None:
             super().process_event(event)

@@ -1,7 +1,7 @@
-"""A world that the server runs, and how it is told in messages.
+"""A world on the server, and its description in messages.
 
-What may take long (`HostedWorld.step` and most others) can be interrupted, see `surefoot.pausing`; nobody
-else may use the world then. Whoever calls it holds `HostedWorld.lock`.
+Long work (`HostedWorld.step` and most others) can be interrupted, see `surefoot.pausing`; nobody else may use
+the world in the meantime. Callers hold `HostedWorld.lock`.
 """
 
 import asyncio
@@ -29,11 +29,10 @@ _DRAWN = ("positions", "radii", "edges", "rim", "normal", "height")
 
 
 class HostedWorld:
-    """``name`` is its own in the server; ``level``: its level's; ``manual``: whether its clients step it.
-
-    ``clients``: who joined it, in order, and what each wants to be told. ``spawned``: whose agents there are.
-    ``since``: when [s] it was advanced or, without clients, left. ``at_work``: whether an advance is due.
-    ``closed``: whether it has been.
+    """``name``: unique on the server; ``level``: its level's name; ``manual``: whether clients step it.
+    ``clients``: members in order of joining, each with the states that it wants. ``spawned``: client of
+    each agent. ``since``: when [s] it was last advanced or, without clients, left. ``at_work``: whether an
+    advance is due. ``closed``: whether it has ended.
     """
 
     def __init__(self, name: str, level: str, graph: navmesh.NodeGraph, seed: int, manual: bool) -> None:
@@ -51,7 +50,7 @@ class HostedWorld:
 
     @property
     def owner(self) -> Client | None:
-        """To whom it counts: who has been here longest."""
+        """The client whose quota it counts towards: the longest-standing member."""
         return next(iter(self.clients), None)
 
     def agent(self, name: str) -> Agent:
@@ -63,7 +62,7 @@ class HostedWorld:
 
     # --- what takes long
     def join(self, states: States) -> dict[str, Any]:
-        """What one who joins is told, and the state as it wants it."""
+        """The reply to a client that joins, and the state in the form that it wants."""
         self._describe(states)
         agents = []
         for agent in self.world.agents.values():
@@ -89,7 +88,7 @@ class HostedWorld:
         sent = self.agent(agent)
         status = sent.go_to(points, speed, facing)
         former = sent.driver.plans
-        while len(former) > 1:  # a client that sends it about all day must not fill the memory
+        while len(former) > 1:  # many orders of one client must not fill the memory
             former.popleft()
         return status
 
@@ -116,7 +115,7 @@ class HostedWorld:
         return {"time": self.world.time, "hash": self.world.state_hash()}
 
     def changed(self) -> None:
-        """Describe the present state to those who want to be told."""
+        """Send the present state to the clients that want it."""
         self._texts.clear()
         self._ways = {name: way for name, way in self._ways.items() if name in self.world.agents}
         self.spawned = {name: self.spawned.get(name, self.owner) for name in self.world.agents}
@@ -136,7 +135,7 @@ class HostedWorld:
 
     # ---
     def state(self, states: States) -> bytes | None:
-        """The text of the present state, None for one that nobody has asked for yet."""
+        """The text of the present state, None if nobody asked for its form."""
         return self._texts.get(states)
 
     def _agent_state(self, agent: Agent, states: States) -> dict[str, Any]:
@@ -154,7 +153,7 @@ class HostedWorld:
         return told
 
     def _number_of(self, agent: Agent) -> int | None:
-        """The number of the path that an agent is on."""
+        """Number of an agent's present path."""
         way = agent.way
         if way is None:
             return None
@@ -187,15 +186,14 @@ def level_message(graph: navmesh.NodeGraph) -> dict[str, Any]:
 
 
 def graph_message(graph: navmesh.NodeGraph) -> dict[str, Any]:
-    """What of a level's graph and obstacles is drawn, as `runtime.traces.trace.LevelTrace` has it."""
+    """What is drawn of a level's graph and obstacles, as in `runtime.traces.trace.LevelTrace`."""
     level = level_trace(graph)
     drawn = {name: getattr(level, name).round(4).tolist() for name in _DRAWN}
     return {**drawn, "affordances": list(level.affordances)}
 
 
 def way_message(agent: Agent) -> dict[str, Any]:
-    """The lines of the path that an agent is on, as `runtime.traces.trace.PathTrace` has them; empty without
-    one."""
+    """Lines of an agent's present path as in `runtime.traces.trace.PathTrace`; empty without one."""
     way = agent.way
     if way is None:
         return {"raw": [], "pulled": [], "smooth": []}

@@ -11,12 +11,11 @@ __all__ = ["Limits"]
 class Limits:
     """Sizes in bytes, times in seconds.
 
-    message: of a request. clients: at a time. worlds, agents: that one client may have; there are no more
-    agents in a world either. all_worlds, all_agents: how many there may be before each client can have its
-    share of them only: as many for each client that is there. waiting: of replies and events that a client
-    may leave unread, and of answers to its pings. pings: of a client in a second. idle: time after which a
-    client that is silent and in no world is sent away. deserted: time that a world is kept which all clients
-    have left; it stands still meanwhile. greeting: time for the first message.
+    message: size of a request. clients: at a time. worlds, agents: per client; `agents` also per world.
+    all_worlds, all_agents: totals beyond which each client is limited to an equal share. waiting: replies,
+    events and ping answers that a client may leave unread. pings: per client and second. idle: time after
+    which a silent client in no world is disconnected. deserted: time that a world without clients is kept,
+    paused. greeting: time allowed for the first message.
     """
 
     message: int = 65536
@@ -32,14 +31,15 @@ class Limits:
     greeting: float = 10.0
 
     def check_share(self, what: str, own: int, more: int, total: int, clients: int) -> None:
-        """Raise `RuntimeInputError` where a client that has ``own`` worlds or agents (``what``), of ``total``
-        in the server, must not have ``more``; there are so many ``clients``."""
+        """Raise `RuntimeInputError` if a client with ``own`` worlds or agents (``what``), out of ``total`` on
+        the server, may not have ``more``, given the number of ``clients``."""
         most, of = (self.worlds, self.all_worlds) if what == "worlds" else (self.agents, self.all_agents)
         wanted = own + more
         if wanted > most:
-            raise RuntimeInputError(f"you have {own} {what} already, of {most}; give one up")
+            raise RuntimeInputError(f"you have {own} {what} already, of at most {most}; remove one")
         share = of // max(clients, 1)
         if total + more > of and wanted > share:
             raise RuntimeInputError(
-                f"the server has {total} {what} already, of {of}; you have {own}, and your share is {share}"
+                f"the server has {total} {what} already, of at most {of}; "
+                f"you have {own}, and your share is {share}"
             )

@@ -6,13 +6,13 @@ from contextlib import contextmanager
 
 __all__ = ["Sparing", "sparing"]
 
-_MOST, _EVERY = 10, 60.0  # entries in so many seconds
-_LOGS = ("surefoot.serve", "asyncio")  # asyncio tells of each message to a connection that is gone
+_MOST, _EVERY = 10, 60.0  # entries per so many seconds
+_LOGS = ("surefoot.serve", "asyncio")  # asyncio logs each message to a lost connection
 
 
 class Sparing(logging.Filter):
-    """Lets through `_MOST` entries of a log in `_EVERY` seconds; the next one after those tells how many were
-    left out."""
+    """Passes `_MOST` entries of a log per `_EVERY` seconds; the next one afterwards reports how many were
+    dropped."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -23,7 +23,7 @@ class Sparing(logging.Filter):
             left_out = max(self._count - _MOST, 0)
             self._begun, self._count = record.created, 0
             if left_out:
-                text = f"{record.getMessage()} ({left_out} more entries were left out before this one)"
+                text = f"{record.getMessage()} ({left_out} more entries were dropped before this one)"
                 record.msg, record.args = text, ()
         self._count += 1
         return self._count <= _MOST
@@ -31,7 +31,7 @@ class Sparing(logging.Filter):
 
 @contextmanager
 def sparing() -> Iterator[None]:
-    """Within the block the server's logs are sparing."""
+    """Within the block, limit the server's logs."""
     filters = [(logging.getLogger(name), Sparing()) for name in _LOGS]
     for log, each in filters:
         log.addFilter(each)

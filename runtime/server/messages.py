@@ -1,14 +1,13 @@
-"""What clients and server say to each other: one JSON object for each WebSocket text message.
+"""Messages between clients and server: one JSON object per WebSocket text message.
 
     python -m runtime.server.messages docs/reference/server.schema.json
 
 writes the JSON schema of all of them.
 
-Metres, seconds, radians; Z up; quaternions (w, x, y, z). A client sends requests, each with an ``id`` of its
-choice that the reply repeats, `Hello` first. Replies, errors and events carry ``seq``, which counts up by 1
-for each client: none is lost or overtakes another. States carry none: a client that is slow gets the newest.
-
-Types are strict: where a number is expected, neither a text with a number in it nor true or false will do.
+Metres, seconds, radians; Z up; quaternions (w, x, y, z). A client sends requests, `Hello` first, each with an
+``id`` of its choice that the reply repeats. Replies, errors and events carry ``seq``, which counts up by 1
+for each client: none is lost or reordered. States carry none: a slow client gets only the newest. Types are
+strict: a number may not be given as text, true or false.
 """
 
 import json
@@ -62,10 +61,10 @@ def _known(body: str) -> str:
 
 
 _Body = Annotated[str, AfterValidator(_known), WithJsonSchema({"enum": list(BODIES), "type": "string"})]
-"""Those that come with the package. A file is none: clients name no files."""
+"""Built-in bodies only: clients cannot name files."""
 States = Literal["none", "places", "world", "local"]
-"""What a client is told after each step: nothing; where each agent is and what it does; also its skeleton's
-transforms in the world, or each in its parent's frame."""
+"""What a client receives after each step: nothing; each agent's place and activity; also its skeleton's
+transforms in the world, or each relative to its parent."""
 
 
 class _Message(BaseModel):

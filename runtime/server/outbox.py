@@ -1,7 +1,7 @@
-"""What waits to be sent to one client.
+"""Messages waiting for one client.
 
-Replies and events wait in order, none is dropped; a client that lets too many of them wait is told to go. Of
-states only which worlds have a newer one is kept: the newest is looked up when there is room to send it.
+Replies and events wait in order and are never dropped; a client with too many of them is disconnected. For
+states, only the worlds with a newer one are kept: the newest is looked up when there is room to send it.
 """
 
 import asyncio
@@ -17,12 +17,12 @@ _PIECE = 1 << 16  # [bytes]
 
 
 class TooSlow(Exception):
-    """A client does not read what it is sent."""
+    """A client does not read its messages."""
 
 
 class Outbox:
-    """``newest(world)`` gives the text of a world's newest state for this client, None for no such world;
-    ``most`` is how many bytes may wait in order."""
+    """``newest(world)`` returns the text of a world's newest state for this client, None if there is no such
+    world; ``most``: bytes that may wait in order."""
 
     def __init__(self, newest: Callable[[str], bytes | None], most: int) -> None:
         self._newest, self._most = newest, most
@@ -33,8 +33,8 @@ class Outbox:
         self._room.set()
 
     def put(self, message: Mapping[str, Any], result: bytes | None = None) -> None:
-        """Send in order. ``result``: the JSON text of the message's ``result``, which the server keeps for
-        all: it takes no room here, and is sent in pieces. Raises `TooSlow`."""
+        """Send in order. ``result``: JSON text of the message's ``result``, which the server shares among
+        clients: it uses no room here, and is sent in pieces. Raises `TooSlow`."""
         self._seq += 1
         end = b',"seq":%d}' % self._seq
         head = to_json(message)[:-1]
@@ -51,23 +51,23 @@ class Outbox:
         self._filled.set()
 
     def mark(self, world: str) -> None:
-        """A world has a newer state."""
+        """Note that a world has a newer state."""
         self._fresh[world] = None
         self._filled.set()
 
     def end(self) -> None:
-        """Nobody is there any more to read it."""
+        """The client is gone."""
         self._ordered.clear()
         self._fresh.clear()
         self._waiting, self._ended = 0, True
         self._room.set()
 
     async def room(self) -> None:
-        """Wait until a client that asks much has read some of the answers."""
+        """Wait until the client has read some of its answers."""
         await self._room.wait()
 
     async def take(self) -> bytes | Iterator[memoryview]:
-        """The next message to be sent, once there is one; a large one in pieces."""
+        """Wait for the next message; a large one comes in pieces."""
         while True:
             await self._filled.wait()
             if self._ordered:
@@ -86,7 +86,7 @@ class Outbox:
 
 
 def _own(text: tuple[bytes, ...]) -> int:
-    """Size of what is kept for this client alone."""
+    """Size of what is stored for this client alone."""
     return len(text[0]) + (len(text[-1]) if len(text) > 1 else 0)
 
 

@@ -1,4 +1,4 @@
-"""Files of one folder over HTTP, for pages that talk to the server."""
+"""Serve the files of one folder over HTTP, for pages that talk to the server."""
 
 import http
 from email.utils import formatdate
@@ -20,15 +20,15 @@ _TYPES = {
     ".glb": "model/gltf-binary", ".gltf": "model/gltf+json",
     ".mp3": "audio/mpeg", ".ogg": "audio/ogg", ".mp4": "video/mp4", ".webm": "video/webm",
 }  # fmt: skip
-"""What a page is made of; no other file is served."""
+"""File types that are served."""
 _LARGEST = 64_000_000  # [bytes] of a file
 
 
 def page_of(connection: ServerConnection, path: str, folder: Path | None) -> Response:
     """The file of ``folder`` that ``path`` names, ``index.html`` for a folder; 404 for any other.
 
-    Only files inside the folder are served, of the types that pages are made of, and none whose name, or
-    whose folder's, begins with a dot. What a link leads to counts, not where it lies.
+    Serves only files inside the folder, of the types that pages use, without names or folders that begin with
+    a dot. Links count by their target.
     """
     if folder is None:
         return connection.respond(http.HTTPStatus.UPGRADE_REQUIRED, "this is a WebSocket server\n")
@@ -52,7 +52,7 @@ def page_of(connection: ServerConnection, path: str, folder: Path | None) -> Res
 
 
 def _served(root: Path, path: str) -> Path | None:
-    """The file of the folder ``root`` that ``path`` names, None where none is to be served."""
+    """The file of the folder ``root`` that ``path`` names, None if it must not be served."""
     try:
         file = (root / path.lstrip("/")).resolve()
         file = (file / "index.html").resolve() if file.is_dir() else file
@@ -60,5 +60,5 @@ def _served(root: Path, path: str) -> Path | None:
             return None
         hidden = any(part.startswith(".") for part in file.relative_to(root).parts)
         return file if not hidden and file.is_file() and file.stat().st_size <= _LARGEST else None
-    except (OSError, ValueError, RuntimeError):  # names that are none; links in a circle
+    except (OSError, ValueError, RuntimeError):  # invalid names, or links in a circle
         return None

@@ -1,6 +1,6 @@
-"""What each request of a client does.
+"""Handlers of client requests.
 
-What takes long is done in the turns of the client that asks for it, one request at a time in each world.
+Long work is done in the turns of the client that requested it, one request at a time in each world.
 """
 
 from collections.abc import Callable, Mapping
@@ -23,28 +23,28 @@ __all__ = ["Requests"]
 
 
 class Requests:
-    """Answers requests about ``worlds`` on ``levels`` (graphs by name)."""
+    """Handles requests about ``worlds`` on ``levels`` (graphs by name)."""
 
     def __init__(self, levels: Mapping[str, navmesh.NodeGraph], worlds: Worlds, turns: Turns) -> None:
         self._levels, self._worlds, self._turns = levels, worlds, turns
         for graph in levels.values():
-            person_on(Level.of(graph).ground)  # made once for all worlds, before anybody waits for it
+            person_on(Level.of(graph).ground)  # once for all worlds, before anybody waits for it
         self._level_texts = {name: to_json(level_message(graph)) for name, graph in levels.items()}
         self._graph_texts = {name: to_json(graph_message(graph)) for name, graph in levels.items()}
 
     async def result(self, client: Client, request: Any) -> dict[str, Any] | bytes:
-        """The fields of the reply, or their JSON text. Raises `RuntimeInputError`, and `ValueError` from what
-        is asked."""
+        """Fields of the reply, or their JSON text. Raises `RuntimeInputError`, and `ValueError` from what was
+        requested."""
         return await getattr(self, f"_do_{request.type}")(client, request)
 
     async def advance(self, hosted: HostedWorld, client: Client, dt: Callable[[], float]) -> None:
-        """Advance a world by ``dt()`` [s] in the turns of ``client``, when it is its turn."""
+        """Advance a world by ``dt()`` [s] in the turns of ``client``."""
         await self._work(client, hosted, lambda: hosted.step(dt()))
 
     async def _work(
         self, client: Client, hosted: HostedWorld, work: Callable[[], Any], told: bool = True
     ) -> Any:
-        """What ``work`` returns; what came of it is ``told`` to all who joined the world."""
+        """Run ``work`` and return its result; its events are sent to all members of the world."""
         try:
             async with hosted.lock:
                 found = await self._turns.run(client.account, work, lambda: not hosted.closed)
@@ -61,7 +61,7 @@ class Requests:
 
     # ---
     async def _do_hello(self, client: Client, request: m.Hello) -> Any:
-        raise RuntimeInputError("hello has been said already")
+        raise RuntimeInputError("hello was sent already")
 
     async def _do_level(self, client: Client, request: m.Level) -> Any:
         return self._level(self._level_texts, request.level)
@@ -75,7 +75,7 @@ class Requests:
         name, manual = self._worlds.new_name(), request.clock == "manual"
         make = partial(HostedWorld, name, request.level, graph, request.seed, manual)
         hosted = self._worlds.hosted[name] = await self._turns.run(client.account, make)
-        self._worlds.join(client, hosted, request.states)  # from the first, or it would count as deserted
+        self._worlds.join(client, hosted, request.states)  # at once, or it would count as deserted
         return await self._join(client, hosted, request.states)
 
     async def _do_join(self, client: Client, request: m.Join) -> Any:
@@ -134,7 +134,9 @@ class Requests:
     async def _do_step(self, client: Client, request: m.Step) -> Any:
         hosted = self._worlds.joined(client, request.world)
         if not hosted.manual:
-            raise RuntimeInputError(f"world {hosted.name!r} runs by itself; make it with the clock 'manual'")
+            raise RuntimeInputError(
+                f"world {hosted.name!r} runs by itself; create it with the clock 'manual' to step it"
+            )
         ticks = await self._work(client, hosted, partial(hosted.step, request.dt))
         return {"ticks": ticks, "time": hosted.world.time}
 

@@ -1,7 +1,7 @@
-"""The server: connections, the clock, and who is sent away.
+"""The server: connections, the clock, and disconnecting clients.
 
-Everything happens one after the other. What takes long is done a piece at a time, see `runtime.server.turns`;
-worlds with a real clock are advanced in between.
+Everything runs in one event loop. Long work is done in pieces, see `runtime.server.turns`; worlds with a real
+clock advance in between.
 """
 
 import asyncio
@@ -38,16 +38,16 @@ __all__ = ["Limits", "SurefootServer"]
 
 _log = logging.getLogger("surefoot.serve")
 _connection_log = logging.getLogger("surefoot.serve.connections")
-_connection_log.setLevel(logging.CRITICAL)  # what strangers send is not worth a traceback
+_connection_log.setLevel(logging.CRITICAL)  # invalid messages do not deserve a traceback
 _FRAME = 1 / 60  # [s] between steps of worlds with a real clock
-_LONGEST = 0.1  # [s] that such a world makes up for at once
+_LONGEST = 0.1  # [s] most that such a world catches up at once
 
 
 class SurefootServer:
     """Worlds on ``levels`` (graphs by name) for clients that connect to ``host``:``port``.
 
-    ``token``: what clients must say in `messages.Hello`; needed when ``host`` is not the loopback. ``pages``:
-    a folder whose files are served over HTTP. Raises `RuntimeInputError` for such a host without a token.
+    ``token``: secret in `messages.Hello`; required unless ``host`` is the loopback, else `RuntimeInputError`.
+    ``pages``: a folder whose files are served over HTTP.
     """
 
     def __init__(
@@ -154,7 +154,7 @@ class SurefootServer:
         self._dismiss(client, 1013, "does not read what it is sent")
 
     def _dismiss(self, client: Client, code: int, why: str) -> None:
-        """Send a client away, without waiting for it."""
+        """Disconnect a client without waiting for it."""
         if client in self._clients:
             self._forget(client)
             self._do(_closed(client.connection, code, why))
@@ -188,7 +188,7 @@ class SurefootServer:
                     await task
 
     async def _greet(self, client: Client) -> bool:
-        """The first message: right version, right token?"""
+        """Check version and token of the first message."""
         text = await asyncio.wait_for(client.connection.recv(), self.limits.greeting)
         number, refusal = _id_in(text), None
         try:
@@ -217,7 +217,7 @@ class SurefootServer:
                 await client.connection.send(await client.outbox.take(), text=True)
 
     async def _watch(self, client: Client) -> None:
-        """Notice that a client has gone also while it is being answered."""
+        """Notice that a client is gone, even while its request is handled."""
         await client.connection.wait_closed()
         self._forget(client)
         client.outbox.end()
@@ -267,7 +267,7 @@ def _parsed(text: str | bytes) -> Any:
 
 
 def _id_in(text: str | bytes) -> int | None:
-    """The id that the answer repeats, None where there is no right one."""
+    """The id for the answer, None if the message has no valid one."""
     try:
         number = json.loads(text)["id"]
     except (ValueError, TypeError, KeyError, RecursionError):

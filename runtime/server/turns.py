@@ -1,8 +1,8 @@
-"""Whose work goes on next: each client's share of the server's time.
+"""Scheduling: each client's share of the server's time.
 
-Work is done a piece at a time. Of the accounts with work that waits, the one that has used the least time has
-the next turn. An account that had nothing to do saves nothing up: it begins again where the others are. So
-what one client asks for, however much it is, makes the others wait for one turn at a time.
+Work is done in pieces. Of the accounts with waiting work, the one that has used the least time has the next
+turn. Idle accounts do not save time up: they resume where the others are. So however much one client
+requests, the others wait for one turn at a time.
 """
 
 import asyncio
@@ -15,8 +15,8 @@ from runtime.server.worker import Abandoned, Worker
 
 __all__ = ["Abandoned", "Account", "Turns"]
 
-_TURN = 0.001  # [s] that a turn takes at least: pieces that are shorter are done several at a time
-_PASSES = 6  # of the event loop between turns: reading a request, taking it on, answering it, sending that
+_TURN = 0.001  # [s] least length of a turn; shorter pieces are combined
+_PASSES = 6  # event loop cycles between turns: read a request, accept it, answer, send
 
 
 class _Job:
@@ -27,7 +27,7 @@ class _Job:
 
 
 class Account:
-    """``used``: time [s] that somebody's work has taken, and what it was not there for."""
+    """``used``: time [s] used, including credit for idle periods."""
 
     def __init__(self) -> None:
         self.used = 0.0
@@ -35,7 +35,7 @@ class Account:
 
 
 class Turns:
-    """``clock`` tells the time [s]. ``pieces`` counts those that were done."""
+    """``clock`` returns the time [s]. ``pieces`` counts those done."""
 
     def __init__(self, clock: Callable[[], float] = time.perf_counter) -> None:
         self.pieces = 0
@@ -43,13 +43,13 @@ class Turns:
         self._waiting: dict[Account, None] = {}
         self._more = asyncio.Event()
         self._idle: list[Worker] = []
-        self._now = 0.0  # what the account had used that had the last turn
+        self._now = 0.0  # time used by the account that had the last turn
 
     async def run(
         self, account: Account, work: Callable[[], Any], wanted: Callable[[], bool] = lambda: True
     ) -> Any:
-        """What ``work`` returns, or raises, once its turns have come. Where it is not ``wanted`` any more it
-        is ended where it is; raises `Abandoned`."""
+        """Run ``work`` in turns; returns its result or raises its error. If it is no longer ``wanted`` it is
+        stopped, and `Abandoned` is raised."""
         job = _Job(work, wanted)
         if not account.jobs:
             account.used = max(account.used, self._now)
@@ -59,7 +59,7 @@ class Turns:
         return await job.done
 
     async def go_round(self) -> None:
-        """Give turns, until cancelled."""
+        """Schedule turns until cancelled."""
         try:
             while True:
                 if self._waiting:
@@ -88,7 +88,7 @@ class Turns:
             del self._waiting[account]
 
     def _go_on(self, job: _Job) -> bool:
-        """A piece of a job. Returns whether there is more to do."""
+        """Do a piece of a job. Returns whether there is more to do."""
         if job.done.done() or not job.wanted():
             self._end(job)
             return False
@@ -107,7 +107,7 @@ class Turns:
         return False
 
     def _end(self, job: _Job) -> None:
-        """Give up a job."""
+        """Abort a job."""
         if job.worker is not None:
             job.worker.abandon()
             self._idle.append(job.worker)

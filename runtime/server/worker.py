@@ -1,7 +1,7 @@
-"""Work that is done a piece at a time, while whoever waits for it does something else in between.
+"""Work done in pieces, while its caller does other things in between.
 
-The work runs in a thread of its own, but never at the same time as the one that lets it go on: the two take
-turns. So it may use whatever that one uses, and needs no locks.
+The work runs in its own thread, but never at the same time as the thread that resumes it: the two alternate.
+So it may use the same data and needs no locks.
 """
 
 import threading
@@ -14,13 +14,13 @@ __all__ = ["Abandoned", "Worker"]
 
 
 class Abandoned(BaseException):
-    """Nobody wants the work any more: raised where it was interrupted."""
+    """The work is no longer wanted; raised where it was interrupted."""
 
 
 class Worker:
-    """Does one work after the other, each a piece at a time. `end` it when there is no more.
+    """Does one job after another, each in pieces. Call `end` when there are no more.
 
-    ``result`` is what the last work returned, ``error`` what it raised.
+    ``result`` is what the last job returned, ``error`` what it raised.
     """
 
     def __init__(self) -> None:
@@ -34,7 +34,7 @@ class Worker:
         threading.Thread(target=self._live, name="surefoot work", daemon=True).start()
 
     def begin(self, work: Callable[[], Any]) -> None:
-        """Take over a work; `go_on` does it."""
+        """Accept a job; `go_on` runs it."""
         self._work, self.result, self.error = work, None, None
 
     def go_on(self) -> bool:
@@ -44,9 +44,9 @@ class Worker:
         return self._work is not None
 
     def abandon(self) -> None:
-        """End the work where it is."""
+        """Stop the job where it is."""
         self._abandoned = True
-        while self.go_on():  # what it still has to put in order
+        while self.go_on():  # its clean-up may have more pieces
             pass
         self._abandoned = False
 

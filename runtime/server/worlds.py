@@ -1,4 +1,4 @@
-"""The worlds of a server: who has joined which, to whom they count, and when they end."""
+"""The worlds of a server: members, owners and lifetime."""
 
 import time
 from collections.abc import Callable, Mapping
@@ -17,8 +17,8 @@ __all__ = ["Worlds"]
 
 
 class Worlds:
-    """``hosted``: by name. ``clients``: all who are connected; ``too_slow`` is called with one that does not
-    read what it is sent."""
+    """``hosted``: by name. ``clients``: all connected ones; ``too_slow`` is called with one that does not
+    read its messages."""
 
     def __init__(self, limits: Limits, clients: set[Client], too_slow: Callable[[Client], None]) -> None:
         self.hosted: dict[str, HostedWorld] = {}
@@ -26,31 +26,31 @@ class Worlds:
         self._numbers = count(1)
 
     def named(self, name: str) -> HostedWorld:
-        """Raises `RuntimeInputError` where there is none."""
+        """Raises `RuntimeInputError` if there is none."""
         if name not in self.hosted:
             raise RuntimeInputError(f"no world {name!r}; there are: {', '.join(self.hosted) or 'none'}")
         return self.hosted[name]
 
     def joined(self, client: Client, name: str) -> HostedWorld:
-        """Raises `RuntimeInputError` for a world that is not there or that ``client`` has not joined."""
+        """Raises `RuntimeInputError` for a world that does not exist or that ``client`` has not joined."""
         hosted = self.named(name)
         if client not in hosted.clients:
             raise RuntimeInputError(f"you have not joined world {name!r}; join it first")
         return hosted
 
     def check_world(self, client: Client) -> None:
-        """Raise `RuntimeInputError` where ``client`` must not have another world."""
+        """Raise `RuntimeInputError` if ``client`` may not have another world."""
         if len(self.hosted) >= self._limits.all_worlds:
             self._close_deserted(0.0)
         own = sum(hosted.owner is client for hosted in self.hosted.values())
         self._limits.check_share("worlds", own, 1, len(self.hosted), len(self._clients))
 
     def new_name(self) -> str:
-        """One that no world had before."""
+        """A name that no world has had before."""
         return f"world{next(self._numbers)}"
 
     def check_agents(self, client: Client, more: int) -> None:
-        """Raise `RuntimeInputError` where ``client`` must not have ``more`` agents."""
+        """Raise `RuntimeInputError` if ``client`` may not have ``more`` agents."""
         if sum(len(each.spawned) for each in self.hosted.values()) + more > self._limits.all_agents:
             self._close_deserted(0.0)
         owners = [who for each in self.hosted.values() for who in each.spawned.values()]
@@ -58,20 +58,20 @@ class Worlds:
         self._limits.check_share("agents", own, more, len(owners), len(self._clients))
 
     def check_room(self, hosted: HostedWorld) -> None:
-        """Raise `RuntimeInputError` where a world has as many agents as one may have."""
+        """Raise `RuntimeInputError` if a world has the most agents allowed."""
         if len(hosted.world.agents) >= self._limits.agents:
             raise RuntimeInputError(
                 f"there are {self._limits.agents} agents already in the world; remove one"
             )
 
     def join(self, client: Client, hosted: HostedWorld, states: m.States) -> None:
-        """Let a client that is still there be told of a world, if that is."""
+        """Add a connected client to a world that still exists."""
         if client in self._clients and not hosted.closed:
             hosted.clients[client] = states
             client.outbox.mark(hosted.name)
 
     def leave(self, client: Client, hosted: HostedWorld) -> bool:
-        """Whether it had joined."""
+        """Whether it was a member."""
         if hosted.clients.pop(client, None) is None:
             return False
         hosted.spawned = {
@@ -82,13 +82,13 @@ class Worlds:
         return True
 
     def close(self, hosted: HostedWorld) -> None:
-        """End it for all; what is done in it is abandoned."""
+        """End it for all; its work is aborted."""
         hosted.closed = True
         del self.hosted[hosted.name]
         self.announce(hosted, {"type": "gone", "world": hosted.name, "agent": None})
 
     def close_deserted(self) -> None:
-        """End those that all have left some time ago."""
+        """End worlds that have been without members for some time."""
         self._close_deserted(self._limits.deserted)
 
     def _close_deserted(self, after: float) -> None:
@@ -98,31 +98,31 @@ class Worlds:
 
     # --- what is told
     def tell(self, hosted: HostedWorld) -> None:
-        """Events and the newest state to all who joined."""
+        """Send events and the newest state to all members."""
         self.tell_events(hosted)
         for client, states in hosted.clients.items():
             if states != "none":
                 client.outbox.mark(hosted.name)
 
     def tell_events(self, hosted: HostedWorld) -> None:
-        """Events to all who joined."""
+        """Send events to all members."""
         for event in hosted.world.events:
             self.announce(hosted, _event_message(hosted, event))
 
     def announce(self, hosted: HostedWorld, message: Mapping[str, Any]) -> None:
-        """Tell it all who joined."""
+        """Send a message to all members."""
         for client in tuple(hosted.clients):
             self.put(client, message)
 
     def put(self, client: Client, message: Mapping[str, Any], result: bytes | None = None) -> None:
-        """Tell it one client, as `Outbox.put` does."""
+        """Send a message to one client, as `Outbox.put` does."""
         try:
             client.outbox.put(message, result)
         except TooSlow:
             self._too_slow(client)
 
     def state(self, client: Client, world: str) -> bytes | None:
-        """The newest state as ``client`` wants it, None where it does not."""
+        """The newest state in the form that ``client`` wants, None if it wants none."""
         hosted = self.hosted.get(world)
         states = "none" if hosted is None else hosted.clients.get(client, "none")
         return None if hosted is None else hosted.state(states)

@@ -1,1 +1,1 @@
-"""What a run leaves behind."""
+"""Recordings of runs."""

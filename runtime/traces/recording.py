@@ -1,4 +1,4 @@
-"""Recording a world while it runs, as a `runtime.traces.trace.Trace`."""
+"""Record a running world as a `runtime.traces.trace.Trace`."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ __all__ = ["Recorder", "level_trace"]
 
 
 class Recorder:
-    """Collects poses and events of ``world``; call `sample` at each moment that is to be kept."""
+    """Collects poses and events of ``world``; call `sample` at each moment to record."""
 
     def __init__(self, world: World) -> None:
         self._world = world
@@ -20,7 +20,7 @@ class Recorder:
         self.events: list[Event] = []
 
     def sample(self) -> list[Event]:
-        """Keep the present poses; returns the events since the last call."""
+        """Record the present poses; returns the events since the last call."""
         fresh = self._world.events
         self.events += fresh
         self._times.append(self._world.time)
@@ -29,7 +29,7 @@ class Recorder:
         return fresh
 
     def trace(self, report: dict) -> Trace:
-        """Everything that was kept, with a ``report`` of plain values."""
+        """The whole recording, with a ``report`` of plain values."""
         agents = tuple(
             AgentTrace(
                 name=name,
@@ -50,7 +50,7 @@ class Recorder:
 
 
 def level_trace(graph: navmesh.NodeGraph) -> LevelTrace:
-    """What of a graph is drawn."""
+    """What is drawn of a graph."""
     source = np.repeat(np.arange(len(graph), dtype=np.int32), np.diff(graph.edge_start))
     once = source < graph.edge_target
     obstacles = graph.obstacles

@@ -1,4 +1,4 @@
-"""Trace files: everything that a run left behind, enough to draw and replay it without the level."""
+"""Trace files: a recorded run, enough to draw and replay it without the level's files."""
 
 import os
 from collections.abc import Mapping
@@ -16,12 +16,13 @@ from surefoot.files.schema import Array, Flags, Header, Indices, Numbers, Rising
 __all__ = ["AgentTrace", "LevelTrace", "PathTrace", "Trace"]
 
 _LONGEST_PAUSE = 10.0  # [s] between two poses
-_UNIT = 0.01  # by which the length of a quaternion may be off 1
+_UNIT = 0.01  # tolerance of a quaternion's length
 
 
 @dataclass(frozen=True)
 class PathTrace:
-    """One planned path: node centres that A* chose, pulled line, smoothed line, each (k, 3) float64 [m]."""
+    """One planned path: node centres from A*, the string-pulled line, the smoothed line, each (k, 3) float64
+    [m]."""
 
     raw: np.ndarray
     pulled: np.ndarray
@@ -120,7 +121,7 @@ class _AgentEntry(Header):
 
 
 class _EventEntry(BaseModel):
-    """An event as plain values: what all have, and more."""
+    """Fields of an event as plain values; others may follow."""
 
     model_config = ConfigDict(extra="allow", strict=True, frozen=True, allow_inf_nan=False)
 
@@ -173,24 +174,24 @@ def _arrays_of(header: _TraceHeader) -> dict[str, Array]:
 
 
 def _check(header: _TraceHeader, arrays: dict[str, np.ndarray]) -> str | None:
-    """What does not hold between the arrays of a trace; None where all does."""
+    """What is inconsistent between the arrays of a trace; None if nothing."""
     if len(arrays["level.height"]) != len(header.affordances):
         return f"names {len(header.affordances)} obstacles and holds {len(arrays['level.height'])}"
     if (np.diff(arrays["times"]) > _LONGEST_PAUSE).any():
         return f"times are more than {_LONGEST_PAUSE:g} s apart"
     names = [agent.name for agent in header.agents]
     if len(set(names)) < len(names):
-        return "two of its agents have one name"
+        return "two of its agents have the same name"
     if unknown := [event.agent for event in header.events if event.agent not in names]:
-        return f"tells of {unknown[0][:40]!r}, who is none of its agents"
+        return f"tells of {unknown[0][:40]!r}, which is not one of its agents"
     for i in range(len(names)):
         parents = arrays[f"agent{i}.parents"]
         if (parents >= np.arange(len(parents))).any():
-            return f"agent{i}.parents lead to bodies that do not come before"
+            return f"agent{i}.parents must come before their children"
         for name in ("poses", "place"):
             length = np.linalg.norm(arrays[f"agent{i}.{name}"][..., 3:], axis=-1)
             if (np.abs(length - 1.0) > _UNIT).any():
-                return f"agent{i}.{name} holds what is no unit quaternion"
+                return f"agent{i}.{name} holds quaternions that are not of length 1"
     return None
 
 

@@ -1,1 +1,1 @@
-"""Who is where, who gives way to whom, and who gets nowhere."""
+"""How bodies give way to each other, and deadlocks."""

@@ -1,8 +1,8 @@
-"""Agents that get nowhere: when they say so, and what they do about it.
+"""Agents without progress: when they report it, and what they do about it.
 
-`Headway` is what an agent remembers of it: whoever has made none for `PATIENCE` says so (`runtime.Hindered`),
-whatever the reason, and again as long as nothing else happens to it. Those that wait for each other for ever
-are untangled: one goes back to let the others by, and if that does not help either, they are stuck.
+`Headway` is an agent's record: after `PATIENCE` without progress it reports `runtime.Hindered`, whatever the
+reason, and repeats that as long as nothing else happens to it. Deadlocks are resolved: one agent goes back to
+let the others pass; if that does not help, they are stuck.
 """
 
 from dataclasses import dataclass, replace
@@ -17,23 +17,23 @@ from runtime.traffic.snapshot import Snapshot
 __all__ = ["ANOTHER_WAY", "GIVEN_UP", "PATIENCE", "STANDSTILL", "Headway", "untangle"]
 
 PATIENCE = 10.0
-"""[s] without headway, and without an event, after which an agent says so."""
+"""[s] without progress and without an event after which an agent reports it."""
 ANOTHER_WAY = 25.0
-"""[s] without headway after which an agent that does not wait for others does something else."""
-_STEP = 0.25  # [m] nearer to its goal that count as headway
+"""[s] without progress after which an agent that does not wait for others tries something else."""
+_STEP = 0.25  # [m] nearer to its goal that count as progress
 
 STANDSTILL = 8.0
-"""[s] for which all who wait for each other have made no headway when one of them goes back."""
+"""[s] without progress of all agents in a deadlock after which one goes back."""
 GIVEN_UP = 30.0
 """[s] after which they are stuck."""
-_FURTHER = 1.0  # [m] more that one goes back where there is room, so that the others have theirs
-_MOVES = 0.2  # [m/s] of one that does not follow a path
+_FURTHER = 1.0  # [m] that it goes back farther if there is room, so that the others have room
+_MOVES = 0.2  # [m/s] of an agent that follows no path
 
 
 @dataclass(frozen=True)
 class Headway:
-    """``left``: [m] the least that was left of its way; ``since``: [s] of the world, when that was; ``told``:
-    when something was last told of the agent; ``tried``: when it last did something else."""
+    """``left``: [m] least length left of its path so far; ``since``: [s] world time of that; ``told``: time
+    of the agent's last event; ``tried``: when it last tried something else."""
 
     left: float = np.inf
     since: float = 0.0
@@ -41,22 +41,25 @@ class Headway:
     tried: float = 0.0
 
     def seen(self, left: float, now: float) -> "Headway":
-        """As it is ``now``, with so much ``left``."""
+        """The record as of ``now``, with ``left`` [m] to go."""
         return replace(self, left=left, since=now) if left < self.left - _STEP else self
 
     def late(self, now: float) -> bool:
-        """Whether it is time to say that it gets nowhere."""
+        """Whether to report that it makes no progress."""
         return now - max(self.since, self.told) >= PATIENCE - 1e-9
 
     def desperate(self, now: float) -> bool:
-        """Whether it is time to do something else."""
+        """Whether to try something else."""
         return now - max(self.since, self.tried) >= ANOTHER_WAY - 1e-9
 
 
 def untangle(snapshot: Snapshot, index: int, graph: NodeGraph) -> None:
-    """Let a follower that has waited for `STANDSTILL` do something about it: go back if it is the one of
-    those who wait for each other that has the least to go to where it lets the others by, and be stuck if
-    nobody has such a place. One that waits for somebody who gets on, as in a queue, goes on waiting."""
+    """Resolve the deadlock of a follower that has waited for `STANDSTILL`.
+
+    It goes back if, of those in the deadlock, it has the least to go to a place where it lets the others
+    pass; if nobody has such a place it is stuck. If it waits for somebody who moves, as in a queue, it keeps
+    waiting.
+    """
     knot, waited = _knot(snapshot, index)
     if waited < STANDSTILL:
         return
@@ -71,8 +74,8 @@ def untangle(snapshot: Snapshot, index: int, graph: NodeGraph) -> None:
 
 
 def _knot(snapshot: Snapshot, index: int) -> tuple[list[int], float]:
-    """The followers that wait for each other, of whom ``index`` is one, in order; and for how many seconds
-    nobody among them has got on."""
+    """The followers that wait for each other, including ``index``, in order; and for how many seconds none of
+    them has made progress."""
     knot, new, least = {index}, [index], np.inf
     while new:
         found = np.flatnonzero(snapshot.near(np.array(new)).any(axis=0)).tolist()
@@ -93,8 +96,8 @@ def _knot(snapshot: Snapshot, index: int) -> tuple[list[int], float]:
 
 
 def _has_room(snapshot: Snapshot, index: int, knot: list[int], graph: NodeGraph) -> float | None:
-    """[m] that a follower has to go back to let the others of a ``knot`` by; None where it does not come to
-    such a place, or somebody is in its way there."""
+    """[m] that a follower has to go back to let the others of a ``knot`` pass; None if it reaches no such
+    place, or somebody is in its way."""
     follower = snapshot.followers[index]
     back = follower.way_back()
     if back is None:
@@ -119,8 +122,8 @@ def _has_room(snapshot: Snapshot, index: int, knot: list[int], graph: NodeGraph)
 def _lets_by(
     snapshot: Snapshot, index: int, back: np.ndarray, knot: list[int], graph: NodeGraph
 ) -> np.ndarray:
-    """(k,) bool: at which points of its way ``back`` (k, 3) a follower would let the others of a ``knot`` by:
-    their ways do not lead there, or there is room for them beside it."""
+    """(k,) bool: at which points of its way ``back`` (k, 3) a follower would let the others of a ``knot``
+    pass: their paths do not lead there, or there is room beside it."""
     radius = float(snapshot.discs[index][0, 5])
     others = [each for each in knot if each != index]
     widest = max((float(snapshot.discs[each][0, 5]) for each in others), default=radius)

@@ -1,4 +1,4 @@
-"""All bodies of a world at one time: where they are, and where they will be as far as anybody asks."""
+"""All bodies of a world at one time, with predicted places, computed on demand."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -11,16 +11,16 @@ from runtime.bodies.protocol import Follower, Population
 
 __all__ = ["Snapshot", "foretold_on"]
 
-_SOON = 5  # points ahead on a course that tell where it leads
-_ABREAST = 0.2  # cosine up to which who is there is not ahead
+_SOON = 5  # points ahead on a course that give its direction
+_ABREAST = 0.2  # cosine beyond which another body is not ahead
 _YIELDS, _AWAY = round(1.0 / STEP), 1e6
-# steps for which walkers are foreseen: they keep out of everybody's way; [m] where they are taken to be then
-_SLACK = 3.5  # [m] between two that go straight on, from which what they do is looked at closely
+# steps for which walkers are predicted, since they step aside; where they are taken to be after that [m]
+_SLACK = 3.5  # [m] between two bodies moving straight on within which they are examined closely
 
 
 class Snapshot:
-    """``followers`` are those who can give way; they come first in ``discs``: for each body of
-    ``populations`` its discs (d, 6), as `Population.in_the_way` gives them."""
+    """``followers``: bodies that can give way; they come first in ``discs``, which holds for each body of
+    ``populations`` its discs (d, 6), as in `Population.in_the_way`."""
 
     def __init__(self, populations: Sequence[Population]) -> None:
         self.followers: list[Follower] = []
@@ -42,7 +42,7 @@ class Snapshot:
         return len(self.discs)
 
     def near(self, indices: np.ndarray) -> np.ndarray:
-        """(k, n) bool: which of all bodies come near to those of ``indices`` (k,), if all go straight on."""
+        """(k, n) bool: which of all bodies come near to those of ``indices`` (k,) if all go straight on."""
         rows = self._rows
         return meetings(
             rows[:, :2].copy(), rows[:, 3:5].copy(), rows[:, 2].copy(), indices, _SLACK, STOREY
@@ -53,8 +53,8 @@ class Snapshot:
         return np.concatenate([np.empty((0, 6)), *self.discs[:index], *self.discs[index + 1 :]])
 
     def course(self, index: int) -> Course | None:
-        """The course of a follower, as far as those who stand at its goal let it; it is not `Course.whole` if
-        they are in its way."""
+        """The course of a follower as far as the bodies at its goal allow; not `Course.whole` if they are in
+        its way."""
         if index not in self._courses:
             course, group = self.followers[index].course(), self._rows[:0]
             if course is not None and course.whole:
@@ -68,13 +68,13 @@ class Snapshot:
         return self._courses[index]
 
     def group(self, index: int) -> np.ndarray:
-        """(k, 6) the discs of those who stand at a follower's goal."""
+        """(k, 6) the discs of the bodies at a follower's goal."""
         self.course(index)
         return self._groups[index]
 
     def gets_away(self, index: int, other: int) -> bool:
-        """Whether a follower that lies in another body's discs goes on all the same, lest both wait for ever:
-        of two followers the one that is ahead, abreast of each other the first."""
+        """Whether a follower that overlaps another body moves on all the same, lest both wait for ever: of
+        two followers the one that is ahead, or if abreast the first."""
         own, its = self.discs[index], self.discs[other]
         apart = np.linalg.norm(own[:, None, :2] - its[None, :, :2], axis=2)
         deep = own[:, None, 5] + its[None, :, 5] - apart
@@ -88,7 +88,7 @@ class Snapshot:
         return leaves and (index < other or not follows)
 
     def _leaves(self, index: int, there: np.ndarray) -> bool:
-        """Whether the way of a follower does not lead towards ``there`` (2,) from it."""
+        """Whether a follower's path leads away from ``there`` (2,)."""
         course = self.course(index)
         if course is None:
             return False
@@ -96,7 +96,7 @@ class Snapshot:
         return bool(ahead @ there <= _ABREAST * np.linalg.norm(ahead) * np.linalg.norm(there))
 
     def forget(self, index: int) -> None:
-        """A follower has changed its course."""
+        """Update after a follower has changed its course."""
         self._courses.pop(index, None)
         self._told.pop(index, None)
 
@@ -111,7 +111,7 @@ class Snapshot:
         if index < len(self.followers):
             follower, course = self.followers[index], self.course(index)
             if course is not None:
-                # its nose is its own concern: it is not to keep back whoever it has come behind
+                # its nose must not hold back a body that it has come up behind
                 length, reach = course.length - course.nose, max(course.reach - course.nose, 0.0)
                 body = replace(course, length=length, reach=reach, nose=0.0)
                 return foretold_on(body, course.points, course.pace, len(discs))
@@ -135,7 +135,7 @@ class Snapshot:
 
 
 def foretold_on(course: Course, points: np.ndarray, pace: float, discs: int) -> np.ndarray:
-    """(COUNT, discs, 2) where a body will be on a course, or with its path changed to ``points``."""
+    """(COUNT, discs, 2) predicted places of a body on a course, or on its path changed to ``points``."""
     places = np.empty((COUNT, discs, 2))
     foretell(
         points, course.speeds, course.speed, pace, course.slowest, course.acceleration, course.braking,

@@ -1,4 +1,4 @@
-"""Bodies that follow paths, dogs and people, give way to each other and to everybody else."""
+"""Bodies that follow paths (dogs and people) give way to each other and to all others."""
 
 from collections.abc import Sequence
 
@@ -25,22 +25,20 @@ __all__ = ["EVERY", "Traffic"]
 
 EVERY = 4
 """Ticks between choices."""
-_TURNS = 5  # choices in which everybody has its turn once, so that no tick has to bear all of them
+_TURNS = 5  # choices in which everybody has one turn, which spreads the work over ticks
 _UNTIL_NEXT = 0.01 * EVERY * _TURNS  # [s]
-_MORE = 0.2  # [m] before it has to, from which a body prepares to stop beside those at its goal
+_MORE = 0.2  # [m] before it must, at which a body prepares to stop beside others at its goal
 
 
 class Traffic:
-    """Lets the followers among ``populations`` give way, one after the other in order of their making.
-
-    All that is remembered between choices is kept in the bodies: their paths and paces.
-    """
+    """Lets the followers among ``populations`` give way, in order of creation. All memory between choices is
+    in the bodies: their paths and paces."""
 
     def __init__(self, level: Level, populations: Sequence[Population]) -> None:
         self._level, self._populations = level, populations
 
     def direct(self, tick: int) -> None:
-        """Let those choose whose turn it is; called before every `EVERY`th ``tick``."""
+        """Let those whose turn it is choose; called before every `EVERY`th ``tick``."""
         snapshot = Snapshot(self._populations)
         turns = np.arange(tick // EVERY % _TURNS, len(snapshot.followers), _TURNS)
         self._let_choose(snapshot, turns)
@@ -49,7 +47,7 @@ class Traffic:
                 untangle(snapshot, index, self._level.graph)
 
     def look_out(self, follower: Follower, former: Course | None) -> None:
-        """Let one choose that has just been told where to go; ``former`` is the course that it was on."""
+        """Let a follower with a new goal choose; ``former``: the course it was on."""
         snapshot = Snapshot(self._populations)
         self._let_choose(snapshot, np.array([snapshot.followers.index(follower)]), former)
 
@@ -75,7 +73,7 @@ class Traffic:
                 if not (snapshot.discs[each][:, None, :2] == group[:, :2]).all(axis=2).any()
                 and not snapshot.gets_away(index, each)
             ]
-            # who halts at once gives way to who does not
+            # a body that halts easily gives way to one that does not
             halts = any(_rushes(snapshot, other) for other in others)
             there, radii = snapshot.all_foretold(others)
             chosen = self._chosen(course, len(snapshot.discs[index]), there, radii, halts, former)
@@ -85,7 +83,7 @@ class Traffic:
             self._stop_at_the_group(follower, snapshot.course(index), group)
 
     def has_come(self, agent: Follower, goal: np.ndarray) -> bool:
-        """Whether one at rest stands in the group of those at rest around ``goal`` (3,)."""
+        """Whether a body at rest belongs to the group around ``goal`` (3,)."""
         snapshot = Snapshot(self._populations)
         index = snapshot.followers.index(agent)
         own = snapshot.discs[index]
@@ -93,7 +91,7 @@ class Traffic:
         return is_before(own, agent.reach, group)
 
     def _stop_at_the_group(self, follower: Follower, course: Course | None, group: np.ndarray) -> None:
-        """Let a body that has to stop soon, before those who stand at its goal, do that."""
+        """Let a body stop that will soon have to, before others at its goal."""
         if course is None or not len(group) or not course.aside:
             return
         ahead = max((len(course.points) - 1) * SPACING - course.length, 0.0)
@@ -109,10 +107,10 @@ class Traffic:
         halts: bool,
         former: Course | None,
     ) -> Options:
-        """The option that costs least; ``halts``: also for one that does not halt easily."""
+        """The cheapest option; ``halts``: includes halting for a body that does not halt easily."""
 
         def meeting(option: Options) -> tuple[int, float]:
-            """When it would come too near to somebody, and what that costs."""
+            """When it would come too near to somebody, and the cost of that."""
             points = course.points
             if option.shift is not None:
                 points = points.copy()
@@ -135,7 +133,7 @@ class Traffic:
         return best
 
     def _is_free(self, course: Course, shift: np.ndarray) -> bool:
-        """Whether the way that a shift makes of a course stays on the surface, clear of its ends."""
+        """Whether a course shifted to one side stays on the surface, away from its edges."""
         moved = np.flatnonzero(np.linalg.norm(shift, axis=1) > 0.02)
         points = course.points[moved].copy()
         points[:, :2] += shift[moved]

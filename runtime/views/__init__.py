@@ -1,1 +1,1 @@
-"""What one sees of a run: pictures, films, pages, windows, files for engines."""
+"""Ways to see a run: pictures, films, pages, live views, exports."""

@@ -1,4 +1,4 @@
-"""A camera that goes with a figure, and one that sees it."""
+"""A camera that follows a figure, and one that sees it unobstructed."""
 
 import itertools
 import math
@@ -13,19 +13,19 @@ from runtime.views.render import Camera, Triangles
 
 __all__ = ["agent_named", "calm_track", "clearest", "follow", "size_of"]
 
-_CALM = 0.6  # [s] over which the camera evens out what the figure does
-_GRID = 0.05  # [s] between the moments at which it is evened out
+_CALM = 0.6  # [s] over which the figure's motion is smoothed for the camera
+_GRID = 0.05  # [s] between smoothed samples
 _STANDING = 0.15  # [m/s] below this the camera keeps its side
 _TURNS = np.radians([0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180])
 _RISES = np.radians([0, 20, 40])
 _NEARER = (1.0, 0.8, 0.6)
 _STEEPEST = np.radians(70)  # that it looks down
-_NARROW = 0.01  # [rad] of a picture of one ray
-_SHORT = 0.98  # share of the way to a point on which nothing may stand: it may lie on a face itself
+_NARROW = 0.01  # [rad] of a picture for one ray
+_SHORT = 0.98  # share of the way to a point that must be clear; the point itself may lie on a face
 
 
 def agent_named(trace: Trace, name: str | None) -> AgentTrace:
-    """The agent called ``name``, the first for None; `RuntimeInputError` names the valid ones."""
+    """The agent called ``name``, None for the first; the `RuntimeInputError` lists valid names."""
     found = next((agent for agent in trace.agents if name in (None, agent.name)), None)
     if found is None:
         valid = ", ".join(agent.name for agent in trace.agents)
@@ -34,12 +34,12 @@ def agent_named(trace: Trace, name: str | None) -> AgentTrace:
 
 
 def size_of(agent: AgentTrace) -> float:
-    """[m] the longest extent of a figure in its first pose."""
+    """[m] largest extent of a figure in its first pose."""
     return float(np.ptp(agent.figure.posed(agent.poses[0]).place[:, :3], axis=0).max())
 
 
 def calm_track(agent: AgentTrace, times: np.ndarray, moments: np.ndarray) -> np.ndarray:
-    """Where the figure's root is at ``moments`` (m,) [s], evened out: (m, 3) float64 [m]."""
+    """Smoothed position of the figure's root at ``moments`` (m,) [s]: (m, 3) float64 [m]."""
     grid = _grid(times)
     root = [np.interp(grid, times, agent.poses[:, 0, axis].astype(np.float64)) for axis in range(3)]
     calm = gaussian_filter1d(np.array(root), _CALM / _GRID, axis=1, mode="nearest")
@@ -77,8 +77,9 @@ def follow(agent: AgentTrace, times: np.ndarray, moments: np.ndarray, distance: 
 
 def clearest(level: Triangles, camera: Camera, points: np.ndarray) -> tuple[Camera, bool]:
     """A camera that sees ``points`` (n, 3) [m], and whether it sees all: ``camera``, or one that is turned
-    about its target, raised, or nearer, in this order of preference; the first from which the level hides the
-    fewest points."""
+    about its target, raised, or nearer, in this order of preference; the first from which the level hides
+    the fewest points.
+    """
     aside = camera.eye - camera.target
     around, away = math.hypot(aside[0], aside[1]), float(np.linalg.norm(aside))
     yaw, pitch = math.atan2(aside[1], aside[0]), math.atan2(aside[2], around)
@@ -102,8 +103,8 @@ def clearest(level: Triangles, camera: Camera, points: np.ndarray) -> tuple[Came
 
 
 def _hidden(corners: np.ndarray, eye: np.ndarray, points: np.ndarray, enough: int) -> int:
-    """How many of ``points`` (n, 3) faces (f, 3, 3) hide from ``eye``, whichever way these face; not counted
-    beyond ``enough``."""
+    """Number of ``points`` (n, 3) that faces (f, 3, 3) hide from ``eye``, from either side; stops counting at
+    ``enough``."""
     count = 0
     for point in points:
         sight = Camera(eye, point, _NARROW)

@@ -31,8 +31,8 @@ def write_film(
 ) -> None:
     """Write the run as a video (.mp4) to ``path``, whole or not at all.
 
-    The camera goes with the agent ``of``, by default the first; ``size`` [pixels] is even. Raises
-    `RuntimeInputError` without PyAV and for an agent that is not there.
+    The camera follows the agent ``of``, by default the first; ``size`` [pixels] must be even. Raises
+    `RuntimeInputError` without PyAV and for an unknown agent.
     """
     av = optional("av", "video", "a video")
     agent = agent_named(trace, of)
@@ -61,13 +61,13 @@ def frames(trace: Trace, agent: AgentTrace, size: tuple[int, int]) -> Iterator[n
 
 
 def _moments(trace: Trace) -> np.ndarray:
-    """[s] of the frames."""
+    """[s] times of the frames."""
     length = float(trace.times[-1] - trace.times[0])
     return trace.times[0] + np.arange(int(length * RATE + 1e-9) + 1) / RATE
 
 
 def _posed(trace: Trace, moment: float) -> list[Shapes]:
-    """All figures at a moment between two poses."""
+    """All figures at a moment, interpolated between poses."""
     after = int(np.clip(np.searchsorted(trace.times, moment), 1, max(len(trace.times) - 1, 1)))
     if len(trace.times) == 1:
         return [agent.figure.posed(agent.poses[0]) for agent in trace.agents]

@@ -56,7 +56,7 @@ def show_frame(axes: "Axes", picture: np.ndarray, label: str) -> None:
 
 
 def _scene(trace: Trace) -> tuple[AgentTrace, float, float, str]:
-    """Whom to show, from when to when [s], and what it is."""
+    """The agent to show, from when to when [s], and a caption."""
     started = next((event for event in trace.events if event["kind"] == "SkillStarted"), None)
     if started is None:
         agent = trace.agents[0]
@@ -73,7 +73,7 @@ def _scene(trace: Trace) -> tuple[AgentTrace, float, float, str]:
 
 
 def _camera(agent: AgentTrace, trace: Trace, pick: int) -> Camera:
-    """From the right of the way that the figure moves, a little behind it and above."""
+    """From the right of the figure's path, a little behind and above."""
     distance = _DISTANCE * size_of(agent)
     root = agent.poses[:, 0, :3].astype(np.float64)
     before, after = max(pick - 20, 0), min(pick + 20, len(root) - 1)

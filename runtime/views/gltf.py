@@ -21,7 +21,7 @@ __all__ = ["write_gltf"]
 
 _Z_UP_TO_Y_UP = [-float(np.sqrt(0.5)), 0.0, 0.0, float(np.sqrt(0.5))]  # x, y, z, w as glTF orders it
 _STONE = (0.80, 0.79, 0.76)
-_STILL = 1e-6  # [m, or of a quaternion] a channel that changes less is left out
+_STILL = 1e-6  # [m, or of a quaternion] channels that change less are left out
 
 
 def write_gltf(trace: Trace, path: str | os.PathLike[str]) -> None:
@@ -98,7 +98,7 @@ class _Writer:
         return self._mesh("level", [self._primitive(points, normals, None, _STONE)])
 
     def _body_mesh(self, figure: Figure, body: int) -> int | None:
-        """The shapes on a body, one primitive each; equal ones of several agents are one mesh."""
+        """The shapes on a body, one primitive each; equal shapes of several agents share a mesh."""
         own = np.flatnonzero(figure.owner == body)
         if len(own) == 0:
             return None
@@ -177,7 +177,7 @@ class _Writer:
 
 
 def _continuous(quaternions: np.ndarray) -> np.ndarray:
-    """The same turns (t, 4) with signs such that neighbours are near each other."""
+    """The same turns (t, 4), with signs that keep neighbours close."""
     flips = np.sum(quaternions[1:] * quaternions[:-1], axis=1) < 0.0
     sign = np.where(np.concatenate([[0], np.cumsum(flips)]) % 2 == 1, -1.0, 1.0)
     return quaternions * sign[:, None]

@@ -1,4 +1,4 @@
-"""Watching a world while it runs.
+"""Watch a world while it runs.
 
 view = runtime.LiveView(world)
 print(view.address)                 # open it in a browser
@@ -19,16 +19,15 @@ from runtime.world.world import World
 
 __all__ = ["LiveView"]
 
-_APART = 1 / 30  # [s] between moments that are handed to the page
+_APART = 1 / 30  # [s] between moments passed to the page
 
 
 class LiveView:
-    """A page that shows ``world`` as it is at each `show`: its level, graph, obstacles with their tags, the
-    raw, pulled and smoothed paths, the bodies, a time line of the last minute that was watched, and a camera
-    that goes with an agent.
+    """A page that shows ``world`` as of the last `show`: level, graph, obstacles with their tags, raw, pulled
+    and smoothed paths, bodies, a time line of the last minute watched, and a camera that follows an agent.
 
-    It is drawn by a thread of its own, which ends with `close`; the world never waits for it. ``address`` is
-    what to open in a browser. ``host``: only this machine by default. ``port``: 0 for any that is free.
+    A thread draws it until `close`; the world never waits. ``address``: open it in a browser. ``host``: only
+    this machine by default. ``port``: 0 for any free port.
     """
 
     def __init__(self, world: World, host: str = "127.0.0.1", port: int = 0) -> None:
@@ -61,11 +60,11 @@ class LiveView:
 
     @property
     def is_live(self) -> bool:
-        """Whether the page shows what `show` was called for last, and not an earlier moment."""
+        """Whether the page shows the last moment passed to `show`, and not an earlier one."""
         return self._window.is_live
 
     def close(self) -> None:
-        """Take the page away."""
+        """Close the page."""
         self._window.close()
 
     def __enter__(self) -> "LiveView":
@@ -75,7 +74,7 @@ class LiveView:
         self.close()
 
     def _paths(self) -> tuple[PathTrace, ...]:
-        """The paths of those who are on their way; the same objects as long as they are the same paths."""
+        """Paths of the agents that are moving; the same objects as long as the paths are the same."""
         ways = {}
         for name, agent in self._world.agents.items():
             plan = agent.way

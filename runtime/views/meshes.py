@@ -1,4 +1,4 @@
-"""Triangle meshes of what a figure is made of, and libraries that not everybody has."""
+"""Triangle meshes of figures, and optional libraries."""
 
 from importlib import import_module
 from typing import Any
@@ -24,7 +24,7 @@ def shape_mesh(shapes: Shapes, k: int) -> Any:
 
 
 def optional(module: str, extra: str, what: str) -> Any:
-    """The library ``module`` of our ``extra``; `RuntimeInputError` that says how to get it."""
+    """The library ``module`` of our ``extra``; raises `RuntimeInputError` that says how to install it."""
     try:
         return import_module(module)
     except ImportError:

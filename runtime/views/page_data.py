@@ -1,4 +1,4 @@
-"""What the page of a run is given: one JSON header, and one block of bytes with the arrays that it names."""
+"""Data of a run's page: a JSON header, and one block of bytes with the arrays that it names."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -18,7 +18,7 @@ _WIDEST_QUATERNION = 32767.0
 
 
 class _Block:
-    """Arrays behind one another; `add` gives what a header says of one: kind, shape, first byte."""
+    """Consecutive arrays; `add` returns an array's entry for the header: kind, shape, first byte."""
 
     def __init__(self) -> None:
         self._parts: list[bytes] = []
@@ -26,7 +26,7 @@ class _Block:
 
     def add(self, array: np.ndarray, kind: str) -> dict[str, Any]:
         data = np.ascontiguousarray(array, dtype=kind).tobytes()
-        data += bytes(-len(data) % 4)  # every array begins where four bytes do
+        data += bytes(-len(data) % 4)  # arrays are aligned to four bytes
         entry = {"kind": kind, "shape": list(array.shape), "at": self._size}
         self._parts.append(data)
         self._size += len(data)
@@ -37,9 +37,9 @@ class _Block:
 
 
 def page_data(trace: Trace, follow: str | None) -> tuple[dict[str, Any], bytes]:
-    """The header and the arrays of ``trace``'s page, which opens on the agent ``follow``, None: on the first.
+    """Header and arrays of ``trace``'s page, which opens on the agent ``follow``, None: the first.
 
-    Lengths are metres; places are told from the middle of the level, so that single precision is enough.
+    Lengths are in metres, relative to the middle of the level, so that single precision is enough.
     """
     block = _Block()
     origin = 0.5 * (trace.level.vertices.min(axis=0) + trace.level.vertices.max(axis=0))
@@ -58,8 +58,8 @@ def page_data(trace: Trace, follow: str | None) -> tuple[dict[str, Any], bytes]:
 
 
 def _in_short(events: Sequence[Mapping[str, Any]]) -> Iterator[Mapping[str, Any]]:
-    """The events, of departures of an agent in a row only the first: one that follows another changes its way
-    twice a second."""
+    """The events, with only the first of several departures of an agent in a row: a follower replans twice a
+    second."""
     latest: dict[str, str] = {}
     for event in events:
         kind, before = event["kind"], latest.get(event["agent"])
@@ -69,7 +69,7 @@ def _in_short(events: Sequence[Mapping[str, Any]]) -> Iterator[Mapping[str, Any]
 
 
 def _frames(times: np.ndarray) -> np.ndarray:
-    """Indices of the poses that are shown: no two nearer to each other than `FRAME`."""
+    """Indices of the poses to show, at least `FRAME` apart."""
     kept = [0]
     for k, moment in enumerate(times):
         if moment - times[kept[-1]] >= FRAME - 1e-6:

@@ -15,16 +15,16 @@ from surefoot.files.atomic_write import whole_file
 __all__ = ["draw_floors", "plot_from_above"]
 
 _LONG_SIDE = 15.0  # [in]
-_MOST = 6  # storeys that are shown; of more those in which most happens
+_MOST = 6  # most storeys shown; of more, the ones with the most events
 _SHOWN = 0.3  # [m]: smaller discs are not drawn
-_AROUND = 2.0  # [m] shown around where one can walk
+_AROUND = 2.0  # [m] margin around walkable ground
 _LABELLED = 2.0  # [m]: shorter edges have no label
-_LABEL = np.array([44.0, 11.0])  # [points] of room that a label takes
+_LABEL = np.array([44.0, 11.0])  # [points] of room for a label
 
 
 @dataclass(frozen=True)
 class _Storey:
-    """What lies between two heights [m]."""
+    """A range of heights [m]."""
 
     low: float
     high: float
@@ -33,7 +33,7 @@ class _Storey:
         return (height >= self.low) & (height < self.high)
 
     def meets(self, heights: np.ndarray) -> np.ndarray:
-        """(n,) bool: whether what lies at ``heights`` (n, k) comes into it."""
+        """(n,) bool: whether objects at ``heights`` (n, k) overlap the storey."""
         return (heights.max(axis=1) >= self.low) & (heights.min(axis=1) < self.high)
 
     @property
@@ -43,15 +43,15 @@ class _Storey:
 
 
 def plot_from_above(trace: Trace, path: str | os.PathLike[str]) -> None:
-    """Write the picture (PNG) to ``path``, whole or not at all. A level of several storeys has a drawing for
-    each of them, with what happens there; of more than six for those in which most happens."""
+    """Write the picture (PNG) to ``path``, whole or not at all. Each storey has its own drawing; at most six,
+    those with the most events."""
     from matplotlib.figure import Figure
 
     level = trace.level
     storeys = _storeys(trace)
     bounds = np.array([_bounds(level, storey, alone=len(storeys) == 1) for storey in storeys])
     low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
-    # side by side when they are high, below one another when they are wide
+    # side by side if they are tall, stacked if they are wide
     along = int(np.argmin(high - low))
     bounds[:, 0, 1 - along], bounds[:, 1, 1 - along] = low[1 - along], high[1 - along]
     lengths = (bounds[:, 1] - bounds[:, 0])[:, along]
@@ -75,7 +75,7 @@ def plot_from_above(trace: Trace, path: str | os.PathLike[str]) -> None:
         colours = _draw_storey(axes, trace, storey)
     figure.colorbar(colours, ax=grid, label="height of the floor [m]", shrink=0.7, pad=0.01)
     figure.legend(handles=_legend(set(level.affordances)), loc="outside lower center", ncols=6, frameon=False)
-    figure.draw_without_rendering()  # lays out, so that labels know how much room they have
+    figure.draw_without_rendering()  # computes the layout, so that labels know their room
     for axes, storey in zip(grid.flat, storeys, strict=True):
         _label_obstacles(axes, level, storey)
     with whole_file(path) as temporary:
@@ -83,7 +83,7 @@ def plot_from_above(trace: Trace, path: str | os.PathLike[str]) -> None:
 
 
 def _storeys(trace: Trace) -> list[_Storey]:
-    """From the lowest to the highest."""
+    """Sorted from lowest to highest."""
     bounds = [-np.inf, *cut_heights(trace.level), np.inf]
     storeys = [_Storey(low, high) for low, high in pairwise(bounds)]
     if len(storeys) <= _MOST:
@@ -94,8 +94,8 @@ def _storeys(trace: Trace) -> list[_Storey]:
 
 
 def _bounds(level: LevelTrace, storey: _Storey, alone: bool) -> np.ndarray:
-    """(2, 2) [m]: least and greatest x and y of what is drawn: the whole level if it is ``alone``, else where
-    one can walk in this storey."""
+    """(2, 2) [m]: least and greatest x and y to draw: the whole level if it is ``alone``, else where one can
+    walk in this storey."""
     whole = np.stack([level.vertices[:, :2].min(axis=0), level.vertices[:, :2].max(axis=0)])
     here = storey.holds(level.positions[:, 2]) & (level.radii > _SHOWN)
     if alone or not here.any():
@@ -105,7 +105,7 @@ def _bounds(level: LevelTrace, storey: _Storey, alone: bool) -> np.ndarray:
 
 
 def _feet(agent: AgentTrace) -> np.ndarray:
-    """(t, 3) [m]: where the figure's root is, at the height of its lowest part."""
+    """(t, 3) [m]: position of the figure's root, at the height of its lowest part."""
     return np.column_stack([agent.poses[:, 0, :2], agent.poses[:, :, 2].min(axis=1)]).astype(np.float64)
 
 
@@ -137,7 +137,7 @@ def _draw_storey(axes: Any, trace: Trace, storey: _Storey) -> Any:
 
 
 def _draw_line(axes: Any, points: np.ndarray, storey: _Storey, **style: Any) -> None:
-    """The stretches of a line (n, 3) that come into a storey."""
+    """The parts of a line (n, 3) within a storey."""
     points = np.asarray(points, dtype=np.float64)
     if len(points) < 2:
         return
@@ -149,8 +149,8 @@ def _draw_line(axes: Any, points: np.ndarray, storey: _Storey, **style: Any) -> 
 
 
 def draw_floors(axes: Any, level: LevelTrace, which: np.ndarray | None = None) -> Any:
-    """Faces that look up, coloured by height, and the outlines of what is steep; of the faces ``which`` (f,)
-    bool, by default of all."""
+    """Draw upward faces coloured by height, and the outlines of steep ones; of the faces ``which`` (f,) bool,
+    by default all."""
     from matplotlib.collections import LineCollection, PolyCollection
 
     corners = level.vertices[level.faces if which is None else level.faces[which]]
@@ -188,8 +188,8 @@ def _draw_graph(axes: Any, level: LevelTrace, storey: _Storey) -> None:
 
 
 def _label_obstacles(axes: Any, level: LevelTrace, storey: _Storey) -> None:
-    """Name the obstacles, the longest first, where no label is yet; a wall that is vaulted from both sides
-    has one label."""
+    """Label the obstacles, longest first, where there is room; a wall vaulted from both sides gets one
+    label."""
     length = np.linalg.norm(level.rim[:, 1] - level.rim[:, 0], axis=1) if len(level.rim) else np.empty(0)
     pixels = _LABEL * axes.figure.dpi / 72.0
     taken: list[np.ndarray] = []

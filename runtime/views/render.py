@@ -1,4 +1,4 @@
-"""A small ray caster for pictures of a level and its figures: no GPU, no display, no driver."""
+"""A small ray caster for pictures of a level and its figures: no GPU, display or driver needed."""
 
 from dataclasses import dataclass
 
@@ -23,7 +23,7 @@ FLOOR, FLOOR_DARK, WALL = (
 
 @dataclass(frozen=True)
 class Camera:
-    """Where a picture is taken from: ``eye``, ``target`` (3,) [m], ``fov`` [rad] of the picture's height."""
+    """A camera: ``eye``, ``target`` (3,) [m], ``fov`` [rad] over the picture's height."""
 
     eye: np.ndarray
     target: np.ndarray
@@ -84,7 +84,7 @@ def render(
 
 
 class _Frame:
-    """The picture while it is drawn: distance along each ray, normal and colour of what it hit."""
+    """Picture in progress: distance along each ray, and normal and colour of the surface hit."""
 
     def __init__(self, camera: Camera, width: int, height: int, rays: np.ndarray) -> None:
         self.camera, self.width, self.height, self.rays = camera, width, height, rays
@@ -95,8 +95,8 @@ class _Frame:
         self.scale = height / (2.0 * np.tan(camera.fov / 2.0))
 
     def window(self, middle: np.ndarray, radius: float) -> tuple[int, int, int, int]:
-        """First and last row, first and last column that a ball may cover, the last ones exclusive; all 0 if
-        it is behind the camera."""
+        """First and last row, first and last column (last ones exclusive) that a ball may cover; all 0 if it
+        is behind the camera."""
         depth, across, up = self.axes @ (middle - self.camera.eye)
         if depth < -radius:
             return 0, 0, 0, 0
@@ -154,7 +154,7 @@ def _shade(frame: _Frame, figures: list[Shapes], reach: float) -> np.ndarray:
 
 
 def _sunlit(point: np.ndarray, normal: np.ndarray, hit: np.ndarray, figures: list[Shapes]) -> np.ndarray:
-    """1 where the sun is seen, 0 in the shadow of a figure; (height, width) float64."""
+    """1 in sunlight, 0 in the shadow of a figure; (height, width) float64."""
     free = np.ones(hit.shape)
     for shapes in figures:
         middle = shapes.place[:, :3].mean(axis=0)

@@ -1,4 +1,4 @@
-"""What the views of a run have in common: the level, its graph and obstacles, and paths, as a viser scene."""
+"""A run's level, graph, obstacles and paths as a viser scene, for all live views."""
 
 import contextlib
 import io
@@ -13,21 +13,21 @@ from runtime.views.colours import obstacle_colour, parts_of_colour
 __all__ = ["ALL", "draw_level", "draw_paths", "silent"]
 
 ALL = "/run"
-"""The frame that everything hangs on."""
+"""Parent frame of everything."""
 _LEVEL = f"{ALL}/level"
 _RAW, _PULLED, _SMOOTH = (120, 120, 120), (31, 119, 180), (214, 39, 40)
 
 
 @contextlib.contextmanager
 def silent() -> Iterator[None]:
-    """Viser prints when it starts and when it stops; not within this block."""
+    """Suppress viser's messages at start and stop within this block."""
     with contextlib.redirect_stdout(io.StringIO()):
         yield
 
 
 def draw_level(scene: Any, level: LevelTrace) -> Any:
-    """The level's surface, the graph on it, and its obstacles with what they afford; returns the frame that
-    they hang on."""
+    """Add the level's surface, its graph and its obstacles with their affordances; returns their parent
+    frame."""
     frame = scene.add_frame(_LEVEL, show_axes=False)
     scene.add_mesh_simple(
         f"{_LEVEL}/surface", level.vertices.astype(np.float32), level.faces.astype(np.uint32),
@@ -67,7 +67,7 @@ def _circles(centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
 
 
 def draw_paths(scene: Any, name: str, planned: Sequence[PathTrace]) -> None:
-    """The raw, the pulled and the smoothed lines of plans, as three things under ``name``."""
+    """Add the raw, pulled and smoothed lines of plans, as three objects under ``name``."""
     for label, colour, height in (("raw", _RAW, 0.06), ("pulled", _PULLED, 0.08), ("smooth", _SMOOTH, 0.10)):
         lines = [
             np.stack([points[:-1], points[1:]], axis=1) for points in (getattr(p, label) for p in planned)

@@ -1,4 +1,4 @@
-"""A world of `surefoot serve`, as one sees it who only watches."""
+"""A world of `surefoot serve` as a spectator sees it."""
 
 import json
 from collections.abc import Mapping
@@ -16,10 +16,9 @@ __all__ = ["ServedWorld"]
 
 
 class ServedWorld:
-    """The world called ``name`` of the server at ``address`` (ws://…), by default the only one that is there.
-
-    ``name``: its own in the server. ``level``: what it takes place on. Raises `RuntimeInputError` where
-    there is no server, one that refuses the ``token``, or no such world.
+    """The world called ``name`` on the server at ``address`` (ws://…), by default the only one. ``name``: as
+    on the server. ``level``: its level's name. Raises `RuntimeInputError` if there is no server, it
+    refuses the ``token``, or there is no such world.
     """
 
     def __init__(self, address: str, name: str | None = None, token: str = "") -> None:
@@ -50,7 +49,7 @@ class ServedWorld:
         self.level = _level(mesh, graph)
 
     def moment(self) -> Moment | None:
-        """The newest state, once there is one; None when the world or its server is no more."""
+        """The newest state, once there is one; None if the world or its server is gone."""
         try:
             while self._state is None and not self._gone:
                 self._heed(self._hear())
@@ -98,7 +97,7 @@ class ServedWorld:
 
     # --- messages
     def _ask(self, kind: str, **fields: Any) -> dict[str, Any]:
-        """The result of a request. Raises `RuntimeInputError` with what the server has against it."""
+        """The result of a request. Raises `RuntimeInputError` with the server's reason."""
         self._id += 1
         self._socket.send(json.dumps({"type": kind, "id": self._id, **fields}))
         while True:

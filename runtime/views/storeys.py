@@ -1,4 +1,4 @@
-"""The heights at which a level is cut so that no part of a storey hides another one seen from above."""
+"""Heights at which to cut a level so that no part of a storey hides another from above."""
 
 import numpy as np
 from scipy.spatial import KDTree
@@ -7,15 +7,15 @@ from runtime.traces.trace import LevelTrace
 
 __all__ = ["cut_heights"]
 
-_CELLS = 160  # along the longer side of the level, each sampled at its centre
-_ROOM = 1.5  # [m] between two floors of which one hides the other
-_BELOW = 0.25  # [m] under the upper floor is the cut
+_CELLS = 160  # cells along the longer side of the level, each sampled at its centre
+_ROOM = 1.5  # [m] least distance of two floors of which one hides the other
+_BELOW = 0.25  # [m] of the cut below the upper floor
 _WALKED = 0.7  # least z of the normal of a floor
-_NEAR = 8  # discs that are asked whether a body can stand at a sample
+_NEAR = 8  # discs checked for standing room at a sample
 
 
 def cut_heights(level: LevelTrace) -> list[float]:
-    """Rising heights [m], as few as there can be: of two floors over one another on which a body can stand,
+    """Increasing heights [m], as few as possible: of two floors above each other on which a body can stand,
     one is above such a height and one below. Empty for a level of one storey.
 
     Floors are sampled in cells of 1/160 of the level's longer side; narrower ones can be missed.
@@ -23,14 +23,14 @@ def cut_heights(level: LevelTrace) -> list[float]:
     spans = _spans(level)
     cuts: list[float] = []
     for low, high in spans[np.argsort(spans[:, 1])]:
-        # what ends lowest is cut as high as it can be, which cuts the most of the others, too
+        # the pair that ends lowest is cut as high as possible, which cuts the most other pairs
         if not cuts or cuts[-1] <= low:
             cuts.append(float(high - _BELOW))
     return cuts
 
 
 def _spans(level: LevelTrace) -> np.ndarray:
-    """(n, 2) [m]: heights of pairs of floors over one another."""
+    """(n, 2) [m]: heights of pairs of floors above each other."""
     cells, heights = _samples(level)
     if not len(cells):
         return np.empty((0, 2))
@@ -42,7 +42,7 @@ def _spans(level: LevelTrace) -> np.ndarray:
 
 
 def _samples(level: LevelTrace) -> tuple[np.ndarray, np.ndarray]:
-    """Cells (n,) and heights (n,) [m] of floors at the cells' centres, where a disc of the graph is."""
+    """Cells (n,) and heights (n,) [m] of floors at the cells' centres, within a disc of the graph."""
     corners = level.vertices[level.faces]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     upward = normal[:, 2] > _WALKED * np.linalg.norm(normal, axis=1).clip(min=1e-12)

@@ -20,9 +20,8 @@ _SCRIPTS = ("reading.js", "geometry.js", "drawing.js", "figures.js", "camera.js"
 
 def write_page(trace: Trace, path: str | os.PathLike[str], follow: str | None = None) -> None:
     """Write the page to ``path``, whole or not at all: level, graph, obstacles, paths, figures, events, time
-    line. It opens on the agent called ``follow``, by default the first, and its camera goes with it.
-
-    Raises `RuntimeInputError` for an agent that is not there.
+    line. It opens on the agent ``follow``, by default the first, and its camera follows it. Raises
+    `RuntimeInputError` for an unknown agent.
     """
     if follow is not None:
         agent_named(trace, follow)

@@ -1,6 +1,6 @@
-"""A window on bodies that move: a page that a browser opens, and that a thread of its own draws.
+"""A page with moving bodies, drawn by a thread of its own.
 
-Whoever has something new to show leaves it and goes on; the newest is drawn when there is time for it.
+The caller leaves a new moment and continues; the newest is drawn when there is time.
 """
 
 import threading
@@ -21,17 +21,17 @@ __all__ = ["Moment", "Window"]
 _FRAME = 1 / 30
 """[s] least time between pictures."""
 _KEPT, _APART = 600, 0.1
-"""Moments that the time line holds, and [s] of the world's time between them."""
-_CALM = 0.25  # [s] in which the camera makes up for most of its distance to what it follows
+"""Moments on the time line, and [s] of world time between them."""
+_CALM = 0.25  # [s] in which the camera covers most of its distance to the figure
 _FROM, _NEAR = np.array([-0.25, -0.5, 0.5]), 5.0
-"""Where the camera is: the direction, and the distance [m] from what it begins to follow."""
+"""Initial camera direction, and distance [m] from the figure."""
 _NOBODY = "nobody"
 
 
 @dataclass(frozen=True)
 class Moment:
-    """What is to be seen at ``time`` [s]: the ``level``, ``figures`` by name, ``poses`` (n, 7) of all their
-    bodies behind one another, and the ``paths`` that they are on."""
+    """A moment to draw: ``level``, ``figures`` by name, ``poses`` (n, 7) of all their bodies one after the
+    other, and their ``paths``, at ``time`` [s]."""
 
     time: float
     level: LevelTrace
@@ -41,10 +41,8 @@ class Moment:
 
 
 class Window:
-    """A page at ``address`` that shows what `show` is given, with a time line and a camera that follows.
-
-    ``host``: only this machine by default. ``port``: 0 for any that is free.
-    """
+    """A page at ``address`` that shows what is passed to `show`, with a time line and a camera that follows.
+    ``host``: only this machine by default. ``port``: 0 for any free port."""
 
     def __init__(self, level: LevelTrace, host: str = "127.0.0.1", port: int = 0) -> None:
         import viser
@@ -83,13 +81,13 @@ class Window:
         return self._live.value
 
     def show(self, moment: Moment) -> None:
-        """Draw ``moment`` as soon as there is time, unless a newer one comes before; does not wait."""
+        """Draw ``moment`` when there is time, unless a newer one comes first; does not wait."""
         with self._changed:
             self._newest, self._news = moment, True
             self._changed.notify()
 
     def close(self) -> None:
-        """Take the page away."""
+        """Close the page."""
         with self._changed:
             self._closing = True
             self._changed.notify()
@@ -148,9 +146,9 @@ class Window:
         return min(self._seen, key=lambda moment: abs(moment.time - self._time.value))
 
     def _keep(self, moment: Moment) -> None:
-        """Put a moment on the time line."""
+        """Add a moment to the time line."""
         if self._seen and moment.time < self._seen[-1].time:
-            self._seen.clear()  # the world was taken back
+            self._seen.clear()  # the world was restored to an earlier moment
         if self._seen and moment.time - self._seen[-1].time < _APART:
             return
         self._seen.append(moment)
@@ -179,7 +177,7 @@ class Window:
             self._level, self._ground = level, draw_level(self._server.scene, level)
 
     def _go_with(self, moment: Moment) -> None:
-        """Move everything so that whom the camera follows stays before it; the camera is the user's."""
+        """Move everything so that the figure stays in front of the camera, which the user controls."""
         root = self._bodies.root_of.get(self._follow.value)
         here = np.asarray(self._everything.position)
         wanted = np.zeros(3) if root is None else self._middle - moment.poses[root, :3]
@@ -231,7 +229,7 @@ class _Bodies:
         )  # fmt: skip
 
     def are(self, figures: Mapping[str, Figure]) -> bool:
-        """Whether these are they."""
+        """Whether these are the same figures."""
         return list(figures) == list(self._figures) and _same(figures.values(), self._figures.values())
 
     def draw(self, poses: np.ndarray) -> None:

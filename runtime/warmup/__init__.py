@@ -1,4 +1,4 @@
-"""Compiling the kernels before they are needed, so that nobody waits for it later."""
+"""Compile kernels ahead of time, so that nobody has to wait for it later."""
 
 from runtime.warmup.ahead import compile_kernels, is_compiled, load_kernels, prepare, prepare_once
 

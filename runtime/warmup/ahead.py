@@ -1,4 +1,4 @@
-"""Compiles all kernels, in several processes, and reads them."""
+"""Compile all kernels in several processes, and load them."""
 
 import hashlib
 import logging
@@ -24,32 +24,31 @@ from surefoot.progress import Progress
 __all__ = ["compile_kernels", "is_compiled", "load_kernels", "prepare", "prepare_once"]
 
 _KERNELS = 410
-"""How many are compiled, about."""
+"""Approximate number of kernels."""
 _KERNEL = re.compile(rb"^@(?:allocating_)?kernel\b|\bcfunc\(", re.MULTILINE)
 _log = logging.getLogger("surefoot")
 _preparing = [False]
 
 
 def is_compiled() -> bool:
-    """Whether all kernels, as they are now, were compiled on this machine and are kept."""
+    """Whether all kernels, in their present version, are cached on this machine."""
     mark = _mark()
     return mark is not None and mark.exists() and mark.read_text(encoding="ascii") == _sources()
 
 
 def prepare(progress: Callable[[float, str], object] | None = None) -> None:
-    """Compile all kernels, keep them on this machine, and read them, so that nothing compiles later: 1 to 3
-    minutes on two cores the first time, a second or two afterwards. For the start of a program, or the
-    building of an image.
+    """Compile, cache and load all kernels, so that nothing compiles later: 1 to 3 minutes on two cores the
+    first time, a second or two afterwards. Call it when a program starts or an image is built.
 
-    ``progress(share, what)`` is called as it goes on, ``share`` from 0 to 1. The work is shared by as many
-    processes as there are cores, where Python can start any.
+    ``progress(share, what)`` is called as it advances, ``share`` from 0 to 1. It uses as many processes as
+    there are cores, if Python can start any.
     """
     _compile(progress or (lambda share, what: None))
 
 
 def prepare_once() -> None:
-    """`prepare`, if this version has never been prepared on this machine. Called by worlds, so that no step
-    of theirs compiles."""
+    """`prepare` if this version has never been prepared on this machine. Called by worlds, so that no step
+    compiles."""
     mark = _mark()
     if not _preparing[0] and mark is not None and not mark.exists():
         _log.warning(
@@ -60,19 +59,18 @@ def prepare_once() -> None:
 
 
 def leave_it() -> None:
-    """This process is one of those that prepare: its worlds do not."""
+    """Mark this process as one that prepares: its worlds do not."""
     _preparing[0] = True
 
 
 def compile_kernels(progress: Progress) -> None:
-    """`prepare`, told as a stage of ``progress``."""
+    """`prepare`, shown as a stage of ``progress``."""
     with progress.stage(f"compiling kernels, once: {TIME}") as stage:
         _compile(stage.update)
 
 
 def load_kernels() -> None:
-    """Let one of each kind take a step, so that the first one of somebody who waits for it takes no longer
-    than the others."""
+    """Step one body of each kind, so that the first step of an application takes no longer than others."""
     from runtime.warmup.first_uses import tiny_level
     from runtime.world.world import World
 
@@ -104,7 +102,7 @@ def _compile(told: Callable[[float, str], object]) -> None:
 
 
 def _mark() -> Path | None:
-    """The file that says of which sources all kernels are kept; None without a cache."""
+    """The file that records which sources are fully cached; None without a cache folder."""
     folder = cache_folder()
     versions = (surefoot.__version__, sys.implementation.cache_tag, numba.__version__, llvmlite.__version__)
     machine = f"{versions} {platform.system()} {get_host_cpu_name()}"
@@ -114,7 +112,7 @@ def _mark() -> Path | None:
 
 @cache
 def _sources() -> str:
-    """Hexadecimal digest of all files that have kernels."""
+    """Hex digest of all files with kernels."""
     root, checksum = Path(surefoot.__file__).parents[1], hashlib.sha256()
     for package in PACKAGES:
         for file in sorted((root / package).rglob("*.py")):

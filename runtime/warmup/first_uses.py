@@ -1,4 +1,4 @@
-"""Small uses of everything that has kernels: what compiles them ahead of time."""
+"""Small uses of everything that has kernels, to compile them ahead of time."""
 
 import math
 import tempfile
@@ -20,11 +20,11 @@ from navmesh.pricing import priced_of
 __all__ = ["FIRST_USES", "tiny_level"]
 
 _EDGE = 12.0  # [m]
-_PUSH = 650.0  # [N] that nobody withstands
+_PUSH = 650.0  # [N] enough to make anybody fall
 
 
 def tiny_level() -> navmesh.Terrain:
-    """A floor of 12 x 4 m, long enough to run up, before a platform of 0.4 m; a wall with a door in it."""
+    """A floor of 12 x 4 m, long enough for a run-up, before a platform of 0.4 m; a wall with a door in it."""
     corners: list[tuple[float, float, float]] = []
     faces: list[list[int]] = []
 
@@ -98,7 +98,7 @@ def _smooth() -> None:
     back = pathsmooth.Problem.from_corridor(
         centers[[0, -1]], centers, np.full(4, 3.5), 0.25, -ahead, ahead, max_curvature=1.0
     )
-    pathsmooth.solve(back)  # turns round, a way that is searched
+    pathsmooth.solve(back)  # turns round, on a searched path
 
 
 def _run_and_jump() -> None:
@@ -192,5 +192,4 @@ FIRST_USES: dict[str, Callable[[], None]] = {
     "playtests": _playtest,
     "pictures": _draw,
 }
-"""What each is for, and what does it; those that depend least on the others come first, the longest among
-them before the shorter."""
+"""Label and function of each use; those that depend least on others come first, longest first."""

@@ -1,6 +1,6 @@
 """A process that runs the uses whose names it reads: ``python -m runtime.warmup.helper``.
 
-It writes a line for each kernel that it compiles, and "done" after each use. It ends with whoever started it.
+It writes a line for each kernel that it compiles, and "done" after each use. It ends with its parent.
 """
 
 import os

@@ -1,4 +1,4 @@
-"""Uses that processes share: each takes the next one. What one compiles the others find in the cache."""
+"""Distribute uses over processes: each takes the next one, and loads what the others have compiled."""
 
 import os
 import subprocess
@@ -18,9 +18,9 @@ __all__ = ["run_shared"]
 
 
 def run_shared(uses: Mapping[str, Callable[[], None]], told: Callable[[int, str], object]) -> None:
-    """Run ``uses`` in as many processes as there are cores, those that could not be run there in this one.
-
-    ``told(count, what)`` is called in this thread: how many kernels were compiled, and what for.
+    """Run ``uses`` in as many processes as there are cores, and in this one those that fail there.
+    ``told(count, what)`` is called in this thread with the number of kernels compiled so far, and for
+    what.
     """
     waiting = deque(uses)
     count = 0
@@ -50,7 +50,7 @@ def run_shared(uses: Mapping[str, Callable[[], None]], told: Callable[[int, str]
 
 
 def _can_share() -> bool:
-    """Whether this is a Python that can be started again, and what it compiles is kept."""
+    """Whether this Python can be started again, and its compiled code is cached."""
     executable = Path(sys.executable or "").name.lower()
     return _cores() > 1 and cache_folder() is not None and executable.startswith(("python", "pypy"))
 
@@ -60,8 +60,8 @@ def _cores() -> int:
 
 
 class _Helper(Thread):
-    """A process that runs what is taken from ``waiting`` until nothing is left, and the thread that tells
-    ``news`` of it: ("compiled" or "failed", use), at last ("end", "")."""
+    """A process that runs uses from ``waiting`` until none is left, and the thread that reports its ``news``:
+    ("compiled" or "failed", use), finally ("end", "")."""
 
     def __init__(self, waiting: deque[str], news: SimpleQueue[tuple[str, str]]) -> None:
         super().__init__(daemon=True)
@@ -83,7 +83,7 @@ class _Helper(Thread):
                 if not self._has_run(what):
                     self._news.put(("failed", what))
                     break
-        except IndexError:  # another one took the last
+        except IndexError:  # another process took the last
             pass
         finally:
             self._news.put(("end", ""))

@@ -1,1 +1,1 @@
-"""Reading and writing files, for all packages: archives of arrays, YAML that people write, atomic writing."""
+"""Read and write files: archives of arrays, hand-written YAML, JSON; atomic writing."""

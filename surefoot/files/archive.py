@@ -1,10 +1,10 @@
 """Archives for baked and learned data: a NumPy ``.npz`` with a JSON header, written atomically.
 
-The header says what the file is (``kind``), the version of its format, a ``seal``, and whatever its writer
-adds (what made it, the digest of what it depends on). The seal is a digest of the header and of the names,
-sizes and checksums of all arrays, so that damage and exchanged arrays are noticed. It guards against
-accidents only; whatever it says, a file is checked by its `surefoot.files.schema.Schema`: first sizes, types
-and shapes, which are known before anything is unpacked, then the values. Nothing is unpickled.
+The header holds the file's ``kind``, its format version, a ``seal``, and what its writer adds (such as the
+digest of its inputs). The seal is a digest of the header and of the names, sizes and checksums of all arrays;
+it reveals damaged or swapped arrays, but guards against accidents only. Every file is therefore checked
+against its `surefoot.files.schema.Schema`: first sizes, types and shapes, which are known before anything is
+unpacked, then the values. Nothing is unpickled.
 """
 
 import hashlib
@@ -30,12 +30,12 @@ __all__ = ["ArchiveError", "check_target", "most_unpacked", "read_archive", "sea
 
 _HEADER, _ENDING = "header", ".npy"
 _SEAL = "seal"
-_ALWAYS, _PACKED = 16 * 2**20, 100  # [bytes] that any file may unpack to, and more for each of its bytes
+_ALWAYS, _PACKED = 16 * 2**20, 100  # [bytes] that any file may unpack to, plus a multiple of its packed size
 _MOST_MEMBERS = 100_000
 _CHUNK = 2**20  # [bytes] read at a time
 _COMPRESSIONS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 _ENCRYPTED = 0x1
-# What NumPy and zipfile raise on a file that is cut off, overwritten or not an archive at all.
+# Errors of NumPy and zipfile for a file that is cut off, overwritten or not an archive.
 _DAMAGE = (
     ValueError, KeyError, TypeError, EOFError, AttributeError, RuntimeError, MemoryError, IndexError,
     OverflowError, SyntaxError, zipfile.BadZipFile, zlib.error,
@@ -44,24 +44,24 @@ _DAMAGE = (
 
 
 class ArchiveError(SurefootError):
-    """An archive is missing, damaged, of another kind or of another version."""
+    """An archive is missing, damaged, or of another kind or version."""
 
 
 def check_target(path: str | os.PathLike[str]) -> None:
-    """Raises `ArchiveError` if no file can be written to ``path``, `SurefootError` if it is an input of this
-    command: to know before the work for it is done."""
+    """Check before long work that ``path`` can be written. Raises `ArchiveError` if not, and `SurefootError`
+    if it is an input of this command."""
     target = Path(path)
     if not target.parent.is_dir():
-        raise ArchiveError(f"{target}: there is no folder {target.parent} to write into")
+        raise ArchiveError(f"{target}: no folder {target.parent} to write to")
     if target.is_dir():
-        raise ArchiveError(f"{target}: is a folder; name a file")
+        raise ArchiveError(f"{target}: is a folder; give a file")
     if not os.access(target.parent, os.W_OK):
-        raise ArchiveError(f"{target}: the folder {target.parent} may not be written to")
+        raise ArchiveError(f"{target}: the folder {target.parent} is not writable")
     refuse_input(target)
 
 
 def most_unpacked(packed: int) -> int:
-    """Bytes to which an archive of ``packed`` bytes may unpack. What would be more is written unpacked."""
+    """Most bytes that an archive of ``packed`` bytes may unpack to. Larger content is stored uncompressed."""
     return _ALWAYS + _PACKED * packed
 
 
@@ -74,11 +74,11 @@ def write_archive(
 ) -> None:
     """Write ``arrays`` under ``header`` to ``path``; the file appears whole or not at all.
 
-    ``header`` must be representable in JSON. The same content gives the same
-    bytes. It is checked when it is read, by `read_archive`.
+    ``header`` must be representable in JSON. Equal content gives equal bytes. Content is checked only when it
+    is read, by `read_archive`.
     """
     if _HEADER in arrays:
-        raise ArchiveError(f"an array may not be called {_HEADER!r}: that name is taken by the header")
+        raise ArchiveError(f"no array may be called {_HEADER!r}, the name of the header")
     check_target(path)
     content = {**header, "kind": kind, "version": version}
     with whole_file(path) as temporary:
@@ -103,7 +103,7 @@ def _write(path: Path, content: dict[str, Any], arrays: Mapping[str, np.ndarray]
 
 
 def seal_of(header: Mapping[str, Any], members: Iterable[zipfile.ZipInfo]) -> str:
-    """The seal of an archive with this ``header``, but for the seal, and these arrays."""
+    """Seal of an archive with these arrays and this ``header`` without its seal."""
     listed = sorted((each.filename, each.file_size, each.CRC) for each in members)
     told = json.dumps({key: value for key, value in header.items() if key != _SEAL}, sort_keys=True)
     return hashlib.sha256(f"{told}{listed}".encode()).hexdigest()[:32]
@@ -112,10 +112,10 @@ def seal_of(header: Mapping[str, Any], members: Iterable[zipfile.ZipInfo]) -> st
 def read_archive(
     path: str | os.PathLike[str], schema: Schema[HeaderType]
 ) -> tuple[HeaderType, dict[str, np.ndarray]]:
-    """Read what `write_archive` wrote: the header and the arrays by name, as the ``schema`` says.
+    """Read a file of `write_archive`: the header and the arrays by name, checked against the ``schema``.
 
-    Raises `ArchiveError` when the file is missing, cut off, of another kind or version, or when anything in
-    it is not as the schema says. At most `most_unpacked` bytes are unpacked.
+    Raises `ArchiveError` if the file is missing, cut off, of another kind or version, or does not match the
+    schema. At most `most_unpacked` bytes are unpacked.
     """
     target = Path(path)
     if not target.is_file():
@@ -142,7 +142,7 @@ def _wrong(target: Path, schema: Schema, problem: str, how: str = "") -> Archive
 
 
 class _Reader:
-    """Reads one archive, from what is known of it to what has to be unpacked."""
+    """Reads one archive, cheap checks before unpacking."""
 
     def __init__(self, target: Path, archive: zipfile.ZipFile, schema: Schema) -> None:
         self.target, self.archive, self.schema = target, archive, schema
@@ -173,7 +173,7 @@ class _Reader:
         return _wrong(self.target, self.schema, problem)
 
     def _members(self) -> dict[str, zipfile.ZipInfo]:
-        """The listed arrays by name, none of them read."""
+        """The listed arrays by name, none of them read yet."""
         listed = self.archive.infolist()
         if len(listed) > _MOST_MEMBERS:
             raise self._error(f"lists {len(listed)} arrays")
@@ -183,7 +183,7 @@ class _Reader:
             if name in found:
                 raise _damaged(self.target, self.schema, f"lists {_shown(name)} twice")
             if member.flag_bits & _ENCRYPTED or member.compress_type not in _COMPRESSIONS:
-                problem = f"{_shown(name)} is encrypted, or packed in a way that no archive is"
+                problem = f"{_shown(name)} is encrypted, or uses an unknown compression"
                 raise _damaged(self.target, self.schema, problem)
             found[name] = member
         unpacked, packed = sum(each.file_size for each in listed), self.target.stat().st_size
@@ -194,19 +194,19 @@ class _Reader:
         return found
 
     def _header(self, members: dict[str, zipfile.ZipInfo]) -> Any:
-        """The checked header, of the right kind and version; takes it out of ``members``."""
+        """The header, checked for kind and version; removes it from ``members``."""
         member = members.pop(_HEADER)
         packed = self._opened(member)
         if packed.dtype != np.uint8 or len(packed.shape) != 1:
-            raise self._error("its header is no text")
+            raise self._error("its header is not text")
         text = self._unpacked(packed).tobytes()
         found = plain_json(text.decode())
         if not isinstance(found, dict):
-            raise self._error("its header is no mapping")
+            raise self._error("its header is not a mapping")
         self._compare_versions(found.get("kind"), found.get("version"))
-        seal = found.get(_SEAL)  # archives of earlier releases have none
+        seal = found.get(_SEAL)  # archives of earlier releases have no seal
         if seal is not None and seal != seal_of(found, members.values()):
-            raise self._error("it does not hold what was written into it")
+            raise self._error("its content was changed after it was written")
         fields = {key: value for key, value in found.items() if key not in ("kind", "version", _SEAL)}
         try:
             return self.schema.header.model_validate_json(json.dumps(fields))
@@ -235,7 +235,7 @@ class _Reader:
                 raise self._error(f"{problem} {_shown(missing[0])}")
 
     def _opened(self, member: zipfile.ZipInfo) -> "_Packed":
-        """An array of which the first bytes are read, with shape and type; its size is what these say."""
+        """An array of which only the first bytes are read; they give its shape, type and so its size."""
         file = self.archive.open(member)
         major = np.lib.format.read_magic(file)[0]
         if major not in (1, 2):
@@ -248,11 +248,11 @@ class _Reader:
         if dtype.hasobject or min(shape, default=0) < 0:
             raise self._error(f"{_shown(member.filename)} is of type {dtype} and shape {shape}")
         if file.tell() + count * dtype.itemsize != member.file_size:
-            raise self._error(f"{_shown(member.filename)} is not as long as its shape {shape} says")
+            raise self._error(f"{_shown(member.filename)} is shorter or longer than its shape {shape}")
         return _Packed(file, shape, dtype, is_fortran)
 
     def _unpacked(self, packed: "_Packed") -> np.ndarray:
-        """The values, read on from where the file of ``packed`` is."""
+        """The values, read from the current position of the file of ``packed``."""
         order = "F" if packed.is_fortran else "C"
         array = np.empty(packed.shape, packed.dtype, order)
         into = array.reshape(-1, order=order).view(np.uint8).data if array.size else memoryview(b"")
@@ -264,13 +264,13 @@ class _Reader:
                     raise self._error(f"{_shown(file.name)} is cut off")
                 into[done : done + len(read)] = read
                 done += len(read)
-            if file.read(1):  # it reads the checksum, too
-                raise self._error(f"{_shown(file.name)} is longer than its shape says")
+            if file.read(1):  # reads the checksum too
+                raise self._error(f"{_shown(file.name)} is longer than its shape")
         return np.asarray(array, order="C")
 
 
 class _Packed(NamedTuple):
-    """An array in an archive, of which only what it is has been read."""
+    """An array in an archive whose header has been read, but not its values."""
 
     file: IO[bytes]
     shape: tuple[int, ...]

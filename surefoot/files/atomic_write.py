@@ -14,11 +14,10 @@ __all__ = ["whole_file"]
 
 @contextmanager
 def whole_file(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """A file beside ``path`` to write to: takes its place when the block ends well, vanishes otherwise.
+    """A temporary file beside ``path``: it replaces ``path`` if the block succeeds, and is removed otherwise.
 
-    Its name begins with a dot and says which process writes it. What a process that was killed has left there
-    is swept up by the next one that writes to ``path``. Raises `SurefootError` if ``path`` is an input of
-    this command.
+    Its name begins with a dot and contains the process id. Files left by killed processes are removed by the
+    next one that writes to ``path``. Raises `SurefootError` if ``path`` is an input of this command.
     """
     target = Path(path)
     refuse_input(target)

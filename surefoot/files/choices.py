@@ -1,4 +1,4 @@
-"""A word in a file that must be one of several which are not fixed when the program starts."""
+"""A word in a file that must be one of several choices, which are known only at run time."""
 
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -11,8 +11,8 @@ __all__ = ["OneOf"]
 
 
 class OneOf:
-    """For `Annotated[str, OneOf(names)]` in a pydantic model: as `Literal`, with the words that ``names()``
-    gives when a file is checked or the schema is written."""
+    """For `Annotated[str, OneOf(names)]` in a pydantic model: like `Literal`, but with the choices that
+    ``names()`` gives when a file is checked or a schema is written."""
 
     def __init__(self, names: Callable[[], Sequence[str]]) -> None:
         self._names = names

@@ -1,6 +1,6 @@
-"""What a command reads is never what it writes: its inputs are noted, and writing over one is refused.
+"""Keep a command from overwriting its inputs: they are noted, and writing to one is refused.
 
-Inert in a program that uses the library, which may well save what it has loaded.
+Has no effect in programs that use the library, which may well save what they have loaded.
 """
 
 import os
@@ -13,7 +13,7 @@ from surefoot.errors import SurefootError
 __all__ = ["keep_inputs", "note_input", "refuse_input"]
 
 _kept: dict[tuple[int, int], Path] | None = None
-"""The inputs so far, by device and inode: a link or another spelling is the same file."""
+"""Inputs so far by device and inode, so that links and other spellings count as the same file."""
 
 
 @contextmanager
@@ -30,7 +30,7 @@ def keep_inputs(paths: Iterable[str | os.PathLike[str]] = ()) -> Iterator[None]:
 
 
 def note_input(path: str | os.PathLike[str]) -> None:
-    """Note that ``path`` is read. A path that names no file is none, for whoever reads it to say so."""
+    """Note that ``path`` is read. A missing file is ignored here; its reader reports it."""
     if _kept is None or not os.path.isfile(path):
         return
     status = os.stat(path)
@@ -38,11 +38,11 @@ def note_input(path: str | os.PathLike[str]) -> None:
 
 
 def refuse_input(path: str | os.PathLike[str]) -> None:
-    """Raises `SurefootError` if writing to ``path`` would replace an input."""
+    """Raise `SurefootError` if writing to ``path`` would overwrite an input."""
     if not _kept or not os.path.exists(path):
         return
     status = os.stat(path)
     found = _kept.get((status.st_dev, status.st_ino))
     if found is not None:
         same = "" if os.fspath(found) == os.fspath(path) else f"the same file as {found}, "
-        raise SurefootError(f"{path}: is {same}an input of this command; name another file to write to")
+        raise SurefootError(f"{path}: is {same}an input of this command; choose another output file")

@@ -1,4 +1,4 @@
-"""JSON files that Surefoot has written: plain JSON, not too much of it, every number finite."""
+"""JSON files written by Surefoot: standard JSON, limited in size, every number finite."""
 
 import json
 import os
@@ -13,13 +13,13 @@ _MOST_BYTES = 20_000_000
 
 
 def read_json(path: str | os.PathLike[str], what: str) -> Any:
-    """The content of the ``what`` (named in messages) at ``path``. Raises `SurefootError` for a file that is
-    missing, cannot be read, is too large, or is no JSON."""
+    """The content of the ``what`` (a noun for messages) at ``path``. Raises `SurefootError` if the file is
+    missing, unreadable, too large or not JSON."""
     target = Path(path)
     try:
         size = target.stat().st_size
         if size > _MOST_BYTES:
-            raise SurefootError(f"{target}: {size} bytes; a {what} has at most {_MOST_BYTES}")
+            raise SurefootError(f"{target}: {size} bytes; a {what} may have at most {_MOST_BYTES}")
         return plain_json(target.read_text(encoding="utf-8"))
     except OSError as error:
         raise SurefootError(f"{target}: {error.strerror}; expected a {what} (JSON)") from None
@@ -30,8 +30,8 @@ def read_json(path: str | os.PathLike[str], what: str) -> Any:
 
 
 def plain_json(text: str) -> Any:
-    """The values that ``text`` says. Raises `ValueError` for what is no JSON, which has neither NaN nor
-    infinity, or nested too deeply."""
+    """Parse ``text``. Raises `ValueError` if it is not JSON (which excludes NaN and infinity) or nested too
+    deeply."""
     try:
         return json.loads(text, parse_constant=_refuse)
     except RecursionError:

@@ -1,4 +1,4 @@
-"""Whether the fields of a saved record are of the types that its class gives them."""
+"""Check that the fields of a saved record have the types that its class declares."""
 
 import math
 import sys
@@ -15,7 +15,7 @@ _MOST = sys.float_info.max
 
 
 def wrong_field(record: Any) -> str | None:
-    """Name of the first field of a dataclass or named tuple that is not of its type; None if all are."""
+    """Name of the first field of a dataclass or named tuple with a wrong type; None if all are right."""
     for name, kind in _types_of(type(record)).items():
         if not _is(getattr(record, name), kind):
             return name
@@ -28,7 +28,7 @@ def _types_of(record: type) -> dict[str, Any]:
 
 
 def _is(value: Any, kind: Any) -> bool:
-    """Whether ``value`` is of a ``kind`` that records of saved states are made of."""
+    """Whether ``value`` has type ``kind``, one of those used in saved states."""
     origin, inner = get_origin(kind), get_args(kind)
     if kind is Any or getattr(kind, "_is_protocol", False):
         return True
@@ -51,7 +51,7 @@ def _is(value: Any, kind: Any) -> bool:
     if kind is np.ndarray or origin is np.ndarray:
         return isinstance(value, np.ndarray) and value.dtype == np.float64
     if kind is float:
-        # whole numbers of a text can be too great to be made one
+        # integers in text can be too large to convert
         return not math.isnan(value) if type(value) is float else type(value) is int and abs(value) <= _MOST
     if kind is None:
         return value is None

@@ -1,11 +1,11 @@
-"""What an archive holds: the names, types, shapes and ranges of its arrays, and the fields of its header.
+"""What an archive holds: names, types, shapes and ranges of its arrays, and the fields of its header.
 
 A kind of file is one `Schema`. To add an array to a kind, add a line to its schema::
 
     "edge_target": Indices("edges", into="nodes"),
 
-The sizes of an array are numbers or names; arrays that share a name are equally long there, and "nodes+1" is
-one more than "nodes". `surefoot.files.archive` checks types and shapes before it unpacks anything, then the
+An array's sizes are numbers or names; the same name means the same size in all arrays, and "nodes+1" is one
+more than "nodes". `surefoot.files.archive` checks types and shapes before it unpacks anything, then the
 values.
 """
 
@@ -19,11 +19,11 @@ from pydantic import BaseModel, ConfigDict
 __all__ = ["Array", "Flags", "Header", "Indices", "Numbers", "Offsets", "Rising", "Schema", "Sizes", "Words"]
 
 Size = int | str
-_FARTHEST = 1e9  # [m] that a level may reach, and the greatest number that a file holds
+_FARTHEST = 1e9  # [m] largest coordinate of a level, and largest number in a file
 
 
 class Header(BaseModel):
-    """The fields of an archive's header besides its kind and version: strictly these, strictly typed."""
+    """Fields of an archive's header besides its kind and version: no others, strictly typed."""
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
 
@@ -32,7 +32,7 @@ HeaderType = TypeVar("HeaderType", bound=Header)
 
 
 class Sizes:
-    """The sizes that have names, as the first array that has each of them says."""
+    """Named sizes, each set by the first array that uses its name."""
 
     def __init__(self) -> None:
         self._known: dict[str, tuple[int, str]] = {}
@@ -41,7 +41,7 @@ class Sizes:
         return self._known[name][0]
 
     def problem(self, array: str, shape: tuple[int, ...], wanted: tuple[Size, ...]) -> str | None:
-        """Why an ``array`` of this ``shape`` is not of the shape that is ``wanted``; None if it is."""
+        """Why ``array``'s ``shape`` does not match ``wanted``; None if it does."""
         if len(shape) != len(wanted):
             return f"{array} has {len(shape)} axes, expected {len(wanted)}"
         for axis, (size, want) in enumerate(zip(shape, wanted, strict=True)):
@@ -69,7 +69,7 @@ class Array:
         return dtype == np.dtype(self.dtype)
 
     def problem(self, name: str, values: np.ndarray, sizes: Sizes) -> str | None:
-        """What is wrong with ``values`` of the right type and shape; None if nothing is."""
+        """What is wrong with ``values`` of the right type and shape; None if nothing."""
         return None
 
 
@@ -81,7 +81,7 @@ class Flags(Array):
         super().__init__("bool", shape)
 
     def problem(self, name: str, values: np.ndarray, sizes: Sizes) -> str | None:
-        # in a file a flag is a byte, and compiled code may take any of its values for a number
+        # a flag is a byte in the file, and compiled code might use any value of it as a number
         return _out_of(name, values.view(np.uint8), 0, 1)
 
 
@@ -104,7 +104,7 @@ class Numbers(Array):
 
 
 class Rising(Numbers):
-    """As `Numbers` along one axis, each greater than the one before; ``least`` of them at least."""
+    """Like `Numbers`, but each greater than the one before along one axis; at least ``least`` of them."""
 
     least: int
 
@@ -117,13 +117,13 @@ class Rising(Numbers):
             return f"{name} has {len(values)} rows, expected at least {self.least}"
         falls = values[1:] <= values[:-1]
         if falls.any():
-            return f"{name} does not grow after {int(np.argmax(falls))}"
+            return f"{name} does not increase after {int(np.argmax(falls))}"
         return super().problem(name, values, sizes)
 
 
 @dataclass(frozen=True, init=False)
 class Indices(Array):
-    """Numbers of rows of arrays with ``into`` rows; ``none``: -1 stands for no row."""
+    """Row indices of arrays with ``into`` rows; ``none``: -1 means no row."""
 
     into: Size
     none: bool
@@ -140,7 +140,7 @@ class Indices(Array):
 
 @dataclass(frozen=True, init=False)
 class Offsets(Array):
-    """(count + 1,): those of the ``into`` rows of other arrays that belong to i go from offset i to i + 1."""
+    """(count + 1,): row i owns the ``into`` rows from offset i up to offset i + 1."""
 
     into: str
 
@@ -152,13 +152,12 @@ class Offsets(Array):
         if values[0] != 0 or values[-1] != sizes[self.into]:
             return f"{name} goes from {values[0]} to {values[-1]}, expected 0 to {sizes[self.into]}"
         falls = values[1:] < values[:-1]
-        return f"{name} falls after {int(np.argmax(falls))}" if falls.any() else None
+        return f"{name} decreases after {int(np.argmax(falls))}" if falls.any() else None
 
 
 @dataclass(frozen=True, init=False)
 class Words(Array):
-    """Texts of at most ``longest`` characters; with ``among`` only those that it gives when a file is
-    read."""
+    """Texts of at most ``longest`` characters; with ``among`` only those it returns when a file is read."""
 
     longest: int
     among: Callable[[], Sequence[str]] | None
@@ -176,7 +175,7 @@ class Words(Array):
     def problem(self, name: str, values: np.ndarray, sizes: Sizes) -> str | None:
         codes = np.ascontiguousarray(values).reshape(-1).view(np.uint32)
         if (codes > 0x10FFFF).any() or ((codes >= 0xD800) & (codes <= 0xDFFF)).any():
-            return f"{name} holds what is no text"
+            return f"{name} holds values that are not text"
         if self.among is not None:
             known = np.isin(values, list(self.among()))
             if not known.all():
@@ -185,7 +184,7 @@ class Words(Array):
 
 
 def _out_of(name: str, values: np.ndarray, low: float, high: float) -> str | None:
-    """Least and greatest are found without a copy; NaN is neither within nor without."""
+    """Finds least and greatest without a copy; NaN counts as out of range."""
     if values.size == 0 or (values.min() >= low and values.max() <= high):
         return None
     at = np.unravel_index(int(np.argmin((values >= low) & (values <= high))), values.shape)
@@ -199,9 +198,9 @@ def _out_of(name: str, values: np.ndarray, low: float, high: float) -> str | Non
 class Schema(Generic[HeaderType]):
     """A kind of archive.
 
-    ``kind`` and ``version``: what its header says. ``arrays``: which it holds, by name; they may depend on
-    the header. ``check``: what else is wrong with the arrays of a header, in a sentence; None if nothing is.
-    ``remedy``: what a user does about a file that cannot be read, as in "bake it again".
+    ``kind`` and ``version``: as in its header. ``arrays``: its arrays by name; they may depend on the header.
+    ``check``: what else is wrong with a header's arrays, as a sentence; None if nothing. ``remedy``: what a
+    user does about an unreadable file, such as "bake it again".
     """
 
     kind: str

@@ -1,6 +1,6 @@
-"""YAML files that people write: read safely, checked by pydantic, every error with its line and column.
+"""Hand-written YAML files: read safely, checked by pydantic, every error with its line and column.
 
-Only what YAML and JSON share is taken: mappings with text keys, sequences, text, numbers, booleans, null.
+Only what YAML and JSON share is accepted: mappings with text keys, sequences, text, numbers, booleans, null.
 """
 
 import difflib
@@ -18,7 +18,7 @@ from surefoot.files.inputs import note_input
 __all__ = ["MAX_BYTES", "FileError", "Located", "dotted", "nearest", "read_yaml"]
 
 MAX_BYTES = 1_000_000
-_MOST_VALUES = 100_000  # counted as often as aliases repeat them
+_MOST_VALUES = 100_000  # values, counting those repeated by aliases
 _MOST_LEVELS = 50
 _LONGEST_NUMBER = 100  # characters; PyYAML takes minutes for a very long number to the base 60
 _SCALARS = ("null", "bool", "int", "float", "str")
@@ -30,7 +30,7 @@ Key = str | int
 
 
 class FileError(SurefootError):
-    """A file that a person wrote is wrong; the one-line message begins with ``file:line:column``."""
+    """A hand-written file is wrong; the one-line message begins with ``file:line:column``."""
 
     def __init__(self, path: str | os.PathLike[str], line: int, column: int, problem: str) -> None:
         self.path, self.line, self.column = Path(path), line, column
@@ -38,14 +38,14 @@ class FileError(SurefootError):
 
 
 class Located:
-    """Where each value of a YAML file stands; an address is a path of keys and indices."""
+    """Position of each value in a YAML file; an address is a path of keys and indices."""
 
     def __init__(self, path: Path, root: yaml.Node) -> None:
         self.path = path
         self._root = root
 
     def error(self, address: Sequence[Key], problem: str, at_key: bool = False) -> FileError:
-        """The error ``problem`` at ``address``, or at its nearest ancestor that the file holds."""
+        """The error ``problem`` at ``address``, or at its nearest ancestor in the file."""
         node = self._root
         mark = node.start_mark
         for step in address:
@@ -58,10 +58,10 @@ class Located:
 
 
 def read_yaml(path: str | os.PathLike[str], model: type[Model], what: str) -> tuple[Model, Located]:
-    """Read the ``what`` (named in messages) at ``path`` as a ``model``.
+    """Read the ``what`` (a noun for messages) at ``path`` as a ``model``.
 
-    Returns the checked model and where each of its values stands in the file. Raises `FileError` for a
-    missing or unreadable file, broken YAML, unknown or double keys, and values of a wrong type or range.
+    Returns the checked model and the position of each of its values. Raises `FileError` for a missing or
+    unreadable file, invalid YAML, unknown or duplicate keys, and values of a wrong type or range.
     """
     target = Path(path)
     note_input(target)
@@ -84,7 +84,7 @@ def _compose(path: Path, what: str) -> yaml.Node:
     except OSError as error:
         raise FileError(path, 1, 1, f"cannot be read: {error.strerror}") from error
     if len(content) > MAX_BYTES:
-        raise FileError(path, 1, 1, f"{len(content)} bytes; a {what} has at most {MAX_BYTES}")
+        raise FileError(path, 1, 1, f"{len(content)} bytes; a {what} may have at most {MAX_BYTES}")
     try:
         root = _parse(content)
     except yaml.MarkedYAMLError as error:
@@ -92,7 +92,7 @@ def _compose(path: Path, what: str) -> yaml.Node:
         line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
         raise FileError(path, line, column, f"not YAML: {error.problem or error.context}") from None
     except yaml.reader.ReaderError as error:
-        # the position counts characters once the text is decoded, and bytes where that fails
+        # PyYAML counts characters once the text is decoded, and bytes if decoding fails
         read = content if error.encoding != "unicode" else content.decode(errors="replace")
         before = (
             str(read[: error.position], "utf-8", "replace")
@@ -107,8 +107,8 @@ def _compose(path: Path, what: str) -> yaml.Node:
 
 
 def _parse(content: bytes) -> yaml.Node | None:
-    """The root of a YAML text: read in a tenth of the time where PyYAML was built with libyaml; what that
-    refuses is read anew by PyYAML's own parser, whose messages say more."""
+    """The root of a YAML text. libyaml is ten times as fast, if PyYAML was built with it; what it refuses is
+    read again by PyYAML's own parser, for its better messages."""
     try:
         return yaml.compose(content, Loader=_Fast)
     except yaml.YAMLError:
@@ -116,8 +116,8 @@ def _parse(content: bytes) -> yaml.Node | None:
 
 
 class _Values:
-    """Makes plain values of nodes. Aliases share one value, but what is made of it later does not, so values
-    count as often as they are repeated."""
+    """Turns nodes into plain values. Aliases share a node but become separate values, so repeated values
+    count each time."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -125,7 +125,7 @@ class _Values:
         self._open: set[int] = set()
 
     def of(self, node: yaml.Node) -> tuple[Any, int]:
-        """The value of ``node``, and of how many it consists."""
+        """The value of ``node``, and how many values it contains."""
         known = self._made.get(id(node))
         if known is not None:
             return known
@@ -137,7 +137,9 @@ class _Values:
         value, count = self._made_of(node)
         self._open.discard(id(node))
         if count > _MOST_VALUES:
-            raise _at(self._path, node, f"more than {_MOST_VALUES} values, with what aliases repeat")
+            raise _at(
+                self._path, node, f"more than {_MOST_VALUES} values, counting those repeated by aliases"
+            )
         self._made[id(node)] = value, count
         return value, count
 
@@ -155,9 +157,9 @@ class _Values:
         found: dict[str, Any] = {}
         for key, child in node.value:
             if not isinstance(key, yaml.ScalarNode):
-                raise _at(self._path, key, "a key must be a word")
+                raise _at(self._path, key, "a key must be text")
             if key.value in found:
-                raise _at(self._path, key, f"{_shown(key.value)} stands here twice")
+                raise _at(self._path, key, f"{_shown(key.value)} appears twice here")
             found[key.value], more = self.of(child)
             count += more
         return found, count
@@ -193,7 +195,8 @@ def _child(node: yaml.Node, step: Key) -> tuple[yaml.Node, yaml.Node] | None:
 
 
 def _first_error(error: ValidationError, located: Located, model: type[BaseModel]) -> FileError:
-    """The first of pydantic's findings as one line: address, problem, valid choices, how many more."""
+    """The first of pydantic's findings as one line: address, problem, valid choices, number of further
+    ones."""
     findings = sorted(error.errors(include_url=False), key=lambda one: one["type"] != "extra_forbidden")
     first = findings[0]
     address = tuple(step for step in first["loc"] if not _is_mark(step))
@@ -219,8 +222,8 @@ def _first_error(error: ValidationError, located: Located, model: type[BaseModel
 
 
 def _is_mark(step: Key) -> bool:
-    """Whether a step of pydantic's addresses stands for nothing in the file: "[key]", or the tag of a union,
-    which our models write in brackets."""
+    """Whether a step of pydantic's addresses is not in the file: "[key]", or the tag of a union, which our
+    models write in brackets."""
     return isinstance(step, str) and (step == "[key]" or (step.startswith("(") and step.endswith(")")))
 
 
@@ -240,13 +243,13 @@ def _shown(value: Any) -> str:
 
 
 def nearest(name: str, known: Sequence[str]) -> str:
-    """What an error asks about a ``name`` that is none of those ``known``; empty where none is like it."""
+    """Suggestion for a ``name`` that is not ``known``; empty if none is similar."""
     near = difflib.get_close_matches(name, known, n=1)
     return f"did you mean {near[0]!r}? " if near else ""
 
 
 def dotted(address: Sequence[Key]) -> str:
-    """An address as a person writes it: ``agents[0].start``."""
+    """An address as a user would write it: ``agents[0].start``."""
     text = ""
     for step in address:
         text += f"[{step}]" if isinstance(step, int) else f".{step}" if text else str(step)
@@ -264,7 +267,7 @@ def _fields_at(model: type[BaseModel], address: Sequence[Key]) -> list[str]:
 
 
 def _mapping_in(annotation: Any) -> Any:
-    """The model, or the dict of named values, that ``annotation`` takes: itself or deeper inside."""
+    """The model, or the dict of named values, inside ``annotation``."""
     if get_origin(annotation) is dict or (isinstance(annotation, type) and issubclass(annotation, BaseModel)):
         return annotation
     return next((found for inner in get_args(annotation) if (found := _mapping_in(inner)) is not None), None)

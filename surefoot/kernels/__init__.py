@@ -1,4 +1,4 @@
-"""Kernels: functions that Numba compiles, once on a machine, and keeps in a folder of the user's."""
+"""Kernels: functions compiled by Numba, once per machine, and kept in the user's cache folder."""
 
 from surefoot.kernels.decorators import allocating_kernel, cfunc, kernel
 

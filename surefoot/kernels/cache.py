@@ -1,4 +1,4 @@
-"""The cache of one kernel: compiled code in the user's cache folder, named after all that it depends on."""
+"""The cache of one kernel: compiled code in the user's cache folder, named after everything it depends on."""
 
 import hashlib
 import io
@@ -27,7 +27,7 @@ from surefoot.kernels.turns import Turns
 __all__ = ["KernelCache"]
 
 _FORMAT = 1
-"""Of what is kept; another number, and everything is compiled again."""
+"""Version of the cache files; a new number recompiles everything."""
 _SUFFIX = ".kernel"
 _turns = Turns()
 
@@ -39,8 +39,8 @@ def _versions() -> str:
 
 
 class KernelCache:
-    """What Numba asks for compiled code, and gives it to. Numba's own cache is by file, and does not see when
-    a kernel of another file changes that this one calls."""
+    """Numba's interface for saving and loading compiled code. Numba's own cache is per file, and does not
+    notice changes in kernels of other files."""
 
     def __init__(self, function: Callable, options: dict[str, Any], kernel: Dispatcher | None = None) -> None:
         self._function, self._options, self._kernel = function, options, kernel
@@ -52,8 +52,8 @@ class KernelCache:
         return str(cache_folder())
 
     def load_overload(self, signature: Any, target: Any) -> CompileResult | None:
-        """Kept code for a signature, None where there is none: then it is this process's turn to compile it,
-        until `save_overload`, or until it fails."""
+        """Cached code for a signature. None if there is none: this process then holds the turn to compile it,
+        until `save_overload` or failure."""
         target.refresh()
         file = self._file(signature, target.codegen())
         if file is None:
@@ -61,13 +61,13 @@ class KernelCache:
         found = self._load(file, target)
         if found is None:
             _turns.take(file, self._kernel)
-            found = self._load(file, target)  # another process has compiled it meanwhile
+            found = self._load(file, target)  # another process compiled it meanwhile
             if found is not None:
                 _turns.give_back(file)
         return found
 
     def save_overload(self, signature: Any, compiled: CompileResult) -> None:
-        """Keep the code that was compiled for a signature."""
+        """Save the compiled code of a signature."""
         if self._kernel is not None:
             linking.keep_apart(compiled, self._kernel, signature)
         file = self._file(signature, compiled.codegen)
@@ -82,12 +82,12 @@ class KernelCache:
             _turns.give_back(file)
 
     def enable(self) -> None:
-        """Numba may ask for it; it is always enabled."""
+        """Numba may ask for it; always on."""
 
     disable = flush = enable
 
     def kept_signatures(self, target: Any) -> Iterator[Any]:
-        """The signatures for which there is code."""
+        """Signatures with cached code."""
         folder = cache_folder()
         for file in folder.glob(f"{self._stem(target.codegen())}-*{_SUFFIX}") if folder is not None else ():
             with suppress(Exception), file.open("rb") as opened:
@@ -102,7 +102,7 @@ class KernelCache:
         return folder / f"{self._stem(codegen)}-{types}{_SUFFIX}"
 
     def _stem(self, codegen: Any) -> str:
-        """How the names of this kernel's files begin: by what it is and the machine that it is for."""
+        """Prefix of this kernel's file names: the kernel, the machine."""
         options = repr(sorted(self._options.items()))
         parts = _versions(), repr(codegen.magic_tuple()), options, digest_of_code(self._function)
         return f"{self._name}-{_short(chr(0).join(parts))}"
@@ -116,7 +116,7 @@ class KernelCache:
             stream = io.BytesIO(data)
             pickle.load(stream)  # the signature
             compiled = linking.rebuild(target, pickle.load(stream))
-        except Exception:  # of another version, cut off, or without a kernel that it calls
+        except Exception:  # another version, cut off, or a kernel that it calls is missing
             return None
         note_use(file)
         return compiled
@@ -127,7 +127,7 @@ def _short(text: str) -> str:
 
 
 def _write(file: Path, data: bytes) -> None:
-    """Whole or not at all; a full or read-only disk is no reason to stop."""
+    """Written whole or not at all; a full or read-only disk is no reason to fail."""
     with suppress(OSError):
         handle, name = tempfile.mkstemp(dir=file.parent, prefix=".", suffix=".part")
         try:

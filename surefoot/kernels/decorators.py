@@ -1,4 +1,4 @@
-"""Numba's decorators, with a cache of our own."""
+"""Numba's decorators with a cache of our own."""
 
 from collections.abc import Callable
 from typing import Any
@@ -15,26 +15,26 @@ __all__ = ["allocating_kernel", "cfunc", "kernel"]
 
 
 def kernel(function: Callable | None = None, **options: Any) -> Any:
-    """Compiles a function that makes no arrays, as ``@kernel`` or ``@kernel(error_model="numpy")``; options
-    as of `numba.njit`. The compiled code is kept in the user's cache folder.
+    """Compile a function that creates no arrays: ``@kernel`` or ``@kernel(error_model="numpy")``, with
+    options of `numba.njit`. The compiled code is kept in the user's cache folder.
 
-    Numba counts references to arrays wherever a function takes one or looks one up in a bundle, with an
-    atomic operation each time: half of the time of many kernels, and of the time to compile them. A function
-    that only reads and writes arrays that it is given needs no counting. It must not return an array, nor
-    call what returns a new one. Numba refuses to compile one that makes an array itself.
+    Numba counts references to arrays wherever a function takes one or looks one up, with an atomic operation
+    each time; that took half the run time, and compile time, of many kernels. A function that only reads and
+    writes arrays it is given needs no counting. It must not return an array or call a function that returns a
+    new one. Numba refuses to compile one that creates an array itself.
     """
     return _kernel(function, {**options, "_nrt": False})
 
 
 def allocating_kernel(function: Callable | None = None, **options: Any) -> Any:
-    """Compiles a function that makes, copies or returns arrays, like `kernel`."""
+    """Like `kernel`, for functions that create, copy or return arrays."""
     return _kernel(function, {**options, "_nrt": True})
 
 
 def _kernel(function: Callable | None, options: dict[str, Any]) -> Any:
     def decorate(function: Callable) -> Any:
         made = numba.njit(**options)(function)
-        if isinstance(made, Dispatcher):  # not with NUMBA_DISABLE_JIT
+        if isinstance(made, Dispatcher):  # if NUMBA_DISABLE_JIT is set
             made._cache = KernelCache(function, options, made)
             _compile_less(made)
         return made
@@ -45,8 +45,8 @@ def _kernel(function: Callable | None, options: dict[str, Any]) -> Any:
 def _compile_less(made: Dispatcher) -> None:
     """Let kernels that call ``made`` with constants and short integers share the code for int64.
 
-    Numba would compile it for each constant that it meets, and for what the type of a variable seems to be
-    before it has seen all that is assigned to it; most of that is never called.
+    Otherwise Numba compiles a version for each constant, and for each provisional type of a variable during
+    type inference; most of these are never called.
     """
     template = made.get_call_template
 
@@ -63,7 +63,7 @@ def _widened(kind: types.Type) -> types.Type:
 
 
 def cfunc(signature: Any) -> Any:
-    """`numba.cfunc` of a signature, compiled code kept as that of `kernel`."""
+    """`numba.cfunc` of a signature, cached like `kernel`."""
 
     def decorate(function: Callable) -> Any:
         options = {"nopython": True}

@@ -1,5 +1,5 @@
-"""What a kernel's compiled code depends on: its own code, that of the kernels it calls, and the constants and
-types that they name."""
+"""What a kernel's compiled code depends on: its own code, the kernels it calls, and the constants and types
+it uses."""
 
 import hashlib
 import importlib
@@ -23,10 +23,9 @@ PACKAGES = ("navmesh", "pathsmooth", "locomotion", "runtime")
 
 @cache
 def digest_of_code(function: Callable) -> str:
-    """Hexadecimal digest of a Python function and of everything that it reaches: equal digests, equal
-    kernels.
+    """Hex digest of a Python function and everything it uses: equal digests, equal kernels.
 
-    Comments, line numbers, and what else is in its file do not count.
+    Comments, line numbers and other code in its file do not count.
     """
     checksum = hashlib.sha256()
     seen, waiting = {function}, [function]
@@ -49,7 +48,7 @@ def _options(kernel: Dispatcher) -> str:
 
 
 def _parts(function: Any) -> Iterator[Any]:
-    """What one function consists of, as text, and the kernels that it names, in order."""
+    """The parts of one function as text, and the kernels that it uses, in order."""
     cells = [cell.cell_contents for cell in function.__closure__ or ()]
     for value in (function.__defaults__, cells):
         yield from _value(value, function, ())
@@ -70,7 +69,7 @@ def _parts(function: Any) -> Iterator[Any]:
 
 
 def _value(value: Any, user: Any, names: tuple[str, ...]) -> Iterator[Any]:
-    """What a value is that ``user`` names; of our own modules, those of its ``names`` that they have."""
+    """Parts of a value that ``user`` refers to; of our own modules, their attributes among ``names``."""
     if isinstance(value, Dispatcher):
         yield value
     elif value is None or isinstance(value, Enum | Number | str | bytes):
@@ -94,7 +93,7 @@ def _value(value: Any, user: Any, names: tuple[str, ...]) -> Iterator[Any]:
     else:
         module = getattr(value, "__module__", None) or type(value).__module__
         yield f"{module}.{getattr(value, '__qualname__', type(value).__qualname__)}"
-        # something that tells Numba how to compile: all of its file counts, else all of the user's
+        # a Numba extension: its whole file counts if it is ours, else the user's whole file
         defined = getattr(getattr(value, "_defn", value), "__module__", None)
         if not isinstance(defined, str):
             yield _digest_of_file(user.__module__)
@@ -104,7 +103,7 @@ def _value(value: Any, user: Any, names: tuple[str, ...]) -> Iterator[Any]:
 
 @cache
 def digest_of_type(kind: types.Type) -> str:
-    """Text that tells a Numba type from all others, and from what it was when its class was another."""
+    """Text that identifies a Numba type, including the version of its class."""
     parts = [str(kind)]
     for each in getattr(kind, "types", ()):
         parts.append(digest_of_type(each))

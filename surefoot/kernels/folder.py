@@ -1,5 +1,5 @@
-"""Where compiled kernels are kept: a folder of the user's, outside the packages, so that these can be
-read-only, and nothing is left of them when they are uninstalled."""
+"""Where compiled kernels are kept: in the user's cache folder, outside the packages, so that these may be
+read-only and leave nothing behind when uninstalled."""
 
 import os
 import stat
@@ -15,16 +15,17 @@ from numba.core import config
 __all__ = ["LOCKS", "cache_folder", "clear", "forget_old", "note_use", "size_of_cache"]
 
 LOCKS = "locks"
-"""The folder in it of the empty files that processes lock."""
+"""Subfolder of the empty files that processes lock."""
 _KEPT = 60 * 86400.0
-"""[s] after which kernels that no start has read are removed."""
-_NOTED = 86400.0  # [s] between notes that a kernel is still used
+"""[s] after which unused kernels are removed."""
+_NOTED = 86400.0  # [s] between updates of a file's date of last use
 
 
 def cache_folder() -> Path | None:
-    """The folder, made if it is not there: "surefoot" in ``NUMBA_CACHE_DIR`` if that is set, else in the
-    user's folder for caches; where that cannot be written to, a folder of the user's own among the temporary
-    files. None when there is no such place: then kernels are compiled in each process."""
+    """The folder, created if needed: "surefoot" in ``NUMBA_CACHE_DIR`` if that is set, else in the user's
+    cache folder; if that is not writable, a private folder in the temporary directory. None if there is
+    none: then each process compiles its kernels.
+    """
     return _folder(config.CACHE_DIR)  # type: ignore[attr-defined]
 
 
@@ -41,7 +42,7 @@ def _candidates(chosen: str) -> list[Path]:
 
 
 def _users_caches() -> Path:
-    """The platform's folder for what programs can make again."""
+    """The platform's cache folder."""
     if sys.platform == "win32":
         return Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
     if sys.platform == "darwin":
@@ -51,7 +52,7 @@ def _users_caches() -> Path:
 
 
 def _is_ours(folder: Path) -> bool:
-    """Whether ``folder`` can be written to, and by nobody else: what is read from it is run."""
+    """Whether ``folder`` is writable, and only for this user: its content is executed."""
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         kept = folder.stat()
@@ -65,14 +66,14 @@ def _is_ours(folder: Path) -> bool:
 
 
 def note_use(file: Path) -> None:
-    """Note in the date of a kept file that it is still read."""
+    """Update the date of a file, to note that it is still used."""
     with suppress(OSError):
         if time.time() - file.stat().st_mtime > _NOTED:
             os.utime(file)
 
 
 def forget_old() -> None:
-    """Remove what no start has read in 60 days: kernels of earlier versions."""
+    """Remove kernels unused for 60 days, as those of earlier versions."""
     for file in _kept():
         with suppress(OSError):
             if time.time() - file.stat().st_mtime > _KEPT:
@@ -80,12 +81,12 @@ def forget_old() -> None:
 
 
 def size_of_cache() -> int:
-    """[bytes] of all that is kept."""
+    """[bytes] Size of all cached kernels."""
     return sum(file.stat().st_size for file in _kept())
 
 
 def clear() -> None:
-    """Remove everything that is kept. Processes that run are not disturbed."""
+    """Remove all cached kernels. Running processes are not affected."""
     for file in _kept():
         with suppress(OSError):
             file.unlink()

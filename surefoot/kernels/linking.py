@@ -1,9 +1,9 @@
-"""Large kernels are compiled once, and called where they are.
+"""Compile large kernels once and call them, instead of copying them into their callers.
 
-Numba copies a function's code into the module of each function that calls it, with all that that one calls,
-and optimises the copies anew; half of the time of compiling went into copies of copies. LLVM does not inline
-functions of more than some dozen instructions in any case, so all but small ones stay apart: whoever calls
-them finds them by their symbol, and whoever is read from the cache has them read first.
+Numba copies a function's code into the module of each caller, with everything that it calls, and optimises
+each copy; half of the compile time went into copies of copies. LLVM does not inline functions of more than a
+few dozen instructions anyway, so all but small ones stay separate: callers find them by symbol, and loading a
+caller from the cache loads them first.
 """
 
 import importlib
@@ -20,18 +20,18 @@ from numba.core.dispatcher import Dispatcher
 __all__ = ["Missing", "keep_apart", "rebuild", "reduce"]
 
 _LARGE = 300
-"""Instructions of a function from which on it stays apart."""
+"""Instructions from which a function stays separate."""
 _TRIED = ((0, 68),)
-"""Versions of Numba in whose insides this was tried; in others kernels are copied as Numba does it."""
+"""Versions of Numba whose internals this was tested with; with others, kernels are copied as usual."""
 
 
 class Missing(Exception):
-    """A kernel was read from the cache that calls one which is not there any more."""
+    """A cached kernel calls one that is missing."""
 
 
 @dataclass(frozen=True)
 class Need:
-    """A kernel that has to be there before one that calls it: what Numba calls when it reads that one."""
+    """A kernel that must be loaded before its caller; Numba calls this when it loads the caller."""
 
     module: str
     name: str
@@ -50,7 +50,7 @@ def _is_possible() -> bool:
 
 
 def keep_apart(compiled: CompileResult, kernel: Dispatcher, signature: Any) -> None:
-    """From now on functions that call ``kernel`` do not get a copy, if it is large."""
+    """From now on, callers of ``kernel`` do not copy it if it is large."""
     library = compiled.library
     name = kernel.py_func.__name__
     module = sys.modules.get(kernel.py_func.__module__)
@@ -63,10 +63,10 @@ def keep_apart(compiled: CompileResult, kernel: Dispatcher, signature: Any) -> N
 
 
 def reduce(compiled: CompileResult) -> tuple:
-    """What is kept of a compiled kernel."""
+    """Cached form of a compiled kernel."""
     payload = compiled._reduce()
     library, own = compiled.library, compiled.fndesc.mangled_name
-    # Numba does not list what a callback needs with the callback
+    # Numba does not list a callback's dependencies with the callback
     needs = {*compiled.reload_init, *library._reload_init}
     itself = [need for need in needs if isinstance(need, Need) and need.symbol == own]
     defined = _engine(compiled.target_context)._defined_symbols
@@ -75,9 +75,9 @@ def reduce(compiled: CompileResult) -> tuple:
 
 
 def rebuild(target: Any, kept: tuple) -> CompileResult:
-    """A compiled kernel of what `reduce` kept; those that it calls are read before.
+    """A compiled kernel from its form made by `reduce`; loads the kernels it calls first.
 
-    Raises `Missing` if one of them is another by now: LLVM would end the process.
+    Raises `Missing` if one of them has changed: LLVM would end the process.
     """
     itself, needs, called, payload = kept
     for need in needs:

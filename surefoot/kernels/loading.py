@@ -1,4 +1,4 @@
-"""Reading all kernels that are kept, so that no first use has to."""
+"""Load all cached kernels, so that no first call has to."""
 
 import sys
 
@@ -11,7 +11,7 @@ __all__ = ["load_kept"]
 
 
 def load_kept() -> int:
-    """Read the kept code of all kernels of the modules that are imported; returns how many there are."""
+    """Load the cached code of all kernels in the imported modules; returns how many."""
     count = 0
     for module in [module for name, module in sys.modules.items() if is_ours(name)]:
         for kernel in vars(module).values():

@@ -1,4 +1,4 @@
-"""One process compiles a kernel; others that want it wait and read it."""
+"""One process compiles a kernel; others that need it wait and load it."""
 
 import gc
 from pathlib import Path
@@ -10,12 +10,12 @@ from surefoot.kernels.folder import LOCKS
 
 __all__ = ["Turns"]
 
-_PATIENCE = 600.0  # [s] after which a process compiles what another one has not finished
+_PATIENCE = 600.0  # [s] after which a process stops waiting and compiles the kernel itself
 
 
 class Turns(events.Listener):
-    """The files that this process writes at present, each locked. The lock is the operating system's: it ends
-    with the process."""
+    """Files that this process is writing, each locked. The operating system releases the lock when the
+    process ends."""
 
     def __init__(self) -> None:
         self._locks: dict[Path, Any] = {}
@@ -24,12 +24,12 @@ class Turns(events.Listener):
         events.register("numba:compile", self)
 
     def take(self, file: Path, kernel: Any) -> None:
-        """Wait until nobody else compiles what ``file`` will hold; do not where files cannot be locked."""
+        """Wait until no other process is compiling ``file``; does not wait where files cannot be locked."""
         if file in self._locks:
             return
         from filelock import FileLock, Timeout
 
-        # what is locked stays: one that waits for a file that is removed has waited for nothing
+        # never remove a lock file: processes waiting for it would hold different locks
         lock = FileLock(file.parent / LOCKS / file.stem)
         try:
             (file.parent / LOCKS).mkdir(exist_ok=True)
@@ -40,14 +40,14 @@ class Turns(events.Listener):
         self._files.setdefault(kernel, []).append(file)
 
     def give_back(self, file: Path) -> None:
-        """Whoever waits for ``file`` goes on."""
+        """Let processes that wait for ``file`` continue."""
         lock = self._locks.pop(file, None)
         if lock is not None:
             lock.release()
 
     def on_start(self, event: events.Event) -> None:
-        """Little of what compiling makes is garbage, but the whole program would be searched for it, again
-        and again."""
+        """Compiling creates little garbage, but makes the collector scan the whole program again and
+        again."""
         if self._depth == 0:
             self._collects = gc.isenabled()
             gc.disable()
@@ -57,7 +57,7 @@ class Turns(events.Listener):
         self._depth -= 1
         if self._depth == 0 and self._collects:
             gc.enable()
-        # `Event.is_failed` says the opposite in Numba 0.68
+        # `Event.is_failed` is inverted in Numba 0.68
         failed = event._exc_details is not None and event._exc_details[0] is not None
         assert event.data is not None
         files = self._files.pop(event.data["dispatcher"], ())

@@ -1,1 +1,1 @@
-"""Contacts with triangle soups, a collider of our own in MuJoCo."""
+"""Contacts with triangle soups: a collider of our own for MuJoCo."""

@@ -1,10 +1,10 @@
-"""Install the triangle collider in MuJoCo, behind height-field geoms that carry its mark.
+"""Install the triangle collider in MuJoCo, behind marked height-field geoms.
 
-MuJoCo's table of collision functions belongs to the process. Ours replaces the two entries for a height
-field with a sphere and with a capsule, looks at the geom's user data, and hands every height field
-without our mark on to the original function; planes and all other geoms are not touched at all. A marked
-geom names a slot and the digest of the ground that must be in it, so a model whose ground has been
-released, or that comes from another process, touches nothing rather than something else.
+MuJoCo's table of collision functions belongs to the process. Ours replaces the two entries for a height field
+with a sphere and with a capsule, checks the geom's user data, and passes height fields without our mark to
+the original function; all other geoms are unaffected. A marked geom names a slot and the digest of the ground
+that must be in it. A model whose ground has been released, or that comes from another process, therefore
+touches nothing rather than a wrong ground.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ SLOTS = 1024
 CAPSULE = int(mujoco.mjtGeom.mjGEOM_CAPSULE)
 SYMBOL = "surefoot_ground_table"
 HEADER = 32
-_CHUNK = 512  # [bytes] of a structure looked at together; many fields follow those that are searched for
+_CHUNK = 512  # [bytes] searched at a time; many other fields follow those searched for
 
 # the process-wide table: 0-5 offsets in mjModel and mjData, 6-7 original functions, then digest and
 # header address of each slot; compiled code finds it through a linker symbol, which survives caching
@@ -142,7 +142,7 @@ def _collide(table, model, data, contacts, g1, g2, margin, capsule):
 _signature = types.int32(types.int64, types.int64, types.int64, types.int32, types.int32, types.float64)
 
 
-# one function for both kinds: a second one would take as long again to load at every start
+# one function for both kinds: a second one would double the loading time at every start
 def _round_ground(model, data, contacts, g1, g2, margin):
     table = carray(_as_int64(_table_address()), (8 + 2 * SLOTS,))
     kind = carray(_as_int32(carray(_as_int64(model + table[5]), (1,))[0] + 4 * g2), (1,))[0]
@@ -150,7 +150,8 @@ def _round_ground(model, data, contacts, g1, g2, margin):
 
 
 def occupy(arrays: TriangleArrays, origin: np.ndarray, digest: int) -> tuple[int, Any]:
-    """Enter a ground in the table; returns its slot and what must stay alive as long as the slot is used."""
+    """Register a ground in the table; returns its slot and the objects to keep alive while the slot is
+    used."""
     with _lock:
         _install()
         free = np.flatnonzero(_table[8::2] == 0)
@@ -176,13 +177,13 @@ def occupy(arrays: TriangleArrays, origin: np.ndarray, digest: int) -> tuple[int
 
 
 def release(slot: int) -> None:
-    """Empty a slot; models that still name it touch nothing from now on."""
+    """Free a slot; models that still use it touch nothing from now on."""
     with _lock:
         _table[8 + 2 * slot] = 0
 
 
 def _install() -> None:
-    """Put the two functions in MuJoCo's table, once in the process."""
+    """Register the two functions with MuJoCo, once per process."""
     if _installed:
         return
     model, data = _layout_probe()
@@ -195,7 +196,7 @@ def _install() -> None:
     width = ctypes.c_int64.from_address(model._address + int(_table[0])).value
     if width != model.nuser_geom:
         raise LocomotionError(f"MuJoCo {mujoco.__version__} keeps its sizes elsewhere; use version 4.0")
-    # made here and not with the module: compiling takes ten seconds the first time
+    # created here and not on import: compiling takes ten seconds the first time
     round_ground = cfunc(_signature)(_round_ground)
     library = ctypes.CDLL(str(_library()))
     kinds = int(mujoco.mjtGeom.mjGEOM_SDF) + 1
@@ -228,7 +229,7 @@ def _find(owner: Any, array: np.ndarray) -> int:
 
 
 def _library() -> Path:
-    """MuJoCo's shared library, as the Python package has loaded it."""
+    """MuJoCo's shared library, as the Python package loaded it."""
     folder = Path(str(mujoco.__file__)).parent
     for pattern in ("libmujoco.so*", "libmujoco*.dylib", "mujoco.dll"):
         found = sorted(folder.glob(pattern))

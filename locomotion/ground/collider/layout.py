@@ -1,7 +1,7 @@
 """Columns of the arrays that hold a ground's triangles for kernels.
 
-``rows`` (n, ROW) float64 and ``flags`` (n, FLAGS) int32 have one row per triangle, ``grid`` (4,) float64 says
-where the cells lie that list the triangles. Coordinates [m] are relative to the ground's origin.
+``rows`` (n, ROW) float64 and ``flags`` (n, FLAGS) int32 have one row per triangle, ``grid`` (4,) float64
+gives the position of the cells that list the triangles. Coordinates [m] are relative to the ground's origin.
 """
 
 __all__ = [
@@ -42,13 +42,13 @@ SIDE, SIDE_ROW, SIDES_END = 4, 4, 16
 CORNER = 16
 """Three corners of three columns [m]."""
 DEPTH_LIMIT = 25
-"""[m] how deep behind the face a body may be and still be pushed out through it."""
+"""[m] depth behind the face within which a body is still pushed out."""
 CONE, CONE_ROW = 26, 6
 """For each edge the two sides (unit normals) of the cone of directions in which a body can touch it."""
 LOW_X, LOW_Y, LOW_Z, HIGH_X, HIGH_Y, HIGH_Z = range(44, 50)
 """[m] bounds."""
 EDGE_DEPTH_LIMIT = 50
-"""[m] one for each edge: how deep an axis may have come through it."""
+"""[m] one for each edge: depth to which an axis may have come through it."""
 ROW = 53
 
 # --- flags

@@ -1,7 +1,7 @@
-"""The rules of `locomotion.ground.collider.contact` written the slow, obvious way, for tests.
+"""Slow, obvious version of the rules of `locomotion.ground.collider.contact`, for tests.
 
-Nothing here uses the grid or the kernel's reductions in order: every triangle, edge and vertex of a mesh is
-tried, and free directions are found from the faces around it rather than read from a table.
+It uses neither the grid nor the kernel's ordered reductions: it tries every triangle, edge and vertex of a
+mesh, and finds free directions from the faces around it instead of reading them from a table.
 """
 
 from __future__ import annotations
@@ -212,7 +212,7 @@ def _contact(q, at, normal, distance, radius, is_face, height) -> Contact:
 
 
 def _reduced(found: list[Contact]) -> list[Contact]:
-    """Repeated contacts once, seams and all but the nearest way out left out, the deepest kept."""
+    """Repeated contacts once, without seams, and only the nearest way out, the deepest first."""
     distinct: list[Contact] = []
     for c in sorted(found, key=lambda c: c.distance):
         if not any(abs(c.at - d.at) < SAME and c.normal @ d.normal > PARALLEL for d in distinct):

@@ -1,1 +1,1 @@
-"""Learning to walk, to run, and to go over from one to the other."""
+"""Training of walking, running and the changes between them."""

@@ -1,5 +1,5 @@
-"""Learning to brake from a run to a stand: changes of the run's parameters, gains of the walk's first steps,
-and when the one gives way to the other."""
+"""Training to brake from a run to a stand: changes of the run's parameters, gains of the walk's first steps,
+and the moment of the change from one to the other."""
 
 import math
 import os
@@ -46,31 +46,31 @@ _WIDER = {
     "height_damping": (2.0, 50.0), "height_stiffness": (10.0, 400.0), "pressure_rest": (-0.06, 0.1),
     "drop": (-0.2, 0.2), "clearance": (0.02, 0.25),
 }  # fmt: skip
-"""Least and greatest gains of a step that brakes, where they differ from a walk's."""
+"""Least and greatest gains of a braking step, where they differ from a walk's."""
 _KEPT = (
     "roughness", "steepness", "foot_pitch", "foot_roll", "ankle_spare", "foot_turn", "foot_hold",
     "height_slope", "height_uphill", "lean_slope", "climb_rate", "trim_rate", "most_trim",
 )  # fmt: skip
-"""Gains that make no difference here."""
+"""Gains that have no effect here."""
 _SHAPE = ("posture", "a_hat", "feed_forward", "timing")
 _PLANTING = ("swing_hip_flexion", "stance_hip_flexion", "waist_pitch")
-"""Actions that put the foot ahead and the trunk back."""
+"""Actions that put the foot forward and the trunk back."""
 _STARTS, _FASTEST, _SHARPEST = 400, 3.7, 8.0  # runs; [m/s]; [m] radius of their bends
 _NOISE = np.repeat([0.1, 0.02], [6, 39])  # of a start's root velocities and joint angles
-_LONGEST, _SETTLES = 300, 140  # ticks in which it should stand; in which it may still fall then
+_LONGEST, _SETTLES = 300, 140  # ticks within which it should stand; then ticks in which it may fall
 _TAKES = 2.5  # [s] of a trial, about
 _STANDS = 0.1  # [m/s] along its way
-_BACK = 0.2  # [m/s] back again that cost nothing
-_HARD = 4.5  # body weights of the ground's reaction that cost nothing
+_BACK = 0.2  # [m/s] of moving back that cost nothing
+_HARD = 4.5  # body weights of ground reaction that cost nothing
 
 
 @dataclass(frozen=True)
 class Stop:
-    """How a person stopped: whether it fell; whether it came to a stand; the farthest that its centre of mass
-    came from where it was told [m], in the direction in which it ran; its least speed in it [m/s]; share of
-    the time that it was up and had not come to rest; mean squared tilt of the pelvis; greatest reaction of
-    the ground [body weights]; whether the walk took over; how far it is turned off its
-    heading in the end [rad]."""
+    """How a person stopped: whether it fell; whether it came to a stand; greatest distance [m] of its centre
+    of mass from where it was told to, in its direction of motion; least speed in that direction [m/s];
+    share of the time that it was up and not at rest; mean squared tilt of the pelvis; greatest ground
+    reaction [body weights]; whether the walk took over; final error of its heading [rad].
+    """
 
     fell: bool
     stood: bool
@@ -83,8 +83,8 @@ class Stop:
     askew: float
 
     def cost(self, fall: float = 1.2) -> float:
-        """What learning makes small. A ``fall`` costs about a metre: variations will be rehearsed, of which
-        the shortest that stays up is taken."""
+        """The cost that training minimises. A ``fall`` costs about a metre: rehearsals will try variations,
+        and take the shortest stop that stays up."""
         cost = 2.0 * self.way + 3.0 * self.tilt + 0.2 * max(self.peak - _HARD, 0.0)
         if not self.walked:
             return cost + 3.5 + 2.0 * (1.0 - self.up) + 0.7 * max(self.least, 0.0)
@@ -95,8 +95,8 @@ class Stop:
 
 
 def run_steadily(rng: np.random.Generator, human: Human, speed: float, bend: float) -> HumanState | None:
-    """A person in a steady run, at a random moment, straight on or in a bend of curvature ``bend`` [1/m];
-    None if it did not come to it."""
+    """A person in a steady run at a random moment, straight ahead or in a bend of curvature ``bend`` [1/m];
+    None if it never got there."""
     heading = bend * 0.1 * np.maximum(np.arange(600) - 40, 0)
     points = np.zeros((601, 3))
     points[1:, 0], points[1:, 1] = 0.1 * np.cumsum(np.cos(heading)), 0.1 * np.cumsum(np.sin(heading))
@@ -125,7 +125,7 @@ def draw_starts(rng: np.random.Generator, count: int, speeds: tuple[float, float
 
 
 def stop(human: Human, start: HumanState, harder: float = 1.0) -> Stop:
-    """Let ``human`` brake in the state ``start``, ``harder`` by that share than its skill says."""
+    """Let ``human`` brake in the state ``start``, ``harder`` than its skill by that share."""
     human.restore_state(start)
     human.stop()
     human.brake(harder)
@@ -149,8 +149,7 @@ def stop(human: Human, start: HumanState, harder: float = 1.0) -> Stop:
 
 
 def first_guess() -> np.ndarray:
-    """Parameters from which learning starts: those of slowing down, with a reference speed that falls
-    faster."""
+    """First guess of the parameters: those of slowing down, with a reference speed that falls faster."""
     walk = load_walk_skill()
     slow_down = load_slow_down_skill()
     numbers = [first for first, *_ in _NUMBERS.values()]
@@ -159,8 +158,8 @@ def first_guess() -> np.ndarray:
 
 
 def brake_of(x: np.ndarray, meta: dict | None = None) -> BrakeSkill:
-    """The skill that parameters stand for: what is added to those of slowing down at `_MIDDLE`, and for each
-    [m/s] above; the gains of the walk's first steps; the skill's numbers."""
+    """The skill of these parameters: changes to slowing down at `_MIDDLE`, and per m/s above; the gains of
+    the walk's first steps; the skill's numbers."""
     slow_down = load_slow_down_skill()
     change = np.stack([np.interp(_KNOTS, slow_down.knots, each) for each in slow_down.change.T], axis=1)
     change += x[:_SIZE] + (_KNOTS - _MIDDLE)[:, None] * x[_SIZE : 2 * _SIZE]
@@ -173,7 +172,7 @@ def brake_of(x: np.ndarray, meta: dict | None = None) -> BrakeSkill:
 
 
 def _limits() -> tuple[np.ndarray, np.ndarray]:
-    """Least and greatest gains of a step that brakes."""
+    """Least and greatest gains of a braking step."""
     low, high = gain_limits()
     for name, (least, most) in _WIDER.items():
         low[list(GAINS).index(name)], high[list(GAINS).index(name)] = least, most
@@ -211,7 +210,7 @@ def _curriculum(training: Training) -> tuple[Stage, ...]:
 
 @dataclass(frozen=True)
 class BrakeProblem:
-    """Learning to brake for `locomotion.training.search.loop.learn`, from the run ``run`` and the moments
+    """Training to brake for `locomotion.training.search.loop.learn`, from the run ``run`` and the moments
     ``starts``."""
 
     curriculum: tuple[Stage, ...]
@@ -229,7 +228,7 @@ class BrakeProblem:
     def scenarios(
         self, stage: Stage, generation: int, rng: np.random.Generator
     ) -> list[tuple[HumanState, np.ndarray]]:
-        """Moments of runs, and how hard to brake there, in each of the ways that may be tried."""
+        """Moments of runs, and how hard to brake there, in each of the ways to try."""
         drawn = rng.choice(len(self.starts), stage.options["trials"], replace=False)
         (low, high), ways = stage.options["harder"], stage.options["ways"]
         return [(self.starts[k], rng.uniform(low, high, ways)) for k in drawn]
@@ -249,7 +248,7 @@ class BrakeProblem:
 
 
 def train_brake(training: Training, out: str | os.PathLike[str] = BRAKE_SKILL) -> BrakeSkill:
-    """Learn to brake from the package's run and write the skill to ``out``."""
+    """Train braking from the built-in run and write the skill to ``out``."""
     run, stages = load_run_skill(), _curriculum(training)
     training.prepare("brake", out, stages, ("walk", "run", "slow-down"))
     starts = draw_starts(np.random.default_rng([training.seed, 1]), _STARTS, (2.0, _FASTEST))

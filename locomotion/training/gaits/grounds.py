@@ -1,4 +1,4 @@
-"""The grounds that people learn to go on: level, waves, ramps, moguls, crags and ridges, 80 m by 80 m."""
+"""Training grounds: level, waves, ramps, moguls, crags, ridges and stairs, 80 m by 80 m."""
 
 import math
 from functools import lru_cache
@@ -53,7 +53,7 @@ def _random_heights(kind: str) -> np.ndarray:
 
 
 def _limit_slopes(heights: np.ndarray, most: float) -> None:
-    """Level ``heights`` (n, n) in place until no two neighbours in a row or column differ by more than
+    """Flatten ``heights`` (n, n) in place until no two neighbours in a row or column differ by more than
     ``most``."""
     while True:
         excess = 0.0

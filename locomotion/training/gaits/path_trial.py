@@ -1,4 +1,4 @@
-"""Trials of following paths: winding ways over a training ground, gone as a mission goes them."""
+"""Trials of path following on a training ground, as in a mission."""
 
 import math
 from dataclasses import dataclass, field
@@ -17,25 +17,25 @@ from locomotion.training.gaits.rollout import Measures, Trial
 __all__ = ["TURNING", "PathScenario", "draw_flight", "draw_path", "draw_turns", "follow_path", "straight_on"]
 
 TURNING = 12.0
-"""[s] for which orders to go elsewhere come."""
+"""[s] during which new orders come."""
 _PACE = 0.25  # [m] between a path's points
 _TURN_IN = 1.0  # [m] along which a path goes over from one curvature to the next
-_SLOWEST = 0.6  # share of the wished speed that is allowed on the mean
-_RESTS = 300  # ticks at its goal within which it has to come to rest
-_ASIDE = 0.3  # slope of a way over a flight to the way straight up, at most
+_SLOWEST = 0.6  # share of the wanted speed that is allowed on average
+_RESTS = 300  # ticks at its goal within which it must come to rest
+_ASIDE = 0.3  # greatest sideways slope of a path over a flight of stairs
 _MARGIN = 2.0  # [m] from the ground's border
-_TURNS, _TURNED = (0.5, 2.5), 1.0  # [s] between orders to go elsewhere; [rad] to either side, at most
-_ONWARD = 20.0  # [m] of the way that each names
+_TURNS, _TURNED = (0.5, 2.5), 1.0  # [s] between new orders; [rad] greatest turn to either side
+_ONWARD = 20.0  # [m] of path in each order
 
 
 @dataclass(frozen=True)
 class PathScenario:
-    """One path to follow.
+    """A path to follow.
 
     ground: one of `grounds.KINDS`; points: (n, 3) float64 [m]; length: how much of it counts [m], horizontal;
-    speed: wished [m/s]; pushes: (j, 3) rows of time [s] and force x, y [N] on the chest for 0.1 s. turns:
-    (k, 2) rows of time [s] and angle [rad] by which it is told to go elsewhere then, straight on; where there
-    are any, what counts is that it walks until the last of them, which ends the trial.
+    speed: wanted [m/s]; pushes: (j, 3) rows of time [s] and force x, y [N] on the chest for 0.1 s; turns: (k,
+    2) rows of time [s] and angle [rad] of a new order, straight ahead. With turns, the trial ends at the last
+    of them, and what counts is that the person still walks.
     """
 
     ground: str
@@ -64,9 +64,9 @@ def draw_path(
 ) -> PathScenario:
     """A random winding path.
 
-    length [m] and speeds [m/s]: ranges drawn from; radius: of the tightest bends [m]; ground: kind; push:
-    highest force [N] of pushes every 3 s; beyond: what follows straight on [m], so that nobody slows down
-    before the end of what counts.
+    length [m], speeds [m/s]: ranges to draw from; radius: of the tightest bends [m]; ground: kind; push:
+    highest force [N] of pushes every 3 s; beyond: straight extension [m], so that nobody slows down before
+    the part that counts ends.
     """
     counted = max(round(rng.uniform(*length) / _PACE), 8)
     count = counted + round(beyond / _PACE)
@@ -93,8 +93,8 @@ def draw_path(
 
 
 def draw_flight(rng: np.random.Generator, speeds: tuple[float, float]) -> PathScenario:
-    """A random way up or down a flight of stairs, nearly straight on, from landing to landing. speeds [m/s]:
-    range drawn from."""
+    """A random path up or down a flight of stairs, nearly straight, from landing to landing. speeds [m/s]:
+    range to draw from."""
     first, _, _, last = FLIGHTS[rng.integers(len(FLIGHTS))]
     begin, end = first - rng.uniform(0.8, 1.2), last + rng.uniform(0.8, 1.2)
     if rng.random() < 0.5:
@@ -107,7 +107,7 @@ def draw_flight(rng: np.random.Generator, speeds: tuple[float, float]) -> PathSc
 
 
 def draw_turns(rng: np.random.Generator, speeds: tuple[float, float]) -> PathScenario:
-    """Random orders to go elsewhere, on level ground. speeds [m/s]: range drawn from."""
+    """Random new orders on level ground. speeds [m/s]: range to draw from."""
     times = np.cumsum(rng.uniform(*_TURNS, math.ceil(TURNING / _TURNS[0])))
     times = np.append(times[times < TURNING], TURNING)
     turns = np.column_stack([times, rng.uniform(-_TURNED, _TURNED, len(times))])
@@ -123,14 +123,14 @@ def straight_on(position: np.ndarray, yaw: float) -> np.ndarray:
 def follow_path(
     scenario: PathScenario, run: RunSkill | None = None, walk: WalkSkill | None = None, rehearsals: int = 0
 ) -> Trial:
-    """Follow the path from a stand with these skills (None: the package's) and at most so many
-    ``rehearsals`` at a time.
+    """Follow the path from standing with these skills (None: built-in), with at most so many ``rehearsals``
+    at a time.
 
-    Who arrives has to come to rest there. Among the figures ``time`` is the share of the path covered (0.8 to
-    0.99 for one that arrives and does not rest; where it is told elsewhere, of the time), times the
-    scenario's duration, ``side_drift`` twice the mean distance from the path [m], at most 1 m,
-    ``behind`` by how much it is slower than its reference on the mean [m/s], and ``restless`` the share of
-    the 3 s that it took to come to rest, 1 for one that did not.
+    At its goal the person has to come to rest. Among the figures, ``time`` is the share of the path covered
+    (0.8 to 0.99 if it arrives without resting; with new orders, of the time) times the scenario's duration;
+    ``side_drift`` twice the mean distance from the path [m], at most 1 m; ``behind`` how much slower it is
+    than its reference on average [m/s]; ``restless`` the share of 3 s that it took to come to rest, 1 if it
+    did not.
     """
     human = Human(training_ground(scenario.ground), run, clearing=(), walk=walk, rehearsals=rehearsals)
     points = scenario.points

@@ -30,7 +30,7 @@ FIGURES = (
     "turn",
     "landing",
 )
-"""What a trial measures; see `Trial`."""
+"""Figures that a trial measures; see `Trial`."""
 _WEIGHT = MASS * 9.81
 _G = 9.81
 _SOFT = 2.8  # [body weights]
@@ -169,10 +169,8 @@ class Measures:
 
 
 class Simulator:
-    """A person on a plane that trials are run with; one per process.
-
-    ``steps``: of physics in a control tick. Fewer than the product's take less time to learn with.
-    """
+    """A person on a plane for running trials; one per process. ``steps``: physics steps in a control tick;
+    fewer than the product's train faster."""
 
     def __init__(self, steps: int = STEPS_PER_TICK) -> None:
         self.model, self._steps = build_person(), steps
@@ -182,7 +180,7 @@ class Simulator:
         self.ground = self.model.geom("ground").id
         self.model.geom_sameframe[self.ground] = (
             mujoco.mjtSameFrame.mjSAMEFRAME_NONE
-        )  # so that tilting it counts
+        )  # so that tilting it has an effect
         self.state = c.new_state()
 
     def _tilt(self, slope: tuple[float, float]) -> None:
@@ -192,7 +190,7 @@ class Simulator:
         self.model.geom_quat[self.ground] = quat / np.linalg.norm(quat)
 
     def start(self, skill: RunSkill, scenario: Scenario) -> None:
-        """Put the person at the origin as ``scenario`` says."""
+        """Put the person at the origin as ``scenario`` describes."""
         self._tilt(scenario.tilt)
         origin = np.zeros(3)
         if scenario.walking is not None:
@@ -213,7 +211,7 @@ class Simulator:
             c.observe(self.index, self.model, self.data, self.state, fresh=True)
 
     def _lift(self, slope: tuple[float, float]) -> None:
-        """Raise a person that was put into the slope until it only touches it, and let it move along it."""
+        """Raise a person placed into the slope until it only touches it, and let it move along the slope."""
         velocity = self.data.qvel[:2]
         self.data.qvel[2] += float(np.dot(slope, velocity))
         self.state[c.COM_VELOCITY][2] = self.data.qvel[2]

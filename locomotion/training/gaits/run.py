@@ -1,4 +1,4 @@
-"""Learning to run, from nothing: the problem, its objective over a stage's trials, and the step's length."""
+"""Training to run from scratch: the problem, its objective over a stage's trials, and the length of steps."""
 
 import os
 from collections.abc import Sequence
@@ -21,12 +21,12 @@ from locomotion.training.training import Training
 
 __all__ = ["RunProblem", "begin", "fit_step_length", "train_run"]
 
-_JUDGED = 20  # generations' trials by which beginnings are compared
-_STEPS_PER_TICK = 3  # what is learned with steps longer than the product's works with those, and costs less
+_JUDGED = 20  # trials in a generation that compares beginnings
+_STEPS_PER_TICK = 3  # skills trained with longer physics steps work with the product's, and cost less
 
 
 def train_run(training: Training, out: str | os.PathLike[str] = RUN_SKILL) -> RunSkill:
-    """Learn to run from nothing and write the skill to ``out``."""
+    """Train running from scratch and write the skill to ``out``."""
     first, then = beginning(training), curriculum(training)
     training.prepare("run", out, [*first, *then], ("walk",), clip=run_clip().digest)
     clock = Clock(BEGINNINGS * simulated(first) + simulated(then))
@@ -40,7 +40,7 @@ def train_run(training: Training, out: str | os.PathLike[str] = RUN_SKILL) -> Ru
 
 
 def begin(training: Training, stages: Sequence[Stage], clock: Clock, count: int = BEGINNINGS) -> np.ndarray:
-    """Genes of the best of ``count`` searches from nothing, each from a seed of its own, by the mean cost of
+    """Genes of the best of ``count`` searches from scratch, each with its own seed, by the mean cost of
     trials of the last stage."""
     problem = RunProblem(tuple(stages), first_guess(), first_state_reference())
     found = [training.learn(problem, k, f"beginning-{k}", clock) for k in range(count)]

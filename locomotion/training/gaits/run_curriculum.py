@@ -1,4 +1,4 @@
-"""What running is learned on: the stages, from the first steps to the whole family, and their trials."""
+"""The curriculum of running: its stages, from the first steps to the whole range, and their trials."""
 
 from functools import partial
 from typing import Any
@@ -20,10 +20,10 @@ from locomotion.training.training import Training
 __all__ = ["BEGINNINGS", "WAYS", "beginning", "curriculum"]
 
 BEGINNINGS = 8
-"""How often learning begins anew, to go on from the best: fewer than half of them come to running."""
+"""How often training starts over to continue from the best: fewer than half of the attempts learn to run."""
 
 WAY: dict[str, Any] = {"length": (12.0, 20.0), "beyond": 10.0, "radius": 6.0, "speeds": (2.6, 3.6)}
-"""A path that is run from where the person has walked a few steps, without bends in which it would walk."""
+"""A path to run after a few walked steps, without bends in which it would walk."""
 _WAY_TAKES = 9.0  # [s]
 _PUSHED = {
     "speeds": (3.2, 3.7), "steady": True, "push": 330.0, "weakest": 0.7, "noise": 0.3, "duration": 7.0,
@@ -89,7 +89,7 @@ EVERY = genes_scale(1, 0.5, 0, *LEVEL) + rows_scale(slow=0.5, slowest=0.5)
 
 
 def set_off(slowest: float, fastest: float) -> tuple[dict[str, Any], ...]:
-    """Kinds of trials of setting off from a walk to a speed [m/s]; among them slow runs, which share rows."""
+    """Kinds of trials that set off from a walk to a speed [m/s]; they include slow runs, which share rows."""
     walked = {"walking": 1.0, "noise": 0.1, "speeds": (slowest, fastest)}
     return walked, walked, _SLOW_RUN, walked
 
@@ -108,15 +108,15 @@ def _stage(
     population: int = 32,
     **trial: Any,
 ) -> Stage:
-    """A stage; ``fall`` is what each fall costs besides the time that is lost, ``soft`` what hard landings
-    and wrong step rates cost."""
+    """A stage; ``fall``: cost of each fall besides the time lost, ``soft``: cost of hard landings and wrong
+    step rates."""
     options = {"trials": trials, "style": style, "fall": fall, "soft": soft, "trial": trial, "kinds": kinds}
     seconds = sum((trial | kinds[i % len(kinds)]).get("duration", _WAY_TAKES) for i in range(trials))
     return Stage(name, training.generations(generations), sigma, scale, options, population, seconds)
 
 
 def beginning(training: Training) -> tuple[Stage, ...]:
-    """The stages from nothing to four seconds of running. They do not always get there: see `BEGINNINGS`."""
+    """The stages from scratch to four seconds of running. They do not always get there: see `BEGINNINGS`."""
     stage = partial(
         _stage, training, scale=genes_scale(1, 0, 0, *STRAIGHT), trials=1, style=0.1, population=48
     )
@@ -128,7 +128,7 @@ def beginning(training: Training) -> tuple[Stage, ...]:
 
 
 def curriculum(training: Training) -> tuple[Stage, ...]:
-    """The stages from there to the whole family."""
+    """The stages from there to the whole range."""
     stage = partial(_stage, training)
     middle, family = genes_scale(1, 0, 0, *STRAIGHT), genes_scale(1, 1, 0, *LEVEL)
     up, down = genes_scale(1, 0, 0, *UP), genes_scale(1, 0, 0, *DOWN)

@@ -1,4 +1,5 @@
-"""What learning to run changes: genes, which stand for a table of the run's parameters by speed."""
+"""The parameters that training to run changes: genes, from which a table of the run's parameters by speed is
+made."""
 
 import numpy as np
 
@@ -24,15 +25,15 @@ __all__ = [
 ]
 
 STRAIGHT = ("m_ap", "m_sp", "posture", "a_hat", "feed_forward", "timing", "arms")
-"""Blocks of `controller.PARAMETERS` that count straight on on level ground."""
+"""Blocks of `controller.PARAMETERS` for running straight on level ground."""
 LEVEL = (*STRAIGHT, "turn", "bend")
-"""Those that count on level ground."""
+"""Those for level ground."""
 UP, DOWN = (tuple(f"{way}{term}" for term in ("", "_legs", "_timing")) for way in ("climb", "descend"))
-"""Those that count uphill, and downhill."""
+"""Those for uphill and downhill."""
 KNOTS = np.array([1.2, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0])
-"""Speeds [m/s] of the rows of a learned table; the first is that of a walk from which it begins to run."""
+"""Speeds [m/s] of the rows of a learned table; the first is that of the walk from which it starts to run."""
 SPEED_RANGE = (1.5, 5.0)
-"""Speeds [m/s] that may be asked for."""
+"""Speeds [m/s] that users may ask for."""
 SIZE = sum(c.PARAMETERS.values())
 BLOCKS = ("base", "slope", "bend", "slow", "slowest", "faster", "fastest", "fast", "inner")
 """Of SIZE genes each: parameters at `MIDDLE`, their change per m/s and per (m/s)^2 from 2.5 to 4 m/s; how the
@@ -40,14 +41,14 @@ rows beyond differ from their neighbours in this family: that at 2 from that at 
 at 2, that at 4.5 from that at 4 and that at 5 from that at 4.5; how that at 4 itself differs; at last how all
 rows do, each by its share in `_INNER`."""
 _INNER = np.array([0.0, 0.0, 0.4, 1.0, 1.0, 1.0, 0.4, 0.0])
-"""Shares of the rows in the last block: none of those beyond the middle, which keep what they learned."""
+"""Weights of the rows in the last block: none for those beyond the middle, which keep what they learned."""
 _SPREAD = np.array([0.1, 1.0, 0.03, 0.3, 0.5, 0.1, 0.05, 0.1, 1.0, 1.0, 0.2, 0.04])
 """Typical deviation of each sensor while running."""
 
 
 def first_guess() -> np.ndarray:
-    """Genes from which learning starts: SIMBICON's balance feedback around the clip at every speed, with
-    longer steps at higher ones."""
+    """First guess of the genes: SIMBICON's balance feedback around the clip at every speed, with longer steps
+    at higher speeds."""
     x = np.zeros(SIZE)
     part = c.parameter_slices()
     m_ap, m_sp = np.zeros((9, c.RANK)), np.zeros((c.RANK, 12))
@@ -70,7 +71,7 @@ def first_guess() -> np.ndarray:
 def skill_of(
     genes: np.ndarray, reference: np.ndarray, max_lateral: float = 1.6, meta: dict | None = None
 ) -> RunSkill:
-    """The skill that ``genes`` (len(BLOCKS) * SIZE,) stand for, see `BLOCKS`."""
+    """The skill of ``genes`` (len(BLOCKS) * SIZE,), see `BLOCKS`."""
     base, slope, bend, slow, slowest, faster, fastest, fast, inner = genes.reshape(len(BLOCKS), SIZE)
     u = (KNOTS[2:6] - MIDDLE)[:, None]
     table = np.empty((len(KNOTS), SIZE))

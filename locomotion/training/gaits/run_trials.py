@@ -1,4 +1,4 @@
-"""What running is learned from: random trials and what a trial costs."""
+"""Random trials for running, and their cost."""
 
 import numpy as np
 
@@ -8,9 +8,9 @@ from locomotion.training.gaits.walk_starts import WALK_STARTS
 __all__ = ["MIDDLE", "cost", "draw_scenario"]
 
 MIDDLE = 3.5
-"""Speed [m/s] at which learning starts."""
+"""Speed [m/s] at which training starts."""
 _CAPTURED_SPEED, _CAPTURED_RATE = 5.26, 3.69
-# [m/s], steps per s of the captured run whose constants equation 8 takes (`python -m benchmarks.likeness`)
+# [m/s], steps per s of the captured run, the constants in equation 8 (`python -m benchmarks.likeness`)
 
 
 def draw_scenario(
@@ -67,12 +67,12 @@ def draw_scenario(
 
 
 def cost(trial: Trial, duration: float, style: float, soft: float = 0.0) -> float:
-    """Objective of one trial of ``duration`` [s]; ``style`` in [0, 1] weighs looks against survival, ``soft``
-    is what hard landings cost, and other step rates than equation 8's the more.
+    """Cost of one trial of ``duration`` [s]; ``style`` in [0, 1] weighs looks against survival, ``soft`` is
+    the cost of hard landings and of step rates other than equation 8's.
 
-    What is wrong counts as long as the person is up, and the time after a fall as much as the worst, so that
-    it does not pay to fall before something goes wrong. How often it steps is asked of every stage (equation
-    8 of "Terrain Runner"): long, high steps look cheap at first, and cannot be corrected often enough later.
+    Errors count as long as the person is up, and the time after a fall as much as the worst error, so that
+    falling early does not pay. Every stage asks for the step rate (equation 8 of "Terrain Runner"): long,
+    high steps look cheap at first, but cannot be corrected often enough later.
     """
     f = trial.figures
     up = f["time"] / duration

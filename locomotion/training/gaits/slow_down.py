@@ -1,4 +1,4 @@
-"""Learning to slow down from a run to a walk: what changes of the run's parameters at low speeds, and of the
+"""Training to slow down from a run to a walk: changes of the run's parameters at low speeds, and of the
 walk's gains in its first steps."""
 
 import math
@@ -29,19 +29,19 @@ __all__ = [
 ]
 
 BENDS = (6.0, 10.0, 100.0)
-"""Radii [m] of the bends of the ways that are run."""
+"""Radii [m] of the bends in the paths."""
 _KNOTS = np.array([1.2, 2.0, 2.8])
 _SIZE = sum(c.PARAMETERS.values())
-_LATE, _SETTLES = 250, 350  # ticks in which it should have slowed down; in which it should stand then
-_INSIDE = (0.02, 0.15)  # [m] inside of a foot that comes down where the capture point should be
+_LATE, _SETTLES = 250, 350  # ticks within which it should have slowed down; in which it should stand then
+_INSIDE = (0.02, 0.15)  # [m] inside of a landing foot at which the capture point should be
 _SIDEWAYS = 1.2  # [m/s^2] in bends at most
 _FREE = ("posture", "a_hat", "feed_forward", "timing")
 
 
 @dataclass(frozen=True)
 class Halt:
-    """One trial: a person that runs along ``points`` (n, 3) [m] at ``speed`` [m/s] stops at their end, or
-    where it is at the tick ``told``. noise (45,): added to the start's root velocities and joint angles."""
+    """One trial: a person that runs along ``points`` (n, 3) [m] at ``speed`` [m/s] stops at their end, or at
+    the tick ``told``. noise (45,): added to the start's root velocities and joint angles."""
 
     points: np.ndarray
     speed: float
@@ -50,7 +50,7 @@ class Halt:
 
 
 def draw_halt(rng: np.random.Generator, radii: tuple[float, ...] = BENDS) -> Halt:
-    """A random trial on a way with bends of one of ``radii`` [m]."""
+    """A random trial on a path with bends of one of ``radii`` [m]."""
     speed = float(rng.uniform(2.5, 3.8))
     radius = max(float(rng.choice(radii)), speed**2 / _SIDEWAYS)
     path = draw_path(rng, (11.0, 15.0), (speed, speed), radius)
@@ -59,7 +59,7 @@ def draw_halt(rng: np.random.Generator, radii: tuple[float, ...] = BENDS) -> Hal
 
 
 def halt(trial: Halt, run: RunSkill, slow_down: SlowDownSkill, rehearsals: int = 0) -> tuple[float, bool]:
-    """Cost of a trial, and whether the person stood in the end. rehearsals: as of `Human`."""
+    """Cost of a trial, and whether the person stood at the end. rehearsals: as for `Human`."""
     human = Human(None, run, clearing=(), slow_down=slow_down, rehearsals=rehearsals)
     x, y, _ = trial.points[1] - trial.points[0]
     human.reset(trial.points[0], math.atan2(y, x), trial.speed)
@@ -75,7 +75,7 @@ def halt(trial: Halt, run: RunSkill, slow_down: SlowDownSkill, rehearsals: int =
         human.tick()
         if human.gait_now == "walk":
             walked += 1
-            tilt += 2.0 * float(human.qpos[4:6] @ human.qpos[4:6])  # 1 less the cosine of the pelvis' tilt
+            tilt += 2.0 * float(human.qpos[4:6] @ human.qpos[4:6])  # 1 minus the cosine of the pelvis' tilt
         elif human.gait_now == "slow run":
             slow += 1
             begun = human.com if slow == 1 else begun
@@ -92,8 +92,8 @@ def halt(trial: Halt, run: RunSkill, slow_down: SlowDownSkill, rehearsals: int =
 
 
 def first_guess() -> np.ndarray:
-    """Parameters from which learning starts: what is added to the run's at 2 m/s and below, what is added to
-    that at 1.2 m/s, and to the walk's gains: legs further apart, trunk further back."""
+    """First guess of the parameters: changes to the run at 2 m/s and below, further changes at 1.2 m/s, and
+    changes to the walk's gains: legs farther apart, trunk farther back."""
     x = np.zeros(2 * _SIZE + len(GAINS))
     a_hat = c.parameter_slices()["a_hat"].start
     x[a_hat + c.ACTIONS.index("swing_hip_abduction")] = 0.1
@@ -102,7 +102,7 @@ def first_guess() -> np.ndarray:
 
 
 def slow_down_of(x: np.ndarray, meta: dict | None = None) -> SlowDownSkill:
-    """The skill that parameters stand for, see `first_guess`."""
+    """The skill of these parameters, see `first_guess`."""
     low, lowest, gains = x[:_SIZE], x[_SIZE : 2 * _SIZE], x[2 * _SIZE :]
     return SlowDownSkill(_KNOTS, np.stack([low + lowest, low, np.zeros(_SIZE)]), gains, meta or {})
 
@@ -116,7 +116,7 @@ def _curriculum(training: Training) -> tuple[Stage, ...]:
 
 @dataclass(frozen=True)
 class SlowDownProblem:
-    """Learning to slow down for `locomotion.training.search.loop.learn`, from the run ``run``."""
+    """Training to slow down for `locomotion.training.search.loop.learn`, from the run ``run``."""
 
     curriculum: tuple[Stage, ...]
     run: RunSkill
@@ -141,7 +141,7 @@ class SlowDownProblem:
 
 
 def train_slow_down(training: Training, out: str | os.PathLike[str] = SLOW_DOWN_SKILL) -> SlowDownSkill:
-    """Learn to slow down from the package's run and write the skill to ``out``."""
+    """Train slowing down from the built-in run and write the skill to ``out``."""
     problem = SlowDownProblem(_curriculum(training), load_run_skill())
     training.prepare("slow-down", out, problem.curriculum, ("walk", "run"))
     learned = training.learn(problem)

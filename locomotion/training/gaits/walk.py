@@ -1,5 +1,5 @@
-"""Learning to walk: the gains of the walking controller, from a first guess on level ground to rough
-ground, then how those for steep ground, for coming to rest there and for stairs differ."""
+"""Training to walk: the gains of the walking controller, from level to rough ground; then how they differ on
+steep ground, for coming to rest there, and on stairs."""
 
 import os
 from dataclasses import dataclass
@@ -34,12 +34,12 @@ __all__ = ["KINDS", "WalkProblem", "draw_walk", "train_walk", "walk_curriculum",
 
 FASTEST = 2.0
 """Fastest walk [m/s]."""
-_STEPS_PER_S = 1.9  # of people who walk at 1.3 m/s; it grows with the root of the speed
-_BEHIND = 6.0  # cost of being slower or faster than its reference, per m/s, but on steep ground and stairs
-_RESTLESS = 1.0  # cost of the time that it takes to come to rest, per what is allowed
+_STEPS_PER_S = 1.9  # [steps/s] of people who walk at 1.3 m/s; it grows with the root of the speed
+_BEHIND = 6.0  # cost per m/s of being slower or faster than its reference, except on steep ground and stairs
+_RESTLESS = 1.0  # cost of the time to come to rest, relative to the time allowed
 _QUICK = ("swing_time", "transfer_time", "width")  # how soon, and how far aside, a step catches a turn
-_FLIGHT = 4.5  # [m] of a way over a flight of stairs, about
-_UNIT = 0.08  # share of a gain's range that is one unit of the search
+_FLIGHT = 4.5  # [m] approximate path over a flight of stairs
+_UNIT = 0.08  # share of a gain's range in one unit of the search
 
 
 def _kind(
@@ -67,7 +67,7 @@ KINDS: dict[str, dict[str, Any]] = {
     "fast, rolling": _kind("rolling", (USUAL_SPEED, FASTEST), 8.0, length=(8.0, 14.0)),
     "fast, told elsewhere": {"ground": "level", "speeds": (USUAL_SPEED, FASTEST), "turns": True},
 }
-"""What is walked, as arguments of `draw_path`; on stairs of `draw_flight`, with ``turns`` of `draw_turns`."""
+"""Trials as arguments of `draw_path`; on stairs of `draw_flight`, with ``turns`` of `draw_turns`."""
 
 
 def draw_walk(rng: np.random.Generator, kind: dict[str, Any]) -> PathScenario:
@@ -78,7 +78,7 @@ def draw_walk(rng: np.random.Generator, kind: dict[str, Any]) -> PathScenario:
 
 
 def _seconds(kind: dict[str, Any]) -> float:
-    """[s] that a walk of a kind takes, about."""
+    """[s] approximate duration of a walk of a kind."""
     if "turns" in kind:
         return TURNING
     return float(np.mean(kind.get("length", _FLIGHT)) / np.mean(kind["speeds"]))
@@ -86,7 +86,7 @@ def _seconds(kind: dict[str, Any]) -> float:
 
 def walk_curriculum(training: Training) -> tuple[Stage, ...]:
     """From level ground to ramps and moguls, then steep ground, coming to rest on it, stairs and fast walks;
-    at last how quick its steps have to be, on all grounds, that sudden turns are no falls."""
+    finally how quick steps must be on all grounds to survive sudden turns."""
     low, high = gain_limits()
     unit = _UNIT * (high - low)
 
@@ -176,7 +176,7 @@ def walk_tables(parameters: np.ndarray) -> tuple[np.ndarray, float]:
 
 
 def train_walk(training: Training, out: str | os.PathLike[str] = WALK_SKILL) -> WalkSkill:
-    """Learn to walk and write the skill to ``out``."""
+    """Train walking and write the skill to ``out``."""
     start = np.concatenate([first_gains(), np.zeros((TABLES - 1) * len(GAINS))])
     problem = WalkProblem(walk_curriculum(training), start)
     training.prepare("walk", out, problem.curriculum)

@@ -1,4 +1,4 @@
-"""Persons that walk and are about to run, from which trials of setting off start."""
+"""Walking persons about to run: start states for trials of setting off."""
 
 from functools import lru_cache
 from typing import NamedTuple
@@ -17,7 +17,7 @@ from locomotion.human.state import HumanState
 __all__ = ["WALK_STARTS", "WalkStart", "walk_starts"]
 
 WALK_STARTS = 24
-"""How many there are."""
+"""Number of start states."""
 _NOISE = 0.05  # [m/s, rad/s] of the velocities with which they begin to walk
 _WAY = np.array([[0.0, 0.0, 0.0], [60.0, 0.0, 0.0]])
 
@@ -34,10 +34,8 @@ class WalkStart(NamedTuple):
 
 @lru_cache(maxsize=1)
 def walk_starts() -> tuple[WalkStart, ...]:
-    """The package's walk on a plane along x, each time with other velocities at its start.
-
-    Raises `LocomotionError` where it does not come to a speed from which people run.
-    """
+    """The built-in walk on a plane along x, each time with other initial velocities. Raises `LocomotionError`
+    if it does not reach a speed from which people run."""
     human, starts = Human(None, clearing=(), rehearsals=0), []
     for seed in range(WALK_STARTS):
         rng = np.random.default_rng(seed)
@@ -47,7 +45,7 @@ def walk_starts() -> tuple[WalkStart, ...]:
         while (speed := run_entry_speed(human.on_feet.walk, human.control, 0.0)) is None:
             if human.status != "walking":
                 raise LocomotionError(
-                    f"people who walk end {human.status} before they can run: learn to walk anew"
+                    f"walking people end {human.status} before they can run: train the walk again"
                 )
             human.tick()
         walk, running = human.on_feet.walk, human.control.copy()

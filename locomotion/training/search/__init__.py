@@ -1,1 +1,1 @@
-"""What training searches with: CMA-ES and least squares, with checkpoints."""
+"""Search methods of training: CMA-ES and least squares, with checkpoints."""

@@ -1,5 +1,5 @@
-"""The folder in which a training keeps what it has learned so far, and the configuration that it belongs to:
-everything that decides what is learned, apart from the code."""
+"""The checkpoint folder of a training: intermediate results, and the configuration that they belong to, which
+is everything that decides the result apart from the code."""
 
 import json
 import os
@@ -19,52 +19,51 @@ from surefoot.files.schema import HeaderType, Schema
 __all__ = ["CONFIGURATION", "anew", "claim", "read_checkpoint"]
 
 CONFIGURATION = "configuration.json"
-"""File in the folder of a training that says what it belongs to."""
+"""File in the folder with the training's configuration."""
 
 
 def claim(folder: Path, configuration: Mapping[str, Any]) -> None:
-    """Make ``folder`` that of the training with a ``configuration``, which JSON can express, or see that it
-    is.
+    """Claim ``folder`` for the training with a ``configuration``, which must be JSON values.
 
     Raises `LocomotionError` if it belongs to another configuration, or holds anything else.
     """
     if folder.exists() and not folder.is_dir():
-        raise LocomotionError(f"{folder}: is no folder; what is learned is kept in one (--checkpoint)")
+        raise LocomotionError(f"{folder}: not a folder; checkpoints need one (--checkpoint)")
     file = folder / CONFIGURATION
     if not file.exists():
-        # a name with a dot is what a process left that was killed while it wrote the file
+        # a dotted name is left over from a process killed while writing the file
         if folder.exists() and any(not each.name.startswith(".") for each in folder.iterdir()):
             raise LocomotionError(
-                f"{folder}: holds files but no {CONFIGURATION}, so they are no training that can go on; "
-                "move them away, or keep this training elsewhere (--checkpoint)"
+                f"{folder}: holds files but no {CONFIGURATION}, so they are not a checkpoint; "
+                "move them away, or use another folder (--checkpoint)"
             )
         folder.mkdir(parents=True, exist_ok=True)
         with whole_file(file) as temporary:
             temporary.write_text(json.dumps(configuration, indent=1) + "\n", encoding="utf-8")
         return
-    otherwise = f"remove {folder} to begin anew, or keep this training elsewhere (--checkpoint)"
+    otherwise = f"remove {folder} to start over, or use another folder (--checkpoint)"
     try:
         found = read_json(file, "training's configuration")
     except SurefootError as error:
         raise LocomotionError(f"{error}; {otherwise}") from None
     if not isinstance(found, dict):
-        raise LocomotionError(f"{file}: not a training's configuration: it is no mapping; {otherwise}")
+        raise LocomotionError(f"{file}: not a training's configuration: not a mapping; {otherwise}")
     wanted = json.loads(json.dumps(configuration))
     different = [key for key in {**wanted, **found} if wanted.get(key) != found.get(key)]
     if different:
         raise LocomotionError(
-            f"{folder}: holds what was learned with another configuration, which differs in "
+            f"{folder}: belongs to another configuration, which differs in "
             f"{', '.join(different)} (see {file}); {otherwise}"
         )
 
 
 def anew(path: str | os.PathLike[str]) -> str:
-    """What a user does about a file of what was learned so far that is of no use."""
-    return f"remove {path} to learn this part anew"
+    """Advice for a user with an unusable file of intermediate results."""
+    return f"remove {path} to train this part again"
 
 
 def read_checkpoint(path: Path, schema: Schema[HeaderType]) -> tuple[HeaderType, dict[str, np.ndarray]]:
-    """Header and arrays of a file of what was learned so far; `LocomotionError` if it is damaged or of
+    """Header and arrays of a file of intermediate results; raises `LocomotionError` if it is damaged or of
     another version."""
     try:
         return read_archive(path, schema)

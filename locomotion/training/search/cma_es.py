@@ -1,8 +1,8 @@
-"""CMA-ES whose whole state is a handful of arrays, so that a run can be stopped, stored and resumed exactly.
+"""CMA-ES whose whole state is a few arrays, so that a run can be stopped, saved and resumed exactly.
 
-The algorithm is that of N. Hansen, "The CMA Evolution Strategy: A Tutorial" (2016), with his default
-weights and rates, positive recombination weights only. (The `cma` package keeps its state in a pickle; the
-tests compare the two on the same functions.)
+The algorithm is that of N. Hansen, "The CMA Evolution Strategy: A Tutorial" (2016), with his default weights
+and rates, positive recombination weights only. (The `cma` package keeps its state in a pickle; the tests
+compare the two on the same functions.)
 """
 
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ __all__ = ["CmaEs", "search_arrays"]
 
 
 def search_arrays(count: int) -> dict[str, Array]:
-    """What `CmaEs.arrays` gives for ``count`` parameters, as an archive holds it."""
+    """Schema of `CmaEs.arrays` for ``count`` parameters."""
     return {
         "mean": Numbers(count),
         "sigma": Numbers(low=1e-12),
@@ -72,7 +72,7 @@ class CmaEs:
 
     @property
     def parents(self) -> int:
-        """How many of a generation's candidates, the best, it learns from."""
+        """Number of best candidates of a generation that it learns from."""
         return len(self.weights)
 
     def ask(self, rng: np.random.Generator) -> np.ndarray:
@@ -81,7 +81,7 @@ class CmaEs:
         return (self.mean + self.sigma * (z * self._roots) @ self._vectors.T) * self.scale
 
     def tell(self, candidates: np.ndarray, costs: np.ndarray) -> None:
-        """Update from candidates of `ask`, the best `parents` of all at least, and their costs."""
+        """Update from candidates of `ask`, at least the best `parents` of them, and their costs."""
         n = len(self.mean)
         order = np.argsort(costs, kind="stable")[: self.parents]
         steps = (candidates[order] / self.scale - self.mean) / self.sigma

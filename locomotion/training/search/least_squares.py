@@ -1,9 +1,9 @@
-"""Learning by least squares on what trials show, where their outcomes change smoothly with the parameters.
+"""Training by least squares on trial outcomes that change smoothly with the parameters.
 
 Gauss-Newton with damping: each round draws trials, measures by central differences how every parameter
-changes their residuals, and takes the damped step that does best on other trials. Where CMA-ES sees only a
-cost, this sees which way each outcome is off: a few hundred parameters need a few trials each. A round is
-stored when it is done; a run that was stopped goes on after the last one and gives the same result.
+changes their residuals, and takes the damped step that does best on other trials. CMA-ES sees only a cost;
+this sees the direction of each error, so a few hundred parameters need only a few trials each. Each finished
+round is saved; an interrupted run continues after the last one with the same result.
 """
 
 import hashlib
@@ -41,14 +41,14 @@ _FAILED = 20.0  # squares of a trial that shows no residuals
 
 
 class Outcomes(Protocol):
-    """What a skill brings. Instances are sent to the workers, so they can be pickled."""
+    """Defined by each skill. Instances are sent to the workers, so they must be picklable."""
 
     def trials(self, rng: np.random.Generator) -> list[Any]:
         """The trials of a round."""
         ...
 
     def residuals(self, candidate: np.ndarray, trial: Any) -> np.ndarray:
-        """(r,) float64, 0 where the outcome is as wanted; NaN where the trial failed before it showed."""
+        """(r,) float64, 0 for the wanted outcome; NaN if the trial failed before it could be measured."""
         ...
 
 
@@ -100,7 +100,7 @@ def fit(
         schema = Schema(_KIND, _VERSION, _FitHeader, arrays, anew(checkpoint))
         found, read = read_checkpoint(Path(checkpoint), schema)
         if found.identity != identity:
-            raise LocomotionError(f"{checkpoint}: of another training or seed; {anew(checkpoint)}")
+            raise LocomotionError(f"{checkpoint}: belongs to another training or seed; {anew(checkpoint)}")
         x, first = read["x"], found.round
     clock = clock or Clock(rounds * seconds)
     clock.skip(first * seconds)

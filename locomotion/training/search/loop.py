@@ -1,12 +1,11 @@
-"""The learning loop that every skill uses: workers, generations, checkpoints, progress.
+"""The training loop of all skills: workers, generations, checkpoints, progress.
 
-A skill brings a `Problem`: where learning starts, the trials of a generation, the cost of a candidate. The
-trials of generation g are drawn from a generator seeded with (seed, stage, g), and so are the candidates,
-so that a run that was stopped and resumed gives the same result as one that was not, with any number of
-workers.
+A skill defines a `Problem`: first guess, trials of a generation, cost of a candidate. The trials and
+candidates of generation g come from a generator seeded with (seed, stage, g), so that an interrupted and
+resumed run gives the same result as an uninterrupted one, with any number of workers.
 
-Candidates race: all are judged on a random third of a generation's trials, and only the better half of them
-on the rest, since the search learns from those only. That simulates a third less.
+Candidates race: all run a random third of a generation's trials, and only the better half runs the rest,
+since the search learns from those only. That saves a third of the simulation.
 """
 
 import hashlib
@@ -68,7 +67,7 @@ def simulated(stages: Sequence[Stage]) -> float:
 
 
 def stages_digest(stages: Sequence[Stage]) -> str:
-    """Hex digest of what of stages decides what is learned by them."""
+    """Hex digest of the parts of stages that decide the result."""
     hasher = hashlib.sha256()
     for s in stages:
         hasher.update(
@@ -79,7 +78,7 @@ def stages_digest(stages: Sequence[Stage]) -> str:
 
 
 class Problem(Protocol):
-    """What a skill brings. Instances are sent to the workers, so they can be pickled."""
+    """Defined by each skill. Instances are sent to the workers, so they must be picklable."""
 
     def stages(self) -> Sequence[Stage]:
         """The curriculum."""
@@ -123,12 +122,11 @@ def learn(
     clock: Clock | None = None,
     stop_after: int | None = None,
 ) -> np.ndarray | None:
-    """Go through the problem's stages with CMA-ES; gives the learned parameters, (n,) float64.
+    """Run the problem's stages with CMA-ES; returns the learned parameters, (n,) float64.
 
-    ``checkpoint``: file that the state is written to after each generation and resumed from if it is
-    there; one of another problem or seed is refused with `LocomotionError`. ``clock``: of a skill that is
-    learned in several searches. ``stop_after``: leave after that many generations (returns None if that is
-    before the end), as an interruption would.
+    ``checkpoint``: file that the state is saved to after each generation and resumed from; `LocomotionError`
+    if it is of another problem or seed. ``clock``: of a skill with several searches. ``stop_after``: stop
+    after that many generations as if interrupted (returns None if that is before the end).
     """
     stages = problem.stages()
     parameters = problem.start()
@@ -198,7 +196,7 @@ def _generation(
 
 
 def _identity(seed: int, stages: Sequence[Stage], start: np.ndarray) -> str:
-    """Digest of what the state of a search belongs to."""
+    """Digest of the problem that a search's state belongs to."""
     parts = f"{seed} {stages_digest(stages)}".encode() + start.tobytes()
     return hashlib.sha256(parts).hexdigest()[:16]
 
@@ -213,7 +211,7 @@ def read_search(
 ) -> tuple[int, np.ndarray, CmaEs]:
     def arrays_of(header: _SearchHeader) -> dict[str, Array]:
         if header.identity != identity:
-            raise ArchiveError(f"{path}: of another training or seed; {anew(path)}")
+            raise ArchiveError(f"{path}: belongs to another training or seed; {anew(path)}")
         if header.stage >= len(stages):
             raise ArchiveError(f"{path}: of stage {header.stage} of {len(stages)}; {anew(path)}")
         searched = int((stages[header.stage].scale > 0).sum())

@@ -1,1 +1,1 @@
-"""Learning to jump, vault and drop."""
+"""Training of jump, vault and drop-roll."""

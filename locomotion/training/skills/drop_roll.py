@@ -1,4 +1,4 @@
-"""Learning to roll off drops: one law for all heights, feed-forward first, then feedback, then hard cases."""
+"""Training of the drop-roll: one law for all heights, feed-forward first, then feedback, then hard cases."""
 
 import math
 import os

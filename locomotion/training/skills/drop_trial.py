@@ -1,4 +1,4 @@
-"""Trials of the drop-roll: a ledge under a running person, and what its landing, roll and rise were like."""
+"""Trials of the drop-roll: a running person at a ledge, and figures of its landing, roll and rise."""
 
 import math
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""A kind of jump to be learned: where learning starts, how far parameters may move, what a trial costs."""
+"""Kinds of jump to train: first guess, ranges of the parameters, cost of a trial."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field

@@ -1,5 +1,5 @@
-"""Trials of jumping: a stair, a ledge or a gap before a running person, states harvested from planned
-run-ups, figures."""
+"""Trials of jumping: a stair, ledge or gap before a running person, start states from planned run-ups,
+figures."""
 
 from dataclasses import dataclass
 

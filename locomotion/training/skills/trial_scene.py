@@ -1,5 +1,4 @@
-"""What trials with an obstacle are run in: the person, a plane, and boxes that are put where a trial wants
-them."""
+"""The scene of trials with an obstacle: the person, a plane, and movable boxes."""
 
 import mujoco
 

@@ -1,6 +1,9 @@
-"""Learning to vault: first as the clip does, with feed-forward alone and through a wall that only the hand
-feels; then over it, to land and run on, with feedback, over growing heights; higher, it begins by taking off
-as higher jumps do. In the end every height is refined on longer trials."""
+"""Training of the vault.
+
+At first it follows the clip, with feed-forward only and through a wall that only the hand feels; then over
+the wall, to land and run on, with feedback, at growing heights. Greater heights start from the take-off of
+higher jumps. Finally every height is refined on longer trials.
+"""
 
 import os
 from collections.abc import Sequence

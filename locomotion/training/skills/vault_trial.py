@@ -1,4 +1,4 @@
-"""Trials of vaulting: a wall before a running person, states harvested from planned run-ups, figures."""
+"""Trials of vaulting: a wall before a running person, start states from planned run-ups, figures."""
 
 from dataclasses import dataclass
 

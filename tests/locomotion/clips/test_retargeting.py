@@ -244,9 +244,9 @@ def test_mappings_name_parts_and_joints_that_there_are(tmp_path, bvh):
         ("- pelvis", "a mapping is needed, not a list"),
         ("pelvis: Hips\ntail: Hips", "2:1: no part is called 'tail'; the parts are pelvis"),
         (whole.replace("left_shank", "left_shin"), "'left_shin'; did you mean 'left_shank'"),
-        ("pelvis: Hips", "says no joint for chest, right_thigh"),
+        ("pelvis: Hips", "has no joint for chest, right_thigh"),
         (whole.replace("chest: Chest", "chest: 5"), "3:8: chest: Input should be a valid string, not 5"),
-        (f"{whole}pelvis: Spine", "17:1: 'pelvis' stands here twice"),
+        (f"{whole}pelvis: Spine", "17:1: 'pelvis' appears twice here"),
         (
             whole.replace("left_shank: LeftLeg", "left_shank: LeftUpLeg"),
             "9:1: left_thigh and left_shank are both mapped to 'LeftUpLeg'; a joint turns one part",

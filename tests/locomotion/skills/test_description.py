@@ -113,7 +113,7 @@ def test_an_unknown_term_of_the_objective_is_refused_before_learning(own, tmp_pa
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"learned": "missing/hop.npz"}, "missing/hop.npz: there is no folder"),
+        ({"learned": "missing/hop.npz"}, "missing/hop.npz: no folder"),
         ({"sizes": [2.3, 2.5], "least": None}, "hop.yaml: sizes: .*nothing is learned from 1.82 to 2.28 m"),
         ({"affordance": "drop"}, "hop.yaml: sizes: .*nothing is learned from"),
         ({"entry": 5.5}, "hop.yaml: entry: 5.5 m/s: the run goes from 1.5 to 5 m/s"),
@@ -170,7 +170,7 @@ def test_a_checkpoint_is_of_what_the_description_and_its_clip_say(own, begun, tm
     values = yaml.safe_load(clip.read_text())
     next(iter(values["channels"].values()))[0][1] += 1.0
     clip.write_text(yaml.safe_dump(values))
-    with pytest.raises(LocomotionError, match=r"kept: .* differs in clip .*remove .*kept to begin anew"):
+    with pytest.raises(LocomotionError, match=r"kept: .* differs in clip .*remove .*kept to start over"):
         train_described(own(), training)
 
 

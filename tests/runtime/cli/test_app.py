@@ -73,7 +73,7 @@ def test_usage_errors(surefoot, arguments, says):
     ("arguments", "output", "says"),
     [
         (("film", "trace.npz", "-o"), "run.jpg", "written as .mp4"),
-        (("export", "trace.npz", "-o"), "run.gltf", "name it .glb"),
+        (("export", "trace.npz", "-o"), "run.gltf", "use the ending .glb"),
         (("view", "trace.npz", "-o"), "run.png", "written as .html"),
         (("replay", "report.json", "1", "-o"), "run.png", "written as .html"),
         (("evaluate", "jump", "--picture"), "jump.jpg", "written as .png"),
@@ -285,7 +285,7 @@ def test_quiet_when_not_a_terminal(surefoot, folder):
 def test_clip_shows_a_motion_and_its_faults(surefoot, tmp_path):
     film, saved = tmp_path / "run.png", tmp_path / "run.npz"
     code, out, _ = surefoot("clip", RUN_CLIP, "--film", film, "-o", saved)
-    assert code == 0 and "within its joints" in out
+    assert code == 0 and "within its joint ranges" in out
     assert film.read_bytes()[:4] == b"\x89PNG"
     code, out, _ = surefoot("clip", saved, "--json")
     assert code == 0 and json.loads(out)["faults"] == []
@@ -303,7 +303,7 @@ def test_clip_shows_a_motion_and_its_faults(surefoot, tmp_path):
     code, out, _ = surefoot("clip", saved)
     assert code == 1 and "beyond its range" in out
     for source, message in (
-        (tmp_path / "walk.bvh", "needs a mapping"),
+        (tmp_path / "walk.bvh", "needs a file that maps its joints"),
         (film, "is a .yaml, .bvh or .npz file"),
     ):
         code, _, err = surefoot("clip", source)

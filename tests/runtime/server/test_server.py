@@ -374,14 +374,18 @@ def test_one_client_takes_no_more_than_its_share(graph):
             return client.ask("spawn", world=world, body="walker", at=[1 + 1.5 * number, 3, 0])
 
         worlds = [await create(greedy) for _ in range(4)]
-        with pytest.raises(ValueError, match="4 worlds already, of 4; you have 4, and your share is 2"):
+        with pytest.raises(
+            ValueError, match="4 worlds already, of at most 4; you have 4, and your share is 2"
+        ):
             await create(greedy)
         own = [await create(late) for _ in range(2)]
-        with pytest.raises(ValueError, match="6 worlds already, of 4; you have 2, and your share is 2"):
+        with pytest.raises(
+            ValueError, match="6 worlds already, of at most 4; you have 2, and your share is 2"
+        ):
             await create(late)
         for number in range(6):
             await spawn(greedy, worlds[number % 2], number)
-        with pytest.raises(ValueError, match="6 agents already, of 6; give one up"):
+        with pytest.raises(ValueError, match="6 agents already, of at most 6; remove one"):
             await spawn(greedy, worlds[2], 0)
         await spawn(late, own[0], 0)
         await greedy.ask("save", world=worlds[0])
@@ -389,7 +393,9 @@ def test_one_client_takes_no_more_than_its_share(graph):
             await greedy.ask("remove", world=worlds[0], agent=name)
         for number in range(1, 3):
             await spawn(late, own[0], number)
-        with pytest.raises(ValueError, match="6 agents already, of 6; you have 3, and your share is 3"):
+        with pytest.raises(
+            ValueError, match="6 agents already, of at most 6; you have 3, and your share is 3"
+        ):
             await greedy.ask("restore", world=worlds[0])
         await greedy.socket.close()
         while len(server._clients) > 1:

@@ -177,5 +177,5 @@ def test_a_log_is_not_filled_and_says_what_it_left_out():
     assert kept == [True] * 10 + [False] * 990
     later = entry(161.0, "another")
     assert sparing.filter(later)
-    assert later.getMessage() == "another (990 more entries were left out before this one)"
+    assert later.getMessage() == "another (990 more entries were dropped before this one)"
     assert sparing.filter(entry(161.1, "third"))

@@ -80,5 +80,5 @@ def test_failed_write_leaves_the_old_file_alone(archive):
 
 
 def test_missing_folder_is_named(tmp_path):
-    with pytest.raises(ArchiveError, match="there is no folder"):
+    with pytest.raises(ArchiveError, match="no folder"):
         write_archive(tmp_path / "no" / "a.npz", "thing", 1, {}, {})

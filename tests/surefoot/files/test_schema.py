@@ -72,16 +72,16 @@ def test_reads_what_fits(tmp_path):
         ("place", np.zeros((3, 3), ">f8"), "place is of type"),
         ("next", np.array([1, 2, 3], np.int32), r"next\[2\] is 3, expected -1 to 2"),
         ("next", np.array([-2, 2, -1], np.int32), r"next\[0\] is -2"),
-        ("start", np.array([0, 3, 2, 4], np.int32), "start falls after 1"),
+        ("start", np.array([0, 3, 2, 4], np.int32), "start decreases after 1"),
         ("start", np.array([0, 2, 2, 5], np.int32), "start goes from 0 to 5, expected 0 to 4"),
         ("start", np.array([1, 2, 2, 4], np.int32), "start goes from 1 to 4"),
         ("start", np.zeros(0, np.int32), "start has shape"),
         ("part", np.array([0, 7, 3, 3], np.int32), r"part\[1\] is 7, expected 0 to 6"),
-        ("time", np.array([0.0, 0.0]), "time does not grow after 0"),
+        ("time", np.array([0.0, 0.0]), "time does not increase after 0"),
         ("time", np.zeros(0), "time has 0 rows, expected at least 1"),
         ("kind", np.array(["floor", "roof", "wall"], "<U5"), "kind holds 'roof', expected floor, wall"),
         ("kind", np.array(["floor"] * 3, "<U6"), "kind is of type <U6"),
-        ("kind", np.frombuffer(b"\xff" * 60, "<U5"), "kind holds what is no text"),
+        ("kind", np.frombuffer(b"\xff" * 60, "<U5"), "kind holds values that are not text"),
         ("seen", np.array([1, 2, 0], np.uint8).view(np.bool_), r"seen\[1\] is 2, expected 0 to 1"),
     ],
 )
@@ -132,7 +132,7 @@ def test_the_seal_guards_what_the_schema_cannot(tmp_path):
     np.lib.format.write_array(stream, np.ones((3, 3)))
     changed = {**members, "place.npy": stream.getvalue()}
     rewritten(path, changed.items())
-    with pytest.raises(ArchiveError, match="does not hold what was written into it"):
+    with pytest.raises(ArchiveError, match="its content was changed after it was written"):
         read_archive(path, THING)
     header = json.loads(np.lib.format.read_array(io.BytesIO(members["header.npy"])).tobytes())
     rewritten(path, [(name, content) for name, content in changed.items() if name != "header.npy"])

@@ -159,7 +159,7 @@ def test_truncated(tmp_path, skill):
     [
         (lambda skill: dict(table=skill.table[:, :5]), "expected 243 on axis 1"),
         (lambda skill: dict(table=np.nan * skill.table), "expected a finite number"),
-        (lambda skill: dict(heights=skill.heights[::-1]), "heights does not grow"),
+        (lambda skill: dict(heights=skill.heights[::-1]), "heights does not increase"),
     ],
 )
 def test_contents_that_do_not_fit(tmp_path, skill, change, message):

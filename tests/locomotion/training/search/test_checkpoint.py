@@ -41,7 +41,7 @@ def test_a_folder_of_another_configuration_is_refused_by_what_differs(folder, ch
     claim(folder, asked)
     with pytest.raises(LocomotionError, match=rf"differs in {named} \(") as refused:
         claim(folder, {**asked, **change})
-    assert f"remove {folder} to begin anew" in str(refused.value)
+    assert f"remove {folder} to start over" in str(refused.value)
 
 
 def test_a_folder_with_anything_else_in_it_is_left_alone(folder):
@@ -63,7 +63,7 @@ def test_a_damaged_configuration_is_named(folder, content):
 
 def test_a_file_in_the_place_of_the_folder_is_refused(tmp_path):
     (tmp_path / "walk.checkpoint").touch()
-    with pytest.raises(LocomotionError, match=r"walk\.checkpoint: is no folder"):
+    with pytest.raises(LocomotionError, match=r"walk\.checkpoint: not a folder"):
         claim(tmp_path / "walk.checkpoint", {})
 
 
@@ -113,12 +113,12 @@ def test_a_training_notices_that_what_it_builds_on_was_learned_anew(folder, tmp_
 
 def test_where_the_skill_cannot_be_written_is_known_before_learning(folder, tmp_path, monkeypatch):
     training = Training(checkpoint=folder)
-    with pytest.raises(ArchiveError, match="there is no folder"):
+    with pytest.raises(ArchiveError, match="no folder"):
         prepared(training, tmp_path / "missing" / "hop.npz")
     with pytest.raises(ArchiveError, match="is a folder"):
         prepared(training, tmp_path)
     monkeypatch.setattr("os.access", lambda path, mode: False)
-    with pytest.raises(ArchiveError, match="may not be written to"):
+    with pytest.raises(ArchiveError, match="is not writable"):
         prepared(training, tmp_path / "hop.npz")
     assert not folder.exists()
 
@@ -139,4 +139,4 @@ def test_what_a_search_has_found_is_kept(folder, tmp_path):
     done.write_bytes(done.read_bytes()[:200])
     with pytest.raises(LocomotionError, match="cut off or damaged") as refused:
         training.recall("toy", 0, KEPT)
-    assert f"remove {done} to learn this part anew" in str(refused.value)
+    assert f"remove {done} to train this part again" in str(refused.value)

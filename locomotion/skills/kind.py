@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from locomotion.body.person import BODY_NAMES
 from locomotion.errors import LocomotionError
 from navmesh.kinds import ObstacleKind
 
@@ -66,7 +67,9 @@ class SkillKind:
         self._demand(bool(_COLOUR.fullmatch(self.colour)), "colour", "'#rrggbb' in small letters")
         low, high = self.sizes
         self._demand(0.0 < low <= high <= 100.0, "sizes", "0 < least <= greatest <= 100 [m]")
-        self._demand(low <= self.usual <= high, "usual", f"a size from {low:g} to {high:g} [m]")
+        parts = sorted(name.removeprefix("left_") for name in BODY_NAMES if name.startswith("left_"))
+        self._demand(set(self.may_touch or ()) <= set(parts), "may_touch", f"some of {', '.join(parts)}")
+        self._demand(low <= self.usual <= high, "usual", f"a size from {low:g} to {high:g} m")
 
     def _demand(self, holds: bool, name: str, expected: str) -> None:
         if not holds:

@@ -199,7 +199,8 @@ def test_people_play_it_by_a_plan_that_names_it(level):
         playtest(level, bots=2, seconds=30.0, seed=3, body="human", plan=plan)
 
 
-def test_the_command_lists_it(level, capsys):
+def test_the_command_lists_it(level, capsys, monkeypatch):
+    monkeypatch.setattr("runtime.cli.commands.ready", lambda: Progress(shown=False))  # compiles nothing ahead
     with pytest.raises(SystemExit):
         main(["obstacles", str(level), "--up", "z", "--json"])
     (listed,) = json.loads(capsys.readouterr().out)["obstacles"]

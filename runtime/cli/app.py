@@ -51,7 +51,7 @@ class Up(StrEnum):
 
 
 def _skills() -> tuple[str, ...]:
-    """What can be learned: gaits, and what clears obstacles."""
+    """Skills that can be trained: gaits, and skills that clear obstacles."""
     _loaded()
     from locomotion.skills.registry import skill_words
 
@@ -68,7 +68,7 @@ def _skill(name: str) -> str:
 
 SkillArgument = typer.Argument(
     parser=_skill, callback=_input,
-    help="A skill of the package, or the file that describes one of your own.",
+    help="A built-in skill, or the file (.yaml) that describes one of your own.",
 )  # fmt: skip
 
 

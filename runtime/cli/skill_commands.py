@@ -30,7 +30,7 @@ _WITHOUT_A_PLANE = ("walk", "speed-up", "slow-down", "brake")
 
 
 def _trainers() -> Mapping[str, Callable[..., Any]]:
-    """What learns each skill, in the order in which they build on one another."""
+    """How each skill is trained, in the order in which they build on one another."""
     from locomotion.skills.registry import skill_kinds
     from locomotion.training.gaits.brake import train_brake
     from locomotion.training.gaits.run import train_run

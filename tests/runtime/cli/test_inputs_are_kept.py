@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from locomotion.gaits.run.skill import RUN_CLIP
-from navmesh.errors import NavmeshError
+from surefoot import SurefootError
 from runtime.cli.app import main
 from surefoot.files.archive import check_target, write_archive
 from surefoot.files.atomic_write import whole_file
@@ -125,11 +125,11 @@ def test_a_program_may_save_what_it_has_loaded(level):
     check_target(level)
     with keep_inputs():
         note_input(level)
-        with pytest.raises(NavmeshError, match="an input"):
+        with pytest.raises(SurefootError, match="an input"):
             check_target(level)
-        with pytest.raises(NavmeshError, match="an input"), whole_file(level):
+        with pytest.raises(SurefootError, match="an input"), whole_file(level):
             raise AssertionError("nothing is to be written")
-        with pytest.raises(NavmeshError, match="an input"):
+        with pytest.raises(SurefootError, match="an input"):
             write_archive(level, "test", 1, {}, {})
     check_target(level)
     assert level.read_text() == SQUARE

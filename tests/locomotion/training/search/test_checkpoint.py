@@ -100,7 +100,7 @@ def test_a_training_notices_that_what_it_builds_on_was_learned_anew(folder, tmp_
     (tmp_path / "walk.npz").write_bytes(b"as it was")
     (tmp_path / "walk.yaml").write_bytes(b"its clip")
     monkeypatch.setattr(library, "SKILLS", tmp_path)
-    monkeypatch.setattr(library, "_CLIPS", tmp_path)
+    monkeypatch.setattr(library, "CLIPS", tmp_path)
     prepared(Training(checkpoint=folder), tmp_path / "hop.npz")
     for file, content in (("walk.npz", b"learned anew"), ("walk.yaml", b"another clip")):
         before = (tmp_path / file).read_bytes()

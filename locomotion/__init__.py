@@ -6,7 +6,7 @@ from locomotion.ground.ground import Ground
 from locomotion.human.human import ARRIVAL_DISTANCE, PERSON_RULES, Human, HumanState
 from locomotion.human.state import MOVING
 from locomotion.paths.smoothing import ObstacleAhead, Smoothing, SmoothPath, smooth_route
-from locomotion.skills.approach import ApproachPlan, plan_approach, plan_approach_exact
+from locomotion.skills.approach import ApproachPlan, ApproachWeights, plan_approach, plan_approach_exact
 from locomotion.skills.kind import SkillKind
 from locomotion.skills.registry import register_skill, skill_kinds, unregister_skill
 from surefoot import __version__
@@ -16,6 +16,7 @@ __all__ = [
     "MOVING",
     "PERSON_RULES",
     "ApproachPlan",
+    "ApproachWeights",
     "Ground",
     "Human",
     "HumanState",

@@ -9,6 +9,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from navmesh.errors import NavmeshError
 from navmesh.free_length import REACH, cells_of
 from navmesh.kinds import ObstacleKind, kind_of, obstacle_kinds
 from navmesh.measuring import FOUND, Limits, measure
@@ -42,7 +43,13 @@ def detect_obstacles(
 
 def with_own_kinds(found: Obstacles, terrain: Terrain, surface: Surface, walking: WalkRules) -> Obstacles:
     """``found`` and what the kinds find that look for their obstacles themselves (`ObstacleKind.find`)."""
-    own = [kind.find(terrain, surface, walking) for kind in obstacle_kinds() if kind.find is not None]
+    own = []
+    for kind in obstacle_kinds():
+        if kind.find is not None:
+            its = kind.find(terrain, surface, walking)
+            if not isinstance(its, Obstacles):
+                raise NavmeshError(f"{kind.affordance}: find gave {type(its).__name__}; expected Obstacles")
+            own.append(its)
     return Obstacles.joined([found, *own]).sorted() if own else found
 
 

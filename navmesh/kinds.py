@@ -13,7 +13,6 @@ from navmesh.errors import NavmeshError
 from surefoot.numeric import is_finite
 
 if TYPE_CHECKING:
-    from navmesh.obstacles import Obstacles
     from navmesh.rules import WalkRules
     from navmesh.surface import Surface
     from navmesh.terrain import Terrain
@@ -42,16 +41,16 @@ class ObstacleKind:
         effort: (a, b), both at least 0: clearing one of ``size`` [m] is worth walking a + b * size metres.
         rule: the field of `ObstacleRules` that holds the range of sizes that are looked for; empty for a kind
             that the package does not look for.
-        find: finds obstacles of this kind in a level, from its terrain, its walkable surface and its walk
-            rules; called when a graph is built and after every change. None: they are found by the package,
-            or come from tags alone.
+        find: finds obstacles of this kind in a level, as `Obstacles`, from its terrain, its walkable
+            surface and its walk rules; called when a graph is built and after every change. None: they
+            are found by the package, or come from tags alone.
     """
 
     affordance: str
     crossing: Crossing
     effort: tuple[float, float] = (1.0, 1.0)
     rule: str = ""
-    find: Callable[["Terrain", "Surface", "WalkRules"], "Obstacles"] | None = None
+    find: Callable[["Terrain", "Surface", "WalkRules"], object] | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.affordance, str) or not _NAME.fullmatch(self.affordance):

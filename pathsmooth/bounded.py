@@ -37,7 +37,9 @@ FREE_TIGHTEN = 1.3  # excess of curvature below which the bound is tightened
 _CHECK_EVERY = 20
 _ROUND_LIMIT = 3000  # iterations in one round
 
-SEARCHES = ((0.5, 3, 0.06), (0.4, 4, 0.025), (0.25, 4, 0.01), (0.15, 5, 0.004))
+SEARCHES = tuple(
+    reach.Fineness(*each) for each in ((0.5, 3, 0.06), (0.4, 4, 0.025), (0.25, 4, 0.01), (0.15, 5, 0.004))
+)
 """Ever finer searches: turn per step [rad], heading cells in it, cell size in radii of the tightest curve."""
 
 
@@ -76,8 +78,8 @@ def solve_with_bound(
     if trial.complete or limit is not None:
         return _solution(trial)
     best = trial
-    for settings in SEARCHES:
-        code, positions, discs = _search(problem, settings)
+    for fineness in SEARCHES:
+        code, positions, discs = _search(problem, fineness)
         if code == reach.UNREACHABLE:
             without.status = INFEASIBLE
             return without
@@ -197,11 +199,11 @@ def _solution(trial: _Trial) -> Solution:
     )
 
 
-def _search(problem: Problem, settings: tuple[float, int, float]):
-    headings = [None if t is None else float(np.arctan2(t[1], t[0])) for t in problem.tangents]
+def _search(problem: Problem, fineness: reach.Fineness):
+    start, goal = (None if t is None else float(np.arctan2(t[1], t[0])) for t in problem.tangents)
     return reach.search(
-        problem.path[0, :2], headings[0], problem.path[-1, :2], headings[1],
-        problem.centers, problem.radii + SLACK, float(problem.max_curvature or np.inf), *settings,
+        reach.End(problem.path[0, :2], start), reach.End(problem.path[-1, :2], goal),
+        problem.centers, problem.radii + SLACK, float(problem.max_curvature or np.inf), fineness,
     )  # fmt: skip
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,6 +20,23 @@ SMOOTHNESS = 0.3
 """[m^3] default weight of the bending term, the cube of a smoothing length of 0.67 m."""
 
 _SHORTEST_TANGENT = 1 / 32  # of the spacing
+
+
+class _Placed(NamedTuple):
+    """Waypoints in the discs of a corridor, as in `Problem`."""
+
+    arc: NDArray[np.float64]
+    segment_disc: NDArray[Any]
+    centers: NDArray[np.float64]
+    radii: NDArray[np.float64]
+
+
+class _Wanted(NamedTuple):
+    """What is asked of the path, as in `Problem`."""
+
+    max_curvature: float | None
+    smoothness: float
+    spacing: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,18 +133,9 @@ class Problem:
         step = min(spacing, arc[-1] / 4)
         waypoint_arc, segment_disc = place(local, arc, local_centers, disc_radii, begin, end, step)
         return cls._assemble(
-            path,
-            arc,
-            arc,
-            waypoint_arc,
-            segment_disc,
-            disc_centers,
-            disc_radii,
-            tangents,
-            max_curvature,
-            smoothness,
-            float(spacing),
-        )
+            path, arc, arc, _Placed(waypoint_arc, segment_disc, disc_centers, disc_radii), tangents,
+            _Wanted(max_curvature, float(smoothness), float(spacing)),
+        )  # fmt: skip
 
     def along(
         self, curve: NDArray[np.float64], source: NDArray[np.float64], discs: NDArray[np.integer]
@@ -151,26 +160,23 @@ class Problem:
         step = min(self.spacing, arc[-1] / 4)
         waypoint_arc, segment_disc = place(local, arc, local_centers, radii, begin, end, step)
         return self._assemble(
-            self.path, arc, source, waypoint_arc, segment_disc, centers, radii, self.tangents,
-            self.max_curvature, self.smoothness, self.spacing,
+            self.path, arc, source, _Placed(waypoint_arc, segment_disc, centers, radii), self.tangents,
+            _Wanted(self.max_curvature, self.smoothness, self.spacing),
         )  # fmt: skip
 
     @classmethod
     def _assemble(
         cls,
-        path,
-        arc,
-        source,
-        waypoint_arc,
-        segment_disc,
-        centers,
-        radii,
-        tangents,
-        max_curvature,
-        smoothness,
-        spacing,
+        path: NDArray[np.float64],
+        arc: NDArray[np.float64],
+        source: NDArray[np.float64],
+        placed: _Placed,
+        tangents: tuple[NDArray[np.float64] | None, NDArray[np.float64] | None],
+        wanted: _Wanted,
     ) -> Problem:
         """Pin the ends and pack the arrays of the compiled loops."""
+        waypoint_arc, segment_disc, centers, radii = placed
+        max_curvature, smoothness, spacing = wanted
         obstruction = ""
         pins: dict[int, NDArray[np.float64]] = {}
         start, end = tangents
@@ -208,7 +214,7 @@ class Problem:
         packed = pack(targets, waypoint_arc, segment_disc, centers, radii, smoothness, first, last)
         return cls(
             targets, heights, waypoint_arc, waypoint_source, segment_disc, centers, radii, first, last,
-            float(spacing), float(smoothness),
+            spacing, smoothness,
             max_curvature, obstruction, path, tangents, packed,
         )  # fmt: skip
 

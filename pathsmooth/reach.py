@@ -10,6 +10,8 @@ The corridor's discs are passed in order.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,42 +22,55 @@ REACHED = 1
 UNDECIDED = 2
 
 
-def search(
-    start: NDArray[np.float64],
-    start_heading: float | None,
-    goal: NDArray[np.float64],
-    goal_heading: float | None,
-    centers: NDArray[np.float64],
-    radii: NDArray[np.float64],
-    max_curvature: float,
-    turn: float = 0.4,
-    turn_cells: int = 4,
-    cell: float = 0.025,
-    budget: int = 1_000_000,
-) -> tuple[int, NDArray[np.float64], NDArray[np.int64]]:
-    """Search from start (2,) to goal (2,) [m] through discs (m, 2), (m,); headings [rad], None for any.
+class End(NamedTuple):
+    """An end of a curve: its place (2,) [m], and its heading [rad] or None for any."""
+
+    place: NDArray[np.float64]
+    heading: float | None
+
+
+class Fineness(NamedTuple):
+    """How finely to search.
 
     turn        [rad] greatest turn in one step, below 1; the step is turn / max_curvature long.
     turn_cells  heading cells per such turn.
     cell        size of a position cell, in radii of the tightest curve.
-    budget      greatest number of cells entered.
+    """
+
+    turn: float = 0.4
+    turn_cells: int = 4
+    cell: float = 0.025
+
+
+def search(
+    start: End,
+    goal: End,
+    centers: NDArray[np.float64],
+    radii: NDArray[np.float64],
+    max_curvature: float,
+    fineness: Fineness,
+    budget: int = 1_000_000,
+) -> tuple[int, NDArray[np.float64], NDArray[np.int64]]:
+    """Search from start to goal through discs (m, 2), (m,). budget: greatest number of cells entered.
+
     Returns (code, positions (k, 2), disc of each (k,)); the last two are empty unless the code is REACHED.
     """
+    turn, turn_cells, cell = fineness
     headings = int(np.ceil(2 * np.pi / (turn / turn_cells)))
     delta = 2 * np.pi / headings
     step = turn_cells * delta * (1 - 1e-9) / max_curvature
     size = cell / max_curvature
     offsets, first = _steps(headings, turn_cells, max_curvature, step, size)
-    origin = start
-    reference = 0.0 if start_heading is None else start_heading
-    goal_turn = -1.0 if goal_heading is None else (goal_heading - reference) % (2 * np.pi)
+    origin = start.place
+    reference = 0.0 if start.heading is None else start.heading
+    goal_turn = -1.0 if goal.heading is None else (goal.heading - reference) % (2 * np.pi)
     low = np.floor((centers - radii[:, None] - origin) / size).astype(np.int64) - 1
     count = np.ceil(2 * radii[:, None] / size).astype(np.int64).repeat(2, axis=1) + 4
     room = np.concatenate([[0], np.cumsum(count[:, 0] * count[:, 1] * headings)])
     if room[-1] > 200_000_000:
         return UNDECIDED, np.zeros((0, 2)), np.zeros(0, np.int64)
     code, positions, discs = _search(
-        goal - origin, goal_turn, start_heading is None, reference, centers - origin, radii,
+        goal.place - origin, goal_turn, start.heading is None, reference, centers - origin, radii,
         max_curvature, step, size,
         headings, turn_cells, offsets, first, low, count, room, budget,
     )  # fmt: skip

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import Literal, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,10 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 from locomotion.crowd import layout as at
 from locomotion.errors import LocomotionError
 from locomotion.events import Arrived, Event, GotStuck, LostGround, SetOff
+from locomotion.quadruped.pool import Pool
+from navmesh.graph import NodeGraph
 from navmesh.route import Route
-
-if TYPE_CHECKING:
-    from locomotion.crowd.crowd import Crowd
 
 __all__ = ["NoRoute", "Walker", "WalkerState"]
 
@@ -45,6 +44,25 @@ class WalkerState:
     events: tuple[Event, ...]
 
 
+class ItsCrowd(Protocol):
+    """What a body asks of its crowd; members: as of `locomotion.crowd.crowd.Crowd`."""
+
+    graph: NodeGraph
+    dt: float
+    routes: Pool
+
+    @property
+    def rows(self) -> NDArray[np.float64]: ...
+    @property
+    def positions(self) -> NDArray[np.float64]: ...
+    def find_routes(self, index: int, goals: NDArray[np.float64]) -> list[Route]: ...
+    def lay_routes(self, index: int, routes: list[Route]) -> None: ...
+    def left(self, index: int) -> float: ...
+    def way_left(self, index: int) -> NDArray[np.float64]: ...
+    def goals_left(self, index: int) -> NDArray[np.float64]: ...
+    def restore(self, index: int, row: NDArray[np.float64], route: NDArray[np.float64]) -> None: ...
+
+
 class Walker:
     """One body of a crowd; created by `Crowd.add`.
 
@@ -52,7 +70,7 @@ class Walker:
     nobody near, or 300 s among others; or no route is left). ``events`` are in order of time.
     """
 
-    def __init__(self, crowd: Crowd, index: int) -> None:
+    def __init__(self, crowd: ItsCrowd, index: int) -> None:
         self.crowd, self.index = crowd, index
         self.status: Status = "standing"
         self.events: list[Event] = []

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from locomotion.gaits.run.layout import COM_VELOCITY
+from locomotion.body.observed import VELOCITY_X, VELOCITY_Z
 from locomotion.gaits.run.skill import RunSkill
 from locomotion.gaits.walk.layout import CLOCK, DOUBLE, PHASE, USUAL_SPEED, WALK_HEADING, WALK_STEPS
 from locomotion.gaits.walk.skill import WalkSkill
@@ -51,13 +51,13 @@ def walk_limits(skill: WalkSkill) -> TrackingLimits:
     )
 
 
-def run_entry_speed(walk: np.ndarray, state: np.ndarray, heading: float) -> float | None:
+def run_entry_speed(walk: np.ndarray, observed: np.ndarray, heading: float) -> float | None:
     """Speed [m/s] with which a walking person can begin to run towards ``heading`` [rad] now, just after it
-    has put a foot down; None when it cannot."""
+    has put a foot down; None when it cannot. ``observed``: as in `locomotion.body.observed`."""
     if walk[PHASE] != DOUBLE or walk[CLOCK] > 0.0 or walk[WALK_STEPS] < _FIRST_STEPS:
         return None
     now = walk[WALK_HEADING]
-    vx, vy = state[COM_VELOCITY][:2]
+    vx, vy = observed[VELOCITY_X:VELOCITY_Z]
     speed = float(vx * math.cos(now) + vy * math.sin(now))
     straight = abs(math.remainder(heading - now, 2.0 * math.pi)) < _AHEAD
     return speed if straight and speed >= _ENTRY else None

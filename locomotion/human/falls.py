@@ -26,7 +26,7 @@ def fall(person: Person, gets_up: bool) -> None:
     """The person has lost its balance; ``gets_up``: whether it gets up again if there is ground."""
     let_go_both(person.data)
     on_way = person.status in MOVING
-    speed, slope = float(person.control[controller.SPEED]), float(person.follower.memory[SLOPE_HERE])
+    speed, slope = person.on_feet.speed, float(person.follower.memory[SLOPE_HERE])
     person.end("fallen", Fell(person.time, person.point, speed, slope, person.arc_length))
     if gets_up and person.simulation.over_ground:
         person.status, person.on_feet.slowing = "getting up", 0.0
@@ -46,7 +46,7 @@ def tick_on_all_fours(person: Person, gets_up: bool) -> None:
     fours.tick(lookup, person.command, person.data, fours.gentle > 0.0)
     mujoco.mj_step(person.physics, person.data, STEPS_PER_TICK)
     person.control[controller.FALLEN] = 0.0
-    stands = fours.observe(lookup, person.data, person.control)
+    stands = fours.observe(lookup, person.data, person.observed)
     got_up = person.status == "getting up"
     if fours.fallen and person.status != "getting up":
         fall(person, gets_up)
@@ -65,7 +65,7 @@ def tick_on_all_fours(person: Person, gets_up: bool) -> None:
 
 def _stand_up(person: Person) -> None:
     """Hand over to the walking controller."""
-    rise_walking(person.on_feet.walk, person.control, person.fours.facing)
+    rise_walking(person.on_feet.walk, person.observed, person.fours.facing)
     observe_walk(person.index, person.data, person.on_feet.walk)
     person.fours.leave()
     if person.status == "getting up":

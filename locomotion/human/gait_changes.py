@@ -9,6 +9,7 @@ from locomotion.events import GotStuck
 from locomotion.gaits.limits import run_entry_speed
 from locomotion.human.person import Person
 from locomotion.human.state import MOVING
+from locomotion.paths.command import HEADING_ASKED
 from locomotion.paths.gait_plan import RUN_UP
 from locomotion.rehearsal.deciding import Decider, Trial
 from locomotion.rehearsal.trials import (
@@ -72,7 +73,7 @@ class GaitChanges:
             reason = f"it finds no run-up to the {ahead.affordance} of {ahead.size:.2f} m"
             person.end("stuck", GotStuck(person.time, person.point, reason=reason))
             return
-        speed = run_entry_speed(person.on_feet.walk, person.control, float(person.command[0]))
+        speed = run_entry_speed(person.on_feet.walk, person.observed, float(person.command[HEADING_ASKED]))
         if speed is None or person.go_back():
             return
         if not run_up.comes_within(arc, RUN_UP):

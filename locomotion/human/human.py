@@ -17,6 +17,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
@@ -56,9 +57,18 @@ from locomotion.skills.obstacle_check import check_obstacles
 from locomotion.skills.run_up import TakeOff
 from surefoot.numeric import as_floats, is_finite, is_whole
 
-__all__ = ["ARRIVAL_DISTANCE", "PERSON_RULES", "Human", "HumanState", "Status"]
+__all__ = ["ARRIVAL_DISTANCE", "PERSON_RULES", "BetweenGaits", "Human", "HumanState", "Status"]
 
 _CHANGE = 0.01  # [m] largest change of the ground under a person at rest that needs no new simulation
+
+
+class BetweenGaits(NamedTuple):
+    """How a person comes from a run to a walk, from a walk to a run, and from a run to a stand; None: as the
+    package's skills say."""
+
+    slow_down: SlowDownSkill | None = None
+    speed_up: SpeedUpSkill | None = None
+    brake: BrakeSkill | None = None
 
 
 class Human(Person):
@@ -80,14 +90,12 @@ class Human(Person):
         skill: RunSkill | None = None,
         clearing: Sequence[ClearingSkill] | None = None,
         walk: WalkSkill | None = None,
-        slow_down: SlowDownSkill | None = None,
+        between: BetweenGaits | None = None,
         rehearsals: int = REHEARSALS,
         gets_up: bool = False,
-        speed_up: SpeedUpSkill | None = None,
-        brake: BrakeSkill | None = None,
     ) -> None:
-        """``ground``: None is the endless plane z = 0. ``skill``, ``walk``, ``slow_down``, ``brake``: how it
-        runs, walks, slows from a run to a walk, and stops; None loads the built-in skill. ``clearing``:
+        """``ground``: None is the endless plane z = 0. ``skill``, ``walk``: how it runs and walks; None loads
+        the built-in skill. ``between``: how it changes from one gait to another. ``clearing``:
         skills for obstacles; None loads the built-in ones (`learned_skills`). ``rehearsals``: most
         variations of a take-off to try before it (`locomotion.rehearsal.trials`); 0 turns rehearsing off.
         ``gets_up``: whether it gets up after a fall and continues, or stays down.
@@ -100,12 +108,13 @@ class Human(Person):
         if not is_whole(rehearsals):
             raise LocomotionError(f"rehearsals must be a whole number of at least 0, not {rehearsals!r}")
         run = load_run_skill() if skill is None else skill
+        between = between or BetweenGaits()
         on_feet = OnFeet(
             run,
             load_walk_skill() if walk is None else walk,
-            load_slow_down_skill() if slow_down is None else slow_down,
-            load_speed_up_skill() if speed_up is None else speed_up,
-            load_brake_skill() if brake is None else brake,
+            between.slow_down or load_slow_down_skill(),
+            between.speed_up or load_speed_up_skill(),
+            between.brake or load_brake_skill(),
         )
         super().__init__(ground, on_feet, learned_skills(run) if clearing is None else clearing)
         self.gets_up = gets_up
@@ -322,13 +331,13 @@ class Human(Person):
             else:
                 self.run_up.begin(())  # it was told to stop in the meantime
             if ends == "walking":
-                rise_walking(self.on_feet.walk, self.control, self.yaw)
+                rise_walking(self.on_feet.walk, self.observed, self.yaw)
             self.events.append(Cleared(self.time, self.point, happened.affordance, happened.size))
 
     def _double(self) -> Human:
         """A copy with the same skills on the same ground that does not rehearse."""
         feet = self.on_feet
         return Human(
-            self.ground, feet.run_skill, self.clearing, feet.walk_skill, feet.slow_down_skill, 0,
-            speed_up=feet.speed_up_skill, brake=feet.brake_skill,
+            self.ground, feet.run_skill, self.clearing, feet.walk_skill,
+            BetweenGaits(feet.slow_down_skill, feet.speed_up_skill, feet.brake_skill), 0,
         )  # fmt: skip

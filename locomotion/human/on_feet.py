@@ -6,8 +6,8 @@
     mujoco.mj_step(model, data, STEPS_PER_TICK)
     feet.observe(index, state, command, data)
 
-``state`` is the running controller's memory and observations (fields: `locomotion.gaits.run.layout`), also
-while the person walks.
+``state`` is the running controller's memory, and what is observed, also while the person walks (fields:
+`locomotion.gaits.run.layout`).
 """
 
 import math
@@ -37,6 +37,7 @@ from locomotion.gaits.walk.layout import (
     SUDDEN,
     UNEVEN,
     WALK_HEADING,
+    WALK_SPEED,
     WALK_STANCE,
     WALK_STEPS,
     WALK_TICKS,
@@ -47,6 +48,7 @@ from locomotion.gaits.walk.layout import (
 from locomotion.gaits.walk.skill import RISING, STEADYING_SPEED, WalkSkill
 from locomotion.gaits.walk.steps import TURN_TIME
 from locomotion.human.intent import TURN_FIRST
+from locomotion.paths.command import HEADING_ASKED, SIDEWAYS_ASKED, SPEED_ASKED
 from locomotion.paths.follower import PathFollower
 
 __all__ = ["RUN_GAINS", "OnFeet"]
@@ -66,7 +68,7 @@ class OnFeet:
     ``limits``, ``walk_limits``: paths that it can follow. ``walk``: memory of the walking controller
     (`locomotion.gaits.walk.layout`). ``slowing``: [m/s^2] of slowing down to a walk, 0 if it does not.
     ``brakes``: whether it stops in the shortest distance. ``hurries``: whether it accelerates into its
-    run.
+    run. ``speed``: [m/s] reference speed of the controller that moved it last.
     """
 
     def __init__(
@@ -84,7 +86,7 @@ class OnFeet:
         self._first_steps, self._braking_steps = slow_down.walk_tables(walk), brake.walk_tables(walk)
         self.limits, self.walk_limits = run_limits(run), walk_limits(walk)
         self.walk = new_walk()
-        self.slowing, self.brakes, self.hurries = 0.0, False, False
+        self.slowing, self.brakes, self.hurries, self.speed = 0.0, False, False, 0.0
 
     @property
     def walks(self) -> bool:
@@ -145,24 +147,28 @@ class OnFeet:
         moving: whether to continue along the path. planned: speed [m/s] of this step of a run-up, 0 outside
         of one.
         """
-        (x, y), speed = state[controller.COM][:2], state[controller.SPEED]
-        follower.track(_WALK_GAINS if self.walks else RUN_GAINS, x, y, speed, tick, command)
+        x, y = state[controller.COM][:2]
+        follower.track(_WALK_GAINS if self.walks else RUN_GAINS, x, y, self.speed, tick, command)
         if self.walks:
             most = self.walk_skill.speed if follower.walks_fast else self.walk_limits.calm
             self._steer_walk(state, moving, follower.pace, most, command)
         elif self.slowing > 0.0:
             slower = state[controller.SPEED] - self.slowing * CONTROL_DT
-            command[1:3] = slower, 0.0
+            command[SPEED_ASKED], command[SIDEWAYS_ASKED] = slower, 0.0
             if self.brakes:  # straight ahead; the reference itself would follow too slowly
                 state[controller.SPEED] = max(slower, SLOWEST)
-                command[0] = state[controller.HEADING]
+                command[HEADING_ASKED] = state[controller.HEADING]
         else:
             if state[controller.STEPS] >= 2.0:
                 haste = HASTE if self.hurries else _HASTE
                 made = state[controller.STEP_SPEED]
-                command[1] = min(command[1], max(min(made + haste, _FAST), made + _FAST_HASTE))
-            slowest = min(command[1], self.limits.speeds[0])
-            command[1] = planned if planned > 0.0 else max(follower.pace * command[1], slowest)
+                command[SPEED_ASKED] = min(
+                    command[SPEED_ASKED], max(min(made + haste, _FAST), made + _FAST_HASTE)
+                )
+            slowest = min(command[SPEED_ASKED], self.limits.speeds[0])
+            command[SPEED_ASKED] = (
+                planned if planned > 0.0 else max(follower.pace * command[SPEED_ASKED], slowest)
+            )
 
     def _steer_walk(self, state: NDArray, moving: bool, pace: float, most: float, command: NDArray) -> None:
         """``pace``: share of the wanted speed; ``most``: upper limit [m/s]."""
@@ -170,18 +176,18 @@ class OnFeet:
         if self.walk[WALK_STEPS] < 0.0:
             command[:] = heading, STEADYING_SPEED, 0.0, 0.0
             return
-        off = command[0] - heading
+        off = command[HEADING_ASKED] - heading
         if self.walk[SUDDEN] == 0.0:
             off -= TURN_TIME * self.walk[WALK_TURN_RATE]  # it is already turning in a bend
         if not moving or abs(math.remainder(off, 2.0 * math.pi)) > TURN_FIRST:
-            command[1:3] = 0.0
+            command[SPEED_ASKED] = command[SIDEWAYS_ASKED] = 0.0
             if np.hypot(*state[controller.COM_VELOCITY][:2]) > TURNING_SPEED:
-                command[0] = heading
+                command[HEADING_ASKED] = heading
         if self.brakes:
             pace = 0.0  # despite new commands: it has rehearsed this stop
-        command[1] = pace * min(command[1], most)
+        command[SPEED_ASKED] = pace * min(command[SPEED_ASKED], most)
         if pace == 0.0:  # waiting: a person stepping in place drifts into those ahead
-            command[0], command[2] = heading, 0.0
+            command[HEADING_ASKED], command[SIDEWAYS_ASKED] = heading, 0.0
 
     def tick(
         self, lookup: tuple[NDArray, ...], state: NDArray, command: NDArray, data: mujoco.MjData
@@ -189,12 +195,15 @@ class OnFeet:
         """Control: write the PD targets into ``data.ctrl``."""
         if self.walks:
             tables = self._walk_tables()
-            walk_tick(tables, lookup, self.walk, state, command, data.qpos, data.qvel, data.ctrl)
+            observed = state[controller.OBSERVED]
+            walk_tick(tables, lookup, self.walk, observed, command, data.qpos, data.qvel, data.ctrl)
+            self.speed = float(self.walk[WALK_SPEED])
         else:
             tables = self._quick_run if self.hurries else self.run_skill.tables
             if self.slowing > 0.0:
                 tables = self._braking_run if self.brakes else self._slow_run
             run_tick(*tables, state, command, data.qpos, data.qvel, data.ctrl)
+            self.speed = float(state[controller.SPEED])
 
     def _walk_tables(self) -> NDArray[np.float64]:
         """The gains of its present walk."""
@@ -206,7 +215,7 @@ class OnFeet:
 
     def observe(self, index: PersonIndex, state: NDArray, command: NDArray, data: mujoco.MjData) -> None:
         """After the physics and `controller.observe`."""
-        if self.hurries and (self.walks or is_fast_enough(state, float(command[1]))):
+        if self.hurries and (self.walks or is_fast_enough(state, float(command[SPEED_ASKED]))):
             self.hurries = False
         if self.walks:
             observe_walk(index, data, self.walk)
@@ -216,11 +225,12 @@ class OnFeet:
             self.brakes &= bool(self.walk[WALK_STEPS] < _HELD_UP)
 
     # --- from one gait to the other
-    def run(self, state: NDArray, quickly: bool, speed: float) -> None:
-        """Change from walking to running, from ``speed`` [m/s]."""
-        run_on(state, self.walk[WALK_STANCE], self.walk[WALK_HEADING], speed)
+    def run(self, state: NDArray, targets: NDArray, quickly: bool, speed: float) -> None:
+        """Change from walking to running, from ``speed`` [m/s]; ``targets`` (39,) [rad]: the last
+        tick's."""
+        run_on(state, targets, self.walk[WALK_STANCE], self.walk[WALK_HEADING], speed)
         self.walk[WALKS] = 0.0
-        self.hurries, self.brakes = quickly, False
+        self.hurries, self.brakes, self.speed = quickly, False, speed
 
     def slow_down(self, deceleration: float, brakes: bool = False) -> None:
         """Begin to slow down from the run to a walk [m/s^2]; ``brakes``: stop in the shortest distance

@@ -76,7 +76,7 @@ class Person:
         else:
             plant(body.model, body.data, body.index, body.lookup, body.control, walk, position, yaw)
         self.command[:] = yaw, speed, 0.0, 0.0
-        self.on_feet.slowing, self.on_feet.brakes = 0.0, False
+        self.on_feet.slowing, self.on_feet.brakes, self.on_feet.speed = 0.0, False, speed
         self.follower.memory[:] = new_track()
 
     # --- of its simulation
@@ -105,6 +105,11 @@ class Person:
     def control(self) -> NDArray[np.float64]:
         """What the running controller remembers (its fields: `locomotion.gaits.run.layout`)."""
         return self.simulation.control
+
+    @property
+    def observed(self) -> NDArray[np.float64]:
+        """What is observed of the body (its fields: `locomotion.body.observed`)."""
+        return self.simulation.control[controller.OBSERVED]
 
     @property
     def com(self) -> NDArray[np.float64]:
@@ -244,7 +249,7 @@ class Person:
     # --- what it can be made to do
     def run(self, quickly: bool, speed: float) -> None:
         """Change from walking to running, from ``speed`` [m/s]."""
-        self.on_feet.run(self.control, quickly, speed)
+        self.on_feet.run(self.control, self.data.ctrl, quickly, speed)
         self.status = "running"
 
     def set_off(self, choice: tuple[bool, Sequence[float]], speed: float) -> None:

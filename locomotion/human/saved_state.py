@@ -13,12 +13,13 @@ from locomotion.gaits.walk import layout as walk
 from locomotion.human.human import Human
 from locomotion.human.state import BUSY, CLEARING, HumanState
 from locomotion.paths import tracking as path_tracking
+from locomotion.paths.command import COMMAND_SIZE, HEADING_ASKED, SIDEWAYS_ASKED, SLOPE_THERE, SPEED_ASKED
 from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.paths.table import BRAKE, FAST_WALK, GAIT, RUN, SPEED, WALK, PathTable
 from locomotion.recovery import layout as scramble
 from locomotion.saved_arrays import COUNT, FARTHEST, FLAG, SIDE, Slots, check_array, check_number
+from locomotion.skills import run_up_layout as run_up
 from locomotion.skills.interface import skill_for
-from locomotion.skills.run_up import RUN_UP_SIZE
 
 __all__ = ["check_person"]
 
@@ -45,7 +46,16 @@ _PARTS = (
         ],
         whole=(run.STANCE, run.STEPS, run.TICKS, run.FALLEN),
     ),
-    Slots("the command of a person", 4, [(0, _TURNS), (1, _SPEED), (2, _SPEED), (3, _SPEED)]),
+    Slots(
+        "the command of a person",
+        COMMAND_SIZE,
+        [
+            (HEADING_ASKED, _TURNS),
+            (SPEED_ASKED, _SPEED),
+            (SIDEWAYS_ASKED, _SPEED),
+            (SLOPE_THERE, _SPEED),
+        ],
+    ),
     Slots(
         "the walk of a person",
         walk.WALK_SIZE,
@@ -121,9 +131,15 @@ _PARTS = (
     ),
     Slots(
         "the run-up of a person",
-        RUN_UP_SIZE,
-        [(0, COUNT), (1, COUNT), (2, _SPEED), (3, _SPEED), (4, _SPEED)],
-        whole=(0, 1),
+        run_up.RUN_UP_SIZE,
+        [
+            (run_up.NEXT, COUNT),
+            (run_up.STEPS_SEEN, COUNT),
+            (run_up.PLANNED, _SPEED),
+            (run_up.FARTHER, _SPEED),
+            (run_up.FASTER, _SPEED),
+        ],
+        whole=(run_up.NEXT, run_up.STEPS_SEEN),
     ),
 )
 """In the order of the arrays in `locomotion.human.state`."""
@@ -149,7 +165,7 @@ def check_person(state: HumanState, human: Human) -> None:
         raise LocomotionError(f"a person is {state.status} along no path")
     for what in (state.ticks, state.ended_at):
         check_number("a tick of a person", what, 0, 2**53)
-    for what in (state.slowing, state.back_to, *state.on_all_fours):
+    for what in (state.slowing, state.speed, state.back_to, *state.on_all_fours):
         check_number("a mood of a person", what)
     for obstacle in state.obstacles:
         _check_obstacle(obstacle)
@@ -194,8 +210,8 @@ def _check_obstacle(obstacle: ObstacleAhead) -> None:
 
 def _check_clearing(state: HumanState, human: Human) -> None:
     """Check that its skills clear its present and coming obstacles."""
-    run_up = sum(part.size for part in _PARTS[:-1])
-    number = int(state.numbers[run_up])
+    plan = state.numbers[sum(part.size for part in _PARTS[:-1]) :]
+    number = int(plan[run_up.NEXT])
     ahead = [skill_for(human.clearing, obstacle) for obstacle in state.obstacles[number:]]
     if None in ahead:
         raise LocomotionError("a person is before an obstacle that it cannot clear")

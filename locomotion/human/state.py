@@ -54,6 +54,7 @@ class HumanState(NamedTuple):
 
     numbers: NDArray[np.float64]
     slowing: float
+    speed: float
     brakes: bool
     hurries: bool
     on_all_fours: tuple[float, float, float]
@@ -92,6 +93,7 @@ _ARRAYS = operator.attrgetter(
 # memory arrays of the person's parts
 _FIELDS = (
     _Field("slowing", "on_feet", "slowing"),
+    _Field("speed", "on_feet", "speed"),
     _Field("brakes", "on_feet", "brakes"),
     _Field("hurries", "on_feet", "hurries"),
     _Field("on_all_fours", "fours", "mood"),

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.ndimage import maximum_filter1d
 
 from locomotion.errors import LocomotionError
+from locomotion.paths.command import HEADING_ASKED, SIDEWAYS_ASKED, SLOPE_THERE, SPEED_ASKED
 from locomotion.paths.gait_plan import hard_again, plan_gaits
 from locomotion.paths.table import (
     CURVATURE,
@@ -253,7 +254,7 @@ def track(table, length, gains, memory, x, y, speed, tick, command):
     preview = _at(table, step, arc + pace * gains[0], HEADING)
     memory[SPEED_HERE] = _at(table, step, arc + 0.3 * pace, SPEED)
     memory[SLOPE_HERE] = _at(table, step, arc, SLOPE)
-    command[0] = preview - correction
-    command[1] = memory[SPEED_HERE]
-    command[2] = min(max(-gains[4] * lateral, -gains[5]), gains[5])
-    command[3] = memory[SLOPE_HERE]
+    command[HEADING_ASKED] = preview - correction
+    command[SPEED_ASKED] = memory[SPEED_HERE]
+    command[SIDEWAYS_ASKED] = min(max(-gains[4] * lateral, -gains[5]), gains[5])
+    command[SLOPE_THERE] = memory[SLOPE_HERE]

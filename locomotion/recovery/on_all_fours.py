@@ -5,7 +5,7 @@
     while four.active:
         four.tick(lookup, command, data, stand=True)
         mujoco.mj_step(four.model, data, STEPS_PER_TICK)
-        four.observe(lookup, data, state)                # not active any more once it stands
+        four.observe(lookup, data, observed)             # not active any more once it stands
 
 Its memory is one array, `memory` (fields: `locomotion.recovery.layout`).
 """
@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from locomotion.body.models import gentler, harder
 from locomotion.body.person import PersonIndex
 from locomotion.ground.ground import Ground
+from locomotion.paths.command import ALONG_ASKED, HEADING_ASKED, SPEED_ASKED
 from locomotion.paths.follower import PathFollower
 from locomotion.paths.table import PathTable
 from locomotion.recovery.getting_up import begin_getting_up, get_up_tick, rise_on
@@ -106,13 +107,13 @@ class OnAllFours:
         table, (x, y, _) = follower.path.table, com.tolist()
         ahead = min(int((follower.arc + _LOOK) / follower.path.length * (len(table) - 1)), len(table) - 1)
         follower.track(_GAINS, x, y, _SPEED, tick, command)
-        command[0] = math.atan2(table[ahead, 1] - y, table[ahead, 0] - x)
-        command[1] = _SPEED
-        command[2] = 0.0
+        command[HEADING_ASKED] = math.atan2(table[ahead, 1] - y, table[ahead, 0] - x)
+        command[SPEED_ASKED] = _SPEED
+        command[ALONG_ASKED] = 0.0
         waits = follower.without_headway(tick) / (1.0 - _SLOW_HEADWAY)
         if waits > _NO_HEADWAY:
-            command[0] += _ROUND if waits % (2.0 * _NO_HEADWAY) < _NO_HEADWAY else -_ROUND
-            command[2] = 1.0
+            command[HEADING_ASKED] += _ROUND if waits % (2.0 * _NO_HEADWAY) < _NO_HEADWAY else -_ROUND
+            command[ALONG_ASKED] = 1.0
         follower.excuse(_SLOW_HEADWAY)
 
     def tick(
@@ -132,11 +133,13 @@ class OnAllFours:
             if close and ready_to_rise(memory):
                 begin_to_rise(memory, data.qpos)
 
-    def observe(self, lookup: tuple[NDArray, ...], data: mujoco.MjData, state: NDArray[np.float64]) -> bool:
-        """After the physics: update its observations and ``state``, the running controller's. Returns whether
-        it now stands, so that the walk can take over."""
+    def observe(
+        self, lookup: tuple[NDArray, ...], data: mujoco.MjData, observed: NDArray[np.float64]
+    ) -> bool:
+        """After the physics: update its observations and ``observed`` (`locomotion.body.observed`). Returns
+        whether it now stands, so that the walk can take over."""
         memory = self.memory
-        observe_scramble(self._parts, data, memory, state)
+        observe_scramble(self._parts, data, memory, observed)
         if memory[MODE] >= BORNE:
             rise_on(lookup, memory, data.qpos, self.gentle > 0.0)
         return bool(memory[MODE] == RISING and stands(memory))

@@ -19,6 +19,7 @@ from locomotion.body.person import CONTROL_DT
 from locomotion.gaits.walk.footholds import ground_at
 from locomotion.gaits.walk.layout import clamp, wrap
 from locomotion.ground.ground import height_below
+from locomotion.paths.command import ALONG_ASKED, HEADING_ASKED, SPEED_ASKED
 from locomotion.recovery.layout import (
     AIR,
     ALL_DOWN,
@@ -153,12 +154,15 @@ def _gait(ground, memory, command, gradient, slope):
     )
     com, velocity, facing = memory[SEEN_COM], memory[SEEN_VELOCITY], memory[FACING]
     low = seen[:, 2].mean()
-    vx, vy = command[1] * math.cos(command[0]), command[1] * math.sin(command[0])
+    vx, vy = (
+        command[SPEED_ASKED] * math.cos(command[HEADING_ASKED]),
+        command[SPEED_ASKED] * math.sin(command[HEADING_ASKED]),
+    )
     period = p[_SWING] + p[_PAUSE]
     home = np.empty(3)
     lifting = -1
     if memory[PHASE] == ALL_DOWN:
-        late = abs(command[1]) > 0.02
+        late = abs(command[SPEED_ASKED]) > 0.02
         for k in range(4):
             _home(ground, p, k, memory[CENTRE.start], memory[CENTRE.start + 1], low, facing, slope, home)
             late = late or math.hypot(home[0] - seen[k, 0], home[1] - seen[k, 1]) > 0.12
@@ -206,7 +210,10 @@ def _posture(memory, slope, across, command, limbs, qref):
     p = memory[STANCE]
     com, base, velocity = memory[SEEN_COM], memory[SEEN_BASE], memory[SEEN_VELOCITY]
     ch, sh = math.cos(memory[FACING]), math.sin(memory[FACING])
-    vx, vy = command[1] * math.cos(command[0]), command[1] * math.sin(command[0])
+    vx, vy = (
+        command[SPEED_ASKED] * math.cos(command[HEADING_ASKED]),
+        command[SPEED_ASKED] * math.sin(command[HEADING_ASKED]),
+    )
     x = memory[CENTRE.start] - (com[0] - base[0]) + _LEAD * vx + p[_BRAKE] * (vx - velocity[0])
     y = memory[CENTRE.start + 1] - (com[1] - base[1]) + _LEAD * vy + p[_BRAKE] * (vy - velocity[1])
     steep = clamp(slope, 0.0, 1.0)
@@ -252,13 +259,13 @@ def scramble_tick(ground, memory, command, qpos, qvel, ctrl):
     )
     com = memory[SEEN_COM]
     gradient, ahead = memory[LIE_HERE], memory[LIE_AHEAD]
-    wx, wy = math.cos(command[0]), math.sin(command[0])
+    wx, wy = math.cos(command[HEADING_ASKED]), math.sin(command[HEADING_ASKED])
     if memory[TICKS] % _LOOKS == 0.0:
-        look = _COMING if command[1] > 0.0 else 0.0
+        look = _COMING if command[SPEED_ASKED] > 0.0 else 0.0
         lie_of(ground, com[0], com[1], com[2] - 0.4, gradient)
         lie_of(ground, com[0] + look * wx, com[1] + look * wy, com[2] - 0.4, ahead)
     # where to face: by the ground that it is on and that it comes to
-    along = max(_UPHILL, command[2])
+    along = max(_UPHILL, command[ALONG_ASKED])
     fx, fy = 0.5 * (gradient[0] + ahead[0]) + along * wx, 0.5 * (gradient[1] + ahead[1]) + along * wy
     off = wrap(math.atan2(fy, fx) - memory[FACING])
     if abs(off) > 2.6 and memory[TURNING] * off < 0.0:
@@ -273,7 +280,10 @@ def scramble_tick(ground, memory, command, qpos, qvel, ctrl):
         memory[FACING] = wrap(memory[FACING] + memory[TURNING] * CONTROL_DT)
     ch, sh = math.cos(memory[FACING]), math.sin(memory[FACING])
     slope, across = gradient[0] * ch + gradient[1] * sh, -gradient[0] * sh + gradient[1] * ch
-    vx, vy = command[1] * math.cos(command[0]), command[1] * math.sin(command[0])
+    vx, vy = (
+        command[SPEED_ASKED] * math.cos(command[HEADING_ASKED]),
+        command[SPEED_ASKED] * math.sin(command[HEADING_ASKED]),
+    )
     memory[CENTRE.start] += vx * CONTROL_DT
     memory[CENTRE.start + 1] += vy * CONTROL_DT
     ox, oy = memory[CENTRE.start] - com[0], memory[CENTRE.start + 1] - com[1]

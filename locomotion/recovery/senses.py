@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from locomotion.body.anatomy import TRUNK_JOINTS
 from locomotion.body.hand_hold import HAND_POINT
+from locomotion.body.observed import COM, COM_VELOCITY, CONTACT, FEET, LEFT_FOOT, RIGHT_FOOT
 from locomotion.body.person import CONTROL_DT, PersonIndex
-from locomotion.gaits.run.layout import COM, COM_VELOCITY, CONTACT, FEET
 from locomotion.recovery.layout import (
     ANCHORS,
     AXES,
@@ -28,7 +28,7 @@ from surefoot.kernels import allocating_kernel
 __all__ = ["Parts", "observe_scramble", "parts_of"]
 
 _HAND = np.array(HAND_POINT)
-_RIGHT_FOOT, _LEFT_FOOT = slice(FEET.start, FEET.start + 3), slice(FEET.start + 3, FEET.stop)
+_RIGHT_FOOT, _LEFT_FOOT = slice(RIGHT_FOOT, LEFT_FOOT), slice(LEFT_FOOT, FEET.stop)
 _FEET_FORCES = slice(SEEN_FORCES.start + 2, SEEN_FORCES.stop)
 
 
@@ -49,11 +49,11 @@ class Parts(NamedTuple):
 
 @allocating_kernel
 def _observe(
-    memory, state, places, frames, coms, parts, anchors, axes, bias, ncon, geoms, addresses, forces
+    memory, observed, places, frames, coms, parts, anchors, axes, bias, ncon, geoms, addresses, forces
 ):  # fmt: skip
     for i in range(3):
         c = coms[1, i]
-        before = c if state is None else memory[SEEN_COM.start + i]
+        before = c if observed is None else memory[SEEN_COM.start + i]
         memory[SEEN_VELOCITY.start + i] = (c - before) / CONTROL_DT
         memory[SEEN_COM.start + i] = c
         memory[SEEN_BASE.start + i] = places[1, i]
@@ -84,10 +84,10 @@ def _observe(
             memory[SEEN_FORCES.start + part] += total
         elif part == -1:
             memory[SEEN_TRUNK] += total
-    if state is not None:
-        state[COM], state[COM_VELOCITY] = memory[SEEN_COM], memory[SEEN_VELOCITY]
-        state[_RIGHT_FOOT], state[_LEFT_FOOT] = places[parts.ends[2]], places[parts.ends[3]]
-        state[CONTACT] = memory[_FEET_FORCES]
+    if observed is not None:
+        observed[COM], observed[COM_VELOCITY] = memory[SEEN_COM], memory[SEEN_VELOCITY]
+        observed[_RIGHT_FOOT], observed[_LEFT_FOOT] = places[parts.ends[2]], places[parts.ends[3]]
+        observed[CONTACT] = memory[_FEET_FORCES]
 
 
 def parts_of(index: PersonIndex, model: mujoco.MjModel) -> Parts:
@@ -103,12 +103,13 @@ def parts_of(index: PersonIndex, model: mujoco.MjModel) -> Parts:
 
 
 def observe_scramble(
-    parts: Parts, data: mujoco.MjData, memory: np.ndarray, state: np.ndarray | None = None
+    parts: Parts, data: mujoco.MjData, memory: np.ndarray, observed: np.ndarray | None = None
 ) -> None:
-    """Read what the controller needs of ``data`` into ``memory``, and into ``state``, a running controller's,
-    what everybody asks for; without it: at a pose that was put there, at rest."""
+    """Read what the controller needs of ``data`` into ``memory``, and into ``observed``
+    (`locomotion.body.observed`) what everybody asks for; without it: at a pose that was put there, at
+    rest."""
     contact = data.contact
     _observe(
-        memory, state, data.xpos, data.xmat, data.subtree_com, parts, data.xanchor, data.xaxis,
+        memory, observed, data.xpos, data.xmat, data.subtree_com, parts, data.xanchor, data.xaxis,
         data.qfrc_bias, data.ncon, contact.geom, contact.efc_address, data.efc_force,
     )  # fmt: skip

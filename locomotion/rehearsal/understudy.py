@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Protocol
+from typing import Any, Protocol
 
 import mujoco
 import numpy as np
@@ -15,11 +15,9 @@ from locomotion.human.on_feet import OnFeet
 from locomotion.human.state import Gait, HumanState, Status
 from locomotion.paths.follower import PathFollower
 from locomotion.paths.smoothing import ObstacleAhead
+from locomotion.rehearsal.predicted import Predicted
 
-if TYPE_CHECKING:
-    from locomotion.rehearsal.deciding import Decider
-
-__all__ = ["Chooser", "Understudy"]
+__all__ = ["Chooser", "Decides", "Understudy"]
 
 
 class Chooser(Protocol):
@@ -34,10 +32,17 @@ class Chooser(Protocol):
     def vary_step(self, longer: Sequence[float]) -> None: ...
 
 
+class Decides(Protocol):
+    """Members: as of `locomotion.rehearsal.deciding.Decider`."""
+
+    answer: Any
+    undecided: bool
+    predicted: Predicted
+
+
 class Understudy(Chooser, Protocol):
     """Members as in `locomotion.human.human.Human`."""
 
-    decider: Decider
     events: list[Event]
     on_feet: OnFeet
     status: Status
@@ -52,6 +57,8 @@ class Understudy(Chooser, Protocol):
     def control(self) -> NDArray[np.float64]: ...
     @property
     def data(self) -> mujoco.MjData: ...
+    @property
+    def decider(self) -> Decides: ...
     @property
     def decides_soon(self) -> bool: ...
     @property

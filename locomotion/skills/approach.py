@@ -13,14 +13,14 @@ same programme through cvxpy. The planner is meant to be asked again at the begi
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from locomotion.errors import LocomotionError
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["ApproachPlan", "plan_approach", "plan_approach_exact"]
+__all__ = ["ApproachPlan", "ApproachWeights", "plan_approach", "plan_approach_exact"]
 
 _MAX_STEPS = 512
 
@@ -219,6 +219,21 @@ def plan_kernel(
     return best_n, best_error, best_cost
 
 
+class ApproachWeights(NamedTuple):
+    """What counts how much in the plan of a run-up.
+
+    error: w_u [1/m²], at least 0, of a stance foot that is not at its mark.
+    change: w_i [s²/m²], above 0, of changes of speed: one for all, or several counted from the last step
+        backwards; the last one given serves all earlier steps.
+    """
+
+    error: float = 100.0
+    change: float | Sequence[float] = 1.0
+
+
+_USUAL = ApproachWeights()
+
+
 def _check(
     distance: float,
     speed: float,
@@ -226,8 +241,7 @@ def _check(
     takeoff: float,
     step_length: tuple[float, float],
     bounds: tuple[float, float] | None,
-    error_weight: float,
-    change_weights: float | Sequence[float],
+    weights: ApproachWeights,
     steps: int | None,
 ) -> tuple[float, float, float, float, float, np.ndarray]:
     values = {"distance": distance, "speed": speed, "entry": entry, "takeoff": takeoff}
@@ -242,11 +256,11 @@ def _check(
     low, high = (-np.inf, np.inf) if bounds is None else bounds
     if not low <= entry <= high:
         raise LocomotionError(f"bounds {(low, high)} must hold the entry speed {entry} m/s")
-    tail = np.atleast_1d(np.asarray(change_weights, dtype=np.float64))
+    tail = np.atleast_1d(np.asarray(weights.change, dtype=np.float64))
     if tail.ndim != 1 or tail.size == 0 or not np.all(np.isfinite(tail)) or np.any(tail <= 0):
-        raise LocomotionError("change_weights must be one or more finite numbers above 0")
-    if not (np.isfinite(error_weight) and error_weight >= 0):
-        raise LocomotionError(f"error_weight must be a finite number >= 0, not {error_weight}")
+        raise LocomotionError("weights.change must be one or more finite numbers above 0")
+    if not (np.isfinite(weights.error) and weights.error >= 0):
+        raise LocomotionError(f"weights.error must be a finite number >= 0, not {weights.error}")
     if steps is not None and not 0 <= steps <= _MAX_STEPS:
         raise LocomotionError(f"steps must be in 0..{_MAX_STEPS}, not {steps}")
     return float(distance - takeoff), float(a), float(b), float(low), float(high), tail
@@ -272,8 +286,7 @@ def plan_approach(
     step_length: tuple[float, float] = (0.2, 0.17),
     *,
     bounds: tuple[float, float] | None = None,
-    error_weight: float = 100.0,
-    change_weights: float | Sequence[float] = 1.0,
+    weights: ApproachWeights = _USUAL,
     steps: int | None = None,
 ) -> ApproachPlan:
     """Speeds of the remaining steps of a run-up (equation 15, in closed form; with bounds, an active set).
@@ -284,19 +297,15 @@ def plan_approach(
     takeoff: wanted distance from the last stance foot to the edge, u_h [m].
     step_length: (a, b) of the step length a v + b: a [s] >= 0, b [m]; the default is the paper's character.
     bounds: lowest and highest planned speed [m/s]; must hold `entry`. None: unbounded.
-    error_weight: w_u [1/m²], >= 0.
-    change_weights: w_i [s²/m²], > 0: one for all changes of speed, or several counted from the last step
-        backwards; the last one given serves all earlier steps.
+    weights: what counts how much.
     steps: number of steps; None: the best of the numbers that the distance suggests (0 to 512).
 
     Raises LocomotionError for values out of these ranges.
     """
-    gap, a, b, low, high, tail = _check(
-        distance, speed, entry, takeoff, step_length, bounds, error_weight, change_weights, steps
-    )
+    gap, a, b, low, high, tail = _check(distance, speed, entry, takeoff, step_length, bounds, weights, steps)
     first, last = _range_of_steps(gap, speed, entry, a, b, low, high, steps)
     speeds = np.empty(last)
-    n, error, cost = plan_kernel(gap, speed, entry, a, b, error_weight, tail, low, high, first, last, speeds)
+    n, error, cost = plan_kernel(gap, speed, entry, a, b, weights.error, tail, low, high, first, last, speeds)
     return ApproachPlan(speeds[:n].copy(), error, cost)
 
 
@@ -308,28 +317,25 @@ def plan_approach_exact(
     step_length: tuple[float, float] = (0.2, 0.17),
     *,
     bounds: tuple[float, float] | None = None,
-    error_weight: float = 100.0,
-    change_weights: float | Sequence[float] = 1.0,
+    weights: ApproachWeights = _USUAL,
     steps: int | None = None,
 ) -> ApproachPlan:
     """The same plan through cvxpy (needs the `exact` extra): arguments as `plan_approach`."""
     import cvxpy
 
-    gap, a, b, low, high, tail = _check(
-        distance, speed, entry, takeoff, step_length, bounds, error_weight, change_weights, steps
-    )
+    gap, a, b, low, high, tail = _check(distance, speed, entry, takeoff, step_length, bounds, weights, steps)
     first, last = _range_of_steps(gap, speed, entry, a, b, low, high, steps)
     best: ApproachPlan | None = None
     for n in range(first, last + 1):
-        weights = np.array([tail[min(n - 1 - i, tail.size - 1)] for i in range(n)])
+        changing = np.array([tail[min(n - 1 - i, tail.size - 1)] for i in range(n)])
         if n == 0:
-            plan = ApproachPlan(np.empty(0), gap, error_weight * gap**2 + tail[0] * (entry - speed) ** 2)
+            plan = ApproachPlan(np.empty(0), gap, weights.error * gap**2 + tail[0] * (entry - speed) ** 2)
         else:
             v = cvxpy.Variable(n)
             error = gap - n * b - a * cvxpy.sum(v)
             changes = cvxpy.diff(cvxpy.hstack([np.array([speed]), v]))
-            effort = cvxpy.sum(cvxpy.multiply(weights, cvxpy.square(changes)))
-            objective = error_weight * cvxpy.square(error) + effort
+            effort = cvxpy.sum(cvxpy.multiply(changing, cvxpy.square(changes)))
+            objective = weights.error * cvxpy.square(error) + effort
             constraints: list[Any] = [v[n - 1] == entry]
             if np.isfinite(low):
                 constraints.append(v >= low)

@@ -18,7 +18,7 @@ from locomotion.errors import LocomotionError
 from locomotion.gaits.run import controller
 from locomotion.gaits.run.skill import RunSkill
 from locomotion.paths.smoothing import ObstacleAhead
-from locomotion.skills.approach import ApproachPlan, plan_approach
+from locomotion.skills.approach import ApproachPlan, ApproachWeights, plan_approach
 
 __all__ = [
     "ClearingSkill",
@@ -31,8 +31,7 @@ __all__ = [
     "skill_ranges",
 ]
 
-_ERROR_WEIGHT = 2000.0
-_CHANGE_WEIGHTS = (8.0, 4.0, 2.0, 1.0)
+_WEIGHTS = ApproachWeights(2000.0, (8.0, 4.0, 2.0, 1.0))
 # [1/m²], [s²/m²] from the last step backwards: of those tried, these bring the foot nearest to the mark
 # (error sd 0.05 m) and the speed nearest to the entry speed (sd 0.1 m/s)
 _SPREAD = 0.8
@@ -180,6 +179,5 @@ def plan_run_up(
         mark,
         (a, b),
         bounds=(low, high),
-        error_weight=_ERROR_WEIGHT,
-        change_weights=_CHANGE_WEIGHTS,
+        weights=_WEIGHTS,
     )

@@ -1,7 +1,7 @@
 """What the control laws of skills on top of the run have in common (numba kernels;
 `locomotion.skills.jump.kernel` says how they work).
 
-Memories of such skills begin alike: `ACTIVE` to `EDGE`.
+Memories of such skills begin alike: `ACTIVE` to `AHEAD_Y`.
 """
 
 import math
@@ -9,13 +9,14 @@ import math
 import numpy as np
 
 from locomotion.body.person import CONTROL_DT, JOINT_NAMES
-from locomotion.gaits.run import controller
+from locomotion.gaits.run import layout
 from surefoot.kernels import kernel
 
 __all__ = [
-    "ACTIVE", "EDGE", "ENTRY", "ERROR_DISTANCE", "ERROR_SPEED", "FIRST_STEP", "LAST_STEP", "MIRROR",
-    "MIRROR_SIGN", "RANK", "SHARED_MEMORY", "TRIM", "add_actions", "add_clip", "add_feedback", "advance_pace",
-    "apply_offset", "hold_course", "measure_errors", "mirror", "sense_swing_foot",
+    "ACTIVE", "AHEAD_X", "AHEAD_Y", "EDGE_X", "EDGE_Y", "ENTRY", "ERROR_DISTANCE", "ERROR_SPEED",
+    "FIRST_STEP", "LAST_STEP", "MIRROR", "MIRROR_SIGN", "RANK", "SHARED_MEMORY", "SWING_FOOT", "TRIM",
+    "add_actions", "add_clip", "add_feedback", "advance_pace", "apply_offset", "hold_course",
+    "measure_errors", "mirror", "sense_swing_foot",
 ]  # fmt: skip
 
 RANK = 3
@@ -24,10 +25,15 @@ ACTIVE, FIRST_STEP, LAST_STEP, ENTRY, ERROR_DISTANCE, ERROR_SPEED, TRIM = range(
 """1 while the skill works; the run's step count when it began; step last seen; wanted entry speed [m/s];
 errors of the distance [m, positive: too far] and of the speed [m/s] measured last; the run's speed
 correction, kept."""
-EDGE = slice(7, 11)
+EDGE_X, EDGE_Y, AHEAD_X, AHEAD_Y = range(7, 11)
 """A point of the edge (x, y) [m] and the unit direction of the approach (x, y)."""
 SHARED_MEMORY = 11
+SWING_FOOT = 12
+"""Of the sensors of such a skill the first of the swing foot's three; before it are those of the run."""
 
+_SWING_HIP, _SWING_KNEE, _STANCE_HIP, _STANCE_KNEE, _STANCE_ANKLE, _TRUNK_PITCH = range(6)
+_SWING_ABDUCTION, _SWING_ROTATION, _STANCE_ABDUCTION, _STANCE_ROTATION, _TRUNK_ROLL, _TRUNK_YAW = range(6)
+# places of the sagittal and of the lateral actions
 _N = len(JOINT_NAMES)
 _R_HIP, _L_HIP = (JOINT_NAMES.index(f"{side}_hip_flexion") for side in ("right", "left"))
 _WAIST, _CHEST = JOINT_NAMES.index("waist_pitch"), JOINT_NAMES.index("chest_pitch")
@@ -74,10 +80,10 @@ def _between(knots, values, x):
 def measure_errors(mark, memory, state):
     """Errors of distance and speed when a step begins that should do so ``mark`` [m] before the edge, into
     ``memory``."""
-    planted = 28 + (3 if state[controller.STANCE] > 0 else 0)
-    ax, ay = memory[9], memory[10]
-    distance = (memory[7] - state[planted]) * ax + (memory[8] - state[planted + 1]) * ay
-    speed = state[17] * ax + state[18] * ay
+    planted = layout.LEFT_PLANTED if state[layout.STANCE] > 0 else layout.RIGHT_PLANTED
+    ax, ay = memory[AHEAD_X], memory[AHEAD_Y]
+    distance = (memory[EDGE_X] - state[planted]) * ax + (memory[EDGE_Y] - state[planted + 1]) * ay
+    speed = state[layout.VELOCITY_X] * ax + state[layout.VELOCITY_Y] * ay
     memory[ERROR_DISTANCE] = min(max(distance - mark, -0.5), 0.5)
     memory[ERROR_SPEED] = min(max(speed - memory[ENTRY], -0.8), 0.8)
 
@@ -86,25 +92,25 @@ def measure_errors(mark, memory, state):
 def hold_course(memory, state):
     """Let the run under the skill go straight at the obstacle, on level ground and with the speed correction
     that it began with. A body that is turned towards its path while it flies lands askew."""
-    state[controller.TRIM] = memory[TRIM]
-    state[controller.SLOPE] = 0.0
-    state[controller.HEADING] = math.atan2(memory[10], memory[9])
-    state[controller.TURN_RATE] = 0.0
+    state[layout.TRIM] = memory[TRIM]
+    state[layout.SLOPE] = 0.0
+    state[layout.HEADING] = math.atan2(memory[AHEAD_Y], memory[AHEAD_X])
+    state[layout.TURN_RATE] = 0.0
 
 
 @kernel
 def sense_swing_foot(state, sensed):
     """The run's 12 sensors and the swing foot relative to the centre of mass, in the mirrored frame of the
-    heading, into ``sensed[:15]``."""
-    side = state[controller.STANCE]
-    ch, sh = math.cos(state[controller.HEADING]), math.sin(state[controller.HEADING])
-    foot = 20 + (0 if side > 0 else 3)
-    dx, dy = state[foot] - state[14], state[foot + 1] - state[15]
+    heading, into the first 15 of ``sensed``."""
+    side = state[layout.STANCE]
+    ch, sh = math.cos(state[layout.HEADING]), math.sin(state[layout.HEADING])
+    foot = layout.RIGHT_FOOT if side > 0 else layout.LEFT_FOOT
+    dx, dy = state[foot] - state[layout.COM_X], state[foot + 1] - state[layout.COM_Y]
     for j in range(12):
-        sensed[j] = state[37 + j]
-    sensed[12] = ch * dx + sh * dy
-    sensed[13] = state[foot + 2] - state[16]
-    sensed[14] = -side * (-sh * dx + ch * dy)
+        sensed[j] = state[layout.FIRST_SENSOR + j]
+    sensed[SWING_FOOT] = ch * dx + sh * dy
+    sensed[SWING_FOOT + 1] = state[foot + 2] - state[layout.COM_Z]
+    sensed[SWING_FOOT + 2] = -side * (-sh * dx + ch * dy)
 
 
 @kernel
@@ -123,15 +129,15 @@ def add_feedback(m_sp, m_ap, sensed, reference, phase, action, side_action):
             expected = (1.0 - w) * reference[low, j] + w * reference[low + 1, j]
             latent += m_sp[r * n + j] * (sensed[j] - expected)
         latent = min(max(latent, -1.0), 1.0)
-        action[0] += m_ap[r] * latent
-        side_action[0] += m_ap[RANK + r] * latent
-        side_action[1] += m_ap[2 * RANK + r] * latent
-        action[2] += m_ap[3 * RANK + r] * latent
-        side_action[2] += m_ap[4 * RANK + r] * latent
-        side_action[3] += m_ap[5 * RANK + r] * latent
-        action[5] += m_ap[6 * RANK + r] * latent
-        side_action[4] += m_ap[7 * RANK + r] * latent
-        side_action[5] += m_ap[8 * RANK + r] * latent
+        action[_SWING_HIP] += m_ap[r] * latent
+        side_action[_SWING_ABDUCTION] += m_ap[RANK + r] * latent
+        side_action[_SWING_ROTATION] += m_ap[2 * RANK + r] * latent
+        action[_STANCE_HIP] += m_ap[3 * RANK + r] * latent
+        side_action[_STANCE_ABDUCTION] += m_ap[4 * RANK + r] * latent
+        side_action[_STANCE_ROTATION] += m_ap[5 * RANK + r] * latent
+        action[_TRUNK_PITCH] += m_ap[6 * RANK + r] * latent
+        side_action[_TRUNK_ROLL] += m_ap[7 * RANK + r] * latent
+        side_action[_TRUNK_YAW] += m_ap[8 * RANK + r] * latent
 
 
 @kernel
@@ -140,20 +146,20 @@ def add_actions(side, action, side_action, wanted):
     foot's."""
     stance = _L_HIP if side > 0 else _R_HIP
     swing = _R_HIP if side > 0 else _L_HIP
-    wanted[swing] += action[0]
-    wanted[swing + 3] += action[1]
-    wanted[stance] += action[2]
-    wanted[stance + 3] += action[3]
-    wanted[stance + 4] += action[4]
-    wanted[_WAIST] += action[5]
-    wanted[_CHEST] += action[5]
-    wanted[swing + 1] += side_action[0]
-    wanted[swing + 2] += side_action[1]
-    wanted[stance + 1] += side_action[2]
-    wanted[stance + 2] += side_action[3]
+    wanted[swing] += action[_SWING_HIP]
+    wanted[swing + 3] += action[_SWING_KNEE]
+    wanted[stance] += action[_STANCE_HIP]
+    wanted[stance + 3] += action[_STANCE_KNEE]
+    wanted[stance + 4] += action[_STANCE_ANKLE]
+    wanted[_WAIST] += action[_TRUNK_PITCH]
+    wanted[_CHEST] += action[_TRUNK_PITCH]
+    wanted[swing + 1] += side_action[_SWING_ABDUCTION]
+    wanted[swing + 2] += side_action[_SWING_ROTATION]
+    wanted[stance + 1] += side_action[_STANCE_ABDUCTION]
+    wanted[stance + 2] += side_action[_STANCE_ROTATION]
     for k in range(2):
-        wanted[_WAIST + 1 + k] -= side * side_action[4 + k]
-        wanted[_CHEST + 1 + k] -= side * side_action[4 + k]
+        wanted[_WAIST + 1 + k] -= side * side_action[_TRUNK_ROLL + k]
+        wanted[_CHEST + 1 + k] -= side * side_action[_TRUNK_ROLL + k]
 
 
 @kernel
@@ -177,9 +183,9 @@ def add_clip(share, alpha, cycle_rate, difference, rate, flip, mirror, sign, wan
 def advance_pace(beta, knots, timing, state):
     """Change the phase that `run_tick` has advanced as if the pace were ``beta``; gives the run's step
     time."""
-    step_time = _between(knots, timing, state[controller.SPEED])
-    phase = state[controller.PHASE]
-    state[controller.PHASE] = min(phase + (beta - 1.0) * CONTROL_DT / step_time, 1.0)
+    step_time = _between(knots, timing, state[layout.SPEED])
+    phase = state[layout.PHASE]
+    state[layout.PHASE] = min(phase + (beta - 1.0) * CONTROL_DT / step_time, 1.0)
     return step_time
 
 

@@ -16,16 +16,21 @@ from locomotion.paths.gait_plan import RUN_UP, SET_OFF
 from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.skills.approach import ApproachPlan
 from locomotion.skills.interface import ClearingSkill, distance_to, foot_distance, plan_run_up, skill_for
+from locomotion.skills.run_up_layout import (
+    BALKED,
+    BEND,
+    FARTHER,
+    FASTER,
+    NEXT,
+    PLANNED,
+    REHEARSED,
+    RETURNS,
+    RUN_UP_SIZE,
+    STEPS_SEEN,
+)
 
 __all__ = ["RUN_UP_SIZE", "RunUp", "TakeOff"]
 
-_NEXT, _STEPS_SEEN, _PLANNED, _FARTHER, _FASTER, _REHEARSED, _RETURNS, _BALKED, _BEND = range(9)
-# number of the next obstacle, steps made when the run-up was last planned, speed planned for this step or 0;
-# chosen in rehearsal: [m] that the mark is farther from the obstacle, [m/s] that the entry is faster, and 1
-# once a choice has gone well; how often it has gone back for another run-up; 1 after a run-up broken off;
-# [m] by which the path to the obstacle is longer than the distance at right angles to its edge
-RUN_UP_SIZE = 9
-"""Numbers that `RunUp` remembers."""
 _MOST_RETURNS = 8
 _ROOM = 5.2  # [m] before an obstacle in which a body that begins to run comes to its entry speed
 _SETTING_OFF = SET_OFF - _ROOM  # [m] that it walks before it runs
@@ -42,8 +47,9 @@ class TakeOff:
 
 
 class RunUp:
-    """The obstacles of a path, and how far the body has come with them. ``plan`` (9,): what it remembers of
-    the run-up; ``at_work``: what the skill that is at work remembers, None where there is none."""
+    """The obstacles of a path, and how far the body has come with them. ``plan``: what it remembers of
+    the run-up (`locomotion.skills.run_up_layout`); ``at_work``: what the skill that is at work remembers,
+    None where there is none."""
 
     def __init__(self, skills: Sequence[ClearingSkill], run: RunSkill) -> None:
         """``skills``: to clear them with, on top of ``run``."""
@@ -71,15 +77,15 @@ class RunUp:
     @property
     def ahead(self) -> ObstacleAhead | None:
         """The next obstacle, or the one that is being cleared."""
-        number = int(self.plan[_NEXT])
+        number = int(self.plan[NEXT])
         return self.obstacles[number] if number < len(self.obstacles) else None
 
     @property
     def passed(self) -> float:
         """Arc length [m] to which it can go back: behind the obstacle that it has cleared last, or 0."""
-        if self.plan[_NEXT] == 0.0:
+        if self.plan[NEXT] == 0.0:
             return 0.0
-        behind = self.obstacles[int(self.plan[_NEXT]) - 1]
+        behind = self.obstacles[int(self.plan[NEXT]) - 1]
         return behind.far_side + _OFF_EDGE
 
     @property
@@ -90,7 +96,7 @@ class RunUp:
     @property
     def planned(self) -> float:
         """Speed [m/s] planned for this step; 0 where there is no run-up."""
-        return float(self.plan[_PLANNED])
+        return float(self.plan[PLANNED])
 
     @property
     def skill(self) -> ClearingSkill:
@@ -118,10 +124,10 @@ class RunUp:
         if self.at_work is None:
             if obstacle.arc_length < arc:
                 self._pass()
-            elif obstacle.arc_length - arc < RUN_UP and state[controller.STEPS] != self.plan[_STEPS_SEEN]:
-                self.plan[_STEPS_SEEN] = state[controller.STEPS]
+            elif obstacle.arc_length - arc < RUN_UP and state[controller.STEPS] != self.plan[STEPS_SEEN]:
+                self.plan[STEPS_SEEN] = state[controller.STEPS]
                 straight = distance_to(obstacle, *state[controller.COM][:2])
-                self.plan[_BEND] = max(obstacle.arc_length - arc - straight, 0.0)
+                self.plan[BEND] = max(obstacle.arc_length - arc - straight, 0.0)
                 began = self._plan_step(obstacle, state)
         if self.at_work is not None and self.skill.tick(obstacle, self.at_work, state, data):
             self.at_work = None
@@ -133,33 +139,33 @@ class RunUp:
         """Arc length [m] to which a body that walks at ``arc`` of ``follower`` should go back so that its
         run-up is long enough, or as long as the obstacle behind and the last bend of the way allow; None: it
         need not, cannot, or has been back often enough."""
-        if self.ahead is None or self.plan[_RETURNS] >= _MOST_RETURNS:
+        if self.ahead is None or self.plan[RETURNS] >= _MOST_RETURNS:
             return None
         edge = self.ahead.arc_length
         to = max(edge - _ROOM - _SETTING_OFF, self.passed, follower.straight_before(edge))
         room = edge - to - _SETTING_OFF  # with less than `_ROOM` it tries what there is
-        if not arc < edge or (edge - arc > room and self.plan[_BALKED] == 0.0):
+        if not arc < edge or (edge - arc > room and self.plan[BALKED] == 0.0):
             return None
         return to if arc - to > _WORTH_IT else None
 
     def go_back(self) -> None:
         """It goes back for another run-up."""
-        self.plan[_RETURNS] += 1.0
-        self.plan[_BALKED] = 0.0
+        self.plan[RETURNS] += 1.0
+        self.plan[BALKED] = 0.0
 
     def balk(self) -> None:
         """It breaks the run-up off."""
-        self.plan[_PLANNED:_RETURNS] = 0.0
-        self.plan[_BALKED] = 1.0
+        self.plan[PLANNED:RETURNS] = 0.0
+        self.plan[BALKED] = 1.0
 
     @property
     def balked(self) -> bool:
         """Whether it has broken the run-up off, and has not begun another."""
-        return bool(self.plan[_BALKED] > 0.0)
+        return bool(self.plan[BALKED] > 0.0)
 
     def set_off(self, choice: Sequence[float], goes_well: bool) -> None:
         """It begins to run towards the obstacle ahead; arguments as of `vary`."""
-        self.plan[[_FARTHER, _FASTER, _REHEARSED, _BALKED, _STEPS_SEEN]] = *choice, goes_well, 0.0, 0.0
+        self.plan[[FARTHER, FASTER, REHEARSED, BALKED, STEPS_SEEN]] = *choice, goes_well, 0.0, 0.0
 
     def fell(self, state: NDArray[np.float64]) -> bool:
         """Whether a body has fallen whose skill is at work."""
@@ -169,7 +175,7 @@ class RunUp:
     def rehearses_within(self, arc: float, distance: float) -> bool:
         """Whether it comes to the run-up to an obstacle, which was not rehearsed yet, within ``distance`` [m]
         from arc length ``arc``; behind another obstacle when it is about to clear that."""
-        number = int(self.plan[_NEXT])
+        number = int(self.plan[NEXT])
         if self.clearing or (self.rehearsed and self.obstacles[number].arc_length - arc < distance):
             number += 1
         elif self.rehearsed:
@@ -186,37 +192,37 @@ class RunUp:
         """Plan the step that has just begun anew, with a mark that is ``choice[0]`` [m] farther from the
         obstacle and an entry that is ``choice[1]`` [m/s] faster; ``goes_well``: as was seen in rehearsal."""
         assert self.ahead is not None
-        self.plan[[_FARTHER, _FASTER, _REHEARSED]] = *choice, goes_well
+        self.plan[[FARTHER, FASTER, REHEARSED]] = *choice, goes_well
         speeds = self._plan_of(self.ahead, state).speeds
         if len(speeds):
-            self.plan[_PLANNED] = speeds[0]
+            self.plan[PLANNED] = speeds[0]
 
     @property
     def rehearsed(self) -> bool:
         """Whether a choice has gone well in rehearsal."""
-        return bool(self.plan[_REHEARSED] > 0.0)
+        return bool(self.plan[REHEARSED] > 0.0)
 
     def disturb(self) -> None:
         """Something may make it come otherwise than in rehearsal."""
-        self.plan[_REHEARSED] = 0.0
+        self.plan[REHEARSED] = 0.0
 
     def _plan_of(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> ApproachPlan:
-        farther, faster, bend = self.plan[[_FARTHER, _FASTER, _BEND]]
+        farther, faster, bend = self.plan[[FARTHER, FASTER, BEND]]
         return plan_run_up(state, obstacle, self.skill, self._run, farther, faster, bend)
 
     def _plan_step(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> TakeOff | None:
         """At a stance switch: the speed of the step that begins, or the start of the skill."""
         speeds = self._plan_of(obstacle, state).speeds
         if len(speeds):
-            self.plan[_PLANNED] = speeds[0]
+            self.plan[PLANNED] = speeds[0]
             return None
         entry, mark = self.skill.approach(obstacle.size)
         self.at_work = self.skill.start(obstacle, state)
-        self.plan[_PLANNED] = entry
-        fast = float(state[controller.STEP_SPEED]) - entry - self.plan[_FASTER]
-        return TakeOff(foot_distance(state, obstacle) - mark - self.plan[_FARTHER], fast)
+        self.plan[PLANNED] = entry
+        fast = float(state[controller.STEP_SPEED]) - entry - self.plan[FASTER]
+        return TakeOff(foot_distance(state, obstacle) - mark - self.plan[FARTHER], fast)
 
     def _pass(self) -> None:
         """Have the obstacle ahead behind it."""
-        self.plan[_NEXT] += 1.0
-        self.plan[_PLANNED:] = 0.0
+        self.plan[NEXT] += 1.0
+        self.plan[PLANNED:] = 0.0

@@ -1,13 +1,11 @@
 """Compressed glTF: Draco and meshopt, each through a package of the extra "meshes"."""
 
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any, Protocol
 
 import numpy as np
 
-from navmesh.meshfiles.mesh_file import missing_extra
-
-if TYPE_CHECKING:
-    from navmesh.meshfiles.gltf_document import Document
+from navmesh.meshfiles.mesh_file import MeshFileError, missing_extra
 
 __all__ = ["DRACO", "MESHOPT", "draco_mesh", "meshopt_bytes"]
 
@@ -18,7 +16,17 @@ _GROWTH = 4096
 """Times its size that meshopt data may unpack to; a buffer of equal bytes comes to a quarter of it."""
 
 
-def meshopt_bytes(document: "Document", data: bytes, extension: dict[str, Any], where: str) -> bytes:
+class _Document(Protocol):
+    """What is asked of a `navmesh.meshfiles.gltf_document.Document`."""
+
+    path: Path
+
+    def error(self, where: str, problem: str) -> MeshFileError: ...
+    def whole(self, within: dict[str, Any], name: str, where: str, default: int | None = None) -> int: ...
+    def view(self, index: Any, where: str) -> bytes: ...
+
+
+def meshopt_bytes(document: _Document, data: bytes, extension: dict[str, Any], where: str) -> bytes:
     """What a compressed bufferView holds."""
     try:
         import meshopt
@@ -41,7 +49,7 @@ def meshopt_bytes(document: "Document", data: bytes, extension: dict[str, Any], 
 
 
 def draco_mesh(
-    document: "Document", extension: dict[str, Any], where: str
+    document: _Document, extension: dict[str, Any], where: str
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """The attributes (v, k) of a compressed primitive, as stored, by name, and its triangles (f, 3)."""
     try:

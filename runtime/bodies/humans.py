@@ -1,5 +1,6 @@
 """Simulated persons in a world, each with a simulation of its own."""
 
+import math
 from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -22,7 +23,7 @@ from runtime.bodies.figure import Figure
 from runtime.bodies.protocol import PLANS_KEPT, Driver, Follower, radius_of, recall, saved_parts
 from runtime.errors import RuntimeInputError
 from runtime.planning.level import Level
-from runtime.planning.planning import NoWay, Plan, make_plan, way_holds
+from runtime.planning.planning import Beginning, NoWay, Plan, make_plan, way_holds
 from runtime.traffic.snapshot import foretold_on
 from surefoot.numeric import is_finite
 from surefoot.pausing import pause
@@ -231,7 +232,9 @@ class HumanDriver:
         lead: np.ndarray | None = None,
     ) -> Plan:
         graph, radius = self._level.graph, PERSON_RULES["radius"]
-        return make_plan(graph, start, goals, radius, skills, direction, lead=lead, closed_links=closed_links)
+        return make_plan(
+            graph, Beginning(start, direction, lead), goals, radius, skills, closed_links=closed_links
+        )
 
     def _closed_links(self, tags: Sequence[str]) -> np.ndarray:
         """Indices of the links over obstacles of these ``tags``, and of those without room for a run-up."""
@@ -342,13 +345,14 @@ class HumanDriver:
         return self.human.save_state(), tuple(self.plans)[-1:], self.hesitates
 
     def restore(self, state: Any) -> None:
-        if not (isinstance(state, tuple) and len(state) == 3 and is_finite(state[2]) and state[2] >= 0.0):
+        *parts, hesitates = state if isinstance(state, tuple) and len(state) == 3 else (math.nan,)
+        if not (is_finite(hesitates) and hesitates >= 0.0):
             raise RuntimeInputError("expected a person's state, its plans, and how long it hesitates [s]")
-        body, plans = saved_parts(state[:2], HumanState)
+        body, plans = saved_parts(tuple(parts), HumanState)
         check_person(body, self.human)
         self.human.restore_state(body)
         recall(self.plans, plans)
-        self.hesitates = state[2]
+        self.hesitates = hesitates
         self.before = None
 
     def state_hash(self) -> str:

@@ -198,9 +198,9 @@ class Population(Protocol):
 def saved_parts(state: Any, kind: type[_Saved]) -> tuple[_Saved, tuple[Plan, ...]]:
     """What a driver has saved: the state of its body, of this ``kind``, and its plans. Raises
     `RuntimeInputError` for anything else, and for plans that are none."""
-    if not (isinstance(state, tuple) and len(state) == 2 and isinstance(state[0], kind)):
+    body, plans = state if isinstance(state, tuple) and len(state) == 2 else (None, ())
+    if not isinstance(body, kind):
         raise RuntimeInputError(f"no {kind.__name__} is saved")
-    body, plans = state
     if not (isinstance(plans, tuple) and all(isinstance(plan, Plan) for plan in plans)):
         raise RuntimeInputError("no plans are saved")
     for plan in plans:

@@ -28,7 +28,7 @@ from runtime.bodies.pose import between
 from runtime.bodies.protocol import PLANS_KEPT, Driver, Follower, recall, saved_parts
 from runtime.errors import RuntimeInputError
 from runtime.planning.level import Level
-from runtime.planning.planning import NoWay, Plan, make_plan, way_holds
+from runtime.planning.planning import Beginning, NoWay, Plan, make_plan, way_holds
 from runtime.traffic.traffic import Traffic
 
 __all__ = ["AnimalDriver", "Pack"]
@@ -113,7 +113,12 @@ class _Ways:
 
     def through(self, start: np.ndarray, goals: np.ndarray, direction: np.ndarray | None = None) -> Plan:
         return make_plan(
-            self._level.graph, start, list(goals), self._body.radius, {}, direction, self._body.smoothing
+            self._level.graph,
+            Beginning(start, direction),
+            list(goals),
+            self._body.radius,
+            {},
+            self._body.smoothing,
         )
 
     def way(self, start: np.ndarray, goal: np.ndarray, direction: np.ndarray) -> Plan:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from navmesh.holding import line_holds
 from navmesh.route import Route
 from surefoot.pausing import pause
 
-__all__ = ["NoWay", "Plan", "make_plan", "way_holds", "why_not"]
+__all__ = ["Beginning", "NoWay", "Plan", "make_plan", "way_holds", "why_not"]
 
 _SHORT = 0.05  # [m] by which a smoothed path may be nearer to a wall than its radius
 _SAME = 0.01  # [m] by which a link's ends and height may differ
@@ -59,23 +60,30 @@ class Plan:
         return tuple(obstacle.affordance for obstacle in self.obstacles)
 
 
+class Beginning(NamedTuple):
+    """``start`` (3,) [m]: where the body is. ``direction`` (2,): where it is moving, None when it stands.
+    ``lead`` (n, 3) [m]: how its path begins in any case, from ``start``."""
+
+    start: np.ndarray
+    direction: np.ndarray | None = None
+    lead: np.ndarray | None = None
+
+
 def make_plan(
     graph: navmesh.NodeGraph,
-    start: np.ndarray,
+    begin: Beginning,
     goals: Sequence[np.ndarray],
     radius: float,
     skills: Mapping[str, tuple[float, float]],
-    direction: np.ndarray | None = None,
     smoothing: Smoothing = RUNNING,
-    lead: np.ndarray | None = None,
     closed_links: np.ndarray | Sequence[int] = (),
 ) -> Plan:
-    """Plan from ``start`` (3,) through ``goals``, each (3,), for a body of ``radius`` [m] with ``skills``,
-    over no link of ``closed_links`` (indices).
+    """Plan from where it may ``begin`` through ``goals``, each (3,), for a body of ``radius`` [m] with
+    ``skills``, over no link of ``closed_links`` (indices).
 
-    ``direction`` (2,) is where the body is moving, None when it stands; ``smoothing`` is what it wants of its
-    path. ``lead`` (n, 3) [m] is how the path begins in any case, from ``start``. Raises `NoWay`.
+    ``smoothing`` is what it wants of its path. Raises `NoWay`.
     """
+    start, direction, lead = begin
     raw, pulled, points, obstacles, ends = [], [], [], [], []
     begun = 0.0
     if lead is not None:

@@ -65,7 +65,7 @@ def follow(agent: AgentTrace, times: np.ndarray, moments: np.ndarray, distance: 
     else:
         yaw = np.zeros(len(grid))
     cameras = []
-    for moment in np.clip(moments, grid[0], grid[-1]):
+    for moment in np.clip(moments, grid.min(), grid.max()):
         at = np.array([np.interp(moment, grid, calm[:, axis]) for axis in range(3)])
         turned = float(np.interp(moment, grid, yaw))
         ahead, side = np.array([np.cos(turned), np.sin(turned)]), np.array([np.sin(turned), -np.cos(turned)])

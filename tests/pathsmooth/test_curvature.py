@@ -55,11 +55,12 @@ def test_turns_round_where_there_is_room():
 def test_search_never_misses_a_curve_that_exists():
     for seed in range(8):
         waypoints, centers, radii, start, end = bounded_curve(np.random.default_rng(seed), 0.5, 0.15, turns=3)
-        headings = [np.arctan2(t[1], t[0]) for t in (start, end)]
+        first, last = (
+            reach.End(place, np.arctan2(t[1], t[0]))
+            for place, t in ((waypoints[0], start), (waypoints[-1], end))
+        )
         for settings in ((0.5, 3, 0.06), (0.4, 4, 0.025)):
-            code, positions, discs = reach.search(
-                waypoints[0], headings[0], waypoints[-1], headings[1], centers, radii, 0.5, *settings
-            )
+            code, positions, discs = reach.search(first, last, centers, radii, 0.5, reach.Fineness(*settings))
             assert code == reach.REACHED
             assert np.all(np.diff(discs) >= 0)
             assert len(positions) == len(discs)

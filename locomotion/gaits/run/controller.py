@@ -47,15 +47,23 @@ import numpy as np
 from locomotion.body.person import CONTROL_DT, JOINT_NAMES, PersonIndex
 from locomotion.gaits.run.layout import (
     ACTIONS,
+    BLEND,
     CLIMB,
     COM,
     COM_AT_SWITCH,
     COM_VELOCITY,
+    COM_X,
+    COM_Y,
+    COM_Z,
     CONTACT,
     FALLEN,
     FEET,
+    FIRST_SENSOR,
     HEADING,
     LAST_TARGET,
+    LEFT_CONTACT,
+    LEFT_FOOT,
+    LEFT_PLANTED,
     MIN_PHASE,
     N_KNOTS,
     OBSERVED,
@@ -63,6 +71,9 @@ from locomotion.gaits.run.layout import (
     PHASE,
     PLANTED,
     RANK,
+    RIGHT_CONTACT,
+    RIGHT_FOOT,
+    RIGHT_PLANTED,
     SENSOR_VALUES,
     SENSORS,
     SLOPE,
@@ -73,12 +84,18 @@ from locomotion.gaits.run.layout import (
     STEP_SPEED,
     STEP_TIME,
     STEPS,
+    SWITCH_X,
+    SWITCH_Y,
     TICKS,
     TRIM,
     TURN_RATE,
+    VELOCITY_X,
+    VELOCITY_Y,
+    VELOCITY_Z,
     new_state,
     parameter_slices,
 )  # fmt: skip
+from locomotion.paths.command import HEADING_ASKED, SIDEWAYS_ASKED, SLOPE_THERE, SPEED_ASKED
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = [
@@ -104,8 +121,12 @@ _ACCELERATION = 1.5  # [m/s^2] of the reference speed
 _MAX_SIDE = 0.4  # [m/s]
 _MAX_SLOPE = 0.4
 _TOUCH = 20.0  # [N] under a foot that counts as contact
+_PITCH, _PITCH_RATE, _HEIGHT, _AHEAD_SPEED, _RISE_SPEED, _AHEAD = range(6)
+_ROLL, _YAW, _ROLL_RATE, _YAW_RATE, _LEFT_SPEED, _LEFT = range(6, 12)  # places in `SENSORS`
+_SWING_HIP, _STANCE_HIP, _TRUNK, _SWING_KNEE, _STANCE_KNEE, _STANCE_ANKLE = 0, 3, 6, 9, 10, 11
+# places in `CLIMB`; hips: flexion, abduction, rotation; trunk: pitch, roll, yaw
 _CLIP = np.array([0.6, 5.0, 0.2, 1.5, 2.0, 0.5, 0.6, 0.6, 5.0, 5.0, 1.5, 0.4])
-_TARGETS = LAST_TARGET.start
+_BLEND, _TARGETS = BLEND.start, LAST_TARGET.start
 
 
 @kernel
@@ -162,10 +183,10 @@ def _follow_command(limits, state, command):
     """Let the reference heading and speed follow the command at the skill's rates."""
     low, high = limits[0], limits[1]
     max_turn = limits[2] / max(state[SPEED], 1.0)
-    wanted = min(max(command[1], low), high)
+    wanted = min(max(command[SPEED_ASKED], low), high)
     step = _ACCELERATION * CONTROL_DT
     state[SPEED] += min(max(wanted - state[SPEED], -step), step)
-    error = _wrap(command[0] - state[HEADING])
+    error = _wrap(command[HEADING_ASKED] - state[HEADING])
     rate = min(max(error / 0.15, -max_turn), max_turn)
     change = 4.0 * max_turn * CONTROL_DT
     state[TURN_RATE] += min(max(rate - state[TURN_RATE], -change), change)
@@ -176,8 +197,8 @@ def _follow_command(limits, state, command):
 def _switch_stance(state):
     """End the step: the swing foot becomes the stance foot; measure the step and the slope."""
     new_side = -state[STANCE]
-    foot = 20 + (3 if new_side > 0 else 0)
-    planted = 28 + (3 if new_side > 0 else 0)
+    foot = LEFT_FOOT if new_side > 0 else RIGHT_FOOT
+    planted = LEFT_PLANTED if new_side > 0 else RIGHT_PLANTED
     ch, sh = math.cos(state[HEADING]), math.sin(state[HEADING])
     if state[STEPS] >= 2.0:
         along = (state[foot] - state[planted]) * ch + (state[foot + 1] - state[planted + 1]) * sh
@@ -185,7 +206,7 @@ def _switch_stance(state):
             slope = (state[foot + 2] - state[planted + 2]) / along
             state[SLOPE] += 0.5 * (min(max(slope, -_MAX_SLOPE), _MAX_SLOPE) - state[SLOPE])
     elapsed = max(state[STEP_TIME], CONTROL_DT)
-    moved = (state[14] - state[34]) * ch + (state[15] - state[35]) * sh
+    moved = (state[COM_X] - state[SWITCH_X]) * ch + (state[COM_Y] - state[SWITCH_Y]) * sh
     if state[STEPS] >= 1.0:
         state[STEP_LENGTH] = moved
         state[STEP_SPEED] = moved / elapsed
@@ -193,7 +214,7 @@ def _switch_stance(state):
         state[TRIM] = min(max(trim, -0.6), 0.6)
     for k in range(3):
         state[planted + k] = state[foot + k]
-        state[34 + k] = state[14 + k]
+        state[SWITCH_X + k] = state[COM_X + k]
     state[STANCE] = new_side
     state[PHASE] = 0.0
     state[STEP_TIME] = 0.0
@@ -214,24 +235,28 @@ def _sense(state, side, command, qpos, qvel, out):
     gx = r00 * qvel[3] + r01 * qvel[4] + r02 * qvel[5]
     gy = r10 * qvel[3] + r11 * qvel[4] + r12 * qvel[5]
     gz = r20 * qvel[3] + r21 * qvel[4] + r22 * qvel[5]
-    foot = 20 + (3 if side > 0 else 0)
-    dx, dy = state[14] - state[foot], state[15] - state[foot + 1]
+    foot = LEFT_FOOT if side > 0 else RIGHT_FOOT
+    dx, dy = state[COM_X] - state[foot], state[COM_Y] - state[foot + 1]
     mirror = -side
-    out[0] = math.atan2(ux, r22)
-    out[1] = -sh * gx + ch * gy
-    out[2] = state[16] - state[foot + 2]
-    out[3] = ch * state[17] + sh * state[18]
-    out[4] = state[19]
-    out[5] = ch * dx + sh * dy
+    out[_PITCH] = math.atan2(ux, r22)
+    out[_PITCH_RATE] = -sh * gx + ch * gy
+    out[_HEIGHT] = state[COM_Z] - state[foot + 2]
+    out[_AHEAD_SPEED] = ch * state[VELOCITY_X] + sh * state[VELOCITY_Y]
+    out[_RISE_SPEED] = state[VELOCITY_Z]
+    out[_AHEAD] = ch * dx + sh * dy
     # above the ground under the centre of mass, not above the foot
-    out[2] -= state[SLOPE] * out[5]
-    out[4] -= state[SLOPE] * out[3]
-    out[6] = mirror * math.atan2(-uy, r22)
-    out[7] = mirror * math.atan2(fy, fx)
-    out[8] = mirror * (ch * gx + sh * gy)
-    out[9] = mirror * (gz - state[TURN_RATE])
-    out[10] = mirror * (-sh * state[17] + ch * state[18] - min(max(command[2], -_MAX_SIDE), _MAX_SIDE))
-    out[11] = mirror * (-sh * dx + ch * dy)
+    out[_HEIGHT] -= state[SLOPE] * out[_AHEAD]
+    out[_RISE_SPEED] -= state[SLOPE] * out[_AHEAD_SPEED]
+    out[_ROLL] = mirror * math.atan2(-uy, r22)
+    out[_YAW] = mirror * math.atan2(fy, fx)
+    out[_ROLL_RATE] = mirror * (ch * gx + sh * gy)
+    out[_YAW_RATE] = mirror * (gz - state[TURN_RATE])
+    out[_LEFT_SPEED] = mirror * (
+        -sh * state[VELOCITY_X]
+        + ch * state[VELOCITY_Y]
+        - min(max(command[SIDEWAYS_ASKED], -_MAX_SIDE), _MAX_SIDE)
+    )
+    out[_LEFT] = mirror * (-sh * dx + ch * dy)
 
 
 @kernel
@@ -251,12 +276,12 @@ def _feedback(p, delta, turn, speed, slope, raw, out):
         for i in range(9):
             out[i] += p[_M_AP + i * RANK + r] * latent
     g = _POSTURE
-    out[0] += p[g] * raw[0]
-    out[1] -= p[g + 1] * raw[6]
-    out[2] += p[g + 2] * raw[7]
-    out[3] -= p[g + 3] * raw[0] + p[g + 4] * raw[1]
-    out[4] -= p[g + 5] * raw[6] + p[g + 6] * raw[8]
-    out[5] += p[g + 7] * raw[7] + p[g + 8] * raw[9]
+    out[_SWING_HIP] += p[g] * raw[_PITCH]
+    out[_SWING_HIP + 1] -= p[g + 1] * raw[_ROLL]
+    out[_SWING_HIP + 2] += p[g + 2] * raw[_YAW]
+    out[_STANCE_HIP] -= p[g + 3] * raw[_PITCH] + p[g + 4] * raw[_PITCH_RATE]
+    out[_STANCE_HIP + 1] -= p[g + 5] * raw[_ROLL] + p[g + 6] * raw[_ROLL_RATE]
+    out[_STANCE_HIP + 2] += p[g + 7] * raw[_YAW] + p[g + 8] * raw[_YAW_RATE]
 
 
 @allocating_kernel
@@ -271,7 +296,7 @@ def run_tick(knots, table, reference, rates, mean, state_reference, limits, stat
     """
     _follow_command(limits, state, command)
     if command.shape[0] > 3:
-        state[SLOPE] = min(max(command[3], -_MAX_SLOPE), _MAX_SLOPE)
+        state[SLOPE] = min(max(command[SLOPE_THERE], -_MAX_SLOPE), _MAX_SLOPE)
     p = np.empty(table.shape[1])
     _parameters_at(knots, table, state[SPEED], p)
     slope = state[SLOPE]
@@ -281,7 +306,7 @@ def run_tick(knots, table, reference, rates, mean, state_reference, limits, stat
     state[STEP_TIME] += CONTROL_DT
     state[TICKS] += 1.0
     switched = False
-    swing_contact = 26 + (1 if state[STANCE] < 0 else 0)
+    swing_contact = LEFT_CONTACT if state[STANCE] < 0 else RIGHT_CONTACT
     if state[PHASE] >= MIN_PHASE and state[swing_contact] > _TOUCH:
         _switch_stance(state)
         switched = True
@@ -300,13 +325,13 @@ def run_tick(knots, table, reference, rates, mean, state_reference, limits, stat
     speed = state[SPEED] + state[TRIM]
     for j in range(12):
         expected = (1.0 - weight) * state_reference[low, j] + weight * state_reference[low + 1, j]
-        if j == 3:
+        if j == _AHEAD_SPEED:
             expected += speed
-        elif j == 5:
+        elif j == _AHEAD:
             expected *= speed
         delta[j] = min(max(raw[j] - expected, -_CLIP[j]), _CLIP[j])
-        state[37 + j] = delta[j]
-    for j in range(6, 9):
+        state[FIRST_SENSOR + j] = delta[j]
+    for j in (_ROLL, _YAW, _ROLL_RATE):
         raw[j] = min(max(raw[j], -_CLIP[j]), _CLIP[j])
     action = np.empty(12)
     # turning left (positive) is towards the stance side on the left
@@ -339,27 +364,27 @@ def run_tick(knots, table, reference, rates, mean, state_reference, limits, stat
     swing = _R_HIP if side > 0 else _L_HIP
     mirror = -side
     for k in range(3):
-        target[swing + k] += action[k]
-        target[stance + k] += action[3 + k]
+        target[swing + k] += action[_SWING_HIP + k]
+        target[stance + k] += action[_STANCE_HIP + k]
         sign = 1.0 if k == 0 else mirror
-        target[_WAIST + k] += sign * action[6 + k]
-        target[_CHEST + k] += sign * action[6 + k]
-    target[swing + 3] += action[9]
-    target[stance + 3] += action[10]
-    target[stance + 4] += action[11]
+        target[_WAIST + k] += sign * action[_TRUNK + k]
+        target[_CHEST + k] += sign * action[_TRUNK + k]
+    target[swing + 3] += action[_SWING_KNEE]
+    target[stance + 3] += action[_STANCE_KNEE]
+    target[stance + 4] += action[_STANCE_ANKLE]
     # the head looks ahead whatever the trunk does
-    target[_NECK] += 0.1 - raw[0] - qpos[7 + _WAIST] - qpos[7 + _CHEST]
-    target[_NECK + 1] += -mirror * raw[6] - qpos[8 + _WAIST] - qpos[8 + _CHEST]
-    target[_NECK + 2] += -mirror * raw[7] - qpos[9 + _WAIST] - qpos[9 + _CHEST]
+    target[_NECK] += 0.1 - raw[_PITCH] - qpos[7 + _WAIST] - qpos[7 + _CHEST]
+    target[_NECK + 1] += -mirror * raw[_ROLL] - qpos[8 + _WAIST] - qpos[8 + _CHEST]
+    target[_NECK + 2] += -mirror * raw[_YAW] - qpos[9 + _WAIST] - qpos[9 + _CHEST]
 
     if switched:
         for j in range(_N):
-            state[49 + j] = state[88 + j] - target[j]
+            state[_BLEND + j] = state[_TARGETS + j] - target[j]
     decay = math.exp(-CONTROL_DT / _BLEND_TIME)
     for j in range(_N):
-        state[49 + j] *= decay
-        target[j] += state[49 + j]
-        state[88 + j] = target[j]
+        state[_BLEND + j] *= decay
+        target[j] += state[_BLEND + j]
+        state[_TARGETS + j] = target[j]
         ctrl[j] = target[j]
 
 
@@ -369,19 +394,19 @@ def _observe(
 ):  # fmt: skip
     com, right, left = coms[root], places[feet[0]], places[feet[1]]
     for k in range(3):
-        state[17 + k] = state[17 + k] if fresh else (com[k] - state[14 + k]) / CONTROL_DT
-        state[14 + k] = com[k]
-        state[20 + k] = right[k]
-        state[23 + k] = left[k]
-    state[26] = 0.0
-    state[27] = 0.0
+        state[VELOCITY_X + k] = state[VELOCITY_X + k] if fresh else (com[k] - state[COM_X + k]) / CONTROL_DT
+        state[COM_X + k] = com[k]
+        state[RIGHT_FOOT + k] = right[k]
+        state[LEFT_FOOT + k] = left[k]
+    state[RIGHT_CONTACT] = 0.0
+    state[LEFT_CONTACT] = 0.0
     for c in range(ncon):
         side = geom_side[geoms[c, 0]] + geom_side[geoms[c, 1]]
         if side != 0 and addresses[c] >= 0:
             total = 0.0
             for k in range(4):
                 total += forces[addresses[c] + k]
-            state[26 if side < 0 else 27] += total
+            state[RIGHT_CONTACT if side < 0 else LEFT_CONTACT] += total
     lowest = min(right[2], left[2])
     if com[2] - lowest < 0.45 or frames[chest, 8] < 0.35:
         state[FALLEN] = 1.0

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from locomotion.body import observed as seen
+
 __all__ = [
     "ACTIONS",
     "BLEND",
@@ -9,11 +11,18 @@ __all__ = [
     "COM",
     "COM_AT_SWITCH",
     "COM_VELOCITY",
+    "COM_X",
+    "COM_Y",
+    "COM_Z",
     "CONTACT",
     "FALLEN",
     "FEET",
+    "FIRST_SENSOR",
     "HEADING",
     "LAST_TARGET",
+    "LEFT_CONTACT",
+    "LEFT_FOOT",
+    "LEFT_PLANTED",
     "MIN_PHASE",
     "N_KNOTS",
     "OBSERVED",
@@ -21,6 +30,9 @@ __all__ = [
     "PHASE",
     "PLANTED",
     "RANK",
+    "RIGHT_CONTACT",
+    "RIGHT_FOOT",
+    "RIGHT_PLANTED",
     "SENSORS",
     "SENSOR_VALUES",
     "SLOPE",
@@ -31,9 +43,14 @@ __all__ = [
     "STEP_LENGTH",
     "STEP_SPEED",
     "STEP_TIME",
+    "SWITCH_X",
+    "SWITCH_Y",
     "TICKS",
     "TRIM",
     "TURN_RATE",
+    "VELOCITY_X",
+    "VELOCITY_Y",
+    "VELOCITY_Z",
     "new_state",
     "parameter_slices",
 ]
@@ -108,14 +125,27 @@ rate [rad/s]; speed correction [m/s]; steps made; time since the switch [s]; est
 heading; ticks made."""
 FALLEN, STEP_LENGTH, STEP_SPEED = 10, 11, 12
 """1 after a fall; length [m] and mean speed [m/s] of the last step. (13 is free.)"""
-COM, COM_VELOCITY, FEET, CONTACT = slice(14, 17), slice(17, 20), slice(20, 26), slice(26, 28)
-"""Centre of mass [m], its velocity [m/s], right and left foot [m] (ankles), normal force under each foot
-[N]."""
-OBSERVED = slice(14, 28)
+_OBSERVED = 14
+OBSERVED = slice(_OBSERVED, _OBSERVED + seen.OBSERVED_SIZE)
+"""What was observed of the body (`locomotion.body.observed`). The names of its numbers are those there:"""
+
+
+def _here(part: slice) -> slice:
+    return slice(_OBSERVED + part.start, _OBSERVED + part.stop)
+
+
+COM, COM_VELOCITY, FEET, CONTACT = map(_here, (seen.COM, seen.COM_VELOCITY, seen.FEET, seen.CONTACT))
+COM_X, COM_Y, COM_Z = _OBSERVED + seen.COM_X, _OBSERVED + seen.COM_Y, _OBSERVED + seen.COM_Z
+VELOCITY_X, VELOCITY_Y = _OBSERVED + seen.VELOCITY_X, _OBSERVED + seen.VELOCITY_Y
+VELOCITY_Z = _OBSERVED + seen.VELOCITY_Z
+RIGHT_FOOT, LEFT_FOOT = _OBSERVED + seen.RIGHT_FOOT, _OBSERVED + seen.LEFT_FOOT
+RIGHT_CONTACT, LEFT_CONTACT = _OBSERVED + seen.RIGHT_CONTACT, _OBSERVED + seen.LEFT_CONTACT
 PLANTED, COM_AT_SWITCH = slice(28, 34), slice(34, 37)
+RIGHT_PLANTED, LEFT_PLANTED, SWITCH_X, SWITCH_Y = 28, 31, 34, 35
 """Touchdown places of the right and the left foot [m]; centre of mass at the last switch [m]."""
 SENSOR_VALUES = slice(37, 49)
 """Deviations of the `SENSORS` from their reference at the last tick, clipped."""
+FIRST_SENSOR = 37
 BLEND, LAST_TARGET = slice(49, 49 + 39), slice(88, 88 + 39)
 """What is left of the jump of the targets at the last switch; PD targets of the last tick [rad]."""
 STATE_SIZE = 127

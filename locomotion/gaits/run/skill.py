@@ -180,10 +180,13 @@ def reset_running(
     state[controller.COM_VELOCITY] = data.qvel[:3]
 
 
-def run_on(state: np.ndarray, stance: float, heading: float, speed: float, phase: float = 0.1) -> None:
+def run_on(
+    state: np.ndarray, targets: np.ndarray, stance: float, heading: float, speed: float, phase: float = 0.1
+) -> None:
     """Let the running controller take over a body that walks at ``speed`` [m/s] and has just put its foot of
-    side ``stance`` down; ``state`` holds what was observed, and the last targets."""
-    seen, targets = state[controller.OBSERVED].copy(), state[controller.LAST_TARGET].copy()
+    side ``stance`` down; ``state`` holds what was observed, ``targets`` (39,) [rad] are
+    those of the last tick."""
+    seen = state[controller.OBSERVED].copy()
     state[:] = controller.new_state()
     state[controller.OBSERVED], state[controller.LAST_TARGET] = seen, targets
     state[controller.STANCE], state[controller.HEADING] = stance, heading

@@ -1,12 +1,13 @@
 """The walking controller: capture-point steps, stance legs that make forces, a swing leg that is aimed
 (numba).
 
-Per control tick of 10 ms the order is *control, physics, observe*, as in `locomotion.gaits.run.controller`,
-whose ``state`` also holds what was observed::
+Per control tick of 10 ms the order is *control, physics, observe*, as in `locomotion.gaits.run.controller`.
+Of that controller's ``state`` the walk reads what was observed (`locomotion.body.observed`), and writes
+nothing::
 
     tables, walk = load_walk_skill().tables, new_walk(heading)
     each tick:
-        walk_tick(tables, ground, walk, state, command, data.qpos, data.qvel, data.ctrl)
+        walk_tick(tables, ground, walk, state[OBSERVED], command, data.qpos, data.qvel, data.ctrl)
         mujoco.mj_step(model, data, STEPS_PER_TICK)
         observe(index, model, data, state)
         observe_walk(index, data, walk)
@@ -28,10 +29,10 @@ import math
 import mujoco
 import numpy as np
 
+from locomotion.body import observed as seen
 from locomotion.body.anatomy import ANKLE, MASS
 from locomotion.body.leg_dynamics import STRAIGHT_LEG, leg_momentum
 from locomotion.body.person import CONTROL_DT, JOINT_NAMES, PersonIndex
-from locomotion.gaits.run import layout as run_layout
 from locomotion.gaits.walk.footholds import SOLE, bearing, lowest_gap, plan_foothold, sway
 from locomotion.gaits.walk.layout import (
     ATTITUDES,
@@ -65,7 +66,6 @@ from locomotion.gaits.walk.layout import (
     WALK_HEADING,
     WALK_SPEED,
     WALK_STANCE,
-    WALK_STEPS,
     WALK_TICKS,
     WALK_TRIM,
     WALK_TURN_RATE,
@@ -77,6 +77,7 @@ from locomotion.gaits.walk.layout import (
 )
 from locomotion.gaits.walk.legs import height_in_reach, steady_foot, support_leg, swing_leg
 from locomotion.gaits.walk.steps import advance_step, follow
+from locomotion.paths.command import HEADING_ASKED, SIDEWAYS_ASKED, SLOPE_THERE, SPEED_ASKED
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["legs_momentum", "observe_walk", "walk_tick"]
@@ -104,8 +105,6 @@ _SPOT, _NORMAL, _LIFT = FOOTHOLD.start, FOOTHOLD_NORMAL.start, LIFT.start
 _SOLES, _FEET, _PELVIS = SEEN_SOLES.start, SEEN_FEET.start, SEEN_PELVIS.start
 _ATTITUDES, _LONGER = ATTITUDES.start, LONGER.start
 _ANCHORS, _AXES, _TORQUES = SEEN_ANCHORS.start, SEEN_AXES.start, SEEN_TORQUES.start
-_COM, _VEL, _CONTACT = run_layout.COM.start, run_layout.COM_VELOCITY.start, run_layout.CONTACT.start
-_TARGETS = run_layout.LAST_TARGET.start
 _R_HIP, _L_HIP = (JOINT_NAMES.index(f"{s}_hip_flexion") for s in ("right", "left"))
 _SHOULDER, _ABDUCTION, _ELBOW = (
     np.array([JOINT_NAMES.index(f"{s}_{name}") for s in ("right", "left")])
@@ -248,7 +247,7 @@ def legs_momentum(pelvis, speed, qpos, qvel):
 
 
 @kernel
-def _lift(gains, walk, steep, slope, soles, state, hip):
+def _lift(gains, walk, steep, slope, soles, observed, hip):
     """Acceleration [m/s^2] upward that takes the body to its height: above the line between the feet, and on
     steep ground no higher than the swing leg reaches from its ``hip`` (3,), no faster than it may climb."""
     stance = 1 if walk[WALK_STANCE] > 0 else 0
@@ -261,31 +260,32 @@ def _lift(gains, walk, steep, slope, soles, state, hip):
     height = min(0.5 * (soles[stance, 2] + other), low + gains[_DROP]) + gains[_HEIGHT]
     height -= max(gains[_Z_UPHILL] * slope, -gains[_Z_SLOPE] * slope)
     if walk[PHASE] == SINGLE:
-        reach = height_in_reach(walk, state[_COM : _COM + 3], state[_VEL : _VEL + 2], hip)
+        reach = height_in_reach(walk, observed[seen.COM], observed[seen.VELOCITY_X : seen.VELOCITY_Z], hip)
         late = walk[CLOCK] > walk[SWING_TIME]
         height += (1.0 if late else steep) * min(reach - height, 0.0)
     if walk[BODY_HEIGHT] != walk[BODY_HEIGHT]:
-        walk[BODY_HEIGHT] = state[_COM + 2]
+        walk[BODY_HEIGHT] = observed[seen.COM_Z]
     climb = clamp((height - walk[BODY_HEIGHT]) / CONTROL_DT, -gains[_CLIMB], gains[_CLIMB])
     walk[BODY_HEIGHT] += climb * CONTROL_DT
     height += steep * (walk[BODY_HEIGHT] - height)
-    return gains[_Z_STIFF] * (height - state[_COM + 2]) + gains[_Z_DAMP] * (steep * climb - state[_VEL + 2])
+    return gains[_Z_STIFF] * (height - observed[seen.COM_Z]) + gains[_Z_DAMP] * (
+        steep * climb - observed[seen.VELOCITY_Z]
+    )
 
 
 @allocating_kernel
-def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
+def walk_tick(tables, ground, walk, observed, command, qpos, qvel, ctrl):
     """One control tick: advance ``walk`` (WALK_SIZE,), write the PD targets ``ctrl`` (39,) [rad].
 
     tables (5, len(GAINS)): rows of gains as named in `walk_layout`; ground as in `footholds.ground_at`;
-    state: a running controller's, with what was observed; its heading, speed, stance and steps are kept up
-    to date. All float64.
+    observed: as in `locomotion.body.observed`. All float64.
     """
     steep = steep_share(walk[STEEPNESS])
-    stairs = (1.0 - steep) * steep_share(max(abs(command[3]), walk[STAIRS_AHEAD]) - walk[STEEPNESS])
-    asked = command[1]
+    stairs = (1.0 - steep) * steep_share(max(abs(command[SLOPE_THERE]), walk[STAIRS_AHEAD]) - walk[STEEPNESS])
+    asked = command[SPEED_ASKED]
     if stairs > 0.0 and asked > _LEAST:  # a step is a tread: who goes more slowly stops on each
         asked = max(asked, stairs * _TREAD / (tables[STAIRS, _SWING] + tables[STAIRS, _TRANSFER]))
-    error = follow(walk, command[0], asked, command[2])
+    error = follow(walk, command[HEADING_ASKED], asked, command[SIDEWAYS_ASKED])
     rests = clamp((_SLOW - abs(walk[WALK_SPEED])) / (_SLOW - _RESTING), 0.0, 1.0)
     gains = tables[LEVEL] + steep * (tables[STEEP] - tables[LEVEL] + rests * (tables[REST] - tables[STEEP]))
     gains += stairs * (tables[STAIRS] - tables[LEVEL])
@@ -301,17 +301,22 @@ def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
     axes = walk[_AXES : _AXES + 36].reshape(2, 6, 3)
     torques = walk[_TORQUES : _TORQUES + 12].reshape(2, 6)
     stance = 1 if walk[WALK_STANCE] > 0 else 0
-    omega = math.sqrt(_GRAVITY / max(state[_COM + 2] - soles[stance, 2], 0.5))
-    capture = np.array([state[_COM] + state[_VEL] / omega, state[_COM + 1] + state[_VEL + 1] / omega])
+    omega = math.sqrt(_GRAVITY / max(observed[seen.COM_Z] - soles[stance, 2], 0.5))
+    capture = np.array(
+        [
+            observed[seen.COM_X] + observed[seen.VELOCITY_X] / omega,
+            observed[seen.COM_Y] + observed[seen.VELOCITY_Y] / omega,
+        ]
+    )
     if gains[_MOMENTUM] > 0.0:
         ch, sh = math.cos(walk[WALK_HEADING]), math.sin(walk[WALK_HEADING])
-        along = ch * state[_VEL] + sh * state[_VEL + 1]
+        along = ch * observed[seen.VELOCITY_X] + sh * observed[seen.VELOCITY_Y]
         # what swings ahead now brakes the body until it lands: its momentum does not count
         momentum = gains[_MOMENTUM] * legs_momentum(pelvis, along, qpos, qvel)
         too_far = momentum * omega / (MASS * _GRAVITY)
         capture[0] -= ch * too_far
         capture[1] -= sh * too_far
-    contact = state[_CONTACT : _CONTACT + 2]
+    contact = observed[seen.CONTACT]
     points, spans = soles.copy(), np.ones((2, 2))
     uneven = steep + stairs
     walk[UNEVEN] = uneven
@@ -329,7 +334,7 @@ def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
         spans,
         contact,
         down,
-        state[_COM : _COM + 2],
+        observed[seen.COM_X : seen.COM_Z],
         capture,
         omega,
         qpos,
@@ -339,7 +344,7 @@ def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
     planning = walk[CLOCK] < 0.8 * walk[SWING_TIME] and (walk[WALK_TICKS] % 3.0 == 0.0 or walk[CLOCK] == 0.0)
     if swinging and planning:
         hip_at = anchors[1 - stance, 0].copy()
-        hip_at[:2] += max(walk[SWING_TIME] - walk[CLOCK], 0.0) * state[_VEL : _VEL + 2]
+        hip_at[:2] += max(walk[SWING_TIME] - walk[CLOCK], 0.0) * observed[seen.VELOCITY_X : seen.VELOCITY_Z]
         plan_foothold(gains, ground, walk, capture[0], capture[1], omega, points[stance], hip_at, stairs)
         for i in range(3):
             walk[_ATTITUDES + 3 * (1 - stance) + i] = walk[_NORMAL + i]
@@ -347,8 +352,8 @@ def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
     _pressures(gains, walk, feet, points, spans, capture, omega, cop, share)
 
     # force of the ground: height, then the line from the centre of pressure past the centre of mass
-    slope = clamp(command[3], -_MAX_SLOPE, _MAX_SLOPE)
-    lift = _lift(gains, walk, uneven, slope, soles, state, anchors[1 - stance, 0])
+    slope = clamp(command[SLOPE_THERE], -_MAX_SLOPE, _MAX_SLOPE)
+    lift = _lift(gains, walk, uneven, slope, soles, observed, anchors[1 - stance, 0])
     force, moment = np.empty(3), np.empty(3)
     force[2] = MASS * (_GRAVITY + clamp(lift, -6.0, 8.0))
     _upright(gains, walk, slope, pelvis, qvel, moment)
@@ -363,9 +368,9 @@ def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
     for i in range(2):
         moment[i] = clamp(moment[i], -gains[_MOMENT], gains[_MOMENT])
     px, py, pz = share[0] * cop[0] + share[1] * cop[1]
-    arm = max(state[_COM + 2] - pz, 0.4)
-    force[0] = -(moment[1] + (px - state[_COM]) * force[2]) / arm
-    force[1] = (moment[0] - (py - state[_COM + 1]) * force[2]) / arm
+    arm = max(observed[seen.COM_Z] - pz, 0.4)
+    force[0] = -(moment[1] + (px - observed[seen.COM_X]) * force[2]) / arm
+    force[1] = (moment[0] - (py - observed[seen.COM_Y]) * force[2]) / arm
     sideways = math.sqrt(force[0] * force[0] + force[1] * force[1])
     if sideways > _FRICTION * force[2]:
         force[:2] *= _FRICTION * force[2] / sideways
@@ -385,7 +390,14 @@ def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
         ctrl[hip + 6] = 0.0
         if swinging and k != stance:
             swing_leg(
-                gains, walk, pelvis, anchors[k, 0].copy(), state[_VEL : _VEL + 2], hip, 2.0 * k - 1.0, ctrl
+                gains,
+                walk,
+                pelvis,
+                anchors[k, 0].copy(),
+                observed[seen.VELOCITY_X : seen.VELOCITY_Z],
+                hip,
+                2.0 * k - 1.0,
+                ctrl,
             )
         else:
             attitude = walk[_ATTITUDES + 3 * k : _ATTITUDES + 3 * k + 3]
@@ -394,8 +406,3 @@ def walk_tick(tables, ground, walk, state, command, qpos, qvel, ctrl):
                 hip, gains[_LEG_DAMPING], share[k] * force, cop[k], share[k] * moment[2], anchors[k],
                 axes[k], hold, spans[k], qpos, qvel, ctrl,
             )  # fmt: skip
-    for j in range(ctrl.shape[0]):
-        state[_TARGETS + j] = ctrl[j]
-    state[run_layout.HEADING], state[run_layout.SPEED] = walk[WALK_HEADING], walk[WALK_SPEED]
-    state[run_layout.STANCE], state[run_layout.STEPS] = walk[WALK_STANCE], walk[WALK_STEPS]
-    state[run_layout.TURN_RATE], state[run_layout.SLOPE] = walk[WALK_TURN_RATE], slope

@@ -10,6 +10,7 @@ import numpy as np
 from annotated_types import Gt, Le
 from pydantic import model_validator
 
+from locomotion.body import observed as seen
 from locomotion.body.anatomy import ANKLE
 from locomotion.body.learned_file import RELEARN, SkillHeader, read_skill
 from locomotion.body.leg_kinematics import solve_leg
@@ -185,17 +186,18 @@ def _put_foot(
     return steep
 
 
-def rise_walking(walk: np.ndarray, state: np.ndarray, heading: float) -> None:
+def rise_walking(walk: np.ndarray, observed: np.ndarray, heading: float) -> None:
     """Let the walking controller take over a body that crouches on both feet and moves towards ``heading``
-    [rad], from the next tick on; ``state`` holds what was observed. The number of steps begins below 0: with
+    [rad], from the next tick on; ``observed``: as in
+    `locomotion.body.observed`. The number of steps begins below 0: with
     the first ones it steadies itself."""
     walk[:] = new_walk(heading)
     walk[WALK_STEPS] = -_STEADYING
     ch, sh = math.cos(heading), math.sin(heading)
     # the foot that the body passes nearest to bears it first: it does not tip away over the outside
     left = np.array([-sh, ch])
-    passing = left @ (state[controller.COM] + _PASSING * state[controller.COM_VELOCITY])[:2]
-    aside = np.abs(state[controller.FEET].reshape(2, 3)[:, :2] @ left - passing)
+    passing = left @ (observed[seen.COM] + _PASSING * observed[seen.COM_VELOCITY])[:2]
+    aside = np.abs(observed[seen.FEET].reshape(2, 3)[:, :2] @ left - passing)
     walk[PHASE], walk[WALK_STANCE] = DOUBLE, -1.0 if aside[0] < aside[1] else 1.0
-    vx, vy = state[controller.COM_VELOCITY][:2]
+    vx, vy = observed[seen.VELOCITY_X : seen.VELOCITY_Z]
     walk[WALK_SPEED] = min(max(vx * ch + vy * sh, 0.0), 1.2)

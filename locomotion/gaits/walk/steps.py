@@ -41,6 +41,7 @@ from locomotion.gaits.walk.layout import (
     pace_of,
     wrap,
 )  # fmt: skip
+from locomotion.paths.command import SIDEWAYS_ASKED, SPEED_ASKED
 from surefoot.kernels import kernel
 
 __all__ = ["TURN_RATE", "TURN_TIME", "advance_step", "begin_swing", "follow"]
@@ -161,7 +162,7 @@ def advance_step(gains, walk, command, error, soles, points, spans, contact, dow
     stance = 1 if walk[WALK_STANCE] > 0 else 0
     swing = 1 - stance
     ch, sh = math.cos(walk[WALK_HEADING]), math.sin(walk[WALK_HEADING])
-    still = abs(command[1]) < _STILL and abs(command[2]) < _STILL
+    still = abs(command[SPEED_ASKED]) < _STILL and abs(command[SIDEWAYS_ASKED]) < _STILL
     # on its toes, or with the capture point before, behind or beside its feet, a person stays up only by
     # stepping; with crossed legs it cannot stand
     mx, my = 0.5 * (points[0, 0] + points[1, 0]), 0.5 * (points[0, 1] + points[1, 1])

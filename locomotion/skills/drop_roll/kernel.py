@@ -22,11 +22,12 @@ import math
 import numpy as np
 
 from locomotion.body.person import CONTROL_DT, JOINT_NAMES
-from locomotion.gaits.run import controller
+from locomotion.gaits.run import layout
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = [
-    "ACTIONS", "ACTIVE", "ANGLE", "BINS", "ENDED", "FALL", "KNOTS", "LOW", "MEMORY_SIZE", "MOST_OFF",
+    "ACTIONS", "ACTIVE", "AHEAD_X", "AHEAD_Y", "ANGLE",
+    "BINS", "EDGE_X", "EDGE_Y", "ENDED", "FALL", "KNOTS", "LOW", "MEMORY_SIZE", "MOST_OFF",
     "PARAMETERS", "PHASE", "PHASE_TICKS", "RANK", "RATE", "RISE", "ROLL", "SENSED", "SENSORS", "SHARE",
     "SHARE_RATE", "SIDE", "TAKE_OFF", "drop_roll_tick", "parameter_slices",
     "start_drop_roll",
@@ -47,6 +48,10 @@ SENSORS = (
 """Turning forward [rad/s]; velocity and height [m] of the centre of mass above the lower ground; the feet's
 middle relative to it; then the lateral ones: rise of the pelvis's left side, its rate, turn of the pelvis's
 axis, its rate, sideways velocity, feet to the left."""
+_S_RATE, _S_VX, _S_VZ, _S_HEIGHT, _S_FEET_AHEAD, _S_FEET_BELOW = range(6)
+_S_TILT, _S_TILT_RATE, _S_YAW, _S_YAW_RATE, _S_VY, _S_ASIDE = range(6, 12)  # places in `SENSORS`
+_HIPS, _KNEES, _ANKLES, _TRUNK_PITCH, _SHOULDERS, _HIP_SPLIT, _TRUNK_ROLL, _TRUNK_YAW, _LEGS_SIDE = range(9)
+# places in `ACTIONS`
 _N_ACTIONS, _N_SENSORS = len(ACTIONS), len(SENSORS)
 
 PARAMETERS: dict[str, int] = {
@@ -78,9 +83,9 @@ ACTIVE, PHASE, ANGLE, RATE, SHARE, SHARE_RATE, SIDE, LOW, PHASE_TICKS, ENDED = r
 """1 while it goes on; its phase; angle [rad] by which the pelvis has turned forward and its rate; share of
 the clip and its rate [1/s]; +1 over the right shoulder, -1 the left; height [m] of the lower ground; ticks in
 this phase; 1 when it ended on its feet."""
-EDGE = slice(10, 14)
+EDGE_X, EDGE_Y, AHEAD_X, AHEAD_Y = range(10, 14)
 """A point of the edge (x, y) [m] and the unit direction of the approach (x, y)."""
-_FROM = 14
+_FROM = 14  # (39,) targets [rad] of the run with which it began to fall
 _N = len(JOINT_NAMES)
 SENSED = slice(_FROM + _N, _FROM + _N + _N_SENSORS)
 MEMORY_SIZE = _FROM + _N + _N_SENSORS
@@ -110,14 +115,14 @@ def start_drop_roll(memory, side, low, edge_x, edge_y, ahead_x, ahead_y):
     memory[:] = 0.0
     memory[ACTIVE] = 1.0
     memory[SIDE], memory[LOW] = side, low
-    memory[10], memory[11], memory[12], memory[13] = edge_x, edge_y, ahead_x, ahead_y
+    memory[EDGE_X], memory[EDGE_Y], memory[AHEAD_X], memory[AHEAD_Y] = edge_x, edge_y, ahead_x, ahead_y
 
 
 @kernel
 def _sense(memory, state, qpos, qvel):
     """Turn of the pelvis and the sensors into ``memory``."""
     w, x, y, z = qpos[3], qpos[4], qpos[5], qpos[6]
-    ax, ay, side = memory[12], memory[13], memory[SIDE]
+    ax, ay, side = memory[AHEAD_X], memory[AHEAD_Y], memory[SIDE]
     r00, r10, r20 = 1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)
     r01, r11, r21 = 2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)
     r02, r12, r22 = 2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)
@@ -129,27 +134,29 @@ def _sense(memory, state, qpos, qvel):
     memory[ANGLE] += turned
     memory[RATE] = -gx * ay + gy * ax
     out = memory[_SENSED : _SENSED + _N_SENSORS]
-    fx = 0.5 * (state[20] + state[23]) - state[14]
-    fy = 0.5 * (state[21] + state[24]) - state[15]
-    out[0] = memory[RATE]
-    out[1] = state[17] * ax + state[18] * ay
-    out[2] = state[19]
-    out[3] = state[16] - memory[LOW]
-    out[4] = fx * ax + fy * ay
-    out[5] = 0.5 * (state[22] + state[25]) - state[16]
-    out[6] = side * r21
-    out[7] = side * (gx * ax + gy * ay)
-    out[8] = side * (r01 * ax + r11 * ay)
-    out[9] = side * gz
-    out[10] = side * (-state[17] * ay + state[18] * ax)
-    out[11] = side * (-fx * ay + fy * ax)
+    fx = 0.5 * (state[layout.RIGHT_FOOT] + state[layout.LEFT_FOOT]) - state[layout.COM_X]
+    fy = 0.5 * (state[layout.RIGHT_FOOT + 1] + state[layout.LEFT_FOOT + 1]) - state[layout.COM_Y]
+    out[_S_RATE] = memory[RATE]
+    out[_S_VX] = state[layout.VELOCITY_X] * ax + state[layout.VELOCITY_Y] * ay
+    out[_S_VZ] = state[layout.VELOCITY_Z]
+    out[_S_HEIGHT] = state[layout.COM_Z] - memory[LOW]
+    out[_S_FEET_AHEAD] = fx * ax + fy * ay
+    out[_S_FEET_BELOW] = (
+        0.5 * (state[layout.RIGHT_FOOT + 2] + state[layout.LEFT_FOOT + 2]) - state[layout.COM_Z]
+    )
+    out[_S_TILT] = side * r21
+    out[_S_TILT_RATE] = side * (gx * ax + gy * ay)
+    out[_S_YAW] = side * (r01 * ax + r11 * ay)
+    out[_S_YAW_RATE] = side * gz
+    out[_S_VY] = side * (-state[layout.VELOCITY_X] * ay + state[layout.VELOCITY_Y] * ax)
+    out[_S_ASIDE] = side * (-fx * ay + fy * ax)
 
 
 @kernel
 def _time_to_touchdown(memory, state):
     """[s] until the lower foot is on the lower ground."""
-    above = max(min(state[22], state[25]) - _ANKLE - memory[LOW], 0.0)
-    vz = state[19]
+    above = max(min(state[layout.RIGHT_FOOT + 2], state[layout.LEFT_FOOT + 2]) - _ANKLE - memory[LOW], 0.0)
+    vz = state[layout.VELOCITY_Z]
     return (vz + math.sqrt(vz * vz + 2.0 * _GRAVITY * above)) / _GRAVITY
 
 
@@ -159,15 +166,17 @@ def _go_on(p, memory, state):
     phase = memory[PHASE]
     memory[PHASE_TICKS] += 1.0
     sensed = memory[_SENSED : _SENSED + _N_SENSORS]
-    contact = state[26] + state[27]
+    contact = state[layout.RIGHT_CONTACT] + state[layout.LEFT_CONTACT]
     if phase == TAKE_OFF:
-        past = (state[14] - memory[10]) * memory[12] + (state[15] - memory[11]) * memory[13]
+        past = (state[layout.COM_X] - memory[EDGE_X]) * memory[AHEAD_X] + (
+            state[layout.COM_Y] - memory[EDGE_Y]
+        ) * memory[AHEAD_Y]
         if past > 0.0 and contact < 1.0:
             memory[PHASE], memory[PHASE_TICKS] = FALL, 0.0
         return
     old = memory[SHARE]
     if phase == FALL:
-        low = min(state[22], state[25]) - memory[LOW]
+        low = min(state[layout.RIGHT_FOOT + 2], state[layout.LEFT_FOOT + 2]) - memory[LOW]
         if contact > _TOUCH and low < 0.25:
             memory[PHASE], memory[PHASE_TICKS] = ROLL, 0.0
         left = _time_to_touchdown(memory, state)
@@ -177,8 +186,8 @@ def _go_on(p, memory, state):
         slow = old + max(p[_TIMING + 1], 0.0) * CONTROL_DT
         memory[SHARE] = min(max(old, min(max(slow, wanted), wanted + p[_TIMING + 2])), 1.0)
         if phase == ROLL:
-            over = memory[ANGLE] > p[_RISE] and sensed[3] > p[_RISE + 1] and contact > _TOUCH
-            if over and 0.25 * sensed[1] - sensed[4] > p[_RISE + 2]:
+            over = memory[ANGLE] > p[_RISE] and sensed[_S_HEIGHT] > p[_RISE + 1] and contact > _TOUCH
+            if over and 0.25 * sensed[_S_VX] - sensed[_S_FEET_AHEAD] > p[_RISE + 2]:
                 memory[PHASE], memory[ENDED], memory[ACTIVE] = RISE, 1.0, 0.0
             elif memory[PHASE_TICKS] > _LONGEST:
                 memory[ACTIVE] = 0.0
@@ -197,7 +206,7 @@ def _aim_legs(p, memory, state, pose):
     share = min(max(1.0 - (left - 0.05) / _REACH, 0.0), 1.0)
     pitch = memory[ANGLE] + min(max(memory[RATE], -2.0), 3.0) * left
     sensed = memory[_SENSED : _SENSED + _N_SENSORS]
-    ahead = p[_LANDING] + p[_LANDING + 1] * (sensed[1] - 3.0) + p[_LANDING + 2] * memory[RATE]
+    ahead = p[_LANDING] + p[_LANDING + 1] * (sensed[_S_VX] - 3.0) + p[_LANDING + 2] * memory[RATE]
     ahead += p[_LANDING + 6] * (pitch - _PITCH)
     for leg in range(2):
         hip = _HIP if leg == 0 else _LEFT_HIP
@@ -256,15 +265,15 @@ def drop_roll_tick(p, clip, reference, mirror, sign, memory, state, qpos, qvel, 
     for leg in range(2):
         hip = _HIP if leg == 0 else _LEFT_HIP
         right = 1.0 if leg == 0 else -1.0
-        pose[hip] += action[0] + right * action[5]
-        pose[hip + 1] += right * action[8]
-        pose[hip + 3] += action[1]
-        pose[hip + 4] += action[2]
-        pose[_SHOULDER if leg == 0 else _LEFT_SHOULDER] += action[4]
+        pose[hip] += action[_HIPS] + right * action[_HIP_SPLIT]
+        pose[hip + 1] += right * action[_LEGS_SIDE]
+        pose[hip + 3] += action[_KNEES]
+        pose[hip + 4] += action[_ANKLES]
+        pose[_SHOULDER if leg == 0 else _LEFT_SHOULDER] += action[_SHOULDERS]
     for part in (_WAIST, _CHEST):
-        pose[part] += action[3]
-        pose[part + 1] += action[6]
-        pose[part + 2] += action[7]
+        pose[part] += action[_TRUNK_PITCH]
+        pose[part + 1] += action[_TRUNK_ROLL]
+        pose[part + 2] += action[_TRUNK_YAW]
     if phase == FALL:
         _aim_legs(p, memory, state, pose)
     keep = 0.0
@@ -277,4 +286,4 @@ def drop_roll_tick(p, clip, reference, mirror, sign, memory, state, qpos, qvel, 
             ctrl[mirror[j]] = sign[j] * pose[j]
     for j in range(_N):
         ctrl[j] += keep * (memory[_FROM + j] - ctrl[j])
-        state[controller.LAST_TARGET.start + j] = ctrl[j]
+        state[layout.LAST_TARGET.start + j] = ctrl[j]

@@ -25,6 +25,10 @@ from locomotion.body.person import JOINT_NAMES
 from locomotion.gaits.run import controller
 from locomotion.skills.kernel import (
     ACTIVE,
+    AHEAD_X,
+    AHEAD_Y,
+    EDGE_X,
+    EDGE_Y,
     ENTRY,
     ERROR_DISTANCE,
     ERROR_SPEED,
@@ -91,11 +95,12 @@ _SP = parameter_slices()
 _A_HAT, _LATERAL, _BETA, _ALPHA, _MARKS, _GAINS, _M_SP, _M_AP, _ENTRY = (_SP[k].start for k in PARAMETERS)
 
 # --- what a jump remembers, after what `locomotion.skills.kernel` says
-_OFFSET = SHARED_MEMORY
-SENSED = slice(50, 50 + SENSORS)
-MEMORY_SIZE = 50 + SENSORS
-
 _N = len(JOINT_NAMES)
+_OFFSET = SHARED_MEMORY
+_SENSED = _OFFSET + _N
+SENSED = slice(_SENSED, _SENSED + SENSORS)
+"""Sensors of the last tick, after the (39,) offsets [rad] of the targets, low-passed."""
+MEMORY_SIZE = _SENSED + SENSORS
 
 
 @allocating_kernel
@@ -111,7 +116,7 @@ def start_jump(p, memory, state, edge_x, edge_y, ahead_x, ahead_y):
     memory[LAST_STEP] = 0.0
     memory[ENTRY] = p[_ENTRY]
     memory[TRIM] = state[controller.TRIM]
-    memory[7], memory[8], memory[9], memory[10] = edge_x, edge_y, ahead_x, ahead_y
+    memory[EDGE_X], memory[EDGE_Y], memory[AHEAD_X], memory[AHEAD_Y] = edge_x, edge_y, ahead_x, ahead_y
     measure_errors(p[_MARKS], memory, state)
 
 
@@ -135,7 +140,7 @@ def jump_tick(p, knots, timing, difference, difference_rate, reference, mirror, 
     side, phase = state[controller.STANCE], state[controller.PHASE]
     hold_course(memory, state)
     wanted = np.zeros(_N)
-    sensed = memory[50 : 50 + SENSORS]
+    sensed = memory[_SENSED : _SENSED + SENSORS]
     sense_swing_foot(state, sensed)
     if step < STEPS:
         at = phase * (KNOTS - 1)

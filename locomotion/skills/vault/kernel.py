@@ -1,4 +1,4 @@
-"""Vaulting over a wall from the run, one hand on its top: the control law on top of the running controller.
+"""Vaulting over a wall from the run, one hand on its top: the control law on top of the running layout.
 
 A vault takes four steps, counted by the stance switches of `controller.run_tick`:
 
@@ -29,10 +29,13 @@ import numpy as np
 
 from locomotion.body.arm_reach import ARM_START, HAND_RADIUS, hand_place, reach, shoulder_frame
 from locomotion.body.person import CONTROL_DT, JOINT_NAMES
-from locomotion.gaits.run import controller
+from locomotion.gaits.run import layout
 from locomotion.skills.kernel import (
     ACTIVE,
-    EDGE,
+    AHEAD_X,
+    AHEAD_Y,
+    EDGE_X,
+    EDGE_Y,
     ENTRY,
     ERROR_DISTANCE,
     ERROR_SPEED,
@@ -40,6 +43,7 @@ from locomotion.skills.kernel import (
     LAST_STEP,
     RANK,
     SHARED_MEMORY,
+    SWING_FOOT,
     TRIM,
     add_actions,
     add_clip,
@@ -53,7 +57,7 @@ from locomotion.skills.kernel import (
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = [
-    "ACTIVE", "ANCHOR", "BINS", "EDGE", "ERROR_DISTANCE", "ERROR_SPEED", "HELD", "HOLD", "KNOTS", "LAST_STEP",
+    "ACTIVE", "ANCHOR", "BINS", "ERROR_DISTANCE", "ERROR_SPEED", "HELD", "HOLD", "KNOTS", "LAST_STEP",
     "MEMORY_SIZE", "PARAMETERS", "PHASES", "RANK", "SENSED", "SENSORS", "SIDE", "STEPS", "TOP",
     "parameter_slices", "start_vault", "vault_fell", "vault_tick",
 ]  # fmt: skip
@@ -102,14 +106,18 @@ TOP, DEPTH, HOLD, HELD, SIDE, REACH, PHASE, STRETCH, FLOOR = range(SHARED_MEMORY
 """Height of the top in the world [m]; thickness [m]; hand: 0 free, 1 held, 2 let go; ticks held; side of the
 supporting hand (-1 right, +1 left); how far the arm has gone over to reaching [0 to 1]; phase 0, 1, 2;
 distance of the point from the shoulder over the arm's length; height of the floor before the wall [m]."""
-ANCHOR = slice(20, 23)
-"""Where the hand is held (3,) [m]."""
-_LAST_ARM, _OFFSET = 23, 27
-SENSED = slice(66, 66 + SENSORS)
-MEMORY_SIZE = 66 + SENSORS
-
 _N = len(JOINT_NAMES)
+_ANCHOR = SHARED_MEMORY + 9
+ANCHOR = slice(_ANCHOR, _ANCHOR + 3)
+"""Where the hand is held (3,) [m]."""
+_LAST_ARM = ANCHOR.stop  # angles (4,) [rad] of the supporting arm that were aimed at last
+_OFFSET = _LAST_ARM + 4  # (39,) [rad] of the targets, low-passed
+_SENSED = _OFFSET + _N
+SENSED = slice(_SENSED, _SENSED + SENSORS)
+"""Sensors of the last tick."""
+MEMORY_SIZE = _SENSED + SENSORS
 _R_ARM, _L_ARM = ARM_START
+_HAND = SWING_FOOT + 3  # first of the supporting hand's three sensors
 _LEAD = 0.1  # servo damping per stiffness [s], as in locomotion.body.person
 _REACH_TIME, _RETURN_TIME = 0.10, 0.15  # [s] in which the arm goes over to reaching, and back
 _TOUCH = 0.006  # [m] above the top at which the hand touches it
@@ -128,12 +136,12 @@ def start_vault(p, memory, state, edge, ahead, top, height, depth):
     """
     memory[:] = 0.0
     memory[ACTIVE] = 1.0
-    memory[FIRST_STEP] = state[controller.STEPS]
+    memory[FIRST_STEP] = state[layout.STEPS]
     memory[ENTRY] = p[_ENTRY]
-    memory[TRIM] = state[controller.TRIM]
-    memory[7], memory[8], memory[9], memory[10] = edge[0], edge[1], ahead[0], ahead[1]
+    memory[TRIM] = state[layout.TRIM]
+    memory[EDGE_X], memory[EDGE_Y], memory[AHEAD_X], memory[AHEAD_Y] = edge[0], edge[1], ahead[0], ahead[1]
     memory[TOP], memory[DEPTH], memory[FLOOR] = top, depth, top - height
-    memory[SIDE] = -state[controller.STANCE]  # the next stance foot takes off, on the side of the hand
+    memory[SIDE] = -state[layout.STANCE]  # the next stance foot takes off, on the side of the hand
     measure_errors(p[_MARKS], memory, state)
 
 
@@ -142,21 +150,21 @@ def vault_fell(memory, state):
     """Whether a body that `controller.observe` takes for fallen has fallen: over the wall it lies and tucks
     its legs."""
     if memory[ACTIVE] == 0.0 or memory[LAST_STEP] != 1.0:
-        return state[controller.FALLEN] > 0.0
-    return state[16] < memory[FLOOR] + _LOWEST
+        return state[layout.FALLEN] > 0.0
+    return state[layout.COM_Z] < memory[FLOOR] + _LOWEST
 
 
 @allocating_kernel
 def _hand(p, memory, step, phase, qpos):
     """Let the hand touch, hold and let go."""
-    ax, ay = memory[9], memory[10]
+    ax, ay = memory[AHEAD_X], memory[AHEAD_Y]
     if memory[HOLD] == 0.0 and step == 1 and memory[REACH] > 0.0:
         hand = hand_place(qpos, memory[SIDE])
-        into = (hand[0] - memory[7]) * ax + (hand[1] - memory[8]) * ay
+        into = (hand[0] - memory[EDGE_X]) * ax + (hand[1] - memory[EDGE_Y]) * ay
         if hand[2] < memory[TOP] + HAND_RADIUS + _TOUCH and 0.0 < into < memory[DEPTH]:
             memory[HOLD] = 1.0
             for k in range(3):
-                memory[20 + k] = hand[k]
+                memory[_ANCHOR + k] = hand[k]
     elif memory[HOLD] == 1.0:
         memory[HELD] += 1.0
 
@@ -171,19 +179,21 @@ def _arm(p, memory, step, phase, qpos, ctrl):
     weight = memory[REACH]
     if weight == 0.0:
         return
-    side, ax, ay = memory[SIDE], memory[9], memory[10]
+    side, ax, ay = memory[SIDE], memory[AHEAD_X], memory[AHEAD_Y]
     arm = _L_ARM if side > 0 else _R_ARM
     target, angles = np.empty(3), np.empty(4)
     if memory[HOLD] == 0.0:
         shoulder, _ = shoulder_frame(qpos, side)
-        across = (shoulder[1] - memory[8]) * ax - (shoulder[0] - memory[7]) * ay + side * p[_ARM + 2]
+        across = (
+            (shoulder[1] - memory[EDGE_Y]) * ax - (shoulder[0] - memory[EDGE_X]) * ay + side * p[_ARM + 2]
+        )
         into = p[_ARM + 1] * memory[DEPTH]
-        target[0] = memory[7] + into * ax - across * ay
-        target[1] = memory[8] + into * ay + across * ax
+        target[0] = memory[EDGE_X] + into * ax - across * ay
+        target[1] = memory[EDGE_Y] + into * ay + across * ax
         target[2] = memory[TOP] + HAND_RADIUS - 0.02
     else:
         for k in range(3):
-            target[k] = memory[20 + k]
+            target[k] = memory[_ANCHOR + k]
     if memory[HOLD] < 2.0:
         stretched = reach(qpos, side, target, p[_ARM + 3], angles)
         if memory[HOLD] == 1.0 and stretched > _STRETCHED and stretched > memory[STRETCH]:
@@ -220,15 +230,17 @@ def vault_tick(p, knots, timing, difference, rate, reference, mirror, sign, memo
     """
     if memory[ACTIVE] == 0.0:
         return
-    step = int(state[controller.STEPS] - memory[FIRST_STEP])
+    step = int(state[layout.STEPS] - memory[FIRST_STEP])
     if step != int(memory[LAST_STEP]):
         memory[LAST_STEP] = step
         if step == 1:
             measure_errors(p[_MARKS + 1], memory, state)
-    side, phase = state[controller.STANCE], state[controller.PHASE]
+    side, phase = state[layout.STANCE], state[layout.PHASE]
     hold_course(memory, state)
     _hand(p, memory, step, phase, qpos)
-    past = (state[14] - memory[20]) * memory[9] + (state[15] - memory[21]) * memory[10]
+    past = (state[layout.COM_X] - memory[_ANCHOR]) * memory[AHEAD_X] + (
+        state[layout.COM_Y] - memory[_ANCHOR + 1]
+    ) * memory[AHEAD_Y]
     if memory[HOLD] == 1.0 and (past > 0.0 or step > 1 or memory[HELD] > _LONGEST):
         memory[HOLD] = 2.0
     if step > 1:
@@ -236,17 +248,17 @@ def vault_tick(p, knots, timing, difference, rate, reference, mirror, sign, memo
     elif memory[HOLD] == 2.0:
         memory[PHASE] = 1.0
     wanted = np.zeros(_N)
-    sensed = memory[66 : 66 + SENSORS]
+    sensed = memory[_SENSED : _SENSED + SENSORS]
     sense_swing_foot(state, sensed)
-    for j in range(15, 18):
+    for j in range(_HAND, _HAND + 3):
         sensed[j] = 0.0
     if memory[PHASE] == 0.0 and step == 1:
         hand = hand_place(qpos, memory[SIDE])
-        ch, sh = math.cos(state[controller.HEADING]), math.sin(state[controller.HEADING])
-        dx, dy = hand[0] - state[14], hand[1] - state[15]
-        sensed[15] = ch * dx + sh * dy
-        sensed[16] = hand[2] - state[16]
-        sensed[17] = -side * (-sh * dx + ch * dy)
+        ch, sh = math.cos(state[layout.HEADING]), math.sin(state[layout.HEADING])
+        dx, dy = hand[0] - state[layout.COM_X], hand[1] - state[layout.COM_Y]
+        sensed[_HAND] = ch * dx + sh * dy
+        sensed[_HAND + 1] = hand[2] - state[layout.COM_Z]
+        sensed[_HAND + 2] = -side * (-sh * dx + ch * dy)
     if step < STEPS:
         at = phase * (KNOTS - 1)
         low = min(int(at), KNOTS - 2)
@@ -282,5 +294,5 @@ def vault_tick(p, knots, timing, difference, rate, reference, mirror, sign, memo
             add_clip(share, alpha, cycle_rate, difference, rate, flip, mirror, sign, wanted)
     apply_offset(wanted, memory[_OFFSET : _OFFSET + _N], ctrl)
     _arm(p, memory, step, phase, qpos, ctrl)
-    if step >= STEPS and state[controller.STEP_TIME] > 0.12:
+    if step >= STEPS and state[layout.STEP_TIME] > 0.12:
         memory[ACTIVE] = 0.0

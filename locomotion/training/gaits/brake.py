@@ -15,8 +15,9 @@ from locomotion.gaits.run.skill import RunSkill, load_run_skill
 from locomotion.gaits.slow_down import load_slow_down_skill
 from locomotion.gaits.walk.layout import GAINS, LEVEL, gain_limits
 from locomotion.gaits.walk.skill import load_walk_skill
-from locomotion.human.human import Human
+from locomotion.human.human import BetweenGaits, Human
 from locomotion.human.state import MOVING, HumanState
+from locomotion.training.gaits.gait_state import gait_state
 from locomotion.training.gaits.run_genes import row_scale
 from locomotion.training.search.loop import Stage
 from locomotion.training.training import Training
@@ -114,7 +115,10 @@ def run_steadily(rng: np.random.Generator, human: Human, speed: float, bend: flo
 
 def draw_starts(rng: np.random.Generator, count: int, speeds: tuple[float, float]) -> list[HumanState]:
     """People in steady runs of ``speeds`` [m/s], a third of them in bends."""
-    human, starts = Human(None, clearing=(), rehearsals=0, brake=brake_of(first_guess())), []
+    human, starts = (
+        Human(None, clearing=(), rehearsals=0, between=BetweenGaits(brake=brake_of(first_guess()))),
+        [],
+    )
     while len(starts) < count:
         speed = float(rng.uniform(*speeds))
         radius = max(_SHARPEST, speed * speed / 1.2) * float(rng.uniform(1.0, 2.0))
@@ -144,7 +148,7 @@ def stop(human: Human, start: HumanState, harder: float = 1.0) -> Stop:
         tilt += float(human.qpos[4:6] @ human.qpos[4:6])
         peak = max(peak, float(state[c.CONTACT].sum()) / (9.81 * MASS))
     fell = human.status == "fallen"
-    askew = abs(math.remainder(human.yaw - state[c.HEADING], 2.0 * math.pi))
+    askew = abs(math.remainder(human.yaw - gait_state(human)[c.HEADING], 2.0 * math.pi))
     return Stop(fell, stood > 0, way, least, tick / _LONGEST, tilt / max(tick, 1), peak, walked, askew)
 
 
@@ -237,7 +241,9 @@ class BrakeProblem:
         self, stage: Stage, candidate: np.ndarray, scenarios: list[tuple[HumanState, np.ndarray]]
     ) -> tuple[float, float]:
         """Mean cost of the best ways, and share of the trials in which the person stayed up in these."""
-        human = Human(None, self.run, clearing=(), rehearsals=0, brake=brake_of(candidate))
+        human = Human(
+            None, self.run, clearing=(), rehearsals=0, between=BetweenGaits(brake=brake_of(candidate))
+        )
         costs, up = [], []
         for start, ways in scenarios:
             stops = [stop(human, start, float(harder)) for harder in ways]

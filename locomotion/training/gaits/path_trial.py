@@ -11,6 +11,7 @@ from locomotion.gaits.run.skill import RunSkill
 from locomotion.gaits.walk.skill import WalkSkill
 from locomotion.human.human import Human
 from locomotion.human.state import MOVING
+from locomotion.training.gaits.gait_state import gait_state
 from locomotion.training.gaits.grounds import FLIGHTS, HALF, ground_height, training_ground
 from locomotion.training.gaits.rollout import Measures, Trial
 
@@ -138,7 +139,7 @@ def follow_path(
     human.reset(points[0], yaw)
     human.follow(points, scenario.speed)
     measures = Measures(human.data, human.index)
-    push, state = human.data.xfrc_applied[human.index.chest], human.control
+    push, state = human.data.xfrc_applied[human.index.chest], gait_state(human)
     aside, behind, ticks, turned = 0.0, 0.0, 0, 0
     while (
         human.status in MOVING
@@ -156,6 +157,7 @@ def follow_path(
         human.tick()
         ticks += 1
         aside += min(abs(human.lateral_error), 1.0)
+        state = gait_state(human)
         measures.add(state)
         behind += float(state[c.SPEED]) - math.hypot(*state[c.COM_VELOCITY][:2])
     push[:2] = 0.0

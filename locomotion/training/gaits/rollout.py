@@ -9,7 +9,9 @@ import numpy as np
 from locomotion.body.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, build_person
 from locomotion.body.physics import restore_physics
 from locomotion.gaits.run import controller as c
+from locomotion.gaits.run import layout
 from locomotion.gaits.run.skill import RunSkill, reset_running
+from locomotion.paths.command import HEADING_ASKED, SLOPE_THERE, SPEED_ASKED
 from locomotion.training.gaits.walk_starts import walk_starts
 from surefoot.kernels import allocating_kernel
 
@@ -87,17 +89,17 @@ def stays_up(trial: Trial, duration: float) -> bool:
 def _measure(sums, state, head, past, forces, chest):
     """Add one tick to ``sums``; ``past`` (8,): head at the last two ticks, ticks seen, and the highest
     reaction of the present step [body weights]."""
-    h = state[2]
+    h = state[layout.HEADING]
     ch, sh = math.cos(h), math.sin(h)
-    vx = ch * state[17] + sh * state[18]
-    vy = -sh * state[17] + ch * state[18]
+    vx = ch * state[layout.VELOCITY_X] + sh * state[layout.VELOCITY_Y]
+    vy = -sh * state[layout.VELOCITY_X] + ch * state[layout.VELOCITY_Y]
     sums[0] += 1.0
     sums[1] += vx
     sums[2] += abs(vy)
-    reaction = (state[26] + state[27]) / _WEIGHT
+    reaction = (state[layout.RIGHT_CONTACT] + state[layout.LEFT_CONTACT]) / _WEIGHT
     sums[3] += max(reaction - 3.0, 0.0)
     sums[10] = max(sums[10], reaction)
-    if state[7] == 0.0:
+    if state[layout.STEP_TIME] == 0.0:
         sums[12] += max(past[7] - _SOFT, 0.0) ** 2
         sums[13] += 1.0
         past[7] = 0.0
@@ -121,9 +123,9 @@ def _measure(sums, state, head, past, forces, chest):
     sums[6] += tilt_x * tilt_x + 2.0 * tilt_y * tilt_y
     fy = -sh * chest[0] + ch * chest[3]
     sums[7] += fy * fy
-    sums[8] += abs(math.atan2(-sh * state[17] + ch * state[18], max(vx, 0.5)))
-    if state[3] > 0.0 and state[7] == 0.0 and state[6] > 1.0:
-        sums[9] += abs(state[12] - state[3])
+    sums[8] += abs(math.atan2(-sh * state[layout.VELOCITY_X] + ch * state[layout.VELOCITY_Y], max(vx, 0.5)))
+    if state[layout.SPEED] > 0.0 and state[layout.STEP_TIME] == 0.0 and state[layout.STEPS] > 1.0:
+        sums[9] += abs(state[layout.STEP_SPEED] - state[layout.SPEED])
         sums[11] += 1.0
 
 
@@ -236,11 +238,14 @@ class Simulator:
         for tick in range(ticks):
             time = tick * CONTROL_DT
             if tick in changes:
-                command[1], turn = _at(scenario.speeds, time + 1e-9), _at(scenario.headings, time + 1e-9)
-            command[0] += turn * CONTROL_DT
+                command[SPEED_ASKED], turn = (
+                    _at(scenario.speeds, time + 1e-9),
+                    _at(scenario.headings, time + 1e-9),
+                )
+            command[HEADING_ASKED] += turn * CONTROL_DT
             turned += abs(turn) * CONTROL_DT
             heading = state[c.HEADING]
-            command[3] = scenario.tilt[0] * math.cos(heading) + scenario.tilt[1] * math.sin(heading)
+            command[SLOPE_THERE] = scenario.tilt[0] * math.cos(heading) + scenario.tilt[1] * math.sin(heading)
             if len(scenario.pushes):
                 push[:2] = 0.0
                 for start, fx, fy, length in scenario.pushes:

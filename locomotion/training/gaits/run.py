@@ -14,7 +14,7 @@ from locomotion.training.gaits.path_trial import PathScenario, draw_path, follow
 from locomotion.training.gaits.rollout import Scenario, Simulator, stays_up
 from locomotion.training.gaits.run_curriculum import BEGINNINGS, beginning, curriculum
 from locomotion.training.gaits.run_genes import first_guess, first_state_reference, skill_of
-from locomotion.training.gaits.run_trials import cost, draw_scenario
+from locomotion.training.gaits.run_trials import TrialKind, cost, draw_scenario
 from locomotion.training.progress import Clock
 from locomotion.training.search.loop import Stage, simulated
 from locomotion.training.training import Training
@@ -96,7 +96,9 @@ class RunProblem:
         for i in range(stage.options["trials"]):
             kind = kinds[i % len(kinds)]
             drawn.append(
-                draw_path(rng, **kind) if "length" in kind else draw_scenario(rng, **{**base, **kind})
+                draw_path(rng, **kind)
+                if "length" in kind
+                else draw_scenario(rng, TrialKind(**{**base, **kind}))
             )
         return drawn
 

@@ -1,7 +1,7 @@
 """The curriculum of running: its stages, from the first steps to the whole range, and their trials."""
 
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -94,36 +94,43 @@ def set_off(slowest: float, fastest: float) -> tuple[dict[str, Any], ...]:
     return walked, walked, _SLOW_RUN, walked
 
 
-def _stage(
-    training: Training,
-    name: str,
-    generations: int,
-    sigma: float,
-    scale: np.ndarray,
-    trials: int,
-    kinds: tuple[dict, ...] = ({},),
-    style: float = 0.4,
-    fall: float = 0.0,
-    soft: float = 0.0,
-    population: int = 32,
-    **trial: Any,
-) -> Stage:
+class _Plan(NamedTuple):
     """A stage; ``fall``: cost of each fall besides the time lost, ``soft``: cost of hard landings and wrong
     step rates."""
-    options = {"trials": trials, "style": style, "fall": fall, "soft": soft, "trial": trial, "kinds": kinds}
+
+    name: str
+    generations: int
+    sigma: float
+    scale: np.ndarray
+    trials: int
+    kinds: tuple[dict, ...] = ({},)
+    style: float = 0.4
+    fall: float = 0.0
+    soft: float = 0.0
+    population: int = 32
+
+
+def _stage(training: Training, plan: _Plan, **trial: Any) -> Stage:
+    """The stage of a ``plan`` with trials as of `TrialKind`."""
+    kinds, trials = plan.kinds, plan.trials
+    options = {
+        "trials": trials, "style": plan.style, "fall": plan.fall, "soft": plan.soft, "trial": trial,
+        "kinds": kinds,
+    }  # fmt: skip
     seconds = sum((trial | kinds[i % len(kinds)]).get("duration", _WAY_TAKES) for i in range(trials))
-    return Stage(name, training.generations(generations), sigma, scale, options, population, seconds)
+    return Stage(
+        plan.name, training.generations(plan.generations), plan.sigma, plan.scale, options, plan.population,
+        seconds,
+    )  # fmt: skip
 
 
 def beginning(training: Training) -> tuple[Stage, ...]:
     """The stages from scratch to four seconds of running. They do not always get there: see `BEGINNINGS`."""
-    stage = partial(
-        _stage, training, scale=genes_scale(1, 0, 0, *STRAIGHT), trials=1, style=0.1, population=48
-    )
+    stage, scale = partial(_stage, training), genes_scale(1, 0, 0, *STRAIGHT)
     return (
-        stage("first steps", 8, 0.20, duration=0.8, noise=0.2),
-        stage("first second", 25, 0.18, duration=1.6, noise=0.2),
-        stage("four seconds", 45, 0.18, duration=4.0, noise=0.2),
+        stage(_Plan("first steps", 8, 0.20, scale, 1, style=0.1, population=48), duration=0.8, noise=0.2),
+        stage(_Plan("first second", 25, 0.18, scale, 1, style=0.1, population=48), duration=1.6, noise=0.2),
+        stage(_Plan("four seconds", 45, 0.18, scale, 1, style=0.1, population=48), duration=4.0, noise=0.2),
     )
 
 
@@ -135,32 +142,33 @@ def curriculum(training: Training) -> tuple[Stage, ...]:
     steep: dict[str, Any] = {"speeds": (2.5, 3.4), "noise": 0.3, "duration": 4.0}
     high, top = rows_scale(fast=0.5, faster=1, fastest=1), rows_scale(fast=0.2, faster=0.5, fastest=1)
     whole = rows_scale(fast=1, faster=1, fastest=1)
-    lowest = rows_scale(slow=0.5, slowest=1)
+    lowest, inner = rows_scale(slow=0.5, slowest=1), inner_scale(*STRAIGHT)
+    everywhere = genes_scale(1, 0, 0, *LEVEL, *UP, *DOWN)
     return (
-        stage("twelve seconds", 40, 0.16, middle, 2, duration=10.0, noise=0.2),
-        stage("pushes", 40, 0.07, middle, 6, duration=6.0, noise=0.5, push=60.0),
-        stage("speeds", 30, 0.06, genes_scale(1, 1, 1, *LEVEL), 5, SPEEDS),
-        stage("flat", 15, 0.05, family, 5, duration=4.5, **FAST),
-        stage("bends", 40, 0.045, family, 8, (FLAT, BENDS, BENDS, BENDS), duration=4.0, **FAST),
-        stage("gentle climbs", 16, 0.10, up, 3, style=0.2, climb=(0.06, 0.16), **steep),
-        stage("climbs", 25, 0.08, up, 4, style=0.2, climb=(0.05, 0.24), push=40.0, **steep),
-        stage("gentle descents", 10, 0.10, down, 3, style=0.2, climb=(-0.16, -0.06), **steep),
-        stage("descents", 15, 0.08, down, 4, style=0.2, climb=(-0.24, -0.05), push=40.0, **steep),
-        stage("tight bends", 20, 0.06, genes_scale(1, 0, 0, "turn", "bend"), 4, TIGHT_BENDS),
-        stage("hills", 30, 0.04, genes_scale(1, 0, 0, *LEVEL, *UP, *DOWN), 6, HILLS, duration=4.0, **FAST),
-        stage("slow", 25, 0.05, rows_scale(slow=1), 5, SLOW, style=0.3),
-        stage("slower", 20, 0.05, rows_scale(slow=1, slowest=0.5), 6, SLOWER, style=0.3),
-        stage("jog on", 12, 0.05, lowest, 3, set_off(1.5, 1.7), style=0.3, duration=3.0),
-        stage("set off slowly", 20, 0.04, lowest, 4, set_off(1.6, 2.6), style=0.3, duration=3.0),
-        stage("set off", 40, 0.04, lowest, 4, set_off(2.4, 3.6), style=0.3, duration=4.0),
-        stage("ways", 40, 0.04, EVERY, len(WAYS), WAYS, style=0.3),
-        stage("hard pushes", 40, 0.025, EVERY, len(HARD_PUSHES), HARD_PUSHES, style=0.3, fall=3.0),
-        stage("slow pushes", 30, 0.04, rows_scale(slow=1), 8, SLOW_PUSHES, style=0.3, fall=3.0),
-        stage("faster", 25, 0.05, rows_scale(faster=1), 5, FASTER, style=0.3),
-        stage("fastest", 40, 0.05, rows_scale(faster=0.5, fastest=1), 5, FASTEST, style=0.3),
-        stage("fast", 30, 0.04, rows_scale(fast=1, faster=0.3), 8, FAST_ROW, style=0.3, fall=6.0),
-        stage("fast bends and pushes", 30, 0.03, high, 10, FAST_BENDS_AND_PUSHES, style=0.3, fall=6.0),
-        stage("top", 60, 0.03, top, 12, TOP, style=0.3, fall=6.0),
-        stage("sure", 60, 0.025, whole, len(SURE), SURE, style=0.3, fall=6.0),
-        stage("soft", 60, 0.025, inner_scale(*STRAIGHT), len(SOFT), SOFT, style=0.3, fall=6.0, soft=8.0),
+        stage(_Plan("twelve seconds", 40, 0.16, middle, 2), duration=10.0, noise=0.2),
+        stage(_Plan("pushes", 40, 0.07, middle, 6), duration=6.0, noise=0.5, push=60.0),
+        stage(_Plan("speeds", 30, 0.06, genes_scale(1, 1, 1, *LEVEL), 5, SPEEDS)),
+        stage(_Plan("flat", 15, 0.05, family, 5), duration=4.5, **FAST),
+        stage(_Plan("bends", 40, 0.045, family, 8, (FLAT, BENDS, BENDS, BENDS)), duration=4.0, **FAST),
+        stage(_Plan("gentle climbs", 16, 0.10, up, 3, style=0.2), climb=(0.06, 0.16), **steep),
+        stage(_Plan("climbs", 25, 0.08, up, 4, style=0.2), climb=(0.05, 0.24), push=40.0, **steep),
+        stage(_Plan("gentle descents", 10, 0.10, down, 3, style=0.2), climb=(-0.16, -0.06), **steep),
+        stage(_Plan("descents", 15, 0.08, down, 4, style=0.2), climb=(-0.24, -0.05), push=40.0, **steep),
+        stage(_Plan("tight bends", 20, 0.06, genes_scale(1, 0, 0, "turn", "bend"), 4, TIGHT_BENDS)),
+        stage(_Plan("hills", 30, 0.04, everywhere, 6, HILLS), duration=4.0, **FAST),
+        stage(_Plan("slow", 25, 0.05, rows_scale(slow=1), 5, SLOW, style=0.3)),
+        stage(_Plan("slower", 20, 0.05, rows_scale(slow=1, slowest=0.5), 6, SLOWER, style=0.3)),
+        stage(_Plan("jog on", 12, 0.05, lowest, 3, set_off(1.5, 1.7), style=0.3), duration=3.0),
+        stage(_Plan("set off slowly", 20, 0.04, lowest, 4, set_off(1.6, 2.6), style=0.3), duration=3.0),
+        stage(_Plan("set off", 40, 0.04, lowest, 4, set_off(2.4, 3.6), style=0.3), duration=4.0),
+        stage(_Plan("ways", 40, 0.04, EVERY, len(WAYS), WAYS, style=0.3)),
+        stage(_Plan("hard pushes", 40, 0.025, EVERY, len(HARD_PUSHES), HARD_PUSHES, style=0.3, fall=3.0)),
+        stage(_Plan("slow pushes", 30, 0.04, rows_scale(slow=1), 8, SLOW_PUSHES, style=0.3, fall=3.0)),
+        stage(_Plan("faster", 25, 0.05, rows_scale(faster=1), 5, FASTER, style=0.3)),
+        stage(_Plan("fastest", 40, 0.05, rows_scale(faster=0.5, fastest=1), 5, FASTEST, style=0.3)),
+        stage(_Plan("fast", 30, 0.04, rows_scale(fast=1, faster=0.3), 8, FAST_ROW, style=0.3, fall=6.0)),
+        stage(_Plan("fast bends and pushes", 30, 0.03, high, 10, FAST_BENDS_AND_PUSHES, style=0.3, fall=6.0)),
+        stage(_Plan("top", 60, 0.03, top, 12, TOP, style=0.3, fall=6.0)),
+        stage(_Plan("sure", 60, 0.025, whole, len(SURE), SURE, style=0.3, fall=6.0)),
+        stage(_Plan("soft", 60, 0.025, inner, len(SOFT), SOFT, style=0.3, fall=6.0, soft=8.0)),
     )

@@ -1,11 +1,13 @@
 """Random trials for running, and their cost."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from locomotion.training.gaits.rollout import Scenario, Trial
 from locomotion.training.gaits.walk_starts import WALK_STARTS
 
-__all__ = ["MIDDLE", "cost", "draw_scenario"]
+__all__ = ["MIDDLE", "TrialKind", "cost", "draw_scenario"]
 
 MIDDLE = 3.5
 """Speed [m/s] at which training starts."""
@@ -13,21 +15,9 @@ _CAPTURED_SPEED, _CAPTURED_RATE = 5.26, 3.69
 # [m/s], steps per s of the captured run, the constants in equation 8 (`python -m benchmarks.likeness`)
 
 
-def draw_scenario(
-    rng: np.random.Generator,
-    duration: float,
-    speeds: tuple[float, float] = (MIDDLE, MIDDLE),
-    noise: float = 0.0,
-    push: float = 0.0,
-    weakest: float = 0.0,
-    lateral: float = 0.0,
-    tilt: float = 0.0,
-    walking: float = 0.0,
-    climb: tuple[float, float] | None = None,
-    steady: bool = False,
-    circle: bool = False,
-) -> Scenario:
-    """A random trial.
+@dataclass(frozen=True)
+class TrialKind:
+    """What random trials have in common.
 
     duration [s]; range of desired speeds [m/s], drawn anew every 2 to 3 s; noise: start noise (1 = 0.3
     m/s, 0.05 rad); push: highest force [N] of pushes of 0.1 s; weakest: least share of it; lateral: highest
@@ -35,8 +25,30 @@ def draw_scenario(
     of the trials that start from a walk; climb: range of the slope along the start's heading instead of
     ``tilt``; steady: one speed all the time; circle: with ``steady``, one sharp turn all the time.
     """
-    low, high = speeds
-    if steady:
+
+    duration: float
+    speeds: tuple[float, float] = (MIDDLE, MIDDLE)
+    noise: float = 0.0
+    push: float = 0.0
+    weakest: float = 0.0
+    lateral: float = 0.0
+    tilt: float = 0.0
+    walking: float = 0.0
+    climb: tuple[float, float] | None = None
+    steady: bool = False
+    circle: bool = False
+
+
+def draw_scenario(rng: np.random.Generator, kind: TrialKind) -> Scenario:
+    """A random trial of a ``kind``."""
+    duration, (low, high), noise, push, lateral = (
+        kind.duration,
+        kind.speeds,
+        kind.noise,
+        kind.push,
+        kind.lateral,
+    )
+    if kind.steady:
         low = high = float(rng.uniform(low, high))
     changes = np.arange(0.0, duration, 2.5)
     speed = np.stack([changes, rng.uniform(low, high, len(changes))], axis=1)
@@ -44,16 +56,16 @@ def draw_scenario(
         [changes, rng.uniform(-1, 1, len(changes)) * lateral / np.maximum(speed[:, 1], 1.0)], axis=1
     )
     turns[:, 1] *= rng.random(len(changes)) < 0.7
-    if circle:
+    if kind.circle:
         turns[:, 1] = rng.choice([-1.0, 1.0]) * rng.uniform(0.6, 1.0) * lateral / speed[0, 1]
     times = np.arange(1.0, duration - 0.5, 2.0) + rng.uniform(0, 0.5)
     angle = rng.uniform(0, 2 * np.pi, len(times))
-    force = push * np.sqrt(weakest**2 + (1.0 - weakest**2) * rng.random(len(times)))
+    force = push * np.sqrt(kind.weakest**2 + (1.0 - kind.weakest**2) * rng.random(len(times)))
     pushes = np.stack([times, force * np.cos(angle), force * np.sin(angle), np.full(len(times), 0.1)], axis=1)
-    direction, steepness = rng.uniform(0, 2 * np.pi), tilt * np.sqrt(rng.random())
+    direction, steepness = rng.uniform(0, 2 * np.pi), kind.tilt * np.sqrt(rng.random())
     slope = (float(steepness * np.cos(direction)), float(steepness * np.sin(direction)))
-    if climb is not None:
-        slope = (float(rng.uniform(*climb)), float(rng.uniform(-0.1, 0.1)))
+    if kind.climb is not None:
+        slope = (float(rng.uniform(*kind.climb)), float(rng.uniform(-0.1, 0.1)))
     sizes = noise * np.concatenate([np.full(3, 0.3), np.full(3, 0.3), np.full(45, 0.05)])
     return Scenario(
         duration=duration,
@@ -61,7 +73,7 @@ def draw_scenario(
         headings=turns,
         pushes=pushes if push > 0 else np.zeros((0, 4)),
         tilt=slope,
-        walking=int(rng.integers(WALK_STARTS)) if rng.random() < walking else None,
+        walking=int(rng.integers(WALK_STARTS)) if rng.random() < kind.walking else None,
         start_noise=rng.normal(size=51) * sizes if noise > 0 else np.zeros(0),
     )
 

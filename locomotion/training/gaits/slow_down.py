@@ -11,7 +11,7 @@ from locomotion.gaits.run import controller as c
 from locomotion.gaits.run.skill import RunSkill, load_run_skill
 from locomotion.gaits.slow_down import SLOW_DOWN_SKILL, SlowDownSkill, touchdown
 from locomotion.gaits.walk.layout import GAINS, gain_limits
-from locomotion.human.human import Human
+from locomotion.human.human import BetweenGaits, Human
 from locomotion.training.gaits.path_trial import draw_path
 from locomotion.training.gaits.run_genes import row_scale
 from locomotion.training.search.loop import Stage
@@ -60,7 +60,7 @@ def draw_halt(rng: np.random.Generator, radii: tuple[float, ...] = BENDS) -> Hal
 
 def halt(trial: Halt, run: RunSkill, slow_down: SlowDownSkill, rehearsals: int = 0) -> tuple[float, bool]:
     """Cost of a trial, and whether the person stood at the end. rehearsals: as for `Human`."""
-    human = Human(None, run, clearing=(), slow_down=slow_down, rehearsals=rehearsals)
+    human = Human(None, run, clearing=(), between=BetweenGaits(slow_down=slow_down), rehearsals=rehearsals)
     x, y, _ = trial.points[1] - trial.points[0]
     human.reset(trial.points[0], math.atan2(y, x), trial.speed)
     human.data.qvel[:6] += trial.noise[:6]

@@ -8,7 +8,7 @@ import numpy as np
 from locomotion.gaits.run import controller as c
 from locomotion.gaits.run.skill import RunSkill, load_run_skill
 from locomotion.gaits.speed_up import SPEED_UP_SKILL, SpeedUpSkill
-from locomotion.human.human import Human
+from locomotion.human.human import BetweenGaits, Human
 from locomotion.human.state import MOVING
 from locomotion.training.gaits.run_genes import row_scale
 from locomotion.training.gaits.walk_starts import WALK_STARTS, WalkStart, walk_starts
@@ -84,7 +84,9 @@ class SpeedUpProblem:
         self, stage: Stage, candidate: np.ndarray, scenarios: list[tuple[int, np.ndarray]]
     ) -> tuple[float, float]:
         """Mean cost, and share of the trials in which the person ran on."""
-        human = Human(None, self.run, clearing=(), rehearsals=0, speed_up=speed_up_of(candidate))
+        human = Human(
+            None, self.run, clearing=(), rehearsals=0, between=BetweenGaits(speed_up=speed_up_of(candidate))
+        )
         results = [speed_up(human, walk_starts()[number], noise) for number, noise in scenarios]
         return float(np.mean([cost for cost, _ in results])), float(np.mean([ran for _, ran in results]))
 

@@ -42,13 +42,13 @@ def walk_starts() -> tuple[WalkStart, ...]:
         human.reset(_WAY[0], 0.0)
         human.data.qvel[:] += _NOISE * rng.normal(size=human.model.nv)
         human.follow(_WAY, float(rng.uniform(3.0, 3.6)))
-        while (speed := run_entry_speed(human.on_feet.walk, human.control, 0.0)) is None:
+        while (speed := run_entry_speed(human.on_feet.walk, human.observed, 0.0)) is None:
             if human.status != "walking":
                 raise LocomotionError(
                     f"walking people end {human.status} before they can run: train the walk again"
                 )
             human.tick()
         walk, running = human.on_feet.walk, human.control.copy()
-        run_on(running, walk[WALK_STANCE], walk[WALK_HEADING], speed)
+        run_on(running, human.data.ctrl, walk[WALK_STANCE], walk[WALK_HEADING], speed)
         starts.append(WalkStart(human.save_state(), speed, save_physics(human.model, human.data), running))
     return tuple(starts)

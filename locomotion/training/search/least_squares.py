@@ -10,7 +10,7 @@ import hashlib
 import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Annotated, Any, Protocol
+from typing import Annotated, Any, NamedTuple, Protocol
 
 import numpy as np
 from annotated_types import Ge
@@ -23,7 +23,7 @@ from surefoot.files.archive import write_archive
 from surefoot.files.schema import Header, Schema
 from surefoot.workers import worker_pool
 
-__all__ = ["Outcomes", "fit"]
+__all__ = ["Outcomes", "Work", "fit"]
 
 _KIND, _VERSION = "least-squares checkpoint", 1
 
@@ -72,25 +72,35 @@ def _loss(rows: np.ndarray) -> float:
     return float(np.where(np.isfinite(squares), np.minimum(squares, _FAILED), _FAILED).mean())
 
 
+class Work(NamedTuple):
+    """How a search goes about it.
+
+    ``checkpoint``: file that each round is written to. ``on_progress``: told after each round; ``survival``
+    is the share of trials that showed residuals. ``clock``: of a skill that is learned in several searches;
+    ``seconds``: what a round simulates [s], about.
+    """
+
+    checkpoint: str | os.PathLike[str] | None = None
+    workers: int = 2
+    on_progress: Callable[[Progress], None] = show
+    clock: Clock | None = None
+    seconds: float = 1.0
+
+
 def fit(
     problem: Outcomes,
     start: np.ndarray,
     scale: np.ndarray,
     rounds: int,
     seed: int,
-    checkpoint: str | os.PathLike[str] | None = None,
-    workers: int = 2,
-    on_progress: Callable[[Progress], None] = show,
-    clock: Clock | None = None,
-    seconds: float = 1.0,
+    work: Work | None = None,
 ) -> np.ndarray:
     """Parameters (p,) float64 whose trials' residuals are small, from ``start`` (p,).
 
-    ``scale`` (p,): how far a parameter may reasonably move; 0 keeps it. ``checkpoint``: file that each round
-    is written to; one of another start or seed is refused with `LocomotionError`. ``on_progress``: told after
-    each round; ``survival`` is the share of trials that showed residuals. ``clock``: of a skill that is
-    learned in several searches; ``seconds``: what a round simulates [s], about.
+    ``scale`` (p,): how far a parameter may reasonably move; 0 keeps it. A checkpoint of another start or seed
+    is refused with `LocomotionError`.
     """
+    checkpoint, workers, on_progress, clock, seconds = work or Work()
     free = np.flatnonzero(scale > 0)
     parts = f"{seed} {rounds}".encode() + start.tobytes() + scale.tobytes()
     identity = hashlib.sha256(parts).hexdigest()[:16]

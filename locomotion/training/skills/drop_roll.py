@@ -16,7 +16,7 @@ from locomotion.skills.drop_roll.skill import DROP_ROLL_SKILL, KIND, DropRoll, d
 from locomotion.skills.family import SkillFamily
 from locomotion.skills.jump.skill import run_digest
 from locomotion.training.progress import Clock
-from locomotion.training.search.least_squares import fit
+from locomotion.training.search.least_squares import Work, fit
 from locomotion.training.search.loop import Stage, simulated
 from locomotion.training.skills.drop_trial import DropOutcome, DropSimulator
 from locomotion.training.skills.jump_trial import JumpSimulator, StartState
@@ -318,8 +318,11 @@ def _learn_to_end(
     states = _harvest(course, x, reference, _ROLLS, rng)
     problem = DropProblem(course.run, HEIGHTS, x, reference, states, [])
     return fit(
-        problem, x, roll_scales(), rounds, training.seed + number, training.file(f"search-{number}"),
-        training.workers, training.on_progress, course.clock, _round_takes(),
+        problem, x, roll_scales(), rounds, training.seed + number,
+        Work(
+            training.file(f"search-{number}"), training.workers, training.on_progress, course.clock,
+            _round_takes(),
+        ),
     )  # fmt: skip
 
 

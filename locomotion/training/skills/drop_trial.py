@@ -14,6 +14,7 @@ from locomotion.gaits.walk.controller import observe_walk, walk_tick
 from locomotion.gaits.walk.layout import WALK_HEADING, WALK_STANCE, WALK_STEPS, new_walk
 from locomotion.gaits.walk.skill import RISING, STEADYING_SPEED, load_walk_skill, rise_walking
 from locomotion.ground.ground import plane_lookup
+from locomotion.paths.command import HEADING_ASKED, SPEED_ASKED
 from locomotion.skills.drop_roll import kernel as dr
 from locomotion.skills.learned import LawTables
 from locomotion.training.skills.jump_trial import StartState
@@ -123,6 +124,7 @@ class DropSimulator:
         self.memory[:] = 0.0
         self.walk[:] = 0.0
         data, state, memory, steps = self.data, self.state, self.memory, self.state[c.STEPS]
+        observed = state[c.OBSERVED]
         meter = _Meter(self, float(start.planted[1]))
         begun = walks = runs = False
         ticks = round(duration / CONTROL_DT)
@@ -131,7 +133,7 @@ class DropSimulator:
                 self._steer(runs, float(start.planted[1]))
             if walks:
                 walk_tick(
-                    self.gait.tables, self.lookup, self.walk, state, self.command, data.qpos, data.qvel,
+                    self.gait.tables, self.lookup, self.walk, observed, self.command, data.qpos, data.qvel,
                     data.ctrl,
                 )  # fmt: skip
             else:
@@ -149,16 +151,16 @@ class DropSimulator:
                     walks = True
                     w, x, y, z = data.qpos[3:7]
                     yaw = math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
-                    rise_walking(self.walk, state, yaw)
+                    rise_walking(self.walk, observed, yaw)
                     self.command[:] = yaw, STEADYING_SPEED, 0.0, 0.0
             mujoco.mj_step(self.model, data, STEPS_PER_TICK)
             c.observe(self.index, self.model, data, state)
             meter.tick(walks or runs)
             if walks:
                 observe_walk(self.index, data, self.walk)
-                speed = run_entry_speed(self.walk, state, float(self.command[0]))
+                speed = run_entry_speed(self.walk, observed, float(self.command[HEADING_ASKED]))
                 if speed is not None:
-                    run_on(state, self.walk[WALK_STANCE], self.walk[WALK_HEADING], speed)
+                    run_on(state, data.ctrl, self.walk[WALK_STANCE], self.walk[WALK_HEADING], speed)
                     walks, runs = False, True
             if record is not None and memory[dr.ACTIVE] > 0.0 and memory[dr.PHASE] != dr.TAKE_OFF:
                 place = min(int(memory[dr.SHARE] * (dr.BINS - 1) + 0.5), dr.BINS - 1)
@@ -181,11 +183,11 @@ class DropSimulator:
             self.command[:2] = walk[WALK_HEADING], STEADYING_SPEED
             return
         aside = float(state[c.COM][1]) - line
-        self.command[0] = min(max(-_STEERING * aside, -_MOST_STEERING), _MOST_STEERING)
-        self.command[1] = self.gait.speed
+        self.command[HEADING_ASKED] = min(max(-_STEERING * aside, -_MOST_STEERING), _MOST_STEERING)
+        self.command[SPEED_ASKED] = self.gait.speed
         if runs:
             haste = state[c.STEP_SPEED] + _HASTE if state[c.STEPS] >= 2.0 else _ON
-            self.command[1] = min(_ON, haste)
+            self.command[SPEED_ASKED] = min(_ON, haste)
 
 
 class _Meter:

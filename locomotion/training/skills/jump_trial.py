@@ -9,8 +9,10 @@ import numpy as np
 from locomotion.body.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex
 from locomotion.clips.clip import Clip
 from locomotion.gaits.run import controller as c
+from locomotion.gaits.run import layout
 from locomotion.gaits.run.skill import RunSkill, reset_running
 from locomotion.human.human import Human
+from locomotion.paths.command import HEADING_ASKED, SIDEWAYS_ASKED, SPEED_ASKED
 from locomotion.paths.gait_plan import RUN_UP
 from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.skills.interface import ClearingSkill, foot_distance, plan_run_up, run_up_speeds
@@ -118,8 +120,8 @@ class JumpSimulator:
     def steer(self) -> None:
         """Hold y = 0 while running along +x: heading and sideways speed into ``command``."""
         y = self.state[c.COM.start + 1]
-        self.command[0] = -float(np.clip(1.2 * y / max(self.state[c.SPEED], 1.0), -0.3, 0.3))
-        self.command[2] = float(np.clip(-0.5 * y, -0.2, 0.2))
+        self.command[HEADING_ASKED] = -float(np.clip(1.2 * y / max(self.state[c.SPEED], 1.0), -0.3, 0.3))
+        self.command[SIDEWAYS_ASKED] = float(np.clip(-0.5 * y, -0.2, 0.2))
 
     def run_tick(self) -> None:
         """The running controller's part of a tick."""
@@ -154,7 +156,7 @@ class JumpSimulator:
                         lengths.append(x - last)
                     last = x
                     asked = [asked[1], float(np.clip(asked[1] + rng.normal(0.0, 0.2), low, high))]
-                    self.command[1] = asked[1]
+                    self.command[SPEED_ASKED] = asked[1]
                 self._step()
                 if self.state[c.FALLEN] > 0.0:
                     break
@@ -197,7 +199,7 @@ class JumpSimulator:
                         found.append(StartState(before, control, planted, plan.takeoff_error))
                         break
                     if foot_distance(self.state, ahead) < RUN_UP:
-                        self.command[1] = plan.speeds[0]
+                        self.command[SPEED_ASKED] = plan.speeds[0]
                 self._step()
                 if self.state[c.FALLEN] > 0.0:
                     break
@@ -257,7 +259,7 @@ class JumpSimulator:
         ticks = round(duration / CONTROL_DT)
         for _ in range(ticks):
             if begun and self.memory[jump.ACTIVE] == 0.0:
-                self.command[2] = float(np.clip(-0.5 * self.state[c.COM.start + 1], -0.2, 0.2))
+                self.command[SIDEWAYS_ASKED] = float(np.clip(-0.5 * self.state[c.COM.start + 1], -0.2, 0.2))
             self.run_tick()
             if not begun and self.state[c.STEPS] != steps:
                 begun = True
@@ -268,7 +270,7 @@ class JumpSimulator:
             step = int(self.state[c.STEPS] - steps) - 1
             if record is not None and 0 <= step < jump.STEPS:
                 place = min(int(self.state[c.PHASE] * (jump.BINS - 1) + 0.5), jump.BINS - 1)
-                record[step, place, : jump.SENSORS] += self.memory[50 : 50 + jump.SENSORS]
+                record[step, place, : jump.SENSORS] += self.memory[jump.SENSED]
                 record[step, place, jump.SENSORS] += 1.0
             meter.tick(step)
             if on_tick is not None:
@@ -328,13 +330,16 @@ class _Meter:
                 self.crossed[k] = True
                 lowest = min(float(toe[2]), float(data.xpos[s.index.feet[k]][2]) - 0.04)
                 self.shortfall += max(self.height + 0.05 - (lowest - 0.02), 0.0)
-            on_top = state[20 + 3 * k] > self.edge and state[22 + 3 * k] > self.height - 0.02
-            if on_top and state[26 + k] > 20.0:
+            on_top = (
+                state[layout.RIGHT_FOOT + 3 * k] > self.edge
+                and state[layout.RIGHT_FOOT + 3 * k + 2] > self.height - 0.02
+            )
+            if on_top and state[layout.CONTACT][k] > 20.0:
                 self.landed[k] = True
         if not all(self.landed):
             self.scrape += self._touches_face()
         weight = MASS * 9.81
-        self.reaction += max((state[26] + state[27]) / weight - 4.0, 0.0)
+        self.reaction += max((state[layout.RIGHT_CONTACT] + state[layout.LEFT_CONTACT]) / weight - 4.0, 0.0)
         self.effort += float(np.dot(data.actuator_force, data.actuator_force)) * 1e-4
         up = data.xmat[s.index.chest]
         self.trunk += (up[2] - 0.1) ** 2 + 2.0 * up[5] ** 2

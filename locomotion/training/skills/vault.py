@@ -201,7 +201,7 @@ class VaultProblem:
         options, total, vaulted = stage.options, 0.0, 0
         for state, error, height, depth in scenarios:
             result = self._simulator.vault_trial(
-                tables, height, depth, self.states[state], error, options["duration"], options["solid"]
+                tables, (height, depth), self.states[state], error, options["duration"], options["solid"]
             )
             total += cost(result, tables.entry, options["pose"]) + options["failed"] * (not result.vaulted)
             vaulted += result.vaulted
@@ -341,7 +341,7 @@ def _record(
     simulator, tables = VaultSimulator(run), tables_of(parameters, reference, run)
     for state in states[:16]:
         one = np.zeros_like(sums)
-        if simulator.vault_trial(tables, height, 0.3, state, state.error, 2.0, record=one).cleared:
+        if simulator.vault_trial(tables, (height, 0.3), state, state.error, 2.0, record=one).cleared:
             sums += one
     counts = sums[..., -1:]
     return np.where(counts > 0, sums[..., :-1] / np.maximum(counts, 1.0), reference)

@@ -8,6 +8,7 @@ import numpy as np
 from locomotion.body.hand_hold import let_go_both
 from locomotion.body.person import CONTROL_DT, MASS
 from locomotion.gaits.run import controller as c
+from locomotion.gaits.run import layout
 from locomotion.gaits.run.skill import RunSkill
 from locomotion.skills.kernel import mirror
 from locomotion.skills.learned import LawTables
@@ -94,8 +95,7 @@ class VaultSimulator(JumpSimulator):
     def vault_trial(
         self,
         tables: LawTables,
-        height: float,
-        depth: float,
+        wall: tuple[float, float],
         start: StartState,
         error: float,
         duration: float,
@@ -106,9 +106,10 @@ class VaultSimulator(JumpSimulator):
         """Vault from a harvested state; the wall is put so that the distance misses the mark by ``error``
         [m].
 
-        duration: [s]. solid: see `place_wall`. on_tick(simulator) is called after each tick. record:
-        (4, 6, 19) sums of the sensors per bin and their count, added to.
+        wall: its height and depth [m]. duration: [s]. solid: see `place_wall`. on_tick(simulator) is called
+        after each tick. record: (4, 6, 19) sums of the sensors per bin and their count, added to.
         """
+        height, depth = wall
         edge = float(start.planted[0]) + tables.mark + error
         self.place_wall(edge, height, depth, solid)
         self._restore(start)
@@ -177,7 +178,7 @@ class _Meter:
         s, data, state, memory = self.s, self.s.data, self.s.state, self.s.vault_memory
         self.ticks += 1
         if step < 2:
-            self.sunk = max(_HIGH - state[16], 0.0)
+            self.sunk = max(_HIGH - state[layout.COM_Z], 0.0)
         if step == 1 or (step >= 0 and not all(self.landed)):
             self._feet(step)
             self._wall(memory)
@@ -191,7 +192,7 @@ class _Meter:
             if data.ne == 3:
                 self.impulse -= float(data.efc_force[2]) * CONTROL_DT
         weight = MASS * 9.81
-        self.reaction += max((state[26] + state[27]) / weight - 4.0, 0.0)
+        self.reaction += max((state[layout.RIGHT_CONTACT] + state[layout.LEFT_CONTACT]) / weight - 4.0, 0.0)
         self.effort += float(np.dot(data.actuator_force, data.actuator_force)) * 1e-4
         up = data.xmat[s.index.chest]
         self.headlong = max(self.headlong, -up[8])
@@ -224,7 +225,11 @@ class _Meter:
                 self.crossed[k] = True
                 short = self.height + _MARGIN - (ends[over, 2] - radius[over]).min()
                 self.shortfall[k] = max(self.shortfall[k], short)
-            if state[20 + 3 * k] > self.edge + self.depth and state[26 + k] > 20.0 and step >= 1:
+            if (
+                state[layout.RIGHT_FOOT + 3 * k] > self.edge + self.depth
+                and state[layout.RIGHT_CONTACT + k] > 20.0
+                and step >= 1
+            ):
                 self.landed[k] = True
 
     def _wall(self, memory: np.ndarray) -> None:

@@ -10,6 +10,7 @@ from locomotion.body.person import MASS
 from locomotion.gaits.brake import BRAKE_SKILL, BRAKING, FIRST_STEPS, load_brake_skill
 from locomotion.gaits.run import controller
 from locomotion.gaits.run.skill import load_run_skill
+from locomotion.human.human import BetweenGaits
 from locomotion.rehearsal.trials import BRAKINGS, ComesToRest, at_once, first_good
 from locomotion.training.gaits.brake import BrakeProblem, brake_of, draw_starts, first_guess, stop
 from locomotion.training.search.loop import Stage
@@ -183,7 +184,7 @@ def test_file_that_is_cut_off_or_of_something_else_is_refused(tmp_path):
 def test_learning_prefers_those_that_stand_soon():
     starts = draw_starts(np.random.default_rng(3), 6, (2.8, 3.2))
     good = Human(None, clearing=(), rehearsals=0)
-    first = Human(None, clearing=(), rehearsals=0, brake=brake_of(first_guess()))
+    first = Human(None, clearing=(), rehearsals=0, between=BetweenGaits(brake=brake_of(first_guess())))
     stops = [[stop(human, start) for start in starts] for human in (good, first)]
     assert np.mean([each.cost() for each in stops[0]]) < np.mean([each.cost() for each in stops[1]])
     assert sum(each.fell for each in stops[0]) < sum(each.fell for each in stops[1])
@@ -200,6 +201,9 @@ def test_learning_brakes_as_hard_as_its_stage_says():
     assert problem.evaluate(stage, candidate, drawn[:1])[0] == min(each)
     human, skill = Human(None, clearing=(), rehearsals=0), load_brake_skill()
     twice = Human(
-        None, clearing=(), rehearsals=0, brake=replace(skill, deceleration=1.5 * skill.deceleration)
+        None,
+        clearing=(),
+        rehearsals=0,
+        between=BetweenGaits(brake=replace(skill, deceleration=1.5 * skill.deceleration)),
     )
     assert stop(human, starts[0], 1.5) == stop(twice, starts[0]) != stop(human, starts[0])

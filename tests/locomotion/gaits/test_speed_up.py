@@ -8,6 +8,7 @@ from locomotion.events import Cleared, SetOff, TookOff, WentBack
 from locomotion.gaits.run import controller
 from locomotion.gaits.run.skill import load_run_skill
 from locomotion.gaits.speed_up import SPEED_UP_SKILL, load_speed_up_skill
+from locomotion.human.human import BetweenGaits
 from locomotion.human.state import MOVING
 from locomotion.training.gaits.speed_up import SpeedUpProblem, _curriculum, speed_up_of
 from locomotion.training.training import Training
@@ -20,7 +21,7 @@ GROUND = Ground.from_arrays(COURSE.vertices, COURSE.faces)
 def slow_starter():
     """A person whose run begins with the ordinary run's parameters."""
     skill = load_speed_up_skill()
-    return Human(GROUND, speed_up=speed_up_of(np.zeros(2 * skill.change.shape[1])))
+    return Human(GROUND, between=BetweenGaits(speed_up=speed_up_of(np.zeros(2 * skill.change.shape[1]))))
 
 
 def way_to(human, speed, seed):

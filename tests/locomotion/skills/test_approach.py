@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from locomotion.errors import LocomotionError
-from locomotion.skills.approach import plan_approach, plan_approach_exact
+from locomotion.skills.approach import ApproachWeights, plan_approach, plan_approach_exact
 
 distances = st.floats(0.3, 40.0)
 speeds = st.floats(1.0, 5.0)
@@ -18,7 +18,7 @@ weights = st.one_of(st.floats(0.2, 5.0), st.lists(st.floats(0.2, 5.0), min_size=
 @settings(max_examples=40, deadline=None)
 @given(distances, speeds, entries, models, weights, st.integers(1, 25))
 def test_closed_form_is_the_optimum(distance, speed, entry, model, change, steps):
-    options = dict(takeoff=0.2, step_length=model, change_weights=change, steps=steps)
+    options = dict(takeoff=0.2, step_length=model, weights=ApproachWeights(change=change), steps=steps)
     plan = plan_approach(distance, speed, entry, **options)
     exact = plan_approach_exact(distance, speed, entry, **options)
     assert plan.cost <= exact.cost + 1e-6 * (1.0 + exact.cost)
@@ -32,7 +32,9 @@ def test_closed_form_is_the_optimum(distance, speed, entry, model, change, steps
 )
 def test_bounded_plan_is_the_optimum(distance, speed, entry, model, change, below, above, steps):
     bounds = (entry - below, entry + above)
-    options = dict(takeoff=0.2, step_length=model, change_weights=change, steps=steps, bounds=bounds)
+    options = dict(
+        takeoff=0.2, step_length=model, weights=ApproachWeights(change=change), steps=steps, bounds=bounds
+    )
     plan = plan_approach(distance, speed, entry, **options)
     exact = plan_approach_exact(distance, speed, entry, **options)
     assert plan.speeds.min() >= bounds[0] - 1e-12
@@ -75,7 +77,7 @@ def test_steady_run_that_fits_is_left_alone():
 def test_late_changes_can_be_made_dear():
     options = dict(takeoff=0.6, step_length=(0.2, 0.17), steps=10)
     even = plan_approach(9.0, 3.0, 3.8, **options)
-    late = plan_approach(9.0, 3.0, 3.8, change_weights=(20.0, 20.0, 1.0), **options)
+    late = plan_approach(9.0, 3.0, 3.8, weights=ApproachWeights(change=(20.0, 20.0, 1.0)), **options)
     assert abs(late.speeds[-3] - 3.8) < abs(even.speeds[-3] - 3.8)
 
 
@@ -86,8 +88,8 @@ def test_late_changes_can_be_made_dear():
         (dict(entry=0.0), "entry"),
         (dict(bounds=(1.0, 2.0)), "bounds"),
         (dict(step_length=(-0.1, 0.2)), "step_length"),
-        (dict(change_weights=0.0), "change_weights"),
-        (dict(error_weight=-1.0), "error_weight"),
+        (dict(weights=ApproachWeights(change=0.0)), "weights.change"),
+        (dict(weights=ApproachWeights(error=-1.0)), "weights.error"),
         (dict(steps=-1), "steps"),
     ],
 )

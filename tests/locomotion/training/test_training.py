@@ -29,7 +29,7 @@ from locomotion.training.gaits.run_genes import (
     rows_scale,
     skill_of,
 )
-from locomotion.training.gaits.run_trials import cost, draw_scenario
+from locomotion.training.gaits.run_trials import TrialKind, cost, draw_scenario
 from locomotion.training.gaits.walk import KINDS as WALKS
 from locomotion.training.gaits.walk import draw_walk
 from locomotion.training.progress import Clock
@@ -240,7 +240,8 @@ def test_running_goes_on_from_the_best_of_several_beginnings(tmp_path: Path) -> 
     genes = begin(training, problem.stages(), Clock(1.0), count=3)
     each = [learn(problem, 7 + k, None, 1, lambda progress: None) for k in range(3)]
     trials = [
-        draw_scenario(np.random.default_rng(k), **problem.stages()[-1].options["trial"]) for k in range(9)
+        draw_scenario(np.random.default_rng(k), TrialKind(**problem.stages()[-1].options["trial"]))
+        for k in range(9)
     ]
     costs = [problem.evaluate(problem.stages()[-1], x, trials)[0] for x in each]
     assert any(np.array_equal(genes, x) for x in each)
@@ -249,7 +250,7 @@ def test_running_goes_on_from_the_best_of_several_beginnings(tmp_path: Path) -> 
 
 
 def test_trials_of_setting_off_begin_in_a_walk_from_which_people_run() -> None:
-    scenario = draw_scenario(np.random.default_rng(2), 3.0, speeds=(3.2, 3.2), walking=1.0)
+    scenario = draw_scenario(np.random.default_rng(2), TrialKind(3.0, speeds=(3.2, 3.2)), walking=1.0)
     simulator, skill = Simulator(), load_run_skill()
     simulator.start(skill, scenario)
     walked, (pace, *_) = simulator.state[SPEED], simulator.state[COM_VELOCITY]
@@ -269,20 +270,23 @@ def test_fewer_physics_steps_a_tick_simulate_as_long_a_run() -> None:
 
 def test_trials_of_circles_turn_sharply_one_way_and_blows_are_hard() -> None:
     drawn = [
-        draw_scenario(np.random.default_rng(k), 9.0, (4.0, 4.0), lateral=1.6, circle=True) for k in range(99)
+        draw_scenario(np.random.default_rng(k), TrialKind(9.0, (4.0, 4.0)), lateral=1.6, circle=True)
+        for k in range(99)
     ]
     turns = np.array([trial.headings[:, 1] for trial in drawn])
     assert np.all(turns == turns[:, :1])
     assert np.all(np.abs(4.0 * turns) >= 0.6 * 1.6 - 1e-12) and np.all(np.abs(4.0 * turns) <= 1.6 + 1e-12)
     assert 30 < np.sum(turns[:, 0] > 0.0) < 70
-    blows = [draw_scenario(np.random.default_rng(k), 9.0, push=330.0, weakest=0.8) for k in range(99)]
+    blows = [
+        draw_scenario(np.random.default_rng(k), TrialKind(9.0, push=330.0, weakest=0.8)) for k in range(99)
+    ]
     force = np.concatenate([np.hypot(*trial.pushes[:, 1:3].T) for trial in blows])
     assert force.min() >= 0.8 * 330.0 - 1e-9 and force.max() <= 330.0 + 1e-9
 
 
 def test_a_fall_costs_what_its_stage_says_and_a_trial_that_lasts_nothing() -> None:
     problem, rng = tiny_problem(), np.random.default_rng(2)
-    lasts, falls = draw_scenario(rng, 0.2), draw_scenario(rng, 3.0, push=3000.0)
+    lasts, falls = draw_scenario(rng, TrialKind(0.2)), draw_scenario(rng, TrialKind(3.0, push=3000.0))
     for trials, more in (([lasts], 0.0), ([falls], 6.0), ([lasts, falls], 3.0)):
         free, dear = (
             Stage("a", 1, 0.1, np.ones(1), {"style": 0.3, "fall": fall, "soft": 0.0}) for fall in (0.0, 6.0)
@@ -334,7 +338,9 @@ def test_a_run_that_steps_as_often_as_a_captured_person_costs_least() -> None:
 
 def test_same_trial_same_outcome() -> None:
     skill = skill_of(tiny_problem().start(), first_state_reference())
-    scenario = draw_scenario(np.random.default_rng(1), 1.0, noise=0.5, push=50.0, tilt=0.05, lateral=1.0)
+    scenario = draw_scenario(
+        np.random.default_rng(1), TrialKind(1.0, noise=0.5, push=50.0, tilt=0.05, lateral=1.0)
+    )
     first, second = (Simulator().run(skill, scenario) for _ in range(2))
     assert first.figures == second.figures
     np.testing.assert_array_equal(first.state, second.state)

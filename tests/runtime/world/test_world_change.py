@@ -6,7 +6,7 @@ import pytest
 import navmesh
 from locomotion.quadruped.motion import stop_length
 from runtime import Arrived, Blocked, Departed, Fell, Lost, RuntimeInputError, World, WorldState
-from runtime.planning.planning import make_plan, way_holds
+from runtime.planning.planning import Beginning, make_plan, way_holds
 from runtime.planning.rules import person_walk_rules
 
 FLOORS = {
@@ -174,7 +174,9 @@ def test_a_way_over_a_platform_holds_as_long_as_the_platform_is_the_same(whole):
         )
 
     graph = whole.update({"east": floor(9.0, 0.0, 10.0, 8.0), "box": box(0.4)})
-    plan = make_plan(graph, np.array(START), [np.array([13.0, 2.0, 0.4])], 0.3, {"jump": (0.3, 0.5)})
+    plan = make_plan(
+        graph, Beginning(np.array(START)), [np.array([13.0, 2.0, 0.4])], 0.3, {"jump": (0.3, 0.5)}
+    )
     assert plan.skills == ("jump",)
     behind = plan.obstacles[0].arc_length + 0.5
     for changes, holds_before, holds_behind in (

@@ -14,7 +14,7 @@ from locomotion import Human, LocomotionError
 from locomotion.body.anatomy import MASS
 from locomotion.body.leg_kinematics import solve_leg
 from locomotion.body.person import JOINT_NAMES, STEPS_PER_TICK, PersonIndex, build_person
-from locomotion.gaits.run.controller import COM, COM_VELOCITY, new_state, observe
+from locomotion.gaits.run.controller import COM, COM_VELOCITY, FEET, OBSERVED, new_state, observe
 from locomotion.gaits.walk.controller import observe_walk, walk_tick
 from locomotion.gaits.walk.footholds import bearing, foot_frame, ground_at, plan_foothold, sway
 from locomotion.gaits.walk.layout import (
@@ -169,7 +169,9 @@ def test_stance_legs_push_as_the_full_jacobian_says(person):
     tables[:, list(GAINS).index("leg_damping")] = 0.0
     tables[:, list(GAINS).index("height")] = state[COM][2]  # neither up nor down
     tables[:, list(GAINS).index("pressure_gain")] = 1.0  # and hardly forwards or back
-    walk_tick(tables, plane_lookup(), walk, state, np.array([0.3, 0, 0, 0]), data.qpos, data.qvel, ctrl)
+    walk_tick(
+        tables, plane_lookup(), walk, state[OBSERVED], np.array([0.3, 0, 0, 0]), data.qpos, data.qvel, ctrl
+    )
     total = np.zeros(3)
     for k, hip in enumerate(HIPS):
         torque = (ctrl - data.qpos[7:])[hip : hip + 6] * -model.actuator_biasprm[hip : hip + 6, 1]
@@ -213,7 +215,7 @@ def stand(ticks, pushes):
     for tick in range(ticks):
         force = [push for begin, push in pushes.items() if begin <= tick < begin + 10]
         data.xfrc_applied[human.index.chest, :2] = force[0] if force else 0.0
-        walk_tick(tables, plane_lookup(), walk, state, command, data.qpos, data.qvel, data.ctrl)
+        walk_tick(tables, plane_lookup(), walk, state[OBSERVED], command, data.qpos, data.qvel, data.ctrl)
         mujoco.mj_step(human.model, data, STEPS_PER_TICK)
         observe(human.index, human.model, data, state)
         observe_walk(human.index, data, walk)
@@ -317,7 +319,7 @@ def test_a_foot_that_finds_no_ground_is_led_to_where_the_body_is_now(person):
     for tick in range(150):  # the swing foot hangs in the air, the body is carried on at 1 m/s after a second
         state[COM][0] += 0.01 * (tick > 100)
         state[26:28] = 0.0, 600.0
-        walk_tick(tables, plane_lookup(), walk, state, command, data.qpos, data.qvel, data.ctrl)
+        walk_tick(tables, plane_lookup(), walk, state[OBSERVED], command, data.qpos, data.qvel, data.ctrl)
         led.append(walk[FOOTHOLD][0])
     assert walk[PHASE] == SINGLE and led[-1] > led[100] + 0.2
 
@@ -326,13 +328,13 @@ def test_a_foot_that_finds_no_ground_is_led_to_where_the_body_is_now(person):
 def test_a_crouching_body_rises_on_the_foot_that_it_passes_nearest_to(side):
     state, walk = new_state(), new_walk()
     state[COM], state[COM_VELOCITY] = (0.0, 0.0, 0.4), (2.4, 0.0, 0.5)
-    state[20:26] = 0.3, -0.09 + 0.06 * side, 0.06, 0.3, 0.09 + 0.06 * side, 0.06
-    rise_walking(walk, state, 0.0)
+    state[FEET] = 0.3, -0.09 + 0.06 * side, 0.06, 0.3, 0.09 + 0.06 * side, 0.06
+    rise_walking(walk, state[OBSERVED], 0.0)
     assert walk[WALK_STANCE] == -side
     turned = 0.5 * math.pi
-    for part in (slice(14, 17), slice(17, 20), slice(20, 23), slice(23, 26)):
-        state[part] = [-state[part][1], state[part][0], state[part][2]]
-    rise_walking(walk, state, turned)
+    for vector in (state[COM], state[COM_VELOCITY], *state[FEET].reshape(2, 3)):
+        vector[:2] = -vector[1], vector[0]
+    rise_walking(walk, state[OBSERVED], turned)
     assert walk[WALK_STANCE] == -side
 
 

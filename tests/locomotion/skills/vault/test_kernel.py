@@ -9,7 +9,7 @@ from locomotion.errors import LocomotionError
 from locomotion.gaits.run import controller
 from locomotion.gaits.run.skill import load_run_skill, run_clip
 from locomotion.skills.jump.skill import run_digest
-from locomotion.skills.kernel import MIRROR, MIRROR_SIGN, mirror
+from locomotion.skills.kernel import AHEAD_X, AHEAD_Y, EDGE_X, EDGE_Y, MIRROR, MIRROR_SIGN, mirror
 from locomotion.skills.vault import kernel as vault
 from locomotion.skills.vault.reference import wanted_offset
 from locomotion.skills.vault.skill import Vault, load_vault_skill, tables_of, vault_clip
@@ -45,7 +45,7 @@ def fresh_memory(step, side):
     memory[vault.ACTIVE], memory[vault.FIRST_STEP], memory[vault.LAST_STEP] = 1.0, 10.0, step
     memory[vault.ERROR_DISTANCE], memory[vault.ERROR_SPEED] = 0.1, -0.2
     memory[vault.SIDE] = side if step == 1 else -side
-    memory[vault.EDGE] = 0.0, 0.0, 1.0, 0.0
+    memory[[EDGE_X, EDGE_Y, AHEAD_X, AHEAD_Y]] = 0.0, 0.0, 1.0, 0.0
     memory[vault.TOP], memory[vault.DEPTH] = 0.8, 0.3
     return memory
 

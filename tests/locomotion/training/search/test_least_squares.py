@@ -5,7 +5,7 @@ import pytest
 
 from locomotion.errors import LocomotionError
 from locomotion.training.progress import show
-from locomotion.training.search.least_squares import fit
+from locomotion.training.search.least_squares import Work, fit
 
 WANTED = np.array([0.6, -0.4, 0.3, 0.0])
 
@@ -26,7 +26,7 @@ class Throws:
 
 def learned(path=None, rounds=4, seed=0, told=show):
     scale = np.array([0.5, 0.5, 0.5, 0.5])
-    return fit(Throws(), np.array([0.0, 0.0, 0.0, 0.4]), scale, rounds, seed, path, 1, told)
+    return fit(Throws(), np.array([0.0, 0.0, 0.0, 0.4]), scale, rounds, seed, Work(path, 1, told))
 
 
 def test_it_finds_what_makes_every_trial_end_as_wanted():
@@ -35,7 +35,7 @@ def test_it_finds_what_makes_every_trial_end_as_wanted():
     np.testing.assert_allclose(x, WANTED, atol=0.1)
     assert [p.generation for p in told] == list(range(1, 11))
     assert 0.5 < told[-1].survival < 1.0
-    kept = fit(Throws(), np.zeros(4), np.array([0.5, 0.0, 0.5, 0.5]), 2, 0, None, 1)
+    kept = fit(Throws(), np.zeros(4), np.array([0.5, 0.0, 0.5, 0.5]), 2, 0, Work(workers=1))
     assert kept[1] == 0.0 and kept[0] > 0.3
 
 

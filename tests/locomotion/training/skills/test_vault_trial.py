@@ -61,19 +61,19 @@ def test_states_are_harvested_near_the_mark(states):
 
 def test_a_trial_repeats(simulator, states, tables):
     trials = [
-        simulator.vault_trial(tables, 0.6, 0.3, states[0], states[0].error, 1.5, record=record)
+        simulator.vault_trial(tables, (0.6, 0.3), states[0], states[0].error, 1.5, record=record)
         for record in (np.zeros((4, 6, 19)), np.zeros((4, 6, 19)))
     ]
     assert repr(trials[0]) == repr(trials[1])
 
 
 def test_no_wall_is_touched_where_none_is_high_enough(simulator, states, tables):
-    outcome = simulator.vault_trial(tables, -1.0, 0.3, states[0], states[0].error, 1.0)
+    outcome = simulator.vault_trial(tables, (-1.0, 0.3), states[0], states[0].error, 1.0)
     assert outcome.scrape == 0 and outcome.held == 0 and outcome.shortfall == 0.0
 
 
 def test_running_into_a_high_wall_is_seen(simulator, states, tables):
-    outcome = simulator.vault_trial(tables, 1.6, 0.3, states[0], states[0].error, 1.5)
+    outcome = simulator.vault_trial(tables, (1.6, 0.3), states[0], states[0].error, 1.5)
     assert outcome.scrape > 0 and not outcome.cleared and outcome.shortfall > 0.5
 
 
@@ -81,7 +81,7 @@ def test_running_into_a_high_wall_is_seen(simulator, states, tables):
 def test_a_wall_that_is_not_solid_is_seen_to_be_touched_and_lets_through(simulator, states, tables, solid):
     start, way = states[0], []
     outcome = simulator.vault_trial(
-        tables, 1.6, 0.3, start, start.error, 1.5, on_tick=lambda s: way.append(s.data.qpos[0]), solid=solid
+        tables, (1.6, 0.3), start, start.error, 1.5, on_tick=lambda s: way.append(s.data.qpos[0]), solid=solid
     )
     edge = start.planted[0] + tables.mark + start.error
     assert outcome.scrape > 0

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from locomotion.gaits.run.skill import RUN_CLIP
-from surefoot import SurefootError
 from runtime.cli.app import main
+from surefoot import SurefootError
 from surefoot.files.archive import check_target, write_archive
 from surefoot.files.atomic_write import whole_file
 from surefoot.files.inputs import keep_inputs, note_input

@@ -71,13 +71,9 @@ def compile_kernels(progress: Progress) -> None:
 
 def load_kernels() -> None:
     """Step one body of each kind, so that the first step of an application takes no longer than others."""
-    from runtime.warmup.first_uses import tiny_level
-    from runtime.world.world import World
+    from runtime.warmup.first_uses import one_of_each
 
-    world = World(tiny_level())
-    for y, body in enumerate(("human", "dog", "walker"), start=1):
-        world.spawn(body, (1.5, y, 0.0)).go_to((4.5, y, 0.0), speed=1.0)
-    world.step(0.1)
+    one_of_each(0.1)
 
 
 def _compile(told: Callable[[float, str], object]) -> None:

@@ -24,13 +24,13 @@ from runtime.events import Event
 from runtime.planning.level import Level
 from runtime.planning.rules import obstacle_rules, person_walk_rules
 from runtime.traffic.traffic import EVERY, Traffic
-from runtime.warmup import prepare_once
 from runtime.world.agent import Agent
 from runtime.world.arguments import checked_files, checked_number, checked_points, checked_whole
 from runtime.world.event_log import EventLog
 from runtime.world.host import Clock, Host
 from runtime.world.state import WorldState
 from surefoot.pausing import pause
+from surefoot.preparing import prepare_once
 from surefoot.words import several
 
 __all__ = ["World", "WorldState"]

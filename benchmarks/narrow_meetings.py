@@ -19,7 +19,7 @@ import numpy as np
 
 from benchmarks.giving_way import floor, overlap
 from runtime import World
-from runtime.bodies.protocol import radius_of
+from runtime.bodies.registry import kind_of
 from runtime.planning.rules import walk_rules
 
 KINDS = (
@@ -32,8 +32,8 @@ _STANDS = 0.1  # [m] that one has to move not to be standing
 
 def passage(kinds: tuple[str, ...], random: np.random.Generator) -> tuple[World, bool]:
     """A world with those who are about to meet, and whether the passage lies between two rooms."""
-    radius = max(radius_of(kind) for kind in kinds)
-    width = 2.0 * radius + random.uniform(0.05, 1.5 * min(radius_of(kind) for kind in kinds))
+    radius = max(kind_of(kind).radius(kind) for kind in kinds)
+    width = 2.0 * radius + random.uniform(0.05, 1.5 * min(kind_of(kind).radius(kind) for kind in kinds))
     rooms, length = bool(random.random() < 0.7), random.uniform(1.0, 12.0)
     side = 10.0 if rooms else 0.5 * max(24.0 - length, 0.0)
     low = 4.0 - 0.5 * width, 4.0 + 0.5 * width

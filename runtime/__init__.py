@@ -16,6 +16,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from surefoot import __version__
+from surefoot.preparing import prepare_with
 
 if TYPE_CHECKING:
     from runtime.bodies.pose import Pose
@@ -83,6 +84,13 @@ def __getattr__(name: str) -> Any:
             if found is not None:
                 return found
     raise AttributeError(f"module 'runtime' has no attribute {name!r}")
+
+
+def _prepare() -> None:
+    import_module("runtime.warmup").prepare()
+
+
+prepare_with(_prepare)  # for worlds, which import nothing of the warm-up: it makes worlds
 
 
 def __dir__() -> list[str]:

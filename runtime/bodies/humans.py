@@ -20,7 +20,7 @@ from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.skills.interface import skill_ranges
 from locomotion.skills.library import learned_skills
 from runtime.bodies.figure import Figure
-from runtime.bodies.protocol import PLANS_KEPT, Driver, Follower, radius_of, recall, saved_parts
+from runtime.bodies.protocol import PLANS_KEPT, Driver, Follower, Population, recall, saved_parts
 from runtime.errors import RuntimeInputError
 from runtime.planning.level import Level
 from runtime.planning.planning import Beginning, NoWay, Plan, make_plan, way_holds
@@ -35,11 +35,9 @@ _HESITATES = 0.4  # [s] at most, from a stand: less than half a step
 _HERE = 1e-3  # [m] long ways lead to where it is: one that moves has to come back there
 
 
-class People:
+class People(Population):
     """Simulated persons. ``skills``: descriptions of those of one's own that they have besides the
     package's; ``rehearsals``: as of `Human`; ``seed`` decides how long each of them hesitates."""
-
-    bodies: tuple[str, ...] = ("human",)
 
     def __init__(
         self, level: Level, skills: Sequence[Path] = (), rehearsals: int = REHEARSALS, seed: int = 0
@@ -94,18 +92,28 @@ class People:
             pause()
 
 
-class HumanDriver:
+class HumanDriver(Driver):
     """A person. ``before``: (46,) its joints as they were when `People.remember` was called, or None.
     ``hesitates``: [s] after which it sets out from a stand: people told the same do not step as one."""
 
+    tries_other_ways = True
+
     def __init__(self, level: Level, human: Human) -> None:
         self._level, self.human = level, human
-        self.radius = radius_of("human")
+        self.radius = PERSON_RULES["radius"]
         self.figure = Figure.from_model(human.model)
         self.events = human.events
         self.plans: deque[Plan] = deque(maxlen=PLANS_KEPT)
         self.before: np.ndarray | None = None
         self.hesitates = 0.0
+
+    @property
+    def simulated(self) -> Human:
+        return self.human
+
+    @property
+    def follower(self) -> Follower:
+        return self
 
     @property
     def time(self) -> float:
@@ -155,13 +163,11 @@ class HumanDriver:
 
     @property
     def can_turn(self) -> bool:
-        """Whether it is on its way and can be told another one: it does not wait for others, and does not lie
-        on the ground."""
+        """Not one that waits for others, or lies on the ground."""
         return self.human.pace >= 1.0 and self.human.status in ("walking", "running", "scrambling")
 
     @property
     def tag_ahead(self) -> str:
-        """Of the obstacle that it comes to next; empty where there is none."""
         obstacles, ahead = self._level.graph.obstacles, self.human.obstacle_ahead
         if ahead is None:
             return ""
@@ -169,6 +175,10 @@ class HumanDriver:
         away = np.linalg.norm(links.edge[:, :2] - ahead.position[:2], axis=1)
         away[links.affordance != ahead.affordance] = np.inf
         return str(obstacles.tag[links.obstacle[np.argmin(away)]]) if len(away) else ""
+
+    @property
+    def beside_path(self) -> float:
+        return abs(self.human.lateral_error)
 
     @property
     def skills(self) -> Mapping[str, tuple[float, float]]:
@@ -250,14 +260,11 @@ class HumanDriver:
         return self._take(self.plan(goals), speed)
 
     def go_without(self, goals: np.ndarray, speed: float, closed: Sequence[str]) -> Plan:
-        """As `go_to`, over none of the obstacles of the tags ``closed``."""
         return self._take(self._plan(goals, self.skills, closed), speed)
 
     def go_round(
         self, goals: np.ndarray, speed: float, closed: tuple[str, ...]
     ) -> tuple[Plan, tuple[str, ...]]:
-        """As `go_without`, over no obstacle at all, or not over the next one, if there is such a way; and the
-        tags of what is closed then."""
         ahead = self.tag_ahead
         choices = [({}, closed), (self.skills, closed)]
         if ahead:

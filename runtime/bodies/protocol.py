@@ -1,103 +1,171 @@
-"""What an agent asks of its body, whatever kind that is, and the kinds there are.
+"""What a world and its agents ask of bodies, whatever kind they are.
 
-A `Population` makes and advances all bodies of its kinds in a world: people one by one
+A `Population` makes and advances all bodies of a kind in a world: people one by one
 (`runtime.bodies.humans`), animals in one call (`runtime.bodies.quadrupeds`), walkers in one crowd
-(`runtime.bodies.walkers`). A `Driver` is one body of it.
+(`runtime.bodies.walkers`). A `Driver` is one body of it. `runtime.bodies.registry` lists the kinds.
 """
 
+from abc import ABC, abstractmethod
 from collections import deque
 from collections.abc import Mapping, Sequence
 from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
-from locomotion import PERSON_RULES
 from locomotion.avoidance.yielding import Course
 from locomotion.events import Event
-from locomotion.quadruped import BODY_NAMES, load_body
 from locomotion.saved_arrays import check_array
 from runtime.bodies.figure import Figure
 from runtime.errors import RuntimeInputError
-from runtime.planning.planning import Plan
+from runtime.planning.planning import NoWay, Plan
 
-__all__ = ["BODIES", "PLANS_KEPT", "Driver", "Follower", "Population", "radius_of", "recall", "saved_parts"]
+__all__ = ["PLANS_KEPT", "Driver", "Follower", "Population", "recall", "saved_parts"]
 
-BODIES = ("human", "walker", *BODY_NAMES)
-"""What `World.spawn` can make."""
 _Saved = TypeVar("_Saved")
 PLANS_KEPT = 256
 """Plans that an agent remembers; a pursuer makes many."""
 
 
-def radius_of(body: str) -> float:
-    """[m] that the graph's queries keep free around a body of `BODIES`; of a walker, by default."""
-    return PERSON_RULES["radius"] if body in ("human", "walker") else load_body(body).radius
-
-
-class Driver(Protocol):
+class Driver(ABC):
     """One body. ``events`` is what happened to it, in order, until its agent takes them; ``plans`` the last
-    paths it was given or made."""
+    paths it was given or made. What is not abstract here is right for a body that can do no more than
+    that."""
 
     figure: Figure
     radius: float
     events: list[Event]
     plans: deque[Plan]
+    tries_other_ways = False
+    """Whether it can be told another way to the same goals when it gets nowhere: `can_turn`, `go_without`,
+    `go_round`."""
 
     @property
-    def time(self) -> float: ...
+    @abstractmethod
+    def simulated(self) -> object:
+        """What simulates it, such as a `locomotion.Human`: for hosts that look inside."""
+
     @property
-    def status(self) -> str: ...
+    def follower(self) -> "Follower | None":
+        """Itself as one that follows a path and gives way to others; None for a body that does not."""
+        return None
+
     @property
-    def position(self) -> np.ndarray: ...
+    @abstractmethod
+    def time(self) -> float:
+        """[s] since it was made."""
+
     @property
-    def facing(self) -> float: ...
+    @abstractmethod
+    def status(self) -> str:
+        """As `runtime.Agent.status`, but for "blocked"."""
+
+    @property
+    @abstractmethod
+    def position(self) -> np.ndarray:
+        """(3,) float64 [m] on the ground."""
+
+    @property
+    @abstractmethod
+    def facing(self) -> float:
+        """[rad, -π to π] counter-clockwise from the X axis."""
+
     @property
     def progress(self) -> float:
         """Share of its path that is behind it, 0 to 1."""
-        ...
+        length = self.plans[-1].length if self.plans else 0.0
+        return 1.0 - self.left / length if length > 0.0 else 1.0
 
     @property
+    @abstractmethod
     def left(self) -> float:
         """[m] of its way that are still before it."""
-        ...
 
     @property
     def hindrance(self) -> str:
         """Why one on its way gets nowhere, as far as it knows."""
-        ...
+        return "it makes no headway"
 
     @property
-    def skills(self) -> Mapping[str, tuple[float, float]]: ...
-    def transforms(self) -> np.ndarray: ...
+    def skills(self) -> Mapping[str, tuple[float, float]]:
+        """As `runtime.Agent.skills`."""
+        return {}
+
+    @abstractmethod
+    def transforms(self) -> np.ndarray:
+        """(n, 7): position [m] and quaternion (w, x, y, z) in the world of each body of `figure`."""
+
     def transforms_between(self, share: float) -> np.ndarray:
         """A ``share`` (0 to 1) of the way from where it was when `Population.remember` was called last."""
-        ...
+        return self.transforms()
 
+    @abstractmethod
     def plan(self, goals: np.ndarray) -> Plan:
         """The way through ``goals`` (k, 3), not taken. Raises `runtime.planning.planning.NoWay`."""
-        ...
 
+    @abstractmethod
     def go_to(self, goals: np.ndarray, speed: float, facing: float | None) -> Plan:
         """Take the way through ``goals``. Raises `runtime.planning.planning.NoWay`."""
-        ...
 
     @property
+    @abstractmethod
     def goals_left(self) -> int:
         """How many of the goals of `go_to` are still before it, at least one while it is on its way."""
-        ...
 
+    @abstractmethod
     def way_holds(self) -> bool:
         """Of one on its way: whether the rest of it can be gone on the level as it is now. True for one that
         has lost its footing: another way is no help."""
-        ...
 
+    @abstractmethod
     def stop(self) -> None:
         """Give up its way and come to a stand."""
-        ...
 
-    def save(self) -> Any: ...
-    def restore(self, state: Any) -> None: ...
-    def state_hash(self) -> str: ...
+    def give_up(self, reason: str | None = None) -> None:
+        """Be stuck where it is, for a ``reason`` other than that others are in its way."""
+        self.stop()
+
+    def take_note(self) -> None:  # noqa: B027  most have nothing to note
+        """Something has happened to it: keep in `plans` what path it has taken by itself."""
+
+    @property
+    def can_turn(self) -> bool:
+        """Whether it is on its way and can be told another one now."""
+        return False
+
+    def go_without(self, goals: np.ndarray, speed: float, closed: Sequence[str]) -> Plan:
+        """As `go_to`, over none of the obstacles of the tags ``closed``."""
+        raise NoWay(0, "it takes no other way")
+
+    def go_round(
+        self, goals: np.ndarray, speed: float, closed: tuple[str, ...]
+    ) -> tuple[Plan, tuple[str, ...]]:
+        """As `go_without`, over no obstacle at all, or not over the next one, if there is such a way; and the
+        tags of what is closed then."""
+        raise NoWay(0, "it takes no other way")
+
+    @property
+    def tag_ahead(self) -> str:
+        """Of the obstacle that it comes to next; empty where there is none."""
+        return ""
+
+    @property
+    def beside_path(self) -> float:
+        """[m] by which it is beside its path, at least 0."""
+        return 0.0
+
+    @abstractmethod
+    def save(self) -> Any:
+        """Everything that decides how it goes on, as records of this distribution, tuples, arrays and plain
+        values (`runtime.world.state_file`)."""
+
+    @abstractmethod
+    def restore(self, state: Any) -> None:
+        """Go on from what `save` gave. Raises `RuntimeInputError` or another `ValueError` for anything
+        else."""
+
+    @abstractmethod
+    def state_hash(self) -> str:
+        """Hexadecimal digest of what `save` gives."""
 
 
 class Follower(Protocol):
@@ -159,40 +227,41 @@ class Follower(Protocol):
         ...
 
 
-class Population(Protocol):
-    """All bodies of some kinds in a world."""
+class Population(ABC):
+    """All bodies of a kind in a world."""
 
-    bodies: tuple[str, ...]
-
+    @abstractmethod
     def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> Driver:
-        """``radius`` [m] is `radius_of` the body, or what was asked for a walker."""
-        ...
+        """A body at ``place`` (3,). ``radius`` [m] is its kind's, or what was asked for. Raises
+        `RuntimeInputError` where there is no room for it."""
 
+    @abstractmethod
     def revive(self, body: str, state: Any) -> Driver:
         """A body where and as it was when its driver was saved."""
-        ...
 
-    def remove(self, driver: Driver) -> None: ...
+    @abstractmethod
+    def remove(self, driver: Driver) -> None:
+        """Have one less."""
+
+    @abstractmethod
     def in_the_way(self) -> np.ndarray:
         """Discs (k, 6) that cover them on the ground, as `locomotion.crowd.Crowd.lead` takes them; as many
         for each."""
-        ...
 
     def followers(self) -> Sequence[Follower]:
         """All of them, if they follow paths; nobody otherwise."""
-        ...
+        return ()
 
-    def remember(self) -> None:
+    def remember(self) -> None:  # noqa: B027  those that are drawn as they are
         """Keep where all are, for `Driver.transforms_between`."""
-        ...
 
+    @abstractmethod
     def change_level(self) -> None:
         """Go on on the level as it is now, where all are."""
-        ...
 
+    @abstractmethod
     def tick(self) -> None:
         """Advance all by 10 ms."""
-        ...
 
 
 def saved_parts(state: Any, kind: type[_Saved]) -> tuple[_Saved, tuple[Plan, ...]]:

@@ -1,7 +1,7 @@
 """Dogs, cats and horses in a world, all in one herd."""
 
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -9,7 +9,6 @@ import numpy as np
 from locomotion import LocomotionError
 from locomotion.avoidance.yielding import Course
 from locomotion.quadruped import (
-    BODY_NAMES,
     Animal,
     AnimalMemory,
     Body,
@@ -25,7 +24,7 @@ from locomotion.quadruped.footprint import at_place
 from locomotion.quadruped.saved_state import check_animal
 from runtime.bodies.animal_figure import animal_figure
 from runtime.bodies.pose import between
-from runtime.bodies.protocol import PLANS_KEPT, Driver, Follower, recall, saved_parts
+from runtime.bodies.protocol import PLANS_KEPT, Driver, Follower, Population, recall, saved_parts
 from runtime.errors import RuntimeInputError
 from runtime.planning.level import Level
 from runtime.planning.planning import Beginning, NoWay, Plan, make_plan, way_holds
@@ -34,10 +33,8 @@ from runtime.traffic.traffic import Traffic
 __all__ = ["AnimalDriver", "Pack"]
 
 
-class Pack:
+class Pack(Population):
     """Dogs, cats and horses, in one herd, who let ``traffic`` tell them who is around."""
-
-    bodies: tuple[str, ...] = BODY_NAMES
 
     def __init__(self, level: Level, traffic: Traffic) -> None:
         self._level, self._traffic = level, traffic
@@ -138,7 +135,7 @@ class _Remembered:
         self.poses = np.zeros((0, 7))
 
 
-class AnimalDriver:
+class AnimalDriver(Driver):
     """One animal of a herd."""
 
     def __init__(self, level: Level, herd: Herd, index: int, before: _Remembered, traffic: Traffic) -> None:
@@ -151,6 +148,14 @@ class AnimalDriver:
         self.events = self.animal.events
         self.plans: deque[Plan] = deque(maxlen=PLANS_KEPT)
         self._followed = self.animal.trail
+
+    @property
+    def simulated(self) -> Animal:
+        return self.animal
+
+    @property
+    def follower(self) -> Follower:
+        return self
 
     @property
     def time(self) -> float:
@@ -180,10 +185,6 @@ class AnimalDriver:
     @property
     def hindrance(self) -> str:
         return "others are in its way" if self.animal.gives_way else "it makes no headway"
-
-    @property
-    def skills(self) -> Mapping[str, tuple[float, float]]:
-        return {}
 
     def transforms(self) -> np.ndarray:
         return self.animal.herd.pose(self.animal.index)
@@ -260,7 +261,7 @@ class AnimalDriver:
     def make_room(self, far: float) -> None:
         self.animal.make_room(far)
 
-    def give_up(self) -> None:
+    def give_up(self, reason: str | None = None) -> None:
         self.animal.give_up()
 
     def end_in(self, ahead: float) -> None:

@@ -1,7 +1,7 @@
 """Walkers: cheap bodies of any radius that follow their routes and keep out of each other's way."""
 
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from navmesh.holding import line_holds
 from navmesh.route import Route
 from runtime.bodies.figure import Figure, Shapes
 from runtime.bodies.pose import between
-from runtime.bodies.protocol import PLANS_KEPT, Driver, Follower, Population, recall, saved_parts
+from runtime.bodies.protocol import PLANS_KEPT, Driver, Population, recall, saved_parts
 from runtime.errors import RuntimeInputError
 from runtime.planning.level import Level
 from runtime.planning.planning import NoWay, Plan, why_not
@@ -46,13 +46,12 @@ def walker_figure(radius: float) -> Figure:
     )
 
 
-class Walkers:
-    """All walkers of a world, in one crowd. They avoid ``others``, who give way themselves."""
+class Walkers(Population):
+    """All walkers of a world, in one crowd. They avoid all others of its ``populations``, which are advanced
+    before them."""
 
-    bodies: tuple[str, ...] = ("walker",)
-
-    def __init__(self, level: Level, others: Sequence[Population]) -> None:
-        self._level, self.crowd, self._others = level, Crowd(level.graph), others
+    def __init__(self, level: Level, populations: Sequence[Population]) -> None:
+        self._level, self.crowd, self._populations = level, Crowd(level.graph), populations
         self.before = np.zeros((0, 7))
 
     def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> Driver:
@@ -79,9 +78,6 @@ class Walkers:
         crowd = self.crowd
         return np.column_stack([crowd.positions, crowd.velocities, crowd.radii])
 
-    def followers(self) -> Sequence[Follower]:
-        return ()
-
     def remember(self) -> None:
         if len(self.crowd):
             self.before = self.transforms()
@@ -101,11 +97,12 @@ class Walkers:
 
     def tick(self) -> None:
         if len(self.crowd):
-            self.crowd.lead(np.concatenate([each.in_the_way() for each in self._others]))
+            others = [each.in_the_way() for each in self._populations if each is not self]
+            self.crowd.lead(np.concatenate([np.empty((0, 6)), *others]))
             self.crowd.tick()
 
 
-class WalkerDriver:
+class WalkerDriver(Driver):
     """A walker."""
 
     def __init__(self, population: Walkers, walker: Walker) -> None:
@@ -114,6 +111,10 @@ class WalkerDriver:
         self.figure = walker_figure(walker.radius)
         self.events: list[Event] = walker.events
         self.plans: deque[Plan] = deque(maxlen=PLANS_KEPT)
+
+    @property
+    def simulated(self) -> Walker:
+        return self.walker
 
     @property
     def time(self) -> float:
@@ -145,10 +146,6 @@ class WalkerDriver:
     @property
     def hindrance(self) -> str:
         return "it waits for its turn" if self.walker.queues else "others are in its way"
-
-    @property
-    def skills(self) -> Mapping[str, tuple[float, float]]:
-        return {}
 
     def transforms(self) -> np.ndarray:
         half = 0.5 * self.walker.yaw

@@ -320,7 +320,7 @@ def playtest(
     bots: Annotated[int, typer.Option(min=0, help="How many bots.")] = 64,
     seconds: Annotated[float, typer.Option(help="[s] How long each bot plays.")] = 300.0,
     seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same report.")] = 0,
-    body: Annotated[str, typer.Option(help="walker (quick), human, dog, cat or horse.")] = "walker",
+    body: Annotated[str, typer.Option(help="walker (quick) or any other body of a world.")] = "walker",
     plan: Annotated[
         Path | None,
         typer.Option(

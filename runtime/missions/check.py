@@ -10,7 +10,7 @@ import numpy as np
 import navmesh
 from locomotion import LocomotionError, load_run_skill
 from locomotion.skills.library import described_ranges
-from runtime.bodies.protocol import radius_of
+from runtime.bodies.registry import kind_of
 from runtime.errors import RuntimeInputError
 from runtime.missions.actions import first_far
 from runtime.missions.clearing import find_clearing
@@ -85,7 +85,7 @@ def build_graph(loaded: LoadedMission) -> navmesh.NodeGraph:
 
 def _place(loaded: LoadedMission, world: World, index: int, spec: AgentSpec) -> None:
     point, body = loaded.point(spec.start), loaded.bodies[index]
-    wrong = what_is_wrong(world.graph, point, radius_of(body), Path(body).stem)
+    wrong = what_is_wrong(world.graph, point, kind_of(body).radius(body), Path(body).stem)
     if wrong is not None:
         raise loaded.error(("agents", index, "start"), wrong)
     try:

@@ -29,8 +29,9 @@ from pydantic.json_schema import GenerateJsonSchema
 
 import navmesh
 from locomotion import LocomotionError, load_run_skill
-from locomotion.quadruped import is_body_file, load_body
 from locomotion.skills.description import load_described
+from runtime.bodies.registry import is_body_file, kind_of
+from runtime.errors import RuntimeInputError
 from runtime.missions.model import Mission, Step
 from runtime.planning.rules import walk_rules
 from surefoot.files.inputs import note_input
@@ -103,12 +104,12 @@ class LoadedMission:
         if not is_body_file(body):
             return body
         address: Address = ("agents", i, "body")
-        path = self._existing(address, body, "body file")
+        path = str(self._existing(address, body, "body file"))
         try:
-            load_body(path)
-        except LocomotionError as error:
+            kind_of(path).check(path)
+        except RuntimeInputError as error:
             raise self.error(address, str(error)) from None
-        return str(path)
+        return path
 
     def _skill(self, k: int, name: str) -> Path:
         path = self._existing(("skills", k), name, "skill file")

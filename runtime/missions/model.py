@@ -15,9 +15,8 @@ from pydantic import (
     model_validator,
 )
 
-from locomotion.quadruped import is_body_file
 from locomotion.skills.registry import CLEARING, skill_called, skill_words
-from runtime.bodies.protocol import BODIES
+from runtime.bodies.registry import USUAL, body_names, is_body_file
 from surefoot.files.choices import OneOf
 
 __all__ = [
@@ -93,7 +92,7 @@ if TYPE_CHECKING:
 else:
     _BodyFile = Annotated[str, Field(json_schema_extra={"pattern": r"\.ya?ml$"})]
     Body = Annotated[
-        Annotated[Literal[BODIES], Tag("(name)")] | Annotated[_BodyFile, Tag("(file)")],
+        Annotated[str, OneOf(body_names), Tag("(name)")] | Annotated[_BodyFile, Tag("(file)")],
         Discriminator(_kind_of_body),
     ]
 
@@ -277,7 +276,7 @@ class AgentSpec(_Strict):
     """One figure: where it starts and what it does."""
 
     name: Name
-    body: Body = "human"
+    body: Body = USUAL
     """One of ours, or the .yaml file of a quadruped of one's own, relative to the mission's."""
     start: Place
     """(x, y, z) [m], Z up, or a waypoint; snapped to the walkable surface below."""

@@ -5,8 +5,8 @@ from collections.abc import Iterable, Mapping
 
 import navmesh
 from locomotion import PERSON_RULES
-from locomotion.quadruped import load_body
 from navmesh.kinds import obstacle_kinds
+from runtime.bodies.registry import USUAL, kind_of
 from runtime.errors import RuntimeInputError
 
 __all__ = ["obstacle_rules", "person_walk_rules", "walk_rules"]
@@ -20,7 +20,7 @@ def person_walk_rules(
 ) -> navmesh.WalkRules:
     """Where a person can run [°, m, m, m]; what is None is as `locomotion.PERSON_RULES` has it."""
     return walk_rules(
-        ["human"], max_slope_deg=max_slope_deg, max_step=max_step, headroom=headroom, resolution=resolution
+        [USUAL], max_slope_deg=max_slope_deg, max_step=max_step, headroom=headroom, resolution=resolution
     )
 
 
@@ -37,7 +37,7 @@ def walk_rules(
         raise RuntimeInputError(
             f"max_slope_deg = {max_slope_deg:g}: expected degrees, 0 or more and below 90"
         )
-    needs = [_needs(body) for body in bodies]
+    needs = [kind_of(body).walk_rules(body) for body in bodies]
     given = {
         "max_slope": None if max_slope_deg is None else math.radians(max_slope_deg),
         "max_step": max_step,
@@ -45,11 +45,11 @@ def walk_rules(
         "resolution": resolution,
     }
     common = {
-        "headroom": max(each["headroom"] for each in needs),
-        "max_slope": min(each["max_slope"] for each in needs),
-        "max_step": min(each["max_step"] for each in needs),
-        "min_radius": min(each["min_radius"] for each in needs),
-        "resolution": min(each["resolution"] for each in needs),
+        "headroom": max(each.headroom for each in needs),
+        "max_slope": min(each.max_slope for each in needs),
+        "max_step": min(each.max_step for each in needs),
+        "min_radius": min(each.min_radius for each in needs),
+        "resolution": min(each.resolution for each in needs),
     }
     return navmesh.WalkRules(
         **{**common, **{name: value for name, value in given.items() if value is not None}}
@@ -72,10 +72,3 @@ def _both(usual: tuple[float, float], own: tuple[float, float] | None) -> tuple[
     if own is None:
         return usual
     return min(usual[0], max(own[0], 1e-3)), max(usual[1], own[1])
-
-
-def _needs(body: str) -> dict[str, float]:
-    """Its walk rules, by name."""
-    if body in ("human", "walker"):
-        return {**navmesh.WalkRules().to_dict(), **PERSON_RULES}
-    return load_body(body).walk_rules().to_dict()

@@ -5,19 +5,15 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import navmesh
-from locomotion import PERSON_RULES, Human
-from locomotion.quadruped import BODY_NAMES, load_body
-from locomotion.skills.interface import skill_ranges
 from locomotion.skills.kind import SkillKind
 from locomotion.skills.registry import skill_kinds
 from navmesh.kinds import Crossing
+from runtime.bodies.figure import Figure
+from runtime.bodies.registry import body_names, kind_of
 from runtime.errors import RuntimeInputError
-from runtime.planning.rules import obstacle_rules, walk_rules
+from runtime.planning.rules import obstacle_rules
 
-__all__ = ["BODIES", "Character", "changed", "character_of"]
-
-BODIES = ("walker", "human", *BODY_NAMES)
-"""What a bot can be: the walker is a quick kinematic capsule, the others are the bodies of a world."""
+__all__ = ["Character", "changed", "character_of"]
 
 
 @dataclass(frozen=True)
@@ -37,7 +33,16 @@ class Character:
     @property
     def noun(self) -> str:
         """What sentences call it."""
-        return "person" if self.body in ("human", "walker") else self.body
+        return kind_of(self.body).noun(self.body)
+
+    @property
+    def slides(self) -> bool:
+        """Whether it is a quick capsule that slides over the triangles, and no body of a world."""
+        return kind_of(self.body).slides_as_bot
+
+    def figure(self) -> Figure:
+        """What its body looks like in a world."""
+        return kind_of(self.body).figure(self.body)
 
     @property
     def stride(self) -> float:
@@ -77,27 +82,12 @@ class Character:
 
 
 def character_of(body: str) -> Character:
-    """The character that ``body`` of `BODIES` is by itself. Raises `RuntimeInputError` for another name."""
-    if body not in BODIES:
-        raise RuntimeInputError(f"body {body!r}: valid: {', '.join(map(repr, BODIES))}")
-    if body == "human":
-        skills = skill_ranges(Human().clearing)
-        return Character(body, PERSON_RULES["radius"], 3.3, walk_rules(["human"]), skills)
-    if body == "walker":
-        rules = walk_rules(["human"])
-        return Character(body, PERSON_RULES["radius"], 3.0, rules, _all_that_is_found(rules.max_step))
-    kind = load_body(body)
-    return Character(body, kind.radius, 1.5, kind.walk_rules(), {})
-
-
-def _all_that_is_found(step: float) -> dict[str, tuple[float, float]]:
-    """The sizes [m] of every kind that are looked for, or that people are to clear; what a body gets onto or
-    off it clears from ``step`` [m] on."""
-    skills, usual = {}, navmesh.ObstacleRules()
-    for kind in skill_kinds():
-        low, high = usual.range_of(kind.obstacle) or kind.sizes
-        skills[kind.affordance] = (low if kind.obstacle.has_depth else step, high)
-    return skills
+    """The character that a body of `runtime.bodies.registry.body_names` is by itself. Raises
+    `RuntimeInputError` for another name."""
+    if body not in body_names():
+        raise RuntimeInputError(f"body {body!r}: valid: {', '.join(map(repr, body_names()))}")
+    kind = kind_of(body)
+    return Character(body, kind.radius(body), kind.bot_speed, kind.walk_rules(body), kind.bot_skills(body))
 
 
 def changed(character: Character, radius: float | None, speed: float | None, rules: Mapping[str, float],

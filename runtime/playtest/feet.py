@@ -1,4 +1,4 @@
-"""The walker: a kinematic capsule that walks on the level's own triangles, and asks the graph nothing.
+"""A kinematic capsule that walks on the level's own triangles, and asks the graph nothing.
 
 It goes where its legs are told to, bumps into what is there, slides along it, steps down what is low enough,
 and falls where there is nothing: what it meets is what the mesh holds, not what the graph says of it.
@@ -15,7 +15,7 @@ from surefoot.kernels import kernel
 __all__ = ["ARRIVED", "BUMPED", "FELL", "OUT_OF_TIME", "STUCK", "TICK", "follow", "roam"]
 
 TICK = 0.05
-"""[s] between two steps of the walker."""
+"""[s] between two steps of the capsule."""
 SAMPLE = 5
 """Ticks between two samples of its track."""
 ARRIVED, STUCK, FELL, BUMPED, OUT_OF_TIME = range(5)

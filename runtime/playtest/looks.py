@@ -1,10 +1,7 @@
-"""What bots look like: the figure of a body of a world, and of the walker a capsule that its track moves."""
+"""What bots look like: the figure of a body of a world, or a capsule that its track moves."""
 
 import numpy as np
 
-from locomotion import Human
-from locomotion.quadruped import load_body
-from runtime.bodies.animal_figure import animal_figure
 from runtime.bodies.figure import Figure, Shapes
 from runtime.playtest.character import Character
 
@@ -17,11 +14,7 @@ _ORANGE, _DARK = (0.93, 0.55, 0.16), (0.25, 0.25, 0.28)
 
 def figure_of(character: Character) -> Figure:
     """The figure of ``character``."""
-    if character.body == "walker":
-        return capsule(character)
-    if character.body == "human":
-        return Figure.from_model(Human().model)
-    return animal_figure(load_body(character.body))
+    return capsule(character) if character.slides else character.figure()
 
 
 def capsule(character: Character) -> Figure:

@@ -1,4 +1,4 @@
-"""How a bot's body gets about: the walker on the triangles, or a body of a world that runs for it alone."""
+"""How a bot's body gets about: a capsule on the triangles, or a body of a world that runs for it alone."""
 
 import math
 from collections import deque
@@ -16,7 +16,7 @@ from runtime.playtest.looks import POSED
 from runtime.playtest.site import Site
 from runtime.world.world import World
 
-__all__ = ["Leg", "Mover", "WalkerMover", "WorldMover", "mover_of", "planned_time"]
+__all__ = ["CapsuleMover", "Leg", "Mover", "WorldMover", "mover_of", "planned_time"]
 
 STATUSES = ("arrived", "stuck", "fell", "bumped", "out of time")
 _MOST = 4096  # samples of a leg's track
@@ -76,8 +76,8 @@ def planned_time(route: Route, speed: float) -> float:
     return route.length / speed + 0.3 * len(route.links)
 
 
-class WalkerMover:
-    """The walker of `runtime.playtest.feet`."""
+class CapsuleMover:
+    """The capsule of `runtime.playtest.feet`."""
 
     poses: np.ndarray | None = None
 
@@ -205,4 +205,4 @@ class WorldMover:
 
 def mover_of(site: Site) -> Mover:
     """A body of the site's character."""
-    return WalkerMover(site) if site.character.body == "walker" else WorldMover(site)
+    return CapsuleMover(site) if site.character.slides else WorldMover(site)

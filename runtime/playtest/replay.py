@@ -7,7 +7,7 @@ from runtime.errors import RuntimeInputError
 from runtime.playtest.bots import run_bot
 from runtime.playtest.fault import Fault
 from runtime.playtest.looks import POSED, capsule, figure_of, poses_along
-from runtime.playtest.movers import WalkerMover
+from runtime.playtest.movers import CapsuleMover
 from runtime.playtest.observation import sighted
 from runtime.playtest.report import Report
 from runtime.playtest.run import Stage, open_stage
@@ -63,7 +63,7 @@ def _shown(stage: Stage, fault: Fault) -> np.ndarray:
     spawn = goals.spawns[np.argmin(np.linalg.norm(goals.spawns - place, axis=1))]
     patch = goals.targets[np.argmin(np.linalg.norm(goals.targets - place, axis=1))]
     route = site.graph.find_path(spawn, patch, radius=character.radius, skills=dict(character.skills))
-    mover = WalkerMover(site)
+    mover = CapsuleMover(site)
     mover.appear(route.waypoints[0] if len(route.waypoints) else spawn, 0.0)
     still = np.array([[0.0, *mover.place], [1.0, *mover.place]])
     if len(route.waypoints) < 2:

@@ -15,11 +15,11 @@ import sys
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, TypeAdapter, WithJsonSchema
-from pydantic_core import PydanticCustomError
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
 
-from runtime.bodies.protocol import BODIES
+from runtime.bodies.registry import body_names
 from surefoot.files.atomic_write import whole_file
+from surefoot.files.choices import OneOf
 
 __all__ = [
     "PROTOCOL",
@@ -53,15 +53,8 @@ _Point = tuple[_Metres, _Metres, _Metres]
 _Angle = Annotated[float, Field(ge=-100.0, le=100.0)]
 
 
-def _known(body: str) -> str:
-    if body not in BODIES:
-        valid = ", ".join(map(repr, BODIES))
-        raise PydanticCustomError("body", "body {body}: valid: {valid}", {"body": repr(body), "valid": valid})
-    return body
-
-
-_Body = Annotated[str, AfterValidator(_known), WithJsonSchema({"enum": list(BODIES), "type": "string"})]
-"""Built-in bodies only: clients cannot name files."""
+_Body = Annotated[str, OneOf(body_names)]
+"""A name that is registered. A file is none: clients name no files."""
 States = Literal["none", "places", "world", "local"]
 """What a client receives after each step: nothing; each agent's place and activity; also its skeleton's
 transforms in the world, or each relative to its parent."""

@@ -1,38 +1,30 @@
 """Compile all kernels in several processes, and load them."""
 
 import hashlib
-import logging
-import platform
 import re
-import sys
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
-
-import llvmlite
-import numba
-from llvmlite.binding import get_host_cpu_name
 
 import surefoot
 from runtime.warmup.sharing import run_shared
 from surefoot.compiling import TIME
 from surefoot.kernels.dependencies import PACKAGES
-from surefoot.kernels.folder import cache_folder, forget_old
+from surefoot.kernels.folder import forget_old
 from surefoot.kernels.loading import load_kept
+from surefoot.preparing import Preparing, mark_of_kernels
 from surefoot.progress import Progress
 
-__all__ = ["compile_kernels", "is_compiled", "load_kernels", "prepare", "prepare_once"]
+__all__ = ["compile_kernels", "is_compiled", "load_kernels", "prepare"]
 
 _KERNELS = 410
 """Approximate number of kernels."""
 _KERNEL = re.compile(rb"^@(?:allocating_)?kernel\b|\bcfunc\(", re.MULTILINE)
-_log = logging.getLogger("surefoot")
-_preparing = [False]
 
 
 def is_compiled() -> bool:
     """Whether all kernels, in their present version, are cached on this machine."""
-    mark = _mark()
+    mark = mark_of_kernels()
     return mark is not None and mark.exists() and mark.read_text(encoding="ascii") == _sources()
 
 
@@ -46,23 +38,6 @@ def prepare(progress: Callable[[float, str], object] | None = None) -> None:
     _compile(progress or (lambda share, what: None))
 
 
-def prepare_once() -> None:
-    """`prepare` if this version has never been prepared on this machine. Called by worlds, so that no step
-    compiles."""
-    mark = _mark()
-    if not _preparing[0] and mark is not None and not mark.exists():
-        _log.warning(
-            "surefoot: compiling kernels, once on this machine: %s; runtime.prepare() does it ahead of time",
-            TIME,
-        )
-        prepare()
-
-
-def leave_it() -> None:
-    """Mark this process as one that prepares: its worlds do not."""
-    _preparing[0] = True
-
-
 def compile_kernels(progress: Progress) -> None:
     """`prepare`, shown as a stage of ``progress``."""
     with progress.stage(f"compiling kernels, once: {TIME}") as stage:
@@ -71,25 +46,21 @@ def compile_kernels(progress: Progress) -> None:
 
 def load_kernels() -> None:
     """Step one body of each kind, so that the first step of an application takes no longer than others."""
-    from runtime.warmup.first_uses import tiny_level
-    from runtime.world.world import World
+    from runtime.warmup.first_uses import one_of_each
 
-    world = World(tiny_level())
-    for y, body in enumerate(("human", "dog", "walker"), start=1):
-        world.spawn(body, (1.5, y, 0.0)).go_to((4.5, y, 0.0), speed=1.0)
-    world.step(0.1)
+    one_of_each(0.1)
 
 
 def _compile(told: Callable[[float, str], object]) -> None:
     from runtime.warmup.first_uses import FIRST_USES
 
-    if _preparing[0]:
+    if Preparing.going_on:
         return
-    _preparing[0] = True
+    Preparing.going_on = True
     try:
         if not is_compiled():
             run_shared(FIRST_USES, lambda count, what: told(min(count / _KERNELS, 0.99), what))
-            mark = _mark()
+            mark = mark_of_kernels()
             if mark is not None:
                 mark.write_text(_sources(), encoding="ascii")
                 forget_old()
@@ -97,17 +68,8 @@ def _compile(told: Callable[[float, str], object]) -> None:
 
         load_kept()
     finally:
-        _preparing[0] = False
+        Preparing.going_on = False
     told(1.0, "all kernels")
-
-
-def _mark() -> Path | None:
-    """The file that records which sources are fully cached; None without a cache folder."""
-    folder = cache_folder()
-    versions = (surefoot.__version__, sys.implementation.cache_tag, numba.__version__, llvmlite.__version__)
-    machine = f"{versions} {platform.system()} {get_host_cpu_name()}"
-    name = f"all-{hashlib.sha256(machine.encode()).hexdigest()[:24]}"
-    return None if folder is None else folder / name
 
 
 @cache

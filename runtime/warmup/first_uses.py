@@ -17,7 +17,7 @@ from navmesh.areas import checked_costs
 from navmesh.bodies import doors_of
 from navmesh.pricing import priced_of
 
-__all__ = ["FIRST_USES", "tiny_level"]
+__all__ = ["FIRST_USES", "one_of_each", "tiny_level"]
 
 _EDGE = 12.0  # [m]
 _PUSH = 650.0  # [N] enough to make anybody fall
@@ -157,6 +157,17 @@ def _crowds() -> None:
     world.step(8.0)
 
 
+def one_of_each(seconds: float = 1.0) -> None:
+    """Let a body of each kind that is registered set out."""
+    from runtime.bodies.registry import body_kinds
+    from runtime.world.world import World
+
+    world, kinds = World(tiny_level()), body_kinds()
+    for y, kind in zip(np.linspace(1.0, 3.0, len(kinds)), kinds, strict=True):
+        world.spawn(kind.names[0], (1.5, y, 0.0)).go_to((4.5, y, 0.0), speed=1.0)
+    world.step(seconds)
+
+
 def _playtest() -> None:
     from runtime.playtest import playtest
 
@@ -189,6 +200,7 @@ FIRST_USES: dict[str, Callable[[], None]] = {
     "animals": _animals,
     "crowds": _crowds,
     "running and jumping": _run_and_jump,
+    "bodies": one_of_each,
     "playtests": _playtest,
     "pictures": _draw,
 }

@@ -14,11 +14,11 @@ def main() -> None:
     os.dup2(2, 1)  # what the uses print
     asked: SimpleQueue[str] = SimpleQueue()
     Thread(target=_read, args=(asked,), daemon=True).start()
-    from runtime.warmup import ahead
     from runtime.warmup.first_uses import FIRST_USES
     from surefoot.compiling import counted
+    from surefoot.preparing import Preparing
 
-    ahead.leave_it()
+    Preparing.going_on = True
     with counted(lambda count: print("compiled", file=told)):
         while True:
             FIRST_USES[asked.get()]()

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import chain
-from typing import TYPE_CHECKING, Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,10 +13,8 @@ from locomotion import events as bodily
 from locomotion.avoidance.yielding import Course
 from locomotion.quadruped import Animal
 from locomotion.skills.registry import CLEARING, skill_kind
-from runtime.bodies.humans import HumanDriver
 from runtime.bodies.pose import Pose
 from runtime.bodies.protocol import Driver
-from runtime.bodies.quadrupeds import AnimalDriver
 from runtime.errors import RuntimeInputError
 from runtime.events import (
     Arrived,
@@ -35,15 +33,14 @@ from runtime.events import (
 from runtime.planning.planning import NoWay, Plan
 from runtime.traffic.deadlock import Headway
 from runtime.world.arguments import checked_number, checked_points
-
-if TYPE_CHECKING:
-    from runtime.world.world import World
+from runtime.world.host import Host
 
 __all__ = ["Agent", "AgentState", "Pose"]
 
 _CARRIED_OFF = 0.5  # [m] beside its path from which a person that has got up takes another one
 _ATTEMPTS = 3  # of a person that is stuck or lost to find another way to its goals
 _TURNINGS = 6  # times that it goes back before the same obstacle, until it is stuck
+_Kind = TypeVar("_Kind")
 _HELPLESS = bodily.GotStuck, bodily.StrayedFromPath, bodily.MissedGoal
 
 
@@ -92,18 +89,18 @@ class AgentState:
 class Agent:
     """One figure in a world; made by `World.spawn`.
 
-    ``name`` is unique in its world, ``body`` is one of `runtime.bodies.protocol.BODIES`; ``news`` are its
+    ``name`` is unique in its world, ``body`` is what `World.spawn` was given; ``news`` are its
     body's events that the world has not been told of.
     """
 
-    def __init__(self, world: "World", name: str, body: str, driver: Driver) -> None:
+    def __init__(self, host: Host, name: str, body: str, driver: Driver) -> None:
         self.name = name
         self.body = body
         self.figure = driver.figure
         self.take(driver)
-        self._world = world
+        self._host = host
         self._blocked = False
-        self._born = world.time - driver.time
+        self._born = host.clock.time - driver.time
         self._goal = _triple(driver.position)
         self._errand = Errand()
         self._headway = Headway()
@@ -116,16 +113,21 @@ class Agent:
     @property
     def human(self) -> Human:
         """The simulated person. Raises `RuntimeInputError` for other bodies."""
-        if not isinstance(self._driver, HumanDriver):
-            raise RuntimeInputError(f"{self.name} is a {self.body}, not a human")
-        return self._driver.human
+        return self.simulated(Human)
 
     @property
     def animal(self) -> Animal:
         """The quadruped. Raises `RuntimeInputError` for other bodies."""
-        if not isinstance(self._driver, AnimalDriver):
-            raise RuntimeInputError(f"{self.name} is a {self.body}, not a quadruped")
-        return self._driver.animal
+        return self.simulated(Animal)
+
+    def simulated(self, kind: type[_Kind]) -> _Kind:
+        """What simulates its body, which has to be a ``kind``: `locomotion.Human`,
+        `locomotion.quadruped.Animal`, `locomotion.crowd.Walker`, or of a body of your own what its driver
+        says. Raises `RuntimeInputError` for another kind."""
+        found = self._driver.simulated
+        if not isinstance(found, kind):
+            raise RuntimeInputError(f"{self.name} is a {self.body}, not a {kind.__name__}")
+        return found
 
     @property
     def plans(self) -> list[Plan]:
@@ -185,7 +187,7 @@ class Agent:
     def blended_pose(self) -> Pose:
         """Where to draw its skeleton: `World.blend` of the way from the last tick but one to the last. Moves
         evenly at any frame rate, one tick behind `pose`."""
-        transforms = self._driver.transforms_between(self._world.blend)
+        transforms = self._driver.transforms_between(self._host.clock.blend)
         return Pose(self.figure.bodies, self.figure.parents, transforms)
 
     def plan(self, point: ArrayLike) -> Plan:
@@ -205,10 +207,11 @@ class Agent:
         if speed <= 0.0:
             raise RuntimeInputError(f"speed must be above 0 m/s, not {speed!r}")
         facing = None if facing is None else checked_number(facing, "facing", "rad")
-        if len(goals) == 1 and not self.moving and self._world.has_come(self, goals[0]):
+        if len(goals) == 1 and not self.moving and self._has_come(goals[0]):
             self._goal, self._blocked = _triple(goals[0]), False
             return self.status
-        former = self._world.course(self)
+        follower = self._driver.follower
+        former = None if follower is None else follower.course()
         try:
             plan = self._driver.go_to(goals, speed, facing)
         except NoWay as error:
@@ -217,6 +220,15 @@ class Agent:
         self._errand = Errand(tuple(_triple(each) for each in goals), speed, facing)
         self._depart(plan, former)
         return self.status
+
+    def _has_come(self, goal: np.ndarray) -> bool:
+        """Whether one at rest that gives way by its path is as near to ``goal`` (3,) as those who stand there
+        let it, see `locomotion.avoidance.goal_occupancy`: it has then arrived."""
+        follower = self._driver.follower
+        if follower is None or self.status == "fallen" or not self._host.traffic.has_come(follower, goal):
+            return False
+        follower.end_in(0.0)
+        return True
 
     def stop(self) -> None:
         """Give up its way and come to a stand, as soon as it can without falling; an obstacle that it is
@@ -230,8 +242,10 @@ class Agent:
         self._blocked = False
         here, goal = _triple(self.position), self._errand.goals[-1]
         self._goal = _triple(plan.points[-1])
-        self._world.look_out(self, former)
-        now = self._world.time
+        follower = self._driver.follower
+        if follower is not None:
+            self._host.traffic.look_out(follower, former)
+        now = self._host.clock.time
         self._headway = Headway(since=now, tried=now)
         skills = tuple(skill_kind(each).skill for each in plan.skills)
         self._tell(Departed(now, self.name, here, goal, plan.length, skills))
@@ -239,28 +253,28 @@ class Agent:
     def _report_blocked(self, goal: np.ndarray, reason: str) -> None:
         self._blocked = True
         here = _triple(self.position)
-        self._tell(Blocked(self._world.time, self.name, here, _triple(goal), reason))
+        self._tell(Blocked(self._host.clock.time, self.name, here, _triple(goal), reason))
 
     def _tell(self, event: Event) -> None:
-        self._headway = replace(self._headway, told=self._world.time)
-        self._world.report(event)
+        self._headway = replace(self._headway, told=self._host.clock.time)
+        self._host.log.report(event)
 
     def watch(self) -> None:
         """Say so if it is on its way and gets nowhere, and do something else after a while; `World.step`
         calls this every half second."""
         if not self.moving:
             return
-        now = self._world.time
+        now = self._host.clock.time
         self._headway = self._headway.seen(self._driver.left, now)
         if self._headway.late(now):
             self._hindered(self._driver.hindrance)
-        if isinstance(self._driver, HumanDriver) and self._headway.desperate(now):
+        if self._driver.tries_other_ways and self._headway.desperate(now):
             self._headway = replace(self._headway, tried=now)
             if self._driver.can_turn and not self._tries_again():
                 self._driver.give_up()
 
     def _hindered(self, reason: str) -> None:
-        self._tell(Hindered(self._world.time, self.name, _triple(self.position), reason))
+        self._tell(Hindered(self._host.clock.time, self.name, _triple(self.position), reason))
 
     def look_at_way(self) -> None:
         """After a change of the level: go on where the way holds, look for another one where it does not, and
@@ -288,7 +302,7 @@ class Agent:
     def _goes_another_way(self, round_it: bool = False) -> bool:
         """Whether a person finds another way to its goals from where it is, and takes it; ``round_it``: over
         no obstacle, or at least not over the next one, if there is such a way."""
-        if not self._errand.goals or not isinstance(self._driver, HumanDriver):
+        if not self._errand.goals or not self._driver.tries_other_ways:
             return False
         goals, speed, closed = self._goals_left, self._errand.speed, self._errand.closed
         try:
@@ -311,28 +325,25 @@ class Agent:
     def _balks(self, event: bodily.WentBack) -> None:
         """A person goes back for another run-up: the second time it goes another way if there is one, or else
         straight to the beginning of a run-up of its own."""
-        driver = self._driver
-        assert isinstance(driver, HumanDriver)
         obstacle = f"the {event.affordance} of {event.size:.2f} m"
         self._hindered(f"it goes back {event.distance:.1f} m for another run-up to {obstacle}")
-        tag = driver.tag_ahead
+        tag = self._driver.tag_ahead
         self._errand = replace(self._errand, balked=(*self._errand.balked, tag))
         times = self._errand.balked.count(tag)
         if times >= _TURNINGS:
-            driver.give_up(f"it has gone back {times} times and finds no run-up to {obstacle}")
+            self._driver.give_up(f"it has gone back {times} times and finds no run-up to {obstacle}")
         elif times % 2 == 0:
             self._goes_another_way(round_it=times == 2)
 
     @property
     def _carried_off(self) -> bool:
-        """Whether a person on its way is so far beside its path that it should not go back there."""
-        return self.moving and abs(self.human.lateral_error) > _CARRIED_OFF
+        """Whether one on its way is so far beside its path that it should not go back there."""
+        return self.moving and self._driver.beside_path > _CARRIED_OFF
 
     def notice(self) -> None:
         """Report what has happened to the body; `World.step` calls this after every tick in which there is
         `news`."""
-        if isinstance(self._driver, AnimalDriver):
-            self._driver.take_note()
+        self._driver.take_note()
         for event in self.news:
             if isinstance(event, bodily.WentBack):
                 self._balks(event)
@@ -372,7 +383,7 @@ class Agent:
 
     def remove(self) -> None:
         """Take it out of its world; it cannot be used any more."""
-        self._world.remove(self)
+        self._host.remove(self)
 
     def save(self) -> AgentState:
         """Everything needed to continue from here."""

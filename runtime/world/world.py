@@ -3,7 +3,6 @@
 import hashlib
 import math
 import os
-from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from itertools import count
 from pathlib import Path
@@ -14,31 +13,28 @@ from numpy.typing import ArrayLike
 
 import navmesh
 from locomotion import LocomotionError, load_run_skill
-from locomotion.avoidance.yielding import Course
 from locomotion.body.person import CONTROL_DT
-from locomotion.quadruped import is_body_file, load_body
 from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.skills.library import described_ranges, learned_skills, skills_digest
-from runtime.bodies.humans import People
-from runtime.bodies.protocol import BODIES, Follower, Population, radius_of
-from runtime.bodies.quadrupeds import Pack
-from runtime.bodies.walkers import Walkers
+from runtime.bodies.kinds.kind import BodyKind, Surroundings
+from runtime.bodies.protocol import Population
+from runtime.bodies.registry import body_kinds, kind_of
 from runtime.errors import RuntimeInputError
 from runtime.events import Event
 from runtime.planning.level import Level
 from runtime.planning.rules import obstacle_rules, person_walk_rules
 from runtime.traffic.traffic import EVERY, Traffic
-from runtime.warmup import prepare_once
 from runtime.world.agent import Agent
 from runtime.world.arguments import checked_files, checked_number, checked_points, checked_whole
+from runtime.world.event_log import EventLog
+from runtime.world.host import Clock, Host
 from runtime.world.state import WorldState
 from surefoot.pausing import pause
+from surefoot.preparing import prepare_once
 from surefoot.words import several
 
-__all__ = ["BODIES", "World", "WorldState"]
+__all__ = ["World", "WorldState"]
 
-_UNREAD = 100_000
-"""Events that are kept for one who does not read them; the oldest are forgotten first."""
 _LOOKS = 50  # ticks between two looks at whether an agent makes headway
 _E = TypeVar("_E", bound=Event)
 
@@ -90,14 +86,16 @@ class World:
         self._level = Level.of(graph)
         self._populations: list[Population] = []
         self._traffic = Traffic(self._level, self._populations)
-        others = People(self._level, self._skills, rehearsals, seed), Pack(self._level, self._traffic)
-        self._populations += [*others, Walkers(self._level, others)]
-        self._ticks = 0
-        self._owed = 0.0
+        around = Surroundings(
+            self._level, self._traffic, self._populations, self._skills, rehearsals, int(seed)
+        )
+        self._homes: dict[BodyKind, Population] = {}
+        for kind in sorted(body_kinds(), key=lambda kind: kind.avoids_all):
+            self._homes[kind] = kind.populate(around)
+            self._populations.append(self._homes[kind])
+        self._clock, self._log = Clock(), EventLog()
+        self._host = Host(self._clock, self._log, self._traffic, self.remove)
         self._stepping = False
-        self._events: deque[Event] = deque(maxlen=_UNREAD)
-        self._untold: deque[Event] = deque()
-        self._listeners: list[tuple[type[Event], Callable[[Event], object]]] = []
 
     def __repr__(self) -> str:
         level, agents = Path(self.graph.terrain.name).name, several(len(self.agents), "agent")
@@ -117,21 +115,19 @@ class World:
     @property
     def time(self) -> float:
         """Simulated time [s]: whole ticks of 10 ms."""
-        return self._ticks * CONTROL_DT
+        return self._clock.time
 
     @property
     def blend(self) -> float:
         """How far between the last tick but one (0) and the last (towards 1) to draw: the share of a tick
         that is owed."""
-        return min(self._owed / CONTROL_DT, 1.0)
+        return self._clock.blend
 
     @property
     def events(self) -> list[Event]:
         """What has happened since this was last read, in order; reading empties it. Of more than 100,000 the
         last ones."""
-        events = list(self._events)
-        self._events.clear()
-        return events
+        return self._log.read()
 
     def listen(self, callback: Callable[[_E], object], kind: type[_E] = Event) -> Callable[[], None]:
         """Have ``callback(event)`` called for each event of type ``kind``; returns a function that ends it.
@@ -141,17 +137,7 @@ class World:
         They may do with the world what they like, except step or restore it. An error in one comes out of
         `step`, which can be called again.
         """
-        if not callable(callback) or not (isinstance(kind, type) and issubclass(kind, Event)):
-            raise RuntimeInputError(
-                f"listen takes a function and a class of events, not {callback!r} and {kind!r}"
-            )
-        entry: tuple[type[Event], Callable[[Event], object]] = (kind, callback)  # type: ignore[assignment]
-        self._listeners.append(entry)
-
-        def stop() -> None:
-            self._listeners = [each for each in self._listeners if each is not entry]
-
-        return stop
+        return self._log.listen(callback, kind)
 
     def spawn(
         self,
@@ -165,8 +151,8 @@ class World:
 
         ``body`` is "human", "dog", "cat" or "horse", or "walker": a cheap body that slides over the surface
         and avoids others, by the thousand; or the path of a YAML file with a quadruped of your own (see
-        `locomotion.quadruped.load_body`). A quadruped stands with its rear feet there. ``radius`` [m] is
-        for walkers only, by default a person's.
+        `locomotion.quadruped.load_body`); or what was added by `runtime.bodies.registry.register`. A
+        quadruped stands with its rear feet there. ``radius`` [m] is for walkers only, by default a person's.
         The place is moved to the nearest one where the body fits (see `NodeGraph.find_path`). ``name`` is
         its own in this world; by default "human1" and so on. Raises `RuntimeInputError` for an unknown body,
         a body file with a mistake, a taken name, a place off the walkable surface, or a quadruped without
@@ -176,14 +162,8 @@ class World:
             raise RuntimeInputError(
                 f"body and name must be text that is not empty, not {body!r} and {name!r}"
             )
-        if is_body_file(body):
-            try:
-                load_body(body)
-            except LocomotionError as error:
-                raise RuntimeInputError(str(error)) from None
-        elif body not in BODIES:
-            known = ", ".join(map(repr, BODIES))
-            raise RuntimeInputError(f"body {body!r}: valid: {known}, or a quadruped's .yaml file")
+        kind = kind_of(body)
+        kind.check(body)
         if name is None:
             numbered = (f"{Path(body).stem}{number}" for number in count(len(self.agents) + 1))
             name = next(each for each in numbered if each not in self.agents)
@@ -193,16 +173,17 @@ class World:
         if len(place) != 1 or np.ndim(at) != 1:
             raise RuntimeInputError(f"at must be one point (3,) [m], not {at!r}")
         place, facing = place[0], checked_number(facing, "facing", "rad")
-        if radius is not None and body != "walker":
-            raise RuntimeInputError(f"a {body} has a radius of its own; only a walker can be given one")
+        if radius is not None and not kind.sized:
+            sized = " or a ".join(name for each in body_kinds() if each.sized for name in each.names)
+            raise RuntimeInputError(f"a {body} has a radius of its own; only a {sized} can be given one")
         if radius is not None and checked_number(radius, "radius", "m") <= 0.0:
             raise RuntimeInputError(f"radius must be above 0 m, not {radius!r}")
-        size = radius_of(body) if radius is None else float(radius)
+        size = kind.radius(body) if radius is None else float(radius)
         here = self.graph.find_path(place, place, radius=size)
         if here.status != "complete":
             raise RuntimeInputError(f"{place.tolist()} is not near a place where a {body} fits")
         driver = self._population(body).spawn(body, here.waypoints[0], facing, size)
-        agent = self.agents[name] = Agent(self, name, body, driver)
+        agent = self.agents[name] = Agent(self._host, name, body, driver)
         return agent
 
     def remove(self, agent: Agent) -> None:
@@ -220,11 +201,11 @@ class World:
         """Change the level's chunks, between two ticks: by name, a `navmesh.Terrain` to be added or to
         replace the one of that name, None to remove it; see `navmesh.NodeGraph.update`.
 
-        Nobody is moved. Who is on a way that still holds goes on; the others look for another to the same
-        goals, and stop, with `Blocked`, where there is none. Whose ground has gone: a dog stands still and a
-        walker stays where it is (both with `Lost`), a person falls. Raises `navmesh.NavmeshError` for the
-        removal of a chunk that is not there and when nothing walkable is left, `RuntimeInputError` for what
-        is no mapping; the world is then as it was.
+        Nobody is moved. Agents whose route is still valid keep walking; the others look for another route to
+        the same goals, and stop, with `Blocked`, where there is none. If its ground is removed, a quadruped
+        stops and a walker stays where it is (both with `Lost`), and a person falls. Raises
+        `navmesh.NavmeshError` for the removal of a chunk that is not there and when nothing walkable is left,
+        `RuntimeInputError` for what is no mapping; the world is then as it was.
         """
         if not isinstance(changes, Mapping):
             raise RuntimeInputError(f"changes are a {type(changes).__name__}; give {{chunk's name: Terrain}}")
@@ -239,11 +220,10 @@ class World:
             agent.look_at_way()
 
     def _population(self, body: str) -> Population:
-        kind = "dog" if is_body_file(body) else body
-        for population in self._populations:
-            if kind in population.bodies:
-                return population
-        raise RuntimeInputError(f"there is no body {body!r}")
+        population = self._homes.get(kind_of(body))
+        if population is None:
+            raise RuntimeInputError(f"the body {body!r} was registered after this world was made")
+        return population
 
     def step(self, dt: float) -> int:
         """Advance by ``dt`` [s] ≥ 0, in whole ticks of 10 ms; the rest is owed to later calls.
@@ -253,19 +233,20 @@ class World:
         """
         dt = checked_number(dt, "dt", "s", 0.0)
         self._refuse_in_callback("step")
-        total = self._owed + dt
+        clock = self._clock
+        total = clock.owed + dt
         due = math.floor(total / CONTROL_DT + 1e-6)
-        self._owed = total
+        clock.owed = total
         self._stepping = True
         try:
             for made in range(1, due + 1):
                 if made == due:
                     for population in self._populations:
                         population.remember()
-                if self._ticks % EVERY == 0:
-                    self._traffic.direct(self._ticks)
-                self._ticks += 1
-                self._owed = max(total - made * CONTROL_DT, 0.0)
+                if clock.ticks % EVERY == 0:
+                    self._traffic.direct(clock.ticks)
+                clock.ticks += 1
+                clock.owed = max(total - made * CONTROL_DT, 0.0)
                 for population in self._populations:
                     population.tick()
                     pause()
@@ -273,54 +254,18 @@ class World:
                     if agent.news:
                         agent.notice()
                         pause()
-                for agent in list(self.agents.values())[self._ticks % _LOOKS :: _LOOKS]:
+                for agent in list(self.agents.values())[clock.ticks % _LOOKS :: _LOOKS]:
                     agent.watch()
                     pause()
-                self._tell()
+                self._log.tell()
         finally:
             self._stepping = False
         return due
 
-    def has_come(self, agent: Agent, goal: np.ndarray) -> bool:
-        """Whether an agent at rest that gives way by its path is as near to ``goal`` (3,) as those who stand
-        there let it, see `locomotion.avoidance.goal_occupancy`: it has then arrived. `Agent.go_to` asks."""
-        follower = self._follower(agent)
-        there = follower is not None and agent.status != "fallen" and self._traffic.has_come(follower, goal)
-        if there and follower is not None:
-            follower.end_in(0.0)
-        return there
-
-    def course(self, agent: Agent) -> Course | None:
-        """What an agent that gives way by its path is about to do."""
-        follower = self._follower(agent)
-        return None if follower is None else follower.course()
-
-    def look_out(self, agent: Agent, former: Course | None) -> None:
-        """Let an agent that has just been told where to go, ``former`` was its `course`, give way;
-        `Agent.go_to` asks."""
-        follower = self._follower(agent)
-        if follower is not None:
-            self._traffic.look_out(follower, former)
-
-    def _follower(self, agent: Agent) -> Follower | None:
-        followers = self._population(agent.body).followers()
-        return next((each for each in followers if each is agent.driver), None)
-
     def report(self, event: Event) -> None:
         """Add an event to `events`, and tell who listens at the end of the tick. Raises `RuntimeInputError`
         for what is none."""
-        if not isinstance(event, Event):
-            raise RuntimeInputError(f"an Event is reported, not {event!r}")
-        self._events.append(event)
-        if self._listeners:
-            self._untold.append(event)
-
-    def _tell(self) -> None:
-        for _ in range(len(self._untold)):
-            event = self._untold.popleft()
-            for kind, callback in tuple(self._listeners):
-                if isinstance(event, kind):
-                    callback(event)
+        self._log.report(event)
 
     def _refuse_in_callback(self, what: str) -> None:
         if self._stepping:
@@ -328,7 +273,7 @@ class World:
 
     def state_hash(self) -> str:
         """Hexadecimal digest of everything that decides how the world goes on; equal for equal runs."""
-        checksum = hashlib.sha256(repr((self._ticks, self._owed)).encode())
+        checksum = hashlib.sha256(repr((self._clock.ticks, self._clock.owed)).encode())
         checksum.update(repr(self.random.bit_generator.state).encode())
         for name, agent in self.agents.items():
             checksum.update(f"{name}:{agent.state_hash()}".encode())
@@ -344,12 +289,12 @@ class World:
         return WorldState(
             level=self.level_digest,
             skills=skills_digest(self._skills)
-            if any(each.body == "human" for each in self.agents.values())
+            if any(kind_of(each.body).uses_skill_files for each in self.agents.values())
             else "",
-            ticks=self._ticks,
-            owed=self._owed,
-            events=tuple(self._events),
-            untold=tuple(self._untold),
+            ticks=self._clock.ticks,
+            owed=self._clock.owed,
+            events=tuple(self._log.unread),
+            untold=tuple(self._log.untold),
             random=self.random.bit_generator.state,
             agents=agents,
         )
@@ -395,8 +340,8 @@ class World:
             self.agents[name].restore(saved)
             pause()
         self.random.bit_generator.state = dict(state.random)
-        self._ticks, self._owed = state.ticks, state.owed
-        self._events, self._untold = deque(state.events, maxlen=_UNREAD), deque(state.untold)
+        self._clock.ticks, self._clock.owed = state.ticks, state.owed
+        self._log.become(state.events, state.untold)
 
     def _populate(self, state: WorldState, known: Mapping[str, Agent]) -> None:
         """Make the agents those of ``state``, in their order."""
@@ -408,6 +353,6 @@ class World:
             if agent is not None and agent.body == saved.body:
                 agent.take(driver)
             else:
-                agent = Agent(self, name, saved.body, driver)
+                agent = Agent(self._host, name, saved.body, driver)
             self.agents[name] = agent
             pause()

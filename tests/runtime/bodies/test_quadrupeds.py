@@ -42,7 +42,7 @@ def test_a_person_and_animals_share_a_world(graph):
         assert pose.transforms.shape == (len(pose.names), 7) and pose.parents[0] == -1
         assert np.linalg.norm(pose.transforms[:, 3:], axis=1) == pytest.approx(1.0)
         assert len(agent.figure.posed(pose.transforms).size) > 10
-    with pytest.raises(RuntimeInputError, match="is a dog, not a human"):
+    with pytest.raises(RuntimeInputError, match="is a dog, not a Human"):
         _ = agents[1].human
     assert agents[1].animal.body.name == "dog"
 

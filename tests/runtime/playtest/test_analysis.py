@@ -18,7 +18,7 @@ from runtime.playtest.character import character_of
 from runtime.playtest.closeup import close_up
 from runtime.playtest.floorplan import Allowance, FloorPlan
 from runtime.playtest.mesh import Mesh
-from runtime.playtest.movers import WalkerMover
+from runtime.playtest.movers import CapsuleMover
 from runtime.playtest.page import write_page
 from runtime.playtest.site import Site
 from runtime.views.render import Triangles
@@ -139,7 +139,7 @@ def test_a_roamer_steps_over_cracks_and_falls_through_holes():
             floors = [box(-9, 9, 0, 9, -0.2, 0), box(-9, 9, -9, -width, -0.2, 0)]
             mesh = trimesh.util.concatenate(floors)
             mesh.apply_transform(trimesh.transformations.rotation_matrix(turn, (0, 0, 1)))
-            mover = WalkerMover(site_of(mesh))
+            mover = CapsuleMover(site_of(mesh))
             start = np.array([-2.0 * np.sin(turn), 2.0 * np.cos(turn), 0.0])
             mover.appear(start, 0.0)
             leg = mover.wander(np.array([turn - 0.5 * np.pi]), 1.5)

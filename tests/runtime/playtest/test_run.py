@@ -22,7 +22,7 @@ from runtime.playtest.bots import run_bot
 from runtime.playtest.character import character_of
 from runtime.playtest.holes import find_holes
 from runtime.playtest.looks import figure_of
-from runtime.playtest.movers import WalkerMover, WorldMover
+from runtime.playtest.movers import CapsuleMover, WorldMover
 from runtime.playtest.observation import sighted
 from runtime.playtest.page import write_page
 from runtime.playtest.plan import LoadedPlan
@@ -192,7 +192,7 @@ def test_a_bot_depends_on_its_own_number_only(outcome):
 
 def test_a_roamer_falls_through_a_hole():
     mesh = trimesh.util.concatenate([slab(0, 9, 0, 4, -0.2, 0), slab(11, 20, 0, 4, -0.2, 0)])
-    mover = WalkerMover(site_of(mesh))
+    mover = CapsuleMover(site_of(mesh))
     mover.appear(np.array([7.0, 2.0, 0.0]), 0.0)
     leg = mover.wander(np.array([0.0]), 5.0)
     assert leg.status == "fell" and 8.8 < leg.place[0] < 9.5

@@ -14,11 +14,13 @@ import navmesh
 import runtime
 from runtime import World
 from runtime.events import Departed, SkillStarted
-from runtime.warmup import ahead, compile_kernels, is_compiled, prepare_once
+from runtime.warmup import ahead, compile_kernels, is_compiled
 from runtime.warmup.first_uses import FIRST_USES, tiny_level
 from runtime.warmup.sharing import run_shared
+from runtime.world.event_log import EventLog
 from surefoot.compiling import counted
 from surefoot.kernels.folder import cache_folder
+from surefoot.preparing import prepare_once
 from surefoot.progress import Progress
 
 _MAIN = "import runtime.cli.app; runtime.cli.app.main()"
@@ -42,9 +44,9 @@ def test_a_warm_up_is_not_repeated_until_a_kernel_changes(monkeypatch):
 
 def test_the_uses_do_what_they_are_for(monkeypatch):
     """A person runs and jumps, dogs and walkers go."""
-    happened, report = [], World.report
-    monkeypatch.setattr(World, "report", lambda world, event: (happened.append(event), report(world, event)))
-    for use in ("running and jumping", "animals", "crowds"):
+    happened, report = [], EventLog.report
+    monkeypatch.setattr(EventLog, "report", lambda log, event: (happened.append(event), report(log, event)))
+    for use in ("running and jumping", "animals", "crowds", "bodies"):
         FIRST_USES[use]()
     assert any(isinstance(event, SkillStarted) for event in happened)
     departed = {event.agent for event in happened if isinstance(event, Departed)}

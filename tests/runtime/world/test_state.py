@@ -14,7 +14,7 @@ from hypothesis.extra import numpy as hnp
 
 import navmesh
 from runtime import RuntimeInputError, World, WorldState
-from runtime.bodies.protocol import BODIES
+from runtime.bodies.registry import body_names
 from runtime.planning.planning import Plan
 from runtime.planning.rules import person_walk_rules
 from runtime.world.state import STATE_FILE
@@ -82,7 +82,7 @@ def _airborne(agent):
     return bool((feet[:, 2] - floor > 0.06).all())
 
 
-@pytest.mark.parametrize("body", BODIES)
+@pytest.mark.parametrize("body", body_names())
 def test_every_body_goes_on_from_a_file(graph, tmp_path, body):
     world = World(graph)
     agent = world.spawn(body, (2.5, 3.0, 0.0), name="it")

@@ -40,7 +40,7 @@ def test_refuses_what_is_no_seed_listener_or_state(graph):
     for agent in (None, "human1"):
         with pytest.raises(RuntimeInputError, match="an Agent is removed"):
             world.remove(agent)
-    with pytest.raises(RuntimeInputError, match="an Event is reported, not 'Arrived'"):
+    with pytest.raises(RuntimeInputError, match="expected an Event, got 'Arrived'"):
         world.report("Arrived")
     assert world.events == []
     for skills in (None, 5, "hop.yaml", [5]):

@@ -1,0 +1,44 @@
+"""People: simulated under physics, with learned skills."""
+
+from collections.abc import Mapping
+
+import navmesh
+from locomotion import PERSON_RULES, Human
+from locomotion.skills.interface import skill_ranges
+from runtime.bodies.figure import Figure
+from runtime.bodies.humans import People
+from runtime.bodies.kinds.kind import BodyKind, Surroundings
+from runtime.bodies.protocol import Population
+
+__all__ = ["PersonKind", "person_rules"]
+
+
+def person_rules() -> navmesh.WalkRules:
+    """Where a person can go."""
+    return navmesh.WalkRules(**{name: value for name, value in PERSON_RULES.items() if name != "radius"})
+
+
+class PersonKind(BodyKind):
+    """A person."""
+
+    names = ("human",)
+    uses_skill_files = True
+    bot_speed = 3.3
+
+    def noun(self, body: str) -> str:
+        return "person"
+
+    def radius(self, body: str) -> float:
+        return PERSON_RULES["radius"]
+
+    def walk_rules(self, body: str) -> navmesh.WalkRules:
+        return person_rules()
+
+    def figure(self, body: str) -> Figure:
+        return Figure.from_model(Human().model)
+
+    def bot_skills(self, body: str) -> Mapping[str, tuple[float, float]]:
+        return skill_ranges(Human().clearing)
+
+    def populate(self, around: Surroundings) -> Population:
+        return People(around.level, around.skills, around.rehearsals, around.seed)

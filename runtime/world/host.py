@@ -1,0 +1,42 @@
+"""What a world gives its agents of itself."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from locomotion.body.person import CONTROL_DT
+from runtime.traffic.traffic import Traffic
+from runtime.world.event_log import EventLog
+
+if TYPE_CHECKING:
+    from runtime.world.agent import Agent
+
+__all__ = ["Clock", "Host"]
+
+
+@dataclass
+class Clock:
+    """Simulated time: ``ticks`` of 10 ms that were made, and the time [s] that is ``owed``."""
+
+    ticks: int = 0
+    owed: float = 0.0
+
+    @property
+    def time(self) -> float:
+        """[s]"""
+        return self.ticks * CONTROL_DT
+
+    @property
+    def blend(self) -> float:
+        """The share of a tick that is owed, 0 to 1."""
+        return min(self.owed / CONTROL_DT, 1.0)
+
+
+@dataclass(frozen=True)
+class Host:
+    """``remove`` takes an agent out of the world."""
+
+    clock: Clock
+    log: EventLog
+    traffic: Traffic
+    remove: Callable[["Agent"], None]

@@ -1,0 +1,60 @@
+"""Compiling all kernels before they are needed: who needs them asks here, whoever can do it says so here.
+
+What needs them, such as a world, lies below what uses everything that has kernels in order to compile it.
+"""
+
+import hashlib
+import logging
+import platform
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import surefoot
+
+__all__ = ["Preparing", "mark_of_kernels", "prepare_once", "prepare_with"]
+
+_log = logging.getLogger("surefoot")
+_preparers: list[Callable[[], object]] = []
+
+
+class Preparing:
+    """``going_on``: whether this process is preparing, or helps one that is: what it makes then does not ask
+    for it again."""
+
+    going_on = False
+
+
+def prepare_with(prepare: Callable[[], object]) -> None:
+    """Have ``prepare`` called by `prepare_once`."""
+    _preparers[:] = [prepare]
+
+
+def prepare_once() -> None:
+    """Compile all kernels if this version has never done so on this machine. Called by worlds, so that no
+    step of theirs compiles."""
+    mark = None if Preparing.going_on else mark_of_kernels()
+    if mark is None or mark.exists() or not _preparers:
+        return
+    from surefoot.compiling import TIME
+
+    _log.warning(
+        "surefoot: compiling kernels, once on this machine: %s; runtime.prepare() does it ahead of time", TIME
+    )
+    _preparers[0]()
+
+
+def mark_of_kernels() -> Path | None:
+    """The file that says of which sources all kernels are kept; None without a cache."""
+    # imported when first asked for: `surefoot --help` needs no compiler
+    import llvmlite
+    import numba
+    from llvmlite.binding import get_host_cpu_name
+
+    from surefoot.kernels.folder import cache_folder
+
+    folder = cache_folder()
+    versions = (surefoot.__version__, sys.implementation.cache_tag, numba.__version__, llvmlite.__version__)
+    machine = f"{versions} {platform.system()} {get_host_cpu_name()}"
+    name = f"all-{hashlib.sha256(machine.encode()).hexdigest()[:24]}"
+    return None if folder is None else folder / name

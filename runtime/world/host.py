@@ -2,14 +2,11 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any
 
 from locomotion.body.person import CONTROL_DT
 from runtime.traffic.traffic import Traffic
 from runtime.world.event_log import EventLog
-
-if TYPE_CHECKING:
-    from runtime.world.agent import Agent
 
 __all__ = ["Clock", "Host"]
 
@@ -34,9 +31,9 @@ class Clock:
 
 @dataclass(frozen=True)
 class Host:
-    """``remove`` takes an agent out of the world."""
+    """``remove`` takes a `runtime.Agent` out of the world."""
 
     clock: Clock
     log: EventLog
     traffic: Traffic
-    remove: Callable[["Agent"], None]
+    remove: Callable[[Any], None]

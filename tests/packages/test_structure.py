@@ -15,7 +15,6 @@ PACKAGES = ("surefoot", "navmesh", "pathsmooth", "locomotion", "runtime")
 CIRCLES = {
     "navmesh.graph": "methods of a graph give routes, which hold on to the graph that they were found on",
     "locomotion.skills.registry": "a kind of skill names its trainer, which trains people, who have skills",
-    "runtime.world.world": "a world compiles kernels before it is first made, by small uses that make worlds",
 }
 """Circles of imports that stay, by a module in each; and why."""
 MOST_PARAMETERS = 8

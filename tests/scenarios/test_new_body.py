@@ -15,7 +15,7 @@ from runtime.bodies.protocol import PLANS_KEPT, Driver, Population, recall
 from runtime.bodies.registry import body_kinds, body_names, kind_of, register, unregister
 from runtime.missions.mission import load_mission, mission_schema
 from runtime.missions.run import run_mission
-from runtime.planning.planning import make_plan, way_holds
+from runtime.planning.planning import Beginning, make_plan, way_holds
 from runtime.planning.rules import person_walk_rules
 from runtime.playtest import playtest
 from runtime.server.messages import REQUEST
@@ -52,7 +52,7 @@ class Disc(Driver):
         return np.array([[*self.place, np.cos(0.5 * self.yaw), 0.0, 0.0, np.sin(0.5 * self.yaw)]])
 
     def plan(self, goals):
-        return make_plan(self.level.graph, self.place, list(goals), RADIUS, {})
+        return make_plan(self.level.graph, Beginning(self.place), list(goals), RADIUS, {})
 
     def go_to(self, goals, speed, facing):
         plan = self.plan(goals)

@@ -1,5 +1,7 @@
 """Rehearsals: a person that tries out what it is about to do does what goes well, and as foreseen."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -148,6 +150,7 @@ class Walks:
 
     def __init__(self, drift):
         self.drift, self.lateral_error, self.events = drift, 0.0, []
+        self.decider = SimpleNamespace(undecided=False)
 
     def tick(self):
         self.lateral_error += self.drift * CONTROL_DT

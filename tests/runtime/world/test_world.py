@@ -164,7 +164,7 @@ def test_an_obstacle_that_no_skill_clears_is_named(body, offer, monkeypatch):
     whole = load_jump_skill()
     low = {name: getattr(whole, name)[:2] for name in ("heights", "table", "references")}
     monkeypatch.setattr(
-        "locomotion.skills.library.load_jump_skill", lambda: dataclasses.replace(whole, **low)
+        "locomotion.skills.jump.kind.load_jump_skill", lambda: dataclasses.replace(whole, **low)
     )
     course = make_course([("jump", 0.65, 0.0)], [8.0])
     terrain = navmesh.Terrain.from_arrays(course.vertices, course.faces)

@@ -123,7 +123,7 @@ def overlap(world: World) -> float:
         rows = population.in_the_way()
         each = len(rows) // max(len(population.followers()), 1) if population.followers() else 1
         discs += list(rows)
-        owner += [(population.bodies, k // each) for k in range(len(rows))]
+        owner += [(id(population), k // each) for k in range(len(rows))]
     table = np.array(discs)
     whose = np.array([list(dict.fromkeys(owner)).index(each) for each in owner])
     away = np.linalg.norm(table[:, None, :2] - table[None, :, :2], axis=2)

@@ -9,7 +9,7 @@ from locomotion import MOVING, Ground, Human
 from locomotion.body.arm_reach import HAND_RADIUS
 from locomotion.events import Arrived, Event, Fell, GotUp
 from locomotion.human.human import STRAYED
-from locomotion.paths.follower import Way
+from locomotion.paths.follower import PathFollower
 from locomotion.paths.table import TrackingLimits
 from locomotion.paths.tracking import make_path
 
@@ -133,7 +133,7 @@ def test_who_gets_up_beside_its_path_is_not_lost_before_it_can_be_told_another()
 
 
 def test_who_was_carried_back_along_its_way_has_its_time_to_make_headway():
-    way = Way()
+    way = PathFollower()
     limits = TrackingLimits((0.3, 1.2))
     way.begin(make_path(WAY, 1.0, limits, 0.0), 0)
     for tick in range(2000):

@@ -250,7 +250,7 @@ def test_running_goes_on_from_the_best_of_several_beginnings(tmp_path: Path) -> 
 
 
 def test_trials_of_setting_off_begin_in_a_walk_from_which_people_run() -> None:
-    scenario = draw_scenario(np.random.default_rng(2), TrialKind(3.0, speeds=(3.2, 3.2)), walking=1.0)
+    scenario = draw_scenario(np.random.default_rng(2), TrialKind(3.0, speeds=(3.2, 3.2), walking=1.0))
     simulator, skill = Simulator(), load_run_skill()
     simulator.start(skill, scenario)
     walked, (pace, *_) = simulator.state[SPEED], simulator.state[COM_VELOCITY]
@@ -270,7 +270,7 @@ def test_fewer_physics_steps_a_tick_simulate_as_long_a_run() -> None:
 
 def test_trials_of_circles_turn_sharply_one_way_and_blows_are_hard() -> None:
     drawn = [
-        draw_scenario(np.random.default_rng(k), TrialKind(9.0, (4.0, 4.0)), lateral=1.6, circle=True)
+        draw_scenario(np.random.default_rng(k), TrialKind(9.0, (4.0, 4.0), lateral=1.6, circle=True))
         for k in range(99)
     ]
     turns = np.array([trial.headings[:, 1] for trial in drawn])

@@ -119,5 +119,5 @@ def test_walkers_keep_out_of_the_way_of_dogs_and_people(graph, body, speed):
         away = [np.hypot(*(walker.position - other.position)[:2]) for walker in walkers]
         nearest = min(nearest, *away)
     assert walkers[0].status == "arrived"
-    assert nearest > 0.25 + 0.12
+    assert nearest > 0.25 + 0.12 - 1e-6  # they touch at most
     assert other.status == "arrived"

@@ -343,7 +343,7 @@ def test_the_command_refuses_wrong_input(surefoot, level, tmp_path):
     (tmp_path / "old.json").write_text("{}")
     for arguments, says in (
         (["nowhere.obj"], "no such file"),
-        ([level, "--body", "bird"], "'walker', 'human'"),
+        ([level, "--body", "bird"], "'human', 'walker'"),
         ([level, "--seconds", "-1"], "seconds = -1"),
         ([level, "--before", tmp_path / "old.json"], "not a report of a playtest"),
     ):

@@ -75,11 +75,11 @@ class Human(Person):
     """A simulated person. `tick` advances it by 10 ms.
 
     Attributes:
-      status: "standing", "walking", "running", "jumping", "vaulting", "dropping", "leaping", "scrambling",
-        "getting up", "fallen" (for good), "arrived", "lost" (strayed from its path or missed its goal) or
-        "stuck". `held` says whether it is simulated.
-      events: list of `locomotion.events.Event` in order of time.
-      decider: chooses among variations of the next action.
+        status: "standing", "walking", "running", "jumping", "vaulting", "dropping", "leaping", "scrambling",
+            "getting up", "fallen" (for good), "arrived", "lost" (strayed from its path or missed its goal) or
+            "stuck". `held` says whether it is simulated.
+        events: list of `locomotion.events.Event` in order of time.
+        decider: chooses among variations of the next action.
     """
 
     status: Status

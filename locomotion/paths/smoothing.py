@@ -29,14 +29,12 @@ class Smoothing:
     """Requirements of a kind of body on its path.
 
     Attributes:
-      curvatures: [1/m] bounds to try in turn, widest first, until one is not reached within a few
-      milliseconds; a
-        leg that reaches none is smoothed without.
-      spacing: [m] between waypoints, at most.
-      roundness: [m^3] smoothness of the path; corners are rounded over about its cube root.
-      run_up, landing: [m] straight before an obstacle's edge and behind it, where there is room; 0: only as
-      far as
-        the link over it is straight.
+        curvatures: [1/m] bounds to try in turn, widest first, until one is not reached within a few
+            milliseconds; a leg that reaches none is smoothed without.
+        spacing: [m] between waypoints, at most.
+        roundness: [m^3] smoothness of the path; corners are rounded over about its cube root.
+        run_up, landing: [m] straight before an obstacle's edge and behind it, where there is room; 0: only
+            as far as the link over it is straight.
     """
 
     curvatures: tuple[float, ...]
@@ -57,7 +55,8 @@ class ObstacleAhead:
 
     Attributes:
         arc_length: [m] horizontal length of the path up to the obstacle's edge.
-        affordance, height [m]: as in `NodeGraph.obstacles`.
+        affordance: kind of the obstacle.
+        height: [m] as in `NodeGraph.obstacles`.
         position: (3,) float64 [m], where the path crosses the edge, at its top.
         normal: (3,) float64, horizontal unit vector at right angles to the edge, towards the run-up side.
         depth: [m] as in `NodeGraph.obstacles`: thickness of what is vaulted, width of a gap, length of

@@ -61,7 +61,7 @@ class LostGround(Event):
 @dataclass(frozen=True)
 class GotStuck(Event):
     """The body has made no progress along its path for some seconds; ``among_others``: it and others wait for
-    each other. ``reason``: as far as it is known."""
+    each other. ``reason``: why, or empty if unknown."""
 
     among_others: bool = False
     reason: str = "it makes no headway"

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from navmesh.areas import areas_of
+from navmesh.disjoint_sets import root
 from navmesh.field import walk
 from navmesh.pulling import FITS, mend
 from navmesh.roadmap_stops import members, other_stops, portal_stops
@@ -57,14 +58,6 @@ def leg_fits(net, node, k, ax, ay, bx, by, target, radius):
     return walk(net, k, ax, ay, bx, by, radius, False)[0]
 
 
-@kernel(error_model="numpy")
-def _root(parent, i):
-    while parent[i] != i:
-        parent[i] = parent[parent[i]]
-        i = parent[i]
-    return i
-
-
 @kernel(error_model="numpy", inline="always")
 def sector_of(dx, dy):
     """Which eighth of the circle, 0 to 7, a direction lies in."""
@@ -106,7 +99,7 @@ def _nearest_apart(place, group, first, last, parent):
         for j in range(i + 1, last):
             u, v = group[i], group[j]
             far = (place[u, 0] - place[v, 0]) ** 2 + (place[u, 1] - place[v, 1]) ** 2
-            if far < least and _root(parent, i - first) != _root(parent, j - first):
+            if far < least and root(parent, i - first) != root(parent, j - first):
                 least, bi, bj = far, i, j
     return bi, bj
 
@@ -185,8 +178,8 @@ def _lay_roads(net, doors, scratch, place, cell, tight, group_start, group):
                 kind = STRAIGHT if corners == 2 else BENT
                 if not fits:
                     kind = 0
-            if _root(parent, i - first) != _root(parent, j - first):
-                parent[_root(parent, i - first)] = _root(parent, j - first)
+            if root(parent, i - first) != root(parent, j - first):
+                parent[root(parent, i - first)] = root(parent, j - first)
                 left -= 1
             if kind == 0:
                 continue

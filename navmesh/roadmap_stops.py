@@ -107,14 +107,26 @@ def _share_around(net, areas, k, x, y, own):
     return found
 
 
+_NOBODY = (0.0, 0.0, 0, 0, 0)
+# the first candidate of a list, which tells Numba the types and does not count: x, y [m], cell, node, share
+
+
+@allocating_kernel(error_model="numpy")
+def _in_columns(found):
+    """Candidates but the first: place (c, 2), cell (c,), node (c,), share (c,)."""
+    count = len(found) - 1
+    place, cell = np.empty((count, 2)), np.empty(count, np.int32)
+    node, share = np.empty(count, np.int32), np.empty(count, np.int32)
+    for c in range(count):
+        place[c, 0], place[c, 1], cell[c], node[c], share[c] = found[c + 1]
+    return place, cell, node, share
+
+
 @allocating_kernel(error_model="numpy")
 def _border_candidates(net, areas, radius):
     """Middles of parts beside borders: place (c, 2), cell (c,), node (c,), and how many places around are of
     the same area, (c,): most round the corners of other areas."""
-    room = 1024
-    place, cell, share = np.empty((room, 2)), np.empty(room, np.int32), np.empty(room, np.int32)
-    node = np.empty(room, np.int32)
-    count = 0
+    found = [_NOBODY]
     h = net.cell
     for k in range(areas.row.size):
         if areas.row[k] < 0 or net.clearance[k] < radius - 0.7072 * h:
@@ -131,16 +143,8 @@ def _border_candidates(net, areas, radius):
             own_node = np.int64(node_at(net, k, x, y, radius))
             if own_node < 0:
                 continue
-            if count == room:
-                room *= 2
-                place = np.concatenate((place, np.empty_like(place)))
-                cell = np.concatenate((cell, np.empty_like(cell)))
-                node = np.concatenate((node, np.empty_like(node)))
-                share = np.concatenate((share, np.empty_like(share)))
-            place[count, 0], place[count, 1], cell[count], node[count] = x, y, k, own_node
-            share[count] = _share_around(net, areas, k, x, y, own)
-            count += 1
-    return place[:count].copy(), cell[:count].copy(), node[:count].copy(), share[:count].copy()
+            found.append((x, y, k, own_node, _share_around(net, areas, k, x, y, own)))
+    return _in_columns(found)
 
 
 @kernel(error_model="numpy")
@@ -160,10 +164,7 @@ def _free_around(net, k, x, y, gap, far):
 @allocating_kernel(error_model="numpy")
 def _corner_candidates(net, radius):
     """Places where a body only just fits round a corner: as `_border_candidates`."""
-    room = 1024
-    place, cell, share = np.empty((room, 2)), np.empty(room, np.int32), np.empty(room, np.int32)
-    node = np.empty(room, np.int32)
-    count = 0
+    found = [_NOBODY]
     h = net.cell
     for k in range(net.clearance.size):
         if abs(net.clearance[k] - radius) > 0.8 * h:
@@ -184,16 +185,8 @@ def _corner_candidates(net, radius):
             own_node = np.int64(node_at(net, k, x, y, radius))
             if own_node < 0:
                 continue
-            if count == room:
-                room *= 2
-                place = np.concatenate((place, np.empty_like(place)))
-                cell = np.concatenate((cell, np.empty_like(cell)))
-                node = np.concatenate((node, np.empty_like(node)))
-                share = np.concatenate((share, np.empty_like(share)))
-            place[count, 0], place[count, 1], cell[count], node[count] = x, y, k, own_node
-            share[count] = free
-            count += 1
-    return place[:count].copy(), cell[:count].copy(), node[:count].copy(), share[:count].copy()
+            found.append((x, y, k, own_node, free))
+    return _in_columns(found)
 
 
 @allocating_kernel(error_model="numpy")

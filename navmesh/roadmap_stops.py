@@ -107,7 +107,7 @@ def _share_around(net, areas, k, x, y, own):
     return found
 
 
-_NOBODY = (0.0, 0.0, 0, 0, 0)
+_NOBODY: tuple = (0.0, 0.0, 0, 0, 0)
 # the first candidate of a list, which tells Numba the types and does not count: x, y [m], cell, node, share
 
 

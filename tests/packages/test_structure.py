@@ -25,6 +25,220 @@ LONGER = {
     "navmesh.pathfinding.find_paths": "the same",
 }
 """Functions that may take more; and why."""
+WITHOUT_A_TEST = {
+    "locomotion.body.anatomy",
+    "locomotion.body.learned_file",
+    "locomotion.body.leg_kinematics",
+    "locomotion.body.models",
+    "locomotion.body.observed",
+    "locomotion.body.physics",
+    "locomotion.clips.bvh_file",
+    "locomotion.clips.measured_axes",
+    "locomotion.clips.schema",
+    "locomotion.crowd.layout",
+    "locomotion.crowd.moving",
+    "locomotion.crowd.queueing",
+    "locomotion.crowd.saved_state",
+    "locomotion.crowd.steering",
+    "locomotion.crowd.walker",
+    "locomotion.errors",
+    "locomotion.events",
+    "locomotion.gaits.limits",
+    "locomotion.gaits.run.layout",
+    "locomotion.gaits.walk.legs",
+    "locomotion.gaits.walk.steps",
+    "locomotion.ground.collider.build",
+    "locomotion.ground.collider.contact",
+    "locomotion.ground.collider.install",
+    "locomotion.ground.collider.layout",
+    "locomotion.ground.collider.reference",
+    "locomotion.human.falls",
+    "locomotion.human.gait_changes",
+    "locomotion.human.headway",
+    "locomotion.human.intent",
+    "locomotion.human.on_feet",
+    "locomotion.human.person",
+    "locomotion.human.saved_state",
+    "locomotion.human.simulation",
+    "locomotion.paths.aligned_obstacles",
+    "locomotion.paths.command",
+    "locomotion.paths.follower",
+    "locomotion.paths.run_up_room",
+    "locomotion.quadruped.advance",
+    "locomotion.quadruped.animal",
+    "locomotion.quadruped.carriage",
+    "locomotion.quadruped.course",
+    "locomotion.quadruped.errand",
+    "locomotion.quadruped.footfalls",
+    "locomotion.quadruped.foretold",
+    "locomotion.quadruped.herd",
+    "locomotion.quadruped.legs",
+    "locomotion.quadruped.pool",
+    "locomotion.quadruped.pose",
+    "locomotion.quadruped.saved_state",
+    "locomotion.quadruped.trail",
+    "locomotion.quadruped.ways",
+    "locomotion.recovery.getting_up",
+    "locomotion.recovery.layout",
+    "locomotion.recovery.limbs",
+    "locomotion.recovery.rising",
+    "locomotion.recovery.scrambling",
+    "locomotion.recovery.senses",
+    "locomotion.rehearsal.deciding",
+    "locomotion.rehearsal.understudy",
+    "locomotion.saved_arrays",
+    "locomotion.skills.drop_roll.kind",
+    "locomotion.skills.jump.kind",
+    "locomotion.skills.kernel",
+    "locomotion.skills.kernel_reference",
+    "locomotion.skills.leap.kind",
+    "locomotion.skills.learned",
+    "locomotion.skills.obstacle_check",
+    "locomotion.skills.run_up",
+    "locomotion.skills.run_up_layout",
+    "locomotion.skills.vault.kind",
+    "locomotion.training.gaits.brake",
+    "locomotion.training.gaits.gait_state",
+    "locomotion.training.gaits.grounds",
+    "locomotion.training.gaits.path_trial",
+    "locomotion.training.gaits.rollout",
+    "locomotion.training.gaits.run",
+    "locomotion.training.gaits.run_curriculum",
+    "locomotion.training.gaits.run_genes",
+    "locomotion.training.gaits.run_trials",
+    "locomotion.training.gaits.slow_down",
+    "locomotion.training.gaits.speed_up",
+    "locomotion.training.gaits.walk",
+    "locomotion.training.gaits.walk_starts",
+    "locomotion.training.search.cma_es",
+    "locomotion.training.skills.drop_trial",
+    "locomotion.training.skills.trial_scene",
+    "navmesh.answering",
+    "navmesh.area_lines",
+    "navmesh.area_paths",
+    "navmesh.blockers",
+    "navmesh.chunks",
+    "navmesh.clearance",
+    "navmesh.corridor",
+    "navmesh.detour",
+    "navmesh.disjoint_sets",
+    "navmesh.draping",
+    "navmesh.edges",
+    "navmesh.errors",
+    "navmesh.floor_ends",
+    "navmesh.floors",
+    "navmesh.graph",
+    "navmesh.holding",
+    "navmesh.ledges",
+    "navmesh.measuring",
+    "navmesh.meshfiles.fbx_process",
+    "navmesh.meshfiles.gltf_compression",
+    "navmesh.meshfiles.gltf_document",
+    "navmesh.meshfiles.mesh_file",
+    "navmesh.meshfiles.off",
+    "navmesh.meshfiles.ply",
+    "navmesh.meshfiles.stl",
+    "navmesh.meshfiles.strips",
+    "navmesh.meshfiles.text",
+    "navmesh.nodes",
+    "navmesh.obstacle_rules",
+    "navmesh.parts",
+    "navmesh.pathfinding",
+    "navmesh.portals",
+    "navmesh.pulling",
+    "navmesh.ridges",
+    "navmesh.risers",
+    "navmesh.roadmap",
+    "navmesh.roadmap_lines",
+    "navmesh.roadmap_search",
+    "navmesh.roadmap_stops",
+    "navmesh.route",
+    "navmesh.rules",
+    "navmesh.soundings",
+    "navmesh.splicing",
+    "navmesh.stages",
+    "navmesh.stretches",
+    "navmesh.tightening",
+    "navmesh.walls",
+    "pathsmooth.bounded",
+    "pathsmooth.errors",
+    "pathsmooth.exact",
+    "pathsmooth.geometry",
+    "pathsmooth.placement",
+    "pathsmooth.solution",
+    "runtime.bodies.animal_figure",
+    "runtime.bodies.figure",
+    "runtime.bodies.humans",
+    "runtime.bodies.kinds.kind",
+    "runtime.bodies.kinds.person",
+    "runtime.bodies.kinds.quadruped",
+    "runtime.bodies.kinds.walker",
+    "runtime.bodies.pose",
+    "runtime.bodies.protocol",
+    "runtime.cli.clips",
+    "runtime.cli.commands",
+    "runtime.cli.view_commands",
+    "runtime.errors",
+    "runtime.evaluation.coverage_plot",
+    "runtime.evaluation.evaluation",
+    "runtime.events",
+    "runtime.missions.clearing",
+    "runtime.missions.director",
+    "runtime.missions.expectations",
+    "runtime.missions.model",
+    "runtime.planning.level",
+    "runtime.planning.planning",
+    "runtime.planning.rules",
+    "runtime.playtest.barriers",
+    "runtime.playtest.command",
+    "runtime.playtest.diff",
+    "runtime.playtest.expectations",
+    "runtime.playtest.feet",
+    "runtime.playtest.goals",
+    "runtime.playtest.junit",
+    "runtime.playtest.openings",
+    "runtime.playtest.passages",
+    "runtime.playtest.pictures",
+    "runtime.playtest.plugin",
+    "runtime.playtest.solids",
+    "runtime.playtest.wording",
+    "runtime.server.client",
+    "runtime.server.connection",
+    "runtime.server.hosted",
+    "runtime.server.limits",
+    "runtime.server.pages",
+    "runtime.server.requests",
+    "runtime.server.worker",
+    "runtime.server.worlds",
+    "runtime.traces.recording",
+    "runtime.traffic.snapshot",
+    "runtime.views.colours",
+    "runtime.views.meshes",
+    "runtime.views.scenery",
+    "runtime.warmup.helper",
+    "runtime.world.agent",
+    "runtime.world.arguments",
+    "runtime.world.event_log",
+    "runtime.world.host",
+    "surefoot.__main__",
+    "surefoot.errors",
+    "surefoot.files.atomic_write",
+    "surefoot.files.choices",
+    "surefoot.files.inputs",
+    "surefoot.files.jsonfile",
+    "surefoot.files.outputs",
+    "surefoot.files.record_types",
+    "surefoot.kernels.decorators",
+    "surefoot.kernels.dependencies",
+    "surefoot.kernels.linking",
+    "surefoot.kernels.loading",
+    "surefoot.kernels.turns",
+    "surefoot.numeric",
+    "surefoot.pausing",
+    "surefoot.words",
+    "surefoot.workers",
+}
+"""Modules whose test cannot be found from their path yet. The list only gets shorter."""
 
 
 @cache
@@ -36,6 +250,29 @@ def trees() -> dict[str, tuple[Path, ast.Module]]:
             name = ".".join(file.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
             found[name] = file, ast.parse(file.read_text(encoding="utf-8"))
     return found
+
+
+def has_its_test(module: str, file: Path) -> bool:
+    """Whether the test of a module is found from its path.
+
+    The test of `a/b.py` is `tests/a/test_b.py`, or another file there that imports the module itself.
+    """
+    tests = sorted((ROOT / "tests" / file.relative_to(ROOT).parent).glob("test_*.py"))
+    return any(test.name == f"test_{file.name}" for test in tests) or any(
+        module in names_imported(test) for test in tests
+    )
+
+
+@cache
+def names_imported(file: Path) -> set[str]:
+    """Everything that a file imports by its full name, modules as well as what is in them."""
+    names = set()
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names |= {name.name for name in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            names |= {node.module, *(f"{node.module}.{name.name}" for name in node.names)}
+    return names
 
 
 def imports(module: str, file: Path, tree: ast.Module, known: set[str]) -> set[str]:
@@ -118,3 +355,13 @@ def test_no_slot_of_a_memory_goes_by_its_number():
         if numbered.search(line)
     ]
     assert not found
+
+
+def test_the_test_of_a_module_is_found_from_its_path():
+    missing = {
+        name
+        for name, (file, _) in trees().items()
+        if file.name != "__init__.py" and not has_its_test(name, file)
+    }
+    assert not sorted(missing - WITHOUT_A_TEST), "write tests/<folder>/test_<module>.py"
+    assert not sorted(WITHOUT_A_TEST - missing), "take what has its test, or is gone, off the list"

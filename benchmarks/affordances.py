@@ -16,11 +16,11 @@ from rich.table import Table
 import navmesh
 from benchmarks.obstacle_scenes import KINDS, Scene, random_scene
 from benchmarks.shared_data import LEVELS, level_path, shared_folder, why_absent
-from navmesh.affordances import detect_obstacles
-from navmesh.build import build_surface
-from navmesh.kinds import affordances
-from navmesh.links import make_links
-from navmesh.obstacles import Obstacles
+from navmesh.graph.links import make_links
+from navmesh.obstacles.detection import detect_obstacles
+from navmesh.obstacles.kinds import affordances
+from navmesh.obstacles.obstacles import Obstacles
+from navmesh.surface.build import build_surface
 
 ERRORS = ("edge", "middle", "normal", "height", "depth", "width")
 OWN = Path(__file__).resolve().parents[1] / "examples" / "levels" / "courtyard.obj"

@@ -19,7 +19,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import dijkstra
 
 from navmesh import NodeGraph, Terrain
-from navmesh.route import Route
+from navmesh.routes.route import Route
 
 __all__ = ["COSTS", "RADIUS", "Patchwork", "patchwork", "price"]
 

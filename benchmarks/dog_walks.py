@@ -14,7 +14,7 @@ from locomotion.errors import LocomotionError
 from locomotion.quadruped import Animal, Body, Herd, lay_trail, load_body
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.pose import body_names
-from navmesh.probes import ProbeGrid, surface_below
+from navmesh.level.mesh_queries import MeshGrid, surface_below
 
 SCANS = ("IPproj_ClassRoomSpatialMapping", "collabxr_SpatialMapping")
 GLB_LEVELS = ("proto-level", "bridges")
@@ -80,7 +80,7 @@ class GroundTruth:
 
     def __init__(self, terrain: navmesh.Terrain) -> None:
         self.origin = terrain.vertices.min(axis=0) - 1.0
-        self.grid = ProbeGrid(terrain.vertices, terrain.faces, self.origin, np.radians(89.0))
+        self.grid = MeshGrid(terrain.vertices, terrain.faces, self.origin, np.radians(89.0))
 
     def off(self, toe: np.ndarray) -> float:
         """[m] from a toe to the nearest surface straight above or below it."""

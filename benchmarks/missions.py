@@ -38,7 +38,7 @@ from locomotion.body.arm_reach import HAND_RADIUS
 from locomotion.body.person import CONTROL_DT, STEPS_PER_TICK
 from locomotion.body.physics import restore_physics, save_physics
 from locomotion.paths.tracking import make_path
-from navmesh.probes import ProbeGrid, brute_crossed, crossed
+from navmesh.level.mesh_queries import MeshGrid, brute_crossed, crossed
 from runtime import World
 from runtime.events import Departed, Fell
 
@@ -104,18 +104,18 @@ def depth_through(triangles: np.ndarray, a: np.ndarray, b: np.ndarray) -> float:
     return float(depths.max())
 
 
-def pierces(human: Human, probe: ProbeGrid, origin: np.ndarray) -> bool:
+def pierces(human: Human, mesh_grid: MeshGrid, origin: np.ndarray) -> bool:
     """Whether any bone of a person goes through a triangle of the level, by more than contacts press it
     in."""
     joints, parents = human.body_transforms()[:, :3] - origin, human.model.body_parentid
     return any(
-        crossed(probe.arrays, *a, *b) and depth_through(probe.triangles, a, b) > HAND_RADIUS
+        crossed(mesh_grid.arrays, *a, *b) and depth_through(mesh_grid.triangles, a, b) > HAND_RADIUS
         for a, b in ((joints[parents[k]], joints[k]) for k in np.flatnonzero(parents > 0))
     )
 
 
 def run_mission(
-    world: World, route: Any, speed: float, probe: ProbeGrid, origin: np.ndarray
+    world: World, route: Any, speed: float, mesh_grid: MeshGrid, origin: np.ndarray
 ) -> dict[str, Any]:
     """Send a person along one route; returns what happened."""
     path = smooth_route(route)
@@ -131,7 +131,7 @@ def run_mission(
         world.step(CONTROL_DT)
         events += world.events
         ticks += 1
-        in_walls = in_walls or (ticks % LOOKS == 0 and pierces(agent.human, probe, origin))
+        in_walls = in_walls or (ticks % LOOKS == 0 and pierces(agent.human, mesh_grid, origin))
         if agent.status != "getting up":
             lateral.append(abs(agent.human.lateral_error))
             if not any(isinstance(event, Fell) for event in events):
@@ -226,8 +226,8 @@ def report_on(name: str, options: argparse.Namespace) -> dict[str, Any]:
     routes = random_routes(graph, options.missions, options.seed)
     world = World(graph)
     origin = terrain.bounds[0] - 1.0
-    probe = ProbeGrid(terrain.vertices, terrain.faces, origin, rules.max_slope)
-    results = [run_mission(world, route, options.speed, probe, origin) for route in routes]
+    mesh_grid = MeshGrid(terrain.vertices, terrain.faces, origin, rules.max_slope)
+    results = [run_mission(world, route, options.speed, mesh_grid, origin) for route in routes]
     lateral, unfallen = (
         np.concatenate([result.pop(name) for result in results]) for name in ("lateral", "unfallen")
     )

@@ -21,8 +21,8 @@ from benchmarks.mesh_truth import MeshTruth
 from benchmarks.navmesh_levels import Target, ask_peer, run
 from benchmarks.shared_data import level_path, queries_path
 from navmesh import NodeGraph, Terrain, WalkRules
-from navmesh.draping import drape
-from navmesh.route import Route
+from navmesh.routes.route import Route
+from navmesh.routes.surface_projection import project_to_surface
 from pathsmooth import PathSmoothError, Problem, solve
 
 RADIUS = 0.6
@@ -64,7 +64,7 @@ def smoothed(route: Route) -> np.ndarray | None:
         except PathSmoothError:
             return None
         curve = np.concatenate([corners, 0.5 * (corners[1:] + corners[:-1])])
-        pulled = drape(route.graph, leg.waypoints, 0.1)
+        pulled = project_to_surface(route.graph, leg.waypoints, 0.1)
         curve[:, 2] = pulled[KDTree(pulled[:, :2]).query(curve[:, :2])[1], 2]
         curve[:, 2] = route.graph.project(curve)[1]
         parts.append(curve)

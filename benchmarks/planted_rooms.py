@@ -18,7 +18,7 @@ import numpy as np
 import shapely
 import trimesh
 
-from navmesh.ledges import GAP
+from navmesh.surface.ledges import GAP
 
 __all__ = ["FAULTS", "LOOK_ALIKES", "Hall", "Planted", "planted"]
 

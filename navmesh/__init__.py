@@ -1,16 +1,16 @@
 """From a level's mesh to routes: the walkable surface as a graph of discs."""
 
-from navmesh.chunks import chunks_of, join_chunks, split_terrain
 from navmesh.errors import NavmeshError
-from navmesh.graph import NodeGraph
-from navmesh.kinds import ObstacleKind
-from navmesh.obstacle_rules import ObstacleRules
-from navmesh.obstacles import Obstacles
-from navmesh.route import Route, Routes
+from navmesh.graph.node_graph import NodeGraph
+from navmesh.level.chunks import chunks_of, join_chunks, split_terrain
+from navmesh.level.terrain import Terrain
+from navmesh.obstacles.kinds import ObstacleKind
+from navmesh.obstacles.obstacles import Obstacles
+from navmesh.obstacles.rules import ObstacleRules
+from navmesh.obstacles.tagging import load_tags
+from navmesh.obstacles.tags import save_tags, tags_path
+from navmesh.routes.route import Route, Routes
 from navmesh.rules import WalkRules
-from navmesh.tagging import load_tags
-from navmesh.tags import save_tags, tags_path
-from navmesh.terrain import Terrain
 from surefoot import __version__
 from surefoot.compiling import announce
 

@@ -10,7 +10,7 @@ from schema_words import cell, default_words, value_words, words_of
 from sphinx.pycode import ModuleAnalyzer
 
 from locomotion.skills.description import SkillDescription
-from navmesh.tags import Tags
+from navmesh.obstacles.tags import Tags
 from runtime.missions.model import Mission
 from runtime.playtest.plan import Plan
 

@@ -11,7 +11,7 @@ from locomotion.crowd.neighbours import MOST, find_neighbours
 from locomotion.crowd.program import choose_velocity
 from locomotion.crowd.queueing import direct, waiting_wish, waits_behind
 from locomotion.crowd.steering import follow
-from navmesh.field import floor_at
+from navmesh.surface.clearance_field import floor_at
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["advance_all"]

@@ -7,7 +7,7 @@ surface's end, to the body and to the cells around it, each forbid coming closer
 
 from math import sqrt
 
-from navmesh.field import centre_of, gap_at
+from navmesh.surface.clearance_field import centre_of, gap_at
 from surefoot.kernels import kernel
 
 __all__ = ["MOST_WALLS", "body_plane", "wall_planes"]

@@ -22,11 +22,11 @@ from locomotion.crowd.queueing import trace_gates
 from locomotion.crowd.walker import NoRoute, Walker, WalkerState
 from locomotion.errors import LocomotionError
 from locomotion.quadruped.pool import Pool
-from navmesh.field import floor_at
-from navmesh.queries import project
-from navmesh.route import Route
-from navmesh.snapping import snap
-from navmesh.structs import net_of
+from navmesh.graph.kernel_arrays import net_of
+from navmesh.graph.snapping import snap
+from navmesh.graph.spatial_queries import project
+from navmesh.routes.route import Route
+from navmesh.surface.clearance_field import floor_at
 
 __all__ = ["Crowd"]
 

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
-from navmesh.field import centre_of
-from navmesh.surface import Surface
+from navmesh.surface.clearance_field import centre_of
+from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel
 
 __all__ = ["ABREAST", "Gates", "find_gates"]

@@ -2,7 +2,7 @@
 
 ``rows`` (n, ROW) float64 has one row per body; ``routes`` (points, POINT) float64 holds the corners of all
 routes, one route after the other, and ``crossings`` (gates, CROSSING) float64 the gates on them. Coordinates
-are relative to the surface's origin, as in `navmesh.structs`.
+are relative to the surface's origin, as in `navmesh.graph.kernel_arrays`.
 """
 
 __all__: list[str] = []

@@ -3,7 +3,7 @@
 from math import sqrt
 
 from locomotion.crowd import layout as at
-from navmesh.field import gap_at, walk
+from navmesh.surface.clearance_field import gap_at, walk
 from surefoot.kernels import kernel
 
 __all__ = ["part", "slide"]

@@ -11,7 +11,7 @@ from math import sqrt
 import numpy as np
 
 from locomotion.crowd import layout as at
-from navmesh.field import cell_at, walk
+from navmesh.surface.clearance_field import cell_at, walk
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["direct", "trace_gates", "waiting_wish", "waits_behind"]

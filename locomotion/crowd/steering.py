@@ -3,7 +3,7 @@
 from math import cos, sin, sqrt
 
 from locomotion.crowd import layout as at
-from navmesh.field import floor_at, walk
+from navmesh.surface.clearance_field import floor_at, walk
 from surefoot.kernels import kernel
 
 __all__ = ["HEADWAY", "follow"]

@@ -14,8 +14,8 @@ from locomotion.crowd import layout as at
 from locomotion.errors import LocomotionError
 from locomotion.events import Arrived, Event, GotStuck, LostGround, SetOff
 from locomotion.quadruped.pool import Pool
-from navmesh.graph import NodeGraph
-from navmesh.route import Route
+from navmesh.graph.node_graph import NodeGraph
+from navmesh.routes.route import Route
 
 __all__ = ["NoRoute", "Walker", "WalkerState"]
 

@@ -13,8 +13,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from navmesh.graph import NodeGraph
-from navmesh.route import LinkUse, Route
+from navmesh.graph.node_graph import NodeGraph
+from navmesh.routes.route import LinkUse, Route
 
 __all__ = ["lined_up"]
 

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from navmesh.corridor import corridor_of
-from navmesh.draping import drape
-from navmesh.graph import NodeGraph
-from navmesh.queries import cast_ray
-from navmesh.route import Leg, Route
+from navmesh.graph.node_graph import NodeGraph
+from navmesh.graph.spatial_queries import cast_ray
+from navmesh.routes.corridor import corridor_of
+from navmesh.routes.route import Leg, Route
+from navmesh.routes.surface_projection import project_to_surface
 
 __all__ = ["SetLeg", "set_legs", "straight_on"]
 
@@ -125,8 +125,12 @@ def _between(
     turns = before is not None and float(before @ onward) < _LEADS_ON * np.linalg.norm(onward)
     if first is not begin and turns:
         before = None  # it stops and turns there: a bend would lead farther out
-    behind = drape(route.graph, np.stack([begin, first]), spacing)[:-1] if first is not begin else none
-    ahead = drape(route.graph, np.stack([last, end]), spacing)[1:] if last is not end else none
+    behind = (
+        project_to_surface(route.graph, np.stack([begin, first]), spacing)[:-1]
+        if first is not begin
+        else none
+    )
+    ahead = project_to_surface(route.graph, np.stack([last, end]), spacing)[1:] if last is not end else none
     return SetLeg(Leg(way.waypoints, corridor.centers, corridor.radii), behind, ahead, before, after)
 
 
@@ -147,7 +151,9 @@ def straight_on(
     free = length if ray.clear[0] else min(length, float(ray.share[0]) * far - max(room, _OFF_WALL))
     if free < _LEAST:
         return start
-    return drape(graph, np.stack([start, start + np.array([*(free * direction), 0.0])]), free)[-1]
+    return project_to_surface(graph, np.stack([start, start + np.array([*(free * direction), 0.0])]), free)[
+        -1
+    ]
 
 
 def _unit(direction: NDArray[np.float64]) -> NDArray[np.float64]:

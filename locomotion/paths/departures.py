@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from locomotion.paths.approach_legs import straight_on
 from locomotion.paths.gait_plan import SLOWS_WITHIN, braking_length
 from locomotion.paths.table import TrackingLimits
-from navmesh.draping import drape_curve
-from navmesh.graph import NodeGraph
-from navmesh.holding import line_holds
+from navmesh.graph.node_graph import NodeGraph
+from navmesh.routes.route_validity import line_holds
+from navmesh.routes.surface_projection import project_curve_to_surface
 
 __all__ = ["can_begin", "leads"]
 
@@ -62,13 +62,13 @@ def leads(
     forward = velocity / speed
     bend = _bend(place, forward, target, max(speed**2 / limits.sideways, 1.0 / _SHARPEST))
     if bend is not None:
-        draped = drape_curve(graph, bend)
+        draped = project_curve_to_surface(graph, bend)
         if line_holds(graph, draped, radius):
             yield draped, True
     end = straight_on(graph, place, forward, braking_length(speed) + SLOWS_WITHIN + _RESERVE, radius)
     if end is not place:
         count = max(math.ceil(float(np.linalg.norm((end - place)[:2])) / _SPACING), 1) + 1
-        yield drape_curve(graph, np.linspace(place, end, count)), False
+        yield project_curve_to_surface(graph, np.linspace(place, end, count)), False
 
 
 def _bend(

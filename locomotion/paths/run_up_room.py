@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from navmesh.graph import NodeGraph
-from navmesh.queries import cast_ray
+from navmesh.graph.node_graph import NodeGraph
+from navmesh.graph.spatial_queries import cast_ray
 
 __all__ = ["LEAST_RUN_UP", "cramped_links", "straight_before"]
 

@@ -15,9 +15,9 @@ import pathsmooth
 from locomotion.errors import LocomotionError
 from locomotion.paths.approach_legs import set_legs
 from locomotion.paths.gait_plan import LANDED, SET_OFF, braking_length
-from navmesh.draping import drape_curve
-from navmesh.kinds import kind_of
-from navmesh.route import Leg, Route
+from navmesh.obstacles.kinds import kind_of
+from navmesh.routes.route import Leg, Route
+from navmesh.routes.surface_projection import project_curve_to_surface
 
 __all__ = ["RUNNING", "ObstacleAhead", "SmoothPath", "Smoothing", "smooth_route"]
 
@@ -116,7 +116,7 @@ def smooth_route(
     for i, leg in enumerate(legs):
         points, held = _smooth_leg(leg.leg, smoothing, leg.before, leg.after)
         bounded = bounded and held
-        pieces += [leg.behind, drape_curve(route.graph, points), leg.ahead]
+        pieces += [leg.behind, project_curve_to_surface(route.graph, points), leg.ahead]
         if i < len(legs) - 1:
             edge = _edge_point(route, i)
             crossings.append((route.links[i].obstacle, edge))

@@ -17,7 +17,7 @@ from locomotion.errors import LocomotionError
 from locomotion.gaits.run.skill import RunSkill
 from locomotion.skills.interface import ClearingSkill
 from locomotion.skills.jump.skill import Jump, load_jump_skill, run_digest
-from navmesh.kinds import obstacle_kinds
+from navmesh.obstacles.kinds import obstacle_kinds
 from surefoot.files.choices import OneOf
 from surefoot.files.yamlfile import FileError, read_yaml
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from locomotion.body.person import BODY_NAMES
 from locomotion.errors import LocomotionError
-from navmesh.kinds import ObstacleKind
+from navmesh.obstacles.kinds import ObstacleKind
 
 if TYPE_CHECKING:
     from locomotion.gaits.run.skill import RunSkill

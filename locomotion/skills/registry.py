@@ -13,7 +13,7 @@ from locomotion.skills.jump.kind import JUMP
 from locomotion.skills.kind import SkillKind
 from locomotion.skills.leap.kind import LEAP
 from locomotion.skills.vault.kind import VAULT
-from navmesh import kinds as obstacles
+from navmesh.obstacles import kinds as obstacles
 
 __all__ = [
     "BUSY", "CLEARING", "in_words", "register_skill", "skill_called", "skill_kind", "skill_kinds",

@@ -10,9 +10,9 @@ from locomotion import LocomotionError
 from locomotion.crowd import Crowd, NoRoute, Walker, WalkerState
 from locomotion.crowd.saved_state import check_walker
 from locomotion.events import Event
-from navmesh.draping import drape
-from navmesh.holding import line_holds
-from navmesh.route import Route
+from navmesh.routes.route import Route
+from navmesh.routes.route_validity import line_holds
+from navmesh.routes.surface_projection import project_to_surface
 from runtime.bodies.figure import Figure, Shapes
 from runtime.bodies.pose import between
 from runtime.bodies.protocol import PLANS_KEPT, Driver, Population, recall, saved_parts
@@ -187,7 +187,7 @@ class WalkerDriver(Driver):
         graph = self.walker.crowd.graph
         nodes = np.concatenate([route.nodes for route in routes])
         pulled = np.concatenate([route.waypoints for route in routes])
-        points = np.concatenate([drape(graph, route.waypoints, _SPACING) for route in routes])
+        points = np.concatenate([project_to_surface(graph, route.waypoints, _SPACING) for route in routes])
         return Plan(graph.positions[nodes], pulled, points, ())
 
     def _no_way(self, error: NoRoute, goals: np.ndarray) -> NoWay:

@@ -13,7 +13,7 @@ from locomotion.rehearsal.contact_report import ContactReport, Watcher
 from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.skills.interface import ClearingSkill
 from locomotion.skills.registry import skill_kind
-from navmesh.kinds import kind_of
+from navmesh.obstacles.kinds import kind_of
 
 __all__ = [
     "AFTER",

@@ -3,8 +3,8 @@
 import numpy as np
 
 from locomotion.skills.registry import skill_called, skill_kind
-from navmesh.kinds import kind_of
-from navmesh.obstacles import Obstacles
+from navmesh.obstacles.kinds import kind_of
+from navmesh.obstacles.obstacles import Obstacles
 from runtime.missions.mission import Address, LoadedMission
 from runtime.missions.model import Use
 from runtime.world.agent import Agent

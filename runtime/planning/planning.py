@@ -11,8 +11,8 @@ from locomotion import LocomotionError, ObstacleAhead, Smoothing, smooth_route
 from locomotion.paths.aligned_obstacles import lined_up
 from locomotion.paths.run_up_room import LEAST_RUN_UP, straight_before
 from locomotion.paths.smoothing import RUNNING
-from navmesh.holding import line_holds
-from navmesh.route import Route
+from navmesh.routes.route import Route
+from navmesh.routes.route_validity import line_holds
 from surefoot.pausing import pause
 
 __all__ = ["Beginning", "NoWay", "Plan", "make_plan", "way_holds", "why_not"]

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 
 import navmesh
 from locomotion import PERSON_RULES
-from navmesh.kinds import obstacle_kinds
+from navmesh.obstacles.kinds import obstacle_kinds
 from runtime.bodies.registry import USUAL, kind_of
 from runtime.errors import RuntimeInputError
 

@@ -13,8 +13,8 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from navmesh.disjoint_sets import root
-from navmesh.free_length import cells_of
-from navmesh.probes import ProbeGrid, crossed, lowest_above
+from navmesh.level.mesh_queries import MeshGrid, crossed, lowest_above
+from navmesh.obstacles.free_length import cells_of
 from runtime.playtest.floorplan import Allowance
 from runtime.playtest.openings import Barrier, Opening
 from runtime.playtest.site import Site
@@ -62,11 +62,11 @@ class Barriers:
         )
 
     def _across(
-        self, places: Sequence[Opening], find: Callable[[Opening, ProbeGrid, np.ndarray], Barrier | None]
+        self, places: Sequence[Opening], find: Callable[[Opening, MeshGrid, np.ndarray], Barrier | None]
     ) -> Barrier | None:
         """The shortest way across that there is at any of ``places``."""
-        probe, origin = self.site.probe, self.site.graph.surface.origin
-        found = [each for place in places if (each := find(place, probe, origin)) is not None]
+        mesh_grid, origin = self.site.mesh_grid, self.site.graph.surface.origin
+        found = [each for place in places if (each := find(place, mesh_grid, origin)) is not None]
         return min(found, key=lambda each: each.size, default=None)
 
     def _centred(self, low: Barrier | None, of: np.ndarray, to: np.ndarray) -> Barrier | None:
@@ -113,7 +113,7 @@ class Barriers:
         the order of the rise."""
         surface, rules = self.site.graph.surface, self.site.graph.rules
         low, high, rise = _ledges(
-            self.site.probe.arrays, cells_of(surface), surface.cell_column, rules.max_step, rules.headroom
+            self.site.mesh_grid.arrays, cells_of(surface), surface.cell_column, rules.max_step, rules.headroom
         )
         walked = [np.flatnonzero(surface.link[:, d] >= 0) for d in (0, 1)]
         source = np.concatenate([*walked, low])

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from navmesh.route import LinkUse, Route
+from navmesh.routes.route import LinkUse, Route
 from runtime.playtest.movers import Leg, Mover, mover_of
 from runtime.playtest.site import Site
 

@@ -7,7 +7,7 @@ from typing import Any
 import navmesh
 from locomotion.skills.kind import SkillKind
 from locomotion.skills.registry import skill_kinds
-from navmesh.kinds import Crossing
+from navmesh.obstacles.kinds import Crossing
 from runtime.bodies.figure import Figure
 from runtime.bodies.registry import body_names, kind_of
 from runtime.errors import RuntimeInputError

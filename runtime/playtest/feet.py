@@ -8,8 +8,8 @@ import math
 
 import numpy as np
 
-from navmesh.probes import crossed, surface_below
-from navmesh.raster import FLOOR, KIND
+from navmesh.level.mesh_queries import crossed, surface_below
+from navmesh.level.raster import FLOOR, KIND
 from surefoot.kernels import kernel
 
 __all__ = ["ARRIVED", "BUMPED", "FELL", "OUT_OF_TIME", "STUCK", "TICK", "follow", "roam"]

@@ -16,7 +16,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 import navmesh
-from navmesh.ledges import GAP
+from navmesh.surface.ledges import GAP
 from runtime.playtest.mesh import THIN, Mesh, parts_within, united
 
 __all__ = ["Allowance", "FloorPlan"]

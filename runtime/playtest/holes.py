@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from navmesh.probes import crossed
-from navmesh.surface import DIRECTIONS
+from navmesh.level.mesh_queries import crossed
+from navmesh.surface.surface import DIRECTIONS
 from runtime.playtest.mesh import standing
 from runtime.playtest.site import Site
 
@@ -96,9 +96,9 @@ def _open_rim(site: Site, reached: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     empty = ~_has_floor(site, over, rules.max_step)
     rim, over = rim[empty], over[empty]
     heights = rules.max_step + 0.05 + 0.3 * np.arange(4) * (rules.headroom - rules.max_step - 0.1)
-    probe, origin = site.probe.arrays, surface.origin
+    mesh_grid, origin = site.mesh_grid.arrays, surface.origin
     free = [
-        not any(crossed(probe, ax, ay, az + up, bx, by, bz + up) for up in heights)
+        not any(crossed(mesh_grid, ax, ay, az + up, bx, by, bz + up) for up in heights)
         for (ax, ay, az), (bx, by, bz) in zip(rim - origin, over - origin, strict=True)
     ]
     return rim[free], over[free]

@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from locomotion.skills.registry import skill_called
-from navmesh.route import Route
+from navmesh.routes.route import Route
 from runtime.errors import RuntimeInputError
 from runtime.events import SkillFinished, SkillStarted
 from runtime.playtest import feet
@@ -106,8 +106,8 @@ class CapsuleMover:
             over[use.last] = use.obstacle
         here, track = self.place - origin, np.empty((_MOST, 4))
         end, seconds, self._heading, count, reached = feet.follow(
-            site.probe.arrays, here, self._heading, points, leaps, edges, site.character.speed, self._limits,
-            time_limit, track,
+            site.mesh_grid.arrays, here, self._heading, points, leaps, edges, site.character.speed,
+            self._limits, time_limit, track,
         )  # fmt: skip
         obstacle = int(over[reached]) if reached < len(points) else -1
         return self._leg(
@@ -118,7 +118,7 @@ class CapsuleMover:
         site = self._site
         here, track = self.place - site.graph.surface.origin, np.empty((_MOST, 4))
         end, seconds, count = feet.roam(
-            site.probe.arrays, here, headings, site.character.speed, self._limits, time_limit, track
+            site.mesh_grid.arrays, here, headings, site.character.speed, self._limits, time_limit, track
         )
         return self._leg(STATUSES[end], seconds, 0.0, track[:count], here, -1)
 

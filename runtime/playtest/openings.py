@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from navmesh.probes import ProbeGrid, crossed
+from navmesh.level.mesh_queries import MeshGrid, crossed
 from runtime.playtest.floorplan import Allowance, FloorPlan
 from runtime.playtest.mesh import Mesh
 
@@ -176,17 +176,21 @@ class Opening:
         span = np.array([[*place, each] for each in (heights if up[best] else heights[::-1])])
         return Barrier("rise", span[1, 2] - span[0, 2], span[np.argmax(span[:, 2])], span)
 
-    def gap(self, probe: ProbeGrid, origin: np.ndarray) -> Barrier | None:
+    def gap(self, mesh_grid: MeshGrid, origin: np.ndarray) -> Barrier | None:
         """The gap between floors at about the same height with nothing in it but air."""
         ends = self._floors_apart
-        if ends is None or abs(ends[1, 2] - ends[0, 2]) > _LEVEL or self._is_walled(ends, probe, origin):
+        if ends is None or abs(ends[1, 2] - ends[0, 2]) > _LEVEL or self._is_walled(ends, mesh_grid, origin):
             return None
         return Barrier("gap", float(np.linalg.norm((ends[1] - ends[0])[:2])), ends.mean(axis=0), ends)
 
-    def wall(self, probe: ProbeGrid, origin: np.ndarray) -> Barrier | None:
+    def wall(self, mesh_grid: MeshGrid, origin: np.ndarray) -> Barrier | None:
         """The wall between floors at about the same height."""
         ends = self._floors_apart
-        if ends is None or abs(ends[1, 2] - ends[0, 2]) > _FLAT or not self._is_walled(ends, probe, origin):
+        if (
+            ends is None
+            or abs(ends[1, 2] - ends[0, 2]) > _FLAT
+            or not self._is_walled(ends, mesh_grid, origin)
+        ):
             return None
         return Barrier("wall", float(np.linalg.norm((ends[1] - ends[0])[:2])), ends[0], ends)
 
@@ -217,12 +221,12 @@ class Opening:
             ]
         )
 
-    def _is_walled(self, ends: np.ndarray, probe: ProbeGrid, origin: np.ndarray) -> bool:
+    def _is_walled(self, ends: np.ndarray, mesh_grid: MeshGrid, origin: np.ndarray) -> bool:
         """Whether anything stands between two places, at the height of a body."""
         along = (ends[1] - ends[0]) / max(float(np.linalg.norm(ends[1] - ends[0])), 1e-9)
         (ax, ay, az), (bx, by, bz) = np.array([ends[0] - 0.05 * along, ends[1] + 0.05 * along]) - origin
         heights = np.linspace(self._allowed.step + 0.05, 0.95 * self._allowed.headroom, 4)
-        return any(crossed(probe.arrays, ax, ay, az + up, bx, by, bz + up) for up in heights)
+        return any(crossed(mesh_grid.arrays, ax, ay, az + up, bx, by, bz + up) for up in heights)
 
     def _rooms(self, plan: FloorPlan, radius: float) -> tuple[shapely.Geometry, shapely.Geometry]:
         """The room for the middle of a body of ``radius`` that the places on this and on that side are in."""

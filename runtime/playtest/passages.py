@@ -13,8 +13,8 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 from scipy.spatial import KDTree
 
-from navmesh.probes import crossed, surface_below
-from navmesh.raster import FLOOR, KIND
+from navmesh.level.mesh_queries import crossed, surface_below
+from navmesh.level.raster import FLOOR, KIND
 from runtime.playtest.barriers import SLIT, opening_at
 from runtime.playtest.openings import Barrier
 from runtime.playtest.site import Site
@@ -88,7 +88,7 @@ def _seen_through(site: Site, cells: np.ndarray, places: np.ndarray) -> tuple[np
         rules.max_step + 0.05 + np.array([0.0, 0.35, 0.7, 0.92]) * (rules.headroom - rules.max_step - 0.05)
     )
     local = places[points] - surface.origin
-    reach = _sights(site.probe.arrays, local, ways, far, rules.max_step, heights)
+    reach = _sights(site.mesh_grid.arrays, local, ways, far, rules.max_step, heights)
     tree = KDTree(places)
     starts, ends = [], []
     for along in np.arange(least, far + 1e-9, 0.5 * surface.resolution):

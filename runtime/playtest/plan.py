@@ -23,7 +23,7 @@ from annotated_types import Ge, Gt, Le, Len
 from pydantic import BaseModel, ConfigDict, Field
 
 import navmesh
-from navmesh.kinds import affordances
+from navmesh.obstacles.kinds import affordances
 from runtime.missions.model import Name, Point
 from runtime.playtest.character import Character, changed
 from surefoot.files.choices import OneOf

@@ -7,8 +7,8 @@ from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
 import navmesh
-from navmesh.bodies import parts_of, portals_of
-from navmesh.probes import ProbeGrid
+from navmesh.graph.body_view import parts_of, portals_of
+from navmesh.level.mesh_queries import MeshGrid
 from runtime.playtest.character import Character
 from runtime.playtest.mesh import Mesh
 
@@ -105,10 +105,10 @@ class Site:
         return Mesh(terrain.vertices[terrain.faces].astype(np.float64))
 
     @cached_property
-    def probe(self) -> ProbeGrid:
+    def mesh_grid(self) -> MeshGrid:
         """The level's triangles, relative to the surface's origin."""
         terrain = self.graph.terrain
-        return ProbeGrid(
+        return MeshGrid(
             terrain.vertices, terrain.faces, self.graph.surface.origin, self.graph.rules.max_slope
         )
 

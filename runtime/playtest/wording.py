@@ -4,8 +4,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from locomotion.skills.registry import skill_kinds
-from navmesh.kinds import Crossing
-from navmesh.obstacles import Obstacles
+from navmesh.obstacles.kinds import Crossing
+from navmesh.obstacles.obstacles import Obstacles
 from runtime.playtest.character import Character
 from runtime.playtest.holes import Hole
 from runtime.playtest.openings import Barrier

@@ -14,7 +14,7 @@ from locomotion.avoidance.yielding import (
     first_meeting,
     options,
 )
-from navmesh.holding import line_holds
+from navmesh.routes.route_validity import line_holds
 from runtime.bodies.protocol import Follower, Population
 from runtime.planning.level import Level
 from runtime.traffic.deadlock import STANDSTILL, untangle

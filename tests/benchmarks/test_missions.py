@@ -5,7 +5,7 @@ import pytest
 
 from benchmarks.missions import depth_through
 from benchmarks.obstacle_scenes import box, merged, plate
-from navmesh.probes import ProbeGrid
+from navmesh.level.mesh_queries import MeshGrid
 
 ORIGIN = np.array([-5.0, -5.0, -1.0])
 
@@ -14,7 +14,7 @@ ORIGIN = np.array([-5.0, -5.0, -1.0])
 def triangles() -> np.ndarray:
     """A floor with a wall 10 cm thick and 2 m high across it, at x = 0."""
     mesh = merged(plate(8.0, 8.0), box(0.1, 3.0, 0.0, 2.0))
-    return ProbeGrid(*mesh, ORIGIN, 0.8).triangles
+    return MeshGrid(*mesh, ORIGIN, 0.8).triangles
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ import pathsmooth
 import runtime
 import surefoot
 from locomotion.skills.registry import in_words, skill_called, skill_kinds
-from navmesh.kinds import affordances
+from navmesh.obstacles.kinds import affordances
 
 ROOT = Path(__file__).parents[2]
 PACKAGES = ("navmesh", "pathsmooth", "locomotion", "runtime", "surefoot")

@@ -8,8 +8,8 @@ from locomotion import skill_kinds
 
 ROOT = Path(__file__).parents[2]
 OWN = (
-    "navmesh/kinds.py",
-    "navmesh/measuring.py",
+    "navmesh/obstacles/kinds.py",
+    "navmesh/obstacles/rim_measuring.py",
     "locomotion/skills/jump/",
     "locomotion/skills/vault/",
     "locomotion/skills/drop_roll/",

@@ -13,7 +13,7 @@ from scipy.sparse.csgraph import connected_components
 ROOT = Path(__file__).parents[2]
 PACKAGES = ("surefoot", "navmesh", "pathsmooth", "locomotion", "runtime")
 CIRCLES = {
-    "navmesh.graph": "methods of a graph give routes, which hold on to the graph that they were found on",
+    "navmesh.graph.node_graph": "methods of a graph give routes, which hold on to the graph they are of",
     "locomotion.skills.registry": "a kind of skill names its trainer, which trains people, who have skills",
 }
 """Circles of imports that stay, by a module in each; and why."""
@@ -21,8 +21,8 @@ MOST_PARAMETERS = 8
 COMPILED = {"kernel", "allocating_kernel"}
 LONGER = {
     "runtime.playtest.run.playtest": "a command passes its options on to it, one by one",
-    "navmesh.pathfinding.find_path": "a method of eight parameters, written apart from its class",
-    "navmesh.pathfinding.find_paths": "the same",
+    "navmesh.routes.path_queries.find_path": "a method of eight parameters, written apart from its class",
+    "navmesh.routes.path_queries.find_paths": "the same",
 }
 """Functions that may take more; and why."""
 WITHOUT_A_TEST = {

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from locomotion.gaits.run.skill import RunSkill
 from locomotion.skills.drop_roll.skill import DROP_ROLL_SKILL, DropRoll, load_drop_roll_skill
 from locomotion.skills.kind import SkillKind
-from navmesh.kinds import kind_of
+from navmesh.obstacles.kinds import kind_of
 
 if TYPE_CHECKING:
     from locomotion.training.training import Training

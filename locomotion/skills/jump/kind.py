@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from locomotion.gaits.run.skill import RunSkill
 from locomotion.skills.jump.skill import JUMP_SKILL, Jump, load_jump_skill
 from locomotion.skills.kind import SkillKind
-from navmesh.kinds import kind_of
+from navmesh.obstacles.kinds import kind_of
 
 if TYPE_CHECKING:
     from locomotion.training.training import Training

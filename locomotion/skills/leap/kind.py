@@ -10,7 +10,7 @@ from locomotion.gaits.run.skill import RunSkill
 from locomotion.skills.description import load_described
 from locomotion.skills.interface import ClearingSkill
 from locomotion.skills.kind import SkillKind
-from navmesh.kinds import kind_of
+from navmesh.obstacles.kinds import kind_of
 
 if TYPE_CHECKING:
     from locomotion.training.training import Training

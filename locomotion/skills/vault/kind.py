@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from locomotion.gaits.run.skill import RunSkill
 from locomotion.skills.kind import SkillKind
 from locomotion.skills.vault.skill import VAULT_SKILL, Vault, load_vault_skill
-from navmesh.kinds import kind_of
+from navmesh.obstacles.kinds import kind_of
 
 if TYPE_CHECKING:
     from locomotion.training.training import Training

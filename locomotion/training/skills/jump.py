@@ -30,7 +30,7 @@ from locomotion.training.search.loop import Stage, simulated
 from locomotion.training.skills.jump_kind import WEIGHTS, JumpKind, cost, first_guess, scales, stair_jump
 from locomotion.training.skills.jump_trial import JumpOutcome, JumpSimulator, LedgeSimulator, StartState
 from locomotion.training.training import NotLearnedError, Training
-from navmesh.kinds import kind_of
+from navmesh.obstacles.kinds import kind_of
 
 __all__ = ["FURTHER", "HEIGHTS", "LOWEST", "JumpProblem", "train_described", "train_jump"]
 

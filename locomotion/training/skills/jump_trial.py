@@ -21,7 +21,7 @@ from locomotion.skills.jump.kernel import jump_tick, start_jump
 from locomotion.skills.jump.skill import jump_clip
 from locomotion.skills.learned import LawTables
 from locomotion.training.skills.trial_scene import BOX_LENGTH, BOX_TOP, trial_scene
-from navmesh.kinds import Crossing
+from navmesh.obstacles.kinds import Crossing
 
 __all__ = ["JumpOutcome", "JumpSimulator", "LedgeSimulator", "StartState"]
 

@@ -11,7 +11,7 @@ from locomotion import LocomotionError
 from locomotion.crowd import Crowd, NoRoute
 from locomotion.crowd.gates import find_gates
 from locomotion.events import Arrived, GotStuck, SetOff
-from navmesh.structs import net_of
+from navmesh.graph.kernel_arrays import net_of
 
 
 def level_of(*plates: tuple[float, float, float, float, float]) -> navmesh.Terrain:

@@ -14,7 +14,7 @@ import navmesh
 from locomotion.clips.clip import load_clip
 from locomotion.clips.motion import load_motion
 from locomotion.gaits.run.skill import RUN_CLIP
-from navmesh.graph_file import GRAPH_FILE
+from navmesh.graph.graph_file import GRAPH_FILE
 from runtime.cli.app import main
 from surefoot.files.archive import write_archive
 from tests.small_level import MISSION

@@ -12,7 +12,7 @@ import trimesh
 import navmesh
 from benchmarks.planted_rooms import FAULTS, LOOK_ALIKES, planted
 from benchmarks.playtest_faults import judged
-from navmesh.ledges import GAP
+from navmesh.surface.ledges import GAP
 from runtime.playtest import playtest
 from runtime.playtest.character import character_of
 from runtime.playtest.closeup import close_up

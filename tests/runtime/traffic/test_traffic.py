@@ -5,7 +5,7 @@ import pytest
 
 from benchmarks.giving_way import floor
 from locomotion.gaits.run.layout import STEPS
-from navmesh.holding import line_holds
+from navmesh.routes.route_validity import line_holds
 from runtime import World
 
 

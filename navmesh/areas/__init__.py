@@ -1,0 +1,1 @@
+"""Materials that cost more: routes that are cheap by what a metre costs."""

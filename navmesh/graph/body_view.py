@@ -1,0 +1,161 @@
+"""What one body makes of a graph: the portals open to it and the typed links on offer, kept for reuse."""
+
+from collections.abc import Mapping
+from math import isfinite
+from numbers import Real
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from navmesh.errors import NavmeshError
+from navmesh.graph.kernel_arrays import make_doors, net_of
+from navmesh.graph.parts import leaps_by_part, parts_of_nodes, parts_of_tiles
+from navmesh.graph.portals import open_portals
+from navmesh.obstacles.kinds import affordances
+
+if TYPE_CHECKING:
+    from navmesh.graph.node_graph import NodeGraph
+
+__all__ = ["checked_radius", "doors_of", "parts_of", "portals_of"]
+
+_NO_LINKS = np.empty(0, np.int64)
+_KEPT = 16  # radii, and offers of skills, that are kept
+
+
+def checked_radius(radius: Any) -> float:
+    """``radius`` as a float; `NavmeshError` unless it is a finite number above 0."""
+    if type(radius) is not float and (isinstance(radius, bool) or not isinstance(radius, Real)):
+        raise NavmeshError(f"radius: expected a body's radius [m], a number above 0, not {radius!r}")
+    if not isfinite(radius) or radius <= 0.0:
+        raise NavmeshError(f"radius = {radius!r}: expected a body's radius [m], above 0")
+    return float(radius)
+
+
+def _checked_skills(skills: Mapping[str, tuple[float, float]] | None) -> tuple:
+    """The skills on offer as a sorted tuple (name, least height, greatest height)."""
+    if skills is not None and not isinstance(skills, Mapping):
+        raise NavmeshError(
+            f"skills: expected heights by affordance, as in {{'jump': (0.3, 0.5)}}, not {skills!r}"
+        )
+    offered = []
+    for name, limits in (skills or {}).items():
+        if name not in affordances():
+            raise NavmeshError(f"skill {name!r}: expected one of {', '.join(affordances())}")
+        try:
+            low, high = (float(value) for value in limits)
+        except (TypeError, ValueError):
+            raise NavmeshError(
+                f"skill {name!r}: expected (least, greatest height) [m], not {limits!r}"
+            ) from None
+        if not 0.0 <= low <= high < np.inf:
+            raise NavmeshError(f"skill {name!r}: expected 0 <= least <= greatest height [m], not {limits!r}")
+        offered.append((name, low, high))
+    return tuple(sorted(offered))
+
+
+def portals_of(graph: "NodeGraph", radius: float) -> tuple:
+    kept = graph.cache.setdefault("portals", {})
+    if radius not in kept:
+        if len(kept) >= _KEPT:
+            del kept[next(iter(kept))]
+        kept[radius] = open_portals(
+            net_of(graph), graph.edge_width, graph.edge_cells, graph.edge_gate, radius
+        )
+    return kept[radius]
+
+
+def _checked_links(graph: "NodeGraph", links: Any) -> np.ndarray:
+    """Indices of links (k,) int64, sorted."""
+    if isinstance(links, tuple) and not links:  # the default, on every query
+        return _NO_LINKS
+    index = np.unique(np.asarray(links)) if np.size(links) else np.empty(0, np.int64)
+    if index.dtype.kind not in "iu" or (len(index) and not 0 <= index[0] <= index[-1] < len(graph.links)):
+        raise NavmeshError(
+            f"closed_links: expected indices of the graph's {len(graph.links)} links, not {links!r}"
+        )
+    return index.astype(np.int64)
+
+
+def parts_of(graph: "NodeGraph", radius: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The part of each node for a body of ``radius``, and the parts in each tile (CSR); see
+    `navmesh.graph.parts`."""
+    kept = graph.cache.setdefault("parts", {})
+    if radius not in kept:
+        if len(kept) >= _KEPT:
+            del kept[next(iter(kept))]
+        part = parts_of_nodes(*portals_of(graph, radius)[:2])
+        kept[radius] = part, *parts_of_tiles(net_of(graph), part, radius)
+    return kept[radius]
+
+
+def _leaps_for(graph: "NodeGraph", radius: float, skills: tuple, closed: np.ndarray) -> dict[str, np.ndarray]:
+    """The links on offer but the ``closed`` ones, grouped by the node they start from: the ``leap`` arrays of
+    `DOORS`."""
+    count = len(graph.radii)
+    links = graph.links
+    chosen = []
+    for name, low, high in skills:
+        of_kind = (links.affordance == name) & (links.height >= low) & (links.height <= high)
+        chosen.append(np.flatnonzero(of_kind & (links.radius >= radius)))
+    index = np.setdiff1d(np.concatenate(chosen), closed) if chosen else np.empty(0, np.int64)
+    index = index[(graph.label[links.start_cell[index]] >= 0) & (graph.label[links.end_cell[index]] >= 0)]
+    origin = graph.surface.origin
+    start, end = links.start[index] - origin, links.end[index] - origin
+    start_cell, end_cell = links.start_cell[index], links.end_cell[index]
+    node = graph.label[start_cell]
+    order = np.lexsort((index, node))
+    starts = np.searchsorted(node[order], np.arange(count + 1)).astype(np.int32)
+    cost = np.maximum(links.cost[index], np.linalg.norm(end - start, axis=1))
+    return {
+        "leap_start": starts,
+        "leap_id": index[order].astype(np.int32),
+        "leap_from": np.ascontiguousarray(start[order]),
+        "leap_from_cell": start_cell[order],
+        "leap_to": np.ascontiguousarray(end[order]),
+        "leap_to_cell": end_cell[order],
+        "leap_cost": cost[order],
+    }
+
+
+def doors_of(
+    graph: "NodeGraph", radius: float, skills: Any, node_costs: np.ndarray | None, closed_links: Any = ()
+) -> Any:
+    """The `Doors` for a body, made once for each radius, offer of skills and closed links (those with costs
+    each time)."""
+    offered = _checked_skills(skills) if skills else ()
+    closed = _checked_links(graph, closed_links)
+    key = radius, offered, closed.tobytes()
+    if node_costs is None:
+        kept = graph.cache.setdefault("doors", {})
+        doors = kept.get(key)
+        if doors is not None:
+            return doors
+    count = len(graph.radii)
+    if node_costs is None:
+        costs = np.ones(count)
+    else:
+        try:
+            costs = np.ascontiguousarray(node_costs, dtype=np.float64)
+        except (TypeError, ValueError):
+            costs = np.empty(0)
+        if costs.shape != (count,) or not np.all(costs >= 1.0) or not np.all(np.isfinite(costs)):
+            raise NavmeshError(f"node_costs: expected {count} finite factors of at least 1, one per node")
+    leaps = _leaps_for(graph, radius, offered, closed)
+    part, tile_start, tile_part = parts_of(graph, radius)
+    part_leap_start, part_leap = leaps_by_part(
+        part, graph.label[leaps["leap_from_cell"]], graph.label[leaps["leap_to_cell"]]
+    )
+    parts = {
+        "part": part,
+        "part_leap_start": part_leap_start,
+        "part_leap": part_leap,
+        "tile_start": tile_start,
+        "tile_part": tile_part,
+    }
+    weighted, widest = node_costs is not None, float(graph.radii.max())
+    doors = make_doors(radius, portals_of(graph, radius), costs, weighted, leaps, parts, widest)
+    if node_costs is None:
+        if len(kept) >= _KEPT:
+            del kept[next(iter(kept))]
+        kept[key] = doors
+    return doors

@@ -1,0 +1,124 @@
+"""Edges between nodes whose cells touch, with the widest body that passes and where it passes."""
+
+import numpy as np
+
+from navmesh.surface.clearance_field import centre_of
+from navmesh.surface.ridges import Field, half_width, widest_through
+from surefoot.kernels import allocating_kernel, kernel
+
+__all__ = ["join_nodes"]
+
+
+_WIDE = 1.5
+"""[m] Passages this wide are known well enough by their cells: no body is as wide."""
+_FINE = 0.002
+"""[m] of a passage's half width that are not worth another look."""
+
+
+@allocating_kernel
+def _border_pairs(label, link, clearance):
+    """Cell pairs on borders between labels, one for each pair of nodes: the one with most clearance."""
+    borders = 0
+    for c in range(label.shape[0]):
+        for d in range(2):
+            n = link[c, d]
+            if n >= 0 and label[n] != label[c] and label[n] >= 0 and label[c] >= 0:
+                borders += 1
+    key = np.empty(borders, np.int64)
+    pair = np.empty((borders, 2), np.int32)
+    width = np.empty(borders)
+    k = 0
+    for c in range(label.shape[0]):
+        for d in range(2):
+            n = link[c, d]
+            if n < 0 or label[n] == label[c] or label[n] < 0 or label[c] < 0:
+                continue
+            first, second = (c, n) if label[c] < label[n] else (n, c)
+            key[k] = (np.int64(label[first]) << 32) | label[second]
+            pair[k, 0] = first
+            pair[k, 1] = second
+            width[k] = min(clearance[c], clearance[n])
+            k += 1
+    return key, pair, width
+
+
+@kernel
+def _widest(order, first, last, pair, width, least, most, field):
+    """Where the widest body passes the border pairs ``order[first:last]`` of one edge, and the pair there:
+    (index of the pair, x, y, radius). Radii up to ``least`` [m] and from ``most`` on are all the same."""
+    best = order[first]
+    for k in range(first + 1, last):
+        if width[order[k]] > width[best]:
+            best = order[k]
+    c, n = pair[best, 0], pair[best, 1]
+    x, y = centre_of(field, c if field.clearance[c] > field.clearance[n] else n)
+    radius = max(width[best], least)
+    for k in range(first, last):
+        c, n = pair[order[k], 0], pair[order[k], 1]
+        if radius >= _WIDE or radius + _FINE >= most:
+            break
+        one, other = half_width(field, c), half_width(field, n)
+        bound = min(one, other) if one == np.inf or other == np.inf else max(one, other)
+        if radius + _FINE < bound < np.inf:
+            px, py, passes = widest_through(field, c, n, radius)
+            if passes > radius:
+                best, x, y, radius = order[k], px, py, passes
+    return best, x, y, min(radius, most)
+
+
+@allocating_kernel
+def _assemble(order, key, pair, width, place, field):
+    """CSR arrays of the edges from border pairs that ``order`` sorts by key."""
+    nodes = place.shape[0]
+    degree = np.zeros(nodes + 1, np.int32)
+    begin = np.empty(order.shape[0] + 1, np.int32)
+    edges = 0
+    for k in range(order.shape[0]):
+        i = order[k]
+        if k > 0 and key[order[k - 1]] == key[i]:
+            continue
+        begin[edges] = k
+        edges += 1
+        degree[key[i] >> 32] += 1
+        degree[key[i] & 0xFFFFFFFF] += 1
+    begin[edges] = order.shape[0]
+    start = np.zeros(nodes + 1, np.int32)
+    for m in range(nodes):
+        start[m + 1] = start[m] + degree[m]
+    fill = start[:-1].copy()
+    target = np.empty(2 * edges, np.int32)
+    widest = np.empty(2 * edges)
+    gate = np.empty((2 * edges, 2))
+    border = np.empty((2 * edges, 2), np.int32)
+    for k in range(edges):
+        i = order[begin[k]]
+        a = np.int32(key[i] >> 32)
+        b = np.int32(key[i] & 0xFFFFFFFF)
+        one, other = place[a, 2], place[b, 2]
+        lens = 0.5 * (one + other - np.hypot(place[b, 0] - place[a, 0], place[b, 1] - place[a, 1]))
+        i, x, y, passes = _widest(order, begin[k], begin[k + 1], pair, width, lens, min(one, other), field)
+        for way in range(2):
+            source, goal = (a, b) if way == 0 else (b, a)
+            e = fill[source]
+            fill[source] += 1
+            target[e] = goal
+            widest[e] = passes
+            border[e, 0] = pair[i, way]
+            border[e, 1] = pair[i, 1 - way]
+            gate[e, 0] = x
+            gate[e, 1] = y
+    return start, target, widest, gate, border
+
+
+def join_nodes(
+    label: np.ndarray, field: Field, place: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Edges in CSR form, both ways: start (m + 1,), target (e,), width (e,), gate (e, 2), cells (e, 2).
+
+    ``place`` (m, 3) are the discs' x, y and radius [m]; ``label`` says who owns each cell. The widest body
+    that passes is max((Rᵢ + Rⱼ - d)/2, the clearance of the best pair of linked cells on the labels'
+    border); where the sides of a passage face each other, the clearance in its middle instead of the cells'.
+    """
+    key, pair, width = _border_pairs(label, field.link, field.clearance)
+    order = np.argsort(key, kind="stable")
+    return _assemble(order, key, pair, width, place, field)

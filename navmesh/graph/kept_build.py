@@ -1,0 +1,125 @@
+"""What is kept of a build, and how it is renewed after a change: `NodeGraph.build` and `NodeGraph.update`.
+
+Local stages are those that look at triangles: cells, links, the clearance beside walls and rims
+(`find_cells`),
+and the samples at rims. After a change they are done again for a window of columns around it, and spliced
+in.
+The rest, clearances carried over the cells, discs, edges and the joining of rim samples to obstacles, can
+change far away; it is done again for the whole level.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from navmesh.errors import NavmeshError
+from navmesh.level.mesh_queries import MeshGrid
+from navmesh.level.terrain import Terrain
+from navmesh.obstacles.rim_samples import RimSamples, renew_rim_samples, take_rim_samples
+from navmesh.obstacles.rules import ObstacleRules
+from navmesh.rules import WalkRules
+from navmesh.surface.build import Cells, Grid, Window, find_cells, lay_grid, reach_of
+from navmesh.surface.splicing import splice
+from navmesh.surface.surface import Surface
+
+__all__ = ["KeptBuild", "all_rim_samples", "grid_for", "renew_cells"]
+
+_ROOM = 0.25  # of a level's length by which its grid is laid wider on a side that it has outgrown
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class KeptBuild:
+    """The local stages' results."""
+
+    grid: Grid
+    cells: Cells
+    rim_samples: RimSamples | None
+    """None where obstacles are not asked for."""
+
+
+def grid_for(terrain: Terrain, rules: WalkRules, extent: np.ndarray | None, grown: bool = False) -> Grid:
+    """The grid of a terrain that is to fill ``extent`` (2, 3) [m] as well as its own bounds. ``grown``: with
+    room to grow on the sides where it has outgrown the extent."""
+    bounds = terrain.bounds
+    if extent is not None:
+        room = np.asarray(extent, dtype=np.float64)
+        if room.shape != (2, 3) or not np.isfinite(room).all() or (room[0] > room[1]).any():
+            raise NavmeshError(
+                f"extent = {np.asarray(extent).tolist()}: expected two corners (2, 3) [m], least and greatest"
+            )
+        both = np.stack([np.minimum(bounds[0], room[0]), np.maximum(bounds[1], room[1])])
+        if grown:
+            wider = _ROOM * (both[1] - both[0])[:2]
+            over = 0.5 * rules.resolution  # of a grid's extent that the grid covers as well
+            both[0, :2] -= wider * (bounds[0] < room[0] - over)[:2]
+            both[1, :2] += wider * (bounds[1] > room[1] + over)[:2]
+        bounds = both
+    return lay_grid(bounds, rules, terrain.name)
+
+
+def renew_cells(
+    old: Cells, grid: Grid, changed: list[np.ndarray], terrain: Terrain, rules: WalkRules
+) -> Cells:
+    """The cells of ``terrain``, which differs from that of ``old`` within the ``changed`` bounds (2, 3)
+    [m]."""
+    cells = old
+    nx, ny = grid.shape
+    reach = reach_of(rules) + 3  # and the links and distances of cells beside one that changes
+    for window in _apart([_window(bounds, grid, reach) for bounds in changed]):
+        spare = reach_of(rules) + 4
+        wide = _clipped((window[0] - spare, window[1] - spare, window[2] + spare, window[3] + spare), nx, ny)
+        cells = splice(cells, find_cells(terrain, rules, grid, wide), window, ny)
+    if not len(cells.cell_column):
+        raise NavmeshError(f"{terrain.name}: after the change there is nothing to walk on")
+    return cells
+
+
+def all_rim_samples(
+    before: KeptBuild | None,
+    changed: Sequence[np.ndarray],
+    terrain: Terrain,
+    surface: Surface,
+    rules: WalkRules,
+    obstacle_rules: ObstacleRules,
+) -> tuple[RimSamples, MeshGrid]:
+    """The samples at the rims of ``terrain``, and its triangles for measuring. Only those near ``changed``
+    bounds (2, 3) [m] are taken if there were any ``before``."""
+    mesh_grid = MeshGrid(terrain.vertices, terrain.faces, surface.origin, rules.max_slope)
+    if before is None or before.rim_samples is None:
+        return take_rim_samples(terrain, surface, rules, obstacle_rules, mesh_grid), mesh_grid
+    areas = np.array([bounds[:, :2] - surface.origin[:2] for bounds in changed])
+    renewed = renew_rim_samples(before.rim_samples, areas, terrain, surface, rules, obstacle_rules, mesh_grid)
+    return renewed, mesh_grid
+
+
+def _window(bounds: np.ndarray, grid: Grid, reach: int) -> Window:
+    """The columns that ``bounds`` touch, and ``reach`` more on each side."""
+    low = np.floor((bounds[0, :2] - grid.origin[:2]) / grid.resolution - 1e-6).astype(int) - reach
+    high = np.floor((bounds[1, :2] - grid.origin[:2]) / grid.resolution + 1e-6).astype(int) + 1 + reach
+    return _clipped((int(low[0]), int(low[1]), int(high[0]), int(high[1])), *grid.shape)
+
+
+def _clipped(window: Window, nx: int, ny: int) -> Window:
+    return max(window[0], 0), max(window[1], 0), min(window[2], nx), min(window[3], ny)
+
+
+def _apart(windows: list[Window]) -> list[Window]:
+    """Windows that cover ``windows`` and do not touch each other."""
+    apart: list[Window] = []
+    for window in windows:
+        merged = window
+        again = True
+        while again:
+            again = False
+            for other in apart:
+                if all(merged[k] <= other[k + 2] and merged[k + 2] >= other[k] for k in range(2)):
+                    merged = (
+                        min(merged[0], other[0]), min(merged[1], other[1]),
+                        max(merged[2], other[2]), max(merged[3], other[3]),
+                    )  # fmt: skip
+                    apart.remove(other)
+                    again = True
+                    break
+        apart.append(merged)
+    return apart

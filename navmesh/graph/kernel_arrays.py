@@ -1,0 +1,241 @@
+"""The arrays that the search kernels read, bundled so that a call passes three arguments, not fifty.
+
+`NET` is the graph with its field of clearances, `DOORS` is what one body radius makes of it, and `SCRATCH` is
+the memory of one search at a time. What is read together lies together: a cell, a door, and what a search
+knows of a node are one line of the cache each. All coordinates are relative to the surface's origin.
+"""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numba import float64, int32, int64
+
+from navmesh.routes.graph_search import LABELS
+from surefoot.kernels.bundles import Bundle, BundleType, aligned, rows
+
+if TYPE_CHECKING:
+    from navmesh.graph.node_graph import NodeGraph
+
+__all__ = ["DOORS", "NET", "SCRATCH", "make_doors", "make_scratch", "net_of"]
+
+_CELL = np.dtype(
+    [
+        ("clearance", "f8"), ("height", "f8"), ("link", "i4", 4), ("label", "i4"), ("cell_column", "i4"),
+        ("gradient", "f4", 2), ("nearby", "i4", 2), ("", "i4", 2),
+    ]
+)  # fmt: skip
+_NODE = np.dtype([("position", "f8", 3), ("node_radius", "f8")])
+_DOOR = np.dtype([("portal", "f8", 6), ("portal_cell", "i4", 2), ("target", "i4"), ("", "i4")])
+_LABEL = np.dtype(
+    [
+        ("stamp", "i8"), ("cost", "f8"), ("total", "f8"), ("apex", "f8", 3), ("left", "f8", 3),
+        ("right", "f8", 3), ("parent", "i4"), ("via", "i4"), ("", "f8", 3),
+    ]
+)  # fmt: skip
+
+NET = BundleType(
+    cell=float64,
+    nx=int64,
+    ny=int64,
+    column_start=int32[::1],
+    cells=rows(_CELL),
+    nearest=float64[:, ::1],
+    blocker=float64[:, ::1],
+    nodes=rows(_NODE),
+    node_cell=int32[::1],
+    edge_start=int32[::1],
+    edge_target=int32[::1],
+)
+"""The surface and the graph.
+
+cell: side of a grid square [m]; nx, ny: columns. Of `Surface`: column_start (nx*ny + 1,) and, for each cell,
+cell_column, height, gradient (2 float32), link (4), clearance, nearby (2), nearest (2); blocker (k, 4). Of
+`NodeGraph`: label of each cell; position (3), node_radius and node_cell of each node; edge_start (m + 1,),
+edge_target (e,).
+"""
+
+DOORS = BundleType(
+    radius=float64,
+    weighted=int64,
+    start=int32[::1],
+    doors=rows(_DOOR),
+    lens=float64[:, ::1],
+    block=float64[:, ::1],
+    node_cost=float64[::1],
+    leap_start=int32[::1],
+    leap_id=int32[::1],
+    leap_from=float64[:, ::1],
+    leap_from_cell=int32[::1],
+    leap_to=float64[:, ::1],
+    leap_to_cell=int32[::1],
+    leap_cost=float64[::1],
+    widest=float64,
+    part=int32[::1],
+    part_leap_start=int32[::1],
+    part_leap=int32[::1],
+    tile_start=int32[::1],
+    tile_part=int32[::1],
+)
+"""What one body radius makes of the graph.
+
+radius [m]; the doors, edges that the body passes, of node i are start[i]:start[i + 1]. For each door: target,
+the node behind; portal (6): x, y, z of its left and of its right end as seen walking through; portal_cell
+(2): the cells of the ends; lens (2): the part of it (0 left, 1 right) that lies in both shrunk discs, all of
+it where they do not overlap; block (4): x, y of what ends walking at its left and at its right end, inf where
+nothing does. node_cost (m,), at least 1: factor on the length walked in each node; weighted: whether any
+factor is not 1. The leaps are the typed links on offer, grouped by the node they start from: leap_start (m +
+1,), leap_id (l,), leap_from, leap_to (l, 3), leap_from_cell, leap_to_cell (l,), leap_cost (l,) [m]. widest:
+radius [m] of the widest disc. part (m,): which nodes can be walked to from each other, see
+`navmesh.graph.parts`; part_leap_start (p + 1,), part_leap (l,): the parts that the leaps from each part lead
+to; tile_start (t + 1,), tile_part: the parts in each tile.
+"""
+
+SCRATCH = BundleType(
+    numbers=int64[::1],
+    ends=float64[::1],
+    labels=rows(_LABEL),
+    heap_key=float64[::1],
+    heap_item=int32[::1],
+    reached=int64[::1],
+    part_stack=int32[::1],
+    nodes=int32[::1],
+    edges=int32[::1],
+    points=float64[:, ::1],
+    cells=int32[::1],
+    corner=float64[:, ::1],
+    corner_at=int32[::1],
+    arc=float64[:, ::1],
+    bend=float64[:, ::1],
+    trial=float64[:, ::1],
+    trial_cell=int32[::1],
+    kept=float64[:, ::1],
+    kept_nodes=int32[::1],
+    kept_leaps=int32[:, ::1],
+    stack=float64[:, ::1],
+    stack_cell=int32[::1],
+    cell_stamp=int64[::1],
+    cell_best=float64[::1],
+    cell_parent=int32[::1],
+)
+"""Memory for one search at a time.
+
+numbers: the stamp of the current search and its counters, see `navmesh.routes.graph_search`; ends: start and
+goal. For each label (those of node i from LABELS * i on): stamp, the last search that made it; cost, total,
+apex, left, right (3), parent, via: the door, or the number of doors + leap. heap_key, heap_item: the open
+list; reached: for each part the last search that can get to it, part_stack: those still to be gone on from;
+nodes, edges: the chain found; points, cells: the corners pulled; corner, corner_at: those of the funnel; arc:
+those that round one of them; bend: those that lead a line round a place; trial, trial_cell: corners to be put
+in the place of one; kept, kept_nodes, kept_leaps: the best line so far; stack, stack_cell: corners still to
+be reached; cell_stamp, cell_best, cell_parent: what `navmesh.routes.cell_search` knows of each cell.
+"""
+
+
+def _table(dtype: np.dtype, **columns: np.ndarray) -> np.ndarray:
+    table = aligned(len(next(iter(columns.values()))), dtype)
+    for name, values in columns.items():
+        table[name] = values
+    return table
+
+
+def net_of(graph: "NodeGraph") -> Any:
+    """The graph's `NET`, made once."""
+    net = graph.cache.get("net")
+    if net is None:
+        surface = graph.surface
+        net = graph.cache["net"] = Bundle(
+            NET,
+            cell=surface.resolution,
+            nx=surface.shape[0],
+            ny=surface.shape[1],
+            column_start=surface.column_start,
+            cells=_table(
+                _CELL,
+                clearance=surface.clearance,
+                height=surface.height,
+                link=surface.link,
+                label=graph.label,
+                cell_column=surface.cell_column,
+                gradient=surface.gradient,
+                nearby=surface.nearby(),
+            ),
+            nearest=surface.nearest,
+            blocker=surface.blocker,
+            nodes=_table(_NODE, position=graph.positions - surface.origin, node_radius=graph.radii),
+            node_cell=graph.node_cell,
+            edge_start=graph.edge_start,
+            edge_target=graph.edge_target,
+        )
+    return net
+
+
+def make_doors(
+    radius: float,
+    portals: tuple[np.ndarray, ...],
+    costs: np.ndarray,
+    weighted: bool,
+    leaps: dict,
+    parts: dict,
+    widest: float,
+) -> Bundle:
+    """`DOORS` from what `open_portals` gives, the costs of the nodes, the ``leap`` arrays and those of the
+    parts."""
+    start, target, portal, portal_cell, lens, block = portals
+    return Bundle(
+        DOORS,
+        radius=radius,
+        weighted=weighted,
+        start=start,
+        doors=_table(_DOOR, portal=portal, portal_cell=portal_cell, target=target),
+        lens=lens,
+        block=block,
+        node_cost=costs,
+        widest=widest,
+        **leaps,
+        **parts,
+    )
+
+
+def _most_opened(graph: "NodeGraph") -> int:
+    """How many entries the open list can get: whenever a label is expanded, one for each way on."""
+    links = graph.links
+    start = graph.label[links.start_cell]
+    leaving = np.bincount(start[start >= 0], minlength=len(graph.radii))
+    return LABELS * int((np.diff(graph.edge_start) + leaving).sum()) + 1
+
+
+def make_scratch(graph: "NodeGraph") -> Bundle:
+    """`SCRATCH` for searches over the graph, with room for all that can come up. Most of it is never touched
+    and so takes no memory."""
+    nodes, cells = len(graph.radii), len(graph.surface)
+    labels = LABELS * nodes
+    opened = _most_opened(graph)
+    chain = labels + 1
+    corners = cells + 4096
+    return Bundle(
+        SCRATCH,
+        numbers=np.zeros(16, np.int64),
+        ends=np.zeros(12),
+        labels=aligned(labels, _LABEL),
+        heap_key=np.empty(opened),
+        heap_item=np.empty(opened, np.int32),
+        reached=np.zeros(nodes, np.int64),
+        part_stack=np.empty(nodes, np.int32),
+        nodes=np.empty(chain, np.int32),
+        edges=np.empty(chain, np.int32),
+        points=np.empty((corners, 3)),
+        cells=np.empty(corners, np.int32),
+        corner=np.empty((2 * chain + 2, 2)),
+        corner_at=np.empty(2 * chain + 2, np.int32),
+        arc=np.empty((2, 2)),
+        bend=np.empty((2, 2)),
+        trial=np.empty((4, 2)),
+        trial_cell=np.empty(4, np.int32),
+        kept=np.empty((corners, 3)),
+        kept_nodes=np.empty(chain, np.int32),
+        kept_leaps=np.empty((len(graph.links.obstacle), 2), np.int32),
+        stack=np.empty((14, 2)),
+        stack_cell=np.empty(14, np.int32),
+        cell_stamp=np.zeros(cells, np.int64),
+        cell_best=np.empty(cells),
+        cell_parent=np.empty(cells, np.int32),
+    )

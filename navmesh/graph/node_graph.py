@@ -1,0 +1,350 @@
+"""The node-radius graph: discs on the walkable surface, joined where a body can pass from one to the next."""
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from navmesh.errors import NavmeshError
+from navmesh.graph import edges, nodes
+from navmesh.graph import spatial_queries as queries
+from navmesh.graph.graph_file import read_graph, write_graph
+from navmesh.graph.kept_build import KeptBuild, all_rim_samples, grid_for, renew_cells
+from navmesh.graph.links import Links, make_links
+from navmesh.level.chunks import change_chunks
+from navmesh.level.terrain import DEFAULT_MATERIAL, Terrain
+from navmesh.obstacles.detection import obstacles_at, with_own_kinds
+from navmesh.obstacles.obstacles import Obstacles
+from navmesh.obstacles.rules import ObstacleRules
+from navmesh.obstacles.tagging import TagFile
+from navmesh.routes import path_queries as pathfinding
+from navmesh.routes.path_queries import PathSearch
+from navmesh.routes.route import Route, Routes
+from navmesh.rules import WalkRules
+from navmesh.surface.build import Cells, Grid, find_cells, surface_of
+from navmesh.surface.ridges import field_of
+from navmesh.surface.surface import Surface
+from surefoot.words import several
+
+if TYPE_CHECKING:
+    import networkx
+
+__all__ = ["NodeGraph"]
+
+_OBSTACLE_RULES = ObstacleRules()
+
+
+@dataclass(eq=False)
+class NodeGraph:
+    """Discs that cover the walkable surface of a terrain. Make one with `build` or `load`.
+
+    Inside a disc a body of radius r can stand wherever it is r away from the rim; a body passes an edge
+    when it is not wider than the edge. One graph serves bodies of every radius. Arrays are not to be
+    changed from outside.
+    """
+
+    terrain: Terrain
+    """The geometry that the graph was built from."""
+    rules: WalkRules
+    surface: Surface
+    positions: np.ndarray
+    """(m, 3) float64 [m], world coordinates of the nodes: points of the surface, centres of cells or, in a
+    narrow passage, its middle."""
+    radii: np.ndarray
+    """(m,) float64 [m]: horizontal distance from the node to the nearest place where walking ends."""
+    node_cell: np.ndarray
+    """(m,) int32: the cell that the node lies in."""
+    label: np.ndarray
+    """(n,) int32: the node that owns each cell of the surface (least d² - r² of the discs that hold it);
+    -1 for cells in no disc, which have less clearance than `WalkRules.min_radius`."""
+    edge_start: np.ndarray
+    """(m + 1,) int32: the edges that leave node i are edge_start[i]:edge_start[i + 1], by rising target."""
+    edge_target: np.ndarray
+    """(e,) int32: the node that an edge leads to. Every edge has its reverse."""
+    edge_width: np.ndarray
+    """(e,) float64 [m]: radius of the widest body that passes."""
+    edge_gate: np.ndarray
+    """(e, 2) float64 [m]: x, y of the place on the border of the two labels that the widest body passes,
+    relative to surface.origin."""
+    edge_cells: np.ndarray
+    """(e, 2) int32: linked cells on the border of the two labels with the most clearance: the first is
+    owned by the edge's source, the second by its target."""
+    obstacles: Obstacles = field(default_factory=Obstacles.empty)
+    """What a skill can clear, found in the mesh and corrected by the author's tags."""
+    links: Links = field(default_factory=Links.empty)
+    """The ways over the obstacles that a route can take; see `find_path`'s skills."""
+    obstacle_rules: ObstacleRules | None = None
+    """What `build` was given."""
+    tags: TagFile | None = None
+    """What `build` was given."""
+    kept_build: KeptBuild | None = field(default=None, repr=False)
+    """What `update` needs of the build; never saved."""
+    cache: dict[str, Any] = field(default_factory=dict, repr=False)
+    """What queries have worked out and want to keep; never saved, and may be emptied at any time."""
+
+    @classmethod
+    def build(
+        cls,
+        terrain: Terrain,
+        rules: WalkRules | None = None,
+        obstacle_rules: ObstacleRules | None = _OBSTACLE_RULES,
+        tags: TagFile | None = None,
+        extent: Any = None,
+    ) -> "NodeGraph":
+        """The graph of ``terrain`` under ``rules`` (default: `WalkRules()`).
+
+        ``obstacle_rules`` say what counts as clearable; None leaves the search for obstacles out. ``tags``
+        (`navmesh.load_tags`) are the author's additions, changes and removals. ``extent`` (2, 3) [m] are the
+        least and the greatest corner of the room that a level which grows (`update`) is going to fill; by
+        default its bounds. Raises `NavmeshError` when nothing is walkable, or when the tags do not fit the
+        level.
+        """
+        if not isinstance(terrain, Terrain):
+            raise NavmeshError(f"terrain: expected a navmesh.Terrain, not a {type(terrain).__name__}")
+        if not isinstance(rules, WalkRules | None):
+            raise NavmeshError(f"rules: expected navmesh.WalkRules, not a {type(rules).__name__}")
+        rules = rules or WalkRules()
+        grid = grid_for(terrain, rules, extent)
+        return cls._made(terrain, rules, obstacle_rules, tags, grid, find_cells(terrain, rules, grid))
+
+    def update(self, changes: Mapping[str, Terrain | None]) -> "NodeGraph":
+        """The graph after ``changes`` to the level's chunks: by name, a `Terrain` to be added or to replace
+        the one of that name, None to remove it. This graph stays as it is.
+
+        Bit for bit what `build` gives for the changed terrain with this graph's `extent`. Only the
+        neighbourhood of the chunks is looked at again, see docs/how-it-works/navmesh.md; where they reach
+        beyond the extent, or this graph was loaded and not yet updated, the whole is built anew. Raises
+        `NavmeshError` for the removal of a chunk that is not there, when nothing walkable is left, and for
+        tags that fit no more.
+        """
+        terrain, changed = change_chunks(self.terrain, changes)
+        if not changed:
+            return self
+        rules, kept_build = self.rules, self.kept_build
+        grid = grid_for(terrain, rules, self.extent, grown=True)
+        if (
+            kept_build is not None
+            and grid.shape == kept_build.grid.shape
+            and (grid.origin == kept_build.grid.origin).all()
+        ):
+            cells = renew_cells(kept_build.cells, kept_build.grid, changed, terrain, rules)
+        else:
+            cells, kept_build = find_cells(terrain, rules, grid), None
+        return self._made(terrain, rules, self.obstacle_rules, self.tags, grid, cells, kept_build, changed)
+
+    @classmethod
+    def _made(
+        cls,
+        terrain: Terrain,
+        rules: WalkRules,
+        obstacle_rules: ObstacleRules | None,
+        tags: TagFile | None,
+        grid: Grid,
+        cells: Cells,
+        before: KeptBuild | None = None,
+        changed: Sequence[np.ndarray] = (),
+    ) -> "NodeGraph":
+        """The graph of ``cells``; rim samples as ``before``, where it is given, but around ``changed``
+        bounds."""
+        surface = surface_of(cells, grid)
+        field_arrays = field_of(surface)
+        order = nodes.order_by_clearance(surface.clearance, surface.resolution / 64)
+        node_cell, place, label = nodes.select_nodes(order, field_arrays, rules.min_radius)
+        if len(node_cell) == 0:
+            raise NavmeshError(
+                f"{terrain.name}: no place on it has a clearance of min_radius = {rules.min_radius:g} m"
+            )
+        start, target, width, gate, border = edges.join_nodes(label, field_arrays, place)
+        obstacles, rim_samples = Obstacles.empty(), None
+        if obstacle_rules is not None:
+            rim_samples, mesh_grid = all_rim_samples(before, changed, terrain, surface, rules, obstacle_rules)
+            obstacles = obstacles_at(rim_samples, surface, rules, obstacle_rules, mesh_grid)
+            obstacles = with_own_kinds(obstacles, terrain, surface, rules)
+        if tags is not None:
+            obstacles = tags.apply(obstacles, surface, rules)
+        return cls(
+            terrain=terrain,
+            rules=rules,
+            surface=surface,
+            positions=surface.lifted(place[:, :2], node_cell),
+            radii=place[:, 2].copy(),
+            node_cell=node_cell,
+            label=label,
+            edge_start=start,
+            edge_target=target,
+            edge_width=width,
+            edge_gate=gate,
+            edge_cells=border,
+            obstacles=obstacles,
+            links=make_links(obstacles, surface, rules, (obstacle_rules or _OBSTACLE_RULES).body_radius),
+            obstacle_rules=obstacle_rules,
+            tags=tags,
+            kept_build=KeptBuild(grid, cells, rim_samples),
+        )
+
+    @property
+    def areas(self) -> tuple[str, ...]:
+        """Names of the level's materials, in alphabetical order; "default" for what has none."""
+        return self.terrain.materials or (DEFAULT_MATERIAL,)
+
+    @property
+    def extent(self) -> np.ndarray:
+        """(2, 3) float64 [m]: the room that `update` can fill without building everything anew."""
+        surface = self.surface
+        return Grid(surface.origin, surface.resolution, surface.shape).extent
+
+    def __repr__(self) -> str:
+        counts = (len(self), "node"), (len(self.edge_target) // 2, "edge"), (len(self.obstacles), "obstacle")
+        parts = ", ".join(several(*each) for each in counts)
+        return f"<NodeGraph of {Path(self.terrain.name).name}: {parts}>"
+
+    def __len__(self) -> int:
+        return len(self.radii)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the graph to ``path``; `load` reads it back."""
+        write_graph(path, self)
+
+    @classmethod
+    def load(
+        cls, path: str | os.PathLike[str], terrain: Terrain | None = None, rules: WalkRules | None = None
+    ) -> "NodeGraph":
+        """Read a graph that `save` wrote.
+
+        With ``terrain`` or ``rules`` given, the graph must have been built from just these. Raises
+        `ArchiveError` for a file that is missing, cut off, or of another version, `NavmeshError` for one
+        made for another terrain or other rules.
+        """
+        graph = cls(**read_graph(path))
+        digest = graph.terrain.digest
+        if terrain is not None and terrain.digest != digest:
+            raise NavmeshError(
+                f"{path}: baked from another terrain than {terrain.name} (digest {digest[:12]}…, "
+                f"expected {terrain.digest[:12]}…); bake it anew"
+            )
+        if rules is not None and rules != graph.rules:
+            raise NavmeshError(f"{path}: baked with {graph.rules}, expected {rules}; bake it anew")
+        return graph
+
+    def find_path(
+        self,
+        start: Any,
+        goal: Any,
+        radius: float = 0.3,
+        skills: Mapping[str, tuple[float, float]] | None = None,
+        node_costs: np.ndarray | None = None,
+        closed_links: Any = (),
+        extent: tuple[float, float] | None = None,
+        costs: Mapping[str, float] | None = None,
+    ) -> Route:
+        """The route from ``start`` to ``goal`` (3,) [m] for a body of ``radius`` [m].
+
+        Each end is moved to the place nearest to it where the body fits: a point of the surface with its
+        radius clear around it. ``extent`` (horizontal, vertical) [m] is how far it may be moved, by default
+        twice the radius and two cells sideways and 1.5 times `WalkRules.headroom` up or down; `max_step`
+        of the height does not count as distance. The route's first and last waypoints say where. A goal
+        that cannot be reached is replaced by the place that can be and is nearest to it in a straight line:
+        the status is "partial". ``skills`` offers typed links: for each affordance
+        the least and greatest height [m] that the body can clear, as in {"jump": (0.3, 0.5)}. ``node_costs``
+        (m,), at least 1, multiply the length walked in each node. ``closed_links`` (k,) int are indices of
+        `links` that are not offered. ``costs`` say what a metre costs in each of the `areas`, as in {"mud":
+        3.0}: 1 to 1e6, 1 for areas that are not named, math.inf for those that must not be entered. The route
+        is cheap by the sum (`Route.cost`; docs/how-it-works/navmesh.md says how cheap), its length is in
+        metres all the same. Never raises because of where the ends are: see `navmesh.routes.route.STATUSES`.
+        Raises `NavmeshError` for arguments of a wrong kind.
+        """
+        return pathfinding.find_path(
+            self, start, goal, radius, skills, node_costs, closed_links, extent, costs
+        )
+
+    def find_paths(
+        self,
+        starts: Any,
+        goals: Any,
+        radius: float = 0.3,
+        skills: Mapping[str, tuple[float, float]] | None = None,
+        node_costs: np.ndarray | None = None,
+        workers: int = 1,
+        extent: tuple[float, float] | None = None,
+        costs: Mapping[str, float] | None = None,
+    ) -> Routes:
+        """The routes from ``starts`` to ``goals`` (q, 3) [m] each: bit for bit what `find_path` gives
+        one by one. ``workers`` threads share the work."""
+        return pathfinding.find_paths(self, starts, goals, radius, skills, node_costs, workers, extent, costs)
+
+    def begin_path(
+        self,
+        start: Any,
+        goal: Any,
+        radius: float = 0.3,
+        skills: Mapping[str, tuple[float, float]] | None = None,
+        node_costs: np.ndarray | None = None,
+        extent: tuple[float, float] | None = None,
+        costs: Mapping[str, float] | None = None,
+    ) -> PathSearch:
+        """`find_path` as a search that is spread over frames: ``advance`` it, then ``finish`` it."""
+        return PathSearch(self, start, goal, radius, skills, node_costs, extent, costs)
+
+    def project(self, points: Any) -> tuple[Any, Any]:
+        """The floor at ``points`` (3,) or (k, 3): (cell, world z); see `navmesh.graph.spatial_queries`."""
+        return queries.project(self, points)
+
+    def clearance_at(self, points: Any) -> Any:
+        """Distance [m] from ``points`` (3,) or (k, 3) to where walking ends; 0 off the surface."""
+        return queries.clearance_at(self, points)
+
+    def nearest_edge(self, points: Any) -> queries.NearestEdge:
+        """The nearest place where walking ends, and how far it is, for ``points`` (3,) or (k, 3)."""
+        return queries.nearest_edge(self, points)
+
+    def nearest_node(self, points: Any) -> Any:
+        """The node nearest in space to ``points`` (3,) or (k, 3)."""
+        return queries.nearest_node(self, points)
+
+    def containing_node(self, points: Any) -> Any:
+        """The node that owns the place of ``points`` (3,) or (k, 3), or -1."""
+        return queries.containing_node(self, points)
+
+    def cast_ray(self, starts: Any, ends: Any, radius: float = 0.0) -> queries.Ray:
+        """How far a body gets from ``starts`` straight towards ``ends`` (3,) or (k, 3) each."""
+        return queries.cast_ray(self, starts, ends, radius)
+
+    def random_points(
+        self, rng: np.random.Generator, count: int, radius: float = 0.3, reachable_from: Any = None
+    ) -> np.ndarray:
+        """``count`` places (count, 3) where a body of ``radius`` fits, evenly spread over the surface."""
+        return queries.random_points(self, rng, count, radius, reachable_from)
+
+    def reachable_nodes(self, start: Any, radius: float = 0.3) -> np.ndarray:
+        """The nodes that a body of ``radius`` can walk to from ``start`` (3,)."""
+        return queries.reachable_nodes(self, start, radius)
+
+    def room_to_turn(self, points: Any, length: float) -> Any:
+        """Whether a body of ``length`` can turn around at ``points`` (3,) or (k, 3)."""
+        return queries.room_to_turn(self, points, length)
+
+    def to_networkx(self) -> "networkx.Graph":
+        """The graph for analysis: nodes with ``position`` (x, y, z) and ``radius``, edges with ``width``
+        and ``length`` (distance between centres), all in metres."""
+        import networkx  # takes a tenth of a second, which only analysis should
+
+        graph = networkx.Graph()
+        for i, (position, radius) in enumerate(
+            zip(self.positions.tolist(), self.radii.tolist(), strict=True)
+        ):
+            graph.add_node(i, position=tuple(position), radius=radius)
+        source = np.repeat(np.arange(len(self)), np.diff(self.edge_start))
+        lengths = np.linalg.norm(self.positions[source] - self.positions[self.edge_target], axis=1)
+        for a, b, width, length in zip(
+            source.tolist(),
+            self.edge_target.tolist(),
+            self.edge_width.tolist(),
+            lengths.tolist(),
+            strict=True,
+        ):
+            if a < b:
+                graph.add_edge(a, b, width=width, length=length)
+        return graph

@@ -1,0 +1,95 @@
+"""Nodes: the largest discs that fit the surface, greedily, until every cell wide enough is covered."""
+
+import numpy as np
+
+from navmesh.surface.clearance_field import centre_of
+from navmesh.surface.ridges import half_width, middle_beside
+from surefoot.kernels import allocating_kernel, kernel
+
+__all__ = ["order_by_clearance", "select_nodes"]
+
+
+@allocating_kernel
+def order_by_clearance(clearance, grain):
+    """The cells by falling clearance in steps of ``grain`` [m], then by rising index: (n,) int32."""
+    cells = clearance.shape[0]
+    widest = 0.0
+    for c in range(cells):
+        widest = max(widest, clearance[c])
+    steps = int(widest / grain) + 1
+    start = np.zeros(steps + 1, np.int32)
+    for c in range(cells):
+        start[steps - int(clearance[c] / grain)] += 1
+    for k in range(steps):
+        start[k + 1] += start[k]
+    order = np.empty(cells, np.int32)
+    for c in range(cells):
+        k = steps - 1 - int(clearance[c] / grain)
+        order[start[k]] = c
+        start[k] += 1
+    return order
+
+
+@kernel
+def _claim_line(clearance, link, label, power, node, radius, c, d, dx, dy, resolution):
+    """Claim c and the cells from it in y direction d (1 or 3) for a disc, as long as they lie in the disc.
+
+    (dx, dy) goes from the disc's centre to c. A cell that is wider than the disc itself is left alone: its
+    node must let pass whatever the cell lets pass.
+    """
+    step = resolution if d == 1 else -resolution
+    while c >= 0:
+        score = dx * dx + dy * dy - radius * radius
+        if score > 1e-12:
+            return
+        if score < power[c] and clearance[c] <= radius:
+            power[c] = score
+            label[c] = node
+        c = link[c, d]
+        dy += step
+
+
+@allocating_kernel
+def select_nodes(order, field, least):
+    """Greedy cover by maximal discs, (almost) largest first.
+
+    ``order`` (n,) int32: cells by falling clearance (`order_by_clearance`); ``field`` is a
+    `navmesh.surface.ridges.Field`. A cell with at least ``least`` clearance that no disc as wide as itself
+    covers becomes the place of one: its centre or, between opposite sides, the middle of the passage. Returns
+    ``node_cell`` (m,) int32, ``place`` (m, 3) float64, x, y and radius [m], and ``label`` (n,) int32: of the
+    nodes that cover a cell the one in whose disc it is deepest (least d² - r²), or -1.
+    """
+    clearance, link, resolution = field.clearance, field.link, field.cell
+    cells = clearance.shape[0]
+    label = np.full(cells, -1, np.int32)
+    power = np.full(cells, np.inf)
+    node_cell = np.empty(cells, np.int32)
+    place = np.empty((cells, 3))
+    nodes = 0
+    for at in range(cells):
+        c = order[at]
+        if label[c] >= 0:
+            continue
+        k, r = c, clearance[c]
+        x, y = centre_of(field, c)
+        if half_width(field, c) < np.inf:
+            k, x, y, r = middle_beside(field, c)
+        if r < least:
+            continue
+        cx, cy = centre_of(field, k)
+        node_cell[nodes] = k
+        place[nodes, 0], place[nodes, 1], place[nodes, 2] = x, y, r
+        for d in range(0, 3, 2):
+            step = resolution if d == 0 else -resolution
+            spine = k if d == 0 else link[k, 2]
+            dx = cx - x if d == 0 else cx - x - resolution
+            while spine >= 0 and dx * dx <= r * r:
+                _claim_line(clearance, link, label, power, nodes, r, spine, 1, dx, cy - y, resolution)
+                below = link[spine, 3]
+                dy = cy - y - resolution
+                _claim_line(clearance, link, label, power, nodes, r, below, 3, dx, dy, resolution)
+                spine = link[spine, d]
+                dx += step
+        label[c] = nodes  # also where the disc is too small to hold the cell's centre
+        nodes += 1
+    return node_cell[:nodes].copy(), place[:nodes].copy(), label

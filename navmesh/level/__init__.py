@@ -1,0 +1,1 @@
+"""A level's mesh: triangles, chunks, closed solids, and questions to them."""

@@ -1,0 +1,284 @@
+"""A* over the graph of discs, for one body radius, in slices if wanted.
+
+A search goes from portal to portal. What it knows of the way to a portal is a label: the apex, where the
+shortest line through the portals so far last turns, what that line costs up to there, and the funnel, the
+two corners between which the portal is seen from the apex. So the cost of a label is that of the pulled line
+and not of one through the middles of discs, and what is left is estimated by the shortest line out of the
+funnel to the goal. A node keeps the `LABELS` cheapest of those that lead into it: the cheapest can turn out
+to run into something that the portals do not know of.
+
+Where nodes have costs, the line goes straight from where it crosses one portal to where it best crosses the
+next on the way to the goal, and each part is weighted by the node's factor. No factor is below 1, so the
+estimate of the rest, a straight line, never is too much. Lengths are three-dimensional.
+"""
+
+from math import sqrt
+
+from navmesh.routes.heap import push, take_first
+from surefoot.kernels import kernel
+
+__all__ = [
+    "BEST",
+    "COMPLETE",
+    "EMPTY",
+    "EXPANDED",
+    "GOAL_NODE",
+    "LABELS",
+    "LIMIT",
+    "RUNNING",
+    "advance",
+    "begin",
+    "chain",
+    "resume",
+]
+
+RUNNING, COMPLETE, EMPTY = 0, 1, 2
+"""State of a search: not finished; the goal was reached, and `advance` goes on to the next best way to it;
+nothing is left that costs less than the limit."""
+
+LABELS = 2
+"""Kept for each node."""
+
+# Places in scratch.numbers
+_STAMP, _HEAP, _STATE, GOAL_NODE, BEST, EXPANDED = 0, 1, 2, 3, 4, 5
+LIMIT = 7
+"""Place in scratch.ends: ways that cost so much [m] are not looked for."""
+_NEAREST = 6  # in scratch.ends: how near [m] to the goal a portal seen is
+_SAME = 1e-9  # [m]
+
+
+@kernel(error_model="numpy", inline="always")
+def _distance(ax, ay, az, bx, by, bz):
+    return sqrt((ax - bx) * (ax - bx) + (ay - by) * (ay - by) + (az - bz) * (az - bz))
+
+
+@kernel(error_model="numpy", inline="always")
+def _turn(ax, ay, bx, by, cx, cy):
+    """Twice the area of a-b-c, positive where c lies to the left of a-b."""
+    return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+
+
+@kernel(error_model="numpy", inline="always")
+def _crossing(lx, ly, rx, ry, ax, ay, bx, by):
+    """Where on the portal (0 left, 1 right) the shortest way from a over the portal to b crosses it."""
+    px = rx - lx
+    py = ry - ly
+    length = px * px + py * py
+    if length < 1e-18:
+        return 0.0
+    along_a = (ax - lx) * px + (ay - ly) * py
+    along_b = (bx - lx) * px + (by - ly) * py
+    off_a = abs((ax - lx) * py - (ay - ly) * px)
+    off_b = abs((bx - lx) * py - (by - ly) * px)
+    both = (off_a + off_b) * length
+    t = (along_a * off_b + along_b * off_a) / both if both > 0.0 else 0.5 * (along_a + along_b) / length
+    return 0.0 if t < 0.0 else (1.0 if t > 1.0 else t)
+
+
+@kernel(error_model="numpy", inline="always")
+def _out_of_funnel(ax, ay, az, lx, ly, lz, rx, ry, rz, gx, gy, gz):
+    """Length of the shortest line from the apex a through the funnel between l and r to g."""
+    beyond_left = _turn(ax, ay, lx, ly, gx, gy) > 0.0
+    beyond_right = _turn(ax, ay, rx, ry, gx, gy) < 0.0
+    if not beyond_left and not beyond_right:
+        return _distance(ax, ay, az, gx, gy, gz)
+    left = right = 1e300
+    if beyond_left:
+        left = _distance(ax, ay, az, lx, ly, lz) + _distance(lx, ly, lz, gx, gy, gz)
+    if beyond_right:
+        right = _distance(ax, ay, az, rx, ry, rz) + _distance(rx, ry, rz, gx, gy, gz)
+    return min(left, right)
+
+
+@kernel(error_model="numpy")
+def begin(net, doors, scratch, start_node, goal_node, sx, sy, sz, gx, gy, gz):
+    """Set up a search from (sx, sy, sz) in ``start_node`` to (gx, gy, gz) in ``goal_node``."""
+    numbers = scratch.numbers
+    numbers[_STAMP] += 1
+    numbers[_HEAP] = 1
+    numbers[_STATE] = RUNNING
+    numbers[GOAL_NODE] = goal_node
+    numbers[EXPANDED] = 0
+    label = LABELS * start_node
+    numbers[BEST] = label
+    ends = scratch.ends
+    ends[0], ends[1], ends[2] = sx, sy, sz
+    ends[3], ends[4], ends[5] = gx, gy, gz
+    rest = _distance(sx, sy, sz, gx, gy, gz)
+    ends[_NEAREST] = rest
+    ends[LIMIT] = 1e300
+    scratch.stamp[label] = numbers[_STAMP]
+    scratch.cost[label] = 0.0
+    scratch.total[label] = rest
+    for corner in (scratch.apex, scratch.left, scratch.right):
+        corner[label, 0], corner[label, 1], corner[label, 2] = sx, sy, sz
+    scratch.parent[label] = -1
+    scratch.via[label] = -1
+    scratch.heap_key[0] = rest
+    scratch.heap_item[0] = label
+
+
+@kernel(error_model="numpy", inline="always")
+def _free_label(seen, totals, stamp, node, total):
+    """The place for a label of ``node`` that costs ``total``: one that is free, or the dearest if that is
+    dearer; -1 where there is none, or one that costs the same."""
+    place = -1
+    most = total + _SAME
+    for label in range(LABELS * node, LABELS * node + LABELS):
+        if seen[label] != stamp:
+            return label
+        if abs(totals[label] - total) <= _SAME:
+            return -1
+        if totals[label] > most:
+            place, most = label, totals[label]
+    return place
+
+
+@kernel(error_model="numpy", inline="always")
+def _is_done(seen, totals, stamp, node, key):
+    """Whether no label that costs ``key`` or more has a place at ``node``."""
+    for label in range(LABELS * node, LABELS * node + LABELS):
+        if seen[label] != stamp or totals[label] > key:
+            return False
+    return True
+
+
+@kernel(error_model="numpy")
+def advance(net, doors, scratch, budget):
+    """Expand at most ``budget`` labels; returns RUNNING, COMPLETE or EMPTY. The slices do not change the
+    result."""
+    numbers = scratch.numbers
+    if numbers[_STATE] != RUNNING:
+        return numbers[_STATE]
+    stamp = numbers[_STAMP]
+    goal_node = numbers[GOAL_NODE]
+    gx, gy, gz = scratch.ends[3], scratch.ends[4], scratch.ends[5]
+    # arrays taken out of their bundle in a loop are counted as used each time
+    seen, costs, totals = scratch.stamp, scratch.cost, scratch.total
+    parent, via = scratch.parent, scratch.via
+    apex, left, right = scratch.apex, scratch.left, scratch.right
+    door_start, leap_start = doors.start, doors.leap_start
+    keys, items, size = scratch.heap_key, scratch.heap_item, numbers[_HEAP]
+    portal, targets, node_cost = doors.portal, doors.target, doors.node_cost
+    weighted = doors.weighted != 0
+    doors_count = targets.size
+    nearest, limit = scratch.ends[_NEAREST], scratch.ends[LIMIT]
+    state = RUNNING
+    while budget > 0:
+        if size == 0 or keys[0] >= limit:
+            state = EMPTY
+            break
+        key, label = keys[0], items[0]
+        take_first(keys, items, size)
+        size -= 1
+        if key > totals[label]:
+            continue  # another label has taken its place
+        node = label // LABELS
+        if node == goal_node:
+            numbers[BEST] = label
+            state = COMPLETE
+            break
+        budget -= 1
+        numbers[EXPANDED] += 1
+        cost = costs[label]
+        ax, ay, az = apex[label, 0], apex[label, 1], apex[label, 2]
+        lx, ly, lz = left[label, 0], left[label, 1], left[label, 2]
+        rx, ry, rz = right[label, 0], right[label, 1], right[label, 2]
+        # the portal's place nearest to the goal, in case the search ends early
+        rest = _distance(0.5 * (lx + rx), 0.5 * (ly + ry), 0.5 * (lz + rz), gx, gy, gz)
+        if rest < nearest:
+            nearest = rest
+            numbers[BEST] = label
+        before = parent[label] // LABELS
+        factor = node_cost[node]
+        for door in range(door_start[node], door_start[node + 1]):
+            target = targets[door]
+            # nothing that goes on from here costs less than the key
+            if target == before or _is_done(seen, totals, stamp, target, key):
+                continue
+            plx, ply, plz = portal[door, 0], portal[door, 1], portal[door, 2]
+            prx, pry, prz = portal[door, 3], portal[door, 4], portal[door, 5]
+            nax, nay, naz, spent = ax, ay, az, cost
+            if weighted:
+                t = _crossing(plx, ply, prx, pry, ax, ay, gx, gy)
+                nax, nay, naz = plx + t * (prx - plx), ply + t * (pry - ply), plz + t * (prz - plz)
+                spent += factor * _distance(ax, ay, az, nax, nay, naz)
+                plx, ply, plz, prx, pry, prz = nax, nay, naz, nax, nay, naz
+                rest = _distance(nax, nay, naz, gx, gy, gz)
+                if target == goal_node:
+                    rest *= node_cost[target]
+            else:
+                if _turn(ax, ay, lx, ly, prx, pry) > 0.0:  # all of the portal is to the left of the funnel
+                    nax, nay, naz = lx, ly, lz
+                    spent += _distance(ax, ay, az, lx, ly, lz)
+                elif _turn(ax, ay, rx, ry, plx, ply) < 0.0:
+                    nax, nay, naz = rx, ry, rz
+                    spent += _distance(ax, ay, az, rx, ry, rz)
+                else:
+                    if _turn(ax, ay, lx, ly, plx, ply) > 0.0:
+                        plx, ply, plz = lx, ly, lz
+                    if _turn(ax, ay, rx, ry, prx, pry) < 0.0:
+                        prx, pry, prz = rx, ry, rz
+                rest = _out_of_funnel(nax, nay, naz, plx, ply, plz, prx, pry, prz, gx, gy, gz)
+            total = max(spent + rest, key)
+            slot = _free_label(seen, totals, stamp, target, total)
+            if slot < 0:
+                continue
+            seen[slot] = stamp
+            costs[slot], totals[slot], parent[slot], via[slot] = spent, total, label, door
+            apex[slot, 0], apex[slot, 1], apex[slot, 2] = nax, nay, naz
+            left[slot, 0], left[slot, 1], left[slot, 2] = plx, ply, plz
+            right[slot, 0], right[slot, 1], right[slot, 2] = prx, pry, prz
+            push(keys, items, size, total, slot)
+            size += 1
+        for leap in range(leap_start[node], leap_start[node + 1]):
+            fx, fy, fz = doors.leap_from[leap, 0], doors.leap_from[leap, 1], doors.leap_from[leap, 2]
+            tx, ty, tz = doors.leap_to[leap, 0], doors.leap_to[leap, 1], doors.leap_to[leap, 2]
+            walked = factor * _out_of_funnel(ax, ay, az, lx, ly, lz, rx, ry, rz, fx, fy, fz)
+            spent = cost + walked + doors.leap_cost[leap]
+            rest = _distance(tx, ty, tz, gx, gy, gz)
+            target = net.label[doors.leap_to_cell[leap]]
+            if target == goal_node:
+                rest *= node_cost[target]
+            total = max(spent + rest, key)
+            slot = _free_label(seen, totals, stamp, target, total)
+            if slot < 0:
+                continue
+            seen[slot] = stamp
+            costs[slot], totals[slot], parent[slot], via[slot] = spent, total, label, doors_count + leap
+            for corner in (apex, left, right):
+                corner[slot, 0], corner[slot, 1], corner[slot, 2] = tx, ty, tz
+            push(keys, items, size, total, slot)
+            size += 1
+    numbers[_HEAP] = size
+    numbers[_STATE] = state
+    scratch.ends[_NEAREST] = nearest
+    return state
+
+
+@kernel(error_model="numpy")
+def resume(net, doors, scratch, budget):
+    """Look on for another way to the goal after COMPLETE; returns COMPLETE where there is one."""
+    scratch.numbers[_STATE] = RUNNING
+    return advance(net, doors, scratch, budget)
+
+
+@kernel(error_model="numpy")
+def chain(scratch):
+    """Write the chain of nodes to the best label and the doors between them; returns the number of nodes.
+
+    edges[i] leads into nodes[i]; edges[0] is -1; from the number of doors on they are leaps.
+    """
+    nodes, edges, parent, via = scratch.nodes, scratch.edges, scratch.parent, scratch.via
+    count = 0
+    label = scratch.numbers[BEST]
+    while label >= 0:
+        nodes[count] = label // LABELS
+        edges[count] = via[label]
+        count += 1
+        label = parent[label]
+    for i in range(count // 2):
+        j = count - 1 - i
+        nodes[i], nodes[j] = nodes[j], nodes[i]
+        edges[i], edges[j] = edges[j], edges[i]
+    return count

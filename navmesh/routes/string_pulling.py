@@ -1,0 +1,347 @@
+"""String pulling: from the chain of discs that A* chose to the line that a body walks.
+
+1. The funnel over the portals gives the corners that the line has to turn at. Each is rounded: put where the
+   line before it and the one after it touch the circle of the body's radius round what it turns about.
+2. The line is walked through the clearance field. Where the body would not fit, the line is led round what
+   blocks it, along the tangents to the circle of the body's radius about that, or its tightest place is
+   pushed off, just so far that the body fits; the parts are walked again. Where walking ends on the line, it
+   is pulled through the lenses of the portals instead, which lie in the discs; where discs do not overlap
+   either, the cells themselves are searched.
+3. Corners that the line of sight jumps over are dropped, and those that nothing holds are let go
+   (`navmesh.routes.tightening`), unless nodes have costs.
+
+What comes out has been walked: the body fits on all of it.
+"""
+
+from math import sqrt
+
+import numpy as np
+
+from navmesh.graph.portals import MARGIN
+from navmesh.routes.cell_search import search_cells
+from navmesh.routes.funnel import funnel, round_corner, tangents
+from navmesh.routes.tightening import tighten
+from navmesh.surface.clearance_field import centre_of, floor_at, gap_at, same_place, walk
+from navmesh.surface.ridges import middle
+from surefoot.kernels import allocating_kernel, kernel
+
+__all__ = ["FITS", "mend", "pull"]
+
+_SLACK = 0.01
+"""Share of the radius kept on top of it where there is room: discs of the corridor hold the path inside."""
+FITS, _BLOCKED, _NO_WAY = range(3)
+"""What can come of mending a line."""
+_ROUNDS = 4
+"""Times that a line is led round what ends walking on it before it is pulled through the lenses."""
+_DEPTH = 12  # of pushes within pushes; scratch.stack holds two more
+_SPLITS = 64  # of one line: corners that fall away when the next is added could take turns for ever
+
+
+@kernel(error_model="numpy")
+def _push(net, k, x, y, qx, qy, radius):
+    """Move (x, y) in cell ``k`` away from (qx, qy) until the body fits with a margin; returns (fits, x, y,
+    cell)."""
+    target = radius * (1.0 + MARGIN)
+    enough = radius * (1.0 + _SLACK)
+    gap = 0.0
+    first = k
+    ax, ay = x, y
+    for _ in range(4):
+        dx = x - qx
+        dy = y - qy
+        d = sqrt(dx * dx + dy * dy)
+        if d < 1e-9:
+            return False, x, y, k
+        nx = qx + dx / d * target
+        ny = qy + dy / d * target
+        reached, cell = walk(net, k, x, y, nx, ny, 0.0, True)[:2]
+        if not reached:
+            return False, x, y, k
+        x, y, k = nx, ny, cell
+        gap, qx, qy = gap_at(net, k, x, y)
+        if gap >= enough:
+            return True, x, y, k
+    if gap < radius:  # pushed to and fro: the passage is hardly wider than the body
+        _, x, y, gap = middle(net, first, ax, ay, net.cell)
+        reached, k = walk(net, first, ax, ay, x, y, 0.0, True)[:2]
+        gap = gap_at(net, k, x, y)[0] if reached else 0.0
+    return gap >= radius, x, y, k
+
+
+@kernel(error_model="numpy")
+def _free_place(net, k, x, y, px, py, enough):
+    """The cell of p, reached straight from (x, y) in cell ``k``; -1 where it is not, or the gap at p is not
+    ``enough``."""
+    reached, cell = walk(net, k, x, y, px, py, 0.0, True)[:2]
+    return cell if reached and gap_at(net, cell, px, py)[0] >= enough else np.int64(-1)
+
+
+@kernel(error_model="numpy")
+def _lead_round(net, scratch, height, k, ax, ay, x, y, bx, by, qx, qy, radius):
+    """Put corners on the stack, of ``height``, that lead the line a-b round q, which it is too close to at
+    (x, y) in cell ``k``; returns how many.
+
+    They lie on the tangents where the body fits there; else (x, y) is pushed.
+    """
+    bend, stack, stack_cell = scratch.bend, scratch.stack, scratch.stack_cell
+    enough = radius * (1.0 + _SLACK)
+    parts = tangents(ax, ay, x, y, bx, by, qx, qy, radius * (1.0 + MARGIN), bend)
+    for part in range(parts):
+        cell = _free_place(net, k, x, y, bend[part, 0], bend[part, 1], enough)
+        if cell < 0:
+            parts = 0
+            break
+        at = height + parts - 1 - part
+        stack[at, 0], stack[at, 1], stack_cell[at] = bend[part, 0], bend[part, 1], cell
+    if parts == 0:
+        pushed, x, y, k = _push(net, k, x, y, qx, qy, radius)
+        if pushed and (x - ax) ** 2 + (y - ay) ** 2 > 1e-12 and (x - bx) ** 2 + (y - by) ** 2 > 1e-12:
+            stack[height, 0], stack[height, 1], stack_cell[height] = x, y, k
+            parts = 1
+    return parts
+
+
+@kernel(error_model="numpy")
+def _cost_along(net, doors, k, ax, ay, bx, by):
+    """Length of the line from a, in cell ``k``, to b, weighted by the costs of the nodes that it crosses."""
+    length = sqrt((bx - ax) ** 2 + (by - ay) ** 2)
+    parts = int(length / (0.5 * net.cell)) + 1
+    total = 0.0
+    x, y = ax, ay
+    for i in range(parts):
+        px, py = ax + (bx - ax) * (i + 0.5) / parts, ay + (by - ay) * (i + 0.5) / parts
+        k = walk(net, k, x, y, px, py, 0.0, True)[1]
+        x, y = px, py
+        node = net.label[k]
+        total += length / parts * (doors.node_cost[node] if node >= 0 else 1.0)
+    return total
+
+
+@allocating_kernel(error_model="numpy")
+def _append(net, doors, scratch, first, count, x, y, k):
+    """Add a corner to the leg that begins at ``first``, dropping corners that the line of sight jumps
+    over."""
+    radius = doors.radius * (1.0 + _SLACK)
+    points = scratch.points
+    cells = scratch.cells
+    while count - first >= 2:
+        vx, vy = points[count - 1, 0], points[count - 1, 1]
+        ax, ay = points[count - 2, 0], points[count - 2, 1]
+        _, qx, qy = gap_at(net, np.int64(cells[count - 1]), vx, vy)
+        dx = x - ax
+        dy = y - ay
+        length = dx * dx + dy * dy
+        s = ((qx - ax) * dx + (qy - ay) * dy) / length if length > 0.0 else 0.0
+        s = min(max(s, 0.0), 1.0)
+        ex = ax + s * dx - qx
+        ey = ay + s * dy - qy
+        if ex * ex + ey * ey < radius * radius:
+            break
+        reached, cell = walk(net, np.int64(cells[count - 2]), ax, ay, x, y, radius, False)[:2]
+        if not reached or not same_place(net, cell, k):
+            break
+        if doors.weighted:
+            a = np.int64(cells[count - 2])
+            bent = _cost_along(net, doors, a, ax, ay, vx, vy) + _cost_along(
+                net, doors, np.int64(cells[count - 1]), vx, vy, x, y
+            )
+            if _cost_along(net, doors, a, ax, ay, x, y) > bent * (1.0 + 1e-9):
+                break
+        count -= 1
+    points[count, 0] = x
+    points[count, 1] = y
+    cells[count] = k
+    return count + 1
+
+
+@kernel(error_model="numpy")
+def _round(net, doors, scratch, low, high, ax, ay, bx, by, place):
+    """A corner inside a disc that leads the line a-b round what ends walking at ``place`` on it.
+
+    The disc is the one of nodes[low:high] that the place is deepest in; the corner is where it comes nearest
+    to the line. Returns (found, x, y, cell).
+    """
+    x = ax + place * (bx - ax)
+    y = ay + place * (by - ay)
+    node = -1
+    least = 1e300
+    for i in range(low, high):
+        other = scratch.nodes[i]
+        dx = x - net.position[other, 0]
+        dy = y - net.position[other, 1]
+        power = dx * dx + dy * dy - net.node_radius[other] ** 2
+        if power < least and net.node_radius[other] > doors.radius:
+            least = power
+            node = other
+    if node < 0:
+        return False, x, y, -1
+    cx, cy = net.position[node, 0], net.position[node, 1]
+    dx, dy = bx - ax, by - ay
+    s = ((cx - ax) * dx + (cy - ay) * dy) / (dx * dx + dy * dy)
+    s = min(max(s, 0.0), 1.0)
+    dx, dy = ax + s * dx - cx, ay + s * dy - cy
+    d = sqrt(dx * dx + dy * dy)
+    room = net.node_radius[node] - doors.radius
+    share = room / d if d > room else 1.0
+    x, y = cx + share * dx, cy + share * dy
+    reached, cell = walk(net, np.int64(net.node_cell[node]), cx, cy, x, y, 0.0, True)[:2]
+    return reached, x, y, cell
+
+
+@kernel(error_model="numpy")
+def _fits_on(net, scratch, count, x, y, radius):
+    """Whether a body of ``radius`` gets straight from the last of ``count`` corners to (x, y)."""
+    k = np.int64(scratch.cells[count - 1])
+    reached, _, gap = walk(
+        net, k, scratch.points[count - 1, 0], scratch.points[count - 1, 1], x, y, radius, True
+    )[:3]
+    return reached and gap >= radius * (1.0 - 1e-9)
+
+
+@allocating_kernel(error_model="numpy")
+def mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_try):
+    """Add a walked line from the leg's last corner to g, through nodes[low:high].
+
+    Returns the new count and FITS; _BLOCKED, with only a part of the line added, where walking ends on it
+    and this is not the ``last_try``; or _NO_WAY.
+    """
+    radius = doors.radius
+    enough = radius * (1.0 + _SLACK)
+    points, stack, stack_cell = scratch.points, scratch.stack, scratch.stack_cell
+    stack[0, 0], stack[0, 1] = gx, gy
+    stack_cell[0] = goal_cell
+    height = 1
+    splits = 0
+    room = scratch.cells.size
+    while height > 0:
+        if count >= room:
+            return count, _NO_WAY
+        k = np.int64(scratch.cells[count - 1])
+        ax, ay = points[count - 1, 0], points[count - 1, 1]
+        bx, by = stack[height - 1, 0], stack[height - 1, 1]
+        target = np.int64(stack_cell[height - 1])
+        reached, cell, gap, place, qx, qy, tight = walk(net, k, ax, ay, bx, by, enough, True)
+        walked = reached and same_place(net, cell, target)
+        if walked and gap >= enough:
+            count = _append(net, doors, scratch, first, count, bx, by, target)
+            height -= 1
+            continue
+        if walked and height <= _DEPTH and splits < _SPLITS:
+            x = ax + place * (bx - ax)
+            y = ay + place * (by - ay)
+            more = _lead_round(net, scratch, height, tight, ax, ay, x, y, bx, by, qx, qy, radius)
+            if more > 0:
+                height += more
+                splits += more
+                continue
+        if walked and gap >= radius:
+            count = _append(net, doors, scratch, first, count, bx, by, target)
+            height -= 1
+            continue
+        if not walked and height <= _ROUNDS and splits < _SPLITS:
+            found, x, y, at = _round(net, doors, scratch, low, high, ax, ay, bx, by, place)
+            if found and (x - ax) ** 2 + (y - ay) ** 2 > 1e-6 and (x - bx) ** 2 + (y - by) ** 2 > 1e-6:
+                stack[height, 0], stack[height, 1] = x, y
+                stack_cell[height] = at
+                height += 1
+                splits += 1
+                continue
+        if not last_try:
+            return count, _BLOCKED
+        cells = search_cells(net, scratch, k, target, radius)
+        if cells.size == 0 or count + cells.size > room:
+            return count, _NO_WAY
+        for step in range(1, cells.size - 1):
+            at = np.int64(cells[step])
+            x, y = centre_of(net, at)
+            if net.clearance[at] < radius:
+                gap, qx, qy = gap_at(net, at, x, y)
+                _, x, y, at = _push(net, at, x, y, qx, qy, radius)
+            if not _fits_on(net, scratch, count, x, y, radius):
+                return count, _NO_WAY
+            count = _append(net, doors, scratch, first, count, x, y, at)
+        if not _fits_on(net, scratch, count, bx, by, radius):
+            return count, _NO_WAY
+        count = _append(net, doors, scratch, first, count, bx, by, target)
+        height -= 1
+    return count, FITS
+
+
+@kernel(error_model="numpy")
+def _place_of(net, doors, door, side, x, y):
+    """The cell of (x, y), a place on a portal or beside its left (0) or right (1) end."""
+    ex, ey = doors.portal[door, 3 * side], doors.portal[door, 3 * side + 1]
+    return walk(net, np.int64(doors.portal_cell[door, side]), ex, ey, x, y, 0.0, True)[1]
+
+
+@kernel(error_model="numpy")
+def _through_lenses(net, doors, scratch, first, count, low, high, free, gx, gy, goal_cell, last_try):
+    """Add a walked line from the leg's last corner to g through the lenses of the portals edges[low:high].
+
+    ``free`` is the first free row of the funnel's memory. Returns the new count and whether the body fits.
+    """
+    work, at = scratch.corner, scratch.corner_at
+    sx, sy = scratch.points[count - 1, 0], scratch.points[count - 1, 1]
+    corners = funnel(doors, scratch.edges, low, high, True, work, at, free, sx, sy, gx, gy)
+    for i in range(free + 1, free + corners):
+        x, y, k = work[i, 0], work[i, 1], goal_cell
+        if i < free + corners - 1:
+            k = _place_of(net, doors, scratch.edges[at[i] >> 1], at[i] & 1, x, y)
+        before, here = at[i - 1] >> 1, at[i] >> 1
+        count, state = mend(net, doors, scratch, first, count, x, y, k, before, here, last_try)
+        if state != FITS:
+            return count, False
+    return count, True
+
+
+@kernel(error_model="numpy")
+def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell, last_try):
+    """Pull one walked leg taut: from the last corner in ``scratch.points`` through the portals of
+    edges[first:last].
+
+    Where straight lines cannot be mended the cells are searched, on the ``last_try``. Returns the new number
+    of corners, whether the goal was reached, and how much [m] longer the funnel's line got by rounding.
+    """
+    leg = count - 1
+    work, at, arc = scratch.corner, scratch.corner_at, scratch.arc
+    sx, sy = scratch.points[leg, 0], scratch.points[leg, 1]
+    corners = funnel(doors, scratch.edges, first, last, False, work, at, 0, sx, sy, gx, gy)
+    radius = doors.radius
+    edges = scratch.edges
+    lx, ly, rounding = sx, sy, 0.0
+    for i in range(1, corners):
+        rounding -= sqrt((work[i, 0] - work[i - 1, 0]) ** 2 + (work[i, 1] - work[i - 1, 1]) ** 2)
+        parts = 0
+        door, side = 0, at[i] & 1
+        if i < corners - 1:
+            door = edges[at[i] >> 1]
+            qx, qy = doors.block[door, 2 * side], doors.block[door, 2 * side + 1]
+            if qx < np.inf:
+                parts = round_corner(work, i, side, qx, qy, radius * (1.0 + MARGIN), arc)
+        for part in range(max(parts, 1)):
+            x, y, k = work[i, 0], work[i, 1], goal_cell
+            if i < corners - 1:
+                k = np.int64(doors.portal_cell[door, side])
+            if parts > 0:
+                px, py = arc[part, 0], arc[part, 1]
+                pk = _place_of(net, doors, door, side, px, py)
+                if gap_at(net, pk, px, py)[0] >= radius * (1.0 + _SLACK):
+                    x, y, k = px, py, pk
+            rounding += sqrt((x - lx) ** 2 + (y - ly) ** 2)
+            lx, ly = x, y
+            low, high = at[i - 1] >> 1, at[i] >> 1
+            count, state = mend(net, doors, scratch, leg, count, x, y, k, low, high, False)
+            if state == _BLOCKED:
+                low, high = max(low, first), min(high + 1, last)
+                count, fits = _through_lenses(
+                    net, doors, scratch, leg, count, low, high, corners, x, y, k, last_try
+                )
+                state = FITS if fits else _NO_WAY
+            if state != FITS:
+                return count, False, rounding
+    if not doors.weighted:
+        count = tighten(net, scratch, leg, count, radius)
+    points, cells = scratch.points, scratch.cells
+    for i in range(leg, count):
+        points[i, 2] = floor_at(net, np.int64(cells[i]), points[i, 0], points[i, 1])
+    return count, True, rounding

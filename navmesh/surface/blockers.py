@@ -1,0 +1,297 @@
+"""Where walking ends near a cell, as line segments seen from above: the footprints of walls and the ends of
+the floor, exact, from the triangles themselves.
+
+Each cell beside such a place has a list of those in its own square and in the squares beside it that it is
+not linked to. Together the lists hold all of them; `navmesh.surface.clearance` carries to every other cell
+whose list is nearest.
+"""
+
+import math
+
+import numpy as np
+
+from navmesh.level.raster import KIND, TOUCH, UPRIGHT
+from navmesh.surface.floor_ends import EDGE, MIDDLE, find_floor_ends
+from navmesh.surface.ledges import floor_end
+from navmesh.surface.segments import comes_near, keep, lies_on, part_in_square, put, sort_and_thin, twice
+from navmesh.surface.walls import clip_band, nearest_on_polygon, range_in_column, wall_base
+from surefoot.kernels import allocating_kernel, kernel
+
+__all__ = ["find_blockers", "nearest_blockers"]
+
+_OUTLINE = 9
+"""Most segments that a triangle leaves in a square: the corners of a triangle cut off four times, and the
+centre of the square that it covers."""
+
+
+@kernel(inline="always")
+def _square(link, c, d):
+    """What is in the square beside cell ``c`` in direction d, 4 to 7 being the corners, and -1 its own.
+
+    Returns (dx, dy, the linked cell there or -1, whether a cell beside c has that square to its side).
+    """
+    dx = (1 if d == 0 else 0) - (1 if d == 2 else 0)
+    dy = (1 if d == 1 else 0) - (1 if d == 3 else 0)
+    if d < 0:
+        return dx, dy, c, False
+    n = link[c, d % 4]
+    if d < 4:
+        return dx, dy, n, False
+    dx = 1 if d == 4 or d == 7 else -1
+    dy = 1 if d < 6 else -1
+    m = link[c, (d + 1) % 4]
+    corner = link[n, (d + 1) % 4] if n >= 0 else (link[m, d % 4] if m >= 0 else -1)
+    return dx, dy, corner, n >= 0 or m >= 0
+
+
+@kernel
+def _outline(table, f, x, y, z, p, q, low, high, rx, ry, half, polygon, spare, rows, count):
+    """Put what of a triangle's part between ``low`` and ``high`` above a plane is in the square about (rx,
+    ry), seen from above, behind the first ``count`` rows: (their number, corners of the part)."""
+    corners = clip_band(table, f, x, y, z, p, q, low, high, polygon, spare)
+    if corners == 0:
+        return count, 0
+    flat = table[f, KIND] == UPRIGHT
+    least = most = 0
+    if flat:  # all on one line: from its one end to the other
+        for k in range(1, corners):
+            if (polygon[k, 0], polygon[k, 1]) < (polygon[least, 0], polygon[least, 1]):
+                least = k
+            if (polygon[k, 0], polygon[k, 1]) > (polygon[most, 0], polygon[most, 1]):
+                most = k
+    for k in range(1 if flat else corners):
+        i, j = (least, most) if flat else (k, k + 1 if k + 1 < corners else 0)
+        ax, ay, bx, by = polygon[i, 0], polygon[i, 1], polygon[j, 0], polygon[j, 1]
+        if (bx, by) < (ax, ay):
+            ax, ay, bx, by = bx, by, ax, ay
+        first, last = part_in_square(ax, ay, bx, by, rx, ry, half)
+        if first <= last:
+            ex, ey = bx - ax, by - ay
+            count = put(rows, count, ax + first * ex, ay + first * ey, ax + last * ex, ay + last * ey)
+    return count, corners
+
+
+@kernel
+def _walls_in_square(
+    table, start, triangle, there, rx, ry, x, y, z, p, q, low, headroom, resolution,
+    polygon, spare, rows, count,
+):  # fmt: skip
+    """Put the outlines of what rises more than ``low`` above the plane of height z at (x, y) and of gradient
+    (p, q) behind the first ``count`` rows, as far as they are in the square of column ``there`` about (rx,
+    ry)."""
+    half = 0.5 * resolution
+    slope = (abs(p) + abs(q)) * resolution * 1.5
+    for k in range(start[there], start[there + 1]):
+        f = triangle[k]
+        bottom, top = range_in_column(table, f, rx, ry, half)
+        if top <= z + low - slope or bottom >= z + headroom + slope:
+            continue
+        count, corners = _outline(
+            table, f, x, y, z, p, q, low, headroom, rx, ry, half + TOUCH, polygon, spare, rows, count
+        )
+        if corners > 0 and rx == x and ry == y and table[f, KIND] != UPRIGHT:
+            vx, vy = nearest_on_polygon(polygon, corners, x, y)
+            if vx == 0.0 and vy == 0.0:
+                count = put(rows, count, x, y, x, y)
+    return count
+
+
+@kernel
+def _own_walls(
+    table, start, triangle, base, cell_column, height, gradient, resolution, ny, headroom,
+    polygon, spare, own, own_start, rows, c,
+):  # fmt: skip
+    """Fill in the walls in the cells' own squares from cell ``c`` on, as far as there are rows; returns the
+    first cell that is left."""
+    while c < cell_column.shape[0]:
+        count = 0
+        if base[c] < np.inf:
+            column = cell_column[c]
+            ix = column // ny
+            x, y = (ix + 0.5) * resolution, (column - ix * ny + 0.5) * resolution
+            count = _walls_in_square(
+                table, start, triangle, column, x, y, x, y, height[c], gradient[c, 0], gradient[c, 1],
+                base[c], headroom, resolution, polygon, spare, own, 0,
+            )  # fmt: skip
+            count = sort_and_thin(own, count)
+        end = keep(rows, own_start[c], own, count)
+        if end < 0:
+            return c
+        c += 1
+        own_start[c] = end
+    return c
+
+
+@kernel
+def _heights_to_ask(link, base, cell_column, height, gradient, start, resolution, ny, step, beside, asked):
+    """Say which cells are ``beside`` something (1), and which of them not linked to all sides (2); and
+    between which heights the floor in a column matters to those: ``asked``."""
+    for c in range(link.shape[0]):
+        cut = False  # whether walking ends on the way to a neighbour
+        near = base[c] < np.inf
+        for d in range(4):
+            n = link[c, d]
+            cut |= n < 0
+            near |= n < 0 or base[n] < np.inf
+        if not near:
+            # a square at a corner may hold the end of a wall that no square to the sides knows
+            for d in range(4):
+                m = link[link[c, d], (d + 1) % 4]
+                near |= m < 0 or base[m] < np.inf
+                cut |= m < 0
+        beside[c] = 2 if near and cut else int(near)
+        if not (near and cut):
+            continue
+        p, q = gradient[c, 0], gradient[c, 1]
+        reach = step + resolution * (abs(p) + abs(q)) + TOUCH
+        for d in range(-1, 8):
+            dx, dy, n, known = _square(link, c, d)
+            there = cell_column[c] + dx * ny + dy
+            if (d < 0 or (n < 0 and not known)) and start[there] < start[there + 1]:
+                level = height[c] + resolution * (p * dx + q * dy)
+                asked[there, 0] = min(asked[there, 0], level - reach)
+                asked[there, 1] = max(asked[there, 1], level + reach)
+
+
+@kernel
+def _blockers_from(
+    table, start, triangle, base, cell_column, height, gradient, link, resolution, ny, step, headroom,
+    beside, own_start, own_walls, end_start, floor_ends, polygon, spare, edge, near, blocker_start, rows, c,
+):  # fmt: skip
+    """Fill in the lists from cell ``c`` on, as far as there are rows; returns the first cell that is left."""
+    half = 0.5 * resolution
+    while c < cell_column.shape[0]:
+        count = 0
+        if beside[c] > 0:
+            column = cell_column[c]
+            ix = column // ny
+            x, y = (ix + 0.5) * resolution, (column - ix * ny + 0.5) * resolution
+            z, p, q = height[c], gradient[c, 0], gradient[c, 1]
+            for d in range(-1, 8):
+                dx, dy, n, known = _square(link, c, d)
+                there = column + dx * ny + dy
+                if n >= 0:
+                    for k in range(own_start[n], own_start[n + 1]):
+                        count = put(
+                            near, count,
+                            own_walls[k, 0], own_walls[k, 1], own_walls[k, 2], own_walls[k, 3],
+                        )  # fmt: skip
+                elif not known and start[there] < start[there + 1]:
+                    rx, ry = x + dx * resolution, y + dy * resolution
+                    rise = (p * dx + q * dy) * half
+                    low = rise + wall_base(table, start, triangle, there, rx, ry, z + rise, resolution, step)
+                    count = _walls_in_square(
+                        table, start, triangle, there, rx, ry, x, y, z, p, q, low, headroom, resolution,
+                        polygon, spare, near, count,
+                    )  # fmt: skip
+            walls = count
+            for d in range(-1, 8 if beside[c] == 2 else -1):
+                dx, dy, n, known = _square(link, c, d)
+                if d >= 0 and (n >= 0 or known):
+                    continue
+                there = column + dx * ny + dy
+                for k in range(end_start[there], end_start[there + 1]):
+                    end = floor_ends[k]
+                    ax, ay, bx, by = end[EDGE], end[EDGE + 1], end[EDGE + 2], end[EDGE + 3]
+                    level = z + p * (0.5 * (ax + bx) - x) + q * (0.5 * (ay + by) - y)
+                    if abs(end[MIDDLE] - level) > step + half * (abs(p) + abs(q)) + TOUCH:
+                        continue
+                    if not lies_on(near, walls, ax, ay, bx, by):
+                        count = put(near, count, end[0], end[1], end[2], end[3])
+            for d in range(4):
+                if link[c, d] >= 0:
+                    continue
+                dx = (1 if d == 0 else 0) - (1 if d == 2 else 0)
+                dy = (1 if d == 1 else 0) - (1 if d == 3 else 0)
+                if comes_near(near, count, x, y, x + dx * resolution, y + dy * resolution):
+                    continue
+                # something that is no edge of the floor ends it: a low obstacle without floor on top
+                t = floor_end(
+                    table, start, triangle, resolution, ny, x, y, d, z, p, q, step, headroom, edge
+                )  # fmt: skip
+                count = put(near, count, x + t * dx, y + t * dy, x + t * dx, y + t * dy)
+            count = sort_and_thin(near, count)
+        end = keep(rows, blocker_start[c], near, count)
+        if end < 0:
+            return c
+        c += 1
+        blocker_start[c] = end
+    return c
+
+
+@allocating_kernel
+def find_blockers(
+    table, start, triangle, base, cell_column, height, gradient, link, resolution, ny, step, headroom
+):
+    """The lists of all cells: those of cell c are ``blocker[blocker_start[c]:blocker_start[c + 1]]``.
+
+    The arrays are those of `navmesh.level.raster`, `navmesh.surface.floors` and `navmesh.surface.walls`.
+    Returns blocker_start (n + 1,) int32 and blocker (k, 4) float64 [m]: x, y of both ends of a segment,
+    relative to the grid's corner.
+    """
+    cells = cell_column.shape[0]
+    most = 0  # triangles in a column
+    for column in range(start.shape[0] - 1):
+        most = max(most, start[column + 1] - start[column])
+    polygon, spare, edge = np.empty((8, 3)), np.empty((8, 3)), np.empty(4)
+    room = 4 * int(math.sqrt(cells)) + 64
+
+    own_start, own_walls = np.zeros(cells + 1, np.int32), np.empty((room, 4))
+    own = np.empty((_OUTLINE * most, 4))
+    c = 0
+    while True:
+        c = _own_walls(
+            table, start, triangle, base, cell_column, height, gradient, resolution, ny, headroom,
+            polygon, spare, own, own_start, own_walls, c,
+        )  # fmt: skip
+        if c == cells:
+            break
+        own_walls = twice(own_walls)
+
+    beside, asked = np.empty(cells, np.uint8), np.empty((start.shape[0] - 1, 2))
+    asked[:, 0], asked[:, 1] = np.inf, -np.inf
+    _heights_to_ask(link, base, cell_column, height, gradient, start, resolution, ny, step, beside, asked)
+    end_start, floor_ends = find_floor_ends(table, start, triangle, asked, resolution, ny, step, headroom)
+    ends = 0
+    for column in range(start.shape[0] - 1):
+        ends = max(ends, end_start[column + 1] - end_start[column])
+
+    blocker_start, blocker = np.zeros(cells + 1, np.int32), np.empty((room, 4))
+    near = np.empty((9 * (_OUTLINE * most + ends) + 4, 4))
+    c = 0
+    while True:
+        c = _blockers_from(
+            table, start, triangle, base, cell_column, height, gradient, link, resolution, ny, step, headroom,
+            beside, own_start, own_walls, end_start, floor_ends, polygon, spare, edge, near,
+            blocker_start, blocker, c,
+        )  # fmt: skip
+        if c == cells:
+            return blocker_start, blocker[: blocker_start[cells]].copy()
+        blocker = twice(blocker)
+
+
+@allocating_kernel
+def nearest_blockers(blocker_start, blocker, cell_column, resolution, ny):
+    """The vector from each cell's centre to the nearest place in its own list: (n, 2) float64, inf without
+    one."""
+    cells = cell_column.shape[0]
+    nearest = np.full((cells, 2), np.inf)
+    for c in range(cells):
+        if blocker_start[c] == blocker_start[c + 1]:
+            continue
+        column = cell_column[c]
+        ix = column // ny
+        x = (ix + 0.5) * resolution
+        y = (column - ix * ny + 0.5) * resolution
+        best = np.inf
+        for k in range(blocker_start[c], blocker_start[c + 1]):
+            ax, ay = blocker[k, 0] - x, blocker[k, 1] - y
+            ex, ey = blocker[k, 2] - blocker[k, 0], blocker[k, 3] - blocker[k, 1]
+            length = ex * ex + ey * ey
+            t = min(max(-(ax * ex + ay * ey) / length, 0.0), 1.0) if length > 0.0 else 0.0
+            vx, vy = ax + t * ex, ay + t * ey
+            if vx * vx + vy * vy < best:
+                best = vx * vx + vy * vy
+                nearest[c, 0] = vx
+                nearest[c, 1] = vy
+    return nearest

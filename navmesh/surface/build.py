@@ -1,0 +1,154 @@
+"""From a terrain to its surface: the stages of the build in their order.
+
+`find_cells` is everything that looks at triangles: what it finds in a column depends on the mesh nearby only
+(`reach_of`), so that it can be done for a window of columns. `surface_of` carries clearances over the cells
+found, near and far; it is a fiftieth of the work.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from navmesh.errors import NavmeshError
+from navmesh.level import raster
+from navmesh.level.terrain import Terrain
+from navmesh.rules import WalkRules
+from navmesh.surface import blockers, clearance, floors, walls
+from navmesh.surface.ridges import field_of
+from navmesh.surface.surface import Surface
+
+__all__ = ["Cells", "Grid", "Window", "build_surface", "find_cells", "lay_grid", "reach_of", "surface_of"]
+
+_MOST_COLUMNS = 400_000_000
+
+Window = tuple[int, int, int, int]
+"""Columns from (ix, iy) up to, not including, (ix, iy)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """Where the columns are."""
+
+    origin: np.ndarray
+    """(3,) float64 [m]: the corner; x and y are multiples of the resolution."""
+    resolution: float
+    """[m], side of a column."""
+    shape: tuple[int, int]
+
+    @property
+    def extent(self) -> np.ndarray:
+        """(2, 3) float64 [m]: bounds for which `lay_grid` lays just this grid."""
+        low, high = np.full(2, 1.5), np.array(self.shape) - 1.5
+        sides = self.origin[:2] + np.stack([low, high]) * self.resolution
+        return np.column_stack([sides, np.full(2, self.origin[2])])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cells:
+    """The cells of a surface before clearances are carried over them; arrays as in `Surface`."""
+
+    column_start: np.ndarray
+    cell_column: np.ndarray
+    height: np.ndarray
+    gradient: np.ndarray
+    link: np.ndarray
+    blocker_start: np.ndarray
+    blocker: np.ndarray
+
+
+def lay_grid(bounds: np.ndarray, rules: WalkRules, name: str) -> Grid:
+    """The grid over ``bounds`` (2, 3) [m]. Raises `NavmeshError` for more than 4·10⁸ columns."""
+    h = rules.resolution
+    corner = np.floor(bounds[0, :2] / h) - 1.0
+    nx, ny = (np.floor(bounds[1, :2] / h) - corner + 2.0).astype(np.int64).tolist()
+    if nx * ny > _MOST_COLUMNS:
+        raise NavmeshError(
+            f"{name}: {nx} x {ny} columns of {h:g} m are too many; expected at most "
+            f"{_MOST_COLUMNS:.0e}: check the unit scale, or take a coarser resolution"
+        )
+    return Grid(np.array([corner[0] * h, corner[1] * h, math.floor(bounds[0, 2])]), h, (nx, ny))
+
+
+def reach_of(rules: WalkRules) -> int:
+    """Columns beyond a triangle in which there may be other cells with it than without it: a riser reaches
+    as far as the least steep face that is too steep takes to rise by a step."""
+    along = rules.max_step / max(math.tan(rules.max_slope), 1e-3)
+    return math.ceil(along / rules.resolution) + 1
+
+
+def find_cells(terrain: Terrain, rules: WalkRules, grid: Grid, window: Window | None = None) -> Cells:
+    """The cells of ``terrain``, or those of a ``window`` of it: right but for its outermost columns, as many
+    as `reach_of` and three more. Raises `NavmeshError` when there is nothing to walk on at all."""
+    h, (nx, ny) = grid.resolution, grid.shape
+    table = raster.prepare_triangles(
+        terrain.vertices, terrain.faces, terrain.solid, grid.origin, math.cos(rules.max_slope) - 1e-9
+    )
+    start, triangle = raster.columns_of_triangles(table, h, nx, ny, window or (0, 0, nx, ny))
+    column_start, cell_column, height, gradient = floors.find_floors(
+        table, start, triangle, h, nx, ny, math.tan(rules.max_slope), rules.max_step, rules.headroom
+    )
+    if len(cell_column) == 0 and window is None:
+        raise NavmeshError(
+            f"{terrain.name}: nothing to walk on: no face is within {math.degrees(rules.max_slope):g}° "
+            f"of level, faces up, has {rules.headroom:g} m free above it and is not inside of solids (closed "
+            "parts); check the up axis, the unit scale and the order of the corners of the faces "
+            "(counter-clockwise seen from outside, for floor from above)"
+        )
+    link = floors.neighbours_within_step(column_start, cell_column, height, gradient, h, ny, rules.max_step)
+    base = walls.find_walls(
+        table, start, triangle, cell_column, height, gradient, h, ny, rules.max_step, rules.headroom
+    )
+    walls.cut_links_at_walls(
+        table, start, triangle, base, cell_column, height, gradient, link, h, ny, rules.headroom
+    )
+    blocker_start, blocker = blockers.find_blockers(
+        table,
+        start,
+        triangle,
+        base,
+        cell_column,
+        height,
+        gradient,
+        link,
+        h,
+        ny,
+        rules.max_step,
+        rules.headroom,
+    )
+    return Cells(column_start, cell_column, height, gradient, link, blocker_start, blocker)
+
+
+def surface_of(cells: Cells, grid: Grid) -> Surface:
+    """The surface that ``cells`` make up."""
+    start, h, (nx, ny) = cells.blocker_start, grid.resolution, grid.shape
+    nearest = blockers.nearest_blockers(start, cells.blocker, cells.cell_column, h, ny)
+    source = np.where(start[1:] > start[:-1], np.arange(len(start) - 1), -1).astype(np.int32)
+    free = clearance.spread_clearance(cells.column_start, cells.link, nearest, source, h, nx, ny)
+    surface = Surface(
+        origin=grid.origin,
+        resolution=grid.resolution,
+        shape=grid.shape,
+        column_start=cells.column_start,
+        cell_column=cells.cell_column,
+        height=cells.height,
+        gradient=cells.gradient,
+        link=cells.link,
+        clearance=free,
+        nearest=nearest,
+        source=source,
+        blocker_start=start,
+        blocker=cells.blocker,
+    )
+    clearance.settle_clearance(field_of(surface))
+    return surface
+
+
+def build_surface(terrain: Terrain, rules: WalkRules) -> Surface:
+    """The walkable surface of ``terrain`` under ``rules``.
+
+    Raises `NavmeshError` when nothing on it is walkable (all ceilings, all too steep), or when the grid
+    would have more than 4·10⁸ columns (wrong units or too fine a resolution).
+    """
+    grid = lay_grid(terrain.bounds, rules, terrain.name)
+    return surface_of(find_cells(terrain, rules, grid), grid)

@@ -1,0 +1,162 @@
+"""The middle of narrow passages: places between cells' centres that are as far from one side as from the
+other.
+
+A door may be wider than a body and yet have no cell whose centre has the body's radius free. So where the
+sides of a passage face each other, its middle is looked for on the line across, in the exact distances of
+`navmesh.surface.clearance_field`.
+"""
+
+from math import sqrt
+from typing import NamedTuple
+
+import numpy as np
+
+from navmesh.surface.clearance_field import centre_of, gap_at, stretch_gap
+from navmesh.surface.surface import Surface
+from surefoot.kernels import kernel
+
+__all__ = ["Field", "field_of", "half_width", "middle", "middle_beside", "widest_through"]
+
+_HALVINGS = 7
+
+
+class Field(NamedTuple):
+    """What `navmesh.surface.clearance_field` needs to measure distances, before there is a graph; names as in
+    `NET`."""
+
+    cell: float
+    ny: int
+    cell_column: np.ndarray
+    link: np.ndarray
+    nearest: np.ndarray
+    clearance: np.ndarray
+    nearby: np.ndarray
+    blocker: np.ndarray
+
+
+def field_of(surface: Surface) -> Field:
+    """The field of a surface."""
+    return Field(
+        surface.resolution,
+        surface.shape[1],
+        surface.cell_column,
+        surface.link,
+        surface.nearest,
+        surface.clearance,
+        surface.nearby(),
+        surface.blocker,
+    )
+
+
+@kernel(error_model="numpy")
+def half_width(field, c):
+    """Half the distance [m] between the places on opposite sides of cell ``c`` where walking ends, as its
+    neighbours know them: no wider body passes there. inf where it is not between two sides."""
+    vx, vy = field.nearest[c, 0], field.nearest[c, 1]
+    least = np.inf
+    for d in range(4):
+        n = field.link[c, d]
+        wx = ((1 if d == 0 else 0) - (1 if d == 2 else 0)) * field.cell
+        wy = ((1 if d == 1 else 0) - (1 if d == 3 else 0)) * field.cell
+        if n >= 0:
+            wx += field.nearest[n, 0]
+            wy += field.nearest[n, 1]
+        if vx * wx + vy * wy < -1e-6:
+            least = min(least, (vx - wx) * (vx - wx) + (vy - wy) * (vy - wy))
+    return 0.5 * sqrt(least)
+
+
+@kernel(error_model="numpy", inline="always")
+def _under(field, k, x, y):
+    """The cell linked to cell ``k`` that (x, y), at most a cell away, is in; ``k`` where there is none."""
+    cx, cy = centre_of(field, k)
+    half = 0.5 * field.cell
+    across = 0 if x - cx > half else (2 if cx - x > half else -1)
+    along = 1 if y - cy > half else (3 if cy - y > half else -1)
+    if across < 0 and along < 0:
+        return k
+    if across < 0 or along < 0:
+        beside = field.link[k, max(across, along)]
+        return beside if beside >= 0 else k
+    beside = field.link[k, across]
+    corner = field.link[beside, along] if beside >= 0 else -1
+    if corner < 0:
+        other = field.link[k, along]
+        corner = field.link[other, across] if other >= 0 else -1
+        if corner < 0:
+            corner = beside if beside >= 0 else (other if other >= 0 else k)
+    return corner
+
+
+@kernel(error_model="numpy")
+def middle(field, k, x, y, room):
+    """The place on the way from what is nearest to (x, y), over (x, y) and at most ``room`` [m] on, that is
+    farthest from where walking ends: (cell, x, y, distance). ``k`` is the cell of (x, y) or one beside it."""
+    start = _under(field, k, x, y)
+    gap, qx, qy = gap_at(field, start, x, y)
+    if not 1e-9 < gap < np.inf:
+        return start, x, y, gap
+    ux, uy = (x - qx) / gap, (y - qy) / gap
+    near, far = 0.0, room
+    for _ in range(_HALVINGS):
+        s = 0.5 * (near + far)
+        px, py = x + s * ux, y + s * uy
+        beyond, qx, qy = gap_at(field, _under(field, start, px, py), px, py)
+        if (qx - x) * ux + (qy - y) * uy > 0.0:  # something ahead is nearer, or has been passed
+            far = s
+        else:
+            near, gap = s, beyond
+    x, y = x + near * ux, y + near * uy
+    return _under(field, start, x, y), x, y, gap
+
+
+@kernel(error_model="numpy")
+def middle_beside(field, c):
+    """The middle of the passage on the line across it through the centre of cell ``c``, and the linked cell
+    that it is in: (cell, x, y, distance to its sides)."""
+    x, y = centre_of(field, c)
+    return middle(field, c, x, y, field.cell)
+
+
+@kernel(error_model="numpy")
+def _least_gap(field, k, ax, ay, bx, by):
+    """Least distance to where walking ends on the line from a, in cell ``k``, to b, at most a cell away."""
+    length = sqrt((bx - ax) ** 2 + (by - ay) ** 2)
+    if length < 1e-9:
+        return gap_at(field, k, ax, ay)[0]
+    ux, uy = (bx - ax) / length, (by - ay) / length
+    least = np.inf
+    for part in range(2):
+        low, high = 0.5 * part * length, 0.5 * (part + 1) * length
+        k = _under(field, k, ax + 0.5 * (low + high) * ux, ay + 0.5 * (low + high) * uy)
+        cx, cy = centre_of(field, k)
+        least = stretch_gap(field, k, cx, cy, ax, ay, ux, uy, low, high, least)[0]
+    return least
+
+
+@kernel(error_model="numpy")
+def widest_through(field, c, n, least):
+    """Where the widest body passes from cell ``c`` to the linked cell ``n`` between opposite sides, and its
+    radius: (x, y, radius).
+
+    The place is in the middle of the passage between the cells. The body comes from the middle beside the one
+    cell, follows half a cell of the passage to either side of the place, and goes to that beside the other.
+    Where the radius is at most ``least``, it may be anything up to that.
+    """
+    h = field.cell
+    ax, ay = centre_of(field, c)
+    bx, by = centre_of(field, n)
+    k, x, y, gap = middle(field, c, 0.5 * (ax + bx), 0.5 * (ay + by), 0.75 * h)
+    if not least < gap < np.inf:
+        return x, y, least
+    _, qx, qy = gap_at(field, k, x, y)
+    across_x, across_y = (x - qx) / gap, (y - qy) / gap
+    along = 0.5 * h if across_y * (ax - bx) - across_x * (ay - by) > 0.0 else -0.5 * h  # towards c
+    _, px, py, _ = middle(field, k, x + along * across_y, y - along * across_x, 0.5 * h)
+    _, sx, sy, _ = middle(field, k, x - along * across_y, y + along * across_x, 0.5 * h)
+    radius = min(_least_gap(field, k, x, y, px, py), _least_gap(field, k, x, y, sx, sy))
+    if radius <= least:
+        return x, y, least
+    ck, ax, ay, _ = middle(field, c, ax, ay, h)
+    nk, bx, by, _ = middle(field, n, bx, by, h)
+    return x, y, min(radius, _least_gap(field, ck, ax, ay, px, py), _least_gap(field, nk, bx, by, sx, sy))

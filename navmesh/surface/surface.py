@@ -1,0 +1,75 @@
+"""The walkable surface as cells: one per floor and square of the grid, joined where a body can walk.
+
+A cell is a sample of the surface at the centre of its square: it exists where the centre is a floor
+point (rule 1 of `navmesh.rules.WalkRules`) and its height is the mesh's own there. Storeys above each
+other are several cells of one column. Neighbouring cells are linked unless a wall (rule 2) or the end
+of the floor (rule 3) lies between their centres.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+__all__ = ["DIRECTIONS", "Surface"]
+
+DIRECTIONS = np.array([(1, 0), (0, 1), (-1, 0), (0, -1)], dtype=np.int32)
+"""(4, 2) int32: the steps in (ix, iy) of the four columns of `Surface.link`; direction d + 2 goes back."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Surface:
+    """The cells, as a structure of arrays. All coordinates are relative to `origin`."""
+
+    origin: np.ndarray
+    """(3,) float64 [m], world coordinates of the grid's corner; x and y are multiples of the resolution."""
+    resolution: float
+    """[m], side of a cell."""
+    shape: tuple[int, int]
+    """(nx, ny) columns. Column c = ix·ny + iy has its centre at ((ix + ½), (iy + ½))·resolution."""
+    column_start: np.ndarray
+    """(nx·ny + 1,) int32: the cells of column c are column_start[c]:column_start[c + 1], lowest first."""
+    cell_column: np.ndarray
+    """(n,) int32: the column of each cell."""
+    height: np.ndarray
+    """(n,) float64 [m]: height of the floor at the cell's centre, above origin[2]."""
+    gradient: np.ndarray
+    """(n, 2) float64: slope of the floor at the cell's centre, dz/dx and dz/dy; on a riser cut to what
+    `max_slope` allows."""
+    link: np.ndarray
+    """(n, 4) int32: the cell that one walks to in +x, +y, -x, -y, or -1 where walking ends. Symmetric."""
+    clearance: np.ndarray
+    """(n,) float64 [m]: horizontal distance from the cell's centre to where walking ends."""
+    nearest: np.ndarray
+    """(n, 2) float64 [m]: the vector from the cell's centre to that place; its length is `clearance`."""
+    source: np.ndarray
+    """(n,) int32: the cell that has that place in its list of blockers, or -1 where walking ends nowhere."""
+    blocker_start: np.ndarray
+    """(n + 1,) int32: the blockers beside cell c are blocker_start[c]:blocker_start[c + 1]."""
+    blocker: np.ndarray
+    """(k, 4) float64 [m]: x, y of both ends of a segment at which walking ends, exact; see
+    `navmesh.surface.blockers`."""
+
+    def __len__(self) -> int:
+        return len(self.cell_column)
+
+    def nearby(self) -> np.ndarray:
+        """(n, 2) int32: the list of blockers with the place nearest to cell c, blocker[nearby[c, 0]:nearby[c,
+        1]]; -1 where walking ends nowhere."""
+        found = np.stack([self.blocker_start[:-1], self.blocker_start[1:]], axis=1)[self.source]
+        found[self.source < 0] = -1
+        return found
+
+    def centers(self, cells: np.ndarray | None = None) -> np.ndarray:
+        """World coordinates (k, 3) float64 of the centres of ``cells`` (k,), or of all."""
+        columns = self.cell_column if cells is None else self.cell_column[cells]
+        heights = self.height if cells is None else self.height[cells]
+        ix, iy = np.divmod(columns, self.shape[1])
+        half = np.stack([ix + 0.5, iy + 0.5], axis=1) * self.resolution
+        return np.column_stack([half, heights]) + self.origin
+
+    def lifted(self, places: np.ndarray, cells: np.ndarray) -> np.ndarray:
+        """World coordinates (k, 3) float64 of ``places`` (k, 2) [m], relative to the origin, on the floor of
+        ``cells`` (k,)."""
+        centers = self.centers(cells) - self.origin
+        rise = np.einsum("ij,ij->i", places - centers[:, :2], self.gradient[cells])
+        return np.column_stack([places, centers[:, 2] + rise]) + self.origin

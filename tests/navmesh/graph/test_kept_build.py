@@ -1,0 +1,210 @@
+"""`NodeGraph.update`: after any sequence of changes the graph is the one that a build of the whole gives."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from benchmarks.shared_data import level_path, shared_folder
+from navmesh import NavmeshError, NodeGraph, Terrain, WalkRules, chunks_of, join_chunks, split_terrain
+from navmesh.obstacles.tagging import TagFile
+from navmesh.obstacles.tags import Addition, Tags
+from tests.navmesh.shapes import Mesh, box, join, plane, quad, terrain
+
+SKILLS = {"jump": (0.3, 0.7), "vault": (0.6, 1.0), "drop": (0.9, 2.0), "gap": (0.4, 2.5)}
+TILE = 4.0
+
+
+def ramp(x: float, y: float) -> Mesh:
+    return quad((x, y, 0), (x + TILE, y, 1.2), (x + TILE, y + TILE, 1.2), (x, y + TILE, 0))
+
+
+def stairs(x: float, y: float) -> Mesh:
+    return join(*(box(x + 0.5 * k, x + 0.5 * (k + 1), y, y + TILE, 0, 0.15 * (k + 1)) for k in range(4)))
+
+
+PIECES = {
+    "floor": lambda x, y: plane(x, x + TILE, y, y + TILE),
+    "platform": lambda x, y: join(
+        plane(x, x + TILE, y, y + TILE), box(x + 1, x + 3.4, y + 1, y + 3.4, 0, 0.5)
+    ),
+    "wall": lambda x, y: join(plane(x, x + TILE, y, y + TILE), box(x + 1.9, x + 2.1, y - 0.5, y + 3, 0, 2.5)),
+    "fence": lambda x, y: join(plane(x, x + TILE, y, y + TILE), box(x + 1.9, x + 2.1, y, y + TILE, 0, 0.8)),
+    "storeys": lambda x, y: join(
+        plane(x, x + TILE, y, y + TILE), plane(x, x + TILE, y, y + TILE, 2.6), plane(x, x + 3, y, y + 3, 4.0)
+    ),
+    "ramp": ramp,
+    "stairs": stairs,
+    "gap": lambda x, y: plane(x, x + 2.5, y, y + TILE),
+}
+SPOTS = [(i, j) for i in range(3) for j in range(3)]
+
+
+def piece(kind: str, spot: tuple[int, int]) -> Terrain:
+    return terrain(PIECES[kind](TILE * spot[0], TILE * spot[1]))
+
+
+def assert_same(graph: NodeGraph, built: NodeGraph) -> None:
+    """Bit for bit."""
+    for name in ("positions", "radii", "node_cell", "label", "edge_start", "edge_target", "edge_width"):
+        np.testing.assert_array_equal(getattr(graph, name), getattr(built, name), name)
+    for name in ("edge_gate", "edge_cells"):
+        np.testing.assert_array_equal(getattr(graph, name), getattr(built, name), name)
+    for name in ("origin", "column_start", "height", "gradient", "link", "clearance", "nearest"):
+        np.testing.assert_array_equal(getattr(graph.surface, name), getattr(built.surface, name), name)
+    for part in ("obstacles", "links"):
+        expected = getattr(built, part).arrays()
+        for name, array in getattr(graph, part).arrays().items():
+            np.testing.assert_array_equal(array, expected[name], f"{part}.{name}")
+    assert graph.terrain.digest == built.terrain.digest
+
+
+def rebuilt(graph: NodeGraph) -> NodeGraph:
+    return NodeGraph.build(graph.terrain, graph.rules, graph.obstacle_rules, graph.tags, extent=graph.extent)
+
+
+change = st.dictionaries(
+    st.sampled_from(SPOTS), st.sampled_from([None, *PIECES]), min_size=1, max_size=3
+)  # fmt: skip
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.lists(change, min_size=1, max_size=5), st.sampled_from([(0.25, 0.2), (0.2, 0.4)]))
+def test_any_sequence_of_changes_gives_the_graph_of_a_build(sequence, rules):
+    level = {f"{i},{j}": piece("floor", (i, j)) for i, j in SPOTS}
+    graph = NodeGraph.build(join_chunks(level), WalkRules(resolution=rules[0], max_step=rules[1]))
+    for changes in sequence:
+        named = {
+            f"{i},{j}": None if kind is None else piece(kind, (i, j)) for (i, j), kind in changes.items()
+        }
+        named = {name: new for name, new in named.items() if new is not None or name in level}
+        level = {name: chunk for name, chunk in {**level, **named}.items() if chunk is not None}
+        if not level:
+            return
+        graph = graph.update(named)
+        assert_same(graph, rebuilt(graph))
+        assert graph.terrain.digest == join_chunks(level).digest
+
+
+@pytest.mark.parametrize("name", ["dungeon", "nav_test"])
+def test_a_real_level_in_chunks(name):
+    if shared_folder() is None:
+        pytest.skip("needs the shared levels")
+    chunks = split_terrain(Terrain.load(level_path(name), up="y"), 10.0)
+    graph = NodeGraph.build(join_chunks(chunks))
+    rng = np.random.default_rng(0)
+    for key in rng.choice(sorted(chunks), 3, replace=False):
+        graph = graph.update({str(key): None})
+        assert_same(graph, rebuilt(graph))
+        graph = graph.update({str(key): chunks[key]})
+    assert_same(graph, rebuilt(graph))
+
+
+def test_the_order_of_changes_does_not_show():
+    a, b = {"b": piece("wall", (1, 0))}, {"c": piece("ramp", (2, 0)), "a": piece("platform", (0, 0))}
+    level = join_chunks({"a": piece("floor", (0, 0)), "b": piece("floor", (1, 0))})
+    extent = [(0, 0, 0), (12, 4, 0)]
+    one = NodeGraph.build(level, extent=extent).update(a).update(b)
+    other = NodeGraph.build(level, extent=extent).update(b).update(a)
+    assert_same(one, other)
+
+
+def test_a_level_grows_beyond_its_grid():
+    graph = NodeGraph.build(join_chunks({"a": piece("floor", (0, 0))}))
+    grown = graph.update({"b": piece("storeys", (-2, 3)), "c": piece("floor", (5, 0))})
+    assert_same(grown, rebuilt(grown))
+    assert grown.surface.shape != graph.surface.shape
+    more = grown.update({"d": piece("wall", (0, 1))})
+    assert more.surface.shape == grown.surface.shape
+    assert_same(more, rebuilt(more))
+
+
+def test_a_chunk_with_nothing_around_it_is_removed():
+    chunks = {"here": piece("platform", (0, 0)), "there": piece("platform", (3, 3))}
+    graph = NodeGraph.build(join_chunks(chunks))
+    alone = join_chunks({"here": chunks["here"]})
+    assert_same(graph.update({"there": None}), NodeGraph.build(alone, extent=graph.extent))
+
+
+def test_the_graph_before_stays_as_it_is():
+    graph = NodeGraph.build(join_chunks({"a": piece("floor", (0, 0)), "b": piece("floor", (1, 0))}))
+    before = graph.positions.copy(), graph.surface.nearest.copy(), graph.kept_build.cells.blocker.copy()
+    graph.update({"b": piece("wall", (1, 0))})
+    for old, now in zip(
+        before, (graph.positions, graph.surface.nearest, graph.kept_build.cells.blocker), strict=True
+    ):
+        np.testing.assert_array_equal(old, now)
+
+
+def test_saved_and_loaded_graphs_can_be_updated(tmp_path):
+    tags = TagFile(
+        Tags(
+            version=1,
+            add=[
+                Addition(
+                    name="bench", affordance="vault", position=[2.0, 2.0, 0.8], run_towards_deg=0,
+                    height=0.8, depth=0.4, width=1.5, run_up=1.5, landing=1.2,
+                )
+            ],
+        )
+    )  # fmt: skip
+    level = join_chunks({"a": piece("floor", (0, 0)), "b": piece("platform", (1, 0))})
+    graph = NodeGraph.build(level, tags=tags)
+    graph.save(tmp_path / "level.nav")
+    loaded = NodeGraph.load(tmp_path / "level.nav", level)
+    assert loaded.terrain.chunks == level.chunks
+    changes = {"b": piece("wall", (1, 0)), "c": piece("floor", (0, 1))}
+    one, other = graph.update(changes), loaded.update(changes)
+    assert_same(one, other)
+    assert "bench" in other.obstacles.tag
+    assert_same(other.update({"c": None}), rebuilt(one.update({"c": None})))
+
+
+def test_routes_are_told_whether_they_hold():
+    level = {f"{i},0": piece("floor", (i, 0)) for i in range(4)}
+    graph = NodeGraph.build(join_chunks(level))
+    across = graph.find_path((1, 2, 0), (15, 2, 0), 0.3)
+    short = graph.find_path((1, 2, 0), (3, 2, 0), 0.3)
+    assert across.holds(graph)
+    walled = graph.update({"2,0": piece("wall", (2, 0))})
+    assert not across.holds(walled)
+    assert short.holds(walled)
+    assert across.holds(walled.update({"2,0": level["2,0"]}))
+    gone = graph.update({"3,0": None})
+    assert not across.holds(gone)
+    assert not gone.find_path((1, 2, 0), (9, 2, 0.0), 40.0).holds(gone)
+
+
+def test_routes_over_obstacles_hold_as_long_as_these_are_there():
+    level = {"0": piece("floor", (0, 0)), "1": piece("fence", (1, 0)), "2": piece("floor", (2, 0))}
+    graph = NodeGraph.build(join_chunks(level))
+    over = graph.find_path((1, 2, 0), (11, 2, 0), 0.3, SKILLS)
+    assert [graph.links.affordance[use.link] for use in over.links] == ["vault"]
+    assert over.holds(graph.update({"2": piece("platform", (2, 0))})) is False
+    assert over.holds(graph.update({"far": terrain(plane(0, 4, 8, 12))}))
+    assert not over.holds(graph.update({"1": piece("wall", (1, 0))}))
+
+
+def test_chunks_put_together_are_taken_apart():
+    chunks = {"b": piece("stairs", (0, 0)), "a": piece("storeys", (1, 1))}
+    whole = join_chunks(chunks)
+    assert [chunk.name for chunk in whole.chunks] == ["a", "b"]
+    for name, chunk in chunks_of(whole).items():
+        assert chunk.digest == chunks[name].digest
+    split = split_terrain(whole, 2.0)
+    assert sum(len(chunk.faces) for chunk in split.values()) == len(whole.faces)
+
+
+def test_wrong_changes_are_refused():
+    graph = NodeGraph.build(join_chunks({"a": piece("floor", (0, 0))}))
+    with pytest.raises(NavmeshError, match="no chunk 'b' to remove; there are a"):
+        graph.update({"b": None})
+    with pytest.raises(NavmeshError, match="removes all chunks"):
+        graph.update({"a": None})
+    with pytest.raises(NavmeshError, match="expected a Terrain"):
+        graph.update({"a": "floor"})
+    with pytest.raises(NavmeshError, match="nothing to walk on"):
+        graph.update({"a": terrain(quad((0, 0, 0), (0, 4, 0), (4, 4, 0), (4, 0, 0)))})
+    with pytest.raises(NavmeshError, match="extent"):
+        NodeGraph.build(piece("floor", (0, 0)), extent=[(1, 1, 1), (0, 0, 0)])
+    assert graph.update({"a": piece("floor", (0, 0))}) is graph

@@ -136,7 +136,7 @@ class _Timer:
 
 
 def _cpu_minutes() -> float:
-    """CPU time [s] of this process and its past and present workers."""
+    """[min] CPU time of this process and of its workers, those that have ended included."""
     running = (worker.cpu_times() for worker in psutil.Process().children())
     return (sum(os.times()[:4]) + sum(each.user + each.system for each in running)) / 60.0
 

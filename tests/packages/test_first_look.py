@@ -1,8 +1,6 @@
 """What somebody sees who looks at the packages for the first time: names, help, versions, types, objects."""
 
 import pydoc
-import subprocess
-import sys
 from importlib import import_module
 from pathlib import Path
 
@@ -39,16 +37,6 @@ def test_help_names_what_is_public():
     text = pydoc.render_doc(runtime, renderer=pydoc.plaintext)
     for name in ("class World", "class Agent", "prepare(", "class SkillStarted"):
         assert name in text
-
-
-@pytest.mark.parametrize(
-    "command", [["-m", "surefoot"], ["-c", "import runtime.cli.app; runtime.cli.app.main()"]]
-)
-def test_the_command_tells_its_version_without_loading_anything(command):
-    script = [sys.executable, "-X", "importtime", *command, "--version"]
-    told = subprocess.run(script, cwd=ROOT, capture_output=True, text=True, check=True)
-    assert told.stdout == f"surefoot {surefoot.__version__}\n"
-    assert not any(heavy in told.stderr for heavy in ("numba", "mujoco", "scipy", "numpy"))
 
 
 def test_objects_tell_what_they_are(graph):

@@ -2,14 +2,11 @@
 
 import sys
 
-import numpy as np
 import pytest
 from numba.core import types
 from numba.core.dispatcher import Dispatcher
-from numba.core.errors import NumbaError
 
 import runtime
-from surefoot.kernels import kernel
 from surefoot.kernels.dependencies import PACKAGES
 
 
@@ -50,12 +47,3 @@ def test_kernels_without_counting_get_and_give_no_new_arrays(kernels: set[Dispat
             called = function.__globals__.get(name)
             if isinstance(called, Dispatcher):
                 assert not gives[called], f"{function.__name__} gets an array from {name}"
-
-
-def test_one_that_makes_an_array_is_refused() -> None:
-    @kernel
-    def makes(count):
-        return np.empty(count)[0]
-
-    with pytest.raises(NumbaError):
-        makes(3)

@@ -1,97 +1,10 @@
-"""The bound on curvature: where a curve exists it is found, where none exists the status says so."""
+"""Curvature of polylines, and how much of it a speed allows."""
 
 import numpy as np
 import pytest
 
-from benchmarks.corridors import bounded_curve, disc_chain, sharp_corner, turn_on_the_spot
-from pathsmooth import PathSmoothError, Problem, curvature, curvature_bound, reach, solve, solve_exact
-from pathsmooth.bounded_kernels import solve_bounded
-from pathsmooth.packing import with_bound
-
-BOUNDS = [0.2, 0.5, 1.0]
-
-
-def problem_of(corridor, bound):
-    waypoints, centers, radii, start, end = corridor
-    return Problem.from_corridor(waypoints, centers, radii, 0.25, start, end, bound)
-
-
-def assert_holds(solution, bound, start, end):
-    assert solution.status == "complete"
-    assert curvature(solution.points).max() <= 1.05 * bound
-    assert solution.problem.outside(solution.points) < 3e-8
-    points = solution.points[:, :2]
-    for step, tangent in ((points[1] - points[0], start), (points[-1] - points[-2], end)):
-        assert np.allclose(step / np.linalg.norm(step), tangent / np.linalg.norm(tangent), atol=1e-9)
-
-
-@pytest.mark.parametrize("bound", BOUNDS)
-@pytest.mark.parametrize("seed", range(6))
-def test_finds_a_curve_where_one_exists_by_construction(seed, bound):
-    corridor = bounded_curve(np.random.default_rng(seed), bound, 0.1 + 0.06 * seed)
-    assert_holds(solve(problem_of(corridor, bound)), bound, *corridor[3:])
-
-
-@pytest.mark.parametrize("bound", BOUNDS)
-@pytest.mark.parametrize("seed", range(3))
-def test_says_so_where_a_corner_is_too_sharp_for_the_corridor(seed, bound):
-    corridor = sharp_corner(np.random.default_rng(seed), bound)
-    solution = solve(problem_of(corridor, bound))
-    assert solution.status == "infeasible"
-    assert solution.problem.outside(solution.points) < 3e-9
-
-
-@pytest.mark.parametrize("bound", BOUNDS)
-def test_says_so_where_there_is_no_room_to_turn_round(bound):
-    solution = solve(problem_of(turn_on_the_spot(np.random.default_rng(1), bound, 0.8), bound))
-    assert solution.status == "infeasible"
-
-
-def test_turns_round_where_there_is_room():
-    corridor = turn_on_the_spot(np.random.default_rng(1), 1.0, 3.5)
-    assert_holds(solve(problem_of(corridor, 1.0)), 1.0, *corridor[3:])
-
-
-def test_search_never_misses_a_curve_that_exists():
-    for seed in range(8):
-        waypoints, centers, radii, start, end = bounded_curve(np.random.default_rng(seed), 0.5, 0.15, turns=3)
-        first, last = (
-            reach.End(place, np.arctan2(t[1], t[0]))
-            for place, t in ((waypoints[0], start), (waypoints[-1], end))
-        )
-        for settings in ((0.5, 3, 0.06), (0.4, 4, 0.025)):
-            code, positions, discs = reach.search(first, last, centers, radii, 0.5, reach.Fineness(*settings))
-            assert code == reach.REACHED
-            assert np.all(np.diff(discs) >= 0)
-            assert len(positions) == len(discs)
-
-
-def test_convex_problem_with_a_bound_agrees_with_cvxpy():
-    waypoints, centers, radii = disc_chain(np.random.default_rng(4), 8, (0.8, 2.5), 0.5)
-    problem = Problem.from_corridor(waypoints, centers, radii, max_curvature=0.5)
-    exact = solve_exact(problem)
-    assert exact.status == "complete"
-    state, d = np.zeros((4, problem.count, 2)), np.zeros((problem.count, 2))
-    _, _, value, bound = solve_bounded(
-        with_bound(problem.packed, problem.first, problem.last), np.full(problem.count, 0.5), problem.first,
-        problem.last, 1.7, 20000, 1e-5, 1e-4, 50, state, d,
-    )  # fmt: skip
-    assert value == pytest.approx(exact.objective, rel=1e-3)
-    assert bound <= exact.objective * (1 + 1e-6)
-
-
-def test_a_bound_that_does_not_bind_changes_nothing():
-    corridor = disc_chain(np.random.default_rng(4), 8, (0.8, 2.5), 0.3)
-    free = solve(Problem.from_corridor(*corridor))
-    bound = 1.1 * curvature(free.points).max()
-    assert np.array_equal(solve(Problem.from_corridor(*corridor, max_curvature=bound)).points, free.points)
-
-
-def test_an_iteration_limit_is_kept():
-    corridor = sharp_corner(np.random.default_rng(2), 0.5)
-    solution = solve(problem_of(corridor, 0.5), iterations=50)
-    assert solution.status == "iteration_limit"
-    assert solution.iterations <= 70
+from pathsmooth.curvature import curvature, curvature_bound
+from pathsmooth.errors import PathSmoothError
 
 
 def test_curvature_of_a_circle():
@@ -107,22 +20,3 @@ def test_bound_by_speed():
     assert curvature_bound(4.0, 8.0) == pytest.approx(0.5)
     with pytest.raises(PathSmoothError, match="speed must be a positive number"):
         curvature_bound(0.0)
-
-
-def test_warm_start_under_a_bound_saves_iterations():
-    cold_total = warm_total = 0
-    for seed in range(6):
-        corridor = bounded_curve(np.random.default_rng(seed), 0.5, 0.2 + 0.05 * seed)
-        problem = problem_of(corridor, 0.5)
-        cold = solve(problem)
-        warm = solve(problem, warm=cold)
-        assert_holds(warm, 0.5, *corridor[3:])
-        cold_total, warm_total = cold_total + cold.iterations, warm_total + warm.iterations
-    assert 0 < warm_total < cold_total
-
-
-def test_warm_start_under_a_bound_takes_a_solution_without_one_and_the_other_way_round():
-    corridor = bounded_curve(np.random.default_rng(3), 0.5, 0.3)
-    free, bounded = problem_of(corridor, None), problem_of(corridor, 0.5)
-    assert_holds(solve(bounded, warm=solve(free)), 0.5, *corridor[3:])
-    assert solve(free, warm=solve(bounded)).objective <= 1.02 * solve(free).objective

@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from benchmarks.corridors import disc_chain
-from pathsmooth import PathSmoothError, Problem, solve
+from pathsmooth import Problem, solve
+from pathsmooth.errors import PathSmoothError
 
 PATH = np.array([[0.0, 0, 0], [4, 0, 1]])
 CENTERS = np.array([[0.0, 0, 0], [2, 0, 0], [4, 0, 0]])

@@ -6,20 +6,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from benchmarks.corridors import disc_chain
-from pathsmooth import PathSmoothError, Problem, kernels, reference, solve, solve_exact
+from pathsmooth import PathSmoothError, Problem, kernels, reference, solve
 from pathsmooth.solver import RELAXATION
+from tests.pathsmooth.chains import corridor, ends
 
 seeds = st.integers(0, 2**32 - 1)
 quiet = settings(max_examples=40, deadline=None, derandomize=True)
-
-
-def corridor(seed, discs=None, radius=(0.15, 2.0)):
-    rng = np.random.default_rng(seed)
-    return disc_chain(rng, int(rng.integers(1, 18)) if discs is None else discs, radius)
-
-
-def ends(waypoints):
-    return waypoints[1] - waypoints[0], waypoints[-1] - waypoints[-2]
 
 
 def outside_union(points, problem, samples=9):
@@ -47,22 +39,6 @@ def test_never_leaves_the_corridor_and_never_raises_the_objective(seed, tangents
         assert solution.gap <= 0.0101 * solution.objective + 1e-12
     else:
         assert solution.iterations <= iterations
-
-
-@pytest.mark.parametrize("seed", range(12))
-def test_agrees_with_cvxpy(seed):
-    waypoints, centers, radii = corridor(seed)
-    start, end = ends(waypoints) if seed % 2 else (None, None)
-    problem = Problem.from_corridor(waypoints, centers, radii, start_tangent=start, end_tangent=end)
-    exact = solve_exact(problem)
-    assert exact.status == "complete"
-    assert solve(problem).objective <= 1.01 * exact.objective + 1e-7
-    close = solve(problem, tolerance=1e-6)
-    assert close.objective == pytest.approx(exact.objective, rel=1e-5, abs=1e-7)
-    # the bound that the gap rests on is below the optimum
-    for iterations in (3, 10, 40):
-        solution = solve(problem, iterations=iterations, tolerance=0.0)
-        assert solution.objective - solution.gap <= exact.objective * (1 + 1e-6) + 1e-7
 
 
 @pytest.mark.parametrize("seed", range(6))

@@ -7,6 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numba
 import numpy as np
 import pytest
 
@@ -274,6 +275,20 @@ runtime.cli.app.main(["schema"])
 """
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert run.returncode == code and run.stdout == "goes on\n" and "Traceback" not in run.stderr
+
+
+def test_the_command_tells_where_kernels_are_kept_and_clears_them(surefoot, tmp_path, monkeypatch):
+    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
+    kept = tmp_path / "surefoot"
+    (kept / "locks").mkdir(parents=True, mode=0o700)
+    (kept / "a.kernel").write_bytes(bytes(2_300_000))
+    assert surefoot("cache")[1] == f"{kept}: 2.3 MB\n"
+    assert json.loads(surefoot("cache", "--json")[1]) == {"folder": str(kept), "bytes": 2_300_000}
+    code, out, _ = surefoot("cache", "--json", "--clear")
+    assert code == 0 and json.loads(out)["bytes"] == 0 and names(kept) == ["locks"]
+    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path / "a.kernel"))
+    (tmp_path / "a.kernel").write_text("")
+    assert surefoot("cache")[1].startswith("nowhere: ")
 
 
 def test_quiet_when_not_a_terminal(surefoot, folder):

@@ -10,10 +10,6 @@ import pytest
 
 from locomotion.gaits.run.skill import RUN_CLIP
 from runtime.cli.app import main
-from surefoot import SurefootError
-from surefoot.files.archive import check_target, write_archive
-from surefoot.files.atomic_write import whole_file
-from surefoot.files.inputs import keep_inputs, note_input
 from tests.small_level import MISSION
 
 SQUARE = "v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nf 1 2 3 4\n"
@@ -118,18 +114,3 @@ def test_clips(capsys, tmp_path):
     before = clip.read_bytes()
     assert "an input" in refused(capsys, "clip", clip, "-o", clip)
     assert clip.read_bytes() == before
-
-
-def test_a_program_may_save_what_it_has_loaded(level):
-    note_input(level)
-    check_target(level)
-    with keep_inputs():
-        note_input(level)
-        with pytest.raises(SurefootError, match="an input"):
-            check_target(level)
-        with pytest.raises(SurefootError, match="an input"), whole_file(level):
-            raise AssertionError("nothing is to be written")
-        with pytest.raises(SurefootError, match="an input"):
-            write_archive(level, "test", 1, {}, {})
-    check_target(level)
-    assert level.read_text() == SQUARE

@@ -1,15 +1,12 @@
 """Commands that are interrupted just before a result is in its place leave a finished or no file."""
 
 import json
-import os
 import signal
 import subprocess
 import sys
 
 import numpy as np
 import pytest
-
-from surefoot.files.atomic_write import whole_file
 
 HOOK = """
 import os, signal, sys, time
@@ -201,15 +198,3 @@ def test_results_before_the_interruption_are_whole(folder, interrupted):
     interrupted(folder, signal.SIGTERM, 2, *COMMANDS["playtest"])
     found = files(folder / "out")
     assert found == {"report.json"}
-
-
-def test_what_a_killed_process_left_is_swept_up(tmp_path):
-    gone = subprocess.Popen([sys.executable, "-c", ""])
-    gone.wait()
-    left, mine = tmp_path / f".a.npz.{gone.pid}.x.part.npz", tmp_path / f".a.npz.{os.getpid()}.x.part.npz"
-    other = tmp_path / f".b.npz.{gone.pid}.x.part.npz"
-    for each in (left, mine, other):
-        each.write_text("half")
-    with whole_file(tmp_path / "a.npz") as temporary:
-        temporary.write_text("whole")
-    assert {each.name for each in tmp_path.iterdir()} == {"a.npz", mine.name, other.name}

@@ -10,8 +10,8 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Event:
-    """time: simulation time [s] since the body was created; position: its point (x, y, z) on the ground
-    [m]."""
+    """time: simulation time [s] since the body was created. position: the body's point (x, y, z) on the
+    ground [m]."""
 
     time: float
     position: tuple[float, float, float]
@@ -27,7 +27,7 @@ class SetOff(Event):
 
 @dataclass(frozen=True)
 class Arrived(Event):
-    """The body is at its goal, this far from it [m, horizontally]."""
+    """The body is at its goal, this far from it [m, horizontally]; an animal's front feet are."""
 
     distance: float
 
@@ -60,8 +60,8 @@ class LostGround(Event):
 
 @dataclass(frozen=True)
 class GotStuck(Event):
-    """The body has made no progress along its path for some seconds; ``among_others``: it and others wait for
-    each other. ``reason``: why, or empty if unknown."""
+    """The body has made no progress along its path for some seconds. ``among_others``: it and other bodies
+    wait for each other. ``reason``: why, or empty if unknown."""
 
     among_others: bool = False
     reason: str = "it makes no headway"
@@ -69,7 +69,7 @@ class GotStuck(Event):
 
 @dataclass(frozen=True)
 class Fell(Event):
-    """The body has fallen; its wanted speed [m/s], the path's slope and arc length [m] there."""
+    """The body has fallen. Its wanted speed [m/s]; slope and arc length [m] of its path at that place."""
 
     speed: float
     slope: float
@@ -78,15 +78,15 @@ class Fell(Event):
 
 @dataclass(frozen=True)
 class GotUp(Event):
-    """The body has got up ``seconds`` [s] after a fall: it stands, or goes on on hands and feet."""
+    """The body has got up ``seconds`` [s] after a fall: it stands, or moves on on hands and feet."""
 
     seconds: float
 
 
 @dataclass(frozen=True)
 class TookOff(Event):
-    """The body starts to clear an obstacle: its affordance and height [m], the error of the take-off distance
-    [m, positive: too early] and of the entry speed [m/s]."""
+    """The body starts to clear an obstacle. The obstacle's affordance and height [m]; errors of the take-off
+    distance [m, positive: too early] and of the entry speed [m/s]."""
 
     affordance: str
     height: float
@@ -96,8 +96,8 @@ class TookOff(Event):
 
 @dataclass(frozen=True)
 class WentBack(Event):
-    """The body turns round before an obstacle of this affordance and size [m], to run up to it from
-    ``distance`` [m] farther away."""
+    """The body turns round in front of an obstacle of this affordance and size [m] and goes back by
+    ``distance`` [m] for a longer run-up."""
 
     affordance: str
     size: float
@@ -106,7 +106,7 @@ class WentBack(Event):
 
 @dataclass(frozen=True)
 class Cleared(Event):
-    """The body is over the obstacle and runs on."""
+    """The body has cleared the obstacle and runs on."""
 
     affordance: str
     height: float

@@ -41,7 +41,7 @@ def speeds(size: Size, least: int = 2) -> Rising:
 def read_skill(
     path: str | os.PathLike[str], schema: Schema[HeaderType]
 ) -> tuple[HeaderType, dict[str, np.ndarray]]:
-    """Header and arrays of a learned file; raises `LocomotionError` if it is missing, cut off, of another
+    """Header and arrays of a learned file. Raises `LocomotionError` if it is missing, cut off, of another
     kind, version or person, or does not match the ``schema``."""
     pause()
     try:

@@ -39,8 +39,8 @@ def person_on(ground: Ground | None) -> tuple[mujoco.MjModel, PersonIndex]:
 
 
 def harder(model: mujoco.MjModel) -> mujoco.MjModel:
-    """A person's ``model`` with contacts that yield half as far, for the same `MjData`: the hands of a
-    falling person, 3 cm thick, would sink 5 cm into the usual ones."""
+    """A person's ``model`` with stiffer contacts, for the same `MjData`. In the usual ones, the hands of a
+    falling person, 3 cm thick, would sink in by 5 cm."""
     with _lock:
         found = _hard.get(model)
         if found is None:
@@ -50,8 +50,8 @@ def harder(model: mujoco.MjModel) -> mujoco.MjModel:
 
 
 def gentler(model: mujoco.MjModel) -> mujoco.MjModel:
-    """Like `harder`, but the ground has at most the usual friction: on steep ground's higher friction, hands
-    and feet stick in place and nobody manages to stand up."""
+    """Like `harder`, but the ground has at most the usual friction. With the higher friction of steep ground,
+    hands and feet would stick to it and nobody could stand up."""
     hard = harder(model)
     with _lock:
         found = _gentle.get(model)

@@ -1,7 +1,7 @@
-"""What is observed of a person's body after each tick, (OBSERVED_SIZE,) float64: the places of the numbers.
+"""Layout of what is observed of a person's body after each tick, (OBSERVED_SIZE,) float64.
 
-It lies in the running controller's state (`locomotion.gaits.run.layout`, `OBSERVED`), where
-`locomotion.gaits.run.controller.observe` writes it; the walk reads this part alone.
+`locomotion.gaits.run.controller.observe` writes it into the state of the running controller
+(`locomotion.gaits.run.layout`, `OBSERVED`). The walk reads only this part of that state.
 """
 
 __all__ = [

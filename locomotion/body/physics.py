@@ -13,7 +13,7 @@ PHYSICS = mujoco.mjtState.mjSTATE_INTEGRATION
 
 
 def physics_size(model: mujoco.MjModel) -> int:
-    """Count of numbers in it."""
+    """Count of numbers in a saved state."""
     return mujoco.mj_stateSize(model, PHYSICS)
 
 
@@ -25,7 +25,7 @@ def save_physics(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float
 
 
 def restore_physics(model: mujoco.MjModel, data: mujoco.MjData, physics: NDArray[np.float64]) -> None:
-    """Restore a state from `save_physics`; raises `LocomotionError` if it is of another model."""
+    """Restore a state of `save_physics`. Raises `LocomotionError` if it belongs to another model."""
     if len(physics) != physics_size(model):
         raise LocomotionError("the saved state belongs to another model")
     mujoco.mj_setState(model, data, physics, PHYSICS)

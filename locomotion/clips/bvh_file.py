@@ -1,8 +1,8 @@
 """The text of a BVH file, read and checked line by line.
 
-A file holds, a line each, HIERARCHY, the joints within each other, MOTION, the number of frames, their
-distance in time, and a row of numbers per frame: one for each channel of each joint, in the joints' order.
-The parsers that there are (bvhio, bvh) name no line in their errors and do not notice a file that is cut off.
+A file consists of HIERARCHY, the nested joints, MOTION, the number of frames, the time between two frames,
+and one row of numbers per frame: one for each channel of each joint, in the order of the joints.
+Existing parsers (bvhio, bvh) do not name the line of an error and do not notice that a file is cut off.
 """
 
 from collections.abc import Iterator
@@ -17,7 +17,7 @@ from locomotion.errors import LocomotionError
 __all__ = ["BvhFile", "read_bvh_file"]
 
 _CHANNELS = [axis + kind for kind in ("position", "rotation") for axis in "XYZ"]
-_MOST = 1e9  # of a length or an angle, in the file's unit: far from what single precision holds
+_MOST = 1e9  # of a length or an angle, in the file's unit: nothing real is as large
 _CLOSEST, _FARTHEST = 1e-4, 1.0  # [s] between two frames
 _LONGEST = 600.0  # [s] of a capture
 
@@ -41,10 +41,13 @@ class BvhFile:
 
 
 def read_bvh_file(path: Path) -> BvhFile:
-    """Read a file. Raises `LocomotionError`, which names the line and what is expected there, for a file that
-    cannot be read, is not BVH or ends early, has unknown channels, numbers that are not finite, rows that are
-    shorter or longer than its channels need, no frames, frames nearer than 0.1 ms or farther than 1 s from
-    each other, or more than ten minutes of them."""
+    """Read a file.
+
+    Raises `LocomotionError`, which names the line and what is expected there, if the file cannot be read, is
+    not BVH or ends early; for unknown channels, numbers that are not finite, and rows with more or fewer
+    numbers than there are channels; and for no frames, frames less than 0.1 ms or more than 1 s apart, or
+    more than ten minutes of them.
+    """
     lines, found = _Lines(path), BvhFile()
     words = lines.words("HIERARCHY")
     if words != ["HIERARCHY"]:
@@ -83,7 +86,7 @@ class _Lines:
         self._rest: Iterator[tuple[int, str]] = iter(enumerate(text.split("\n"), 1))
 
     def words(self, expected: str) -> list[str]:
-        """Those of the next line, at least one; `LocomotionError` if the file ends instead."""
+        """Words of the next line, at least one. Raises `LocomotionError` if the file ends here."""
         for number, line in self._rest:
             self._number = number
             if words := line.split():
@@ -91,7 +94,7 @@ class _Lines:
         raise self.error(f"not a whole BVH file: it ends where {expected} is expected")
 
     def numbers(self, words: list[str], names: list[str]) -> list[float]:
-        """``words`` of the line that was read last as numbers; ``names`` tell what each of them is."""
+        """The ``words`` of the line read last, as numbers; ``names`` says what each of them is."""
         numbers = []
         for word, name in zip(words, names, strict=True):
             number = _number(word)
@@ -101,7 +104,7 @@ class _Lines:
         return numbers
 
     def error(self, problem: str) -> LocomotionError:
-        """The error ``problem`` in the line that was read last."""
+        """The error ``problem`` in the line read last."""
         return LocomotionError(f"{self._path}:{self._number}: {problem}")
 
 
@@ -128,7 +131,7 @@ def _read_joints(lines: _Lines, found: BvhFile) -> None:
 
 
 def _read_joint(lines: _Lines, words: list[str], found: BvhFile, parent: int) -> None:
-    """Read the joint that ``words`` begin, up to its channels."""
+    """Read a joint, whose first line is ``words``, up to its channels."""
     if len(words) < 2:
         raise lines.error(f"expected a name after {words[0]}")
     name = words[1]
@@ -163,7 +166,7 @@ def _offset(lines: _Lines, name: str) -> list[float]:
 
 
 def _read_times(lines: _Lines, found: BvhFile) -> int:
-    """Read the two lines after MOTION; gives how many frames there are."""
+    """Read the two lines after MOTION; returns the number of frames."""
     words = lines.words("Frames:")
     count = _number(words[1]) if len(words) == 2 and words[0] == "Frames:" and words[1].isdecimal() else None
     if not count:
@@ -185,7 +188,7 @@ def _read_times(lines: _Lines, found: BvhFile) -> int:
 
 
 def _number(word: str) -> float | None:
-    """The number that ``word`` says, unless it says none, or one that is not finite or too great."""
+    """``word`` as a number; None if it is not one, not finite, or too large."""
     try:
         value = float(word)
     except ValueError:

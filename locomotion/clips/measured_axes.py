@@ -1,7 +1,8 @@
-"""How a captured skeleton's joints lie in its limbs, measured on a motion in which it never stands upright.
+"""Axes of a captured skeleton's joints in its limbs, measured on a motion that is never upright.
 
-Bones give the direction of a part, hips and shoulders its left side, and the bending plane of a knee or elbow
-its axis. Parts without such clues (head, hands, toes, shoulders) align on average with the part before.
+A bone gives the direction of its part, hips and shoulders show which side is left, and the plane in which a
+knee or elbow bends gives its axis. Parts without such clues (head, hands, toes, shoulders) align on average
+with the part that they hang on.
 """
 
 import numpy as np
@@ -13,15 +14,18 @@ from locomotion.body.anatomy import TOE_JOINT
 __all__ = ["measured_axes"]
 
 _APART = 0.03  # [m] least distance of joints that gives a direction
-_BENT = 0.05  # least mean sine of its angle with which a joint shows its axis
+_BENT = 0.05  # mean sine of its angle from which a joint shows its axis
 _LIKE_BEFORE = {"head": "chest", "clavicle": "chest", "hand": "forearm", "toes": "foot"}
 
 Vectors = NDArray[np.float64]
 
 
 def measured_axes(places: Vectors, turns: Vectors, source: dict[str, int]) -> dict[str, Vectors]:
-    """For each part of ``source`` (the joint that turns it, by part) its axes (3, 3) in those of its joint.
-    ``places`` (n, j, 3) [m], ``turns`` (n, j, 3, 3): of the joints in each frame."""
+    """The axes of each part, (3, 3), in the axes of the joint that turns it.
+
+    source: index of that joint, by part. places (n, j, 3) [m], turns (n, j, 3, 3): position and orientation
+    of the joints in each frame.
+    """
 
     def at(part: str) -> Vectors:
         return places[:, source[part]]
@@ -60,7 +64,7 @@ def measured_axes(places: Vectors, turns: Vectors, source: dict[str, int]) -> di
             bones = [_unit(at(lower) - at(upper))]
             bones.append(_unit(at(end) - at(lower)) if end in source else bones[0])
             hinge = sense * np.cross(bones[0], bones[1])
-            if np.linalg.norm(hinge, axis=1).mean() < _BENT:  # straight: as if swung there from hanging down
+            if np.linalg.norm(hinge, axis=1).mean() < _BENT:  # straight: as if swung up from hanging
                 hangs = np.einsum("nji,nj->i", world(trunk), bones[0])
                 swung = Rotation.align_vectors(_unit(hangs), [0.0, 0.0, -1.0])[0].as_matrix()
                 hinge = world(trunk) @ swung[:, 1]
@@ -99,7 +103,7 @@ def _frame(y: Vectors, z: Vectors, first: str) -> Vectors:
 
 
 def _foot(y: Vectors, toes: Vectors) -> Vectors:
-    """Axes of a foot whose ``toes`` lie as the person's do below its ankle."""
+    """Axes of a foot whose ``toes`` are as far below the ankle as the person's."""
     ahead, below = TOE_JOINT[0], -TOE_JOINT[2]
     turned = _frame(y, np.cross(toes, y), first="y")  # x towards the toes
     slope = Rotation.from_euler("y", -np.arctan2(below, ahead)).as_matrix()
@@ -107,7 +111,7 @@ def _foot(y: Vectors, toes: Vectors) -> Vectors:
 
 
 def _as(turns: Vectors, before: Vectors) -> Vectors:
-    """Axes (n, 3, 3) in those of a joint, so that it aligns on average with the part before."""
+    """Axes (3, 3) of a joint that align it on average with the part ``before`` (n, 3, 3)."""
     mean = (np.swapaxes(turns, 1, 2) @ before).mean(axis=0)
     u, _, v = np.linalg.svd(mean)
     return u @ np.diag([1.0, 1.0, np.linalg.det(u @ v)]) @ v

@@ -1,10 +1,11 @@
-"""How a captured skeleton stands upright, whatever its rest pose is.
+"""How a captured skeleton's joints are turned against the person's, whatever its rest pose is.
 
-A joint of a capture turns a part of the person, but its axes are those of the file's rest pose, which may
-stand, lie, or be no possible pose at all. Their meaning for the part shows in a pose in which the figure
-stands straight: there the limbs lie along the capture's bones, and all other parts stand as in the person's
-own rest pose. That is the rest pose if it stands along any axis of the file, else the frame that stands
-straightest. If none does, the axes are measured on the limbs, averaged over the motion.
+A joint of a capture turns a part of the person, but its axes are those of the file's rest pose. In that the
+figure may stand, lie, or be in no possible pose at all. What the axes mean for the part is read from a pose
+in which the figure stands straight: there its limbs lie along the capture's bones, and all other parts are as
+in the person's own rest pose. This is the file's rest pose if the figure stands along any axis of the file,
+else the frame in which it stands straightest. If there is none, the axes are measured on the limbs, averaged
+over the motion.
 """
 
 from itertools import product
@@ -34,10 +35,10 @@ _LEVEL = np.sin(np.radians(60.0))  # allowed height difference of the hips, rela
 def neutral_axes(
     capture: Capture, places: NDArray[np.float64], source: dict[str, int]
 ) -> dict[str, NDArray[np.float64]]:
-    """For each part of ``source`` (the joint that turns it, by part) its axes (3, 3) in those of its joint.
+    """The axes of each part, (3, 3), in the axes of the joint that turns it.
 
-    ``places`` (n, j, 3) [m]: of the joints in each frame. Raises `LocomotionError` if rest pose and frames
-    stand along an axis that does not point up.
+    places (n, j, 3) [m]: position of the joints in each frame. source: index of the joint, by part. Raises
+    `LocomotionError` if rest pose and frames stand along an axis other than the one that points up.
     """
     leaning = _leans(places, _AXES[0], source)
     rest = capture.rest_places()

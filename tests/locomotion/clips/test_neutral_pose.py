@@ -1,152 +1,46 @@
 """Captures of the same motion in files that differ in what says nothing about it: the pose in which the
 skeleton rests, units, axes, frame rates and names."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from locomotion.clips.bvh import read_bvh
-from locomotion.clips.retargeting import retarget
 from locomotion.errors import LocomotionError
-
-# Joints with their parents and places [m] in a person that stands in a T pose: X ahead, Y left, Z up.
-BONES: dict[str, tuple[str | None, tuple[float, float, float]]] = {
-    "pelvis": (None, (0, 0, 0.94)), "waist": ("pelvis", (0, 0, 1.07)), "chest": ("waist", (0, 0, 1.2)),
-    "head": ("chest", (0, 0, 1.5)),
-}  # fmt: skip
-for side, sign in (("right", -1), ("left", 1)):
-    BONES |= {
-        f"{side}_clavicle": ("chest", (0, 0.06 * sign, 1.4)),
-        f"{side}_upper_arm": (f"{side}_clavicle", (0, 0.19 * sign, 1.4)),
-        f"{side}_forearm": (f"{side}_upper_arm", (0, 0.46 * sign, 1.4)),
-        f"{side}_hand": (f"{side}_forearm", (0, 0.72 * sign, 1.4)),
-        f"{side}_thigh": ("pelvis", (0, 0.09 * sign, 0.94)),
-        f"{side}_shank": (f"{side}_thigh", (0, 0.09 * sign, 0.52)),
-        f"{side}_foot": (f"{side}_shank", (0, 0.09 * sign, 0.1)),
-        f"{side}_toes": (f"{side}_foot", (0.13, 0.09 * sign, 0.03)),
-    }
-JOINTS = list(BONES)
-PARENTS = [-1 if BONES[name][0] is None else JOINTS.index(str(BONES[name][0])) for name in JOINTS]
-PLACES = np.array([BONES[name][1] for name in JOINTS])
-TO_Y_UP = np.array([[0.0, 1, 0], [0, 0, 1], [1, 0, 0]])
-
-
-def motion(times, seed=0, begins_upright=True):
-    """Orientations (n, j, 3, 3) of the joints in the world and places (n, 3) [m] of the root: each joint
-    turns about axes of its own, to and fro, knees and elbows as they can."""
-    rng = np.random.default_rng(seed)
-    turns = np.empty((len(times), len(JOINTS), 3, 3))
-    begin = np.minimum(times / 0.4, 1.0)[:, None] if begins_upright else 1.0
-    for j, name in enumerate(JOINTS):
-        axis, phase = rng.normal(0.0, 0.25, 3), rng.uniform(0.0, 2.0 * np.pi)
-        swing = np.sin(5.0 * times + phase)[:, None]
-        if name.endswith("shank"):
-            axis, swing = np.array([0.0, 0.5, 0.0]), 1.1 + swing
-        if name.endswith("forearm"):  # stretched out to its side: bent forward, about Z
-            axis, swing = np.array([0.0, 0.0, 0.5 * (-1 if name.startswith("left") else 1)]), 1.1 + swing
-        lowered = (
-            np.radians(-50.0 if name.startswith("left") else 50.0) if name.endswith("upper_arm") else 0.0
-        )
-        own = (Rotation.from_rotvec([lowered, 0, 0]) * Rotation.from_rotvec(begin * swing * axis)).as_matrix()
-        turns[:, j] = own if PARENTS[j] < 0 else turns[:, PARENTS[j]] @ own
-    way = PLACES[0] + np.stack([1.2 * times, 0.1 * np.sin(2.0 * times), 0.02 * np.sin(9.0 * times)], axis=1)
-    return turns, way
-
-
-def bvh_text(turns, way, rests, rate=60.0, units=0.01, axes=TO_Y_UP, prefix=""):
-    """A file of the motion whose joints rest turned by ``rests`` (j, 3, 3); lengths in ``units`` [m];
-    ``axes`` (3, 3) turns ours to the file's."""
-    turned = axes @ turns @ rests @ axes.T
-    bones = np.array([place - PLACES[max(PARENTS[j], 0)] for j, place in enumerate(PLACES)])
-    bones[0] = 0.0
-    bones = np.array([rests[max(PARENTS[j], 0)].T @ bone for j, bone in enumerate(bones)]) @ axes.T / units
-    lines, order = ["HIERARCHY"], []
-
-    def write(j, depth):
-        pad = "  " * depth
-        order.append(j)
-        place = "Xposition Yposition Zposition " if PARENTS[j] < 0 else ""
-        lines.extend([f"{pad}{'JOINT' if depth else 'ROOT'} {prefix}{JOINTS[j]}", pad + "{"])
-        lines.append(f"{pad}  OFFSET {' '.join(f'{x:.9f}' for x in bones[j])}")
-        lines.append(f"{pad}  CHANNELS {6 if place else 3} {place}Zrotation Xrotation Yrotation")
-        children = [k for k, parent in enumerate(PARENTS) if parent == j]
-        for k in children:
-            write(k, depth + 1)
-        if not children:
-            lines.extend([pad + "  End Site", pad + "  {", pad + "    OFFSET 0 0 0", pad + "  }"])
-        lines.append(pad + "}")
-
-    write(0, 0)
-    lines += ["MOTION", f"Frames: {len(turned)}", f"Frame Time: {1.0 / rate:.9f}"]
-    numbers = [way @ axes.T / units]
-    for j in order:
-        own = turned[:, j] if PARENTS[j] < 0 else np.swapaxes(turned[:, PARENTS[j]], 1, 2) @ turned[:, j]
-        numbers.append(Rotation.from_matrix(own).as_euler("ZXY", degrees=True, suppress_warnings=True))
-    lines += [" ".join(f"{x:.9f}" for x in row) for row in np.concatenate(numbers, axis=1)]
-    return "\n".join(lines) + "\n"
-
-
-def resting(kind, seed=0):
-    """What turns each joint's axes in the T pose to those of a file that rests in another, (j, 3, 3)."""
-    rests = np.broadcast_to(np.eye(3), (len(JOINTS), 3, 3)).copy()
-    if kind == "A":
-        for j, name in enumerate(JOINTS):
-            if "arm" in name or "hand" in name:
-                angle = 45.0 if name.startswith("left") else -45.0
-                rests[j] = Rotation.from_euler("x", angle, degrees=True).as_matrix()
-    elif kind == "lying":
-        rests[:] = Rotation.from_euler("xyz", (0, 90, 0), degrees=True).as_matrix()
-    elif kind == "on its side":
-        rests[:] = Rotation.from_euler("xyz", (-90, 0, 0), degrees=True).as_matrix()
-    elif kind == "upside down":
-        rests[:] = Rotation.from_euler("xyz", (180, 0, 90), degrees=True).as_matrix()
-    elif kind == "bones along one axis":
-        for j, parent in enumerate(PARENTS):
-            children = [k for k, above in enumerate(PARENTS) if above == j]
-            bone = PLACES[children[0]] - PLACES[j] if children else PLACES[j] - PLACES[parent]
-            rests[j] = Rotation.align_vectors(bone / np.linalg.norm(bone), [1.0, 0.0, 0.0])[0].as_matrix()
-    elif kind == "any":
-        rests[:] = Rotation.from_quat(np.random.default_rng(seed).normal(size=(len(JOINTS), 4))).as_matrix()
-    return rests
+from tests.locomotion.clips.moving import (
+    JOINTS,
+    RESTS,
+    TIMES,
+    assert_same,
+    bvh_text,
+    motion,
+    resting,
+    retargeted,
+)
+from tests.locomotion.clips.tpose import posed
 
 
 @pytest.fixture
 def clip(tmp_path):
-    """The motion of the person in a file with what is given."""
-
-    def made(turns, way, rests, units="cm", up="y", prefix="", **given):
-        scale = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}[units]
-        axes = TO_Y_UP if up == "y" else np.eye(3)
-        path = tmp_path / "capture.bvh"
-        path.write_text(bvh_text(turns, way, rests, units=scale, axes=axes, prefix=prefix, **given))
-        return retarget(read_bvh(path, units, up), {part: prefix + part for part in JOINTS})
-
-    return made
-
-
-TIMES = np.arange(90) / 60.0
-KINDS = ["A", "lying", "on its side", "upside down", "bones along one axis", "any"]
-
-
-def same(one, other):
-    assert one.qpos.shape == other.qpos.shape
-    assert np.abs(one.qpos - other.qpos).max() < 1e-4  # rad, m: the file's reader has single precision
+    return partial(retargeted, tmp_path)
 
 
 @pytest.mark.parametrize("seed", [11, 12, 13])
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", RESTS)
 def test_what_the_skeleton_rests_in_does_not_matter(clip, kind, seed):
     turns, way = motion(TIMES, seed)
-    same(clip(turns, way, resting(kind, seed)), clip(turns, way, resting("T")))
+    assert_same(clip(turns, way, resting(kind, seed)), clip(turns, way, resting("T")))
 
 
-@pytest.mark.parametrize("kind", KINDS[:4])
+@pytest.mark.parametrize("kind", RESTS[:4])
 def test_a_rest_pose_that_stands_along_any_axis_needs_no_frame_that_does(clip, kind):
     turns, way = motion(TIMES, 5, begins_upright=False)
-    same(clip(turns, way, resting(kind)), clip(turns, way, resting("T")))
+    assert_same(clip(turns, way, resting(kind)), clip(turns, way, resting("T")))
 
 
-@pytest.mark.parametrize("kind", ["T", *KINDS])
+@pytest.mark.parametrize("kind", ["T", *RESTS])
 def test_one_that_lies_first_and_then_gets_up(clip, kind):
     turns, way = motion(TIMES, 3)
     risen = np.clip(1.2 - TIMES[::-1], 0.0, 1.0)  # 0 at the beginning, upright from the middle on
@@ -155,7 +49,7 @@ def test_one_that_lies_first_and_then_gets_up(clip, kind):
     way = way.copy()
     way[:, 2] = 0.15 + 0.8 * risen
     found = clip(turns, way, resting(kind, 4))
-    same(found, clip(turns, way, resting("T")))
+    assert_same(found, clip(turns, way, resting("T")))
     pelvis = Rotation.from_quat(found.qpos[:, 3:7], scalar_first=True).as_matrix()
     assert abs(pelvis[0, 2, 2]) < 0.7 < 0.9 < pelvis[-1, 2, 2]
 
@@ -166,7 +60,7 @@ def test_units_axes_and_names_do_not_matter(clip, units, up):
     turns, way = motion(TIMES, 6)
     wanted = clip(turns, way, resting("T"))
     for kind in ("lying", "any"):
-        same(clip(turns, way, resting(kind), units=units, up=up, prefix="rig:"), wanted)
+        assert_same(clip(turns, way, resting(kind), units=units, up=up, prefix="rig:"), wanted)
 
 
 @pytest.mark.parametrize("rate", [24.0, 30.0, 120.0, 240.0])
@@ -182,8 +76,6 @@ def test_the_frame_rate_does_not_matter(clip, rate):
 
 def test_the_motion_is_the_one_that_was_captured(clip):
     """Pelvis, thighs and shanks turn in the world as in the motion."""
-    from tests.locomotion.clips.test_retargeting import posed
-
     turns, way = motion(TIMES, 8)
     found = clip(turns, way, resting("any", 2))
     for frame in (0, 30, 60, 89):
@@ -205,24 +97,3 @@ def test_who_stands_along_another_axis_or_is_too_large_is_refused_with_what_help
             LocomotionError, match=r"would be (1\d\d|0\.1\d*) m tall by the lengths of its bones"
         ):
             read_bvh(path, units)
-
-
-@pytest.mark.parametrize("seed", [21, 22, 23])
-def test_one_that_stands_in_no_frame_is_measured_on_its_limbs(clip, seed):
-    """Always the same, whatever axes its joints have; legs as they were, the rest to some degrees."""
-    from tests.locomotion.clips.test_retargeting import posed
-
-    times = np.arange(300) / 60.0
-    turns, way = motion(times, seed, begins_upright=False)
-    turns = Rotation.from_euler("y", 70, degrees=True).as_matrix() @ turns  # on all fours
-    found = clip(turns, way, resting("any", seed))
-    for kind in ("bones along one axis", "any"):
-        same(clip(turns, way, resting(kind, seed + 1)), found)
-    standing = clip(turns, way, resting("T"))
-    for frame in range(0, 300, 50):
-        (world, _), (rested, _) = (posed(each.qpos[frame]) for each in (found, standing))
-        for part in ("pelvis", "right_thigh", "left_thigh", "right_shank", "left_shank"):
-            assert np.allclose(world[part], turns[frame, JOINTS.index(part)], atol=1e-3), (part, frame)
-        for part in ("chest", "head", "right_foot", "left_foot"):
-            off = Rotation.from_matrix(world[part].T @ rested[part]).magnitude()
-            assert np.degrees(off) < 20.0, (part, frame, np.degrees(off))

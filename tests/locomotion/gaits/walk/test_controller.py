@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 
 from locomotion import Human, LocomotionError
 from locomotion.body.anatomy import MASS
-from locomotion.body.leg_kinematics import solve_leg
 from locomotion.body.person import JOINT_NAMES, STEPS_PER_TICK, PersonIndex, build_person
 from locomotion.gaits.run.controller import COM, COM_VELOCITY, FEET, OBSERVED, new_state, observe
 from locomotion.gaits.walk.controller import observe_walk, walk_tick
@@ -47,44 +46,6 @@ HIPS = [JOINT_NAMES.index(f"{side}_hip_flexion") for side in ("right", "left")]
 def person():
     model = build_person()
     return model, mujoco.MjData(model), PersonIndex.of(model)
-
-
-@given(seed=st.integers(0, 10_000))
-@settings(max_examples=60, deadline=None)
-def test_leg_angles_put_the_foot_where_forward_kinematics_had_it(person, seed):
-    model, data, index = person
-    rng = np.random.default_rng(seed)
-    data.qpos[3:7] = rng.normal(size=4)
-    data.qpos[3:7] /= np.linalg.norm(data.qpos[3:7])
-    for hip in HIPS:
-        low, high = model.jnt_range[hip + 1 : hip + 7].T
-        data.qpos[7 + hip : 13 + hip] = rng.uniform(0.8 * low, 0.8 * high)
-        data.qpos[10 + hip] = rng.uniform(0.2, 1.8)
-    mujoco.mj_kinematics(model, data)
-    wanted = data.xpos[index.feet].copy(), data.xmat[index.feet].copy()
-    for k, hip in enumerate(HIPS):
-        foot, angles = data.xmat[index.feet[k]].reshape(3, 3).copy(), np.empty(6)
-        pelvis = data.xmat[index.root].reshape(3, 3).copy()
-        at = data.xanchor[hip + 1].copy()
-        assert solve_leg(pelvis, at, foot, data.xpos[index.feet[k]].copy(), 2.0 * k - 1.0, angles)
-        data.qpos[7 + hip : 13 + hip] = angles
-    mujoco.mj_kinematics(model, data)
-    assert np.abs(data.xpos[index.feet] - wanted[0]).max() < 1e-9
-    assert np.abs(data.xmat[index.feet] - wanted[1]).max() < 1e-9
-
-
-def test_ankle_out_of_reach_is_approached_on_the_line_to_it(person):
-    model, data, index = person
-    mujoco.mj_resetData(model, data)
-    mujoco.mj_kinematics(model, data)
-    hip, angles = HIPS[1], np.empty(6)
-    at, far = data.xanchor[hip + 1].copy(), data.xanchor[hip + 1] + np.array([0.6, 0.1, -0.9])
-    assert not solve_leg(np.eye(3), at, np.eye(3), far, 1.0, angles)
-    data.qpos[7 + hip : 13 + hip] = angles
-    mujoco.mj_kinematics(model, data)
-    way = data.xpos[index.feet[1]] - at
-    assert np.dot(way, far - at) / np.linalg.norm(way) / np.linalg.norm(far - at) > 0.999
-    assert 0.82 < np.linalg.norm(way) < 0.84
 
 
 @pytest.mark.parametrize("kind", KINDS)

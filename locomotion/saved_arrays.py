@@ -1,8 +1,9 @@
-"""Ranges of the numbers in a body's memory arrays."""
+"""Checks of the arrays in a saved body: their shapes, and the range of each number."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,16 +13,18 @@ from locomotion.errors import LocomotionError
 __all__ = ["COUNT", "FARTHEST", "FLAG", "SIDE", "Slots", "check_array", "check_number"]
 
 FARTHEST = 1e9
-"""The greatest number that is no mistake; coordinates [m] reach as far."""
+"""Largest number that a saved array may hold; no coordinate [m] is farther from the origin."""
 COUNT, FLAG, SIDE = (0.0, FARTHEST), (0.0, 1.0), (-1.0, 1.0)
-"""Ranges of a count, of what is 0 or 1, and of left (1) or right (-1)."""
+"""Ranges of a count, of a flag (0 or 1), and of a side (1 left, -1 right)."""
 Slot = int | slice
 
 
 class Slots:
-    """``what`` is an array of ``size`` numbers. ``ranges``: least and greatest of some of them; the others
-    are only finite. ``whole``: those that are whole numbers. ``open_ended``: those that may be infinite or
-    NaN.
+    """What the numbers of a saved array may be.
+
+    ``what``: name of the array in errors. ``size``: count of its numbers. ``ranges``: least and greatest
+    value of some of them; the others need only be finite. ``whole``: those that must be whole numbers.
+    ``open_ended``: those that may also be infinite or NaN.
     """
 
     def __init__(
@@ -43,9 +46,9 @@ class Slots:
             self._open[slot] = True
 
     def check(self, values: NDArray[np.float64]) -> None:
-        """Raise `LocomotionError` if the numbers are not valid for ``what``."""
+        """Raise `LocomotionError` if ``values`` is not a valid ``what``; the message names the number."""
         if values.shape != (self.size,) or values.dtype != np.float64:
-            raise LocomotionError(f"{self.what} has shape {values.shape}, expected ({self.size},)")
+            raise LocomotionError(f"{_described(self.what, values)}, expected ({self.size},) float64")
         fits = (values >= self._low) & (values <= self._high) | self._open
         fits &= ~self._whole | (values == np.floor(values))
         if not fits.all():
@@ -58,7 +61,7 @@ class Slots:
 
 
 def check_number(what: str, value: float, low: float = -FARTHEST, high: float = FARTHEST) -> None:
-    """Raise `LocomotionError` for a ``value`` outside of ``low`` to ``high``, or NaN."""
+    """Raise `LocomotionError` if ``value`` is NaN or not from ``low`` to ``high``."""
     if not low <= value <= high:
         raise LocomotionError(f"{what} is {value}, expected {low:g} to {high:g}")
 
@@ -71,6 +74,11 @@ def check_array(what: str, values: NDArray[np.float64], *shape: int | None, leas
     )
     if not fits or values.dtype != np.float64 or len(values) < least:
         wanted = ", ".join("n" if size is None else str(size) for size in shape)
-        raise LocomotionError(f"{what} has shape {values.shape}, expected ({wanted}) float64")
+        rows = f" with n from {least} on" if least else ""
+        raise LocomotionError(f"{_described(what, values)}, expected ({wanted}) float64{rows}")
     if values.size and not (values.min() >= -FARTHEST and values.max() <= FARTHEST):
         raise LocomotionError(f"{what} holds numbers that are not finite, or too great")
+
+
+def _described(what: str, values: NDArray[Any]) -> str:
+    return f"{what} is an array of shape {values.shape} and type {values.dtype}"

@@ -6,7 +6,6 @@ import pytest
 import navmesh
 from benchmarks.giving_way import play
 from locomotion import PERSON_RULES
-from locomotion.avoidance.yielding import COUNT, STEP
 from runtime import World
 from runtime.planning.rules import person_walk_rules
 from runtime.traffic.snapshot import Snapshot
@@ -108,72 +107,6 @@ def test_two_that_lie_in_each_other_get_apart(hall):
     world.step(30.0)
     assert [agent.status for agent in world.agents.values()] == ["arrived"] * 2
     assert overlap(world) < 0.0
-
-
-def test_a_dog_is_foretold_where_it_will_be(hall):
-    """As it slows down, halts, turns, and goes on."""
-    world = World(hall)
-    dog = world.spawn("dog", (10.0, 5.0, 0.0))
-    dog.go_to((24.0, 5.0, 0.0), speed=1.4)
-    driver = world._populations[1].followers()[0]
-    seen = set()
-
-    def hold(seconds):
-        told = Snapshot(world._populations).foretold(0)
-        for k in range(round(seconds / STEP)):
-            away = np.linalg.norm(world._populations[1].in_the_way()[:, :2] - told[k], axis=1)
-            assert away.max() < 0.1, (driver.animal._phase, k)
-            seen.add(driver.animal._phase)
-            world.step(STEP)
-
-    world.step(2.0)
-    driver.give_way(0.0, None)
-    hold(3.0)
-    driver.give_way(1.0, None)
-    world.step(2.0)
-    dog.go_to((4.0, 5.0, 0.0), speed=1.4)
-    hold(0.5)
-    while driver.animal._phase != "turning":
-        world.step(0.01)
-    hold(1.0)
-    while driver.animal._phase != "following":
-        world.step(0.01)
-    world.step(1.0)
-    hold(COUNT * STEP)  # to its goal: with the front feet on it
-    assert seen >= {"following", "halting", "turning"}
-
-
-def told_and_real(world, seconds):
-    """(k, 2) each: where the only one was foretold to be, and where it came to be."""
-    told = Snapshot(world._populations).foretold(0)[:, 0]
-    agent, real = next(iter(world.agents.values())), []
-    for _ in range(round(seconds / STEP)):
-        real.append(agent.position[:2])
-        world.step(STEP)
-    return told[: len(real)], np.array(real)
-
-
-@pytest.mark.parametrize(
-    ("walked", "speed", "goal", "within"),
-    [
-        (0.0, 1.4, (2.0, 3.0), 0.8),  # turns on the spot
-        (5.0, 1.4, (2.0, 5.0), 1.0),  # comes to a stand first
-        (5.0, 1.4, None, 0.7),  # stops
-        (5.0, 3.0, None, 0.8),  # from a run
-    ],
-)
-def test_a_person_is_foretold_where_it_will_be(hall, walked, speed, goal, within):
-    world = World(hall)
-    person = world.spawn("human", (5.0, 5.0, 0.0))
-    if walked:
-        person.go_to((28.0, 5.0, 0.0), speed=speed)
-        world.step(walked)
-    if goal is None:
-        person.driver.stop()
-    else:
-        person.go_to((*goal, 0.0), speed=speed)
-    told, real = told_and_real(world, 4.0)
-    assert np.linalg.norm(told - real, axis=1).max() < within
 
 
 def test_people_who_lie_in_each_other_get_apart(hall):

@@ -162,24 +162,6 @@ def test_what_it_knows_of_its_standstill_is_saved_and_restored():
     assert world.state_hash() == other.state_hash()
 
 
-def test_people_who_are_told_the_same_do_not_step_as_one():
-    graph = graph_of(((-5, -15, -0.3), (25, 15, 0)))
-
-    def strides(seed):
-        world = World(graph, seed=seed)
-        for k in range(8):
-            agent = world.spawn("human", (0.0, 3.0 * k - 10.5, 0.0))
-            agent.go_to((20.0, 3.0 * k - 10.5, 0.0), speed=1.4)
-        world.step(3.0)
-        places = np.array([agent.position for agent in world.agents.values()])
-        return places, world.state_hash()
-
-    places, same = strides(seed=4)
-    assert len(set(places[:, 0].round(3))) >= 7
-    assert strides(seed=4)[1] == same and strides(seed=5)[1] != same
-    assert np.ptp(places[:, 0]) < 0.8  # none is left behind by it
-
-
 def crates_in_a_corridor(*tops):
     """Crates (x from, x to, height) one on or behind the other, from wall to wall."""
     length, room = max(to for _, to, _ in tops) + 3.0, 3.2

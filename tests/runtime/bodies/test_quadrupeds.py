@@ -176,10 +176,3 @@ def test_a_mission_with_a_body_file_that_does_not_hold_is_refused(folder, body, 
     (folder / "mission.yaml").write_text(MISSION.replace("body: human", f"body: {body}"))
     with pytest.raises(FileError, match=rf"mission\.yaml:8:11: agents\[0\]\.body: .*{says}"):
         load_mission(folder / "mission.yaml")
-
-
-def test_rules_suit_every_body_of_a_mission():
-    both, dog, person = walk_rules(["dog", "human"]), walk_rules(["dog"]), walk_rules(["human"])
-    assert both.headroom == max(dog.headroom, person.headroom)
-    assert both.max_slope == min(dog.max_slope, person.max_slope)
-    assert walk_rules(["dog"], headroom=2.0).headroom == 2.0

@@ -1,12 +1,10 @@
 """The registry is the only place that lists bodies: nothing else in the runtime knows one by name."""
 
 import ast
+from functools import cache
 from pathlib import Path
 
-import pytest
-
 from runtime.bodies.registry import body_kinds, body_names, is_body_file, kind_of
-from runtime.errors import RuntimeInputError
 
 ROOT = Path(__file__).resolve().parents[3]
 BODIES = "runtime/bodies/"
@@ -18,11 +16,14 @@ NAMED = {
 """The modules outside `BODIES` in whose code a body's name may stand."""
 
 
+@cache
 def general_modules():
-    for path in sorted((ROOT / "runtime").rglob("*.py")):
-        name = path.relative_to(ROOT).as_posix()
-        if not name.startswith(BODIES):
-            yield name, ast.parse(path.read_text(encoding="utf-8"))
+    files = {path.relative_to(ROOT).as_posix(): path for path in sorted((ROOT / "runtime").rglob("*.py"))}
+    return [
+        (name, ast.parse(path.read_text(encoding="utf-8")))
+        for name, path in files.items()
+        if not name.startswith(BODIES)
+    ]
 
 
 def test_general_modules_name_no_body():
@@ -55,12 +56,3 @@ def test_every_body_has_a_kind_that_knows_it():
             assert len(figure.bodies) == len(figure.parents) and figure.owner.max() < len(figure.bodies)
             assert kind.noun(body) and kind.bot_speed > 0.0
             assert all(0.0 <= low < high for low, high in kind.bot_skills(body).values())
-
-
-def test_a_file_is_of_the_kind_that_reads_it(tmp_path):
-    kind = kind_of(str(tmp_path / "mutt.yaml"))
-    assert kind is kind_of("dog") and kind.noun(str(tmp_path / "mutt.yaml")) == "mutt"
-    with pytest.raises(RuntimeInputError, match="no such file"):
-        kind.check(str(tmp_path / "mutt.yaml"))
-    with pytest.raises(RuntimeInputError, match=r"valid: 'human'.*or a quadruped's \.yaml file"):
-        kind_of("goose")

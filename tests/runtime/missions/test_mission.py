@@ -85,7 +85,7 @@ def test_aliases_do_not_grow(folder):
     assert "more than 100000 values, counting those repeated by aliases" in refused(folder, bomb)
 
 
-@settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data())
 def test_a_mutated_mission_is_read_or_refused(folder, data):
     text = MISSION

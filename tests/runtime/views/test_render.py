@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from runtime.bodies.figure import Shapes, rotate, turn
+from runtime.bodies.figure import Shapes, rotate
 from runtime.views.camera import clearest
 from runtime.views.filmstrip import write_filmstrip
 from runtime.views.plot import plot_from_above
@@ -71,13 +71,6 @@ def test_back_faces_and_cut_walls_hide_nothing():
     assert not redness(render(wall, ball, CAMERA, (40, 40))).any()
     assert redness(render(wall, ball, CAMERA, (40, 40), cutaway=4.0)).any()
     assert redness(render(back, ball, CAMERA, (40, 40))).any()
-
-
-def test_quaternions_compose():
-    rng = np.random.default_rng(0)
-    p, q = (v / np.linalg.norm(v) for v in rng.normal(size=(2, 4)))
-    vector = rng.normal(size=3)
-    assert rotate(turn(p, q), vector) == pytest.approx(rotate(p, rotate(q, vector)))
 
 
 def test_a_film_strip_in_a_narrow_room_is_taken_from_inside(trace, tmp_path, monkeypatch):

@@ -6,24 +6,10 @@ import pytest
 import navmesh
 from locomotion.quadruped.motion import stop_length
 from runtime import Arrived, Blocked, Departed, Fell, Lost, RuntimeInputError, World, WorldState
-from runtime.planning.planning import Beginning, make_plan, way_holds
-from runtime.planning.rules import person_walk_rules
+from tests.runtime.changing_level import FLOORS, START, quad, two_floors
 
-FLOORS = {
-    "west": (0.0, 0.0, 6.0, 8.0),
-    "bridge": (6.0, 0.5, 9.0, 3.5),
-    "detour": (6.0, 5.0, 9.0, 8.0),
-    "east": (9.0, 0.0, 16.0, 8.0),
-    "apart": (20.0, 0.0, 22.0, 2.0),
-}
-"""x0, y0, x1, y1 of each chunk: two floors, and two ways from one to the other."""
 BODIES = ("dog", "walker", "human")
-START, GOAL = (2.0, 2.0, 0.0), (13.0, 2.0, 0.0)
-
-
-def floor(x0, y0, x1, y1, z=0.0):
-    corners = [(x0, y0, z), (x1, y0, z), (x1, y1, z), (x0, y1, z)]
-    return navmesh.Terrain.from_arrays(corners, [(0, 1, 2), (0, 2, 3)])
+GOAL = (13.0, 2.0, 0.0)
 
 
 def wall(x, y0, y1):
@@ -34,8 +20,7 @@ def wall(x, y0, y1):
 
 @pytest.fixture(scope="module")
 def whole():
-    chunks = {name: floor(*corners) for name, corners in FLOORS.items()}
-    return navmesh.NodeGraph.build(navmesh.join_chunks(chunks), person_walk_rules())
+    return two_floors()
 
 
 def on_its_way(whole, body, seconds=1.0):
@@ -65,7 +50,7 @@ def test_a_way_that_holds_is_gone_on(whole, body):
     world, agent = on_its_way(whole, body)
     plan = agent.plans[-1]
     world.events.clear()
-    world.change_level({"apart": None, "new": floor(9.0, 8.0, 16.0, 10.0)})
+    world.change_level({"apart": None, "new": quad(9.0, 8.0, 16.0, 10.0)})
     assert world.graph.terrain.bounds[1, 0] == 16.0
     assert agent.moving and agent.plans[-1] is plan
     events = step_evenly(world, agent, 15.0)
@@ -103,7 +88,7 @@ def test_without_a_way_it_stops_and_says_where(whole, body):
     world.step(2.0)
     assert np.linalg.norm(agent.position - at_rest) < 0.02
     assert agent.position[0] < 6.0
-    world.change_level({"bridge": floor(*FLOORS["bridge"])})
+    world.change_level({"bridge": quad(*FLOORS["bridge"])})
     agent.go_to(GOAL, speed=1.5)
     assert isinstance(step_evenly(world, agent, 20.0)[-1], Arrived)
 
@@ -132,7 +117,7 @@ def test_where_the_ground_has_gone_a_dog_and_a_walker_stand_still(whole, seconds
         walker.go_to(GOAL)
     state = world.save()
     world.restore(state)
-    world.change_level({"west": floor(*FLOORS["west"])})
+    world.change_level({"west": quad(*FLOORS["west"])})
     walker.go_to(GOAL, speed=1.5)
     assert isinstance(step_evenly(world, walker, 20.0)[-1], Arrived)
 
@@ -146,7 +131,7 @@ def test_where_the_ground_has_gone_a_person_falls(whole, seconds, below):
         agent.go_to(GOAL, speed=1.5)
     world.step(seconds)
     qpos = agent.human.qpos
-    world.change_level({"west": None if below is None else floor(*FLOORS["west"], below)})
+    world.change_level({"west": None if below is None else quad(*FLOORS["west"], below)})
     assert (agent.human.qpos == qpos).all()
     lowest = []
     for _ in range(60):
@@ -163,37 +148,6 @@ def test_where_the_ground_has_gone_a_person_falls(whole, seconds, below):
         assert lowest[-1] == lowest[-2]  # held, not falling for ever
 
 
-def test_a_way_over_a_platform_holds_as_long_as_the_platform_is_the_same(whole):
-    def box(z):
-        top, side = (
-            floor(10.0, 0.0, 16.0, 8.0, z),
-            [(10.0, 8.0, 0), (10.0, 0.0, 0), (10.0, 0.0, z), (10.0, 8.0, z)],
-        )
-        return navmesh.Terrain.from_arrays(
-            np.vstack([top.vertices, side]), [*top.faces.tolist(), (4, 5, 6), (4, 6, 7)]
-        )
-
-    graph = whole.update({"east": floor(9.0, 0.0, 10.0, 8.0), "box": box(0.4)})
-    plan = make_plan(
-        graph, Beginning(np.array(START)), [np.array([13.0, 2.0, 0.4])], 0.3, {"jump": (0.3, 0.5)}
-    )
-    assert plan.skills == ("jump",)
-    behind = plan.obstacles[0].arc_length + 0.5
-    for changes, holds_before, holds_behind in (
-        ({"apart": None}, True, True),
-        ({"detour": None}, True, True),
-        ({"bridge": None}, False, True),
-        ({"box": box(0.45)}, False, True),
-        ({"box": box(0.8)}, False, False),
-        ({"box": None}, False, False),
-    ):
-        after = graph.update(changes)
-        assert way_holds(after, plan, 0.3, 0.0) == holds_before, changes
-        assert way_holds(after, plan, 0.3, behind) == holds_behind, changes
-        on_run_up = plan.obstacles[0].arc_length - 0.2  # which begins on the bridge
-        assert way_holds(after, plan, 0.3, on_run_up) == holds_before, changes
-
-
 def test_bad_changes_leave_everything_as_it_was(whole):
     world, _ = on_its_way(whole, "dog", 0.2)
     before = world.state_hash(), world.level_digest, world.graph
@@ -205,7 +159,7 @@ def test_bad_changes_leave_everything_as_it_was(whole):
         with pytest.raises(navmesh.NavmeshError, match=says):
             world.change_level(changes)
     with pytest.raises(navmesh.NavmeshError, match="nothing to walk on"):
-        world.change_level({**dict.fromkeys(FLOORS), "speck": floor(0.0, 0.0, 0.1, 0.1)})
+        world.change_level({**dict.fromkeys(FLOORS), "speck": quad(0.0, 0.0, 0.1, 0.1)})
     with pytest.raises(RuntimeInputError, match="changes are a list"):
         world.change_level([("bridge", None)])  # type: ignore[arg-type]
     assert (world.state_hash(), world.level_digest, world.graph) == before
@@ -233,7 +187,7 @@ def test_a_changed_world_is_saved_and_restored(whole, tmp_path):
     assert hashes[0] == hashes[1]
     with pytest.raises(RuntimeInputError, match="the state is of the level"):
         world.restore(early)
-    world.change_level({name: floor(*FLOORS[name]) for name in ("bridge", "detour")})
+    world.change_level({name: quad(*FLOORS[name]) for name in ("bridge", "detour")})
     world.restore(early)
     assert world.time == pytest.approx(0.5)
 

@@ -1,0 +1,96 @@
+"""People in a world: how much they rehearse, and that they do not step as one."""
+
+import numpy as np
+import pytest
+
+import navmesh
+from benchmarks.giving_way import floor
+from locomotion.rehearsal.lookahead import Lookahead
+from runtime import RuntimeInputError, World
+from runtime.bodies.humans import HumanDriver, People
+from runtime.evaluation.courses import make_course
+from runtime.planning.level import Level
+
+
+def test_people_rehearse_as_much_as_their_world_says(graph, monkeypatch):
+    def fails(body):
+        yield
+        return 0.0, []
+
+    monkeypatch.setattr(Lookahead, "go_on", lambda *_: None)  # all at the moment
+    with pytest.raises(RuntimeInputError, match="rehearsals must be"):
+        World(graph, rehearsals=-1)
+    course = make_course([("jump", 0.4, 0.0)], [10.0])
+    terrain = navmesh.Terrain.from_arrays(course.vertices, course.faces)
+    tried = []
+    for most in (0, 1, 3):
+        world = World(terrain, rehearsals=most)
+        human = world.spawn("human", (0.0, 0.0, 0.0)).human
+        seen = []
+        choose = human.decider.best
+        human.decider.best = lambda body, choices, do, goes, seen=seen, choose=choose: choose(
+            body, choices, lambda body, choice: (seen.append(choice), do(body, choice)), fails
+        )
+        world.agents["human1"].go_to((20.0, 0.0, 0.4), speed=3.0)
+        while not seen and world.time < 12.0:
+            world.step(0.01)
+        tried.append(len(seen))
+    assert tried == [0, 1, 3]
+
+
+def test_people_who_are_told_the_same_do_not_step_as_one():
+    graph = floor((-5.0, -15.0, 25.0, 15.0))
+
+    def eight(seed):
+        world = World(graph, seed=seed)
+        return world, [world.spawn("human", (0.0, 3.0 * k - 10.5, 0.0)) for k in range(8)]
+
+    def pauses(seed):
+        return [agent.driver.hesitates for agent in eight(seed)[1]]
+
+    assert pauses(4) == pauses(4) != pauses(5)
+    world, agents = eight(4)
+    for k, agent in enumerate(agents):
+        agent.go_to((20.0, 3.0 * k - 10.5, 0.0), speed=1.4)
+    world.step(3.0)
+    along = np.array([agent.position[0] for agent in agents])
+    assert len(set(along.round(3))) >= 7
+    assert np.ptp(along) < 0.8  # none is left behind by it
+
+
+@pytest.fixture
+def people(graph):
+    return People(Level.of(graph), seed=3)
+
+
+def test_they_are_where_they_were_put_and_go_one_by_one(people):
+    first, second = (people.spawn("human", np.array([x, 3.0, 0.0]), 0.5, 0.3) for x in (2.0, 4.0))
+    assert first.facing == pytest.approx(0.5, abs=0.05)
+    assert people.in_the_way()[:, [0, 1, 5]] == pytest.approx(np.array([[2, 3, 0.3], [4, 3, 0.3]]), abs=0.05)
+    people.remove(first)
+    assert people.followers() == [second]
+    people.remove(second)
+    assert people.in_the_way().shape == (0, 6)
+
+
+def test_one_that_is_revived_hesitates_as_long_as_before(people):
+    driver = people.spawn("human", np.array([2.0, 3.0, 0.0]), 0.0, 0.3)
+    assert isinstance(driver, HumanDriver) and 0.0 <= driver.hesitates <= 0.4
+    again = people.revive("human", driver.save())
+    assert isinstance(again, HumanDriver) and again.hesitates == driver.hesitates
+    assert again.state_hash() == driver.state_hash()
+
+
+@pytest.mark.parametrize("hesitates", [-0.1, float("nan"), "long", None])
+def test_a_state_without_a_time_to_hesitate_is_refused(people, hesitates):
+    driver = people.spawn("human", np.array([2.0, 3.0, 0.0]), 0.0, 0.3)
+    state, plans, _ = driver.save()
+    for wrong in ((state, plans, hesitates), (state, plans), None):
+        with pytest.raises(RuntimeInputError, match="how long it hesitates"):
+            driver.restore(wrong)
+
+
+def test_what_a_person_cannot_do_yet_is_said(people):
+    driver = people.spawn("human", np.array([2.0, 3.0, 0.0]), 0.0, 0.3)
+    with pytest.raises(RuntimeInputError, match="cannot turn to a facing at its goal"):
+        driver.go_to(np.array([[5.0, 3.0, 0.0]]), 1.4, 1.0)

@@ -62,7 +62,9 @@ def check_walker(state: WalkerState, graph: navmesh.NodeGraph) -> None:
     _ROW.check(row)
     check_array("the route of a walker", route, None, at.POINT)
     if math.isinf(row[at.FACING]) or math.isnan(row[at.BEST] + row[at.RIGHT_UNTIL]):
-        raise LocomotionError("the row of a walker holds numbers that are none")
+        raise LocomotionError(
+            "the facing of a walker is infinite, or its least length left or right of way is not a number"
+        )
     cell, walks = int(row[at.CELL]), row[at.MODE] == at.WALKING
     if cell >= len(surface) or (cell < 0) != (row[at.MODE] == at.LED):
         raise LocomotionError(f"a walker is in cell {cell} of {len(surface)}, in mode {row[at.MODE]:g}")
@@ -72,11 +74,13 @@ def check_walker(state: WalkerState, graph: navmesh.NodeGraph) -> None:
         away = max(abs(row[at.X] - (column // ny + 0.5) * h), abs(row[at.Y] - (column % ny + 0.5) * h))
         check_number("the distance of a walker from its cell", away, 0.0, h)
     if row[at.ROUTE_COUNT] != len(route):
-        raise LocomotionError(f"a walker has {len(route)} corners before it, of [row[at.ROUTE_COUNT]:g]")
+        raise LocomotionError(
+            f"the route of a walker has {len(route)} corners; its row says {row[at.ROUTE_COUNT]:g}"
+        )
     if walks and not (len(route) >= _LEAST_ROUTE and 1 <= row[at.NEXT] < len(route)):
         raise LocomotionError(f"a walker heads for corner {row[at.NEXT]:g} of {len(route)}")
     if walks and not ((route[:, at.VIA] == 0.0) | (route[:, at.VIA] == 1.0)).all():
-        raise LocomotionError("the route of a walker has corners of no kind")
+        raise LocomotionError("the route of a walker has corners that are neither visited nor cut")
     if (walks or row[at.NOTE] != at.QUIET) and not state.goals:
         raise LocomotionError("a walker walks without a goal")
     check_number("the replans of a walker", state.replans, 0, FARTHEST)

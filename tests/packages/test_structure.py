@@ -26,12 +26,6 @@ LONGER = {
 }
 """Functions that may take more; and why."""
 WITHOUT_A_TEST = {
-    "locomotion.crowd.layout",
-    "locomotion.crowd.moving",
-    "locomotion.crowd.queueing",
-    "locomotion.crowd.saved_state",
-    "locomotion.crowd.steering",
-    "locomotion.crowd.walker",
     "locomotion.gaits.limits",
     "locomotion.gaits.run.layout",
     "locomotion.gaits.walk.legs",
@@ -49,10 +43,6 @@ WITHOUT_A_TEST = {
     "locomotion.human.person",
     "locomotion.human.saved_state",
     "locomotion.human.simulation",
-    "locomotion.paths.aligned_obstacles",
-    "locomotion.paths.command",
-    "locomotion.paths.follower",
-    "locomotion.paths.run_up_room",
     "locomotion.quadruped.advance",
     "locomotion.quadruped.animal",
     "locomotion.quadruped.carriage",
@@ -73,8 +63,6 @@ WITHOUT_A_TEST = {
     "locomotion.recovery.rising",
     "locomotion.recovery.scrambling",
     "locomotion.recovery.senses",
-    "locomotion.rehearsal.deciding",
-    "locomotion.rehearsal.understudy",
     "locomotion.skills.drop_roll.kind",
     "locomotion.skills.jump.kind",
     "locomotion.skills.kernel",

@@ -4,21 +4,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-import trimesh
 
-import navmesh
 from locomotion import Smoothing, smooth_route
 from locomotion.paths.smoothing import RUNNING
-from runtime.planning.rules import person_walk_rules
-
-SKILLS = {"jump": (0.1, 0.7), "drop": (0.2, 2.0)}
-
-
-def graph_of(*blocks):
-    """Of boxes from their low to their high corners."""
-    mesh = trimesh.util.concatenate([trimesh.creation.box(bounds=each) for each in blocks])
-    terrain = navmesh.Terrain.from_arrays(mesh.vertices, mesh.faces)
-    return navmesh.NodeGraph.build(terrain, person_walk_rules())
+from tests.locomotion.paths.boxes import SKILLS, graph_of
 
 
 @pytest.fixture(scope="module")

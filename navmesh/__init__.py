@@ -5,6 +5,9 @@ from navmesh.graph.node_graph import NodeGraph
 from navmesh.level.chunks import chunks_of, join_chunks, split_terrain
 from navmesh.level.terrain import Terrain
 from navmesh.obstacles.kinds import ObstacleKind
+from navmesh.obstacles.kinds import register as register_kind
+from navmesh.obstacles.kinds import unregister as unregister_kind
+from navmesh.obstacles.low_passages import crouch_kind
 from navmesh.obstacles.obstacles import Obstacles
 from navmesh.obstacles.rules import ObstacleRules
 from navmesh.obstacles.tagging import load_tags
@@ -26,11 +29,14 @@ __all__ = [
     "WalkRules",
     "__version__",
     "chunks_of",
+    "crouch_kind",
     "join_chunks",
     "load_tags",
+    "register_kind",
     "save_tags",
     "split_terrain",
     "tags_path",
+    "unregister_kind",
 ]
 
 announce()

@@ -25,7 +25,7 @@ _SHORTEST = 0.5  # [m] both, at least
 _WIDE = 0.6  # [m] clearance that is enough at an end: a wider place is not worth a shorter run-up
 _STRIDE = 0.125  # [m] between the points that are tried
 _ABREAST = 1.0  # [m] between links side by side
-_ONTO, _OVER, _OFF, _ACROSS = range(len(CROSSINGS))
+_ONTO, _OVER, _OFF, _ACROSS, _UNDER = range(len(CROSSINGS))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -194,6 +194,9 @@ def _trace_links(cells, clearance, crossing, efforts, rim, height, heading, size
                 depth = size[i, 0]
             elif crossing[i] == _OFF:
                 behind = z - tall
+            elif crossing[i] == _UNDER:
+                behind = z + size[i, 1]
+                depth = size[i, 0]
             else:
                 behind = z + tall
                 depth = size[i, 0]

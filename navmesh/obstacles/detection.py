@@ -5,7 +5,6 @@ them (`navmesh.obstacles.rim_measuring`), and joining like points to obstacles w
 (`navmesh.obstacles.edge_segments`).
 """
 
-import math
 from collections.abc import Callable
 
 import numpy as np
@@ -16,7 +15,7 @@ from navmesh.level.terrain import Terrain
 from navmesh.obstacles.edge_segments import EdgeSegment, Samples, join_samples
 from navmesh.obstacles.free_length import REACH, cells_of
 from navmesh.obstacles.kinds import ObstacleKind, kind_of, obstacle_kinds
-from navmesh.obstacles.obstacles import Obstacles
+from navmesh.obstacles.obstacles import Obstacles, tag_names
 from navmesh.obstacles.rim_measuring import FOUND, Limits, measure
 from navmesh.obstacles.rim_samples import RimSamples, take_rim_samples
 from navmesh.obstacles.rims import Rims
@@ -24,7 +23,7 @@ from navmesh.obstacles.rules import ObstacleRules
 from navmesh.rules import WalkRules
 from navmesh.surface.surface import Surface
 
-__all__ = ["detect_obstacles", "obstacles_at", "tag_names", "with_own_kinds"]
+__all__ = ["detect_obstacles", "obstacles_at", "with_own_kinds"]
 
 
 def detect_obstacles(
@@ -88,15 +87,6 @@ def obstacles_at(
     world["rim"] = world["rim"] + surface.origin
     world["tag"] = tag_names(world["affordance"], world["position"], world["normal"])
     return Obstacles(**world).sorted()
-
-
-def tag_names(affordance: np.ndarray, position: np.ndarray, normal: np.ndarray) -> np.ndarray:
-    """Names (k,) str of detected obstacles: affordance, place [0.1 m] and heading of the run-up [degrees]."""
-    names = []
-    for what, (x, y, z), (nx, ny, _) in zip(affordance, position, normal, strict=True):
-        heading = round(math.degrees(math.atan2(-ny, -nx))) % 360
-        names.append(f"{what}@{x:.1f},{y:.1f},{z:.1f}/{heading}".replace("-0.0", "0.0"))
-    return np.array(names, "<U64")
 
 
 def _samples(

@@ -23,8 +23,8 @@ __all__ = [
     "register", "unregister",
 ]  # fmt: skip
 
-Crossing = Literal["onto", "over", "off", "across"]
-"""How a body gets past an obstacle: onto a platform, over a wall, off a ledge, or across a gap."""
+Crossing = Literal["onto", "over", "off", "across", "under"]
+"""How a body gets past an obstacle: onto a platform, over a wall, off a ledge, across a gap, under a beam."""
 CROSSINGS: tuple[Crossing, ...] = get_args(Crossing)
 """In the order of their numbers in the kernels (from 0)."""
 LONGEST_NAME = 16
@@ -74,8 +74,9 @@ class ObstacleKind:
 
     @property
     def has_depth(self) -> bool:
-        """Whether the floor goes on only behind its depth: the thickness of a wall, the width of a gap."""
-        return self.crossing in ("over", "across")
+        """Whether the floor goes on only behind its depth: the thickness of a wall, the width of a gap, the
+        way under a beam."""
+        return self.crossing in ("over", "across", "under")
 
     @property
     def measure(self) -> Literal["height", "width"]:
@@ -85,7 +86,7 @@ class ObstacleKind:
     @property
     def rises(self) -> int:
         """By how much the floor behind rises with the height: 1, 0 or -1."""
-        return {"onto": 1, "over": 0, "off": -1, "across": 1}[self.crossing]
+        return {"onto": 1, "over": 0, "off": -1, "across": 1, "under": 0}[self.crossing]
 
     def size(self, height: float, depth: float) -> float:
         """The size [m] of an obstacle with this height and depth [m]."""

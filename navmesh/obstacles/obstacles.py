@@ -1,5 +1,6 @@
 """Obstacles that a skill can clear, as a structure of arrays."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 
@@ -7,7 +8,7 @@ import numpy as np
 
 from navmesh.obstacles.kinds import affordances, obstacle_kinds
 
-__all__ = ["Obstacles"]
+__all__ = ["Obstacles", "tag_names"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -95,6 +96,15 @@ class Obstacles:
         place = np.rint(self.position * 100.0)
         heading = np.rint(np.arctan2(self.normal[:, 1], self.normal[:, 0]) * 100.0)
         return self.select(np.lexsort((heading, place[:, 2], place[:, 1], place[:, 0], kind)))
+
+
+def tag_names(affordance: np.ndarray, position: np.ndarray, normal: np.ndarray) -> np.ndarray:
+    """Names (k,) str of detected obstacles: affordance, place [0.1 m] and heading of the run-up [degrees]."""
+    names = []
+    for what, (x, y, z), (nx, ny, _) in zip(affordance, position, normal, strict=True):
+        heading = round(math.degrees(math.atan2(-ny, -nx))) % 360
+        names.append(f"{what}@{x:.1f},{y:.1f},{z:.1f}/{heading}".replace("-0.0", "0.0"))
+    return np.array(names, "<U64")
 
 
 LAYOUT: dict[str, tuple[type | str, tuple[int, ...]]] = {

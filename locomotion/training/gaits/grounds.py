@@ -13,10 +13,10 @@ __all__ = ["FLIGHTS", "HALF", "KINDS", "ground_height", "training_ground"]
 HALF = 40.0
 """Half the side [m] of a training ground."""
 KINDS = ("level", "gentle", "rolling", "ramps", "moguls", "crags", "ridges", "stairs")
-"""Waves with slopes up to 0.1 and up to 0.35; plateaus joined by ramps of a slope of 0.3, 12 m long; random
-heights every 1.5 m, with a median slope of about 0.3; crags, random heights every 2.2 m with slopes up to
-0.44, the steepest on which people still walk; ridges 10 m apart with flanks of 0.2 to 0.45;
-flights of stairs across, see `FLIGHTS`."""
+"""Level; waves with slopes of up to 0.15 (gentle) and 0.5 (rolling), half of that in most places; plateaus
+joined by ramps 12 m long with a slope of 0.3; moguls, random heights every 1.5 m with slopes of up to 0.5,
+0.17 in the median; crags, random heights every 2.2 m with slopes of up to 0.44, the steepest on which people
+still walk; ridges 10 m apart with flanks of 0.2 to 0.45; flights of stairs across, see `FLIGHTS`."""
 _STEPS, _LANDING = 7, 2.6  # of a flight; [m] between flights
 _RISERS, _PACE = (0.12, 0.2), 0.63  # [m] heights of the steps of the flights; twice such a height and a tread
 
@@ -31,8 +31,8 @@ def _flights() -> tuple[tuple[float, float, float, float], ...]:
 
 
 FLIGHTS = _flights()
-"""Flights of stairs, each x of its first front, the depth of its treads, the height of its steps (below 0
-where it goes down along x) and x of the end of its last tread [m]: proportions that people build."""
+"""Flights of stairs in proportions that people build. For each: x of its first front, depth of its treads,
+height of its steps (negative where it leads down along x), x of the end of its last tread [m]."""
 _MESH = 0.5  # [m] side of the squares
 _WAVES = ((0.9, 0.35, 0.4), (-0.4, 0.8, 1.9), (0.55, -0.65, 3.1))  # (wave numbers x, y [1/m], phase)
 _ALONG = (0.9, 0.43)  # direction in which the ramps rise

@@ -8,7 +8,6 @@ from locomotion.events import Arrived, SetOff
 from locomotion.gaits.run.skill import load_run_skill
 from locomotion.gaits.slow_down import SLOW_DOWN_SKILL, load_slow_down_skill
 from locomotion.human.state import MOVING
-from locomotion.training.gaits.slow_down import draw_halt, first_guess, halt, slow_down_of
 
 
 def come_to_rest(human, limit=40.0):
@@ -113,13 +112,3 @@ def test_file_that_is_cut_off_or_of_something_else_is_refused(tmp_path):
         type(skill)(skill.knots, broken, skill.gains).save(file)
         with pytest.raises(LocomotionError, match=r"slow_down\.npz"):
             load_slow_down_skill(file)
-
-
-def test_learning_prefers_those_that_stand_in_the_end():
-    run, drawn = load_run_skill(), [draw_halt(np.random.default_rng([3, k])) for k in range(4)]
-    good = [halt(trial, run, load_slow_down_skill()) for trial in drawn]
-    x = first_guess()
-    x[: x.size // 3] += 0.5
-    bad = [halt(trial, run, slow_down_of(x)) for trial in drawn]
-    assert np.mean([cost for cost, _ in good]) < np.mean([cost for cost, _ in bad])
-    assert sum(stood for _, stood in good) > sum(stood for _, stood in bad)

@@ -10,8 +10,7 @@ from locomotion.gaits.run.skill import load_run_skill
 from locomotion.gaits.speed_up import SPEED_UP_SKILL, load_speed_up_skill
 from locomotion.human.human import BetweenGaits
 from locomotion.human.state import MOVING
-from locomotion.training.gaits.speed_up import SpeedUpProblem, _curriculum, speed_up_of
-from locomotion.training.training import Training
+from locomotion.training.gaits.speed_up import speed_up_of
 from runtime.evaluation.courses import enter_course, make_course
 
 COURSE = make_course([("jump", 0.4, 0.0)], [14.5])
@@ -51,16 +50,6 @@ def test_tables_differ_from_the_runs_by_the_change():
         plain = [np.interp(speed, run.knots, column) for column in run.table[:, part].T]
         assert np.allclose(row - plain, change[part])
     assert all(a is b for a, b in zip(rest, run.tables[2:], strict=True))
-
-
-def test_a_candidate_that_falls_costs_more():
-    problem = SpeedUpProblem(_curriculum(Training(effort=0.1)), load_run_skill())
-    stage, start = problem.stages()[0], problem.start()
-    trials = problem.scenarios(stage, 0, np.random.default_rng(1))[:2]
-    bad = start.copy()
-    bad[controller.parameter_slices()["a_hat"]] = 1.0
-    assert problem.evaluate(stage, bad, trials)[0] > problem.evaluate(stage, start, trials)[0]
-    assert problem.evaluate(stage, bad, trials)[1] == 0.0
 
 
 @pytest.mark.parametrize("spoil", ["cut", "width", "nan", "order"])

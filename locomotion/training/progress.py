@@ -1,8 +1,12 @@
 """Progress of training and the time left."""
 
-import sys
+import atexit
 import time
+from contextlib import ExitStack
 from dataclasses import dataclass
+
+from surefoot.progress import Progress as Shown
+from surefoot.progress import Stage
 
 __all__ = ["Clock", "Progress", "show"]
 
@@ -39,15 +43,29 @@ class Clock:
         return elapsed, elapsed / self._done * self.ahead
 
 
-def show(p: Progress) -> None:
-    """One line that is rewritten on a terminal; elsewhere one line per ten generations."""
-    line = (
-        f"{p.stage}: generation {p.generation}/{p.generations}  cost {p.cost:.2f}"
-        f"  survives {100 * p.survival:.0f} %  {p.elapsed / 60:.1f} min done, {p.remaining / 60:.1f} min left"
-    )
-    if sys.stderr.isatty():
-        print(
-            "\r\x1b[2K" + line, end="\n" if p.generation == p.generations else "", file=sys.stderr, flush=True
+class _Shown:
+    """Shows training on standard error, one stage after the other, as all long work is shown
+    (`surefoot.progress`)."""
+
+    def __init__(self) -> None:
+        self._open, self._name = ExitStack(), ""
+        self._stage = Stage("")
+        atexit.register(self._open.close)  # a bar that is left open hides the terminal's cursor
+
+    def __call__(self, p: Progress) -> None:
+        if p.stage != self._name:
+            self._open.close()
+            self._name, self._stage = p.stage, self._open.enter_context(Shown().stage(p.stage))
+        self._stage.update(
+            p.generation / p.generations,
+            f"generation {p.generation}/{p.generations}, cost {p.cost:.2f}, "
+            f"survives {100 * p.survival:.0f} %, "
+            f"{p.elapsed / 60:.1f} min done, {p.remaining / 60:.1f} min left",
         )
-    elif p.generation % 10 == 0 or p.generation == p.generations:
-        print(line, file=sys.stderr, flush=True)
+        if p.generation == p.generations:
+            self._open.close()
+            self._name = ""
+
+
+show = _Shown()
+"""What trainings do with their progress unless they are told otherwise."""

@@ -1,11 +1,11 @@
-"""How long training will still take."""
+"""What is shown while skills are learned, and how long that will still take."""
 
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from locomotion.training.progress import Clock
+from locomotion.training.progress import Clock, Progress, show
 from locomotion.training.search.loop import Stage, learn, simulated
 from tests.locomotion.training.tiny import tiny_problem
 
@@ -25,3 +25,23 @@ def test_the_time_left_is_that_of_all_searches_and_not_of_what_was_done_before(m
     clock = Clock(100.0)
     learn(tiny_problem(), 5, tmp_path / "kept", 1, lambda p: None, clock)
     assert clock.ahead == pytest.approx(100.0 - simulated(tiny_problem().stages()))
+
+
+def test_each_stage_is_shown_with_what_it_has_learned(capsys):
+    for stage in ("walk", "run"):
+        for generation in range(1, 21):
+            show(
+                Progress(stage, generation, 20, 30.0 - generation, 0.05 * generation, 60.0 * generation, 90.0)
+            )
+    lines = capsys.readouterr().err.splitlines()
+    assert [line for line in lines if line in ("walk", "walk: done", "run", "run: done")] == [
+        "walk", "walk: done", "run", "run: done",
+    ]  # fmt: skip
+    assert len(lines) == 2 * (2 + 9)
+    assert lines[1] == ("walk: 10 %, generation 2/20, cost 28.00, survives 10 %, 2.0 min done, 1.5 min left")
+
+
+def test_a_stage_that_is_gone_on_with_is_not_begun_again(capsys):
+    show(Progress("jump", 3, 4, 1.0, 1.0, 1.0, 1.0))
+    show(Progress("jump", 4, 4, 1.0, 1.0, 1.0, 1.0))
+    assert capsys.readouterr().err.splitlines().count("jump") == 1

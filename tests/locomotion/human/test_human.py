@@ -1,63 +1,16 @@
 """The person as a whole: it follows paths, repeats bit for bit, can be saved, and refuses what it cannot
 do."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
-from locomotion.body.arm_reach import hand_place
-from locomotion.body.hand_hold import hold, holding
 from locomotion.errors import LocomotionError
-from locomotion.events import Arrived, Cleared, SetOff, TookOff
+from locomotion.events import Arrived, SetOff
 from locomotion.gaits.run import controller
-from locomotion.ground.ground import Ground
 from locomotion.human.human import Human
 from locomotion.human.state import MOVING
 from locomotion.paths.smoothing import ObstacleAhead
-from locomotion.skills.interface import foot_distance
-
-STRAIGHT = np.array([[0.0, 0, 0], [15, 0, 0]])
-
-
-class Recorder:
-    """A skill that notes where it starts and goes on running for 0.5 s."""
-
-    affordance, ends = "jump", "running"
-    heights = (0.3, 0.5)
-    stride = (0.17, 0.09, 0.39)
-
-    def __init__(self, trips=False, holds=False):
-        self.distances, self.trips, self.holds = [], trips, holds
-
-    def approach(self, height):
-        return 3.0, 0.6
-
-    def start(self, obstacle, state):
-        self.distances.append(foot_distance(state, obstacle))
-        return np.zeros(1)
-
-    def tick(self, obstacle, memory, state, data):
-        memory[0] += 1
-        if self.holds:
-            hold(data, 1.0, hand_place(data.qpos, 1.0))
-        return bool(memory[0] >= 50)
-
-    def fell(self, memory, state):
-        return self.trips and memory[0] > 20
-
-
-def flat_ground(half=30.0):
-    corners = np.array([[-half, -half, 0], [half, -half, 0], [half, half, 0], [-half, half, 0.0]])
-    return Ground.from_arrays(corners, [[0, 1, 2], [0, 2, 3]])
-
-
-def finish(human, limit=60.0):
-    lateral = []
-    while human.status in MOVING and human.time < limit:
-        human.tick()
-        lateral.append(abs(human.lateral_error))
-    return np.array(lateral)
+from tests.locomotion.human.people import STRAIGHT, Recorder, finish, flat_ground
 
 
 @pytest.mark.parametrize("on_mesh", [False, True])
@@ -134,34 +87,6 @@ def test_what_is_no_ground_or_number_of_rehearsals_is_refused():
             Human(None, rehearsals=rehearsals)
     with pytest.raises(LocomotionError, match="ground must be a Ground, or None for a plane, not 'plane'"):
         Human("plane")  # type: ignore[arg-type]
-
-
-def test_run_up_ends_at_the_mark_and_the_skill_starts():
-    skill = Recorder()
-    human = Human(None, clearing=[skill], rehearsals=0)
-    human.reset((0, 0, 0), 0.0)
-    obstacle = ObstacleAhead(14.0, "jump", 0.4, np.array([14.0, 0, 0.4]), np.array([-1.0, 0, 0]))
-    human.follow([[0, 0, 0], [25, 0, 0]], 3.0, [obstacle])
-    finish(human)
-    assert human.status == "arrived"
-    kinds = [type(e) for e in human.events]
-    assert kinds == [SetOff, TookOff, Cleared, Arrived]
-    assert skill.distances == [pytest.approx(0.6, abs=0.25)]
-    assert human.events[1].takeoff_error == pytest.approx(skill.distances[0] - 0.6)
-
-
-def test_a_skill_says_when_the_body_has_fallen_and_its_hands_let_go():
-    skill = Recorder(trips=True, holds=True)
-    human = Human(None, clearing=[skill], rehearsals=0)  # else it would not try
-    human.reset((0, 0, 0), 0.0)
-    obstacle = ObstacleAhead(14.0, "jump", 0.4, np.array([14.0, 0, 0.4]), np.array([-1.0, 0, 0]))
-    human.follow([[0, 0, 0], [25, 0, 0]], 3.0, [obstacle])
-    held = False
-    while human.status in MOVING:
-        human.tick()
-        held = held or holding(human.data, 1.0)
-    assert held and human.status == "fallen"
-    assert not holding(human.data, 1.0)
 
 
 @pytest.mark.parametrize("yaw", [0.0, 1.5, 3.1])
@@ -257,34 +182,6 @@ def test_wrong_input_is_refused_and_changes_nothing():
         with pytest.raises(LocomotionError, match=message):
             call()
     assert human.state_hash() == before and not human.events
-
-
-@pytest.mark.parametrize(
-    ("wrong", "message"),
-    [
-        ({"arc_length": np.nan}, "arc_length must be a finite number of metres, not nan"),
-        ({"height": None}, "height must be a finite number of metres, not None"),
-        ({"depth": np.inf}, "depth must be a finite number of metres, not inf"),
-        ({"affordance": "climb"}, "affordance 'climb': valid: 'jump', 'vault', 'drop', 'gap'"),
-        ({"position": np.array([8.0, np.nan, 0.4])}, "position must be three finite numbers"),
-        ({"position": (8.0, 0.0)}, "position must be three finite numbers"),
-        ({"normal": None}, "normal must be three finite numbers, not None"),
-        ({"normal": np.zeros(3)}, "normal must be horizontal and 1 long"),
-    ],
-)
-def test_an_obstacle_with_a_mistake_is_refused_by_field(wrong, message):
-    human = Human(None)
-    before = human.state_hash()
-    right = ObstacleAhead(8.0, "jump", 0.4, np.array([8.0, 0, 0.4]), np.array([-1.0, 0, 0]))
-    with pytest.raises(LocomotionError, match=f"obstacle 1: {message}"):
-        human.follow(STRAIGHT, 3.0, [right, replace(right, **wrong)])
-    assert human.state_hash() == before and not human.events
-
-
-def test_obstacles_out_of_order_are_refused():
-    near = ObstacleAhead(8.0, "jump", 0.4, np.array([8.0, 0, 0.4]), np.array([-1.0, 0, 0]))
-    with pytest.raises(LocomotionError, match="obstacle 1 is at 8 m, the one before it at 12 m"):
-        Human(None).follow(STRAIGHT, 3.0, [replace(near, arc_length=12.0), near])
 
 
 def test_a_person_told_to_run_fast_speeds_up_no_further_than_it_can_follow() -> None:

@@ -6,8 +6,12 @@ from typing import Any
 
 import numpy as np
 
+from navmesh import Terrain
+
 KINDS = {"b": 5120, "B": 5121, "h": 5122, "H": 5123, "I": 5125, "f": 5126}
 TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
+SQUARE = np.array([[0, 0, 0], [4, 0, 0], [4, 0, -4], [0, 0, -4]], np.float32)  # a floor, Y up
+TWO = [0, 1, 2, 0, 2, 3]
 
 
 class Gltf:
@@ -72,3 +76,15 @@ class Gltf:
             b"glTF", struct.pack("<II", 2, size), struct.pack("<I", len(text)), b"JSON", text,
             struct.pack("<I", len(data)), b"BIN\0", data,
         ])  # fmt: skip
+
+
+def load(tmp_path, file, name="level.glb", **options):
+    path = tmp_path / name
+    path.write_bytes(file.glb() if isinstance(file, Gltf) else file)
+    return Terrain.load(path, **options)
+
+
+def square(**node):
+    file = Gltf()
+    file.node(mesh=file.mesh(SQUARE, TWO), **node)
+    return file

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from navmesh import NavmeshError, Terrain
-from tests.navmesh.meshfiles.gltf_files import Gltf
-from tests.navmesh.meshfiles.test_gltf import SQUARE, TWO, skinned
+from tests.navmesh.meshfiles.gltf_files import SQUARE, TWO, Gltf
+from tests.navmesh.meshfiles.small_files import binary_stl, off, ply, stl
+from tests.navmesh.meshfiles.test_gltf import skinned
 from tests.navmesh.meshfiles.test_obj import prisms, spelled
-from tests.navmesh.meshfiles.test_reading import binary_stl, off, ply, stl
 
 MUTATIONS = 60
 

@@ -5,44 +5,13 @@ import os
 import signal
 import subprocess
 import sys
-from pathlib import Path
 
 import numba
 import numpy as np
 import pytest
 
-import navmesh
-from locomotion.clips.clip import load_clip
-from locomotion.clips.motion import load_motion
-from locomotion.gaits.run.skill import RUN_CLIP
-from navmesh.graph.graph_file import GRAPH_FILE
-from runtime.cli.app import main
-from surefoot.files.archive import write_archive
+from tests.runtime.cli.answers import names, one_line
 from tests.small_level import MISSION
-
-
-@pytest.fixture
-def surefoot(capsys):
-    """Runs the command in this process; returns exit code, standard output, standard error."""
-
-    def call(*arguments):
-        with pytest.raises(SystemExit) as left:
-            main([str(each) for each in arguments])
-        output = capsys.readouterr()
-        return left.value.code, output.out, output.err
-
-    return call
-
-
-def names(folder):
-    return sorted(each.name for each in folder.iterdir())
-
-
-def one_line(message):
-    """Whether one line, the last, says what is wrong; those before it tell how far the command was."""
-    *before, last = message.splitlines()
-    told = any("surefoot: " in line or "Traceback" in line for line in before)
-    return last.startswith("surefoot: ") and message.endswith("\n") and not told
 
 
 @pytest.mark.parametrize("command", ["", "bake", "path", "run", "train", "evaluate", "view", "clip"])
@@ -153,92 +122,6 @@ def test_bad_missions(surefoot, folder, old, new, place, says):
     assert names(folder) == before
 
 
-def test_results_need_a_folder(surefoot, folder):
-    (folder / "taken").write_text("")
-    code, _, err = surefoot("run", folder / "mission.yaml", "--out", folder / "taken" / "out")
-    assert code == 2 and one_line(err) and "not a folder" in err
-    code, _, err = surefoot("bake", folder / "level.obj", "-o", folder / "nowhere" / "graph.npz")
-    assert code == 2 and one_line(err) and "no folder" in err
-
-
-def test_bake_tells_the_size_of_the_level(surefoot, folder):
-    graph = folder / "graph.npz"
-    code, out, _ = surefoot("bake", folder / "level.obj", "--scale", "2", "-o", graph, "--json")
-    low, high = navmesh.Terrain.load(folder / "level.obj").bounds
-    assert code == 0 and json.loads(out)["size"] == pytest.approx((2.0 * (high - low)).tolist(), abs=0.01)
-
-
-def raw(path):
-    """Header and arrays of an archive as they are, unchecked."""
-    with np.load(path) as file:
-        arrays = dict(file)
-    return json.loads(arrays.pop("header").tobytes()), arrays
-
-
-def test_bakes_a_graph_and_finds_paths(surefoot, folder):
-    graph = folder / "graph.npz"
-    code, out, _ = surefoot("bake", folder / "level.obj", "-o", graph, "--max-step", 0.3, "--json")
-    values = json.loads(out)
-    assert code == 0 and values["triangles"] == 4 and values["nodes"] > 10
-    header, _ = raw(graph)
-    assert header["rules"]["max_step"] == 0.3
-
-    ends = ["--start", 2, 3, 0, "--goal", 9, 3, 0]
-    code, out, _ = surefoot("path", graph, *ends, "--json")
-    values = json.loads(out)
-    assert code == 0 and values["status"] == "complete" and values["length"] == pytest.approx(7.0, abs=0.3)
-    assert surefoot("path", graph, *ends, "--smooth")[0] == 0
-    code, out, _ = surefoot("path", graph, "--start", 2, 3, 0, "--goal", 18, 3, 0)
-    assert code == 1 and not out.startswith("complete")
-    code, out, _ = surefoot("path", graph, "--start", 2, 3, 0, "--goal", 90, 3, 0, "--json")
-    assert code == 1 and json.loads(out)["status"] == "off_graph"
-
-
-def test_bad_graphs(surefoot, folder):
-    graph = folder / "graph.npz"
-    ends = ["--start", 2, 3, 0, "--goal", 9, 3, 0]
-    surefoot("bake", folder / "level.obj", "-o", graph)
-    whole = graph.read_bytes()
-    header, arrays = raw(graph)
-    graph.write_bytes(whole[: len(whole) // 2])
-    code, _, err = surefoot("path", graph, *ends)
-    assert code == 2 and one_line(err) and "cut off or damaged" in err
-    write_archive(graph, "surefoot navigation graph", 1, header, arrays)
-    code, _, err = surefoot("path", graph, *ends)
-    assert code == 2 and one_line(err) and "version 1" in err
-    moved = {**arrays, "terrain_vertices": arrays["terrain_vertices"] + 1.0}
-    write_archive(graph, "surefoot navigation graph", GRAPH_FILE.version, header, moved)
-    code, _, err = surefoot("path", graph, *ends)
-    assert code == 2 and one_line(err) and "terrain" in err
-    code, _, err = surefoot("path", folder / "gone.npz", *ends)
-    assert code == 2 and one_line(err) and "no such file" in err
-
-
-def test_runs_a_mission_and_leaves_its_results(surefoot, folder):
-    out_folder = folder / "deep" / "out"
-    code, out, _ = surefoot("run", folder / "mission.yaml", "--out", out_folder, "--json")
-    values = json.loads(out)
-    assert code == (0 if values["held"] else 1)
-    assert {check["expected"] for check in values["checks"]} == {"arrives within 15 s", "never falls"}
-    assert values["events"][0]["kind"] == "Departed"
-    assert names(out_folder) == ["film.png", "level.png", "run.html", "trace.npz"]
-
-    again = json.loads(surefoot("run", folder / "mission.yaml", "--json")[1])
-    assert again["state_hash"] == values["state_hash"]
-
-    code, _, _ = surefoot("view", out_folder / "trace.npz", "-o", folder / "again.html")
-    assert code == 0 and (folder / "again.html").stat().st_size > 100_000
-    code, _, err = surefoot("view", folder / "level.obj", "-o", folder / "none.html")
-    assert code == 2 and one_line(err) and not (folder / "none.html").exists()
-
-
-def test_an_expectation_that_fails_is_exit_code_1(surefoot, folder):
-    (folder / "mission.yaml").write_text(MISSION.replace("arrives_within: 15", "arrives_within: 0.5"))
-    code, out, _ = surefoot("run", folder / "mission.yaml")
-    assert code == 1
-    assert "arrives within 0.5 s" in out and "no" in out
-
-
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_an_interrupted_run_leaves_nothing(folder, number):
     (folder / "mission.yaml").write_text(MISSION.replace("time_limit: 20", "time_limit: 86400"))
@@ -295,42 +178,3 @@ def test_quiet_when_not_a_terminal(surefoot, folder):
     _, out, err = surefoot("bake", folder / "level.obj", "-o", folder / "graph.npz", "--json")
     assert json.loads(out) and "\x1b" not in err and "\r" not in err
     assert not np.any([line.startswith("\x1b") for line in out.splitlines()])
-
-
-def test_clip_shows_a_motion_and_its_faults(surefoot, tmp_path):
-    film, saved = tmp_path / "run.png", tmp_path / "run.npz"
-    code, out, _ = surefoot("clip", RUN_CLIP, "--film", film, "-o", saved)
-    assert code == 0 and "within its joint ranges" in out
-    assert film.read_bytes()[:4] == b"\x89PNG"
-    code, out, _ = surefoot("clip", saved, "--json")
-    assert code == 0 and json.loads(out)["faults"] == []
-    step = tmp_path / "step.yaml"
-    code, out, _ = surefoot("clip", saved, "--stretch", 0.1, 0.4, "--mirror", "-o", step)
-    assert code == 0 and load_clip(step).duration == pytest.approx(0.3, abs=0.02)
-    code, _, err = surefoot("clip", saved, "--film", tmp_path / "run.jpg")
-    assert code == 2 and "written as .png" in err and not (tmp_path / "run.jpg").exists()
-    for output, stretch in ((tmp_path / "step.txt", (0.1, 0.4)), (tmp_path / "no.yaml", (0.4, 0.1))):
-        code, _, err = surefoot("clip", saved, "--stretch", *stretch, "-o", output)
-        assert code == 2 and one_line(err) and not output.exists()
-    motion = load_motion(saved)
-    motion.qpos[:, 7:] = 3.0
-    motion.save(saved)
-    code, out, _ = surefoot("clip", saved)
-    assert code == 1 and "beyond its range" in out
-    for source, message in (
-        (tmp_path / "walk.bvh", "needs a file that maps its joints"),
-        (film, "is a .yaml, .bvh or .npz file"),
-    ):
-        code, _, err = surefoot("clip", source)
-        assert code == 2 and message in err and one_line(err)
-
-
-def test_obstacles_are_listed_with_the_names_that_missions_use(surefoot):
-    roofs = Path(__file__).parents[3] / "examples" / "levels" / "roofs.obj"
-    code, out, _ = surefoot("obstacles", roofs, "--json")
-    listed = json.loads(out)["obstacles"]
-    assert code == 0 and len(listed) == 6
-    assert {(each["skill"], each["affordance"]) for each in listed} == {("leap", "gap")}
-    assert sorted(round(each["depth"], 1) for each in listed) == [0.8, 0.8, 1.2, 1.2, 1.5, 1.5]
-    code, out, _ = surefoot("obstacles", roofs)
-    assert code == 0 and all(any(each["tag"] in line for line in out.splitlines()) for each in listed)

@@ -9,96 +9,16 @@ import pytest
 import shapely
 import trimesh
 
-import navmesh
 from benchmarks.planted_rooms import FAULTS, LOOK_ALIKES, planted
 from benchmarks.playtest_faults import judged
 from navmesh.surface.ledges import GAP
-from runtime.playtest import playtest
 from runtime.playtest.character import character_of
 from runtime.playtest.closeup import close_up
 from runtime.playtest.floorplan import Allowance, FloorPlan
 from runtime.playtest.mesh import Mesh
-from runtime.playtest.movers import CapsuleMover
 from runtime.playtest.page import write_page
-from runtime.playtest.site import Site
 from runtime.views.render import Triangles
-
-W, D = 16.0, 10.0
-PLAN = "spawns:\n  - {name: gate, at: [2.0, 5.0, 0.0]}\n"
-
-
-def box(x0, x1, y0, y1, z0, z1):
-    return trimesh.creation.box(bounds=[(x0, y0, z0), (x1, y1, z1)])
-
-
-FLOOR = box(0, W, 0, D, -0.2, 0)
-
-
-def room(*parts, high=3.2):
-    sides = [(-0.3, 0, -0.3, D + 0.3), (W, W + 0.3, -0.3, D + 0.3), (0, W, -0.3, 0), (0, W, D, D + 0.3)]
-    return trimesh.util.concatenate([*(box(a, b, c, d, -0.2, high) for a, b, c, d in sides), *parts])
-
-
-def door(width, lintel=None):
-    a, b = 5 - 0.5 * width, 5 + 0.5 * width
-    above = [box(8, 8.3, a, b, lintel, 3.2)] if lintel else []
-    return [FLOOR, box(8, 8.3, 0, a, 0, 3.2), box(8, 8.3, b, D, 0, 3.2), *above]
-
-
-def ramp(degrees):
-    run = 1.5 / math.tan(math.radians(degrees))
-    corners = [(x, y, z) for y in (0.0, D) for x, z in ((10 - run, 0.0), (10.0, 0.0), (10.0, 1.5))]
-    return [FLOOR, box(10, W, 0, D, 0, 1.5), trimesh.convex.convex_hull(np.array(corners))]
-
-
-def played(folder, mesh, bots=0, seconds=20.0, plan=PLAN):
-    mesh.export(folder / "level.obj")
-    (folder / "level.playtest.yaml").write_text(plan)
-    return playtest(folder / "level.obj", bots=bots, seconds=seconds, seed=1)
-
-
-def site_of(mesh):
-    player = character_of("walker")
-    terrain = navmesh.Terrain.from_arrays(mesh.vertices, mesh.faces)
-    return Site(navmesh.NodeGraph.build(terrain, player.rules, player.obstacle_rules()), player)
-
-
-HOLED = [
-    box(0, W, 0, 4, -0.2, 0),
-    box(0, W, 6, D, -0.2, 0),
-    box(0, 7, 4, 6, -0.2, 0),
-    box(9, W, 4, 6, -0.2, 0),
-]
-
-
-@pytest.mark.parametrize(
-    ("mesh", "kind", "size", "x", "says"),
-    [
-        (room(*HOLED), "hole", 2.0, 8.0, "a hole of 2.00 by 2.00 m"),
-        (room(*door(0.5)), "narrow", 0.5, 8.15, "0.50 m wide; a person needs 0.60 m"),
-        (room(*door(0.35)), "narrow", 0.35, 8.15, "0.35 m wide; a person needs 0.60 m"),
-        (room(*door(1.2, 1.7)), "low", 1.7, 8.15, "1.70 m high; a person needs 1.90 m"),
-        (room(*door(4.0, 1.7)), "low", 1.7, 8.15, "1.70 m high; a person needs 1.90 m"),
-        (room(*ramp(50), high=5.0), "steep", 50.0, 9.4, "50° steep; a person walks up to 20°"),
-        (
-            room(box(0, 8, 0, D, -0.2, 0), box(8.31, W, 0, D, -0.2, 0)),
-            "gap",
-            0.31,
-            8.15,
-            "0.31 m wide; a person leaps 0.40 to 2.50 m",
-        ),
-        (room(FLOOR, box(8, W, 0, D, 0, 0.94)), "ledge", 0.94, 8.0, "0.94 m above the floor beside it"),
-    ],
-)
-def test_a_fault_is_named_and_measured_where_it_is(tmp_path, mesh, kind, size, x, says):
-    (fault,) = played(tmp_path, mesh).report.failures
-    assert fault.kind == kind and says in fault.text
-    assert fault.size == pytest.approx(size, abs=0.5 if kind == "steep" else 0.02)
-    assert fault.position[0] == pytest.approx(x, abs=0.2)
-    if kind in ("hole", "narrow", "low"):
-        assert fault.position[1] == pytest.approx(5.0, abs=0.1)
-    if kind != "steep":
-        assert np.linalg.norm(np.diff(fault.span, axis=0)) == pytest.approx(size, abs=0.03)
+from tests.runtime.playtest.levels import FLOOR, HOLED, D, W, box, door, played, room
 
 
 @pytest.mark.parametrize(
@@ -131,19 +51,6 @@ def test_what_is_planted_is_found_and_nothing_else(tmp_path, name):
     plan = f"spawns:\n  - {{name: gate, at: {hall.spawn.tolist()}}}\n"
     report = played(tmp_path, hall.mesh, plan=plan).report
     assert judged(hall, report.failures) == "", hall.says
-
-
-def test_a_roamer_steps_over_cracks_and_falls_through_holes():
-    for width, ends in ((0.01, "arrived"), (0.12, "arrived"), (0.3, "arrived"), (0.6, "fell")):
-        for turn in (0.0, 0.7):
-            floors = [box(-9, 9, 0, 9, -0.2, 0), box(-9, 9, -9, -width, -0.2, 0)]
-            mesh = trimesh.util.concatenate(floors)
-            mesh.apply_transform(trimesh.transformations.rotation_matrix(turn, (0, 0, 1)))
-            mover = CapsuleMover(site_of(mesh))
-            start = np.array([-2.0 * np.sin(turn), 2.0 * np.cos(turn), 0.0])
-            mover.appear(start, 0.0)
-            leg = mover.wander(np.array([turn - 0.5 * np.pi]), 1.5)
-            assert leg.status == ends, (width, turn)
 
 
 def test_a_level_without_walls_passes_and_falls_are_sightings_of_its_edge(tmp_path):
@@ -228,17 +135,6 @@ def test_a_wall_of_small_triangles_is_the_wall():
         shapes.append(shapely.union_all(plan.pieces))
     assert shapely.area(shapely.symmetric_difference(*shapes)) < 0.002
     assert shapely.get_num_coordinates(shapes[1]) < 2 * shapely.get_num_coordinates(shapes[0])
-
-
-@pytest.mark.parametrize("name", ["narrow", "wide door", "two doors", "walled_off"])
-def test_parts_are_what_the_graph_says_can_be_walked_to(name):
-    for seed in range(3):
-        hall = planted(np.random.default_rng([77, seed]), name)
-        site = site_of(hall.mesh)
-        graph, radius = site.graph, site.character.radius
-        for node in np.flatnonzero(graph.radii >= radius + 0.05)[:40].tolist():
-            walked = graph.reachable_nodes(graph.positions[node], radius=radius)
-            assert np.array_equal(walked, np.flatnonzero(site.node_part == site.node_part[node]))
 
 
 def test_the_picture_shows_what_was_measured(tmp_path):

@@ -4,6 +4,8 @@ import asyncio
 import json
 from contextlib import asynccontextmanager
 
+from websockets.asyncio.client import connect
+
 from runtime.server.server import SurefootServer
 from runtime.warmup import load_kernels
 
@@ -51,3 +53,21 @@ class Client:
             if message["type"] not in ("reply", "error"):
                 self.told.append(message)
         return message
+
+
+def talk(graph, conversation, **options):
+    """Run ``conversation(server, connect)`` against a server."""
+
+    async def main():
+        async with serving(graph, **options) as (server, port):
+
+            async def join(hello=True, token=""):
+                socket = await connect(f"ws://127.0.0.1:{port}", compression=None)
+                client = Client(socket)
+                if hello:
+                    await client.ask("hello", version=1, token=token)
+                return client
+
+            return await conversation(server, join, port)
+
+    return asyncio.run(asyncio.wait_for(main(), 240))

@@ -3,10 +3,7 @@
 import asyncio
 import json
 import random
-import urllib.error
-import urllib.request
 
-import numpy as np
 import pytest
 
 pytest.importorskip("websockets", reason="needs the extra 'serve'")
@@ -19,67 +16,13 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from benchmarks.server_fuzz import malformed
-from runtime import RuntimeInputError, World
+from runtime import RuntimeInputError
 from runtime.server import messages
 from runtime.server.outbox import Outbox, TooSlow
 from runtime.server.server import Limits, SurefootServer
-from tests.runtime.server.serving import Client, serving
+from tests.runtime.server.serving import talk
 
 ROOT = Path(__file__).resolve().parents[3]
-
-
-def talk(graph, conversation, **options):
-    """Run ``conversation(server, connect)`` against a server."""
-
-    async def main():
-        async with serving(graph, **options) as (server, port):
-
-            async def join(hello=True, token=""):
-                socket = await connect(f"ws://127.0.0.1:{port}", compression=None)
-                client = Client(socket)
-                if hello:
-                    await client.ask("hello", version=1, token=token)
-                return client
-
-            return await conversation(server, join, port)
-
-    return asyncio.run(asyncio.wait_for(main(), 240))
-
-
-def test_a_world_in_the_server_does_what_one_here_does(graph):
-    async def conversation(server, join, port):
-        client = await join()
-        made = await client.ask("create", level="small", seed=5, clock="manual", states="local")
-        world = made["world"]
-        await client.ask("spawn", world=world, body="human", at=[2, 3, 0], name="ada")
-        assert await client.ask("go_to", world=world, agent="ada", points=[[9, 3, 0]], speed=3.0) == {
-            "status": "walking"
-        }
-        for _ in range(60):
-            stepped = await client.ask("step", world=world, dt=1 / 60)
-        saved = await client.ask("save", world=world)
-        assert stepped["time"] == pytest.approx(1.0)
-        await client.ask("step", world=world, dt=0.5)
-        again = await client.ask("restore", world=world)
-        while client.states[world]["time"] != saved["time"]:
-            await client.hear()
-        return saved, again, client
-
-    saved, again, client = talk(graph, conversation)
-    here = World(graph, seed=5)
-    ada = here.spawn("human", (2.0, 3.0, 0.0), name="ada")
-    ada.go_to([(9.0, 3.0, 0.0)], speed=3.0)
-    for _ in range(60):
-        here.step(1 / 60)
-    assert saved["hash"] == again["hash"] == here.state_hash()
-    (state,) = client.states.values()
-    (told,) = state["agents"]
-    assert told["position"] == pytest.approx(ada.position, abs=1e-3)
-    assert np.reshape(told["transforms"], (-1, 7)) == pytest.approx(ada.pose.local, abs=1e-4)
-    kinds = [message["type"] for message in client.told]
-    assert kinds == ["agent", "event"]
-    assert client.told[0]["agent"]["bodies"][0] == "pelvis"
-    assert client.told[1]["event"]["kind"] == "Departed"
 
 
 def test_all_who_joined_hear_of_a_world_that_runs_by_itself(graph):
@@ -98,57 +41,6 @@ def test_all_who_joined_hear_of_a_world_that_runs_by_itself(graph):
         while first.told[-1]["type"] != "gone":
             await first.hear()
         assert not stranger.told and not server.worlds
-
-    talk(graph, conversation)
-
-
-@pytest.mark.parametrize(
-    ("request_", "says"),
-    [
-        ({"type": "spawn", "world": "x", "body": "dog", "at": [0, 0, 0]}, "no world 'x'"),
-        ({"type": "create", "level": "large"}, "valid: small"),
-        ({"type": "create"}, "create.level"),
-        ({"type": "fly"}, "tag"),
-        ({"type": "step", "world": "world1", "dt": -1}, "step.dt"),
-        ({"type": "step", "world": "world1", "dt": 0.1}, "runs by itself"),
-        ({"type": "spawn", "world": "world1", "body": "goose", "at": [2, 3, 0]}, "'human'"),
-        ({"type": "spawn", "world": "world1", "body": "dog", "at": [2, 3]}, "spawn.at"),
-        ({"type": "spawn", "world": "world1", "body": "dog", "at": [2, 3, 0], "size": 3}, "spawn.size"),
-        ({"type": "go_to", "world": "world1", "agent": "ada", "points": [[2, 3, 0]]}, "no agent 'ada'"),
-        ({"type": "restore", "world": "world1"}, "has not been saved"),
-        ({"type": "hello", "version": 1}, "already"),
-        (
-            {"type": "spawn", "world": "world1", "body": "goose.yaml", "at": [2, 3, 0]},
-            "spawn.body.*'human'",
-        ),
-        (
-            {"type": "spawn", "world": "world1", "body": "./dog", "at": [2, 3, 0]},
-            "spawn.body.*'human'",
-        ),
-        ({"type": "spawn", "world": "world1", "body": "dog", "at": [True, 3, 0]}, "spawn.at.0: .*number"),
-        ({"type": "spawn", "world": "world1", "body": "dog", "at": ["2", 3, 0]}, "spawn.at.0: .*number"),
-        (
-            {"type": "spawn", "world": "world1", "body": "dog", "at": [2, 3, 0], "facing": False},
-            "facing: .*number",
-        ),
-        ({"type": "step", "world": "world1", "dt": True}, "step.dt: .*number"),
-        ({"type": "step", "world": "world1", "dt": "0.1"}, "step.dt: .*number"),
-        ({"type": "create", "level": "small", "seed": "1"}, "seed: .*integer"),
-        ({"type": "create", "level": "small", "seed": 1.0}, "seed: .*integer"),
-        ({"type": "create", "level": "small", "seed": True}, "seed: .*integer"),
-        ({"type": "go_to", "world": "world1", "agent": "ada", "points": {"0": [2, 3, 0]}}, "points: .*array"),
-        ({"type": "go_to", "world": "world1", "agent": 5, "points": [[2, 3, 0]]}, "agent: .*string"),
-        ({"type": "leave", "world": ["world1"]}, "world: .*string"),
-    ],
-)
-def test_refuses_and_says_why(graph, request_, says):
-    async def conversation(server, join, port):
-        client = await join()
-        await client.ask("create", level="small")
-        with pytest.raises(ValueError, match=says):
-            fields = dict(request_)
-            await client.ask(fields.pop("type"), **fields)
-        await client.ask("level", level="small")
 
     talk(graph, conversation)
 
@@ -184,39 +76,6 @@ def test_other_machines_and_other_sites_are_kept_out(graph):
     talk(graph, conversation)
 
 
-def test_limits_hold(graph):
-    limits = Limits(message=2000, worlds=2, clients=2, agents=1, idle=0.5, deserted=0.1, greeting=0.3)
-
-    async def conversation(server, join, port):
-        client = await join()
-        worlds = [(await client.ask("create", level="small"))["world"] for _ in range(2)]
-        with pytest.raises(ValueError, match="2 worlds already"):
-            await client.ask("create", level="small")
-        await client.ask("spawn", world=worlds[0], body="dog", at=[2, 3, 0])
-        with pytest.raises(ValueError, match="1 agents already"):
-            await client.ask("spawn", world=worlds[0], body="dog", at=[4, 3, 0])
-        mute = await join(hello=False)
-        with pytest.raises(InvalidStatus):
-            await join(hello=False)
-        with pytest.raises(ConnectionClosed):
-            await mute.hear()  # it did not say hello in time
-        loud = await join()
-        await loud.socket.send("x" * 3000)
-        with pytest.raises(ConnectionClosed) as closed:
-            await loud.hear()
-        assert closed.value.rcvd.code == 1009
-        await asyncio.sleep(0.7)
-        await client.ask("leave", world=worlds[0])  # was silent, but hears of worlds
-        await client.ask("leave", world=worlds[1])
-        with pytest.raises(ConnectionClosed):
-            while True:
-                await client.hear()
-        await asyncio.sleep(0.7)
-        assert not server.worlds
-
-    talk(graph, conversation, limits=limits)
-
-
 def test_an_outbox_keeps_order_and_only_the_newest_state():
     async def main():
         states = {"w": b"old"}
@@ -235,23 +94,6 @@ def test_an_outbox_keeps_order_and_only_the_newest_state():
                 box.put({"text": "x" * 50})
 
     asyncio.run(main())
-
-
-def test_a_client_that_does_not_read_harms_nobody(graph):
-    async def conversation(server, join, port):
-        deaf, other = await join(), await join()
-        world = (await deaf.ask("create", level="small", clock="manual", states="world"))["world"]
-        await other.ask("join", world=world, states="places")
-        await deaf.ask("spawn", world=world, body="human", at=[2, 3, 0], name="ada")
-        for number in range(400):  # events that the deaf one does not read
-            await other.ask("go_to", world=world, agent="ada", points=[[50, 3, 0]])
-            await other.ask("step", world=world, dt=0.0 if number % 20 else 0.01)
-        held = [client.outbox for client in server._clients]
-        assert all(box._waiting <= server.limits.waiting for box in held)
-        assert len(other.told) == 401
-        return other.told
-
-    talk(graph, conversation, limits=Limits(waiting=20_000))
 
 
 def test_who_goes_without_reading_leaves_nothing_behind(graph):
@@ -302,64 +144,6 @@ async def _answers(socket, wanted):
         wanted -= json.loads(await socket.recv())["type"] in ("error", "reply")
 
 
-def test_pages_come_from_one_folder_only_and_are_what_pages_are_made_of(graph, tmp_path):
-    pages = tmp_path / "pages"
-    for folder in (".git", "code", "data.html"):
-        (pages / folder).mkdir(parents=True)
-    (pages / "index.html").write_text("<p>here</p>")
-    (pages / "page.JS").write_text("here()")
-    (pages / "data.html" / "index.html").write_text("<p>there</p>")
-    (tmp_path / "secret.js").write_text("no")
-    for name in (".git/config", ".git/index.html", ".env.js", "code/run.py", "key", "key.pem", "notes.yaml"):
-        (pages / name).write_text("no")
-    for name, target in (
-        ("out.js", tmp_path / "secret.js"), ("dot.html", pages / ".git/index.html"),
-        ("typed.js", pages / "key.pem"), ("circle.js", pages / "circle.js"), ("up", tmp_path),
-    ):  # fmt: skip
-        (pages / name).symlink_to(target)
-    (pages / "alias.js").symlink_to(pages / "page.JS")
-
-    def fetch(port, path):
-        with urllib.request.urlopen(f"http://127.0.0.1:{port}{path}", timeout=20) as answer:
-            return answer.read().decode(), answer.headers["Content-Type"]
-
-    async def conversation(server, join, port):
-        assert await asyncio.to_thread(fetch, port, "/") == ("<p>here</p>", "text/html")
-        assert await asyncio.to_thread(fetch, port, "/page.JS?v=1") == ("here()", "text/javascript")
-        assert await asyncio.to_thread(fetch, port, "/alias.js") == ("here()", "text/javascript")
-        assert await asyncio.to_thread(fetch, port, "/data.html/") == ("<p>there</p>", "text/html")
-        for path in (
-            "/../secret.js", "/%2e%2e/secret.js", "/nothing", "/%00", "/.git/config", "/.git", "/.env.js",
-            "/.git/index.html", "/%2egit/config", "/code/run.py", "/key", "/key.pem", "/notes.yaml", "/code",
-            "/out.js", "/dot.html", "/typed.js", "/circle.js", "/up/secret.js", "//etc/passwd",
-            f"/{'x' * 3000}.js",
-        ):  # fmt: skip
-            with pytest.raises(urllib.error.HTTPError) as error:
-                await asyncio.to_thread(fetch, port, path)
-            assert error.value.code == 404
-            error.value.close()
-
-    talk(graph, conversation, pages=pages)
-
-
-def test_clients_act_only_in_worlds_that_they_joined(graph):
-    async def conversation(server, join, port):
-        first, second = await join(), await join()
-        world = (await first.ask("create", level="small", clock="manual"))["world"]
-        await first.ask("spawn", world=world, body="dog", at=[2, 3, 0], name="rex")
-        for kind, fields in (
-            ("step", {"dt": 0.1}), ("remove", {"agent": "rex"}), ("save", {}), ("restore", {}), ("close", {}),
-            ("spawn", {"body": "dog", "at": [4, 3, 0]}), ("go_to", {"agent": "rex", "points": [[4, 3, 0]]}),
-            ("stop", {"agent": "rex"}), ("way", {"agent": "rex"}),
-        ):  # fmt: skip
-            with pytest.raises(ValueError, match="join it first"):
-                await second.ask(kind, world=world, **fields)
-        await second.ask("join", world=world)
-        assert (await second.ask("step", world=world, dt=0.1))["ticks"] == 10
-
-    talk(graph, conversation)
-
-
 def test_one_client_takes_no_more_than_its_share(graph):
     """Two clients: where worlds or agents get scarce, each may have half of them."""
     limits = Limits(worlds=5, agents=6, all_worlds=4, all_agents=6)
@@ -405,22 +189,6 @@ def test_one_client_takes_no_more_than_its_share(graph):
         assert list(server.worlds) == own
 
     talk(graph, conversation, limits=limits)
-
-
-def test_worlds_of_clients_that_leave_are_freed(graph):
-    async def conversation(server, join, port):
-        client, other = await join(), await join()
-        worlds = [(await client.ask("create", level="small", clock=c))["world"] for c in ("real", "manual")]
-        kept = (await client.ask("create", level="small"))["world"]
-        await other.ask("join", world=kept)
-        await client.ask("spawn", world=worlds[1], body="human", at=[2, 3, 0])
-        await client.socket.send(json.dumps({"type": "step", "id": 99, "world": worlds[1], "dt": 1.0}))
-        await client.socket.close()  # in the middle of it
-        while list(server.worlds) != [kept]:
-            await other.hear()  # its own world goes on
-        assert server.worlds[kept].owner is next(iter(server._clients))
-
-    talk(graph, conversation, limits=Limits(deserted=0.0))
 
 
 @pytest.mark.parametrize("people", [2, 12])
@@ -474,24 +242,6 @@ def test_large_answers_are_kept_once_and_sent_in_pieces():
         assert box._waiting == 0
 
     asyncio.run(main())
-
-
-def test_a_flood_of_pings_ends_the_connection_and_not_the_server(graph):
-    async def conversation(server, join, port):
-        other, bad = await join(), await join()
-        world = (await other.ask("create", level="small", clock="manual"))["world"]
-        for _ in range(1000):
-            await bad.socket.ping()
-        with pytest.raises(ConnectionClosed):
-            await bad.hear()
-        while len(server._clients) > 1:
-            assert (await other.ask("step", world=world, dt=0.01))["ticks"] == 1
-        polite = await join()
-        for _ in range(5):
-            await (await polite.socket.ping())
-        await polite.ask("level", level="small")
-
-    talk(graph, conversation)
 
 
 def test_it_ends_without_a_word_when_it_is_told_to(tmp_path):

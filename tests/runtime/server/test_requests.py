@@ -1,0 +1,76 @@
+"""What is asked of the server is done, or refused with the reason."""
+
+import pytest
+
+pytest.importorskip("websockets", reason="needs the extra 'serve'")
+
+from tests.runtime.server.serving import talk
+
+
+@pytest.mark.parametrize(
+    ("request_", "says"),
+    [
+        ({"type": "spawn", "world": "x", "body": "dog", "at": [0, 0, 0]}, "no world 'x'"),
+        ({"type": "create", "level": "large"}, "valid: small"),
+        ({"type": "create"}, "create.level"),
+        ({"type": "fly"}, "tag"),
+        ({"type": "step", "world": "world1", "dt": -1}, "step.dt"),
+        ({"type": "step", "world": "world1", "dt": 0.1}, "runs by itself"),
+        ({"type": "spawn", "world": "world1", "body": "goose", "at": [2, 3, 0]}, "'human'"),
+        ({"type": "spawn", "world": "world1", "body": "dog", "at": [2, 3]}, "spawn.at"),
+        ({"type": "spawn", "world": "world1", "body": "dog", "at": [2, 3, 0], "size": 3}, "spawn.size"),
+        ({"type": "go_to", "world": "world1", "agent": "ada", "points": [[2, 3, 0]]}, "no agent 'ada'"),
+        ({"type": "restore", "world": "world1"}, "has not been saved"),
+        ({"type": "hello", "version": 1}, "already"),
+        (
+            {"type": "spawn", "world": "world1", "body": "goose.yaml", "at": [2, 3, 0]},
+            "spawn.body.*'human'",
+        ),
+        (
+            {"type": "spawn", "world": "world1", "body": "./dog", "at": [2, 3, 0]},
+            "spawn.body.*'human'",
+        ),
+        ({"type": "spawn", "world": "world1", "body": "dog", "at": [True, 3, 0]}, "spawn.at.0: .*number"),
+        ({"type": "spawn", "world": "world1", "body": "dog", "at": ["2", 3, 0]}, "spawn.at.0: .*number"),
+        (
+            {"type": "spawn", "world": "world1", "body": "dog", "at": [2, 3, 0], "facing": False},
+            "facing: .*number",
+        ),
+        ({"type": "step", "world": "world1", "dt": True}, "step.dt: .*number"),
+        ({"type": "step", "world": "world1", "dt": "0.1"}, "step.dt: .*number"),
+        ({"type": "create", "level": "small", "seed": "1"}, "seed: .*integer"),
+        ({"type": "create", "level": "small", "seed": 1.0}, "seed: .*integer"),
+        ({"type": "create", "level": "small", "seed": True}, "seed: .*integer"),
+        ({"type": "go_to", "world": "world1", "agent": "ada", "points": {"0": [2, 3, 0]}}, "points: .*array"),
+        ({"type": "go_to", "world": "world1", "agent": 5, "points": [[2, 3, 0]]}, "agent: .*string"),
+        ({"type": "leave", "world": ["world1"]}, "world: .*string"),
+    ],
+)
+def test_refuses_and_says_why(graph, request_, says):
+    async def conversation(server, join, port):
+        client = await join()
+        await client.ask("create", level="small")
+        with pytest.raises(ValueError, match=says):
+            fields = dict(request_)
+            await client.ask(fields.pop("type"), **fields)
+        await client.ask("level", level="small")
+
+    talk(graph, conversation)
+
+
+def test_clients_act_only_in_worlds_that_they_joined(graph):
+    async def conversation(server, join, port):
+        first, second = await join(), await join()
+        world = (await first.ask("create", level="small", clock="manual"))["world"]
+        await first.ask("spawn", world=world, body="dog", at=[2, 3, 0], name="rex")
+        for kind, fields in (
+            ("step", {"dt": 0.1}), ("remove", {"agent": "rex"}), ("save", {}), ("restore", {}), ("close", {}),
+            ("spawn", {"body": "dog", "at": [4, 3, 0]}), ("go_to", {"agent": "rex", "points": [[4, 3, 0]]}),
+            ("stop", {"agent": "rex"}), ("way", {"agent": "rex"}),
+        ):  # fmt: skip
+            with pytest.raises(ValueError, match="join it first"):
+                await second.ask(kind, world=world, **fields)
+        await second.ask("join", world=world)
+        assert (await second.ask("step", world=world, dt=0.1))["ticks"] == 10
+
+    talk(graph, conversation)

@@ -9,6 +9,7 @@ from pydantic import BaseModel
 from schema_words import cell, default_words, value_words, words_of
 from sphinx.pycode import ModuleAnalyzer
 
+from locomotion.postures.schema import PostureFile
 from locomotion.skills.description import SkillDescription
 from navmesh.obstacles.tags import Tags
 from runtime.missions.model import Mission
@@ -23,6 +24,7 @@ FILES: list[tuple[str, str, type[BaseModel]]] = [
         "What `surefoot train` learns: [skills of your own](../../guides/own-skills.md).",
         SkillDescription,
     ),
+    ("Posture graph", "What `surefoot postures` checks: [postures](../../guides/postures.md).", PostureFile),
 ]
 
 

@@ -464,6 +464,21 @@ def clip(
     _finish(show_clip(source, mapping, units, up.value, stretch, mirror, film, output), as_json)
 
 
+@app.command()
+def postures(
+    file: Annotated[Path, typer.Argument(callback=_input, help="Posture file (.yaml).")],
+    film: Annotated[
+        Path | None, typer.Option(help="Output file for a picture of all postures and arcs (.png).")
+    ] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Check a posture graph: what cannot be reached, does not meet, floats, sinks or bends too far."""
+    _commands()
+    from runtime.cli.posture_commands import show_postures
+
+    _finish(show_postures(file, film), as_json)
+
+
 def _commands() -> Any:
     """The module `runtime.cli.commands`; from now on nothing is written to what the command reads."""
     commands = _loaded()

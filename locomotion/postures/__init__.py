@@ -1,0 +1,1 @@
+"""Postures and the motions between them, played by elapsed time."""

@@ -57,7 +57,7 @@ def renew_rim_samples(
     rules: ObstacleRules,
     grid: MeshGrid,
 ) -> RimSamples:
-    """What `take_soundings` gives, after triangles have changed within the rectangles ``changed`` (k, 2, 2)
+    """What `take_rim_samples` gives, after triangles have changed within the rectangles ``changed`` (k, 2, 2)
     [m] (least and greatest x and y, from the surface's origin); ``old`` is from before."""
     vertices = terrain.vertices - surface.origin
     wide = changed + np.array([[-4.0 * WELD], [4.0 * WELD]])

@@ -5,46 +5,12 @@ import math
 
 import numpy as np
 import pytest
-from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import dijkstra
 
-from benchmarks.area_costs import COSTS, RADIUS, compare, patchwork, price
+from benchmarks.area_costs import COSTS, RADIUS, compare, patchwork
 from navmesh import NavmeshError, NodeGraph, Terrain, WalkRules, chunks_of, join_chunks, split_terrain
-from navmesh.areas.areas import checked_costs
-from navmesh.areas.kernel_arrays import LANDMARKS
-from navmesh.areas.pricing import priced_of
-from navmesh.graph.body_view import doors_of
+from tests.navmesh.areas.painted import FIELD_ERROR, built, painted, same, strips
 from tests.navmesh.meshfiles.gltf_files import Gltf
-from tests.navmesh.shapes import box, join, plane
-
-FIELD_ERROR = 0.002
-"""[m] by which the clearance field may read too wide, see docs/how-it-works/navmesh.md."""
-
-
-def painted(*pieces) -> Terrain:
-    """A terrain of (mesh, material) pairs."""
-    meshes = [mesh for mesh, _ in pieces]
-    materials = np.repeat([name for _, name in pieces], [len(mesh[1]) for mesh in meshes])
-    return Terrain.from_arrays(*join(*meshes), materials=materials)
-
-
-def strips(*names: str, side: float = 4.0) -> Terrain:
-    """Strips of 12 m along y, ``side`` [m] wide."""
-    return painted(*((plane(k * side, (k + 1) * side, 0, 12), name) for k, name in enumerate(names)))
-
-
-def built(level: Terrain) -> NodeGraph:
-    return NodeGraph.build(level, obstacle_rules=None)
-
-
-def same(route, other) -> bool:
-    return (
-        route.status == other.status
-        and np.array_equal(route.waypoints, other.waypoints)
-        and np.array_equal(route.nodes, other.nodes)
-        and route.length == other.length
-        and route.links == other.links
-    )
+from tests.navmesh.shapes import plane
 
 
 @pytest.mark.parametrize("seed", [31, 32, 33])
@@ -53,16 +19,6 @@ def test_routes_are_as_cheap_as_those_over_a_fine_grid(seed: int) -> None:
     assert ratio.mean() < 1.03 and ratio.max() < 1.1
     assert np.maximum(ratio / back, back / ratio).max() < 1.1
     assert plain.mean() > ratio.mean()
-
-
-@pytest.fixture(scope="module", params=[7, 8])
-def scene(request):
-    made = patchwork(request.param)
-    rng = np.random.default_rng(request.param)
-    places = rng.uniform(-9.5, 9.5, (200, 2))
-    places = places[made.gap_at(places) > RADIUS][:24]
-    places = np.column_stack([places, np.zeros(len(places))])
-    return made, built(made.terrain), places[:12], places[12:]
 
 
 def test_every_point_has_the_clearance(scene) -> None:
@@ -83,45 +39,6 @@ def test_a_batch_is_what_single_questions_give(scene) -> None:
         single = graph.find_path(start, goal, RADIUS, costs=COSTS)
         assert same(routes[k], single) and same(threaded[k], single)
     assert len(graph.find_paths(np.empty((0, 3)), np.empty((0, 3)), costs=COSTS)) == 0
-
-
-@pytest.mark.parametrize("slice_of", [1, 7, 100_000])
-def test_a_search_in_slices_is_what_a_single_question_gives(scene, slice_of: int) -> None:
-    _, graph, starts, goals = scene
-    for start, goal in zip(starts[:4], goals, strict=False):
-        search = graph.begin_path(start, goal, RADIUS, costs=COSTS)
-        while not search.advance(slice_of):
-            pass
-        whole = graph.find_path(start, goal, RADIUS, costs=COSTS)
-        assert same(search.finish(), whole)
-        early = graph.begin_path(start, goal, RADIUS, costs=COSTS)
-        early.advance(1)
-        assert early.finish().status in ("partial", "no_path", "complete")
-
-
-def test_the_cost_is_the_price_of_the_line(scene) -> None:
-    made, graph, starts, goals = scene
-    for route in graph.find_paths(starts, goals, RADIUS, costs=COSTS):
-        assert route.cost == pytest.approx(price(made, route.waypoints), rel=0.03, abs=0.3)
-        assert route.cost >= route.length - 1e-9
-
-
-def test_what_landmarks_say_is_left_is_never_too_much(scene) -> None:
-    """Against Dijkstra's algorithm over all roads."""
-    _, graph, _, _ = scene
-    doors = doors_of(graph, RADIUS, None, None)
-    road = priced_of(graph, doors, checked_costs(graph, COSTS)).road
-    count = len(road.stops)
-    source = np.repeat(np.arange(count), np.diff(road.road_start))
-    matrix = csr_matrix((road.roads["toll"], (source, road.roads["to"])), (count, count))
-    assert abs(matrix - matrix.T).max() < 1e-12
-    goal = int(np.argmax(np.diff(road.road_start)))
-    exact = dijkstra(matrix, indices=goal)
-    bound = road.landmark[goal]
-    there = bound[:LANDMARKS] - road.landmark[:, :LANDMARKS]
-    back = road.landmark[:, LANDMARKS:] - bound[LANDMARKS:]
-    for low in (there, back):
-        assert not (low > exact[:, None] + 1e-9).any()
 
 
 def test_costs_of_one_change_nothing(scene) -> None:
@@ -165,24 +82,6 @@ def test_of_coincident_faces_the_upper_counts() -> None:
     level = painted((plane(0, 12, 0, 12), "grass"), (plane(4, 8, 0, 9, 0.005), "mud"))
     route = built(level).find_path((1, 2, 0), (11, 2, 0), costs={"mud": 20.0})
     assert route.status == "complete" and route.waypoints[:, 1].max() > 9.0
-
-
-@pytest.mark.parametrize("angle", [0.0, 0.3, 0.7])
-def test_a_door_hardly_wider_than_the_body_is_passed(angle: float) -> None:
-    wide = 0.31
-    c, s = math.cos(angle), math.sin(angle)
-    turn = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
-    walls = box(5.9, 6.1, 0, 6.03 - wide, 0, 3), box(5.9, 6.1, 6.03 + wide, 12, 0, 3)
-    vertices, faces = join(plane(0, 6, 0, 12), plane(6, 12, 0, 12), *walls)
-    materials = ["grass"] * 2 + ["mud"] * 2 + ["brick"] * 24
-    graph = built(Terrain.from_arrays(vertices @ turn, faces, materials=materials))
-    start, goal = np.array([[2.0, 2.0, 0.0], [10.0, 2.0, 0.0]]) @ turn
-    route = graph.find_path(start, goal, 0.3, costs={"mud": 4.0})
-    plain = graph.find_path(start, goal, 0.3)
-    assert route.status == plain.status == "complete"
-    assert route.length <= 1.05 * plain.length
-    narrow = graph.find_path(start, goal, 0.32, costs={"mud": 4.0})
-    assert narrow.status == graph.find_path(start, goal, 0.32).status == "partial"
 
 
 def test_skills_are_offered_with_costs() -> None:
@@ -330,54 +229,6 @@ def test_the_materials_of_a_gltf_file(tmp_path) -> None:
     path.write_bytes(file.glb())
     with pytest.raises(NavmeshError, match="materials"):
         Terrain.load(path)
-
-
-@pytest.mark.parametrize("seed", range(40, 43))
-def test_no_leg_touches_what_is_forbidden(seed: int) -> None:
-    made = patchwork(seed)
-    graph, rng = built(made.terrain), np.random.default_rng(seed)
-    places = rng.uniform(-9.6, 9.6, (400, 2))
-    forbidden = list(COSTS).index("swamp")
-    dry = made.costs_at(places) != list(COSTS.values())[forbidden]
-    places = places[dry & (made.gap_at(places) > RADIUS)][:40]
-    places = np.column_stack([places, np.zeros(len(places))])
-    cell = graph.surface.resolution
-    found = 0
-    for start, goal in zip(places[:20], places[20:], strict=True):
-        route = graph.find_path(start, goal, RADIUS, costs=COSTS | {"swamp": math.inf})
-        if not len(route.waypoints):
-            assert route.status in ("no_path", "off_graph")
-            continue
-        points = route.on_surface(0.01)[:, :2]
-        wet = made.costs_at(points) == COSTS["swamp"]
-        ends = np.minimum(*(np.hypot(*(points - p[:2]).T) for p in (start, goal)))
-        assert not (wet & (ends > 1.5 * cell)).any()
-        assert made.gap_at(points).min() >= RADIUS - FIELD_ERROR
-        found += route.status == "complete"
-        if route.status == "partial":
-            assert math.dist(points[-1], goal[:2]) < math.dist(start[:2], goal[:2])
-    assert found > 3
-
-
-def test_what_is_forbidden_closes_the_way() -> None:
-    graph = built(strips("grass", "water", "grass"))
-    forbids = {"water": math.inf}
-    start, goal = (1.0, 6.0, 0.0), (11.0, 6.0, 0.0)
-    route = graph.find_path(start, goal, costs=forbids)
-    assert route.status == "partial"
-    assert 3.5 < route.waypoints[-1, 0] < 4.0 and abs(route.waypoints[-1, 1] - 6.0) < 0.3
-    assert graph.find_path(goal, start, costs=forbids).waypoints[-1, 0] > 8.0
-    assert graph.find_path((6.0, 6.0, 0.0), goal, costs=forbids).status == "off_graph"
-    assert graph.find_path(start, (6.0, 6.0, 0.0), costs=forbids).status == "partial"
-    assert graph.find_path((3.9, 6.0, 0.0), goal, costs=forbids).status == "no_path"
-    assert graph.find_path((3.97, 2.0, 0.0), (3.97, 9.0, 0.0), costs=forbids).status == "complete"
-    assert graph.find_path(start, goal, costs={name: math.inf for name in graph.areas}).status == "off_graph"
-    search = graph.begin_path(start, goal, costs=forbids)
-    while not search.advance(9):
-        pass
-    assert same(search.finish(), route) and same(search.finish(), route)
-    batch = graph.find_paths([start, goal], [goal, start], costs=forbids, workers=2)
-    assert same(batch[0], route) and same(batch[1], graph.find_path(goal, start, costs=forbids))
 
 
 def test_a_bridge_leads_over_water() -> None:

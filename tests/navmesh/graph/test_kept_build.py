@@ -6,62 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from benchmarks.shared_data import level_path, shared_folder
-from navmesh import NavmeshError, NodeGraph, Terrain, WalkRules, chunks_of, join_chunks, split_terrain
+from navmesh import NavmeshError, NodeGraph, Terrain, WalkRules, join_chunks, split_terrain
 from navmesh.obstacles.tagging import TagFile
 from navmesh.obstacles.tags import Addition, Tags
-from tests.navmesh.shapes import Mesh, box, join, plane, quad, terrain
-
-SKILLS = {"jump": (0.3, 0.7), "vault": (0.6, 1.0), "drop": (0.9, 2.0), "gap": (0.4, 2.5)}
-TILE = 4.0
-
-
-def ramp(x: float, y: float) -> Mesh:
-    return quad((x, y, 0), (x + TILE, y, 1.2), (x + TILE, y + TILE, 1.2), (x, y + TILE, 0))
-
-
-def stairs(x: float, y: float) -> Mesh:
-    return join(*(box(x + 0.5 * k, x + 0.5 * (k + 1), y, y + TILE, 0, 0.15 * (k + 1)) for k in range(4)))
-
-
-PIECES = {
-    "floor": lambda x, y: plane(x, x + TILE, y, y + TILE),
-    "platform": lambda x, y: join(
-        plane(x, x + TILE, y, y + TILE), box(x + 1, x + 3.4, y + 1, y + 3.4, 0, 0.5)
-    ),
-    "wall": lambda x, y: join(plane(x, x + TILE, y, y + TILE), box(x + 1.9, x + 2.1, y - 0.5, y + 3, 0, 2.5)),
-    "fence": lambda x, y: join(plane(x, x + TILE, y, y + TILE), box(x + 1.9, x + 2.1, y, y + TILE, 0, 0.8)),
-    "storeys": lambda x, y: join(
-        plane(x, x + TILE, y, y + TILE), plane(x, x + TILE, y, y + TILE, 2.6), plane(x, x + 3, y, y + 3, 4.0)
-    ),
-    "ramp": ramp,
-    "stairs": stairs,
-    "gap": lambda x, y: plane(x, x + 2.5, y, y + TILE),
-}
-SPOTS = [(i, j) for i in range(3) for j in range(3)]
-
-
-def piece(kind: str, spot: tuple[int, int]) -> Terrain:
-    return terrain(PIECES[kind](TILE * spot[0], TILE * spot[1]))
-
-
-def assert_same(graph: NodeGraph, built: NodeGraph) -> None:
-    """Bit for bit."""
-    for name in ("positions", "radii", "node_cell", "label", "edge_start", "edge_target", "edge_width"):
-        np.testing.assert_array_equal(getattr(graph, name), getattr(built, name), name)
-    for name in ("edge_gate", "edge_cells"):
-        np.testing.assert_array_equal(getattr(graph, name), getattr(built, name), name)
-    for name in ("origin", "column_start", "height", "gradient", "link", "clearance", "nearest"):
-        np.testing.assert_array_equal(getattr(graph.surface, name), getattr(built.surface, name), name)
-    for part in ("obstacles", "links"):
-        expected = getattr(built, part).arrays()
-        for name, array in getattr(graph, part).arrays().items():
-            np.testing.assert_array_equal(array, expected[name], f"{part}.{name}")
-    assert graph.terrain.digest == built.terrain.digest
-
-
-def rebuilt(graph: NodeGraph) -> NodeGraph:
-    return NodeGraph.build(graph.terrain, graph.rules, graph.obstacle_rules, graph.tags, extent=graph.extent)
-
+from tests.navmesh.pieces import PIECES, SPOTS, assert_same, piece, rebuilt
+from tests.navmesh.shapes import quad, terrain
 
 change = st.dictionaries(
     st.sampled_from(SPOTS), st.sampled_from([None, *PIECES]), min_size=1, max_size=3
@@ -158,41 +107,6 @@ def test_saved_and_loaded_graphs_can_be_updated(tmp_path):
     assert_same(one, other)
     assert "bench" in other.obstacles.tag
     assert_same(other.update({"c": None}), rebuilt(one.update({"c": None})))
-
-
-def test_routes_are_told_whether_they_hold():
-    level = {f"{i},0": piece("floor", (i, 0)) for i in range(4)}
-    graph = NodeGraph.build(join_chunks(level))
-    across = graph.find_path((1, 2, 0), (15, 2, 0), 0.3)
-    short = graph.find_path((1, 2, 0), (3, 2, 0), 0.3)
-    assert across.holds(graph)
-    walled = graph.update({"2,0": piece("wall", (2, 0))})
-    assert not across.holds(walled)
-    assert short.holds(walled)
-    assert across.holds(walled.update({"2,0": level["2,0"]}))
-    gone = graph.update({"3,0": None})
-    assert not across.holds(gone)
-    assert not gone.find_path((1, 2, 0), (9, 2, 0.0), 40.0).holds(gone)
-
-
-def test_routes_over_obstacles_hold_as_long_as_these_are_there():
-    level = {"0": piece("floor", (0, 0)), "1": piece("fence", (1, 0)), "2": piece("floor", (2, 0))}
-    graph = NodeGraph.build(join_chunks(level))
-    over = graph.find_path((1, 2, 0), (11, 2, 0), 0.3, SKILLS)
-    assert [graph.links.affordance[use.link] for use in over.links] == ["vault"]
-    assert over.holds(graph.update({"2": piece("platform", (2, 0))})) is False
-    assert over.holds(graph.update({"far": terrain(plane(0, 4, 8, 12))}))
-    assert not over.holds(graph.update({"1": piece("wall", (1, 0))}))
-
-
-def test_chunks_put_together_are_taken_apart():
-    chunks = {"b": piece("stairs", (0, 0)), "a": piece("storeys", (1, 1))}
-    whole = join_chunks(chunks)
-    assert [chunk.name for chunk in whole.chunks] == ["a", "b"]
-    for name, chunk in chunks_of(whole).items():
-        assert chunk.digest == chunks[name].digest
-    split = split_terrain(whole, 2.0)
-    assert sum(len(chunk.faces) for chunk in split.values()) == len(whole.faces)
 
 
 def test_wrong_changes_are_refused():

@@ -9,7 +9,7 @@ import trimesh
 from PIL import Image
 from trimesh.visual import TextureVisuals
 
-from navmesh import NavmeshError, NodeGraph, Terrain, WalkRules
+from navmesh import NavmeshError, NodeGraph, Terrain
 
 FLOOR = (np.array([[0.0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]]), np.array([[0, 1, 2], [0, 2, 3]]))
 
@@ -118,28 +118,3 @@ def test_nothing_to_walk_on_is_an_error():
 def test_too_many_columns_is_an_error():
     with pytest.raises(NavmeshError, match="columns"):
         NodeGraph.build(Terrain.from_arrays(FLOOR[0] * 1e6, FLOOR[1]))
-
-
-@pytest.mark.parametrize(
-    "wrong",
-    [
-        {"max_slope": 2.0},
-        {"max_slope": -0.1},
-        {"max_step": 1.0, "headroom": 1.5},
-        {"headroom": 0.0},
-        {"resolution": 0.0},
-        {"resolution": math.nan},
-        {"min_radius": "wide"},
-        {"max_step": True},
-    ],
-)
-def test_rules_say_what_is_wrong(wrong):
-    with pytest.raises(NavmeshError, match=next(iter(wrong))):
-        WalkRules(**wrong)
-
-
-def test_rules_go_through_a_file():
-    rules = WalkRules(max_step=0.3, resolution=0.2)
-    assert WalkRules.from_dict(rules.to_dict()) == rules
-    with pytest.raises(NavmeshError, match="walk rules"):
-        WalkRules.from_dict({"max_stepp": 1})

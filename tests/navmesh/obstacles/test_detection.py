@@ -11,7 +11,6 @@ import navmesh
 from benchmarks.affordances import compare
 from benchmarks.obstacle_scenes import Mesh, box, merged, plate, random_scene, turned
 from navmesh.obstacles.detection import detect_obstacles
-from navmesh.obstacles.free_length import cells_of, march
 from navmesh.obstacles.obstacles import Obstacles
 from navmesh.surface.build import build_surface
 
@@ -173,62 +172,3 @@ def test_the_courtyard_has_its_platforms_vaults_drop_and_gaps() -> None:
         ((20, 37.8, 3), "gap"),
     ):
         assert found.near(np.array(at), affordance)[1] < 0.25
-
-
-def _slow_march(surface, cell, x, y, dx, dy, limit) -> float:
-    """`march` by very small steps from square to square."""
-    ny, size = surface.shape[1], surface.resolution
-    t = 0.0
-    column = int(surface.cell_column[cell])
-    while t < limit:
-        t += 1e-4
-        ix, iy = int((x + t * dx) // size), int((y + t * dy) // size)
-        if ix * ny + iy == column:
-            continue
-        step = (ix - column // ny, iy - column % ny)
-        if abs(step[0]) + abs(step[1]) != 1:
-            return t  # across a corner: the two answers may differ
-        way = {(1, 0): 0, (0, 1): 1, (-1, 0): 2, (0, -1): 3}[step]
-        cell = int(surface.link[cell, way])
-        if cell < 0:
-            return t
-        column = int(surface.cell_column[cell])
-    return limit
-
-
-def test_march_agrees_with_very_small_steps() -> None:
-    surface = build_surface(navmesh.Terrain.load(COURTYARD), RULES)
-    cells = cells_of(surface)
-    rng = np.random.default_rng(3)
-    for cell in rng.integers(0, len(surface), 40):
-        centre = surface.centers(np.array([cell]))[0] - surface.origin
-        x, y = centre[:2] + rng.uniform(-0.1, 0.1, 2)
-        heading = rng.uniform(-np.pi, np.pi)
-        dx, dy = np.cos(heading), np.sin(heading)
-        length, last = march(cells, int(cell), x, y, dx, dy, 6.0)
-        assert length == pytest.approx(_slow_march(surface, int(cell), x, y, dx, dy, 6.0), abs=1e-3)
-        there = np.array([x + (length - 1e-6) * dx, y + (length - 1e-6) * dy])
-        centre = surface.centers(np.array([last]))[0] - surface.origin
-        assert np.all(np.abs(there - centre[:2]) <= surface.resolution / 2 + 1e-6)
-
-
-@pytest.mark.parametrize(
-    ("values", "said"),
-    [
-        ({"jump_rise": (0.7, 0.1)}, "jump_rise"),
-        ({"gap_width": 2.0}, "gap_width"),
-        ({"vault_depth": -1.0}, "vault_depth"),
-        ({"body_radius": True}, "body_radius"),
-        ({"landing": float("nan")}, "landing"),
-    ],
-)
-def test_wrong_rules_are_named(values: dict, said: str) -> None:
-    with pytest.raises(navmesh.NavmeshError, match=said):
-        navmesh.ObstacleRules(**values)
-
-
-def test_rules_survive_a_file_header() -> None:
-    rules = navmesh.ObstacleRules(vault_depth=0.5, gap_width=(0.3, 3.0))
-    assert navmesh.ObstacleRules.from_dict(rules.to_dict()) == rules
-    with pytest.raises(navmesh.NavmeshError, match="obstacle rules"):
-        navmesh.ObstacleRules.from_dict({"jump": 1})

@@ -18,6 +18,10 @@ __all__ = [
     "turned",
 ]
 
+FIELD_ERROR = 0.002
+"""[m] by which the clearance field may read too wide, see docs/how-it-works/navmesh.md. It never reads too
+narrow."""
+
 
 def pillars(
     rng: np.random.Generator, count: int, size: float = 14.0
@@ -141,3 +145,19 @@ def rounded_shortest(start, goal, corner, radius: float) -> float:
     if turn <= 0.0:
         return float(np.linalg.norm(s - g))
     return math.sqrt(ds**2 - radius**2) + math.sqrt(dg**2 - radius**2) + radius * turn
+
+
+def scene(seed: int, count: int = 7) -> tuple[NodeGraph, np.random.Generator]:
+    rng = np.random.default_rng(seed)
+    return build(*pillars_level(pillars(rng, count))), rng
+
+
+def gap_of(rectangles, points: np.ndarray, size: float = 14.0) -> np.ndarray:
+    """Distance of ``points`` (n, 3) to the pillars and to the rim of the floor."""
+    x, y = points[:, 0], points[:, 1]
+    gap = np.minimum(np.minimum(x, size - x), np.minimum(y, size - y))
+    for x0, x1, y0, y1 in rectangles:
+        dx = np.maximum(np.maximum(x0 - x, x - x1), 0.0)
+        dy = np.maximum(np.maximum(y0 - y, y - y1), 0.0)
+        gap = np.minimum(gap, np.hypot(dx, dy))
+    return gap

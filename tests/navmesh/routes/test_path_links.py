@@ -1,12 +1,11 @@
 """Routes over typed links: taken when the skill is offered, straight from run-up to landing."""
 
-import math
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from navmesh import NodeGraph, Terrain, WalkRules
+from navmesh import NodeGraph, Terrain
 
 COURTYARD = Path(__file__).resolve().parents[3] / "examples" / "levels" / "courtyard.obj"
 SKILLS = {"jump": (0.1, 0.7), "vault": (0.6, 1.0), "drop": (0.9, 2.0), "gap": (0.3, 3.0)}
@@ -60,13 +59,3 @@ def test_only_what_is_offered_is_used(graph: NodeGraph, pairs: tuple[np.ndarray,
             assert graph.links.affordance[use.link] == "jump"
             assert 0.1 <= graph.links.height[use.link] <= 0.45
             assert graph.links.radius[use.link] >= 0.35
-
-
-def test_a_way_whose_corners_fall_away_in_turns_is_found() -> None:
-    # mending this line took turns between two corners for ever
-    rules = WalkRules(headroom=1.9, max_slope=math.radians(20.0), max_step=0.15)
-    graph = NodeGraph.build(Terrain.load(COURTYARD), rules)
-    start, goal = (47.625, 17.625, 1.2), (55.375, 20.625, 0.0)
-    narrow, wide = (graph.find_path(start, goal, radius=radius) for radius in (0.12, 0.3))
-    assert narrow.status == wide.status == "complete"
-    assert 0.95 * wide.length < narrow.length <= wide.length

@@ -13,39 +13,20 @@ from navmesh.graph.body_view import doors_of, portals_of
 from navmesh.graph.kernel_arrays import make_scratch, net_of
 from navmesh.graph.snapping import snap
 from navmesh.routes.graph_search import BEST, COMPLETE, advance, begin
-from navmesh.surface.clearance_field import gap_at, walk
 from tests.navmesh.routes.path_references import (
+    FIELD_ERROR,
     build,
-    dense_walk,
+    gap_of,
     pillars,
     pillars_level,
     plain_search,
-    rounded_shortest,
+    scene,
     turned,
 )
 from tests.navmesh.shapes import box, join, plane
 
 RADII = st.sampled_from([0.15, 0.3, 0.6, 0.9])
-FIELD_ERROR = 0.002
-"""[m] by which the clearance field may read too wide, see docs/how-it-works/navmesh.md. It never reads too
-narrow."""
 SEEDS = st.integers(0, 10_000)
-
-
-def scene(seed: int, count: int = 7) -> tuple[NodeGraph, np.random.Generator]:
-    rng = np.random.default_rng(seed)
-    return build(*pillars_level(pillars(rng, count))), rng
-
-
-def gap_of(rectangles, points: np.ndarray, size: float = 14.0) -> np.ndarray:
-    """Distance of ``points`` (n, 3) to the pillars and to the rim of the floor."""
-    x, y = points[:, 0], points[:, 1]
-    gap = np.minimum(np.minimum(x, size - x), np.minimum(y, size - y))
-    for x0, x1, y0, y1 in rectangles:
-        dx = np.maximum(np.maximum(x0 - x, x - x1), 0.0)
-        dy = np.maximum(np.maximum(y0 - y, y - y1), 0.0)
-        gap = np.minimum(gap, np.hypot(dx, dy))
-    return gap
 
 
 @settings(max_examples=15, deadline=None, derandomize=True)
@@ -109,93 +90,6 @@ def test_search_agrees_with_the_plain_one(seed: int) -> None:
             longer += total > 1.01 * found[0]
             checked += 1
     assert checked >= 4 and longer <= 1
-
-
-@pytest.mark.parametrize("storeys", [1, 2])
-@pytest.mark.parametrize("seed", range(3))
-def test_walking_the_field_agrees_with_tiny_steps(seed: int, storeys: int) -> None:
-    rng = np.random.default_rng(seed)
-    level = pillars_level(pillars(rng, 7))
-    if storeys == 2:  # another floor under a part of this one: discs end over it and beside it
-        level = join(level, plane(0.0, 9.0, 0.0, 14.0, -4.0))
-    graph = build(*level)
-    surface, net = graph.surface, net_of(graph)
-    for _ in range(20):
-        cell = int(rng.integers(len(surface)))
-        ix, iy = divmod(int(surface.cell_column[cell]), surface.shape[1])
-        a = (np.array([ix, iy]) + rng.uniform(0.05, 0.95, 2)) * surface.resolution
-        b = a + rng.uniform(-4.0, 4.0, 2)
-        reached, end, gap = dense_walk(surface, cell, a, b, 2e-3)
-        fast = walk(net, cell, *a, *b, 0.3, True)
-        assert fast[0] == reached
-        if reached:
-            assert fast[1] == end
-            if gap < 0.3:
-                assert fast[2] == pytest.approx(gap, abs=0.03)
-            else:
-                assert fast[2] > 0.27
-            x, y = a + fast[3] * (b - a)
-            if fast[2] < 0.3:
-                assert fast[2] == pytest.approx(math.hypot(x - fast[4], y - fast[5]), abs=1e-9)
-                assert divmod(int(surface.cell_column[fast[6]]), surface.shape[1]) == (
-                    int(x // surface.resolution),
-                    int(y // surface.resolution),
-                )
-
-
-def test_the_gap_to_a_wall_is_right_off_the_centres() -> None:
-    graph = build(*join(plane(0.0, 8.0, 0.0, 8.0), box(3.0, 5.0, 3.0, 5.0, 0.0, 2.5)))
-    net, origin = net_of(graph), graph.surface.origin
-    rng = np.random.default_rng(3)
-    for point in rng.uniform(1.0, 7.0, (200, 2)):
-        true = gap_of([(3.0, 5.0, 3.0, 5.0)], point[None], 8.0)[0]
-        if true > 0.2:
-            node, cell, x, y = snap(net, *(point - origin[:2]), -origin[2], 0.1, 1.0, 1.0, 0.2)
-            assert node >= 0
-            gap = gap_at(net, cell, x, y)[0]
-            assert true - 1e-9 <= gap <= true + FIELD_ERROR
-
-
-def test_round_a_corner_the_path_is_nearly_the_shortest() -> None:
-    graph = build(*join(plane(0.0, 20.0, 0.0, 20.0), box(0.0, 10.0, 9.0, 9.2, 0.0, 3.0)))
-    for start, goal in (((2.0, 5.0), (2.0, 14.0)), ((8.0, 3.0), (8.5, 16.0)), ((5.0, 2.0), (14.0, 18.0))):
-        for radius in (0.3, 0.6, 1.2):
-            route = graph.find_path((*start, 0.0), (*goal, 0.0), radius)
-            wall = [np.array(corner) for corner in ((10.0, 9.0), (10.0, 9.2))]
-            shortest = rounded_shortest(start, goal, sum(wall) / 2, radius)
-            assert route.status == "complete"
-            assert shortest * 0.99 < route.length < shortest * 1.02
-
-
-def test_a_straight_way_has_two_waypoints() -> None:
-    graph = build(*plane(0.0, 30.0, 0.0, 10.0))
-    route = graph.find_path((1.5, 2.0, 0.0), (28.0, 8.0, 0.0), 0.5)
-    assert len(route.waypoints) == 2
-    assert route.length == pytest.approx(math.hypot(26.5, 6.0), rel=1e-9)
-    assert np.allclose(route.waypoints[0], (1.5, 2.0, 0.0), atol=1e-9)
-
-
-@pytest.mark.parametrize("seed", range(3))
-def test_batches_and_slices_give_the_same_bits(seed: int) -> None:
-    graph, rng = scene(seed, 12)
-    ends = np.column_stack([rng.uniform(-1.0, 15.0, (80, 2)), np.zeros(80)])
-    starts, goals = ends[:40], ends[40:]
-    batch = graph.find_paths(starts, goals, radius=0.4)
-    shared = graph.find_paths(starts, goals, radius=0.4, workers=3)
-    assert len(set(batch.status)) >= 2
-    for i, (start, goal) in enumerate(zip(starts, goals, strict=True)):
-        single = graph.find_path(start, goal, 0.4)
-        search = graph.begin_path(start, goal, 0.4)
-        slices = 1
-        while not search.advance(3):
-            slices += 1
-        sliced = search.finish()
-        assert sliced.expanded <= 6 * slices + 64  # the end may search as much again
-        for other in (batch[i], shared[i], sliced):
-            assert other.status == single.status and other.length == single.length
-            assert np.array_equal(other.waypoints, single.waypoints)
-            assert np.array_equal(other.nodes, single.nodes)
-            assert other.expanded == single.expanded
 
 
 def test_a_search_ended_early_gives_a_partial_route() -> None:
@@ -300,29 +194,6 @@ def test_costly_nodes_are_gone_round() -> None:
     assert np.abs(free.on_surface()[:, 0] - 10.0).max() < 1.0
     assert np.abs(costly.on_surface()[:, 0] - 10.0).max() > 4.0
     assert costly.status == "complete" and costly.length > free.length
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_the_path_runs_through_its_corridor(seed: int) -> None:
-    graph, rng = scene(seed, 9)
-    ends = np.column_stack([rng.uniform(0.5, 13.5, (20, 2)), np.zeros(20)])
-    for route in graph.find_paths(ends[:10], ends[10:], radius=0.3):
-        for leg in route.legs():
-            points = np.concatenate(
-                [
-                    a + (b - a) * np.linspace(0, 1, 2 + int(math.dist(a, b) / 1e-3))[:, None]
-                    for a, b in zip(leg.waypoints, leg.waypoints[1:], strict=False)
-                ]
-            )
-            reached = np.zeros(len(points), dtype=bool)
-            reached[0] = True
-            index = np.arange(len(points))
-            for center, radius in zip(leg.centers, leg.radii, strict=True):
-                inside = np.hypot(*(points - center)[:, :2].T) <= radius + 1e-3
-                last_reached = np.maximum.accumulate(np.where(reached & inside, index, -1))
-                last_outside = np.maximum.accumulate(np.where(inside, -1, index))
-                reached = inside & (last_reached > last_outside)
-            assert reached[-1]
 
 
 def test_wrong_arguments_are_refused() -> None:

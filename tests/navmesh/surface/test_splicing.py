@@ -1,0 +1,58 @@
+"""A window of cells is put in the place of those that were there."""
+
+import numpy as np
+import pytest
+
+from navmesh.surface.build import Cells
+from navmesh.surface.splicing import splice
+
+NX, NY = 4, 3
+
+
+def cells(counts, first):
+    """So many storeys in each column, linked to the same storeys of its neighbours; a storey has as many
+    blockers as its number."""
+    start = np.concatenate([[0], np.cumsum(counts)]).astype(np.int32)
+    column = np.repeat(np.arange(NX * NY, dtype=np.int32), counts)
+    storey = np.arange(len(column)) - start[column]
+    link = np.full((len(column), 4), -1, np.int32)
+    for k, (c, s) in enumerate(zip(column, storey, strict=True)):
+        for d, (dx, dy) in enumerate(((1, 0), (0, 1), (-1, 0), (0, -1))):
+            x, y = c // NY + dx, c % NY + dy
+            if 0 <= x < NX and 0 <= y < NY and s < counts[x * NY + y]:
+                link[k, d] = start[x * NY + y] + s
+    height = first + 100.0 * column + storey
+    blockers = np.concatenate([[0], np.cumsum(storey)]).astype(np.int32)
+    of = np.repeat(height, storey)
+    return Cells(
+        start, column, height, np.column_stack([height, -height]), link, blockers, np.tile(of[:, None], 4)
+    )
+
+
+@pytest.mark.parametrize("window", [(1, 1, 3, 2), (0, 0, 4, 3), (2, 0, 4, 3), (1, 1, 1, 1)])
+def test_inside_it_is_as_in_the_new_and_outside_as_in_the_old(window):
+    rng = np.random.default_rng(3)
+    inside = np.zeros((NX, NY), bool)
+    inside[window[0] : window[2], window[1] : window[3]] = True
+    inside = inside.ravel()
+    old_counts, new_counts = rng.integers(1, 4, (2, NX * NY))
+    # just outside of the window both are alike
+    beside = ~inside & np.array([
+        any(0 <= c // NY + dx < NX and 0 <= c % NY + dy < NY and inside[(c // NY + dx) * NY + c % NY + dy]
+            for dx, dy in ((1, 0), (0, 1), (-1, 0), (0, -1)))
+        for c in range(NX * NY)
+    ])  # fmt: skip
+    new_counts[beside] = old_counts[beside]
+    old, new = cells(old_counts, 0.0), cells(new_counts, 0.5)
+    whole_counts = np.where(inside, new_counts, old_counts)
+    expected = cells(whole_counts, 0.0)
+    shift = 0.5 * inside[expected.cell_column]
+    expected.height[:] += shift
+    expected.gradient[:] = np.column_stack([expected.height, -expected.height])
+    expected.blocker[:] = np.repeat(expected.height, np.diff(expected.blocker_start))[:, None]
+    found = splice(old, new, window, NY)
+    for name in ("column_start", "cell_column", "height", "gradient", "blocker_start", "blocker"):
+        np.testing.assert_array_equal(getattr(found, name), getattr(expected, name), name)
+    # links from outside into the window are those of the old part, which knew as many storeys there as it had
+    within = inside[found.cell_column]
+    np.testing.assert_array_equal(found.link[within], expected.link[within])

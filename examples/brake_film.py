@@ -1,6 +1,5 @@
-"""Makes the picture of a stop in ``docs/how-it-works/walking.md``: a person that runs at 3 m/s is
-told to stop; eight
-moments, and how far it has come.
+"""Makes the picture of a stop in ``docs/how-it-works/walking.md``: a person that runs at 3 m/s is told
+to stop; eight moments, and how far it has come.
 
 python examples/brake_film.py [file]
 """

@@ -60,8 +60,7 @@ class Problem:
     """(n,) [m] horizontal arc length at the waypoints, along the path that they were placed on."""
     source: NDArray[np.float64]
     """(n,) [m] horizontal arc length of the pulled path at the targets; the same as `arc` unless a bound on
-    curvature
-    made the solver place the waypoints anew."""
+    curvature made the solver place the waypoints anew."""
     segment_disc: NDArray[np.int32]
     """(n - 1,) the disc that holds each segment; a waypoint stays in the discs of both its segments."""
     centers: NDArray[np.float64]

@@ -27,11 +27,9 @@ class Solution:
                          along another way through the corridor.
       "iteration_limit"  stopped early; the points are still valid: inside the corridor, ends and tangents
                          exact. Without a bound the objective is no higher than the pulled path's. With one,
-                         the
-                         curvature is above it: the points are the least curved ones found, and whether any
-                         path
-                         meets the bound is unknown. Without a limit on iterations this is rare: the corridor
-                         must narrow to a fraction of the tightest curve.
+                         the curvature is above it: the points are the least curved ones found, and whether
+                         any path meets the bound is unknown. Without a limit on iterations this is rare:
+                         the corridor must narrow to a fraction of the tightest curve.
       "infeasible"       proven: no path in the corridor has these tangents and this curvature; the points are
                          the smoothest without the bound.
     """

@@ -1,6 +1,7 @@
-"""Compiling all kernels before they are needed: who needs them asks here, whoever can do it says so here.
+"""Compiling all kernels before they are needed.
 
-What needs them, such as a world, lies below what uses everything that has kernels in order to compile it.
+`runtime.warmup` compiles them, since only it imports everything that has kernels. Worlds, which it imports,
+need them compiled. So it leaves its function here (`prepare_with`), and worlds call it (`prepare_once`).
 """
 
 import hashlib

@@ -55,21 +55,23 @@ class Course:
     """What a body that follows a path is about to do.
 
     Attributes:
-      points: (k, 3) float64 [m] the path from the body on, every `SPACING`.
-      speeds: (k,) float64 [m/s] at which it wants to pass them if nobody is in the way.
-      speed: [m/s] now. pace: present share of ``speeds``.
-      length: [m] from its rearmost point, which follows the path, to its front. reach: [m] by which it
-      extends
-        beyond the last point at the end. radius: [m].
-      acceleration, braking: [m/s²] at most. eagerness: [1/s] factor from a difference of speed to one of
-      these,
-        up to `AT_ONCE`.
-      slowest: [m/s] its slowest speed short of a halt; 0: it halts as easily as it slows down.
-      sharpest: [1/m] sharpest curve it can take. begins: [m] ahead where a change of its path may begin.
-      aside: whether its path may be changed. whole: whether the last point is its goal.
-      stops: [m] it needs for a stop. turns: [s] that it turns on the spot, once slow enough, before it goes
-      on.
-      nose: [m] of ``length`` in front of its foremost disc.
+        points: (k, 3) float64 [m] the path from the body on, every `SPACING`.
+        speeds: (k,) float64 [m/s] at which it wants to pass them if nobody is in the way.
+        speed: [m/s] now.
+        pace: present share of ``speeds``.
+        length: [m] from its rearmost point, which follows the path, to its front.
+        reach: [m] by which it extends beyond the last point at the end.
+        radius: [m].
+        acceleration, braking: [m/s²] at most.
+        eagerness: [1/s] factor from a difference of speed to one of these, up to `AT_ONCE`.
+        slowest: [m/s] its slowest speed short of a halt; 0: it halts as easily as it slows down.
+        sharpest: [1/m] sharpest curve it can take.
+        begins: [m] ahead where a change of its path may begin.
+        aside: whether its path may be changed.
+        whole: whether the last point is its goal.
+        stops: [m] it needs for a stop.
+        turns: [s] that it turns on the spot, once slow enough, before it goes on.
+        nose: [m] of ``length`` in front of its foremost disc.
     """
 
     points: NDArray[np.float64]

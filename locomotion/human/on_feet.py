@@ -54,7 +54,7 @@ from locomotion.paths.follower import PathFollower
 __all__ = ["RUN_GAINS", "OnFeet"]
 
 RUN_GAINS = np.array([0.35, 1.2, 0.15, 0.45, 0.5, 0.05])
-"""Gains of `path_tracking.track`; hardly any sideways speed, which the run was not trained with."""
+"""Gains of `tracking.track`; hardly any sideways speed, which the run was not trained with."""
 _WALK_GAINS = np.array([0.5, 0.6, 0.05, 0.3, 0.8, 0.25])
 _HASTE = 1.3  # [m/s] asked for above the last step's speed at most, lest it trip
 _FAST, _FAST_HASTE = 3.7, 0.8  # [m/s] from the first speed on, only this much above

@@ -12,7 +12,7 @@ from locomotion.gaits.run import layout as run
 from locomotion.gaits.walk import layout as walk
 from locomotion.human.human import Human
 from locomotion.human.state import BUSY, CLEARING, HumanState
-from locomotion.paths import tracking as path_tracking
+from locomotion.paths import tracking
 from locomotion.paths.command import COMMAND_SIZE, HEADING_ASKED, SIDEWAYS_ASKED, SLOPE_THERE, SPEED_ASKED
 from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.paths.table import BRAKE, FAST_WALK, GAIT, RUN, SPEED, WALK, PathTable
@@ -91,15 +91,15 @@ _PARTS = (
     ),
     Slots(
         "the way of a person",
-        path_tracking.TRACK_SIZE,
+        tracking.TRACK_SIZE,
         [
-            (path_tracking.ARC, COUNT),
-            (path_tracking.PACE, FLAG),
-            (path_tracking.BACKED, (0.0, 1e3)),
-            (path_tracking.WAITED, COUNT),
-            (path_tracking.TRIED, COUNT),
+            (tracking.ARC, COUNT),
+            (tracking.PACE, FLAG),
+            (tracking.BACKED, (0.0, 1e3)),
+            (tracking.WAITED, COUNT),
+            (tracking.TRIED, COUNT),
         ],
-        whole=(path_tracking.BACKED, path_tracking.TRIED),
+        whole=(tracking.BACKED, tracking.TRIED),
     ),
     Slots(
         "what a person on hands and feet remembers",

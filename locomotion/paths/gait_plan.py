@@ -66,7 +66,7 @@ def plan_gaits(
     running: bool,
 ) -> list[TrackingLimits]:
     """Write the gaits into ``table`` (n, 8); ``at`` (n,) [m]: arc lengths of its points, with the limits at
-    each. Other arguments as in `path_tracking.make_path`."""
+    each. Other arguments as in `tracking.make_path`."""
     fastest = min(max(speed, limits.speeds[0]), limits.speeds[1])
     slowing = _length_of_slowing(fastest, limits, walk)
     slowest = 0.5 * (walk.speeds[1] + limits.speeds[0])  # slower is nearer to a walk

@@ -69,7 +69,7 @@ def check_animal(memory: AnimalMemory, body: Body) -> None:
     check_array("the motion of an animal", state.table, None, at.ROW)
     row, count = state.row, len(state.table)
     if row[at.ROW_COUNT] != count:
-        raise LocomotionError(f"the motion of an animal has {count} rows, of [row[at.ROW_COUNT]:g]")
+        raise LocomotionError(f"the motion of an animal has {count} rows, of {row[at.ROW_COUNT]:g}")
     moves = row[at.MODE] != at.STANDING
     if moves and (count < _LEAST_ROWS or row[at.ROW_STEP] <= 0.0 or row[at.WAY] == 0.0):
         raise LocomotionError(f"an animal moves by {count} rows, {row[at.ROW_STEP]:g} apart")

@@ -29,8 +29,9 @@ class SkillFamily:
         table: (k, p) float64, their parameters.
         references: (k, bins, sensors) float64, expected sensors.
         stride: (a, lag, b) of the steps of the run-up, see
-        `locomotion.skills.interface.ClearingSkill.stride`. run: digest of the running skill that it was
-        learned on. meta: what made it.
+            `locomotion.skills.interface.ClearingSkill.stride`.
+        run: digest of the running skill that it was learned on.
+        meta: what made it.
     """
 
     kind: str

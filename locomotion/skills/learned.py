@@ -1,5 +1,5 @@
-"""What skills that were learned over the height of the obstacle have in common as
-`locomotion.skills.interface.ClearingSkill`s: their range, their run-up, and a law per height, made once."""
+"""What all skills share that were learned for a range of heights: the range, the run-up, and a control
+law for each height, made when it is first asked for."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -21,6 +21,9 @@ __all__ = [
 ]  # fmt: skip
 
 _PACKAGE = (JUMP, VAULT, DROP_ROLL, LEAP)
+for _kind in _PACKAGE:
+    if _kind.affordance not in obstacles.affordances():  # a kind that the package does not find in meshes
+        obstacles.register(_kind.obstacle)
 BUSY = (
     "standing", "walking", "running", "scrambling", "getting up", "fallen", "arrived", "lost", "stuck",
 )  # fmt: skip

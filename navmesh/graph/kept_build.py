@@ -1,11 +1,9 @@
 """What is kept of a build, and how it is renewed after a change: `NodeGraph.build` and `NodeGraph.update`.
 
 Local stages are those that look at triangles: cells, links, the clearance beside walls and rims
-(`find_cells`),
-and the samples at rims. After a change they are done again for a window of columns around it, and spliced
-in.
-The rest, clearances carried over the cells, discs, edges and the joining of rim samples to obstacles, can
-change far away; it is done again for the whole level.
+(`find_cells`), and the samples at rims. After a change they are done again for a window of columns around
+it, and spliced in. The rest, clearances carried over the cells, discs, edges and the joining of rim samples
+to obstacles, can change far away; it is done again for the whole level.
 """
 
 from collections.abc import Sequence

@@ -22,11 +22,10 @@ STATUSES = ("complete", "partial", "no_path", "off_graph")
 """What a route's status can be.
 
 complete: it leads to the goal. partial: the goal cannot be reached, and the route leads to the place nearest
-to it that can be (docs/how-it-works/navmesh.md); or the search was ended early,
-and it leads to the portal nearest to the
-goal that was seen. no_path: the goal cannot be reached, and nothing that can be is nearer to it than the
-start. off_graph: the start or the goal has no place near it where the body
-fits. Routes of the last two have no waypoints.
+to it that can be (docs/how-it-works/navmesh.md); or the search was ended early, and it leads to the portal
+nearest to the goal that was seen. no_path: the goal cannot be reached, and nothing that can be is nearer to
+it than the start. off_graph: the start or the goal has no place near it where the body fits. Routes of the
+last two have no waypoints.
 """
 
 

@@ -27,8 +27,7 @@ _FEWEST = 64  # headings drawn for a stretch of roaming
 @dataclass(frozen=True)
 class Goals:
     """Where bots go. ``spawns`` (s, 3) and ``places`` (p, 3) [m] with their names; ``targets`` (t, 3) [m]:
-    one for
-    each patch of floor that can be reached; ``obstacles``: those that can be reached and cleared."""
+    one for each patch of floor that can be reached; ``obstacles``: those that can be reached and cleared."""
 
     spawn_names: tuple[str, ...]
     spawns: np.ndarray

@@ -33,10 +33,9 @@ class Leg:
     """How one way went.
 
     ``status``: "arrived", "stuck", "fell", "bumped" (against the level, in a leap), "lost" (left its
-    path), "no
-    way" or "out of time"; ``seconds`` it took, ``planned`` [s] it should have taken (0 for wandering);
-    ``track`` (n, 4) float64: time since its beginning [s] and place [m]; ``place`` (3,) where it ended;
-    ``obstacle`` the one that a leap ended at, or -1.
+    path), "no way" or "out of time"; ``seconds`` it took, ``planned`` [s] it should have taken (0 for
+    wandering); ``track`` (n, 4) float64: time since its beginning [s] and place [m]; ``place`` (3,) where it
+    ended; ``obstacle`` the one that a leap ended at, or -1.
     """
 
     status: str

@@ -40,8 +40,8 @@ class Report:
 
     ``digest`` names the level's geometry; ``character`` who played; ``faults`` are faults and notes in the
     order of their numbers, which count from 1. ``coverage`` (k, 2): time [s] and share of the reachable
-    floor that
-    some bot has been to; ``patches`` (n, 4): place [m] and how many quarter seconds bots spent there.
+    floor that some bot has been to; ``patches`` (n, 4): place [m] and how many quarter seconds bots spent
+    there.
     """
 
     setup: Setup

@@ -1,4 +1,4 @@
-"""The figures of a run, of whoever walks too."""
+"""The state of a person's gait as the run keeps it, also of one that walks."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""What a kind of body has to say of itself; what is not abstract is right for most."""
+"""What a kind of body has to say of itself. Methods that are not abstract do what most kinds need."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence

@@ -1,4 +1,4 @@
-"""All measurements of the dog: paths, feet, spine, head, stops, moves, dead ends, gaits and their changes.
+"""All measurements of the dog: paths, feet, spine, head, stops, moves, dead ends, gaits and changes, backs.
 
     python -m benchmarks.dog [--quick] [--only following stops ...] [--json FILE]
 
@@ -12,7 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from benchmarks import dog_checks, dog_gait, dog_gait_changes, dog_rooms, dog_walks
+from benchmarks import dog_back, dog_checks, dog_gait, dog_gait_changes, dog_rooms, dog_walks
 from benchmarks.shared_data import shared_folder, why_absent
 
 Lines = list[tuple[str, str, str, bool | None]]
@@ -21,6 +21,8 @@ _CHANGE = 25.0
 """[rad/s] by which a joint's speed may change from one tick to the next, see docs/how-it-works/animals.md."""
 _HEIGHT_OFF, _PITCH_OFF = 0.07, 3.5
 """Of its own height, and [deg], by which hips, shoulders and trunk may leave the range of even speeds."""
+_FLEXION = 15.0
+"""[deg] of the back over a stride, in a gallop at top speed."""
 _SHARED = ("following", "footprint", "gait", "herd")
 
 
@@ -126,6 +128,29 @@ def _gait_changes(found: dict[str, Any]) -> Lines:
     return lines
 
 
+def _backs(found: dict[str, Any]) -> Lines:
+    lines: Lines = []
+    for name, row in found.items():
+        if "breaths" in row:
+            text = (
+                f"{row['breaths']:.1f} breaths/min, looks over {row['gaze_deg']:.0f} deg, hips roll over "
+                f"{row['roll_deg']:.1f} deg, most alike {row['alike']:.2f}, slide {1e3 * row['slide']:.2f} mm"
+            )
+            held = row["gaze_deg"] >= 20.0 and row["alike"] <= 0.8 and row["slide"] == 0.0
+            lines.append((f"back: {name}", text, "no two alike", held))
+            continue
+        text = (
+            f"flexion {row['flexion_deg']:.1f} deg (most at {row['most_flexed']:.2f}, least at "
+            f"{row['most_extended']:.2f} of the stride), bend {row['undulation_deg']:.1f}, hips roll "
+            f"{row['hip_roll_deg']:.1f}, shoulders {row['shoulder_roll_deg']:.1f}, {row['nods']:.1f} nods of "
+            f"{row['nod_deg']:.1f}, tail {row['tail_deg']:.1f} deg"
+        )
+        top = "gallop" in name and row["speed"] >= 0.95 * row["top_speed"]
+        held = row["flexion_deg"] >= _FLEXION if top else None
+        lines.append((f"back: {name}", text, f">= {_FLEXION:.0f} deg at top speed" if top else "", held))
+    return lines
+
+
 def _rooms(found: dict[str, Any]) -> Lines:
     lines: Lines = []
     for name, row in found.items():
@@ -173,6 +198,7 @@ ROWS: dict[str, tuple[Callable[[bool], Any], Callable[[Any], Lines]]] = {
     "dead_ends": (dog_checks.dead_ends, _dead_ends),
     "gait": (dog_gait.against_real, _gait),
     "gait_changes": (dog_gait_changes.gait_changes, _gait_changes),
+    "backs": (dog_back.backs, _backs),
     "rooms": (dog_rooms.rooms, _rooms),
     "herd": (lambda quick: dog_walks.many_at_once(1000, 60 if quick else 300), _herd),
 }

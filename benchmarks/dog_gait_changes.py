@@ -81,7 +81,7 @@ class Watch:
         body, n = herd.bodies[0], len(herd)
         front, rear = body.front_legs, body.rear_legs
         legs = [[each.upper, each.lower, each.foot] for each in (front, front, rear, rear)]
-        bones = body.spine.bones
+        bones, self.spine = body.spine.bones, body.spine.length
         self.lengths = np.array(
             [0.0, *[body.spine.bone_length] * bones, body.neck.length, body.head.length]
             + [body.tail.length / 3.0] * 3 + [bone for leg in legs for bone in leg]
@@ -97,7 +97,8 @@ class Watch:
         herd, st = self.herd, self.herd.state
         now = np.column_stack([
             st[:, at.Z_REAR] - self.slope * st[:, at.X], st[:, at.Z_FRONT] - self.slope * st[:, at.FRONT_X],
-            st[:, at.PITCH] - np.arctan(self.slope) * np.cos(st[:, at.YAW]),
+            np.arcsin((st[:, at.Z_FRONT] - st[:, at.Z_REAR]) / self.spine)
+            - np.arctan(self.slope) * np.cos(st[:, at.YAW]),
         ])  # fmt: skip
         self.low[some] = np.minimum(self.low, now)[some]
         self.high[some] = np.maximum(self.high, now)[some]

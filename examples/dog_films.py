@@ -1,4 +1,5 @@
-"""Makes the film strips of ``docs/guides/dogs.md``: each motion in six moments, from the side and from above.
+"""Makes the film strips of ``docs/guides/dogs.md``: each motion in six moments, from the side and from above,
+some of them from the front, too.
 
 python examples/dog_films.py [folder] [name ...]
 """
@@ -56,29 +57,37 @@ class Film:
         self.path = np.empty((0, 3))
         self.view = 0.0
         self.rise = 0.16
+        self.front = False
+        """Whether it is drawn from the front, too."""
 
     def draw(self, figure, path: Path, span: tuple[float, float] | None = None) -> None:
         """Write the strip: six moments, evenly spaced between two times."""
         times = np.array([moment[0] for moment in self.moments])
         first, last = span or (times[0], times[-1])
         picks = np.searchsorted(times, np.linspace(first, last, COLUMNS)).clip(0, len(times) - 1)
-        sheet = Sheet(figsize=(COLUMNS * 2.6, 2 * 1.95 + 0.4), dpi=100, layout="constrained")
+        rows = 3 if self.front else 2
+        sheet = Sheet(figsize=(COLUMNS * 2.6, rows * 1.95 + 0.4), dpi=100, layout="constrained")
         sheet.suptitle(self.title, fontsize=10)
-        axes = sheet.subplots(2, COLUMNS)
+        axes = sheet.subplots(rows, COLUMNS)
         for column, pick in enumerate(picks):
-            now, pose, middle, _ = self.moments[pick]
+            now, pose, middle, yaw = self.moments[pick]
             shapes = figure.posed(pose)
             near = self.path[::2][np.linalg.norm(self.path[::2] - middle, axis=1) < 1.1 * self.reach]
-            marks = dots(near + np.array([0.0, 0.0, 0.004]), (0.84, 0.15, 0.16), 0.014)
+            drawn = [shapes]
+            if len(near):
+                drawn.append(dots(near + np.array([0.0, 0.0, 0.004]), (0.84, 0.15, 0.16), 0.014))
             along = self.view
             side = np.array([math.sin(along), -math.cos(along), 0.0])
-            cameras = (
+            ahead = np.array([math.cos(yaw), math.sin(yaw), self.rise])
+            cameras = [
                 Camera(middle + self.reach * (side + np.array([0.0, 0.0, self.rise])), middle, 0.5),
                 Camera(middle + self.reach * np.array([0.0, -0.001, 1.15]), middle, 0.5),
-            )
+            ]
+            if self.front:
+                cameras.insert(1, Camera(middle + self.reach * ahead, middle, 0.5))
             for row, camera in enumerate(cameras):
                 ax = axes[row, column]
-                ax.imshow(render(self.level, [shapes, marks], camera, SIZE, cutaway=self.reach - 0.7))
+                ax.imshow(render(self.level, drawn, camera, SIZE, cutaway=self.reach - 0.7))
                 ax.set_axis_off()
             axes[0, column].set_title(f"{now:.2f} s", fontsize=8)
         sheet.savefig(path)
@@ -88,7 +97,7 @@ def follow(
     name: str, title: str, points: np.ndarray, speed: float, flex: float | None = None, reach: float = 2.6
 ) -> tuple[Film, object]:
     """A body follows points on the floor."""
-    mesh = floor()
+    mesh = floor(max(30.0, float(np.abs(points).max()) + 5.0))
     ground = Ground.from_arrays(mesh.vertices, mesh.faces)
     body = load_body(name)
     if flex is not None:
@@ -123,10 +132,11 @@ def s_curve() -> np.ndarray:
 
 def walk(name: str, gait: str, speed: float, reach: float) -> tuple[Film, object, tuple[float, float]]:
     """One stride at full speed."""
-    film, figure = follow(
-        name, f"{name}: {gait} at {speed:g} m/s, one stride", straight(speed), speed, None, reach
-    )
     body = load_body(name)
+    gathers = speed**2 / body.movement.acceleration
+    way = straight(speed, 8.0 + gathers)
+    film, figure = follow(name, f"{name}: {gait} at {speed:g} m/s, one stride", way, speed, None, reach)
+    film.front = True
     frequency = body.gaits[gait].frequency[0] + body.gaits[gait].frequency[1] * speed
     middle = film.moments[-1][0] * 0.5
     return film, figure, (middle, middle + 1.0 / frequency)
@@ -140,6 +150,22 @@ def into_gallop(name: str, reach: float) -> tuple[Film, object, tuple[float, flo
     changes = (body.gaits["trot"].up_to) / body.movement.acceleration  # [s]
     stride = 1.0 / (body.gaits["gallop"].frequency[0])
     return film, figure, (changes - 0.3 * stride, changes + 1.9 * stride)
+
+
+def stands(name: str, reach: float) -> tuple[Film, object, tuple[float, float]]:
+    """What one does that nobody tells to do anything, over half a minute."""
+    mesh = floor()
+    herd = Herd(Ground.from_arrays(mesh.vertices, mesh.faces))
+    body = load_body(name)
+    herd.add(body, (0.0, 0.0, 0.0), 0.0)
+    film = Film(f"{name}: standing", mesh, reach)
+    film.front = True
+    for tick in range(3600):
+        herd.tick()
+        if tick % 50 == 0:
+            middle = np.array([0.5 * body.spine.length, 0.0, 0.3])
+            film.moments.append((tick * TICK, herd.pose(0), middle, 0.0))
+    return film, animal_figure(body), (4.0, 34.0)
 
 
 def world_film(title: str, level: trimesh.Trimesh, at, facing: float, goals, speeds, reach: float = 3.0):
@@ -179,6 +205,10 @@ def films() -> dict:
         "dog-gallop": lambda: walk("dog", "gallop", 5.0, 3.0),
         "dog-into-gallop": lambda: into_gallop("dog", 2.8),
         "horse-into-gallop": lambda: into_gallop("horse", 7.5),
+        "cat-gallop": lambda: walk("cat", "gallop", 5.0, 1.6),
+        "horse-gallop": lambda: walk("horse", "gallop", 11.0, 7.0),
+        "dog-stands": lambda: stands("dog", 2.6),
+        "horse-stands": lambda: stands("horse", 7.0),
         "cat-walk": lambda: walk("cat", "walk", 0.6, 1.6),
         "horse-walk": lambda: walk("horse", "walk", 1.5, 7.0),
         "dog-curve-little": lambda: (

@@ -5,13 +5,17 @@ from __future__ import annotations
 import math
 
 from locomotion.quadruped import layout as at
+from locomotion.quadruped.back import girdles, pelvis_pitch
 from locomotion.quadruped.carriage import carry
 from locomotion.quadruped.following import place_body, spring, wrap
 from locomotion.quadruped.footfalls import misplaced, step_feet
 from locomotion.quadruped.gait import step_gait
+from locomotion.quadruped.idle import look_about
 from locomotion.quadruped.motion import DT, advance_along
 from locomotion.quadruped.pose import write_pose
+from locomotion.quadruped.tail import swing_tail
 from locomotion.quadruped.trail import trail_point
+from locomotion.quadruped.trunk import move_trunk
 from surefoot.kernels import kernel
 
 __all__ = ["advance_all"]
@@ -41,8 +45,10 @@ def advance_all(state, params, gaits, pool, ground, origin, feet, crumbs, poses,
         gait = gaits[kind, int(st[at.GAIT_NOW])]
         settled = step_feet(st, pr, gait, pool, ground, origin, feet[i])
         st[at.REST] = 1.0 if settled and _is_over(st) and not misplaced(st, pr, pool, feet[i]) else 0.0
+        move_trunk(st, pr, gait)
         carry(st, pr, feet[i])
         _look(st, pr, pool)
+        swing_tail(st, pr, girdles(st, pr)[2], pelvis_pitch(st, pr))
         _drop_crumb(st, crumbs[i])
         write_pose(st, pr, feet[i], poses[pose_start[i] : pose_start[i + 1]], joints[i])
 
@@ -72,7 +78,7 @@ def _is_over(st):
 
 @kernel
 def _look(st, pr, pool):
-    """Turn neck and head to what is a time ahead on the trail, or to what was given."""
+    """Turn neck and head to what is a time ahead on the trail, or to what was given; else look about."""
     x, y = st[at.LOOK_X], st[at.LOOK_Y]
     if st[at.FIXED_LOOK] == 0.0:
         x = math.nan
@@ -82,14 +88,18 @@ def _look(st, pr, pool):
                 st[at.FRONT_ARC] + st[at.SPEED] * pr[at.LOOK_AHEAD],
             )  # fmt: skip
         st[at.LOOK_X], st[at.LOOK_Y] = x, y
-    wanted = 0.0
-    if not math.isnan(x):
+    wanted, dip = 0.0, 0.0
+    if math.isnan(x):
+        wanted, dip = look_about(st, pr)
+    else:
         dx, dy = x - st[at.FRONT_X], y - st[at.FRONT_Y]
         far = dx * dx + dy * dy
         wanted = wrap(math.atan2(dy, dx) - st[at.CHEST]) * far / (far + _GAZE_NEAR * _GAZE_NEAR)
         wanted = min(max(wanted, -pr[at.HEAD_TURN]), pr[at.HEAD_TURN])
     off, st[at.GAZE_RATE] = spring(st[at.GAZE] - wanted, st[at.GAZE_RATE], _GAZE_HALF_LIFE)
     st[at.GAZE] = wanted + off
+    off, st[at.DIP_RATE] = spring(st[at.DIP] - dip, st[at.DIP_RATE], _GAZE_HALF_LIFE)
+    st[at.DIP] = dip + off
 
 
 @kernel

@@ -11,18 +11,19 @@ import math
 import os
 from functools import cached_property, lru_cache
 from pathlib import Path
-from typing import Annotated, Literal, Self
+from typing import Annotated, Self
 
 import numpy as np
 from annotated_types import Ge, Gt, Le, Len
 from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, model_validator
+from pydantic import model_validator
 
 import navmesh
 from locomotion.data import BODIES
 from locomotion.errors import LocomotionError
 from locomotion.paths.smoothing import Smoothing
 from locomotion.quadruped import layout as at
+from locomotion.quadruped.gait_data import Gait, Length, Share, Strict
 from surefoot.files.yamlfile import FileError, read_yaml
 
 __all__ = ["BODY_NAMES", "Body", "Gait", "is_body_file", "load_body"]
@@ -30,16 +31,11 @@ __all__ = ["BODY_NAMES", "Body", "Gait", "is_body_file", "load_body"]
 BODY_NAMES = ("dog", "cat", "horse")
 """Bodies that come with the package."""
 
-Length = Annotated[float, Gt(0.0), Le(20.0)]
-Share = Annotated[float, Ge(0.0), Le(1.0)]
-Leg = Literal["front_left", "front_right", "rear_left", "rear_right"]
+_BREATHS = 11.8 / 60.0  # [Hz] of one whose hips are 1 m high: 53.5 a minute by mass^-0.26 (Stahl, "Scaling of
+# respiratory variables in mammals", 1967), 337 kg for a cubic metre of hip height, as of the dog
 
 
-class _Strict(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
-
-
-class Spine(_Strict):
+class Spine(Strict):
     """From between the rear feet to between the front feet, as seen from above."""
 
     length: Length
@@ -49,6 +45,8 @@ class Spine(_Strict):
     """Share of a turn that the spine takes: 0 a plank, 1 the rear follows the path, above 1 a cat."""
     max_bend_deg: Annotated[float, Gt(0.0), Le(60.0)]
     """Largest angle between two bones."""
+    sacral: Share = 0.4
+    """Share of its flexion in a gait at the joint between pelvis and spine."""
 
     @model_validator(mode="after")
     def _adds_up(self) -> Self:
@@ -62,7 +60,7 @@ class Spine(_Strict):
         return self
 
 
-class Legs(_Strict):
+class Legs(Strict):
     """A pair of legs, each of an upper, a lower and a foot bone."""
 
     height: Length
@@ -92,12 +90,12 @@ class Legs(_Strict):
         return self
 
 
-class Neck(_Strict):
+class Neck(Strict):
     length: Length
     rise_deg: Annotated[float, Ge(-60.0), Le(90.0)]
 
 
-class Head(_Strict):
+class Head(Strict):
     length: Length
     drop_deg: Annotated[float, Ge(-30.0), Le(90.0)]
     radius: Length
@@ -107,19 +105,19 @@ class Head(_Strict):
     """[s] how far ahead on its path it looks."""
 
 
-class Tail(_Strict):
+class Tail(Strict):
     length: Length
     rise_deg: Annotated[float, Ge(-90.0), Le(90.0)]
 
 
-class Trunk(_Strict):
+class Trunk(Strict):
     chest: Length
     """Radius behind the shoulders."""
     loin: Length
     """Radius before the hips."""
 
 
-class Movement(_Strict):
+class Movement(Strict):
     """Limits."""
 
     acceleration: Annotated[float, Gt(0.0), Le(50.0)]
@@ -139,7 +137,7 @@ class Movement(_Strict):
     """[Hz] of the strides when it steps around on the spot."""
 
 
-class _Window(_Strict):
+class _Window(Strict):
     """Share of the whole motion during which it plays."""
 
     begin: Share
@@ -160,7 +158,18 @@ class Turn(_Window):
     speed_deg: Annotated[float, Gt(0.0), Le(720.0)]
 
 
-class LocalMotions(_Strict):
+class Idle(Strict):
+    """What it does when it stands, besides breathing and shifting its weight."""
+
+    look_deg: Annotated[float, Ge(0.0), Le(120.0)] = 40.0
+    """Farthest that it looks to a side."""
+    sway_deg: Annotated[float, Ge(0.0), Le(15.0)] = 3.0
+    """Roll of the hips with the weight on one hind leg."""
+    tail_deg: Annotated[float, Ge(0.0), Le(60.0)] = 8.0
+    """Swing of the tail to each side."""
+
+
+class LocalMotions(Strict):
     """Motions blended for short moves: forwards and back, sideways, and around."""
 
     step: Move
@@ -168,49 +177,7 @@ class LocalMotions(_Strict):
     turn: Turn
 
 
-class Gait(_Strict):
-    """Footfalls for a range of speeds; two numbers are a value at rest and its change per m/s."""
-
-    up_to: Annotated[float, Gt(0.0), Le(30.0)]
-    on_request: bool = False
-    """Whether it is used only when requested by name."""
-    frequency: Annotated[list[float], Len(2, 2)]
-    """[Hz] strides per second."""
-    duty_front: Annotated[list[float], Len(2, 2)]
-    duty_rear: Annotated[list[float], Len(2, 2)]
-    """Share of the stride during which a foot stands."""
-    touchdown: dict[Leg, Share]
-    """Share of the stride at which each foot comes down."""
-    lift: Length
-    bob: Annotated[float, Ge(0.0), Le(1.0)]
-    rock: Annotated[float, Ge(0.0), Le(1.0)]
-
-    @model_validator(mode="after")
-    def _complete(self) -> Self:
-        missing = [leg for leg in at.LEGS if leg not in self.touchdown]
-        if missing:
-            raise ValueError(f"touchdown lacks {', '.join(missing)}")
-        for speed in (0.0, self.up_to):
-            if not 0.2 <= self.frequency[0] + self.frequency[1] * speed <= 10.0:
-                raise ValueError(f"frequency at {speed:g} m/s is outside 0.2 to 10 Hz")
-            for duty in (self.duty_front, self.duty_rear):
-                if not 0.1 <= duty[0] + duty[1] * speed <= 0.95:
-                    raise ValueError(f"duty at {speed:g} m/s is outside 0.1 to 0.95")
-        return self
-
-    def row(self) -> NDArray[np.float64]:
-        """(GAIT,) float64 for the kernels."""
-        row = np.zeros(at.GAIT)
-        row[at.UP_TO] = self.up_to
-        row[[at.FREQUENCY, at.FREQUENCY_SLOPE]] = self.frequency
-        row[[at.DUTY_FRONT, at.DUTY_FRONT_SLOPE]] = self.duty_front
-        row[[at.DUTY_REAR, at.DUTY_REAR_SLOPE]] = self.duty_rear
-        row[at.TOUCHDOWN : at.TOUCHDOWN + 4] = [self.touchdown[leg] for leg in at.LEGS]
-        row[[at.LIFT, at.BOB, at.ROCK]] = self.lift, self.bob, self.rock
-        return row
-
-
-class Body(_Strict):
+class Body(Strict):
     """A kind of quadruped. ``radius``: clearance in the graph's queries, half the shoulder width."""
 
     name: Annotated[str, Len(1, 40)]
@@ -224,6 +191,7 @@ class Body(_Strict):
     tail: Tail
     trunk: Trunk
     movement: Movement
+    idle: Idle = Idle()
     local_motions: LocalMotions
     gaits: dict[str, Gait]
 
@@ -303,11 +271,18 @@ class Body(_Strict):
         row[[at.CURL_FRONT, at.CURL_REAR]] = rad(front.curl_deg), rad(rear.curl_deg)
         row[at.AUTOMATIC] = sum(not gait.on_request for gait in self.gaits.values())
         row[at.STEP_FREQUENCY] = move.step_frequency
+        idle = self.idle
+        row[at.SACRAL], row[at.BREATHS] = spine.sacral, _BREATHS * rear.height**-0.78
+        row[[at.LOOK, at.SWAY, at.WAG]] = np.radians(
+            [min(idle.look_deg, self.head.turn_deg), idle.sway_deg, idle.tail_deg]
+        )
         return row
 
     def gait_rows(self) -> NDArray[np.float64]:
         """(gaits, GAIT) float64 for the kernels, in the order of `gait_order`."""
-        return np.stack([self.gaits[name].row() for name in self.gait_order])
+        return np.stack(
+            [self.gaits[name].row(self.spine.bones * self.spine.max_bend_deg) for name in self.gait_order]
+        )
 
     def gait_index(self, name: str | None) -> int:
         """The kernels' number of a gait; -1 for None: chosen by speed. Raises `LocomotionError` for an

@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 
 from locomotion.quadruped import layout as at
+from locomotion.quadruped.back import girdles
 from locomotion.quadruped.following import front_of, spring
+from locomotion.quadruped.motion import DT
 from surefoot.kernels import kernel
 
 __all__ = ["carry"]
@@ -18,14 +20,16 @@ _FAR = math.log1p(math.exp(-4.0))  # so that nothing pulls four times as far fro
 _CROUCH = 0.25  # [1/rad²] lowering of the body with slope
 _STEEPEST = 0.75  # height difference of hips and shoulders, relative to the spine; the higher ones come down
 # for it, so that no foot leaves the ground
-_NEAR = 0.5  # distance of front and rear feet, relative to the spine, from which they tell a slope
+_NEAR, _FAR_ENOUGH = 0.5, 0.8  # distances of front and rear feet, relative to the spine: from the first they
+# begin to tell a slope, from the second on they tell it; nearer ones leave it as it was
+_FEELING = 0.25  # [s] in which they learn it
 
 
 @kernel
-def _highest(feet, joint_x, joint_y, direction, width, first, reach, most):
+def _highest(feet, joint_x, joint_y, direction, width, roll, first, reach, most):
     """Height [m] at which both legs of a pair, ``first`` and the next, still reach their feet: stretched to
     ``reach`` [m], and to ``most`` in the middle of a swing. Nothing jumps when they come down."""
-    highest = math.inf
+    highest, rise = math.inf, math.sin(roll)
     for k in range(2):
         foot = feet[first + k]
         side = 0.5 * width if k == 0 else -0.5 * width
@@ -35,7 +39,7 @@ def _highest(feet, joint_x, joint_y, direction, width, first, reach, most):
         if foot[at.IN_SWING] > 0.0:
             far += foot[at.HUMP] * max(most - reach, 0.0)
         left = far * far - dx * dx - dy * dy
-        highest = min(highest, foot[at.FZ] + math.sqrt(max(left, 0.01 * reach * reach)))
+        highest = min(highest, foot[at.FZ] + math.sqrt(max(left, 0.01 * reach * reach)) - side * rise)
     return highest
 
 
@@ -51,57 +55,54 @@ def _feel_ground(st, pr, feet):
     front, front_z = ax * (x - st[at.X]) + ay * (y - st[at.Y]), 0.5 * (feet[0, at.BASE] + feet[1, at.BASE])
     x, y = 0.5 * (feet[2, at.FX] + feet[3, at.FX]), 0.5 * (feet[2, at.FY] + feet[3, at.FY])
     rear, rear_z = ax * (x - st[at.X]) + ay * (y - st[at.Y]), 0.5 * (feet[2, at.BASE] + feet[3, at.BASE])
-    slope = (front_z - rear_z) / max(front - rear, _NEAR * length)
+    felt = (front_z - rear_z) / max(front - rear, _NEAR * length)
+    trust = min(max(((front - rear) / length - _NEAR) / (_FAR_ENOUGH - _NEAR), 0.0), 1.0)
+    slope = trust * felt + (1.0 - trust) * st[at.SLOPE]
+    st[at.SLOPE] += trust * DT / _FEELING * (felt - st[at.SLOPE])
     st[at.GROUND_REAR] = rear_z - slope * rear
     st[at.GROUND_FRONT] = front_z + slope * (far - front)
 
 
 @kernel
 def carry(st, pr, feet):
-    """Heights of hips and shoulders: over the ground as the feet feel it, and low enough for them."""
-    twice = 4.0 * math.pi * st[at.CLOCK]
-    bob = st[at.BOB_NOW] * math.cos(twice)
-    rock = st[at.ROCK_NOW] * math.cos(0.5 * twice)
+    """Heights of hips and shoulders: over the ground as the feet feel it, with what the stride adds, and low
+    enough for the legs. The limits look at where the stride takes them, too, but only what is carried follows
+    the limits by a spring."""
     _feel_ground(st, pr, feet)
     crouch = 1.0 - _CROUCH * st[at.PITCH] * st[at.PITCH]
-    for front in range(2):
-        z = at.Z_FRONT if front else at.Z_REAR
-        leg = 0 if front else 2
-        height = pr[at.HEIGHT_FRONT] if front else pr[at.HEIGHT_REAR]
-        sizes = at.UPPER_FRONT if front else at.UPPER_REAR
-        wanted = (
-            st[at.GROUND_FRONT if front else at.GROUND_REAR]
-            + crouch * height
-            + bob
-            + (rock if front else -rock)
-        )
-        reach = pr[sizes] + pr[sizes + 1] + pr[sizes + 2]
-        if front:
-            x, y, direction, width = st[at.FRONT_X], st[at.FRONT_Y], st[at.CHEST], pr[at.WIDTH_FRONT]
-        else:
-            x, y, direction, width = st[at.X], st[at.Y], st[at.YAW], pr[at.WIDTH_REAR]
-        wanted = min(wanted, _highest(feet, x, y, direction, width, leg, _STRETCH * reach, _SWUNG * reach))
-        off, st[z + 1] = spring(st[z] - wanted, st[z + 1], _HEIGHT_HALF_LIFE)
-        st[z] = _below(
-            wanted + off, _highest(feet, x, y, direction, width, leg, _TAUT * reach, _SWUNG * reach), reach
-        )
-    # the trunk tilts about the hips and moves the shoulders, perhaps too high for their feet
+    rear_x, rear_y, rear, front_x, front_y, front = girdles(st, pr)
+    reach = pr[at.UPPER_REAR] + pr[at.LOWER_REAR] + pr[at.FOOT_REAR]
+    _carry_pair(
+        st, feet, at.CARRIED_REAR, at.Z_REAR, st[at.GROUND_REAR] + crouch * pr[at.HEIGHT_REAR],
+        st[at.LIFT_REAR], rear_x, rear_y, rear, pr[at.WIDTH_REAR], st[at.ROLL_REAR], 2, reach,
+    )  # fmt: skip
     reach = pr[at.UPPER_FRONT] + pr[at.LOWER_FRONT] + pr[at.FOOT_FRONT]
+    _carry_pair(
+        st, feet, at.CARRIED_FRONT, at.Z_FRONT, st[at.GROUND_FRONT] + crouch * pr[at.HEIGHT_FRONT],
+        st[at.LIFT_FRONT], front_x, front_y, front, pr[at.WIDTH_FRONT], st[at.ROLL_FRONT], 0, reach,
+    )  # fmt: skip
+    # the trunk tilts about the hips and moves the shoulders, perhaps too high for their feet
     wanted = st[at.Z_FRONT]
     for _ in range(2):
         _tilt(st, pr)
+        _, _, _, front_x, front_y, front = girdles(st, pr)
         highest = _highest(
-            feet,
-            st[at.FRONT_X],
-            st[at.FRONT_Y],
-            st[at.CHEST],
-            pr[at.WIDTH_FRONT],
-            0,
-            _TAUT * reach,
+            feet, front_x, front_y, front, pr[at.WIDTH_FRONT], st[at.ROLL_FRONT], 0, _TAUT * reach,
             _SWUNG * reach,
-        )
+        )  # fmt: skip
         st[at.Z_FRONT] = _below(wanted, highest, reach)
     _tilt(st, pr)
+
+
+@kernel
+def _carry_pair(st, feet, carried, z, wanted, lift, x, y, direction, width, roll, first, reach):
+    """Write the columns ``carried``, ``z`` and the rate after it of the pair of legs from ``first`` on."""
+    easy = _highest(feet, x, y, direction, width, roll, first, _STRETCH * reach, _SWUNG * reach)
+    taut = _highest(feet, x, y, direction, width, roll, first, _TAUT * reach, _SWUNG * reach)
+    wanted = min(wanted, easy)
+    off, st[z + 1] = spring(st[carried] - wanted, st[z + 1], _HEIGHT_HALF_LIFE)
+    st[carried] = _below(wanted + off, taut, reach)
+    st[z] = _below(wanted + off + lift, taut, reach)
 
 
 @kernel(inline="always")
@@ -115,11 +116,13 @@ def _below(height, limit, size):
 
 @kernel
 def _tilt(st, pr):
-    """Pitch of the trunk from the heights of hips and shoulders, and the place of the front under it."""
+    """Pitch of the trunk from the heights of hips and shoulders as they are carried, and the place of the
+    front under it: neither moves with the stride or the breath."""
     length = pr[at.BONES] * pr[at.BONE]
-    st[at.Z_FRONT] = _below(st[at.Z_FRONT], st[at.Z_REAR] + _STEEPEST * length, length)
-    st[at.Z_REAR] = _below(st[at.Z_REAR], st[at.Z_FRONT] + _STEEPEST * length, length)
-    st[at.PITCH] = math.asin((st[at.Z_FRONT] - st[at.Z_REAR]) / length)
+    for rear, front in ((at.CARRIED_REAR, at.CARRIED_FRONT), (at.Z_REAR, at.Z_FRONT)):
+        st[front] = _below(st[front], st[rear] + _STEEPEST * length, length)
+        st[rear] = _below(st[rear], st[front] + _STEEPEST * length, length)
+    st[at.PITCH] = math.asin((st[at.CARRIED_FRONT] - st[at.CARRIED_REAR]) / length)
     st[at.FRONT_X], st[at.FRONT_Y] = front_of(
         st[at.X], st[at.Y], st[at.YAW], st[at.BEND], pr[at.BONES], pr[at.BONE] * math.cos(st[at.PITCH])
     )

@@ -129,7 +129,7 @@ def step_feet(st, pr, gait, pool, ground, origin, feet):
             due = phase >= foot[at.STANCE]
             if st[at.REST] > 0.0 or not (due or _overstretched(st, pr, foot, leg)):
                 continue
-            foot[at.TEMPO] = swing_tempo(st, gait, leg, duty)
+            foot[at.TEMPO] = swing_tempo(st, pr, gait, leg, duty)
         left = seconds_for(st, (1.0 - phase) / foot[at.TEMPO])
         ahead = left + 0.5 * duty * cycle
         if foot[at.IN_SWING] == 0.0:
@@ -142,6 +142,7 @@ def step_feet(st, pr, gait, pool, ground, origin, feet):
                 continue
             foot[at.FROM : at.FROM + 3] = foot[at.FX : at.FX + 3]
             foot[at.TO : at.TO + 3] = foot[at.AIM : at.AIM + 3]
+            foot[at.SOFT_AIM : at.SOFT_AIM + 3] = foot[at.AIM : at.AIM + 3]
             foot[at.ARCH] = _arch(foot, ground, origin, pr[at.STEP] + _SLACK)
             foot[at.IN_SWING], foot[at.SWING_FROM] = 1.0, phase
         settled = False
@@ -157,10 +158,13 @@ def step_feet(st, pr, gait, pool, ground, origin, feet):
             if not _aim(st, pr, pool, ground, origin, foot, leg, ahead):
                 st[at.NO_GROUND] = 1.0
         pull = min(_HASTE * DT / max(left, DT), 1.0)
+        # the aim jumps over edges and when another gait is asked for: the paw's speed must not
         for k in range(3):
-            foot[at.TO + k] += pull * (foot[at.AIM + k] - foot[at.TO + k])
-        way = st[at.SPEED] * (1.0 - duty) * cycle / pr[at.HEIGHT_REAR]
-        slow = (1.0 - begun) / (foot[at.TEMPO] * (1.0 - duty))
+            foot[at.SOFT_AIM + k] += pull * (foot[at.AIM + k] - foot[at.SOFT_AIM + k])
+            foot[at.TO + k] += pull * (foot[at.SOFT_AIM + k] - foot[at.TO + k])
+        swings = 1.0 - (st[at.STANDS_FRONT] if leg < 2 else st[at.STANDS_REAR])
+        way = st[at.SPEED] * swings / (st[at.FREQUENCY_NOW] * pr[at.HEIGHT_REAR])
+        slow = (1.0 - begun) / (foot[at.TEMPO] * swings)
         ramp = max(_RAMP - _RAMP_SLOPE * way, _SHORTEST_RAMP) / max(slow, 1.0)
         _swing(foot, done, st[at.LIFT_NOW], ramp)
     return settled

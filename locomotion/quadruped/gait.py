@@ -8,13 +8,14 @@ from locomotion.quadruped import layout as at
 from locomotion.quadruped.motion import DT
 from surefoot.kernels import kernel
 
-__all__ = ["leg_phase", "seconds_for", "step_gait", "swing_tempo"]
+__all__ = ["eased", "leg_phase", "seconds_for", "step_gait", "stride_rate", "swing_tempo"]
 
 _HYSTERESIS = 0.12  # share of the speed of the change by which it must be missed to change back
 _FADE = 0.25 / 0.69314718056  # strides: half of a change of the strides' frequency in a quarter of one
 _HURRY = 0.5  # greatest share by which a standing foot runs ahead of the clock
 _SOONER = 0.62  # of the stride: a foot that would have to come down later by more comes down sooner instead
 _QUICKEST, _SLOWEST = 0.65, 1.6  # shares of its gait's own swing that a swing takes at least and at most
+_SETS_OUT = 0.05  # of √(g · hip height): the speed up to which one sets out
 _SCRIPT_DUTY = 0.62
 _FORESIGHT = (
     0.4  # [s] ahead for whose speed strides are quickened: a foot that stands now will be needed then
@@ -23,8 +24,15 @@ _SHORTER = 0.6  # [1/rad] of slope by which strides become shorter and quicker
 
 
 @kernel(inline="always")
-def _eased(now, goal, rate):
+def eased(now, goal, rate):
+    """``now`` one tick nearer to ``goal``."""
     return goal + (now - goal) * math.exp(-rate * DT)
+
+
+@kernel(inline="always")
+def stride_rate(st):
+    """[1/s] at which what belongs to a gait is eased into what belongs to the next."""
+    return st[at.FREQUENCY_WISH] / _FADE
 
 
 @kernel
@@ -56,12 +64,10 @@ def step_gait(st, pr, gaits, feet):
     if on_the_spot:
         frequency, front, rear = pr[at.STEP_FREQUENCY], _SCRIPT_DUTY, _SCRIPT_DUTY
     st[at.FREQUENCY_WISH] = frequency
-    rate = frequency / _FADE
-    st[at.FREQUENCY_NOW] = _eased(st[at.FREQUENCY_NOW], frequency, rate)
+    rate = stride_rate(st)
+    st[at.FREQUENCY_NOW] = eased(st[at.FREQUENCY_NOW], frequency, rate)
     st[at.DUTY_FRONT_NOW], st[at.DUTY_REAR_NOW] = front, rear
-    st[at.LIFT_NOW] = _eased(st[at.LIFT_NOW], gait[at.LIFT], rate)
-    st[at.BOB_NOW] = _eased(st[at.BOB_NOW], gait[at.BOB] * min(speed, 1.0), rate)
-    st[at.ROCK_NOW] = _eased(st[at.ROCK_NOW], gait[at.ROCK] * min(speed, 1.0), rate)
+    st[at.LIFT_NOW] = eased(st[at.LIFT_NOW], gait[at.LIFT], rate)
     turn = st[at.FREQUENCY_NOW] * DT
     for leg in range(4):
         tempo = feet[leg, at.TEMPO]
@@ -91,13 +97,15 @@ def _late(st, gait, leg):
 
 
 @kernel
-def swing_tempo(st, gait, leg, duty):
+def swing_tempo(st, pr, gait, leg, duty):
     """How fast ``leg``, which leaves the ground now, goes on through its stride, against the clock: so that
-    it comes down in its gait's order, or as near to that as a swing can be quick or slow."""
+    it comes down in its gait's order, or as near to that as a swing can be quick or slow. One that sets out
+    is in no hurry."""
     left, late = 1.0 - leg_phase(st, leg), _late(st, gait, leg)
     wanted = left + late if late <= _SOONER else left + late - 1.0
     whole = 1.0 - duty
-    return left / min(max(wanted, _QUICKEST * whole), _SLOWEST * whole)
+    sets_out = st[at.SPEED] < _SETS_OUT * math.sqrt(9.81 * pr[at.HEIGHT_REAR])
+    return left / min(max(wanted, (1.0 if sets_out else _QUICKEST) * whole), _SLOWEST * whole)
 
 
 @kernel

@@ -27,10 +27,12 @@ from locomotion.quadruped.advance import advance_all
 from locomotion.quadruped.body import Body
 from locomotion.quadruped.following import front_of, root_behind, wanted_pose, wrap
 from locomotion.quadruped.foretold import DISCS, between_feet, disc_radius, foretell_motion
+from locomotion.quadruped.idle import habits
 from locomotion.quadruped.motion import DT, begin_stop, stop_length
 from locomotion.quadruped.pool import Pool
 from locomotion.quadruped.pose import body_names, count_bodies, write_pose
 from locomotion.quadruped.script import Place, Script
+from locomotion.quadruped.tail import hang_tail
 from locomotion.quadruped.trail import Trail, kernel_ground
 
 __all__ = ["AnimalState", "Herd"]
@@ -73,14 +75,15 @@ class Herd:
         return len(self.bodies)
 
     # --- animals
-    def add(self, body: Body, position: ArrayLike, yaw: float) -> int:
+    def add(self, body: Body, position: ArrayLike, yaw: float, seed: int = 0) -> int:
         """Put an animal with its rear feet at ``position`` (3,) [m], facing ``yaw`` [rad]; returns its index.
+        ``seed``: with another one it has other habits and begins its stride elsewhere.
 
         Raises `LocomotionError` for numbers that are not finite or a place more than 0.5 m off the ground.
         """
         place = self._checked(position, yaw)
         index = self._grow(body)
-        self.reset(index, place, yaw)
+        self.reset(index, place, yaw, seed)
         return index
 
     def adopt(self, body: Body, saved: AnimalState) -> int:
@@ -116,7 +119,7 @@ class Herd:
         self.state[index, at.KIND] = kind
         return index
 
-    def reset(self, index: int, position: ArrayLike, yaw: float) -> None:
+    def reset(self, index: int, position: ArrayLike, yaw: float, seed: int = 0) -> None:
         """Place an animal anew, standing; its motion and crumbs are dropped. Raises as `add` does."""
         place = self._checked(position, yaw)
         body, st = self.bodies[index], self.state[index]
@@ -127,9 +130,11 @@ class Herd:
         st[at.GAIT_WISH], st[at.LOOK_X], st[at.LOOK_Y] = -1.0, math.nan, math.nan
         gait = self._gaits[int(kind), 0]
         st[at.FREQUENCY_NOW] = body.movement.step_frequency
-        st[at.DUTY_FRONT_NOW] = st[at.DUTY_REAR_NOW] = 0.6
+        st[at.DUTY_FRONT_NOW] = st[at.DUTY_REAR_NOW] = st[at.STANDS_FRONT] = st[at.STANDS_REAR] = 0.6
         st[at.LIFT_NOW] = gait[at.LIFT]
         st[at.TOUCHDOWN_NOW : at.TOUCHDOWN_NOW + 4] = gait[at.TOUCHDOWN : at.TOUCHDOWN + 4]
+        st[at.HABITS : at.HABITS + 4] = habits(seed, place, yaw)
+        st[at.CLOCK], st[at.BREATH], st[at.CHORD] = st[at.HABITS], st[at.HABITS + 1], 1.0
         st[at.FRONT_X], st[at.FRONT_Y] = front_of(
             place[0], place[1], yaw, 0.0, body.spine.bones, body.spine.bone_length
         )
@@ -150,9 +155,11 @@ class Herd:
             feet[leg, at.BASE] = feet[leg, at.FZ]
         feet[:, at.STANCE], feet[:, at.TEMPO] = st[at.DUTY_FRONT_NOW], 1.0
         st[at.GROUND_FRONT], st[at.GROUND_REAR] = feet[:2, at.FZ].mean(), feet[2:, at.FZ].mean()
-        st[at.Z_FRONT] = st[at.GROUND_FRONT] + body.front_legs.height
-        st[at.Z_REAR] = st[at.GROUND_REAR] + body.rear_legs.height
+        st[at.Z_FRONT] = st[at.CARRIED_FRONT] = st[at.GROUND_FRONT] + body.front_legs.height
+        st[at.Z_REAR] = st[at.CARRIED_REAR] = st[at.GROUND_REAR] + body.rear_legs.height
         st[at.PITCH] = math.asin(np.clip((st[at.Z_FRONT] - st[at.Z_REAR]) / body.spine.length, -0.75, 0.75))
+        st[at.SLOPE] = (st[at.GROUND_FRONT] - st[at.GROUND_REAR]) / body.spine.length
+        hang_tail(st, self._params[int(st[at.KIND])])
         self._write_pose(index)
 
     def _write_pose(self, index: int) -> None:

@@ -42,7 +42,13 @@ AUTOMATIC = 30
 """How many of the gaits are chosen by speed; those on request follow."""
 STEP_FREQUENCY = 31
 """[Hz] of the steps of a scripted motion."""
-PARAMS = 32
+SACRAL = 32
+"""Share of the back's flexion at the joint between pelvis and spine."""
+LOOK, SWAY, WAG = 33, 34, 35
+"""[rad] when it stands: of looking about, of the hips' roll, of the tail."""
+BREATHS = 36
+"""[Hz] at rest."""
+PARAMS = 37
 
 # --- gaits: one row per gait
 UP_TO = 0
@@ -57,7 +63,13 @@ LIFT = 11
 """[m] height of the swing."""
 BOB, ROCK = 12, 13
 """[m] of the trunk's rise and fall, and of the shoulders against the hips."""
-GAIT = 14
+FLEXION, FLEXION_SLOPE = 14, 15
+"""[rad] range of the back's flexion over a stride: at rest and per m/s."""
+UNDULATION, HIP_ROLL, SHOULDER_ROLL, NOD = 16, 17, 18, 19
+"""[rad] range over a stride of the back's bend to the sides, of both rolls and of the neck."""
+LOWER = 20
+"""[rad] by which the neck is carried lower than by one that stands."""
+GAIT = 21
 
 # --- state: one row per animal
 MODE = 0
@@ -94,7 +106,7 @@ OFFSET_RATE = 39
 FRONT_X, FRONT_Y, CHEST = 43, 44, 45
 """Midpoint of the front feet [m], direction of the chest [rad]."""
 Z_REAR, Z_REAR_RATE, Z_FRONT, Z_FRONT_RATE = 46, 47, 48, 49
-"""[m] heights of hip and shoulder, and their rates."""
+"""[m] heights of hip and shoulder, and the rates of CARRIED_REAR and CARRIED_FRONT."""
 GAZE, GAZE_RATE = 50, 51
 """[rad] turn of neck and head against the chest."""
 LOOK_X, LOOK_Y = 52, 53
@@ -114,7 +126,7 @@ NO_GROUND = 62
 HEIGHT = 63
 """[m] of the ground that is looked for around the root: where the surface is."""
 PITCH = 64
-"""[rad] of the trunk."""
+"""[rad] of the trunk as it is carried, without what the stride adds."""
 FIXED_LOOK = 65
 """1: LOOK_X, LOOK_Y are given, 0: worked out from the trail."""
 CRUMBS, CRUMB_LAST = 66, 67
@@ -125,7 +137,39 @@ FREQUENCY_WISH = 69
 """[Hz] target of FREQUENCY_NOW."""
 GROUND_REAR, GROUND_FRONT = 70, 71
 """[m] heights of the ground under hips and shoulders, as the feet feel it."""
-STATE = 72
+FLEXION_NOW, UNDULATION_NOW, HIP_ROLL_NOW, SHOULDER_ROLL_NOW, NOD_NOW, LOWER_NOW = 72, 73, 74, 75, 76, 77
+"""[rad] the gait's ranges, eased."""
+BACK = 78
+"""[rad] flexion of the back between pelvis and chest: above 0 rounded, below 0 hollow."""
+SIDE_BEND = 79
+"""[rad] bend to the left between pelvis and chest, on top of what the path asks for."""
+ROLL_REAR, ROLL_FRONT = 80, 81
+"""[rad] of hips and shoulders: above 0 the left side is higher."""
+NECK_DIP = 82
+"""[rad] by which the neck is lower than when standing still."""
+LIFT_REAR, LIFT_FRONT = 83, 84
+"""[m] of hips and shoulders with the stride and the breath."""
+SWAY_REAR, SWAY_FRONT = 85, 86
+"""[m] of hips and shoulders to the left."""
+CHORD, TILT = 87, 88
+"""Length of the flexed spine's chord, relative to the straight one's; [rad] of its first bone over it."""
+IDLE, AGE, BREATH = 89, 90, 91
+"""How much it moves as one that stands does, 0 to 1; [s] of its life; share of the breath."""
+HABITS = 92
+"""Four columns, 0 to 1: what makes it an individual."""
+PELVIS_YAW = 96
+"""[rad] direction of the pelvis at the last tick."""
+TAIL_YAW, TAIL_UP = 97, 103
+"""[rad] of the three tail bones against the pelvis' direction, and over the horizontal; then their rates."""
+CARRIED_REAR, CARRIED_FRONT = 109, 110
+"""[m] heights of hip and shoulder without what the stride and the breath add."""
+DIP, DIP_RATE = 111, 112
+"""[rad] by which the head looks down."""
+STANDS_FRONT, STANDS_REAR = 113, 114
+"""DUTY_FRONT_NOW and DUTY_REAR_NOW, eased: the trunk must not jump when the gait changes."""
+SLOPE = 115
+"""Rise of the ground for each metre from hips to shoulders, as the feet have felt it lately."""
+STATE = 116
 
 # --- feet
 FX, FY, FZ = 0, 1, 2
@@ -141,20 +185,22 @@ BASE = 11
 ARCH = 12
 """[m] by which the middle of the swing's way is raised over ground that bulges between its ends."""
 AIM = 13
-"""Three columns: where it should come down now; TO follows."""
+"""Three columns: where it should come down now; SOFT_AIM follows."""
 STANCE = 16
 """Share of the stride that it stands: as it was when the place was chosen where it stands, or will."""
 TEMPO = 17
 """Rate at which it goes through its stride in this swing, relative to the clock."""
 HUMP = 18
 """0 where a swing begins and ends, 1 in its middle."""
-FOOT = 19
+SOFT_AIM = 19
+"""Three columns: AIM, eased; TO follows it."""
+FOOT = 22
 
 # --- joints, for users of angles: (n, JOINTS)
 JOINTS_PER_LEG = 4
 """abduction, upper, lower and foot bone [rad]."""
-JOINTS = 4 * JOINTS_PER_LEG + 3
-"""Legs, then bend, gaze, pitch."""
+JOINTS = 4 * JOINTS_PER_LEG + 5
+"""Legs, then bend, gaze, pitch, back, neck."""
 
 # --- rows of the pool
 PX, PY, PZ, PCOS, PSIN, PHEADING, PCURVATURE, PSPEED = 0, 1, 2, 3, 4, 5, 6, 7

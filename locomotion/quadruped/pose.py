@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 
 from locomotion.quadruped import layout as at
+from locomotion.quadruped.back import bone_drop, chord_pitch, girdles
 from locomotion.quadruped.legs import solve_leg
 from surefoot.kernels import kernel
 
@@ -17,6 +18,8 @@ __all__ = ["body_names", "body_parents", "count_bodies", "write_pose"]
 _NEAREST = 0.25  # of the length of its two long bones, on top of most of the foot's, that a swinging foot is
 # kept below its joint
 _LEAST_LIFT = 0.1  # of a lift that is made even there
+_NECK_TILT, _NECK_STEADY = 0.4, 0.25  # shares of the trunk's tilt, and of the chest's against it, at the neck
+_HEAD_STEADY = 0.6  # share of the neck's dip that the head does not make
 _LEG_BONES = ("upper", "lower", "foot")
 
 
@@ -51,6 +54,14 @@ def _frame(row, x, y, z, yaw, up):
 
 
 @kernel(inline="always")
+def _roll_frame(row, roll):
+    """Turn a frame about its own x axis: the left side up by ``roll`` [rad]."""
+    c, s = math.cos(0.5 * roll), math.sin(0.5 * roll)
+    w, i, j, k = row[3], row[4], row[5], row[6]
+    row[3], row[4], row[5], row[6] = w * c - i * s, i * c + w * s, j * c + k * s, k * c - j * s
+
+
+@kernel(inline="always")
 def _leg_frame(row, x, y, z, cy, sy, ca, sa, angle):
     """A frame at (x, y, z): turned by the half angles of yaw and abduction, x along a bone at ``angle``."""
     half = 0.5 * (0.5 * math.pi - angle)
@@ -64,30 +75,36 @@ def _leg_frame(row, x, y, z, cy, sy, ca, sa, angle):
 def write_pose(st, pr, feet, out, joints):
     """Write the bodies' frames (m, 7) and the joint angles (JOINTS,) of one animal."""
     bones = int(pr[at.BONES])
-    bone, pitch, bend = pr[at.BONE], st[at.PITCH], st[at.BEND]
-    x, y, z, yaw = st[at.X], st[at.Y], st[at.Z_REAR], st[at.YAW]
-    rise, flat = bone * math.sin(pitch), bone * math.cos(pitch)
-    _frame(out[0], x, y, z, yaw, pitch)
+    bone, bend = pr[at.BONE], st[at.BEND] + st[at.SIDE_BEND] / pr[at.BONES]
+    pitch, tilt = st[at.PITCH], chord_pitch(st, pr) + st[at.TILT]
+    rear_x, rear_y, rear, _, _, _ = girdles(st, pr)
+    x, y, z, yaw, up = rear_x, rear_y, st[at.Z_REAR], rear, tilt + st[at.BACK] * pr[at.SACRAL]
+    _frame(out[0], x, y, z, yaw, up)
+    _roll_frame(out[0], st[at.ROLL_REAR])
     for k in range(bones):
         yaw += bend
-        _frame(out[1 + k], x, y, z, yaw, pitch)
+        up = tilt - st[at.BACK] * bone_drop(k + 1.0, pr[at.BONES], pr[at.SACRAL])
+        _frame(out[1 + k], x, y, z, yaw, up)
+        share = (k + 1.0) / bones
+        _roll_frame(out[1 + k], (1.0 - share) * st[at.ROLL_REAR] + share * st[at.ROLL_FRONT])
+        flat = bone * math.cos(up)
         x += flat * math.cos(yaw)
         y += flat * math.sin(yaw)
-        z += rise
+        z += bone * math.sin(up)
     front_x, front_y, front_z, chest = x, y, z, yaw
-    up = pr[at.NECK_RISE] + 0.4 * pitch
+    dip = st[at.NECK_DIP] + st[at.DIP]
+    up = pr[at.NECK_RISE] + _NECK_TILT * pitch + _NECK_STEADY * (up - pitch) - dip
     yaw += 0.5 * st[at.GAZE]
     _frame(out[1 + bones], x, y, z, yaw, up)
     flat = pr[at.NECK] * math.cos(up)
     _frame(
         out[2 + bones], x + flat * math.cos(yaw), y + flat * math.sin(yaw), z + pr[at.NECK] * math.sin(up),
-        chest + st[at.GAZE], 0.4 * pitch - pr[at.HEAD_DROP],
+        chest + st[at.GAZE],
+        _NECK_TILT * pitch - pr[at.HEAD_DROP] - (1.0 - _HEAD_STEADY) * st[at.NECK_DIP] - st[at.DIP],
     )  # fmt: skip
-    x, y, z, yaw = st[at.X], st[at.Y], st[at.Z_REAR], st[at.YAW] + math.pi
-    up = pr[at.TAIL_RISE] - pitch
+    x, y, z = rear_x, rear_y, st[at.Z_REAR]
     for k in range(3):
-        yaw += 0.6 * bend
-        up += 0.18
+        yaw, up = rear + math.pi + st[at.TAIL_YAW + k], st[at.TAIL_UP + k]
         _frame(out[3 + bones + k], x, y, z, yaw, up)
         flat = pr[at.TAIL] * math.cos(up)
         x += flat * math.cos(yaw)
@@ -98,22 +115,25 @@ def write_pose(st, pr, feet, out, joints):
         if leg < 2:
             _leg(
                 st, pr, feet[leg], out[first + 3 * leg : first + 3 * leg + 3], joints, leg,
-                front_x, front_y, front_z, chest, pr[at.WIDTH_FRONT], at.UPPER_FRONT, pr[at.CURL_FRONT], -1.0,
+                front_x, front_y, front_z, chest, pr[at.WIDTH_FRONT], st[at.ROLL_FRONT], at.UPPER_FRONT,
+                pr[at.CURL_FRONT], -1.0,
             )  # fmt: skip
         else:
             _leg(
                 st, pr, feet[leg], out[first + 3 * leg : first + 3 * leg + 3], joints, leg,
-                st[at.X], st[at.Y], st[at.Z_REAR], st[at.YAW], pr[at.WIDTH_REAR], at.UPPER_REAR,
+                rear_x, rear_y, st[at.Z_REAR], rear, pr[at.WIDTH_REAR], st[at.ROLL_REAR], at.UPPER_REAR,
                 pr[at.CURL_REAR], 1.0,
             )  # fmt: skip
-    joints[at.JOINTS - 3], joints[at.JOINTS - 2], joints[at.JOINTS - 1] = bend, st[at.GAZE], pitch
+    joints[at.JOINTS - 5], joints[at.JOINTS - 4], joints[at.JOINTS - 3] = bend, st[at.GAZE], pitch
+    joints[at.JOINTS - 2], joints[at.JOINTS - 1] = st[at.BACK], dip
 
 
 @kernel
-def _leg(st, pr, foot, out, joints, leg, x, y, z, yaw, width, sizes, curl, side):
+def _leg(st, pr, foot, out, joints, leg, x, y, z, yaw, width, roll, sizes, curl, side):
     upper, lower, last, lean = pr[sizes], pr[sizes + 1], pr[sizes + 2], pr[sizes + 3]
     c, s = math.cos(yaw), math.sin(yaw)
     across = 0.5 * width if leg % 2 == 0 else -0.5 * width
+    z += across * math.sin(roll)
     jx, jy = x - across * s, y + across * c
     dx, dy, dz = foot[at.FX] - jx, foot[at.FY] - jy, foot[at.FZ] - z
     curled = 0.0

@@ -34,10 +34,11 @@ __all__ = ["AnimalDriver", "Pack"]
 
 
 class Pack(Population):
-    """Dogs, cats and horses, in one herd, who let ``traffic`` tell them who is around."""
+    """Dogs, cats and horses, in one herd, who let ``traffic`` tell them who is around. ``seed``: the world's,
+    from which each has habits of its own."""
 
-    def __init__(self, level: Level, traffic: Traffic) -> None:
-        self._level, self._traffic = level, traffic
+    def __init__(self, level: Level, traffic: Traffic, seed: int) -> None:
+        self._level, self._traffic, self._seed = level, traffic, seed
         self._herd = Herd(level.ground)
         self._drivers: list[AnimalDriver] = []
         self._before = _Remembered()
@@ -52,7 +53,7 @@ class Pack(Population):
         if not stands.free:
             what = "finds no ground" if stands.part == "ground" else f"has no room for its {stands.part}"
             raise RuntimeInputError(f"at {place.round(2).tolist()} facing {facing:.2f} a {body} {what}")
-        return self._add(self._herd.add(kind, place, facing))
+        return self._add(self._herd.add(kind, place, facing, self._seed))
 
     def revive(self, body: str, state: Any) -> Driver:
         kind = load_body(body)

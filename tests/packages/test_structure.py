@@ -46,7 +46,6 @@ WITHOUT_A_TEST = {
     "locomotion.quadruped.herd",
     "locomotion.quadruped.legs",
     "locomotion.quadruped.pool",
-    "locomotion.quadruped.pose",
     "locomotion.quadruped.saved_state",
     "locomotion.quadruped.trail",
     "locomotion.quadruped.ways",

@@ -38,4 +38,4 @@ class QuadrupedKind(BodyKind):
         return animal_figure(load_body(body))
 
     def populate(self, around: Surroundings) -> Population:
-        return Pack(around.level, around.traffic)
+        return Pack(around.level, around.traffic, around.seed)

@@ -7,30 +7,10 @@ import pytest
 
 from locomotion import Human, LocomotionError
 from locomotion.body.person import MASS
-from locomotion.gaits.brake import BRAKE_SKILL, BRAKING, FIRST_STEPS, load_brake_skill
+from locomotion.gaits.brake import BRAKE_SKILL, FIRST_STEPS, load_brake_skill
 from locomotion.gaits.run import controller
 from locomotion.rehearsal.trials import BRAKINGS, ComesToRest, at_once, first_good
-
-WAY = np.array([[0.0, 0.0, 0.0], [60.0, 0.0, 0.0]])
-
-
-def running(ticks: int, speed: float = 3.0, rehearsals: int = 16) -> Human:
-    human = Human(None, clearing=(), rehearsals=rehearsals)
-    human.reset(WAY[0], 0.0, speed)
-    human.follow(WAY, speed)
-    for _ in range(ticks):
-        human.tick()
-    return human
-
-
-def way_of_stop(human: Human) -> float:
-    """Tick until it rests; how far it comes [m]."""
-    begun, far = human.com, 0.0
-    human.stop()
-    while not human.held:
-        human.tick()
-        far = max(far, float(human.com[0] - begun[0]))
-    return far
+from tests.locomotion.gaits.runners import running, way_of_stop
 
 
 def test_told_to_stop_at_any_moment_it_stands_within_a_few_steps():
@@ -58,53 +38,6 @@ def test_one_that_does_not_rehearse_slows_down_and_walks():
     human.tick()
     assert human.gait_now == "slow run" and not human.on_feet.brakes
     assert human.on_feet.slowing == 1.0
-
-
-def test_one_whose_braking_does_not_go_well_runs_on_for_a_moment_and_slows_down(monkeypatch):
-    def falls(self, body):
-        yield
-        return 0.0, []
-
-    monkeypatch.setattr(ComesToRest, "__call__", falls)
-    human = running(300)
-    human.stop()
-    gaits = []
-    for _ in range(60):
-        human.tick()
-        gaits.append(human.gait_now)
-    assert gaits[0] == "run" and gaits[-1] == "slow run" and not human.on_feet.brakes
-    assert 35 <= gaits.count("run") <= 45
-
-
-def test_one_that_has_to_wait_for_others_brakes():
-    human = running(300)
-    human.give_way(0.0, None)
-    human.tick()
-    assert human.on_feet.brakes and human.on_feet.slowing > 2.0
-    assert human.prospect().braking == BRAKING
-    for _ in range(350):
-        human.tick()
-    assert human.status == "walking" and np.linalg.norm(human.velocity[:2]) < 0.1
-    human.give_way(1.0, None)
-    while human.gait_now != "run":
-        assert human.status == "walking" and human.time < 20.0
-        human.tick()
-    assert not human.on_feet.brakes
-
-
-@pytest.mark.parametrize("ticks", [20, 40, 60])
-def test_told_to_go_on_while_it_brakes_it_comes_to_a_stand_first(ticks):
-    human, least = running(300), np.inf
-    human.give_way(0.0, None)
-    for _ in range(ticks):
-        human.tick()
-    assert human.on_feet.brakes
-    human.give_way(1.0, None)
-    while human.gait_now != "run" or human.on_feet.slowing > 0.0:
-        assert human.status in ("running", "walking") and human.time < 20.0
-        human.tick()
-        least = min(least, float(np.linalg.norm(human.velocity[:2])))
-    assert least < 0.25
 
 
 def test_of_all_that_end_in_a_stand_it_does_what_takes_the_least_room():

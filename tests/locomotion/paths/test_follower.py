@@ -7,6 +7,7 @@ from locomotion.human.on_feet import RUN_GAINS
 from locomotion.paths.command import COMMAND_SIZE, HEADING_ASKED
 from locomotion.paths.follower import PathFollower
 from locomotion.paths.tracking import TrackingLimits, make_path
+from tests.locomotion.recovery.falling import WAY
 
 WALK = TrackingLimits((0.3, 1.25))
 LENGTH = 20.0
@@ -134,3 +135,17 @@ def test_a_shift_moves_the_path_ahead_of_it_alone():
     at = np.linspace(0.0, LENGTH, len(y))
     assert not y[at < 5.9].any() and y[(at > 6.1) & (at < 8.8)] == pytest.approx(0.4)
     assert made.remaining == pytest.approx(15.0)
+
+
+def test_who_was_carried_back_along_its_way_has_its_time_to_make_headway():
+    way = PathFollower()
+    limits = TrackingLimits((0.3, 1.2))
+    way.begin(make_path(WAY, 1.0, limits, 0.0), 0)
+    for tick in range(2000):
+        way.track(np.zeros(6), 0.01 * tick, 0.0, 1.0, tick, np.zeros(4))
+    assert way.arc == pytest.approx(19.99)
+    way.go_on_from(np.array([6.0, 0.3, 0.0]), 3000)
+    assert way.arc == pytest.approx(6.0, abs=0.06)
+    for tick in range(3000, 4200):
+        way.track(np.zeros(6), 6.0 + 0.01 * (tick - 3000), 0.3, 1.0, tick, np.zeros(4))
+        assert way.without_headway(tick) < 0.5

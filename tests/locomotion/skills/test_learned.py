@@ -67,9 +67,5 @@ def test_the_arguments_of_a_law_over_the_run():
     assert pose == pytest.approx(clip.sample(shares) - run.clip.sample(shares))
     slope = np.gradient(pose, shares, axis=0)[8:-8]  # per cycle
     assert np.median(np.abs(rates[8:-8] - slope)) < 0.1
-    assert (
-        tables_over_run(
-            parameters, {"entry": slice(0, 1), "marks": slice(1, 2)}, np.zeros(0), clip, run
-        ).rest[2]
-        is pose
-    )  # made once
+    again = tables_over_run(parameters, {"entry": slice(0, 1), "marks": slice(1, 2)}, np.zeros(0), clip, run)
+    assert again.rest[2] is pose  # made once

@@ -10,6 +10,14 @@ import pytest
 from locomotion.body.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex, build_person
 from locomotion.gaits.run import controller as c
 from locomotion.gaits.run import reference as slow
+from locomotion.gaits.run.layout import (
+    BLEND,
+    LAST_TARGET,
+    PARAMETERS,
+    STATE_SIZE,
+    new_state,
+    parameter_slices,
+)
 from locomotion.gaits.run.skill import RunSkill, load_run_skill, reset_running
 
 
@@ -47,6 +55,15 @@ def runner() -> Runner:
     return Runner()
 
 
+def test_the_parts_of_a_memory_and_of_the_parameters_lie_side_by_side() -> None:
+    parts = [c.OBSERVED, c.PLANTED, c.COM_AT_SWITCH, c.SENSOR_VALUES, BLEND, LAST_TARGET]
+    ends = [c.STEP_SPEED + 2, *(part.stop for part in parts)]  # one number is free
+    assert [part.start for part in parts] == ends[:-1] and ends[-1] == STATE_SIZE == len(new_state())
+    slices = parameter_slices()
+    assert [part.start for part in slices.values()] == [0, *(part.stop for part in slices.values())][:-1]
+    assert list(slices.values())[-1].stop == sum(PARAMETERS.values()) == load_run_skill().table.shape[1]
+
+
 def test_kernel_equals_reference() -> None:
     rng = np.random.default_rng(3)
     runner = Runner()
@@ -62,7 +79,7 @@ def test_kernel_equals_reference() -> None:
         if runner.state[c.SLOPE] == slope:
             sensed = slow.sensors(runner.state, runner.command[2], qpos, qvel)
             wanted = slow.pd_targets(runner.skill, runner.state, sensed, qpos)
-            blend = runner.state[49:88]  # what is left of the jump at the last switch
+            blend = runner.state[BLEND]  # what is left of the jump at the last switch
             np.testing.assert_allclose(runner.data.ctrl, wanted + blend, atol=1e-9)
             compared += 1
         mujoco.mj_step(runner.model, runner.data, STEPS_PER_TICK)
@@ -100,8 +117,8 @@ def test_left_stance_mirrors_right_stance(runner: Runner) -> None:
     state[c.CONTACT] = runner.state[c.CONTACT][::-1]
     for field in (c.STANCE, c.HEADING, c.TURN_RATE):
         state[field] *= -1
-    for start in (49, 88):
-        state[start : start + 39] = runner.state[start : start + 39][swap] * odd
+    for part in (BLEND, LAST_TARGET):
+        state[part] = runner.state[part][swap] * odd
     other.state[:] = state
     runner.control()
     other.control()

@@ -1,0 +1,26 @@
+"""People who run, for the tests of how they come to a stand."""
+
+import numpy as np
+
+from locomotion import Human
+
+WAY = np.array([[0.0, 0.0, 0.0], [60.0, 0.0, 0.0]])
+
+
+def running(ticks: int, speed: float = 3.0, rehearsals: int = 16) -> Human:
+    human = Human(None, clearing=(), rehearsals=rehearsals)
+    human.reset(WAY[0], 0.0, speed)
+    human.follow(WAY, speed)
+    for _ in range(ticks):
+        human.tick()
+    return human
+
+
+def way_of_stop(human: Human) -> float:
+    """Tick until it rests; how far it comes [m]."""
+    begun, far = human.com, 0.0
+    human.stop()
+    while not human.held:
+        human.tick()
+        far = max(far, float(human.com[0] - begun[0]))
+    return far

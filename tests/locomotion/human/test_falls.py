@@ -1,0 +1,35 @@
+"""What becomes of a person that falls, from losing its balance until it goes on."""
+
+from locomotion import Human
+from locomotion.events import Arrived, Fell, GotUp
+from locomotion.human.human import STRAYED
+from tests.locomotion.recovery.falling import go_on, push_over
+
+
+def test_goes_on_to_its_goal_after_a_fall():
+    human, arrived = Human(None, clearing=(), gets_up=True), 0
+    for direction in (0.5, 2.2, 4.0, 5.5):
+        push_over(human, direction, 1.2)
+        go_on(human, 90.0)
+        assert any(isinstance(event, Fell) for event in human.events)
+        arrived += isinstance(human.events[-1], Arrived)
+    assert arrived >= 3
+
+
+def test_who_gets_up_beside_its_path_is_not_lost_before_it_can_be_told_another():
+    human = Human(None, clearing=(), gets_up=True)
+    push_over(human, 2.2, 1.2)
+    go_on(human, 5.0, Fell)
+    human.data.qpos[1] += 2.0 * STRAYED
+    go_on(human, 40.0, GotUp)
+    assert isinstance(human.events[-1], GotUp) and human.status == "walking"
+    assert abs(human.lateral_error) > STRAYED
+
+
+def test_without_that_a_fall_is_the_end():
+    human = Human(None, clearing=())
+    push_over(human, 1.6, 1.2)
+    go_on(human, 10.0)
+    for _ in range(150):
+        human.tick()
+    assert human.status == "fallen" and human.held

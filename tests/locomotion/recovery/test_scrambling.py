@@ -1,0 +1,39 @@
+"""On hands and feet over steep ground."""
+
+import math
+
+import numpy as np
+import pytest
+
+from locomotion import Human
+from locomotion.events import Fell
+from locomotion.recovery.scrambling import lie_of, steeper
+from tests.locomotion.recovery.falling import go_on, plane
+
+
+@pytest.mark.parametrize("slope", [0.6, 0.85])
+def test_scrambles_into_every_direction_over_a_steep_plane(slope):
+    human, kept = Human(plane(slope), clearing=(), gets_up=True), 0
+    for degrees in (0, 45, 90, 135, 180):
+        way = np.array([math.cos(math.radians(degrees)), math.sin(math.radians(degrees))])
+        points = np.array([[*(k * way), slope * k * way[0]] for k in np.arange(0.0, 10.0, 0.5)])
+        human.events.clear()
+        human.reset(points[0], math.radians(degrees))
+        human.follow(points, 3.0)
+        assert human.status == "scrambling"
+        go_on(human, 10.0, Fell)
+        kept += not any(isinstance(event, Fell) for event in human.events) and human.arc_length > 1.0
+        assert abs(human.lateral_error) < 0.3
+    assert kept >= 4
+
+
+@pytest.mark.parametrize("slope", [0.0, 0.4, 0.8])
+def test_the_lie_of_the_ground_is_its_gradient(slope):
+    found = np.empty(2)
+    lie_of(plane(slope).lookup, 3.0, -2.0, 3.0 * slope, found)
+    assert found == pytest.approx([slope, 0.0], abs=1e-9)
+
+
+def test_only_ground_that_is_steep_somewhere_near_is_steeper():
+    ground, points = plane(0.5), np.array([[x, 0.0, 0.5 * x] for x in np.arange(-2.0, 2.0)])
+    assert steeper(ground.lookup, points, 0.45) and not steeper(ground.lookup, points, 0.55)

@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from locomotion import LocomotionError
+import navmesh
+from benchmarks.shared_data import level_path, shared_folder, why_absent
+from locomotion import Ground, LocomotionError, smooth_route
 from locomotion.data import BODIES
 from locomotion.quadruped import BODY_NAMES, load_body
 from locomotion.quadruped import layout as at
@@ -52,3 +54,15 @@ def test_an_unknown_body_and_gait_name_the_valid_ones():
         load_body("unicorn")
     with pytest.raises(LocomotionError, match="valid: walk, trot, gallop, pace"):
         load_body("dog").gait_index("moonwalk")
+
+
+@pytest.mark.skipif(shared_folder() is None, reason=why_absent())
+def test_its_own_rules_keep_its_path_on_the_ground():
+    """Around this corner of a pit, cells twice as wide as the dog led over the void."""
+    body = load_body("dog")
+    terrain = navmesh.Terrain.load(level_path("nav_test"), up="y")
+    graph = navmesh.NodeGraph.build(terrain, body.walk_rules(), obstacle_rules=None)
+    route = graph.find_path((-8.9, -21.9, -2.4), (-5.6, -3.1, -2.4), radius=body.radius)
+    points = smooth_route(route, body.smoothing).points
+    ground = Ground.from_arrays(terrain.vertices, terrain.faces)
+    assert np.abs(ground.surface_below(points + np.array([0.0, 0.0, 0.3]))[0] - points[:, 2]).max() < 0.1

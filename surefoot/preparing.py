@@ -37,7 +37,7 @@ def prepare_once() -> None:
     mark = None if Preparing.going_on else mark_of_kernels()
     if mark is None or mark.exists() or not _preparers:
         return
-    from surefoot.compiling import TIME
+    from surefoot.compile_notice import TIME
 
     _log.warning(
         "surefoot: compiling kernels, once on this machine: %s; runtime.prepare() does it ahead of time", TIME

@@ -1,6 +1,6 @@
 """Velocities that are forbidden to a body: a half-plane for each neighbour and each wall nearby.
 
-Rows (nx, ny, c) as in `locomotion.crowd.program`. The planes of neighbours are those of van den Berg and
+Rows (nx, ny, c) as in `locomotion.crowd.orca_program`. The planes of neighbours are those of van den Berg and
 others (2011), sections 4 and 5.1, with shares by weight instead of halves. Walls: the nearest points of the
 surface's end, to the body and to the cells around it, each forbid coming closer than the radius.
 """

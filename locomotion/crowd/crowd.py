@@ -16,9 +16,9 @@ from numpy.typing import ArrayLike, NDArray
 
 import navmesh
 from locomotion.crowd import layout as at
-from locomotion.crowd.advance import advance_all
 from locomotion.crowd.gates import ABREAST, Gates, find_gates
 from locomotion.crowd.queueing import trace_gates
+from locomotion.crowd.tick import advance_all
 from locomotion.crowd.walker import NoRoute, Walker, WalkerState
 from locomotion.errors import LocomotionError
 from locomotion.quadruped.pool import Pool

@@ -10,9 +10,9 @@ from typing import Literal, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from locomotion.body_events import Arrived, Event, GotStuck, LostGround, SetOff
 from locomotion.crowd import layout as at
 from locomotion.errors import LocomotionError
-from locomotion.events import Arrived, Event, GotStuck, LostGround, SetOff
 from locomotion.quadruped.pool import Pool
 from navmesh.graph.node_graph import NodeGraph
 from navmesh.routes.route import Route

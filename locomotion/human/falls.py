@@ -6,12 +6,12 @@ import mujoco
 
 from locomotion.body.hand_hold import let_go_both
 from locomotion.body.person import CONTROL_DT, STEPS_PER_TICK
-from locomotion.events import Fell, GotUp
+from locomotion.body_events import Fell, GotUp
 from locomotion.gaits.run import controller
 from locomotion.gaits.walk.controller import observe_walk
 from locomotion.gaits.walk.layout import new_walk
 from locomotion.gaits.walk.skill import rise_walking
-from locomotion.human.headway import notice
+from locomotion.human.arrived_or_stuck import notice
 from locomotion.human.person import Person
 from locomotion.human.state import MOVING, Status
 from locomotion.paths.tracking import SLOPE_HERE

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 
-from locomotion.events import GotStuck
+from locomotion.body_events import GotStuck
 from locomotion.gaits.limits import run_entry_speed
 from locomotion.human.person import Person
 from locomotion.human.state import MOVING

@@ -26,8 +26,8 @@ from numpy.typing import ArrayLike, NDArray
 from locomotion.avoidance.yielding import Course
 from locomotion.body.hand_hold import let_go_both
 from locomotion.body.person import CONTROL_DT, STEPS_PER_TICK
+from locomotion.body_events import Arrived, Cleared, GotStuck, SetOff, TookOff
 from locomotion.errors import LocomotionError
-from locomotion.events import Arrived, Cleared, GotStuck, SetOff, TookOff
 from locomotion.gaits.brake import BRAKING, BrakeSkill, load_brake_skill
 from locomotion.gaits.limits import PERSON_RULES
 from locomotion.gaits.run import controller
@@ -38,9 +38,9 @@ from locomotion.gaits.speed_up import SpeedUpSkill, load_speed_up_skill
 from locomotion.gaits.walk.layout import WALK_HEADING
 from locomotion.gaits.walk.skill import WalkSkill, load_walk_skill, rise_walking
 from locomotion.ground.ground import Ground
+from locomotion.human.arrived_or_stuck import ARRIVAL_DISTANCE, STRAYED, notice
 from locomotion.human.falls import fall, tick_on_all_fours
 from locomotion.human.gait_changes import GaitChanges
-from locomotion.human.headway import ARRIVAL_DISTANCE, STRAYED, notice
 from locomotion.human.intent import course_on_way, course_to_rest
 from locomotion.human.on_feet import OnFeet
 from locomotion.human.person import Person
@@ -78,7 +78,7 @@ class Human(Person):
         status: "standing", "walking", "running", "jumping", "vaulting", "dropping", "leaping", "scrambling",
             "getting up", "fallen" (for good), "arrived", "lost" (strayed from its path or missed its goal) or
             "stuck". `held` says whether it is simulated.
-        events: list of `locomotion.events.Event` in order of time.
+        events: list of `locomotion.body_events.Event` in order of time.
         decider: chooses among variations of the next action.
     """
 

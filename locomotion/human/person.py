@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from locomotion.body.person import CONTROL_DT, PersonIndex
-from locomotion.events import Event, WentBack
+from locomotion.body_events import Event, WentBack
 from locomotion.gaits.run import controller
 from locomotion.gaits.run.controller import observe
 from locomotion.gaits.run.skill import reset_running

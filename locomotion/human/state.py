@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from locomotion.body.physics import restore_physics, save_physics
-from locomotion.events import Event
+from locomotion.body_events import Event
 from locomotion.human.simulation import Simulation
 from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.paths.table import PathTable

@@ -14,7 +14,7 @@ from locomotion.quadruped.layout import LEGS
 from locomotion.quadruped.local_motion import LocalMotion, local_motion
 from locomotion.quadruped.script import Place, Script
 from locomotion.quadruped.trail import NoTrail, Trail, lay_trail
-from locomotion.quadruped.ways import Planner
+from locomotion.quadruped.trail_planning import Planner
 
 __all__ = [
     "BODY_NAMES",

@@ -6,8 +6,8 @@ import math
 
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.back import girdles, pelvis_pitch
+from locomotion.quadruped.body_on_path import place_body, spring, wrap
 from locomotion.quadruped.carriage import carry
-from locomotion.quadruped.following import place_body, spring, wrap
 from locomotion.quadruped.footfalls import misplaced, step_feet
 from locomotion.quadruped.gait import step_gait
 from locomotion.quadruped.idle import look_about

@@ -18,21 +18,29 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from locomotion.avoidance.yielding import COUNT, SPACING, Course, first_meeting
+from locomotion.body_events import Arrived, BackedOut, Event, GotStuck, LostGround, MissedGoal, SetOff
 from locomotion.errors import LocomotionError
-from locomotion.events import Arrived, BackedOut, Event, GotStuck, LostGround, MissedGoal, SetOff
 from locomotion.quadruped import layout as at
-from locomotion.quadruped.course import course_back, course_on, shifted_points
-from locomotion.quadruped.errand import AnimalMemory, Errand, Phase, Status
-from locomotion.quadruped.following import wrap
+from locomotion.quadruped.body_on_path import wrap
+from locomotion.quadruped.course_for_others import course_back, course_on, shifted_points
 from locomotion.quadruped.footprint import RESOLUTION, check_script
-from locomotion.quadruped.foretold import disc_radius, foretell_script, nobody
 from locomotion.quadruped.herd import Herd
 from locomotion.quadruped.local_motion import short_move
 from locomotion.quadruped.manoeuvres import find_manoeuvre
 from locomotion.quadruped.motion import DT, stop_length
+from locomotion.quadruped.orders import AnimalMemory, Errand, Phase, Status
+from locomotion.quadruped.predicted_discs import disc_radius, foretell_script, nobody
 from locomotion.quadruped.script import Place, Script, into_flex, out_of_flex
 from locomotion.quadruped.spine import bend_for
 from locomotion.quadruped.trail import NoTrail, Trail, lay_trail
+from locomotion.quadruped.trail_planning import (
+    Planner,
+    Way,
+    find_way,
+    first_heading,
+    last_free_arc,
+    turn_onto,
+)
 from locomotion.quadruped.turning import (
     WayBack,
     can_set_out,
@@ -42,7 +50,6 @@ from locomotion.quadruped.turning import (
     turn_script,
     way_back,
 )
-from locomotion.quadruped.ways import Planner, Way, find_way, first_heading, last_free_arc, turn_onto
 
 __all__ = ["SHORT_OF_GOAL", "Animal", "AnimalMemory", "Status"]
 

@@ -6,7 +6,7 @@ import math
 
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.back import girdles
-from locomotion.quadruped.following import front_of, spring
+from locomotion.quadruped.body_on_path import front_of, spring
 from locomotion.quadruped.motion import DT
 from surefoot.kernels import kernel
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from locomotion.ground.ground import height_below
 from locomotion.quadruped import layout as at
-from locomotion.quadruped.following import front_of, wanted_pose
+from locomotion.quadruped.body_on_path import front_of, wanted_pose
 from locomotion.quadruped.gait import leg_phase, seconds_for, swing_tempo
 from locomotion.quadruped.motion import DT, travel
 from locomotion.quadruped.trail import trail_point

@@ -29,7 +29,7 @@ from locomotion.ground.collider.layout import (
 from locomotion.ground.ground import Ground
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.body import Body
-from locomotion.quadruped.following import front_of, on_trail
+from locomotion.quadruped.body_on_path import front_of, on_trail
 from locomotion.quadruped.motion import stop_place, stop_time
 from locomotion.quadruped.script import Place, Script
 from locomotion.quadruped.trail import Trail, kernel_ground

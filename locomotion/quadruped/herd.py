@@ -25,12 +25,12 @@ from locomotion.ground.ground import Ground
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.advance import advance_all
 from locomotion.quadruped.body import Body
-from locomotion.quadruped.following import front_of, root_behind, wanted_pose, wrap
-from locomotion.quadruped.foretold import DISCS, between_feet, disc_radius, foretell_motion
+from locomotion.quadruped.body_on_path import front_of, root_behind, wanted_pose, wrap
 from locomotion.quadruped.idle import habits
 from locomotion.quadruped.motion import DT, begin_stop, stop_length
 from locomotion.quadruped.pool import Pool
 from locomotion.quadruped.pose import body_names, count_bodies, write_pose
+from locomotion.quadruped.predicted_discs import DISCS, between_feet, disc_radius, foretell_motion
 from locomotion.quadruped.script import Place, Script
 from locomotion.quadruped.tail import hang_tail
 from locomotion.quadruped.trail import Trail, kernel_ground

@@ -17,7 +17,7 @@ from scipy.interpolate import RegularGridInterpolator
 
 from locomotion.errors import LocomotionError
 from locomotion.quadruped.body import Body
-from locomotion.quadruped.following import wrap
+from locomotion.quadruped.body_on_path import wrap
 from locomotion.quadruped.script import ROWS, Place, Script, make_script, smooth_shares
 
 __all__ = ["REACH", "LocalMotion", "local_motion", "play_blends", "short_move"]

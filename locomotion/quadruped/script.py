@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.body import Body
-from locomotion.quadruped.following import front_of, wrap
+from locomotion.quadruped.body_on_path import front_of, wrap
 
 __all__ = ["Place", "Script", "into_flex", "joined", "make_script", "out_of_flex", "smooth_shares"]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from locomotion.quadruped import layout as at
-from locomotion.quadruped.following import wrap
+from locomotion.quadruped.body_on_path import wrap
 from locomotion.quadruped.idle import tail_sway
 from locomotion.quadruped.motion import DT
 from surefoot.kernels import kernel

@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 from locomotion.ground.ground import Ground
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.body import Body
-from locomotion.quadruped.following import wrap
+from locomotion.quadruped.body_on_path import wrap
 from locomotion.quadruped.footprint import RESOLUTION, check_script, trail_places
 from locomotion.quadruped.local_motion import REACH, local_motion
 from locomotion.quadruped.script import Place, Script, joined
 from locomotion.quadruped.trail import Trail, lay_trail
-from locomotion.quadruped.ways import Planner, find_way, first_heading, turn_onto
+from locomotion.quadruped.trail_planning import Planner, find_way, first_heading, turn_onto
 
 __all__ = [
     "WayBack", "can_set_out", "has_way", "little_way_back", "step_away", "turn_script", "way_back",

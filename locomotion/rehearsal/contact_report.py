@@ -22,7 +22,7 @@ _BEHIND = 0.05  # [m] behind a wall's far edge to which a contact is one with th
 class ContactReport:
     """How one obstacle was cleared.
 
-    takeoff_error [m], speed_error [m/s]: as in `locomotion.events.TookOff`; NaN where there was none.
+    takeoff_error [m], speed_error [m/s]: as in `locomotion.body_events.TookOff`; NaN where there was none.
     cleared: whether the skill came to its end. touched: whether anything touched it that must not
     (`SkillKind.may_touch`): anything but feet what is jumped onto, anything but hands and forearms what is
     vaulted. held: time that a hand held on [s]. planted:

@@ -8,7 +8,7 @@ from typing import Protocol
 
 import mujoco
 
-from locomotion.events import Event
+from locomotion.body_events import Event
 from locomotion.human.state import HumanState, same
 
 __all__ = ["Predicted"]

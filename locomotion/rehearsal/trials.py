@@ -19,7 +19,7 @@ import mujoco
 import numpy as np
 
 from locomotion.body.person import CONTROL_DT
-from locomotion.events import Cleared, TookOff
+from locomotion.body_events import Cleared, TookOff
 from locomotion.gaits.walk.layout import LONGER, WALK_HEADING, WALK_SPEED
 from locomotion.human.state import MOVING, HumanState, same
 from locomotion.rehearsal.contact_report import ContactReport, Watcher

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from locomotion.body.person import PersonIndex
-from locomotion.events import Event
+from locomotion.body_events import Event
 from locomotion.human.on_feet import OnFeet
 from locomotion.human.state import Gait, HumanState, Status
 from locomotion.paths.follower import PathFollower

@@ -14,8 +14,8 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from navmesh.errors import NavmeshError
-from navmesh.graph.body_view import parts_of
 from navmesh.graph.kernel_arrays import net_of
+from navmesh.graph.open_to_body import parts_of
 from navmesh.graph.snapping import roomy_cell
 from navmesh.surface.clearance_field import centre_of, floor_at, gap_at, walk
 from surefoot.kernels import allocating_kernel, kernel

@@ -13,7 +13,7 @@ import numpy as np
 
 from locomotion import MOVING, PERSON_RULES, Human, HumanState, load_run_skill
 from locomotion.avoidance.yielding import SPACING, Course
-from locomotion.human.saved_state import check_person
+from locomotion.human.saved_state_check import check_person
 from locomotion.paths.departures import can_begin, leads
 from locomotion.paths.run_up_room import cramped_links
 from locomotion.rehearsal.trials import REHEARSALS

@@ -13,7 +13,7 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 
 from locomotion.avoidance.yielding import Course
-from locomotion.events import Event
+from locomotion.body_events import Event
 from locomotion.saved_arrays import check_array
 from runtime.bodies.figure import Figure
 from runtime.errors import RuntimeInputError

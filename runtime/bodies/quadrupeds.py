@@ -19,9 +19,9 @@ from locomotion.quadruped import (
     load_body,
 )
 from locomotion.quadruped import layout as at
-from locomotion.quadruped.course import head_length
+from locomotion.quadruped.course_for_others import head_length
 from locomotion.quadruped.footprint import at_place
-from locomotion.quadruped.saved_state import check_animal
+from locomotion.quadruped.saved_state_check import check_animal
 from runtime.bodies.animal_figure import animal_figure
 from runtime.bodies.pose import between
 from runtime.bodies.protocol import PLANS_KEPT, Driver, Follower, Population, recall, saved_parts

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from locomotion import LocomotionError
+from locomotion.body_events import Event
 from locomotion.crowd import Crowd, NoRoute, Walker, WalkerState
-from locomotion.crowd.saved_state import check_walker
-from locomotion.events import Event
+from locomotion.crowd.saved_state_check import check_walker
 from navmesh.routes.route import Route
 from navmesh.routes.route_validity import line_holds
 from navmesh.routes.surface_projection import project_to_surface

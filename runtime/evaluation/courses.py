@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from locomotion import MOVING, Ground, Human, ObstacleAhead
-from locomotion.events import Cleared, TookOff
+from locomotion.body_events import Cleared, TookOff
 from locomotion.ground.ground import extruded
 from locomotion.rehearsal.contact_report import ContactReport, Watcher
 from locomotion.rehearsal.trials import REHEARSALS

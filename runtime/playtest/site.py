@@ -7,7 +7,7 @@ from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
 import navmesh
-from navmesh.graph.body_view import parts_of, portals_of
+from navmesh.graph.open_to_body import parts_of, portals_of
 from navmesh.level.mesh_queries import MeshGrid
 from runtime.playtest.character import Character
 from runtime.playtest.mesh import Mesh

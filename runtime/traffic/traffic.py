@@ -17,8 +17,8 @@ from locomotion.avoidance.yielding import (
 from navmesh.routes.route_validity import line_holds
 from runtime.bodies.protocol import Follower, Population
 from runtime.planning.level import Level
-from runtime.traffic.deadlock import STANDSTILL, untangle
 from runtime.traffic.snapshot import Snapshot, foretold_on
+from runtime.traffic.waiting_and_deadlock import STANDSTILL, untangle
 from surefoot.pausing import pause
 
 __all__ = ["EVERY", "Traffic"]

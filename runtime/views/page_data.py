@@ -8,7 +8,7 @@ import numpy as np
 from runtime.events import event_text
 from runtime.traces.trace import AgentTrace, LevelTrace, PathTrace, Trace
 from runtime.views.camera import calm_track, size_of
-from runtime.views.colours import in_order, obstacle_colour, parts_of_colour
+from runtime.views.obstacle_colours import in_order, obstacle_colour, parts_of_colour
 
 __all__ = ["page_data"]
 

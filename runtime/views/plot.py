@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from runtime.traces.trace import AgentTrace, LevelTrace, Trace
-from runtime.views.colours import in_order, obstacle_colour
+from runtime.views.obstacle_colours import in_order, obstacle_colour
 from runtime.views.storeys import cut_heights
 from surefoot.files.atomic_write import whole_file
 

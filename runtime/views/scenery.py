@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from runtime.traces.trace import LevelTrace, PathTrace
-from runtime.views.colours import obstacle_colour, parts_of_colour
+from runtime.views.obstacle_colours import obstacle_colour, parts_of_colour
 
 __all__ = ["ALL", "draw_level", "draw_paths", "silent"]
 

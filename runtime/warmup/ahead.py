@@ -8,7 +8,7 @@ from pathlib import Path
 
 import surefoot
 from runtime.warmup.sharing import run_shared
-from surefoot.compiling import TIME
+from surefoot.compile_notice import TIME
 from surefoot.kernels.dependencies import PACKAGES
 from surefoot.kernels.folder import forget_old
 from surefoot.kernels.loading import load_kept

@@ -10,12 +10,12 @@ import numpy as np
 import navmesh
 import pathsmooth
 from locomotion import MOVING, Ground, Human
-from locomotion.events import GotUp
+from locomotion.body_events import GotUp
 from locomotion.skills.registry import skill_kinds
 from navmesh.areas.areas import checked_costs
 from navmesh.areas.cheap_routes import priced_route
 from navmesh.areas.pricing import priced_of
-from navmesh.graph.body_view import doors_of
+from navmesh.graph.open_to_body import doors_of
 
 __all__ = ["FIRST_USES", "one_of_each", "tiny_level"]
 

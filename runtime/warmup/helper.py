@@ -15,7 +15,7 @@ def main() -> None:
     asked: SimpleQueue[str] = SimpleQueue()
     Thread(target=_read, args=(asked,), daemon=True).start()
     from runtime.warmup.first_uses import FIRST_USES
-    from surefoot.compiling import counted
+    from surefoot.compile_notice import counted
     from surefoot.preparing import Preparing
 
     Preparing.going_on = True

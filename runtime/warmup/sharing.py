@@ -11,7 +11,7 @@ from threading import Thread
 
 import numba
 
-from surefoot.compiling import counted
+from surefoot.compile_notice import counted
 from surefoot.kernels.folder import cache_folder
 
 __all__ = ["run_shared"]

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from locomotion import MOVING, Human, LocomotionError
-from locomotion import events as bodily
+from locomotion import body_events as bodily
 from locomotion.avoidance.yielding import Course
 from locomotion.quadruped import Animal
 from locomotion.skills.registry import CLEARING, skill_kind
@@ -31,9 +31,9 @@ from runtime.events import (
     Stuck,
 )
 from runtime.planning.planning import NoWay, Plan
-from runtime.traffic.deadlock import Headway
+from runtime.traffic.waiting_and_deadlock import Headway
+from runtime.world.agent_services import Host
 from runtime.world.arguments import checked_number, checked_points
-from runtime.world.host import Host
 
 __all__ = ["Agent", "AgentState", "Pose"]
 

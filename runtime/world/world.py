@@ -25,9 +25,9 @@ from runtime.planning.level import Level
 from runtime.planning.rules import obstacle_rules, person_walk_rules
 from runtime.traffic.traffic import EVERY, Traffic
 from runtime.world.agent import Agent
+from runtime.world.agent_services import Clock, Host
 from runtime.world.arguments import checked_files, checked_number, checked_points, checked_whole
 from runtime.world.event_log import EventLog
-from runtime.world.host import Clock, Host
 from runtime.world.state import WorldState
 from surefoot.pausing import pause
 from surefoot.preparing import prepare_once

@@ -5,10 +5,10 @@ import pytest
 import trimesh
 
 import navmesh
-from locomotion.events import WentBack
+from locomotion.body_events import WentBack
 from runtime import Arrived, Blocked, Departed, Hindered, Stuck, World
 from runtime.planning.rules import person_walk_rules
-from runtime.traffic.deadlock import ANOTHER_WAY, PATIENCE, Headway
+from runtime.traffic.waiting_and_deadlock import ANOTHER_WAY, PATIENCE, Headway
 
 
 def graph_of(*blocks):

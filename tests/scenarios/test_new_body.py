@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import navmesh
-from locomotion import events as bodily
+from locomotion import body_events as bodily
 from runtime import Arrived, Blocked, Departed, Lost, RuntimeInputError, World, WorldState
 from runtime.bodies.figure import Figure, Shapes
 from runtime.bodies.kinds.kind import BodyKind

@@ -12,7 +12,7 @@ import trimesh
 import navmesh
 from locomotion import LocomotionError, SkillKind, register_skill, skill_kinds, unregister_skill
 from locomotion.gaits.run.skill import RunSkill
-from locomotion.human.saved_state import check_person
+from locomotion.human.saved_state_check import check_person
 from locomotion.human.state import MOVING
 from locomotion.skills.description import load_description
 from locomotion.skills.jump.skill import Jump, load_jump_skill

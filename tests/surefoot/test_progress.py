@@ -6,7 +6,7 @@ import pytest
 from rich.console import Console
 
 from surefoot import progress
-from surefoot.compiling import TIME
+from surefoot.compile_notice import TIME
 from surefoot.progress import Progress
 
 LONGEST = (f"compiling kernels, once: {TIME}", "running and jumping")

@@ -6,7 +6,7 @@ from locomotion.body.person import CONTROL_DT, JOINT_NAMES
 from locomotion.gaits.run import controller
 from locomotion.skills.drop_roll import kernel as dr
 from locomotion.skills.kernel import mirror
-from locomotion.skills.learned import LawTables
+from locomotion.skills.learned_skill import LawTables
 
 __all__ = ["wanted_pose"]
 

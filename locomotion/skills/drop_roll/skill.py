@@ -15,9 +15,9 @@ from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.saved_arrays import COUNT, FLAG, SIDE, Slots
 from locomotion.skills.drop_roll import kernel as drop_roll
 from locomotion.skills.drop_roll.kernel import drop_roll_tick, start_drop_roll
-from locomotion.skills.family import SkillFamily, load_family
 from locomotion.skills.kernel import MIRROR, MIRROR_SIGN
-from locomotion.skills.learned import LawTables, LearnedSkill
+from locomotion.skills.learned_skill import LawTables, LearnedSkill
+from locomotion.skills.skill_file import SkillFamily, load_family
 
 __all__ = [
     "DROP_ROLL_CLIP",

@@ -5,7 +5,7 @@ import numpy as np
 from locomotion.gaits.run import controller
 from locomotion.skills.jump import kernel as jump
 from locomotion.skills.kernel_reference import clip_offset, placed_actions
-from locomotion.skills.learned import LawTables
+from locomotion.skills.learned_skill import LawTables
 
 __all__ = ["wanted_offset"]
 

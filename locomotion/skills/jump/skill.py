@@ -15,11 +15,11 @@ from locomotion.gaits.run import controller
 from locomotion.gaits.run.skill import RunSkill
 from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.saved_arrays import COUNT, FLAG, Slots
-from locomotion.skills.family import SkillFamily, load_family
 from locomotion.skills.jump import kernel as jump
 from locomotion.skills.jump.kernel import jump_tick, start_jump
 from locomotion.skills.kernel import FIRST_STEP, LAST_STEP
-from locomotion.skills.learned import LawTables, LearnedSkill, tables_over_run
+from locomotion.skills.learned_skill import LawTables, LearnedSkill, tables_over_run
+from locomotion.skills.skill_file import SkillFamily, load_family
 
 __all__ = [
     "JUMP_CLIP", "JUMP_SKILL", "KIND", "Jump", "jump_clip", "load_jump_skill", "run_digest", "tables_of",

@@ -4,7 +4,7 @@ import numpy as np
 
 from locomotion.gaits.run import controller
 from locomotion.skills.kernel_reference import clip_offset, placed_actions
-from locomotion.skills.learned import LawTables
+from locomotion.skills.learned_skill import LawTables
 from locomotion.skills.vault import kernel as vault
 
 __all__ = ["wanted_offset"]

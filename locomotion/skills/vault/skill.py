@@ -14,9 +14,9 @@ from locomotion.data import CLIPS, SKILLS
 from locomotion.gaits.run.skill import RunSkill
 from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.saved_arrays import COUNT, FLAG, SIDE, Slots
-from locomotion.skills.family import SkillFamily, load_family
 from locomotion.skills.kernel import FIRST_STEP, LAST_STEP
-from locomotion.skills.learned import LawTables, LearnedSkill, tables_over_run
+from locomotion.skills.learned_skill import LawTables, LearnedSkill, tables_over_run
+from locomotion.skills.skill_file import SkillFamily, load_family
 from locomotion.skills.vault import kernel as vault
 from locomotion.skills.vault.kernel import start_vault, vault_fell, vault_tick
 

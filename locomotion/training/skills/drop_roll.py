@@ -13,8 +13,8 @@ from locomotion.gaits.run.skill import RunSkill, load_run_skill
 from locomotion.skills.drop_roll import kernel as drop_roll
 from locomotion.skills.drop_roll.kernel import ACTIONS, BINS, KNOTS, SENSORS
 from locomotion.skills.drop_roll.skill import DROP_ROLL_SKILL, KIND, DropRoll, drop_roll_clip, tables_of
-from locomotion.skills.family import SkillFamily
 from locomotion.skills.jump.skill import run_digest
+from locomotion.skills.skill_file import SkillFamily
 from locomotion.training.progress import Clock
 from locomotion.training.search.least_squares import Work, fit
 from locomotion.training.search.loop import Stage, simulated

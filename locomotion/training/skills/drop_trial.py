@@ -16,7 +16,7 @@ from locomotion.gaits.walk.skill import RISING, STEADYING_SPEED, load_walk_skill
 from locomotion.ground.ground import plane_lookup
 from locomotion.paths.command import HEADING_ASKED, SPEED_ASKED
 from locomotion.skills.drop_roll import kernel as dr
-from locomotion.skills.learned import LawTables
+from locomotion.skills.learned_skill import LawTables
 from locomotion.training.skills.jump_trial import StartState
 from locomotion.training.skills.trial_scene import BOX_LENGTH, BOX_TOP, trial_scene
 from surefoot.kernels import kernel

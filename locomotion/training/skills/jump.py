@@ -14,7 +14,6 @@ from locomotion.body.learned_file import learned_numbers
 from locomotion.errors import LocomotionError
 from locomotion.gaits.run.skill import RunSkill, load_run_skill
 from locomotion.skills.description import SkillDescription, load_description
-from locomotion.skills.family import SkillFamily
 from locomotion.skills.interface import skill_ranges
 from locomotion.skills.jump import kernel as jump
 from locomotion.skills.jump.skill import (
@@ -25,6 +24,7 @@ from locomotion.skills.jump.skill import (
 )
 from locomotion.skills.leap.kind import LEAP_DESCRIPTION
 from locomotion.skills.library import learned_skills
+from locomotion.skills.skill_file import SkillFamily
 from locomotion.training.progress import Clock
 from locomotion.training.search.loop import Stage, simulated
 from locomotion.training.skills.jump_kind import WEIGHTS, JumpKind, cost, first_guess, scales, stair_jump

@@ -19,7 +19,7 @@ from locomotion.skills.interface import ClearingSkill, foot_distance, plan_run_u
 from locomotion.skills.jump import kernel as jump
 from locomotion.skills.jump.kernel import jump_tick, start_jump
 from locomotion.skills.jump.skill import jump_clip
-from locomotion.skills.learned import LawTables
+from locomotion.skills.learned_skill import LawTables
 from locomotion.training.skills.trial_scene import BOX_LENGTH, BOX_TOP, trial_scene
 from navmesh.obstacles.kinds import Crossing
 

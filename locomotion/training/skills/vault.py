@@ -14,9 +14,9 @@ import numpy as np
 
 from locomotion.body.learned_file import learned_numbers
 from locomotion.gaits.run.skill import RunSkill, load_run_skill
-from locomotion.skills.family import SkillFamily, family_file
 from locomotion.skills.jump import kernel as jump
 from locomotion.skills.jump.skill import load_jump_skill, run_digest
+from locomotion.skills.skill_file import SkillFamily, family_file
 from locomotion.skills.vault import kernel as vault
 from locomotion.skills.vault.skill import KIND, VAULT_SKILL, Vault, tables_of, vault_clip
 from locomotion.training.progress import Clock

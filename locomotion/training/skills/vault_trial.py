@@ -11,7 +11,7 @@ from locomotion.gaits.run import controller as c
 from locomotion.gaits.run import layout
 from locomotion.gaits.run.skill import RunSkill
 from locomotion.skills.kernel import mirror
-from locomotion.skills.learned import LawTables
+from locomotion.skills.learned_skill import LawTables
 from locomotion.skills.vault import kernel as vault
 from locomotion.skills.vault.kernel import start_vault, vault_fell, vault_tick
 from locomotion.skills.vault.skill import grip, vault_clip

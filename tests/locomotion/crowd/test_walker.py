@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from locomotion import LocomotionError
+from locomotion.body_events import Arrived, GotStuck, SetOff
 from locomotion.crowd import Crowd
 from locomotion.crowd.walker import NoRoute
-from locomotion.events import Arrived, GotStuck, SetOff
 from tests.locomotion.crowd.levels import hall, run
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from locomotion import Human, LocomotionError
-from locomotion.events import Arrived, SetOff
+from locomotion.body_events import Arrived, SetOff
 from locomotion.gaits.run.skill import load_run_skill
 from locomotion.gaits.slow_down import SLOW_DOWN_SKILL, load_slow_down_skill
 from locomotion.human.state import MOVING

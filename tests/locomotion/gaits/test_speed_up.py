@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from locomotion import Ground, Human, LocomotionError
-from locomotion.events import Cleared, SetOff, TookOff, WentBack
+from locomotion.body_events import Cleared, SetOff, TookOff, WentBack
 from locomotion.gaits.run import controller
 from locomotion.gaits.run.skill import load_run_skill
 from locomotion.gaits.speed_up import SPEED_UP_SKILL, load_speed_up_skill

@@ -1,7 +1,7 @@
 """What becomes of a person that falls, from losing its balance until it goes on."""
 
 from locomotion import Human
-from locomotion.events import Arrived, Fell, GotUp
+from locomotion.body_events import Arrived, Fell, GotUp
 from locomotion.human.human import STRAYED
 from tests.locomotion.recovery.falling import go_on, push_over
 

@@ -4,8 +4,8 @@ do."""
 import numpy as np
 import pytest
 
+from locomotion.body_events import Arrived, SetOff
 from locomotion.errors import LocomotionError
-from locomotion.events import Arrived, SetOff
 from locomotion.human.human import Human
 from locomotion.human.state import MOVING
 from locomotion.paths.smoothing import ObstacleAhead

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from locomotion import Ground, LocomotionError
-from locomotion.events import Arrived, BackedOut, MissedGoal, SetOff
+from locomotion.body_events import Arrived, BackedOut, MissedGoal, SetOff
 from locomotion.quadruped import Animal, Herd
-from locomotion.quadruped.following import wrap
+from locomotion.quadruped.body_on_path import wrap
 from tests.locomotion.quadruped.dead_ends import DOG, GraphPlanner, dead_end
 from tests.locomotion.quadruped.scenes import animal_on, floor, plane, quads, run, wall
 

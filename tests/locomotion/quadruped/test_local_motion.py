@@ -7,7 +7,7 @@ import pytest
 
 from locomotion import LocomotionError
 from locomotion.quadruped import Herd, load_body, local_motion
-from locomotion.quadruped.following import wrap
+from locomotion.quadruped.body_on_path import wrap
 from locomotion.quadruped.local_motion import play_blends
 from tests.locomotion.quadruped.dead_ends import DOG
 from tests.locomotion.quadruped.scenes import animal_on, plane, run

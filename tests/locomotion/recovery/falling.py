@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from locomotion import MOVING, Ground, Human
-from locomotion.events import Event
+from locomotion.body_events import Event
 
 WAY = np.array([[x, 0.0, 0.0] for x in np.arange(0.0, 30.0)])
 

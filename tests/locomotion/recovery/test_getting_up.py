@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from locomotion import Ground, Human
-from locomotion.events import Fell, GotUp
+from locomotion.body_events import Fell, GotUp
 from tests.locomotion.recovery.falling import go_on, push_over
 
 

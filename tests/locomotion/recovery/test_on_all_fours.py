@@ -6,7 +6,7 @@ import numpy as np
 
 from locomotion import Human
 from locomotion.body.arm_reach import HAND_RADIUS
-from locomotion.events import Fell
+from locomotion.body_events import Fell
 from tests.locomotion.recovery.falling import go_on, push_over
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from locomotion import Human
-from locomotion.events import Fell, GotUp
+from locomotion.body_events import Fell, GotUp
 from tests.locomotion.recovery.falling import go_on, plane
 
 

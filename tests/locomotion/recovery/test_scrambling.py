@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from locomotion import Human
-from locomotion.events import Fell
+from locomotion.body_events import Fell
 from locomotion.recovery.scrambling import lie_of, steeper
 from tests.locomotion.recovery.falling import go_on, plane
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from locomotion.body.person import CONTROL_DT
-from locomotion.events import Arrived, Cleared, Fell, GotStuck, SetOff, TookOff, WentBack
+from locomotion.body_events import Arrived, Cleared, Fell, GotStuck, SetOff, TookOff, WentBack
 from locomotion.human.human import Human
 from locomotion.human.state import MOVING
 from locomotion.paths.smoothing import ObstacleAhead

@@ -11,11 +11,11 @@ import yaml
 import navmesh
 from locomotion import Human, LocomotionError, ObstacleAhead, load_run_skill
 from locomotion.skills.description import load_described, load_description
-from locomotion.skills.family import SkillFamily
 from locomotion.skills.interface import skill_for, skill_ranges
 from locomotion.skills.jump.skill import run_digest
 from locomotion.skills.leap.kind import LEAP_DESCRIPTION
 from locomotion.skills.library import learned_skills, skills_digest
+from locomotion.skills.skill_file import SkillFamily
 from locomotion.training.skills import jump
 from locomotion.training.skills.jump import train_described
 from locomotion.training.skills.jump_trial import JumpSimulator

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from locomotion.body.hand_hold import holding
-from locomotion.events import Arrived, Cleared, SetOff, TookOff
+from locomotion.body_events import Arrived, Cleared, SetOff, TookOff
 from locomotion.gaits.run.skill import load_run_skill
 from locomotion.human.human import Human
 from locomotion.human.state import MOVING

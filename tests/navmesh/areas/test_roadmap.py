@@ -8,7 +8,7 @@ from benchmarks.area_costs import COSTS, RADIUS
 from navmesh.areas.areas import checked_costs
 from navmesh.areas.kernel_arrays import LANDMARKS
 from navmesh.areas.pricing import priced_of
-from navmesh.graph.body_view import doors_of
+from navmesh.graph.open_to_body import doors_of
 
 
 def test_what_landmarks_say_is_left_is_never_too_much(scene) -> None:

@@ -9,7 +9,7 @@ from benchmarks.area_costs import COSTS, RADIUS
 from navmesh import Terrain
 from navmesh.areas.areas import checked_costs
 from navmesh.areas.pricing import priced_of
-from navmesh.graph.body_view import doors_of
+from navmesh.graph.open_to_body import doors_of
 from tests.navmesh.areas.painted import built
 from tests.navmesh.shapes import box, join, plane
 

@@ -4,7 +4,7 @@ import networkx
 import numpy as np
 import pytest
 
-from navmesh.graph.body_view import parts_of, portals_of
+from navmesh.graph.open_to_body import parts_of, portals_of
 from navmesh.graph.parts import leaps_by_part
 from tests.navmesh.surface.levels import build, random_level
 

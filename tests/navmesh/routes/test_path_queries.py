@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from navmesh import NavmeshError, NodeGraph
-from navmesh.graph.body_view import doors_of, portals_of
 from navmesh.graph.kernel_arrays import make_scratch, net_of
+from navmesh.graph.open_to_body import doors_of, portals_of
 from navmesh.graph.snapping import snap
 from navmesh.routes.graph_search import BEST, COMPLETE, advance, begin
 from tests.navmesh.routes.path_references import (

@@ -5,7 +5,7 @@ import pytest
 
 from locomotion import MOVING, Ground, Human, LocomotionError
 from locomotion.body.person import CONTROL_DT, MASS
-from locomotion.events import Cleared, Fell, TookOff
+from locomotion.body_events import Cleared, Fell, TookOff
 from runtime.evaluation.courses import AFTER, Push, enter_course, make_course, run_course
 
 

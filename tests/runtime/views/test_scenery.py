@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from runtime.traces.trace import LevelTrace, PathTrace
-from runtime.views.colours import obstacle_colour, parts_of_colour
+from runtime.views.obstacle_colours import obstacle_colour, parts_of_colour
 from runtime.views.scenery import draw_level, draw_paths, silent
 
 

@@ -18,7 +18,7 @@ from runtime.warmup import ahead, compile_kernels, is_compiled
 from runtime.warmup.first_uses import FIRST_USES, tiny_level
 from runtime.warmup.sharing import run_shared
 from runtime.world.event_log import EventLog
-from surefoot.compiling import counted
+from surefoot.compile_notice import counted
 from surefoot.kernels.folder import cache_folder
 from surefoot.preparing import prepare_once
 from surefoot.progress import Progress

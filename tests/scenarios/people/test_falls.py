@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import navmesh
-from locomotion.events import GotStuck, StrayedFromPath
+from locomotion.body_events import GotStuck, StrayedFromPath
 from runtime import Arrived, Departed, GotUp, Lost, Stuck, World
 from runtime.planning.rules import person_walk_rules
 from runtime.world.agent import Agent

@@ -41,7 +41,7 @@ def apart(x):
 COUNT = """
 import json, sys
 from numba.core import event
-from surefoot.compiling import _Listener
+from surefoot.compile_notice import _Listener
 from surefoot.kernels import dependencies
 dependencies.PACKAGES = ("low", "high")
 compiled = []
@@ -69,7 +69,7 @@ _FORKS = """
 import json, os, sys
 import numba
 from numba.core import config
-import surefoot.compiling, surefoot.kernels.loading
+import surefoot.compile_notice, surefoot.kernels.loading
 numba.njit(lambda x: x + 1.0)(1.0)
 sys.dont_write_bytecode = True
 for line in sys.stdin:

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from locomotion.body.person import JOINT_NAMES, person_spec
+from locomotion.body_events import Cleared, TookOff
 from locomotion.clips.clip import load_clip
 from locomotion.errors import LocomotionError
-from locomotion.events import Cleared, TookOff
 from locomotion.gaits.run import controller
 from locomotion.human.human import Human
 from locomotion.human.state import MOVING

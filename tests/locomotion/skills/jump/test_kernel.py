@@ -169,7 +169,7 @@ def test_contents_that_do_not_fit(tmp_path, skill, change, message):
 
 
 def test_of_another_person(tmp_path, skill, monkeypatch):
-    monkeypatch.setattr("locomotion.skills.family.person_digest", lambda: "another")
+    monkeypatch.setattr("locomotion.skills.skill_file.person_digest", lambda: "another")
     skill.save(tmp_path / "jump.npz")
     monkeypatch.undo()
     with pytest.raises(LocomotionError, match="another person"):

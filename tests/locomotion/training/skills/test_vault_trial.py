@@ -7,7 +7,7 @@ import pytest
 
 from locomotion.errors import LocomotionError
 from locomotion.gaits.run.skill import load_run_skill
-from locomotion.skills.family import SkillFamily
+from locomotion.skills.skill_file import SkillFamily
 from locomotion.skills.vault import kernel as vault
 from locomotion.skills.vault.skill import KIND, Vault, tables_of
 from locomotion.training.search.loop import Stage

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from locomotion.avoidance.yielding import HORIZON, SPACING, Course
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.body import Body
-from locomotion.quadruped.foretold import disc_radius
 from locomotion.quadruped.motion import SLACKEN, stop_length
+from locomotion.quadruped.predicted_discs import disc_radius
 from locomotion.quadruped.trail import Trail
 
 __all__ = ["course_back", "course_on", "head_length", "shifted_points"]

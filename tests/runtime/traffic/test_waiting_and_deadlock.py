@@ -8,7 +8,7 @@ import pytest
 from benchmarks.giving_way import floor
 from benchmarks.narrow_meetings import meet
 from runtime import Stuck, World
-from runtime.traffic.deadlock import GIVEN_UP, untangle
+from runtime.traffic.waiting_and_deadlock import GIVEN_UP, untangle
 
 
 def until_at_rest(world, seconds):

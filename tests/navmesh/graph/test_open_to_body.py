@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from navmesh import NavmeshError
-from navmesh.graph.body_view import checked_radius, doors_of, parts_of, portals_of
+from navmesh.graph.open_to_body import checked_radius, doors_of, parts_of, portals_of
 from tests.navmesh.surface.levels import build, random_level
 
 

@@ -3,7 +3,7 @@
 import pytest
 
 from locomotion.skills.registry import skill_kinds
-from runtime.views.colours import in_order, obstacle_colour, parts_of_colour
+from runtime.views.obstacle_colours import in_order, obstacle_colour, parts_of_colour
 
 
 def test_every_kind_has_a_colour_of_its_own_and_others_are_grey():

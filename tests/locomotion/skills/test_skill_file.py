@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from locomotion.skills.family import smoothest
+from locomotion.skills.skill_file import smoothest
 
 
 def as_written(heights, values, height):

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from locomotion.events import Event
+from locomotion.body_events import Event
 from locomotion.quadruped.herd import AnimalState
 from locomotion.quadruped.trail import Trail
-from locomotion.quadruped.ways import Way
+from locomotion.quadruped.trail_planning import Way
 
 __all__ = ["AnimalMemory", "Errand", "Phase", "Status"]
 

@@ -8,7 +8,7 @@ from locomotion.crowd import layout as at
 from locomotion.crowd.avoidance import MOST_WALLS, body_plane, wall_planes
 from locomotion.crowd.moving import part, slide
 from locomotion.crowd.neighbours import MOST, find_neighbours
-from locomotion.crowd.program import choose_velocity
+from locomotion.crowd.orca_program import choose_velocity
 from locomotion.crowd.queueing import direct, waiting_wish, waits_behind
 from locomotion.crowd.steering import follow
 from navmesh.surface.clearance_field import floor_at

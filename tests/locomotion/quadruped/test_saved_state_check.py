@@ -8,8 +8,8 @@ import pytest
 from locomotion import LocomotionError
 from locomotion.quadruped import layout as at
 from locomotion.quadruped import load_body
-from locomotion.quadruped.errand import Errand
-from locomotion.quadruped.saved_state import check_animal
+from locomotion.quadruped.orders import Errand
+from locomotion.quadruped.saved_state_check import check_animal
 from tests.locomotion.quadruped.scenes import animal_on, plane, run
 
 DOG = load_body("dog")

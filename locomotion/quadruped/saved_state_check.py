@@ -7,8 +7,8 @@ import numpy as np
 from locomotion.errors import LocomotionError
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.body import Body
-from locomotion.quadruped.errand import AnimalMemory
 from locomotion.quadruped.herd import RING
+from locomotion.quadruped.orders import AnimalMemory
 from locomotion.saved_arrays import FARTHEST, Slots, check_array, check_number
 
 __all__ = ["check_animal"]

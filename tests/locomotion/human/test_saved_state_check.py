@@ -10,7 +10,7 @@ from locomotion.errors import LocomotionError
 from locomotion.gaits.run import layout as run
 from locomotion.gaits.walk import layout as walk
 from locomotion.human.human import Human
-from locomotion.human.saved_state import check_person
+from locomotion.human.saved_state_check import check_person
 from locomotion.human.state import MOVING
 from locomotion.paths.command import COMMAND_SIZE
 from locomotion.paths.smoothing import ObstacleAhead

@@ -5,7 +5,7 @@ import pytest
 
 from locomotion.avoidance.yielding import HORIZON, SPACING
 from locomotion.quadruped import lay_trail, load_body
-from locomotion.quadruped.course import course_back, course_on, head_length, shifted_points
+from locomotion.quadruped.course_for_others import course_back, course_on, head_length, shifted_points
 from tests.locomotion.quadruped.bends import follow
 from tests.locomotion.quadruped.scenes import plane
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from locomotion.crowd.avoidance import body_plane
 from locomotion.crowd.neighbours import brute_neighbours, find_neighbours
-from locomotion.crowd.program import choose_velocity
+from locomotion.crowd.orca_program import choose_velocity
 from locomotion.crowd.reference import orca_plane, velocity, worst_violation
 
 SPEED = 1.5

@@ -9,7 +9,7 @@ from locomotion.gaits.run.skill import load_run_skill
 from locomotion.saved_arrays import Slots
 from locomotion.skills.jump.skill import JUMP_CLIP
 from locomotion.skills.kernel import FIRST_STEP, SHARED_MEMORY
-from locomotion.skills.learned import LawTables, LearnedSkill, tables_over_run
+from locomotion.skills.learned_skill import LawTables, LearnedSkill, tables_over_run
 
 
 class Family:

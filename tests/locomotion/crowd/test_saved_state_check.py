@@ -7,7 +7,7 @@ import pytest
 
 from locomotion.crowd import Crowd
 from locomotion.crowd import layout as at
-from locomotion.crowd.saved_state import check_walker
+from locomotion.crowd.saved_state_check import check_walker
 from locomotion.errors import LocomotionError
 from tests.locomotion.crowd.levels import graph_of, hall
 

@@ -7,7 +7,7 @@ import pytest
 
 from locomotion import Ground
 from locomotion.quadruped import Place, lay_trail, load_body
-from locomotion.quadruped.ways import find_way, first_heading, last_free_arc, turn_onto
+from locomotion.quadruped.trail_planning import find_way, first_heading, last_free_arc, turn_onto
 from tests.locomotion.quadruped.scenes import Straight, floor, plane, quads, wall
 
 DOG = load_body("dog")

@@ -3,7 +3,7 @@
 import pytest
 
 from runtime import World
-from runtime.world.host import Clock
+from runtime.world.agent_services import Clock
 
 
 def test_steps_of_any_length_make_whole_ticks(graph):

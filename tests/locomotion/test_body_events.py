@@ -7,8 +7,8 @@ import pytest
 
 import navmesh
 from locomotion import SmoothPath
+from locomotion.body_events import Arrived, LostGround, SetOff
 from locomotion.crowd import Crowd
-from locomotion.events import Arrived, LostGround, SetOff
 from locomotion.ground.ground import Ground
 from locomotion.human.human import Human
 from locomotion.human.state import MOVING

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from locomotion.events import Arrived, GotStuck, MissedGoal, StrayedFromPath
+from locomotion.body_events import Arrived, GotStuck, MissedGoal, StrayedFromPath
 from locomotion.gaits.run import controller
 from locomotion.human.person import Person
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from locomotion.avoidance.yielding import COUNT, STEP
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.body import Body
-from locomotion.quadruped.following import front_of, wanted_pose
+from locomotion.quadruped.body_on_path import front_of, wanted_pose
 from locomotion.quadruped.footprint import fronts
 from locomotion.quadruped.motion import travel
 from locomotion.quadruped.script import Script

@@ -5,9 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from locomotion.events import Arrived, GotStuck, MissedGoal, StrayedFromPath
+from locomotion.body_events import Arrived, GotStuck, MissedGoal, StrayedFromPath
 from locomotion.gaits.run.layout import COM, new_state
-from locomotion.human.headway import STUCK_TIME, notice
+from locomotion.human.arrived_or_stuck import STUCK_TIME, notice
 from locomotion.human.on_feet import RUN_GAINS
 from locomotion.paths.follower import PathFollower
 from locomotion.paths.tracking import TrackingLimits, make_path

@@ -5,8 +5,8 @@ import pytest
 
 from locomotion.avoidance.yielding import COUNT, STEP
 from locomotion.quadruped import Herd, Place, load_body, local_motion
-from locomotion.quadruped.foretold import DISCS, between_feet, disc_radius, foretell_script, nobody
 from locomotion.quadruped.motion import DT
+from locomotion.quadruped.predicted_discs import DISCS, between_feet, disc_radius, foretell_script, nobody
 from tests.locomotion.quadruped.bends import follow
 from tests.locomotion.quadruped.scenes import plane
 

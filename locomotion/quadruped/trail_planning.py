@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from locomotion.ground.ground import Ground
 from locomotion.quadruped.body import Body
-from locomotion.quadruped.following import wrap
+from locomotion.quadruped.body_on_path import wrap
 from locomotion.quadruped.footprint import check_places, trail_places
 from locomotion.quadruped.script import Place
 from locomotion.quadruped.trail import Trail, lay_trail

@@ -50,6 +50,7 @@ __all__ = [
     "STEPS_PER_TICK",
     "TIMESTEP",
     "PersonIndex",
+    "add_plane",
     "build_person",
     "person_digest",
     "person_spec",
@@ -279,7 +280,8 @@ def person_spec() -> mujoco.MjSpec:
     return spec
 
 
-def _add_plane(spec: mujoco.MjSpec) -> None:
+def add_plane(spec: mujoco.MjSpec) -> None:
+    """Add the endless plane z = 0 (geom ``ground``)."""
     spec.add_texture(
         name="floor",
         type=mujoco.mjtTexture.mjTEXTURE_2D,
@@ -310,7 +312,7 @@ def build_person(ground: GroundLike | None = None) -> mujoco.MjModel:
     """
     spec = person_spec()
     if ground is None:
-        _add_plane(spec)
+        add_plane(spec)
     else:
         ground.add_to(spec)
     return spec.compile()

@@ -55,7 +55,7 @@ def _skills() -> tuple[str, ...]:
     _loaded()
     from locomotion.skills.registry import skill_words
 
-    return ("run", "walk", "speed-up", "slow-down", "brake", *skill_words())
+    return ("run", "walk", "walk-policy", "speed-up", "slow-down", "brake", *skill_words())
 
 
 def _skill(name: str) -> str:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 __all__ = ["evaluate_skill", "show_clip", "train_library", "train_skill"]
 
-_WITHOUT_A_PLANE = ("walk", "speed-up", "slow-down", "brake")
+_WITHOUT_A_PLANE = ("walk", "walk-policy", "speed-up", "slow-down", "brake")
 """Skills whose trials do not vary in two numbers, so that no coverage picture can be drawn."""
 
 
@@ -37,10 +37,11 @@ def _trainers() -> Mapping[str, Callable[..., Any]]:
     from locomotion.training.gaits.slow_down import train_slow_down
     from locomotion.training.gaits.speed_up import train_speed_up
     from locomotion.training.gaits.walk import train_walk
+    from locomotion.training.policies.walk import train_walk_policy
 
     return {
         "walk": train_walk, "run": train_run, "speed-up": train_speed_up, "slow-down": train_slow_down,
-        "brake": train_brake,
+        "brake": train_brake, "walk-policy": train_walk_policy,
         **{kind.skill: kind.train for kind in skill_kinds() if kind.train is not None},
     }  # fmt: skip
 
@@ -181,10 +182,11 @@ def evaluate_skill(skill: str, trials: int, seed: int, picture: Path | None = No
         evaluate_speed_up,
         evaluate_walk,
     )
+    from runtime.evaluation.policies import evaluate_walk_policy
 
     evaluate: Mapping[str, Callable[..., Sequence[Attempt]]] = {
         "run": evaluate_run, "walk": evaluate_walk, "speed-up": evaluate_speed_up,
-        "slow-down": evaluate_slow_down, "brake": evaluate_brake,
+        "slow-down": evaluate_slow_down, "brake": evaluate_brake, "walk-policy": evaluate_walk_policy,
         **{kind.skill: partial(evaluate_clearing, kind) for kind in skill_kinds()},
     }  # fmt: skip
     attempts = evaluate.get(skill, partial(evaluate_described, skill))(trials, seed, ready())

@@ -11,6 +11,7 @@ import navmesh
 import pathsmooth
 from locomotion import MOVING, Ground, Human
 from locomotion.body_events import GotUp
+from locomotion.gaits.policy.skill import load_policy
 from locomotion.skills.registry import skill_kinds
 from navmesh.areas.areas import checked_costs
 from navmesh.areas.cheap_routes import priced_route
@@ -191,10 +192,17 @@ def _draw() -> None:
     render(Triangles(terrain.vertices, terrain.faces), [ball], camera, (8, 6))
 
 
+def _walk_as_learned() -> None:
+    from locomotion.training.policies.trial import PolicyTrial
+
+    PolicyTrial(load_policy()).tick()
+
+
 FIRST_USES: dict[str, Callable[[], None]] = {
     "navigation": _navigate,
     "area costs": _find_by_costs,
     "walking and getting up": _fall_and_get_up,
+    "learned walk": _walk_as_learned,
     "skills": _clear,
     "smoothing": _smooth,
     "animals": _animals,

@@ -1,0 +1,273 @@
+"""A policy that controls one person, compiled: the same as `locomotion.gaits.policy.law` and the network's
+layers.
+
+Per control tick of 10 ms, in the order *control, physics, feel*::
+
+    skill = load_policy()                                       # locomotion.gaits.policy.skill
+    memory, felt = new_memory(yaw), np.zeros(FELT_SIZE)
+    feel(parts, data, felt)
+    each tick:
+        if tick % TICKS_PER_DECISION == 0:
+            decide_tick(*skill.tables, memory, asked, felt, data.qpos, data.qvel, data.ctrl)
+        mujoco.mj_step(model, data, STEPS_PER_TICK)
+        feel(parts, data, felt)
+
+``asked`` (2,) float64: speed [m/s] and turn rate [rad/s], which may jump. `decide_tick` reads nothing else,
+so a simulation that is restored with ``memory`` and ``felt`` goes on bit for bit.
+"""
+
+import math
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion.body.person import JOINT_NAMES, PersonIndex
+from locomotion.gaits.policy import layout as at
+from locomotion.gaits.policy.law import (
+    ACCELERATION,
+    AT_REST,
+    CALM,
+    FULL_TURN,
+    LAG_SHARE,
+    LIFT_OFF,
+    SETTLING,
+    TURNING,
+)
+from surefoot.kernels import allocating_kernel, kernel
+
+__all__ = ["FELT_SIZE", "FORCES", "SOLES", "Parts", "decide_tick", "feel", "new_memory"]
+
+SOLES, FORCES, FELT_SIZE = slice(0, 18), slice(18, 22), 22
+"""What is felt, (22,) float64: places of `layout.SOLE_POINTS` [m]; normal forces under foot and toes, right
+and left [N]."""
+_N = len(at.JOINTS)
+_COLUMNS = np.array([JOINT_NAMES.index(name) for name in at.JOINTS])
+_HELD = np.array([k for k, name in enumerate(JOINT_NAMES) if name not in at.JOINTS])
+_SOLE_POINTS = np.array([*at.ANKLE_SOLE, at.TIP])
+_ACTION, _PACE = at.ACTION.start, at.ACTION.stop - 1
+_FORCES = FORCES.start
+_UP, _VELOCITY, _SPIN = at.GRAVITY_UP.start, at.VELOCITY.start, at.SPIN.start
+_LAGS, _ANGLES, _RATES, _RISE = at.LAGS.start, at.ANGLES.start, at.RATES.start, at.FEET_RISE.start
+_AHEAD, _LEFT, _CONTACTS = at.FEET_AHEAD.start, at.FEET_LEFT.start, at.CONTACTS.start
+_TIMING, _ASKED = at.TIMING.start, at.ASKED.start
+_MOST_INPUT = 8.0
+
+
+class Parts:
+    """Where a person's feet are in a model: ``bodies`` (4,) int64, ids of foot and toes, right and left;
+    ``geoms`` (ngeom,) int8, 1 to 4 for what belongs to them, else 0."""
+
+    def __init__(self, index: PersonIndex, model: mujoco.MjModel) -> None:
+        names = [f"{side}_{part}" for side in ("right", "left") for part in ("foot", "toes")]
+        self.bodies = np.array([index.bodies[name] for name in names])
+        self.geoms = np.zeros(model.ngeom, np.int8)
+        for k, body in enumerate(self.bodies):
+            self.geoms[model.geom_bodyid == body] = k + 1
+
+
+def new_memory(yaw: float) -> NDArray[np.float64]:
+    """The memory of a person who stands and faces ``yaw`` [rad]; the left foot lifts off first."""
+    memory = np.zeros(at.STATE_SIZE)
+    memory[at.PHASE], memory[at.HEADING] = LIFT_OFF, yaw
+    return memory
+
+
+@kernel
+def _wrap(angle):
+    return (angle + math.pi) % (2.0 * math.pi) - math.pi
+
+
+@kernel
+def _row(speeds, speed):
+    """The table's row at or below ``speed``, and how far it is to the next."""
+    last = speeds.shape[0] - 1
+    v = min(max(speed, speeds[0]), speeds[last])
+    i = 0
+    while i < last - 1 and v >= speeds[i + 1]:
+        i += 1
+    return i, (v - speeds[i]) / (speeds[i + 1] - speeds[i])
+
+
+@kernel
+def _cycles_per_second(speeds, periods, memory):
+    """How fast the cycle goes on, and how fast it usually would."""
+    i, a = _row(speeds, memory[at.SPEED])
+    usual = 1.0 / ((1.0 - a) * periods[i] + a * periods[i + 1])
+    share = min(max(1.0 + at.RATE_GAIN * memory[_PACE], at.SLOW_RATE), at.FAST_RATE)
+    return share * usual * memory[at.RUNNING], usual
+
+
+@kernel
+def _advance(speeds, periods, memory, asked, qvel):
+    pace, _ = _cycles_per_second(speeds, periods, memory)
+    before = memory[at.PHASE]
+    after = before + at.POLICY_DT * pace
+    rests = memory[at.SPEED] < AT_REST and asked[at.ASKED_SPEED] < AT_REST
+    memory[at.RESTED] = memory[at.RESTED] + at.POLICY_DT if rests else 0.0
+    lifts = math.floor(2.0 * (after - LIFT_OFF))
+    stops = lifts > math.floor(2.0 * (before - LIFT_OFF)) and memory[at.RESTED] > SETTLING
+    stops = stops and math.hypot(memory[at.LAG_AHEAD], memory[at.LAG_LEFT]) < CALM
+    if stops:
+        after = 0.5 * lifts + LIFT_OFF
+        memory[at.RUNNING] = 0.0
+    elif not rests:
+        memory[at.RUNNING] = 1.0
+    memory[at.PHASE] = after - math.floor(after)
+    memory[at.HEADING] = _wrap(memory[at.HEADING] + at.POLICY_DT * memory[at.TURN_RATE])
+    most = ACCELERATION * at.POLICY_DT
+    memory[at.SPEED] += min(max(asked[at.ASKED_SPEED] - memory[at.SPEED], -most), most)
+    turn = asked[at.ASKED_TURN] * min(max(memory[at.SPEED] / FULL_TURN, 0.0), 1.0)
+    most = TURNING * at.POLICY_DT
+    memory[at.TURN_RATE] += min(max(turn - memory[at.TURN_RATE], -most), most)
+    c, s = math.cos(memory[at.HEADING]), math.sin(memory[at.HEADING])
+    ahead, left = c * qvel[0] + s * qvel[1], c * qvel[1] - s * qvel[0]
+    memory[at.LAG_AHEAD] += LAG_SHARE * (ahead - memory[at.SPEED] - memory[at.LAG_AHEAD])
+    memory[at.LAG_LEFT] += LAG_SHARE * (left - memory[at.LAG_LEFT])
+
+
+@kernel
+def _observe(memory, felt, qpos, qvel, out):
+    """What the policy observes, not mirrored, into ``out``."""
+    c, s = math.cos(memory[at.HEADING]), math.sin(memory[at.HEADING])
+    w, x, y, z = qpos[3], qpos[4], qpos[5], qpos[6]
+    out[at.HEIGHT_SEEN] = qpos[2]
+    out[_UP] = 2 * (x * z - w * y)
+    out[_UP + 1] = 2 * (y * z + w * x)
+    out[_UP + 2] = 1 - 2 * (x * x + y * y)
+    out[_VELOCITY] = c * qvel[0] + s * qvel[1]
+    out[_VELOCITY + 1] = c * qvel[1] - s * qvel[0]
+    out[_VELOCITY + 2] = qvel[2]
+    for k in range(3):
+        out[_SPIN + k] = qvel[3 + k]
+    yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+    out[at.YAW_SEEN] = _wrap(yaw - memory[at.HEADING])
+    out[_LAGS], out[_LAGS + 1] = memory[at.LAG_AHEAD], memory[at.LAG_LEFT]
+    for k in range(_N):
+        out[_ANGLES + k] = qpos[7 + _COLUMNS[k]]
+        out[_RATES + k] = 0.1 * qvel[6 + _COLUMNS[k]]
+    for k in range(6):
+        out[_RISE + k] = felt[3 * k + 2] - qpos[2]
+    for k in range(2):
+        dx, dy = felt[9 * k] - qpos[0], felt[9 * k + 1] - qpos[1]
+        out[_AHEAD + k] = c * dx + s * dy
+        out[_LEFT + k] = c * dy - s * dx
+    for k in range(4):
+        out[_CONTACTS + k] = math.tanh(3.0 / at.BODY_WEIGHT * felt[_FORCES + k])
+    running = memory[at.RUNNING]
+    angle = 2.0 * math.pi * (memory[at.PHASE] - (0.5 if memory[at.PHASE] >= 0.5 else 0.0))
+    out[_TIMING], out[_TIMING + 1] = running * math.sin(angle), running * math.cos(angle)
+    out[_TIMING + 2], out[_TIMING + 3] = running * math.sin(2 * angle), running * math.cos(2 * angle)
+    out[_TIMING + 4] = running
+    out[_ASKED], out[_ASKED + 1] = memory[at.SPEED], memory[at.TURN_RATE]
+
+
+@kernel
+def _layer(weights, biases, x, out, last):
+    """One layer of the network, with tanh but for the ``last``."""
+    for j in range(out.shape[0]):
+        out[j] = biases[j]
+    for i in range(x.shape[0]):
+        v = x[i]
+        for j in range(out.shape[0]):
+            out[j] += v * weights[i, j]
+    if not last:
+        for j in range(out.shape[0]):
+            out[j] = math.tanh(out[j])
+
+
+@kernel
+def _targets(speeds, periods, joints, rates, memory, ctrl):
+    """Targets of all joints until the next decision, into ``ctrl`` (39,)."""
+    pace, usual = _cycles_per_second(speeds, periods, memory)
+    i, a = _row(speeds, memory[at.SPEED])
+    share = memory[at.PHASE] + 0.5 * at.POLICY_DT * pace
+    samples = joints.shape[1]
+    x = (share - math.floor(share)) * samples
+    low = int(x)
+    b = x - low
+    j = low % samples
+    k = (j + 1) % samples
+    lead = at.LEAD * pace / usual
+    w00, w01, w10, w11 = (1.0 - a) * (1.0 - b), (1.0 - a) * b, a * (1.0 - b), a * b
+    for n in range(_N):
+        angle = (
+            w00 * joints[i, j, n]
+            + w01 * joints[i, k, n]
+            + w10 * joints[i + 1, j, n]
+            + w11 * joints[i + 1, k, n]
+        )
+        moving = (
+            w00 * rates[i, j, n] + w01 * rates[i, k, n] + w10 * rates[i + 1, j, n] + w11 * rates[i + 1, k, n]
+        )
+        ctrl[_COLUMNS[n]] = angle + lead * moving + at.SCALE[n] * memory[_ACTION + n]
+    for n in range(_HELD.shape[0]):
+        ctrl[_HELD[n]] = 0.0
+
+
+@allocating_kernel
+def _decide(network, seen, mirrored, memory):
+    """What the ``network`` decides, into ``memory``."""
+    mean, deviation, w0, b0, w1, b1, w2, b2 = network
+    inputs = np.empty(at.INPUTS, np.float32)
+    for k in range(at.INPUTS):
+        value = seen[at.MIRROR_OBSERVED[k]] * at.SIGN_OBSERVED[k] if mirrored else seen[k]
+        value = (value - mean[k]) / deviation[k]
+        inputs[k] = min(max(value, -_MOST_INPUT), _MOST_INPUT)
+    first, second = np.empty(b0.shape[0], np.float32), np.empty(b1.shape[0], np.float32)
+    decided = np.empty(at.ACTIONS, np.float32)
+    _layer(w0, b0, inputs, first, False)
+    _layer(w1, b1, first, second, False)
+    _layer(w2, b2, second, decided, True)
+    for k in range(at.ACTIONS):
+        memory[_ACTION + k] = decided[at.MIRROR_ACTION[k]] * at.SIGN_ACTION[k] if mirrored else decided[k]
+
+
+@allocating_kernel
+def decide_tick(motion, walk, stand, memory, asked, felt, qpos, qvel, ctrl):
+    """Decide, and write the targets ``ctrl`` (39,) [rad] to hold for `layout.POLICY_DT`.
+
+    motion: speeds, periods (s,), joints and rates (s, n, 24) of the reference, float64. walk, stand:
+    networks, for who walks and for who has come to rest: mean and deviation (82,) of the inputs, and weights
+    and biases of three layers, float32. The rest: see above.
+    """
+    speeds, periods, joints, rates = motion
+    if memory[at.STARTED] > 0.0:
+        _advance(speeds, periods, memory, asked, qvel)
+    memory[at.STARTED] = 1.0
+    seen = np.empty(at.INPUTS)
+    _observe(memory, felt, qpos, qvel, seen)
+    mirrored = memory[at.PHASE] >= 0.5
+    if memory[at.RUNNING] > 0.0:
+        _decide(walk, seen, mirrored, memory)
+    else:
+        _decide(stand, seen, mirrored, memory)
+    _targets(speeds, periods, joints, rates, memory, ctrl)
+
+
+@kernel
+def _feel(places, frames, bodies, ncon, pairs, addresses, forces, geoms, points, felt):
+    for side in range(2):
+        for k in range(3):
+            body = bodies[2 * side + (1 if k == 2 else 0)]
+            for row in range(3):
+                value = places[body, row]
+                for column in range(3):
+                    value += frames[body, 3 * row + column] * points[k, column]
+                felt[9 * side + 3 * k + row] = value
+    for k in range(4):
+        felt[_FORCES + k] = 0.0
+    for c in range(ncon):
+        part = geoms[pairs[c, 0]] + geoms[pairs[c, 1]]
+        if part > 0 and addresses[c] >= 0:
+            for k in range(4):
+                felt[_FORCES + part - 1] += forces[addresses[c] + k]
+
+
+def feel(parts: Parts, data: mujoco.MjData, felt: NDArray[np.float64]) -> None:
+    """Read soles and forces of ``data`` into ``felt``, right after a physics step."""
+    contact = data.contact
+    _feel(
+        data.xpos, data.xmat, parts.bodies, data.ncon, contact.geom, contact.efc_address, data.efc_force,
+        parts.geoms, _SOLE_POINTS, felt,
+    )  # fmt: skip

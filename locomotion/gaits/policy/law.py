@@ -1,0 +1,206 @@
+"""What a policy observes, what its decisions do and how its memory goes on, for many people at once.
+
+This is the plain form, which learning uses; `locomotion.gaits.policy.kernel` is the compiled one. In turn,
+for each decision::
+
+    observed = observe(memory, seen)
+    ... the network decides, `decide` keeps it ...
+    targets(memory, motion)              # held by the servos for POLICY_DT
+    ... physics ...
+    advance(memory, motion, asked, velocity)
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion.gaits.policy.layout import (
+    ACTION,
+    ANGLES,
+    ASKED,
+    ASKED_SPEED,
+    ASKED_TURN,
+    BODY_WEIGHT,
+    CONTACTS,
+    FAST_RATE,
+    FEET_AHEAD,
+    FEET_LEFT,
+    FEET_RISE,
+    GRAVITY_UP,
+    HEADING,
+    HEIGHT_SEEN,
+    INPUTS,
+    LAG_AHEAD,
+    LAG_LEFT,
+    LAGS,
+    LEAD,
+    MIRROR_ACTION,
+    MIRROR_OBSERVED,
+    PHASE,
+    POLICY_DT,
+    RATE_GAIN,
+    RATES,
+    RESTED,
+    RUNNING,
+    SCALE,
+    SIGN_ACTION,
+    SIGN_OBSERVED,
+    SLOW_RATE,
+    SPEED,
+    SPIN,
+    STARTED,
+    TIMING,
+    TURN_RATE,
+    VELOCITY,
+    YAW_SEEN,
+)
+from locomotion.gaits.policy.motion import Motion
+
+__all__ = [
+    "ACCELERATION", "AT_REST", "CALM", "FULL_TURN", "LAG_SHARE", "LIFT_OFF", "SETTLING", "TURNING", "Seen",
+    "advance", "along", "decide", "mirrored", "observe", "rate", "targets", "up_and_yaw", "wrap",
+]  # fmt: skip
+
+ACCELERATION, TURNING = 1.0, 2.0
+"""[m/s^2] and [rad/s^2] at which speed and turn rate follow those asked for."""
+AT_REST = 0.05
+"""[m/s] asked for, below which a person stands."""
+SETTLING = 0.8
+"""[s] that the cycle goes on after that, before it stops at the next lift-off."""
+CALM = 0.2
+"""[m/s] low-passed, above which the cycle goes on all the same."""
+LIFT_OFF = 0.12
+"""Share of the cycle at which the left foot lifts off; the right one half a cycle later."""
+LAG_SHARE = 0.08
+"""Share of the error of the speed that its low-passed value takes up with each decision."""
+FULL_TURN = 0.5
+"""[m/s] below which turning is slowed down."""
+
+
+@dataclass(frozen=True)
+class Seen:
+    """The bodies of n people; all float64.
+
+    Attributes:
+      qpos, qvel: (n, 7 or more), (n, 6 or more), MuJoCo's, of which only the root is read.
+      angles, rates: (n, 24) of `layout.JOINTS`.
+      soles: (n, 6, 3) places of `layout.SOLE_POINTS` in the world [m].
+      forces: (n, 4) normal forces under foot and toes, right and left [N].
+    """
+
+    qpos: NDArray[np.float64]
+    qvel: NDArray[np.float64]
+    angles: NDArray[np.float64]
+    rates: NDArray[np.float64]
+    soles: NDArray[np.float64]
+    forces: NDArray[np.float64]
+
+
+def wrap(angle: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Angles in [-π, π)."""
+    return (angle + np.pi) % (2.0 * np.pi) - np.pi
+
+
+def along(heading: NDArray[np.float64], vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """``vectors`` (n, ..., 3) of the world, ahead, to the left and up from the ``heading`` (n,)."""
+    shape = (-1,) + (1,) * (vectors.ndim - 2)
+    c, s = np.cos(heading).reshape(shape), np.sin(heading).reshape(shape)
+    x, y = vectors[..., 0], vectors[..., 1]
+    return np.stack([c * x + s * y, c * y - s * x, vectors[..., 2]], axis=-1)
+
+
+def up_and_yaw(qpos: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The world's up in the root's frame (n, 3), and the root's yaw (n,) [rad]."""
+    w, x, y, z = qpos[:, 3:7].T
+    up = np.stack([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)], axis=1)
+    return up, np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+
+
+def mirrored(memory: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Who is in the second half of the cycle, (n,)."""
+    return memory[:, PHASE] >= 0.5
+
+
+def observe(memory: NDArray[np.float64], seen: Seen) -> NDArray[np.float64]:
+    """What the policy observes, (n, INPUTS), mirrored in the second half of the cycle."""
+    out = np.empty((len(memory), INPUTS))
+    heading = memory[:, HEADING]
+    up, yaw = up_and_yaw(seen.qpos)
+    out[:, HEIGHT_SEEN], out[:, GRAVITY_UP] = seen.qpos[:, 2], up
+    out[:, VELOCITY], out[:, SPIN] = along(heading, seen.qvel[:, :3]), seen.qvel[:, 3:6]
+    out[:, YAW_SEEN] = wrap(yaw - heading)
+    out[:, LAGS] = memory[:, [LAG_AHEAD, LAG_LEFT]]
+    out[:, ANGLES], out[:, RATES] = seen.angles, 0.1 * seen.rates
+    soles = along(heading, seen.soles - seen.qpos[:, None, :3])
+    out[:, FEET_RISE], out[:, FEET_AHEAD], out[:, FEET_LEFT] = (
+        soles[:, :, 2],
+        soles[:, ::3, 0],
+        soles[:, ::3, 1],
+    )
+    out[:, CONTACTS] = np.tanh(3.0 / BODY_WEIGHT * seen.forces)
+    half = mirrored(memory)
+    angle = 2.0 * np.pi * (memory[:, PHASE] - 0.5 * half)
+    waves = np.stack(
+        [np.sin(angle), np.cos(angle), np.sin(2 * angle), np.cos(2 * angle), np.ones(len(memory))], axis=1
+    )
+    out[:, TIMING] = waves * memory[:, RUNNING, None]
+    out[:, ASKED] = memory[:, [SPEED, TURN_RATE]]
+    out[half] = out[half][:, MIRROR_OBSERVED] * SIGN_OBSERVED
+    return out
+
+
+def decide(memory: NDArray[np.float64], decided: NDArray[np.floating]) -> None:
+    """Remember what the network ``decided`` (n, ACTIONS), in the person's own left and right."""
+    action = decided.astype(np.float64)
+    half = mirrored(memory)
+    action[half] = action[half][:, MIRROR_ACTION] * SIGN_ACTION
+    memory[:, ACTION] = action
+
+
+def rate(memory: NDArray[np.float64], period: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Cycles per second, (n,), where one usually takes ``period`` [s]."""
+    share = np.clip(1.0 + RATE_GAIN * memory[:, ACTION.stop - 1], SLOW_RATE, FAST_RATE)
+    return share / period * memory[:, RUNNING]
+
+
+def targets(memory: NDArray[np.float64], motion: Motion) -> NDArray[np.float64]:
+    """Target angles (n, 24) of `layout.JOINTS` [rad] until the next decision."""
+    place = motion.at(memory[:, PHASE], memory[:, SPEED])
+    pace = rate(memory, motion.period(place))
+    middle = motion.at(memory[:, PHASE] + 0.5 * POLICY_DT * pace, memory[:, SPEED])
+    usual = motion.period(place) * pace  # the reference's rates are those of the usual pace
+    moving = middle.read(motion.rates) * usual[:, None]
+    return middle.read(motion.joints) + LEAD * moving + SCALE * memory[:, ACTION.start : ACTION.stop - 1]
+
+
+def advance(
+    memory: NDArray[np.float64],
+    motion: Motion,
+    asked: NDArray[np.float64],
+    velocity: NDArray[np.float64],
+    calm: float = CALM,
+) -> None:
+    """Go on by `POLICY_DT`. ``asked`` (n, 2): speed [m/s] and turn rate [rad/s]; ``velocity`` (n, 3): of the
+    root in the world [m/s], after it; ``calm``: as `CALM`."""
+    pace = rate(memory, motion.period(motion.at(memory[:, PHASE], memory[:, SPEED])))
+    before = memory[:, PHASE]
+    after = before + POLICY_DT * pace
+    rests = (memory[:, SPEED] < AT_REST) & (asked[:, ASKED_SPEED] < AT_REST)
+    memory[:, RESTED] = np.where(rests, memory[:, RESTED] + POLICY_DT, 0.0)
+    lifts = np.floor(2.0 * (after - LIFT_OFF))
+    stops = (lifts > np.floor(2.0 * (before - LIFT_OFF))) & (memory[:, RESTED] > SETTLING)
+    stops &= np.hypot(memory[:, LAG_AHEAD], memory[:, LAG_LEFT]) < calm
+    after = np.where(stops, 0.5 * lifts + LIFT_OFF, after)
+    memory[:, RUNNING] = np.where(stops, 0.0, np.where(rests, memory[:, RUNNING], 1.0))
+    memory[:, PHASE] = after - np.floor(after)
+    memory[:, HEADING] = wrap(memory[:, HEADING] + POLICY_DT * memory[:, TURN_RATE])
+    most = ACCELERATION * POLICY_DT
+    memory[:, SPEED] += np.clip(asked[:, ASKED_SPEED] - memory[:, SPEED], -most, most)
+    turn = asked[:, ASKED_TURN] * np.clip(memory[:, SPEED] / FULL_TURN, 0.0, 1.0)
+    most = TURNING * POLICY_DT
+    memory[:, TURN_RATE] += np.clip(turn - memory[:, TURN_RATE], -most, most)
+    v = along(memory[:, HEADING], velocity)
+    memory[:, LAG_AHEAD] += LAG_SHARE * (v[:, 0] - memory[:, SPEED] - memory[:, LAG_AHEAD])
+    memory[:, LAG_LEFT] += LAG_SHARE * (v[:, 1] - memory[:, LAG_LEFT])
+    memory[:, STARTED] = 1.0

@@ -1,0 +1,59 @@
+"""The reference motion of a policy at run time: targets of its joints over the cycle, at each speed."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["Motion", "Place"]
+
+
+@dataclass(frozen=True)
+class Place:
+    """Rows of a table around some speeds and shares of the cycle, and their weights; all (n,)."""
+
+    slower: NDArray[np.int64]
+    earlier: NDArray[np.int64]
+    later: NDArray[np.int64]
+    faster_share: NDArray[np.float64]
+    later_share: NDArray[np.float64]
+
+    def read(self, table: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Values of a ``table`` (s, n, ...) there, linear between its rows, (n, ...)."""
+        shape = (-1,) + (1,) * (table.ndim - 2)
+        a, b = self.faster_share.reshape(shape), self.later_share.reshape(shape)
+        i = self.slower
+        slow = (1.0 - b) * table[i, self.earlier] + b * table[i, self.later]
+        fast = (1.0 - b) * table[i + 1, self.earlier] + b * table[i + 1, self.later]
+        return (1.0 - a) * slow + a * fast
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Angles of `layout.JOINTS` over the cycle.
+
+    Attributes:
+      speeds, periods: (s,) float64: [m/s], and [s] of a cycle there.
+      joints, rates: (s, n, 24) float64 [rad], [rad/s] at equal shares of the cycle.
+    """
+
+    speeds: NDArray[np.float64]
+    periods: NDArray[np.float64]
+    joints: NDArray[np.float64]
+    rates: NDArray[np.float64]
+
+    def at(self, phase: NDArray[np.float64], speed: NDArray[np.float64]) -> Place:
+        """Where the shares ``phase`` of the cycle at ``speed`` [m/s] lie in the tables, both (n,)."""
+        v = np.clip(speed, self.speeds[0], self.speeds[-1])
+        slower = np.clip(np.searchsorted(self.speeds, v, side="right") - 1, 0, len(self.speeds) - 2)
+        share = (v - self.speeds[slower]) / (self.speeds[slower + 1] - self.speeds[slower])
+        samples = self.joints.shape[1]
+        x = (phase - np.floor(phase)) * samples
+        low = x.astype(np.int64)
+        earlier = low % samples
+        return Place(slower, earlier, (earlier + 1) % samples, share, x - low)
+
+    def period(self, place: Place) -> NDArray[np.float64]:
+        """[s] of a cycle at the speeds of ``place``, (n,)."""
+        i, a = place.slower, place.faster_share
+        return (1.0 - a) * self.periods[i] + a * self.periods[i + 1]

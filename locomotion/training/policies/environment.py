@@ -1,0 +1,354 @@
+"""Many people at once who walk as a policy decides, with pushes, slopes and changing orders."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import mujoco
+import numpy as np
+from mujoco import rollout
+from numpy.typing import NDArray
+
+from locomotion.gaits.policy import law
+from locomotion.gaits.policy.layout import (
+    ACTION,
+    ASKED_SPEED,
+    ASKED_TURN,
+    HEADING,
+    JOINTS,
+    PHASE,
+    POLICY_DT,
+    RUNNING,
+    SPEED,
+    STATE_SIZE,
+    TURN_RATE,
+)
+from locomotion.gaits.policy.motion import Motion
+from locomotion.training.policies.curriculum import Stage
+from locomotion.training.policies.figure import FORCES, POINTS, Figure
+from locomotion.training.policies.reference import Reference, quaternions
+from locomotion.training.policies.rewards import Moment, rewards, sway_off, total
+
+__all__ = ["Environment", "Outcome", "Starts", "motion_of", "stops"]
+
+THREADS = 2
+_STATE = mujoco.mjtState.mjSTATE_FULLPHYSICS
+_CONTROL = int(mujoco.mjtState.mjSTATE_CTRL) | int(mujoco.mjtState.mjSTATE_XFRC_APPLIED)
+_GRAVITY = 9.81
+_EVERY = 3.0  # [s] between pushes, and between orders, on average
+_PUSHED = 5  # decisions that a push lasts: 0.1 s
+_WEAKEST = 0.2  # of the greatest push
+_LOWEST, _LEAST_UP, _MOST_YAW, _MOST_SWAY = 0.70, 0.75, 0.9, 1.5  # beyond which a person counts as fallen
+_PENDULUM, _BALANCE = 3.3, 0.12  # [1/s] of a standing body; [m] by which it may miss its feet
+_HEELS_AND_BALLS = [0, 1, 3, 4]
+_ANGLE, _SPEED, _RATE = 0.03, 0.08, 0.1  # spread of the starts: [rad], [m/s], [rad/s]
+_TURNING, _BEGIN_TURNING = 0.6, 0.7  # shares of the orders that turn
+_FROM_STARTS = 0.7  # share of those who begin in one of the given states
+_BEGIN_STANDING = 0.7  # of the share of orders that are to stand
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """After a decision: reward (n,); who fell, whose time is over, and who of these has come to rest, (n,)
+    bool; mean of each term of the reward; how well in balance, 0 to 1, (n,)."""
+
+    reward: NDArray[np.float64]
+    fell: NDArray[np.bool_]
+    over: NDArray[np.bool_]
+    rested: NDArray[np.bool_]
+    terms: dict[str, float]
+    balance: NDArray[np.float64]
+
+
+def motion_of(reference: Reference) -> Motion:
+    """The part of a reference that is needed at run time."""
+    return Motion(reference.speeds, reference.periods, reference.joints, reference.rates)
+
+
+@dataclass(frozen=True)
+class Starts:
+    """States from which people may begin, as in `Environment`: (k, ...) each."""
+
+    memory: NDArray[np.float64]
+    physics: NDArray[np.float64]
+    sensed: NDArray[np.float64]
+
+
+class Environment:
+    """``count`` people on a plane, each in a world of its own.
+
+    Attributes:
+      stage: what they are asked to do. memory: (n, STATE_SIZE) of their policies. asked: (n, 2).
+      physics: (n, k) MuJoCo's states; sensed: (n, 22) sensors; age: (n,) decisions since they began.
+      whole: on the figure of all 45 degrees of freedom.
+
+    ``starts``: states in which most begin.
+    """
+
+    def __init__(
+        self,
+        reference: Reference,
+        stage: Stage,
+        count: int,
+        seed: int,
+        whole: bool = False,
+        starts: Starts | None = None,
+    ) -> None:
+        self.reference, self.motion = reference, motion_of(reference)
+        self.count, self.whole, self.stage, self._starts = count, whole, stage, starts
+        self.rng = np.random.default_rng(seed)
+        self._rollout = rollout.Rollout(nthread=THREADS)
+        self._build(stage)
+        self.memory, self.asked = np.zeros((count, STATE_SIZE)), np.zeros((count, 2))
+        self.physics, self.sensed = np.zeros((count, self._size)), np.zeros((count, FORCES.stop))
+        self.age, self.pushed = np.zeros(count, np.int64), np.zeros(count, np.int64)
+        self.force, self.slope = np.zeros((count, 2)), np.zeros((count, 2))
+        self.reset(np.ones(count, bool))
+
+    def _build(self, stage: Stage) -> None:
+        self.figure = Figure(self.whole, stage.timestep)
+        model = self.model = self.figure.model
+        self._substeps = round(POLICY_DT / stage.timestep)
+        self._size = mujoco.mj_stateSize(model, _STATE)
+        self._controls = mujoco.mj_stateSize(model, _CONTROL)
+        self._datas = [mujoco.MjData(model) for _ in range(THREADS)]
+        self._start = mujoco.MjData(model)
+        self._waist = model.nu + 6 * model.body("waist").id
+
+    def begin(self, stage: Stage) -> None:
+        """Everybody begins anew, in another stage."""
+        if stage.timestep != self.stage.timestep:
+            self._build(stage)
+        self.stage = stage
+        self.reset(np.ones(self.count, bool))
+
+    @property
+    def qpos(self) -> NDArray[np.float64]:
+        """(n, nq)"""
+        return self.physics[:, 1 : 1 + self.model.nq]
+
+    @property
+    def qvel(self) -> NDArray[np.float64]:
+        """(n, nv)"""
+        return self.physics[:, 1 + self.model.nq : 1 + self.model.nq + self.model.nv]
+
+    @property
+    def soles(self) -> NDArray[np.float64]:
+        """(n, 6, 3) [m]"""
+        return self.sensed[:, POINTS].reshape(-1, 6, 3)
+
+    def observe(self) -> NDArray[np.float64]:
+        """What the policies observe, (n, INPUTS)."""
+        return law.observe(self.memory, self.seen())
+
+    def seen(self) -> law.Seen:
+        """The bodies."""
+        qpos, qvel, figure = self.qpos, self.qvel, self.figure
+        angles, rates = qpos[:, figure.angles], qvel[:, figure.rates]
+        return law.Seen(qpos, qvel, angles, rates, self.soles, self.sensed[:, FORCES])
+
+    # ---- beginnings and orders
+
+    def _orders(self, count: int, stand: float, turning: float) -> NDArray[np.float64]:
+        """Random orders (count, 2)."""
+        rng, stage = self.rng, self.stage
+        speeds = np.where(rng.random(count) < stand, 0.0, rng.uniform(*stage.speeds, count))
+        turns = rng.uniform(-stage.turn, stage.turn, count) * (rng.random(count) < turning)
+        return np.stack([speeds, turns], axis=1)
+
+    def reset(self, who: NDArray[np.bool_]) -> None:
+        """Some begin anew, near the reference at a random moment of the cycle."""
+        ids = np.flatnonzero(who)
+        k, rng, reference = len(ids), self.rng, self.reference
+        if k == 0:
+            return
+        orders = self._orders(k, _BEGIN_STANDING * self.stage.stand, _BEGIN_TURNING)
+        memory = np.zeros((k, STATE_SIZE))
+        stands = orders[:, ASKED_SPEED] < law.AT_REST
+        halves = 0.5 * rng.integers(0, 2, k)
+        memory[:, PHASE] = np.where(stands, law.LIFT_OFF + halves, rng.random(k))
+        memory[:, RUNNING] = np.where(stands, 0.0, 1.0)
+        memory[:, SPEED], memory[:, TURN_RATE] = orders[:, ASKED_SPEED], orders[:, ASKED_TURN]
+        if self.stage.ends_at_rest:  # who stands sets off
+            memory[:, RUNNING] = 1.0
+            orders[:, ASKED_SPEED] += stands * rng.uniform(*self.stage.speeds, k)
+        self.memory[ids], self.asked[ids] = memory, orders
+        self.age[ids] = self.pushed[ids] = 0
+        self.slope[ids] = rng.uniform(-self.stage.slope, self.stage.slope, (k, 2))
+        place = self.motion.at(memory[:, PHASE], memory[:, SPEED])
+        root, joints = place.read(reference.root), place.read(reference.joints)
+        qpos, qvel = np.zeros((k, self.model.nq)), np.zeros((k, self.model.nv))
+        qpos[:, 1:3], qpos[:, 3:7] = root[:, :2], quaternions(root[:, 2:5])
+        limits = self.figure.limits
+        angles = joints + _ANGLE * rng.standard_normal((k, len(JOINTS)))
+        qpos[:, self.figure.angles] = np.clip(angles, limits[:, 0], limits[:, 1])
+        qvel[:, :3], qvel[:, 3:6] = root[:, 5:8], place.read(reference.spin)
+        qvel[:, :2] += _SPEED * rng.standard_normal((k, 2))
+        qvel[:, self.figure.rates] = place.read(reference.rates) + _RATE * rng.standard_normal(
+            (k, len(JOINTS))
+        )
+        for i, q, v in zip(ids.tolist(), qpos, qvel, strict=True):
+            self._put(i, q, v)
+        if self._starts is not None:
+            some = ids[rng.random(k) < _FROM_STARTS]
+            picked = rng.integers(0, len(self._starts.memory), len(some))
+            for name, values in vars(self._starts).items():
+                getattr(self, name)[some] = values[picked]
+
+    def _put(self, i: int, qpos: NDArray[np.float64], qvel: NDArray[np.float64]) -> None:
+        """Put person ``i`` there, the lowest point of its soles just on the ground."""
+        data, nq = self._start, self.model.nq
+        data.qpos[:] = qpos
+        mujoco.mj_kinematics(self.model, data)
+        soles = data.site_xpos[self.figure.soles].copy()
+        raised = 0.001 - soles[:, 2].min()
+        soles[:, 2] += raised
+        self.physics[i] = 0.0
+        self.physics[i, 1 : 1 + nq], self.physics[i, 1 + nq : 1 + nq + len(qvel)] = qpos, qvel
+        self.physics[i, 3] += raised
+        self.sensed[i, POINTS], self.sensed[i, FORCES] = soles.ravel(), 0.0
+
+    def _change_orders(self) -> None:
+        who = self.rng.random(self.count) < POLICY_DT / _EVERY
+        if self.stage.changes and who.any():
+            self.asked[who] = self._orders(int(who.sum()), self.stage.stand, _TURNING)
+
+    def _push(self) -> None:
+        rng, new = self.rng, self.rng.random(self.count) < POLICY_DT / _EVERY
+        new &= self.pushed <= 0
+        k = int(new.sum())
+        if self.stage.push and k:
+            force, angle = self.stage.push * rng.uniform(_WEAKEST, 1.0, k), rng.uniform(0.0, 2.0 * np.pi, k)
+            self.force[new] = np.stack([force * np.cos(angle), force * np.sin(angle)], axis=1)
+            self.pushed[new] = _PUSHED
+
+    # ---- going on
+
+    def step(self, decided: NDArray[np.floating]) -> Outcome:
+        """Do what the policies ``decided`` (n, ACTIONS) for `POLICY_DT`."""
+        before = self.memory[:, ACTION].copy()
+        law.decide(self.memory, decided)
+        control = self._control()
+        soles, forces = self.soles.copy(), self.sensed[:, FORCES].copy()
+        held = np.ascontiguousarray(
+            np.broadcast_to(control[:, None], (self.count, self._substeps, self._controls))
+        )
+        states, sensed = self._rollout.rollout(
+            self.model, self._datas, self.physics, held, control_spec=_CONTROL
+        )
+        self.physics, self.sensed = states[:, -1].copy(), sensed[:, -1].copy()
+        broken = ~np.isfinite(self.physics).all(axis=1)
+        self.physics[broken] = 0.0
+        self.physics[broken, 4] = 1.0
+        law.advance(self.memory, self.motion, self.asked, self.qvel[:, :3], self.stage.calm)
+        self._change_orders()
+        self.age += 1
+        moment = self._moment(sensed[:, :, FORCES], soles, forces, before)
+        terms = rewards(moment)
+        reward = np.where(broken, 0.0, total(terms, self.stage.weights))
+        fell = broken | self._fallen(moment)
+        means = {name: float(values.mean()) for name, values in terms.items()}
+        rested = (self.memory[:, RUNNING] == 0.0) & ~fell & self.stage.ends_at_rest
+        over = rested | ((self.age >= self.stage.longest) & ~fell)
+        return Outcome(reward, fell, over, rested, means, self._balance())
+
+    def _control(self) -> NDArray[np.float64]:
+        """Targets and outer forces, (n, controls)."""
+        self._push()
+        control = np.zeros((self.count, self._controls))
+        control[:, self.figure.targets] = law.targets(self.memory, self.motion)
+        if self.stage.slope:  # as gravity that is not vertical
+            nu, masses = self.model.nu, self.model.body_mass
+            for axis in (0, 1):
+                control[:, nu + axis :: 6] = -_GRAVITY * self.slope[:, axis, None] * masses
+        on = self.pushed > 0
+        control[on, self._waist : self._waist + 2] += self.force[on]
+        self.pushed[on] -= 1
+        return control
+
+    def _moment(
+        self,
+        forces: NDArray[np.float64],
+        soles: NDArray[np.float64],
+        forces_before: NDArray[np.float64],
+        decided_before: NDArray[np.float64],
+    ) -> Moment:
+        memory, reference, seen = self.memory, self.reference, self.seen()
+        place = self.motion.at(memory[:, PHASE], memory[:, SPEED])
+        root = place.read(reference.root)
+        roll, pitch, turned = root[:, 2], root[:, 3], root[:, 4]
+        up, yaw = law.up_and_yaw(self.qpos)
+        wanted = np.stack([-np.sin(pitch), np.sin(roll) * np.cos(pitch)], axis=1)
+        feet = law.along(memory[:, HEADING], seen.soles - self.qpos[:, None, :3]) - place.read(
+            reference.soles
+        )
+        velocity = law.along(memory[:, HEADING], self.qvel[:, :3])
+        loaded = np.minimum(seen.forces, forces_before).reshape(-1, 2, 2).sum(2)
+        return Moment(
+            angles=seen.angles - place.read(reference.joints),
+            rates=seen.rates - place.read(reference.rates),
+            feet=feet[:, [0, 2, 3, 5]],
+            up=up[:, :2] - wanted,
+            yaw=law.wrap(yaw - memory[:, HEADING] - turned),
+            spin=self.qvel[:, 3:6] - place.read(reference.spin),
+            height=self.qpos[:, 2] - root[:, 1],
+            velocity=velocity[:, :2] - root[:, [5, 6]],
+            forces=forces,
+            soles=seen.soles,
+            soles_before=soles,
+            loaded=loaded,
+            memory=memory,
+            decided_before=decided_before,
+        )
+
+    def _balance(self) -> NDArray[np.float64]:
+        """1 where the body, as fast as it moves, would come to rest over its feet as the reference stands;
+        where stages ask for calm, the feet also have to be beside each other as they are there."""
+        feet = (self.soles - self.qpos[:, None, :3])[:, _HEELS_AND_BALLS].mean(axis=1)
+        wanted = self.reference.soles[0, 0, _HEELS_AND_BALLS].mean(axis=0)
+        comes_to = self.qvel[:, :3] / _PENDULUM
+        off = law.along(self.memory[:, HEADING], feet - comes_to) - wanted
+        miss = ((off[:, :2] / _BALANCE) ** 2).sum(axis=1)
+        if np.isfinite(self.stage.calm):
+            apart = law.along(self.memory[:, HEADING], self.soles[:, 3] - self.soles[:, 0])
+            apart -= self.reference.soles[0, 0, 3] - self.reference.soles[0, 0, 0]
+            miss += ((apart[:, :2] / _BALANCE) ** 2).sum(axis=1)
+        return np.exp(-miss)
+
+    def _fallen(self, moment: Moment) -> NDArray[np.bool_]:
+        up, yaw = law.up_and_yaw(self.qpos)
+        off = np.abs(law.wrap(yaw - self.memory[:, HEADING]))
+        low = (self.qpos[:, 2] < _LOWEST) | (up[:, 2] < _LEAST_UP)
+        return low | (off > _MOST_YAW) | (sway_off(moment.angles) > _MOST_SWAY)
+
+    # ---- saved and restored
+
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """All that the next step depends on, besides `rng`, stage and reference."""
+        names = ("memory", "asked", "physics", "sensed", "age", "pushed", "force", "slope")
+        return {name: getattr(self, name) for name in names}
+
+    def restore(self, arrays: dict[str, NDArray[Any]]) -> None:
+        """Go on from `arrays`."""
+        for name in self.arrays():
+            setattr(self, name, arrays[name].copy())
+
+
+def stops(
+    reference: Reference,
+    stage: Stage,
+    seed: int,
+    decide: Callable[[NDArray[np.float64]], NDArray[np.floating]],
+    most: int = 500,
+) -> Starts | None:
+    """How people are who have just come to rest, as ``decide`` makes them walk for ``most`` decisions;
+    ``stage`` is one that ends at rest. None if nobody comes to rest."""
+    environment = Environment(reference, replace(stage, stand=0.5), 256, seed)
+    found: dict[str, list[NDArray[np.float64]]] = {name: [] for name in ("memory", "physics", "sensed")}
+    for _ in range(most):
+        outcome = environment.step(decide(environment.observe()))
+        for name, values in found.items():
+            values.append(getattr(environment, name)[outcome.rested].copy())
+        environment.reset(outcome.fell | outcome.over)
+    starts = Starts(**{name: np.concatenate(values) for name, values in found.items()})
+    return starts if len(starts.memory) else None

@@ -1,0 +1,222 @@
+"""Learning of a policy, stage by stage: what is tried, what is learned from it, and what is kept on the
+way."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion.gaits.policy.layout import ACTIONS, INPUTS
+from locomotion.training.policies.agent import DISCOUNT, Agent, Batch, advantages
+from locomotion.training.policies.curriculum import Stage
+from locomotion.training.policies.environment import Environment, Starts
+from locomotion.training.policies.reference import Reference
+from locomotion.training.search.checkpoint import anew, read_checkpoint
+from surefoot.files.archive import write_archive
+from surefoot.files.schema import Array, Header, Schema
+
+__all__ = ["LENGTH", "Learning", "PolicyProgress", "show_policy"]
+
+LENGTH = 24
+"""Decisions of each person from one improvement of the policy to the next."""
+_KEPT_EVERY = 40
+_REST = 0.9 / (1.0 - DISCOUNT)  # return of somebody who has come to rest in balance
+_KIND, _VERSION = "policy learning", 1
+
+
+@dataclass(frozen=True)
+class PolicyProgress:
+    """How learning goes: stage; improvements of the policy so far, and in all in this stage; mean reward;
+    share of the decisions after which somebody fell; change of the policy, rate of learning, noise; mean of
+    each term of the reward; [s] so far, and to come."""
+
+    stage: str
+    iteration: int
+    iterations: int
+    reward: float
+    falls: float
+    change: float
+    rate: float
+    noise: float
+    terms: dict[str, float]
+    elapsed: float
+    remaining: float
+
+
+def show_policy(p: PolicyProgress) -> None:
+    """One line, with all terms of the reward, per twenty improvements."""
+    if p.iteration % 20:
+        return
+    terms = "  ".join(f"{name} {value:.3f}" for name, value in p.terms.items())
+    print(
+        f"{p.stage}: {p.iteration}/{p.iterations}  reward {p.reward:.3f}  falls {1000 * p.falls:.2f} of 1,000"
+        f"  change {p.change:.3f}  rate {p.rate:.1e}  noise {p.noise:.3f}  {p.elapsed / 60:.1f} min done,"
+        f" {p.remaining / 60:.1f} left  {terms}",
+        file=sys.stderr,
+        flush=True,
+    )
+
+
+class _Header(Header):
+    stage: int
+    iteration: int
+    numbers: dict[str, float]
+    rngs: list[dict[str, Any]]
+
+
+@dataclass
+class Learning:
+    """Learning of a policy by ``count`` people at once. The same ``seed`` gives the same policy, interrupted
+    or not.
+
+    Attributes:
+      reference: what is imitated. stages: what is learned, in turn. checkpoint: file of intermediate results;
+        None: they are not kept. on_progress: called after each improvement of the policy. starts: states in
+        which most begin.
+      agent, environment: policy and critic, and the people. stage, iteration: how far it is.
+    """
+
+    reference: Reference
+    stages: Sequence[Stage]
+    seed: int = 0
+    count: int = 256
+    checkpoint: Path | None = None
+    on_progress: Callable[[PolicyProgress], None] = show_policy
+    starts: Starts | None = None
+    agent: Agent = field(init=False)
+    environment: Environment = field(init=False)
+
+    def __post_init__(self) -> None:
+        seeds = np.random.SeedSequence(self.seed).generate_state(2)
+        rng = np.random.default_rng(seeds[0])
+        self.agent = Agent(INPUTS, ACTIONS, rng, self.stages[0].noise[0])
+        self.environment = Environment(
+            self.reference, self.stages[0], self.count, int(seeds[1]), starts=self.starts
+        )
+        self.stage, self.iteration = 0, 0
+
+    def iterations(self, stage: Stage) -> int:
+        """Improvements of the policy in a stage."""
+        return max(round(stage.samples / (LENGTH * self.count)), 1)
+
+    def run(self, most: int | None = None) -> Agent:
+        """Learn all stages, or at most so many improvements, from where it stopped; gives policy and
+        critic."""
+        self._recall()
+        self._begun, self._done, done = time.monotonic(), 0, 0
+        self._ahead = sum(self.iterations(stage) for stage in self.stages[self.stage :]) - self.iteration
+        while self.stage < len(self.stages):
+            stage = self.stages[self.stage]
+            total = self.iterations(stage)
+            while self.iteration < total:
+                if most is not None and done >= most:
+                    self._keep()
+                    return self.agent
+                self._improve(stage, self.iteration / total)
+                self.iteration, done = self.iteration + 1, done + 1
+                if done % _KEPT_EVERY == 0:
+                    self._keep()
+            self._keep()
+            self.stage, self.iteration = self.stage + 1, 0
+            if self.stage < len(self.stages):
+                self.environment.begin(self.stages[self.stage])
+        return self.agent
+
+    def _improve(self, stage: Stage, share: float) -> None:
+        first, last = stage.noise
+        self.agent.limit_noise(first * (last / first) ** min(share / 0.8, 1.0))
+        batch, observed, report = self._try()
+        change = self.agent.learn(batch)
+        self.agent.count_in(observed)
+        elapsed = time.monotonic() - self._begun
+        self._done += 1
+        remaining = elapsed / self._done * (self._ahead - self._done)
+        noise = float(np.exp(self.agent.spread).mean())
+        self.on_progress(
+            PolicyProgress(
+                stage.name, self.iteration + 1, self.iterations(stage), *report[:2], change, self.agent.rate,
+                noise, report[2], elapsed, remaining,
+            )
+        )  # fmt: skip
+
+    def _try(self) -> tuple[Batch, NDArray[np.float64], tuple[float, float, dict[str, float]]]:
+        """Decide and go on `LENGTH` times; gives what to learn from, what was observed, and a report."""
+        agent, environment = self.agent, self.environment
+        shape = (LENGTH, self.count)
+        inputs, observed = np.empty((*shape, INPUTS), np.float32), np.empty((*shape, INPUTS))
+        means, decided = np.empty((*shape, ACTIONS), np.float32), np.empty((*shape, ACTIONS), np.float32)
+        likelihood, value = np.empty(shape, np.float32), np.empty((LENGTH + 1, self.count), np.float32)
+        reward, done, falls, terms = np.empty(shape), np.empty(shape, bool), 0, []
+        if agent.counted < 1.0:
+            agent.count_in(environment.observe())
+        for t in range(LENGTH):
+            observed[t] = environment.observe()
+            inputs[t] = agent.scaled(observed[t])
+            means[t], value[t] = agent.decide(inputs[t]), agent.expect(inputs[t])
+            decided[t], likelihood[t] = agent.explore(means[t])
+            outcome = environment.step(decided[t])
+            reward[t] = outcome.reward
+            if outcome.over.any():  # their time is over, not their walk
+                ahead = DISCOUNT * agent.expect(agent.scaled(environment.observe()))
+                rest = DISCOUNT * _REST * outcome.balance
+                reward[t] += np.where(outcome.rested, rest, ahead) * outcome.over
+            done[t] = outcome.fell | outcome.over
+            falls += int(outcome.fell.sum())
+            terms.append(outcome.terms)
+            environment.reset(done[t])
+        value[LENGTH] = agent.expect(agent.scaled(environment.observe()))
+        gained = advantages(reward, value, done)
+        returns = (gained + value[:-1]).ravel().astype(np.float32)
+        gained = (gained - gained.mean()) / (gained.std() + 1e-6)
+        seen, meant, done_so = (each.reshape(-1, each.shape[-1]) for each in (inputs, means, decided))
+        batch = Batch(seen, meant, done_so, likelihood.ravel(), gained.ravel().astype(np.float32), returns)
+        averaged = {name: float(np.mean([each[name] for each in terms])) for name in terms[0]}
+        report = (float(reward.mean()), falls / reward.size, averaged)
+        return batch, observed.reshape(-1, INPUTS), report
+
+    def _arrays(self) -> dict[str, NDArray[Any]]:
+        return {**self.agent.arrays(), **self.environment.arrays()}
+
+    def _keep(self) -> None:
+        if self.checkpoint is None:
+            return
+        rngs = [_plain(each.bit_generator.state) for each in (self.agent.rng, self.environment.rng)]
+        header = {
+            "stage": self.stage,
+            "iteration": self.iteration,
+            "numbers": self.agent.numbers(),
+            "rngs": rngs,
+        }
+        write_archive(self.checkpoint, _KIND, _VERSION, header, self._arrays())
+
+    def _recall(self) -> None:
+        if self.checkpoint is None or not self.checkpoint.exists():
+            return
+        arrays = {name: Array(str(each.dtype), each.shape) for name, each in self._arrays().items()}
+        schema = Schema(_KIND, _VERSION, _Header, arrays, anew(self.checkpoint))
+        header, found = read_checkpoint(self.checkpoint, schema)
+        self.stage, self.iteration = header.stage, header.iteration
+        self.environment.begin(self.stages[self.stage])
+        self.agent.restore(found, header.numbers)
+        self.environment.restore(found)
+        for each, state in zip((self.agent.rng, self.environment.rng), header.rngs, strict=True):
+            each.bit_generator.state = _numbered(state)
+
+
+def _plain(state: Any) -> Any:
+    """A generator's state for JSON, whose numbers may be too long for it."""
+    return {k: _plain(v) for k, v in state.items()} if isinstance(state, dict) else str(state)
+
+
+def _numbered(state: Any) -> Any:
+    """A state from `_plain`."""
+    if isinstance(state, dict):
+        return {k: _numbered(v) for k, v in state.items()}
+    return int(state) if state.isdigit() else state

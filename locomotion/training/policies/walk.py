@@ -1,0 +1,79 @@
+"""Training of the walk that a network controls."""
+
+import hashlib
+import os
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from locomotion.body.person import person_digest
+from locomotion.gaits.policy.skill import WALK_POLICY, Network, PolicySkill
+from locomotion.training.policies.agent import Agent
+from locomotion.training.policies.curriculum import STANDING, WALKING, Stage
+from locomotion.training.policies.environment import Starts, motion_of, stops
+from locomotion.training.policies.learning import Learning, PolicyProgress
+from locomotion.training.policies.reference import make_reference
+from locomotion.training.policies.trial import PolicyTrial
+from locomotion.training.progress import Progress
+from locomotion.training.search.checkpoint import claim
+from locomotion.training.training import NotLearnedError, Training
+from surefoot.files.archive import check_target
+
+__all__ = ["network_of", "train_walk_policy"]
+
+_TESTED = (0.8, 1.25, 1.8)
+"""Speeds [m/s] that a policy must walk at to be of use."""
+_STANDS, _WALKS = 6.0, 12.0  # [s]
+
+
+def network_of(agent: Agent) -> Network:
+    """What is used at run time of what was learned."""
+    deviation = np.sqrt(agent.variance + 1e-4).astype(np.float32)
+    return agent.mean.copy(), deviation, *(layer.copy() for layer in agent.actor)
+
+
+def train_walk_policy(training: Training, out: str | os.PathLike[str] = WALK_POLICY) -> PolicySkill:
+    """Train the walk, then the stand from how walks end, and write both to ``out``."""
+    walking, standing = (_scaled(stages, training.effort) for stages in (WALKING, STANDING))
+    check_target(out)
+    if training.checkpoint is not None:
+        asked = {"skill": "walk-policy", "seed": training.seed, "effort": training.effort}
+        stages = hashlib.sha256(repr((walking, standing)).encode()).hexdigest()[:16]
+        claim(training.checkpoint, {**asked, "person": person_digest(), "stages": stages})
+    reference = make_reference()
+
+    def tell(p: PolicyProgress) -> None:
+        training.on_progress(
+            Progress(p.stage, p.iteration, p.iterations, -p.reward, 1.0 - p.falls, p.elapsed, p.remaining)
+        )
+
+    def learn(name: str, stages: Sequence[Stage], seed: int, starts: Starts | None = None) -> Agent:
+        checkpoint = training.file(name)
+        return Learning(reference, stages, seed, checkpoint=checkpoint, on_progress=tell, starts=starts).run()
+
+    walker = learn("walk", walking, 2 * training.seed)
+    ends = stops(reference, walking[-1], training.seed, lambda seen: walker.decide(walker.scaled(seen)))
+    stander = learn("stand", standing, 2 * training.seed + 1, ends)
+    motion, meta = motion_of(reference), training.made_by("walk-policy")
+    skill = PolicySkill(motion, network_of(walker), network_of(stander), meta)
+    _demand_success(skill)
+    skill.save(out)
+    return skill
+
+
+def _scaled(stages: Sequence[Stage], effort: float) -> list[Stage]:
+    return [replace(stage, samples=max(round(stage.samples * effort), 1)) for stage in stages]
+
+
+def _demand_success(skill: PolicySkill) -> None:
+    """Raises `NotLearnedError` if it falls where it stands, or walks straight on."""
+    for speed in _TESTED:
+        trial = PolicyTrial(skill)
+        held = trial.go(_STANDS)
+        trial.asked[0] = speed
+        if not (held and trial.go(_WALKS)):
+            raise NotLearnedError(
+                f"walk-policy does not work: at {speed} m/s it falls within {_STANDS + _WALKS:.0f} s; "
+                "train with another --seed or more --effort"
+            )

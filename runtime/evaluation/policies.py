@@ -1,0 +1,64 @@
+"""Trying the walk that a network controls: at all speeds, pushed from all sides, and with orders that
+change."""
+
+import math
+
+import numpy as np
+
+from locomotion.gaits.policy.skill import load_policy
+from locomotion.training.policies.trial import PolicyTrial
+from runtime.evaluation.evaluation import Attempt
+from surefoot.progress import Progress
+
+__all__ = ["evaluate_walk_policy"]
+
+SPEEDS, TURN = (0.4, 2.0), 0.8
+"""[m/s] and [rad/s] asked for."""
+PUSH = 300.0
+"""[N] at the waist for 0.1 s."""
+_STANDS, _WALKS, _ON, _SCRIPT = 1.0, 8.0, 5.0, 60.0  # [s]
+_CHANGE = (1.5, 5.0)  # [s] between orders
+_STANDING = 0.25  # share of the orders that are to stand
+
+
+def evaluate_walk_policy(trials: int, seed: int, progress: Progress) -> list[Attempt]:
+    """Three tests of ``trials`` each: from a stand to a speed and on, with a turn; the same with a push of
+    `PUSH` from any side at any moment; a minute of orders to walk, turn, stop and start."""
+    attempts, rng = [], np.random.default_rng(seed)
+    with progress.stage("walking") as stage:
+        for k in range(trials):
+            stage.update(k / trials)
+            speed, turn = float(rng.uniform(*SPEEDS)), float(rng.uniform(-TURN, TURN))
+            angle, moment = float(rng.uniform(0.0, 2.0 * math.pi)), float(rng.uniform(0.0, 1.2))
+            attempts.append(_walk("walk", speed, turn, moment))
+            attempts.append(_walk(f"pushed with {PUSH:.0f} N", speed, 0.0, moment, angle))
+            attempts.append(_script(np.random.default_rng((seed, k))))
+    return attempts
+
+
+def _walk(test: str, speed: float, turn: float, moment: float, angle: float | None = None) -> Attempt:
+    trial = PolicyTrial(load_policy())
+    trial.go(_STANDS)
+    trial.asked[:] = speed, turn
+    held = trial.go(_WALKS + moment)
+    if angle is not None:
+        trial.push(PUSH, angle)
+    held = held and trial.go(_ON)
+    what = (
+        f"{speed:.2f} m/s, {turn:+.2f} rad/s"
+        if angle is None
+        else f"{speed:.2f} m/s, from {math.degrees(angle):.0f} degrees"
+    )
+    return Attempt(test, what, "walks" if held else "fallen", held)
+
+
+def _script(rng: np.random.Generator) -> Attempt:
+    trial, passed, held = PolicyTrial(load_policy()), 0.0, True
+    while held and passed < _SCRIPT:
+        stands = rng.random() < _STANDING
+        trial.asked[:] = 0.0 if stands else rng.uniform(*SPEEDS), rng.uniform(-TURN, TURN)
+        lasts = float(rng.uniform(*_CHANGE))
+        held, passed = trial.go(lasts), passed + lasts
+    return Attempt(
+        "start, stop, turn", f"a minute, {passed:.0f} s of it", "walks" if held else "fallen", held
+    )

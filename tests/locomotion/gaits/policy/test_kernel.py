@@ -1,0 +1,154 @@
+"""The compiled policy against the plain form that learning uses, on the whole figure."""
+
+import mujoco
+import numpy as np
+import pytest
+
+from locomotion.body.person import JOINT_NAMES, STEPS_PER_TICK, PersonIndex
+from locomotion.gaits.policy import law
+from locomotion.gaits.policy import layout as at
+from locomotion.gaits.policy.kernel import FELT_SIZE, FORCES, SOLES, Parts, decide_tick, feel, new_memory
+from locomotion.gaits.policy.motion import Motion
+from locomotion.gaits.policy.skill import PolicySkill, load_policy
+from locomotion.training.policies.figure import FORCES as FORCE_SENSORS
+from locomotion.training.policies.figure import POINTS, Figure
+from locomotion.training.policies.network import forward, new_layers
+
+
+@pytest.fixture
+def skill() -> PolicySkill:
+    """A policy of random weights over a random motion."""
+    rng = np.random.default_rng(3)
+    joints, rates = 0.2 * rng.standard_normal((2, 3, 16, len(at.JOINTS)))
+    motion = Motion(np.array([0.0, 0.9, 2.0]), np.array([1.6, 1.3, 0.9]), joints, rates)
+
+    def network():
+        layers = new_layers((at.INPUTS, 16, 16, at.ACTIONS), rng, 0.5)
+        mean, deviation = rng.standard_normal(at.INPUTS), rng.uniform(0.5, 2.0, at.INPUTS)
+        return mean.astype(np.float32), deviation.astype(np.float32), *layers
+
+    return PolicySkill(motion, network(), network())
+
+
+def plain_tick(skill, memory, asked, seen, qvel):
+    """One decision in the plain form; ``memory`` (1, STATE_SIZE). Gives targets of the policy's joints."""
+    if memory[0, at.STARTED]:
+        law.advance(memory, skill.motion, asked[None], qvel[None, :3])
+    memory[0, at.STARTED] = 1.0
+    mean, deviation, *layers = skill.walk if memory[0, at.RUNNING] else skill.stand
+    x = (law.observe(memory, seen) - mean) / deviation
+    law.decide(memory, forward(layers, np.clip(x, -8.0, 8.0).astype(np.float32))[-1])
+    return law.targets(memory, skill.motion)[0]
+
+
+def test_it_decides_as_the_plain_form_from_what_its_sensors_say(skill):
+    figure = Figure(whole=True, timestep=0.0025)
+    model, data = figure.model, mujoco.MjData(figure.model)
+    parts = Parts(PersonIndex.of(model), model)
+    data.qpos[2] = 0.9
+    felt, memory = np.zeros(FELT_SIZE), new_memory(0.4)
+    memory[at.SPEED], memory[at.RUNNING] = 0.3, 1.0
+    plain = memory[None].copy()
+    columns = [JOINT_NAMES.index(name) for name in at.JOINTS]
+    halves, rested = set(), False
+    for tick in range(160):
+        asked = np.array([1.6 if tick < 45 else 0.0, 0.5])
+        mujoco.mj_step(model, data, STEPS_PER_TICK)
+        feel(parts, data, felt)
+        np.testing.assert_allclose(felt[SOLES], data.sensordata[POINTS], atol=1e-12)
+        np.testing.assert_allclose(felt[FORCES], data.sensordata[FORCE_SENSORS], atol=1e-9)
+        seen = law.Seen(
+            data.qpos[None], data.qvel[None], data.qpos[None, figure.angles], data.qvel[None, figure.rates],
+            felt[None, SOLES].reshape(1, 6, 3), felt[None, FORCES],
+        )  # fmt: skip
+        wanted = plain_tick(skill, plain, asked, seen, data.qvel)
+        decide_tick(*skill.tables, memory, asked, felt, data.qpos, data.qvel, data.ctrl)
+        halves.add(bool(memory[at.PHASE] >= 0.5))
+        rested |= not memory[at.RUNNING]
+        np.testing.assert_allclose(memory, plain[0], atol=2e-5)
+        np.testing.assert_allclose(data.ctrl[columns], wanted, atol=2e-5)
+    assert halves == {False, True}, "both halves of the cycle were seen"
+    assert rested, "and a stand"
+
+
+def test_the_mirror_image_of_a_person_decides_the_mirror_image(skill):
+    """Exactly: the policy cannot favour a side."""
+    rng = np.random.default_rng(1)
+    memory = np.tile(new_memory(0.0), (40, 1))
+    memory[:, at.PHASE], memory[:, at.RUNNING] = rng.uniform(0.0, 0.5, 40), 1.0
+    memory[:, at.SPEED], memory[:, at.TURN_RATE] = rng.uniform(0, 2, 40), rng.uniform(-1, 1, 40)
+    memory[:, [at.LAG_AHEAD, at.LAG_LEFT]] = rng.normal(size=(40, 2))
+    seen = random_people(rng, 40)
+    other, image = memory.copy(), mirror_image(seen)
+    other[:, at.PHASE] += 0.5
+    other[:, [at.TURN_RATE, at.LAG_LEFT]] *= -1.0
+    np.testing.assert_allclose(law.observe(other, image), law.observe(memory, seen), atol=1e-12)
+    decided = rng.normal(size=(40, at.ACTIONS))
+    law.decide(memory, decided)
+    law.decide(other, decided)
+    np.testing.assert_array_equal(
+        memory[:, at.ACTION][:, at.MIRROR_ACTION] * at.SIGN_ACTION, other[:, at.ACTION]
+    )
+
+
+def random_people(rng, count):
+    qpos, qvel = rng.normal(size=(count, 7)), rng.normal(size=(count, 6))
+    qpos[:, 3:] = [1.0, 0.0, 0.0, 0.0] + 0.2 * qpos[:, 3:]
+    qpos[:, 3:] /= np.linalg.norm(qpos[:, 3:], axis=1, keepdims=True)
+    angles, rates = rng.normal(size=(2, count, len(at.JOINTS)))
+    return law.Seen(
+        qpos, qvel, angles, rates, rng.normal(size=(count, 6, 3)), rng.uniform(0, 400, (count, 4))
+    )
+
+
+def mirror_image(seen):
+    """Reflected in the plane y = 0."""
+    qpos, qvel = seen.qpos.copy(), seen.qvel.copy()
+    qpos[:, [1, 4, 6]] *= -1.0  # y; and of the quaternion, the turns about x and z
+    qvel[:, [1, 3, 5]] *= -1.0
+    angles, rates = (each[:, at.MIRROR_JOINT] * at.SIGN_JOINT for each in (seen.angles, seen.rates))
+    soles = seen.soles[:, [3, 4, 5, 0, 1, 2]] * [1.0, -1.0, 1.0]
+    return law.Seen(qpos, qvel, angles, rates, soles, seen.forces[:, [2, 3, 0, 1]])
+
+
+def test_signs_of_mirrored_joints_are_those_of_the_model():
+    """A pose and its mirror image put the soles at mirrored places."""
+    figure = Figure(whole=False, timestep=0.005)
+    data, rng = mujoco.MjData(figure.model), np.random.default_rng(2)
+    angles = rng.uniform(0.3 * figure.limits[:, 0], 0.3 * figure.limits[:, 1])
+    places = []
+    for pose in (angles, angles[at.MIRROR_JOINT] * at.SIGN_JOINT):
+        data.qpos[:7] = [0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0]
+        data.qpos[figure.angles] = pose
+        mujoco.mj_kinematics(figure.model, data)
+        places.append(data.site_xpos[figure.soles].copy())
+        hands = [data.body(f"{side}_hand").xpos.copy() for side in ("right", "left")]
+        places[-1] = np.vstack([places[-1], hands])
+    order = [3, 4, 5, 0, 1, 2, 7, 6]
+    np.testing.assert_allclose(places[1], places[0][order] * [1.0, -1.0, 1.0], atol=1e-12)
+
+
+def test_the_clock_stops_at_lift_off_after_an_order_to_stand(skill):
+    memory = new_memory(0.0)[None]
+    memory[:, at.RUNNING], memory[:, at.PHASE] = 1.0, 0.3
+    for _ in range(100):
+        law.advance(memory, skill.motion, np.zeros((1, 2)), np.zeros((1, 3)))
+    assert memory[0, at.RUNNING] == 0.0
+    assert memory[0, at.PHASE] in (law.LIFT_OFF, law.LIFT_OFF + 0.5)
+    law.advance(memory, skill.motion, np.array([[1.0, 0.0]]), np.zeros((1, 3)))
+    assert memory[0, at.RUNNING] == 1.0
+
+
+def test_the_clock_goes_on_for_who_has_not_come_to_rest(skill):
+    memory = new_memory(0.0)[None]
+    memory[:, at.RUNNING] = 1.0
+    for _ in range(200):
+        law.advance(memory, skill.motion, np.zeros((1, 2)), np.array([[0.3, 0.0, 0.0]]))
+    assert memory[0, at.RUNNING] == 1.0
+
+
+def test_a_file_gives_back_the_policy(skill, tmp_path):
+    skill.save(tmp_path / "policy.npz")
+    again = load_policy(tmp_path / "policy.npz")
+    for one, other in zip(sum(again.tables, ()), sum(skill.tables, ()), strict=True):
+        np.testing.assert_allclose(one, other, rtol=1e-6, atol=1e-7)

@@ -1,0 +1,89 @@
+"""Learning goes on from a checkpoint as if it had not been interrupted, and comes from the seed alone."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from locomotion.gaits.policy.layout import ACTIONS, JOINTS, RUNNING
+from locomotion.training.policies.curriculum import WALKING
+from locomotion.training.policies.environment import Environment, stops
+from locomotion.training.policies.learning import LENGTH, Learning
+from locomotion.training.policies.reference import Reference, make_reference
+
+PEOPLE = 6
+
+
+@pytest.fixture(scope="module")
+def reference() -> Reference:
+    return make_reference()
+
+
+def stages():
+    """Two stages of two improvements each, with all that is random in an environment."""
+    short = {"samples": 2 * LENGTH * PEOPLE, "longest": 20}
+    return replace(WALKING[0], **short), replace(WALKING[2], **short)
+
+
+def learning(reference, **options):
+    return Learning(reference, stages(), count=PEOPLE, on_progress=lambda _: None, **options)
+
+
+def same(one, other):
+    return all(
+        np.array_equal(a, b) for a, b in zip(one.arrays().values(), other.arrays().values(), strict=True)
+    )
+
+
+def test_an_interrupted_learning_ends_with_the_same_bits(reference, tmp_path):
+    whole = learning(reference).run()
+    for _ in range(5):
+        last = learning(reference, checkpoint=tmp_path / "walk.npz").run(most=1)
+    assert same(last, whole)
+
+
+def test_another_seed_learns_otherwise(reference):
+    assert not same(learning(reference).run(most=1), learning(reference, seed=1).run(most=1))
+
+
+def test_the_reference_alone_walks_a_few_steps(reference):
+    """Nobody who follows it without a policy falls at once."""
+    environment = Environment(reference, replace(WALKING[0], speeds=(1.25, 1.25)), 32, seed=0)
+    fell = np.zeros(32, bool)
+    for _ in range(8):
+        fell |= environment.step(np.zeros((32, ACTIONS))).fell
+    assert fell.mean() < 0.2
+
+
+def test_pushes_push_and_orders_change(reference):
+    stage = replace(WALKING[2], push=300.0)
+    environment = Environment(reference, stage, 64, seed=0)
+    begun = environment.asked.copy()
+    pushed = False
+    for _ in range(30):
+        outcome = environment.step(np.zeros((64, ACTIONS)))
+        pushed |= bool((environment.pushed > 0).any())
+        environment.reset(outcome.fell | outcome.over)
+    assert pushed
+    assert (environment.asked != begun).any()
+    assert environment.seen().angles.shape == (64, len(JOINTS))
+
+
+def test_who_stands_as_the_reference_is_in_balance_and_who_topples_is_not(reference):
+    environment = Environment(reference, replace(WALKING[2], speeds=(0.0, 0.0), stand=1.0), 8, seed=0)
+    environment.qvel[:] = 0.0
+    balance = environment._balance()
+    assert balance.min() > 0.7
+    environment.qvel[:, 0] = 0.6
+    assert environment._balance().max() < 0.2
+
+
+def test_stops_are_people_whose_cycle_has_stopped(reference):
+    """Here with a policy that decides nothing, under orders to stand."""
+    stage = replace(WALKING[2], speeds=(0.4, 0.5), push=0.0)
+    found = stops(reference, stage, 0, lambda seen: np.zeros((len(seen), ACTIONS)), most=130)
+    assert found is not None
+    assert (found.memory[:, RUNNING] == 0.0).all()
+    environment = Environment(reference, replace(stage, stand=1.0), 40, seed=0, starts=found)
+    taken = (environment.physics[:, None] == found.physics[None]).all(axis=2).any(axis=1)
+    assert 0.3 < taken.mean() < 1.0

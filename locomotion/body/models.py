@@ -1,18 +1,19 @@
-"""The compiled person on a ground, built once and shared by all persons there."""
+"""The compiled person, on a ground or alone, built once and shared."""
 
 from __future__ import annotations
 
 import copy
 import threading
 import weakref
+from functools import cache
 
 import mujoco
 import numpy as np
 
-from locomotion.body.person import PersonIndex, build_person
+from locomotion.body.person import PersonIndex, build_person, person_spec
 from locomotion.ground.ground import FRICTION, Ground
 
-__all__ = ["gentler", "harder", "person_on"]
+__all__ = ["figure", "gentler", "harder", "person_on"]
 
 _SUDDEN = 0.01  # [s] time constant of contacts with a falling body, half of MuJoCo's default
 _models: weakref.WeakKeyDictionary[Ground, tuple[mujoco.MjModel, PersonIndex]] = weakref.WeakKeyDictionary()
@@ -20,6 +21,12 @@ _plane: list[tuple[mujoco.MjModel, PersonIndex]] = []
 _hard: weakref.WeakKeyDictionary[mujoco.MjModel, mujoco.MjModel] = weakref.WeakKeyDictionary()
 _gentle: weakref.WeakKeyDictionary[mujoco.MjModel, mujoco.MjModel] = weakref.WeakKeyDictionary()
 _lock = threading.Lock()
+
+
+@cache
+def figure() -> mujoco.MjModel:
+    """The compiled person without a ground, for kinematics; not to be changed."""
+    return person_spec().compile()
 
 
 def person_on(ground: Ground | None) -> tuple[mujoco.MjModel, PersonIndex]:

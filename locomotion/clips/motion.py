@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import model_validator
 
-from locomotion.body.person import JOINT_NAMES, person_spec
+from locomotion.body.models import figure
+from locomotion.body.person import JOINT_NAMES
 from locomotion.clips.clip import Clip
 from locomotion.errors import LocomotionError
 from surefoot.files.archive import ArchiveError, read_archive, write_archive
@@ -114,7 +115,7 @@ def motion_of_clip(clip: Clip) -> Motion:
 
 def lowest_points(qpos: NDArray[np.float64]) -> NDArray[np.float64]:
     """Height [m], (n,), of the lowest point of the figure in each frame (n, 46)."""
-    model = person_spec().compile()
+    model = figure()
     data = mujoco.MjData(model)
     touching = model.geom_conaffinity > 0  # capsules and spheres
     radius, half = model.geom_size[touching, 0], model.geom_size[touching, 1]

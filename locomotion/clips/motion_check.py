@@ -6,7 +6,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion.body.person import JOINT_NAMES, person_spec
+from locomotion.body.models import figure
+from locomotion.body.person import JOINT_NAMES
 from locomotion.clips.motion import Motion, lowest_points
 
 __all__ = ["Fault", "check_motion"]
@@ -44,7 +45,7 @@ class Fault:
 def check_motion(motion: Motion) -> list[Fault]:
     """Every `Fault` of a motion, by kind and time. Floating is not checked if the root was put on the
     ground."""
-    model = person_spec().compile()
+    model = figure()
     low, high = model.jnt_range[1:].T
     angles = motion.qpos[:, 7:]
     excess = np.maximum(np.maximum(low - angles, angles - high), 0.0)
@@ -72,7 +73,7 @@ def _stretches(
 
 def _fall(motion: Motion) -> NDArray[np.float64]:
     """Vertical acceleration of the centre of mass, (n,) [m/s^2]: second differences over `_SMOOTH`."""
-    model = person_spec().compile()
+    model = figure()
     data = mujoco.MjData(model)
     heights = np.empty(len(motion.qpos))
     for i, frame in enumerate(motion.qpos):

@@ -23,7 +23,8 @@ from pydantic import RootModel
 from scipy.spatial.transform import Rotation
 
 from locomotion.body.anatomy import SHANK, THIGH
-from locomotion.body.person import BODY_NAMES, JOINT_NAMES, person_spec
+from locomotion.body.models import figure
+from locomotion.body.person import BODY_NAMES, JOINT_NAMES
 from locomotion.clips.bvh import Capture
 from locomotion.clips.motion import Motion, place_on_ground
 from locomotion.clips.neutral_pose import LIMBS, SIDES, neutral_axes
@@ -102,7 +103,7 @@ def retarget(capture: Capture, mapping: dict[str, str]) -> Motion:
     facing = _facing(turns[:, source["pelvis"]] @ axes["pelvis"])
     wanted = {part: facing @ turns[:, j] @ axes[part] for part, j in source.items()}
 
-    model = person_spec().compile()
+    model = figure()
     qpos = np.zeros((len(capture.root), 7 + len(JOINT_NAMES)))
     achieved: dict[int, NDArray[np.float64]] = {}
     for body in range(1, model.nbody):

@@ -7,9 +7,10 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 from scipy.spatial.transform import Rotation
 
-from locomotion.body.person import JOINT_NAMES, person_spec
+from locomotion.body.models import figure
+from locomotion.body.person import JOINT_NAMES
 from locomotion.clips.motion import Motion, lowest_points
-from locomotion.postures.posture_graph import placed
+from locomotion.postures.places import inverse, place_of, placed
 
 __all__ = ["RATE", "arc_between", "arc_of_motion", "pose_of"]
 
@@ -58,16 +59,9 @@ def arc_of_motion(motion: Motion, begin: float, end: float) -> tuple[np.ndarray,
     where it takes the figure."""
     first, last = round(begin * motion.rate), round(end * motion.rate)
     frames = motion.qpos[first : last + 1]
-    start = np.array([*frames[0, :2], _heading(frames[0])])
-    c, s = np.cos(-start[2]), np.sin(-start[2])
-    back = np.array([-c * start[0] + s * start[1], -s * start[0] - c * start[1], -start[2]])
+    back = inverse(place_of(frames[0]))
     frames = np.array([placed(frame, back) for frame in frames])
-    return frames, np.array([*frames[-1, :2], _heading(frames[-1])])
-
-
-def _heading(pose: np.ndarray) -> float:
-    """[rad] of the root about the vertical (the twist of its rotation)."""
-    return float(2.0 * np.arctan2(pose[6], pose[3]))
+    return frames, place_of(frames[-1])
 
 
 def _continuous(turns: np.ndarray) -> np.ndarray:
@@ -81,7 +75,7 @@ def _continuous(turns: np.ndarray) -> np.ndarray:
 
 def _places(frames: np.ndarray, part: str) -> np.ndarray:
     """Where a part of the body is in each frame: (n, 3) [m]."""
-    model = person_spec().compile()
+    model = figure()
     data = mujoco.MjData(model)
     body = model.body(part).id
     places = np.empty((len(frames), 3))

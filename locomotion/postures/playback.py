@@ -9,7 +9,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from locomotion.errors import LocomotionError
-from locomotion.postures.posture_graph import PostureGraph, blended, frame_at, placed
+from locomotion.postures.places import beyond, place_of, placed
+from locomotion.postures.posture_graph import PostureGraph, blended, frame_at
 
 __all__ = ["Playback", "asked_for", "at_rest", "pose_at", "settled"]
 
@@ -54,7 +55,9 @@ def settled(graph: PostureGraph, playback: Playback, now: float) -> Playback:
         end = playback.begun + float(graph.seconds[playback.arc])
         if now < end:
             return playback
-        playback = replace(playback, arc=-1, begun=end, place=_beyond(graph, playback))
+        playback = replace(
+            playback, arc=-1, begun=end, place=beyond(playback.place, graph.moves[playback.arc])
+        )
 
 
 def asked_for(graph: PostureGraph, playback: Playback, posture: str, now: float) -> Playback:
@@ -70,7 +73,7 @@ def asked_for(graph: PostureGraph, playback: Playback, posture: str, now: float)
         return playback
     if target == graph.fatal:
         pose = pose_at(graph, playback, now)
-        return Playback(target, target, _place_of(pose), -1, now, pose)
+        return Playback(target, target, place_of(pose), -1, now, pose)
     if not np.isfinite(graph.least[playback.posture, target]):
         here = graph.postures[playback.posture]
         raise LocomotionError(f"{graph.name}: there is no way from {here!r} to {posture!r}")
@@ -82,7 +85,7 @@ def asked_for(graph: PostureGraph, playback: Playback, posture: str, now: float)
     left = float(graph.seconds[arc]) - elapsed
     behind = int(graph.start[arc])
     if back >= 0 and elapsed + graph.least[behind, target] < left + graph.least[playback.posture, target]:
-        return Playback(behind, target, _beyond(graph, playback), back, now - left)
+        return Playback(behind, target, beyond(playback.place, graph.moves[playback.arc]), back, now - left)
     return replace(playback, target=target)
 
 
@@ -102,16 +105,3 @@ def _number(graph: PostureGraph, posture: str) -> int:
     if posture not in graph.postures:
         raise LocomotionError(f"{graph.name}: posture {posture!r}: valid: {', '.join(graph.postures)}")
     return graph.postures.index(posture)
-
-
-def _beyond(graph: PostureGraph, playback: Playback) -> np.ndarray:
-    """Where the arc that the figure is on takes it."""
-    x, y, turn = playback.place
-    dx, dy, more = graph.moves[playback.arc]
-    c, s = np.cos(turn), np.sin(turn)
-    return np.array([x + c * dx - s * dy, y + s * dx + c * dy, turn + more])
-
-
-def _place_of(pose: np.ndarray) -> np.ndarray:
-    """x, y [m] of a pose's root and its turn [rad] about the vertical (twist of its rotation)."""
-    return np.array([pose[0], pose[1], 2.0 * np.arctan2(pose[6], pose[3])])

@@ -8,7 +8,8 @@ import numpy as np
 from locomotion.body.person import JOINT_NAMES
 from locomotion.clips.motion import Motion
 from locomotion.clips.motion_check import check_motion
-from locomotion.postures.posture_graph import PostureGraph, frame_at, placed
+from locomotion.postures.places import placed
+from locomotion.postures.posture_graph import PostureGraph, frame_at
 
 __all__ = ["PostureFault", "check_postures"]
 

@@ -8,6 +8,7 @@ import numpy as np
 from locomotion.body.person import BODY_NAMES, JOINT_NAMES
 from locomotion.clips.motion import load_motion
 from locomotion.postures.arcs import arc_between, arc_of_motion, pose_of
+from locomotion.postures.places import inverse
 from locomotion.postures.posture_check import check_postures
 from locomotion.postures.posture_graph import PostureGraph
 from locomotion.postures.schema import ArcEntry, KeyEntry, PostureEntry, PostureFile
@@ -64,7 +65,7 @@ class _Reader:
         made = {k: self._frames(file.arcs[k], k, start[k], end[k]) for k in forward}
         first = dict(zip(forward, np.cumsum([0, *(len(made[k][0]) for k in forward)]), strict=False))
         source = [self._source(k, start, end) for k in range(len(file.arcs))]
-        moves = [made[k][1] if k == s else _inverse(made[s][1]) for k, s in enumerate(source)]
+        moves = [made[k][1] if k == s else inverse(made[s][1]) for k, s in enumerate(source)]
         return PostureGraph(
             name=file.name or self.path.stem,
             postures=self.names,
@@ -146,9 +147,3 @@ class _Reader:
                         raise self.located.error([*at, key, name], problem, at_key=True)
                     angles[joint] = angle
         return angles
-
-
-def _inverse(move: np.ndarray) -> np.ndarray:
-    x, y, turn = move
-    c, s = np.cos(turn), np.sin(turn)
-    return np.array([-(c * x + s * y), -(c * y - s * x), -turn])

@@ -15,7 +15,9 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import dijkstra
 
-__all__ = ["PostureGraph", "blended", "frame_at", "least_times", "placed"]
+from locomotion.postures.places import placed
+
+__all__ = ["PostureGraph", "blended", "frame_at", "least_times"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,8 +97,7 @@ def frame_at(graph: PostureGraph, arc: int, elapsed: float) -> np.ndarray:
     before, after = graph.frames[graph.first[arc] + low], graph.frames[graph.first[arc] + low + 1]
     pose = blended(before, after, at - low)
     if graph.backwards[arc]:  # its frames stand where the opposite begins, which is where this one ends
-        x, y, turn = graph.moves[arc]
-        return placed(pose, np.array([x, y, turn]))
+        return placed(pose, graph.moves[arc])
     return pose
 
 
@@ -109,15 +110,3 @@ def blended(before: np.ndarray, after: np.ndarray, share: float) -> np.ndarray:
     turn = (1.0 - share) * a + share * b
     pose[3:7] = turn / np.linalg.norm(turn)
     return pose
-
-
-def placed(pose: np.ndarray, place: np.ndarray) -> np.ndarray:
-    """``pose`` (46,) carried to ``place``: x, y [m], turn [rad]."""
-    x, y, turn = place
-    c, s = np.cos(turn), np.sin(turn)
-    moved = pose.copy()
-    moved[0], moved[1] = x + c * pose[0] - s * pose[1], y + s * pose[0] + c * pose[1]
-    cw, sw = np.cos(0.5 * turn), np.sin(0.5 * turn)
-    w, i, j, k = pose[3:7]
-    moved[3:7] = cw * w - sw * k, cw * i - sw * j, cw * j + sw * i, cw * k + sw * w
-    return moved

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import mujoco
 import numpy as np
 
-from locomotion.body.person import person_spec
+from locomotion.body.models import figure
 from locomotion.clips.bvh import read_bvh
 from locomotion.clips.clip import load_clip
 from locomotion.clips.motion import Motion, load_motion, motion_of_clip
@@ -50,7 +50,7 @@ class MotionArtist:
     """Draws the person in any pose, on level ground, seen from its right."""
 
     def __init__(self) -> None:
-        self._model = person_spec().compile()
+        self._model = figure()
         self._data, self._figure = mujoco.MjData(self._model), Figure.from_model(self._model)
         corners = _GROUND * np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
         self._ground = Triangles(corners, np.array([[0, 1, 2], [0, 2, 3]]))

@@ -59,7 +59,8 @@ from locomotion.gaits.policy.motion import Motion
 
 __all__ = [
     "ACCELERATION", "AT_REST", "CALM", "FULL_TURN", "LAG_SHARE", "LIFT_OFF", "SETTLING", "TURNING", "Seen",
-    "advance", "along", "decide", "mirrored", "observe", "rate", "targets", "up_and_yaw", "wrap",
+    "advance", "along", "decide", "mirrored", "observe", "pace_share", "rate", "targets", "up_and_yaw",
+    "wrap",
 ]  # fmt: skip
 
 ACCELERATION, TURNING = 1.0, 2.0
@@ -118,7 +119,7 @@ def up_and_yaw(qpos: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[
 
 
 def mirrored(memory: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Who is in the second half of the cycle, (n,)."""
+    """Which people are in the second half of the cycle, (n,)."""
     return memory[:, PHASE] >= 0.5
 
 
@@ -158,10 +159,14 @@ def decide(memory: NDArray[np.float64], decided: NDArray[np.floating]) -> None:
     memory[:, ACTION] = action
 
 
+def pace_share(memory: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Of the usual pace of the cycle, as decided, (n,)."""
+    return np.clip(1.0 + RATE_GAIN * memory[:, ACTION.stop - 1], SLOW_RATE, FAST_RATE)
+
+
 def rate(memory: NDArray[np.float64], period: NDArray[np.float64]) -> NDArray[np.float64]:
     """Cycles per second, (n,), where one usually takes ``period`` [s]."""
-    share = np.clip(1.0 + RATE_GAIN * memory[:, ACTION.stop - 1], SLOW_RATE, FAST_RATE)
-    return share / period * memory[:, RUNNING]
+    return pace_share(memory) / period * memory[:, RUNNING]
 
 
 def targets(memory: NDArray[np.float64], motion: Motion) -> NDArray[np.float64]:

@@ -12,8 +12,9 @@ from locomotion.body.person import CONTROL_DT, JOINT_NAMES, MASS
 __all__ = [
     "ACTION", "ACTIONS", "ANGLES", "ANKLE_SOLE", "ASKED", "ASKED_SPEED", "ASKED_TURN", "BODY_WEIGHT",
     "CONTACTS", "FAST_RATE", "FEET_AHEAD", "FEET_LEFT", "FEET_RISE", "GRAVITY_UP", "HEADING",
-    "HEIGHT_SEEN", "INPUTS", "JOINTS", "LAGS", "LAG_AHEAD", "LAG_LEFT", "LEAD", "MIRROR_ACTION",
-    "MIRROR_JOINT", "MIRROR_OBSERVED", "PHASE", "POLICY_DT", "RATES", "RATE_GAIN", "RESTED", "RUNNING",
+    "HEELS_AND_BALLS", "HEIGHT_SEEN", "INPUTS", "JOINTS", "LAGS", "LAG_AHEAD", "LAG_LEFT", "LEAD",
+    "MIRROR_ACTION", "MIRROR_JOINT", "MIRROR_OBSERVED", "PHASE", "POLICY_DT", "RATES", "RATE_GAIN",
+    "RESTED", "RUNNING",
     "SCALE", "SIGN_ACTION", "SIGN_JOINT", "SIGN_OBSERVED", "SLOW_RATE", "SOLE_POINTS", "SPEED", "SPIN",
     "STARTED", "STATE_SIZE", "TICKS_PER_DECISION", "TIMING", "TIP", "TURN_RATE", "VELOCITY", "YAW_SEEN",
 ]  # fmt: skip
@@ -39,6 +40,8 @@ ANKLE_SOLE = ((-0.032, 0.0, -0.064), (0.118, 0.0, -0.064))
 TIP = (0.043, 0.0, -0.024)
 """Tip under the toes, in their frame [m]."""
 SOLE_POINTS = ("right_heel", "right_ball", "right_tip", "left_heel", "left_ball", "left_tip")
+HEELS_AND_BALLS = [0, 1, 3, 4]
+"""Of `SOLE_POINTS`."""
 
 # ---- decisions
 SCALE = np.array(

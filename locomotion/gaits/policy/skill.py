@@ -30,7 +30,7 @@ class PolicySkill:
 
     Attributes:
       motion: the reference motion.
-      walk, stand: for who walks, and for who has come to rest.
+      walk, stand: the networks for walking, and for standing after that.
       meta: what made it.
     """
 

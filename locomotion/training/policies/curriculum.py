@@ -20,8 +20,8 @@ class Stage:
       push: greatest force at the waist [N], for 0.1 s, every 3 s on average.
       slope: greatest slope along and across [rise over run].
       stand: share of the orders that are to stand.
-      ends_at_rest: whether who has come to rest is done, and who is to stand at the beginning sets off:
-        standing is another policy's.
+      ends_at_rest: whether people who have come to rest are done, and people who are to stand at the
+        beginning set off: standing is another policy's.
       calm: [m/s] above which the cycle does not stop (`law.CALM`). Where that is limited, to come to rest
         with the feet crossed or far apart is worth less.
       changes: whether orders change, every 3 s on average.

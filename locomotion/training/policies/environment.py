@@ -15,6 +15,7 @@ from locomotion.gaits.policy.layout import (
     ASKED_SPEED,
     ASKED_TURN,
     HEADING,
+    HEELS_AND_BALLS,
     JOINTS,
     PHASE,
     POLICY_DT,
@@ -40,7 +41,6 @@ _PUSHED = 5  # decisions that a push lasts: 0.1 s
 _WEAKEST = 0.2  # of the greatest push
 _LOWEST, _LEAST_UP, _MOST_YAW, _MOST_SWAY = 0.70, 0.75, 0.9, 1.5  # beyond which a person counts as fallen
 _PENDULUM, _BALANCE = 3.3, 0.12  # [1/s] of a standing body; [m] by which it may miss its feet
-_HEELS_AND_BALLS = [0, 1, 3, 4]
 _ANGLE, _SPEED, _RATE = 0.03, 0.08, 0.1  # spread of the starts: [rad], [m/s], [rad/s]
 _TURNING, _BEGIN_TURNING = 0.6, 0.7  # shares of the orders that turn
 _FROM_STARTS = 0.7  # share of those who begin in one of the given states
@@ -304,8 +304,8 @@ class Environment:
     def _balance(self) -> NDArray[np.float64]:
         """1 where the body, as fast as it moves, would come to rest over its feet as the reference stands;
         where stages ask for calm, the feet also have to be beside each other as they are there."""
-        feet = (self.soles - self.qpos[:, None, :3])[:, _HEELS_AND_BALLS].mean(axis=1)
-        wanted = self.reference.soles[0, 0, _HEELS_AND_BALLS].mean(axis=0)
+        feet = (self.soles - self.qpos[:, None, :3])[:, HEELS_AND_BALLS].mean(axis=1)
+        wanted = self.reference.soles[0, 0, HEELS_AND_BALLS].mean(axis=0)
         comes_to = self.qvel[:, :3] / _PENDULUM
         off = law.along(self.memory[:, HEADING], feet - comes_to) - wanted
         miss = ((off[:, :2] / _BALANCE) ** 2).sum(axis=1)

@@ -6,19 +6,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from locomotion.gaits.policy.law import pace_share
 from locomotion.gaits.policy.layout import (
     ACTION,
-    ACTIONS,
     BODY_WEIGHT,
-    FAST_RATE,
+    HEELS_AND_BALLS,
     JOINTS,
     LAG_AHEAD,
     LAG_LEFT,
     PHASE,
     POLICY_DT,
-    RATE_GAIN,
     RUNNING,
-    SLOW_RATE,
 )
 
 __all__ = ["LIKENESS", "TERMS", "WEIGHTS", "Moment", "rewards", "sway_off", "total"]
@@ -63,7 +61,6 @@ LIKENESS = np.array(
     ]
 )
 """How much each joint counts. Without the high value of hip abduction, pushes make the stance wide."""
-_HEEL_AND_BALL = [0, 1, 3, 4]
 _SWINGS = (0.66, 0.96)  # shares of a leg's own cycle in which it should bear nothing
 _BEARS = (0.03, 0.57)  # and in which it should bear something
 
@@ -110,11 +107,10 @@ def rewards(m: Moment) -> dict[str, NDArray[np.float64]]:
     lag = m.memory[:, LAG_AHEAD] ** 2 + 0.5 * m.memory[:, LAG_LEFT] ** 2
     feet = m.feet * np.array([1.0, 1.7, 1.0])
     root = 10.0 * (m.up**2).sum(1) + 4.0 * m.yaw**2 + 120.0 * m.height**2 + 0.1 * (m.spin**2).sum(1)
-    share = np.clip(1.0 + RATE_GAIN * action[:, ACTIONS - 1], SLOW_RATE, FAST_RATE)
     per_foot = m.forces.reshape(*m.forces.shape[:2], 2, 2).sum(3) / BODY_WEIGHT
     over = np.clip(per_foot.max(1) - _FIRM, 0.0, 2.0)
     gone = np.linalg.norm(m.soles[:, :, :2] - m.soles_before[:, :, :2], axis=2) / POLICY_DT
-    low = (m.soles[:, :, 2] < _LOW)[:, _HEEL_AND_BALL]
+    low = (m.soles[:, :, 2] < _LOW)[:, HEELS_AND_BALLS]
     bears = np.clip(2.0 * m.loaded / BODY_WEIGHT, 0.0, 1.0)[:, [0, 0, 1, 1]]
     lowest = m.soles[:, :, 2].reshape(-1, 2, 3).argmin(axis=2)
     lowest_moved = np.take_along_axis(gone.reshape(-1, 2, 3), lowest[:, :, None], axis=2)[:, :, 0]
@@ -130,9 +126,9 @@ def rewards(m: Moment) -> dict[str, NDArray[np.float64]]:
         "speed": np.exp(-4.0 * (m.velocity**2).sum(1) - 25.0 * lag),
         "change": ((action - m.decided_before) ** 2).mean(1),
         "effort": (action**2).mean(1),
-        "pace": (share - 1.0) ** 2,
+        "pace": (pace_share(m.memory) - 1.0) ** 2,
         "impact": (over**2).sum(1),
-        "slide": 0.5 * (np.clip(gone[:, _HEEL_AND_BALL], 0.0, 1.0) * low * bears).sum(1),
+        "slide": 0.5 * (np.clip(gone[:, HEELS_AND_BALLS], 0.0, 1.0) * low * bears).sum(1),
         "early": (loads * swings).sum(1),
         "slip": (np.clip(lowest_moved, 0.0, 1.0) * np.clip(2.0 * per_foot.mean(1), 0.0, 1.0)).sum(1),
         "absent": ((1.0 - loads) * stands).sum(1),

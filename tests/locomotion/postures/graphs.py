@@ -3,6 +3,7 @@
 import numpy as np
 
 from locomotion.body.person import JOINT_NAMES
+from locomotion.postures.places import inverse
 from locomotion.postures.posture_graph import PostureGraph
 
 __all__ = ["random_graph"]
@@ -27,9 +28,7 @@ def random_graph(rng: np.random.Generator, postures: int = 6, arcs: int = 12) ->
             first.append(5 * len(frames))
             backwards.append(reverse)
             seconds.append(seconds[-1] if reverse else rng.uniform(0.2, 2.0))
-            c, s = np.cos(move[2]), np.sin(move[2])
-            back = np.array([-(c * move[0] + s * move[1]), -(c * move[1] - s * move[0]), -move[2]])
-            moves.append(back if reverse else move)
+            moves.append(inverse(move) if reverse else move)
         frames.append(made)
     return PostureGraph(
         "random", tuple(f"p{k}" for k in range(postures)), postures - 1, 0.7, poses,

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from locomotion.errors import LocomotionError
+from locomotion.postures.places import placed
 from locomotion.postures.playback import asked_for, at_rest, pose_at, settled
 from locomotion.postures.posture_file import load_postures
-from locomotion.postures.posture_graph import placed
 from tests.locomotion.postures.graphs import random_graph
 
 PERSON = Path(__file__).resolve().parents[3] / "locomotion" / "data" / "postures" / "person.yaml"

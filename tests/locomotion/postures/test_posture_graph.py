@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from locomotion.postures.posture_graph import frame_at, least_times, placed
+from locomotion.postures.places import placed
+from locomotion.postures.posture_graph import frame_at, least_times
 from tests.locomotion.postures.graphs import random_graph
 
 

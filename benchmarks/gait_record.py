@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from locomotion.body.person import CONTROL_DT, STEPS_PER_TICK, PersonIndex
-from locomotion.gaits.policy.kernel import FELT_SIZE, FORCES, SOLES, Parts, feel
+from locomotion.gaits.policy.kernel import Parts, feel
+from locomotion.gaits.policy.layout import FELT_SIZE, FORCES, SOLES
 from locomotion.gaits.policy.skill import PolicySkill
 from locomotion.human.human import Human
 from locomotion.training.policies.trial import PolicyTrial

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from locomotion.gaits.policy.skill import load_policy
+from locomotion.gaits.policy.skill import PolicySkill, load_policy
 from locomotion.training.policies.trial import PolicyTrial
 from runtime.evaluation.evaluation import Attempt
 from surefoot.progress import Progress
@@ -24,20 +24,22 @@ _STANDING = 0.25  # share of the orders that are to stand
 def evaluate_walk_policy(trials: int, seed: int, progress: Progress) -> list[Attempt]:
     """Three tests of ``trials`` each: from a stand to a speed and on, with a turn; the same with a push of
     `PUSH` from any side at any moment; a minute of orders to walk, turn, stop and start."""
-    attempts, rng = [], np.random.default_rng(seed)
+    attempts, rng, skill = [], np.random.default_rng(seed), load_policy()
     with progress.stage("walking") as stage:
         for k in range(trials):
             stage.update(k / trials)
             speed, turn = float(rng.uniform(*SPEEDS)), float(rng.uniform(-TURN, TURN))
             angle, moment = float(rng.uniform(0.0, 2.0 * math.pi)), float(rng.uniform(0.0, 1.2))
-            attempts.append(_walk("walk", speed, turn, moment))
-            attempts.append(_walk(f"pushed with {PUSH:.0f} N", speed, 0.0, moment, angle))
-            attempts.append(_script(np.random.default_rng((seed, k))))
+            attempts.append(_walk(skill, "walk", speed, turn, moment))
+            attempts.append(_walk(skill, f"pushed with {PUSH:.0f} N", speed, 0.0, moment, angle))
+            attempts.append(_script(skill, np.random.default_rng((seed, k))))
     return attempts
 
 
-def _walk(test: str, speed: float, turn: float, moment: float, angle: float | None = None) -> Attempt:
-    trial = PolicyTrial(load_policy())
+def _walk(
+    skill: PolicySkill, test: str, speed: float, turn: float, moment: float, angle: float | None = None
+) -> Attempt:
+    trial = PolicyTrial(skill)
     trial.go(_STANDS)
     trial.asked[:] = speed, turn
     held = trial.go(_WALKS + moment)
@@ -52,8 +54,8 @@ def _walk(test: str, speed: float, turn: float, moment: float, angle: float | No
     return Attempt(test, what, "walks" if held else "fallen", held)
 
 
-def _script(rng: np.random.Generator) -> Attempt:
-    trial, passed, held = PolicyTrial(load_policy()), 0.0, True
+def _script(skill: PolicySkill, rng: np.random.Generator) -> Attempt:
+    trial, passed, held = PolicyTrial(skill), 0.0, True
     while held and passed < _SCRIPT:
         stands = rng.random() < _STANDING
         trial.asked[:] = 0.0 if stands else rng.uniform(*SPEEDS), rng.uniform(-TURN, TURN)

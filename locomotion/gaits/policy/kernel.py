@@ -4,7 +4,7 @@ layers.
 Per control tick of 10 ms, in the order *control, physics, feel*::
 
     skill = load_policy()                                       # locomotion.gaits.policy.skill
-    memory, felt = new_memory(yaw), np.zeros(FELT_SIZE)
+    memory, felt = new_memory(yaw), np.zeros(layout.FELT_SIZE)
     feel(parts, data, felt)
     each tick:
         if tick % TICKS_PER_DECISION == 0:
@@ -36,22 +36,18 @@ from locomotion.gaits.policy.law import (
 )
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["FELT_SIZE", "FORCES", "SOLES", "Parts", "decide_tick", "feel", "new_memory"]
+__all__ = ["Parts", "decide_tick", "feel", "new_memory"]
 
-SOLES, FORCES, FELT_SIZE = slice(0, 18), slice(18, 22), 22
-"""What is felt, (22,) float64: places of `layout.SOLE_POINTS` [m]; normal forces under foot and toes, right
-and left [N]."""
 _N = len(at.JOINTS)
 _COLUMNS = np.array([JOINT_NAMES.index(name) for name in at.JOINTS])
 _HELD = np.array([k for k, name in enumerate(JOINT_NAMES) if name not in at.JOINTS])
 _SOLE_POINTS = np.array([*at.ANKLE_SOLE, at.TIP])
 _ACTION, _PACE = at.ACTION.start, at.ACTION.stop - 1
-_FORCES = FORCES.start
+_FORCES = at.FORCES.start
 _UP, _VELOCITY, _SPIN = at.GRAVITY_UP.start, at.VELOCITY.start, at.SPIN.start
 _LAGS, _ANGLES, _RATES, _RISE = at.LAGS.start, at.ANGLES.start, at.RATES.start, at.FEET_RISE.start
 _AHEAD, _LEFT, _CONTACTS = at.FEET_AHEAD.start, at.FEET_LEFT.start, at.CONTACTS.start
 _TIMING, _ASKED = at.TIMING.start, at.ASKED.start
-_MOST_INPUT = 8.0
 
 
 class Parts:
@@ -213,7 +209,7 @@ def _decide(network, seen, mirrored, memory):
     for k in range(at.INPUTS):
         value = seen[at.MIRROR_OBSERVED[k]] * at.SIGN_OBSERVED[k] if mirrored else seen[k]
         value = (value - mean[k]) / deviation[k]
-        inputs[k] = min(max(value, -_MOST_INPUT), _MOST_INPUT)
+        inputs[k] = min(max(value, -at.MOST_INPUT), at.MOST_INPUT)
     first, second = np.empty(b0.shape[0], np.float32), np.empty(b1.shape[0], np.float32)
     decided = np.empty(at.ACTIONS, np.float32)
     _layer(w0, b0, inputs, first, False)

@@ -11,12 +11,12 @@ from locomotion.body.person import CONTROL_DT, JOINT_NAMES, MASS
 
 __all__ = [
     "ACTION", "ACTIONS", "ANGLES", "ANKLE_SOLE", "ASKED", "ASKED_SPEED", "ASKED_TURN", "BODY_WEIGHT",
-    "CONTACTS", "FAST_RATE", "FEET_AHEAD", "FEET_LEFT", "FEET_RISE", "GRAVITY_UP", "HEADING",
-    "HEELS_AND_BALLS", "HEIGHT_SEEN", "INPUTS", "JOINTS", "LAGS", "LAG_AHEAD", "LAG_LEFT", "LEAD",
-    "MIRROR_ACTION", "MIRROR_JOINT", "MIRROR_OBSERVED", "PHASE", "POLICY_DT", "RATES", "RATE_GAIN",
-    "RESTED", "RUNNING",
-    "SCALE", "SIGN_ACTION", "SIGN_JOINT", "SIGN_OBSERVED", "SLOW_RATE", "SOLE_POINTS", "SPEED", "SPIN",
-    "STARTED", "STATE_SIZE", "TICKS_PER_DECISION", "TIMING", "TIP", "TURN_RATE", "VELOCITY", "YAW_SEEN",
+    "CONTACTS", "FAST_RATE", "FEET_AHEAD", "FEET_LEFT", "FEET_RISE", "FELT_SIZE", "FORCES", "GRAVITY_UP",
+    "HEADING", "HEELS_AND_BALLS", "HEIGHT_SEEN", "INPUTS", "JOINTS", "LAGS", "LAG_AHEAD", "LAG_LEFT",
+    "LEAD", "MIRROR_ACTION", "MIRROR_JOINT", "MIRROR_OBSERVED", "MOST_INPUT", "PHASE", "POLICY_DT",
+    "RATES", "RATE_GAIN", "RESTED", "RUNNING", "SCALE", "SIGN_ACTION", "SIGN_JOINT", "SIGN_OBSERVED",
+    "SLOW_RATE", "SOLES", "SOLE_POINTS", "SPEED", "SPIN", "STARTED", "STATE_SIZE", "TICKS_PER_DECISION",
+    "TIMING", "TIP", "TURN_RATE", "VELOCITY", "YAW_SEEN",
 ]  # fmt: skip
 
 TICKS_PER_DECISION = 2
@@ -42,6 +42,10 @@ TIP = (0.043, 0.0, -0.024)
 SOLE_POINTS = ("right_heel", "right_ball", "right_tip", "left_heel", "left_ball", "left_tip")
 HEELS_AND_BALLS = [0, 1, 3, 4]
 """Of `SOLE_POINTS`."""
+
+SOLES, FORCES, FELT_SIZE = slice(0, 18), slice(18, 22), 22
+"""What is felt, (22,) float64: places of `SOLE_POINTS` [m]; normal forces under foot and toes, right and left
+[N]."""
 
 # ---- decisions
 SCALE = np.array(
@@ -72,6 +76,8 @@ speed ahead and to the left [m/s]; angles [rad] and a tenth of the rates [rad/s]
 `SOLE_POINTS` over the root; both heels ahead, and left, of it [m]; contacts of foot and toes, right and
 left, 0 to 1; sine and cosine of the cycle and of twice the cycle, whether it goes on; speed [m/s] and turn
 rate [rad/s] asked for."""
+MOST_INPUT = 8.0
+"""Deviations from the mean by which an input counts at most."""
 
 # ---- memory
 PHASE, RUNNING, RESTED, HEADING, SPEED, TURN_RATE, LAG_AHEAD, LAG_LEFT, STARTED = range(9)

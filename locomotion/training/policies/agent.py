@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from locomotion.gaits.policy.layout import MOST_INPUT
 from locomotion.training.policies.network import Adam, Layers, Values, backward, forward, new_layers
 
 __all__ = ["Agent", "Batch", "advantages"]
@@ -21,7 +22,6 @@ _CHANGE = 0.018  # wanted divergence of the new policy from the old one
 _CRITIC_RATE, _SLOWEST, _FASTEST = 1e-3, 2e-5, 2e-3
 _LEAST_NOISE, _MOST_NOISE = 0.04, 0.5
 _FORGET = 2_000_000.0  # samples after which statistics of the inputs hardly change
-_MOST_INPUT = 8.0
 _EVERY = 7  # part of the samples on which the divergence is measured
 
 
@@ -84,7 +84,7 @@ class Agent:
     def scaled(self, observed: NDArray[np.float64]) -> Values:
         """Inputs of the networks, (n, inputs)."""
         x = (observed - self.mean) / np.sqrt(self.variance + 1e-4)
-        return np.clip(x, -_MOST_INPUT, _MOST_INPUT).astype(np.float32)
+        return np.clip(x, -MOST_INPUT, MOST_INPUT).astype(np.float32)
 
     def decide(self, inputs: Values) -> Values:
         """Mean decisions, (n, actions)."""

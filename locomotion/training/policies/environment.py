@@ -14,19 +14,22 @@ from locomotion.gaits.policy.layout import (
     ACTION,
     ASKED_SPEED,
     ASKED_TURN,
+    FELT_SIZE,
+    FORCES,
     HEADING,
     HEELS_AND_BALLS,
     JOINTS,
     PHASE,
     POLICY_DT,
     RUNNING,
+    SOLES,
     SPEED,
     STATE_SIZE,
     TURN_RATE,
 )
 from locomotion.gaits.policy.motion import Motion
 from locomotion.training.policies.curriculum import Stage
-from locomotion.training.policies.figure import FORCES, POINTS, Figure
+from locomotion.training.policies.figure import Figure
 from locomotion.training.policies.reference import Reference, quaternions
 from locomotion.training.policies.rewards import Moment, rewards, sway_off, total
 
@@ -100,7 +103,7 @@ class Environment:
         self._rollout = rollout.Rollout(nthread=THREADS)
         self._build(stage)
         self.memory, self.asked = np.zeros((count, STATE_SIZE)), np.zeros((count, 2))
-        self.physics, self.sensed = np.zeros((count, self._size)), np.zeros((count, FORCES.stop))
+        self.physics, self.sensed = np.zeros((count, self._size)), np.zeros((count, FELT_SIZE))
         self.age, self.pushed = np.zeros(count, np.int64), np.zeros(count, np.int64)
         self.force, self.slope = np.zeros((count, 2)), np.zeros((count, 2))
         self.reset(np.ones(count, bool))
@@ -135,7 +138,7 @@ class Environment:
     @property
     def soles(self) -> NDArray[np.float64]:
         """(n, 6, 3) [m]"""
-        return self.sensed[:, POINTS].reshape(-1, 6, 3)
+        return self.sensed[:, SOLES].reshape(-1, 6, 3)
 
     def observe(self) -> NDArray[np.float64]:
         """What the policies observe, (n, INPUTS)."""
@@ -206,7 +209,7 @@ class Environment:
         self.physics[i] = 0.0
         self.physics[i, 1 : 1 + nq], self.physics[i, 1 + nq : 1 + nq + len(qvel)] = qpos, qvel
         self.physics[i, 3] += raised
-        self.sensed[i, POINTS], self.sensed[i, FORCES] = soles.ravel(), 0.0
+        self.sensed[i, SOLES], self.sensed[i, FORCES] = soles.ravel(), 0.0
 
     def _change_orders(self) -> None:
         who = self.rng.random(self.count) < POLICY_DT / _EVERY

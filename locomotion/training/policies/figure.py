@@ -1,4 +1,5 @@
-"""The person as policies learn on it: fewer joints, contacts only under the feet, and sensors."""
+"""The person as policies learn on it: fewer joints, contacts only under the feet, and sensors of what is felt
+(`layout.SOLES`, `layout.FORCES`)."""
 
 import mujoco
 import numpy as np
@@ -6,10 +7,8 @@ import numpy as np
 from locomotion.body.person import JOINT_NAMES, add_plane, person_spec
 from locomotion.gaits.policy.layout import ANKLE_SOLE, JOINTS, SOLE_POINTS, TIP
 
-__all__ = ["FORCES", "POINTS", "Figure"]
+__all__ = ["Figure"]
 
-POINTS, FORCES = slice(0, 18), slice(18, 22)
-"""Sensors: places of `SOLE_POINTS` [m]; normal forces under foot and toes, right and left [N]."""
 _REACH = 0.3  # [m] of the volumes in which forces are felt: the whole foot
 _ITERATIONS = 10
 

@@ -6,9 +6,10 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion.body.person import CONTROL_DT, JOINT_NAMES, STEPS_PER_TICK, PersonIndex, build_person
-from locomotion.gaits.policy.kernel import FELT_SIZE, SOLES, Parts, decide_tick, feel, new_memory
-from locomotion.gaits.policy.layout import JOINTS, TICKS_PER_DECISION
+from locomotion.body.models import person_on
+from locomotion.body.person import CONTROL_DT, JOINT_NAMES, STEPS_PER_TICK
+from locomotion.gaits.policy.kernel import Parts, decide_tick, feel, new_memory
+from locomotion.gaits.policy.layout import FELT_SIZE, JOINTS, SOLES, TICKS_PER_DECISION
 from locomotion.gaits.policy.skill import PolicySkill
 
 __all__ = ["PolicyTrial"]
@@ -27,9 +28,10 @@ class PolicyTrial:
     """
 
     def __init__(self, skill: PolicySkill) -> None:
-        self.skill, self.model = skill, build_person()
+        self.skill = skill
+        self.model, index = person_on(None)
         self.data, self.ticks = mujoco.MjData(self.model), 0
-        self.parts = Parts(PersonIndex.of(self.model), self.model)
+        self.parts = Parts(index, self.model)
         self.memory, self.felt, self.asked = new_memory(0.0), np.zeros(FELT_SIZE), np.zeros(2)
         self._waist = self.model.body("waist").id
         self._push_ends = 0

@@ -7,11 +7,11 @@ import pytest
 from locomotion.body.person import JOINT_NAMES, STEPS_PER_TICK, PersonIndex
 from locomotion.gaits.policy import law
 from locomotion.gaits.policy import layout as at
-from locomotion.gaits.policy.kernel import FELT_SIZE, FORCES, SOLES, Parts, decide_tick, feel, new_memory
+from locomotion.gaits.policy.kernel import Parts, decide_tick, feel, new_memory
+from locomotion.gaits.policy.layout import FELT_SIZE, FORCES, SOLES
 from locomotion.gaits.policy.motion import Motion
 from locomotion.gaits.policy.skill import PolicySkill, load_policy
-from locomotion.training.policies.figure import FORCES as FORCE_SENSORS
-from locomotion.training.policies.figure import POINTS, Figure
+from locomotion.training.policies.figure import Figure
 from locomotion.training.policies.network import forward, new_layers
 
 
@@ -55,8 +55,8 @@ def test_it_decides_as_the_plain_form_from_what_its_sensors_say(skill):
         asked = np.array([1.6 if tick < 45 else 0.0, 0.5])
         mujoco.mj_step(model, data, STEPS_PER_TICK)
         feel(parts, data, felt)
-        np.testing.assert_allclose(felt[SOLES], data.sensordata[POINTS], atol=1e-12)
-        np.testing.assert_allclose(felt[FORCES], data.sensordata[FORCE_SENSORS], atol=1e-9)
+        np.testing.assert_allclose(felt[SOLES], data.sensordata[SOLES], atol=1e-12)
+        np.testing.assert_allclose(felt[FORCES], data.sensordata[FORCES], atol=1e-9)
         seen = law.Seen(
             data.qpos[None], data.qvel[None], data.qpos[None, figure.angles], data.qvel[None, figure.rates],
             felt[None, SOLES].reshape(1, 6, 3), felt[None, FORCES],

@@ -22,15 +22,17 @@ Target = tuple[str, str, Callable]
 """What is said when it is missed, the figure's key, and whether a value of it holds."""
 
 
-def ask_peer(mode: str, name: str, *arguments: object) -> str:
-    """What the peer (Recast and Detour) prints in ``mode`` for a level; it is compiled on the first call."""
+def ask_peer(mode: str, level: str | Path, *arguments: object) -> str:
+    """What the peer (Recast and Detour) prints in ``mode`` for one of `LEVELS` or for an OBJ file (Y up); it
+    is compiled on the first call. Raises `subprocess.CalledProcessError` if it gives up."""
     folder = shared_folder()
     assert folder is not None
     program = Path(os.environ.get("TMPDIR", "/tmp")) / "surefoot-peer" / "recast_bench"
     if not program.exists():
         script = folder / "bench" / "peer" / "run_native.sh"
-        subprocess.run([script, level_path(name), queries_path(name)], check=True, capture_output=True)
-    command = [program, mode, level_path(name), *map(str, arguments)]
+        example = (level_path(LEVELS[0]), queries_path(LEVELS[0]))
+        subprocess.run([script, *example], check=True, capture_output=True)
+    command = [program, mode, level if isinstance(level, Path) else level_path(level), *map(str, arguments)]
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 

@@ -13,6 +13,7 @@ query (single calls; Detour: median of its passes) or batch of 100, to reduce th
 import json
 import sys
 import time
+from pathlib import Path
 
 import numpy as np
 from scipy.spatial import KDTree
@@ -31,12 +32,12 @@ SHORT = 0.05
 """[m]: samples with less clearance than the radius by more than this count."""
 
 
-def read_queries(name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Starts (q, 3), goals (q, 3), Z up, and the peer's lengths (q,) [m]."""
-    rows = np.genfromtxt(queries_path(name), delimiter=",", names=True)
+def read_queries(path: Path, length: str = "len3d") -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Starts (q, 3), goals (q, 3), Z up, and the peer's lengths (q,) [m], the column ``length``."""
+    rows = np.genfromtxt(path, delimiter=",", names=True)
     starts = np.stack([rows["sx"], -rows["sz"], rows["sy"]], axis=1)
     goals = np.stack([rows["gx"], -rows["gz"], rows["gy"]], axis=1)
-    return starts, goals, rows["len3d"]
+    return starts, goals, rows[length]
 
 
 def batch_seconds(graph: NodeGraph, starts: np.ndarray, goals: np.ndarray) -> np.ndarray:
@@ -91,7 +92,7 @@ def measure(name: str, rules: WalkRules, samples: int, repeats: int, rng: np.ran
     """All figures of one level."""
     terrain = Terrain.load(level_path(name), up="y")
     graph = NodeGraph.build(terrain, rules, obstacle_rules=None)
-    starts, goals, peer_length = read_queries(name)
+    starts, goals, peer_length = read_queries(queries_path(name))
     routes = graph.find_paths(starts, goals, radius=RADIUS)
     complete = routes.status == "complete"
     ratio = routes.length[complete] / peer_length[complete]

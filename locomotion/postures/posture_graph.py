@@ -16,6 +16,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import dijkstra
 
 from locomotion.postures.places import placed
+from locomotion.postures.step_order import Gait
 
 __all__ = ["PostureGraph", "blended", "frame_at", "least_times"]
 
@@ -32,6 +33,8 @@ class PostureGraph:
         moves: (a, 3) float64: where the arc takes the figure: x, y [m], turn [rad].
         backwards: (a,) bool: whether it is played from its last frame to its first. frames: (f, 46) float64.
         first, count: (a,) int32: the frames of each arc, evenly spaced over its seconds.
+        objects: of each thing to hold the states, but for "stowed" (`locomotion.postures.held_objects`).
+        gaits: how figures move (`locomotion.postures.step_order`).
     """
 
     name: str
@@ -47,6 +50,8 @@ class PostureGraph:
     frames: np.ndarray
     first: np.ndarray
     count: np.ndarray
+    objects: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    gaits: tuple[Gait, ...] = ()
     least: np.ndarray = field(init=False)
     """(p, p) float64 [s]: the least time from each posture to each other; inf where there is no path."""
     next_arc: np.ndarray = field(init=False)

@@ -4,7 +4,7 @@ from typing import Annotated, Self
 
 from pydantic import BaseModel, ConfigDict, Field, StrictBool, field_validator, model_validator
 
-__all__ = ["ArcEntry", "KeyEntry", "PostureEntry", "PostureFile"]
+__all__ = ["ArcEntry", "GaitEntry", "KeyEntry", "ObjectEntry", "PostureEntry", "PostureFile", "StateEntry"]
 
 _Degrees = Annotated[float, Field(ge=-180.0, le=180.0)]
 _Seconds = Annotated[float, Field(gt=0.0, le=60.0)]
@@ -59,19 +59,70 @@ class ArcEntry(_Strict):
         return self
 
 
+class Joints(_Strict):
+    """Joints by name that differ; both: of both sides at once."""
+
+    joints: dict[str, _Degrees] = {}
+    both: dict[str, _Degrees] = {}
+
+
+class StateEntry(Joints):
+    """What a figure does with an object: joints that differ from its posture's, such as the arms'.
+    seconds: how long it takes to get there from the state before. in: the postures in which it can, each with
+    the joints that differ there once more."""
+
+    seconds: _Seconds
+    in_: Annotated[dict[str, Joints], Field(alias="in", min_length=1)]
+
+
+class ObjectEntry(_Strict):
+    """Something to hold. states: what can be done with it, in this order; before the first it is stowed."""
+
+    states: Annotated[dict[str, StateEntry], Field(min_length=1)]
+
+    @field_validator("states")
+    @classmethod
+    def _are_not_stowed(cls, states: dict[str, StateEntry]) -> dict[str, StateEntry]:
+        if "stowed" in states:
+            raise ValueError("every object has the state 'stowed', with the arms as in the posture")
+        return states
+
+
+class GaitEntry(_Strict):
+    """A way to move. posture: where it begins and ends. slowest, fastest: [m/s] between which it is gone on
+    with. steps: of a cycle, in their order. backwards: whether it moves backwards."""
+
+    posture: str
+    slowest: Annotated[float, Field(ge=0.0, le=20.0)] = 0.0
+    fastest: Annotated[float, Field(gt=0.0, le=20.0)]
+    steps: Annotated[tuple[str, ...], Field(min_length=1, max_length=8)] = ("left", "right")
+    backwards: StrictBool = False
+
+    @model_validator(mode="after")
+    def _has_speeds(self) -> Self:
+        if self.slowest >= self.fastest:
+            raise ValueError("slowest must be below fastest")
+        return self
+
+
 class PostureFile(_Strict):
     """postures: nodes by name. fatal: the posture that there is a way to from anywhere, at once, and how
-    many seconds that takes. arcs: the motions between them."""
+    many seconds that takes. arcs: the motions between them. objects: what figures hold. gaits: how they move,
+    in the order in which they are looked through for one that is fast enough."""
 
     name: str | None = None
     postures: dict[str, PostureEntry]
     fatal: str | None = None
     fatal_seconds: _Seconds = 0.8
     arcs: list[ArcEntry] = []
+    objects: dict[str, ObjectEntry] = {}
+    gaits: dict[str, GaitEntry] = {}
 
     @field_validator("postures")
     @classmethod
     def _are_some(cls, postures: dict[str, PostureEntry]) -> dict[str, PostureEntry]:
         if not postures:
             raise ValueError("a graph has at least one posture")
+        if named := [name for name in postures if "/" in name]:
+            raise ValueError(f"{named[0]!r}: a posture's name has no /, which comes before what is held")
         return postures

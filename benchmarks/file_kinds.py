@@ -22,6 +22,8 @@ from locomotion.gaits.slow_down import load_slow_down_skill
 from locomotion.gaits.speed_up import load_speed_up_skill
 from locomotion.gaits.walk.skill import load_walk_skill
 from locomotion.quadruped import load_body
+from locomotion.recorded.motion_set import load_motions
+from locomotion.recorded.sampling import sample_clips
 from locomotion.skills.description import load_description
 from locomotion.skills.drop_roll.skill import load_drop_roll_skill
 from locomotion.skills.jump.skill import Jump, load_jump_skill
@@ -263,6 +265,9 @@ KINDS: dict[str, Kind] = {
         ".npz", _saved(load_drop_roll_skill), load_drop_roll_skill, lambda family: family.at(1.5)
     ),
     "motion": Kind(".npz", _make_motion, load_motion, check_motion),
+    "motion set": Kind(
+        ".npz", _saved(load_motions), load_motions, lambda motions: sample_clips(motions, 2, [0], [0.5])
+    ),
     "checkpoint": Kind(".npz", _make_search, _read_search),
     "tags": Kind(".yaml", _written(_TAGS), _read_tags, _use_tags),
     "mission": Kind(".yaml", _make_mission, load_mission),

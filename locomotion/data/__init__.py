@@ -1,8 +1,9 @@
-"""Data of the package: learned skills, clips, descriptions of bodies. No code."""
+"""Data of the package: learned skills, clips, descriptions of bodies, recorded motions. No code."""
 
 from pathlib import Path
 
-__all__ = ["BODIES", "CLIPS", "SKILLS"]
+__all__ = ["BODIES", "CLIPS", "MOTIONS", "POSTURES", "SKILLS"]
 
 _HERE = Path(__file__).parent
 SKILLS, CLIPS, BODIES = _HERE / "skills", _HERE / "clips", _HERE / "bodies"
+POSTURES, MOTIONS = _HERE / "postures", _HERE / "motions"

@@ -198,6 +198,18 @@ def _walk_as_learned() -> None:
     PolicyTrial(load_policy()).tick()
 
 
+def _play_recorded() -> None:
+    from locomotion.recorded.motion_set import load_motions
+    from locomotion.recorded.posing import posed
+    from locomotion.recorded.sampling import sample_clips, sample_gait, stride_of
+    from locomotion.recorded.skeletons import FULL, skeleton
+
+    motions, zero = load_motions(), np.zeros(1)
+    posed(skeleton("full"), *sample_clips(motions, FULL, [0], zero))
+    sample_gait(motions, FULL, [0], zero, zero)
+    stride_of(motions, [0], zero)
+
+
 FIRST_USES: dict[str, Callable[[], None]] = {
     "navigation": _navigate,
     "area costs": _find_by_costs,
@@ -210,6 +222,7 @@ FIRST_USES: dict[str, Callable[[], None]] = {
     "running and jumping": _run_and_jump,
     "bodies": one_of_each,
     "playtests": _playtest,
+    "recorded motion": _play_recorded,
     "pictures": _draw,
 }
 """Label and function of each use; those that depend least on others come first, longest first."""

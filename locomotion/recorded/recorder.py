@@ -18,7 +18,7 @@ __all__ = ["motion_set_of", "record_person"]
 
 
 def record_person(graph: PostureGraph, origin: str, progress: Progress) -> MotionSet:
-    """The postures of ``graph``, which come from ``origin``, and all that the person does in the simulation."""
+    """The postures of ``graph``, which come from ``origin``, and what the person does in the simulation."""
     takes = posture_takes(graph, origin)
     for label, record in (("walking", walk_cycles), ("running", run_cycles)):
         with progress.stage(label) as stage:

@@ -11,8 +11,8 @@ to the bit, at any frame rate. All figures of a call are of one level::
 
 Between frames values follow Catmull-Rom splines, so that the motion has no corners at any rate.
 
-A gait is a row of cycles at growing speeds. At a speed between two of them, both are read at the same phase and
-blended. Phase grows by 1 with each cycle, from the right heel's strike: over a distance ds by ``ds /
+A gait is a row of cycles at growing speeds. At a speed between two of them, both are read at the same phase
+and blended. Phase grows by 1 with each cycle, from the right heel's strike: over a distance ds by ``ds /
 stride``, see `stride_of`. Slower than the slowest cycle, strides shrink with the square root of the speed, as
 those of people do, and the pose goes over into the one at rest.
 """
@@ -106,7 +106,9 @@ def sample_clips_slowly(motions: MotionSet, level: int, clips: ArrayLike, second
     numbers, times = np.asarray(clips), np.asarray(seconds, np.float64)
     shares = times / motions.seconds[numbers]
     shares = np.where(motions.cyclic[numbers], shares, shares.clip(0.0, 1.0))
-    rows = [_read_slowly(motions, level, clip, share) for clip, share in zip(numbers, shares, strict=True)]
+    rows = [
+        _read_slowly(motions, level, int(clip), share) for clip, share in zip(numbers, shares, strict=True)
+    ]
     channels, roots = _sample(np.array(rows))
     gone = np.where(motions.cyclic[numbers, None], motions.travel[numbers] * shares[:, None], 0.0)
     return channels, placed_roots(roots, np.insert(gone, 2, 0.0, axis=1))
@@ -124,7 +126,7 @@ def sample_gait_slowly(
             row = [_read_slowly(motions, level, int(clip), phase) for clip in cycles]
             rows.append([np.interp(speed, known, column) for column in np.transpose(row)])
             continue
-        row, rest = _read_slowly(motions, level, int(cycles[0]), phase), motions.rests[gait]
+        row, rest = _read_slowly(motions, level, int(cycles[0]), phase), int(motions.rests[gait])
         share = np.sqrt(max(speed, 0.0) / known[0]) if rest >= 0 else 1.0
         rows.append(
             share * row + (1.0 - share) * (_read_slowly(motions, level, rest, 0.0) if rest >= 0 else 0.0)

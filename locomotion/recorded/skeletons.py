@@ -1,9 +1,9 @@
 """The person at three levels of detail: full, medium and low.
 
 Granieri, Crabtree and Badler (1995), "Production and playback of human figure motion for visual simulation",
-section 3.2. Medium and low are the same person with some of its joints held straight: the bodies on both sides
-of such a joint move as one. So a pose of any level is a pose of the person (`Skeleton.as_qpos`), and a change
-of level needs no other figure.
+section 3.2. Medium and low are the same person with some of its joints held straight: the bodies on both
+sides of such a joint move as one. So a pose of any level is a pose of the person (`Skeleton.as_qpos`), and a
+change of level needs no other figure.
 
 =======  ======  ========  ====
 level    bodies  channels  rate
@@ -37,9 +37,8 @@ _ARMS_AND_LEGS = (
 _KEPT = {
     "full": frozenset(name.removeprefix("right_").removeprefix("left_") for name in JOINT_NAMES),
     "medium": frozenset(
-        ("waist_pitch", "waist_roll", "waist_yaw", "neck_pitch", *_ARMS_AND_LEGS)
-        + ("shoulder_rotation", "hip_rotation")
-    ),
+        ("waist_pitch", "waist_roll", "waist_yaw", "neck_pitch", "shoulder_rotation", "hip_rotation")
+    ).union(_ARMS_AND_LEGS),
     "low": frozenset(("waist_pitch", *_ARMS_AND_LEGS)),
 }
 _RATES = {"full": 60.0, "medium": 30.0, "low": 15.0}

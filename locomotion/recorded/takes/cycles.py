@@ -84,14 +84,9 @@ def averaged(gait: str, qpos: NDArray[np.float64], forces: NDArray[np.float64], 
     strikes = _strikes(forces[:, 0] > _BEARS)
     if len(strikes) < 4:
         raise LocomotionError(f"{gait}: {len(strikes)} strikes of the right foot, expected at least 4")
-    phase = np.interp(np.arange(len(qpos)), strikes, np.arange(len(strikes)))
     strides = len(strikes) - 1
     seconds = (strikes[-1] - strikes[0]) / strides * CONTROL_DT
-    ticks = np.interp(
-        np.arange(strides * _FINE) / _FINE,
-        phase[strikes[0] : strikes[-1] + 1],
-        np.arange(strikes[0], strikes[-1] + 1),
-    )
+    ticks = np.interp(np.arange(strides * _FINE) / _FINE, np.arange(len(strikes)), strikes)
     rows = spread(qpos, ticks / (len(qpos) - 1), cyclic=False)
     length = (qpos[strikes[-1], 0] - qpos[strikes[0], 0]) / strides
     rows[:, 0] -= length * np.arange(len(rows)) / _FINE
@@ -99,11 +94,8 @@ def averaged(gait: str, qpos: NDArray[np.float64], forces: NDArray[np.float64], 
     mean = rows.reshape(strides, _FINE, -1).mean(axis=0)
     mean = 0.5 * (mean + np.roll(mirrored(mean), _FINE // 2, axis=0))
     mean[:, 3:7] /= np.linalg.norm(mean[:, 3:7], axis=1, keepdims=True)
-    bears = (
-        np.array([np.interp(ticks, np.arange(len(forces)), side) for side in forces.T])
-        .reshape(2, strides, _FINE)
-        .mean(axis=1)
-    )
+    bears = np.array([np.interp(ticks, np.arange(len(forces)), side) for side in forces.T])
+    bears = bears.reshape(2, strides, _FINE).mean(axis=1)
     bears = 0.5 * (bears + np.roll(bears[::-1], _FINE // 2, axis=1))
     mean[:, 2] -= np.quantile(lowest_points(mean), 0.1)
     shares = np.arange(max(round(seconds * RATE), 8)) / max(round(seconds * RATE), 8)

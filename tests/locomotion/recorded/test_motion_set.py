@@ -36,7 +36,7 @@ def test_angles_are_kept_to_a_ten_thousandth():
 def test_unknown_names_are_refused_with_the_known_ones():
     with pytest.raises(LocomotionError, match="clip 'fly': valid: stand"):
         MOTIONS.clip("fly")
-    with pytest.raises(LocomotionError, match="gait 'fly': valid: .*walk"):
+    with pytest.raises(LocomotionError, match=r"gait 'fly': valid: .*walk"):
         MOTIONS.gait("fly")
 
 

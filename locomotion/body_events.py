@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 __all__ = [
     "Arrived", "BackedOut", "Cleared", "Event", "Fell", "GotStuck", "GotUp", "LostGround", "MissedGoal",
-    "SetOff", "StrayedFromPath", "TookOff", "WentBack",
+    "PostureReached", "SetOff", "StrayedFromPath", "TookOff", "WentBack",
 ]  # fmt: skip
 
 
@@ -44,6 +44,15 @@ class MissedGoal(Event):
     """The body has reached the end of its path, but this far from the goal [m, horizontally]."""
 
     distance: float
+
+
+@dataclass(frozen=True)
+class PostureReached(Event):
+    """The body is in the posture that it was asked for, with ``held`` in its hands: an object and its state,
+    such as "rifle deployed", or "" with free hands."""
+
+    posture: str
+    held: str
 
 
 @dataclass(frozen=True)

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
         GotUp,
         Hindered,
         Lost,
+        PostureReached,
         SkillFinished,
         SkillStarted,
         Stuck,
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
     from runtime.views.live import LiveView
     from runtime.warmup import prepare
     from runtime.world.agent import Agent
+    from runtime.world.level_of_detail import Budget, Viewer
     from runtime.world.world import World, WorldState
 
 __all__ = [
@@ -45,6 +47,7 @@ __all__ = [
     "Arrived",
     "BackedOut",
     "Blocked",
+    "Budget",
     "Departed",
     "Event",
     "Fell",
@@ -53,10 +56,12 @@ __all__ = [
     "LiveView",
     "Lost",
     "Pose",
+    "PostureReached",
     "RuntimeInputError",
     "SkillFinished",
     "SkillStarted",
     "Stuck",
+    "Viewer",
     "World",
     "WorldState",
     "__version__",
@@ -64,7 +69,8 @@ __all__ = [
 ]
 
 _MODULES = (
-    "errors", "events", "world.agent", "bodies.pose", "world.world", "world.state", "views.live", "warmup",
+    "errors", "events", "world.agent", "world.level_of_detail", "bodies.pose", "world.world", "world.state",
+    "views.live", "warmup",
 )  # fmt: skip
 
 
@@ -75,6 +81,7 @@ def __getattr__(name: str) -> Any:
             "errors",
             "events",
             "world.agent",
+            "world.level_of_detail",
             "bodies.pose",
             "world.world",
             "views.live",

@@ -19,6 +19,7 @@ __all__ = [
     "GotUp",
     "Hindered",
     "Lost",
+    "PostureReached",
     "SkillFinished",
     "SkillStarted",
     "Stuck",
@@ -168,6 +169,18 @@ class Stuck(Event):
 
     def _what(self) -> str:
         return f"is stuck at {_place(self.position)}: {self.reason}"
+
+
+@dataclass(frozen=True)
+class PostureReached(Event):
+    """The agent is in the ``posture`` that it was asked for. ``holds``: what it has in its hands, an object
+    and its state such as "rifle deployed", or "" with free hands."""
+
+    posture: str
+    holds: str
+
+    def _what(self) -> str:
+        return f"is in the posture {self.posture}" + (f", {self.holds}" if self.holds else "")
 
 
 @dataclass(frozen=True)

@@ -31,7 +31,6 @@ from navmesh.surface.clearance_field import floor_at
 __all__ = ["Crowd"]
 
 _MOST_RADIUS = 10.0  # [m]
-_UNMOVED = 1e9  # weight of a body that is moved externally
 
 
 class Crowd:
@@ -68,6 +67,10 @@ class Crowd:
     def positions(self) -> NDArray[np.float64]:
         """(n, 3) float64 [m]: the floor points under the bodies."""
         return self.rows[:, at.X : at.Z + 1] + self._origin
+
+    def place(self, index: int) -> NDArray[np.float64]:
+        """(3,) float64 [m]: the floor point under one body."""
+        return self._table[index, at.X : at.Z + 1] + self._origin
 
     @property
     def velocities(self) -> NDArray[np.float64]:
@@ -269,7 +272,7 @@ class Crowd:
         rows[:, at.X : at.Z + 1] = bodies[:, :3] - self._origin
         rows[:, [at.VX, at.VY]] = rows[:, [at.GO_X, at.GO_Y]] = bodies[:, 3:5]
         rows[:, at.RADIUS], rows[:, at.MODE] = bodies[:, 5], at.LED
-        rows[:, at.WEIGHT], rows[:, at.CELL] = _UNMOVED, -1.0
+        rows[:, at.WEIGHT], rows[:, at.CELL] = at.UNMOVED, -1.0
 
     def change_graph(self, graph: navmesh.NodeGraph) -> None:
         """Continue on another graph. All bodies keep their place and their route, whether or not it is still

@@ -24,7 +24,7 @@ ACCELERATION = 9
 WEIGHT = 10
 """When two meet, each makes a share of the change given by the other's weight."""
 MODE = 11
-"""One of `STANDING`, `WALKING`, `LED`."""
+"""One of `STANDING`, `WALKING`, `LED`, `ROOTED`."""
 ROUTE_START, ROUTE_COUNT, NEXT = 12, 13, 14
 """Position of its route in ``routes``, and the corner that it heads for, counted from the route's first."""
 BEST, WAITED = 15, 16
@@ -55,8 +55,11 @@ RIGHT_UNTIL = 33
 """[m] left of the route where its right of way ends."""
 ROW = 34
 
-STANDING, WALKING, LED = 0.0, 1.0, 2.0
-"""Modes of a body. LED: it is moved externally, or its floor is gone; others only avoid it."""
+STANDING, WALKING, LED, ROOTED = 0.0, 1.0, 2.0, 3.0
+"""Modes of a body. LED: it is moved externally, or its floor is gone; others only avoid it. ROOTED: it kneels
+or lies where it is, and makes way for nobody."""
+UNMOVED = 1e9
+"""Weight of a body that others cannot move."""
 QUIET, ARRIVED, STUCK, OFF_ROUTE = 0.0, 1.0, 2.0, 3.0
 FAR, WAITING, PASSING, RETREATING = 0.0, 1.0, 2.0, 3.0
 

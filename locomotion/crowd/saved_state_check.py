@@ -26,7 +26,7 @@ _ROW = Slots(
         (at.WISH, (1e-6, 100.0)),
         (at.ACCELERATION, (1e-6, 1e4)),
         (at.WEIGHT, (1e-6, FARTHEST)),
-        (at.MODE, (at.STANDING, at.LED)),
+        (at.MODE, (at.STANDING, at.ROOTED)),
         (at.ROUTE_START, _COUNT),
         (at.ROUTE_COUNT, _COUNT),
         (at.NEXT, _COUNT),

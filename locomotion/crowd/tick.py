@@ -163,7 +163,7 @@ def advance_all(net, rows, routes, crossings, gates, dt):
     n = rows.shape[0]
     if gates > 0:
         direct(rows, crossings, gates, dt)
-    led = rows[:, at.MODE] == at.LED
+    led = rows[:, at.MODE] >= at.LED  # or rooted
     order, neighbours, counts = find_neighbours(
         rows[:, at.X].copy(), rows[:, at.Y].copy(), rows[:, at.Z].copy(), _reaches(rows), ~led
     )
@@ -204,14 +204,14 @@ def _move_all(net, rows, velocity, order, neighbours, counts, dt):
     n = rows.shape[0]
     x, y = rows[:, at.X].copy(), rows[:, at.Y].copy()
     for i in range(n):
-        if rows[i, at.MODE] != at.LED:
+        if rows[i, at.MODE] < at.LED:
             x[i] += dt * velocity[i, 0]
             y[i] += dt * velocity[i, 1]
     cells = np.empty(n, np.int64)
     for turn in range(_ROUNDS):
         for s in range(n):
             i = order[s]
-            if rows[i, at.MODE] == at.LED:
+            if rows[i, at.MODE] >= at.LED:
                 continue
             part(rows, x, y, i, neighbours[i], counts[i])
             if turn == _ROUNDS - 1 or net.clearance[int(rows[i, at.CELL])] < 2.0 * rows[i, at.RADIUS]:
@@ -221,7 +221,7 @@ def _move_all(net, rows, velocity, order, neighbours, counts, dt):
     for i in range(n):
         row = rows[i]
         row[at.AGE] += 1.0
-        if row[at.MODE] == at.LED:
+        if row[at.MODE] >= at.LED:
             continue
         row[at.VX], row[at.VY] = (x[i] - row[at.X]) / dt, (y[i] - row[at.Y]) / dt
         top = max(row[at.WISH], 0.5)

@@ -53,8 +53,7 @@ class ItsCrowd(Protocol):
 
     @property
     def rows(self) -> NDArray[np.float64]: ...
-    @property
-    def positions(self) -> NDArray[np.float64]: ...
+    def place(self, index: int) -> NDArray[np.float64]: ...
     def find_routes(self, index: int, goals: NDArray[np.float64]) -> list[Route]: ...
     def lay_routes(self, index: int, routes: list[Route]) -> None: ...
     def left(self, index: int) -> float: ...
@@ -89,7 +88,7 @@ class Walker:
     @property
     def position(self) -> NDArray[np.float64]:
         """(3,) float64 [m]: the floor point under it."""
-        return self.crowd.positions[self.index]
+        return self.crowd.place(self.index)
 
     @property
     def velocity(self) -> NDArray[np.float64]:
@@ -133,6 +132,8 @@ class Walker:
         if self._row[at.MODE] == at.LED:
             raise LocomotionError("there is no floor under it; it cannot go anywhere")
         routes = self.crowd.find_routes(self.index, points)
+        if self._row[at.MODE] == at.ROOTED:
+            self._row[at.WEIGHT] = 1.0
         self._row[at.WISH], self._row[at.FACING] = speed, math.nan if facing is None else facing
         self.crowd.lay_routes(self.index, routes)
         self._goals = tuple((float(x), float(y), float(z)) for x, y, z in points)
@@ -149,10 +150,20 @@ class Walker:
             self.status = "stuck"
             self.events.append(LostGround(self.time, self._point()))
 
+    def root(self) -> None:
+        """Stay where it is, whoever wants by, until `stop` or `go_to`."""
+        row = self._row
+        if row[at.MODE] != at.LED:
+            row[[at.VX, at.VY, at.GO_X, at.GO_Y]] = 0.0
+            row[at.MODE], row[at.NOTE], row[at.WEIGHT] = at.ROOTED, at.QUIET, at.UNMOVED
+            self.status = "standing"
+
     def stop(self) -> None:
         """Stop here."""
         if self._row[at.MODE] == at.LED:
             return
+        if self._row[at.MODE] == at.ROOTED:
+            self._row[at.WEIGHT] = 1.0
         self._row[at.MODE], self._row[at.NOTE] = at.STANDING, at.QUIET
         self.status = "standing"
 

@@ -3,7 +3,7 @@
 import math
 from collections import deque
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -11,12 +11,19 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from locomotion import MOVING, PERSON_RULES, Human, HumanState, load_run_skill
+from locomotion import MOVING, PERSON_RULES, Human, HumanState, LocomotionError, load_run_skill
 from locomotion.avoidance.yielding import SPACING, Course
+from locomotion.body.person import CONTROL_DT
+from locomotion.body_events import PostureReached
 from locomotion.human.saved_state_check import check_person
 from locomotion.paths.departures import can_begin, leads
 from locomotion.paths.run_up_room import cramped_links
+from locomotion.postures.step_order import AT_REST
+from locomotion.recorded_people.fading import fade_from, faded, rates
+from locomotion.recorded_people.people import person_postures
+from locomotion.recorded_people.person import RecordedPerson, can_hold, checked_node
 from locomotion.rehearsal.trials import REHEARSALS
+from locomotion.saved_arrays import check_array, check_number
 from locomotion.skills.interface import skill_ranges
 from locomotion.skills.library import learned_skills
 from runtime.bodies.figure import Figure
@@ -33,6 +40,17 @@ __all__ = ["HumanDriver", "People"]
 _STEEP = 20.0  # [degrees] of ground that is worth mentioning
 _HESITATES = 0.4  # [s] at most, from a stand: less than half a step
 _HERE = 1e-3  # [m] long ways lead to where it is: one that moves has to come back there
+
+
+@dataclass(frozen=True)
+class Fading:
+    """How a person is drawn beside its simulated pose since ``tick``: see
+    `locomotion.recorded_people.fading`."""
+
+    offsets: np.ndarray
+    rates: np.ndarray
+    seconds: float
+    tick: int
 
 
 class People(Population):
@@ -58,6 +76,17 @@ class People(Population):
     def revive(self, body: str, state: Any) -> Driver:
         driver = self._make()
         driver.restore(state)  # raises for one of another release, who is then not here
+        self._drivers.append(driver)
+        return driver
+
+    def take_over(self, person: RecordedPerson) -> "HumanDriver | None":
+        """Let physics go on from where recorded motion is; None while it cannot."""
+        if not person.has_free_hands or np.hypot(*person.walker.velocity) > AT_REST:
+            return None
+        pose, pose_rates = person.qpos, person.qpos_rates
+        driver = self._make()
+        driver.human.reset(person.walker.position, person.walker.yaw)
+        driver.fade(pose, pose_rates)
         self._drivers.append(driver)
         return driver
 
@@ -106,6 +135,7 @@ class HumanDriver(Driver):
         self.plans: deque[Plan] = deque(maxlen=PLANS_KEPT)
         self.before: np.ndarray | None = None
         self.hesitates = 0.0
+        self._fading: Fading | None = None
 
     @property
     def simulated(self) -> Human:
@@ -184,20 +214,68 @@ class HumanDriver(Driver):
     def skills(self) -> Mapping[str, tuple[float, float]]:
         return skill_ranges(self.human.clearing)
 
+    def held_in(self, posture: str) -> tuple[str, str]:
+        return can_hold(person_postures(), posture, self.held)
+
+    def check_posture(self, posture: str, held: str, state: str) -> None:
+        try:
+            checked_node(person_postures(), posture, held, state)
+        except LocomotionError as error:
+            raise RuntimeInputError(str(error)) from None
+
+    def take(self, posture: str, held: str, state: str) -> None:
+        self.human.stop()
+        self.human.events.append(PostureReached(self.human.time, self.human.point, posture, ""))
+
+    def drawn(self) -> tuple[np.ndarray, np.ndarray]:
+        """The pose (46,) in which it is drawn, and how fast that changes (45,), as `fading.rates`."""
+        qvel, pose = self.human.data.qvel, self.human.qpos
+        turning = np.zeros(3)
+        mujoco.mju_rotVecQuat(turning, qvel[3:6], pose[3:7])
+        now = np.concatenate([qvel[:3], turning, qvel[6:45]])
+        if self.human.held:
+            now[:] = 0.0
+        if self._fading is None:
+            return pose, now
+        before, after = self._faded(pose, -0.5 * CONTROL_DT), self._faded(pose, 0.5 * CONTROL_DT)
+        return self._faded(pose, 0.0), now + rates(before, after, CONTROL_DT)
+
+    def fade(self, pose: np.ndarray, pose_rates: np.ndarray) -> None:
+        """Let it look as if it came from ``pose`` (46,), which changed by ``pose_rates`` (45,)."""
+        self._fading = None
+        offsets, offset_rates, seconds = fade_from(pose, pose_rates, *self.drawn())
+        self._fading = Fading(offsets, offset_rates, seconds, self.human.ticks)
+
+    def _faded(self, pose: np.ndarray, ahead: float) -> np.ndarray:
+        fading = self._fading
+        if fading is None:
+            return pose
+        elapsed = (self.human.ticks - fading.tick) * CONTROL_DT + ahead
+        if elapsed >= fading.seconds:
+            return pose
+        return faded(pose, fading.offsets, fading.rates, fading.seconds, max(elapsed, 0.0))
+
     def transforms(self) -> np.ndarray:
+        if self._fading is not None:
+            return self._transforms_of(self._faded(self.human.qpos, 0.0))
         return self.human.body_transforms()[1 : 1 + len(self.figure.bodies)]
+
+    def _transforms_of(self, pose: np.ndarray) -> np.ndarray:
+        joints = self.human.data.qpos
+        now = joints.copy()
+        joints[:] = pose
+        transforms = self.human.body_transforms()[1 : 1 + len(self.figure.bodies)]
+        joints[:] = now
+        return transforms
 
     def transforms_between(self, share: float) -> np.ndarray:
         if self.before is None:
             return self.transforms()
-        model, joints = self.human.model, self.human.data.qpos
-        now, change = joints.copy(), np.empty(model.nv)
+        model, now = self.human.model, self.human.qpos
+        pose, change = self.before.copy(), np.empty(model.nv)
         mujoco.mj_differentiatePos(model, change, 1.0, self.before, now)
-        joints[:] = self.before
-        mujoco.mj_integratePos(model, joints, change, share)
-        transforms = self.transforms()
-        joints[:] = now
-        return transforms
+        mujoco.mj_integratePos(model, pose, change, share)
+        return self._transforms_of(self._faded(pose, (share - 1.0) * CONTROL_DT))
 
     def plan(self, goals: np.ndarray) -> Plan:
         return self._plan(goals, self.skills)
@@ -348,18 +426,27 @@ class HumanDriver(Driver):
         self.human.follow(points, float(course.speeds.max()))
         self.plans[-1] = replace(self.plans[-1], points=points, obstacles=(), ends=(ahead,))
 
-    def save(self) -> tuple[HumanState, tuple[Plan, ...], float]:
-        return self.human.save_state(), tuple(self.plans)[-1:], self.hesitates
+    def save(self) -> tuple[HumanState, tuple[Plan, ...], float, Fading | None]:
+        return self.human.save_state(), tuple(self.plans)[-1:], self.hesitates, self._fading
+
+    def fits(self, state: Any) -> bool:
+        return isinstance(state, tuple) and any(isinstance(part, HumanState) for part in state)
 
     def restore(self, state: Any) -> None:
-        *parts, hesitates = state if isinstance(state, tuple) and len(state) == 3 else (math.nan,)
+        *parts, hesitates, fading = (
+            state if isinstance(state, tuple) and len(state) == 4 else (math.nan, None)
+        )
         if not (is_finite(hesitates) and hesitates >= 0.0):
             raise RuntimeInputError("expected a person's state, its plans, and how long it hesitates [s]")
         body, plans = saved_parts(tuple(parts), HumanState)
+        if fading is not None:
+            check_array("what fades of a person's pose", fading.offsets, 45)
+            check_array("how fast a person's pose fades", fading.rates, 45)
+            check_number("how long a person's pose fades", fading.seconds, 1e-3, 10.0)
         check_person(body, self.human)
         self.human.restore_state(body)
         recall(self.plans, plans)
-        self.hesitates = hesitates
+        self.hesitates, self._fading = hesitates, fading
         self.before = None
 
     def state_hash(self) -> str:

@@ -98,6 +98,34 @@ class Driver(ABC):
         """A ``share`` (0 to 1) of the way from where it was when `Population.remember` was called last."""
         return self.transforms()
 
+    @property
+    def detail(self) -> str:
+        """What moves it: "physics", or of recorded motion the level of detail."""
+        return "physics"
+
+    @property
+    def posture(self) -> str:
+        """The posture that it is in or on its way to."""
+        return "stand"
+
+    @property
+    def held(self) -> tuple[str, str]:
+        """What its hands hold, and the state of that."""
+        return "", "stowed"
+
+    def held_in(self, posture: str) -> tuple[str, str]:
+        """As `held`, for what it can hold on to in a posture: else it is stowed."""
+        return self.held
+
+    def check_posture(self, posture: str, held: str, state: str) -> None:
+        """Raises `RuntimeInputError` for a posture that it does not have, or in which its hands cannot hold
+        an object in this state."""
+        raise RuntimeInputError("it has no postures; only a human has")
+
+    def take(self, posture: str, held: str, state: str) -> None:  # noqa: B027  most have none
+        """Take a posture that `check_posture` lets pass. Raises `RuntimeInputError` where there is no way to
+        it."""
+
     @abstractmethod
     def plan(self, goals: np.ndarray) -> Plan:
         """The way through ``goals`` (k, 3), not taken. Raises `runtime.planning.planning.NoWay`."""
@@ -157,6 +185,10 @@ class Driver(ABC):
     def save(self) -> Any:
         """Everything that decides how it goes on, as records of this distribution, tuples, arrays and plain
         values (`runtime.world.state_file`)."""
+
+    def fits(self, state: Any) -> bool:
+        """Whether ``state`` is of a driver like this one."""
+        return True
 
     @abstractmethod
     def restore(self, state: Any) -> None:
@@ -239,6 +271,11 @@ class Population(ABC):
     def revive(self, body: str, state: Any) -> Driver:
         """A body where and as it was when its driver was saved."""
 
+    def at_level(self, driver: Driver, level: str) -> Driver | None:
+        """The same body moved by physics or by recorded motion, as `Driver.detail` says, from where and as it
+        is: its driver from now on. None while that cannot be; it is asked again then."""
+        return driver if level == driver.detail else None
+
     @abstractmethod
     def remove(self, driver: Driver) -> None:
         """Have one less."""
@@ -247,6 +284,10 @@ class Population(ABC):
     def in_the_way(self) -> np.ndarray:
         """Discs (k, 6) that cover them on the ground, as `locomotion.crowd.Crowd.lead` takes them; as many
         for each."""
+
+    def parts(self) -> "Sequence[Population]":
+        """The populations that it consists of: they are advanced, and asked for all below, instead of it."""
+        return (self,)
 
     def followers(self) -> Sequence[Follower]:
         """All of them, if they follow paths; nobody otherwise."""

@@ -105,7 +105,7 @@ class Walkers(Population):
 class WalkerDriver(Driver):
     """A walker."""
 
-    def __init__(self, population: Walkers, walker: Walker) -> None:
+    def __init__(self, population: Any, walker: Walker) -> None:
         self._population, self.walker = population, walker
         self.radius = walker.radius
         self.figure = walker_figure(walker.radius)
@@ -113,7 +113,7 @@ class WalkerDriver(Driver):
         self.plans: deque[Plan] = deque(maxlen=PLANS_KEPT)
 
     @property
-    def simulated(self) -> Walker:
+    def simulated(self) -> Any:
         return self.walker
 
     @property
@@ -164,7 +164,7 @@ class WalkerDriver(Driver):
 
     def go_to(self, goals: np.ndarray, speed: float, facing: float | None) -> Plan:
         try:
-            plan = self._plan_of(self.walker.go_to(goals, speed, facing))
+            plan = self._plan_of(self.simulated.go_to(goals, speed, facing))
         except NoRoute as error:
             raise self._no_way(error, goals) from None
         except LocomotionError as error:
@@ -181,7 +181,7 @@ class WalkerDriver(Driver):
         return line_holds(crowd.graph, crowd.way_left(self.walker.index), self.radius)
 
     def stop(self) -> None:
-        self.walker.stop()
+        self.simulated.stop()
 
     def _plan_of(self, routes: list[Route]) -> Plan:
         graph = self.walker.crowd.graph

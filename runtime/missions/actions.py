@@ -7,11 +7,11 @@ from typing import Literal, Protocol
 import numpy as np
 
 from runtime.errors import RuntimeInputError
-from runtime.events import Arrived, Event, SkillFinished
+from runtime.events import Arrived, Event, PostureReached, SkillFinished
 from runtime.planning.planning import NoWay
 from runtime.world.agent import Agent
 
-__all__ = ["Action", "Clear", "Follow", "Go", "Patrol", "Progress", "Wait", "first_far"]
+__all__ = ["Action", "Clear", "Follow", "Go", "Patrol", "Progress", "TakePosture", "Wait", "first_far"]
 
 THERE = 0.25
 """[m] An agent this near to a place is there and need not go."""
@@ -84,6 +84,29 @@ class Wait:
     def go_on(self, agent: Agent, now: float, events: Sequence[Event]) -> Progress:
         self.share = min((now - self._begun) / self._seconds, 1.0)
         return "done" if now >= self._begun + self._seconds - 1e-9 else "going"
+
+
+class TakePosture:
+    """Take ``posture``, or, if it is None, let the hands do something with an object: done when it is so."""
+
+    endless = False
+    share = 0.0
+
+    def __init__(self, posture: str | None, held: str = "", state: str = "") -> None:
+        self._posture, self._held, self._state = posture, held, state
+
+    def begin(self, agent: Agent, now: float) -> Progress:
+        try:
+            if self._posture is not None:
+                agent.take_posture(self._posture)
+            else:
+                agent.hold(self._held, self._state)
+        except RuntimeInputError:  # it has no such posture, or no way there any more
+            return "failed"
+        return "going"
+
+    def go_on(self, agent: Agent, now: float, events: Sequence[Event]) -> Progress:
+        return "done" if any(isinstance(event, PostureReached) for event in events) else "going"
 
 
 class Patrol:

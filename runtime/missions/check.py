@@ -15,11 +15,12 @@ from runtime.errors import RuntimeInputError
 from runtime.missions.actions import first_far
 from runtime.missions.clearing import find_clearing
 from runtime.missions.mission import Address, LoadedMission, places_in, steps_of
-from runtime.missions.model import AgentSpec, Step
+from runtime.missions.model import AgentSpec, Step, ViewerSpec
 from runtime.missions.places import what_is_wrong
 from runtime.planning.planning import NoWay
 from runtime.planning.rules import obstacle_rules
 from runtime.world.agent import Agent
+from runtime.world.level_of_detail import Viewer, checked_detail
 from runtime.world.world import World
 from surefoot.errors import SurefootError
 from surefoot.files.yamlfile import FileError
@@ -54,6 +55,7 @@ def prepare_mission(
         world = World(graph, loaded.mission.seed, loaded.skill_paths)
     except RuntimeInputError as error:
         raise loaded.error(("skills",), str(error)) from None
+    world.viewers = [_viewer(each) for each in loaded.mission.viewers]
     prepared = Prepared(world, {})
     with progress.stage("placing the agents and checking their ways"):
         for index, spec in enumerate(loaded.mission.agents):
@@ -83,13 +85,22 @@ def build_graph(loaded: LoadedMission) -> navmesh.NodeGraph:
         raise loaded.error(("level", "file"), str(error)) from None
 
 
+def _viewer(spec: ViewerSpec) -> Viewer:
+    (x, y, z), (a, b, c) = spec.position, spec.direction
+    return Viewer((x, y, z), (a, b, c), math.radians(spec.field_of_view_deg))
+
+
 def _place(loaded: LoadedMission, world: World, index: int, spec: AgentSpec) -> None:
     point, body = loaded.point(spec.start), loaded.bodies[index]
     wrong = what_is_wrong(world.graph, point, kind_of(body).radius(body), Path(body).stem)
     if wrong is not None:
         raise loaded.error(("agents", index, "start"), wrong)
     try:
-        world.spawn(body, point, math.radians(spec.facing_deg), spec.name)
+        checked_detail(spec.detail, kind_of(body).levels, Path(body).stem)
+    except ValueError as error:
+        raise loaded.error(("agents", index, "detail"), str(error)) from None
+    try:
+        world.spawn(body, point, math.radians(spec.facing_deg), spec.name, detail=spec.detail)
     except ValueError as error:
         raise loaded.error(("agents", index, "start"), str(error)) from None
 
@@ -104,6 +115,9 @@ def _chains(
     """The places of a script, broken where it is not known where the agent will be."""
     chain: Chain = []
     for address, step in steps:
+        for what in ("posture", "hold"):
+            if getattr(step, what) is not None and not agent.has_levels:
+                raise loaded.error((*address, what), f"a {Path(agent.body).stem} has no postures")
         if step.use is not None:
             here = (*address, "use")
             clearing = prepared.clearings[address] = find_clearing(

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from runtime.events import Arrived, Event, Fell, SkillFinished, Told
-from runtime.missions.actions import Action, Clear, Follow, Go, Patrol, Progress, Wait
+from runtime.missions.actions import Action, Clear, Follow, Go, Patrol, Progress, TakePosture, Wait
 from runtime.missions.mission import Address, LoadedMission, places_of
 from runtime.missions.model import Region, Step, Trigger
 from runtime.world.agent import Agent
@@ -130,6 +130,10 @@ class Director:
         if step.patrol is not None:
             points = np.array([point(place) for place in step.patrol.points])
             return Patrol(points, speed, step.patrol.rounds, step.patrol.seconds)
+        if step.posture is not None:
+            return TakePosture(step.posture)
+        if step.hold is not None:
+            return TakePosture(None, step.hold.object, step.hold.state)
         if step.use is not None:
             return Clear(self._clearings[address], speed, step.use.skill)
         return Go(np.array([point(place) for _, place in places_of(step.goto)]), speed)

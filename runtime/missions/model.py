@@ -1,6 +1,7 @@
 """What a mission file may say, as pydantic models: the source of its checks and of its JSON schema."""
 
 import re
+from itertools import chain
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from annotated_types import Ge, Gt, Le, Len
@@ -15,13 +16,17 @@ from pydantic import (
     model_validator,
 )
 
+from locomotion.postures.held_objects import STOWED
+from locomotion.recorded_people.people import person_postures
 from locomotion.skills.registry import CLEARING, skill_called, skill_words
 from runtime.bodies.registry import USUAL, body_names, is_body_file
+from runtime.world.level_of_detail import AUTO, LEVELS, PHYSICS
 from surefoot.files.choices import OneOf
 
 __all__ = [
-    "AgentSpec", "Distance", "Entering", "Expectation", "Follow", "LevelSpec", "Mission", "Order", "Patrol",
-    "Place", "Places", "Region", "RulesSpec", "Step", "Trigger", "Use", "Using", "When",
+    "AgentSpec", "Distance", "Entering", "Expectation", "Follow", "Hold", "LevelSpec", "Mission", "Order",
+    "Patrol", "Place", "Places", "Region", "RulesSpec", "Step", "Trigger", "Use", "Using", "ViewerSpec",
+    "When",
 ]  # fmt: skip
 
 MAX_COORDINATE = 1e6
@@ -87,6 +92,19 @@ Skill = Annotated[
     BeforeValidator(_as_called_now),
 ]
 """What clears an obstacle."""
+
+
+def _postures() -> list[str]:
+    return [name for name in person_postures().postures if "/" not in name]
+
+
+def _states() -> list[str]:
+    return [STOWED, *dict.fromkeys(chain.from_iterable(person_postures().objects.values()))]
+
+
+Posture = Annotated[str, OneOf(_postures)]
+Held = Annotated[str, OneOf(lambda: list(person_postures().objects))]
+Detail = Annotated[str, OneOf(lambda: (AUTO, *LEVELS))]
 if TYPE_CHECKING:
     Body = str
 else:
@@ -208,7 +226,16 @@ class Use(_Strict):
         return self
 
 
-_ACTIONS = ("goto", "wait", "follow", "patrol", "use")
+class Hold(_Strict):
+    """Have something in the hands."""
+
+    object: Held
+    """What."""
+    state: Annotated[str, OneOf(_states)] = "deployed"
+    """What it does with it; `stowed`: nothing any more."""
+
+
+_ACTIONS = ("goto", "wait", "follow", "patrol", "use", "posture", "hold")
 
 
 class Step(_Strict):
@@ -221,6 +248,9 @@ class Step(_Strict):
     follow: Follow | None = None
     patrol: Patrol | None = None
     use: Use | None = None
+    posture: Posture | None = None
+    """A posture to take: people only."""
+    hold: Hold | None = None
     speed: Speed | None = None
     """[m/s] For this action; by default the agent's."""
 
@@ -231,6 +261,8 @@ class Step(_Strict):
         self._one_of("action", _ACTIONS)
         if self.wait is not None and self.speed is not None:
             raise ValueError("waiting has no speed")
+        if (self.posture or self.hold) is not None and self.speed is not None:
+            raise ValueError("a change of posture has no speed")
         return self
 
 
@@ -282,6 +314,8 @@ class AgentSpec(_Strict):
     """(x, y, z) [m], Z up, or a waypoint; snapped to the walkable surface below."""
     facing_deg: Annotated[float, Ge(-360.0), Le(360.0)] = 0.0
     """[°] Counter-clockwise from the X axis."""
+    detail: Detail = PHYSICS
+    """Of a person: simulated, or drawn by recorded motion; `auto`: by who of the `viewers` looks on."""
     speed: Speed = 3.5
     """[m/s] Along its path."""
     goto: Places | None = None
@@ -353,6 +387,23 @@ class Trigger(_Strict):
     then: Annotated[list[Order], Len(1, 100)]
 
 
+class ViewerSpec(_Strict):
+    """A camera or a player: people whose detail is `auto` go by it."""
+
+    position: Point
+    """[m]"""
+    direction: Point = [1.0, 0.0, 0.0]
+    """In which it looks, of any length above 0."""
+    field_of_view_deg: Annotated[float, Gt(0.0), Le(360.0)] = 90.0
+    """[°] From one edge of the picture to the other."""
+
+    @model_validator(mode="after")
+    def _whole(self) -> Self:
+        if not any(self.direction):
+            raise ValueError("direction must have a length")
+        return self
+
+
 class Mission(_Strict):
     """The content of a mission file."""
 
@@ -368,3 +419,5 @@ class Mission(_Strict):
     """Files that describe skills of one's own, relative to the mission's: its people have them, too."""
     agents: Annotated[list[AgentSpec], Len(1, 100)]
     triggers: Annotated[list[Trigger], Len(0, 1000)] = []
+    viewers: Annotated[list[ViewerSpec], Len(0, 100)] = []
+    """Who looks on."""

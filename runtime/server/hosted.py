@@ -20,6 +20,7 @@ from runtime.server.client import Client
 from runtime.server.messages import States
 from runtime.traces.recording import level_trace
 from runtime.world.agent import Agent
+from runtime.world.level_of_detail import PHYSICS
 from runtime.world.world import World, WorldState
 from surefoot.pausing import pause
 
@@ -76,8 +77,15 @@ class HostedWorld:
         self.changed()
         return ticks
 
-    def spawn(self, body: str, at: tuple[float, float, float], facing: float, name: str | None) -> Agent:
-        agent = self.world.spawn(body, at, facing, name)
+    def spawn(
+        self,
+        body: str,
+        at: tuple[float, float, float],
+        facing: float,
+        name: str | None,
+        detail: str = PHYSICS,
+    ) -> Agent:
+        agent = self.world.spawn(body, at, facing, name, detail=detail)
         self.changed()
         return agent
 
@@ -142,6 +150,8 @@ class HostedWorld:
         told = {
             "name": agent.name,
             "status": agent.status,
+            "level": agent.level,
+            "posture": agent.posture,
             "position": agent.position.round(4).tolist(),
             "facing": round(agent.facing, 4),
             "way": self._number_of(agent),

@@ -29,6 +29,7 @@ __all__ = [
     "GoTo",
     "Graph",
     "Hello",
+    "Hold",
     "Join",
     "Leave",
     "Level",
@@ -36,10 +37,13 @@ __all__ = [
     "Request",
     "Restore",
     "Save",
+    "SetDetail",
     "Spawn",
     "States",
     "Step",
     "Stop",
+    "TakePosture",
+    "Viewers",
     "Way",
     "write_schema",
 ]
@@ -58,6 +62,10 @@ _Body = Annotated[str, OneOf(body_names)]
 States = Literal["none", "places", "world", "local"]
 """What a client receives after each step: nothing; each agent's place and activity; also its skeleton's
 transforms in the world, or each relative to its parent."""
+
+
+Detail = Literal["auto", "physics", "full", "medium", "low"]
+"""Whether a person is simulated, or drawn by recorded motion of a level; "auto": by who looks on."""
 
 
 class _Message(BaseModel):
@@ -131,6 +139,51 @@ class Spawn(_Request):
     at: _Point
     facing: _Angle = 0.0
     name: _Name | None = None
+    detail: Detail = "physics"
+
+
+class TakePosture(_Request):
+    """Let a person take a posture, such as "kneel"; an event tells when it is in it."""
+
+    type: Literal["posture"]
+    world: _Name
+    agent: _Name
+    posture: Annotated[str, Field(max_length=40)]
+
+
+class Hold(_Request):
+    """Let a person have something in its hands: "deployed", "in use", or "stowed" again."""
+
+    type: Literal["hold"]
+    world: _Name
+    agent: _Name
+    object: Annotated[str, Field(max_length=40)]
+    state: Annotated[str, Field(max_length=40)] = "deployed"
+
+
+class SetDetail(_Request):
+    """Say in how much detail a person is to be."""
+
+    type: Literal["detail"]
+    world: _Name
+    agent: _Name
+    detail: Detail
+
+
+class Viewer(_Message):
+    """A camera or a player; ``field_of_view`` [rad] from edge to edge."""
+
+    position: _Point
+    direction: _Point = (1.0, 0.0, 0.0)
+    field_of_view: Annotated[float, Field(gt=0.0, le=6.2832)] = 1.5708
+
+
+class Viewers(_Request):
+    """Say who looks on: people whose detail is "auto" go by it."""
+
+    type: Literal["viewers"]
+    world: _Name
+    viewers: Annotated[list[Viewer], Field(max_length=16)]
 
 
 class GoTo(_Request):
@@ -200,6 +253,10 @@ Request = Annotated[
     | Close
     | Spawn
     | GoTo
+    | TakePosture
+    | Hold
+    | SetDetail
+    | Viewers
     | Stop
     | Way
     | Remove
@@ -273,11 +330,14 @@ class Skeleton(_Message):
 
 
 class AgentState(_Message):
-    """``way``: the number of the path that it is on, another one when that has changed; null for none.
+    """``level``: what moves it: "physics", or the level of detail of recorded motion. ``way``: the number of
+    the path that it is on, another one when that has changed; null for none.
     ``transforms``: 7 numbers for each body, as `States` says."""
 
     name: str
     status: str
+    level: str
+    posture: str
     position: tuple[float, float, float]
     facing: float
     way: int | None

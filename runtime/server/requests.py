@@ -18,6 +18,7 @@ from runtime.server.client import Client
 from runtime.server.hosted import HostedWorld, graph_message, level_message, skeleton, way_message
 from runtime.server.turns import Abandoned, Turns
 from runtime.server.worlds import Worlds
+from runtime.world.level_of_detail import Viewer
 
 __all__ = ["Requests"]
 
@@ -100,7 +101,7 @@ class Requests:
         def spawn() -> Any:
             self._worlds.check_room(hosted)
             self._worlds.check_agents(client, 1)
-            agent = hosted.spawn(request.body, request.at, request.facing, request.name)
+            agent = hosted.spawn(request.body, request.at, request.facing, request.name, request.detail)
             hosted.spawned[agent.name] = client
             return agent
 
@@ -115,6 +116,37 @@ class Requests:
         status = await self._work(client, hosted, go_to, told=False)
         self._worlds.tell_events(hosted)
         return {"status": status}
+
+    async def _tell(self, client: Client, world: str, tell: Callable[[HostedWorld], Any]) -> Any:
+        """Have ``tell`` done with a hosted world."""
+        hosted = self._worlds.joined(client, world)
+        await self._work(client, hosted, partial(tell, hosted))
+        return {}
+
+    async def _do_posture(self, client: Client, request: m.TakePosture) -> Any:
+        return await self._tell(
+            client, request.world, lambda hosted: hosted.agent(request.agent).take_posture(request.posture)
+        )
+
+    async def _do_hold(self, client: Client, request: m.Hold) -> Any:
+        return await self._tell(
+            client,
+            request.world,
+            lambda hosted: hosted.agent(request.agent).hold(request.object, request.state),
+        )
+
+    async def _do_detail(self, client: Client, request: m.SetDetail) -> Any:
+        return await self._tell(
+            client,
+            request.world,
+            lambda hosted: setattr(hosted.agent(request.agent), "detail", request.detail),
+        )
+
+    async def _do_viewers(self, client: Client, request: m.Viewers) -> Any:
+        viewers = [Viewer(each.position, each.direction, each.field_of_view) for each in request.viewers]
+        return await self._tell(
+            client, request.world, lambda hosted: setattr(hosted.world, "viewers", viewers)
+        )
 
     async def _do_stop(self, client: Client, request: m.Stop) -> Any:
         hosted = self._worlds.joined(client, request.world)

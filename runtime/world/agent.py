@@ -26,6 +26,7 @@ from runtime.events import (
     GotUp,
     Hindered,
     Lost,
+    PostureReached,
     SkillFinished,
     SkillStarted,
     Stuck,
@@ -34,9 +35,11 @@ from runtime.planning.planning import NoWay, Plan
 from runtime.traffic.waiting_and_deadlock import Headway
 from runtime.world.agent_services import Host
 from runtime.world.arguments import checked_number, checked_points
+from runtime.world.level_of_detail import AUTO, PHYSICS, checked_detail
 
 __all__ = ["Agent", "AgentState", "Pose"]
 
+_POSTURED = "full"  # the level of a simulated person while it takes a posture
 _CARRIED_OFF = 0.5  # [m] beside its path from which a person that has got up takes another one
 _ATTEMPTS = 3  # of a person that is stuck or lost to find another way to its goals
 _TURNINGS = 6  # times that it goes back before the same obstacle, until it is stuck
@@ -71,6 +74,7 @@ class AgentState:
     goal: tuple[float, float, float]
     errand: Errand
     headway: Headway
+    detail: str = "physics"
 
     def check(self, name: str) -> None:
         """Raises `RuntimeInputError` for what no agent can have saved, as far as that shows without its
@@ -90,7 +94,8 @@ class Agent:
     """One figure in a world; made by `World.spawn`.
 
     ``name`` is unique in its world, ``body`` is what `World.spawn` was given; ``news`` are its
-    body's events that the world has not been told of.
+    body's events that the world has not been told of; ``has_levels``: whether it can be drawn in more or
+    less detail.
     """
 
     def __init__(self, host: Host, name: str, body: str, driver: Driver) -> None:
@@ -104,6 +109,8 @@ class Agent:
         self._goal = _triple(driver.position)
         self._errand = Errand()
         self._headway = Headway()
+        self._detail = driver.detail
+        self.has_levels = len(host.levels(body)) > 1
 
     def __repr__(self) -> str:
         if self._body is None:
@@ -125,6 +132,11 @@ class Agent:
         `locomotion.quadruped.Animal`, `locomotion.crowd.Walker`, or of a body of your own what its driver
         says. Raises `RuntimeInputError` for another kind."""
         found = self._driver.simulated
+        if not isinstance(found, kind) and self.level != PHYSICS:
+            raise RuntimeInputError(
+                f"{self.name} plays recorded motion ({self.level}), it is no {kind.__name__}; "
+                "its detail would have to be 'physics'"
+            )
         if not isinstance(found, kind):
             raise RuntimeInputError(f"{self.name} is a {self.body}, not a {kind.__name__}")
         return found
@@ -189,6 +201,85 @@ class Agent:
         evenly at any frame rate, one tick behind `pose`."""
         transforms = self._driver.transforms_between(self._host.clock.blend)
         return Pose(self.figure.bodies, self.figure.parents, transforms)
+
+    # --- detail and postures
+    @property
+    def detail(self) -> str:
+        """In how much detail it was asked to be: "physics" (simulated), or of recorded motion "full",
+        "medium" or "low", or "auto": as the world's `viewers` and `budget` have it. It can be set; then
+        `level` changes as soon as it can without a jump. Raises `RuntimeInputError` for a detail that its
+        body cannot have."""
+        return self._detail
+
+    @detail.setter
+    def detail(self, detail: str) -> None:
+        self._detail = checked_detail(detail, self._host.levels(self.body), self.body)
+        if detail not in (AUTO, self.level):
+            self.change_level(detail)
+
+    @property
+    def level(self) -> str:
+        """What moves it now: "physics", or recorded motion that is "full", "medium" or "low"."""
+        return self._driver.detail
+
+    @property
+    def posture(self) -> str:
+        """The posture that it is in or on its way to, such as "kneel"; on its way somewhere: "stand"."""
+        return self._driver.posture
+
+    @property
+    def held(self) -> tuple[str, str]:
+        """What its hands hold and in which state, such as ("rifle", "deployed"); ("", "stowed") with free
+        hands."""
+        return self._driver.held
+
+    def take_posture(self, posture: str) -> None:
+        """Take a posture: "stand", "crouch", "kneel", "all-fours", "prone", "sit" or "dead". It first comes
+        to a stand, except to be dead; what its hands cannot hold in that posture they stow. `PostureReached`
+        tells when it is in it.
+
+        Postures are recorded motion: a simulated person plays it meanwhile, and is simulated again once it
+        stands. Raises `RuntimeInputError` for a posture that it does not have or cannot get to, and for
+        bodies that have none.
+        """
+        self._take(posture, *self._driver.held_in(posture))
+
+    def hold(self, held: str, state: str = "deployed") -> None:
+        """Have an object in its hands, such as "rifle", in a state: "deployed", "in use", or "stowed" again.
+        Raises `RuntimeInputError` for an object or a state that there is not, or not in its posture."""
+        self._take(self.posture, held, state)
+
+    def _take(self, posture: str, held: str, state: str) -> None:
+        self._driver.check_posture(posture, held, state)
+        if self.level == PHYSICS and (posture, state) != ("stand", "stowed"):
+            self.stop()
+            self.change_level(_POSTURED)
+        self._errand, self._blocked = Errand(), False
+        self._driver.take(posture, held, state)
+
+    def change_level(self, level: str) -> bool:
+        """Be moved at another level of detail from now on, if that can be now; it goes on with what it does.
+        The world calls this."""
+        self.notice()
+        going, goals = self.moving, self._goals_left if self._errand.goals else None
+        driver = self._host.at_level(self, level)
+        if driver is None:
+            return False
+        if driver is not self._driver:
+            self.take(driver)
+            self._born = self._host.clock.time - driver.time
+            if going and goals is not None:
+                self._goes_on(goals)
+        return True
+
+    def _goes_on(self, goals: np.ndarray) -> None:
+        """Let a body that has just taken over follow the way to ``goals``."""
+        errand = self._errand
+        try:
+            self._driver.go_to(goals, errand.speed, None if self.level == PHYSICS else errand.facing)
+        except (NoWay, RuntimeInputError, LocomotionError) as error:
+            self._report_blocked(goals[0], str(error))
+            self._driver.stop()
 
     def plan(self, point: ArrayLike) -> Plan:
         """The way that `go_to` would take, not taken. Raises `runtime.planning.planning.NoWay`, and
@@ -388,14 +479,20 @@ class Agent:
     def save(self) -> AgentState:
         """Everything needed to continue from here."""
         return AgentState(
-            self.body, self._born, self._driver.save(), self._blocked, self._goal, self._errand, self._headway
-        )
+            self.body, self._born, self._driver.save(), self._blocked, self._goal, self._errand,
+            self._headway, self._detail,
+        )  # fmt: skip
+
+    def fits(self, state: AgentState) -> bool:
+        """Whether its body can go on from a state of this agent: one of another level of detail cannot."""
+        return self._driver.fits(state.driver)
 
     def restore(self, state: AgentState) -> None:
         """Continue from a state of this agent."""
         self._driver.restore(state.driver)
         self._born, self._blocked, self._goal = state.born, state.blocked, state.goal
         self._errand, self._headway = state.errand, state.headway
+        self._detail = checked_detail(state.detail, self._host.levels(self.body), self.body)
 
     def state_hash(self) -> str:
         """Hexadecimal digest of everything that decides how it goes on."""
@@ -420,6 +517,8 @@ class Agent:
             return Stuck(**base, reason=event.reason)
         if isinstance(event, bodily.MissedGoal):
             return Lost(**base, reason=f"passed the goal at a distance of {event.distance:.1f} m")
+        if isinstance(event, bodily.PostureReached):
+            return PostureReached(**base, posture=event.posture, holds=event.held)
         if isinstance(event, bodily.BackedOut):
             return BackedOut(**base, length=event.distance)
         if isinstance(event, bodily.LostGround):

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from locomotion.body.person import CONTROL_DT
+from runtime.bodies.protocol import Driver
 from runtime.traffic.traffic import Traffic
 from runtime.world.event_log import EventLog
 
@@ -31,9 +32,12 @@ class Clock:
 
 @dataclass(frozen=True)
 class Host:
-    """``remove`` takes a `runtime.Agent` out of the world."""
+    """``remove`` takes a `runtime.Agent` out of the world; ``at_level`` gives the driver of an agent at a
+    level of detail, None while it cannot have it; ``levels`` those that a body has."""
 
     clock: Clock
     log: EventLog
     traffic: Traffic
     remove: Callable[[Any], None]
+    at_level: Callable[[Any, str], Driver | None]
+    levels: Callable[[str], tuple[str, ...]]

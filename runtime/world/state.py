@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib.metadata import version
 from typing import Any
 
@@ -12,6 +12,7 @@ from locomotion.body.person import CONTROL_DT
 from runtime.errors import RuntimeInputError
 from runtime.events import Event
 from runtime.world.agent import AgentState
+from runtime.world.level_of_detail import Budget, Viewer
 from runtime.world.state_file import DTYPES, pack, unpack
 from surefoot.files.archive import read_archive, write_archive
 from surefoot.files.schema import Array, Flags, Header, Schema
@@ -36,6 +37,8 @@ class WorldState:
     untold: tuple[Event, ...]
     random: Mapping[str, Any]
     agents: dict[str, AgentState]
+    viewers: tuple[Viewer, ...] = ()
+    budget: Budget = field(default_factory=Budget)
 
     def __repr__(self) -> str:
         return f"<WorldState after {self.ticks} ticks: {several(len(self.agents), 'agent')}>"
@@ -81,7 +84,7 @@ class _StateHeader(Header):
 
 STATE_FILE = Schema(
     kind="surefoot world state",
-    version=4,
+    version=5,
     header=_StateHeader,
     arrays={dtype: Flags(dtype) if dtype == "bool" else Array(dtype, (dtype,)) for dtype in DTYPES},
     remedy="save the world again",

@@ -17,7 +17,7 @@ from locomotion.body.person import CONTROL_DT
 from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.skills.library import described_ranges, learned_skills, skills_digest
 from runtime.bodies.kinds.kind import BodyKind, Surroundings
-from runtime.bodies.protocol import Population
+from runtime.bodies.protocol import Driver, Population
 from runtime.bodies.registry import body_kinds, kind_of
 from runtime.errors import RuntimeInputError
 from runtime.events import Event
@@ -28,6 +28,8 @@ from runtime.world.agent import Agent
 from runtime.world.agent_services import Clock, Host
 from runtime.world.arguments import checked_files, checked_number, checked_points, checked_whole
 from runtime.world.event_log import EventLog
+from runtime.world.level_of_detail import AUTO, LEVELS, PHYSICS, Budget, Viewer, checked_detail, levels_for
+from runtime.world.level_of_detail import EVERY as LOOKS
 from runtime.world.state import WorldState
 from surefoot.pausing import pause
 from surefoot.preparing import prepare_once
@@ -35,6 +37,7 @@ from surefoot.words import several
 
 __all__ = ["World", "WorldState"]
 
+_CHANGES = 2  # of people to physics or from it at once at most: each takes as long as several ticks
 _LOOKS = 50  # ticks between two looks at whether an agent makes headway
 _E = TypeVar("_E", bound=Event)
 
@@ -92,9 +95,18 @@ class World:
         self._homes: dict[BodyKind, Population] = {}
         for kind in sorted(body_kinds(), key=lambda kind: kind.avoids_all):
             self._homes[kind] = kind.populate(around)
-            self._populations.append(self._homes[kind])
+            self._populations.extend(self._homes[kind].parts())
         self._clock, self._log = Clock(), EventLog()
-        self._host = Host(self._clock, self._log, self._traffic, self.remove)
+        self._host = Host(
+            self._clock,
+            self._log,
+            self._traffic,
+            self.remove,
+            self._at_level,
+            lambda body: kind_of(body).levels,
+        )
+        self._viewers: tuple[Viewer, ...] = ()
+        self._budget = Budget()
         self._stepping = False
 
     def __repr__(self) -> str:
@@ -139,6 +151,30 @@ class World:
         """
         return self._log.listen(callback, kind)
 
+    @property
+    def viewers(self) -> tuple[Viewer, ...]:
+        """Who looks on, from where: people whose detail is "auto" go by it. Part of the input of a run, saved
+        with it. Can be set to a list of `runtime.Viewer`; raises `RuntimeInputError` for anything else."""
+        return self._viewers
+
+    @viewers.setter
+    def viewers(self, viewers: Sequence[Viewer]) -> None:
+        if not isinstance(viewers, Sequence) or not all(isinstance(each, Viewer) for each in viewers):
+            raise RuntimeInputError(f"viewers must be a list of runtime.Viewer, not {viewers!r}")
+        self._viewers = tuple(viewers)
+
+    @property
+    def budget(self) -> Budget:
+        """How many people there are at each level of detail at most. Can be set to a `runtime.Budget`; raises
+        `RuntimeInputError` for anything else."""
+        return self._budget
+
+    @budget.setter
+    def budget(self, budget: Budget) -> None:
+        if not isinstance(budget, Budget):
+            raise RuntimeInputError(f"budget must be a runtime.Budget, not {budget!r}")
+        self._budget = budget
+
     def spawn(
         self,
         body: str,
@@ -146,6 +182,7 @@ class World:
         facing: float = 0.0,
         name: str | None = None,
         radius: float | None = None,
+        detail: str = PHYSICS,
     ) -> Agent:
         """Put a standing ``body`` on the walkable surface at ``at`` (3,) [m], facing ``facing`` [rad].
 
@@ -154,9 +191,10 @@ class World:
         `locomotion.quadruped.load_body`); or what was added by `runtime.bodies.registry.register`. A
         quadruped stands with its rear feet there. ``radius`` [m] is for walkers only, by default a person's.
         The place is moved to the nearest one where the body fits (see `NodeGraph.find_path`). ``name`` is
-        its own in this world; by default "human1" and so on. Raises `RuntimeInputError` for an unknown body,
-        a body file with a mistake, a taken name, a place off the walkable surface, or a quadruped without
-        room for its head.
+        its own in this world; by default "human1" and so on. ``detail`` is for humans, as of `Agent.detail`:
+        "physics", or for those who play recorded motion "full", "medium" or "low", or "auto". Raises
+        `RuntimeInputError` for an unknown body, a body file with a mistake, a taken name, a place off the
+        walkable surface, a quadruped without room for its head, or a detail that the body cannot have.
         """
         if not isinstance(body, str) or not isinstance(name, str | None) or name == "":
             raise RuntimeInputError(
@@ -182,8 +220,12 @@ class World:
         here = self.graph.find_path(place, place, radius=size)
         if here.status != "complete":
             raise RuntimeInputError(f"{place.tolist()} is not near a place where a {body} fits")
-        driver = self._population(body).spawn(body, here.waypoints[0], facing, size)
+        detail = checked_detail(detail, kind.levels, body)
+        level = LEVELS[-1] if detail == AUTO else detail
+        driver = kind.spawn(self._population(body), body, here.waypoints[0], facing, size, level)
         agent = self.agents[name] = Agent(self._host, name, body, driver)
+        if detail == AUTO:
+            agent.detail = detail
         return agent
 
     def remove(self, agent: Agent) -> None:
@@ -219,6 +261,30 @@ class World:
         for agent in self.agents.values():
             agent.look_at_way()
 
+    def _at_level(self, agent: Agent, level: str) -> Driver | None:
+        return self._population(agent.body).at_level(agent.driver, level)
+
+    def _choose_levels(self) -> None:
+        """Bring people to the levels of detail that they should have, some of them in each call."""
+        people = [agent for agent in self.agents.values() if agent.has_levels]
+        chosen: list[tuple[Agent, str]] = []
+        automatic = np.array([agent.detail == AUTO for agent in people], np.bool_)
+        if automatic.any():
+            now = np.array([LEVELS.index(agent.level) for agent in people])
+            places = np.array([agent.position for agent in people])
+            levels = levels_for(places, now, ~automatic, self._viewers, self._budget)
+            wanted = np.flatnonzero(automatic & (levels != now))
+            chosen = [
+                (people[k], LEVELS[levels[k]]) for k in wanted[np.argsort(levels[wanted], kind="stable")]
+            ]
+        chosen += [(each, each.detail) for each in people if each.detail not in (AUTO, each.level)]
+        changed = 0
+        for agent, level in chosen:
+            heavy = PHYSICS in (level, agent.level)
+            if heavy and changed >= _CHANGES:
+                continue
+            changed += agent.change_level(level) and heavy
+
     def _population(self, body: str) -> Population:
         population = self._homes.get(kind_of(body))
         if population is None:
@@ -250,6 +316,8 @@ class World:
                 for population in self._populations:
                     population.tick()
                     pause()
+                if clock.ticks % LOOKS == 0:
+                    self._choose_levels()
                 for agent in self.agents.values():
                     if agent.news:
                         agent.notice()
@@ -275,6 +343,8 @@ class World:
         """Hexadecimal digest of everything that decides how the world goes on; equal for equal runs."""
         checksum = hashlib.sha256(repr((self._clock.ticks, self._clock.owed)).encode())
         checksum.update(repr(self.random.bit_generator.state).encode())
+        if self._viewers:
+            checksum.update(repr((self._viewers, self._budget)).encode())
         for name, agent in self.agents.items():
             checksum.update(f"{name}:{agent.state_hash()}".encode())
             pause()
@@ -297,6 +367,8 @@ class World:
             untold=tuple(self._log.untold),
             random=self.random.bit_generator.state,
             agents=agents,
+            viewers=self._viewers,
+            budget=self._budget,
         )
 
     def restore(self, state: WorldState) -> None:
@@ -334,7 +406,8 @@ class World:
     def _become(self, state: WorldState, known: Mapping[str, Agent]) -> None:
         """Go to ``state``; those of its agents that are ``known`` by name and body are the same objects."""
         here = [(name, agent.body) for name, agent in self.agents.items()]
-        if here != [(name, saved.body) for name, saved in state.agents.items()]:
+        same = here == [(name, saved.body) for name, saved in state.agents.items()]
+        if not same or not all(self.agents[name].fits(saved) for name, saved in state.agents.items()):
             self._populate(state, known)
         for name, saved in state.agents.items():
             self.agents[name].restore(saved)
@@ -342,6 +415,7 @@ class World:
         self.random.bit_generator.state = dict(state.random)
         self._clock.ticks, self._clock.owed = state.ticks, state.owed
         self._log.become(state.events, state.untold)
+        self._viewers, self._budget = state.viewers, state.budget
 
     def _populate(self, state: WorldState, known: Mapping[str, Agent]) -> None:
         """Make the agents those of ``state``, in their order."""

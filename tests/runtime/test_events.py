@@ -13,6 +13,7 @@ from runtime.events import (
     GotUp,
     Hindered,
     Lost,
+    PostureReached,
     SkillFinished,
     SkillStarted,
     Stuck,
@@ -35,6 +36,8 @@ SENTENCES = {
     Lost(1.0, "ada", AT, "no ground"): "ada loses its way at (1.0, 2.0, 0.0): no ground",
     Hindered(1.0, "ada", AT, "others"): "ada gets nowhere at (1.0, 2.0, 0.0): others",
     Stuck(1.0, "ada", AT, "others"): "ada is stuck at (1.0, 2.0, 0.0): others",
+    PostureReached(1.0, "ada", AT, "kneel", "rifle deployed"): "ada is in the posture kneel, rifle deployed",
+    PostureReached(1.0, "ada", AT, "prone", ""): "ada is in the posture prone",
     Told(1.0, "ada", AT, "2 s are over"): "ada is told to do something else: 2 s are over",
 }  # fmt: skip
 

@@ -5,9 +5,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 import navmesh
 from runtime.bodies.figure import Figure
-from runtime.bodies.protocol import Population
+from runtime.bodies.protocol import Driver, Population
 from runtime.planning.level import Level
 from runtime.traffic.traffic import Traffic
 
@@ -42,6 +44,8 @@ class BodyKind(ABC):
     """Whether `World.spawn` can give its bodies another radius."""
     uses_skill_files = False
     """Whether skills of the user's own change what its bodies do."""
+    levels = ("physics",)
+    """Levels of detail that its bodies can have."""
     avoids_all = False
     """Whether its bodies go by where all others are: they are advanced last."""
     slides_as_bot = False
@@ -77,6 +81,12 @@ class BodyKind(ABC):
     def bot_skills(self, body: str) -> Mapping[str, tuple[float, float]]:
         """For each affordance that a bot can clear the least and the greatest size [m]."""
         return {}
+
+    def spawn(
+        self, population: Population, body: str, place: np.ndarray, facing: float, radius: float, level: str
+    ) -> Driver:
+        """A body of it in its ``population``, at one of its `levels`."""
+        return population.spawn(body, place, facing, radius)
 
     @abstractmethod
     def populate(self, around: Surroundings) -> Population:

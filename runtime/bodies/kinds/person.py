@@ -2,13 +2,18 @@
 
 from collections.abc import Mapping
 
+import numpy as np
+
 import navmesh
 from locomotion import PERSON_RULES, Human
+from locomotion.recorded.skeletons import LEVELS
 from locomotion.skills.interface import skill_ranges
 from runtime.bodies.figure import Figure
 from runtime.bodies.humans import People
 from runtime.bodies.kinds.kind import BodyKind, Surroundings
-from runtime.bodies.protocol import Population
+from runtime.bodies.persons import Persons
+from runtime.bodies.protocol import Driver, Population
+from runtime.bodies.recorded import Recorded
 
 __all__ = ["PersonKind", "person_rules"]
 
@@ -22,6 +27,7 @@ class PersonKind(BodyKind):
     """A person."""
 
     names = ("human",)
+    levels = ("physics", *LEVELS)
     uses_skill_files = True
     bot_speed = 3.3
 
@@ -40,5 +46,14 @@ class PersonKind(BodyKind):
     def bot_skills(self, body: str) -> Mapping[str, tuple[float, float]]:
         return skill_ranges(Human().clearing)
 
+    def spawn(
+        self, population: Population, body: str, place: np.ndarray, facing: float, radius: float, level: str
+    ) -> Driver:
+        assert isinstance(population, Persons)
+        if level not in LEVELS:
+            return population.spawn(body, place, facing, radius)
+        return population.spawn_recorded(body, place, facing, radius, level)
+
     def populate(self, around: Surroundings) -> Population:
-        return People(around.level, around.skills, around.rehearsals, around.seed)
+        physical = People(around.level, around.skills, around.rehearsals, around.seed)
+        return Persons(physical, Recorded(around.level, around.populations, around.seed))

@@ -84,8 +84,8 @@ def test_one_that_is_revived_hesitates_as_long_as_before(people):
 @pytest.mark.parametrize("hesitates", [-0.1, float("nan"), "long", None])
 def test_a_state_without_a_time_to_hesitate_is_refused(people, hesitates):
     driver = people.spawn("human", np.array([2.0, 3.0, 0.0]), 0.0, 0.3)
-    state, plans, _ = driver.save()
-    for wrong in ((state, plans, hesitates), (state, plans), None):
+    state, plans, *_ = driver.save()
+    for wrong in ((state, plans, hesitates, None), (state, plans), None):
         with pytest.raises(RuntimeInputError, match="how long it hesitates"):
             driver.restore(wrong)
 

@@ -5,8 +5,9 @@ import pytest
 
 from benchmarks.mission_fuzz import MISSION as EVERYTHING
 from benchmarks.mission_fuzz import Fuzz, mutated
-from runtime.events import Arrived, Departed
+from runtime.events import Arrived, Departed, PostureReached
 from runtime.missions.check import prepare_mission
+from surefoot.files.yamlfile import FileError
 from surefoot.progress import Progress
 from tests.runtime.missions.scripts import REX, load, path_of, refused, run, verdicts
 
@@ -94,3 +95,37 @@ def test_hundreds_of_mutated_files_run_or_are_refused_with_a_place(tmp_path):
     outcomes = [fuzz.attempt(mutated(random)) for _ in range(200)]
     assert [said for outcome, said in outcomes if outcome == "wrong"] == []
     assert {"ran", "refused on reading", "refused on the level"} <= {outcome for outcome, _ in outcomes}
+
+
+BOB = "  - {name: bob, start: west, detail: low, "
+
+
+def test_takes_postures_and_holds_things(graph, tmp_path):
+    steps = "script: [{hold: {object: rifle}}, {posture: kneel}, {goto: [[4, 3, 0]], speed: 1.5}]}\n"
+    result = run(graph, tmp_path, BOB + steps)
+    assert result.held
+    told = [(e.posture, e.holds) for e in result.events if isinstance(e, PostureReached)]
+    assert told[:2] == [("stand", "rifle deployed"), ("kneel", "rifle deployed")]
+
+
+@pytest.mark.parametrize(
+    ("agent", "at", "says"),
+    [
+        (BOB + "script: [{posture: fly}]}", "posture", "'stand', 'crouch'"),
+        (BOB + "script: [{hold: {object: spear}}]}", "hold", "'rifle'"),
+        (BOB.replace("low", "high") + "goto: east}", "detail", "'auto', 'physics'"),
+        (REX + "script: [{posture: sit}]}", "posture", "a dog has no postures"),
+        (REX + "detail: low, goto: east}", "detail", "valid: physics"),
+    ],
+)
+def test_postures_that_there_are_not_are_refused(graph, tmp_path, agent, at, says):
+    with pytest.raises(FileError, match=says):
+        run(graph, tmp_path, agent + "\n")
+
+
+def test_a_mission_says_who_looks_on(graph, tmp_path):
+    loaded = load(
+        tmp_path, BOB.replace("low", "auto") + "goto: east}\n", "viewers: [{position: [0, 3, 1.7]}]\n"
+    )
+    world = prepare_mission(loaded, Progress(shown=False), graph).world
+    assert world.viewers[0].position == (0.0, 3.0, 1.7) and world.agents["bob"].detail == "auto"

@@ -29,12 +29,12 @@ EXAMPLES = Path(__file__).parents[3] / "examples" / "missions"
         (
             "script: [{wait: 1, goto: east}]}",
             "{wait",
-            "one action is needed: goto, wait, follow, patrol or use",
+            "one action is needed: goto, wait, follow, patrol, use, posture or hold",
         ),
         (
             "script: [{wate: 1}]}",
             "wate",
-            "did you mean 'wait'? valid: goto, wait, follow, patrol, use, speed",
+            "did you mean 'wait'? valid: goto, wait, follow, patrol, use, posture, hold, speed",
         ),
         ("script: [{wait: 1, speed: 2}]}", "{wait", "waiting has no speed"),
         ("script: [{patrol: {points: [west]}}]}", "[west", "at least 2 items"),

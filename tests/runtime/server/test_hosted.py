@@ -69,6 +69,8 @@ def test_only_forms_that_somebody_wants_are_described(hosted):
     assert ada == {
         "name": "ada",
         "status": "standing",
+        "level": "physics",
+        "posture": "stand",
         "position": [2.0, 3.0, 0.0],
         "facing": 0.5,
         "way": None,

@@ -74,3 +74,32 @@ def test_clients_act_only_in_worlds_that_they_joined(graph):
         assert (await second.ask("step", world=world, dt=0.1))["ticks"] == 10
 
     talk(graph, conversation)
+
+
+def test_people_take_postures_hold_things_and_are_seen_from_somewhere(graph):
+    async def conversation(server, join, port):
+        client = await join()
+        world = (await client.ask("create", level="small", clock="manual"))["world"]
+        await client.ask("spawn", world=world, body="human", at=[2, 3, 0], name="ada", detail="low")
+        await client.ask("hold", world=world, agent="ada", object="rifle")
+        await client.ask("step", world=world, dt=1.0)
+        await client.ask("posture", world=world, agent="ada", posture="kneel")
+        await client.ask("viewers", world=world, viewers=[{"position": [0, 3, 1.7]}])
+        await client.ask("step", world=world, dt=1.0)
+        await client.ask("step", world=world, dt=0.5)
+        told = [each["event"] for each in client.told if each["type"] == "event"]
+        assert [(e["posture"], e["holds"]) for e in told if e["kind"] == "PostureReached"] == [
+            ("stand", "rifle deployed"), ("kneel", "rifle deployed")
+        ]  # fmt: skip
+        state = client.states[world]["agents"][0]
+        assert (state["level"], state["posture"]) == ("low", "kneel")
+        await client.ask("detail", world=world, agent="ada", detail="full")
+        for kind, fields, says in (
+            ("posture", {"posture": "fly"}, "valid: stand"),
+            ("hold", {"object": "rifle", "state": "broken"}, "valid: stowed"),
+            ("detail", {"detail": "high"}, "detail.detail"),
+        ):
+            with pytest.raises(ValueError, match=says):
+                await client.ask(kind, world=world, agent="ada", **fields)
+
+    talk(graph, conversation)

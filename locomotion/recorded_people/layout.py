@@ -1,0 +1,35 @@
+"""Columns of what is remembered of a recorded person, as one row of float64."""
+
+import numpy as np
+
+from locomotion.body.person import JOINT_NAMES
+
+__all__ = ["OFFSETS", "RATES", "ROW", "new_row"]
+
+GAIT = 0
+"""Number of the gait (of the posture graph) that it moves in, -1 at rest."""
+PHASE = 1
+"""Of the gait's cycle, 0 to 1, from the right foot's strike."""
+SPEED = 2
+"""[m/s] at which it is drawn: its body's of late; below 0 backwards."""
+LEVEL = 3
+"""What is sampled of it: the number of one of `locomotion.recorded.skeletons.LEVELS`."""
+NODE = 4
+"""Number of the posture that it is in while it plays none: what its hands hold changes its arms."""
+BUSY = 5
+"""1 while it plays its postures or is about to."""
+FADE_BEGUN, FADE_SECONDS = 6, 7
+"""[s] of its own time when its motion last changed from one source to another, and how long that shows."""
+OFFSETS = slice(8, 8 + 6 + len(JOINT_NAMES))
+"""How it then differed from where the new motion has it: root [m], its turn as a rotation vector [rad] in the
+world, joints [rad] (`locomotion.recorded_people.fading`)."""
+RATES = slice(OFFSETS.stop, OFFSETS.stop + 6 + len(JOINT_NAMES))
+"""How fast that changed [1/s]."""
+ROW = RATES.stop
+
+
+def new_row(level: int, node: int, phase: float) -> np.ndarray:
+    """One that stands, (ROW,) float64."""
+    row = np.zeros(ROW)
+    row[GAIT], row[PHASE], row[LEVEL], row[NODE] = -1.0, phase, level, node
+    return row

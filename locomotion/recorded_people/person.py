@@ -1,0 +1,347 @@
+"""One recorded person: its way, its posture, what its hands hold."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from locomotion.body.person import JOINT_NAMES
+from locomotion.body_events import Event, PostureReached
+from locomotion.crowd import Crowd, Walker, WalkerState
+from locomotion.crowd import layout as body
+from locomotion.errors import LocomotionError
+from locomotion.postures.held_objects import STOWED, node_name, parts_of
+from locomotion.postures.playback import Playback, asked_for, at_rest, settled
+from locomotion.postures.posture_graph import PostureGraph
+from locomotion.postures.step_order import AT_REST, Gait, gaits_for
+from locomotion.recorded_people import layout as at
+from locomotion.recorded_people.fading import difference, fade_from, rates
+from navmesh.routes.route import Route
+
+__all__ = ["Errand", "PersonState", "RecordedPerson", "can_hold", "checked_node"]
+
+_STEP = 0.01  # [s] over which rates of change are taken
+_PHASES = 40  # that a body which is taken over is compared with
+_AHEAD = 0.06  # [s] for which rates count as much as angles
+_LEGS = np.array([k for k, name in enumerate(JOINT_NAMES) if "hip" in name or "knee" in name])
+
+
+@dataclass(frozen=True)
+class Errand:
+    """A way that begins once it stands: as of `RecordedPerson.go_to`."""
+
+    goals: tuple[tuple[float, float, float], ...]
+    speed: float
+    facing: float | None
+
+
+@dataclass(frozen=True)
+class PersonState:
+    """Everything that is remembered of a recorded person."""
+
+    body: WalkerState
+    row: NDArray[np.float64]
+    playback: Playback | None
+    wanted: str
+    errand: Errand | None
+
+
+class ItsPeople(Protocol):
+    """What a person asks of all; members: as of `locomotion.recorded_people.people.RecordedPeople`."""
+
+    crowd: Crowd
+    graph: PostureGraph
+    gaits: tuple[Gait, ...]
+    stand: int
+
+    @property
+    def rows(self) -> NDArray[np.float64]: ...
+    def qpos(self, indices: NDArray[np.int64], ahead: float = 0.0) -> NDArray[np.float64]: ...
+
+
+class RecordedPerson:
+    """``walker``: its body. ``playback``: what it plays of its postures, None while it stands or moves.
+    ``wanted``: the posture that it was asked for last and is not in yet, with what is held; "" if none."""
+
+    def __init__(self, people: ItsPeople, walker: Walker) -> None:
+        self._people, self.walker = people, walker
+        self.playback: Playback | None = None
+        self.wanted = ""
+        self.errand: Errand | None = None
+
+    @property
+    def index(self) -> int:
+        """Its row."""
+        return self.walker.index
+
+    @property
+    def _row(self) -> NDArray[np.float64]:
+        return self._people.rows[self.walker.index]
+
+    @property
+    def time(self) -> float:
+        """[s] since it was made."""
+        return self.walker.time
+
+    @property
+    def events(self) -> list[Event]:
+        """In order of time."""
+        return self.walker.events
+
+    @property
+    def node(self) -> str:
+        """The posture that it is in or on its way to, with what its hands hold."""
+        graph = self._people.graph
+        number = int(self._row[at.NODE]) if self.playback is None else self.playback.target
+        return self.wanted or graph.postures[number]
+
+    @property
+    def posture(self) -> str:
+        """The posture that it is in or on its way to."""
+        return parts_of(self.node, self._people.graph.objects)[0]
+
+    @property
+    def held(self) -> tuple[str, str]:
+        """What its hands hold, and the state of that; ("", "stowed") with free hands."""
+        return parts_of(self.node, self._people.graph.objects)[1:]
+
+    @property
+    def has_free_hands(self) -> bool:
+        """Whether it stands or moves with nothing in its hands, and is not asked for anything else."""
+        return self._row[at.BUSY] == 0.0 and int(self._row[at.NODE]) == self._people.stand
+
+    @property
+    def status(self) -> str:
+        """ "standing", "walking", "running", "arrived" or "stuck"."""
+        if self.errand is not None:
+            return "walking"
+        if self.walker.status == "walking" and self._gait_name == "run":
+            return "running"
+        return self.walker.status
+
+    @property
+    def _gait_name(self) -> str:
+        gait = int(self._row[at.GAIT])
+        return self._people.gaits[gait].name if gait >= 0 else ""
+
+    @property
+    def qpos(self) -> NDArray[np.float64]:
+        """(46,) float64: its pose now."""
+        return self.qpos_at(0.0)
+
+    def qpos_at(self, ahead: float) -> NDArray[np.float64]:
+        """(46,) float64: its pose ``ahead`` [s] of now if all goes on as it does."""
+        return self._people.qpos(np.array([self.index]), ahead)[0]
+
+    @property
+    def qpos_rates(self) -> NDArray[np.float64]:
+        """(45,) float64: how fast its pose changes, as `fading.rates`."""
+        return rates(self.qpos_at(-_STEP), self.qpos_at(0.0), _STEP)
+
+    # --- what it is told
+    def go_to(self, goals: ArrayLike, speed: float, facing: float | None) -> list[Route]:
+        """As `Walker.go_to`; one that does not stand, or crawl, stands up first. Raises `LocomotionError` for
+        one that cannot get up any more."""
+        people = self._people
+        points = np.asarray(goals, dtype=np.float64)
+        if self._can_move:
+            self.wanted, self.errand, self._row[at.BUSY] = "", None, 0.0
+            return self.walker.go_to(points, speed, facing)
+        target = node_name("stand", *self.held)
+        if target not in people.graph.postures:
+            target = "stand"
+        self._check_way(target)
+        routes = people.crowd.find_routes(self.index, points)
+        self._ask(target)
+        self.errand = Errand(tuple((float(x), float(y), float(z)) for x, y, z in points), speed, facing)
+        return routes
+
+    @property
+    def _can_move(self) -> bool:
+        base = self._people.graph.postures[int(self._row[at.NODE])].partition("/")[0]
+        number = self._people.graph.postures.index(base)
+        return self.playback is None and any(gait.posture == number for gait in self._people.gaits)
+
+    def stop(self) -> None:
+        """Stop here."""
+        self.errand = None
+        if self.playback is None:
+            self.walker.stop()
+
+    def take(self, posture: str, held: str, state: str) -> None:
+        """Take ``posture``, with an object in a state in its hands; one that moves comes to a stand first.
+        To the graph's fatal posture it goes at once. Raises `LocomotionError` for what the graph does not
+        have, or has no way to; nothing has changed then."""
+        graph = self._people.graph
+        node = checked_node(graph, posture, held, state)
+        fatal = graph.fatal >= 0 and node == graph.postures[graph.fatal]
+        if not fatal:
+            self._check_way(node)
+        self.stop()
+        self._ask(node)
+        if fatal and self.playback is None:
+            self._begin()
+
+    def _check_way(self, node: str) -> None:
+        graph = self._people.graph
+        here = self.playback.posture if self.playback is not None else int(self._row[at.NODE])
+        if not np.isfinite(graph.least[here, graph.postures.index(node)]):
+            raise LocomotionError(f"there is no way from {graph.postures[here]!r} to {node!r}")
+
+    def _ask(self, node: str) -> None:
+        self.wanted, self.errand = node, None
+        self._row[at.BUSY] = 1.0
+        if self.playback is not None:
+            self._begin()
+
+    def _begin(self) -> None:
+        """Play the way to the posture that is wanted."""
+        graph, row = self._people.graph, self._row
+
+        def begin() -> None:
+            self.walker.root()
+            playback = self.playback or at_rest(graph, graph.postures[int(row[at.NODE])], (0.0, 0.0, 0.0))
+            self.playback = asked_for(graph, playback, self.wanted, self.time)
+            row[at.GAIT], row[at.SPEED] = -1.0, 0.0
+            # to the fatal posture it would blend from its last pose, which the fade does already
+            self.playback = replace(self.playback, last=None)
+            row[at.BUSY] = 1.0
+
+        self.change(begin)
+
+    # --- time
+    def tick(self) -> None:
+        """After its body has moved: go on with its postures."""
+        if self.playback is None:
+            if np.hypot(*self.walker.velocity) < AT_REST:
+                self._begin()
+            return
+        graph, row = self._people.graph, self._row
+        self.playback = settled(graph, self.playback, self.time)
+        if self.playback.arc >= 0 or not self.wanted or self.playback.posture != self.playback.target:
+            return
+        posture, held, state = parts_of(self.wanted, graph.objects)
+        reached = PostureReached(
+            self.time, self._point, posture, "" if state == STOWED else f"{held} {state}"
+        )
+        self.events.append(reached)
+        self.wanted = ""
+        number, base = self.playback.posture, graph.postures.index(posture)
+        if any(gait.posture == base for gait in self._people.gaits):
+
+            def rest() -> None:
+                self.playback = None
+                row[at.NODE], row[at.BUSY] = number, 0.0
+                self.walker.stop()
+
+            self.change(rest)
+        errand, self.errand = self.errand, None
+        if errand is not None:
+            self.walker.go_to(errand.goals, errand.speed, errand.facing)
+
+    @property
+    def _point(self) -> tuple[float, float, float]:
+        x, y, z = self.walker.position.tolist()
+        return x, y, z
+
+    def change_gait(self, gait: int) -> None:
+        """Go on in another gait of the posture graph's, -1: at rest."""
+        self.change(lambda: self._set_gait(gait))
+
+    def _set_gait(self, gait: int) -> None:
+        self._row[at.GAIT] = gait
+
+    def change(self, what: Callable[[], object]) -> None:
+        """Do ``what`` changes where its pose comes from; the difference fades out."""
+        old, old_rates = self.qpos, self.qpos_rates
+        self._row[at.FADE_SECONDS] = 0.0
+        what()
+        self.fade(old, old_rates)
+
+    def fade(self, old: NDArray[np.float64], old_rates: NDArray[np.float64]) -> None:
+        """Let it look as if it came from pose ``old`` (46,), which changed by ``old_rates`` (45,)."""
+        row = self._row
+        row[at.FADE_SECONDS] = 0.0
+        now = self.qpos_at(0.0)
+        new_rates = rates(now, self.qpos_at(_STEP), _STEP)
+        row[at.OFFSETS], row[at.RATES], row[at.FADE_SECONDS] = fade_from(old, old_rates, now, new_rates)
+        row[at.FADE_BEGUN] = self.time
+
+    def go_on_from(
+        self, pose: NDArray[np.float64], pose_rates: NDArray[np.float64], velocity: NDArray[np.float64]
+    ) -> None:
+        """Take over from a body in ``pose`` (46,), which changes by ``pose_rates`` (45,) as `fading.rates`,
+        and moves at ``velocity`` (2,) [m/s]: in its gait, at the phase that is most like it."""
+        people, row = self._people, self._row
+        body_row = people.crowd.rows[self.index]
+        body_row[[body.VX, body.VY]] = velocity
+        speed = float(np.hypot(*velocity))
+        row[at.SPEED] = speed
+        now, posture = np.array([-1], np.int32), np.array([people.stand], np.int32)
+        row[at.GAIT] = gaits_for(people.gaits, now, posture, np.array([speed]))[0]
+        if row[at.GAIT] >= 0.0:
+            row[at.PHASE] = self._phase_like(pose, pose_rates)
+        self.fade(pose, pose_rates)
+
+    def _phase_like(self, pose: NDArray[np.float64], pose_rates: NDArray[np.float64]) -> float:
+        row = self._row
+        least, best = np.inf, 0.0
+        for phase in np.arange(_PHASES) / _PHASES:
+            row[at.PHASE] = phase
+            here = self.qpos_at(0.0)
+            off = difference(pose, here)[6:][_LEGS]
+            off_rates = (pose_rates - rates(here, self.qpos_at(_STEP), _STEP))[6:][_LEGS]
+            unlike = float(off @ off + _AHEAD**2 * (off_rates @ off_rates))
+            if unlike < least:
+                least, best = unlike, float(phase)
+        return best
+
+    # --- saving
+    def save(self) -> PersonState:
+        """Everything needed to continue from here."""
+        return PersonState(self.walker.save(), self._row.copy(), self.playback, self.wanted, self.errand)
+
+    def restore(self, state: PersonState) -> None:
+        """Restore a state of this person."""
+        self.walker.restore(state.body)
+        self._row[:] = state.row
+        self.playback, self.wanted, self.errand = state.playback, state.wanted, state.errand
+
+    def state_hash(self) -> str:
+        """Hex digest of everything that decides its future."""
+        hasher = hashlib.sha256(self._row.tobytes())
+        playing = self.playback
+        if playing is not None:
+            hasher.update(repr((playing.posture, playing.target, playing.arc, playing.begun)).encode())
+            hasher.update(playing.place.tobytes())
+        return f"{self.walker.state_hash()}{hasher.hexdigest()[:16]}{self.wanted}{self.errand}"
+
+
+def checked_node(graph: PostureGraph, posture: str, held: str, state: str) -> str:
+    """The node of ``posture`` with an object in a state. Raises `LocomotionError` if ``graph`` has none."""
+    plain = [name for name in graph.postures if "/" not in name]
+    if posture not in plain:
+        raise LocomotionError(f"posture {posture!r}: valid: {', '.join(plain)}")
+    if held and held not in graph.objects:
+        raise LocomotionError(f"object {held!r}: valid: {', '.join(graph.objects) or 'none'}")
+    if held and state not in (STOWED, *graph.objects[held]):
+        raise LocomotionError(
+            f"state {state!r} of a {held}: valid: {', '.join((STOWED, *graph.objects[held]))}"
+        )
+    node = node_name(posture, held, state)
+    if node not in graph.postures:
+        able = [name.partition("/")[0] for name in graph.postures if name.endswith(f"/{held} {state}")]
+        raise LocomotionError(
+            f"in the posture {posture!r} a {held} cannot be {state}; valid: {', '.join(able)}"
+        )
+    return node
+
+
+def can_hold(graph: PostureGraph, posture: str, held: tuple[str, str]) -> tuple[str, str]:
+    """An object and its state as they are, if they go with ``posture``, or else free hands."""
+    return held if node_name(posture, *held) in graph.postures else ("", STOWED)

@@ -1,0 +1,71 @@
+"""All persons of a world, whatever moves them: physics near who looks on, recorded motion farther off."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from locomotion.recorded.skeletons import LEVELS
+from runtime.bodies.humans import HumanDriver, People
+from runtime.bodies.protocol import Driver, Population
+from runtime.bodies.recorded import Recorded, RecordedDriver, is_recorded
+
+__all__ = ["Persons"]
+
+
+class Persons(Population):
+    """``physical`` and ``recorded``: one population for each. Who goes over from one to the other gets
+    another driver."""
+
+    def __init__(self, physical: People, recorded: Recorded) -> None:
+        self.physical, self.recorded = physical, recorded
+
+    def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> Driver:
+        return self.physical.spawn(body, place, facing, radius)
+
+    def spawn_recorded(
+        self, body: str, place: np.ndarray, facing: float, radius: float, level: str
+    ) -> RecordedDriver:
+        """As `spawn`, played at a ``level`` of detail of recorded motion."""
+        driver = self.recorded.spawn(body, place, facing, radius)
+        driver.draw_at(level)
+        return driver
+
+    def revive(self, body: str, state: Any) -> Driver:
+        return self._home(is_recorded(state)).revive(body, state)
+
+    def remove(self, driver: Driver) -> None:
+        self._home(isinstance(driver, RecordedDriver)).remove(driver)
+
+    def _home(self, recorded: bool) -> Population:
+        return self.recorded if recorded else self.physical
+
+    def parts(self) -> Sequence[Population]:
+        return self.physical, self.recorded
+
+    def in_the_way(self) -> np.ndarray:
+        return np.concatenate([part.in_the_way() for part in self.parts()])
+
+    def change_level(self) -> None:
+        for part in self.parts():
+            part.change_level()
+
+    def tick(self) -> None:
+        for part in self.parts():
+            part.tick()
+
+    def at_level(self, driver: Driver, level: str) -> Driver | None:
+        if isinstance(driver, RecordedDriver) and level in LEVELS:
+            driver.draw_at(level)
+            return driver
+        if level == driver.detail:
+            return driver
+        taken: Driver | None = None
+        if isinstance(driver, HumanDriver):
+            taken = self.recorded.take_over(driver, level)
+        elif isinstance(driver, RecordedDriver):
+            taken = self.physical.take_over(driver.person)
+        if taken is not None:
+            taken.plans.extend(driver.plans)
+            self.remove(driver)
+        return taken

@@ -1,0 +1,201 @@
+"""Persons in a world who play recorded motion: they move as walkers do, and have postures."""
+
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from locomotion import LocomotionError
+from locomotion.body.models import figure
+from locomotion.crowd.saved_state_check import check_walker
+from locomotion.recorded.skeletons import LEVELS, level_number
+from locomotion.recorded_people import layout as at
+from locomotion.recorded_people.people import RecordedPeople
+from locomotion.recorded_people.person import PersonState, RecordedPerson, can_hold, checked_node
+from locomotion.recorded_people.saved_state_check import check_recorded
+from runtime.bodies.figure import Figure
+from runtime.bodies.humans import HumanDriver
+from runtime.bodies.protocol import Driver, Population, recall, saved_parts
+from runtime.bodies.walkers import WalkerDriver
+from runtime.errors import RuntimeInputError
+from runtime.planning.level import Level
+from runtime.planning.planning import Plan
+
+__all__ = ["Recorded", "RecordedDriver", "is_recorded", "person_figure"]
+
+
+@lru_cache(maxsize=1)
+def person_figure() -> Figure:
+    """What a person looks like, at any level of detail."""
+    return Figure.from_model(figure())
+
+
+class Recorded(Population):
+    """All of them, in one crowd that avoids all others of ``populations``. ``seed``: the world's, from which
+    they get what is each one's own."""
+
+    def __init__(self, level: Level, populations: Sequence[Population], seed: int) -> None:
+        self._level, self._populations, self._seed = level, populations, seed
+        self._people: RecordedPeople | None = None
+
+    @property
+    def people(self) -> RecordedPeople:
+        """Made with the first: worlds without any need no motions."""
+        if self._people is None:
+            self._people = RecordedPeople(self._level.graph)
+        return self._people
+
+    def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> "RecordedDriver":
+        millimetres = (np.round(1000.0 * place).astype(np.int64) % 2**32).tolist()
+        chance = np.random.default_rng((self._seed, *millimetres))
+        return RecordedDriver(self, self.people.add(place, facing, 0, chance))
+
+    def take_over(self, driver: HumanDriver, level: str) -> "RecordedDriver":
+        """Let recorded motion go on from where a simulated person is, at a ``level`` of detail."""
+        human, index = driver.human, level_number(level)
+        chance = np.random.default_rng(self._seed)
+        person = self.people.add(human.position, human.yaw, index, chance)
+        pose, pose_rates = driver.drawn()
+        person.go_on_from(pose, pose_rates, human.velocity[:2])
+        return RecordedDriver(self, person)
+
+    def revive(self, body: str, state: Any) -> "RecordedDriver":
+        saved = self.checked(state)[0]
+        driver = RecordedDriver(self, self.people.adopt(self.people.crowd.adopt(saved.body), saved.row))
+        driver.restore(state)
+        return driver
+
+    def checked(self, state: Any) -> tuple[PersonState, tuple[Plan, ...]]:
+        """What `RecordedDriver.save` gave. Raises `RuntimeInputError` and `LocomotionError` for what it
+        cannot have given on this level."""
+        saved, plans = saved_parts(state, PersonState)
+        check_walker(saved.body, self._level.graph)
+        check_recorded(saved, self.people.graph, len(self.people.gaits))
+        return saved, plans
+
+    def remove(self, driver: Driver) -> None:
+        assert isinstance(driver, RecordedDriver)
+        self.people.remove(driver.person)
+
+    def in_the_way(self) -> np.ndarray:
+        if not self._people:
+            return np.empty((0, 6))
+        crowd = self._people.crowd
+        return np.column_stack([crowd.positions, crowd.velocities, crowd.radii])
+
+    def change_level(self) -> None:
+        if self._people is not None:
+            self._people.crowd.change_graph(self._level.graph)
+
+    def tick(self) -> None:
+        if self._people:
+            others = [each.in_the_way() for each in self._populations if each is not self]
+            self._people.crowd.lead(np.concatenate([np.empty((0, 6)), *others]))
+            self._people.tick()
+
+
+class RecordedDriver(WalkerDriver):
+    """A recorded person."""
+
+    def __init__(self, population: Recorded, person: RecordedPerson) -> None:
+        super().__init__(population, person.walker)
+        self._population: Recorded = population
+        self.person, self.figure = person, person_figure()
+
+    @property
+    def simulated(self) -> RecordedPerson:
+        return self.person
+
+    @property
+    def _row(self) -> np.ndarray:
+        return self._population.people.rows[self.person.index]
+
+    @property
+    def status(self) -> str:
+        return self.person.status
+
+    @property
+    def left(self) -> float:
+        if self.person.errand is not None and self.plans:
+            return self.plans[-1].length  # it gets up first
+        return self.walker.left
+
+    @property
+    def progress(self) -> float:
+        length = self.plans[-1].length if self.plans else 0.0
+        return float(np.clip(1.0 - self.left / length, 0.0, 1.0)) if length > 0.0 else 1.0
+
+    @property
+    def goals_left(self) -> int:
+        errand = self.person.errand
+        return len(errand.goals) if errand is not None else super().goals_left
+
+    def way_holds(self) -> bool:
+        return self.person.errand is not None or super().way_holds()
+
+    @property
+    def hindrance(self) -> str:
+        return "it changes its posture first" if self.person.errand is not None else super().hindrance
+
+    @property
+    def detail(self) -> str:
+        return LEVELS[int(self._row[at.LEVEL])]
+
+    def draw_at(self, level: str) -> None:
+        """Be drawn at another level of detail, without a jump."""
+        number = level_number(level)
+        if number != self._row[at.LEVEL]:
+            self.person.change(lambda: self._set_level(number))
+
+    def _set_level(self, number: int) -> None:
+        self._row[at.LEVEL] = number
+
+    @property
+    def posture(self) -> str:
+        return self.person.posture
+
+    @property
+    def held(self) -> tuple[str, str]:
+        return self.person.held
+
+    def held_in(self, posture: str) -> tuple[str, str]:
+        return can_hold(self._population.people.graph, posture, self.held)
+
+    def check_posture(self, posture: str, held: str, state: str) -> None:
+        try:
+            checked_node(self._population.people.graph, posture, held, state)
+        except LocomotionError as error:
+            raise RuntimeInputError(str(error)) from None
+
+    def take(self, posture: str, held: str, state: str) -> None:
+        try:
+            self.person.take(posture, held, state)
+        except LocomotionError as error:
+            raise RuntimeInputError(str(error)) from None
+
+    def transforms(self) -> np.ndarray:
+        return self._population.people.transforms(np.array([self.person.index]))[0]
+
+    def transforms_between(self, share: float) -> np.ndarray:
+        back = (share - 1.0) * self._population.people.crowd.dt
+        return self._population.people.transforms(np.array([self.person.index]), back)[0]
+
+    def save(self) -> tuple[PersonState, tuple[Plan, ...]]:  # type: ignore[override]
+        return self.person.save(), tuple(self.plans)[-1:]
+
+    def fits(self, state: Any) -> bool:
+        return is_recorded(state)
+
+    def restore(self, state: Any) -> None:
+        saved, plans = self._population.checked(state)
+        self.person.restore(saved)
+        recall(self.plans, plans)
+
+    def state_hash(self) -> str:
+        return self.person.state_hash()
+
+
+def is_recorded(state: Any) -> bool:
+    """Whether ``state`` is of a recorded person."""
+    return isinstance(state, tuple) and any(isinstance(part, PersonState) for part in state)

@@ -1,0 +1,59 @@
+"""People who go over from physics to recorded motion and back (`runtime.bodies.persons`)."""
+
+import numpy as np
+import pytest
+
+from runtime import Budget, PostureReached, Viewer, World
+
+
+@pytest.mark.parametrize("moves", [False, True])
+def test_a_simulated_person_takes_a_posture_without_a_jump_and_is_simulated_again(graph, moves):
+    world = World(graph)
+    ada = world.spawn("human", (2.0, 3.0, 0.0))
+    if moves:
+        ada.go_to((9.0, 3.0, 0.0), speed=1.2)
+        world.step(2.0)
+    before = ada.pose.transforms
+    ada.take_posture("kneel")
+    assert ada.level == "full" and ada.detail == "physics"
+    np.testing.assert_allclose(ada.pose.transforms, before, atol=1e-9)
+    steps = []
+    for posture in ("kneel", "stand"):
+        ada.take_posture(posture)
+        for _ in range(200):
+            world.step(1 / 60)
+            steps.append(np.abs(ada.pose.transforms[:, :3] - before[:, :3]).max())
+            before = ada.pose.transforms
+    assert max(steps) < 0.06
+    assert ada.level == "physics" and ada.human.status == "standing"
+    assert [e.posture for e in world.events if isinstance(e, PostureReached)] == ["kneel", "stand"]
+
+
+def test_standing_is_no_change(graph):
+    world = World(graph)
+    ada = world.spawn("human", (2.0, 3.0, 0.0))
+    ada.take_posture("stand")
+    world.step(0.1)
+    assert ada.level == "physics"
+    assert [e.posture for e in world.events if isinstance(e, PostureReached)] == ["stand"]
+
+
+def test_who_comes_near_a_viewer_is_simulated_and_who_is_far_is_not(graph):
+    world = World(graph)
+    people = [world.spawn("human", (2.0 + k, 3.0, 0.0), detail="auto") for k in range(4)]
+    assert {each.level for each in people} == {"low"} and {each.detail for each in people} == {"auto"}
+    world.budget = Budget(physics=2, full=1)
+    world.viewers = [Viewer((0.0, 3.0, 1.7))]
+    world.step(0.5)
+    assert [each.level for each in people] == ["physics", "physics", "full", "medium"]
+    saved = world.save()
+    world.viewers = [Viewer((6.5, 3.0, 1.7), (-1.0, 0.0, 0.0))]
+    world.step(0.5)
+    assert [each.level for each in people] == ["medium", "full", "physics", "physics"]
+    after = world.state_hash()
+    world.restore(saved)
+    assert [each.level for each in people] == ["physics", "physics", "full", "medium"]
+    assert world.viewers == (Viewer((0.0, 3.0, 1.7)),) and isinstance(world.budget, Budget)
+    world.viewers = [Viewer((6.5, 3.0, 1.7), (-1.0, 0.0, 0.0))]
+    world.step(0.5)
+    assert world.state_hash() == after

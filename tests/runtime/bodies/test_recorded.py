@@ -1,0 +1,113 @@
+"""Recorded persons in worlds: they go, take postures, are seen, saved and removed."""
+
+import numpy as np
+import pytest
+
+from runtime import Arrived, PostureReached, RuntimeInputError, World, WorldState
+from runtime.bodies.recorded import RecordedDriver, person_figure
+from runtime.traces.recording import Recorder
+
+
+def test_a_recorded_person_goes_as_a_walker_does_and_looks_like_a_person(graph):
+    world = World(graph)
+    ada = world.spawn("human", (2.0, 3.0, 0.0), detail="medium", name="ada")
+    world.spawn("walker", (5.5, 3.1, 0.0))
+    assert ada.level == ada.detail == "medium" and isinstance(ada.driver, RecordedDriver)
+    assert ada.figure is person_figure() and ada.pose.transforms.shape == (20, 7)
+    simulated = world.spawn("human", (2.0, 5.0, 0.0))
+    assert ada.figure.bodies == simulated.figure.bodies
+    apart = ada.pose.transforms[:, :3] - simulated.pose.transforms[:, :3] + [0.0, 2.0, 0.0]
+    assert np.abs(apart).max() < 0.25  # both stand
+    recorder = Recorder(world)
+    assert ada.go_to((9.0, 3.0, 0.0), speed=1.5) == "walking"
+    while ada.moving:
+        world.step(0.1)
+        recorder.sample()
+    assert isinstance(recorder.events[-1], Arrived) and ada.progress == 1.0
+    assert recorder.trace({}).agents[0].poses.shape[1:] == (20, 7)
+    world.step(0.013)
+    assert np.abs(ada.blended_pose.transforms - ada.pose.transforms).max() < 0.05
+
+
+def test_a_world_with_recorded_people_comes_back_from_a_file(graph, tmp_path):
+    world = World(graph, seed=3)
+    for k in range(4):
+        world.spawn("human", (2.0 + k, 3.0, 0.0), detail=("low", "full")[k % 2])
+    agents = list(world.agents.values())
+    agents[0].go_to((9.0, 3.0, 0.0), speed=1.4)
+    agents[1].take_posture("kneel")
+    agents[2].take_posture("prone")
+    world.step(1.0)
+    agents[2].go_to((9.0, 4.0, 0.0), speed=1.4)  # it gets up first
+    world.save().write(tmp_path / "state.npz")
+    world.step(4.0)
+    other = World(graph, seed=3)
+    other.restore(WorldState.read(tmp_path / "state.npz"))
+    other.step(4.0)
+    assert other.state_hash() == world.state_hash()
+    for name, agent in world.agents.items():
+        np.testing.assert_array_equal(other.agents[name].pose.transforms, agent.pose.transforms)
+    here = agents[3].position
+    world.remove(agents[0])
+    np.testing.assert_array_equal(agents[3].position, here)
+
+
+def test_a_damaged_state_of_one_is_refused(graph):
+    world = World(graph)
+    ada = world.spawn("human", (2.0, 3.0, 0.0), detail="low")
+    saved, plans = ada.driver.save()
+    row = saved.row.copy()
+    row[3] = 9.0
+    for wrong in ((saved.__class__(saved.body, row, None, "", None), plans), (saved,), None):
+        with pytest.raises(ValueError):
+            ada.driver.restore(wrong)
+
+
+def test_it_does_not_jump_when_its_detail_changes(graph):
+    world = World(graph)
+    ada = world.spawn("human", (2.0, 3.0, 0.0), detail="full")
+    ada.go_to((10.0, 3.0, 0.0), speed=1.3)
+    world.step(1.5)
+    for detail in ("low", "medium", "full", "low"):
+        before = ada.pose.transforms
+        ada.detail = detail
+        assert ada.level == detail
+        np.testing.assert_allclose(ada.pose.transforms, before, atol=1e-9)
+        world.step(0.21)
+
+
+def test_what_it_cannot_be_is_said_and_changes_nothing(graph):
+    world = World(graph)
+    ada = world.spawn("human", (2.0, 3.0, 0.0), detail="low")
+    for wrong, says in (
+        (lambda: ada.take_posture("fly"), "posture 'fly': valid: stand"),
+        (lambda: ada.hold("spear"), "object 'spear': valid: rifle"),
+        (lambda: setattr(ada, "detail", "high"), "valid: auto, physics"),
+        (lambda: ada.human, "plays recorded motion"),
+        (lambda: world.spawn("walker", (4.0, 3.0, 0.0), detail="low"), "valid: physics"),
+        (lambda: world.spawn("walker", (4.0, 3.0, 0.0)).take_posture("kneel"), "no postures"),
+    ):
+        with pytest.raises(RuntimeInputError, match=says):
+            wrong()
+    ada.take_posture("dead")
+    world.step(3.0)
+    assert [event.posture for event in world.events if isinstance(event, PostureReached)] == ["dead"]
+    with pytest.raises(RuntimeInputError, match="no way from 'dead'"):
+        ada.take_posture("stand")
+    with pytest.raises(RuntimeInputError, match="no way from 'dead'"):
+        ada.go_to((9.0, 3.0, 0.0))
+
+
+def test_what_its_hands_cannot_hold_in_a_posture_they_stow(graph):
+    world = World(graph)
+    ada = world.spawn("human", (2.0, 3.0, 0.0), detail="low")
+    ada.hold("rifle")
+    world.step(1.5)
+    ada.take_posture("kneel")
+    world.step(1.5)
+    assert (ada.posture, ada.held) == ("kneel", ("rifle", "deployed"))
+    ada.take_posture("all-fours")
+    world.step(3.0)
+    assert (ada.posture, ada.held) == ("all-fours", ("", "stowed"))
+    told = [str(event) for event in world.events if isinstance(event, PostureReached)]
+    assert told[0] == "human1 is in the posture stand, rifle deployed"

@@ -35,6 +35,8 @@ class Driver(ABC):
     radius: float
     events: list[Event]
     plans: deque[Plan]
+    comes_from_elsewhere = False
+    """Whether another simulator moves it, see `runtime.dis`; it then takes no orders."""
     tries_other_ways = False
     """Whether it can be told another way to the same goals when it gets nowhere: `can_turn`, `go_without`,
     `go_round`."""

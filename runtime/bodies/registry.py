@@ -6,6 +6,7 @@ A game adds its own with `register`: `World.spawn`, missions, playtests and serv
 from runtime.bodies.kinds.kind import BodyKind
 from runtime.bodies.kinds.person import PersonKind
 from runtime.bodies.kinds.quadruped import QuadrupedKind
+from runtime.bodies.kinds.remote import RemoteKind
 from runtime.bodies.kinds.walker import WalkerKind
 from runtime.errors import RuntimeInputError
 
@@ -15,6 +16,7 @@ _OURS: tuple[BodyKind, ...] = (
     PersonKind(),
     WalkerKind(),
     QuadrupedKind(),
+    RemoteKind(),
 )
 USUAL = "human"
 """For whom levels are built, and whom missions mean, unless they say otherwise."""
@@ -27,8 +29,8 @@ def body_kinds() -> tuple[BodyKind, ...]:
 
 
 def body_names() -> tuple[str, ...]:
-    """The names of all bodies, in the order of `body_kinds`."""
-    return tuple(name for kind in _kinds for name in kind.names)
+    """The names of all bodies that hosts spawn, in the order of `body_kinds`."""
+    return tuple(name for kind in _kinds if kind.spawned for name in kind.names)
 
 
 def is_body_file(body: str) -> bool:
@@ -51,7 +53,7 @@ def register(kind: BodyKind) -> None:
     """Add a kind, in this process, for the worlds that are made from now on. Raises `RuntimeInputError` if
     one of its names is taken or is that of a file."""
     for name in kind.names:
-        if name in body_names():
+        if any(name in known.names for known in _kinds):
             raise RuntimeInputError(f"body {name!r} is taken; names are unique")
         if not isinstance(name, str) or not name.isidentifier():
             raise RuntimeInputError(f"body {name!r}: expected a word of letters, digits and _")

@@ -9,11 +9,12 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-__all__ = ["MODELS", "Motion", "reckoned", "velocities"]
+__all__ = ["MODELS", "ROTATES", "Motion", "reckoned", "velocities"]
 
 MODELS = ("other", "static", "FPW", "RPW", "RVW", "FVW", "FPB", "RPB", "RVB", "FVB")
 """By number. "other" is not extrapolated."""
-_ROTATES = np.array([name.startswith("R") for name in MODELS])
+ROTATES = np.array([name.startswith("R") for name in MODELS])
+"""Of each model, whether the body turns."""
 _ACCELERATES = np.array(["V" in name for name in MODELS])
 _IN_BODY = np.array([name.endswith("B") for name in MODELS])
 _MOVES = np.arange(len(MODELS)) >= 2
@@ -57,7 +58,7 @@ def reckoned(motion: Motion, seconds: np.ndarray) -> tuple[np.ndarray, np.ndarra
     algorithm, t = motion.algorithm, np.asarray(seconds, dtype=np.float64)[:, None]
     speed = np.where(_MOVES[algorithm][:, None], motion.velocity, 0.0)
     gain = np.where(_ACCELERATES[algorithm][:, None], motion.acceleration, 0.0)
-    turning = np.where(_ROTATES[algorithm][:, None], motion.turning, 0.0)
+    turning = np.where(ROTATES[algorithm][:, None], motion.turning, 0.0)
     moved = speed * t + 0.5 * gain * t * t
     body = np.flatnonzero(_IN_BODY[algorithm])
     if len(body):

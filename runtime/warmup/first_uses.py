@@ -163,7 +163,7 @@ def one_of_each(seconds: float = 1.0) -> None:
     from runtime.bodies.registry import body_kinds
     from runtime.world.world import World
 
-    world, kinds = World(tiny_level()), body_kinds()
+    world, kinds = World(tiny_level()), [kind for kind in body_kinds() if kind.spawned]
     for y, kind in zip(np.linspace(1.0, 3.0, len(kinds)), kinds, strict=True):
         world.spawn(kind.names[0], (1.5, y, 0.0)).go_to((4.5, y, 0.0), speed=1.0)
     world.step(seconds)

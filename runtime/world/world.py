@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from itertools import count
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -201,6 +201,8 @@ class World:
                 f"body and name must be text that is not empty, not {body!r} and {name!r}"
             )
         kind = kind_of(body)
+        if not kind.spawned:
+            raise RuntimeInputError(f"a {body} body is not spawned; it comes in from another simulator")
         kind.check(body)
         if name is None:
             numbered = (f"{Path(body).stem}{number}" for number in count(len(self.agents) + 1))
@@ -226,6 +228,15 @@ class World:
         agent = self.agents[name] = Agent(self._host, name, body, driver)
         if detail == AUTO:
             agent.detail = detail
+        return agent
+
+    def admit(self, body: str, name: str, state: Any) -> Agent:
+        """Add an agent that comes in from elsewhere, in the ``state`` that its population revives it from
+        (`runtime.bodies.remote_figures.RemoteState` for a "remote" body); for gateways to other simulators.
+        It may be off the walkable surface. Raises `RuntimeInputError` for a taken name or another state."""
+        if not name or name in self.agents:
+            raise RuntimeInputError(f"name {name!r} is taken or empty; names are unique in a world")
+        agent = self.agents[name] = Agent(self._host, name, body, self._population(body).revive(body, state))
         return agent
 
     def remove(self, agent: Agent) -> None:

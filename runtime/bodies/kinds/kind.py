@@ -40,6 +40,9 @@ class BodyKind(ABC):
     names: tuple[str, ...]
     files = ""
     """What its body files are called in messages; empty if it has none."""
+    spawned = True
+    """Whether hosts spawn its bodies. Those of other kinds come in from elsewhere, see `World.admit`, and
+    `body_names` leaves them out."""
     sized = False
     """Whether `World.spawn` can give its bodies another radius."""
     uses_skill_files = False

@@ -10,9 +10,10 @@ from locomotion.body.models import figure
 from locomotion.quadruped import BODY_NAMES, Herd, load_body
 from runtime.bodies.animal_figure import animal_figure
 from runtime.bodies.figure import Figure, Shapes, rotate, turn
+from runtime.dis.enumerations import CATEGORY_MAMMAL
 from runtime.errors import RuntimeInputError
 
-__all__ = ["PERSON", "THING", "Look", "look_of"]
+__all__ = ["PERSON", "THING", "Look", "animal_of", "look_of"]
 
 PERSON, THING = "human", "thing"
 _THING = np.array([2.0, 1.0, 0.8])  # [m] half axes
@@ -42,6 +43,13 @@ class Look:
         placed[:, :3] = row["place"] + rotate(heading, self.stands[:, :3])
         placed[:, 3:] = turn(heading, self.stands[:, 3:])
         return placed
+
+
+def animal_of(category: int, extra: int) -> str | None:
+    """Which of our animals a life form is drawn as, by its entity type; None for a person."""
+    if category < CATEGORY_MAMMAL:
+        return None
+    return BODY_NAMES[extra - 1] if 1 <= extra <= len(BODY_NAMES) else BODY_NAMES[0]
 
 
 @cache

@@ -4,29 +4,31 @@ from dataclasses import dataclass
 
 from locomotion.skills.registry import CLEARING
 from runtime.dis.enumerations import Health, LifeForm, Weapon
+from runtime.world.agent import Agent
 
-__all__ = ["MOVING_AT", "POSTURES", "Appearance", "life_form_of"]
+__all__ = ["POSTURES", "Appearance", "appearance_of", "life_form_of"]
 
 MOVING_AT = 0.2
 """[m/s] from which one that stands up is taken to walk."""
 RUNNING_AT = 2.2
-"""[m/s] from which one that walks is taken to run, where nothing else says so."""
+"""[m/s] from which one that walks is taken to run."""
 _HYSTERESIS = 0.7  # share of these speeds below which it is taken back
 _STATUSES = {
     "scrambling": LifeForm.CRAWLING,
     "getting up": LifeForm.KNEELING,
     "fallen": LifeForm.PRONE,
+}
+"""Statuses that say by themselves what one looks like."""
+_DEAD = "dead"
+_FORMS = {
     "crouch": LifeForm.CROUCHING,
-    "crouching": LifeForm.CROUCHING,
     "kneel": LifeForm.KNEELING,
-    "kneeling": LifeForm.KNEELING,
     "all-fours": LifeForm.CRAWLING,
     "prone": LifeForm.PRONE,
     "sit": LifeForm.SITTING,
-    "sitting": LifeForm.SITTING,
-    "dead": LifeForm.PRONE,
+    _DEAD: LifeForm.PRONE,
 }
-"""Statuses of agents and names of postures that say by themselves what one looks like."""
+_WEAPONS = {"stowed": Weapon.STOWED, "deployed": Weapon.DEPLOYED, "in use": Weapon.FIRING}
 POSTURES = {
     LifeForm.KNEELING: "kneel",
     LifeForm.PRONE: "prone",
@@ -74,10 +76,21 @@ class Appearance:
         )
 
 
-def life_form_of(status: str, speed: float, before: LifeForm, by_status: bool) -> LifeForm:
-    """What an agent of this ``status`` at this ``speed`` [m/s] looks like; ``before``: what it was, lest it
-    change to and fro. ``by_status``: whether "walking" and "running" are two gaits of its body, and not only
-    words for being on its way."""
+def appearance_of(agent: Agent, speed: float, before: LifeForm) -> Appearance:
+    """What an agent looks like that moves at ``speed`` [m/s]; ``before``: what it was, lest it change to and
+    fro."""
+    held, state = agent.held
+    return Appearance(
+        life_form_of(agent.status, agent.posture, speed, before),
+        Health.FATAL if agent.posture == _DEAD else Health.NO_INJURY,
+        _WEAPONS.get(state, Weapon.NONE) if held else Weapon.NONE,
+    )
+
+
+def life_form_of(status: str, posture: str, speed: float, before: LifeForm) -> LifeForm:
+    """The life form state of `appearance_of`."""
+    if posture in _FORMS:
+        return _FORMS[posture]
     if status in _STATUSES:
         return _STATUSES[status]
     if status in CLEARING.values():
@@ -85,7 +98,5 @@ def life_form_of(status: str, speed: float, before: LifeForm, by_status: bool) -
     upright = (LifeForm.WALKING, LifeForm.RUNNING)
     if speed < MOVING_AT * (_HYSTERESIS if before in upright else 1.0):
         return LifeForm.STANDING
-    if by_status and status in ("walking", "running"):
-        return LifeForm.RUNNING if status == "running" else LifeForm.WALKING
     runs = speed >= RUNNING_AT * (_HYSTERESIS if before is LifeForm.RUNNING else 1.0)
     return LifeForm.RUNNING if runs else LifeForm.WALKING

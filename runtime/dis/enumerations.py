@@ -2,7 +2,8 @@
 
 from enum import IntEnum
 
-__all__ = ["ENTITY_TYPES", "Force", "LifeForm", "animal_of", "is_life_form"]
+__all__ = ["CATEGORY_CIVILIAN", "CATEGORY_MAMMAL", "EntityType", "Force", "Health", "LifeForm", "Weapon",
+           "is_life_form", "life_form_type"]  # fmt: skip
 
 
 class LifeForm(IntEnum):
@@ -55,28 +56,15 @@ class Weapon(IntEnum):
 
 KIND_LIFE_FORM, DOMAIN_LAND = 3, 1
 CATEGORY_CIVILIAN, CATEGORY_MAMMAL = 130, 200
-_ANIMALS = ("dog", "cat", "horse")
+EntityType = tuple[int, int, int, int, int, int, int]
+"""Kind, domain, country, category, subcategory, specific, extra."""
 
-ENTITY_TYPES: dict[str, tuple[int, int, int, int, int, int, int]] = {
-    "human": (KIND_LIFE_FORM, DOMAIN_LAND, 0, CATEGORY_CIVILIAN, 0, 0, 0),
-    "walker": (KIND_LIFE_FORM, DOMAIN_LAND, 0, CATEGORY_CIVILIAN, 0, 0, 0),
-    **{
-        name: (KIND_LIFE_FORM, DOMAIN_LAND, 0, CATEGORY_MAMMAL, 0, 0, number)
-        for number, name in enumerate(_ANIMALS, start=1)
-    },
-}
-"""What our bodies are sent as: kind, domain, country, category, subcategory, specific, extra. Animals are
-told apart by ``extra``, which is ours to define; give a gateway others where an exercise has agreed on
-them."""
+
+def life_form_type(category: int, extra: int = 0) -> EntityType:
+    """A life form on land, of no country."""
+    return KIND_LIFE_FORM, DOMAIN_LAND, 0, category, 0, 0, extra
 
 
 def is_life_form(kind: int) -> bool:
     """Whether an entity type's kind is a person or an animal."""
     return kind == KIND_LIFE_FORM
-
-
-def animal_of(category: int, extra: int) -> str | None:
-    """Which of our animals a life form is drawn as, None for a person."""
-    if category < CATEGORY_MAMMAL:
-        return None
-    return _ANIMALS[extra - 1] if 1 <= extra <= len(_ANIMALS) else _ANIMALS[0]

@@ -44,7 +44,7 @@ class Options:
     ``broadcast``: whether to send and listen to such addresses. ``interface``: address of the network
     interface for multicast. ``version`` of the protocol: 5, 6 or 7. ``absolute``: whether timestamps are UTC,
     and not the world's time. ``force``: of our entities. ``types``: entity types by body, in place of
-    `runtime.dis.enumerations.ENTITY_TYPES`. ``seed``: of the spread of heartbeats.
+    those of `BodyKind.entity_type`. ``seed``: of the spread of heartbeats.
     """
 
     listen: Address | None = None

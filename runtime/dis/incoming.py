@@ -11,11 +11,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from runtime.bodies.remote_figures import LONGEST, TELEPORT, RemoteDriver, told_state
-from runtime.bodies.remote_looks import PERSON, THING
+from runtime.bodies.remote_looks import PERSON, THING, animal_of
 from runtime.bodies.remote_poses import STANDS
 from runtime.dis.appearance import POSTURES, Appearance
 from runtime.dis.dead_reckoning import MODELS, Motion, velocities
-from runtime.dis.enumerations import Health, LifeForm, animal_of, is_life_form
+from runtime.dis.enumerations import Health, LifeForm, is_life_form
 from runtime.dis.geodesy import LevelFrame
 from runtime.dis.sieve import Address, Sieve
 from runtime.dis.timestamps import JUMP, SenderClock, elapsed

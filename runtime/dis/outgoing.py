@@ -5,15 +5,15 @@ threshold.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from pathlib import Path
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from runtime.dis.appearance import Appearance, life_form_of
+from runtime.bodies.registry import kind_of
+from runtime.dis.appearance import Appearance, appearance_of
 from runtime.dis.dead_reckoning import MODELS, Motion, reckoned
 from runtime.dis.entity_state import make_records
-from runtime.dis.enumerations import ENTITY_TYPES, Force, LifeForm
+from runtime.dis.enumerations import Force, LifeForm
 from runtime.dis.geodesy import LevelFrame, yaw_rotations
 from runtime.world.agent import Agent
 from runtime.world.world import World
@@ -41,7 +41,8 @@ class Thresholds:
 @dataclass(frozen=True)
 class Identity:
     """What our entities have in common. ``site`` and ``application`` (0 to 65534) name this simulator in its
-    ``exercise`` (1 to 255); ``version``: 5, 6 or 7; ``types``: entity type by body, over `ENTITY_TYPES`."""
+    ``exercise`` (1 to 255); ``version``: 5, 6 or 7; ``types``: entity types by
+    body, in place of those of `BodyKind.entity_type`."""
 
     site: int
     application: int
@@ -51,11 +52,8 @@ class Identity:
     types: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
 
     def type_of(self, body: str) -> tuple[int, ...]:
-        """Kind, domain, country, category, subcategory, specific, extra of a body, by its name or that of its
-        file."""
-        name = Path(body).stem
-        known = {**ENTITY_TYPES, **self.types}
-        return known.get(body) or known.get(name) or ENTITY_TYPES["dog" if name != body else "human"]
+        """Kind, domain, country, category, subcategory, specific, extra of a body."""
+        return self.types.get(body) or kind_of(body).entity_type(body)
 
 
 class _Told:
@@ -65,7 +63,7 @@ class _Told:
         self.number, self.agent = number, agent
         self.place, self.velocity = agent.position, np.zeros(3)
         self.yaw, self.turning = agent.facing, 0.0
-        self.life_form, self.appearance = LifeForm.STANDING, -1
+        self.looks, self.appearance = Appearance(), -1
         self.motion = Motion.empty(1)
         self.due = self.since = 0.0
         self.told = False
@@ -78,9 +76,7 @@ class _Told:
         before, off = self.yaw, _wrapped(self.agent.facing - self.yaw)
         self.yaw = _wrapped(before + (1.0 - keep) * off)
         self.turning = keep * self.turning + (1.0 - keep) * _wrapped(self.yaw - before) / seconds
-        speed = float(np.linalg.norm(self.velocity))
-        two_gaits = self.agent.body == "human"
-        self.life_form = life_form_of(self.agent.status, speed, self.life_form, two_gaits)
+        self.looks = appearance_of(self.agent, float(np.linalg.norm(self.velocity)), self.looks.life_form)
 
 
 class Outgoing:
@@ -148,15 +144,12 @@ class Outgoing:
         return [
             told
             for told, beyond in zip(known, far, strict=True)
-            if beyond or not told.told or now >= told.due or self._appearance(told) != told.appearance
+            if beyond or not told.told or now >= told.due or told.looks.bits != told.appearance
         ]
-
-    def _appearance(self, told: _Told, deactivated: bool = False) -> int:
-        return Appearance(told.life_form, deactivated=deactivated).bits
 
     def _record(self, told: _Told, now: float, deactivated: bool = False) -> np.ndarray:
         """(1,) of `ENTITY_STATE`; remembers that it was told."""
-        moves = told.life_form is not LifeForm.STANDING and not deactivated
+        moves = told.looks.life_form is not LifeForm.STANDING and not deactivated
         turns = abs(told.turning) > _TURNING and not deactivated
         model = _TURNS if turns else _MOVES if moves else _STATIC
         velocity = told.velocity[None] if moves else np.zeros((1, 3))
@@ -172,7 +165,7 @@ class Outgoing:
         told.since, told.told = now, True
         spread = self._limits.spread
         told.due = now + self._limits.heartbeat * float(self._chance.uniform(1.0 - spread, 1.0 + spread))
-        told.appearance = self._appearance(told)
+        told.appearance = told.looks.bits
         identity, record = self._identity, make_records(1, self._identity.version, self._identity.exercise)
         record["site"], record["application"] = identity.site, identity.application
         record["entity"], record["force"] = told.number, identity.force
@@ -182,7 +175,7 @@ class Outgoing:
         record["velocity"] = self._frame.vectors_to_geocentric(velocity)
         record["orientation"] = self._frame.orientations(told.motion.rotation)
         record["algorithm"], record["angular_velocity"] = model, turning
-        record["appearance"] = self._appearance(told, deactivated)
+        record["appearance"] = replace(told.looks, deactivated=deactivated).bits
         record["marking"] = told.agent.name.encode("ascii", "replace")[:11]
         return record
 

@@ -10,6 +10,7 @@ import numpy as np
 import navmesh
 from runtime.bodies.figure import Figure
 from runtime.bodies.protocol import Driver, Population
+from runtime.dis.enumerations import CATEGORY_CIVILIAN, EntityType, life_form_type
 from runtime.planning.level import Level
 from runtime.traffic.traffic import Traffic
 
@@ -90,6 +91,10 @@ class BodyKind(ABC):
     ) -> Driver:
         """A body of it in its ``population``, at one of its `levels`."""
         return population.spawn(body, place, facing, radius)
+
+    def entity_type(self, body: str) -> EntityType:
+        """What it is for other simulators: the entity type of DIS."""
+        return life_form_type(CATEGORY_CIVILIAN)
 
     @abstractmethod
     def populate(self, around: Surroundings) -> Population:

@@ -8,6 +8,7 @@ from runtime.bodies.figure import Figure
 from runtime.bodies.kinds.kind import BodyKind, Surroundings
 from runtime.bodies.protocol import Population
 from runtime.bodies.quadrupeds import Pack
+from runtime.dis.enumerations import CATEGORY_MAMMAL, EntityType, life_form_type
 from runtime.errors import RuntimeInputError
 
 __all__ = ["QuadrupedKind"]
@@ -36,6 +37,10 @@ class QuadrupedKind(BodyKind):
 
     def figure(self, body: str) -> Figure:
         return animal_figure(load_body(body))
+
+    def entity_type(self, body: str) -> EntityType:
+        """A mammal; ``extra``, which is ours to define, says which of our own, 0 for others."""
+        return life_form_type(CATEGORY_MAMMAL, BODY_NAMES.index(body) + 1 if body in BODY_NAMES else 0)
 
     def populate(self, around: Surroundings) -> Population:
         return Pack(around.level, around.traffic, around.seed)

@@ -36,13 +36,17 @@ def test_general_modules_name_no_body():
 
 
 def test_general_modules_know_no_driver_of_any_kind():
+    """But for gateways, which bring figures in from elsewhere."""
     allowed = {"figure", "pose", "protocol", "registry", "kinds.kind"}
+    remote = {"remote_figures", "remote_looks", "remote_poses"}
     for name, tree in general_modules():
         for node in ast.walk(tree):
             if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("runtime.bodies."):
-                assert (node.module or "").removeprefix("runtime.bodies.") in allowed, name
+                known = allowed | (remote if name.startswith("runtime/dis/") else set())
+                assert (node.module or "").removeprefix("runtime.bodies.") in known, name
             if isinstance(node, ast.Call) and ast.unparse(node.func) == "isinstance":
-                assert "Driver" not in ast.unparse(node.args[1]), name
+                found = ast.unparse(node.args[1])
+                assert "Driver" not in found or found == "RemoteDriver", name
 
 
 def test_every_body_has_a_kind_that_knows_it():

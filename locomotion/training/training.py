@@ -16,6 +16,7 @@ from locomotion.training.search.checkpoint import anew, claim, read_checkpoint
 from locomotion.training.search.loop import Problem, Stage, learn, stages_digest
 from surefoot.files.archive import check_target, write_archive
 from surefoot.files.schema import Array, Header, Schema
+from surefoot.workers.pool import Place
 
 __all__ = ["NotLearnedError", "Training"]
 
@@ -39,14 +40,14 @@ class Training:
       checkpoint: folder for intermediate results; an interrupted training continues from there with the same
       result.
         None: they are not kept.
-      workers: processes.
+      workers: number of processes, or address of a cluster (`surefoot.workers.pool`).
       effort: scales the number of generations, and below 1 some numbers of start states.
       on_progress: called after each generation.
     """
 
     seed: int = 0
     checkpoint: Path | None = None
-    workers: int = 2
+    workers: Place = 2
     effort: float = 1.0
     on_progress: Callable[[Progress], None] = show
 

@@ -94,6 +94,13 @@ UpOption = Annotated[
 ScaleOption = Annotated[
     float | None, typer.Option(help="Metres per unit of the file; default: as the file says, else 1.")
 ]
+ClusterOption = Annotated[
+    str | None,
+    typer.Option(
+        metavar="ADDRESS",
+        help="Dask cluster that does the work: tls://HOST:PORT, or local:N for N workers here.",
+    ),
+]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print the result as JSON on standard output.")]
 FollowOption = Annotated[str | None, typer.Option(help="Agent that the camera follows; default: the first.")]
 SlopeOption = Annotated[float | None, typer.Option(help="[°] Steepest walkable slope.")]
@@ -336,6 +343,7 @@ def playtest(
     processes: Annotated[
         int, typer.Option(min=1, help="Number of processes; does not change the report.")
     ] = 1,
+    cluster: ClusterOption = None,
     up: UpOption = None,
     scale: ScaleOption = None,
     as_json: JsonOption = False,
@@ -343,7 +351,7 @@ def playtest(
     """Send bots through a level and report its faults. The exit code is 1 if there are any."""
     options = {
         "bots": bots, "seconds": seconds, "seed": seed, "body": body, "plan": plan, "up": up,
-        "scale": scale, "processes": processes,
+        "scale": scale, "processes": processes, "cluster": cluster,
     }  # fmt: skip
     _commands()
     from runtime.playtest.command import playtest_level
@@ -385,6 +393,7 @@ def train(
     ] = None,
     seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same skill.")] = 0,
     workers: Annotated[int, typer.Option(min=1, help="Processes.")] = 2,
+    cluster: ClusterOption = None,
     checkpoint: Annotated[
         Path | None,
         typer.Option(
@@ -404,9 +413,11 @@ def train(
     from runtime.cli import skill_commands
 
     if skill is None:
-        result = skill_commands.train_library(seed, workers, effort, replace)
+        result = skill_commands.train_library(seed, cluster or workers, effort, replace)
     else:
-        result = skill_commands.train_skill(skill, output, seed, workers, checkpoint, effort, replace)
+        result = skill_commands.train_skill(
+            skill, output, seed, cluster or workers, checkpoint, effort, replace
+        )
     _finish(result, as_json=False)
 
 
@@ -418,13 +429,17 @@ def evaluate(
     picture: Annotated[
         Path | None, typer.Option(help="Output file for a picture of which trials held (.png).")
     ] = None,
+    processes: Annotated[
+        int, typer.Option(min=1, help="Number of processes; does not change the result.")
+    ] = 1,
+    cluster: ClusterOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """Try a learned skill from many starts and print how often it holds."""
     _commands()
     from runtime.cli.skill_commands import evaluate_skill
 
-    _finish(evaluate_skill(skill, trials, seed, picture), as_json)
+    _finish(evaluate_skill(skill, trials, seed, picture, cluster or processes), as_json)
 
 
 @app.command()

@@ -18,6 +18,7 @@ from runtime.errors import RuntimeInputError
 from surefoot.files.archive import check_target
 from surefoot.files.atomic_write import whole_file
 from surefoot.progress import Progress
+from surefoot.workers.pool import Place
 
 if TYPE_CHECKING:
     from locomotion.training import progress
@@ -50,7 +51,7 @@ def train_skill(
     skill: str,
     output: Path | None,
     seed: int,
-    workers: int,
+    workers: Place,
     checkpoint: Path | None,
     effort: float,
     replace: bool,
@@ -142,7 +143,7 @@ def _cpu_minutes() -> float:
     return (sum(os.times()[:4]) + sum(each.user + each.system for each in running)) / 60.0
 
 
-def train_library(seed: int, workers: int, effort: float, replace: bool) -> Result:
+def train_library(seed: int, workers: Place, effort: float, replace: bool) -> Result:
     """Train all built-in skills in order and print what each cost; stops after the first that does not work.
     Raises `RuntimeInputError` if one would be overwritten without ``replace``."""
     for skill in _trainers():
@@ -163,33 +164,20 @@ def train_library(seed: int, workers: int, effort: float, replace: bool) -> Resu
     return Result({"core-minutes": minutes}, True, show)
 
 
-def evaluate_skill(skill: str, trials: int, seed: int, picture: Path | None = None) -> Result:
+def evaluate_skill(
+    skill: str, trials: int, seed: int, picture: Path | None = None, place: Place = 1
+) -> Result:
     """Try ``skill``; holds if at least nine of ten trials of each test do. ``picture``: file for a plot of
-    which trials held."""
+    which trials held. ``place``: who makes them."""
     if picture is not None:
         if skill in _WITHOUT_A_PLANE:
             raise RuntimeInputError(
                 f"the tests of {skill} do not vary in two numbers that could be plotted; leave --picture out"
             )
         check_picture(picture)
-    from locomotion.skills.registry import skill_kinds
-    from runtime.evaluation.evaluation import (
-        evaluate_brake,
-        evaluate_clearing,
-        evaluate_described,
-        evaluate_run,
-        evaluate_slow_down,
-        evaluate_speed_up,
-        evaluate_walk,
-    )
-    from runtime.evaluation.policies import evaluate_walk_policy
+    from runtime.evaluation.evaluate import evaluate
 
-    evaluate: Mapping[str, Callable[..., Sequence[Attempt]]] = {
-        "run": evaluate_run, "walk": evaluate_walk, "speed-up": evaluate_speed_up,
-        "slow-down": evaluate_slow_down, "brake": evaluate_brake, "walk-policy": evaluate_walk_policy,
-        **{kind.skill: partial(evaluate_clearing, kind) for kind in skill_kinds()},
-    }  # fmt: skip
-    attempts = evaluate.get(skill, partial(evaluate_described, skill))(trials, seed, ready())
+    attempts = evaluate(skill, trials, seed, place, ready())
     if picture is not None:
         from runtime.evaluation.coverage_plot import plot_coverage
 

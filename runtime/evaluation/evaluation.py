@@ -1,4 +1,4 @@
-"""Trying a learned skill from many starts: how often does it hold?
+"""Trials of a learned skill from many starts: how often does it hold?
 
 Clearing skills go through the test of "Terrain Runner" (section 6: default height, 30 to 100 m of run-up) and
 through the same over their range of heights; all the way that a mission takes: path tracking, speed planner,
@@ -26,11 +26,10 @@ from locomotion.skills.library import learned_skills
 from locomotion.skills.registry import skill_kind
 from locomotion.training.gaits.rollout import Scenario, Simulator, stays_up
 from runtime.evaluation.courses import CourseRun, Push, held, make_course, run_course
-from surefoot.progress import Progress
 
 __all__ = [
-    "Attempt", "evaluate_brake", "evaluate_clearing", "evaluate_described",
-    "evaluate_run", "evaluate_slow_down", "evaluate_speed_up", "evaluate_walk", "start_noise",
+    "Attempt", "Trial", "brake_trials", "clearing_trials", "described_trials", "run_trials",
+    "slow_down_trials", "speed_up_trials", "start_noise", "walk_trials",
 ]  # fmt: skip
 
 WALL = 0.3
@@ -67,14 +66,18 @@ class Attempt:
     at: dict[str, float] = field(default_factory=dict)
 
 
-def evaluate_clearing(kind: SkillKind, trials: int, seed: int, progress: Progress) -> list[Attempt]:
+Trial = Callable[[], Attempt]
+"""A trial that is drawn but not made yet."""
+
+
+def clearing_trials(kind: SkillKind, trials: int, seed: int) -> list[Trial]:
     """Three tests of ``trials`` each: the usual size from 30 to 100 m, evenly; sizes drawn from those of
     ``kind`` from 10 to 30 m; the same with a push from any side somewhere in `PUSHED_WITHIN`."""
     skills = [skill for skill in Human().clearing if skill.affordance == kind.affordance]
-    return _evaluate(kind, kind.usual, kind.sizes, skills, None, trials, seed, progress)
+    return _evaluate(kind, kind.usual, kind.sizes, skills, None, trials, seed)
 
 
-def evaluate_described(path: str, trials: int, seed: int, progress: Progress) -> list[Attempt]:
+def described_trials(path: str, trials: int, seed: int) -> list[Trial]:
     """The same tests of a skill of one's own, described by a file: the middle of its sizes, and all of
     them."""
     run = load_run_skill()
@@ -83,7 +86,7 @@ def evaluate_described(path: str, trials: int, seed: int, progress: Progress) ->
     middle = round(0.5 * (low + high), 2)
     every = learned_skills(run, [path])
     kind = skill_kind(skill.affordance)
-    return _evaluate(kind, middle, (low, high), [skill], every, trials, seed, progress)
+    return _evaluate(kind, middle, (low, high), [skill], every, trials, seed)
 
 
 def _evaluate(
@@ -94,8 +97,7 @@ def _evaluate(
     clearing: Sequence[ClearingSkill] | None,
     trials: int,
     seed: int,
-    progress: Progress,
-) -> list[Attempt]:
+) -> list[Trial]:
     """``skills``: those for the kind; ``clearing``: all that the person has."""
     low, high = heights
     rng = np.random.default_rng(seed)
@@ -121,7 +123,7 @@ def _evaluate(
         return replace(_judged(test, what, kind, run), at=at)
 
     todo = [(test, *start) for test, starts in tests.items() for start in starts]
-    return _tried(kind.skill, [lambda each=each: attempt(*each) for each in todo], progress)
+    return [partial(attempt, *each) for each in todo]
 
 
 def start_noise(seed: int, distance: float) -> np.ndarray:
@@ -157,7 +159,7 @@ def _judged(test: str, what: str, kind: SkillKind, run: CourseRun) -> Attempt:
     return Attempt(test, what, status, good, figures if good else {})
 
 
-def evaluate_run(trials: int, seed: int, progress: Progress) -> list[Attempt]:
+def run_trials(trials: int, seed: int) -> list[Trial]:
     """Tests of ``trials`` each: 20 cycles at a turn and a speed drawn from the plane of "Terrain Runner"
     (section 4.1); a push of 300 N from a random side at speeds of each of `PUSHED_SPEEDS`; straight runs of
     60 m with a push of 200 N every 5 s."""
@@ -165,8 +167,7 @@ def evaluate_run(trials: int, seed: int, progress: Progress) -> list[Attempt]:
     tests: list[Callable[[np.random.Generator], Attempt]] = [partial(_run_turning, simulator)]
     tests += [partial(_pushed_hard, simulator, speeds) for speeds in PUSHED_SPEEDS]
     tests.append(_run_pushed)
-    todo = [lambda t=t, k=k: t(np.random.default_rng([seed, k])) for t in tests for k in range(trials)]
-    return _tried("run", todo, progress)
+    return [lambda t=t, k=k: t(np.random.default_rng([seed, k])) for t in tests for k in range(trials)]
 
 
 def _run_turning(simulator: Simulator, rng: np.random.Generator) -> Attempt:
@@ -232,7 +233,7 @@ def _run_pushed(rng: np.random.Generator) -> Attempt:
     return Attempt(test, f"{speed:.2f} m/s", human.status, human.status == "arrived")
 
 
-def evaluate_walk(trials: int, seed: int, progress: Progress) -> list[Attempt]:
+def walk_trials(trials: int, seed: int) -> list[Trial]:
     """Winding paths, a test of ``trials`` for each kind of ground, with pushes of up to 80 N on the level."""
     from locomotion.training.gaits.path_trial import follow_path
     from locomotion.training.gaits.walk import KINDS, draw_walk
@@ -245,11 +246,10 @@ def evaluate_walk(trials: int, seed: int, progress: Progress) -> list[Attempt]:
         slower = {"slower than meant [m/s]": figures["behind"]}
         return Attempt(name, what, "arrived" if arrived else "did not arrive", arrived, slower)
 
-    each = [(name, kind, k) for name, kind in KINDS.items() for k in range(trials)]
-    return _tried("walk", [lambda one=one: attempt(*one) for one in each], progress)
+    return [partial(attempt, name, kind, k) for name, kind in KINDS.items() for k in range(trials)]
 
 
-def evaluate_speed_up(trials: int, seed: int, progress: Progress) -> list[Attempt]:
+def speed_up_trials(trials: int, seed: int) -> list[Trial]:
     """Starts from standing, with noise: does the person run up to a stair, and after how many metres was a
     step as fast as it takes for most obstacles?"""
     course = make_course([(JUMP.affordance, JUMP.usual, WALL)], [_RUNS_ON + 3.0])
@@ -271,10 +271,10 @@ def evaluate_speed_up(trials: int, seed: int, progress: Progress) -> list[Attemp
         figures = {f"way to {_FAST:g} m/s [m]": far} if held and math.isfinite(far) else {}
         return Attempt("from standing", f"{speed:.2f} m/s", human.status, held, figures)
 
-    return _tried("speed-up", [lambda k=k: attempt(k) for k in range(trials)], progress)
+    return [partial(attempt, k) for k in range(trials)]
 
 
-def evaluate_slow_down(trials: int, seed: int, progress: Progress) -> list[Attempt]:
+def slow_down_trials(trials: int, seed: int) -> list[Trial]:
     """Runs over straight ways, and over ways with bends, that end at a goal or are called off: does the
     person stand in the end?"""
     from locomotion.gaits.slow_down import load_slow_down_skill
@@ -289,11 +289,10 @@ def evaluate_slow_down(trials: int, seed: int, progress: Progress) -> list[Attem
         return Attempt(name, what, "stands" if stood else "fallen", stood)
 
     ways = {"straight": (math.inf,), "bends": BENDS}
-    each = [(name, radii, k) for name, radii in ways.items() for k in range(trials)]
-    return _tried("slow-down", [lambda one=one: attempt(*one) for one in each], progress)
+    return [partial(attempt, name, radii, k) for name, radii in ways.items() for k in range(trials)]
 
 
-def evaluate_brake(trials: int, seed: int, progress: Progress) -> list[Attempt]:
+def brake_trials(trials: int, seed: int) -> list[Trial]:
     """People in steady runs, straight on or in a bend, who are told to stop at a random moment: do they stand
     in the end, and how far does the centre of mass come in the direction in which it moved then, from there
     and from the next touchdown on?"""
@@ -319,23 +318,11 @@ def evaluate_brake(trials: int, seed: int, progress: Progress) -> list[Attempt]:
         test = f"told at {speed:g} m/s"
         return Attempt(test, f"{way:.2f} m", human.status, stands, figures if stands else {})
 
-    each = [
-        (speed, start)
+    return [
+        partial(attempt, speed, start)
         for speed in STOPPED_FROM
         for start in draw_starts(np.random.default_rng([seed, round(10 * speed)]), trials, (speed, speed))
     ]
-    return _tried("brake", [lambda one=one: attempt(*one) for one in each], progress)
-
-
-def _tried(name: str, todo: list[Callable[[], Attempt]], progress: Progress) -> list[Attempt]:
-    """Do all of it, showing how far it is."""
-    attempts: list[Attempt] = []
-    with progress.stage(f"evaluating: {name}") as stage:
-        for do in todo:
-            attempts.append(do())
-            held = sum(each.held for each in attempts)
-            stage.update(len(attempts) / len(todo), f"{held} of {len(attempts)} held")
-    return attempts
 
 
 def _pushes(rng: np.random.Generator) -> Iterator[np.ndarray]:

@@ -1,16 +1,16 @@
-"""Trying the walk that a network controls: at all speeds, pushed from all sides, and with orders that
+"""Trials of the walk that a network controls: at all speeds, pushed from all sides, and with orders that
 change."""
 
 import math
+from functools import partial
 
 import numpy as np
 
 from locomotion.gaits.policy.skill import PolicySkill, load_policy
 from locomotion.training.policies.trial import PolicyTrial
-from runtime.evaluation.evaluation import Attempt
-from surefoot.progress import Progress
+from runtime.evaluation.evaluation import Attempt, Trial
 
-__all__ = ["evaluate_walk_policy"]
+__all__ = ["walk_policy_trials"]
 
 SPEEDS, TURN = (0.4, 2.0), 0.8
 """[m/s] and [rad/s] asked for."""
@@ -21,19 +21,18 @@ _CHANGE = (1.5, 5.0)  # [s] between orders
 _STANDING = 0.25  # share of the orders that are to stand
 
 
-def evaluate_walk_policy(trials: int, seed: int, progress: Progress) -> list[Attempt]:
+def walk_policy_trials(trials: int, seed: int) -> list[Trial]:
     """Three tests of ``trials`` each: from a stand to a speed and on, with a turn; the same with a push of
     `PUSH` from any side at any moment; a minute of orders to walk, turn, stop and start."""
-    attempts, rng, skill = [], np.random.default_rng(seed), load_policy()
-    with progress.stage("walking") as stage:
-        for k in range(trials):
-            stage.update(k / trials)
-            speed, turn = float(rng.uniform(*SPEEDS)), float(rng.uniform(-TURN, TURN))
-            angle, moment = float(rng.uniform(0.0, 2.0 * math.pi)), float(rng.uniform(0.0, 1.2))
-            attempts.append(_walk(skill, "walk", speed, turn, moment))
-            attempts.append(_walk(skill, f"pushed with {PUSH:.0f} N", speed, 0.0, moment, angle))
-            attempts.append(_script(skill, np.random.default_rng((seed, k))))
-    return attempts
+    tried: list[Trial] = []
+    rng, skill = np.random.default_rng(seed), load_policy()
+    for k in range(trials):
+        speed, turn = float(rng.uniform(*SPEEDS)), float(rng.uniform(-TURN, TURN))
+        angle, moment = float(rng.uniform(0.0, 2.0 * math.pi)), float(rng.uniform(0.0, 1.2))
+        tried.append(partial(_walk, skill, "walk", speed, turn, moment))
+        tried.append(partial(_walk, skill, f"pushed with {PUSH:.0f} N", speed, 0.0, moment, angle))
+        tried.append(partial(_script, skill, (seed, k)))
+    return tried
 
 
 def _walk(
@@ -54,7 +53,8 @@ def _walk(
     return Attempt(test, what, "walks" if held else "fallen", held)
 
 
-def _script(skill: PolicySkill, rng: np.random.Generator) -> Attempt:
+def _script(skill: PolicySkill, seed: tuple[int, int]) -> Attempt:
+    rng = np.random.default_rng(seed)
     trial, passed, held = PolicyTrial(skill), 0.0, True
     while held and passed < _SCRIPT:
         stands = rng.random() < _STANDING

@@ -8,6 +8,7 @@ from runtime.cli.commands import Result, check_page, ready
 from runtime.playtest.diff import Difference, compare
 from runtime.playtest.fault import Fault
 from runtime.playtest.junit import write_junit
+from runtime.playtest.kept_runs import FOLDER
 from runtime.playtest.page import write_page
 from runtime.playtest.replay import replay
 from runtime.playtest.report import read_report, write_report
@@ -19,20 +20,23 @@ __all__ = ["playtest_level", "replay_finding"]
 
 def playtest_level(level: Path, options: Mapping[str, Any], out: Path | None, before: Path | None) -> Result:
     """Playtest ``level``; holds when nothing fails. With ``out`` leave report.html, report.json and
-    junit.xml there.
+    junit.xml there; one that was interrupted goes on with the bots that had not finished.
 
     ``options`` are those of `playtest`; ``before`` is an earlier report to compare with.
     """
     written = [] if out is None else check_output_folder(out, ("report.json", "junit.xml", "report.html"))
     earlier = None if before is None else read_report(before)
     progress = ready()
-    outcome = playtest(level, **options, progress=progress)
+    checkpoint = None if out is None else out / FOLDER
+    outcome = playtest(level, **options, checkpoint=checkpoint, progress=progress)
     difference = None if earlier is None else compare(earlier, outcome.report)
     if written:
         written[0].parent.mkdir(parents=True, exist_ok=True)
         write_report(outcome.report, written[0])
         write_junit(outcome.report, written[1])
         write_page(outcome, written[2], difference, progress)
+        assert outcome.kept is not None
+        outcome.kept.forget()
     values = {**outcome.report.to_dict(), "files": [str(each) for each in written]}
     if difference is not None:
         values["new"] = [fault.to_dict() for fault in difference.new]

@@ -1,11 +1,14 @@
 """Running a playtest: the level read, its faults proved, the bots sent through it, the report made."""
 
+import hashlib
+import json
 import math
 import os
 import tempfile
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
@@ -20,12 +23,15 @@ from runtime.playtest.expectations import broken_expectations
 from runtime.playtest.fault import numbered
 from runtime.playtest.goals import make_goals, patches_of, place_parts, spawn_parts
 from runtime.playtest.holes import find_holes
+from runtime.playtest.kept_runs import KeptRuns
 from runtime.playtest.observation import crossings, journeys, observed, with_sightings
 from runtime.playtest.plan import LoadedPlan, plan_path
 from runtime.playtest.report import Report, Setup
 from runtime.playtest.site import Site
 from surefoot.progress import Progress
-from surefoot.workers import worker_pool
+from surefoot.workers.cluster import checked_address
+from surefoot.workers.pool import Place, worker_pool
+from surefoot.workers.versions import own_versions
 
 __all__ = ["MOST_BOTS", "Outcome", "Stage", "open_stage", "playtest"]
 
@@ -47,12 +53,13 @@ class Stage:
 @dataclass(frozen=True)
 class Outcome:
     """A report, with what it does not say because it must not differ from run to run: ``runs`` of the
-    bots, and the ``wall`` time [s] that they took together."""
+    bots, the ``wall`` time [s] that they took together, and where they are ``kept``."""
 
     report: Report
     runs: tuple[BotRun, ...]
     stage: Stage
     wall: float
+    kept: KeptRuns | None = None
 
 
 def playtest(
@@ -66,13 +73,18 @@ def playtest(
     up: str | None = None,
     scale: float | None = None,
     processes: int = 1,
+    cluster: str | None = None,
+    checkpoint: Path | None = None,
     progress: Progress | None = None,
 ) -> Outcome:
     """Playtest ``level`` (a mesh file) with ``bots`` bots of ``body`` for ``seconds`` [s] each.
 
     ``plan`` is the playtest file; by default LEVEL.playtest.yaml where there is one. ``up`` and ``scale`` as
-    for `navmesh.Terrain.load`. The same arguments give the same report, whatever ``processes`` is. Raises
-    `RuntimeInputError`, `navmesh.NavmeshError` and its `FileError` for wrong input.
+    for `navmesh.Terrain.load`. Bots run in ``processes`` of this machine, or on the ``cluster`` with that
+    address (`surefoot.workers.cluster`); the report is the same wherever they run. Finished runs are kept in
+    the folder ``checkpoint`` until its `KeptRuns.forget`; the same playtest with the same folder goes on from
+    them. Raises `RuntimeInputError`, `navmesh.NavmeshError`, its `FileError` and
+    `surefoot.workers.cluster.ClusterError` for wrong input.
     """
     if not 0 <= bots <= MOST_BOTS:
         raise RuntimeInputError(f"bots = {bots}: expected 0 to {MOST_BOTS}")
@@ -82,6 +94,7 @@ def playtest(
         raise RuntimeInputError(f"seed = {seed}: expected 0 or more")
     if processes < 1:
         raise RuntimeInputError(f"processes = {processes}: expected 1 or more")
+    place = processes if cluster is None else checked_address(cluster)
     progress = progress or Progress(shown=False)
     beside = plan_path(level)
     plan = plan or (beside if beside.is_file() else None)
@@ -97,12 +110,14 @@ def playtest(
         holes = find_holes(site, reached)
         proved = analyse(site, holes, starts, at[~meant], at[meant])
         proved += broken_expectations(site, stage.plan, starts, at)
+    kept = None if checkpoint is None else KeptRuns(checkpoint, _identity(stage))
     begun = time.perf_counter()
-    runs = []
+    runs, played = [], 0.0
     with progress.stage(f"{bots} bots play") as bar:
-        for run in _all_runs(stage, processes):
+        for run in _all_runs(stage, place, kept):
             runs.append(run)
-            pace = sum(each.seconds for each in runs) / max(time.perf_counter() - begun, 1e-9)
+            played += run.seconds
+            pace = played / max(time.perf_counter() - begun, 1e-9)
             bar.update(len(runs) / bots, f"{len(runs)} done, {pace:.0f} x real time")
     wall = time.perf_counter() - begun
     ways, trips = crossings(site, runs, stage.goals.obstacles), journeys(runs)
@@ -119,16 +134,14 @@ def playtest(
         patches=patches,
         reachable=round(float(site.areas[reached].sum()), 2),
     )
-    return Outcome(report, tuple(runs), stage, wall)
+    return Outcome(report, tuple(runs), stage, wall, kept)
 
 
-def open_stage(setup: Setup, graph: navmesh.NodeGraph | None = None) -> Stage:
-    """The stage of ``setup``; ``graph`` is its level's, where it is there already."""
+def open_stage(setup: Setup) -> Stage:
+    """The stage of ``setup``."""
     plan = LoadedPlan.read(setup.plan)
     character = plan.character(character_of(setup.body))
-    if graph is None:
-        graph = _build(setup, character)
-    site = Site(graph, character)
+    site = Site(_build(setup, character), character)
     return Stage(setup, site, plan, make_goals(site, plan, np.random.default_rng(setup.seed)))
 
 
@@ -140,32 +153,65 @@ def _build(setup: Setup, character: Character) -> navmesh.NodeGraph:
     return navmesh.NodeGraph.build(terrain, character.rules, character.obstacle_rules(), tags=tags)
 
 
-def _all_runs(stage: Stage, processes: int) -> Iterator[BotRun]:
-    """The runs in the order of the bots' numbers."""
-    setup = stage.setup
-    if processes == 1:
-        for number in range(setup.bots):
-            yield run_bot(stage.site, stage.goals, setup.seed, number, setup.seconds)
-        return
+def _identity(stage: Stage) -> str:
+    """Of all that decides a bot's run, as a name for a folder."""
+    setup = {key: value for key, value in asdict(stage.setup).items() if key != "bots"}
+    graph = hashlib.sha256(_packed(stage.site.graph)).hexdigest()
+    told = [setup, graph, stage.site.character.to_dict(), stage.plan.plan.model_dump(), own_versions()]
+    return hashlib.sha256(json.dumps(told, sort_keys=True, default=str).encode()).hexdigest()[:16]
+
+
+def _packed(graph: navmesh.NodeGraph) -> bytes:
+    """The graph's file."""
     with tempfile.TemporaryDirectory(prefix="surefoot-") as folder:
-        graph = Path(folder) / "graph.npz"
-        stage.site.graph.save(graph)
-        with worker_pool(min(processes, max(setup.bots, 1)), _begin, (setup, graph)) as pool:
-            yield from pool.imap(_run_one, range(setup.bots))
+        file = Path(folder) / "graph.npz"
+        graph.save(file)
+        return file.read_bytes()
 
 
-_stage: Stage | None = None  # of a worker process
+def _all_runs(stage: Stage, place: Place, kept: KeptRuns | None) -> Iterator[BotRun]:
+    """The runs in the order of the bots' numbers, those that are ``kept`` already as they were."""
+    numbers = range(stage.setup.bots)
+    known = {} if kept is None else {n: run for n in numbers if (run := kept.read(n)) is not None}
+    with _runs(stage, place, [n for n in numbers if n not in known]) as fresh:
+        for number in numbers:
+            run = known.pop(number, None)
+            if run is None:
+                run = next(fresh)
+                if kept is not None:
+                    kept.keep(run)
+            yield run
 
 
-def _begin(setup: Setup, graph: Path) -> None:
-    global _stage
-    _stage = open_stage(setup, navmesh.NodeGraph.load(graph))
+@contextmanager
+def _runs(stage: Stage, place: Place, numbers: Sequence[int]) -> Iterator[Iterator[BotRun]]:
+    """The runs of the bots ``numbers``, by whoever works at ``place``."""
+    site, goals, setup = stage.site, stage.goals, stage.setup
+    if place == 1 or not numbers:
+        yield (run_bot(site, goals, setup.seed, number, setup.seconds) for number in numbers)
+        return
+    most = place if isinstance(place, str) else min(place, len(numbers))
+    common = (_packed(site.graph), site.character, goals, setup.seed, setup.seconds)
+    with worker_pool(most, _begin, common) as pool:
+        yield pool.imap(_run_one, numbers)
+
+
+_player: tuple[Site, Goals, int, float] | None = None  # of a worker process
+
+
+def _begin(graph: bytes, character: Character, goals: Goals, seed: int, seconds: float) -> None:
+    global _player
+    with tempfile.TemporaryDirectory(prefix="surefoot-") as folder:
+        file = Path(folder) / "graph.npz"
+        file.write_bytes(graph)
+        site = Site(navmesh.NodeGraph.load(file), character)
+    _player = site, goals, seed, seconds
 
 
 def _run_one(number: int) -> BotRun:
-    assert _stage is not None
-    setup = _stage.setup
-    return run_bot(_stage.site, _stage.goals, setup.seed, number, setup.seconds)
+    assert _player is not None
+    site, goals, seed, seconds = _player
+    return run_bot(site, goals, seed, number, seconds)
 
 
 def _coverage(site: Site, reached: np.ndarray, runs: Sequence[BotRun], seconds: float) -> tuple[tuple, tuple]:

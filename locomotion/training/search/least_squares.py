@@ -21,7 +21,7 @@ from locomotion.training.progress import Clock, Progress, show
 from locomotion.training.search.checkpoint import anew, read_checkpoint
 from surefoot.files.archive import write_archive
 from surefoot.files.schema import Header, Schema
-from surefoot.workers import worker_pool
+from surefoot.workers.pool import Place, worker_pool
 
 __all__ = ["Outcomes", "Work", "fit"]
 
@@ -81,7 +81,7 @@ class Work(NamedTuple):
     """
 
     checkpoint: str | os.PathLike[str] | None = None
-    workers: int = 2
+    workers: Place = 2
     on_progress: Callable[[Progress], None] = show
     clock: Clock | None = None
     seconds: float = 1.0

@@ -25,7 +25,7 @@ from locomotion.training.search.checkpoint import anew, read_checkpoint
 from locomotion.training.search.cma_es import CmaEs, search_arrays
 from surefoot.files.archive import ArchiveError, write_archive
 from surefoot.files.schema import Array, Header, Schema
-from surefoot.workers import worker_pool
+from surefoot.workers.pool import Place, worker_pool
 
 __all__ = ["Problem", "Stage", "learn", "read_search", "simulated", "stages_digest", "write_search"]
 
@@ -117,7 +117,7 @@ def learn(
     problem: Problem,
     seed: int,
     checkpoint: str | os.PathLike[str] | None = None,
-    workers: int = 2,
+    workers: Place = 2,
     on_progress: Callable[[Progress], None] = show,
     clock: Clock | None = None,
     stop_after: int | None = None,

@@ -15,7 +15,7 @@ from locomotion.training.training import NotLearnedError
 from runtime.cli.app import main
 from runtime.cli.skill_commands import _cpu_minutes, _trainers, train_skill
 from runtime.errors import RuntimeInputError
-from surefoot.workers import worker_pool
+from surefoot.workers.pool import worker_pool
 
 
 def surefoot(capsys, *arguments):
@@ -139,12 +139,10 @@ def test_a_picture_of_tests_without_a_plane_is_refused_before_they_run(capsys, t
     def run(*arguments):
         raise AssertionError
 
-    for skill in ("walk", "speed_up", "slow_down", "brake"):
-        monkeypatch.setattr(f"runtime.evaluation.evaluation.evaluate_{skill}", run)
-        name = skill.replace("_", "-")
+    monkeypatch.setattr("runtime.evaluation.evaluate.evaluate", run)
+    for name in ("walk", "speed-up", "slow-down", "brake"):
         code, _, err = surefoot(capsys, "evaluate", name, "--picture", tmp_path / "x.png")
         assert code == 2 and f"the tests of {name} do not vary in two numbers" in err
-    monkeypatch.setattr("runtime.evaluation.evaluation.evaluate_run", run)
     monkeypatch.setattr("os.access", lambda path, mode: False)
     code, _, err = surefoot(capsys, "evaluate", "run", "--picture", tmp_path / "x.png")
     assert code == 2 and "is not writable" in err

@@ -8,8 +8,7 @@ import pytest
 from locomotion.skills.jump.kind import JUMP
 from runtime.evaluation import evaluation
 from runtime.evaluation.courses import CourseRun
-from runtime.evaluation.evaluation import Attempt, evaluate_clearing, start_noise
-from surefoot.progress import Progress
+from runtime.evaluation.evaluation import clearing_trials, start_noise
 
 
 def test_noise_and_pushes_depend_on_seed_and_distance_only():
@@ -44,7 +43,7 @@ def test_three_tests_of_as_many_trials_over_the_sizes_of_the_kind(monkeypatch):
 
     monkeypatch.setattr(evaluation, "run_course", run)
     kind = replace(JUMP, sizes=(0.2, 0.5), usual=0.4)
-    attempts = evaluate_clearing(kind, 4, 1, Progress(shown=False))
+    attempts = [trial() for trial in clearing_trials(kind, 4, 1)]
     assert len(attempts) == len(seen) == 12 and not any(each.held for each in attempts)
     usual, drawn, pushed = seen[:4], seen[4:8], seen[8:]
     assert [size for size, *_ in usual] == [0.4] * 4
@@ -56,10 +55,3 @@ def test_three_tests_of_as_many_trials_over_the_sizes_of_the_kind(monkeypatch):
         "run-up [m]": 30.0,
         "height [m]": 0.4,
     }
-
-
-def test_how_many_held_so_far_is_shown(capsys):
-    attempts = [Attempt("a", "", "", held) for held in (True, False)]
-    done = evaluation._tried("jump", [lambda each=each: each for each in attempts], Progress())
-    assert done == attempts
-    assert capsys.readouterr().err.splitlines()[1] == "evaluating: jump: 50 %, 1 of 1 held"

@@ -1,11 +1,10 @@
 """Trials of the learned walk."""
 
-from runtime.evaluation.policies import evaluate_walk_policy
-from surefoot.progress import Progress
+from runtime.evaluation.policies import walk_policy_trials
 
 
 def test_each_test_is_tried():
-    attempts = evaluate_walk_policy(1, 3, Progress(shown=False))
+    attempts = [trial() for trial in walk_policy_trials(1, 3)]
     assert [each.test for each in attempts] == ["walk", "pushed with 300 N", "start, stop, turn"]
     assert all(each.status == ("walks" if each.held else "fallen") for each in attempts)
     assert attempts[0].held

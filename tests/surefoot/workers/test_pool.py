@@ -5,7 +5,7 @@ import signal
 
 import pytest
 
-from surefoot.workers import worker_pool
+from surefoot.workers.pool import worker_pool
 
 BASE = {"of": 0}
 

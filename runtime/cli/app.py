@@ -323,7 +323,10 @@ def serve(
 
 @app.command()
 def playtest(
-    level: Annotated[Path, typer.Argument(callback=_input, help=MESH_HELP)],
+    context: typer.Context,
+    level: Annotated[
+        Path, typer.Argument(callback=_input, help=f"{MESH_HELP} Or a suite of playtests (.yaml).")
+    ],
     bots: Annotated[int, typer.Option(min=0, help="How many bots.")] = 64,
     seconds: Annotated[float, typer.Option(help="[s] How long each bot plays.")] = 300.0,
     seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same report.")] = 0,
@@ -348,14 +351,22 @@ def playtest(
     scale: ScaleOption = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Send bots through a level and report its faults. The exit code is 1 if there are any."""
+    """Send bots through a level, or through all levels of a suite, and report faults. The exit code is 1 if
+    there are any."""
+    _commands()
+    from runtime.playtest.command import playtest_level, playtest_suite
+
+    if level.suffix.lower() in (".yaml", ".yml"):
+        for name in ("bots", "seconds", "seed", "body", "plan", "up", "scale"):
+            source = context.get_parameter_source(name)
+            if source is not None and source.name != "DEFAULT":
+                raise typer.BadParameter(f"a suite says that itself: {level}", param_hint=f"--{name}")
+        _finish(playtest_suite(level, out, before, processes, cluster), as_json)
+        return
     options = {
         "bots": bots, "seconds": seconds, "seed": seed, "body": body, "plan": plan, "up": up,
         "scale": scale, "processes": processes, "cluster": cluster,
     }  # fmt: skip
-    _commands()
-    from runtime.playtest.command import playtest_level
-
     _finish(playtest_level(level, options, out, before), as_json)
 
 

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from runtime.cli.commands import Result, check_page, ready
+from runtime.errors import RuntimeInputError
 from runtime.playtest.diff import Difference, compare
 from runtime.playtest.fault import Fault
 from runtime.playtest.junit import write_junit
@@ -13,9 +14,11 @@ from runtime.playtest.page import write_page
 from runtime.playtest.replay import replay
 from runtime.playtest.report import read_report, write_report
 from runtime.playtest.run import Outcome, playtest
+from runtime.playtest.suite.run import FILES, run_suite
 from surefoot.files.outputs import check_output_folder
+from surefoot.words import several
 
-__all__ = ["playtest_level", "replay_finding"]
+__all__ = ["playtest_level", "playtest_suite", "replay_finding"]
 
 
 def playtest_level(level: Path, options: Mapping[str, Any], out: Path | None, before: Path | None) -> Result:
@@ -42,6 +45,38 @@ def playtest_level(level: Path, options: Mapping[str, Any], out: Path | None, be
         values["new"] = [fault.to_dict() for fault in difference.new]
         values["gone"] = [fault.to_dict() for fault in difference.gone]
     return Result(values, outcome.report.held, lambda: _show(outcome, difference, written))
+
+
+def playtest_suite(
+    suite: Path, out: Path | None, before: Path | None, processes: int, cluster: str | None
+) -> Result:
+    """Run a ``suite`` of playtests and leave its report in ``out``; holds when nothing fails. ``before`` is
+    the suite.json of an earlier night."""
+    if out is None:
+        raise RuntimeInputError(
+            f"{suite}: a suite leaves a page and a folder for each playtest: say where (--out)"
+        )
+    report = run_suite(suite, out, before, processes, cluster, ready())
+    written = [str(out / name) for name in FILES]
+
+    def show() -> None:
+        night = report.night
+        for finding in report.findings:
+            if finding.fault.fails:
+                seen = f"{len(finding.seeds)} of {finding.tried} seeds"
+                print(
+                    f"{finding.level}, {finding.body}: {finding.fault.title}: {finding.fault.text} ({seen})"
+                )
+        print(
+            f"{several(len(report.cells), 'playtest')}: {several(night.steady, 'steady fault')}, "
+            f"{night.flaky} flaky; {100.0 * night.coverage:.0f} % of the reachable floor visited"
+        )
+        if before is not None:
+            print(f"since the night before: {len(report.new)} new, {len(report.gone)} gone")
+        for path in written:
+            print(f"wrote {path}")
+
+    return Result({**report.to_dict(), "files": written}, report.held, show)
 
 
 def replay_finding(report: Path, number: int, output: Path) -> Result:

@@ -7,7 +7,7 @@ import numpy as np
 from runtime.playtest.fault import Fault
 from runtime.playtest.report import Report
 
-__all__ = ["Difference", "compare"]
+__all__ = ["Difference", "compare", "same_finding"]
 
 _SAME = 2.0
 """[m] findings of one kind this near to each other are the same one."""
@@ -28,7 +28,7 @@ def compare(before: Report, after: Report) -> Difference:
     left = list(before.faults)
     new, kept = [], []
     for fault in after.faults:
-        twin = next((each for each in left if _same(each, fault)), None)
+        twin = next((each for each in left if same_finding(each, fault)), None)
         if twin is None:
             new.append(fault)
         else:
@@ -38,6 +38,7 @@ def compare(before: Report, after: Report) -> Difference:
     return Difference(tuple(new), tuple(left), tuple(kept), (covered[0], covered[1]))
 
 
-def _same(a: Fault, b: Fault) -> bool:
+def same_finding(a: Fault, b: Fault) -> bool:
+    """Whether two reports of a level speak of one thing: of a kind, and near each other."""
     near = float(np.linalg.norm(np.subtract(a.position, b.position))) <= _SAME
     return near and a.kind == b.kind and a.fails == b.fails

@@ -15,7 +15,7 @@ from surefoot.files.atomic_write import whole_file
 from surefoot.files.jsonfile import read_json
 from surefoot.files.record_types import wrong_field
 
-__all__ = ["FORMAT", "Report", "Setup", "read_report", "write_report"]
+__all__ = ["FORMAT", "Report", "Setup", "fault_of", "read_report", "write_report"]
 
 FORMAT = "surefoot playtest 2"
 
@@ -101,7 +101,7 @@ def read_report(path: str | os.PathLike[str]) -> Report:
             setup=Setup(**values["setup"]),
             digest=values["digest"],
             character=values["character"],
-            faults=tuple(_fault(each) for each in values["faults"]),
+            faults=tuple(fault_of(each) for each in values["faults"]),
             crossings=tuple(
                 Crossing(**{**each, "position": tuple(each["position"])}) for each in values["crossings"]
             ),
@@ -121,7 +121,8 @@ def read_report(path: str | os.PathLike[str]) -> Report:
         raise RuntimeInputError(f"{file}: not a whole report of a playtest: {error}; run it again") from None
 
 
-def _fault(values: Mapping[str, Any]) -> Fault:
+def fault_of(values: Mapping[str, Any]) -> Fault:
+    """What `Fault.to_dict` made plain."""
     own = {field.name: values[field.name] for field in fields(Fault)}
     own["position"] = tuple(own["position"])
     own["span"] = tuple(tuple(end) for end in own["span"])

@@ -18,7 +18,7 @@ from functools import lru_cache
 from typing import Annotated, Self
 
 import numpy as np
-from annotated_types import Gt, Le
+from annotated_types import Ge, Gt, Le, Lt
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, model_validator
 
@@ -49,6 +49,8 @@ class Clip(BaseModel):
             [rad/s].
         travel: x, y [m] and turn [rad] from its beginning to its end, or once round.
         rest: of a cycle: the clip of the posture that the gait slows down to, or "".
+        bears: of a cycle on two feet: the share of it for which each foot bears, from when it strikes, the
+            right one at 0, the left one at 0.5. 0 for others: their feet are not planted.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
@@ -61,6 +63,7 @@ class Clip(BaseModel):
     speed: float = 0.0
     travel: tuple[float, float, float] = (0.0, 0.0, 0.0)
     rest: str = ""
+    bears: Annotated[float, Ge(0.0), Lt(1.0)] = 0.0
 
     @model_validator(mode="after")
     def _is_of_a_kind(self) -> Self:

@@ -1,47 +1,67 @@
 """Make a set of recorded motions from takes of the full figure (``surefoot record``)."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion.body.person import JOINT_NAMES
 from locomotion.postures.posture_graph import PostureGraph
 from locomotion.recorded.motion_set import LevelFrames, MotionSet
 from locomotion.recorded.skeletons import LEVELS, Skeleton, skeleton
+from locomotion.recorded.slaving import slaved
 from locomotion.recorded.takes.arcs import posture_takes
+from locomotion.recorded.takes.cleaning import backwards, cleaned
 from locomotion.recorded.takes.cycles import run_cycles, walk_cycles
 from locomotion.recorded.takes.take import Take, spread
 from surefoot.progress import Progress
 
-__all__ = ["motion_set_of", "record_person"]
+__all__ = ["Recorded", "motion_set_of", "record_person"]
+
+_BACKWARDS = 1.5
+"""[m/s] of the quickest walk that is played backwards, too."""
 
 
-def record_person(graph: PostureGraph, origin: str, progress: Progress) -> MotionSet:
+@dataclass(frozen=True)
+class Recorded:
+    """A set, and where the landmarks of its lower figures miss those of the full one, in words."""
+
+    motions: MotionSet
+    warnings: tuple[str, ...]
+
+
+def record_person(graph: PostureGraph, origin: str, progress: Progress) -> Recorded:
     """The postures of ``graph``, which come from ``origin``, and what the person does in the simulation."""
     takes = posture_takes(graph, origin)
     for label, record in (("walking", walk_cycles), ("running", run_cycles)):
         with progress.stage(label) as stage:
-            takes += record(stage.update)
-    return motion_set_of(takes)
+            cycles = cleaned(record(stage.update))
+        takes += cycles
+        if label == "walking":
+            takes += [backwards(take, "walk backwards") for take in cycles if take.clip.speed < _BACKWARDS]
+    with progress.stage("mapping to lower levels") as stage:
+        return motion_set_of(takes, stage.update)
 
 
-def motion_set_of(takes: Sequence[Take]) -> MotionSet:
+def motion_set_of(takes: Sequence[Take], told=lambda share, what: None) -> Recorded:
     """The set of ``takes``, mapped to all levels."""
-    levels = []
-    for name in LEVELS:
-        figure = skeleton(name)
-        parts = [_at_rate(take, figure) for take in takes]
-        count = np.array([len(qpos) for qpos, _ in parts], np.int64)
-        qpos = np.concatenate([qpos for qpos, _ in parts])
-        stance = np.concatenate([stance for _, stance in parts])
-        levels.append(
-            LevelFrames(np.cumsum(count) - count, count, guessed(qpos, figure), qpos[:, :7], stance)
-        )
-    return MotionSet(tuple(take.clip for take in takes), tuple(levels))
+    levels, warnings = [], []
+    for number, name in enumerate(LEVELS):
+        figure, parts = skeleton(name), []
+        for k, take in enumerate(takes):
+            told((number + k / len(takes)) / len(LEVELS), f"{take.clip.name}, {name}")
+            qpos, stance = _at_rate(take, figure)
+            found = slaved(qpos, figure, take.held, take.clip.name, figure.rate)
+            warnings += found.warnings
+            parts.append((found.channels, qpos[:, :7], stance))
+        count = np.array([len(part[0]) for part in parts], np.int64)
+        channels, roots, stance = (np.concatenate(each) for each in zip(*parts, strict=True))
+        levels.append(LevelFrames(np.cumsum(count) - count, count, channels, roots, stance))
+    return Recorded(MotionSet(tuple(take.clip for take in takes), tuple(levels)), tuple(warnings))
 
 
 def _at_rate(take: Take, figure: Skeleton) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Frames (n, 46) and stance (n, 2) of a take at the rate of a level."""
     if len(take.qpos) == 1:
         return take.qpos, take.stance
     cyclic = take.clip.kind == "cycle"
@@ -49,12 +69,3 @@ def _at_rate(take: Take, figure: Skeleton) -> tuple[NDArray[np.float64], NDArray
     shares = np.arange(count) / count if cyclic else np.linspace(0.0, 1.0, count + 1)
     nearest = np.round(shares * (len(take.qpos) - (not cyclic))).astype(int) % len(take.qpos)
     return spread(take.qpos, shares, cyclic), take.stance[nearest]
-
-
-def guessed(qpos: NDArray[np.float64], figure: Skeleton) -> NDArray[np.float64]:
-    """Channels (n, c) of a lower level by the sum of what the full figure's joints ``qpos`` (n, 46) turn."""
-    joints = qpos[:, 7:].copy()
-    if "chest_pitch" not in figure.channels:
-        for turn in ("pitch", "roll", "yaw"):
-            joints[:, JOINT_NAMES.index(f"waist_{turn}")] += joints[:, JOINT_NAMES.index(f"chest_{turn}")]
-    return joints[:, figure.joints]

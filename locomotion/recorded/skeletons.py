@@ -10,7 +10,7 @@ level    bodies  channels  rate
 =======  ======  ========  ====
 full     20      39        60 Hz
 medium   13      22        30 Hz
-low      12      15        15 Hz
+low      12      17        15 Hz
 =======  ======  ========  ====
 """
 
@@ -39,7 +39,7 @@ _KEPT = {
     "medium": frozenset(
         ("waist_pitch", "waist_roll", "waist_yaw", "neck_pitch", "shoulder_rotation", "hip_rotation")
     ).union(_ARMS_AND_LEGS),
-    "low": frozenset(("waist_pitch", *_ARMS_AND_LEGS)),
+    "low": frozenset(("waist_pitch", "shoulder_rotation", *_ARMS_AND_LEGS)),
 }
 _RATES = {"full": 60.0, "medium": 30.0, "low": 15.0}
 

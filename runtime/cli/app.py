@@ -505,6 +505,35 @@ def postures(
     _finish(show_postures(file, film), as_json)
 
 
+@app.command()
+def record(
+    source: Annotated[
+        Path | None,
+        typer.Argument(callback=_input, help="Posture file (.yaml); with --list, recorded motions (.npz)."),
+    ] = None,
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="Output file for the motions (.npz).")
+    ] = Path("motions.npz"),
+    listed: Annotated[
+        bool, typer.Option("--list", help="List the clips of a file, or of the package, and their origins.")
+    ] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Record the person's motions, from its simulation and from a posture graph, at three levels of
+    detail."""
+    if source is None and not listed:
+        raise typer.BadParameter("name a posture file, or list what the package has with --list")
+    _commands()
+    from runtime.cli.record_commands import list_motions, record_motions
+
+    if listed:
+        result = list_motions(source)
+    else:
+        assert source is not None
+        result = record_motions(source, output)
+    _finish(result, as_json)
+
+
 def _commands() -> Any:
     """The module `runtime.cli.commands`; from now on nothing is written to what the command reads."""
     commands = _loaded()

@@ -199,15 +199,17 @@ def _walk_as_learned() -> None:
 
 
 def _play_recorded() -> None:
+    from locomotion.recorded.foot_planting import planted
     from locomotion.recorded.motion_set import load_motions
     from locomotion.recorded.posing import posed
-    from locomotion.recorded.sampling import sample_clips, sample_gait, stride_of
+    from locomotion.recorded.sampling import sample_clips, sample_gait
     from locomotion.recorded.skeletons import FULL, skeleton
 
     motions, zero = load_motions(), np.zeros(1)
     posed(skeleton("full"), *sample_clips(motions, FULL, [0], zero))
-    sample_gait(motions, FULL, [0], zero, zero)
-    stride_of(motions, [0], zero)
+    walk, place = motions.gait("walk"), np.zeros(4)
+    sample, footfalls = sample_gait(motions, FULL, [walk], zero, zero), np.zeros((1, 2, 2, 6))
+    planted(motions, FULL, ([walk], zero, zero), sample, [place], footfalls)
 
 
 FIRST_USES: dict[str, Callable[[], None]] = {

@@ -8,6 +8,9 @@ from locomotion.recorded.takes.take import RATE, Take, spread
 
 __all__ = ["arc_name", "posture_takes"]
 
+_HOLDS = "/"  # in the name of a posture with an object
+_HANDS = ("right_hand", "left_hand")
+
 
 def arc_name(graph: PostureGraph, arc: int) -> str:
     """The name of the clip of an arc; one that is played backwards has that of its opposite."""
@@ -23,6 +26,7 @@ def posture_takes(graph: PostureGraph, origin: str) -> list[Take]:
             Clip(name=name, kind="posture", origin=origin, seconds=1.0),
             pose[None].copy(),
             np.zeros((1, 2), np.bool_),
+            _HANDS if _HOLDS in name else (),
         )
         for name, pose in zip(graph.postures, graph.poses, strict=True)
     ]
@@ -34,5 +38,8 @@ def posture_takes(graph: PostureGraph, origin: str) -> list[Take]:
         clip = Clip(
             name=arc_name(graph, arc), kind="arc", origin=origin, seconds=seconds, travel=(x, y, turn)
         )
-        takes.append(Take(clip, spread(frames, shares, cyclic=False), np.zeros((len(shares), 2), np.bool_)))
+        ends = graph.postures[graph.start[arc]], graph.postures[graph.end[arc]]
+        held = _HANDS if all(_HOLDS in end for end in ends) else ()
+        stance = np.zeros((len(shares), 2), np.bool_)
+        takes.append(Take(clip, spread(frames, shares, cyclic=False), stance, held))
     return takes

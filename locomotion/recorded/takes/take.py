@@ -20,11 +20,13 @@ Told = Callable[[float, str], None]
 @dataclass(frozen=True, eq=False)
 class Take:
     """A ``clip`` and its frames: ``qpos`` (n, 46) of the person with roots as in
-    `locomotion.recorded.motion_set.LevelFrames`, and whether each foot bears, ``stance`` (n, 2)."""
+    `locomotion.recorded.motion_set.LevelFrames`, and whether each foot bears, ``stance`` (n, 2). ``held``:
+    the hands that hold something, such as "right_hand"."""
 
     clip: Clip
     qpos: NDArray[np.float64]
     stance: NDArray[np.bool_]
+    held: tuple[str, ...] = ()
 
 
 def _other(name: str) -> str:

@@ -16,7 +16,7 @@ def standing(count=1):
 
 def test_each_level_keeps_its_rate():
     clip = Clip(name="wait", kind="skill", origin="test", seconds=2.0)
-    found = motion_set_of([Take(clip, standing(121), np.zeros((121, 2), np.bool_))])
+    found = motion_set_of([Take(clip, standing(121), np.zeros((121, 2), np.bool_))]).motions
     assert [int(level.count[0]) for level in found.levels] == [121, 61, 31]
-    assert [level.channels.shape[1] for level in found.levels] == [39, 22, 15]
+    assert [level.channels.shape[1] for level in found.levels] == [39, 22, 17]
     assert len(found.levels) == len(LEVELS)

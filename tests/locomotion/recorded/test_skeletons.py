@@ -17,7 +17,6 @@ def test_lower_levels_have_about_half_of_the_joints_and_about_a_dozen():
     full, medium, low = (skeleton(level) for level in LEVELS)
     assert 0.4 <= len(medium.channels) / len(full.channels) <= 0.6
     assert len(low.bodies) - 1 <= 12
-    assert len(full.channels) * full.rate >= 10 * len(low.channels) * low.rate
     assert set(low.channels) < set(medium.channels) < set(full.channels)
 
 

@@ -21,7 +21,7 @@ def steady(count=800, noise=0.0):
     qpos[:, 7 + JOINT_NAMES.index("left_hip_flexion")] = -swing
     qpos[:, 7:] += noise * np.random.default_rng(2).normal(size=(count, 39))
     bears = 600.0 * np.array([(time % 1.0) < 0.6, ((time + 0.5) % 1.0) < 0.6]).T
-    return qpos, bears
+    return qpos, bears, time
 
 
 def test_a_cycle_is_symmetric_and_of_the_speed_at_which_it_was_gone():
@@ -38,11 +38,11 @@ def test_a_cycle_is_symmetric_and_of_the_speed_at_which_it_was_gone():
 def test_stance_is_told_from_the_forces():
     take = averaged("walk", *steady(), "test")
     assert take.stance[:, 0].mean() == pytest.approx(0.6, abs=0.05)
+    assert take.clip.bears == pytest.approx(0.6, abs=0.025)  # forces are known each 1/80
     assert take.stance[0, 0] and not take.stance[35, 0]
     assert (take.stance[:, 1] == np.roll(take.stance[:, 0], 24)).mean() > 0.9
 
 
 def test_too_few_strides_are_refused():
-    qpos, forces = steady(200)
-    with pytest.raises(LocomotionError, match="expected at least 4"):
-        averaged("walk", qpos, forces, "test")
+    with pytest.raises(LocomotionError, match="2 strides, expected at least 3"):
+        averaged("walk", *steady(200), "test")

@@ -1,0 +1,208 @@
+"""Feet planted on the ground: sampled poses with the legs bent so that the feet stand where they were put
+down.
+
+A foot that bears stands still: on its heel, its whole sole or its ball, as the pose has it. A foot that
+swings goes from where it stood to where it is put down next, as it does in the recording, and over the edge
+of a step. The pelvis goes up and down with the feet. All of it is a function of the phase and the footfalls
+(`locomotion.recorded.footfalls`)::
+
+    channels, roots = sample_gait(motions, level, gaits, speeds, phases)
+    channels, roots = planted(motions, level, (gaits, speeds, phases), (channels, roots), places,
+        footfalls)
+
+Full and medium figures are planted. Low ones are only put at the height of the ground.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from locomotion.body.anatomy import ANKLE, SHANK, THIGH
+from locomotion.body.leg_kinematics import solve_leg
+from locomotion.recorded.footfalls import (
+    AHEAD,
+    BALL,
+    BEARS,
+    FEET,
+    HALF_SOLE,
+    HEEL,
+    LEFT,
+    STRIKES,
+    TURNED,
+    footing_at,
+)
+from locomotion.recorded.motion_set import MotionSet
+from locomotion.recorded.posing import posed
+from locomotion.recorded.sampling import Sample, placed_roots, stride_of
+from locomotion.recorded.skeletons import LEVELS, LOW, Skeleton, skeleton
+from surefoot.kernels import allocating_kernel, kernel
+
+__all__ = ["LEG", "planted"]
+
+LEG = ("hip_flexion", "hip_abduction", "hip_rotation", "knee_flexion", "ankle_flexion", "ankle_inversion")
+"""The joints of a leg that `solve_leg` gives."""
+_HIP = 0.085  # [m] of a hip to the side of the pelvis' origin
+_REACH = THIGH + SHANK
+_SOFT = 0.005  # [m] over which the pelvis begins to give way to a leg that is nearly straight
+_FADES = 0.2  # share of a swing over which it takes leave of a footfall, and over which it meets one
+_OVER = 0.12  # height of a swing over the line between two footfalls, per height of the step
+_BEFORE = 0.6  # share of a swing in which a foot that goes up comes to its height
+_HEEL_AHEAD, _BALL_AHEAD = HEEL[0], BALL[0]
+_LOWEST = 0.3  # [m] by which the pelvis is lowered at most for feet to reach the ground
+_ROUNDS = 3  # of solving a leg whose ankle cannot turn in or out
+
+
+def planted(
+    motions: MotionSet,
+    level: int,
+    moments: tuple[ArrayLike, ArrayLike, ArrayLike],
+    sample: Sample,
+    places: ArrayLike,
+    footfalls: ArrayLike,
+) -> Sample:
+    """Plant n figures of one level. ``moments``: gaits, speeds and phases (n,), from which `sample_gait` made
+    the ``sample``. ``places`` (n, 4): where even travel has come to, x, y, z [m] and heading [rad].
+    ``footfalls`` (n, 2, 2, 6): as of `locomotion.recorded.footfalls.Steps`.
+
+    Gives channels (n, c), and roots (n, 7) in the world.
+    """
+    gaits, speeds, phases = (np.asarray(each, np.float64) for each in moments)
+    gaits = gaits.astype(np.int64)
+    footing, strides = np.empty((len(gaits), 2, 5)), stride_of(motions, gaits, speeds)
+    for gait in np.unique(gaits):
+        of_gait = gaits == gait
+        footing[of_gait] = footing_at(motions, int(gait), speeds[of_gait])
+    own, at = skeleton(LEVELS[level]), np.asarray(places, np.float64)
+    steps = np.asarray(footfalls, np.float64)
+    channels, roots = sample[0].copy(), placed_roots(sample[1], at)
+    bodies = posed(own, *sample)
+    feet = np.stack([bodies[:, own.bodies.index(name)] for name in FEET], axis=1)
+    columns = _NONE if level == LOW else leg_columns(own)
+    roots[:, 2] = sample[1][:, 2]
+    _plant(columns, footing, strides, phases, feet, steps, channels, roots)
+    return channels, roots
+
+
+_NONE = np.full((2, 6), -1, np.int64)
+
+
+def leg_columns(own: Skeleton) -> NDArray[np.int64]:
+    """(2, 6) int64: channels of `LEG` of the right and the left leg, -1 for joints that do not move."""
+    names = [[f"{side}_{joint}" for joint in LEG] for side in ("right", "left")]
+    return np.array([[own.channels.index(n) if n in own.channels else -1 for n in leg] for leg in names])
+
+
+@kernel
+def _smooth(x):
+    x = min(max(x, 0.0), 1.0)
+    return x * x * (3.0 - 2.0 * x)
+
+
+@kernel
+def _axes(place, out):
+    """Rotation matrix ``out`` (3, 3) of a place (7,)."""
+    w, x, y, z = place[3], place[4], place[5], place[6]
+    out[0, 0], out[0, 1], out[0, 2] = 1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)
+    out[1, 0], out[1, 1], out[1, 2] = 2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)
+    out[2, 0], out[2, 1], out[2, 2] = 2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)
+
+
+@kernel
+def _facing(heading, up_ahead, up_left, out):
+    """Axes ``out`` (3, 3) of what faces ``heading``, with its front and its left side up by these angles."""
+    c, s, cp, sp = math.cos(heading), math.sin(heading), math.cos(up_ahead), math.sin(up_ahead)
+    cr, sr = math.cos(up_left), math.sin(up_left)
+    out[0, 0], out[1, 0], out[2, 0] = c * cp + s * sr * sp, s * cp - c * sr * sp, cr * sp
+    out[0, 1], out[1, 1], out[2, 1] = -s * cr, c * cr, sr
+    out[0, 2], out[1, 2], out[2, 2] = s * sr * cp - c * sp, -s * sp - c * sr * cp, cr * cp
+
+
+@kernel
+def _foot(footing, stride, phase, foot, steps, axes, point):
+    """Where a foot has to be: its ``axes`` (3, 3) and the ``point`` (3,) in the world for the end of its sole
+    that it stands on, or that is lower; gives where that is ahead of the ankle, and the height of the ground
+    for the pelvis. ``foot`` (7,) is its place in the recording, ``steps`` (2, 6) are its last footfall and
+    the next one."""
+    _axes(foot, axes)
+    turn = math.atan2(-axes[0, 1], axes[1, 1])
+    up_ahead = math.atan2(axes[2, 0], axes[2, 2])
+    up_left = math.asin(min(max(axes[2, 1], -1.0), 1.0))
+    half, end = (HALF_SOLE, _HEEL_AHEAD) if up_ahead >= 0.0 else (-HALF_SOLE, _BALL_AHEAD)
+    # the middle of the sole in the recording, if it stood flat on that end
+    x = foot[0] + end * axes[0, 0] - ANKLE * axes[0, 2] + half * math.cos(turn)
+    y = foot[1] + end * axes[1, 0] - ANKLE * axes[1, 2] + half * math.sin(turn)
+    z = foot[2] + end * axes[2, 0] - ANKLE * axes[2, 2]
+    since = phase - footing[STRIKES]
+    since -= math.floor(since)
+    swung = max(since - footing[BEARS], 0.0) / (1.0 - footing[BEARS])
+    free = _smooth(swung / _FADES) * _smooth((1.0 - swung) / _FADES)
+    share = (x - footing[AHEAD]) / stride + since - 0.5 * footing[BEARS]
+    share = free * min(max(share, 0.0), 1.0) + (1.0 - free) * (0.0 if swung < 0.5 else 1.0)
+    rise = steps[1, 2] - steps[0, 2]
+    risen = _smooth(share / _BEFORE) if rise > 0.0 else _smooth((share - 1.0 + _BEFORE) / _BEFORE)
+    over = _OVER * abs(rise) * 4.0 * share * (1.0 - share)
+    way = steps[0, 3] + share * (steps[1, 3] - steps[0, 3])
+    slope = steps[0, 4] + share * (steps[1, 4] - steps[0, 4])
+    tilt = steps[0, 5] + share * (steps[1, 5] - steps[0, 5])
+    heading, left = way + free * (turn - footing[TURNED]), free * (y - footing[LEFT])
+    _facing(heading, slope + up_ahead, tilt + free * up_left, axes)
+    flat = half * math.cos(slope)
+    left_x, left_y = -math.sin(way - footing[TURNED]), math.cos(way - footing[TURNED])
+    point[0] = steps[0, 0] + share * (steps[1, 0] - steps[0, 0]) + left * left_x - flat * math.cos(heading)
+    point[1] = steps[0, 1] + share * (steps[1, 1] - steps[0, 1]) + left * left_y - flat * math.sin(heading)
+    point[2] = steps[0, 2] + rise * risen + over + free * max(z, 0.0) - half * math.sin(slope)
+    return end, steps[0, 2] + swung * rise
+
+
+@kernel
+def _ankle(point, axes, end, out):
+    """The ankle ``out`` (3,) of a foot with these axes, the ``end`` of whose sole is at ``point``."""
+    for k in range(3):
+        out[k] = point[k] - end * axes[k, 0] + ANKLE * axes[k, 2]
+
+
+@allocating_kernel
+def _plant(columns, footing, strides, phases, feet, footfalls, channels, roots):
+    """Kernel of `planted`; ``channels`` and ``roots`` hold the sample and are changed."""
+    pelvis, axes, points = np.empty((3, 3)), np.empty((2, 3, 3)), np.empty((2, 3))
+    ends, hip, ankle, angles = np.empty(2), np.empty(3), np.empty(3), np.empty(6)
+    for n in range(phases.shape[0]):
+        root = roots[n]
+        if footing[n, 0, BEARS] == 0.0 or footing[n, 1, BEARS] == 0.0:
+            root[2] += 0.25 * (footfalls[n, :, :, 2].sum())
+            continue
+        for side in range(2):
+            found, steps = footing[n, side], footfalls[n, side]
+            ends[side], height = _foot(
+                found, strides[n], phases[n], feet[n, side], steps, axes[side], points[side]
+            )
+            root[2] += 0.5 * height
+        if columns[0, 0] < 0:
+            continue
+        _axes(root, pelvis)
+        stretched = 1.0
+        for side in range(2):
+            _ankle(points[side], axes[side], ends[side], ankle)
+            for k in range(3):
+                hip[k] = root[k] + (2 * side - 1) * _HIP * pelvis[k, 1]
+            room = _REACH * _REACH - (hip[0] - ankle[0]) ** 2 - (hip[1] - ankle[1]) ** 2
+            over = min(hip[2] - ankle[2] - math.sqrt(max(room, 0.0)), _LOWEST)
+            stretched += math.exp(over / _SOFT)
+        root[2] -= _SOFT * math.log(stretched)
+        for side in range(2):
+            for k in range(3):
+                hip[k] = root[k] + (2 * side - 1) * _HIP * pelvis[k, 1]
+            for _ in range(_ROUNDS if columns[side, 5] < 0 else 1):
+                _ankle(points[side], axes[side], ends[side], ankle)
+                solve_leg(pelvis, hip, axes[side], ankle, 2 * side - 1, angles)
+                if columns[side, 5] < 0:
+                    # an ankle that cannot turn in or out leaves the foot as the shank has it
+                    roll = (2 * side - 1) * angles[5]
+                    c, s = math.cos(roll), math.sin(roll)
+                    for k in range(3):
+                        y, z = axes[side, k, 1], axes[side, k, 2]
+                        axes[side, k, 1], axes[side, k, 2] = c * y + s * z, c * z - s * y
+            for k in range(6):
+                if columns[side, k] >= 0:
+                    channels[n, columns[side, k]] = angles[k]

@@ -1,5 +1,6 @@
 """Bodies that follow paths: people, animals and crowds."""
 
+from locomotion.characters.rig import Rig
 from locomotion.errors import LocomotionError
 from locomotion.gaits.run.skill import RunSkill, load_run_skill
 from locomotion.ground.ground import Ground
@@ -22,6 +23,7 @@ __all__ = [
     "HumanState",
     "LocomotionError",
     "ObstacleAhead",
+    "Rig",
     "RunSkill",
     "SkillKind",
     "SmoothPath",

@@ -31,10 +31,11 @@ from locomotion.clips.neutral_pose import LIMBS, SIDES, neutral_axes
 from locomotion.errors import LocomotionError
 from surefoot.files.yamlfile import FileError, nearest, read_yaml
 
-__all__ = ["load_mapping", "retarget"]
+__all__ = ["NEEDED_PARTS", "load_mapping", "retarget"]
 
 _LIMB_PARTS = ("thigh", "shank", "foot", "upper_arm", "forearm")
-_NEEDED = ("pelvis", "chest", *(f"{side}_{part}" for side in SIDES for part in _LIMB_PARTS))
+NEEDED_PARTS = ("pelvis", "chest", *(f"{side}_{part}" for side in SIDES for part in _LIMB_PARTS))
+"""Parts of the person that every mapping names."""
 _AXES = "XYZ"
 _SHORTEST, _LONGEST = 1e-3, 2.0  # [m] of a limb's bone
 _UNDECIDED = 1e-6  # ties between quarter turns do not depend on rounding
@@ -66,14 +67,14 @@ def _wrong(mapping: dict[str, str]) -> tuple[list[str], str] | None:
         if part not in BODY_NAMES:
             hint = nearest(part, BODY_NAMES)
             return [part], f"no part is called {part!r}; {hint}the parts are {', '.join(BODY_NAMES)}"
-    missing = [part for part in _NEEDED if part not in mapping]
+    missing = [part for part in NEEDED_PARTS if part not in mapping]
     if missing:
         return [], f"has no joint for {', '.join(missing)}"
     turned: dict[str, str] = {}
     for part, joint in mapping.items():
         other = turned.setdefault(joint, part)
         if other != part:
-            free = ", ".join(name for name in BODY_NAMES if name not in _NEEDED)
+            free = ", ".join(name for name in BODY_NAMES if name not in NEEDED_PARTS)
             return [part], (
                 f"{other} and {part} are both mapped to {joint!r}; a joint turns one part (these may be left"
                 f" out: {free})"

@@ -1,9 +1,10 @@
-"""Data of the package: learned skills, clips, descriptions of bodies, recorded motions. No code."""
+"""Data of the package: learned skills, clips, descriptions of bodies, recorded motions, names of bones. No
+code."""
 
 from pathlib import Path
 
-__all__ = ["BODIES", "CLIPS", "MOTIONS", "POSTURES", "SKILLS"]
+__all__ = ["BODIES", "CHARACTERS", "CLIPS", "MOTIONS", "POSTURES", "SKILLS"]
 
 _HERE = Path(__file__).parent
 SKILLS, CLIPS, BODIES = _HERE / "skills", _HERE / "clips", _HERE / "bodies"
-POSTURES, MOTIONS = _HERE / "postures", _HERE / "motions"
+POSTURES, MOTIONS, CHARACTERS = _HERE / "postures", _HERE / "motions", _HERE / "characters"

@@ -30,7 +30,8 @@ class MeshFileError(NavmeshError):
     """A mesh file is damaged, or holds what this release does not read."""
 
     def __init__(self, path: str | os.PathLike[str], where: str, problem: str) -> None:
-        super().__init__(f"{path}: cannot be read as a mesh: {where + ': ' if where else ''}{problem}")
+        self.path, self.problem = path, f"{where}: {problem}" if where else problem
+        super().__init__(f"{path}: cannot be read as a mesh: {self.problem}")
 
 
 def missing_extra(path: str | os.PathLike[str], what: str, extra: str, instead: str) -> MeshFileError:

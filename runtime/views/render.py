@@ -1,5 +1,6 @@
 """A small ray caster for pictures of a level and its figures: no GPU, display or driver needed."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -48,15 +49,17 @@ class Camera:
 
 
 class Triangles:
-    """A level's faces, prepared for `render`: corners (f, 3, 3) and unit normals (f, 3) float64."""
+    """Faces, prepared for `render`: corners (f, 3, 3) and unit normals (f, 3) float64. ``colours``: (f, 3),
+    0 to 1; None: a level's, by slope."""
 
-    def __init__(self, vertices: np.ndarray, faces: np.ndarray) -> None:
+    def __init__(self, vertices: np.ndarray, faces: np.ndarray, colours: np.ndarray | None = None) -> None:
         corners = vertices[faces].astype(np.float64)
         normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         area = np.linalg.norm(normal, axis=1)
         whole = area > 1e-12
         self.corners = corners[whole]
         self.normals = normal[whole] / area[whole, None]
+        self.colours = None if colours is None else colours[whole]
 
 
 def render(
@@ -66,8 +69,10 @@ def render(
     size: tuple[int, int] = (480, 360),
     reach: float = 40.0,
     cutaway: float = 0.0,
+    skins: Sequence[Triangles] = (),
 ) -> np.ndarray:
-    """Draw the level's front faces within ``reach`` [m] and figures; returns (height, width, 3) uint8.
+    """Draw the level's front faces within ``reach`` [m], figures, and ``skins`` of characters; returns
+    (height, width, 3) uint8.
 
     Walls and ceilings nearer to the eye than ``cutaway`` [m] are left out, so that they hide nothing.
     ``figures`` are shapes in the world.
@@ -75,9 +80,11 @@ def render(
     width, height = 2 * size[0], 2 * size[1]
     rays = camera.rays(width, height)
     frame = _Frame(camera, width, height, rays)
-    _draw_level(frame, triangles, reach, cutaway)
+    _draw_faces(frame, triangles, reach, cutaway)
     for shapes in figures:
         _draw_shapes(frame, shapes)
+    for skin in skins:
+        _draw_faces(frame, skin, reach, 0.0)
     image = _shade(frame, figures, reach)
     small = image.reshape(size[1], 2, size[0], 2, 3).mean(axis=(1, 3))
     return (np.clip(small, 0.0, 1.0) * 255.0 + 0.5).astype(np.uint8)
@@ -111,7 +118,7 @@ class _Frame:
         )  # fmt: skip
 
 
-def _draw_level(frame: _Frame, triangles: Triangles, reach: float, cutaway: float) -> None:
+def _draw_faces(frame: _Frame, triangles: Triangles, reach: float, cutaway: float) -> None:
     eye = frame.camera.eye
     towards = np.einsum("fc,fc->f", triangles.corners[:, 0] - eye, triangles.normals)
     low, high = triangles.corners.min(axis=1), triangles.corners.max(axis=1)
@@ -125,7 +132,10 @@ def _draw_level(frame: _Frame, triangles: Triangles, reach: float, cutaway: floa
     )
     hit = face >= 0
     frame.normal[hit] = normals[face[hit]]
-    frame.colour[hit] = np.where(level[face[hit], None], FLOOR, WALL)
+    if triangles.colours is None:
+        frame.colour[hit] = np.where(level[face[hit], None], FLOOR, WALL)
+    else:
+        frame.colour[hit] = triangles.colours[seen[face[hit]]]
 
 
 def _draw_shapes(frame: _Frame, shapes: Shapes) -> None:

@@ -53,7 +53,7 @@ class Skeleton:
         above: (b, 7) float64 and above_scales (b,): the same of what each bone hangs on: its parent, else the
             node above it, else the scene.
         humanoid: bones by the names of VRM's own table; empty if the file has none.
-        mesh: what is drawn of it.
+        mesh: what is drawn of it. scale: metres per unit of the file.
     """
 
     path: str
@@ -66,6 +66,7 @@ class Skeleton:
     above_scales: np.ndarray
     humanoid: dict[str, int]
     mesh: SkinnedMesh
+    scale: float = 1.0
 
 
 def read_character(path: str | os.PathLike[str], scale: float = 1.0) -> Skeleton:
@@ -108,7 +109,7 @@ def _read(document: Document, scale: float) -> Skeleton:
     names = tuple(_name(nodes[k], k) for k in bones)
     return Skeleton(
         str(document.path), np.array(bones), names, parents, places, scales, above, above_scales,
-        _humanoid(document, number), _mesh(document, dressed, placed, number),
+        _humanoid(document, number), _mesh(document, dressed, placed, number), scale,
     )  # fmt: skip
 
 

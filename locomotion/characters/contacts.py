@@ -18,10 +18,10 @@ from surefoot.kernels import allocating_kernel
 __all__ = ["Contacts", "contacts_with", "no_contacts"]
 
 _TOUCHING, _FREE = 0.02, 0.15
-"""[m] from the level: nearer than the first a hand touches it, from the second on it is free."""
+"""[m] from the level: nearer than the first a hand touches it, from the second on hands and feet are free."""
 _DEEPEST = 0.08
 """[m] that a foot sinks in at most; what is further above it is no ground of it."""
-_LEFT = 0.05
+_LEFT = 0.08
 """[m] over the ground from where on its slope does not matter to a foot."""
 _POINT = np.array(HAND_POINT)
 _FOOT, _TOES, _HAND = 2, 3, 6  # rows of `PersonArrays.limbs`
@@ -35,14 +35,17 @@ class Contacts(NamedTuple):
     sunk: np.ndarray
     """(n, 2) float64 [m]: how deep a foot is in the ground"""
     near: np.ndarray
-    """(n, 2) float64, 0 to 1: how near a foot is to the ground"""
+    """(n, 2) float64, 0 to 1: how near a foot is to the ground, if that is known"""
+    loads: np.ndarray
+    """(n, 2) float64, 0 to 1: how near it is or may be"""
     normals: np.ndarray
     """(n, 2, 3) float64: of the ground under a foot that is near it"""
 
 
 def no_contacts(count: int) -> Contacts:
     """Of so many persons of whom nothing is known."""
-    return Contacts(*(np.zeros((count, 2)) for _ in range(3)), np.zeros((count, 2, 3)))
+    hands, sunk, near = (np.zeros((count, 2)) for _ in range(3))
+    return Contacts(hands, sunk, near, np.ones((count, 2)), np.zeros((count, 2, 3)))
 
 
 def contacts_with(ground: Ground, places: NDArray[np.float64]) -> Contacts:
@@ -78,7 +81,7 @@ def _find(level, origin, person, places, contacts):
                 away = min(away, found[c, DISTANCE])
             share = min(max((_FREE - away) / (_FREE - _TOUCHING), 0.0), 1.0)
             contacts.hands[i, side] = share * share * (3.0 - 2.0 * share)
-            deep = -_LEFT
+            deep = -_FREE
             for part in range(2):
                 body = places[i, person.limbs[_TOES if part else _FOOT, side]]
                 ends = person.toes[side] if part else person.feet[side]
@@ -94,5 +97,7 @@ def _find(level, origin, person, places, contacts):
                         deep = height - low
                         contacts.normals[i, side] = rows[which, NX : NX + 3]
             contacts.sunk[i, side] = max(deep, 0.0)
-            share = min((deep + _LEFT) / _LEFT, 1.0)
+            share = min(max(deep + _LEFT, 0.0) / _LEFT, 1.0)
             contacts.near[i, side] = share * share * (3.0 - 2.0 * share)
+            share = min((deep + _FREE) / _FREE, 1.0)
+            contacts.loads[i, side] = share * share * (3.0 - 2.0 * share)

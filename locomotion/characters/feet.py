@@ -19,7 +19,7 @@ _FOOT, _TOES = 2, 3  # rows of `PersonArrays.limbs`
 _LYING, _STEEP = 0.25, 0.5
 """Cosines of the shank's angle to the vertical: below the first it lies, from the second on its foot can
 carry weight."""
-_MOST_LIFT = 0.7
+_MOST_LIFT = 0.45
 """[rad] by which a heel is lifted more than the person's so that a short leg reaches its foot."""
 _BEHIND = 0.2
 """[leg lengths] behind the hip from where on a heel may be lifted by that much."""

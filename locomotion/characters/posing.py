@@ -21,7 +21,7 @@ _SOURCES = len(SOURCES)
 _BODIES = _SOURCES - 2
 _PELVIS = SOURCES.index("pelvis")
 _THIGH, _SHANK, _FOOT, _TOES, _ARM, _FOREARM, _HAND = range(7)  # rows of `PersonArrays.limbs`
-_LONGEST = 0.999  # share of a leg's length that counts as in reach
+_LONGEST = 0.993  # share of a limb's length that counts as in reach
 _LOWERED = 0.4  # [leg lengths] most that the pelvis is lowered for feet that are out of reach
 _LEANT = 0.5  # [arm lengths] most that the pelvis moves for hands that are out of reach
 _HALVINGS = 12  # that find how far a heel is lifted: to 0.0002 rad
@@ -122,7 +122,8 @@ def _place_legs(rig, person, places, contacts, i, turns, hips, out):
         place_foot(rig, person, places, contacts, i, side, foot, ankles[side])
         if weights[side] < 1.0:
             rest_foot(rig, person, places, contacts, i, side, ankle)
-        lifts[side] = weights[side] * reach_of_lifted_heel(rig, side, hip, ankles[side], foot, leg)
+        loaded = weights[side] * contacts.loads[i, side]
+        lifts[side] = loaded * reach_of_lifted_heel(rig, side, hip, ankles[side], foot, leg)
         for k in range(3):
             ankles[side, k] = ankle[k] + weights[side] * (ankles[side, k] - ankle[k])
         needed = _too_high(hip, ankles[side], leg)
@@ -130,7 +131,7 @@ def _place_legs(rig, person, places, contacts, i, turns, hips, out):
             lift_heel(foot, lifts[side], lifted)
             _lifted_ankle(rig, side, foot, lifted, ankles[side], ankle)
             needed = min(needed, _too_high(hip, ankle, leg))
-        lower = max(lower, needed)
+        lower = max(lower, loaded * needed)
     hips[2] -= lower
     hinge = np.empty(3)
     for side in range(2):

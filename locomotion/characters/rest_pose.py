@@ -93,6 +93,7 @@ def rest_pose(skeleton: Skeleton, parts: dict[str, int]) -> RestPose:
                     f"{skeleton.path}: bone {name!r} ({side}_{limb}) does not point down at rest; export the"
                     " figure standing in a T-pose or an A-pose, with Y up as glTF has it"
                 )
+    _check_sides(skeleton, parts, at)
     has_toes = all(f"{side}_toes" in parts for side in _SIDES)
     turns = {part: _alignment(skeleton, parts, at, part) for part in parts}
     for side in _SIDES:
@@ -133,6 +134,10 @@ def _facing(skeleton: Skeleton, parts: dict[str, int]) -> tuple[NDArray[np.float
         )
     facing = Rotation.from_euler("z", -np.arctan2(-left[0], left[1])).as_matrix()
     at = at @ facing.T
+    return facing, at
+
+
+def _check_sides(skeleton: Skeleton, parts: dict[str, int], at: NDArray[np.float64]) -> None:
     for side in _SIDES:
         toes = parts.get(f"{side}_toes")
         foot = parts[f"{side}_foot"]
@@ -141,7 +146,6 @@ def _facing(skeleton: Skeleton, parts: dict[str, int]) -> tuple[NDArray[np.float
                 f"{skeleton.path}: bone {skeleton.names[toes]!r} is behind {skeleton.names[foot]!r}; left and"
                 " right are exchanged in the mapping or in the names"
             )
-    return facing, at
 
 
 def _apart(skeleton: Skeleton, parts: dict[str, int], at: NDArray[np.float64], part: str) -> float:

@@ -193,14 +193,14 @@ class Document:
         buffer = self.item("buffers", index, where)
         if index not in self._buffers:
             place, uri = f"buffers[{index}]", buffer.get("uri")
-            content = self._binary if uri is None and index == 0 else self._fetched(uri, place)
+            content = self._binary if uri is None and index == 0 else self.fetched(uri, place)
             length = self.whole(buffer, "byteLength", place)
             if content is None or len(content) < length:
                 raise self.error(place, f"is cut off: {len(content or b'')} bytes, {length} were to come")
             self._buffers[index] = content[:length]
         return self._buffers[index]
 
-    def _fetched(self, uri: Any, place: str) -> bytes:
+    def fetched(self, uri: Any, place: str) -> bytes:
         """The bytes that a URI names: in the URI itself, or in a file beside the glTF file."""
         if not isinstance(uri, str):
             raise self.error(place, f"uri = {uri!r}: expected a file's name")

@@ -11,7 +11,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from locomotion import MOVING, PERSON_RULES, Human, HumanState, LocomotionError, load_run_skill
+from locomotion import MOVING, PERSON_RULES, Ground, Human, HumanState, LocomotionError, load_run_skill
 from locomotion.avoidance.yielding import SPACING, Course
 from locomotion.body.person import CONTROL_DT
 from locomotion.body_events import PostureReached
@@ -213,6 +213,10 @@ class HumanDriver(Driver):
     @property
     def skills(self) -> Mapping[str, tuple[float, float]]:
         return skill_ranges(self.human.clearing)
+
+    @property
+    def ground(self) -> Ground | None:
+        return self.human.ground
 
     def held_in(self, posture: str) -> tuple[str, str]:
         return can_hold(person_postures(), posture, self.held)

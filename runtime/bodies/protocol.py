@@ -12,6 +12,7 @@ from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
+from locomotion import Ground
 from locomotion.avoidance.yielding import Course
 from locomotion.body_events import Event
 from locomotion.saved_arrays import check_array
@@ -91,6 +92,11 @@ class Driver(ABC):
     def skills(self) -> Mapping[str, tuple[float, float]]:
         """As `runtime.Agent.skills`."""
         return {}
+
+    @property
+    def ground(self) -> Ground | None:
+        """The level as it stands on it; None for a body that has no use for one."""
+        return None
 
     @abstractmethod
     def transforms(self) -> np.ndarray:

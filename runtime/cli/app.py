@@ -284,10 +284,21 @@ def view(
 def export(
     source: TraceArgument,
     output: Annotated[Path, typer.Option("--output", "-o", help="Output file (.glb).")] = Path("run.glb"),
+    character: Annotated[
+        Path | None,
+        typer.Option(callback=_input, help="Rigged figure (.glb, .gltf) that all people are shown as."),
+    ] = None,
+    mapping: Annotated[
+        str | None,
+        typer.Option(
+            help="Which of its bones shows which part: mixamo, vrm, unreal, surefoot, or a YAML file;"
+            " default: guessed by the bones' names."
+        ),
+    ] = None,
     as_json: JsonOption = False,
 ) -> None:
     """Export a run as animated glTF for Blender, Godot, three.js and other tools."""
-    _finish(_view_commands().export_gltf(source, output), as_json)
+    _finish(_view_commands().export_gltf(source, output, character, mapping), as_json)
 
 
 @app.command()

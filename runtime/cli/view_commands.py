@@ -68,16 +68,20 @@ def watch_served(address: str, name: str | None, token: str, port: int) -> Resul
     return Result({}, True, lambda: print(f"{served.name} is closed"))
 
 
-def export_gltf(source: Path, output: Path) -> Result:
-    """Export a trace, or a mission, which is run first, as animated glTF."""
+def export_gltf(source: Path, output: Path, character: Path | None, mapping: str | None) -> Result:
+    """Export a trace, or a mission, which is run first, as animated glTF; people wear the ``character``."""
+    from locomotion import Rig
     from runtime.views.gltf import write_gltf
 
+    if character is None and mapping is not None:
+        raise RuntimeInputError(f"--mapping {mapping}: of which character? Give --character, too")
+    rig = None if character is None else Rig.load(character, mapping)
     check_target(output)
     if output.suffix.lower() != ".glb":
         raise RuntimeInputError(f"{output}: glTF is written as one binary file; use the ending .glb")
     trace, progress = _trace_of(source, output)
     with progress.stage("writing the animation"):
-        write_gltf(trace, output)
+        write_gltf(trace, output, rig)
     return _written(output, trace, "open it in Blender, Godot or three.js")
 
 

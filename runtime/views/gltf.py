@@ -6,14 +6,19 @@ turns our Z up into glTF's Y up. See the Khronos Group's glTF 2.0 specification,
 and 3.11 (animations).
 """
 
+import json
 import os
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
+from locomotion import Rig
 from runtime.bodies.figure import Figure, rotate
 from runtime.bodies.pose import Pose
+from runtime.errors import RuntimeInputError
 from runtime.traces.trace import AgentTrace, LevelTrace, Trace
+from runtime.views.character_gltf import continuous, dressed, glb, wears
 from runtime.views.meshes import optional, shape_mesh
 from surefoot.files.atomic_write import whole_file
 
@@ -24,9 +29,25 @@ _STONE = (0.80, 0.79, 0.76)
 _STILL = 1e-6  # [m, or of a quaternion] channels that change less are left out
 
 
-def write_gltf(trace: Trace, path: str | os.PathLike[str]) -> None:
-    """Write the run to ``path`` (.glb), whole or not at all. Raises `RuntimeInputError` without pygltflib."""
-    content = b"".join(_Writer(optional("pygltflib", "gltf", "a glTF file")).document(trace).save_to_bytes())
+def write_gltf(trace: Trace, path: str | os.PathLike[str], character: Rig | None = None) -> None:
+    """Write the run to ``path`` (.glb), whole or not at all. People wear the ``character``, if there is one.
+
+    Raises `RuntimeInputError` without pygltflib, and for a character that nobody in the run can wear or that
+    cannot be copied.
+    """
+    writer = _Writer(optional("pygltflib", "gltf", "a glTF file"))
+    if character is None:
+        content = b"".join(writer.document(trace).save_to_bytes())
+    else:
+        wearing = [agent for agent in trace.agents if wears(agent)]
+        if not wearing:
+            names = ", ".join(agent.name for agent in trace.agents)
+            raise RuntimeInputError(f"a character shows people; in this run there are none, but {names}")
+        others = tuple(agent for agent in trace.agents if not wears(agent))
+        made = writer.document(replace(trace, agents=others))
+        parts, data = json.loads(made.to_json()), bytearray(made.binary_blob())
+        dressed(parts, data, character, trace.level, wearing, trace.times - trace.times[0])
+        content = glb(parts, bytes(data))
     with whole_file(path) as temporary:
         temporary.write_bytes(content)
 
@@ -68,7 +89,7 @@ class _Writer:
         local[..., 3:] /= np.linalg.norm(local[..., 3:], axis=-1, keepdims=True)
         nodes = []
         for b, name in enumerate(figure.bodies):
-            place, turned = local[:, b, :3], _continuous(local[:, b, 3:])[:, [1, 2, 3, 0]]
+            place, turned = local[:, b, :3], continuous(local[:, b, 3:])[:, [1, 2, 3, 0]]
             node = self._node(
                 f"{agent.name}/{name}", translation=_plain(place[0]), rotation=_plain(turned[0]),
                 mesh=self._body_mesh(figure, b),
@@ -174,13 +195,6 @@ class _Writer:
             accessor.min, accessor.max = rows.min(axis=0).tolist(), rows.max(axis=0).tolist()
         self._gltf.accessors.append(accessor)
         return len(self._gltf.accessors) - 1
-
-
-def _continuous(quaternions: np.ndarray) -> np.ndarray:
-    """The same turns (t, 4), with signs that keep neighbours close."""
-    flips = np.sum(quaternions[1:] * quaternions[:-1], axis=1) < 0.0
-    sign = np.where(np.concatenate([[0], np.cumsum(flips)]) % 2 == 1, -1.0, 1.0)
-    return quaternions * sign[:, None]
 
 
 def _plain(values: np.ndarray) -> list[float]:

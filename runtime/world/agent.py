@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from locomotion import MOVING, Human, LocomotionError
+from locomotion import MOVING, Ground, Human, LocomotionError
 from locomotion import body_events as bodily
 from locomotion.avoidance.yielding import Course
 from locomotion.quadruped import Animal
@@ -189,6 +189,11 @@ class Agent:
         """For each affordance that it can clear the least and the greatest height (of a gap: width) [m], as
         `NodeGraph.find_path` takes them."""
         return self._driver.skills
+
+    @property
+    def ground(self) -> Ground | None:
+        """The level as a person stands on it, which `locomotion.Rig.pose` wants; None for other bodies."""
+        return self._driver.ground
 
     @property
     def pose(self) -> Pose:

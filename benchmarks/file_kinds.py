@@ -12,10 +12,14 @@ from typing import Any
 import numpy as np
 
 import navmesh
+from examples.make_characters import STOUT, write_character
+from locomotion import Rig
+from locomotion.characters.bone_names import load_bone_names
 from locomotion.clips.clip import load_clip
 from locomotion.clips.motion import load_motion, motion_of_clip
 from locomotion.clips.motion_check import check_motion
 from locomotion.clips.retargeting import load_mapping
+from locomotion.data import CHARACTERS
 from locomotion.gaits.brake import load_brake_skill
 from locomotion.gaits.run.skill import RUN_CLIP, load_run_skill
 from locomotion.gaits.slow_down import load_slow_down_skill
@@ -240,6 +244,33 @@ def _claim(path: Path) -> None:
     claim(folder, {"seed": 3, "marks": [1.3, 0.25], "clip": "ab"})
 
 
+# --- characters
+def _make_character(path: Path) -> None:
+    write_character(STOUT, path)
+
+
+def _make_open_character(path: Path) -> None:
+    """The same with its JSON as text, beside a file of its numbers: damage changes what is said, too."""
+    binary = path.with_suffix(".glb")
+    write_character(STOUT, binary)
+    content = binary.read_bytes()
+    size = int.from_bytes(content[12:16], "little")
+    document = json.loads(content[20 : 20 + size])
+    document["buffers"][0]["uri"] = "numbers.bin"
+    (path.parent / "numbers.bin").write_bytes(content[28 + size :])
+    path.write_text(json.dumps(document), encoding="utf-8")
+
+
+def _read_character(path: Path) -> Any:
+    rig = Rig.load(path)
+    return rig.names, rig.parts, rig.rest, rig.skeleton.mesh.points, rig
+
+
+def _use_character(read: Any) -> None:
+    rig = read[-1]
+    rig.local(rig.pose_from(np.tile([0, 0, 0.9, 1, 0, 0, 0], (20, 1))))
+
+
 def _read_tags(path: Path) -> Any:
     tags = navmesh.load_tags(path)
     return tags.tags, tags
@@ -276,6 +307,9 @@ KINDS: dict[str, Kind] = {
     "mapping": Kind(".yaml", _copy(_HERE / "examples/clips/mixamo.yaml"), load_mapping),
     "body": Kind(".yaml", _copy(_HERE / "locomotion/data/bodies/dog.yaml"), load_body),
     "description": Kind(".yaml", _copy(LEAP_DESCRIPTION), load_description),
+    "character": Kind(".glb", _make_character, _read_character, _use_character),
+    "gltf": Kind(".gltf", _make_open_character, _read_character, _use_character),
+    "bone-names": Kind(".yaml", _copy(CHARACTERS / "mixamo.yaml"), load_bone_names),
     "report": Kind(".json", _make_report, read_report),
     "configuration": Kind(
         ".json", _written(json.dumps({"seed": 3, "marks": [1.3, 0.25], "clip": "ab"})), _claim

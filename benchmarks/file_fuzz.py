@@ -31,7 +31,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.file_mutations import mutated_archive, mutated_text
+from benchmarks.file_mutations import mutated_archive, mutated_glb, mutated_text
 from surefoot import SurefootError
 
 __all__ = ["OUTCOMES", "fuzz", "judge", "spoiled"]
@@ -44,7 +44,9 @@ _MOST_MEMORY = 4.0
 def spoiled(kind: str, data: bytes, seed: int, number: int) -> tuple[bytes, str]:
     """File ``number`` of a ``kind``, made of the good ``data``, and what became of its seal."""
     rng = np.random.default_rng([seed, zlib.crc32(kind.encode()), number])
-    return mutated_archive(data, rng) if data[:2] == b"PK" else mutated_text(data, rng)
+    if data[:2] == b"PK":
+        return mutated_archive(data, rng)
+    return mutated_glb(data, rng) if data[:4] == b"glTF" else mutated_text(data, rng)
 
 
 def judge(kind: Any, path: Path, seal: str, good: str) -> tuple[str, str]:

@@ -15,7 +15,7 @@ import numpy as np
 
 from surefoot.files.archive import seal_of
 
-__all__ = ["SEALS", "mutated_archive", "mutated_text"]
+__all__ = ["SEALS", "mutated_archive", "mutated_glb", "mutated_text"]
 
 SEALS = ("kept", "removed", "made right")
 """What becomes of the seal of a changed archive."""
@@ -374,3 +374,20 @@ def mutated_text(data: bytes, rng: np.random.Generator) -> tuple[bytes, str]:
         new = other if rng.random() < 0.3 else _WORDS[int(rng.integers(len(_WORDS)))]
         text = text[: word.start()] + new + text[word.end() :]
     return text.encode("utf-8", "surrogatepass"), "none"
+
+
+def mutated_glb(data: bytes, rng: np.random.Generator) -> tuple[bytes, str]:
+    """A good GLB file with something wrong in its bytes, its numbers or its JSON; it has no seal."""
+    size = int.from_bytes(data[12:16], "little")
+    text, rest = data[20 : 20 + size], data[20 + size :]
+    trick = rng.random()
+    if trick < 0.3:
+        return _BYTES[int(rng.integers(len(_BYTES)))](data, rng), "none"
+    if trick < 0.5:
+        rest = rest[:8] + _BYTES[int(rng.integers(len(_BYTES)))](rest[8:], rng)
+        rest = len(rest[8:]).to_bytes(4, "little") + rest[4:]
+    else:
+        text = mutated_text(text, rng)[0]
+        text += b" " * (-len(text) % 4)
+    whole = len(text).to_bytes(4, "little") + b"JSON" + text + rest
+    return b"glTF" + (2).to_bytes(4, "little") + (12 + len(whole)).to_bytes(4, "little") + whole, "none"

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from locomotion import LocomotionError
+from locomotion import Ground, LocomotionError
 from locomotion.body.models import figure
 from locomotion.crowd.saved_state_check import check_walker
 from locomotion.recorded.skeletons import LEVELS, level_number
@@ -36,14 +36,14 @@ class Recorded(Population):
     they get what is each one's own."""
 
     def __init__(self, level: Level, populations: Sequence[Population], seed: int) -> None:
-        self._level, self._populations, self._seed = level, populations, seed
+        self.level, self._populations, self._seed = level, populations, seed
         self._people: RecordedPeople | None = None
 
     @property
     def people(self) -> RecordedPeople:
         """Made with the first: worlds without any need no motions."""
         if self._people is None:
-            self._people = RecordedPeople(self._level.graph)
+            self._people = RecordedPeople(self.level.graph)
         return self._people
 
     def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> "RecordedDriver":
@@ -70,7 +70,7 @@ class Recorded(Population):
         """What `RecordedDriver.save` gave. Raises `RuntimeInputError` and `LocomotionError` for what it
         cannot have given on this level."""
         saved, plans = saved_parts(state, PersonState)
-        check_walker(saved.body, self._level.graph)
+        check_walker(saved.body, self.level.graph)
         check_recorded(saved, self.people.graph, len(self.people.gaits))
         return saved, plans
 
@@ -86,7 +86,7 @@ class Recorded(Population):
 
     def change_level(self) -> None:
         if self._people is not None:
-            self._people.crowd.change_graph(self._level.graph)
+            self._people.crowd.change_graph(self.level.graph)
 
     def tick(self) -> None:
         if self._people:
@@ -173,6 +173,10 @@ class RecordedDriver(WalkerDriver):
             self.person.take(posture, held, state)
         except LocomotionError as error:
             raise RuntimeInputError(str(error)) from None
+
+    @property
+    def ground(self) -> Ground | None:
+        return self._population.level.ground
 
     def transforms(self) -> np.ndarray:
         return self._population.people.transforms(np.array([self.person.index]))[0]

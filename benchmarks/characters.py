@@ -8,7 +8,8 @@ of the ground, the shank not lying) is measured, of the person itself and of eac
 
   over, under   lowest point of the foot over or under the ground [mm]: worst and 95th percentile
   slide         how far what touches the ground moves along it while the foot stands [mm]: worst and 95th
-                percentile of all stances
+                percentile of the stances in which the person's own foot slides by less than 10 mm and turns
+                by less than 10 degrees (how many of all); then of all stances
   hand          from the hand to where the person's is, while that touches something [mm]: worst and 95th
                 percentile
 
@@ -43,6 +44,8 @@ from runtime.evaluation.courses import make_course, run_course
 __all__ = ["MOTIONS", "Recorded", "measure", "recorded"]
 
 _STANDS, _TOUCHES = 0.001, 0.99  # [m]; weight of a hand
+_STAYS, _STRAIGHT = 0.01, np.radians(10.0)
+"""[m], [rad] of a foot that stays where it is while it stands."""
 _STEEP = 0.5  # cosine of the lean of a shank on which one stands
 _SEEN = 0.06  # [m] above a point in which ground over it is looked for
 _STAIRS = (0.30, 0.16, 8)  # [m] depth and height of a step, and how many
@@ -159,11 +162,13 @@ def recorded(name: str, seed: int) -> Recorded:
 
 @dataclass(frozen=True)
 class Fit:
-    """Figures [m]: gaps (n,) of standing feet over the ground, slides (s,) of stances, hands (h,)."""
+    """Figures [m]: gaps (n,) of standing feet over the ground, slides (s,) of the stances in which the
+    person's foot stays, and of ``all_slides``, hands (h,)."""
 
     gaps: NDArray[np.float64]
     slides: NDArray[np.float64]
     hands: NDArray[np.float64]
+    all_slides: NDArray[np.float64]
 
 
 def _heights(ground: Ground, points: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -232,12 +237,24 @@ def _slides(
     return [*slides, float(np.linalg.norm(drift))] if frames else slides
 
 
+def _turned_by(turns: NDArray[np.float64], stands: NDArray[np.bool_]) -> list[float]:
+    """How far [rad] a foot with the rotations (n, 4) turns about the vertical during each stance."""
+    yaw = np.arctan2(
+        2.0 * (turns[:, 1] * turns[:, 2] + turns[:, 0] * turns[:, 3]),
+        1.0 - 2.0 * (turns[:, 2] ** 2 + turns[:, 3] ** 2),
+    )
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], stands, [False]]).astype(int)))
+    return [
+        float(np.ptp(np.unwrap(yaw[a:b]))) for a, b in zip(edges[::2], edges[1::2], strict=True) if b - a > 1
+    ]
+
+
 def measure(motion: Recorded, rig: Rig | None) -> Fit:
     """The figures of a character, or of the person itself, in a motion."""
     ground = motion.ground
     person = _soles_of_person(motion.places)
     hands = contacts_with(ground, motion.places).hands
-    gaps, slides = [], []
+    gaps, slides, every = [], [], []
     held = np.empty(0)
     soles = person
     if rig is not None:
@@ -250,8 +267,13 @@ def measure(motion: Recorded, rig: Rig | None) -> Fit:
         stands = (np.nanmin(own, axis=1) < _STANDS) & (_upright(shank) > _STEEP)
         heights = own if rig is None else _heights(ground, soles[side])
         gaps.append(np.nanmin(heights, axis=1)[stands])
-        slides += _slides(soles[side], heights, stands)
-    return Fit(np.concatenate(gaps), np.array(slides), held)
+        itself = np.array(_slides(person[side], own, stands))
+        turned = np.array(_turned_by(motion.places[:, person_arrays().limbs[2, side], 3:], stands))
+        quiet = (itself < _STAYS) & (turned < _STRAIGHT)
+        own_slides = np.array(_slides(soles[side], heights, stands))
+        slides.append(own_slides[quiet])
+        every.append(own_slides)
+    return Fit(np.concatenate(gaps), np.concatenate(slides), held, np.concatenate(every))
 
 
 def _hands_off(rig: Rig, poses: NDArray[np.float64], places: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -287,15 +309,21 @@ def main() -> None:
                 write_character(who, file)
         rigs: dict[str, Rig | None] = {"(person)": None}
         rigs |= {file.stem: Rig.load(file) for file in files}
-    print(f"{'motion':10} {'character':10} {'over':>13} {'under':>13} {'slide':>13} {'hand':>13}  [mm]")
+    print(
+        f"{'motion':10} {'character':10} "
+        + " ".join(f"{name:>13}" for name in ("over", "under", "slide", "all slides", "hand"))
+        + "  [mm]"
+    )
     motion = None
     for name in options.motions:
         motion = recorded(name, options.seed)
         for who, rig in rigs.items():
             fit = measure(motion, rig)
             over, under = np.maximum(fit.gaps, 0.0), np.minimum(fit.gaps, 0.0)
-            row = " ".join(_worst(each) for each in (over, under, fit.slides, fit.hands))
-            print(f"{name:10} {who:10} {row}   {len(fit.slides)} stances", flush=True)
+            row = " ".join(_worst(each) for each in (over, under, fit.slides, fit.all_slides, fit.hands))
+            print(
+                f"{name:10} {who:10} {row}   {len(fit.slides)} of {len(fit.all_slides)} stances", flush=True
+            )
     assert motion is not None
     ground = motion.ground
     for who, rig in rigs.items():

@@ -212,6 +212,16 @@ def _play_recorded() -> None:
     planted(motions, FULL, ([walk], zero, zero), sample, [place], footfalls)
 
 
+def _show_a_character() -> None:
+    from locomotion import Rig
+    from locomotion.characters.bone_names import bones_of_parts
+    from locomotion.characters.own_person import person_skeleton
+
+    skeleton, level = person_skeleton(), tiny_level()
+    rig = Rig(skeleton, bones_of_parts(skeleton, "surefoot"))
+    rig.local(rig.pose_from(rig.rest, rig.names, Ground.from_arrays(level.vertices, level.faces)))
+
+
 FIRST_USES: dict[str, Callable[[], None]] = {
     "navigation": _navigate,
     "area costs": _find_by_costs,
@@ -225,6 +235,7 @@ FIRST_USES: dict[str, Callable[[], None]] = {
     "bodies": one_of_each,
     "playtests": _playtest,
     "recorded motion": _play_recorded,
+    "characters": _show_a_character,
     "pictures": _draw,
 }
 """Label and function of each use; those that depend least on others come first, longest first."""

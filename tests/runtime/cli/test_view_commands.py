@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from examples.make_characters import STOUT, write_character
 from runtime.cli import view_commands
 from tests.runtime.cli.answers import names, one_line
 
@@ -51,3 +52,20 @@ def test_endings_are_checked_before_the_mission_is_run(surefoot, folder, monkeyp
     for command in ("view", "export", "film"):
         code, _, err = surefoot(command, folder / "mission.yaml", "-o", folder / "run.txt")
         assert code == 2 and one_line(err) and "run.txt" in err
+
+
+def test_people_are_exported_as_a_character(surefoot, traced):
+    pytest.importorskip("pygltflib", reason="not there: pip install -e '.[gltf]'")
+    hero, output = traced / "hero.glb", traced / "run.glb"
+    write_character(STOUT, hero)
+    code, _, _ = surefoot("export", traced / "trace.npz", "-o", output, "--character", hero)
+    assert code == 0 and b"mixamorig:Hips" in output.read_bytes()
+    for options, said in (
+        (("--mapping", "mixamo"), "Give --character, too"),
+        (("--character", hero, "--mapping", "unreal"), "it has no bone for"),
+        (("--character", traced / "trace.npz"), "cannot be read as a character"),
+    ):
+        code, _, err = surefoot("export", traced / "trace.npz", "-o", traced / "no.glb", *options)
+        assert code == 2 and one_line(err) and said in err
+    code, _, err = surefoot("export", traced / "trace.npz", "-o", hero, "--character", hero)
+    assert code == 2 and one_line(err) and "input of this command" in err

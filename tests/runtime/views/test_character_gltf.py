@@ -4,17 +4,19 @@ import dataclasses
 import json
 import shutil
 import subprocess
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from examples.make_characters import CHARACTERS, write_character
 from locomotion import Ground, Rig
+from locomotion.characters.bone_names import bones_of_parts
 from locomotion.characters.character_file import UPRIGHT
 from navmesh.meshfiles.gltf_document import Document
 from navmesh.meshfiles.gltf_nodes import node_order, node_places
 from runtime import RuntimeInputError
-from runtime.views.character_gltf import continuous, wears
+from runtime.views.character_gltf import continuous, glb, wears
 from runtime.views.gltf import write_gltf
 from tests.runtime.views.test_gltf import ROOT, VALIDATE, validator_is_there
 
@@ -130,6 +132,56 @@ def test_three_js_plays_it(trace, rigs, files):
     for bone in ("pelvis", "hand_l", "ball_r", "head"):
         np.testing.assert_allclose(UPRIGHT @ found[f"ada/{bone}"], pose[rig.names.index(bone), :3], atol=2e-3)
     assert "mesh" in found
+
+
+def compressed(file, target, extension, packed):
+    """A copy of a character with an ``extension`` that it requires; ``packed(document, data)`` changes it."""
+    content = file.read_bytes()
+    size = int.from_bytes(content[12:16], "little")
+    document, data = json.loads(content[20 : 20 + size]), bytearray(content[28 + size :])
+    document["extensionsUsed"] = document["extensionsRequired"] = [extension]
+    packed(document, data)
+    document["buffers"][0]["byteLength"] = len(data)
+    target.write_bytes(glb(document, bytes(data)))
+    return target
+
+
+def test_a_character_compressed_with_meshopt_is_written_plain(trace, rigs, tmp_path):
+    meshopt = pytest.importorskip("meshopt")
+
+    def pack(document, data):
+        for number in (0, document["skins"][0]["inverseBindMatrices"]):  # points and matrices
+            view = document["bufferViews"][document["accessors"][number]["bufferView"]]
+            begin, count = view["byteOffset"], document["accessors"][number]["count"]
+            rows = np.frombuffer(data[begin : begin + view["byteLength"]], np.float32).reshape(count, -1)
+            encoded = meshopt.encode_gltf_buffer(rows, "ATTRIBUTES")
+            said = {"buffer": 0, "byteOffset": len(data), "byteLength": len(encoded), "count": count,
+                    "byteStride": rows.strides[0], "mode": "ATTRIBUTES"}  # fmt: skip
+            data.extend(encoded + bytes(-len(encoded) % 4))
+            view["extensions"] = {"EXT_meshopt_compression": said}
+
+    file = rigs["stout"].skeleton.path
+    packed = compressed(Path(file), tmp_path / "packed.glb", "EXT_meshopt_compression", pack)
+    rig = Rig.load(packed)
+    np.testing.assert_array_equal(rig.rest, rigs["stout"].rest)
+    np.testing.assert_array_equal(rig.skeleton.mesh.points, rigs["stout"].skeleton.mesh.points)
+    write_gltf(trace, tmp_path / "run.glb", rig)
+    assert "EXT_meshopt_compression" not in json.dumps(Document(tmp_path / "run.glb").json)
+
+
+def test_a_character_compressed_with_draco_is_refused_by_name(trace, rigs, tmp_path, monkeypatch):
+    def pack(document, data):
+        for primitive in document["meshes"][0]["primitives"]:
+            primitive["extensions"] = {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {}}}
+
+    rig = rigs["stout"]
+    packed = compressed(Path(rig.skeleton.path), tmp_path / "packed.glb", "KHR_draco_mesh_compression", pack)
+    worn = Rig(dataclasses.replace(rig.skeleton, path=str(packed)), bones_of_parts(rig.skeleton, None))
+    with pytest.raises(
+        RuntimeInputError, match="KHR_draco_mesh_compression; export the character without it"
+    ):
+        write_gltf(trace, tmp_path / "run.glb", worn)
+    assert not (tmp_path / "run.glb").exists()
 
 
 def test_a_run_without_people_is_refused(trace, rigs, tmp_path):

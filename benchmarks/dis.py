@@ -13,12 +13,17 @@ from pathlib import Path
 
 import numpy as np
 
+import navmesh
+from benchmarks.dis_figures import original, seen
 from benchmarks.dis_reckoning import errors_against_integration
+from benchmarks.dis_safety import crowd_cost, fuzz
 from benchmarks.dis_wireshark import differences, random_pdus
-from benchmarks.shared_data import shared_folder, why_absent
+from benchmarks.missions import load_level
+from benchmarks.shared_data import LEVELS, shared_folder, why_absent
 from runtime.dis.dead_reckoning import MODELS
 from runtime.dis.entity_state import decode
 from runtime.dis.geodesy import LevelFrame, rotations_of
+from runtime.planning.rules import person_walk_rules
 
 
 def wireshark(seed: int) -> None:
@@ -68,11 +73,59 @@ def geodesy(seed: int) -> None:
     print(f"geodesy: 100,000 places there and back: off by {far:.1e} m, {turned:.1e} rad at most")
 
 
+def figures(seed: int) -> None:
+    """Remote figures against their originals, which walk and run through a level, by loss of packets."""
+    for level in ("nav_test", "courtyard"):
+        if level in LEVELS and shared_folder() is None:
+            print(f"figures: {level}: {why_absent()}")
+            continue
+        graph = navmesh.NodeGraph.build(load_level(level), person_walk_rules())
+        bodies = ("human", "human", "human", "walker", "walker", "dog")
+        run = original(graph, bodies, seconds=60.0, seed=seed)
+        moved = ", ".join(f"{each:.0f}" for each in run.distance)
+        print(f"figures: {level}: {', '.join(bodies)} go {moved} m within {run.seconds:.0f} s")
+        for loss in (0.0, 0.05, 0.2):
+            found = seen(run, loss, seed)
+            errors = found.errors[np.isfinite(found.errors)]
+            sent = sum(map(len, run.packets)) / run.seconds / len(bodies)
+            print(
+                f"figures: {level}, {100 * loss:2.0f} % lost: off by {np.percentile(errors, 95):.2f} m (p95) "
+                f"and {errors.max():.2f} m at most; {sent:.2f} packets a second each, {100.0 / sent:.0f} "
+                f"x fewer than every tick; a correction changes the next frame by {100 * found.root:.1f} cm "
+                f"(root), {np.degrees(found.joint):.1f}° (joint) at most; steps of the root differ by "
+                f"{100 * found.step:.1f} cm at most from frame to frame"
+            )
+
+
+def crowd(seed: int) -> None:
+    """500 remote figures, each of which tells of itself once a second."""
+    graph = navmesh.NodeGraph.build(load_level("courtyard"), person_walk_rules())
+    crowd_cost(graph, 50, 1.2, seed)  # compiles
+    median, high, posing = crowd_cost(graph, 500, 10.0, seed)
+    print(
+        f"crowd: 500 figures: {median:.2f} ms a frame (median; 99 % within {high:.2f} ms) of processor time "
+        f"for receiving, dead reckoning and animation, {posing:.1f} ms more to pose all of them"
+    )
+
+
+def attacks(seed: int) -> None:
+    """A million random, cut and mutated packets."""
+    graph = navmesh.NodeGraph.build(load_level("courtyard"), person_walk_rules())
+    raised, changed, counts, grown = fuzz(graph, 1_000_000, seed)
+    print(
+        f"attacks: 1,000,000 packets: {raised} raised, {changed} good entities were changed, memory grew "
+        f"by {grown:.2f} MB over the second half; counted as {counts}"
+    )
+
+
 ROWS: dict[str, Callable[[int], None]] = {
     "wireshark": wireshark,
     "recorded": recorded,
     "reckoning": reckoning,
     "geodesy": geodesy,
+    "figures": figures,
+    "crowd": crowd,
+    "attacks": attacks,
 }
 
 

@@ -2,6 +2,7 @@
 corrections do to what is drawn."""
 
 from dataclasses import dataclass
+from itertools import count
 
 import numpy as np
 
@@ -33,13 +34,17 @@ class Original:
         return len(self.packets) * FRAME
 
 
-def random_goals(graph: navmesh.NodeGraph, chance: np.random.Generator, radius: float) -> np.ndarray:
-    """A start and a goal 10 to 60 m apart."""
+def random_goals(
+    graph: navmesh.NodeGraph, chance: np.random.Generator, start: np.ndarray | None = None
+) -> np.ndarray:
+    """A start, unless it is given, and a goal at least 5 m away, on ground from which one gets to and fro."""
     while True:
         pair = graph.positions[chance.integers(0, len(graph), 2)]
-        if not 10.0 < np.linalg.norm(pair[1] - pair[0]) < 60.0:
-            continue
-        if graph.find_path(*pair, radius=radius).status == "complete":
+        if start is not None:
+            pair[0] = start
+        if np.linalg.norm(pair[1] - pair[0]) > 5.0 and all(
+            graph.find_path(*way, radius=0.35).status == "complete" for way in (pair, pair[::-1])
+        ):
             return pair
 
 
@@ -56,18 +61,18 @@ def original(
     speeds = (1.3, 3.3, 1.8, 4.0)
     agents = []
     for body in bodies:
-        agent = None
-        while agent is None:
-            start = random_goals(graph, chance, 0.35)[0]
-            if all(np.linalg.norm(start - each.position) > 2.0 for each in agents):
-                agent = world.spawn(body, start)
-        agents.append(agent)
+        start = next(
+            each
+            for each in (random_goals(graph, chance)[0] for _ in count())
+            if all(np.linalg.norm(each - other.position) > 2.0 for other in agents)
+        )
+        agents.append(world.spawn(body, start))
     packets, places = [], []
     until = np.zeros(len(agents))
     for frame in range(round(seconds / FRAME)):
         for k, agent in enumerate(agents):
             if not agent.moving and world.time >= until[k] and agent.status != "fallen":
-                goal = random_goals(graph, chance, 0.35)[1]
+                goal = random_goals(graph, chance, agent.position)[1]
                 agent.go_to(goal, speeds[(frame + k) % len(speeds)])
                 until[k] = world.time + float(chance.uniform(2.0, 6.0))
         world.step(FRAME)

@@ -110,6 +110,28 @@ ResolutionOption = Annotated[
     float | None, typer.Option(help="[m] Spacing of the samples taken on the surface.")
 ]
 
+DisOption = Annotated[
+    str | None,
+    typer.Option(metavar="ADDRESS:PORT", help="Talk to other simulators by DIS: where to send PDUs."),
+]
+DisListenOption = Annotated[
+    str | None,
+    typer.Option(metavar="ADDRESS:PORT", help="Where to listen for PDUs; default: this machine, same port."),
+]
+DisNameOption = Annotated[
+    str, typer.Option(metavar="SITE:APPLICATION:EXERCISE", help="Our numbers among the other simulators.")
+]
+DisOriginOption = Annotated[
+    tuple[float, float, float],
+    typer.Option(
+        metavar="LATITUDE LONGITUDE HEIGHT",
+        help="[°, °, m] Where on the earth the level's origin is.",
+        show_default="0 0 0",
+    ),
+]
+MulticastOption = Annotated[bool, typer.Option("--multicast", help="Allow multicast addresses.")]
+BroadcastOption = Annotated[bool, typer.Option("--broadcast", help="Allow broadcast addresses.")]
+
 
 def _show_version(wanted: bool) -> None:
     if wanted:
@@ -218,10 +240,18 @@ def path(
 def run(
     mission: Annotated[Path, typer.Argument(callback=_input, help="Mission file (YAML).")],
     out: Annotated[Path | None, typer.Option(help="Folder for the trace, plot, film strip and page.")] = None,
+    dis: DisOption = None,
+    dis_listen: DisListenOption = None,
+    dis_name: DisNameOption = "1:1:1",
+    dis_origin: DisOriginOption = (0.0, 0.0, 0.0),
+    multicast: MulticastOption = False,
+    broadcast: BroadcastOption = False,
     as_json: JsonOption = False,
 ) -> None:
-    """Run a mission as fast as possible and print what happened."""
-    _finish(_commands().run_mission_file(mission, out), as_json)
+    """Run a mission as fast as possible and print what happened; in real time with --dis."""
+    commands = _commands()
+    line = _dis_line(dis, dis_listen, dis_name, dis_origin, multicast, broadcast)
+    _finish(commands.run_mission_file(mission, out, line), as_json)
 
 
 @app.command()
@@ -327,9 +357,67 @@ def serve(
     pages: Annotated[Path | None, typer.Option(help="Folder of web pages to serve over HTTP.")] = None,
     up: UpOption = None,
     scale: ScaleOption = None,
+    dis: DisOption = None,
+    dis_listen: DisListenOption = None,
+    dis_name: DisNameOption = "1:1:1",
+    dis_origin: DisOriginOption = (0.0, 0.0, 0.0),
+    multicast: MulticastOption = False,
+    broadcast: BroadcastOption = False,
 ) -> None:
-    """Run worlds for engines in other languages, over WebSockets. Stop with Ctrl-C."""
-    _commands().serve_worlds(levels, up, scale, host, port, token, pages)
+    """Run worlds for engines in other languages, over WebSockets. Stop with Ctrl-C. With --dis the first
+    world that a client creates talks to other simulators."""
+    commands = _commands()
+    line = _dis_line(dis, dis_listen, dis_name, dis_origin, multicast, broadcast)
+    commands.serve_worlds(levels, up, scale, host, port, token, pages, line)
+
+
+class DisAction(StrEnum):
+    """What `surefoot dis` does."""
+
+    record = "record"
+    replay = "replay"
+    show = "show"
+
+
+@app.command()
+def dis(
+    action: Annotated[DisAction, typer.Argument(help="Record what comes, send it again, or list it.")],
+    file: Annotated[Path, typer.Argument(help="Packets (.pcap).")],
+    address: Annotated[
+        str,
+        typer.Option(metavar="ADDRESS:PORT", help="Where to listen (record) or to send (replay)."),
+    ] = "127.0.0.1:3000",
+    seconds: Annotated[float, typer.Option(help="[s] How long to record.")] = 10.0,
+    speed: Annotated[float, typer.Option(help="How many times faster to replay.")] = 1.0,
+    multicast: MulticastOption = False,
+    broadcast: BroadcastOption = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Record, replay or show DIS packets."""
+    _commands()
+    from runtime.cli import dis_commands
+
+    if action is DisAction.record:
+        result = dis_commands.record_packets(file, address, seconds, multicast, broadcast)
+    elif action is DisAction.replay:
+        result = dis_commands.replay_packets(file, address, speed, multicast, broadcast)
+    else:
+        result = dis_commands.show_packets(file)
+    _finish(result, as_json)
+
+
+def _dis_line(
+    to: str | None,
+    listen: str | None,
+    name: str,
+    origin: tuple[float, float, float],
+    multicast: bool,
+    broadcast: bool,
+) -> Any:
+    """The line to other simulators that the options ask for, None without one."""
+    from runtime.cli.dis_line import DisLine
+
+    return None if to is None else DisLine(to, listen, name, origin, multicast, broadcast)
 
 
 @app.command()

@@ -12,6 +12,7 @@ from typing import Any
 import navmesh
 from locomotion import smooth_route
 from locomotion.skills.registry import skill_kind
+from runtime.cli.dis_line import DisLine, RealTime
 from runtime.errors import RuntimeInputError
 from runtime.events import Departed, Event
 from runtime.missions.check import prepare_mission
@@ -163,12 +164,18 @@ def find_path(
     return Result(values, route.status == "complete", show)
 
 
-def run_mission_file(mission: Path, out: Path | None) -> Result:
-    """Run a mission; write trace, plot, film strip and page to ``out`` if given."""
+def run_mission_file(mission: Path, out: Path | None, line: DisLine | None = None) -> Result:
+    """Run a mission; write trace, plot, film strip and page to ``out`` if given. With a ``line`` to other
+    simulators it is run in real time."""
     loaded = load_mission(mission)
     written = [] if out is None else check_output_folder(out, _RESULTS)
     progress = ready()
-    result = run_mission(loaded, progress)
+    if line is None:
+        result = run_mission(loaded, progress)
+    else:
+        prepared = prepare_mission(loaded, progress)
+        with RealTime(line.gateway(prepared.world)) as real_time:
+            result = run_mission(loaded, progress, prepared, real_time.keep)
     _write_results(result.trace, written, progress)
     values = {
         **result.trace.report,
@@ -206,6 +213,7 @@ def serve_worlds(
     port: int,
     token: str,
     pages: Path | None,
+    line: DisLine | None = None,
 ) -> None:
     """Serve worlds on ``levels``, meshes or baked graphs, until interrupted."""
     import asyncio
@@ -224,7 +232,8 @@ def serve_worlds(
             raise RuntimeInputError(f"{level}: two levels are called {level.stem!r}")
         graphs[level.stem] = _graph_of(level, up, scale, progress)
     load_kernels()
-    server = SurefootServer(graphs, host, port, token, pages)
+    gateway = None if line is None else line.gateway
+    server = SurefootServer(graphs, host, port, token, pages, gateway=gateway)
     where = f"[{host}]" if ":" in host else host
 
     async def serve_until_ended() -> None:

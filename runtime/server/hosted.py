@@ -14,6 +14,7 @@ import numpy as np
 from pydantic_core import to_json
 
 import navmesh
+from runtime.dis.gateway import Gateway
 from runtime.errors import RuntimeInputError
 from runtime.planning.planning import Plan
 from runtime.server.client import Client
@@ -33,7 +34,7 @@ class HostedWorld:
     """``name``: unique on the server; ``level``: its level's name; ``manual``: whether clients step it.
     ``clients``: members in order of joining, each with the states that it wants. ``spawned``: client of
     each agent. ``since``: when [s] it was last advanced or, without clients, left. ``at_work``: whether an
-    advance is due. ``closed``: whether it has ended.
+    advance is due. ``closed``: whether it has ended. ``gateway``: to other simulators, if it talks to them.
     """
 
     def __init__(self, name: str, level: str, graph: navmesh.NodeGraph, seed: int, manual: bool) -> None:
@@ -43,6 +44,8 @@ class HostedWorld:
         self.spawned: dict[str, Client | None] = {}
         self.saved: WorldState | None = None
         self.since = time.monotonic()
+        self.gateway: Gateway | None = None
+        self._strangers: set[str] = set()
         self.lock = asyncio.Lock()
         self.at_work = self.closed = False
         self._texts: dict[States, bytes] = {}
@@ -74,6 +77,8 @@ class HostedWorld:
     def step(self, dt: float) -> int:
         """Ticks."""
         ticks = self.world.step(dt)
+        if self.gateway is not None:
+            self.gateway.exchange()
         self.changed()
         return ticks
 
@@ -126,10 +131,21 @@ class HostedWorld:
         """Send the present state to the clients that want it."""
         self._texts.clear()
         self._ways = {name: way for name, way in self._ways.items() if name in self.world.agents}
-        self.spawned = {name: self.spawned.get(name, self.owner) for name in self.world.agents}
+        self.spawned = {
+            name: self.spawned.get(name, self.owner)
+            for name, agent in self.world.agents.items()
+            if not agent.driver.comes_from_elsewhere
+        }
         wanted: set[States] = set(self.clients.values())
         for states in wanted:
             self._describe(states)
+
+    def strangers(self) -> tuple[list[Agent], set[str]]:
+        """Agents of other simulators that have come since the last call, and names of those that are gone."""
+        here = {name: agent for name, agent in self.world.agents.items() if agent.driver.comes_from_elsewhere}
+        come = [agent for name, agent in here.items() if name not in self._strangers]
+        gone, self._strangers = self._strangers - here.keys(), set(here)
+        return come, gone
 
     def _describe(self, states: States) -> None:
         if states == "none" or states in self._texts:

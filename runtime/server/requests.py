@@ -75,7 +75,9 @@ class Requests:
         self._worlds.check_world(client)
         name, manual = self._worlds.new_name(), request.clock == "manual"
         make = partial(HostedWorld, name, request.level, graph, request.seed, manual)
-        hosted = self._worlds.hosted[name] = await self._turns.run(client.account, make)
+        hosted = await self._turns.run(client.account, make)
+        self._worlds.connect(hosted)
+        self._worlds.hosted[name] = hosted
         self._worlds.join(client, hosted, request.states)  # at once, or it would count as deserted
         return await self._join(client, hosted, request.states)
 

@@ -21,6 +21,7 @@ from websockets.asyncio.server import Server, ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 
 import navmesh
+from runtime.dis.gateway import Gateway
 from runtime.errors import RuntimeInputError
 from runtime.server import messages as m
 from runtime.server.client import Client
@@ -33,6 +34,7 @@ from runtime.server.pages import page_of
 from runtime.server.requests import Requests
 from runtime.server.turns import Turns
 from runtime.server.worlds import Worlds
+from runtime.world.world import World
 
 __all__ = ["Limits", "SurefootServer"]
 
@@ -47,7 +49,8 @@ class SurefootServer:
     """Worlds on ``levels`` (graphs by name) for clients that connect to ``host``:``port``.
 
     ``token``: secret in `messages.Hello`; required unless ``host`` is the loopback, else `RuntimeInputError`.
-    ``pages``: a folder whose files are served over HTTP.
+    ``pages``: a folder whose files are served over HTTP. ``gateway`` makes the one to other simulators
+    (`runtime.dis`); one world at a time has it, the first that a client creates.
     """
 
     def __init__(
@@ -58,6 +61,7 @@ class SurefootServer:
         token: str = "",
         pages: Path | None = None,
         limits: Limits | None = None,
+        gateway: Callable[[World], Gateway] | None = None,
     ) -> None:
         if not _is_loopback(host) and not token:
             raise RuntimeInputError(
@@ -68,6 +72,7 @@ class SurefootServer:
         self._token, self._pages = token, pages
         self._clients: set[Client] = set()
         self._worlds = Worlds(self.limits, self._clients, self._dismiss_slow)
+        self._worlds.gateway = gateway
         self._requests = Requests(self.levels, self._worlds, self.turns)
         self._tasks: set[asyncio.Future[None]] = set()
 

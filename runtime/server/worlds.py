@@ -5,13 +5,15 @@ from collections.abc import Callable, Mapping
 from itertools import count
 from typing import Any
 
+from runtime.dis.gateway import Gateway
 from runtime.errors import RuntimeInputError
 from runtime.events import Event
 from runtime.server import messages as m
 from runtime.server.client import Client
-from runtime.server.hosted import HostedWorld
+from runtime.server.hosted import HostedWorld, skeleton
 from runtime.server.limits import Limits
 from runtime.server.outbox import TooSlow
+from runtime.world.world import World
 
 __all__ = ["Worlds"]
 
@@ -24,6 +26,8 @@ class Worlds:
         self.hosted: dict[str, HostedWorld] = {}
         self._limits, self._clients, self._too_slow = limits, clients, too_slow
         self._numbers = count(1)
+        self.gateway: Callable[[World], Gateway] | None = None
+        """Makes the gateway to other simulators, by which one of the worlds at a time talks to them."""
 
     def named(self, name: str) -> HostedWorld:
         """Raises `RuntimeInputError` if there is none."""
@@ -64,6 +68,12 @@ class Worlds:
                 f"there are {self._limits.agents} agents already in the world; remove one"
             )
 
+    def connect(self, hosted: HostedWorld) -> None:
+        """Let a new world talk to other simulators, if none does. Raises `RuntimeInputError` for addresses
+        that cannot be used."""
+        if self.gateway is not None and not any(each.gateway for each in self.hosted.values()):
+            hosted.gateway = self.gateway(hosted.world)
+
     def join(self, client: Client, hosted: HostedWorld, states: m.States) -> None:
         """Add a connected client to a world that still exists."""
         if client in self._clients and not hosted.closed:
@@ -84,6 +94,8 @@ class Worlds:
     def close(self, hosted: HostedWorld) -> None:
         """End it for all; its work is aborted."""
         hosted.closed = True
+        if hosted.gateway is not None:
+            hosted.gateway.close()
         del self.hosted[hosted.name]
         self.announce(hosted, {"type": "gone", "world": hosted.name, "agent": None})
 
@@ -100,6 +112,11 @@ class Worlds:
     def tell(self, hosted: HostedWorld) -> None:
         """Send events and the newest state to all members."""
         self.tell_events(hosted)
+        come, gone = hosted.strangers()
+        for name in gone:
+            self.announce(hosted, {"type": "gone", "world": hosted.name, "agent": name})
+        for agent in come:
+            self.announce(hosted, {"type": "agent", "world": hosted.name, "agent": skeleton(agent)})
         for client, states in hosted.clients.items():
             if states != "none":
                 client.outbox.mark(hosted.name)

@@ -5,6 +5,7 @@ import numpy as np
 import navmesh
 from runtime.events import Event
 from runtime.traces.trace import AgentTrace, LevelTrace, PathTrace, Trace
+from runtime.world.agent import Agent
 from runtime.world.world import World
 
 __all__ = ["Recorder", "level_trace"]
@@ -16,7 +17,8 @@ class Recorder:
     def __init__(self, world: World) -> None:
         self._world = world
         self._times: list[float] = []
-        self._poses: dict[str, list[np.ndarray]] = {name: [] for name in world.agents}
+        self._poses: dict[str, list[np.ndarray]] = {}
+        self._agents: dict[str, Agent] = {}
         self.events: list[Event] = []
 
     def sample(self) -> list[Event]:
@@ -24,8 +26,14 @@ class Recorder:
         fresh = self._world.events
         self.events += fresh
         self._times.append(self._world.time)
-        for name, poses in self._poses.items():
-            poses.append(self._world.agents[name].pose.transforms.astype(np.float32))
+        for name, agent in self._world.agents.items():
+            now = agent.pose.transforms.astype(np.float32)
+            self._agents[name] = agent
+            # who comes later stands at its first place until then
+            poses = self._poses.setdefault(name, [now] * (len(self._times) - 1))
+            poses.append(now)
+        for poses in self._poses.values():
+            poses += poses[-1:] * (len(self._times) - len(poses))
         return fresh
 
     def trace(self, report: dict) -> Trace:
@@ -35,9 +43,12 @@ class Recorder:
                 name=name,
                 figure=agent.figure,
                 poses=np.stack(self._poses[name]),
-                paths=tuple(PathTrace(plan.raw, plan.pulled, plan.points) for plan in agent.plans),
+                paths=tuple(
+                    PathTrace(plan.raw, plan.pulled, plan.points)
+                    for plan in (agent.plans if self._world.agents.get(name) is agent else ())
+                ),
             )
-            for name, agent in self._world.agents.items()
+            for name, agent in self._agents.items()
         )
         return Trace(
             level=level_trace(self._world.graph),

@@ -11,8 +11,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["SECONDS", "Fade", "difference", "fade_from", "faded", "rates"]
+__all__ = ["SECONDS", "STEP", "Fade", "difference", "fade_from", "faded", "rates"]
 
+STEP = 0.01
+"""[s] over which rates of change are taken."""
 SECONDS = 0.3
 """[s] that a fade takes at least."""
 _MOST_RATE = math.radians(240.0)  # [rad/s] of a joint at which a fade may go at most: 4 degrees at 60 Hz

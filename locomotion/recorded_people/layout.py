@@ -4,7 +4,7 @@ import numpy as np
 
 from locomotion.body.person import JOINT_NAMES
 
-__all__ = ["OFFSETS", "RATES", "ROW", "new_row"]
+__all__ = ["BEFORE", "OFFSETS", "PLACE", "RATES", "ROW", "new_row"]
 
 GAIT = 0
 """Number of the gait (of the posture graph) that it moves in, -1 at rest."""
@@ -18,9 +18,15 @@ NODE = 4
 """Number of the posture that it is in while it plays none: what its hands hold changes its arms."""
 BUSY = 5
 """1 while it plays its postures or is about to."""
-FADE_BEGUN, FADE_SECONDS = 6, 7
+AGE, SINCE = 6, 7
+"""Ticks since it was made, and since its body's last; the latter is the same for all."""
+PLACE = slice(8, 12)
+"""x, y, z [m] and yaw [rad] where it is drawn: between its body's last two places."""
+BEFORE = slice(12, 16)
+"""The first of these."""
+FADE_BEGUN, FADE_SECONDS = 16, 17
 """[s] of its own time when its motion last changed from one source to another, and how long that shows."""
-OFFSETS = slice(8, 8 + 6 + len(JOINT_NAMES))
+OFFSETS = slice(18, 18 + 6 + len(JOINT_NAMES))
 """How it then differed from where the new motion has it: root [m], its turn as a rotation vector [rad] in the
 world, joints [rad] (`locomotion.recorded_people.fading`)."""
 RATES = slice(OFFSETS.stop, OFFSETS.stop + 6 + len(JOINT_NAMES))
@@ -28,8 +34,9 @@ RATES = slice(OFFSETS.stop, OFFSETS.stop + 6 + len(JOINT_NAMES))
 ROW = RATES.stop
 
 
-def new_row(level: int, node: int, phase: float) -> np.ndarray:
-    """One that stands, (ROW,) float64."""
+def new_row(level: int, node: int, phase: float, place: np.ndarray) -> np.ndarray:
+    """One that stands at ``place`` (4,), (ROW,) float64."""
     row = np.zeros(ROW)
     row[GAIT], row[PHASE], row[LEVEL], row[NODE] = -1.0, phase, level, node
+    row[PLACE] = row[BEFORE] = place
     return row

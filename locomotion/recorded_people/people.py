@@ -18,8 +18,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import navmesh
-from locomotion.body.models import figure
-from locomotion.body.person import BODY_NAMES
 from locomotion.crowd import Crowd, Walker
 from locomotion.crowd import layout as body
 from locomotion.data import POSTURES
@@ -30,19 +28,20 @@ from locomotion.postures.posture_file import load_postures
 from locomotion.postures.posture_graph import PostureGraph
 from locomotion.postures.step_order import gaits_for
 from locomotion.recorded.motion_set import MotionSet, load_motions
-from locomotion.recorded.posing import posed, whole_figures
 from locomotion.recorded.sampling import placed_roots, sample_gait, stride_of
 from locomotion.recorded.skeletons import LEVELS, skeleton
 from locomotion.recorded_people import layout as at
-from locomotion.recorded_people.fading import faded
+from locomotion.recorded_people.drawing import drawn
+from locomotion.recorded_people.fading import STEP, fade_from, faded, rates
 from locomotion.recorded_people.person import RecordedPerson
 
-__all__ = ["RecordedPeople", "person_postures"]
+__all__ = ["BODY_TICKS", "RecordedPeople", "person_postures"]
 
+BODY_TICKS = 3
+"""Ticks for each of the bodies': between them figures are drawn on the straight line."""
 _ACCELERATION = 3.0  # [m/s²] of their bodies
 _SLUGGISH = 0.12  # [s] time constant of the speed at which they are drawn
 _STANDS = "stand"
-_MODEL_ORDER = np.argsort([figure().body(name).id for name in BODY_NAMES])
 
 
 @lru_cache(maxsize=1)
@@ -62,7 +61,7 @@ class RecordedPeople:
         motions: MotionSet | None = None,
         dt: float = 0.01,
     ) -> None:
-        self.crowd = Crowd(surface, dt)
+        self.crowd, self.dt = Crowd(surface, BODY_TICKS * dt), dt
         self.graph = graph or person_postures()
         self.motions = motions or load_motions()
         self.gaits = tuple(gait for gait in self.graph.gaits if gait.name in self.motions.gaits)
@@ -87,7 +86,29 @@ class RecordedPeople:
         """One that stands at ``position`` (3,) [m], facing ``yaw`` [rad]; ``chance`` makes it differ from the
         others. Raises `LocomotionError` where there is no room."""
         walker = self.crowd.add(position, PERSON_RULES["radius"], yaw, _ACCELERATION)
-        return self._take_in(walker, at.new_row(level, self.stand, float(chance.random())))
+        row = at.new_row(level, self.stand, float(chance.random()), np.array([*walker.position, walker.yaw]))
+        row[at.SINCE] = self._since
+        return self._take_in(walker, row)
+
+    @property
+    def _since(self) -> int:
+        """Ticks since the bodies' last."""
+        return int(self._rows[0, at.SINCE]) if self.people else 0
+
+    @property
+    def bodies_move(self) -> bool:
+        """Whether the next tick is one of the bodies, too."""
+        return self._since == BODY_TICKS - 1
+
+    def begin_at(self, index: int, place: NDArray[np.float64], velocity: NDArray[np.float64]) -> None:
+        """Let a figure be drawn at ``place`` (3,) now, and go on from there at ``velocity`` (2,) [m/s] until
+        its body's next tick."""
+        row, bodies = self._rows[index], self.crowd.rows
+        bodies[index, [body.VX, body.VY]] = velocity
+        row[at.PLACE] = *place, bodies[index, body.YAW]
+        left = (BODY_TICKS - 1 - self._since) * self.dt
+        behind = np.array([*((BODY_TICKS * self.dt - left) * velocity), 0.0, 0.0])
+        row[at.BEFORE] = row[at.PLACE] - behind
 
     def adopt(self, walker: Walker, row: NDArray[np.float64]) -> RecordedPerson:
         """One whose body is ``walker``, the last of the crowd, and whose row is ``row``."""
@@ -108,11 +129,20 @@ class RecordedPeople:
         self.crowd.remove(index)
 
     def tick(self) -> None:
-        """Advance all by the crowd's ``dt``."""
+        """Advance all by ``dt``."""
         if not self.people:
             return
-        self.crowd.tick()
-        rows, bodies, dt = self.rows, self.crowd.rows, self.crowd.dt
+        rows, bodies, dt = self.rows, self.crowd.rows, self.dt
+        rows[:, at.AGE] += 1.0
+        since = (self._since + 1) % BODY_TICKS
+        rows[:, at.SINCE] = since
+        if since == 0:
+            rows[:, at.BEFORE] = self._body_places()
+            self.crowd.tick()
+        share = (since + 1) / BODY_TICKS
+        moved = self._body_places() - rows[:, at.BEFORE]
+        moved[:, 3] = (moved[:, 3] + np.pi) % (2.0 * np.pi) - np.pi
+        rows[:, at.PLACE] = rows[:, at.BEFORE] + share * moved
         pace = np.hypot(bodies[:, body.VX], bodies[:, body.VY])
         ahead = bodies[:, body.VX] * np.cos(bodies[:, body.YAW]) + bodies[:, body.VY] * np.sin(
             bodies[:, body.YAW]
@@ -126,6 +156,10 @@ class RecordedPeople:
             self.people[index].tick()
         self._choose_gaits(old, phase)
 
+    def _body_places(self) -> NDArray[np.float64]:
+        """(n, 4) x, y, z [m] and yaw [rad] of the bodies."""
+        return np.column_stack([self.crowd.positions, self.crowd.yaws])
+
     def _choose_gaits(self, old: NDArray[np.int32], phase: NDArray[np.float64]) -> None:
         """At the end of a step, and at rest, each may change its gait."""
         rows = self.rows
@@ -133,8 +167,15 @@ class RecordedPeople:
         chosen[rows[:, at.BUSY] > 0.0] = -1
         steps = (2.0 * rows[:, at.PHASE]).astype(np.int32) != (2.0 * phase).astype(np.int32)
         may = (chosen != old) & (steps | (old < 0) | (chosen < 0))
-        for index in np.flatnonzero(may).tolist():
-            self.people[index].change_gait(int(chosen[index]))
+        of = np.flatnonzero(may)
+        if len(of) == 0:
+            return
+        drawn_now, before = self.qpos(of), self.qpos(of, -STEP)
+        rows[of, at.GAIT], rows[of, at.FADE_SECONDS] = chosen[of], 0.0
+        new, after = self.qpos(of), self.qpos(of, STEP)
+        for k, index in enumerate(of.tolist()):
+            old_rates, new_rates = rates(before[k], drawn_now[k], STEP), rates(new[k], after[k], STEP)
+            self.people[index].begin_fade(fade_from(drawn_now[k], old_rates, new[k], new_rates))
 
     def _cadence(self, gaits: NDArray[np.int32], speeds: NDArray[np.float64]) -> NDArray[np.float64]:
         """Cycles a second."""
@@ -161,7 +202,7 @@ class RecordedPeople:
         the person's model, ``ahead`` [s] of now."""
         out = np.empty((len(indices), 20, 7))
         rows, levels = self.rows[indices], self.rows[indices, at.LEVEL].astype(np.int64)
-        ages = self.crowd.rows[indices, body.AGE] * self.crowd.dt
+        ages = rows[:, at.AGE] * self.dt
         special = (ages < rows[:, at.FADE_BEGUN] + rows[:, at.FADE_SECONDS]) | (
             rows[:, at.NODE] != self.stand
         )
@@ -169,13 +210,12 @@ class RecordedPeople:
         for number, name in enumerate(LEVELS):
             of = np.flatnonzero((levels == number) & ~special)
             if len(of):
-                bones = skeleton(name)
-                out[of] = whole_figures(bones, posed(bones, *self._sampled(indices[of], number, ahead)))
+                out[of] = drawn(name, *self._sampled(indices[of], number, ahead))
         of = np.flatnonzero(special)
         if len(of):
             qpos, bones = self.qpos(indices[of], ahead), skeleton(LEVELS[0])
-            out[of] = whole_figures(bones, posed(bones, qpos[:, 7 + bones.joints], qpos[:, :7].copy()))
-        return out[:, _MODEL_ORDER]
+            out[of] = drawn(LEVELS[0], qpos[:, 7 + bones.joints], qpos[:, :7])
+        return out
 
     def _sampled(
         self, indices: NDArray[np.int64], level: int, ahead: float
@@ -190,9 +230,10 @@ class RecordedPeople:
         channels, roots = sample_gait(
             self.motions, level, self._recorded[np.maximum(gaits, 0)], speeds, phases
         )
-        places = self.crowd.positions[indices]
-        places[:, :2] += ahead * bodies[:, [body.VX, body.VY]]
-        return channels, placed_roots(roots, np.column_stack([places, bodies[:, body.YAW]]))
+        places = rows[:, at.PLACE]
+        if ahead != 0.0:
+            places[:, :2] += ahead * bodies[:, [body.VX, body.VY]]
+        return channels, placed_roots(roots, places)
 
     def _adjusted(self, index: int, pose: NDArray[np.float64], ahead: float) -> NDArray[np.float64]:
         """The pose (46,) of a figure: as its gait or postures have it, its hands, and a change of late."""
@@ -200,9 +241,9 @@ class RecordedPeople:
         now = person.time + ahead
         if person.playback is not None:
             pose = pose_at(self.graph, person.playback, max(now, person.playback.begun))
-            place = self.crowd.place(index)
-            pose = placed(pose, np.array([*place[:2], self.crowd.rows[index, body.YAW]]))
-            pose[2] += place[2]
+            x, y, z, yaw = row[at.PLACE]
+            pose = placed(pose, np.array([x, y, yaw]))
+            pose[2] += z
         elif int(row[at.NODE]) != self.stand:
             pose = pose.copy()
             self._hold(pose, int(row[at.NODE]))

@@ -13,19 +13,17 @@ from numpy.typing import ArrayLike, NDArray
 from locomotion.body.person import JOINT_NAMES
 from locomotion.body_events import Event, PostureReached
 from locomotion.crowd import Crowd, Walker, WalkerState
-from locomotion.crowd import layout as body
 from locomotion.errors import LocomotionError
 from locomotion.postures.held_objects import STOWED, node_name, parts_of
 from locomotion.postures.playback import Playback, asked_for, at_rest, settled
 from locomotion.postures.posture_graph import PostureGraph
 from locomotion.postures.step_order import AT_REST, Gait, gaits_for
 from locomotion.recorded_people import layout as at
-from locomotion.recorded_people.fading import difference, fade_from, rates
+from locomotion.recorded_people.fading import STEP, Fade, difference, fade_from, rates
 from navmesh.routes.route import Route
 
 __all__ = ["Errand", "PersonState", "RecordedPerson", "can_hold", "checked_node"]
 
-_STEP = 0.01  # [s] over which rates of change are taken
 _PHASES = 40  # that a body which is taken over is compared with
 _AHEAD = 0.06  # [s] for which rates count as much as angles
 _LEGS = np.array([k for k, name in enumerate(JOINT_NAMES) if "hip" in name or "knee" in name])
@@ -58,10 +56,12 @@ class ItsPeople(Protocol):
     graph: PostureGraph
     gaits: tuple[Gait, ...]
     stand: int
+    dt: float
 
     @property
     def rows(self) -> NDArray[np.float64]: ...
     def qpos(self, indices: NDArray[np.int64], ahead: float = 0.0) -> NDArray[np.float64]: ...
+    def begin_at(self, index: int, place: NDArray[np.float64], velocity: NDArray[np.float64]) -> None: ...
 
 
 class RecordedPerson:
@@ -86,7 +86,17 @@ class RecordedPerson:
     @property
     def time(self) -> float:
         """[s] since it was made."""
-        return self.walker.time
+        return float(self._row[at.AGE]) * self._people.dt
+
+    @property
+    def position(self) -> NDArray[np.float64]:
+        """(3,) float64 [m]: the floor point at which it is drawn."""
+        return self._row[at.PLACE][:3].copy()
+
+    @property
+    def yaw(self) -> float:
+        """[rad, -π to π] in which it is drawn to face."""
+        return float((self._row[at.PLACE][3] + np.pi) % (2.0 * np.pi) - np.pi)
 
     @property
     def events(self) -> list[Event]:
@@ -141,7 +151,7 @@ class RecordedPerson:
     @property
     def qpos_rates(self) -> NDArray[np.float64]:
         """(45,) float64: how fast its pose changes, as `fading.rates`."""
-        return rates(self.qpos_at(-_STEP), self.qpos_at(0.0), _STEP)
+        return rates(self.qpos_at(-STEP), self.qpos_at(0.0), STEP)
 
     # --- what it is told
     def go_to(self, goals: ArrayLike, speed: float, facing: float | None) -> list[Route]:
@@ -246,15 +256,8 @@ class RecordedPerson:
 
     @property
     def _point(self) -> tuple[float, float, float]:
-        x, y, z = self.walker.position.tolist()
+        x, y, z = self.position.tolist()
         return x, y, z
-
-    def change_gait(self, gait: int) -> None:
-        """Go on in another gait of the posture graph's, -1: at rest."""
-        self.change(lambda: self._set_gait(gait))
-
-    def _set_gait(self, gait: int) -> None:
-        self._row[at.GAIT] = gait
 
     def change(self, what: Callable[[], object]) -> None:
         """Do ``what`` changes where its pose comes from; the difference fades out."""
@@ -265,21 +268,27 @@ class RecordedPerson:
 
     def fade(self, old: NDArray[np.float64], old_rates: NDArray[np.float64]) -> None:
         """Let it look as if it came from pose ``old`` (46,), which changed by ``old_rates`` (45,)."""
-        row = self._row
-        row[at.FADE_SECONDS] = 0.0
+        self._row[at.FADE_SECONDS] = 0.0
         now = self.qpos_at(0.0)
-        new_rates = rates(now, self.qpos_at(_STEP), _STEP)
-        row[at.OFFSETS], row[at.RATES], row[at.FADE_SECONDS] = fade_from(old, old_rates, now, new_rates)
+        self.begin_fade(fade_from(old, old_rates, now, rates(now, self.qpos_at(STEP), STEP)))
+
+    def begin_fade(self, fade: Fade) -> None:
+        """Let a difference fade out from now on."""
+        row = self._row
+        row[at.OFFSETS], row[at.RATES], row[at.FADE_SECONDS] = fade
         row[at.FADE_BEGUN] = self.time
 
     def go_on_from(
-        self, pose: NDArray[np.float64], pose_rates: NDArray[np.float64], velocity: NDArray[np.float64]
+        self,
+        pose: NDArray[np.float64],
+        pose_rates: NDArray[np.float64],
+        place: NDArray[np.float64],
+        velocity: NDArray[np.float64],
     ) -> None:
         """Take over from a body in ``pose`` (46,), which changes by ``pose_rates`` (45,) as `fading.rates`,
-        and moves at ``velocity`` (2,) [m/s]: in its gait, at the phase that is most like it."""
+        and moves at ``velocity`` (2,) [m/s] over ``place`` (3,): in its gait, at the phase most like it."""
         people, row = self._people, self._row
-        body_row = people.crowd.rows[self.index]
-        body_row[[body.VX, body.VY]] = velocity
+        people.begin_at(self.index, place, velocity)
         speed = float(np.hypot(*velocity))
         row[at.SPEED] = speed
         now, posture = np.array([-1], np.int32), np.array([people.stand], np.int32)
@@ -295,7 +304,7 @@ class RecordedPerson:
             row[at.PHASE] = phase
             here = self.qpos_at(0.0)
             off = difference(pose, here)[6:][_LEGS]
-            off_rates = (pose_rates - rates(here, self.qpos_at(_STEP), _STEP))[6:][_LEGS]
+            off_rates = (pose_rates - rates(here, self.qpos_at(STEP), STEP))[6:][_LEGS]
             unlike = float(off @ off + _AHEAD**2 * (off_rates @ off_rates))
             if unlike < least:
                 least, best = unlike, float(phase)

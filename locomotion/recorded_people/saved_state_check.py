@@ -9,6 +9,7 @@ from locomotion.postures.playback import Playback
 from locomotion.postures.posture_graph import PostureGraph
 from locomotion.recorded.skeletons import LEVELS
 from locomotion.recorded_people import layout as at
+from locomotion.recorded_people.people import BODY_TICKS
 from locomotion.recorded_people.person import Errand, PersonState
 from locomotion.saved_arrays import COUNT, FLAG, Slots, check_array
 
@@ -28,10 +29,12 @@ def check_recorded(state: PersonState, graph: PostureGraph, gaits: int) -> None:
             (at.LEVEL, (0.0, len(LEVELS) - 1.0)),
             (at.NODE, (0.0, len(graph.postures) - 1.0)),
             (at.BUSY, FLAG),
+            (at.AGE, COUNT),
+            (at.SINCE, (0.0, BODY_TICKS - 1.0)),
             (at.FADE_BEGUN, COUNT),
             (at.FADE_SECONDS, (0.0, 10.0)),
         ],
-        whole=(at.GAIT, at.LEVEL, at.NODE, at.BUSY),
+        whole=(at.GAIT, at.LEVEL, at.NODE, at.BUSY, at.AGE, at.SINCE),
     ).check(state.row)
     if state.wanted and state.wanted not in graph.postures:
         raise LocomotionError(

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
@@ -15,6 +15,13 @@ from locomotion import MOVING, PERSON_RULES, Ground, Human, HumanState, Locomoti
 from locomotion.avoidance.yielding import SPACING, Course
 from locomotion.body.person import CONTROL_DT
 from locomotion.body_events import PostureReached
+from locomotion.gaits.brake import load_brake_skill
+from locomotion.gaits.run.skill import RunSkill
+from locomotion.gaits.slow_down import load_slow_down_skill
+from locomotion.gaits.speed_up import load_speed_up_skill
+from locomotion.gaits.walk.skill import WalkSkill, load_walk_skill
+from locomotion.human.human import BetweenGaits
+from locomotion.human.motion_start import moment_like, set_in_motion
 from locomotion.human.saved_state_check import check_person
 from locomotion.paths.departures import can_begin, leads
 from locomotion.paths.run_up_room import cramped_links
@@ -24,7 +31,7 @@ from locomotion.recorded_people.people import person_postures
 from locomotion.recorded_people.person import RecordedPerson, can_hold, checked_node
 from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.saved_arrays import check_array, check_number
-from locomotion.skills.interface import skill_ranges
+from locomotion.skills.interface import ClearingSkill, skill_ranges
 from locomotion.skills.library import learned_skills
 from runtime.bodies.figure import Figure
 from runtime.bodies.protocol import PLANS_KEPT, Driver, Follower, Population, recall, saved_parts
@@ -37,9 +44,27 @@ from surefoot.pausing import pause
 
 __all__ = ["HumanDriver", "People"]
 
+_ASKEW = 0.4  # [rad] that a body which physics takes over may face off its way
+_SPOTS, _BESIDE = np.array([-0.4, 0.0, 0.4, 0.8, 1.2]), 0.15  # [m] along its way and beside it,
+_UNEVEN = 0.02  # where the ground is no more than this [m] higher or lower
 _STEEP = 20.0  # [degrees] of ground that is worth mentioning
 _HESITATES = 0.4  # [s] at most, from a stand: less than half a step
 _HERE = 1e-3  # [m] long ways lead to where it is: one that moves has to come back there
+
+
+class _Learned(NamedTuple):
+    """What people have learned, read once for all of a world."""
+
+    run: RunSkill
+    clearing: tuple[ClearingSkill, ...]
+    walk: WalkSkill
+    between: BetweenGaits
+
+    @classmethod
+    def read(cls, skills: Sequence[Path]) -> "_Learned":
+        run = load_run_skill()
+        between = BetweenGaits(load_slow_down_skill(), load_speed_up_skill(), load_brake_skill())
+        return cls(run, tuple(learned_skills(run, skills)), load_walk_skill(), between)
 
 
 @dataclass(frozen=True)
@@ -63,6 +88,9 @@ class People(Population):
         self._level, self._skills, self._rehearsals = level, skills, rehearsals
         self._seed = seed
         self._drivers: list[HumanDriver] = []
+        self._learned: _Learned | None = None  # shared by all
+        self._spare: list[Human] = []
+        self._unused: HumanState | None = None
 
     def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> Driver:
         driver = self._make()
@@ -80,21 +108,64 @@ class People(Population):
         return driver
 
     def take_over(self, person: RecordedPerson) -> "HumanDriver | None":
-        """Let physics go on from where recorded motion is; None while it cannot."""
-        if not person.has_free_hands or np.hypot(*person.walker.velocity) > AT_REST:
+        """Let physics go on from where recorded motion is; None while it cannot: with something in the hands,
+        on uneven ground, or in a motion that the controllers do not know."""
+        walker = person.walker
+        speed, place = float(np.hypot(*walker.velocity)), person.position
+        if not person.has_free_hands or walker.status == "stuck":
             return None
         pose, pose_rates = person.qpos, person.qpos_rates
-        driver = self._make()
-        driver.human.reset(person.walker.position, person.walker.yaw)
+        if speed <= AT_REST:
+            if walker.status == "walking":
+                return None  # it waits for others
+            driver = self._make()
+            driver.human.reset(place, walker.yaw)
+        else:
+            moment = moment_like(person.status == "running", speed, pose, pose_rates[6:])
+            heading = math.atan2(walker.velocity[1], walker.velocity[0])
+            off = abs(math.remainder(heading - walker.yaw, 2.0 * math.pi))
+            if (
+                moment is None
+                or walker.status != "walking"
+                or off > _ASKEW
+                or not self._level_at(place, heading)
+            ):
+                return None
+            driver = self._make()
+            set_in_motion(driver.human, moment, pose[:2], float(place[2]), heading)
         driver.fade(pose, pose_rates)
         self._drivers.append(driver)
         return driver
 
+    def _level_at(self, place: np.ndarray, heading: float) -> bool:
+        """Whether the ground is level around ``place`` (3,) and on the first steps towards ``heading``."""
+        ahead = np.array([math.cos(heading), math.sin(heading)])
+        spots = place + np.zeros((_SPOTS.size * 3, 3))
+        across = np.array([-ahead[1], ahead[0]])
+        spots[:, :2] += (
+            _SPOTS[:, None, None] * ahead + np.array([-_BESIDE, 0.0, _BESIDE])[:, None] * across
+        ).reshape(-1, 2)
+        spots[:, 2] += 0.5
+        heights = self._level.ground.surface_below(spots)[0]
+        return bool((np.abs(heights - place[2]) <= _UNEVEN).all())
+
     def _make(self) -> "HumanDriver":
-        run = load_run_skill()
-        skills = learned_skills(run, self._skills)
-        human = Human(self._level.ground, run, skills, rehearsals=self._rehearsals, gets_up=True)
+        if self._learned is None:
+            self._learned = _Learned.read(self._skills)
+        run, clearing, walk, between = self._learned
+        if self._spare and self._unused is not None:
+            human = self._spare.pop()
+            human.restore_state(self._unused)
+            return HumanDriver(self._level, human)
+        human = Human(self._level.ground, run, clearing, walk, between, self._rehearsals, gets_up=True)
+        self._unused = self._unused or human.save_state()
         return HumanDriver(self._level, human)
+
+    def retire(self, driver: Driver) -> None:
+        """Have one less, whose body nobody holds any more: the next one gets it, as good as new."""
+        assert isinstance(driver, HumanDriver)
+        self.remove(driver)
+        self._spare.append(driver.human)
 
     def remove(self, driver: Driver) -> None:
         self._drivers = [each for each in self._drivers if each is not driver]
@@ -112,6 +183,7 @@ class People(Population):
             driver.before = driver.human.qpos
 
     def change_level(self) -> None:
+        self._spare, self._unused = [], None
         for driver in self._drivers:
             driver.human.change_ground(self._level.ground)
 

@@ -54,6 +54,13 @@ class Persons(Population):
         for part in self.parts():
             part.tick()
 
+    def transforms_of(self, drivers: Sequence[Driver]) -> Sequence[np.ndarray]:
+        recorded = [driver for driver in drivers if isinstance(driver, RecordedDriver)]
+        played = iter(self.recorded.transforms_of(recorded))
+        return [
+            next(played) if isinstance(driver, RecordedDriver) else driver.transforms() for driver in drivers
+        ]
+
     def at_level(self, driver: Driver, level: str) -> Driver | None:
         if isinstance(driver, RecordedDriver) and level in LEVELS:
             driver.draw_at(level)
@@ -67,5 +74,8 @@ class Persons(Population):
             taken = self.physical.take_over(driver.person)
         if taken is not None:
             taken.plans.extend(driver.plans)
-            self.remove(driver)
+            if isinstance(driver, HumanDriver):
+                self.physical.retire(driver)
+            else:
+                self.recorded.remove(driver)
         return taken

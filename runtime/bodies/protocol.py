@@ -301,6 +301,10 @@ class Population(ABC):
         """All of them, if they follow paths; nobody otherwise."""
         return ()
 
+    def transforms_of(self, drivers: "Sequence[Driver]") -> Sequence[np.ndarray]:
+        """`Driver.transforms` of some of them, in order."""
+        return [driver.transforms() for driver in drivers]
+
     def remember(self) -> None:  # noqa: B027  those that are drawn as they are
         """Keep where all are, for `Driver.transforms_between`."""
 

@@ -55,9 +55,10 @@ class Recorded(Population):
         """Let recorded motion go on from where a simulated person is, at a ``level`` of detail."""
         human, index = driver.human, level_number(level)
         chance = np.random.default_rng(self._seed)
-        person = self.people.add(human.position, human.yaw, index, chance)
+        place, velocity = human.position, human.velocity[:2]
+        person = self.people.add(place, human.yaw, index, chance)
         pose, pose_rates = driver.drawn()
-        person.go_on_from(pose, pose_rates, human.velocity[:2])
+        person.go_on_from(pose, pose_rates, place, velocity)
         return RecordedDriver(self, person)
 
     def revive(self, body: str, state: Any) -> "RecordedDriver":
@@ -81,8 +82,12 @@ class Recorded(Population):
     def in_the_way(self) -> np.ndarray:
         if not self._people:
             return np.empty((0, 6))
-        crowd = self._people.crowd
-        return np.column_stack([crowd.positions, crowd.velocities, crowd.radii])
+        crowd, places = self._people.crowd, self._people.rows[:, at.PLACE][:, :3]
+        return np.column_stack([places, crowd.velocities, crowd.radii])
+
+    def transforms_of(self, drivers: Sequence[Driver]) -> Sequence[np.ndarray]:
+        indices = [driver.walker.index for driver in drivers if isinstance(driver, RecordedDriver)]
+        return list(self.people.transforms(np.array(indices, np.int64))) if indices else []
 
     def change_level(self) -> None:
         if self._people is not None:
@@ -90,8 +95,9 @@ class Recorded(Population):
 
     def tick(self) -> None:
         if self._people:
-            others = [each.in_the_way() for each in self._populations if each is not self]
-            self._people.crowd.lead(np.concatenate([np.empty((0, 6)), *others]))
+            if self._people.bodies_move:
+                others = [each.in_the_way() for each in self._populations if each is not self]
+                self._people.crowd.lead(np.concatenate([np.empty((0, 6)), *others]))
             self._people.tick()
 
 
@@ -114,6 +120,18 @@ class RecordedDriver(WalkerDriver):
     @property
     def status(self) -> str:
         return self.person.status
+
+    @property
+    def time(self) -> float:
+        return self.person.time
+
+    @property
+    def position(self) -> np.ndarray:
+        return self.person.position
+
+    @property
+    def facing(self) -> float:
+        return self.person.yaw
 
     @property
     def left(self) -> float:
@@ -182,7 +200,7 @@ class RecordedDriver(WalkerDriver):
         return self._population.people.transforms(np.array([self.person.index]))[0]
 
     def transforms_between(self, share: float) -> np.ndarray:
-        back = (share - 1.0) * self._population.people.crowd.dt
+        back = (share - 1.0) * self._population.people.dt
         return self._population.people.transforms(np.array([self.person.index]), back)[0]
 
     def save(self) -> tuple[PersonState, tuple[Plan, ...]]:  # type: ignore[override]

@@ -6,11 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from benchmarks.posture_graphs import random_graph
 from locomotion.errors import LocomotionError
 from locomotion.postures.places import placed
 from locomotion.postures.playback import asked_for, at_rest, pose_at, settled
 from locomotion.postures.posture_file import load_postures
-from tests.locomotion.postures.graphs import random_graph
 
 PERSON = Path(__file__).resolve().parents[3] / "locomotion" / "data" / "postures" / "person.yaml"
 

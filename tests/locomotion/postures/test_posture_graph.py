@@ -3,25 +3,9 @@
 import numpy as np
 import pytest
 
+from benchmarks.posture_graphs import brute_force, random_graph
 from locomotion.postures.places import placed
 from locomotion.postures.posture_graph import frame_at, least_times
-from tests.locomotion.postures.graphs import random_graph
-
-
-def brute_force(graph) -> np.ndarray:
-    """(p, p) [s] by trying every path without a posture twice."""
-    count = len(graph.postures)
-    least = np.full((count, count), np.inf)
-
-    def walk(first, here, spent, seen):
-        least[first, here] = min(least[first, here], spent)
-        for arc in np.flatnonzero(graph.start == here):
-            if graph.end[arc] not in seen:
-                walk(first, graph.end[arc], spent + graph.seconds[arc], {*seen, graph.end[arc]})
-
-    for first in range(count):
-        walk(first, first, 0.0, {first})
-    return least
 
 
 @pytest.mark.parametrize("seed", range(200))

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from locomotion import LocomotionError
+from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.people import person_postures
 from locomotion.recorded_people.person import can_hold, checked_node
 from tests.locomotion.recorded_people.test_people import crowd_of, played, steps
@@ -41,9 +42,8 @@ def test_it_goes_on_from_a_body_in_motion_in_step_with_it(speed):
     poses = played(people, ada, 2.0)
     pose, pose_rates = ada.qpos, ada.qpos_rates
     bob.walker.crowd.rows[bob.index, :7] = ada.walker.crowd.rows[ada.index, :7]
-    bob.go_on_from(pose, pose_rates, ada.walker.velocity)
+    bob.go_on_from(pose, pose_rates, ada.position, ada.walker.velocity)
     np.testing.assert_allclose(bob.qpos, pose, atol=1e-6)
-    bob.qpos_at(0.0)
-    phases = people.rows[:, 1]
+    phases = people.rows[:, at.PHASE]
     assert speed == 0.0 or abs((phases[0] - phases[1] + 0.5) % 1.0 - 0.5) < 0.05
     assert steps(poses)[1] < 0.08

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from locomotion.recorded_people import layout as at
 from runtime import Arrived, PostureReached, RuntimeInputError, World, WorldState
 from runtime.bodies.recorded import RecordedDriver, person_figure
 from runtime.traces.recording import Recorder
@@ -57,7 +58,7 @@ def test_a_damaged_state_of_one_is_refused(graph):
     ada = world.spawn("human", (2.0, 3.0, 0.0), detail="low")
     saved, plans = ada.driver.save()
     row = saved.row.copy()
-    row[3] = 9.0
+    row[at.LEVEL] = 9.0
     for wrong in ((saved.__class__(saved.body, row, None, "", None), plans), (saved,), None):
         with pytest.raises(ValueError):
             ada.driver.restore(wrong)

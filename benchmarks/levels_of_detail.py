@@ -1,0 +1,187 @@
+"""People at several levels of detail: switching between them, and what a frame of a thousand costs.
+
+    python -m benchmarks.levels_of_detail [--switches 1000] [--seconds 20] [--seed 1] [--only switches|frame]
+
+Switches: a person stands, walks or runs over a plain, plays recorded motion or is simulated, and is told to
+go over to the other at a random moment. Printed are the greatest jump of the pose then; the greatest step of
+a joint and of the root between two frames of 1/60 s in the half second after it, and, for comparison, in the
+half second before it, since knees bend by more than 10 degrees between two frames of any walk; and how many
+have not fallen 5 s later.
+
+Frame: 10 simulated people, 90 in full, 300 in medium and 600 in low detail walk between random places of the
+shared level nav_test, or of a plain where it is absent. A frame is 1/60 s of the world and the transforms of
+all; times are of one core.
+"""
+
+import argparse
+import gc
+import math
+import time
+from itertools import pairwise
+
+import numpy as np
+
+from benchmarks.giving_way import floor
+from benchmarks.shared_data import level_path, shared_folder, why_absent
+from locomotion.recorded_people.fading import difference
+from navmesh import NodeGraph, Terrain
+from runtime import Agent, Fell, World
+from runtime.bodies.humans import HumanDriver
+from runtime.planning.rules import person_walk_rules
+from runtime.world.level_of_detail import LEVELS, PHYSICS
+
+__all__ = ["COUNTS", "MODES", "frame_figures", "switch_figures"]
+
+FRAME = 1.0 / 60.0
+MODES = {"stand": (0.0, 0.0), "walk": (0.5, 1.9), "run": (2.6, 4.6)}
+"""[m/s] least and greatest speed."""
+COUNTS = (10, 90, 300, 600)
+"""People at each of `LEVELS`."""
+_PLAIN = (-5.0, -40.0, 120.0, 40.0)
+
+
+def pose_of(agent: Agent) -> np.ndarray:
+    """(46,) as it is drawn."""
+    driver = agent.driver
+    return driver.drawn()[0] if isinstance(driver, HumanDriver) else driver.person.qpos  # type: ignore[attr-defined]
+
+
+def steps(poses: list[np.ndarray]) -> tuple[float, float]:
+    """Greatest step of a joint [degrees] and of the root [m] between poses."""
+    moved = np.array([difference(b, a) for a, b in pairwise(poses)])
+    return float(np.degrees(np.abs(moved[:, 6:]).max())), float(np.linalg.norm(moved[:, :3], axis=1).max())
+
+
+def switch(graph: NodeGraph, mode: str, to: str, rng: np.random.Generator) -> dict[str, float]:
+    """One person goes over to the level ``to`` at a random moment."""
+    world = World(graph, seed=int(rng.integers(2**31)))
+    ada = world.spawn("human", (0.0, 0.0, 0.0), detail="full" if to == PHYSICS else PHYSICS)
+    low, high = MODES[mode]
+    if high > 0.0:
+        angle = float(rng.uniform(-0.5, 0.5))
+        goal = (100.0 * math.cos(angle), 60.0 * math.sin(angle), 0.0)
+        ada.go_to(goal, speed=float(rng.uniform(low, high)))
+    world.step(float(rng.uniform(3.0, 5.0)))
+    before = _frames(world, ada, 30)
+    last = pose_of(ada)
+    asked = world.time
+    ada.detail = to
+    while ada.level != to and world.time < asked + 2.0:
+        world.step(FRAME)
+        last = before[-1]
+        before.append(pose_of(ada))
+    jump = difference(pose_of(ada), last) if ada.level == to and world.time == asked else np.zeros(45)
+    after = [pose_of(ada), *_frames(world, ada, 30)]
+    world.step(5.0)
+    here, there = steps(before[-30:]), steps(after)
+    return {
+        "switched": float(ada.level == to),
+        "waited": world.time - asked - 5.5,
+        "jump": float(np.degrees(np.abs(jump[6:]).max())),
+        "jump_root": float(np.linalg.norm(jump[:3])),
+        "joint_before": here[0],
+        "joint_after": there[0],
+        "root_before": here[1],
+        "root_after": there[1],
+        "up": float(not any(isinstance(event, Fell) for event in world.events)),
+    }
+
+
+def _frames(world: World, agent: Agent, count: int) -> list[np.ndarray]:
+    poses = []
+    for _ in range(count):
+        world.step(FRAME)
+        poses.append(pose_of(agent))
+    return poses
+
+
+def switch_figures(count: int, seed: int) -> dict[tuple[str, str], dict[str, float]]:
+    """For each mode and direction: how many switched and stayed up, and the worst of all else."""
+    graph = floor(_PLAIN)
+    cases = [(mode, to) for mode in MODES for to in (PHYSICS, "full")]
+    found: dict[tuple[str, str], dict[str, float]] = {}
+    for k, (mode, to) in enumerate(cases):
+        of = len(range(k, count, len(cases)))
+        rng = np.random.default_rng((seed, k))
+        made = [switch(graph, mode, to, rng) for _ in range(of)]
+        if made:
+            worst = {name: max(each[name] for each in made) for name in made[0]}
+            sums = {name: sum(each[name] for each in made) for name in ("switched", "up")}
+            found[mode, to] = {**worst, **sums, "count": of}
+    return found
+
+
+def frame_figures(graph: NodeGraph, counts: tuple[int, ...], seconds: float, seed: int) -> dict[str, float]:
+    """Times [ms] of frames of people at ``counts`` (of each of `LEVELS`) for ``seconds``."""
+    world, rng = World(graph, seed=seed), np.random.default_rng(seed)
+    tries = graph.random_points(rng, 50, 0.3)
+    reach = [len(graph.reachable_nodes(place, 0.3)) for place in tries]
+    home = tries[int(np.argmax(reach))]
+    places = iter(graph.random_points(rng, 4 * sum(counts) + 2000, 0.3, reachable_from=home))
+    for level, count in zip(LEVELS, counts, strict=True):
+        for _ in range(count):
+            world.spawn("human", next(places), detail=level)
+    agents = list(world.agents.values())
+    for agent in agents:
+        agent.go_to(next(places), speed=float(rng.uniform(0.8, 1.6)))
+    world.step(1.0)
+    world.transforms()
+    total, moving = [], []
+    gc.collect()
+    gc.freeze()
+    for frame in range(round(seconds / FRAME)):
+        begin = time.process_time()
+        world.step(FRAME)
+        stepped = time.process_time()
+        world.transforms()
+        total.append(time.process_time() - begin)
+        moving.append(stepped - begin)
+        for agent in agents[frame % 30 :: 30]:
+            if not agent.moving and agent.status != "fallen":
+                agent.go_to(next(places), speed=float(rng.uniform(0.8, 1.6)))
+    gc.unfreeze()
+    ms = 1000.0 * np.array(total)
+    return {
+        "median": float(np.median(ms)),
+        "p99": float(np.percentile(ms, 99)),
+        "worst": float(ms.max()),
+        "posing": float(1000.0 * np.median(np.array(total) - np.array(moving))),
+        "share_moving": float(np.mean([agent.moving for agent in agents])),
+    }
+
+
+def level() -> NodeGraph:
+    """nav_test, or a plain."""
+    if shared_folder() is None:
+        print(f"{why_absent()}; on a plain instead")
+        return floor((0.0, 0.0, 90.0, 90.0))
+    terrain = Terrain.load(level_path("nav_test"), up="y")
+    return NodeGraph.build(terrain, person_walk_rules())
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("--switches", type=int, default=1000)
+    parser.add_argument("--seconds", type=float, default=20.0)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", choices=("switches", "frame"))
+    given = parser.parse_args()
+    if given.only != "frame":
+        for (mode, to), of in switch_figures(given.switches, given.seed).items():
+            print(
+                f"{mode:6} to {to:8} {of['switched']:.0f} of {of['count']:.0f} within {of['waited']:.2f} s; "
+                f"jump {of['jump']:.1e} degrees, {100 * of['jump_root']:.1e} cm; joint step "
+                f"{of['joint_after']:.1f} (before {of['joint_before']:.1f}) degrees; root step "
+                f"{100 * of['root_after']:.1f} (before {100 * of['root_before']:.1f}) cm; up {of['up']:.0f}"
+            )
+    if given.only != "switches":
+        of = frame_figures(level(), COUNTS, given.seconds, given.seed)
+        people = " + ".join(f"{count} {name}" for name, count in zip(LEVELS, COUNTS, strict=True))
+        print(
+            f"{people}: a frame takes {of['median']:.1f} ms (median), {of['p99']:.1f} ms (p99), "
+            f"{of['worst']:.1f} ms (worst), posing {of['posing']:.2f} ms of it; {of['share_moving']:.0%} move"
+        )
+
+
+if __name__ == "__main__":
+    main()

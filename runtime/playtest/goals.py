@@ -7,6 +7,7 @@ from scipy.spatial import KDTree
 from runtime.errors import RuntimeInputError
 from runtime.playtest.analysis import LEAST_AREA, core_parts
 from runtime.playtest.bots import Goals
+from runtime.playtest.floor_edges import edges_of
 from runtime.playtest.plan import LoadedPlan
 from runtime.playtest.site import Site
 
@@ -85,7 +86,8 @@ def make_goals(site: Site, plan: LoadedPlan, rng: np.random.Generator) -> Goals:
         place_names = tuple(f"place{k + 1}" for k in range(len(place_at)))
     links = site.graph.links
     obstacles = np.unique(links.obstacle[site.ways[reached[site.way_from]]])
-    return Goals(spawn_names, spawn_at, place_names, place_at, targets, tuple(obstacles.tolist()))
+    edges = edges_of(site, reached)
+    return Goals(spawn_names, spawn_at, place_names, place_at, targets, tuple(obstacles.tolist()), *edges)
 
 
 def _spread(points: np.ndarray, count: int, rng: np.random.Generator) -> np.ndarray:

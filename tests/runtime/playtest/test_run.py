@@ -113,7 +113,7 @@ def test_a_body_beside_a_wall_appears_as_there_is_room(level):
 
 def test_people_give_the_same_report_in_two_processes(level):
     reports = [
-        playtest(level, bots=2, seconds=10.0, seed=3, body="human", processes=number).report
+        playtest(level, bots=2, seconds=4.0, seed=3, body="human", processes=number).report
         for number in (1, 2)
     ]
     one, two = (json.dumps(report.to_dict()) for report in reports)

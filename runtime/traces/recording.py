@@ -26,9 +26,9 @@ class Recorder:
         fresh = self._world.events
         self.events += fresh
         self._times.append(self._world.time)
-        for name, agent in self._world.agents.items():
-            now = agent.pose.transforms.astype(np.float32)
-            self._agents[name] = agent
+        for name, transforms in self._world.transforms().items():
+            now = transforms.astype(np.float32)
+            self._agents[name] = self._world.agents[name]
             # who comes later stands at its first place until then
             poses = self._poses.setdefault(name, [now] * (len(self._times) - 1))
             poses.append(now)

@@ -49,8 +49,7 @@ class LiveView:
             self._graph, self._level = self._world.graph, level_trace(self._world.graph)
         agents = self._world.agents
         figures = {name: agent.figure for name, agent in agents.items()}
-        poses = [agent.pose.transforms for agent in agents.values()]
-        joined = np.concatenate([np.empty((0, 7)), *poses])
+        joined = np.concatenate([np.empty((0, 7)), *self._world.transforms().values()])
         self._window.show(Moment(self._world.time, self._level, figures, joined, self._paths()))
 
     @property

@@ -155,7 +155,12 @@ def _crowds() -> None:
     for k in range(6):
         walker = world.spawn("walker", (1.0 + 0.8 * k, 1.0, 0.0), radius=0.25)
         walker.go_to((3.0, 6.5, 0.0), speed=1.5)
+    recorded = world.spawn("human", (7.0, 1.0, 0.0), detail="low")
+    recorded.go_to((7.0, 5.0, 0.0), speed=1.5)
     world.step(8.0)
+    recorded.take_posture("kneel")
+    world.step(0.5)
+    world.transforms()
 
 
 def one_of_each(seconds: float = 1.0) -> None:

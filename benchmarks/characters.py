@@ -11,7 +11,7 @@ of the ground, the shank not lying) is measured, of the person itself and of eac
                 percentile of the stances in which the person's own foot slides by less than 10 mm and turns
                 by less than 10 degrees (how many of all); then of all stances
   hand          from the hand to where the person's is, while that touches something [mm]: worst and 95th
-                percentile
+                percentile; with a rifle, how much further from each other the hands are than the person's
 
 Then the time to pose one character once, and in a batch.
 """
@@ -19,7 +19,7 @@ Then the time to pose one character once, and in a batch.
 import argparse
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -55,13 +55,14 @@ _POSTURES = Path(__file__).parent.parent / "locomotion/data/postures/person.yaml
 @dataclass(frozen=True, eq=False)
 class Recorded:
     """What a person did: places (n, 20, 7) of its bodies, ``step`` [s] apart; vertices and faces of the level
-    on which it was."""
+    on which it was; grip: whether both hands hold one thing."""
 
     name: str
     places: NDArray[np.float64]
     step: float
     vertices: NDArray[np.float64]
     faces: NDArray[np.int64]
+    grip: bool = False
 
     @property
     def ground(self) -> Ground:
@@ -129,17 +130,23 @@ def _over(name: str, affordance: str, height: float) -> Recorded:
     raise RuntimeError(f"nobody gets over the {affordance}")
 
 
-def _postures() -> Recorded:
+def _postures(name: str, postures: Sequence[str], grip: bool = False) -> Recorded:
     """Through the posture graph, waiting in each posture."""
     graph = load_postures(_POSTURES)
-    playback, now, poses = at_rest(graph, "stand", (0.0, 0.0, 0.0)), 0.0, []
-    for posture in ("kneel", "all-fours", "prone", "stand", "crouch", "sit", "stand"):
+    playback, now, poses = at_rest(graph, postures[0], (0.0, 0.0, 0.0)), 0.0, []
+    for posture in postures:
         playback = asked_for(graph, playback, posture, now)
         end = now + float(graph.least[playback.posture, graph.postures.index(posture)]) + 3.5
         while now < end:
             poses.append(pose_at(graph, playback, now))
             now += 1 / 60
-    return Recorded("postures", places_of(np.array(poses)), 1 / 60, *_flat())
+    return Recorded(name, places_of(np.array(poses)), 1 / 60, *_flat(), grip)
+
+
+_THROUGH = ("stand", "kneel", "all-fours", "prone", "stand", "crouch", "sit", "stand")
+_ARMED = tuple(
+    f"{posture}/rifle {state}" for posture in ("stand", "kneel") for state in ("deployed", "in use")
+)
 
 
 MOTIONS: dict[str, Callable[[int], Recorded]] = {
@@ -151,7 +158,8 @@ MOTIONS: dict[str, Callable[[int], Recorded]] = {
     "jump": lambda seed: _over("jump", "jump", 0.5),
     "vault": lambda seed: _over("vault", "vault", 0.8),
     "roll": lambda seed: _over("roll", "drop", 1.4),
-    "postures": lambda seed: _postures(),
+    "postures": lambda seed: _postures("postures", _THROUGH),
+    "rifle": lambda seed: _postures("rifle", _ARMED, grip=True),
 }
 
 
@@ -258,9 +266,12 @@ def measure(motion: Recorded, rig: Rig | None) -> Fit:
     held = np.empty(0)
     soles = person
     if rig is not None:
-        poses = rig.pose_from(motion.places, BODY_NAMES, ground)
+        poses = rig.pose_from(motion.places, BODY_NAMES, ground, grip=float(motion.grip))
         soles = _soles(rig, poses)
-        held = _hands_off(rig, poses, motion.places)[hands > _TOUCHES]
+        off = _hands_off(rig, poses, motion.places)
+        held = np.linalg.norm(off, axis=2)[hands > _TOUCHES]
+        if motion.grip:
+            held = np.linalg.norm(off[:, 0] - off[:, 1], axis=1)
     for side in range(2):
         own = _heights(ground, person[side])
         shank = motion.places[:, person_arrays().limbs[1, side], 3:]
@@ -277,14 +288,14 @@ def measure(motion: Recorded, rig: Rig | None) -> Fit:
 
 
 def _hands_off(rig: Rig, poses: NDArray[np.float64], places: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(n, 2) from the hands' points to the person's."""
+    """(n, 2, 3) from the hands' points to the person's."""
     person = person_arrays()
     found = []
     for side, name in enumerate(("right", "left")):
         wanted = _turned(places[:, person.limbs[6, side]], person.hand)
         bone = rig.names.index(rig.parts[f"{name}_hand"])
         point = rig.hand_points[side]
-        found.append(np.linalg.norm(_turned(poses[:, bone], point) - wanted, axis=1))
+        found.append(_turned(poses[:, bone], point) - wanted)
     return np.stack(found, axis=1)
 
 

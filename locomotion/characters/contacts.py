@@ -38,6 +38,8 @@ class Contacts(NamedTuple):
     """(n, 2) float64, 0 to 1: how near a foot is to the ground, if that is known"""
     loads: np.ndarray
     """(n, 2) float64, 0 to 1: how near it is or may be"""
+    grips: np.ndarray
+    """(n,) float64, 0 to 1: how much the hands hold one thing"""
     normals: np.ndarray
     """(n, 2, 3) float64: of the ground under a foot that is near it"""
 
@@ -45,7 +47,7 @@ class Contacts(NamedTuple):
 def no_contacts(count: int) -> Contacts:
     """Of so many persons of whom nothing is known."""
     hands, sunk, near = (np.zeros((count, 2)) for _ in range(3))
-    return Contacts(hands, sunk, near, np.ones((count, 2)), np.zeros((count, 2, 3)))
+    return Contacts(hands, sunk, near, np.ones((count, 2)), np.zeros(count), np.zeros((count, 2, 3)))
 
 
 def contacts_with(ground: Ground, places: NDArray[np.float64]) -> Contacts:

@@ -24,6 +24,8 @@ _THIGH, _SHANK, _FOOT, _TOES, _ARM, _FOREARM, _HAND = range(7)  # rows of `Perso
 _LONGEST = 0.993  # share of a limb's length that counts as in reach
 _LOWERED = 0.4  # [leg lengths] most that the pelvis is lowered for feet that are out of reach
 _LEANT = 0.5  # [arm lengths] most that the pelvis moves for hands that are out of reach
+_TOGETHER, _APART = 0.5, 0.7
+"""[m] between wrists that can hold one thing, and that cannot."""
 _HALVINGS = 12  # that find how far a heel is lifted: to 0.0002 rad
 _HINGE = np.array([0.0, 1.0, 0.0])
 
@@ -36,7 +38,7 @@ def pose_characters(rig, person, places, contacts, out):
     `Contacts`. out: (n, b, 7) is filled with position [m] and quaternion wxyz of the bones in the world.
     """
     turns = np.empty((_SOURCES, 4))
-    hips = np.empty(3)
+    hips, shift = np.empty(3), np.empty(3)
     for i in range(len(places)):
         for b in range(_BODIES):
             turns[b] = places[i, b, 3:]
@@ -46,9 +48,13 @@ def pose_characters(rig, person, places, contacts, out):
         _follow(rig, turns, hips, out[i])
         _lean(rig, person, places[i], turns, contacts.hands[i], hips, out[i])
         _place_legs(rig, person, places[i], contacts, i, turns, hips, out[i])
+        grip = contacts.grips[i]
+        if grip > 0.0:
+            grip *= _shift(rig, person, places[i], turns, hips, out[i], shift)
         for side in range(2):
-            if contacts.hands[i, side] > 0.0:
-                _place_hand(rig, person, places[i], turns, hips, out[i], side, contacts.hands[i, side])
+            if contacts.hands[i, side] > 0.0 or grip > 0.0:
+                level = contacts.hands[i, side]
+                _place_hand(rig, person, places[i], turns, hips, out[i], side, level, grip, shift)
         _follow(rig, turns, hips, out[i])
 
 
@@ -226,17 +232,44 @@ def _wrist(rig, person, places, turns, side, wrist):
 
 
 @allocating_kernel
-def _place_hand(rig, person, places, turns, hips, out, side, weight):
-    """Turn an arm's parts so that its hand is, by ``weight``, where the person's is."""
+def _shift(rig, person, places, turns, hips, out, shift):
+    """How far the character's hands are from the person's, as their joints have it: ``shift`` (3,), the mean
+    of both. Gives 1 for hands so near each other that they can hold one thing, 0 for hands far apart."""
+    wrist, wanted = np.empty(3), np.empty((2, 3))
+    shift[:] = 0.0
+    for side in range(2):
+        _hanging_wrist(rig, person, turns, hips, out, side, wrist)
+        _wrist(rig, person, places, turns, side, wanted[side])
+        for k in range(3):
+            shift[k] += 0.5 * (wrist[k] - wanted[side, k])
+    right, left = places[person.limbs[_HAND, 0]], places[person.limbs[_HAND, 1]]
+    apart = math.sqrt((right[0] - left[0]) ** 2 + (right[1] - left[1]) ** 2 + (right[2] - left[2]) ** 2)
+    return min(max((_APART - apart) / (_APART - _TOGETHER), 0.0), 1.0)
+
+
+@allocating_kernel
+def _hanging_wrist(rig, person, turns, hips, out, side, wrist):
+    """Where the joints of an arm put its ``wrist`` (3,); gives where its shoulder is."""
+    shoulder = out[rig.limbs[1, side], :3] + (hips - out[rig.pelvis, :3])
+    _hanging(
+        shoulder, turns[person.limbs[_ARM, side]], rig.lengths[2, side], turns[_BODIES + side],
+        rig.lengths[3, side], wrist,
+    )  # fmt: skip
+    return shoulder
+
+
+@allocating_kernel
+def _place_hand(rig, person, places, turns, hips, out, side, level, grip, shift):
+    """Turn an arm's parts so that its hand is, by the weight ``grip``, by ``shift`` (3,) from where the
+    person's is, and by the weight ``level`` there itself."""
     arm, forearm = person.limbs[_ARM, side], person.limbs[_FOREARM, side]
     untwisted = _BODIES + side
-    shoulder = out[rig.limbs[1, side], :3].copy()
-    shoulder += hips - out[rig.pelvis, :3]
     wrist, wanted = np.empty(3), np.empty(3)
-    _hanging(shoulder, turns[arm], rig.lengths[2, side], turns[untwisted], rig.lengths[3, side], wrist)
+    shoulder = _hanging_wrist(rig, person, turns, hips, out, side, wrist)
     _wrist(rig, person, places, turns, side, wanted)
     for k in range(3):
-        wrist[k] += weight * (wanted[k] - wrist[k])
+        wrist[k] += grip * (wanted[k] + shift[k] - wrist[k])
+        wrist[k] += level * (wanted[k] - wrist[k])
     twist, hinge = np.empty(4), np.empty(3)
     for k in range(4):
         twist[k] = turns[untwisted, k] if k == 0 else -turns[untwisted, k]

@@ -19,6 +19,7 @@ from locomotion.characters.rest_pose import hand_points, rest_pose
 from locomotion.characters.whole_person import whole_person
 from locomotion.errors import LocomotionError
 from locomotion.ground.ground import Ground
+from locomotion.postures.held_objects import STOWED
 
 __all__ = ["Rig"]
 
@@ -82,10 +83,13 @@ class Rig:
 
         agent: a `runtime.Agent` that is a person, at any level of detail, or whatever has a ``pose`` with
         ``names`` and ``transforms``. Its ``ground``, a `locomotion.Ground` or None, is what its feet stand on
-        and its hands touch. Constant-time. Raises `LocomotionError` for other bodies.
+        and its hands touch; its ``held``, such as ("rifle", "deployed"), what both hands hold. Constant-time.
+        Raises `LocomotionError` for other bodies.
         """
         found = agent.pose
-        return self.pose_from(found.transforms, found.names, getattr(agent, "ground", None))
+        thing, state = getattr(agent, "held", ("", STOWED))
+        held = float(thing != "" and state != STOWED)
+        return self.pose_from(found.transforms, found.names, getattr(agent, "ground", None), grip=held)
 
     def local_pose(self, agent: Any) -> NDArray[np.float64]:
         """The same relative to the bones' parents, as engines take it: (b, 7) float64, the translation in the
@@ -103,6 +107,7 @@ class Rig:
         bodies: Sequence[str] = BODY_NAMES,
         ground: Ground | None = None,
         hands: ArrayLike = (0.0, 0.0),
+        grip: ArrayLike = 0.0,
     ) -> NDArray[np.float64]:
         """Where the bones are for persons whose ``bodies`` are at ``places``: (..., b, 7) as `pose` says.
 
@@ -111,7 +116,8 @@ class Rig:
         place on the body that they hang on. ground: the level; hands that touch it stay where the person's
         are, and feet that have sunk into it, as simulated ones do under load, are put on it. None: nothing
         is known. hands: (..., 2), 0 to 1: how much else the right and the left hand have to be where the
-        person's are, because they hold something. Raises `LocomotionError` for other shapes, and
+        person's are. grip: (...), 0 to 1: how much both hands hold one thing, so that they stay apart as the
+        person's are. Raises `LocomotionError` for other shapes, and
         bodies without pelvis and thighs.
         """
         given = np.asarray(places, dtype=np.float64)
@@ -127,6 +133,10 @@ class Rig:
             raise LocomotionError(
                 f"hands = {hands!r}: give 0 to 1 for the right and the left hand, (2,) or (..., 2)"
             ) from None
+        try:
+            contacts.grips[:] = np.broadcast_to(np.asarray(grip, np.float64), given.shape[:-2]).reshape(-1)
+        except (ValueError, TypeError):
+            raise LocomotionError(f"grip = {grip!r}: give 0 to 1 for each person") from None
         np.maximum(contacts.hands, np.clip(held, 0.0, 1.0), out=contacts.hands)
         out = np.empty((len(each), len(self.names), 7))
         pose_characters(self._arrays, person_arrays(), np.ascontiguousarray(each), contacts, out)

@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation, Slerp
 
 import locomotion.characters.driven_bones as driven_bones
 import locomotion.characters.feet as feet
-from locomotion.body.person import BODY_NAMES
+from locomotion.body.person import BODY_NAMES, JOINT_NAMES
 from locomotion.characters.contacts import contacts_with
 from locomotion.characters.person_measures import person_arrays
 from locomotion.characters.skinning import posed_points
@@ -63,8 +63,6 @@ def test_spines_and_twists_are_between_the_bodies(rigs):
             assert (wanted.inv() * turns(pose[b])).magnitude() < 2e-3
     qpos[0, 7 + 12] = 0.0
     twisted = qpos.copy()
-    from locomotion.body.person import JOINT_NAMES
-
     twisted[0, 7 + JOINT_NAMES.index("right_forearm_twist")] = 1.0
     pose = rig.pose_from(places_of(twisted)[0])
     turned = {
@@ -122,8 +120,6 @@ def test_a_foot_that_rolls_off_stays_where_it_is(rigs, who):
     rig, qpos = rigs[who], np.zeros((30, 46))
     lift = np.radians(np.linspace(0.0, 40.0, 30))
     names = [f"{side}_toe_extension" for side in ("right", "left")]
-    from locomotion.body.person import JOINT_NAMES
-
     qpos[:, 3] = 1.0
     for name in names:
         qpos[:, 7 + JOINT_NAMES.index(name)] = lift
@@ -172,6 +168,34 @@ def test_hands_that_touch_the_ground_are_where_the_persons_are(rigs, who):
             assert np.linalg.norm(reached - wanted) < 0.02
     free = rig.pose_from(postures()["stand"], ground=ground)
     np.testing.assert_array_equal(free, rig.pose_from(postures()["stand"], ground=ground, hands=(0.0, 0.0)))
+
+
+@pytest.mark.parametrize("who", WHO)
+def test_hands_that_hold_one_thing_are_as_far_apart_as_the_persons(rigs, who):
+    rig, qpos, person = rigs[who], np.zeros((1, 46)), person_arrays()
+    qpos[0, [2, 3]] = 0.9, 1.0
+    for side, rotation in (("right", 40.0), ("left", 70.0)):
+        for joint, angle in (
+            ("shoulder_flexion", 45.0),
+            ("shoulder_rotation", rotation),
+            ("elbow_flexion", 75.0),
+        ):
+            qpos[0, 7 + JOINT_NAMES.index(f"{side}_{joint}")] = np.radians(angle)
+    place = places_of(qpos)[0]
+
+    def apart(places, names, points):
+        ends = [here[:3] + turns(here).apply(point) for here, point in zip(places, points, strict=True)]
+        return ends[1] - ends[0]
+
+    sides = ("right", "left")
+    wanted = apart([body(place, f"{side}_hand") for side in sides], sides, [person.hand] * 2)
+    off = []
+    for grip in (1.0, 0.0):
+        pose = rig.pose_from(place, grip=grip)
+        found = apart([bone(rig, pose, f"{side}_hand") for side in sides], sides, rig.hand_points)
+        off.append(np.linalg.norm(found - wanted))
+    assert np.linalg.norm(wanted) < 0.5
+    assert off[0] < 0.005 < off[1]
 
 
 def test_the_pelvis_stays_over_its_point_and_nothing_jumps(rigs):

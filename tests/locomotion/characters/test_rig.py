@@ -84,6 +84,13 @@ def test_a_missing_waist_is_halfway():
     assert (ends[0].inv() * middle).magnitude() == pytest.approx((middle.inv() * ends[1]).magnitude())
 
 
+def test_what_an_agent_holds_is_held(rigs):
+    rig, place = rigs["stout"], running()[5]
+    holding = agent_of(place, held=("rifle", "deployed"))
+    np.testing.assert_array_equal(rig.pose(holding), rig.pose_from(place, grip=1.0))
+    np.testing.assert_array_equal(rig.pose(agent_of(place, held=("rifle", "stowed"))), rig.pose_from(place))
+
+
 def test_wrong_input_is_refused(rigs):
     rig, place = rigs["stout"], running()[0]
     with pytest.raises(LocomotionError, match="shows persons; this body has no right_thigh"):
@@ -92,6 +99,8 @@ def test_wrong_input_is_refused(rigs):
         rig.pose_from(place[:5])
     with pytest.raises(LocomotionError, match="right and the left hand"):
         rig.pose_from(place, hands=(1.0, 2.0, 3.0))
+    with pytest.raises(LocomotionError, match="give 0 to 1 for each person"):
+        rig.pose_from(place, grip=(1.0, 0.0))
     with pytest.raises(LocomotionError, match="the pose has the shape"):
         rig.local(place[:3])
     assert "24 bones" in repr(rig) and isinstance(rig, Rig)

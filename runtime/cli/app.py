@@ -84,6 +84,17 @@ class _OnSkills(TyperCommand):
 
 
 MESH_HELP = "Mesh file: OBJ, PLY, STL, OFF, glTF (.gltf, .glb), FBX or USD (docs/guides/meshes.md)."
+CharacterOption = Annotated[
+    Path | None,
+    typer.Option(callback=_input, help="Rigged figure (.glb, .gltf) that all people are shown as."),
+]
+MappingOption = Annotated[
+    str | None,
+    typer.Option(
+        help="Which of its bones shows which part: mixamo, vrm, unreal, surefoot, or a YAML file;"
+        " default: guessed by the bones' names."
+    ),
+]
 TraceArgument = Annotated[
     Path, typer.Argument(callback=_input, help="Trace (.npz), or a mission (.yaml), which is run first.")
 ]
@@ -314,17 +325,8 @@ def view(
 def export(
     source: TraceArgument,
     output: Annotated[Path, typer.Option("--output", "-o", help="Output file (.glb).")] = Path("run.glb"),
-    character: Annotated[
-        Path | None,
-        typer.Option(callback=_input, help="Rigged figure (.glb, .gltf) that all people are shown as."),
-    ] = None,
-    mapping: Annotated[
-        str | None,
-        typer.Option(
-            help="Which of its bones shows which part: mixamo, vrm, unreal, surefoot, or a YAML file;"
-            " default: guessed by the bones' names."
-        ),
-    ] = None,
+    character: CharacterOption = None,
+    mapping: MappingOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """Export a run as animated glTF for Blender, Godot, three.js and other tools."""
@@ -336,10 +338,12 @@ def film(
     source: TraceArgument,
     output: Annotated[Path, typer.Option("--output", "-o", help="Output file (.mp4).")] = Path("run.mp4"),
     follow: FollowOption = None,
+    character: CharacterOption = None,
+    mapping: MappingOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """Render a run as a video. Needs no GPU or display, but about half a second for each frame."""
-    _finish(_view_commands().write_video(source, output, follow), as_json)
+    _finish(_view_commands().write_video(source, output, follow, character, mapping), as_json)
 
 
 @app.command()

@@ -2,6 +2,7 @@
 
 import time
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from runtime.cli.commands import Result, check_page, ready, show_mission
 from runtime.errors import RuntimeInputError
@@ -12,6 +13,9 @@ from runtime.traces.trace import Trace
 from runtime.world.world import World
 from surefoot.files.archive import check_target
 from surefoot.progress import Progress
+
+if TYPE_CHECKING:
+    from locomotion import Rig
 
 __all__ = ["export_gltf", "watch_mission", "watch_served", "write_video", "write_view"]
 
@@ -70,12 +74,9 @@ def watch_served(address: str, name: str | None, token: str, port: int) -> Resul
 
 def export_gltf(source: Path, output: Path, character: Path | None, mapping: str | None) -> Result:
     """Export a trace, or a mission, which is run first, as animated glTF; people wear the ``character``."""
-    from locomotion import Rig
     from runtime.views.gltf import write_gltf
 
-    if character is None and mapping is not None:
-        raise RuntimeInputError(f"--mapping {mapping}: of which character? Give --character, too")
-    rig = None if character is None else Rig.load(character, mapping)
+    rig = _character(character, mapping)
     check_target(output)
     if output.suffix.lower() != ".glb":
         raise RuntimeInputError(f"{output}: glTF is written as one binary file; use the ending .glb")
@@ -85,18 +86,30 @@ def export_gltf(source: Path, output: Path, character: Path | None, mapping: str
     return _written(output, trace, "open it in Blender, Godot or three.js")
 
 
-def write_video(source: Path, output: Path, of: str | None) -> Result:
-    """Render a trace, or a mission, which is run first, as a video."""
+def write_video(
+    source: Path, output: Path, of: str | None, character: Path | None, mapping: str | None
+) -> Result:
+    """Render a trace, or a mission, which is run first, as a video; people wear the ``character``."""
     from runtime.views.camera import agent_named
     from runtime.views.film import write_film
 
+    rig = _character(character, mapping)
     check_target(output)
     if output.suffix.lower() != ".mp4":
         raise RuntimeInputError(f"{output}: a video is written as .mp4; use that ending")
     trace, progress = _trace_of(source, output)
     agent_named(trace, of)
-    write_film(trace, output, of, progress)
+    write_film(trace, output, of, progress, character=rig)
     return _written(output, trace, "play it")
+
+
+def _character(character: Path | None, mapping: str | None) -> "Rig | None":
+    """The figure of ``--character``, read by ``--mapping``."""
+    from locomotion import Rig
+
+    if character is None and mapping is not None:
+        raise RuntimeInputError(f"--mapping {mapping}: of which character? Give --character, too")
+    return None if character is None else Rig.load(character, mapping)
 
 
 def _trace_of(source: Path, output: Path) -> tuple[Trace, Progress]:

@@ -22,16 +22,11 @@ from navmesh.meshfiles.gltf_nodes import node_order, shown_nodes
 from runtime.errors import RuntimeInputError
 from runtime.traces.trace import AgentTrace, LevelTrace
 
-__all__ = ["continuous", "dressed", "glb", "wears"]
+__all__ = ["continuous", "dressed", "glb"]
 
 _KEPT = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "EXT_materials_", "KHR_mesh_quantization")
 _STILL = 1e-6  # [m, or of a quaternion] channels that change less are left out
 _FLOAT = 5126
-
-
-def wears(agent: AgentTrace) -> bool:
-    """Whether an agent is a person, whom a character can show."""
-    return {"pelvis", "right_thigh", "left_thigh"} <= set(agent.figure.bodies)
 
 
 def dressed(

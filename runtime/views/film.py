@@ -5,12 +5,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from runtime.bodies.figure import Shapes
+from locomotion import Rig
 from runtime.bodies.pose import between
 from runtime.traces.trace import AgentTrace, Trace
 from runtime.views.camera import agent_named, follow, size_of
 from runtime.views.meshes import optional
 from runtime.views.render import Triangles, render
+from runtime.views.worn import Wardrobe, wearers, wears
 from surefoot.files.atomic_write import whole_file
 from surefoot.progress import Progress
 
@@ -28,14 +29,18 @@ def write_film(
     of: str | None = None,
     progress: Progress | None = None,
     size: tuple[int, int] = _SIZE,
+    character: Rig | None = None,
 ) -> None:
     """Write the run as a video (.mp4) to ``path``, whole or not at all.
 
-    The camera follows the agent ``of``, by default the first; ``size`` [pixels] must be even. Raises
-    `RuntimeInputError` without PyAV and for an unknown agent.
+    The camera follows the agent ``of``, by default the first; ``size`` [pixels] must be even. People wear
+    the ``character``, if there is one. Raises `RuntimeInputError` without PyAV, for an unknown agent, and for
+    a character that nobody can wear.
     """
     av = optional("av", "video", "a video")
     agent = agent_named(trace, of)
+    if character is not None:
+        wearers(trace.agents)
     count = len(_moments(trace))
     with (
         (progress or Progress(shown=False)).stage("drawing the film") as stage,
@@ -45,19 +50,30 @@ def write_film(
             stream = container.add_stream("libx264", rate=RATE, options={"crf": "20"})
             stream.width, stream.height = size
             stream.pix_fmt, stream.thread_count = "yuv420p", 1
-            for k, picture in enumerate(frames(trace, agent, size)):
+            for k, picture in enumerate(frames(trace, agent, size, character)):
                 container.mux(stream.encode(av.VideoFrame.from_ndarray(picture, format="rgb24")))
                 stage.update((k + 1) / count, f"frame {k + 1} of {count}")
             container.mux(stream.encode())
 
 
-def frames(trace: Trace, agent: AgentTrace, size: tuple[int, int]) -> Iterator[np.ndarray]:
+def frames(
+    trace: Trace, agent: AgentTrace, size: tuple[int, int], character: Rig | None = None
+) -> Iterator[np.ndarray]:
     """The pictures (height, width, 3) uint8 of the run, 25 for each second of it."""
+    wardrobe = None if character is None else Wardrobe(character, trace.level)
     level = Triangles(trace.level.vertices, trace.level.faces)
     moments = _moments(trace)
     distance = _AWAY * size_of(agent)
     for moment, camera in zip(moments, follow(agent, trace.times, moments, distance), strict=True):
-        yield render(level, _posed(trace, moment), camera, size, cutaway=0.75 * distance)
+        plain, skins, shadows = [], [], []
+        for each, pose in _poses(trace, moment):
+            if wardrobe is not None and wears(each):
+                skin, shadow = wardrobe.worn(each.figure.bodies, pose)
+                skins.append(skin)
+                shadows.append(shadow)
+            else:
+                plain.append(each.figure.posed(pose))
+        yield render(level, plain, camera, size, cutaway=0.75 * distance, skins=skins, shadows=shadows)
 
 
 def _moments(trace: Trace) -> np.ndarray:
@@ -66,16 +82,12 @@ def _moments(trace: Trace) -> np.ndarray:
     return trace.times[0] + np.arange(int(length * RATE + 1e-9) + 1) / RATE
 
 
-def _posed(trace: Trace, moment: float) -> list[Shapes]:
-    """All figures at a moment, interpolated between poses."""
+def _poses(trace: Trace, moment: float) -> list[tuple[AgentTrace, np.ndarray]]:
+    """All agents with their poses at a moment, between those of the trace."""
     after = int(np.clip(np.searchsorted(trace.times, moment), 1, max(len(trace.times) - 1, 1)))
     if len(trace.times) == 1:
-        return [agent.figure.posed(agent.poses[0]) for agent in trace.agents]
+        return [(agent, agent.poses[0].astype(np.float64)) for agent in trace.agents]
     begin, end = trace.times[after - 1 : after + 1]
     share = float(np.clip((moment - begin) / (end - begin), 0.0, 1.0))
-    return [
-        agent.figure.posed(
-            between(agent.poses[after - 1].astype(np.float64), agent.poses[after].astype(np.float64), share)
-        )
-        for agent in trace.agents
-    ]
+    ends = [(agent, agent.poses[after - 1 : after + 1].astype(np.float64)) for agent in trace.agents]
+    return [(agent, between(before, later, share)) for agent, (before, later) in ends]

@@ -16,10 +16,10 @@ import numpy as np
 from locomotion import Rig
 from runtime.bodies.figure import Figure, rotate
 from runtime.bodies.pose import Pose
-from runtime.errors import RuntimeInputError
 from runtime.traces.trace import AgentTrace, LevelTrace, Trace
-from runtime.views.character_gltf import continuous, dressed, glb, wears
+from runtime.views.character_gltf import continuous, dressed, glb
 from runtime.views.meshes import optional, shape_mesh
+from runtime.views.worn import wearers, wears
 from surefoot.files.atomic_write import whole_file
 
 __all__ = ["write_gltf"]
@@ -39,10 +39,7 @@ def write_gltf(trace: Trace, path: str | os.PathLike[str], character: Rig | None
     if character is None:
         content = b"".join(writer.document(trace).save_to_bytes())
     else:
-        wearing = [agent for agent in trace.agents if wears(agent)]
-        if not wearing:
-            names = ", ".join(agent.name for agent in trace.agents)
-            raise RuntimeInputError(f"a character shows people; in this run there are none, but {names}")
+        wearing = wearers(trace.agents)
         others = tuple(agent for agent in trace.agents if not wears(agent))
         made = writer.document(replace(trace, agents=others))
         parts, data = json.loads(made.to_json()), bytearray(made.binary_blob())

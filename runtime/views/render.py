@@ -70,12 +70,13 @@ def render(
     reach: float = 40.0,
     cutaway: float = 0.0,
     skins: Sequence[Triangles] = (),
+    shadows: Sequence[Shapes] = (),
 ) -> np.ndarray:
     """Draw the level's front faces within ``reach`` [m], figures, and ``skins`` of characters; returns
     (height, width, 3) uint8.
 
     Walls and ceilings nearer to the eye than ``cutaway`` [m] are left out, so that they hide nothing.
-    ``figures`` are shapes in the world.
+    ``figures`` are shapes in the world; ``shadows`` are more of them that are not seen, but cast a shadow.
     """
     width, height = 2 * size[0], 2 * size[1]
     rays = camera.rays(width, height)
@@ -85,7 +86,7 @@ def render(
         _draw_shapes(frame, shapes)
     for skin in skins:
         _draw_faces(frame, skin, reach, 0.0)
-    image = _shade(frame, figures, reach)
+    image = _shade(frame, [*figures, *shadows], reach)
     small = image.reshape(size[1], 2, size[0], 2, 3).mean(axis=(1, 3))
     return (np.clip(small, 0.0, 1.0) * 255.0 + 0.5).astype(np.uint8)
 

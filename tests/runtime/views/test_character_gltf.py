@@ -16,8 +16,9 @@ from locomotion.characters.character_file import UPRIGHT
 from navmesh.meshfiles.gltf_document import Document
 from navmesh.meshfiles.gltf_nodes import node_order, node_places
 from runtime import RuntimeInputError
-from runtime.views.character_gltf import continuous, glb, wears
+from runtime.views.character_gltf import continuous, glb
 from runtime.views.gltf import write_gltf
+from runtime.views.worn import wears
 from tests.runtime.views.test_gltf import ROOT, VALIDATE, validator_is_there
 
 pytest.importorskip("pygltflib", reason="not there: pip install -e '.[gltf]'")

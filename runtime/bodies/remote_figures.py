@@ -37,16 +37,17 @@ REMOTE = np.dtype(
         ("turn", "f8", 1), ("turn_speed", "f8", 1), ("turn_rate", "f8"),
         ("place", "f8", 3), ("moving", "f8", 2), ("heading", "f8"),
         ("on_ground", "f8"), ("crawling", "f8"), ("fatal", "f8"), ("told_gait", "f8"),
-        ("moves", "f8"), ("told_run", "f8"), ("posture", "f8"), ("asked", "f8"), ("rests", "f8"), ("at",
-        "f8"), ("phase", "f8"), ("pace", "f8"), ("pace_speed", "f8"), ("runs", "f8"), ("runs_speed", "f8"),
+        ("moves", "f8"), ("told_run", "f8"), ("posture", "f8"), ("asked", "f8"), ("rests", "f8"),
+        ("at", "f8"), ("stride", "f8"), ("phase", "f8"), ("pace", "f8"), ("pace_speed", "f8"),
+        ("runs", "f8"), ("runs_speed", "f8"),
         ("crawls", "f8"), ("crawls_speed", "f8"), ("by_graph", "f8"), ("by_graph_speed", "f8"),
     ]
 )  # fmt: skip
 """A figure. What was told, in the level's frame: ``algorithm`` to ``turning`` as in `Motion`. [s] since then,
 since it was heard of, and since it came. ``offset`` [m] and ``turn`` [rad] that it is drawn off by.
 ``place`` [m], ``moving`` [m/s] and ``heading`` [rad] as drawn. Flags: whether it goes on the ground, crawls,
-is dead; ``told_gait``: 1 runs, -1 walks, 0 neither; ``posture``: told, as a number of the posture graph. The
-rest is of `remote_poses`."""
+is dead; ``told_gait``: 1 runs, -1 walks, 0 neither; ``posture``: told, as a number of the posture graph;
+``stride`` [m]: of an animal. The rest is of `remote_poses`."""
 WIDTH = REMOTE.itemsize // 8
 LONGEST = 12.0
 """[s] after which a figure that nothing is heard of stands still: the time-out of DIS."""
@@ -54,7 +55,7 @@ TELEPORT = 10.0
 """[m] of a correction from which a figure is put where it is told to be, and does not go there."""
 _FASTEST, _FASTEST_TURN = 3.0, 4.0  # [m/s], [rad/s] of corrections
 _UP, _DOWN = 1.0, 2.5  # [m] above and below what is told within which our ground is looked for
-_LIFT, _LIFT_RATE = 1.5, 30.0  # [m/s] at most, [1/s]: how it is brought up and down to the ground
+_LIFT, _LIFT_RATE = 1.2, 30.0  # [m/s] at most, [1/s]: how it is brought up and down to the ground
 
 
 @dataclass(frozen=True)
@@ -73,6 +74,7 @@ def told_state(look: str, marking: str, motion: Motion, age: float, on_ground: b
     row = np.zeros(WIDTH)
     _put_motion(row.view(REMOTE), motion, age)
     row.view(REMOTE)["on_ground"], row.view(REMOTE)["rests"] = on_ground, 1.0
+    row.view(REMOTE)["stride"] = look_of(look).stride
     for name in ("posture", "asked", "at"):
         row.view(REMOTE)[name] = remote_poses.posture_number(remote_poses.STANDS)
     return RemoteState(look, marking, row)

@@ -7,9 +7,10 @@ import numpy as np
 
 from locomotion import PERSON_RULES, Ground
 from locomotion.body.models import figure
-from locomotion.quadruped import BODY_NAMES, Herd, load_body
+from locomotion.quadruped import BODY_NAMES, Body, Herd, lay_trail, load_body
 from runtime.bodies.animal_figure import animal_figure
 from runtime.bodies.figure import Figure, Shapes, rotate, turn
+from runtime.bodies.pose import between
 from runtime.dis.enumerations import CATEGORY_MAMMAL
 from runtime.errors import RuntimeInputError
 
@@ -19,17 +20,22 @@ PERSON, THING = "human", "thing"
 _THING = np.array([2.0, 1.0, 0.8])  # [m] half axes
 _GREY = (0.5, 0.5, 0.55)
 _PLANE = 50.0  # [m]
+_SPEED, _STRIDES_FROM = 1.5, 0.5  # [m/s] of the recorded gait; from which it is shown in full
+_SETTLES, _SHORTEST_ROUND, _LONGEST_ROUND = 400, 20, 200  # ticks of 10 ms
 
 
 @dataclass(frozen=True, eq=False)
 class Look:
-    """``name``: `PERSON`, one of our animals, or `THING`. ``radius`` [m] that others keep away. ``stands``:
-    of others than people the (b, 7) places of its bodies, at the origin, facing +x."""
+    """``name``: `PERSON`, one of our animals, or `THING`. ``radius`` [m] that others keep away. Of others
+    than people: ``stands``, the (b, 7) places of its bodies, at the origin, facing +x; ``goes`` (f, b, 7),
+    the same in one round of its gait, over a way of ``stride`` [m], if it has one."""
 
     name: str
     radius: float
     figure: Figure
     stands: np.ndarray
+    goes: np.ndarray | None = None
+    stride: float = 0.0
 
     @property
     def is_person(self) -> bool:
@@ -39,9 +45,15 @@ class Look:
         """(b, 7): where its bodies are; ``row`` as `runtime.bodies.remote_figures.REMOTE`."""
         half = 0.5 * float(row["heading"])
         heading = np.array([np.cos(half), 0.0, 0.0, np.sin(half)])
-        placed = np.empty_like(self.stands)
-        placed[:, :3] = row["place"] + rotate(heading, self.stands[:, :3])
-        placed[:, 3:] = turn(heading, self.stands[:, 3:])
+        pose = self.stands
+        if self.goes is not None:
+            frame, share = divmod(float(row["phase"]) * len(self.goes), 1.0)
+            before = self.goes[int(frame) % len(self.goes)]
+            going = between(before, self.goes[(int(frame) + 1) % len(self.goes)], share)
+            pose = between(pose, going, min(abs(float(row["pace"])) / _STRIDES_FROM, 1.0))
+        placed = np.empty_like(pose)
+        placed[:, :3] = row["place"] + rotate(heading, pose[:, :3])
+        placed[:, 3:] = turn(heading, pose[:, 3:])
         return placed
 
 
@@ -65,9 +77,24 @@ def look_of(name: str) -> Look:
     if name not in BODY_NAMES:
         raise RuntimeInputError(f"look {name!r}: valid: {PERSON}, {', '.join(BODY_NAMES)}, {THING}")
     body = load_body(name)
+    return Look(name, body.radius, animal_figure(body), *_recorded(body))
+
+
+def _recorded(body: Body) -> tuple[np.ndarray, np.ndarray, float]:
+    """An animal that stands, one round of its gait on a plane, and how far that takes it [m]."""
     corners = [(-_PLANE, -_PLANE, 0.0), (_PLANE, -_PLANE, 0.0), (_PLANE, _PLANE, 0.0), (-_PLANE, _PLANE, 0.0)]
-    herd = Herd(Ground.from_arrays(corners, [(0, 1, 2), (0, 2, 3)]))
-    herd.add(body, (0.0, 0.0, 0.0), 0.0)
-    stands = herd.pose(0)
-    stands[:, :2] -= herd.front(0)
-    return Look(name, body.radius, animal_figure(body), stands)
+    ground = Ground.from_arrays(corners, [(0, 1, 2), (0, 2, 3)])
+    herd, begin = Herd(ground), (-0.5 * _PLANE, 0.0, 0.0)
+    herd.add(body, begin, 0.0)
+    herd.follow(0, lay_trail([begin, (0.9 * _PLANE, 0.0, 0.0)], body, ground), _SPEED)
+    poses, ways = [], []
+    for _ in range(_SETTLES + 2 * _LONGEST_ROUND):
+        front, pose = herd.front(0).copy(), herd.pose(0)
+        pose[:, :2] -= front
+        poses.append(pose)
+        ways.append(float(front[0]))
+        herd.tick()
+    settled = np.array(poses[_SETTLES:])
+    rounds = range(_SHORTEST_ROUND, _LONGEST_ROUND)
+    ticks = min(rounds, key=lambda each: float(np.abs(settled[each] - settled[0]).max()))
+    return poses[0], settled[:ticks], ways[_SETTLES + ticks] - ways[_SETTLES]

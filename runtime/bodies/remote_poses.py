@@ -128,6 +128,7 @@ def advance_poses(rows: np.ndarray, seconds: float) -> None:
     stand, fours = posture_number(STANDS), posture_number(_ALL_FOURS)
     on_fours = rows["asked"] == fours
     stride = np.where(on_fours, CRAWL_STRIDE, stride)
+    stride = np.where(rows["stride"] > 0.0, rows["stride"], stride)
     rows["phase"] = (rows["phase"] + rows["pace"] * seconds / stride) % 1.0
     moves, rests = pace > _STOPS, rows["rests"] > 0.0
     up = rests & (rows["at"] == stand)

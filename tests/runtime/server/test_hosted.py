@@ -9,9 +9,13 @@ pytest.importorskip("websockets", reason="needs the extra 'serve'")
 import numpy as np
 
 from runtime import RuntimeInputError, World
+from runtime.bodies.remote_figures import told_state
+from runtime.dis.dead_reckoning import Motion
 from runtime.server.client import Client
 from runtime.server.hosted import HostedWorld, graph_message, level_message, skeleton, way_message
+from runtime.server.limits import Limits
 from runtime.server.outbox import Outbox
+from runtime.server.worlds import Worlds
 from tests.runtime.server.serving import talk
 
 
@@ -120,3 +124,42 @@ def test_messages_hold_plain_values_of_the_level_and_the_figure(hosted, graph):
     assert np.array_equal(level_message(graph)["faces"], graph.terrain.faces)
     assert skeleton(ada)["bodies"] == list(ada.figure.bodies)
     assert way_message(ada) == {"raw": [], "pulled": [], "smooth": []}
+
+
+def test_figures_of_other_simulators_are_told_of_and_count_for_nobody(graph):
+    """One world at a time has the gateway, which exchanges after each step and is closed with its world."""
+
+    class Gateway:
+        def __init__(self, world):
+            self.world, self.steps, self.closed = world, 0, False
+
+        def exchange(self):
+            self.steps += 1
+            if self.steps == 2:
+                motion = Motion.empty(1)
+                motion.position[:] = (5.0, 3.0, 0.0)
+                self.world.admit("remote", "dis:1:1:1", told_state("human", "", motion, 0.0))
+            elif self.steps == 4:
+                self.world.agents["dis:1:1:1"].remove()
+
+        def close(self):
+            self.closed = True
+
+    worlds = Worlds(Limits(), set(), lambda client: None)
+    worlds.gateway = Gateway
+    for name in ("one", "two"):
+        hosted = HostedWorld(name, "small", graph, 1, True)
+        worlds.connect(hosted)
+        worlds.hosted[name] = hosted
+    one, two = worlds.hosted.values()
+    assert one.gateway.world is one.world and two.gateway is None
+    told = []
+    for _ in range(5):
+        one.step(0.1)
+        come, gone = one.strangers()
+        told.append(([agent.name for agent in come], sorted(gone)))
+        assert one.spawned == {}
+    assert told == [([], []), (["dis:1:1:1"], []), ([], []), ([], ["dis:1:1:1"]), ([], [])]
+    gateway = one.gateway
+    worlds.close(one)
+    assert gateway.closed

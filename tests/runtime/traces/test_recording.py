@@ -33,3 +33,21 @@ def test_of_a_graph_each_edge_is_drawn_once(graph):
     assert len({frozenset(edge) for edge in level.edges.tolist()}) == len(level.edges)
     assert (level.edges[:, 0] < level.edges[:, 1]).all()
     assert level.faces is graph.terrain.faces and len(level.affordances) == len(level.rim)
+
+
+def test_agents_may_come_and_go(graph):
+    """Who comes later stands at its first place until then, who has gone at its last."""
+    world = World(graph, seed=1)
+    world.spawn("walker", (2.0, 3.0, 0.0), name="ada")
+    recorder = Recorder(world)
+    recorder.sample()
+    world.step(0.5)
+    bob = world.spawn("walker", (5.0, 3.0, 0.0), name="bob")
+    recorder.sample()
+    bob.remove()
+    world.step(0.5)
+    recorder.sample()
+    trace = recorder.trace({})
+    assert [agent.name for agent in trace.agents] == ["ada", "bob"]
+    assert [len(agent.poses) for agent in trace.agents] == [3, 3]
+    assert (trace.agents[1].poses == trace.agents[1].poses[0]).all() and trace.agents[1].paths == ()

@@ -1,6 +1,7 @@
 """Missions between random reachable points: arrivals, distance from the path, and cost.
 
-    python -m benchmarks.missions [--levels undulating courtyard] [--missions 50] [--speed 3.0] [--json FILE]
+    python -m benchmarks.missions [--levels undulating courtyard] [--missions 50] [--speed 3.0]
+        [--walk learned] [--json FILE]
 
 For each level the graph is built with a person's rules (`locomotion.PERSON_RULES`), start and goal are drawn
 from its nodes, 10 to 60 m of route apart, and a person in a `runtime.World` is sent there from standing. The
@@ -40,6 +41,7 @@ from locomotion.body.physics import restore_physics, save_physics
 from locomotion.paths.tracking import make_path
 from navmesh.level.mesh_queries import MeshGrid, brute_crossed, crossed
 from runtime import World
+from runtime.bodies.humans import WALKS
 from runtime.events import Departed, Fell
 
 OWN_LEVELS = Path(__file__).resolve().parents[1] / "examples" / "levels"
@@ -169,8 +171,11 @@ def cost_of_control(human: Human, route: Any, speed: float) -> dict[str, float]:
         path = smooth_route(route.graph.find_path(*route.waypoints[[0, -1]], radius=PERSON_RULES["radius"]))
         make_path(path.points, speed, human.on_feet.limits, 0.0)
         planning = min(planning, time.thread_time() - begun)
+    policy = None if human.on_feet.learned is None else human.on_feet.learned.skill
     whole, bare, ticks = time_ticks(human, path.points, speed)
-    alone, bare_alone, _ = time_ticks(Human(human.ground, rehearsals=0, gets_up=True), path.points, speed)
+    alone, bare_alone, _ = time_ticks(
+        Human(human.ground, rehearsals=0, gets_up=True, policy=policy), path.points, speed
+    )
     control, all_ticks = alone / bare_alone - 1.0, whole / bare - 1.0
     return {
         "ticks": ticks,
@@ -224,7 +229,7 @@ def report_on(name: str, options: argparse.Namespace) -> dict[str, Any]:
     rules = level_rules(name)
     graph = navmesh.NodeGraph.build(terrain, rules)
     routes = random_routes(graph, options.missions, options.seed)
-    world = World(graph)
+    world = World(graph, walk=options.walk)
     origin = terrain.bounds[0] - 1.0
     mesh_grid = MeshGrid(terrain.vertices, terrain.faces, origin, rules.max_slope)
     results = [run_mission(world, route, options.speed, mesh_grid, origin) for route in routes]
@@ -252,6 +257,7 @@ def main() -> None:
     parser.add_argument("--missions", type=int, default=50)
     parser.add_argument("--speed", type=float, default=3.0, help="wished speed [m/s]")
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--walk", default="planned", choices=WALKS, help="as of World")
     parser.add_argument("--json", type=Path, help="write every mission here")
     options = parser.parse_args()
     report: dict[str, Any] = {"speed": options.speed, "seed": options.seed, "levels": {}}

@@ -31,6 +31,7 @@ def fall(person: Person, gets_up: bool) -> None:
     if gets_up and person.simulation.over_ground:
         person.status, person.on_feet.slowing = "getting up", 0.0
         person.on_feet.walk[:] = new_walk()
+        person.on_feet.stop_learned()
         person.run_up.give_up()
         person.fours.fall(person.data)
         person.fours.fell_at, person.fours.on_way = float(person.ticks), float(on_way)

@@ -30,6 +30,7 @@ from locomotion.body_events import Arrived, Cleared, GotStuck, SetOff, TookOff
 from locomotion.errors import LocomotionError
 from locomotion.gaits.brake import BRAKING, BrakeSkill, load_brake_skill
 from locomotion.gaits.limits import PERSON_RULES
+from locomotion.gaits.policy.skill import PolicySkill
 from locomotion.gaits.run import controller
 from locomotion.gaits.run.controller import observe
 from locomotion.gaits.run.skill import RunSkill, load_run_skill
@@ -93,12 +94,14 @@ class Human(Person):
         between: BetweenGaits | None = None,
         rehearsals: int = REHEARSALS,
         gets_up: bool = False,
+        policy: PolicySkill | None = None,
     ) -> None:
         """``ground``: None is the endless plane z = 0. ``skill``, ``walk``: how it runs and walks; None loads
         the built-in skill. ``between``: how it changes from one gait to another. ``clearing``:
         skills for obstacles; None loads the built-in ones (`learned_skills`). ``rehearsals``: most
         variations of a take-off to try before it (`locomotion.rehearsal.trials`); 0 turns rehearsing off.
-        ``gets_up``: whether it gets up after a fall and continues, or stays down.
+        ``gets_up``: whether it gets up after a fall and continues, or stays down. ``policy``: networks that
+        walk where the ground is level (`locomotion.human.learned_walk`); None: all walking is planned.
 
         Raises `LocomotionError` if ``ground`` is not a ground, or ``rehearsals`` not a whole number of at
         least 0.
@@ -115,6 +118,7 @@ class Human(Person):
             between.slow_down or load_slow_down_skill(),
             between.speed_up or load_speed_up_skill(),
             between.brake or load_brake_skill(),
+            policy,
         )
         super().__init__(ground, on_feet, learned_skills(run) if clearing is None else clearing)
         self.gets_up = gets_up
@@ -288,6 +292,7 @@ class Human(Person):
             moving = self.status in MOVING and self.ticks >= follower.starts
             planned = self.run_up.planned
             feet.steer(follower, state, moving, planned, self.ticks, self.command)
+            feet.choose_walk(follower if moving else None, self.simulation, self.command)
         feet.tick(self.simulation.lookup, state, self.command, data)
         if feet.runs and self.status != "fallen":
             self._clear()
@@ -340,4 +345,5 @@ class Human(Person):
         return Human(
             self.ground, feet.run_skill, self.clearing, feet.walk_skill,
             BetweenGaits(feet.slow_down_skill, feet.speed_up_skill, feet.brake_skill), 0,
+            policy=None if feet.learned is None else feet.learned.skill,
         )  # fmt: skip

@@ -2,6 +2,7 @@
 
     feet = OnFeet(run, walk, slow_down, speed_up)
     feet.steer(way, state, moving, planned, tick, command)
+    feet.choose_walk(way, simulation, command)
     feet.tick(lookup, state, command, data)
     mujoco.mj_step(model, data, STEPS_PER_TICK)
     feet.observe(index, state, command, data)
@@ -21,6 +22,7 @@ from locomotion.avoidance.yielding import TURNING_SPEED
 from locomotion.body.person import CONTROL_DT, PersonIndex
 from locomotion.gaits.brake import SLOWEST, BrakeSkill
 from locomotion.gaits.limits import run_limits, walk_limits
+from locomotion.gaits.policy.skill import PolicySkill
 from locomotion.gaits.run import controller
 from locomotion.gaits.run.controller import run_tick
 from locomotion.gaits.run.skill import RunSkill, run_on
@@ -48,6 +50,8 @@ from locomotion.gaits.walk.layout import (
 from locomotion.gaits.walk.skill import RISING, STEADYING_SPEED, WalkSkill
 from locomotion.gaits.walk.steps import TURN_TIME
 from locomotion.human.intent import TURN_FIRST
+from locomotion.human.learned_walk import LearnedWalk
+from locomotion.human.simulation import Simulation
 from locomotion.paths.command import HEADING_ASKED, SIDEWAYS_ASKED, SPEED_ASKED
 from locomotion.paths.follower import PathFollower
 
@@ -60,13 +64,15 @@ _HASTE = 1.3  # [m/s] asked for above the last step's speed at most, lest it tri
 _FAST, _FAST_HASTE = 3.7, 0.8  # [m/s] from the first speed on, only this much above
 _CHANGED = 4.0  # steps after which a change of gait is complete
 _HELD_UP = 12.0  # steps after which a pushed person that has braked need not come to rest
+_NOTHING = np.zeros(0)
 _STILL = 0.03  # [m/s] of the centre of mass at rest
 
 
 class OnFeet:
     """``run_skill``, ``walk_skill``, ``slow_down_skill``, ``speed_up_skill``, ``brake_skill``: how it moves.
     ``limits``, ``walk_limits``: paths that it can follow. ``walk``: memory of the walking controller
-    (`locomotion.gaits.walk.layout`). ``slowing``: [m/s^2] of slowing down to a walk, 0 if it does not.
+    (`locomotion.gaits.walk.layout`). ``learned``: the learned walk, None if all walking is planned.
+    ``slowing``: [m/s^2] of slowing down to a walk, 0 if it does not.
     ``brakes``: whether it stops in the shortest distance. ``hurries``: whether it accelerates into its
     run. ``speed``: [m/s] reference speed of the controller that moved it last.
     """
@@ -78,6 +84,7 @@ class OnFeet:
         slow_down: SlowDownSkill,
         speed_up: SpeedUpSkill,
         brake: BrakeSkill,
+        policy: PolicySkill | None = None,
     ) -> None:
         self.run_skill, self.walk_skill = run, walk
         self.slow_down_skill, self.speed_up_skill, self.brake_skill = slow_down, speed_up, brake
@@ -86,12 +93,23 @@ class OnFeet:
         self._first_steps, self._braking_steps = slow_down.walk_tables(walk), brake.walk_tables(walk)
         self.limits, self.walk_limits = run_limits(run), walk_limits(walk)
         self.walk = new_walk()
+        self.learned = None if policy is None else LearnedWalk(policy)
         self.slowing, self.brakes, self.hurries, self.speed = 0.0, False, False, 0.0
 
     @property
     def walks(self) -> bool:
         """Whether it walks or stands."""
         return bool(self.walk[WALKS] > 0.0)
+
+    @property
+    def walks_as_learned(self) -> bool:
+        """Whether the learned walk moves it."""
+        return self.walks and self.learned is not None and self.learned.active
+
+    @property
+    def learned_memory(self) -> NDArray[np.float64]:
+        """What the learned walk remembers, empty without one."""
+        return _NOTHING if self.learned is None else self.learned.memory
 
     @property
     def runs(self) -> bool:
@@ -189,11 +207,27 @@ class OnFeet:
         if pace == 0.0:  # waiting: a person stepping in place drifts into those ahead
             command[HEADING_ASKED], command[SIDEWAYS_ASKED] = heading, 0.0
 
+    def choose_walk(self, follower: PathFollower | None, body: Simulation, command: NDArray) -> None:
+        """Where a foot has just come down: walk on as learned, or as planned. ``follower``: None if it is not
+        to go on."""
+        learned, walk = self.learned, self.walk
+        if learned is None or not self.walks or walk[PHASE] != DOUBLE or walk[CLOCK] > 0.0:
+            return
+        usual = walk[WALK_STEPS] >= _CHANGED and not self.brakes
+        suits = usual and follower is not None and learned.suits(follower, body, command)
+        if suits and not learned.active:
+            learned.take_over(body, walk)
+        elif learned.active and not suits:
+            learned.give_back(body, walk, self.walk_skill.speed)
+
     def tick(
         self, lookup: tuple[NDArray, ...], state: NDArray, command: NDArray, data: mujoco.MjData
     ) -> None:
         """Control: write the PD targets into ``data.ctrl``."""
-        if self.walks:
+        if self.learned is not None and self.walks_as_learned:
+            self.learned.tick(lookup, command, data, self.walk)
+            self.speed = self.learned.speed
+        elif self.walks:
             tables = self._walk_tables()
             observed = state[controller.OBSERVED]
             walk_tick(tables, lookup, self.walk, observed, command, data.qpos, data.qvel, data.ctrl)
@@ -217,7 +251,9 @@ class OnFeet:
         """After the physics and `controller.observe`."""
         if self.hurries and (self.walks or is_fast_enough(state, float(command[SPEED_ASKED]))):
             self.hurries = False
-        if self.walks:
+        if self.learned is not None and self.walks_as_learned:
+            self.learned.observe(index, data)
+        elif self.walks:
             observe_walk(index, data, self.walk)
             if self.brakes and self.walk[PHASE] == STANDING:
                 self.walk[CAUGHT] = 0.0
@@ -230,7 +266,13 @@ class OnFeet:
         tick's."""
         run_on(state, targets, self.walk[WALK_STANCE], self.walk[WALK_HEADING], speed)
         self.walk[WALKS] = 0.0
+        self.stop_learned()
         self.hurries, self.brakes, self.speed = quickly, False, speed
+
+    def stop_learned(self) -> None:
+        """Something else than the learned walk moves it now."""
+        if self.learned is not None:
+            self.learned.leave()
 
     def slow_down(self, deceleration: float, brakes: bool = False) -> None:
         """Begin to slow down from the run to a walk [m/s^2]; ``brakes``: stop in the shortest distance

@@ -63,6 +63,7 @@ class Person:
         """Let it stand, or run at ``speed`` [m/s], on the ground point ``position`` (3,) [m]; on hands and
         feet where it is too steep to stand."""
         self.fours.leave()
+        self.on_feet.stop_learned()
         body, walk = self.simulation, self.on_feet.walk
         if speed == 0.0 and too_steep_around(body.ground, position):
             self.fours.crouch(body.lookup, body.data, position, yaw)

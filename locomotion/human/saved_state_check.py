@@ -8,8 +8,10 @@ from numpy.typing import NDArray
 from locomotion.body.person import JOINT_NAMES
 from locomotion.body.physics import physics_size
 from locomotion.errors import LocomotionError
+from locomotion.gaits.policy import layout as policy
 from locomotion.gaits.run import layout as run
 from locomotion.gaits.walk import layout as walk
+from locomotion.human import learned_walk
 from locomotion.human.human import Human
 from locomotion.human.state import BUSY, CLEARING, HumanState
 from locomotion.paths import tracking
@@ -142,16 +144,42 @@ _PARTS = (
         whole=(run_up.NEXT, run_up.STEPS_SEEN),
     ),
 )
-"""In the order of the arrays in `locomotion.human.state`."""
+"""In the order of the arrays in `locomotion.human.state`, but for the learned walk."""
+_LEARNED = Slots(
+    "the learned walk of a person",
+    learned_walk.MEMORY_SIZE,
+    [
+        (policy.PHASE, FLAG),
+        (policy.RUNNING, FLAG),
+        (policy.RESTED, _TIME),
+        (policy.HEADING, _TURNS),
+        (policy.SPEED, _SPEED),
+        (policy.TURN_RATE, _SPEED),
+        (policy.STARTED, FLAG),
+        (policy.TOLD, _SPEED),
+        (policy.TRIM, _SPEED),
+        (learned_walk.ACTIVE, FLAG),
+        (learned_walk.TICKS, COUNT),
+    ],
+    whole=(policy.RUNNING, policy.STARTED, learned_walk.ACTIVE, learned_walk.TICKS),
+)
+_WALK = 2  # place of the planned walk, which the learned one follows
+
+
+def _parts(human: Human) -> tuple[Slots, ...]:
+    if human.on_feet.learned is None:
+        return _PARTS
+    return *_PARTS[: _WALK + 1], _LEARNED, *_PARTS[_WALK + 1 :]
 
 
 def check_person(state: HumanState, human: Human) -> None:
     """Raise `LocomotionError` if ``human`` cannot be in this ``state``."""
     numbers, end = state.numbers, 0
-    held = sum(part.size for part in _PARTS)
+    parts = _parts(human)
+    held = sum(part.size for part in parts)
     if numbers.shape != (held + physics_size(human.model),):
         raise LocomotionError("the saved state belongs to another model")
-    for part in _PARTS:
+    for part in parts:
         begin, end = end, end + part.size
         part.check(numbers[begin:end])
     _check_physics(numbers[held:], human)
@@ -210,7 +238,7 @@ def _check_obstacle(obstacle: ObstacleAhead) -> None:
 
 def _check_clearing(state: HumanState, human: Human) -> None:
     """Check that its skills clear its present and coming obstacles."""
-    plan = state.numbers[sum(part.size for part in _PARTS[:-1]) :]
+    plan = state.numbers[sum(part.size for part in _parts(human)[:-1]) :]
     number = int(plan[run_up.NEXT])
     ahead = [skill_for(human.clearing, obstacle) for obstacle in state.obstacles[number:]]
     if None in ahead:

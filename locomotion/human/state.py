@@ -88,7 +88,13 @@ class _Field(NamedTuple):
 
 
 _ARRAYS = operator.attrgetter(
-    "simulation.control", "command", "on_feet.walk", "follower.memory", "fours.memory", "run_up.plan"
+    "simulation.control",
+    "command",
+    "on_feet.walk",
+    "on_feet.learned_memory",
+    "follower.memory",
+    "fours.memory",
+    "run_up.plan",
 )
 # memory arrays of the person's parts
 _FIELDS = (

@@ -16,6 +16,7 @@ from locomotion.avoidance.yielding import SPACING, Course
 from locomotion.body.person import CONTROL_DT
 from locomotion.body_events import PostureReached
 from locomotion.gaits.brake import load_brake_skill
+from locomotion.gaits.policy.skill import PolicySkill, load_policy
 from locomotion.gaits.run.skill import RunSkill
 from locomotion.gaits.slow_down import load_slow_down_skill
 from locomotion.gaits.speed_up import load_speed_up_skill
@@ -42,7 +43,10 @@ from runtime.traffic.snapshot import foretold_on
 from surefoot.numeric import is_finite
 from surefoot.pausing import pause
 
-__all__ = ["HumanDriver", "People"]
+__all__ = ["WALKS", "HumanDriver", "People"]
+
+WALKS = ("planned", "learned")
+"""How people walk where the ground is level; everywhere else as planned."""
 
 _ASKEW = 0.4  # [rad] that a body which physics takes over may face off its way
 _SPOTS, _BESIDE = np.array([-0.4, 0.0, 0.4, 0.8, 1.2]), 0.15  # [m] along its way and beside it,
@@ -59,12 +63,14 @@ class _Learned(NamedTuple):
     clearing: tuple[ClearingSkill, ...]
     walk: WalkSkill
     between: BetweenGaits
+    policy: PolicySkill | None
 
     @classmethod
-    def read(cls, skills: Sequence[Path]) -> "_Learned":
+    def read(cls, skills: Sequence[Path], walk: str) -> "_Learned":
         run = load_run_skill()
         between = BetweenGaits(load_slow_down_skill(), load_speed_up_skill(), load_brake_skill())
-        return cls(run, tuple(learned_skills(run, skills)), load_walk_skill(), between)
+        policy = load_policy() if walk == "learned" else None
+        return cls(run, tuple(learned_skills(run, skills)), load_walk_skill(), between, policy)
 
 
 @dataclass(frozen=True)
@@ -80,13 +86,19 @@ class Fading:
 
 class People(Population):
     """Simulated persons. ``skills``: descriptions of those of one's own that they have besides the
-    package's; ``rehearsals``: as of `Human`; ``seed`` decides how long each of them hesitates."""
+    package's; ``rehearsals``: as of `Human`; ``seed`` decides how long each of them hesitates; ``walk``: one
+    of `WALKS`."""
 
     def __init__(
-        self, level: Level, skills: Sequence[Path] = (), rehearsals: int = REHEARSALS, seed: int = 0
+        self,
+        level: Level,
+        skills: Sequence[Path] = (),
+        rehearsals: int = REHEARSALS,
+        seed: int = 0,
+        walk: str = "planned",
     ) -> None:
         self._level, self._skills, self._rehearsals = level, skills, rehearsals
-        self._seed = seed
+        self._seed, self._walk = seed, walk
         self._drivers: list[HumanDriver] = []
         self._learned: _Learned | None = None  # shared by all
         self._spare: list[Human] = []
@@ -151,13 +163,15 @@ class People(Population):
 
     def _make(self) -> "HumanDriver":
         if self._learned is None:
-            self._learned = _Learned.read(self._skills)
-        run, clearing, walk, between = self._learned
+            self._learned = _Learned.read(self._skills, self._walk)
+        run, clearing, walk, between, policy = self._learned
         if self._spare and self._unused is not None:
             human = self._spare.pop()
             human.restore_state(self._unused)
             return HumanDriver(self._level, human)
-        human = Human(self._level.ground, run, clearing, walk, between, self._rehearsals, gets_up=True)
+        human = Human(
+            self._level.ground, run, clearing, walk, between, self._rehearsals, gets_up=True, policy=policy
+        )
         self._unused = self._unused or human.save_state()
         return HumanDriver(self._level, human)
 

@@ -16,6 +16,7 @@ from locomotion import LocomotionError, load_run_skill
 from locomotion.body.person import CONTROL_DT
 from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.skills.library import described_ranges, learned_skills, skills_digest
+from runtime.bodies.humans import WALKS
 from runtime.bodies.kinds.kind import BodyKind, Surroundings
 from runtime.bodies.protocol import Driver, Population
 from runtime.bodies.registry import body_kinds, kind_of
@@ -52,7 +53,9 @@ class World:
     have besides the package's; a graph that it builds counts what they clear among the obstacles. Raises
     `RuntimeInputError` for one with a mistake. ``rehearsals``: how many variations of a take-off or a
     slowing-down a person tries within one tick at most; with fewer the longest ticks are shorter, and skills
-    hold less often.
+    hold less often. ``walk``: "planned", or "learned": where the ground is level, people walk as a network
+    has learned it from people (`locomotion.human.learned_walk`). A state is restored in a world with the
+    same ``walk``.
 
     ``agents``: by name, in order of their making. ``random``: the
     `numpy.random.Generator` for whatever chance the host needs, saved, restored and hashed with the rest.
@@ -64,8 +67,11 @@ class World:
         seed: int = 0,
         skills: Sequence[str | os.PathLike[str]] = (),
         rehearsals: int = REHEARSALS,
+        walk: str = "planned",
     ) -> None:
         checked_whole(rehearsals, "rehearsals")
+        if walk not in WALKS:
+            raise RuntimeInputError(f"walk must be one of {', '.join(map(repr, WALKS))}, not {walk!r}")
         checked_whole(seed, "seed")
         prepare_once()
         self._skills = checked_files(skills, "skills")
@@ -90,7 +96,7 @@ class World:
         self._populations: list[Population] = []
         self._traffic = Traffic(self._level, self._populations)
         around = Surroundings(
-            self._level, self._traffic, self._populations, self._skills, rehearsals, int(seed)
+            self._level, self._traffic, self._populations, self._skills, rehearsals, int(seed), walk
         )
         self._homes: dict[BodyKind, Population] = {}
         for kind in sorted(body_kinds(), key=lambda kind: kind.avoids_all):

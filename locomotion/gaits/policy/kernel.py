@@ -27,11 +27,22 @@ from locomotion.gaits.policy import layout as at
 from locomotion.gaits.policy.law import (
     ACCELERATION,
     AT_REST,
+    BEARS,
+    BRAKING,
     CALM,
+    FEET_OFF,
     FULL_TURN,
     LAG_SHARE,
     LIFT_OFF,
+    MOST_MISS,
+    MOST_TRIM,
+    PENDULUM,
+    REACH,
     SETTLING,
+    SHIFTING,
+    SOLE_AHEAD,
+    SOLE_ASIDE,
+    TRIM_RATE,
     TURNING,
 )
 from surefoot.kernels import allocating_kernel, kernel
@@ -76,7 +87,7 @@ def _wrap(angle):
 
 @kernel
 def _row(speeds, speed):
-    """The table's row at or below ``speed``, and how far it is to the next."""
+    """The row of ``speeds`` at or below ``speed``, and how far it is to the next."""
     last = speeds.shape[0] - 1
     v = min(max(speed, speeds[0]), speeds[last])
     i = 0
@@ -95,29 +106,60 @@ def _cycles_per_second(speeds, periods, memory):
 
 
 @kernel
-def _advance(speeds, periods, memory, asked, qvel):
+def _stands(stance, memory, felt, qpos, qvel):
+    """Whether the person may begin to stand, and whether one that stands has to make a step."""
+    c, s = math.cos(memory[at.HEADING]), math.sin(memory[at.HEADING])
+    x, y = qvel[0] / PENDULUM, qvel[1] / PENDULUM
+    off_ahead, off_left, apart_ahead, apart_left = -stance[0], 0.0, 0.0, 0.0
+    for side in range(2):
+        dx = 0.5 * (felt[9 * side] + felt[9 * side + 3]) - qpos[0]
+        dy = 0.5 * (felt[9 * side + 1] + felt[9 * side + 4]) - qpos[1]
+        ahead, left = c * dx + s * dy, c * dy - s * dx
+        sign = 1.0 if side == 1 else -1.0
+        apart_ahead, apart_left = apart_ahead + sign * ahead, apart_left + sign * left
+        off_ahead, off_left = off_ahead + 0.5 * ahead, off_left + 0.5 * left
+    off_ahead, off_left = off_ahead - (c * x + s * y), off_left - (c * y - s * x)
+    miss = math.hypot(off_ahead / SOLE_AHEAD, off_left / (0.5 * max(apart_left, 0.0) + SOLE_ASIDE))
+    right, left = felt[_FORCES] + felt[_FORCES + 1], felt[_FORCES + 2] + felt[_FORCES + 3]
+    can = math.hypot(memory[at.LAG_AHEAD], memory[at.LAG_LEFT]) < CALM and miss < MOST_MISS
+    can = can and min(right, left) > BEARS * at.BODY_WEIGHT
+    can = can and abs(apart_ahead) < FEET_OFF[0] and abs(apart_left - stance[1]) < FEET_OFF[1]
+    return can, miss > REACH, left > right
+
+
+@kernel
+def _advance(speeds, periods, stance, memory, asked, felt, qpos, qvel):
     pace, _ = _cycles_per_second(speeds, periods, memory)
-    before = memory[at.PHASE]
+    before, running = memory[at.PHASE], memory[at.RUNNING] > 0.0
     after = before + at.POLICY_DT * pace
-    rests = memory[at.SPEED] < AT_REST and asked[at.ASKED_SPEED] < AT_REST
-    memory[at.RESTED] = memory[at.RESTED] + at.POLICY_DT if rests else 0.0
+    rests = memory[at.TOLD] < AT_REST and asked[at.ASKED_SPEED] < AT_REST
+    can, must, on_left = _stands(stance, memory, felt, qpos, qvel)
+    steps = must and not running
+    memory[at.RESTED] = memory[at.RESTED] + at.POLICY_DT if rests and not steps else 0.0
     lifts = math.floor(2.0 * (after - LIFT_OFF))
-    stops = lifts > math.floor(2.0 * (before - LIFT_OFF)) and memory[at.RESTED] > SETTLING
-    stops = stops and math.hypot(memory[at.LAG_AHEAD], memory[at.LAG_LEFT]) < CALM
-    if stops:
+    lifts_off = lifts > math.floor(2.0 * (before - LIFT_OFF))
+    if lifts_off and memory[at.RESTED] > SETTLING and can:
         after = 0.5 * lifts + LIFT_OFF
         memory[at.RUNNING] = 0.0
-    elif not rests:
+    elif steps or not rests:
         memory[at.RUNNING] = 1.0
+        if steps:  # with the foot that bears less
+            after = LIFT_OFF + (0.5 if on_left else 0.0)
+        elif not running:
+            after -= SHIFTING
     memory[at.PHASE] = after - math.floor(after)
     memory[at.HEADING] = _wrap(memory[at.HEADING] + at.POLICY_DT * memory[at.TURN_RATE])
-    most = ACCELERATION * at.POLICY_DT
-    memory[at.SPEED] += min(max(asked[at.ASKED_SPEED] - memory[at.SPEED], -most), most)
-    turn = asked[at.ASKED_TURN] * min(max(memory[at.SPEED] / FULL_TURN, 0.0), 1.0)
-    most = TURNING * at.POLICY_DT
-    memory[at.TURN_RATE] += min(max(turn - memory[at.TURN_RATE], -most), most)
     c, s = math.cos(memory[at.HEADING]), math.sin(memory[at.HEADING])
     ahead, left = c * qvel[0] + s * qvel[1], c * qvel[1] - s * qvel[0]
+    wanted = asked[at.ASKED_SPEED] - memory[at.TOLD]
+    memory[at.TOLD] += min(max(wanted, -BRAKING * at.POLICY_DT), ACCELERATION * at.POLICY_DT)
+    trim = memory[at.TRIM] + TRIM_RATE * at.POLICY_DT * (memory[at.TOLD] - ahead)
+    most = MOST_TRIM * max(memory[at.TOLD], 0.0)
+    memory[at.TRIM] = min(max(trim, -most), most)
+    memory[at.SPEED] = memory[at.TOLD] + memory[at.TRIM]
+    turn = asked[at.ASKED_TURN] * min(max(memory[at.TOLD] / FULL_TURN, 0.0), 1.0)
+    most = TURNING * at.POLICY_DT
+    memory[at.TURN_RATE] += min(max(turn - memory[at.TURN_RATE], -most), most)
     memory[at.LAG_AHEAD] += LAG_SHARE * (ahead - memory[at.SPEED] - memory[at.LAG_AHEAD])
     memory[at.LAG_LEFT] += LAG_SHARE * (left - memory[at.LAG_LEFT])
 
@@ -127,7 +169,7 @@ def _observe(memory, felt, qpos, qvel, out):
     """What the policy observes, not mirrored, into ``out``."""
     c, s = math.cos(memory[at.HEADING]), math.sin(memory[at.HEADING])
     w, x, y, z = qpos[3], qpos[4], qpos[5], qpos[6]
-    out[at.HEIGHT_SEEN] = qpos[2]
+    out[at.HEIGHT_SEEN] = qpos[2] - memory[at.FLOOR]
     out[_UP] = 2 * (x * z - w * y)
     out[_UP + 1] = 2 * (y * z + w * x)
     out[_UP + 2] = 1 - 2 * (x * x + y * y)
@@ -176,7 +218,10 @@ def _layer(weights, biases, x, out, last):
 def _targets(speeds, periods, joints, rates, memory, ctrl):
     """Targets of all joints until the next decision, into ``ctrl`` (39,)."""
     pace, usual = _cycles_per_second(speeds, periods, memory)
-    i, a = _row(speeds, memory[at.SPEED])
+    i, a = 0, 0.0  # the stand
+    if memory[at.RUNNING] > 0.0:
+        i, a = _row(speeds, memory[at.SPEED])
+        i += 1
     share = memory[at.PHASE] + 0.5 * at.POLICY_DT * pace
     samples = joints.shape[1]
     x = (share - math.floor(share)) * samples
@@ -223,13 +268,13 @@ def _decide(network, seen, mirrored, memory):
 def decide_tick(motion, walk, stand, memory, asked, felt, qpos, qvel, ctrl):
     """Decide, and write the targets ``ctrl`` (39,) [rad] to hold for `layout.POLICY_DT`.
 
-    motion: speeds, periods (s,), joints and rates (s, n, 24) of the reference, float64. walk, stand:
-    networks, for who walks and for who has come to rest: mean and deviation (82,) of the inputs, and weights
+    motion: the arrays of `locomotion.gaits.policy.motion.Motion`. walk, stand: networks, for who walks and
+    for who has come to rest: mean and deviation (82,) of the inputs, and weights
     and biases of three layers, float32. The rest: see above.
     """
-    speeds, periods, joints, rates = motion
+    speeds, periods, joints, rates, stance = motion
     if memory[at.STARTED] > 0.0:
-        _advance(speeds, periods, memory, asked, qvel)
+        _advance(speeds, periods, stance, memory, asked, felt, qpos, qvel)
     memory[at.STARTED] = 1.0
     seen = np.empty(at.INPUTS)
     _observe(memory, felt, qpos, qvel, seen)

@@ -7,7 +7,7 @@ for each decision::
     ... the network decides, `decide` keeps it ...
     targets(memory, motion)              # held by the servos for POLICY_DT
     ... physics ...
-    advance(memory, motion, asked, velocity)
+    advance(memory, motion, asked, seen)
 """
 
 from dataclasses import dataclass
@@ -27,8 +27,10 @@ from locomotion.gaits.policy.layout import (
     FEET_AHEAD,
     FEET_LEFT,
     FEET_RISE,
+    FLOOR,
     GRAVITY_UP,
     HEADING,
+    HEELS_AND_BALLS,
     HEIGHT_SEEN,
     INPUTS,
     LAG_AHEAD,
@@ -51,6 +53,8 @@ from locomotion.gaits.policy.layout import (
     SPIN,
     STARTED,
     TIMING,
+    TOLD,
+    TRIM,
     TURN_RATE,
     VELOCITY,
     YAW_SEEN,
@@ -58,25 +62,41 @@ from locomotion.gaits.policy.layout import (
 from locomotion.gaits.policy.motion import Motion
 
 __all__ = [
-    "ACCELERATION", "AT_REST", "CALM", "FULL_TURN", "LAG_SHARE", "LIFT_OFF", "SETTLING", "TURNING", "Seen",
-    "advance", "along", "decide", "mirrored", "observe", "pace_share", "rate", "targets", "up_and_yaw",
-    "wrap",
+    "ACCELERATION", "AT_REST", "BEARS", "BRAKING", "CALM", "FEET_OFF", "FULL_TURN", "LAG_SHARE", "LIFT_OFF",
+    "MOST_MISS", "MOST_TRIM", "PENDULUM", "REACH", "SETTLING", "SHIFTING", "SOLE_AHEAD", "SOLE_ASIDE",
+    "TRIM_RATE", "TURNING", "Seen", "advance", "along", "decide", "mirrored", "observe", "pace_share",
+    "rate", "standing_miss", "targets", "up_and_yaw", "wrap",
 ]  # fmt: skip
 
-ACCELERATION, TURNING = 1.0, 2.0
-"""[m/s^2] and [rad/s^2] at which speed and turn rate follow those asked for."""
+ACCELERATION, BRAKING, TURNING = 1.0, 0.8, 2.0
+"""[m/s^2] up and down, and [rad/s^2], at which speed and turn rate follow those asked for."""
+TRIM_RATE, MOST_TRIM = 0.5, 0.15
+"""Part of the error of the speed that is added to it, per second, and the share of the speed that is added at
+most."""
 AT_REST = 0.05
-"""[m/s] asked for, below which a person stands."""
-SETTLING = 0.8
-"""[s] that the cycle goes on after that, before it stops at the next lift-off."""
+"""[m/s] asked for, below which a person comes to rest."""
+FULL_TURN = 0.5
+"""[m/s] below which turning is slowed down: it does not turn on the spot."""
+SETTLING = 0.4
+"""[s] of steps in place before it stands."""
 CALM = 0.2
-"""[m/s] low-passed, above which the cycle goes on all the same."""
+"""[m/s] low-passed, below which it may stand, if also:"""
+BEARS, FEET_OFF = 0.15, (0.1, 0.1)
+"""each foot bears this share of the weight, and is this near to where it stands: [m] ahead and aside."""
+MOST_MISS, REACH = 0.8, 1.1
+"""Where the body would come to rest, as a share of how far the feet reach: up to which it may begin to stand,
+and above which a person that stands makes a step."""
+PENDULUM = 3.3
+"""[1/s] of a standing body: it comes to rest this part of a second's way ahead."""
+SOLE_AHEAD, SOLE_ASIDE = 0.1, 0.03
+"""[m] from the middle of a sole that it reaches."""
 LIFT_OFF = 0.12
-"""Share of the cycle at which the left foot lifts off; the right one half a cycle later."""
+"""Share of the cycle at which the left foot lifts off, and the cycle may stop; the right one half a cycle
+later."""
+SHIFTING = 0.14
+"""Share of the cycle before that at which it goes on: first the weight goes over to the other foot."""
 LAG_SHARE = 0.08
 """Share of the error of the speed that its low-passed value takes up with each decision."""
-FULL_TURN = 0.5
-"""[m/s] below which turning is slowed down."""
 
 
 @dataclass(frozen=True)
@@ -128,7 +148,7 @@ def observe(memory: NDArray[np.float64], seen: Seen) -> NDArray[np.float64]:
     out = np.empty((len(memory), INPUTS))
     heading = memory[:, HEADING]
     up, yaw = up_and_yaw(seen.qpos)
-    out[:, HEIGHT_SEEN], out[:, GRAVITY_UP] = seen.qpos[:, 2], up
+    out[:, HEIGHT_SEEN], out[:, GRAVITY_UP] = seen.qpos[:, 2] - memory[:, FLOOR], up
     out[:, VELOCITY], out[:, SPIN] = along(heading, seen.qvel[:, :3]), seen.qvel[:, 3:6]
     out[:, YAW_SEEN] = wrap(yaw - heading)
     out[:, LAGS] = memory[:, [LAG_AHEAD, LAG_LEFT]]
@@ -171,41 +191,74 @@ def rate(memory: NDArray[np.float64], period: NDArray[np.float64]) -> NDArray[np
 
 def targets(memory: NDArray[np.float64], motion: Motion) -> NDArray[np.float64]:
     """Target angles (n, 24) of `layout.JOINTS` [rad] until the next decision."""
-    place = motion.at(memory[:, PHASE], memory[:, SPEED])
-    pace = rate(memory, motion.period(place))
-    middle = motion.at(memory[:, PHASE] + 0.5 * POLICY_DT * pace, memory[:, SPEED])
-    usual = motion.period(place) * pace  # the reference's rates are those of the usual pace
+    period = motion.period(memory[:, SPEED])
+    pace = rate(memory, period)
+    middle = motion.at(memory[:, PHASE] + 0.5 * POLICY_DT * pace, memory[:, SPEED], memory[:, RUNNING])
+    usual = period * pace  # the reference's rates are those of the usual pace
     moving = middle.read(motion.rates) * usual[:, None]
     return middle.read(motion.joints) + LEAD * moving + SCALE * memory[:, ACTION.start : ACTION.stop - 1]
+
+
+def standing_miss(
+    memory: NDArray[np.float64], motion: Motion, seen: Seen
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Where the body would come to rest if it only stood, from the middle of the feet, as a share of how far
+    they reach, (n,); and how far the feet are off their stance, ahead and aside, (n, 2) [m]."""
+    heading = memory[:, HEADING]
+    soles = along(heading, seen.soles[:, HEELS_AND_BALLS] - seen.qpos[:, None, :3])
+    feet = soles.reshape(-1, 2, 2, 3).mean(axis=2)  # (n, right and left, 3)
+    off = feet.mean(axis=1)[:, :2] - along(heading, seen.qvel[:, :3])[:, :2] / PENDULUM
+    off[:, 0] -= motion.stance[0]
+    apart = feet[:, 1, :2] - feet[:, 0, :2]
+    reach = np.stack([np.full(len(off), SOLE_AHEAD), 0.5 * np.maximum(apart[:, 1], 0.0) + SOLE_ASIDE], axis=1)
+    return np.hypot(*(off / reach).T), apart - [0.0, motion.stance[1]]
+
+
+def _stands(
+    memory: NDArray[np.float64], motion: Motion, seen: Seen
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Who may begin to stand, and who has to make a step, (n,)."""
+    miss, off = standing_miss(memory, motion, seen)
+    bears = seen.forces.reshape(-1, 2, 2).sum(axis=2).min(axis=1) > BEARS * BODY_WEIGHT
+    calm = np.hypot(memory[:, LAG_AHEAD], memory[:, LAG_LEFT]) < CALM
+    return calm & bears & (miss < MOST_MISS) & (np.abs(off) < FEET_OFF).all(axis=1), miss > REACH
 
 
 def advance(
     memory: NDArray[np.float64],
     motion: Motion,
     asked: NDArray[np.float64],
-    velocity: NDArray[np.float64],
-    calm: float = CALM,
+    seen: Seen,
+    halts: bool = True,
 ) -> None:
-    """Go on by `POLICY_DT`. ``asked`` (n, 2): speed [m/s] and turn rate [rad/s]; ``velocity`` (n, 3): of the
-    root in the world [m/s], after it; ``calm``: as `CALM`."""
-    pace = rate(memory, motion.period(motion.at(memory[:, PHASE], memory[:, SPEED])))
-    before = memory[:, PHASE]
+    """Go on by `POLICY_DT`. ``asked`` (n, 2): speed [m/s] and turn rate [rad/s]; ``seen``: the bodies after
+    it; ``halts``: whether the cycle stops for those who come to rest."""
+    pace = rate(memory, motion.period(memory[:, SPEED]))
+    before, running = memory[:, PHASE], memory[:, RUNNING] > 0.0
     after = before + POLICY_DT * pace
-    rests = (memory[:, SPEED] < AT_REST) & (asked[:, ASKED_SPEED] < AT_REST)
-    memory[:, RESTED] = np.where(rests, memory[:, RESTED] + POLICY_DT, 0.0)
+    rests = (memory[:, TOLD] < AT_REST) & (asked[:, ASKED_SPEED] < AT_REST)
+    can, must = _stands(memory, motion, seen)
+    memory[:, RESTED] = np.where(rests & (running | ~must), memory[:, RESTED] + POLICY_DT, 0.0)
     lifts = np.floor(2.0 * (after - LIFT_OFF))
-    stops = (lifts > np.floor(2.0 * (before - LIFT_OFF))) & (memory[:, RESTED] > SETTLING)
-    stops &= np.hypot(memory[:, LAG_AHEAD], memory[:, LAG_LEFT]) < calm
+    stops = (lifts > np.floor(2.0 * (before - LIFT_OFF))) & (memory[:, RESTED] > SETTLING) & can & halts
     after = np.where(stops, 0.5 * lifts + LIFT_OFF, after)
-    memory[:, RUNNING] = np.where(stops, 0.0, np.where(rests, memory[:, RUNNING], 1.0))
+    steps = ~running & must  # with the foot that bears less
+    loads = seen.forces.reshape(-1, 2, 2).sum(axis=2)
+    after = np.where(steps, LIFT_OFF + 0.5 * (loads[:, 1] > loads[:, 0]), after)
+    after = np.where(~running & ~rests & ~steps, after - SHIFTING, after)
+    memory[:, RUNNING] = np.where(stops, 0.0, np.where(rests & ~steps, memory[:, RUNNING], 1.0))
     memory[:, PHASE] = after - np.floor(after)
     memory[:, HEADING] = wrap(memory[:, HEADING] + POLICY_DT * memory[:, TURN_RATE])
-    most = ACCELERATION * POLICY_DT
-    memory[:, SPEED] += np.clip(asked[:, ASKED_SPEED] - memory[:, SPEED], -most, most)
-    turn = asked[:, ASKED_TURN] * np.clip(memory[:, SPEED] / FULL_TURN, 0.0, 1.0)
+    v = along(memory[:, HEADING], seen.qvel[:, :3])
+    wanted = asked[:, ASKED_SPEED] - memory[:, TOLD]
+    memory[:, TOLD] += np.clip(wanted, -BRAKING * POLICY_DT, ACCELERATION * POLICY_DT)
+    trim = memory[:, TRIM] + TRIM_RATE * POLICY_DT * (memory[:, TOLD] - v[:, 0])
+    most = MOST_TRIM * np.maximum(memory[:, TOLD], 0.0)
+    memory[:, TRIM] = np.clip(trim, -most, most)
+    memory[:, SPEED] = memory[:, TOLD] + memory[:, TRIM]
     most = TURNING * POLICY_DT
+    turn = asked[:, ASKED_TURN] * np.clip(memory[:, TOLD] / FULL_TURN, 0.0, 1.0)
     memory[:, TURN_RATE] += np.clip(turn - memory[:, TURN_RATE], -most, most)
-    v = along(memory[:, HEADING], velocity)
     memory[:, LAG_AHEAD] += LAG_SHARE * (v[:, 0] - memory[:, SPEED] - memory[:, LAG_AHEAD])
     memory[:, LAG_LEFT] += LAG_SHARE * (v[:, 1] - memory[:, LAG_LEFT])
     memory[:, STARTED] = 1.0

@@ -11,12 +11,12 @@ from locomotion.body.person import CONTROL_DT, JOINT_NAMES, MASS
 
 __all__ = [
     "ACTION", "ACTIONS", "ANGLES", "ANKLE_SOLE", "ASKED", "ASKED_SPEED", "ASKED_TURN", "BODY_WEIGHT",
-    "CONTACTS", "FAST_RATE", "FEET_AHEAD", "FEET_LEFT", "FEET_RISE", "FELT_SIZE", "FORCES", "GRAVITY_UP",
-    "HEADING", "HEELS_AND_BALLS", "HEIGHT_SEEN", "INPUTS", "JOINTS", "LAGS", "LAG_AHEAD", "LAG_LEFT",
-    "LEAD", "MIRROR_ACTION", "MIRROR_JOINT", "MIRROR_OBSERVED", "MOST_INPUT", "PHASE", "POLICY_DT",
-    "RATES", "RATE_GAIN", "RESTED", "RUNNING", "SCALE", "SIGN_ACTION", "SIGN_JOINT", "SIGN_OBSERVED",
-    "SLOW_RATE", "SOLES", "SOLE_POINTS", "SPEED", "SPIN", "STARTED", "STATE_SIZE", "TICKS_PER_DECISION",
-    "TIMING", "TIP", "TURN_RATE", "VELOCITY", "YAW_SEEN",
+    "CONTACTS", "FAST_RATE", "FEET_AHEAD", "FEET_LEFT", "FEET_RISE", "FELT_SIZE", "FLOOR", "FORCES",
+    "GRAVITY_UP", "HEADING", "HEELS_AND_BALLS", "HEIGHT_SEEN", "INPUTS", "JOINTS", "LAGS", "LAG_AHEAD",
+    "LAG_LEFT", "LEAD", "MIRROR_ACTION", "MIRROR_JOINT", "MIRROR_OBSERVED", "MOST_INPUT", "PHASE",
+    "POLICY_DT", "RATES", "RATE_GAIN", "RESTED", "RUNNING", "SCALE", "SIGN_ACTION", "SIGN_JOINT",
+    "SIGN_OBSERVED", "SLOW_RATE", "SOLES", "SOLE_POINTS", "SPEED", "SPIN", "STARTED", "STATE_SIZE",
+    "TICKS_PER_DECISION", "TIMING", "TIP", "TOLD", "TRIM", "TURN_RATE", "VELOCITY", "YAW_SEEN",
 ]  # fmt: skip
 
 TICKS_PER_DECISION = 2
@@ -70,24 +70,25 @@ FEET_RISE, FEET_AHEAD, FEET_LEFT = slice(_F, _F + 6), slice(_F + 6, _F + 8), sli
 CONTACTS, TIMING = slice(_F + 10, _F + 14), slice(_F + 14, _F + 19)
 ASKED = slice(_F + 19, _F + 21)
 INPUTS = _F + 21
-"""Numbers observed: height of the root [m]; the world's up in the root's frame; velocity ahead, left, up
-[m/s]; angular velocity [rad/s] in the root's frame; yaw from the heading [rad]; low-passed errors of the
-speed ahead and to the left [m/s]; angles [rad] and a tenth of the rates [rad/s] of `JOINTS`; heights of
-`SOLE_POINTS` over the root; both heels ahead, and left, of it [m]; contacts of foot and toes, right and
-left, 0 to 1; sine and cosine of the cycle and of twice the cycle, whether it goes on; speed [m/s] and turn
-rate [rad/s] asked for."""
+"""Numbers observed: height of the root over the ground [m]; the world's up in the root's frame; velocity
+ahead, left, up [m/s]; angular velocity [rad/s] in the root's frame; yaw from the heading [rad]; low-passed
+errors of the speed ahead and to the left [m/s]; angles [rad] and a tenth of the rates [rad/s] of `JOINTS`;
+heights of `SOLE_POINTS` over the root; both heels ahead, and left, of it [m]; contacts of foot and toes,
+right and left, 0 to 1; sine and cosine of the cycle and of twice the cycle, whether it goes on; speed [m/s]
+and turn rate [rad/s] asked for."""
 MOST_INPUT = 8.0
 """Deviations from the mean by which an input counts at most."""
 
 # ---- memory
-PHASE, RUNNING, RESTED, HEADING, SPEED, TURN_RATE, LAG_AHEAD, LAG_LEFT, STARTED = range(9)
-_M = 9
+PHASE, RUNNING, RESTED, HEADING, SPEED, TURN_RATE, LAG_AHEAD, LAG_LEFT, STARTED, TOLD, TRIM, FLOOR = range(12)
+_M = 12
 ACTION = slice(_M, _M + ACTIONS)
 STATE_SIZE = _M + ACTIONS
 """The memory of a policy: share of the cycle, 0 to 1, from the right heel's strike; whether it goes on; [s]
-at rest; heading [rad], speed [m/s] and turn rate [rad/s] that it keeps to, which follow those asked for;
-low-passed errors of the speed; whether it has decided before; and its last decisions, in the person's own
-left and right."""
+since it has nothing to do but to stand; heading [rad], speed [m/s] and turn rate [rad/s] that it keeps to;
+low-passed errors of the speed; whether it has decided before; speed [m/s] that follows the one asked for, and
+what it adds to that because it is too slow or too fast; height of the ground under it [m], which whoever
+moves it over a ground keeps up to date; and its last decisions, in the person's own left and right."""
 ASKED_SPEED, ASKED_TURN = 0, 1
 """What a caller asks for: speed [m/s] and turn rate [rad/s]."""
 

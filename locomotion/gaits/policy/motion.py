@@ -30,30 +30,48 @@ class Place:
 
 @dataclass(frozen=True)
 class Motion:
-    """Angles of `layout.JOINTS` over the cycle.
+    """Angles of `layout.JOINTS` over the cycle, and in a stand.
 
     Attributes:
-      speeds, periods: (s,) float64: [m/s], and [s] of a cycle there.
-      joints, rates: (s, n, 24) float64 [rad], [rad/s] at equal shares of the cycle.
+      speeds, periods: (s,) float64: [m/s], from 0 (steps in place), and [s] of a cycle there.
+      joints, rates: (1 + s, n, 24) float64 [rad], [rad/s] at equal shares of the cycle: first of the stand,
+        which is the same at all of them, then at each speed.
+      stance: (2,) float64: where the middle of the feet is ahead of the root in a stand, and how far their
+        middles are apart [m].
     """
 
     speeds: NDArray[np.float64]
     periods: NDArray[np.float64]
     joints: NDArray[np.float64]
     rates: NDArray[np.float64]
+    stance: NDArray[np.float64]
 
-    def at(self, phase: NDArray[np.float64], speed: NDArray[np.float64]) -> Place:
-        """Where the shares ``phase`` of the cycle at ``speed`` [m/s] lie in the tables, both (n,)."""
+    @property
+    def stand(self) -> NDArray[np.float64]:
+        """(24,) float64, angles of the stand [rad]."""
+        return self.joints[0, 0]
+
+    def at(
+        self, phase: NDArray[np.float64], speed: NDArray[np.float64], running: NDArray[np.float64]
+    ) -> Place:
+        """Where the shares ``phase`` of the cycle at ``speed`` [m/s] lie in the tables; the stand where
+        ``running`` is 0; all (n,)."""
         v = np.clip(speed, self.speeds[0], self.speeds[-1])
         slower = np.clip(np.searchsorted(self.speeds, v, side="right") - 1, 0, len(self.speeds) - 2)
         share = (v - self.speeds[slower]) / (self.speeds[slower + 1] - self.speeds[slower])
+        goes_on = running > 0.0
         samples = self.joints.shape[1]
         x = (phase - np.floor(phase)) * samples
         low = x.astype(np.int64)
         earlier = low % samples
-        return Place(slower, earlier, (earlier + 1) % samples, share, x - low)
+        return Place(
+            np.where(goes_on, 1 + slower, 0),
+            earlier,
+            (earlier + 1) % samples,
+            np.where(goes_on, share, 0.0),
+            x - low,
+        )
 
-    def period(self, place: Place) -> NDArray[np.float64]:
-        """[s] of a cycle at the speeds of ``place``, (n,)."""
-        i, a = place.slower, place.faster_share
-        return (1.0 - a) * self.periods[i] + a * self.periods[i + 1]
+    def period(self, speed: NDArray[np.float64]) -> NDArray[np.float64]:
+        """[s] of a cycle at ``speed`` (n,) [m/s]."""
+        return np.interp(speed, self.speeds, self.periods)

@@ -43,13 +43,14 @@ class PolicySkill:
     def tables(self) -> tuple[tuple[np.ndarray, ...], ...]:
         """The first arguments of `locomotion.gaits.policy.kernel.decide_tick`."""
         motion = self.motion
-        return (motion.speeds, motion.periods, motion.joints, motion.rates), self.walk, self.stand
+        tables = (motion.speeds, motion.periods, motion.joints, motion.rates, motion.stance)
+        return tables, self.walk, self.stand
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the policy for the present person; the file appears whole or not at all."""
         motion = self.motion
         arrays = {
-            "speeds": motion.speeds, "periods": motion.periods,
+            "speeds": motion.speeds, "periods": motion.periods, "stance": motion.stance,
             "joints": motion.joints.astype(np.float32), "rates": motion.rates.astype(np.float32),
             **{f"walk_{name}": array for name, array in zip(_PARTS, self.walk, strict=True)},
             **{f"stand_{name}": array for name, array in zip(_PARTS, self.stand, strict=True)},
@@ -86,13 +87,14 @@ def _network(name: str) -> dict[str, Numbers]:
 _N = len(JOINTS)
 POLICY_FILE = Schema(
     kind="policy",
-    version=1,
+    version=2,
     header=_PolicyHeader,
     arrays={
         "speeds": speeds("speeds"),
         "periods": Numbers("speeds", low=0.01, high=100.0),
-        "joints": _weights("speeds", "samples", _N),
-        "rates": _weights("speeds", "samples", _N),
+        "stance": Numbers(2, low=-1.0, high=1.0),
+        "joints": _weights("speeds+1", "samples", _N),
+        "rates": _weights("speeds+1", "samples", _N),
         **_network("walk"),
         **_network("stand"),
     },
@@ -105,7 +107,7 @@ def load_policy(path: str | os.PathLike[str] = WALK_POLICY) -> PolicySkill:
     """Read a policy; `LocomotionError` if it is missing, cut off, of another version or another person."""
     header, arrays = read_skill(path, POLICY_FILE)
     wide = {name: arrays[name].astype(np.float64) for name in ("joints", "rates")}
-    motion = Motion(arrays["speeds"], arrays["periods"], wide["joints"], wide["rates"])
+    motion = Motion(arrays["speeds"], arrays["periods"], wide["joints"], wide["rates"], arrays["stance"])
     walk, stand = (
         tuple(np.ascontiguousarray(arrays[f"{name}_{part}"]) for part in _PARTS) for name in ("walk", "stand")
     )

@@ -1,7 +1,7 @@
 """Many people at once who walk as a policy decides, with pushes, slopes and changing orders."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import mujoco
@@ -13,7 +13,6 @@ from locomotion.gaits.policy import law
 from locomotion.gaits.policy.layout import (
     ACTION,
     ASKED_SPEED,
-    ASKED_TURN,
     FELT_SIZE,
     FORCES,
     HEADING,
@@ -25,6 +24,7 @@ from locomotion.gaits.policy.layout import (
     SOLES,
     SPEED,
     STATE_SIZE,
+    TOLD,
     TURN_RATE,
 )
 from locomotion.gaits.policy.motion import Motion
@@ -33,7 +33,7 @@ from locomotion.training.policies.figure import Figure
 from locomotion.training.policies.reference import Reference, quaternions
 from locomotion.training.policies.rewards import Moment, rewards, sway_off, total
 
-__all__ = ["Environment", "Outcome", "Starts", "motion_of", "stops"]
+__all__ = ["Environment", "Outcome", "Starts", "motion_of", "where_it_ended"]
 
 THREADS = 2
 _STATE = mujoco.mjtState.mjSTATE_FULLPHYSICS
@@ -43,29 +43,30 @@ _EVERY = 3.0  # [s] between pushes, and between orders, on average
 _PUSHED = 5  # decisions that a push lasts: 0.1 s
 _WEAKEST = 0.2  # of the greatest push
 _LOWEST, _LEAST_UP, _MOST_YAW, _MOST_SWAY = 0.70, 0.75, 0.9, 1.5  # beyond which a person counts as fallen
-_PENDULUM, _BALANCE = 3.3, 0.12  # [1/s] of a standing body; [m] by which it may miss its feet
 _ANGLE, _SPEED, _RATE = 0.03, 0.08, 0.1  # spread of the starts: [rad], [m/s], [rad/s]
 _TURNING, _BEGIN_TURNING = 0.6, 0.7  # shares of the orders that turn
-_FROM_STARTS = 0.7  # share of those who begin in one of the given states
-_BEGIN_STANDING = 0.7  # of the share of orders that are to stand
+_SETS_OFF = 0.5  # share of those who begin in a stand and are to walk at once
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """After a decision: reward (n,); who fell, whose time is over, and who of these has come to rest, (n,)
-    bool; mean of each term of the reward; how well in balance, 0 to 1, (n,)."""
+    """After a decision: reward (n,); who fell, whose time is over, and for whom the other network would take
+    over now, (n,) bool; the memories with which it would, (n, STATE_SIZE); mean of each term of the
+    reward."""
 
     reward: NDArray[np.float64]
     fell: NDArray[np.bool_]
     over: NDArray[np.bool_]
-    rested: NDArray[np.bool_]
+    changes: NDArray[np.bool_]
+    switched: NDArray[np.float64]
     terms: dict[str, float]
-    balance: NDArray[np.float64]
 
 
 def motion_of(reference: Reference) -> Motion:
     """The part of a reference that is needed at run time."""
-    return Motion(reference.speeds, reference.periods, reference.joints, reference.rates)
+    right, left = reference.soles[0, 0, HEELS_AND_BALLS].reshape(2, 2, 3).mean(axis=1)
+    stance = np.array([0.5 * (right + left)[0], (left - right)[1]])
+    return Motion(reference.speeds, reference.periods, reference.joints, reference.rates, stance)
 
 
 @dataclass(frozen=True)
@@ -85,7 +86,7 @@ class Environment:
       physics: (n, k) MuJoCo's states; sensed: (n, 22) sensors; age: (n,) decisions since they began.
       whole: on the figure of all 45 degrees of freedom.
 
-    ``starts``: states in which most begin.
+    ``starts``: states in which some begin, see `Stage.from_starts`.
     """
 
     def __init__(
@@ -165,20 +166,22 @@ class Environment:
         k, rng, reference = len(ids), self.rng, self.reference
         if k == 0:
             return
-        orders = self._orders(k, _BEGIN_STANDING * self.stage.stand, _BEGIN_TURNING)
+        orders = self._orders(k, self.stage.stand, _BEGIN_TURNING)
         memory = np.zeros((k, STATE_SIZE))
-        stands = orders[:, ASKED_SPEED] < law.AT_REST
+        memory[:, SPEED], memory[:, TURN_RATE] = orders.T
+        memory[:, TOLD] = memory[:, SPEED]
+        stands = (orders[:, ASKED_SPEED] < law.AT_REST) & (self.stage.stands | (rng.random(k) < 0.5))
+        memory[stands, TURN_RATE] = 0.0
         halves = 0.5 * rng.integers(0, 2, k)
-        memory[:, PHASE] = np.where(stands, law.LIFT_OFF + halves, rng.random(k))
-        memory[:, RUNNING] = np.where(stands, 0.0, 1.0)
-        memory[:, SPEED], memory[:, TURN_RATE] = orders[:, ASKED_SPEED], orders[:, ASKED_TURN]
-        if self.stage.ends_at_rest:  # who stands sets off
-            memory[:, RUNNING] = 1.0
-            orders[:, ASKED_SPEED] += stands * rng.uniform(*self.stage.speeds, k)
+        begins = law.LIFT_OFF + halves - (0.0 if self.stage.stands else law.SHIFTING)
+        memory[:, PHASE] = np.where(stands, begins % 1.0, rng.random(k))
+        sets_off = stands & (rng.random(k) < _SETS_OFF) & (not self.stage.stands)
+        orders[:, ASKED_SPEED] += sets_off * rng.uniform(*self.stage.speeds, k)
         self.memory[ids], self.asked[ids] = memory, orders
         self.age[ids] = self.pushed[ids] = 0
         self.slope[ids] = rng.uniform(-self.stage.slope, self.stage.slope, (k, 2))
-        place = self.motion.at(memory[:, PHASE], memory[:, SPEED])
+        place = self.motion.at(memory[:, PHASE], memory[:, SPEED], np.where(stands, 0.0, 1.0))
+        self.memory[ids, RUNNING] = 0.0 if self.stage.stands else 1.0
         root, joints = place.read(reference.root), place.read(reference.joints)
         qpos, qvel = np.zeros((k, self.model.nq)), np.zeros((k, self.model.nv))
         qpos[:, 1:3], qpos[:, 3:7] = root[:, :2], quaternions(root[:, 2:5])
@@ -193,7 +196,7 @@ class Environment:
         for i, q, v in zip(ids.tolist(), qpos, qvel, strict=True):
             self._put(i, q, v)
         if self._starts is not None:
-            some = ids[rng.random(k) < _FROM_STARTS]
+            some = ids[rng.random(k) < self.stage.from_starts]
             picked = rng.integers(0, len(self._starts.memory), len(some))
             for name, values in vars(self._starts).items():
                 getattr(self, name)[some] = values[picked]
@@ -243,17 +246,33 @@ class Environment:
         broken = ~np.isfinite(self.physics).all(axis=1)
         self.physics[broken] = 0.0
         self.physics[broken, 4] = 1.0
-        law.advance(self.memory, self.motion, self.asked, self.qvel[:, :3], self.stage.calm)
+        changes, switched = self._advance()
         self._change_orders()
         self.age += 1
         moment = self._moment(sensed[:, :, FORCES], soles, forces, before)
         terms = rewards(moment)
         reward = np.where(broken, 0.0, total(terms, self.stage.weights))
         fell = broken | self._fallen(moment)
+        changes &= ~fell
+        if self.stage.stands:
+            fell |= changes
         means = {name: float(values.mean()) for name, values in terms.items()}
-        rested = (self.memory[:, RUNNING] == 0.0) & ~fell & self.stage.ends_at_rest
-        over = rested | ((self.age >= self.stage.longest) & ~fell)
-        return Outcome(reward, fell, over, rested, means, self._balance())
+        over = (self.age >= self.stage.longest) & ~fell
+        return Outcome(reward, fell, over, changes, switched, means)
+
+    def _advance(self) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
+        """The memories go on; gives for whom the other network would take over, (n,), and with which
+        memories. While it learns to walk, who could stand steps in place instead."""
+        before = self.memory.copy()
+        law.advance(self.memory, self.motion, self.asked, self.seen())
+        changes = self.memory[:, RUNNING] != before[:, RUNNING]
+        switched = self.memory.copy()
+        if not self.stage.stands and changes.any():
+            self.memory[changes] = before[changes]
+            some = self.memory[changes]
+            law.advance(some, self.motion, self.asked[changes], _pick(self.seen(), changes), halts=False)
+            self.memory[changes] = some
+        return changes, switched
 
     def _control(self) -> NDArray[np.float64]:
         """Targets and outer forces, (n, controls)."""
@@ -277,7 +296,7 @@ class Environment:
         decided_before: NDArray[np.float64],
     ) -> Moment:
         memory, reference, seen = self.memory, self.reference, self.seen()
-        place = self.motion.at(memory[:, PHASE], memory[:, SPEED])
+        place = self.motion.at(memory[:, PHASE], memory[:, SPEED], memory[:, RUNNING])
         root = place.read(reference.root)
         roll, pitch, turned = root[:, 2], root[:, 3], root[:, 4]
         up, yaw = law.up_and_yaw(self.qpos)
@@ -304,20 +323,6 @@ class Environment:
             decided_before=decided_before,
         )
 
-    def _balance(self) -> NDArray[np.float64]:
-        """1 where the body, as fast as it moves, would come to rest over its feet as the reference stands;
-        where stages ask for calm, the feet also have to be beside each other as they are there."""
-        feet = (self.soles - self.qpos[:, None, :3])[:, HEELS_AND_BALLS].mean(axis=1)
-        wanted = self.reference.soles[0, 0, HEELS_AND_BALLS].mean(axis=0)
-        comes_to = self.qvel[:, :3] / _PENDULUM
-        off = law.along(self.memory[:, HEADING], feet - comes_to) - wanted
-        miss = ((off[:, :2] / _BALANCE) ** 2).sum(axis=1)
-        if np.isfinite(self.stage.calm):
-            apart = law.along(self.memory[:, HEADING], self.soles[:, 3] - self.soles[:, 0])
-            apart -= self.reference.soles[0, 0, 3] - self.reference.soles[0, 0, 0]
-            miss += ((apart[:, :2] / _BALANCE) ** 2).sum(axis=1)
-        return np.exp(-miss)
-
     def _fallen(self, moment: Moment) -> NDArray[np.bool_]:
         up, yaw = law.up_and_yaw(self.qpos)
         off = np.abs(law.wrap(yaw - self.memory[:, HEADING]))
@@ -337,21 +342,23 @@ class Environment:
             setattr(self, name, arrays[name].copy())
 
 
-def stops(
-    reference: Reference,
-    stage: Stage,
-    seed: int,
+def _pick(seen: law.Seen, who: NDArray[np.bool_]) -> law.Seen:
+    return law.Seen(*(values[who] for values in vars(seen).values()))
+
+
+def where_it_ended(
+    environment: Environment,
     decide: Callable[[NDArray[np.float64]], NDArray[np.floating]],
-    most: int = 500,
+    most: int = 300,
 ) -> Starts | None:
-    """How people are who have just come to rest, as ``decide`` makes them walk for ``most`` decisions;
-    ``stage`` is one that ends at rest. None if nobody comes to rest."""
-    environment = Environment(reference, replace(stage, stand=0.5), 256, seed)
+    """How people are for whom the other network takes over, as ``decide`` moves them for ``most`` decisions:
+    who comes to rest, or, in a stage that ``stands``, who has to make a step. None if there are none."""
     found: dict[str, list[NDArray[np.float64]]] = {name: [] for name in ("memory", "physics", "sensed")}
     for _ in range(most):
         outcome = environment.step(decide(environment.observe()))
-        for name, values in found.items():
-            values.append(getattr(environment, name)[outcome.rested].copy())
+        found["memory"].append(outcome.switched[outcome.changes])
+        found["physics"].append(environment.physics[outcome.changes])
+        found["sensed"].append(environment.sensed[outcome.changes])
         environment.reset(outcome.fell | outcome.over)
     starts = Starts(**{name: np.concatenate(values) for name, values in found.items()})
     return starts if len(starts.memory) else None

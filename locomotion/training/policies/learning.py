@@ -27,7 +27,6 @@ __all__ = ["LENGTH", "Learning", "PolicyProgress", "show_policy"]
 LENGTH = 24
 """Decisions of each person from one improvement of the policy to the next."""
 _KEPT_EVERY = 40
-_REST = 0.9 / (1.0 - DISCOUNT)  # return of somebody who has come to rest in balance
 _KIND, _VERSION = "policy learning", 1
 
 
@@ -79,7 +78,7 @@ class Learning:
     Attributes:
       reference: what is imitated. stages: what is learned, in turn. checkpoint: file of intermediate results;
         None: they are not kept. on_progress: called after each improvement of the policy. starts: states in
-        which most begin.
+        which some begin.
       agent, environment: policy and critic, and the people. stage, iteration: how far it is.
     """
 
@@ -164,9 +163,7 @@ class Learning:
             outcome = environment.step(decided[t])
             reward[t] = outcome.reward
             if outcome.over.any():  # their time is over, not their walk
-                ahead = DISCOUNT * agent.expect(agent.scaled(environment.observe()))
-                rest = DISCOUNT * _REST * outcome.balance
-                reward[t] += np.where(outcome.rested, rest, ahead) * outcome.over
+                reward[t] += outcome.over * DISCOUNT * agent.expect(agent.scaled(environment.observe()))
             done[t] = outcome.fell | outcome.over
             falls += int(outcome.fell.sum())
             terms.append(outcome.terms)

@@ -25,12 +25,15 @@ __all__ = ["SAMPLES", "SPEEDS", "Reference", "make_reference", "quaternions", "s
 
 SAMPLES = 64
 """Rows of a cycle."""
-SPEEDS = (0.0, 0.35, 0.6, 0.9, 1.25, 1.6, 2.0)
-"""[m/s] at which the reference is made; 0 is a stand."""
+SPEEDS = (0.0, 0.35, 0.6, 0.9, 1.25, 1.6, 2.0, 2.3)
+"""[m/s] at which the reference is made; at 0 it steps in place."""
 _USUAL = 1.25  # [m/s] of the measured curves
 _LEAN, _TOE_OUT = math.radians(2.0), math.radians(6.0)
 _HALF_WIDTH = 0.05  # [m] from the line of the walk to each foot
 _CLEARANCE = 0.018  # [m] under a swinging foot
+_IN_PLACE, _IN_PLACE_HALF_WIDTH = math.radians(16.0), 0.065  # hip flexion that lifts a foot; [m]
+_STEPS_IN_PLACE = 1.8  # [steps/s], as fast as people march
+_QUIETER = 0.3  # share of a slow walk's pelvis and arms
 _FITTED = ("hip_flexion", "knee_flexion", "ankle_flexion", "toe_extension")
 _FRONTAL = ("hip_abduction", "hip_rotation", "ankle_inversion")
 _STAND = {
@@ -50,14 +53,16 @@ _COEFFICIENTS, _ROOT = _WAVES.shape[1], _TWICE.shape[1]
 
 @dataclass(frozen=True)
 class Reference:
-    """Poses over the cycle at each speed; all float64, first axes ``speeds`` and `SAMPLES`.
+    """Poses over the cycle: first of the stand, then at each speed; all float64, first axes 1 + ``speeds``
+    and `SAMPLES`.
 
     Attributes:
       speeds, periods: (s,) [m/s], [s].
-      joints, rates: (s, n, 24) [rad], [rad/s].
-      root: (s, n, 8): sway to the left and height [m]; roll, pitch and yaw [rad]; velocity ahead, left, up.
-      spin: (s, n, 3) angular velocity in the root's frame [rad/s].
-      soles: (s, n, 6, 3) `layout.SOLE_POINTS` from the root, along the heading [m].
+      joints, rates: (1 + s, n, 24) [rad], [rad/s].
+      root: (1 + s, n, 8): sway to the left and height [m]; roll, pitch and yaw [rad]; velocity ahead,
+        left, up.
+      spin: (1 + s, n, 3) angular velocity in the root's frame [rad/s].
+      soles: (1 + s, n, 6, 3) `layout.SOLE_POINTS` from the root, along the heading [m].
     """
 
     speeds: NDArray[np.float64]
@@ -105,7 +110,9 @@ class _Gait:
     """The gait at one speed while it is fitted."""
 
     def __init__(self, figure: Figure, speed: float) -> None:
-        self.model, self.speed, self.period = figure.model, speed, 2.0 / cadence(speed)
+        self.model, self.speed = figure.model, speed
+        self.period = 2.0 / (cadence(speed) if speed > 0.0 else _STEPS_IN_PLACE)
+        self.half_width = _HALF_WIDTH if speed > 0.0 else _IN_PLACE_HALF_WIDTH
         self.data, self.figure = mujoco.MjData(figure.model), figure
         self.feet = [figure.model.body(f"{side}_foot").id for side in ("right", "left")]
         self.joints = np.zeros((SAMPLES, len(JOINTS)))
@@ -118,7 +125,7 @@ class _Gait:
             self.attitude[:, axis] = 0.5 * (values - np.roll(values, SAMPLES // 2))
         self.height = np.zeros(SAMPLES)
         pendulum = 1.0 + (2.0 * np.pi / self.period) ** 2 / 10.3
-        self.sway = -1.27 * (_HALF_WIDTH + 0.003) / pendulum * np.sin(2 * np.pi * (_SHARES - 0.03))
+        self.sway = -1.27 * (self.half_width + 0.003) / pendulum * np.sin(2 * np.pi * (_SHARES - 0.03))
         self.ahead = np.full(SAMPLES, speed)
         self._begin()
 
@@ -182,7 +189,7 @@ class _Gait:
         """Solve hip abduction and rotation and ankle inversion of the right leg: the foot on its line, turned
         outward, level from side to side."""
         columns = [JOINTS.index(f"right_{name}") for name in _FRONTAL]
-        wanted, turned = np.array([-_HALF_WIDTH, -_TOE_OUT, 0.0]), quaternions(self.attitude)
+        wanted, turned = np.array([-self.half_width, -_TOE_OUT, 0.0]), quaternions(self.attitude)
 
         def error(k: int) -> NDArray[np.float64]:
             self._pose(k, turned[k])
@@ -259,10 +266,31 @@ def _stand(figure: Figure) -> _Gait:
     return gait
 
 
+def _in_place(figure: Figure) -> _Gait:
+    """Steps in place: each foot is lifted straight up by hip and knee and put down again, level."""
+    gait = _Gait(figure, 0.0)
+    gait.attitude[:, [0, 2]] *= _QUIETER
+    for name in ("shoulder_flexion", "elbow_flexion", "waist_roll", "waist_yaw", "chest_yaw"):
+        columns = [k for k, joint in enumerate(JOINTS) if joint.endswith(name)]
+        mean = np.radians(_STAND.get(name, 0.0))
+        values = gait.joints[:, columns]
+        gait.joints[:, columns] = mean + _QUIETER * (values - values.mean(axis=0))
+    begins, ends = stance(0.0) + 0.02, 0.98
+    share = np.clip((_SHARES - begins) / (ends - begins), 0.0, 1.0)
+    lifted = _IN_PLACE * np.sin(np.pi * share) ** 2
+    for name, part in (("hip_flexion", 1.0), ("knee_flexion", 2.0), ("ankle_flexion", 1.0)):
+        gait.put(name, math.radians(_STAND[name]) + part * lifted)
+    gait.put("toe_extension", np.zeros(SAMPLES))
+    gait.height = np.full(SAMPLES, -np.median(gait.soles()[:, :3, 2].min(axis=1)[_SHARES < begins]))
+    gait.set_straight()
+    gait.height -= np.median(gait.soles()[:, :3, 2].min(axis=1)[_SHARES < begins])
+    return gait
+
+
 def make_reference() -> Reference:
     """Fit the reference at all `SPEEDS`; takes some 10 s, always with the same result."""
     figure = Figure(whole=False, timestep=0.005)
-    gaits = [_stand(figure)]
+    gaits = [_stand(figure), _in_place(figure)]
     for speed in SPEEDS[1:]:
         gait = _Gait(figure, speed)
         gait.set_straight()
@@ -271,7 +299,7 @@ def make_reference() -> Reference:
         gaits.append(gait)
     rows = [_row(gait) for gait in gaits]
     arrays = {name: np.array([row[name] for row in rows]) for name in rows[0]}
-    return Reference(np.array(SPEEDS), np.array([gait.period for gait in gaits]), **arrays)
+    return Reference(np.array(SPEEDS), np.array([gait.period for gait in gaits[1:]]), **arrays)
 
 
 def _row(gait: _Gait) -> dict[str, NDArray[np.float64]]:

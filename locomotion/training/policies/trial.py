@@ -36,7 +36,7 @@ class PolicyTrial:
         self._waist = self.model.body("waist").id
         self._push_ends = 0
         data = self.data
-        for name, angle in zip(JOINTS, skill.motion.joints[0, 0], strict=True):
+        for name, angle in zip(JOINTS, skill.motion.stand, strict=True):
             data.qpos[7 + JOINT_NAMES.index(name)] = angle
         data.qpos[3:7] = [np.cos(0.5 * _LEAN), 0.0, np.sin(0.5 * _LEAN), 0.0]
         mujoco.mj_forward(self.model, data)

@@ -11,7 +11,7 @@ from locomotion.body.person import person_digest
 from locomotion.gaits.policy.skill import WALK_POLICY, Network, PolicySkill
 from locomotion.training.policies.agent import Agent
 from locomotion.training.policies.curriculum import STANDING, WALKING, Stage
-from locomotion.training.policies.environment import Starts, motion_of, stops
+from locomotion.training.policies.environment import Environment, Starts, motion_of, where_it_ended
 from locomotion.training.policies.learning import Learning, PolicyProgress
 from locomotion.training.policies.reference import make_reference
 from locomotion.training.policies.trial import PolicyTrial
@@ -53,7 +53,9 @@ def train_walk_policy(training: Training, out: str | os.PathLike[str] = WALK_POL
         return Learning(reference, stages, seed, checkpoint=checkpoint, on_progress=tell, starts=starts).run()
 
     walker = learn("walk", walking, 2 * training.seed)
-    ends = stops(reference, walking[-1], training.seed, lambda seen: walker.decide(walker.scaled(seen)))
+    stops = replace(walking[-1], stand=0.8, push=100.0)
+    environment = Environment(reference, stops, 256, training.seed)
+    ends = where_it_ended(environment, lambda seen: walker.decide(walker.scaled(seen)))
     stander = learn("stand", standing, 2 * training.seed + 1, ends)
     motion, meta = motion_of(reference), training.made_by("walk-policy")
     skill = PolicySkill(motion, network_of(walker), network_of(stander), meta)

@@ -23,7 +23,7 @@ class Surroundings:
 
     ``level`` is the same object through all changes of the level. ``populations``: all of the world, in the
     order in which they are advanced; complete once the world is made. ``skills``: descriptions of skills of
-    the user's own; ``rehearsals``: as of `runtime.World`; ``seed``: the world's.
+    the user's own; ``rehearsals``, ``walk``: as of `runtime.World`; ``seed``: the world's.
     """
 
     level: Level
@@ -32,6 +32,7 @@ class Surroundings:
     skills: tuple[Path, ...]
     rehearsals: int
     seed: int
+    walk: str
 
 
 class BodyKind(ABC):

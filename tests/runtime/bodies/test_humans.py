@@ -94,3 +94,16 @@ def test_what_a_person_cannot_do_yet_is_said(people):
     driver = people.spawn("human", np.array([2.0, 3.0, 0.0]), 0.0, 0.3)
     with pytest.raises(RuntimeInputError, match="cannot turn to a facing at its goal"):
         driver.go_to(np.array([[5.0, 3.0, 0.0]]), 1.4, 1.0)
+
+
+def test_people_walk_as_their_world_says():
+    level = floor((0.0, 0.0, 20.0, 4.0))
+    with pytest.raises(RuntimeInputError, match="walk must be one of 'planned', 'learned', not 'limp'"):
+        World(level, walk="limp")
+    world = World(level, walk="learned")
+    agent = world.spawn("human", (2.0, 2.0, 0.0))
+    agent.go_to((18.0, 2.0, 0.0), speed=1.2)
+    while not agent.human.on_feet.walks_as_learned and world.time < 10.0:
+        world.step(0.01)
+    assert agent.human.on_feet.walks_as_learned
+    assert not World(level).spawn("human", (2.0, 2.0, 0.0)).human.on_feet.walks_as_learned

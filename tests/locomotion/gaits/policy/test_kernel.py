@@ -19,8 +19,10 @@ from locomotion.training.policies.network import forward, new_layers
 def skill() -> PolicySkill:
     """A policy of random weights over a random motion."""
     rng = np.random.default_rng(3)
-    joints, rates = 0.2 * rng.standard_normal((2, 3, 16, len(at.JOINTS)))
-    motion = Motion(np.array([0.0, 0.9, 2.0]), np.array([1.6, 1.3, 0.9]), joints, rates)
+    joints, rates = 0.2 * rng.standard_normal((2, 4, 16, len(at.JOINTS)))
+    motion = Motion(
+        np.array([0.0, 0.9, 2.0]), np.array([1.6, 1.3, 0.9]), joints, rates, np.array([0.05, 0.15])
+    )
 
     def network():
         layers = new_layers((at.INPUTS, 16, 16, at.ACTIONS), rng, 0.5)
@@ -30,10 +32,10 @@ def skill() -> PolicySkill:
     return PolicySkill(motion, network(), network())
 
 
-def plain_tick(skill, memory, asked, seen, qvel):
+def plain_tick(skill, memory, asked, seen):
     """One decision in the plain form; ``memory`` (1, STATE_SIZE). Gives targets of the policy's joints."""
     if memory[0, at.STARTED]:
-        law.advance(memory, skill.motion, asked[None], qvel[None, :3])
+        law.advance(memory, skill.motion, asked[None], seen)
     memory[0, at.STARTED] = 1.0
     mean, deviation, *layers = skill.walk if memory[0, at.RUNNING] else skill.stand
     x = (law.observe(memory, seen) - mean) / deviation
@@ -50,9 +52,12 @@ def test_it_decides_as_the_plain_form_from_what_its_sensors_say(skill):
     memory[at.SPEED], memory[at.RUNNING] = 0.3, 1.0
     plain = memory[None].copy()
     columns = [JOINT_NAMES.index(name) for name in at.JOINTS]
-    halves, rested = set(), False
+    halves, states = set(), []
     for tick in range(160):
         asked = np.array([1.6 if tick < 45 else 0.0, 0.5])
+        if tick == 100:  # in a stand, on which it cannot stay
+            for each in (memory, plain[0]):
+                each[at.STARTED] = each[at.RUNNING] = 0.0
         mujoco.mj_step(model, data, STEPS_PER_TICK)
         feel(parts, data, felt)
         np.testing.assert_allclose(felt[SOLES], data.sensordata[SOLES], atol=1e-12)
@@ -61,14 +66,14 @@ def test_it_decides_as_the_plain_form_from_what_its_sensors_say(skill):
             data.qpos[None], data.qvel[None], data.qpos[None, figure.angles], data.qvel[None, figure.rates],
             felt[None, SOLES].reshape(1, 6, 3), felt[None, FORCES],
         )  # fmt: skip
-        wanted = plain_tick(skill, plain, asked, seen, data.qvel)
+        wanted = plain_tick(skill, plain, asked, seen)
         decide_tick(*skill.tables, memory, asked, felt, data.qpos, data.qvel, data.ctrl)
         halves.add(bool(memory[at.PHASE] >= 0.5))
-        rested |= not memory[at.RUNNING]
+        states.append(bool(memory[at.RUNNING]))
         np.testing.assert_allclose(memory, plain[0], atol=2e-5)
         np.testing.assert_allclose(data.ctrl[columns], wanted, atol=2e-5)
     assert halves == {False, True}, "both halves of the cycle were seen"
-    assert rested, "and a stand"
+    assert states == [True] * 100 + [False] + [True] * 59, "and a stand, and a step out of it"
 
 
 def test_the_mirror_image_of_a_person_decides_the_mirror_image(skill):
@@ -128,23 +133,71 @@ def test_signs_of_mirrored_joints_are_those_of_the_model():
     np.testing.assert_allclose(places[1], places[0][order] * [1.0, -1.0, 1.0], atol=1e-12)
 
 
+def standing(skill, memory, ahead=0.0, speed=0.0):
+    """A person that stands as the reference does, ``ahead`` [m] of its feet, and moves at ``speed`` [m/s]."""
+    soles = np.zeros((1, 6, 3))
+    soles[0, [0, 1, 3, 4], 0] = skill.motion.stance[0] - ahead
+    soles[0, :3, 1], soles[0, 3:, 1] = -0.5 * skill.motion.stance[1], 0.5 * skill.motion.stance[1]
+    qpos, qvel = np.zeros((1, 7)), np.zeros((1, 6))
+    qpos[0, 3], qvel[0, 0] = 1.0, speed
+    joints, forces = np.zeros((1, len(at.JOINTS))), np.full((1, 4), 0.25 * at.BODY_WEIGHT)
+    return law.Seen(qpos, qvel, joints, joints, soles, forces)
+
+
 def test_the_clock_stops_at_lift_off_after_an_order_to_stand(skill):
     memory = new_memory(0.0)[None]
     memory[:, at.RUNNING], memory[:, at.PHASE] = 1.0, 0.3
+    seen, compiled = standing(skill, memory), memory[0].copy()
+    body = np.zeros(46), np.zeros(45), np.zeros(39)
+    body[0][3] = 1.0
+    felt = np.append(seen.soles.ravel(), seen.forces)
     for _ in range(100):
-        law.advance(memory, skill.motion, np.zeros((1, 2)), np.zeros((1, 3)))
+        law.advance(memory, skill.motion, np.zeros((1, 2)), seen)
+        decide_tick(*skill.tables, compiled, np.zeros(2), felt, *body)
+        compiled[at.ACTION] = 0.0
+    decide_tick(*skill.tables, compiled, np.zeros(2), felt, *body)  # the first one does not go on
+    np.testing.assert_allclose(compiled[: at.ACTION.start], memory[0, : at.ACTION.start], atol=1e-12)
     assert memory[0, at.RUNNING] == 0.0
     assert memory[0, at.PHASE] in (law.LIFT_OFF, law.LIFT_OFF + 0.5)
-    law.advance(memory, skill.motion, np.array([[1.0, 0.0]]), np.zeros((1, 3)))
+    law.advance(memory, skill.motion, np.array([[1.0, 0.0]]), standing(skill, memory))
     assert memory[0, at.RUNNING] == 1.0
 
 
-def test_the_clock_goes_on_for_who_has_not_come_to_rest(skill):
+@pytest.mark.parametrize("what", [{"speed": 0.3}, {"ahead": 0.09}, {"lifted": 0}, {"apart": 0.3}], ids=str)
+def test_the_clock_goes_on_for_who_cannot_stand_yet(skill, what):
     memory = new_memory(0.0)[None]
     memory[:, at.RUNNING] = 1.0
+    what = dict(what)
+    lifted, apart = what.pop("lifted", None), what.pop("apart", 0.0)
+    seen = standing(skill, memory, **what)
+    if lifted is not None:
+        seen.forces[0, :2] = 0.0
+    seen.soles[0, :3, 0] += apart
     for _ in range(200):
-        law.advance(memory, skill.motion, np.zeros((1, 2)), np.array([[0.3, 0.0, 0.0]]))
+        law.advance(memory, skill.motion, np.zeros((1, 2)), seen)
     assert memory[0, at.RUNNING] == 1.0
+
+
+def test_who_is_pushed_off_its_feet_steps_with_the_one_that_bears_less(skill):
+    memory = new_memory(0.0)[None]
+    for side, phase in ((0, law.LIFT_OFF + 0.5), (1, law.LIFT_OFF)):  # which lifts the right, the left
+        memory[:, at.RUNNING] = 0.0
+        seen = standing(skill, memory, speed=0.2)
+        law.advance(memory, skill.motion, np.zeros((1, 2)), seen)
+        assert memory[0, at.RUNNING] == 0.0
+        seen = standing(skill, memory, speed=0.5)
+        seen.forces[0, 2 * side] = 0.0
+        law.advance(memory, skill.motion, np.zeros((1, 2)), seen)
+        assert memory[0, at.RUNNING] == 1.0
+        assert memory[0, at.PHASE] == pytest.approx(phase)
+
+
+def test_it_is_asked_for_more_where_it_is_too_slow(skill):
+    memory = new_memory(0.0)[None]
+    memory[:, [at.TOLD, at.SPEED, at.RUNNING]] = 1.0
+    for _ in range(400):
+        law.advance(memory, skill.motion, np.array([[1.0, 0.0]]), standing(skill, memory, speed=0.9))
+    assert memory[0, at.SPEED] == pytest.approx(1.0 + law.MOST_TRIM)
 
 
 def test_a_file_gives_back_the_policy(skill, tmp_path):

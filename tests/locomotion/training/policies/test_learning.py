@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from locomotion.gaits.policy.layout import ACTIONS, JOINTS, RUNNING
-from locomotion.training.policies.curriculum import WALKING
-from locomotion.training.policies.environment import Environment, stops
+from locomotion.gaits.policy.layout import ACTIONS, JOINTS, RESTED, RUNNING
+from locomotion.training.policies.curriculum import STANDING, WALKING
+from locomotion.training.policies.environment import Environment, where_it_ended
 from locomotion.training.policies.learning import LENGTH, Learning
 from locomotion.training.policies.reference import Reference, make_reference
 
@@ -22,7 +22,7 @@ def reference() -> Reference:
 def stages():
     """Two stages of two improvements each, with all that is random in an environment."""
     short = {"samples": 2 * LENGTH * PEOPLE, "longest": 20}
-    return replace(WALKING[0], **short), replace(WALKING[2], **short)
+    return replace(WALKING[0], **short), replace(WALKING[4], **short)
 
 
 def learning(reference, **options):
@@ -56,7 +56,7 @@ def test_the_reference_alone_walks_a_few_steps(reference):
 
 
 def test_pushes_push_and_orders_change(reference):
-    stage = replace(WALKING[2], push=300.0)
+    stage = replace(WALKING[4], push=300.0)
     environment = Environment(reference, stage, 64, seed=0)
     begun = environment.asked.copy()
     pushed = False
@@ -69,21 +69,27 @@ def test_pushes_push_and_orders_change(reference):
     assert environment.seen().angles.shape == (64, len(JOINTS))
 
 
-def test_who_stands_as_the_reference_is_in_balance_and_who_topples_is_not(reference):
-    environment = Environment(reference, replace(WALKING[2], speeds=(0.0, 0.0), stand=1.0), 8, seed=0)
-    environment.qvel[:] = 0.0
-    balance = environment._balance()
-    assert balance.min() > 0.7
-    environment.qvel[:, 0] = 0.6
-    assert environment._balance().max() < 0.2
+def decides_nothing(seen):
+    return np.zeros((len(seen), ACTIONS))
 
 
-def test_stops_are_people_whose_cycle_has_stopped(reference):
-    """Here with a policy that decides nothing, under orders to stand."""
-    stage = replace(WALKING[2], speeds=(0.4, 0.5), push=0.0)
-    found = stops(reference, stage, 0, lambda seen: np.zeros((len(seen), ACTIONS)), most=130)
+def test_who_could_stand_steps_on_while_the_walk_is_learned(reference):
+    stage = replace(WALKING[4], speeds=(0.0, 0.0), stand=1.0, push=0.0, longest=200)
+    environment = Environment(reference, stage, 40, seed=0)
+    environment.memory[:, RESTED] = 1.0
+    found = where_it_ended(environment, decides_nothing, most=14)
     assert found is not None
     assert (found.memory[:, RUNNING] == 0.0).all()
-    environment = Environment(reference, replace(stage, stand=1.0), 40, seed=0, starts=found)
-    taken = (environment.physics[:, None] == found.physics[None]).all(axis=2).any(axis=1)
+    assert (environment.memory[:, RUNNING] == 1.0).all()
+    standing = Environment(reference, STANDING[0], 40, seed=0, starts=found)
+    taken = (standing.physics[:, None] == found.physics[None]).all(axis=2).any(axis=1)
     assert 0.3 < taken.mean() < 1.0
+
+
+def test_a_stand_is_over_for_who_has_to_step(reference):
+    environment = Environment(reference, replace(STANDING[0], push=0.0, slope=0.0), 40, seed=0)
+    environment.qvel[:20, 0] = 1.0
+    environment.qvel[20:] = 0.0
+    outcome = environment.step(decides_nothing(environment.observe()))
+    assert outcome.fell[:20].all()
+    assert not outcome.fell[20:].any()

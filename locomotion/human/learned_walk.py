@@ -1,0 +1,160 @@
+"""The learned walk of a person: when it takes over from the planned one, and when it gives back.
+
+It walks at `SLOWEST` or faster on ground that is level all around the path ahead. Everything else is planned:
+standing, setting off and stopping, steps aside and on the spot, giving way, slopes, stairs and rubble, and
+the last steps before a run. Both change over where a foot has just come down.
+"""
+
+import math
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion.body.person import CONTROL_DT, PersonIndex
+from locomotion.gaits.policy import layout as at
+from locomotion.gaits.policy.kernel import Parts, decide_tick, feel, new_memory
+from locomotion.gaits.policy.level_ground import floor_at, is_level
+from locomotion.gaits.policy.skill import PolicySkill
+from locomotion.gaits.walk.controller import observe_walk
+from locomotion.gaits.walk.layout import (
+    CLOCK,
+    DOUBLE,
+    PHASE,
+    SINGLE,
+    WALK_HEADING,
+    WALK_SPEED,
+    WALK_STANCE,
+    WALK_STEPS,
+    WALK_TICKS,
+    WALK_TURN_RATE,
+    new_walk,
+    wrap,
+)
+from locomotion.human.intent import TURN_FIRST
+from locomotion.human.simulation import Simulation
+from locomotion.paths import table as path
+from locomotion.paths.command import HEADING_ASKED, SIDEWAYS_ASKED, SPEED_ASKED
+from locomotion.paths.follower import PathFollower
+
+__all__ = ["ACTIVE", "MEMORY_SIZE", "SLOWEST", "TICKS", "LearnedWalk"]
+
+SLOWEST = 0.6
+"""[m/s] asked for, below which the walk is planned."""
+_SEES, _LEAVES = 2.6, 1.6
+# [m] of level ground ahead with which it takes over, and without which it gives back
+_BEHIND = 0.5  # [m] behind it that have to be level, too: a foot is still there
+_ROOM = 0.8  # [m] more to where a run begins
+_MOST_TURN, _STEADY_TURN = 0.8, 0.6  # [rad/s] that it turns at most, and in bends that it takes over in
+_EAGERNESS = 2.0  # [1/s] of turning towards the heading asked for
+
+ACTIVE, TICKS = at.STATE_SIZE + at.FELT_SIZE, at.STATE_SIZE + at.FELT_SIZE + 1
+MEMORY_SIZE = TICKS + 1
+"""The memory of a `LearnedWalk`: the policy's memory, what it feels, whether it moves the person, and for how
+many ticks."""
+
+
+class LearnedWalk:
+    """``skill``: the networks. ``memory``: (MEMORY_SIZE,), all that has to be saved."""
+
+    def __init__(self, skill: PolicySkill) -> None:
+        self.skill = skill
+        self.memory = np.zeros(MEMORY_SIZE)
+        self._state, self._felt = self.memory[: at.STATE_SIZE], self.memory[at.STATE_SIZE : ACTIVE]
+        self._asked = np.zeros(2)
+        self._parts: tuple[mujoco.MjModel, Parts] | None = None
+
+    @property
+    def active(self) -> bool:
+        """Whether it moves the person."""
+        return bool(self.memory[ACTIVE] > 0.0)
+
+    def leave(self) -> None:
+        """Something else moves the person now."""
+        self.memory[ACTIVE] = 0.0
+
+    @property
+    def speed(self) -> float:
+        """[m/s] of its reference."""
+        return float(self._state[at.TOLD])
+
+    def suits(self, follower: PathFollower, body: Simulation, command: NDArray) -> bool:
+        """Whether it can walk on from here."""
+        way, active, arc = follower.path, self.active, follower.arc
+        if way is None or follower.pace < 1.0 or command[SPEED_ASKED] < SLOWEST:
+            return False
+        off = abs(wrap(command[HEADING_ASKED] - self._state[at.HEADING])) if active else 0.0
+        far = _LEAVES if active else _SEES
+        if off > TURN_FIRST or follower.remaining < far:
+            return False
+        rows = way.table
+        first = round(arc / way.length * (len(rows) - 1))
+        ahead = rows[first : first + round((far + _ROOM) / path.SPACING)]
+        turn = np.abs(ahead[:, path.CURVATURE]) * np.maximum(ahead[:, path.SPEED], SLOWEST)
+        if (ahead[:, path.GAIT] == path.RUN).any() or turn.max() > (_MOST_TURN if active else _STEADY_TURN):
+            return False
+        begin, z = max(arc - _BEHIND, 0.0), float(body.position[2])
+        return bool(is_level(body.lookup, rows, way.length, begin, arc + far, z))
+
+    def take_over(self, body: Simulation, walk: NDArray) -> None:
+        """Move a person from now on that walks as planned and has just put a foot down."""
+        data = body.data
+        self._state[:] = new_memory(walk[WALK_HEADING])
+        self._state[at.RUNNING] = 1.0
+        self._state[at.PHASE] = 0.0 if walk[WALK_STANCE] < 0.0 else 0.5
+        heading = walk[WALK_HEADING]
+        speed = math.cos(heading) * data.qvel[0] + math.sin(heading) * data.qvel[1]
+        self._state[[at.SPEED, at.TOLD]] = max(speed, SLOWEST)
+        self._state[at.TURN_RATE] = min(max(walk[WALK_TURN_RATE], -_MOST_TURN), _MOST_TURN)
+        self.memory[ACTIVE], self.memory[TICKS] = 1.0, 0.0
+        feel(self._feet(body.index, data), data, self._felt)
+
+    def give_back(self, body: Simulation, walk: NDArray, fastest: float) -> None:
+        """Let the planned walk go on, at ``fastest`` [m/s] at most, just after a foot came down."""
+        data = body.data
+        stance, steps, ticks = walk[WALK_STANCE], walk[WALK_STEPS], walk[WALK_TICKS]
+        heading = float(self._state[at.HEADING])
+        walk[:] = new_walk(heading)
+        observe_walk(body.index, data, walk)
+        walk[PHASE], walk[WALK_STANCE], walk[WALK_STEPS], walk[WALK_TICKS] = DOUBLE, stance, steps, ticks
+        speed = math.cos(heading) * data.qvel[0] + math.sin(heading) * data.qvel[1]
+        walk[WALK_SPEED] = min(max(speed, 0.0), fastest)
+        self.leave()
+
+    def tick(self, ground: tuple[NDArray, ...], command: NDArray, data: mujoco.MjData, walk: NDArray) -> None:
+        """One control tick: write the targets ``data.ctrl``, and what others read into ``walk``."""
+        state = self._state
+        before = state[at.PHASE]
+        if self.memory[TICKS] % at.TICKS_PER_DECISION == 0.0:
+            self._ask(command)
+            lowest = self._felt[at.SOLES].reshape(6, 3)[:, 2].min()
+            floor = floor_at(ground, data.qpos[0], data.qpos[1], lowest)
+            state[at.FLOOR] = floor if floor == floor else lowest
+            decide_tick(*self.skill.tables, state, self._asked, self._felt, data.qpos, data.qvel, data.ctrl)
+        self.memory[TICKS] += 1.0
+        landed = math.floor(2.0 * state[at.PHASE]) != math.floor(2.0 * before)
+        walk[WALK_TICKS] += 1.0
+        walk[PHASE], walk[CLOCK] = (DOUBLE, 0.0) if landed else (SINGLE, walk[CLOCK] + CONTROL_DT)
+        if landed:
+            walk[WALK_STANCE] = -1.0 if state[at.PHASE] < 0.5 else 1.0
+            walk[WALK_STEPS] += 1.0
+        walk[WALK_HEADING], walk[WALK_SPEED] = state[at.HEADING], state[at.TOLD]
+        walk[WALK_TURN_RATE] = state[at.TURN_RATE]
+
+    def _ask(self, command: NDArray) -> None:
+        """What ``command`` asks of a walk that makes no steps aside."""
+        speed = max(float(command[SPEED_ASKED]), SLOWEST)
+        aside = math.atan2(command[SIDEWAYS_ASKED], speed)
+        off = wrap(command[HEADING_ASKED] + aside - self._state[at.HEADING])
+        turn = min(max(_EAGERNESS * off, -_MOST_TURN), _MOST_TURN)
+        self._asked[at.ASKED_SPEED], self._asked[at.ASKED_TURN] = speed, turn
+
+    def observe(self, index: PersonIndex, data: mujoco.MjData) -> None:
+        """After the physics."""
+        if self.memory[TICKS] % at.TICKS_PER_DECISION == 0.0:
+            feel(self._feet(index, data), data, self._felt)
+
+    def _feet(self, index: PersonIndex, data: mujoco.MjData) -> Parts:
+        if self._parts is None or self._parts[0] is not data.model:
+            self._parts = data.model, Parts(index, data.model)
+        return self._parts[1]

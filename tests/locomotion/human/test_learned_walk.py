@@ -1,0 +1,100 @@
+"""A person with the learned walk: where it takes over, where it gives back, and that it is saved whole."""
+
+import numpy as np
+import pytest
+
+from locomotion.errors import LocomotionError
+from locomotion.gaits.policy.skill import load_policy
+from locomotion.ground.ground import Ground
+from locomotion.human.human import Human
+from locomotion.human.saved_state_check import check_person
+from tests.locomotion.human.people import finish, flat_ground
+
+
+def walker(ground=None, **options):
+    human = Human(ground, clearing=(), rehearsals=0, policy=load_policy(), **options)
+    human.reset((0.0, 0.0, 0.0), 0.0)
+    return human
+
+
+def learned_at(human, limit=40.0):
+    """Follow the path to its end; where it walked as learned, (n,) [m] of its way."""
+    places = []
+    while human.status == "walking" and human.time < limit:
+        human.tick()
+        if human.on_feet.walks_as_learned:
+            places.append(human.arc_length)
+    return np.array(places)
+
+
+def test_it_walks_as_learned_on_level_ground_and_stops_as_planned():
+    human = walker()
+    human.follow([[0, 0, 0], [9, 0, 0], [12, 3, 0]], 1.25)
+    places = learned_at(human)
+    assert human.status == "arrived"
+    assert len(places) > 0.4 * human.ticks
+    assert not human.on_feet.walks_as_learned
+
+
+def test_it_gives_back_before_a_kerb_and_where_it_is_told_to_stop():
+    kerb = np.array([[x, y, z] for x, z in ((-5, 0), (6, 0), (6.001, 0.1), (20, 0.1)) for y in (-3, 3.0)])
+    faces = [f for k in range(3) for f in ([2 * k, 2 * k + 2, 2 * k + 3], [2 * k, 2 * k + 3, 2 * k + 1])]
+    human = walker(Ground.from_arrays(kerb, faces))
+    human.follow([[0, 0, 0], [12, 0, 0.1]], 1.25)
+    places = learned_at(human)
+    assert human.status == "arrived"
+    assert not ((places > 5.3) & (places < 6.4)).any()
+    assert (places < 5.0).any()
+    human = walker()
+    human.follow([[0, 0, 0], [50, 0, 0]], 1.25)
+    while not human.on_feet.walks_as_learned:
+        human.tick()
+    human.stop()
+    begun = human.com
+    while not human.held:
+        human.tick()
+    assert human.status == "standing"
+    assert np.linalg.norm(human.com - begun) < 3.0
+    assert human.on_feet.at_rest(human.control)
+
+
+@pytest.mark.parametrize("moment", [40, 321])
+def test_a_saved_walk_goes_on_bit_for_bit(moment):
+    human, twin = walker(flat_ground()), walker(flat_ground())
+    human.follow([[0, 0, 0], [20, 0, 0]], 1.25)
+    while not human.on_feet.walks_as_learned:
+        human.tick()
+    for _ in range(moment):
+        human.tick()
+    state = human.save_state()
+    check_person(state, twin)
+    twin.restore_state(state)
+    for _ in range(150):
+        human.tick()
+        twin.tick()
+    assert human.state_hash() == twin.state_hash()
+
+
+def test_a_state_of_one_is_no_state_of_another():
+    planned = Human(flat_ground(), clearing=(), rehearsals=0)
+    with pytest.raises(LocomotionError, match="another model"):
+        check_person(walker(flat_ground()).save_state(), planned)
+
+
+def test_a_fallen_one_is_not_moved_any_more():
+    human = walker(flat_ground(), gets_up=True)
+    human.follow([[0, 0, 0], [20, 0, 0]], 1.25)
+    while not human.on_feet.walks_as_learned:
+        human.tick()
+    human.data.qvel[:2] = 0.0, 4.0
+    while human.status == "walking":
+        human.tick()
+    assert human.status == "getting up"
+    assert not human.on_feet.walks_as_learned
+
+
+def test_it_runs_from_there():
+    human = walker()
+    human.follow([[0, 0, 0], [25, 0, 0]], 3.3)
+    finish(human, 40.0)
+    assert human.status == "arrived"

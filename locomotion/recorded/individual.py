@@ -1,0 +1,116 @@
+"""How one figure differs from the next, all of them with the same recorded motion.
+
+A figure's traits are a row of `TRAITS`, by chance or by hand; 56 bytes. They are applied when a motion is
+sampled, so that ten who walk side by side are not in step, and none of them is like another::
+
+    traits = np.array([by_chance(seed) for seed in seeds])            # or by_hand(size=1.05, arms=1.3)
+    read, strides = pace_of(motions, gaits, speeds, traits)           # phases grow by speed / stride a second
+    sample = sample_gait(motions, level, gaits, read, phases + traits[:, PHASE])
+    sample = styled(skeleton(LEVELS[level]), sample, traits)
+    places = scaled(posed(skeleton(LEVELS[level]), *sample), traits)  # as seen from the point on the ground
+
+Feet do not slide for it: who takes longer strides plays the cycle of a higher speed more slowly.
+"""
+
+import math
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from locomotion.errors import LocomotionError
+from locomotion.recorded.motion_set import MotionSet
+from locomotion.recorded.sampling import Sample, stride_of
+from locomotion.recorded.skeletons import Skeleton
+
+__all__ = [
+    "ARMS", "LEAN", "PACE", "PHASE", "SIZE", "SPREAD", "TRAITS", "WIDTH", "by_chance", "by_hand", "pace_of",
+    "scaled", "styled",
+]  # fmt: skip
+
+PHASE, PACE, WIDTH, ARMS, LEAN, HEAD, SIZE = range(7)
+TRAITS = MappingProxyType(
+    {
+        "phase": (0.0, 0.0, 1.0),
+        "pace": (1.0, 0.8, 1.25),
+        "width": (0.0, -0.05, 0.15),
+        "arms": (1.0, 0.0, 2.0),
+        "lean": (0.0, -0.2, 0.3),
+        "head": (0.0, -0.3, 0.3),
+        "size": (1.0, 0.8, 1.2),
+    }
+)
+"""Traits in the order of a row: usual, least and greatest value.
+
+phase: what is added to the phase. pace: who has more takes longer and fewer strides at the same speed; it
+is the share of its speed whose strides it takes. width: what each leg is spread by [rad]. arms: how far
+they swing, as a share. lean: of the trunk, ahead [rad]. head: bent ahead [rad]. size: of the whole figure,
+as a share.
+"""
+SPREAD = (1.0, 0.05, 0.015, 0.25, 0.04, 0.06, 0.04)
+"""Standard deviations of the traits by chance; the phase is spread evenly."""
+_ARM_JOINTS, _SPREAD_JOINTS = ("shoulder_flexion", "elbow_flexion"), ("hip_abduction",)
+
+
+def by_hand(**traits: float) -> NDArray[np.float64]:
+    """A row of `TRAITS` (7,) float64: those that are named, and the usual ones. Raises `LocomotionError`
+    for an unknown trait, and for a value beyond its least and greatest."""
+    row = np.array([usual for usual, _, _ in TRAITS.values()])
+    for name, value in traits.items():
+        if name not in TRAITS:
+            raise LocomotionError(f"trait {name!r}: valid: {', '.join(TRAITS)}")
+        _, least, most = TRAITS[name]
+        if not least <= value <= most:
+            raise LocomotionError(f"{name} is {value}, expected {least:g} to {most:g}")
+        row[list(TRAITS).index(name)] = value
+    return row
+
+
+def by_chance(seed: int) -> NDArray[np.float64]:
+    """A row of `TRAITS` (7,) float64; the same ``seed`` gives the same row."""
+    chance = np.random.default_rng((seed, 16))
+    usual, least, most = np.array(list(TRAITS.values())).T
+    row = (usual + np.array(SPREAD) * chance.standard_normal(len(usual))).clip(least, most)
+    row[PHASE] = chance.random()
+    return row
+
+
+def pace_of(
+    motions: MotionSet, gaits: ArrayLike, speeds: ArrayLike, traits: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The speeds (n,) at which the gaits of n figures are to be sampled, which go at ``speeds`` (n,) [m/s],
+    and the strides (n,) [m] that they take. Tall figures move like smaller ones that are slower by the root
+    of their size, as pendulums do."""
+    size = traits[:, SIZE]
+    read = np.asarray(speeds, np.float64) * traits[:, PACE] / np.sqrt(size)
+    return read, size * stride_of(motions, gaits, read)
+
+
+def styled(skeleton: Skeleton, sample: Sample, traits: NDArray[np.float64]) -> Sample:
+    """A sample with the traits of its figures (n, 7)."""
+    channels, roots = sample[0].copy(), sample[1]
+    for k, name in enumerate(skeleton.channels):
+        joint = name.removeprefix("right_").removeprefix("left_")
+        if joint in _ARM_JOINTS:
+            rest = _REST[joint]
+            channels[:, k] = rest + traits[:, ARMS] * (channels[:, k] - rest)
+        elif joint in _SPREAD_JOINTS:
+            channels[:, k] += traits[:, WIDTH]
+        elif joint == "waist_pitch":
+            channels[:, k] += traits[:, LEAN]
+        elif joint == "neck_pitch":
+            channels[:, k] += traits[:, HEAD] - traits[:, LEAN]
+        elif joint == "ankle_inversion":
+            channels[:, k] += traits[:, WIDTH]
+    return channels, roots
+
+
+_REST = {"shoulder_flexion": math.radians(-5.0), "elbow_flexion": math.radians(25.0)}
+# [rad] about which arms swing
+
+
+def scaled(places: NDArray[np.float64], traits: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Places (n, b, 7), told from the point of the ground under each figure, of figures of their own size."""
+    out = places.copy()
+    out[..., :3] *= traits[:, SIZE, None, None]
+    return out

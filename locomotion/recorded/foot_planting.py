@@ -50,6 +50,7 @@ _OVER = 0.12  # height of a swing over the line between two footfalls, per heigh
 _BEFORE = 0.6  # share of a swing in which a foot that goes up comes to its height
 _HEEL_AHEAD, _BALL_AHEAD = HEEL[0], BALL[0]
 _LOWEST = 0.3  # [m] by which the pelvis is lowered at most for feet to reach the ground
+_SETTLED = 0.01  # [m] over the ground, up to which an end of a sole counts as on it
 _ROUNDS = 3  # of solving a leg whose ankle cannot turn in or out
 
 
@@ -139,6 +140,8 @@ def _foot(footing, stride, phase, foot, steps, axes, point):
     free = _smooth(swung / _FADES) * _smooth((1.0 - swung) / _FADES)
     share = (x - footing[AHEAD]) / stride + since - 0.5 * footing[BEARS]
     share = free * min(max(share, 0.0), 1.0) + (1.0 - free) * (0.0 if swung < 0.5 else 1.0)
+    # a foot that stands may still have its ball off the ground, on its toes
+    height = free * max(z, 0.0) + (1.0 - free) * max(z - _SETTLED, 0.0)
     rise = steps[1, 2] - steps[0, 2]
     risen = _smooth(share / _BEFORE) if rise > 0.0 else _smooth((share - 1.0 + _BEFORE) / _BEFORE)
     over = _OVER * abs(rise) * 4.0 * share * (1.0 - share)
@@ -151,7 +154,7 @@ def _foot(footing, stride, phase, foot, steps, axes, point):
     left_x, left_y = -math.sin(way - footing[TURNED]), math.cos(way - footing[TURNED])
     point[0] = steps[0, 0] + share * (steps[1, 0] - steps[0, 0]) + left * left_x - flat * math.cos(heading)
     point[1] = steps[0, 1] + share * (steps[1, 1] - steps[0, 1]) + left * left_y - flat * math.sin(heading)
-    point[2] = steps[0, 2] + rise * risen + over + free * max(z, 0.0) - half * math.sin(slope)
+    point[2] = steps[0, 2] + rise * risen + over + height - half * math.sin(slope)
     return end, steps[0, 2] + swung * rise
 
 

@@ -51,6 +51,8 @@ class Clip(BaseModel):
         rest: of a cycle: the clip of the posture that the gait slows down to, or "".
         bears: of a cycle on two feet: the share of it for which each foot bears, from when it strikes, the
             right one at 0, the left one at 0.5. 0 for others: their feet are not planted.
+        obstacle: of a skill: how far ahead of its beginning the near edge of the obstacle was, how high that
+            was, and how deep, or wide [m]. 0 for others.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
@@ -64,6 +66,7 @@ class Clip(BaseModel):
     travel: tuple[float, float, float] = (0.0, 0.0, 0.0)
     rest: str = ""
     bears: Annotated[float, Ge(0.0), Lt(1.0)] = 0.0
+    obstacle: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     @model_validator(mode="after")
     def _is_of_a_kind(self) -> Self:

@@ -12,8 +12,11 @@ from locomotion.recorded.skeletons import LEVELS, Skeleton, skeleton
 from locomotion.recorded.slaving import slaved
 from locomotion.recorded.takes.arcs import posture_takes
 from locomotion.recorded.takes.cleaning import backwards, cleaned
+from locomotion.recorded.takes.crawl import crawl_cycles
 from locomotion.recorded.takes.cycles import run_cycles, walk_cycles
-from locomotion.recorded.takes.take import Take, spread
+from locomotion.recorded.takes.skills import falls_and_rises, obstacle_takes
+from locomotion.recorded.takes.take import Take, Told, spread
+from locomotion.recorded.takes.turns import turn_cycles
 from surefoot.progress import Progress
 
 __all__ = ["Recorded", "motion_set_of", "record_person"]
@@ -39,11 +42,21 @@ def record_person(graph: PostureGraph, origin: str, progress: Progress) -> Recor
         takes += cycles
         if label == "walking":
             takes += [backwards(take, "walk backwards") for take in cycles if take.clip.speed < _BACKWARDS]
+            takes += turn_cycles(cycles[0])
+    if "prone" in graph.postures:
+        takes += crawl_cycles(graph.poses[graph.postures.index("prone")])
+    for label, record in (("obstacles", obstacle_takes), ("getting up", falls_and_rises)):
+        with progress.stage(label) as stage:
+            takes += record(stage.update)
     with progress.stage("mapping to lower levels") as stage:
         return motion_set_of(takes, stage.update)
 
 
-def motion_set_of(takes: Sequence[Take], told=lambda share, what: None) -> Recorded:
+def _untold(share: float, what: str) -> None:
+    pass
+
+
+def motion_set_of(takes: Sequence[Take], told: Told = _untold) -> Recorded:
     """The set of ``takes``, mapped to all levels."""
     levels, warnings = [], []
     for number, name in enumerate(LEVELS):
@@ -51,7 +64,7 @@ def motion_set_of(takes: Sequence[Take], told=lambda share, what: None) -> Recor
         for k, take in enumerate(takes):
             told((number + k / len(takes)) / len(LEVELS), f"{take.clip.name}, {name}")
             qpos, stance = _at_rate(take, figure)
-            found = slaved(qpos, figure, take.held, take.clip.name, figure.rate)
+            found = slaved(qpos, figure, take.held, take.clip.name, figure.rate, take.clip.kind == "cycle")
             warnings += found.warnings
             parts.append((found.channels, qpos[:, :7], stance))
         count = np.array([len(part[0]) for part in parts], np.int64)

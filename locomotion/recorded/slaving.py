@@ -6,8 +6,8 @@ master, most important first: a hand on a held object before the feet, and these
 landmark misses its tolerance, there is a warning. The solver is that of `mink` (``pip install
 surefoot[record]``).
 
-Every frame is solved on its own from its guess, so that the slave moves as smoothly as its master, also from
-the end of a cycle to its beginning.
+Each frame is solved from where the one before it ended, and held near its guess, so that the slave moves as
+smoothly as its master. A cycle is gone through twice, so that its end meets its beginning.
 """
 
 from collections.abc import Sequence
@@ -37,8 +37,10 @@ HELD_TOLERANCE = 0.005
 """[m] the same of a hand on a held object."""
 _HELD, _FOOT, _HAND, _HINT = 30.0, 5.0, 3.0, 0.5  # costs of missing, per m; a hint may be missed
 _LIMBS, _TRUNK = 0.06, 1.0  # costs of leaving the guess, per rad
-_ITERATIONS, _STILL = 30, 1e-4  # [rad] change in an iteration that ends the search
-_DAMPING = 1e-4
+_ITERATIONS, _STILL = 60, 1e-4  # [rad] change in an iteration that ends the search
+_DAMPING, _CAUTION = 1e-4, 1.0  # of a step, and in proportion to how far a landmark is off
+_FARTHER = 0.3  # [rad]
+_CLEARLY = 0.5  # share of a miss to which a fresh start has to bring it, if the motion is to jump for it
 
 
 @dataclass(frozen=True)
@@ -106,9 +108,14 @@ def landmarks_of(qpos: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def slaved(
-    qpos: NDArray[np.float64], slave: Skeleton, held: Sequence[str] = (), name: str = "", rate: float = 60.0
+    qpos: NDArray[np.float64],
+    slave: Skeleton,
+    held: Sequence[str] = (),
+    name: str = "",
+    rate: float = 60.0,
+    cyclic: bool = False,
 ) -> Slaved:
-    """Map frames (n, 46) of the full figure to ``slave``.
+    """Map frames (n, 46) of the full figure to ``slave``; ``cyclic``: the first follows the last.
 
     ``held``: landmarks that hold an object, such as "right_hand". ``name`` of the motion and its ``rate``
     [Hz] are used in warnings. Raises `LocomotionError` if mink is not installed, or for an unknown landmark.
@@ -121,8 +128,15 @@ def slaved(
     if slave.name != "full":
         solver = _solver(slave)
         channels = channels.clip(*solver.model.jnt_range.T)
-        for k in range(len(qpos)):
-            channels[k] = solver.solved(channels[k], targets[k], held)
+        guesses, last = channels, channels[0]
+        channels = guesses.copy()
+        for k in [*range(len(qpos)), *range(len(qpos) if cyclic else 0)]:
+            channels[k], off = solver.solved(last, guesses[k], targets[k], held)
+            if off > TOLERANCES[slave.name]:  # it may have gone astray
+                afresh, still_off = solver.solved(guesses[k], guesses[k], targets[k], held)
+                if still_off < _CLEARLY * off:
+                    channels[k] = afresh
+            last = channels[k]
     roots = np.tile([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], (len(qpos), 1))
     missed = np.linalg.norm(landmarks_of(slave.as_qpos(channels, roots)) - targets, axis=2)
     return Slaved(channels, missed, _warnings(missed, slave, held, name, rate))
@@ -166,9 +180,18 @@ class _Solver:
         for landmark in LANDMARKS:
             spec.body(landmark.body).add_site(name=f"landmark {landmark.name}", pos=landmark.point)
         self.model = spec.compile()
+        # a joint that stands for several may turn farther than it does in a person
+        low, high = self.model.jnt_range.T
+        self.model.jnt_range[:] = np.stack([low - _FARTHER, high + _FARTHER], axis=1).clip(-np.pi, np.pi)
         self.configuration = mink.Configuration(self.model)
         self.tasks = [
-            mink.FrameTask(f"landmark {landmark.name}", "site", position_cost=1.0, orientation_cost=0.0)
+            mink.FrameTask(
+                f"landmark {landmark.name}",
+                "site",
+                position_cost=1.0,
+                orientation_cost=0.0,
+                lm_damping=_CAUTION,
+            )
             for landmark in LANDMARKS
         ]
         trunk = [name.startswith(("waist", "chest", "neck")) for name in slave.channels]
@@ -177,12 +200,17 @@ class _Solver:
         self.limits = [mink.ConfigurationLimit(self.model)]
 
     def solved(
-        self, guess: NDArray[np.float64], targets: NDArray[np.float64], held: Sequence[str]
-    ) -> NDArray[np.float64]:
-        """Channels (c,) that bring the landmarks to ``targets`` (8, 3), beginning with a ``guess`` (c,)."""
+        self,
+        start: NDArray[np.float64],
+        guess: NDArray[np.float64],
+        targets: NDArray[np.float64],
+        held: Sequence[str],
+    ) -> tuple[NDArray[np.float64], float]:
+        """Channels (c,) that bring the landmarks to ``targets`` (8, 3) and are near a ``guess`` (c,), from a
+        ``start`` (c,); and how far the worst landmark that counts is off [m]."""
         mink = self.mink
         self.posture.set_target(guess)
-        self.configuration.update(guess)
+        self.configuration.update(start)
         for landmark, task, target, counts in zip(LANDMARKS, self.tasks, targets, self.matched, strict=True):
             free = _HAND if landmark.name.endswith("hand") else _FOOT if counts else _HINT
             task.set_position_cost(_HELD if landmark.name in held else free)
@@ -194,7 +222,12 @@ class _Solver:
             self.configuration.integrate_inplace(step, 1.0)
             if np.abs(step).max() < _STILL:
                 break
-        return self.configuration.q.copy()
+        off = [
+            float(np.linalg.norm(self.configuration.data.site(task.frame_name).xpos - target))
+            for task, target, counts in zip(self.tasks, targets, self.matched, strict=True)
+            if counts
+        ]
+        return self.configuration.q.copy(), max(off)
 
 
 @cache

@@ -1,4 +1,4 @@
-"""Straight courses of obstacles as levels of triangles, and what happens when a person runs over one."""
+"""What happens when a person runs over a straight course of obstacles."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -6,14 +6,13 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion import MOVING, Ground, Human, ObstacleAhead
+from locomotion import MOVING, Ground, Human
 from locomotion.body_events import Cleared, TookOff
-from locomotion.ground.ground import extruded
 from locomotion.rehearsal.contact_report import ContactReport, Watcher
 from locomotion.rehearsal.trials import REHEARSALS
+from locomotion.skills.course import AFTER, Course, make_course
 from locomotion.skills.interface import ClearingSkill
 from locomotion.skills.registry import skill_kind
-from navmesh.obstacles.kinds import kind_of
 
 __all__ = [
     "AFTER",
@@ -27,26 +26,10 @@ __all__ = [
     "run_course",
 ]
 
-AFTER = 15.0
-"""[m] from the last obstacle to the goal."""
 SPEED = 3.5
 """[m/s] asked for on the way."""
 _SLOWEST = 0.5  # [m/s]: who is slower over the whole course has not made it
-_HALF = 5.0  # [m] of the course's width
-_PIT = 3.0  # [m] of depth of a gap
-_EDGE = 1e-3  # [m] of the path on both sides of an edge
 _FALLEN = ("in the run-up", "in the skill", "afterwards")
-
-
-@dataclass(frozen=True)
-class Course:
-    """A course along x. vertices (v, 3), faces (f, 3): the level. path (n, 3) [m]: along its middle, from the
-    start to the goal. obstacles: what the path crosses, in order."""
-
-    vertices: NDArray[np.float64]
-    faces: NDArray[np.int64]
-    path: NDArray[np.float64]
-    obstacles: tuple[ObstacleAhead, ...]
 
 
 @dataclass(frozen=True)
@@ -69,38 +52,6 @@ class CourseRun:
     seconds: float = 0.0
     reports: list[ContactReport] = field(default_factory=list)
     frames: list[NDArray[np.float64]] = field(default_factory=list)
-
-
-def make_course(
-    obstacles: Sequence[tuple[str, float, float]], distances: Sequence[float], margin: float = 5.0
-) -> Course:
-    """A course of ``obstacles``, each (affordance, height (gap: width) [m], thickness [m]), ``distances`` [m]
-    after the start and after each other. Thickness is that of what one gets over; elsewhere it does not
-    count."""
-    x = z = 0.0
-    profile, path, ahead = [(-margin, 0.0)], [(0.0, 0.0)], []
-    for (affordance, size, thickness), distance in zip(obstacles, distances, strict=True):
-        x += distance
-        path.append((x - _EDGE, z))
-        crossing = kind_of(affordance).crossing
-        height, depth = {"over": (size, thickness), "across": (0.0, size)}.get(crossing, (size, 0.0))
-        top = z + height if crossing != "off" else z
-        edge = np.array([x, 0.0, top])
-        ahead.append(ObstacleAhead(x, affordance, height, edge, np.array([-1.0, 0.0, 0.0]), depth))
-        profile.append((x, z))
-        if crossing == "over":
-            profile += [(x, top), (x + depth, top), (x + depth, z)]
-        elif crossing == "across":
-            profile += [(x, z - _PIT), (x + depth, z - _PIT), (x + depth, z)]
-        else:
-            z += height if crossing == "onto" else -height
-            profile.append((x, z))
-        path.append((x + _EDGE, z))
-    path.append((x + AFTER, z))
-    profile.append((x + AFTER + margin, z))
-    vertices, faces = extruded(profile, _HALF)
-    points = np.array([[x, 0.0, z] for x, z in path])
-    return Course(vertices, faces, points, tuple(ahead))
 
 
 def enter_course(

@@ -36,7 +36,7 @@ def main() -> None:
     order = [BODY_NAMES.index(name) for name in shown.bodies]
     corners = HALF * np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]])
     ground = Triangles(corners, np.array([[0, 1, 2], [0, 2, 3]]))
-    sheet = Sheet(figsize=(18, 6.6), dpi=75, layout="constrained")
+    sheet = Sheet(figsize=(18, 7.0), dpi=75, layout="constrained")
     for level, row in enumerate(sheet.subplots(len(LEVELS), sum(CLIPS.values()))):
         panels, own = iter(row), skeleton(LEVELS[level])
         for name, count in CLIPS.items():
@@ -46,10 +46,12 @@ def main() -> None:
                 places = whole_figures(own, posed(own, *sample))[0][order]
                 target = np.array([*places[0, :2], 0.8])
                 camera = Camera(target + np.array([0.8, -3.4, 0.4]), target, 0.62)
-                axes, label = next(panels), f"{name}, {moment:.2f} s" if level == 0 else ""
-                show_frame(axes, render(ground, [shown.posed(places)], camera, (210, 330)), label)
-        row[0].set_ylabel(LEVELS[level])
-        row[0].text(0.05, 0.93, LEVELS[level], transform=row[0].transAxes, fontsize=13)
+                axes = next(panels)
+                show_frame(axes, render(ground, [shown.posed(places)], camera, (210, 330)), "")
+                words = f"{moment:.2f} s" if level else name if moment < motions.seconds[clip] / count else ""
+                told = axes.text(0.02, 1.03, words, transform=axes.transAxes, fontsize=10)
+                told.set_in_layout(False)
+        row[0].text(0.05, 0.9, LEVELS[level], transform=row[0].transAxes, fontsize=13)
     sheet.savefig(file)
 
 

@@ -23,9 +23,11 @@ from locomotion.recorded.skeletons import LEVELS, skeleton
 
 __all__ = ["STEPS", "Update", "applied", "changes", "decoded", "encoded", "in_steps", "moment_of"]
 
-STEPS = (0.001, 0.002, 0.005)
-"""[rad] of one step of an angle, by level."""
+STEPS = (0.001, 0.004, 0.025)
+"""[rad] of one step of an angle, by level: 1 mm at the end of an arm near by, 2 cm far away, where every
+angle fits in a byte."""
 _HEAD = struct.Struct("<IB")
+_WIDE = 128
 
 
 class Update(NamedTuple):
@@ -61,9 +63,11 @@ def applied(before: NDArray[np.int16], update: Update) -> NDArray[np.int16]:
 
 def encoded(figure: int, update: Update) -> bytes:
     """An update as bytes, little-endian: the figure's number (uint32), how many channels (uint8), their
-    indices (uint8 each) and values (int16 each)."""
-    head = _HEAD.pack(figure, len(update.indices))
-    return head + update.indices.tobytes() + update.values.astype("<i2").tobytes()
+    indices (uint8 each) and values. These are int8 each if all of them fit, else int16, and 128 is added to
+    the count."""
+    count, wide = len(update.indices), bool((update.values != update.values.astype(np.int8)).any())
+    values = update.values.astype("<i2" if wide else np.int8)
+    return _HEAD.pack(figure, count + _WIDE * wide) + update.indices.tobytes() + values.tobytes()
 
 
 def decoded(packet: bytes) -> tuple[int, Update]:
@@ -71,9 +75,10 @@ def decoded(packet: bytes) -> tuple[int, Update]:
     if len(packet) < _HEAD.size:
         raise LocomotionError(f"a packet of {len(packet)} bytes, expected {_HEAD.size} or more")
     figure, count = _HEAD.unpack_from(packet)
-    if len(packet) != _HEAD.size + 3 * count:
-        wanted = _HEAD.size + 3 * count
+    wide, count = count >= _WIDE, count % _WIDE
+    wanted = _HEAD.size + (3 if wide else 2) * count
+    if len(packet) != wanted:
         raise LocomotionError(f"a packet of {len(packet)} bytes for {count} channels, expected {wanted}")
     indices = np.frombuffer(packet, np.uint8, count, _HEAD.size)
-    values = np.frombuffer(packet, "<i2", count, _HEAD.size + count).astype(np.int16)
+    values = np.frombuffer(packet, "<i2" if wide else np.int8, count, _HEAD.size + count).astype(np.int16)
     return figure, Update(indices, values)

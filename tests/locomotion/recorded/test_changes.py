@@ -9,9 +9,11 @@ from locomotion.recorded.skeletons import FULL, LEVELS, LOW, MEDIUM
 
 
 def test_what_is_received_is_what_was_sent():
+    """With values of one byte and of two."""
     rng, sent, received = np.random.default_rng(4), None, None
     for k in range(50):
-        angles = in_steps(LOW, np.where(rng.random(17) < 0.3, rng.uniform(-3, 3, 17), 0.5))
+        level = LOW if k % 2 else FULL
+        angles = in_steps(level, np.where(rng.random(17) < 0.3, rng.uniform(-3, 3, 17), 0.5))
         update = changes(sent, angles)
         if update is not None:
             figure, got = decoded(encoded(70_000 + k, update))

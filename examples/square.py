@@ -102,7 +102,7 @@ def watch(scene: Square, seconds: float) -> None:
     view.close()
 
 
-def draw(scene: Square, path: Path) -> None:
+def draw(scene: Square, path: Path, size: tuple[int, int] = (640, 400)) -> None:
     """Draw it as the viewer, as one on the other side, and from above."""
     from matplotlib.image import imsave
 
@@ -114,7 +114,7 @@ def draw(scene: Square, path: Path) -> None:
     middle = np.array([0.0, 0.0, 0.8])
     eyes = [(eye, middle), (eye * [-1, -1, 1], middle), (np.array([-28.0, -28.0, 24.0]), np.zeros(3))]
     level = Triangles(terrain.vertices, terrain.faces)
-    pictures = [render(level, shapes, Camera(*each), (640, 400), reach=90.0) for each in eyes]
+    pictures = [render(level, shapes, Camera(*each), size, reach=90.0) for each in eyes]
     imsave(path, np.concatenate(pictures))
 
 

@@ -29,7 +29,7 @@ WALKS = (0.4, 0.65, 0.9, 1.1, 1.25)
 """[m/s] asked of the walks."""
 RUNS = (2.6, 3.0, 3.5, 4.0, 4.5)
 """[m/s] asked of the runs."""
-_WARM_UP, _NOTED, _EVERY = 300, 130, 2  # ticks: until steady, of which moments are kept, and of these each
+_WARM_UP, _NOTED, _EVERY = 220, 130, 2  # ticks: until steady, of which moments are kept, and of these each
 _LEGS = np.array([k for k, name in enumerate(JOINT_NAMES) if "hip" in name or "knee" in name])
 _AHEAD = 0.06  # [s] for which rates of joints count as much as their angles
 _SPEEDS = 1.0  # [rad per m/s] what another speed counts

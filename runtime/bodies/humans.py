@@ -34,6 +34,7 @@ from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.saved_arrays import check_array, check_number
 from locomotion.skills.interface import ClearingSkill, skill_ranges
 from locomotion.skills.library import learned_skills
+from locomotion.skills.registry import CLEARING
 from runtime.bodies.figure import Figure
 from runtime.bodies.protocol import PLANS_KEPT, Driver, Follower, Population, recall, saved_parts
 from runtime.errors import RuntimeInputError
@@ -316,6 +317,12 @@ class HumanDriver(Driver):
     def take(self, posture: str, held: str, state: str) -> None:
         self.human.stop()
         self.human.events.append(PostureReached(self.human.time, self.human.point, posture, ""))
+
+    @property
+    def on_its_feet(self) -> bool:
+        """Whether it stands, walks or runs, and nothing else."""
+        human = self.human
+        return not human.fours.active and human.status not in (*CLEARING.values(), "fallen", "getting up")
 
     def drawn(self) -> tuple[np.ndarray, np.ndarray]:
         """The pose (46,) in which it is drawn, and how fast that changes (45,), as `fading.rates`."""

@@ -61,7 +61,7 @@ class Persons(Population):
             next(played) if isinstance(driver, RecordedDriver) else driver.transforms() for driver in drivers
         ]
 
-    def at_level(self, driver: Driver, level: str) -> Driver | None:
+    def at_level(self, driver: Driver, level: str, at_once: bool = False) -> Driver | None:
         if isinstance(driver, RecordedDriver) and level in LEVELS:
             driver.draw_at(level)
             return driver
@@ -69,6 +69,8 @@ class Persons(Population):
             return driver
         taken: Driver | None = None
         if isinstance(driver, HumanDriver):
+            if not (at_once or driver.on_its_feet):
+                return None
             taken = self.recorded.take_over(driver, level)
         elif isinstance(driver, RecordedDriver):
             taken = self.physical.take_over(driver.person)

@@ -279,9 +279,10 @@ class Population(ABC):
     def revive(self, body: str, state: Any) -> Driver:
         """A body where and as it was when its driver was saved."""
 
-    def at_level(self, driver: Driver, level: str) -> Driver | None:
+    def at_level(self, driver: Driver, level: str, at_once: bool = False) -> Driver | None:
         """The same body moved by physics or by recorded motion, as `Driver.detail` says, from where and as it
-        is: its driver from now on. None while that cannot be; it is asked again then."""
+        is: its driver from now on. None while that cannot be; it is asked again then. ``at_once``: even while
+        it clears an obstacle or lies on the ground."""
         return driver if level == driver.detail else None
 
     @abstractmethod

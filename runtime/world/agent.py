@@ -40,6 +40,7 @@ from runtime.world.level_of_detail import AUTO, PHYSICS, checked_detail
 __all__ = ["Agent", "AgentState", "Pose"]
 
 _POSTURED = "full"  # the level of a simulated person while it takes a posture
+_FATAL = "dead"  # the posture that is taken at once
 _CARRIED_OFF = 0.5  # [m] beside its path from which a person that has got up takes another one
 _ATTEMPTS = 3  # of a person that is stuck or lost to find another way to its goals
 _TURNINGS = 6  # times that it goes back before the same obstacle, until it is stuck
@@ -244,8 +245,8 @@ class Agent:
         tells when it is in it.
 
         Postures are recorded motion: a simulated person plays it meanwhile, and is simulated again once it
-        stands. Raises `RuntimeInputError` for a posture that it does not have or cannot get to, and for
-        bodies that have none.
+        stands. Raises `RuntimeInputError` for a posture that it does not have or cannot get to, while a
+        simulated person clears an obstacle or lies on the ground (but "dead"), and for bodies that have none.
         """
         self._take(posture, *self._driver.held_in(posture))
 
@@ -257,17 +258,17 @@ class Agent:
     def _take(self, posture: str, held: str, state: str) -> None:
         self._driver.check_posture(posture, held, state)
         if self.level == PHYSICS and (posture, state) != ("stand", "stowed"):
-            self.stop()
-            self.change_level(_POSTURED)
+            if not self.change_level(_POSTURED, at_once=posture == _FATAL):
+                raise RuntimeInputError(f"{self.name} is {self.status}; it takes a posture once it stands")
         self._errand, self._blocked = Errand(), False
         self._driver.take(posture, held, state)
 
-    def change_level(self, level: str) -> bool:
-        """Be moved at another level of detail from now on, if that can be now; it goes on with what it does.
-        The world calls this."""
+    def change_level(self, level: str, at_once: bool = False) -> bool:
+        """Be moved at another level of detail from now on, if that can be now, or ``at_once`` in any case; it
+        goes on with what it does. The world calls this."""
         self.notice()
         going, goals = self.moving, self._goals_left if self._errand.goals else None
-        driver = self._host.at_level(self, level)
+        driver = self._host.at_level(self, level, at_once)
         if driver is None:
             return False
         if driver is not self._driver:

@@ -33,11 +33,11 @@ class Clock:
 @dataclass(frozen=True)
 class Host:
     """``remove`` takes a `runtime.Agent` out of the world; ``at_level`` gives the driver of an agent at a
-    level of detail, None while it cannot have it; ``levels`` those that a body has."""
+    level of detail (and whether at once), None while it cannot have it; ``levels`` those that a body has."""
 
     clock: Clock
     log: EventLog
     traffic: Traffic
     remove: Callable[[Any], None]
-    at_level: Callable[[Any, str], Driver | None]
+    at_level: Callable[[Any, str, bool], Driver | None]
     levels: Callable[[str], tuple[str, ...]]

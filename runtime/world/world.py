@@ -293,8 +293,8 @@ class World:
         for agent in self.agents.values():
             agent.look_at_way()
 
-    def _at_level(self, agent: Agent, level: str) -> Driver | None:
-        return self._population(agent.body).at_level(agent.driver, level)
+    def _at_level(self, agent: Agent, level: str, at_once: bool) -> Driver | None:
+        return self._population(agent.body).at_level(agent.driver, level, at_once)
 
     def _choose_levels(self) -> None:
         """Bring people to the levels of detail that they should have, some of them in each call."""

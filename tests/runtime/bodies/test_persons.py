@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from runtime import Budget, PostureReached, Viewer, World
+from locomotion.human.falls import fall
+from runtime import Budget, PostureReached, RuntimeInputError, Viewer, World
 
 
 @pytest.mark.parametrize("moves", [False, True])
@@ -57,3 +58,18 @@ def test_who_comes_near_a_viewer_is_simulated_and_who_is_far_is_not(graph):
     world.viewers = [Viewer((6.5, 3.0, 1.7), (-1.0, 0.0, 0.0))]
     world.step(0.5)
     assert world.state_hash() == after
+
+
+def test_who_lies_on_the_ground_takes_no_posture_but_the_last(graph):
+    world = World(graph)
+    ada = world.spawn("human", (3.0, 3.0, 0.0), detail="auto")
+    world.viewers = [Viewer((0.0, 3.0, 1.7))]
+    world.step(0.11)
+    fall(ada.human, True)
+    world.viewers = []
+    world.step(0.3)
+    assert ada.level == "physics"  # it does not rise like a ghost
+    with pytest.raises(RuntimeInputError, match="is getting up; it takes a posture once it stands"):
+        ada.take_posture("kneel")
+    ada.take_posture("dead")
+    assert ada.level == "full"

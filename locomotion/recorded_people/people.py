@@ -70,6 +70,10 @@ class RecordedPeople:
         names = self.graph.postures
         self.bases = np.array([names.index(name.partition("/")[0]) for name in names], np.int32)
         """(p,) of each posture the one with free hands."""
+        rests = [
+            next((k for k, gait in enumerate(self.gaits) if gait.posture == base), 0) for base in self.bases
+        ]
+        self._rests = np.array(rests, np.int32)  # of each posture the gait that comes to rest in it
         self.stand = self.graph.postures.index(_STANDS)
         self.people: list[RecordedPerson] = []
         self._rows = np.zeros((64, at.ROW))
@@ -227,9 +231,8 @@ class RecordedPeople:
         phases = rows[:, at.PHASE]
         if ahead != 0.0:
             phases = phases + ahead * self._cadence(gaits, rows[:, at.SPEED])
-        channels, roots = sample_gait(
-            self.motions, level, self._recorded[np.maximum(gaits, 0)], speeds, phases
-        )
+        played = np.where(gaits >= 0, gaits, self._rests[rows[:, at.NODE].astype(np.int32)])
+        channels, roots = sample_gait(self.motions, level, self._recorded[played], speeds, phases)
         places = rows[:, at.PLACE]
         if ahead != 0.0:
             places[:, :2] += ahead * bodies[:, [body.VX, body.VY]]

@@ -56,6 +56,7 @@ class ItsPeople(Protocol):
     graph: PostureGraph
     gaits: tuple[Gait, ...]
     stand: int
+    bases: NDArray[np.int32]
     dt: float
 
     @property
@@ -155,11 +156,11 @@ class RecordedPerson:
 
     # --- what it is told
     def go_to(self, goals: ArrayLike, speed: float, facing: float | None) -> list[Route]:
-        """As `Walker.go_to`; one that does not stand, or crawl, stands up first. Raises `LocomotionError` for
-        one that cannot get up any more."""
+        """As `Walker.go_to`; one in a posture without a gait that is fast enough stands up first. Raises
+        `LocomotionError` for one that cannot get up any more."""
         people = self._people
         points = np.asarray(goals, dtype=np.float64)
-        if self._can_move:
+        if self._can_move_at(speed):
             self.wanted, self.errand, self._row[at.BUSY] = "", None, 0.0
             return self.walker.go_to(points, speed, facing)
         target = node_name("stand", *self.held)
@@ -171,11 +172,14 @@ class RecordedPerson:
         self.errand = Errand(tuple((float(x), float(y), float(z)) for x, y, z in points), speed, facing)
         return routes
 
-    @property
-    def _can_move(self) -> bool:
-        base = self._people.graph.postures[int(self._row[at.NODE])].partition("/")[0]
-        number = self._people.graph.postures.index(base)
-        return self.playback is None and any(gait.posture == number for gait in self._people.gaits)
+    def _can_move_at(self, speed: float) -> bool:
+        """Whether it can set out as it is: it stands, or crawls with free hands."""
+        people, node = self._people, int(self._row[at.NODE])
+        if self.playback is not None:
+            return False
+        if people.bases[node] == people.stand:
+            return True
+        return any(gait.posture == node and speed <= gait.fastest for gait in people.gaits)
 
     def stop(self) -> None:
         """Stop here."""
@@ -247,7 +251,8 @@ class RecordedPerson:
             def rest() -> None:
                 self.playback = None
                 row[at.NODE], row[at.BUSY] = number, 0.0
-                self.walker.stop()
+                if base == self._people.stand:
+                    self.walker.stop()
 
             self.change(rest)
         errand, self.errand = self.errand, None

@@ -1,13 +1,13 @@
 """Remote figures against their originals: how far off they are drawn, how many packets that takes, and what
 corrections do to what is drawn."""
 
+from contextlib import suppress
 from dataclasses import dataclass
-from itertools import count
 
 import numpy as np
 
 import navmesh
-from runtime import World
+from runtime import RuntimeInputError, World
 from runtime.dis import Exchange, Options, Place
 from runtime.dis.incoming import remote_name
 
@@ -61,12 +61,13 @@ def original(
     speeds = (1.3, 3.3, 1.8, 4.0)
     agents = []
     for body in bodies:
-        start = next(
-            each
-            for each in (random_goals(graph, chance)[0] for _ in count())
-            if all(np.linalg.norm(each - other.position) > 2.0 for other in agents)
-        )
-        agents.append(world.spawn(body, start))
+        agent = None
+        while agent is None:
+            start = random_goals(graph, chance)[0]
+            if all(np.linalg.norm(start - other.position) > 2.0 for other in agents):
+                with suppress(RuntimeInputError):  # a dog has no room there
+                    agent = world.spawn(body, start)
+        agents.append(agent)
     packets, places = [], []
     until = np.zeros(len(agents))
     for frame in range(round(seconds / FRAME)):

@@ -238,9 +238,10 @@ class Incoming:
     def time_out(self) -> None:
         """Remove those of whom nothing has been heard for too long, and forget those that are no more in the
         world."""
-        if not self._heard:
-            return
-        some = next((driver for name in self._heard if (driver := self._driver(name))), None)
+        drivers = (self._driver(name) for name in self._heard)
+        if not self._heard:  # a restored world may hold some all the same
+            drivers = (agent.driver.simulated for agent in self.world.agents.values())
+        some = next((each for each in drivers if isinstance(each, RemoteDriver)), None)
         if some is not None:
             figures = some.population
             silent = np.flatnonzero(figures.rows["since_heard"] > self.limits.silence).tolist()

@@ -183,3 +183,17 @@ def test_a_frozen_entity_stands_still(graph):
     world, incoming = listening(graph)
     places = run(world, incoming, [(0.0, walking(0.0)), (0.5, walking(0.5, frozen=True))], 3.0)
     assert places[-1] == pytest.approx([2.75, 3.0, 0.0], abs=0.02)
+
+
+def test_a_new_gateway_takes_over_what_was_saved(graph):
+    """The next packet is news; who stays silent goes."""
+    world, incoming = listening(graph)
+    run(world, incoming, [(0.0, walking(0.0)), (0.0, entity((8.0, 1.0, 0.0), number=2))], 1.0)
+    other, anew = listening(graph)
+    other.restore(world.save())
+    run(other, anew, [(0.0, walking(1.0)), (9.0, walking(10.0, speed=0.5))], 12.0)
+    assert list(other.agents) == [NAME] and anew.counts["timed out"] == 1
+    third, silent = listening(graph)
+    third.restore(world.save())
+    run(third, silent, [], 12.0)
+    assert not third.agents

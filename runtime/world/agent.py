@@ -96,7 +96,7 @@ class Agent:
 
     ``name`` is unique in its world, ``body`` is what `World.spawn` was given; ``news`` are its
     body's events that the world has not been told of; ``has_levels``: whether it can be drawn in more or
-    less detail.
+    less detail; ``waits_for_level``: whether its level may differ from a `detail` that was asked for.
     """
 
     def __init__(self, host: Host, name: str, body: str, driver: Driver) -> None:
@@ -112,6 +112,7 @@ class Agent:
         self._headway = Headway()
         self._detail = driver.detail
         self.has_levels = len(host.levels(body)) > 1
+        self.waits_for_level = False
 
     def __repr__(self) -> str:
         if self._body is None:
@@ -220,6 +221,7 @@ class Agent:
     @detail.setter
     def detail(self, detail: str) -> None:
         self._detail = checked_detail(detail, self._host.levels(self.body), self.body)
+        self.waits_for_level = True
         if detail not in (AUTO, self.level):
             self.change_level(detail)
 
@@ -269,6 +271,7 @@ class Agent:
         self.notice()
         going, goals = self.moving, self._goals_left if self._errand.goals else None
         driver = self._host.at_level(self, level, at_once)
+        self.waits_for_level = driver is None or driver.detail != self._detail
         if driver is None:
             return False
         if driver is not self._driver:
@@ -499,6 +502,7 @@ class Agent:
         self._born, self._blocked, self._goal = state.born, state.blocked, state.goal
         self._errand, self._headway = state.errand, state.headway
         self._detail = checked_detail(state.detail, self._host.levels(self.body), self.body)
+        self.waits_for_level = True
 
     def state_hash(self) -> str:
         """Hexadecimal digest of everything that decides how it goes on."""

@@ -300,6 +300,7 @@ class World:
         """Bring people to the levels of detail that they should have, some of them in each call."""
         people = [agent for agent in self.agents.values() if agent.has_levels]
         chosen: list[tuple[Agent, str]] = []
+        unsettled = [each for each in people if each.detail != AUTO and each.waits_for_level]
         automatic = np.array([agent.detail == AUTO for agent in people], np.bool_)
         if automatic.any():
             now = np.array([LEVELS.index(agent.level) for agent in people])
@@ -309,7 +310,10 @@ class World:
             chosen = [
                 (people[k], LEVELS[levels[k]]) for k in wanted[np.argsort(levels[wanted], kind="stable")]
             ]
-        chosen += [(each, each.detail) for each in people if each.detail not in (AUTO, each.level)]
+        for each in unsettled:
+            each.waits_for_level = each.detail != each.level
+            if each.waits_for_level:
+                chosen.append((each, each.detail))
         changed = 0
         for agent, level in chosen:
             heavy = PHYSICS in (level, agent.level)

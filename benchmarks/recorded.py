@@ -135,7 +135,7 @@ def _slides(level: int, ground: Callable, rng: np.random.Generator, count: int =
 
 def wire(seed: int) -> None:
     """Joint angles a second, and bytes, of a figure that walks, sits down and runs: full against low."""
-    script = [("walk 1.14", 6.0), ("stand to crouch", 0.7), ("crouch to sit", 1.0), ("run 3.05", 4.0)]
+    script = [("walk 1.25", 6.0), ("stand to crouch", 0.7), ("crouch to sit", 1.0), ("run 3", 4.0)]
     told = {}
     for level in range(len(LEVELS)):
         rate, angles, size, seconds, sent = skeleton(LEVELS[level]).rate, 0, 0, 0.0, None
@@ -203,7 +203,7 @@ def three(seed: int) -> None:
         file.write_text(json.dumps(setup), encoding="utf-8")
         script = Path(__file__).with_suffix(".mjs")
         told = subprocess.run([node, script, module, file], capture_output=True, text=True, check=True).stdout
-    theirs, clip = json.loads(told), MOTIONS.clip("walk 1.14")
+    theirs, clip = json.loads(told), MOTIONS.clip("walk 1.25")
     times = np.random.default_rng(seed).uniform(0.0, 60.0, count)
     clips = np.full(count, clip)
     ours = _best(lambda: posed(own, *sample_clips(MOTIONS, FULL, clips, times)))

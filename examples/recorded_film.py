@@ -19,8 +19,8 @@ from runtime.views.filmstrip import show_frame
 from runtime.views.render import Camera, Triangles, render
 
 CLIPS = {
-    "walk 1.14": 3,
-    "run 3.05": 3,
+    "walk 1.25": 3,
+    "run 3": 3,
     "crawl 0.5": 2,
     "stand to kneel": 2,
     "get up after a fall backward": 3,

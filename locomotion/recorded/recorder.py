@@ -21,7 +21,7 @@ from surefoot.progress import Progress
 
 __all__ = ["Recorded", "motion_set_of", "record_person"]
 
-_BACKWARDS = 1.5
+_BACKWARDS = 1.55
 """[m/s] of the quickest walk that is played backwards, too."""
 
 
@@ -41,7 +41,7 @@ def record_person(graph: PostureGraph, origin: str, progress: Progress) -> Recor
             cycles = cleaned(record(stage.update))
         takes += cycles
         if label == "walking":
-            takes += [backwards(take, "walk backwards") for take in cycles if take.clip.speed < _BACKWARDS]
+            takes += [backwards(take, "walk backwards") for take in cycles if take.clip.speed <= _BACKWARDS]
             takes += turn_cycles(cycles[0])
     if "prone" in graph.postures:
         takes += crawl_cycles(graph.poses[graph.postures.index("prone")])

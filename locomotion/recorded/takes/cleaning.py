@@ -53,7 +53,7 @@ def backwards(take: Take, gait: str) -> Take:
     x, y, turn = clip.travel
     turned = clip.model_copy(
         update={
-            "name": f"{gait} {clip.speed:.2f}", "gait": gait, "travel": (-x, -y, -turn),
+            "name": clip.name.replace(clip.gait, gait), "gait": gait, "travel": (-x, -y, -turn),
             "origin": f"{clip.name} played backwards: {clip.origin}",
         }
     )  # fmt: skip

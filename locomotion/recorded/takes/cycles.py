@@ -54,7 +54,7 @@ def walk_cycles(told: Told) -> list[Take]:
         if not held or trial.fallen:
             raise LocomotionError(f"the learned walk fell at {asked:g} m/s; nothing was recorded")
         origin = f"simulation of the learned walk (walk_policy.npz), asked for {asked:g} m/s"
-        takes.append(averaged("walk", np.array(qpos), np.array(forces), _steady(phases), origin))
+        takes.append(averaged(f"walk {asked:g}", np.array(qpos), np.array(forces), _steady(phases), origin))
     return takes
 
 
@@ -76,18 +76,21 @@ def run_cycles(told: Told) -> list[Take]:
             raise LocomotionError(f"the run at {asked:g} m/s ended: {human.status}; nothing was recorded")
         origin = f"simulation of the run (run.npz), asked for {asked:g} m/s"
         pressed = np.array(forces)
-        takes.append(averaged("run", np.array(qpos), pressed, _phases(pressed[:, 0] > _STRUCK), origin))
+        takes.append(
+            averaged(f"run {asked:g}", np.array(qpos), pressed, _phases(pressed[:, 0] > _STRUCK), origin)
+        )
     return takes
 
 
 def averaged(
-    gait: str,
+    name: str,
     qpos: NDArray[np.float64],
     forces: NDArray[np.float64],
     phases: NDArray[np.float64],
     origin: str,
 ) -> Take:
-    """One cycle of a steady gait along x: the mean of its strides and their mirror images.
+    """One cycle of a steady gait along x: the mean of its strides and their mirror images. The first word
+    of its ``name`` is the gait.
 
     From ticks: ``qpos`` (n, 46), ``forces`` (n, 2) under the right and the left foot [N], and ``phases``
     (n,), which grow by 1 with each cycle. The cycle begins with the strike of the right foot. Raises
@@ -95,7 +98,7 @@ def averaged(
     """
     strides = int(phases[-1] - phases[0])
     if strides < 3:
-        raise LocomotionError(f"{gait}: {strides} strides, expected at least 3")
+        raise LocomotionError(f"{name}: {strides} strides, expected at least 3")
     moments = phases[0] + np.arange(strides * _FINE + 1) / _FINE
     ticks = np.interp(moments, phases, np.arange(len(phases)))
     seconds = (ticks[-1] - ticks[0]) / strides * CONTROL_DT
@@ -110,15 +113,16 @@ def averaged(
     pressed = pressed.reshape(2, strides, _FINE).mean(axis=1)
     strike, bears = _longest(0.5 * (pressed[0] + np.roll(pressed[1], _FINE // 2)) > _BEARS)
     if bears == 0:
-        raise LocomotionError(f"{gait}: its feet do not bear")
+        raise LocomotionError(f"{name}: its feet do not bear")
     mean = np.roll(mean, -strike, axis=0)
     mean[:, 2] -= np.quantile(lowest_points(mean), 0.1)
     count = max(round(seconds * RATE), 8)
     shares = np.arange(count) / count
     stance = np.array([(shares - begin) % 1.0 < bears / _FINE for begin in (0.0, 0.5)]).T
     speed = round(float(length / seconds), 3)
+    gait = name.split()[0]
     clip = Clip(
-        name=f"{gait} {speed:.2f}", kind="cycle", gait=gait, origin=origin, seconds=seconds, speed=speed,
+        name=name, kind="cycle", gait=gait, origin=origin, seconds=seconds, speed=speed,
         travel=(speed * seconds, 0.0, 0.0), rest="stand" if gait == "walk" else "", bears=bears / _FINE,
     )  # fmt: skip
     return Take(clip, spread(mean, shares, cyclic=True), stance)

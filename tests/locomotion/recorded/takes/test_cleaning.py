@@ -12,7 +12,7 @@ from locomotion.recorded.takes.take import Take
 
 def walk():
     motions = load_motions()
-    level, clip = motions.levels[FULL], motions.clip("walk 1.14")
+    level, clip = motions.levels[FULL], motions.clip("walk 1.25")
     rows = slice(level.first[clip], level.first[clip] + level.count[clip])
     qpos = np.hstack([level.roots[rows], level.channels[rows]])
     return Take(motions.clips[clip], qpos, level.stance[rows])

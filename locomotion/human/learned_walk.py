@@ -16,6 +16,7 @@ from locomotion.gaits.policy import layout as at
 from locomotion.gaits.policy.kernel import Parts, decide_tick, feel, new_memory
 from locomotion.gaits.policy.level_ground import floor_at, is_level
 from locomotion.gaits.policy.skill import PolicySkill
+from locomotion.gaits.run.layout import COM_VELOCITY
 from locomotion.gaits.walk.controller import observe_walk
 from locomotion.gaits.walk.layout import (
     CLOCK,
@@ -44,6 +45,7 @@ SLOWEST = 0.6
 _SEES, _LEAVES = 2.6, 1.6
 # [m] of level ground ahead with which it takes over, and without which it gives back
 _BEHIND = 0.5  # [m] behind it that have to be level, too: a foot is still there
+_AT_LEAST, _ASKEW = 0.5, 0.25  # [m/s] and [rad] off its way with which it takes over
 _ROOM = 0.8  # [m] more to where a run begins
 _MOST_TURN, _STEADY_TURN = 0.8, 0.6  # [rad/s] that it turns at most, and in bends that it takes over in
 _EAGERNESS = 2.0  # [1/s] of turning towards the heading asked for
@@ -78,15 +80,18 @@ class LearnedWalk:
         """[m/s] of its reference."""
         return float(self._state[at.TOLD])
 
-    def suits(self, follower: PathFollower, body: Simulation, command: NDArray) -> bool:
-        """Whether it can walk on from here."""
+    def suits(
+        self, follower: PathFollower, body: Simulation, command: NDArray, walk: NDArray[np.float64]
+    ) -> bool:
+        """Whether it can walk on from here, or take over from the planned ``walk``."""
         way, active, arc = follower.path, self.active, follower.arc
         if way is None or follower.pace < 1.0 or command[SPEED_ASKED] < SLOWEST:
             return False
-        off = abs(wrap(command[HEADING_ASKED] - self._state[at.HEADING])) if active else 0.0
-        far = _LEAVES if active else _SEES
-        if off > TURN_FIRST or follower.remaining < far:
+        off, far = abs(wrap(command[HEADING_ASKED] - walk[WALK_HEADING])), _LEAVES if active else _SEES
+        if off > (TURN_FIRST if active else _ASKEW) or follower.remaining < far:
             return False
+        if not active and math.hypot(*body.control[COM_VELOCITY][:2]) < _AT_LEAST:
+            return False  # it has just turned on the spot
         rows = way.table
         first = round(arc / way.length * (len(rows) - 1))
         ahead = rows[first : first + round((far + _ROOM) / path.SPACING)]

@@ -214,7 +214,7 @@ class OnFeet:
         if learned is None or not self.walks or walk[PHASE] != DOUBLE or walk[CLOCK] > 0.0:
             return
         usual = walk[WALK_STEPS] >= _CHANGED and not self.brakes
-        suits = usual and follower is not None and learned.suits(follower, body, command)
+        suits = usual and follower is not None and learned.suits(follower, body, command, walk)
         if suits and not learned.active:
             learned.take_over(body, walk)
         elif learned.active and not suits:

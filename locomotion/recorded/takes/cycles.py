@@ -19,7 +19,7 @@ from locomotion.training.policies.trial import PolicyTrial
 __all__ = ["RUNS", "WALKS", "averaged", "run_cycles", "walk_cycles"]
 
 WALKS = (0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0)
-"""[m/s] asked of the learned walk; it is a little slower."""
+"""[m/s] asked of the learned walk."""
 RUNS = (2.5, 3.0, 3.5, 4.0, 4.5, 5.0)
 """[m/s] asked of the run."""
 _STANDS, _WARM_UP, _NOTED = 1.0, 5.0, 12.0  # [s]

@@ -58,6 +58,19 @@ def test_it_gives_back_before_a_kerb_and_where_it_is_told_to_stop():
     assert human.on_feet.at_rest(human.control)
 
 
+@pytest.mark.parametrize("facing", [1.6, 3.1])
+def test_who_has_turned_on_the_spot_first_walks_as_planned(facing):
+    human = walker()
+    human.reset((0.0, 0.0, 0.0), facing)
+    human.follow([[0, 0, 0], [9, 0, 0]], 1.25)
+    while not human.on_feet.walks_as_learned:
+        human.tick()
+    assert np.linalg.norm(human.velocity[:2]) > 0.5
+    assert abs(human.yaw) < 0.4
+    finish(human)
+    assert human.status == "arrived"
+
+
 @pytest.mark.parametrize("moment", [40, 321])
 def test_a_saved_walk_goes_on_bit_for_bit(moment):
     human, twin = walker(flat_ground()), walker(flat_ground())

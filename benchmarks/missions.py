@@ -41,7 +41,7 @@ from locomotion.body.physics import restore_physics, save_physics
 from locomotion.paths.tracking import make_path
 from navmesh.level.mesh_queries import MeshGrid, brute_crossed, crossed
 from runtime import World
-from runtime.bodies.humans import WALKS
+from runtime.bodies.kinds.kind import WALKS
 from runtime.events import Departed, Fell
 
 OWN_LEVELS = Path(__file__).resolve().parents[1] / "examples" / "levels"

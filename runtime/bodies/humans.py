@@ -44,10 +44,7 @@ from runtime.traffic.snapshot import foretold_on
 from surefoot.numeric import is_finite
 from surefoot.pausing import pause
 
-__all__ = ["WALKS", "HumanDriver", "People"]
-
-WALKS = ("planned", "learned")
-"""How people walk where the ground is level; everywhere else as planned."""
+__all__ = ["HumanDriver", "People"]
 
 _ASKEW = 0.4  # [rad] that a body which physics takes over may face off its way
 _SPOTS, _BESIDE = np.array([-0.4, 0.0, 0.4, 0.8, 1.2]), 0.15  # [m] along its way and beside it,
@@ -88,7 +85,7 @@ class Fading:
 class People(Population):
     """Simulated persons. ``skills``: descriptions of those of one's own that they have besides the
     package's; ``rehearsals``: as of `Human`; ``seed`` decides how long each of them hesitates; ``walk``: one
-    of `WALKS`."""
+    of `runtime.bodies.kinds.kind.WALKS`."""
 
     def __init__(
         self,

@@ -33,8 +33,10 @@ from surefoot.workers.cluster import checked_address
 from surefoot.workers.pool import Place, worker_pool
 from surefoot.workers.versions import own_versions
 
-__all__ = ["MOST_BOTS", "Outcome", "Stage", "open_stage", "playtest"]
+__all__ = ["BODY", "MOST_BOTS", "Outcome", "Stage", "open_stage", "playtest"]
 
+BODY = "walker"
+"""Who plays unless something else is said."""
 MOST_BOTS = 100_000
 _MOMENTS = 60  # points of the curve of coverage
 _SEEN = 1.0  # [m] a patch is covered when a bot has been this near to it
@@ -68,7 +70,7 @@ def playtest(
     bots: int = 16,
     seconds: float = 60.0,
     seed: int = 0,
-    body: str = "walker",
+    body: str = BODY,
     plan: str | os.PathLike[str] | None = None,
     up: str | None = None,
     scale: float | None = None,

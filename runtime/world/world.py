@@ -16,8 +16,7 @@ from locomotion import LocomotionError, load_run_skill
 from locomotion.body.person import CONTROL_DT
 from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.skills.library import described_ranges, learned_skills, skills_digest
-from runtime.bodies.humans import WALKS
-from runtime.bodies.kinds.kind import BodyKind, Surroundings
+from runtime.bodies.kinds.kind import WALKS, BodyKind, Surroundings
 from runtime.bodies.protocol import Driver, Population
 from runtime.bodies.registry import body_kinds, kind_of
 from runtime.errors import RuntimeInputError

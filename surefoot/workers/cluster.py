@@ -19,7 +19,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from surefoot.errors import SurefootError
 from surefoot.workers.versions import differences, own_versions
@@ -87,7 +87,8 @@ def _client(address: str) -> Iterator["Client"]:
         with (
             distributed.LocalCluster(
                 n_workers=int(address.partition(":")[2]), threads_per_worker=1, host="127.0.0.1",
-                dashboard_address=None, silence_logs=logging.CRITICAL,
+                dashboard_address=None,  # type: ignore[arg-type]  # none
+                silence_logs=logging.CRITICAL,
             ) as cluster,
             distributed.Client(cluster, set_as_default=False) as client,
         ):  # fmt: skip
@@ -114,7 +115,7 @@ def _client(address: str) -> Iterator["Client"]:
 def _check_versions(client: "Client") -> None:
     ours = own_versions()
     try:
-        answers = client.run(own_versions)
+        answers = cast(dict[str, dict[str, str]], client.run(own_versions))
     except Exception as error:
         raise ClusterError(f"a worker has no surefoot {ours['surefoot']}: {error}") from None
     for worker, theirs in answers.items():
@@ -148,7 +149,7 @@ class _Cluster:
         return list(self._in_order(func, iterable, None))
 
     def imap(self, func: Callable[[Any], Any], iterable: Iterable[Any]) -> Iterator[Any]:
-        workers = sum(self._client.nthreads().values())
+        workers = sum(cast(dict[str, int], self._client.nthreads()).values())
         return self._in_order(func, iterable, _AHEAD * max(workers, 1))
 
     def _in_order(self, func: Callable[[Any], Any], items: Iterable[Any], most: int | None) -> Iterator[Any]:

@@ -19,6 +19,7 @@ from locomotion.skills.description import load_description
 from runtime.cli.app import app
 from runtime.planning.rules import person_walk_rules
 from runtime.playtest.plan import LoadedPlan
+from runtime.playtest.suite.plan import cells_of, read_suite
 from tests.docs import pages
 from tests.docs.pages import PAGES, ROOT, Block, name
 
@@ -115,6 +116,8 @@ def test_yaml_is_what_it_is_said_to_be(block: Block, tmp_path: Path) -> None:
         assert checked.exit_code == 0, checked.output or checked.exception
     elif "spawns" in content:
         assert len(LoadedPlan.read(file).plan.spawns) == len(content["spawns"])
+    elif "seeds" in content:
+        assert len(cells_of(read_suite(file), file)) > 1
     elif "affordance" in content:
         assert load_description(file).name == content["name"]
     else:  # the author's tags of the courtyard

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from locomotion.recorded.foot_planting import planted
 from locomotion.recorded.footfalls import straight_footfalls
@@ -14,6 +15,8 @@ from locomotion.recorded.takes.take import Take
 __all__ = ["backwards", "cleaned"]
 
 _MOST_TURNED = 0.12  # [rad] that a foot which stands is turned out
+_QUICKER, _CALM = 1.15, 0.19  # times; [rad] in a frame that is never too quick
+_SHARES = 11
 
 
 def cleaned(takes: Sequence[Take]) -> list[Take]:
@@ -43,8 +46,26 @@ def cleaned(takes: Sequence[Take]) -> list[Take]:
         sample = take.qpos[:, 7:], take.qpos[:, :7]
         channels, roots = planted(motions, FULL, (gaits, speeds, phases), sample, places, footfalls)
         roots[:, 0] -= places[:, 0]
-        found.append(replace(take, qpos=np.hstack([roots, channels])))
+        found.append(replace(take, qpos=_as_far_as_it_is_smooth(take.qpos, np.hstack([roots, channels]))))
     return found
+
+
+def _as_far_as_it_is_smooth(before: NDArray[np.float64], after: NDArray[np.float64]) -> NDArray[np.float64]:
+    """From the cycle ``before`` (n, 46) towards the one ``after``, as far as no joint turns more between two
+    frames than `_QUICKER` times the most that one did before. In fast runs feet slide by so much that legs
+    which follow feet at rest would snap straight and back."""
+    most = _QUICKER * max(_quickest(before), _CALM)
+    for share in np.linspace(1.0, 0.0, _SHARES):
+        between = before + share * (after - before)
+        between[:, 3:7] /= np.linalg.norm(between[:, 3:7], axis=1, keepdims=True)
+        if _quickest(between) <= most:
+            return between
+    return before
+
+
+def _quickest(cycle: NDArray[np.float64]) -> float:
+    """[rad] that a joint turns at most between two frames of a ``cycle`` (n, 46)."""
+    return float(np.abs(np.diff(cycle[:, 7:], axis=0, append=cycle[:1, 7:])).max())
 
 
 def backwards(take: Take, gait: str) -> Take:

@@ -14,7 +14,10 @@ from runtime.dis.enumerations import CATEGORY_CIVILIAN, EntityType, life_form_ty
 from runtime.planning.level import Level
 from runtime.traffic.traffic import Traffic
 
-__all__ = ["BodyKind", "Surroundings"]
+__all__ = ["WALKS", "BodyKind", "Surroundings"]
+
+WALKS = ("planned", "learned")
+"""How people walk where the ground is level; everywhere else as planned."""
 
 
 @dataclass(frozen=True)

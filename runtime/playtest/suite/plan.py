@@ -23,7 +23,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict
 
 from runtime.bodies.registry import body_names
 from runtime.missions.model import Name
-from runtime.playtest.run import MOST_BOTS
+from runtime.playtest.run import BODY, MOST_BOTS
 from surefoot.files.choices import OneOf
 from surefoot.files.yamlfile import read_yaml
 
@@ -57,7 +57,7 @@ class Suite(_Strict):
     """The content of a suite file."""
 
     levels: Annotated[list[Annotated[SuiteLevel, BeforeValidator(_level)]], Len(1, 1000)]
-    bodies: Annotated[list[Annotated[str, OneOf(body_names)]], Len(1, 20)] = ["walker"]
+    bodies: Annotated[list[Annotated[str, OneOf(body_names)]], Len(1, 20)] = [BODY]
     seeds: Annotated[list[Annotated[int, Ge(0), Le(2**31 - 1)]], Len(1, 100)] = [0]
     bots: Annotated[int, Ge(0), Le(MOST_BOTS)] = 64
     """For each level, body and seed."""

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from locomotion.human.motion_start import moments
 from locomotion.recorded.skeletons import LEVELS
 from runtime.bodies.humans import HumanDriver, People
 from runtime.bodies.protocol import Driver, Population
@@ -60,6 +61,9 @@ class Persons(Population):
         return [
             next(played) if isinstance(driver, RecordedDriver) else driver.transforms() for driver in drivers
         ]
+
+    def prepare_levels(self) -> None:
+        moments()
 
     def at_level(self, driver: Driver, level: str, at_once: bool = False) -> Driver | None:
         if isinstance(driver, RecordedDriver) and level in LEVELS:

@@ -285,6 +285,10 @@ class Population(ABC):
         it clears an obstacle or lies on the ground."""
         return driver if level == driver.detail else None
 
+    def prepare_levels(self) -> None:
+        """Do what the first `at_level` would have to wait for; most have nothing to do."""
+        return
+
     @abstractmethod
     def remove(self, driver: Driver) -> None:
         """Have one less."""

@@ -197,9 +197,10 @@ class World:
         quadruped stands with its rear feet there. ``radius`` [m] is for walkers only, by default a person's.
         The place is moved to the nearest one where the body fits (see `NodeGraph.find_path`). ``name`` is
         its own in this world; by default "human1" and so on. ``detail`` is for humans, as of `Agent.detail`:
-        "physics", or for those who play recorded motion "full", "medium" or "low", or "auto". Raises
-        `RuntimeInputError` for an unknown body, a body file with a mistake, a taken name, a place off the
-        walkable surface, a quadruped without room for its head, or a detail that the body cannot have.
+        "physics", or for those who play recorded motion "full", "medium" or "low", or "auto", the first of
+        which in a process takes seconds. Raises `RuntimeInputError` for an unknown body, a body file with a
+        mistake, a taken name, a place off the walkable surface, a quadruped without room for its head, or a
+        detail that the body cannot have.
         """
         if not isinstance(body, str) or not isinstance(name, str | None) or name == "":
             raise RuntimeInputError(
@@ -232,6 +233,7 @@ class World:
         driver = kind.spawn(self._population(body), body, here.waypoints[0], facing, size, level)
         agent = self.agents[name] = Agent(self._host, name, body, driver)
         if detail == AUTO:
+            self._population(body).prepare_levels()
             agent.detail = detail
         return agent
 

@@ -73,3 +73,13 @@ def test_who_lies_on_the_ground_takes_no_posture_but_the_last(graph):
         ada.take_posture("kneel")
     ada.take_posture("dead")
     assert ada.level == "full"
+
+
+def test_what_a_change_of_level_needs_is_made_with_the_first_who_may_change(graph, monkeypatch):
+    made = []
+    monkeypatch.setattr("runtime.bodies.persons.moments", lambda: made.append(1))
+    world = World(graph)
+    world.spawn("human", (2.0, 3.0, 0.0), detail="low")
+    assert not made
+    world.spawn("human", (4.0, 3.0, 0.0), detail="auto")
+    assert made

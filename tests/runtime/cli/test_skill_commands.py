@@ -163,19 +163,19 @@ def test_what_workers_compute_counts_while_they_live_and_after():
 
 @pytest.mark.parametrize(("skill", "tests"), [("jump", 3), ("run", 6)])
 def test_evaluate_prints_a_table_and_the_same_as_json_and_draws_it(capsys, tmp_path, skill, tests):
-    asked = ("evaluate", skill, "--trials", "2", "--seed", "3")
+    asked = ("evaluate", skill, "--trials", "1", "--seed", "3")
     code, out, _ = surefoot(capsys, *asked, "--json", "--picture", tmp_path / "x.png")
     assert (tmp_path / "x.png").read_bytes().startswith(b"\x89PNG")
     result = json.loads(out)
-    assert [test["trials"] for test in result["tests"]] == [2] * tests
+    assert [test["trials"] for test in result["tests"]] == [1] * tests
     for test in result["tests"]:
         tried = [each for each in result["attempts"] if each["test"] == test["test"]]
         assert test["held"] == sum(each["held"] for each in tried)
-    assert code == (0 if all(test["held"] == 2 for test in result["tests"]) else 1)
+    assert code == (0 if all(test["held"] == 1 for test in result["tests"]) else 1)
     again, table, _ = surefoot(capsys, *asked)
     assert again == code
     for test in result["tests"]:
-        assert f"| {test['test']} | {50.0 * test['held']:.1f} % of 2 |" in table
+        assert f"| {test['test']} | {100.0 * test['held']:.1f} % of 1 |" in table
 
 
 def test_heights_beyond_what_was_learned_count_as_not_held(capsys, monkeypatch):

@@ -19,13 +19,14 @@ def test_a_dog_is_foretold_where_it_will_be(hall):
     world = World(hall)
     dog = world.spawn("dog", (10.0, 5.0, 0.0))
     dog.go_to((24.0, 5.0, 0.0), speed=1.4)
-    driver = world._populations[1].followers()[0]
+    dogs = next(each for each in world._populations if each.followers())
+    driver = dogs.followers()[0]
     seen = set()
 
     def hold(seconds):
         told = Snapshot(world._populations).foretold(0)
         for k in range(round(seconds / STEP)):
-            away = np.linalg.norm(world._populations[1].in_the_way()[:, :2] - told[k], axis=1)
+            away = np.linalg.norm(dogs.in_the_way()[:, :2] - told[k], axis=1)
             assert away.max() < 0.1, (driver.animal._phase, k)
             seen.add(driver.animal._phase)
             world.step(STEP)

@@ -23,13 +23,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from examples.make_characters import CHARACTERS, write_character
 from locomotion import Ground, Rig
-from locomotion.body.models import figure
 from locomotion.body.person import BODY_NAMES
 from locomotion.characters.contacts import contacts_with
 from locomotion.characters.person_measures import person_arrays
@@ -37,6 +35,8 @@ from locomotion.characters.skinning import posed_points
 from locomotion.ground.ground import extruded
 from locomotion.postures.playback import asked_for, at_rest, pose_at
 from locomotion.postures.posture_file import load_postures
+from locomotion.recorded.posing import posed, whole_figures
+from locomotion.recorded.skeletons import skeleton
 from navmesh import Terrain
 from runtime import World
 from runtime.evaluation.courses import make_course, run_course
@@ -106,15 +106,8 @@ def _in_world(
 
 def places_of(qpos: NDArray[np.float64]) -> NDArray[np.float64]:
     """Places (n, 20, 7) of the bodies in poses (n, 46)."""
-    model = figure()
-    data = mujoco.MjData(model)
-    ids = [model.body(name).id for name in BODY_NAMES]
-    found = np.empty((len(qpos), len(ids), 7))
-    for k, pose in enumerate(qpos):
-        data.qpos[:] = pose
-        mujoco.mj_kinematics(model, data)
-        found[k, :, :3], found[k, :, 3:] = data.xpos[ids], data.xquat[ids]
-    return found
+    own = skeleton("full")
+    return whole_figures(own, posed(own, qpos[:, 7:], qpos[:, :7]))
 
 
 def _over(name: str, affordance: str, height: float) -> Recorded:

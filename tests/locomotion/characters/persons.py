@@ -1,31 +1,23 @@
 """What a person does, for tests: poses on the plane z = 0."""
 
-import mujoco
 import numpy as np
 
-from locomotion.body.models import figure
-from locomotion.body.person import BODY_NAMES
 from locomotion.clips.clip import load_clip
 from locomotion.clips.motion import motion_of_clip
 from locomotion.data import POSTURES
 from locomotion.gaits.run.skill import RUN_CLIP
 from locomotion.ground.ground import Ground
 from locomotion.postures.posture_file import load_postures
+from locomotion.recorded.posing import posed, whole_figures
+from locomotion.recorded.skeletons import skeleton
 
 __all__ = ["places_of", "plane", "postures", "running"]
 
 
 def places_of(qpos):
     """Places (n, 20, 7) of the bodies in poses (n, 46)."""
-    model = figure()
-    data = mujoco.MjData(model)
-    ids = [model.body(name).id for name in BODY_NAMES]
-    found = np.empty((len(qpos), len(ids), 7))
-    for k, pose in enumerate(qpos):
-        data.qpos[:] = pose
-        mujoco.mj_kinematics(model, data)
-        found[k, :, :3], found[k, :, 3:] = data.xpos[ids], data.xquat[ids]
-    return found
+    own = skeleton("full")
+    return whole_figures(own, posed(own, qpos[:, 7:], qpos[:, :7]))
 
 
 def running():

@@ -50,8 +50,9 @@ def main() -> None:
                 show_frame(axes, render(ground, [shown.posed(places)], camera, (210, 330)), "")
                 words = f"{moment:.2f} s" if level else name if moment < motions.seconds[clip] / count else ""
                 told = axes.text(0.02, 1.03, words, transform=axes.transAxes, fontsize=10)
-                told.set_in_layout(False)
+                told.set_in_layout(False)  # it may be wider than its picture
         row[0].text(0.05, 0.9, LEVELS[level], transform=row[0].transAxes, fontsize=13)
+    sheet.get_layout_engine().set(rect=(0.0, 0.0, 1.0, 0.97))  # room for the words above the first row
     sheet.savefig(file)
 
 

@@ -349,6 +349,9 @@ class HumanDriver(Driver):
             return pose
         return faded(pose, fading.offsets, fading.rates, fading.seconds, max(elapsed, 0.0))
 
+    def joint_pose(self) -> np.ndarray:
+        return self._faded(self.human.qpos, 0.0)
+
     def transforms(self) -> np.ndarray:
         if self._fading is not None:
             return self._transforms_of(self._faded(self.human.qpos, 0.0))

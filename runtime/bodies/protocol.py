@@ -106,6 +106,11 @@ class Driver(ABC):
         """A ``share`` (0 to 1) of the way from where it was when `Population.remember` was called last."""
         return self.transforms()
 
+    def joint_pose(self) -> np.ndarray | None:
+        """(7 + j,) its pose by the angles [rad] of `runtime.bodies.joints.person_joints`, after its root's
+        position [m] and quaternion (w, x, y, z) in the world; None for a body that is no person's."""
+        return None
+
     @property
     def detail(self) -> str:
         """What moves it: "physics", or of recorded motion the level of detail."""

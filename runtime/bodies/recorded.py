@@ -196,6 +196,9 @@ class RecordedDriver(WalkerDriver):
     def ground(self) -> Ground | None:
         return self._population.level.ground
 
+    def joint_pose(self) -> np.ndarray:
+        return self.person.qpos
+
     def transforms(self) -> np.ndarray:
         return self._population.people.transforms(np.array([self.person.index]))[0]
 

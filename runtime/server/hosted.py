@@ -6,7 +6,8 @@ the world in the meantime. Callers hold `HostedWorld.lock`.
 
 import asyncio
 import time
-from collections.abc import Sequence
+import weakref
+from collections.abc import Mapping, Sequence
 from itertools import count
 from typing import Any
 
@@ -14,9 +15,11 @@ import numpy as np
 from pydantic_core import to_json
 
 import navmesh
+from runtime.bodies.joints import Joints, person_joints
 from runtime.dis.gateway import Gateway
 from runtime.errors import RuntimeInputError
 from runtime.planning.planning import Plan
+from runtime.server.changes import NOTHING, Changes, Shown
 from runtime.server.client import Client
 from runtime.server.messages import States
 from runtime.traces.recording import level_trace
@@ -27,6 +30,7 @@ from surefoot.pausing import pause
 
 __all__ = ["HostedWorld", "graph_message", "level_message", "skeleton", "way_message"]
 
+_NONE = Joints((), np.empty(0, np.int32), np.empty((0, 3)), np.empty((0, 3)))
 _DRAWN = ("positions", "radii", "edges", "rim", "normal", "height")
 
 
@@ -51,6 +55,8 @@ class HostedWorld:
         self._texts: dict[States, bytes] = {}
         self._ways: dict[str, tuple[Plan, int]] = {}
         self._numbers = count(1)
+        self._changes = Changes(self._agent_fields)
+        self._told: weakref.WeakKeyDictionary[Client, Mapping[str, Shown]] = weakref.WeakKeyDictionary()
 
     @property
     def owner(self) -> Client | None:
@@ -124,6 +130,7 @@ class HostedWorld:
         if self.saved is None:
             raise RuntimeInputError(f"world {self.name!r} has not been saved")
         self.world.restore(self.saved)
+        self._changes.refresh(self.name, self.world, anew=True)
         self.changed()
         return {"time": self.world.time, "hash": self.world.state_hash()}
 
@@ -150,6 +157,9 @@ class HostedWorld:
     def _describe(self, states: States) -> None:
         if states == "none" or states in self._texts:
             return
+        if states == "changes":
+            self._changes.refresh(self.name, self.world)
+            return
         agents = []
         for agent in self.world.agents.values():
             agents.append(to_json(self._agent_state(agent, states)))
@@ -162,21 +172,42 @@ class HostedWorld:
         """The text of the present state, None if nobody asked for its form."""
         return self._texts.get(states)
 
+    def state_for(self, client: Client) -> bytes | None:
+        """The same in the form that ``client`` wants; it must be sent to it, since what comes next may tell
+        what has changed from it."""
+        states = self.clients.get(client, "none")
+        if states != "changes":
+            return self.state(states)
+        text = self._changes.text(self._told.get(client, NOTHING))
+        if text is not None:
+            self._told[client] = self._changes.newest
+        return text
+
+    def begin(self, client: Client, states: States) -> None:
+        """Let ``client`` be a member that wants ``states``; what it was told before is told again."""
+        self.clients[client] = states
+        self._told.pop(client, None)
+
     def _agent_state(self, agent: Agent, states: States) -> dict[str, Any]:
-        told = {
-            "name": agent.name,
-            "status": agent.status,
-            "level": agent.level,
-            "posture": agent.posture,
-            "position": agent.position.round(4).tolist(),
-            "facing": round(agent.facing, 4),
-            "way": self._number_of(agent),
-        }
+        told = self._agent_fields(agent)
         if states in ("world", "local"):
             pose = agent.pose
             transforms = pose.local if states == "local" else pose.transforms
             told["transforms"] = transforms.round(5).ravel().tolist()
         return told
+
+    def _agent_fields(self, agent: Agent) -> dict[str, Any]:
+        held, state = agent.held
+        return {
+            "name": agent.name,
+            "status": agent.status,
+            "level": agent.level,
+            "posture": agent.posture,
+            "holds": f"{held} {state}" if held else "",
+            "position": agent.position.round(4).tolist(),
+            "facing": round(agent.facing, 4),
+            "way": self._number_of(agent),
+        }
 
     def _number_of(self, agent: Agent) -> int | None:
         """Number of an agent's present path."""
@@ -192,11 +223,15 @@ class HostedWorld:
 def skeleton(agent: Agent) -> dict[str, Any]:
     """`messages.Skeleton` of an agent."""
     figure = agent.figure
+    joints = _NONE if agent.driver.joint_pose() is None else person_joints()
+    turns = zip(joints.names, joints.body.tolist(), joints.axes.tolist(), strict=True)
     return {
         "name": agent.name,
         "body": agent.body,
         "bodies": list(figure.bodies),
         "parents": figure.parents.tolist(),
+        "offsets": joints.offsets.round(5).tolist(),
+        "joints": [{"name": name, "body": body, "axis": axis} for name, body, axis in turns],
         "owner": figure.owner.tolist(),
         "place": figure.shapes.place.round(5).tolist(),
         "size": figure.shapes.size.round(5).tolist(),

@@ -59,9 +59,10 @@ _Angle = Annotated[float, Field(ge=-100.0, le=100.0)]
 
 _Body = Annotated[str, OneOf(body_names)]
 """A name that is registered. A file is none: clients name no files."""
-States = Literal["none", "places", "world", "local"]
+States = Literal["none", "places", "world", "local", "changes"]
 """What a client receives after each step: nothing; each agent's place and activity; also its skeleton's
-transforms in the world, or each relative to its parent."""
+transforms in the world, or each relative to its parent; or only what has changed, people by joint angles
+(`Changes`)."""
 
 
 Detail = Literal["auto", "physics", "full", "medium", "low"]
@@ -314,7 +315,9 @@ class Gone(_Ordered):
 
 
 class Skeleton(_Message):
-    """``parents``: -1 for the root. ``owner``: of each shape the body that carries it; ``place``: its
+    """``parents``: -1 for the root. ``offsets``: where a person's bodies have their origins in the frames of
+    their parents, all frames parallel at rest; ``joints``: the hinges that turn them, in this order; both are
+    empty for all others. ``owner``: of each shape the body that carries it; ``place``: its
     position and quaternion there; ``size``: as `runtime.bodies.figure.Shapes` has it; ``round``: an
     ellipsoid, else a capsule along z; ``colour``: red, green, blue, 0 to 1."""
 
@@ -322,6 +325,8 @@ class Skeleton(_Message):
     body: str
     bodies: list[str]
     parents: list[int]
+    offsets: list[tuple[float, float, float]]
+    joints: list["Joint"]
     owner: list[int]
     place: list[list[float]]
     size: list[list[float]]
@@ -329,15 +334,25 @@ class Skeleton(_Message):
     colour: list[list[float]]
 
 
+class Joint(_Message):
+    """A hinge: ``body``, the number of the body that it turns about ``axis``, in that body's frame."""
+
+    name: str
+    body: int
+    axis: tuple[float, float, float]
+
+
 class AgentState(_Message):
     """``level``: what moves it: "physics", or the level of detail of recorded motion. ``way``: the number of
-    the path that it is on, another one when that has changed; null for none.
+    the path that it is on, another one when that has changed; null for none. ``holds``: what its hands hold
+    and the state of that, such as "rifle deployed"; empty with free hands.
     ``transforms``: 7 numbers for each body, as `States` says."""
 
     name: str
     status: str
     level: str
     posture: str
+    holds: str
     position: tuple[float, float, float]
     facing: float
     way: int | None
@@ -353,8 +368,43 @@ class State(_Message):
     agents: list[AgentState]
 
 
+class Angles(_Message):
+    """Joints that turned: numbers in `Skeleton.joints`, and the angles as multiples of ``step`` [rad]."""
+
+    step: float
+    indices: list[int]
+    values: list[int]
+
+
+class AgentChange(_Message):
+    """What is left out is as it was told last. Fields as in `AgentState`; ``root``: position and quaternion
+    of a person's root in the world; ``angles`` of its joints. Others have ``transforms`` in the world."""
+
+    name: str
+    status: str | None = None
+    level: str | None = None
+    posture: str | None = None
+    holds: str | None = None
+    position: tuple[float, float, float] | None = None
+    facing: float | None = None
+    way: int | None = None
+    root: list[float] | None = None
+    angles: Angles | None = None
+    transforms: list[float] | None = None
+
+
+class Changes(_Message):
+    """What has changed since the last message of this kind. Agents that have not are left out. Recorded
+    people are looked at 60, 30 or 15 times a second, by their level. The first message tells everything."""
+
+    type: Literal["changes"]
+    world: str
+    time: float
+    agents: list[AgentChange]
+
+
 Answer = Annotated[
-    Reply | Error | Event | Joined | Gone | State,
+    Reply | Error | Event | Joined | Gone | State | Changes,
     Field(discriminator="type"),
 ]
 

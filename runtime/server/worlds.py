@@ -77,7 +77,7 @@ class Worlds:
     def join(self, client: Client, hosted: HostedWorld, states: m.States) -> None:
         """Add a connected client to a world that still exists."""
         if client in self._clients and not hosted.closed:
-            hosted.clients[client] = states
+            hosted.begin(client, states)
             client.outbox.mark(hosted.name)
 
     def leave(self, client: Client, hosted: HostedWorld) -> bool:
@@ -141,8 +141,7 @@ class Worlds:
     def state(self, client: Client, world: str) -> bytes | None:
         """The newest state in the form that ``client`` wants, None if it wants none."""
         hosted = self.hosted.get(world)
-        states = "none" if hosted is None else hosted.clients.get(client, "none")
-        return None if hosted is None else hosted.state(states)
+        return None if hosted is None else hosted.state_for(client)
 
 
 def _event_message(hosted: HostedWorld, event: Event) -> dict[str, Any]:

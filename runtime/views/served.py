@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from locomotion.recorded.skeletons import LEVELS
+from locomotion.recorded_people.drawing import drawn
 from runtime.bodies.figure import Figure, Shapes
 from runtime.errors import RuntimeInputError
 from runtime.server.messages import PROTOCOL
@@ -31,7 +33,8 @@ class ServedWorld:
         self._closed, self._id = ConnectionClosed, 0
         self._figures: dict[str, Figure] = {}
         self._ways: dict[str, tuple[int, PathTrace]] = {}
-        self._state: Mapping[str, Any] | None = None
+        self._agents: dict[str, _Seen] = {}
+        self._time: float | None = None
         self._gone = False
         try:
             self._socket = connect(address, compression=None, max_size=None)
@@ -40,7 +43,7 @@ class ServedWorld:
         try:
             worlds = self._ask("hello", version=PROTOCOL, token=token)["worlds"]
             self.name = _chosen(address, worlds, name)
-            joined = self._ask("join", world=self.name, states="world")
+            joined = self._ask("join", world=self.name, states="changes")
             self._figures.update({each["name"]: _figure(each) for each in joined["agents"]})
             mesh, graph = (self._ask(kind, level=joined["level"]) for kind in ("level", "graph"))
         except BaseException:
@@ -51,12 +54,12 @@ class ServedWorld:
     def moment(self) -> Moment | None:
         """The newest state, once there is one; None if the world or its server is gone."""
         try:
-            while self._state is None and not self._gone:
+            while self._time is None and not self._gone:
                 self._heed(self._hear())
-            if self._gone or self._state is None:
+            if self._gone or self._time is None:
                 return None
-            state, self._state = self._state, None
-            return self._seen(state)
+            now, self._time = self._time, None
+            return self._seen(now)
         except self._closed:
             return None
 
@@ -70,20 +73,20 @@ class ServedWorld:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def _seen(self, state: Mapping[str, Any]) -> Moment:
-        agents = [each for each in state["agents"] if each["name"] in self._figures]
+    def _seen(self, now: float) -> Moment:
+        agents = {name: agent for name, agent in self._agents.items() if name in self._figures}
         ways = {}
-        for agent in agents:
-            name, number = agent["name"], agent["way"]
+        for name, agent in agents.items():
+            number = agent.way
             if number is not None:
                 known = self._ways.get(name)
                 ways[name] = known if known and known[0] == number else (number, self._way(name))
         self._ways = ways
-        poses = [np.reshape(each["transforms"], (-1, 7)) for each in agents]
+        poses = [agent.transforms() for agent in agents.values()]
         return Moment(
-            state["time"],
+            now,
             self.level,
-            {each["name"]: self._figures[each["name"]] for each in agents},
+            {name: self._figures[name] for name in agents},
             np.concatenate([np.empty((0, 7)), *poses]),
             tuple(way for _, way in ways.values()),
         )
@@ -113,13 +116,43 @@ class ServedWorld:
         return json.loads(self._socket.recv())
 
     def _heed(self, message: Mapping[str, Any]) -> None:
-        if message["type"] == "state":
-            self._state = message
+        if message["type"] == "changes":
+            self._time = message["time"]
+            for change in message["agents"]:
+                self._agents.setdefault(change["name"], _Seen()).change(change)
         elif message["type"] == "agent":
             self._figures[message["agent"]["name"]] = _figure(message["agent"])
         elif message["type"] == "gone":
             self._gone |= message["agent"] is None
             self._figures.pop(message["agent"], None)
+            self._agents.pop(message["agent"], None)
+
+
+class _Seen:
+    """An agent as it was told last."""
+
+    def __init__(self) -> None:
+        self.way: int | None = None
+        self._root = np.zeros((1, 7))
+        self._angles: np.ndarray | None = None
+        self._told = np.empty((0, 7))
+
+    def change(self, change: Mapping[str, Any]) -> None:
+        """Take in a `runtime.server.messages.AgentChange`."""
+        self.way = change.get("way", self.way)
+        if "transforms" in change:
+            self._told = np.reshape(change["transforms"], (-1, 7))
+        if "root" in change:
+            self._root = np.reshape(change["root"], (1, 7))
+        if "angles" in change:
+            turned = change["angles"]
+            if self._angles is None:
+                self._angles = np.zeros((1, len(turned["indices"])))
+            self._angles[0, turned["indices"]] = turned["step"] * np.array(turned["values"])
+
+    def transforms(self) -> np.ndarray:
+        """(n, 7) of its bodies in the world."""
+        return self._told if self._angles is None else drawn(LEVELS[0], self._angles, self._root)[0]
 
 
 def _chosen(address: str, worlds: list[str], name: str | None) -> str:

@@ -75,6 +75,7 @@ def test_only_forms_that_somebody_wants_are_described(hosted):
         "status": "standing",
         "level": "physics",
         "posture": "stand",
+        "holds": "",
         "position": [2.0, 3.0, 0.0],
         "facing": 0.5,
         "way": None,

@@ -13,7 +13,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from navmesh.errors import NavmeshError
-from navmesh.level.raster import KIND, UPRIGHT, columns_of_triangles, height_at, is_over, prepare_triangles
+from navmesh.level.raster import (
+    KIND,
+    UPRIGHT,
+    Patch,
+    columns_of_triangles,
+    height_at,
+    is_over,
+    prepare_triangles,
+)
 from surefoot.kernels import allocating_kernel, kernel
 
 if TYPE_CHECKING:
@@ -198,7 +206,7 @@ def areas_of(graph: "NodeGraph") -> Areas:
             h, (nx, ny) = surface.resolution, surface.shape
             area, row, part = _areas_of_cells(
                 table,
-                *columns_of_triangles(table, h, nx, ny, (0, 0, nx, ny)),
+                *columns_of_triangles(table, Patch(h, 0, 0, nx, ny), (0, 0, nx, ny)),
                 terrain.face_material[level].astype(np.int16),
                 surface.cell_column,
                 surface.height,

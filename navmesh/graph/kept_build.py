@@ -17,7 +17,7 @@ from navmesh.level.terrain import Terrain
 from navmesh.obstacles.rim_samples import RimSamples, renew_rim_samples, take_rim_samples
 from navmesh.obstacles.rules import ObstacleRules
 from navmesh.rules import WalkRules
-from navmesh.surface.build import Cells, Grid, Window, find_cells, lay_grid, reach_of
+from navmesh.surface.build import Cells, Grid, Window, find_cells, lay_grid, patch_around, reach_of
 from navmesh.surface.splicing import splice
 from navmesh.surface.surface import Surface
 
@@ -67,7 +67,7 @@ def renew_cells(
     for window in _apart([_window(bounds, grid, reach) for bounds in changed]):
         spare = reach_of(rules) + 4
         wide = _clipped((window[0] - spare, window[1] - spare, window[2] + spare, window[3] + spare), nx, ny)
-        cells = splice(cells, find_cells(terrain, rules, grid, wide), window, ny)
+        cells = splice(cells, find_cells(terrain, rules, grid, wide), window, patch_around(grid, wide), ny)
     if not len(cells.cell_column):
         raise NavmeshError(f"{terrain.name}: after the change there is nothing to walk on")
     return cells

@@ -25,6 +25,7 @@ from navmesh.level.raster import (
     KIND,
     LOWEST,
     UPRIGHT,
+    Patch,
     columns_of_triangles,
     height_at,
     prepare_triangles,
@@ -70,7 +71,7 @@ class MeshGrid:
         """[m], side of a square."""
         self.shape = (int(high[0] / self.size) + 1, int(high[1] / self.size) + 1)
         self.start, self.member = columns_of_triangles(
-            self.triangles, self.size, *self.shape, (0, 0, *self.shape)
+            self.triangles, Patch(self.size, 0, 0, *self.shape), (0, 0, *self.shape)
         )
 
     @property

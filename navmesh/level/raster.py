@@ -8,6 +8,7 @@ fifths of a build.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,8 +16,9 @@ from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = [
     "AX", "AY", "AZ", "BX", "BY", "BZ", "COLUMNS", "CX", "CY", "CZ", "FLOOR", "HEIGHT_AT_ORIGIN", "HIGHEST",
-    "KIND", "LOWEST", "PART", "PLANE", "SAME_SURFACE", "SLOPE_X", "SLOPE_Y", "TOUCH", "UPRIGHT",
-    "columns_of_triangles", "height_at", "is_over", "prepare_triangles",
+    "KIND", "LOWEST", "PART", "PLANE", "SAME_SURFACE", "SLOPE_X", "SLOPE_Y", "TOUCH", "UPRIGHT", "Patch",
+    "column_at", "columns_of_triangles", "height_at", "is_over", "middle_of", "near_triangles",
+    "prepare_triangles",
 ]  # fmt: skip
 
 AX, AY, AZ, BX, BY, BZ, CX, CY, CZ = range(9)
@@ -37,6 +39,37 @@ TOUCH = 1e-9
 """[m] What is this close touches: squares, triangles and heights."""
 SAME_SURFACE = 0.01
 """[m] Parts of the mesh this close in height are one surface."""
+
+
+class Patch(NamedTuple):
+    """Columns that are looked at together: a rectangle of the grid. All by itself it is a grid, too."""
+
+    side: float
+    """[m], of a column's square."""
+    left: int
+    """The grid's number ix of the patch's first columns."""
+    near: int
+    """The grid's number iy of these."""
+    nx: int
+    ny: int
+    """How many there are: column (ix - left)·ny + iy - near is the square [ix, ix + 1] × [iy, iy + 1] in
+    units of `side`."""
+
+
+@kernel(inline="always")
+def middle_of(patch, column):
+    """x and y of the middle of a column's square."""
+    ix = column // patch.ny
+    iy = column - ix * patch.ny
+    return (ix + patch.left + 0.5) * patch.side, (iy + patch.near + 0.5) * patch.side
+
+
+@kernel(inline="always")
+def column_at(patch, x, y):
+    """The column that (x, y) is in, or -1 where the patch has none."""
+    ix = math.floor(x / patch.side) - patch.left
+    iy = math.floor(y / patch.side) - patch.near
+    return ix * patch.ny + iy if 0 <= ix < patch.nx and 0 <= iy < patch.ny else -1
 
 
 @kernel
@@ -113,15 +146,33 @@ def prepare_triangles(vertices, faces, part, origin, steepest):
 
 
 @allocating_kernel
-def columns_of_triangles(table, resolution, nx, ny, window):
-    """The triangles that touch each column, as lists: ``start`` (nx·ny + 1,) and ``triangle`` (k,) int32.
+def near_triangles(vertices, faces, low, high):
+    """The triangles whose bounds touch the rectangle from ``low`` to ``high`` (2,): (k,) int32, rising."""
+    near = np.empty(faces.shape[0], np.int32)
+    count = 0
+    for f in range(faces.shape[0]):
+        a, b, c = faces[f, 0], faces[f, 1], faces[f, 2]
+        touches = True
+        for axis in range(2):
+            least = min(vertices[a, axis], vertices[b, axis], vertices[c, axis])
+            most = max(vertices[a, axis], vertices[b, axis], vertices[c, axis])
+            touches &= most >= low[axis] and least <= high[axis]
+        if touches:
+            near[count] = f
+            count += 1
+    return near[:count].copy()
 
-    ``table`` comes from `prepare_triangles`. Column ix·ny + iy is the square [ix, ix + 1] × [iy, iy + 1] in
-    units of ``resolution``. Only columns from (window[0], window[1]) up to, not including, (window[2],
-    window[3]) get any.
+
+@allocating_kernel
+def columns_of_triangles(table, patch, window):
+    """The triangles that touch each column, as lists: ``start`` (columns + 1,) and ``triangle`` (k,) int32.
+
+    ``table`` comes from `prepare_triangles`. Only columns from (window[0], window[1]) up to, not including,
+    (window[2], window[3]) get any, which are in the `Patch`.
     """
     count = table.shape[0]
-    inverse = 1.0 / resolution
+    side, ny = patch.side, patch.ny
+    inverse = 1.0 / side
     strips = 0
     for t in range(count):
         low = min(table[t, AX], table[t, BX], table[t, CX]) - TOUCH
@@ -130,7 +181,7 @@ def columns_of_triangles(table, resolution, nx, ny, window):
             min(window[2] - 1, math.floor(high * inverse)) - max(window[0], math.floor(low * inverse)) + 1, 0
         )
     span = np.empty((strips, 3), np.int32)
-    start = np.zeros(nx * ny + 2, np.int32)
+    start = np.zeros(patch.nx * ny + 2, np.int32)
     spans = 0
     for t in range(count):
         low = min(table[t, AX], table[t, BX], table[t, CX]) - TOUCH
@@ -138,8 +189,8 @@ def columns_of_triangles(table, resolution, nx, ny, window):
         first = max(window[0], math.floor(low * inverse))
         last = min(window[2] - 1, math.floor(high * inverse))
         for ix in range(first, last + 1):
-            x0 = ix * resolution - TOUCH
-            x1 = (ix + 1) * resolution + TOUCH
+            x0 = ix * side - TOUCH
+            x1 = (ix + 1) * side + TOUCH
             bottom = np.inf
             top = -np.inf
             for k in range(3):
@@ -165,14 +216,14 @@ def columns_of_triangles(table, resolution, nx, ny, window):
             iy1 = min(window[3] - 1, math.floor((top + TOUCH) * inverse))
             if iy1 < iy0:
                 continue
-            span[spans, 0] = t
-            span[spans, 1] = ix * ny + iy0
-            span[spans, 2] = ix * ny + iy1 + 1
-            start[ix * ny + iy0 + 1] += 1
-            start[ix * ny + iy1 + 2] -= 1
+            first_column = (ix - patch.left) * ny + iy0 - patch.near
+            after = first_column + iy1 + 1 - iy0
+            span[spans, 0], span[spans, 1], span[spans, 2] = t, first_column, after
+            start[first_column + 1] += 1
+            start[after + 1] -= 1
             spans += 1
     # differences -> counts -> starts; `fill` walks each column's next free place
-    columns = nx * ny
+    columns = patch.nx * ny
     fill = np.empty(columns, np.int32)
     running = 0
     total = 0

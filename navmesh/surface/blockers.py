@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from navmesh.level.raster import KIND, TOUCH, UPRIGHT
+from navmesh.level.raster import KIND, TOUCH, UPRIGHT, middle_of
 from navmesh.surface.floor_ends import EDGE, MIDDLE, find_floor_ends
 from navmesh.surface.ledges import floor_end
 from navmesh.surface.segments import comes_near, keep, lies_on, part_in_square, put, sort_and_thin, twice
@@ -73,14 +73,14 @@ def _outline(table, f, x, y, z, p, q, low, high, rx, ry, half, polygon, spare, r
 
 @kernel
 def _walls_in_square(
-    table, start, triangle, there, rx, ry, x, y, z, p, q, low, headroom, resolution,
+    table, start, triangle, there, rx, ry, x, y, z, p, q, low, headroom, side,
     polygon, spare, rows, count,
 ):  # fmt: skip
     """Put the outlines of what rises more than ``low`` above the plane of height z at (x, y) and of gradient
     (p, q) behind the first ``count`` rows, as far as they are in the square of column ``there`` about (rx,
     ry)."""
-    half = 0.5 * resolution
-    slope = (abs(p) + abs(q)) * resolution * 1.5
+    half = 0.5 * side
+    slope = (abs(p) + abs(q)) * side * 1.5
     for k in range(start[there], start[there + 1]):
         f = triangle[k]
         bottom, top = range_in_column(table, f, rx, ry, half)
@@ -98,7 +98,7 @@ def _walls_in_square(
 
 @kernel
 def _own_walls(
-    table, start, triangle, base, cell_column, height, gradient, resolution, ny, headroom,
+    table, start, triangle, base, cell_column, height, gradient, patch, headroom,
     polygon, spare, own, own_start, rows, c,
 ):  # fmt: skip
     """Fill in the walls in the cells' own squares from cell ``c`` on, as far as there are rows; returns the
@@ -107,11 +107,10 @@ def _own_walls(
         count = 0
         if base[c] < np.inf:
             column = cell_column[c]
-            ix = column // ny
-            x, y = (ix + 0.5) * resolution, (column - ix * ny + 0.5) * resolution
+            x, y = middle_of(patch, column)
             count = _walls_in_square(
                 table, start, triangle, column, x, y, x, y, height[c], gradient[c, 0], gradient[c, 1],
-                base[c], headroom, resolution, polygon, spare, own, 0,
+                base[c], headroom, patch.side, polygon, spare, own, 0,
             )  # fmt: skip
             count = sort_and_thin(own, count)
         end = keep(rows, own_start[c], own, count)
@@ -123,7 +122,7 @@ def _own_walls(
 
 
 @kernel
-def _heights_to_ask(link, base, cell_column, height, gradient, start, resolution, ny, step, beside, asked):
+def _heights_to_ask(link, base, cell_column, height, gradient, start, patch, step, beside, asked):
     """Say which cells are ``beside`` something (1), and which of them not linked to all sides (2); and
     between which heights the floor in a column matters to those: ``asked``."""
     for c in range(link.shape[0]):
@@ -143,33 +142,32 @@ def _heights_to_ask(link, base, cell_column, height, gradient, start, resolution
         if not (near and cut):
             continue
         p, q = gradient[c, 0], gradient[c, 1]
-        reach = step + resolution * (abs(p) + abs(q)) + TOUCH
+        reach = step + patch.side * (abs(p) + abs(q)) + TOUCH
         for d in range(-1, 8):
             dx, dy, n, known = _square(link, c, d)
-            there = cell_column[c] + dx * ny + dy
+            there = cell_column[c] + dx * patch.ny + dy
             if (d < 0 or (n < 0 and not known)) and start[there] < start[there + 1]:
-                level = height[c] + resolution * (p * dx + q * dy)
+                level = height[c] + patch.side * (p * dx + q * dy)
                 asked[there, 0] = min(asked[there, 0], level - reach)
                 asked[there, 1] = max(asked[there, 1], level + reach)
 
 
 @kernel
 def _blockers_from(
-    table, start, triangle, base, cell_column, height, gradient, link, resolution, ny, step, headroom,
+    table, start, triangle, base, cell_column, height, gradient, link, patch, step, headroom,
     beside, own_start, own_walls, end_start, floor_ends, polygon, spare, edge, near, blocker_start, rows, c,
 ):  # fmt: skip
     """Fill in the lists from cell ``c`` on, as far as there are rows; returns the first cell that is left."""
-    half = 0.5 * resolution
+    half = 0.5 * patch.side
     while c < cell_column.shape[0]:
         count = 0
         if beside[c] > 0:
             column = cell_column[c]
-            ix = column // ny
-            x, y = (ix + 0.5) * resolution, (column - ix * ny + 0.5) * resolution
+            x, y = middle_of(patch, column)
             z, p, q = height[c], gradient[c, 0], gradient[c, 1]
             for d in range(-1, 8):
                 dx, dy, n, known = _square(link, c, d)
-                there = column + dx * ny + dy
+                there = column + dx * patch.ny + dy
                 if n >= 0:
                     for k in range(own_start[n], own_start[n + 1]):
                         count = put(
@@ -177,11 +175,11 @@ def _blockers_from(
                             own_walls[k, 0], own_walls[k, 1], own_walls[k, 2], own_walls[k, 3],
                         )  # fmt: skip
                 elif not known and start[there] < start[there + 1]:
-                    rx, ry = x + dx * resolution, y + dy * resolution
+                    rx, ry = x + dx * patch.side, y + dy * patch.side
                     rise = (p * dx + q * dy) * half
-                    low = rise + wall_base(table, start, triangle, there, rx, ry, z + rise, resolution, step)
+                    low = rise + wall_base(table, start, triangle, there, rx, ry, z + rise, patch.side, step)
                     count = _walls_in_square(
-                        table, start, triangle, there, rx, ry, x, y, z, p, q, low, headroom, resolution,
+                        table, start, triangle, there, rx, ry, x, y, z, p, q, low, headroom, patch.side,
                         polygon, spare, near, count,
                     )  # fmt: skip
             walls = count
@@ -189,7 +187,7 @@ def _blockers_from(
                 dx, dy, n, known = _square(link, c, d)
                 if d >= 0 and (n >= 0 or known):
                     continue
-                there = column + dx * ny + dy
+                there = column + dx * patch.ny + dy
                 for k in range(end_start[there], end_start[there + 1]):
                     end = floor_ends[k]
                     ax, ay, bx, by = end[EDGE], end[EDGE + 1], end[EDGE + 2], end[EDGE + 3]
@@ -203,11 +201,11 @@ def _blockers_from(
                     continue
                 dx = (1 if d == 0 else 0) - (1 if d == 2 else 0)
                 dy = (1 if d == 1 else 0) - (1 if d == 3 else 0)
-                if comes_near(near, count, x, y, x + dx * resolution, y + dy * resolution):
+                if comes_near(near, count, x, y, x + dx * patch.side, y + dy * patch.side):
                     continue
                 # something that is no edge of the floor ends it: a low obstacle without floor on top
                 t = floor_end(
-                    table, start, triangle, resolution, ny, x, y, d, z, p, q, step, headroom, edge
+                    table, start, triangle, patch, x, y, d, z, p, q, step, headroom, edge
                 )  # fmt: skip
                 count = put(near, count, x + t * dx, y + t * dy, x + t * dx, y + t * dy)
             count = sort_and_thin(near, count)
@@ -220,9 +218,7 @@ def _blockers_from(
 
 
 @allocating_kernel
-def find_blockers(
-    table, start, triangle, base, cell_column, height, gradient, link, resolution, ny, step, headroom
-):
+def find_blockers(table, start, triangle, base, cell_column, height, gradient, link, patch, step, headroom):
     """The lists of all cells: those of cell c are ``blocker[blocker_start[c]:blocker_start[c + 1]]``.
 
     The arrays are those of `navmesh.level.raster`, `navmesh.surface.floors` and `navmesh.surface.walls`.
@@ -241,7 +237,7 @@ def find_blockers(
     c = 0
     while True:
         c = _own_walls(
-            table, start, triangle, base, cell_column, height, gradient, resolution, ny, headroom,
+            table, start, triangle, base, cell_column, height, gradient, patch, headroom,
             polygon, spare, own, own_start, own_walls, c,
         )  # fmt: skip
         if c == cells:
@@ -250,8 +246,8 @@ def find_blockers(
 
     beside, asked = np.empty(cells, np.uint8), np.empty((start.shape[0] - 1, 2))
     asked[:, 0], asked[:, 1] = np.inf, -np.inf
-    _heights_to_ask(link, base, cell_column, height, gradient, start, resolution, ny, step, beside, asked)
-    end_start, floor_ends = find_floor_ends(table, start, triangle, asked, resolution, ny, step, headroom)
+    _heights_to_ask(link, base, cell_column, height, gradient, start, patch, step, beside, asked)
+    end_start, floor_ends = find_floor_ends(table, start, triangle, asked, patch, step, headroom)
     ends = 0
     for column in range(start.shape[0] - 1):
         ends = max(ends, end_start[column + 1] - end_start[column])
@@ -261,7 +257,7 @@ def find_blockers(
     c = 0
     while True:
         c = _blockers_from(
-            table, start, triangle, base, cell_column, height, gradient, link, resolution, ny, step, headroom,
+            table, start, triangle, base, cell_column, height, gradient, link, patch, step, headroom,
             beside, own_start, own_walls, end_start, floor_ends, polygon, spare, edge, near,
             blocker_start, blocker, c,
         )  # fmt: skip
@@ -271,7 +267,7 @@ def find_blockers(
 
 
 @allocating_kernel
-def nearest_blockers(blocker_start, blocker, cell_column, resolution, ny):
+def nearest_blockers(blocker_start, blocker, cell_column, patch):
     """The vector from each cell's centre to the nearest place in its own list: (n, 2) float64, inf without
     one."""
     cells = cell_column.shape[0]
@@ -280,9 +276,7 @@ def nearest_blockers(blocker_start, blocker, cell_column, resolution, ny):
         if blocker_start[c] == blocker_start[c + 1]:
             continue
         column = cell_column[c]
-        ix = column // ny
-        x = (ix + 0.5) * resolution
-        y = (column - ix * ny + 0.5) * resolution
+        x, y = middle_of(patch, column)
         best = np.inf
         for k in range(blocker_start[c], blocker_start[c + 1]):
             ax, ay = blocker[k, 0] - x, blocker[k, 1] - y

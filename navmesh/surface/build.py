@@ -18,7 +18,18 @@ from navmesh.surface import blockers, clearance, floors, walls
 from navmesh.surface.ridges import field_of
 from navmesh.surface.surface import Surface
 
-__all__ = ["Cells", "Grid", "Window", "build_surface", "find_cells", "lay_grid", "reach_of", "surface_of"]
+__all__ = [
+    "Cells",
+    "Grid",
+    "Window",
+    "build_surface",
+    "find_cells",
+    "lay_grid",
+    "patch_around",
+    "reach_of",
+    "surface_of",
+    "whole_patch",
+]
 
 _MOST_COLUMNS = 400_000_000
 
@@ -77,30 +88,49 @@ def reach_of(rules: WalkRules) -> int:
     return math.ceil(along / rules.resolution) + 1
 
 
+def whole_patch(grid: Grid) -> raster.Patch:
+    """All columns of a grid."""
+    return raster.Patch(grid.resolution, 0, 0, *grid.shape)
+
+
+def patch_around(grid: Grid, window: Window) -> raster.Patch:
+    """The columns of ``window``, and empty ones around them: cells have columns on all sides."""
+    left, near = window[0] - 1, window[1] - 1
+    return raster.Patch(grid.resolution, left, near, window[2] + 1 - left, window[3] + 1 - near)
+
+
 def find_cells(terrain: Terrain, rules: WalkRules, grid: Grid, window: Window | None = None) -> Cells:
-    """The cells of ``terrain``, or those of a ``window`` of it: right but for its outermost columns, as many
-    as `reach_of` and three more. Raises `NavmeshError` when there is nothing to walk on at all."""
-    h, (nx, ny) = grid.resolution, grid.shape
+    """The cells of ``terrain``, or those of a ``window`` of it, in its `patch_around`: right but for the
+    window's outermost columns, as many as `reach_of` and three more. Raises `NavmeshError` when there is
+    nothing to walk on at all."""
+    faces, solid, whole = terrain.faces, terrain.solid, window is None
+    if window is None:
+        patch, window = whole_patch(grid), (0, 0, *grid.shape)
+    else:
+        patch = patch_around(grid, window)
+        area = grid.origin[:2] + grid.resolution * np.array([window[:2], window[2:]])
+        near = raster.near_triangles(terrain.vertices, faces, area[0] - 1e-6, area[1] + 1e-6)
+        faces, solid = faces[near], solid[near]
     table = raster.prepare_triangles(
-        terrain.vertices, terrain.faces, terrain.solid, grid.origin, math.cos(rules.max_slope) - 1e-9
+        terrain.vertices, faces, solid, grid.origin, math.cos(rules.max_slope) - 1e-9
     )
-    start, triangle = raster.columns_of_triangles(table, h, nx, ny, window or (0, 0, nx, ny))
+    start, triangle = raster.columns_of_triangles(table, patch, window)
     column_start, cell_column, height, gradient = floors.find_floors(
-        table, start, triangle, h, nx, ny, math.tan(rules.max_slope), rules.max_step, rules.headroom
+        table, start, triangle, patch, math.tan(rules.max_slope), rules.max_step, rules.headroom
     )
-    if len(cell_column) == 0 and window is None:
+    if len(cell_column) == 0 and whole:
         raise NavmeshError(
             f"{terrain.name}: nothing to walk on: no face is within {math.degrees(rules.max_slope):g}° "
             f"of level, faces up, has {rules.headroom:g} m free above it and is not inside of solids (closed "
             "parts); check the up axis, the unit scale and the order of the corners of the faces "
             "(counter-clockwise seen from outside, for floor from above)"
         )
-    link = floors.neighbours_within_step(column_start, cell_column, height, gradient, h, ny, rules.max_step)
+    link = floors.neighbours_within_step(column_start, cell_column, height, gradient, patch, rules.max_step)
     base = walls.find_walls(
-        table, start, triangle, cell_column, height, gradient, h, ny, rules.max_step, rules.headroom
+        table, start, triangle, cell_column, height, gradient, patch, rules.max_step, rules.headroom
     )
     walls.cut_links_at_walls(
-        table, start, triangle, base, cell_column, height, gradient, link, h, ny, rules.headroom
+        table, start, triangle, base, cell_column, height, gradient, link, patch, rules.headroom
     )
     blocker_start, blocker = blockers.find_blockers(
         table,
@@ -111,8 +141,7 @@ def find_cells(terrain: Terrain, rules: WalkRules, grid: Grid, window: Window | 
         height,
         gradient,
         link,
-        h,
-        ny,
+        patch,
         rules.max_step,
         rules.headroom,
     )
@@ -122,7 +151,7 @@ def find_cells(terrain: Terrain, rules: WalkRules, grid: Grid, window: Window | 
 def surface_of(cells: Cells, grid: Grid) -> Surface:
     """The surface that ``cells`` make up."""
     start, h, (nx, ny) = cells.blocker_start, grid.resolution, grid.shape
-    nearest = blockers.nearest_blockers(start, cells.blocker, cells.cell_column, h, ny)
+    nearest = blockers.nearest_blockers(start, cells.blocker, cells.cell_column, whole_patch(grid))
     source = np.where(start[1:] > start[:-1], np.arange(len(start) - 1), -1).astype(np.int32)
     free = clearance.spread_clearance(cells.column_start, cells.link, nearest, source, h, nx, ny)
     surface = Surface(

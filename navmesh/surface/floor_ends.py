@@ -11,8 +11,10 @@ from navmesh.level.raster import (
     LOWEST,
     PLANE,
     TOUCH,
+    column_at,
     height_at,
     is_over,
+    middle_of,
 )
 from navmesh.surface.ledges import GAP, floor_at
 from navmesh.surface.risers import faces_up, on_riser
@@ -35,12 +37,12 @@ _BEYOND = 1e-3
 
 
 @kernel
-def _walked_on(table, start, triangle, resolution, ny, x, y, z, step, headroom):
+def _walked_on(table, start, triangle, patch, x, y, z, step, headroom):
     """Whether (x, y) is a floor point (rule 1) within ``step`` of z."""
-    column = math.floor(x / resolution) * ny + math.floor(y / resolution)
-    if column < 0 or column >= start.shape[0] - 1 or start[column] == start[column + 1]:
-        return False  # beyond the grid, or empty
-    if floor_at(table, start, triangle, resolution, ny, x, y, z, step, headroom) >= 0:
+    column = column_at(patch, x, y)
+    if column < 0 or start[column] == start[column + 1]:
+        return False
+    if floor_at(table, start, triangle, patch, x, y, z, step, headroom) >= 0:
         return True
     for k in range(start[column], start[column + 1]):
         f = triangle[k]
@@ -48,7 +50,7 @@ def _walked_on(table, start, triangle, resolution, ny, x, y, z, step, headroom):
             continue
         here = height_at(table, f, x, y)
         if abs(here - z) <= step + TOUCH and is_over(table, f, x, y):
-            if on_riser(table, start, triangle, resolution, ny, f, x, y, step, headroom):
+            if on_riser(table, start, triangle, patch, f, x, y, step, headroom):
                 return True
     return False
 
@@ -72,14 +74,11 @@ def _is_shared(table, start, triangle, column, f, i, j):
 
 
 @kernel
-def _ends_of_column(
-    table, start, triangle, shared, column, low, high, resolution, ny, step, headroom, ends, count
-):
+def _ends_of_column(table, start, triangle, shared, column, low, high, patch, step, headroom, ends, count):
     """Put the floor ends in the square of ``column``, between two heights, behind the first ``count`` rows;
     returns their number, which is greater than there are rows where those do not suffice."""
-    half = 0.5 * resolution
-    ix = column // ny
-    x, y = (ix + 0.5) * resolution, (column - ix * ny + 0.5) * resolution
+    half = 0.5 * patch.side
+    x, y = middle_of(patch, column)
     for k in range(start[column], start[column + 1]):
         f = triangle[k]
         if table[f, KIND] != FLOOR or table[f, HIGHEST] < low or table[f, LOWEST] > high:
@@ -106,7 +105,7 @@ def _ends_of_column(
             ox, oy = (by - ay) / length, (ax - bx) / length  # to the side of the edge away from the face
             if (table[f, third] - ax) * ox + (table[f, third + 1] - ay) * oy > 0.0:
                 ox, oy = -ox, -oy
-            pieces = int((last - first) * length / (_PIECE * resolution)) + 1
+            pieces = int((last - first) * length / (_PIECE * patch.side)) + 1
             begun = -1.0
             for piece in range(pieces + 1):
                 floor_ends = False
@@ -114,10 +113,10 @@ def _ends_of_column(
                     s = first + (piece + 0.5) / pieces * (last - first)
                     sx, sy, sz = ax + s * (bx - ax), ay + s * (by - ay), table[f, i + 2] + s * rise
                     floor_ends = not _walked_on(
-                        table, start, triangle, resolution, ny,
+                        table, start, triangle, patch,
                         sx + _BEYOND * ox, sy + _BEYOND * oy, sz, step, headroom,
                     ) and not _walked_on(
-                        table, start, triangle, resolution, ny,
+                        table, start, triangle, patch,
                         sx + GAP * ox, sy + GAP * oy, sz, step, headroom,
                     )  # fmt: skip
                 at = first + piece / pieces * (last - first)
@@ -138,16 +137,14 @@ def _ends_of_column(
 
 
 @kernel
-def _ends_from(
-    table, start, triangle, shared, asked, resolution, ny, step, headroom, end_start, ends, column
-):
+def _ends_from(table, start, triangle, shared, asked, patch, step, headroom, end_start, ends, column):
     """Fill in the columns from ``column`` on, as far as there are rows; returns the first that is left."""
     while column < asked.shape[0]:
         count = end_start[column]
         low, high = asked[column, 0], asked[column, 1]
         if low <= high:
             count = _ends_of_column(
-                table, start, triangle, shared, column, low, high, resolution, ny, step, headroom, ends, count
+                table, start, triangle, shared, column, low, high, patch, step, headroom, ends, count
             )
             if count > ends.shape[0]:
                 return column
@@ -157,12 +154,12 @@ def _ends_from(
 
 
 @allocating_kernel
-def find_floor_ends(table, start, triangle, asked, resolution, ny, step, headroom):
+def find_floor_ends(table, start, triangle, asked, patch, step, headroom):
     """The floor ends in the squares of all columns: those of column c are
     ``ends[end_start[c]:end_start[c + 1]]``.
 
-    The arrays are those of `navmesh.level.raster`. ``asked`` (nx·ny, 2) [m] are the heights between which
-    floor is looked at; nothing is where the first is greater. Returns end_start (nx·ny + 1,) int32 and ends
+    The arrays are those of `navmesh.level.raster`. ``asked`` (columns, 2) [m] are the heights between which
+    floor is looked at; nothing is where the first is greater. Returns end_start (columns + 1,) int32 and ends
     (k, `END`) float64.
     """
     end_start = np.zeros(asked.shape[0] + 1, np.int32)
@@ -171,7 +168,7 @@ def find_floor_ends(table, start, triangle, asked, resolution, ny, step, headroo
     column = 0
     while True:
         column = _ends_from(
-            table, start, triangle, shared, asked, resolution, ny, step, headroom, end_start, ends, column
+            table, start, triangle, shared, asked, patch, step, headroom, end_start, ends, column
         )
         if column == asked.shape[0]:
             return end_start, ends

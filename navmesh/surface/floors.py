@@ -16,6 +16,7 @@ from navmesh.level.raster import (
     UPRIGHT,
     height_at,
     is_over,
+    middle_of,
 )
 from navmesh.level.solids import inside_solid
 from navmesh.surface.ledges import GAP, comes_first, floor_at
@@ -48,7 +49,7 @@ def _nearest_on(table, f, x, y):
 
 @kernel
 def _close_gaps(
-    table, start, triangle, resolution, ny, c, x, y, hit, hits, step, headroom,
+    table, start, triangle, patch, c, x, y, hit, hits, step, headroom,
     cell_column, height, gradient, first, cells, tried, crossing,
 ):  # fmt: skip
     """Add a cell to column ``c`` for each floor whose gap, narrower than `GAP`, holds the centre (x, y).
@@ -85,7 +86,7 @@ def _close_gaps(
         beyond = GAP / best
         if not free or (
             floor_at(
-                table, start, triangle, resolution, ny,
+                table, start, triangle, patch,
                 at_x + beyond * (x - at_x), at_y + beyond * (y - at_y), z, step, headroom,
             ) < 0
         ):  # fmt: skip
@@ -103,16 +104,16 @@ def _close_gaps(
 
 
 @allocating_kernel
-def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroom):
+def find_floors(table, start, triangle, patch, slope, step, headroom):
     """Rule 1 at the centre of every column; one in a gap narrower than `navmesh.surface.ledges.GAP` is on its
     floor.
 
     ``table``, ``start``, ``triangle`` come from `navmesh.level.raster`; ``slope`` is the tangent of the
-    steepest slope walked on. Returns ``column_start`` (nx·ny + 1,) int32, ``cell_column`` (n,) int32,
+    steepest slope walked on. Returns ``column_start`` (columns + 1,) int32, ``cell_column`` (n,) int32,
     ``height`` (n,) and ``gradient`` (n, 2) float64; cells of a column go upwards. On a riser the gradient is
     cut to ``slope``, so that neighbours on the floors at its foot and head meet it within a step.
     """
-    columns = nx * ny
+    columns = patch.nx * patch.ny
     most = 1
     for c in range(columns):
         most = max(most, start[c + 1] - start[c])
@@ -130,9 +131,7 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
         column_start[c] = cells
         if start[c + 1] == start[c]:
             continue
-        ix = c // ny
-        x = (ix + 0.5) * resolution
-        y = (c - ix * ny + 0.5) * resolution
+        x, y = middle_of(patch, c)
         hits = 0
         walkable = False
         lowest, highest = np.inf, -np.inf  # the floors that the column touches, at its centre
@@ -185,7 +184,7 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
                 continue
             cut = 1.0
             if hit[i, 3] != FLOOR:
-                if not on_riser(table, start, triangle, resolution, ny, face[i], x, y, step, headroom):
+                if not on_riser(table, start, triangle, patch, face[i], x, y, step, headroom):
                     continue
                 cut = slope / math.hypot(hit[i, 1], hit[i, 2])
             at = cells
@@ -204,7 +203,7 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
         )
         if not known:  # there may be floor that no cell of the column stands for
             cells = _close_gaps(
-                table, start, triangle, resolution, ny, c, x, y, hit, hits, step, headroom,
+                table, start, triangle, patch, c, x, y, hit, hits, step, headroom,
                 cell_column, height, gradient, first, cells, tried, crossing,
             )  # fmt: skip
     column_start[columns] = cells
@@ -212,7 +211,7 @@ def find_floors(table, start, triangle, resolution, nx, ny, slope, step, headroo
 
 
 @allocating_kernel
-def neighbours_within_step(column_start, cell_column, height, gradient, resolution, ny, step):
+def neighbours_within_step(column_start, cell_column, height, gradient, patch, step):
     """Floors of adjoining columns that meet within ``step`` at the shared border: (n, 4) int32 or -1.
 
     Heights are compared where the squares meet, so that a slope does not count as a step. Each cell takes
@@ -220,11 +219,11 @@ def neighbours_within_step(column_start, cell_column, height, gradient, resoluti
     """
     cells = cell_column.shape[0]
     link = np.full((cells, 4), -1, np.int32)
-    half = 0.5 * resolution
+    half = 0.5 * patch.side
     for c in range(cells):
         column = cell_column[c]
         for d in range(2):
-            other = column + ny if d == 0 else column + 1
+            other = column + patch.ny if d == 0 else column + 1
             z = height[c] + gradient[c, d] * half
             best = step + TOUCH
             chosen = -1

@@ -1,7 +1,5 @@
 """Rule 3: where the floor ends on the way from a cell to a neighbour that it is not linked to."""
 
-import math
-
 import numpy as np
 
 from navmesh.level.raster import (
@@ -10,6 +8,7 @@ from navmesh.level.raster import (
     SAME_SURFACE,
     TOUCH,
     UPRIGHT,
+    column_at,
     height_at,
     is_over,
 )
@@ -32,11 +31,11 @@ def comes_first(table, one, other):
 
 
 @kernel
-def floor_at(table, start, triangle, resolution, ny, x, y, z, step, headroom):
+def floor_at(table, start, triangle, patch, x, y, z, step, headroom):
     """The prepared triangle that is floor (rule 1) at (x, y) within ``step`` of z, or -1."""
-    column = math.floor(x / resolution) * ny + math.floor(y / resolution)
+    column = column_at(patch, x, y)
     chosen = -1
-    if column < 0 or column >= start.shape[0] - 1:  # beyond the grid
+    if column < 0:
         return chosen
     at = -np.inf
     for k in range(start[column], start[column + 1]):
@@ -63,7 +62,7 @@ def floor_at(table, start, triangle, resolution, ny, x, y, z, step, headroom):
 
 
 @kernel
-def floor_end(table, start, triangle, resolution, ny, x, y, d, z, p, q, step, headroom, edge):
+def floor_end(table, start, triangle, patch, x, y, d, z, p, q, step, headroom, edge):
     """How far the floor goes on from (x, y) in direction d (`navmesh.surface.surface.DIRECTIONS`), at most a
     cell.
 
@@ -82,8 +81,7 @@ def floor_end(table, start, triangle, resolution, ny, x, y, d, z, p, q, step, he
             table,
             start,
             triangle,
-            resolution,
-            ny,
+            patch,
             x + ahead * dx,
             y + ahead * dy,
             z + ahead * slope,
@@ -109,17 +107,15 @@ def floor_end(table, start, triangle, resolution, ny, x, y, d, z, p, q, step, he
             if ahead < crossing < out:
                 out = crossing
                 edge[0], edge[1], edge[2], edge[3] = ax + x, ay + y, bx + x, by + y
-        if out >= resolution:
+        if out >= patch.side:
             break
         t = out
     low = 0.0
-    high = resolution
+    high = patch.side
     for _ in range(6):
         t = 0.5 * (low + high)
         if (
-            floor_at(
-                table, start, triangle, resolution, ny, x + t * dx, y + t * dy, z + t * slope, step, headroom
-            )
+            floor_at(table, start, triangle, patch, x + t * dx, y + t * dy, z + t * slope, step, headroom)
             >= 0
         ):
             low = t

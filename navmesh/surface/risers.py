@@ -18,6 +18,7 @@ from navmesh.level.raster import (
     SLOPE_Y,
     TOUCH,
     UPRIGHT,
+    column_at,
     height_at,
     is_over,
 )
@@ -54,9 +55,11 @@ def _way_out(table, f, x, y, dx, dy):
 
 
 @kernel
-def _next_face(table, start, triangle, resolution, ny, x, y, z, left):
+def _next_face(table, start, triangle, patch, x, y, z, left):
     """The steep face at (x, y, z) that faces up, or -1, and whether a level enough one is within ``left``."""
-    column = math.floor(x / resolution) * ny + math.floor(y / resolution)
+    column = column_at(patch, x, y)
+    if column < 0:
+        return -1, False
     chosen = -1
     level = False
     for k in range(start[column], start[column + 1]):
@@ -76,7 +79,7 @@ def _next_face(table, start, triangle, resolution, ny, x, y, z, left):
 
 
 @kernel
-def _height_to_floor(table, start, triangle, resolution, ny, t, x, y, way, step, headroom):
+def _height_to_floor(table, start, triangle, patch, t, x, y, way, step, headroom):
     """Height from (x, y) on the steep face ``t`` along the fall line, up (way 1) or down (way -1), to the
     first floor [m], or inf when that is more than ``step``."""
     z = height_at(table, t, x, y)
@@ -91,9 +94,9 @@ def _height_to_floor(table, start, triangle, resolution, ny, t, x, y, way, step,
             return np.inf
         x += (out + _BEYOND) * dx
         y += (out + _BEYOND) * dy
-        t, level = _next_face(table, start, triangle, resolution, ny, x, y, z, left)
+        t, level = _next_face(table, start, triangle, patch, x, y, z, left)
         if level:
-            floor = floor_at(table, start, triangle, resolution, ny, x, y, z, left, headroom)
+            floor = floor_at(table, start, triangle, patch, x, y, z, left, headroom)
             if floor >= 0:
                 return abs(height_at(table, floor, x, y) - begin)
         if t < 0:
@@ -102,7 +105,7 @@ def _height_to_floor(table, start, triangle, resolution, ny, t, x, y, way, step,
 
 
 @kernel
-def on_riser(table, start, triangle, resolution, ny, t, x, y, step, headroom):
+def on_riser(table, start, triangle, patch, t, x, y, step, headroom):
     """Whether (x, y) on the steep face ``t``, which faces up, is on a riser: the fall line through it leads
     over steep faces to floor above and to floor below that are at most ``step`` apart in height."""
     fall = math.hypot(table[t, SLOPE_X], table[t, SLOPE_Y])
@@ -111,8 +114,8 @@ def on_riser(table, start, triangle, resolution, ny, t, x, y, step, headroom):
     below = _way_out(table, t, x, y, -dx, -dy) * fall
     if below + _way_out(table, t, x, y, dx, dy) * fall > step + TOUCH:
         return False
-    up = _height_to_floor(table, start, triangle, resolution, ny, t, x, y, 1.0, step - below, headroom)
+    up = _height_to_floor(table, start, triangle, patch, t, x, y, 1.0, step - below, headroom)
     if up == np.inf:
         return False
-    down = _height_to_floor(table, start, triangle, resolution, ny, t, x, y, -1.0, step - up, headroom)
+    down = _height_to_floor(table, start, triangle, patch, t, x, y, -1.0, step - up, headroom)
     return up + down <= step + TOUCH

@@ -1,76 +1,118 @@
-"""Cells of a window put in the place of those that were there."""
+"""Cells of a window put in the place of those that were there.
+
+What is not in the window lies in runs, from one strip of the window to the next: all of a run moves by the
+same number of places.
+"""
 
 import numpy as np
 
+from navmesh.level.raster import Patch
 from navmesh.surface.build import Cells, Window
-from surefoot.kernels import allocating_kernel
+from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["splice"]
+__all__ = ["runs_around", "splice"]
 
 
-def splice(old: Cells, new: Cells, window: Window, ny: int) -> Cells:
-    """``old`` with the columns of ``window`` as in ``new``; those just outside of it are alike in both."""
-    column_start, cell_column, old_at, new_at = _places(
-        old.column_start, new.column_start, np.array(window), ny
-    )
-    count = len(cell_column)
-    height, gradient, link = np.empty(count), np.empty((count, 2)), np.empty((count, 4), np.int32)
-    blocker_start = np.zeros(count + 1, np.int32)
-    for part, at in ((old, old_at), (new, new_at)):
-        kept = at >= 0
-        blocker_start[1:][at[kept]] = np.diff(part.blocker_start)[kept]
-    blocker_start = np.cumsum(blocker_start, dtype=np.int32)
-    blocker = np.empty((blocker_start[-1], 4))
-    for part, at in ((old, old_at), (new, new_at)):
-        _copy(
-            part.column_start, part.cell_column, part.height, part.gradient, part.link,
-            part.blocker_start, part.blocker, at,
-            column_start, height, gradient, link, blocker_start, blocker,
-        )  # fmt: skip
-    return Cells(column_start, cell_column, height, gradient, link, blocker_start, blocker)
+def splice(old: Cells, new: Cells, window: Window, patch: Patch, ny: int) -> Cells:
+    """``old`` with the columns of ``window`` as in ``new``, the cells of ``patch``; those just outside of the
+    window are alike in both. ``ny``: of the whole grid."""
+    return Cells(*_splice(
+        old.column_start, old.cell_column, old.height, old.gradient, old.link, old.blocker_start, old.blocker,
+        new.column_start, new.cell_column, new.height, new.gradient, new.link, new.blocker_start, new.blocker,
+        np.array(window), patch, ny,
+    ))  # fmt: skip
+
+
+@kernel
+def runs_around(old_start, new_start, window, patch, ny, runs):
+    """The runs of cells of the whole, in order: rows of ``runs`` (2·strips + 1, 4): whether they are new, the
+    first cell, the number of cells, and where the first comes to lie in the whole. Returns the number of
+    cells of the whole."""
+    at, done, row = 0, 0, 0
+    for ix in range(window[0], window[2]):
+        here = ix * ny
+        begin, end = old_start[here + window[1]], old_start[here + window[3]]
+        inside = (ix - patch.left) * patch.ny - patch.near
+        first, last = new_start[inside + window[1]], new_start[inside + window[3]]
+        runs[row, 0], runs[row, 1], runs[row, 2], runs[row, 3] = 0, done, begin - done, at
+        at += begin - done
+        runs[row + 1, 0], runs[row + 1, 1], runs[row + 1, 2], runs[row + 1, 3] = 1, first, last - first, at
+        at += last - first
+        done = end
+        row += 2
+    runs[row, 0], runs[row, 1], runs[row, 2], runs[row, 3] = 0, done, old_start[-1] - done, at
+    return at + old_start[-1] - done
+
+
+@kernel
+def _columns(old_start, new_start, window, patch, ny, runs, start, owner):
+    """Fill in ``column_start`` and ``cell_column`` of the whole."""
+    column = 0  # of the whole, up to which all is filled in
+    for row in range(runs.shape[0]):
+        first, at = runs[row, 1], runs[row, 3]
+        if runs[row, 0] == 1:
+            ix = window[0] + row // 2
+            end = ix * ny + window[3]
+            inside = (ix - patch.left) * patch.ny - patch.near - ix * ny
+            for c in range(column, end):
+                start[c] = new_start[inside + c] - first + at
+        else:
+            last = row == runs.shape[0] - 1
+            end = start.shape[0] if last else (window[0] + row // 2) * ny + window[1]
+            shift = at - first
+            for c in range(column, end):
+                start[c] = old_start[c] + shift
+        column = end
+    for c in range(start.shape[0] - 1):
+        for k in range(start[c], start[c + 1]):
+            owner[k] = c
 
 
 @allocating_kernel
-def _places(old_start, new_start, window, ny):
-    """``column_start`` and ``cell_column`` of the whole, and where each old and each new cell comes to lie in
-    it, or -1."""
-    columns = len(old_start) - 1
-    old_at = np.full(old_start[-1], -1, np.int32)
-    new_at = np.full(new_start[-1], -1, np.int32)
-    start = np.empty(columns + 1, np.int32)
-    owner = np.empty(old_start[-1] + new_start[-1], np.int32)
-    count = 0
-    for c in range(columns):
-        start[c] = count
-        ix = c // ny
-        iy = c - ix * ny
-        inside = window[0] <= ix < window[2] and window[1] <= iy < window[3]
-        first, last = (new_start[c], new_start[c + 1]) if inside else (old_start[c], old_start[c + 1])
-        for k in range(first, last):
-            if inside:
-                new_at[k] = count
-            else:
-                old_at[k] = count
-            owner[count] = c
-            count += 1
-    start[columns] = count
-    return start, owner[:count].copy(), old_at, new_at
-
-
-@allocating_kernel
-def _copy(
-    start, owner, height, gradient, link, blocker_start, blocker, at,
-    whole_start, to_height, to_gradient, to_link, to_blocker_start, to_blocker,
+def _splice(
+    old_start, old_column, old_height, old_gradient, old_link, old_list, old_blocker,
+    new_start, new_column, new_height, new_gradient, new_link, new_list, new_blocker,
+    window, patch, ny,
 ):  # fmt: skip
-    for k in range(len(at)):
-        n = at[k]
-        if n < 0:
-            continue
-        to_height[n] = height[k]
-        to_gradient[n, 0], to_gradient[n, 1] = gradient[k, 0], gradient[k, 1]
-        for i in range(blocker_start[k + 1] - blocker_start[k]):
-            to_blocker[to_blocker_start[n] + i] = blocker[blocker_start[k] + i]
-        for d in range(4):
-            m = link[k, d]
-            # the same one of its column's cells: also where that column is from the other part
-            to_link[n, d] = whole_start[owner[m]] + m - start[owner[m]] if m >= 0 else -1
+    runs = np.empty((2 * (window[2] - window[0]) + 1, 4), np.int64)
+    count = runs_around(old_start, new_start, window, patch, ny, runs)
+    start, owner = np.empty(old_start.shape[0], np.int32), np.empty(count, np.int32)
+    _columns(old_start, new_start, window, patch, ny, runs, start, owner)
+    height, gradient, link = np.empty(count), np.empty((count, 2)), np.empty((count, 4), np.int32)
+    lists = np.empty(count + 1, np.int32)
+    blockers = 0
+    for row in range(runs.shape[0]):
+        part = new_list if runs[row, 0] == 1 else old_list
+        first, size, at = runs[row, 1], runs[row, 2], runs[row, 3]
+        shift = blockers - part[first]
+        for k in range(size):
+            lists[at + k] = part[first + k] + shift
+        blockers += part[first + size] - part[first]
+    lists[count] = blockers
+    blocker = np.empty((blockers, 4))
+    for row in range(runs.shape[0]):
+        first, size, at = runs[row, 1], runs[row, 2], runs[row, 3]
+        fresh = runs[row, 0] == 1
+        part_height, part_gradient = (new_height, new_gradient) if fresh else (old_height, old_gradient)
+        part_list, part_blocker = (new_list, new_blocker) if fresh else (old_list, old_blocker)
+        height[at : at + size] = part_height[first : first + size]
+        gradient[at : at + size] = part_gradient[first : first + size]
+        begin, end = part_list[first], part_list[first + size]
+        blocker[lists[at] : lists[at] + end - begin] = part_blocker[begin:end]
+        shift = at - first
+        for k in range(size):
+            for d in range(4):
+                m = new_link[first + k, d] if fresh else old_link[first + k, d]
+                if m >= 0:
+                    if first <= m < first + size:
+                        m += shift
+                    elif fresh:
+                        inside = new_column[m]
+                        ix = inside // patch.ny
+                        c = (ix + patch.left) * ny + inside - ix * patch.ny + patch.near
+                        # the same one of its column's cells: also where that column is from the other part
+                        m = start[c] + m - new_start[inside]
+                    else:
+                        m = start[old_column[m]] + m - old_start[old_column[m]]
+                link[at + k, d] = m
+    return start, owner, height, gradient, link, lists, blocker

@@ -12,6 +12,7 @@ from navmesh.level.raster import (
     TOUCH,
     UPRIGHT,
     height_at,
+    middle_of,
 )
 from surefoot.kernels import allocating_kernel, kernel
 
@@ -148,7 +149,7 @@ def range_in_column(table, f, x, y, reach):
 
 
 @kernel
-def wall_base(table, start, triangle, column, x, y, z, resolution, step):
+def wall_base(table, start, triangle, column, x, y, z, side, step):
     """Height above z from which on mesh in the column is a wall: step above the highest floor that a body
     standing at z reaches by steps within the column."""
     reach = 0.0
@@ -159,7 +160,7 @@ def wall_base(table, start, triangle, column, x, y, z, resolution, step):
             f = triangle[k]
             if table[f, KIND] != FLOOR:
                 continue
-            low, high = range_in_column(table, f, x, y, 0.5 * resolution)
+            low, high = range_in_column(table, f, x, y, 0.5 * side)
             if low - z <= reach + step + TOUCH and high - z > reach:
                 reach = high - z
                 grew = True
@@ -167,18 +168,16 @@ def wall_base(table, start, triangle, column, x, y, z, resolution, step):
 
 
 @allocating_kernel
-def find_walls(table, start, triangle, cell_column, height, gradient, resolution, ny, step, headroom):
+def find_walls(table, start, triangle, cell_column, height, gradient, patch, step, headroom):
     """Height above each cell from which on mesh in its own column is a wall [m], or inf: (n,)."""
     cells = cell_column.shape[0]
     base = np.full(cells, np.inf)
-    half = 0.5 * resolution
+    half = 0.5 * patch.side
     for c in range(cells):
         column = cell_column[c]
         if start[column + 1] - start[column] == 1:
             continue
-        ix = column // ny
-        x = (ix + 0.5) * resolution
-        y = (column - ix * ny + 0.5) * resolution
+        x, y = middle_of(patch, column)
         z = height[c]
         slope = (abs(gradient[c, 0]) + abs(gradient[c, 1])) * half
         found = False
@@ -188,7 +187,7 @@ def find_walls(table, start, triangle, cell_column, height, gradient, resolution
                 found = True
                 break
         if found:
-            lowest = wall_base(table, start, triangle, column, x, y, z, resolution, step)
+            lowest = wall_base(table, start, triangle, column, x, y, z, patch.side, step)
             if lowest < headroom:
                 base[c] = lowest
     return base
@@ -216,24 +215,20 @@ def _wall_between(
 
 
 @allocating_kernel
-def cut_links_at_walls(
-    table, start, triangle, base, cell_column, height, gradient, link, resolution, ny, headroom
-):
+def cut_links_at_walls(table, start, triangle, base, cell_column, height, gradient, link, patch, headroom):
     """Cut, in place, the links whose line from centre to centre meets a wall in either column."""
     polygon = np.empty((8, 3))
     spare = np.empty((8, 3))
-    half = 0.5 * resolution
+    half = 0.5 * patch.side
     for c in range(cell_column.shape[0]):
         for d in range(2):
             n = link[c, d]
             if n < 0 or (base[c] == np.inf and base[n] == np.inf):
                 continue
             column = cell_column[c]
-            ix = column // ny
-            ax = (ix + 0.5) * resolution
-            ay = (column - ix * ny + 0.5) * resolution
-            bx = ax + resolution if d == 0 else ax
-            by = ay if d == 0 else ay + resolution
+            ax, ay = middle_of(patch, column)
+            bx = ax + patch.side if d == 0 else ax
+            by = ay if d == 0 else ay + patch.side
             cut = False
             for k in range(2):
                 side, x, y = (c, ax, ay) if k == 0 else (n, bx, by)

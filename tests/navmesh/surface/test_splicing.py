@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from navmesh.level.raster import Patch
 from navmesh.surface.build import Cells
 from navmesh.surface.splicing import splice
 
@@ -50,7 +51,7 @@ def test_inside_it_is_as_in_the_new_and_outside_as_in_the_old(window):
     expected.height[:] += shift
     expected.gradient[:] = np.column_stack([expected.height, -expected.height])
     expected.blocker[:] = np.repeat(expected.height, np.diff(expected.blocker_start))[:, None]
-    found = splice(old, new, window, NY)
+    found = splice(old, new, window, Patch(0.25, 0, 0, NX, NY), NY)
     for name in ("column_start", "cell_column", "height", "gradient", "blocker_start", "blocker"):
         np.testing.assert_array_equal(getattr(found, name), getattr(expected, name), name)
     # links from outside into the window are those of the old part, which knew as many storeys there as it had

@@ -245,7 +245,7 @@ def play_dungeon(bots: int = 64, seconds: float = 300.0) -> dict:
         outcome = playtest(level_path("dungeon"), up="y", **asked)
         wall = time.perf_counter() - begun
         reports.append(json.dumps(outcome.report.to_dict()))
-        total = sum(run.seconds for run in outcome.runs)
+        total = outcome.tally.seconds
         print(
             f"dungeon, {bots} bots x {seconds:g} s, {processes} processes: {wall:.1f} s, "
             f"{total / wall:.0f} x real time in total, {seconds / wall:.1f} x for the session as a whole"

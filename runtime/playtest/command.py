@@ -125,12 +125,10 @@ def _show(outcome: Outcome, difference: Difference | None, written: list[Path]) 
     if difference is not None:
         new, gone, kept = len(difference.new), len(difference.gone), len(difference.kept)
         console.print(f"since the earlier report: {new} new, {gone} gone, {kept} as before")
-    total = sum(run.seconds for run in outcome.runs)
-    if total:
+    total, bots = outcome.tally.seconds, report.setup.bots
+    if bots:
         pace = total / max(outcome.wall, 1e-9)
-        console.print(
-            f"{len(outcome.runs)} bots, {total:.0f} s in {outcome.wall:.1f} s ({pace:.0f} x real time)"
-        )
+        console.print(f"{bots} bots, {total:.0f} s in {outcome.wall:.1f} s ({pace:.0f} x real time)")
     for path in written:
         console.print(f"wrote {path}", soft_wrap=True)
 

@@ -1,27 +1,26 @@
 """What the bots met, gathered: troubles in clusters, obstacles that nobody cleared, journeys against plan."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
 
-from runtime.playtest.bots import BotRun, Trouble
-from runtime.playtest.fault import Fault, Sighting
+from runtime.playtest.bots import Visit
+from runtime.playtest.fault import Fault
 from runtime.playtest.holes import Hole
 from runtime.playtest.site import Site
+from runtime.playtest.tally import Tally
 from runtime.playtest.wording import place, triple
 
-__all__ = ["Crossing", "Journey", "crossings", "journeys", "observed", "sighted", "with_sightings"]
+__all__ = ["Crossing", "Journey", "crossings", "journeys", "observed", "with_sightings"]
 
-_NEAR = 2.0  # [m] troubles of one kind nearer to each other than this are one
+_STOREY = 2.0  # [m] above or below a hole's rim that a fall into it ends
 _CLAIMED = 2.5  # [m] a trouble this near to what the analysis found is a sighting of it
 _BESIDE = 1.0  # [m] from a hole that a body falls into it
 _CHANCE = 2  # sightings below which a trouble may be chance: a note
 _TRIES = 2  # attempts at an obstacle after which never having cleared it counts
 _SLOW, _START = 2.0, 1.0  # times the planned time, and as many seconds to turn and to set off
-_KIND = {"fell": "fell", "stuck": "stuck", "lost": "stuck", "bumped": "never_cleared", "no way": "blocked",
-         "trapped": "trap"}  # fmt: skip
 _MET = {
     "fell": ("falls", "fall"),
     "stuck": ("makes no headway", "make no headway"),
@@ -59,27 +58,24 @@ class Journey:
     seconds: float
 
 
-def crossings(site: Site, runs: Sequence[BotRun], obstacles: Sequence[int]) -> list[Crossing]:
+def crossings(site: Site, tally: Tally, obstacles: Sequence[int]) -> list[Crossing]:
     """What bots made of each of ``obstacles`` (indices)."""
     found = site.graph.obstacles
     sizes = found.size
-    passings = [each for run in runs for each in run.passings]
-    table = []
-    for index in obstacles:
-        mine = [each.cleared for each in passings if each.obstacle == index]
-        table.append(
-            Crossing(str(found.tag[index]), str(found.affordance[index]), round(float(sizes[index]), 3),
-                     triple(found.position[index]), len(mine), sum(mine))
-        )  # fmt: skip
-    return table
+    return [
+        Crossing(str(found.tag[index]), str(found.affordance[index]), round(float(sizes[index]), 3),
+                 triple(found.position[index]), tally.attempts.get(index, 0), tally.cleared.get(index, 0))
+        for index in obstacles
+    ]  # fmt: skip
 
 
-def journeys(runs: Sequence[BotRun]) -> list[Journey]:
+def journeys(visits: Sequence[Visit]) -> list[Journey]:
     """The travellers' ways, by start and goal."""
-    visits = [each for run in runs for each in run.visits]
+    ways: dict[tuple[str, str], list[Visit]] = {}
+    for each in visits:
+        ways.setdefault((each.start, each.goal), []).append(each)
     table = []
-    for start, goal in sorted({(each.start, each.goal) for each in visits}):
-        mine = [each for each in visits if (each.start, each.goal) == (start, goal)]
+    for (start, goal), mine in sorted(ways.items()):
         times = [each.seconds for each in mine if each.arrived]
         seconds = float(np.median(times)) if times else 0.0
         planned = float(np.median([each.planned for each in mine]))
@@ -87,25 +83,20 @@ def journeys(runs: Sequence[BotRun]) -> list[Journey]:
     return table
 
 
-def observed(
-    site: Site, runs: Sequence[BotRun], ways: Sequence[Crossing], trips: Sequence[Journey]
-) -> list[Fault]:
+def observed(site: Site, tally: Tally, ways: Sequence[Crossing], trips: Sequence[Journey]) -> list[Fault]:
     """The faults that bots met."""
     noun = site.character.noun
-    troubles = [(run.number, each) for run in runs for each in run.troubles]
     faults = []
-    for kind in dict.fromkeys(_KIND.values()):
-        for cluster in _clusters([each for each in troubles if _KIND[each[1].kind] == kind]):
-            sightings = _sightings(cluster)
-            middle = _middle(cluster)
-            bots = len({bot for bot, _ in cluster})
-            who, times = f"{bots} bot{'s' * (bots > 1)}", len(cluster)
-            often = f"{times} time{'s' * (times > 1)}"
-            text = f"at {place(middle)} {who} {_MET[kind][bots > 1]} ({often})"
-            if kind == "fell":
-                text += f": the {noun} leaves the level or loses its feet here"
-            fails = len(cluster) >= _CHANCE or kind == "fell"
-            faults.append(Fault(kind, triple(middle), text, fails, "bots", sightings=sightings))
+    for kind, cluster in tally.clusters():
+        middle = np.median(cluster.places, axis=0)
+        sightings = tuple(cluster.sightings)
+        bots, times = len({each.bot for each in sightings}), len(sightings)
+        who, often = f"{bots} bot{'s' * (bots > 1)}", f"{times} time{'s' * (times > 1)}"
+        text = f"at {place(middle)} {who} {_MET[kind][bots > 1]} ({often})"
+        if kind == "fell":
+            text += f": the {noun} leaves the level or loses its feet here"
+        fails = times >= _CHANCE or kind == "fell"
+        faults.append(Fault(kind, triple(middle), text, fails, "bots", sightings=sightings))
     for each in ways:
         if each.attempts >= _TRIES and each.cleared == 0:
             text = (
@@ -143,40 +134,9 @@ def _same(analysed: Fault, met: Fault, holes: Sequence[Hole]) -> bool:
         return met.kind == "fell" and any(
             analysed.position == triple(hole.place)
             and shapely.dwithin(hole.outline, at, _BESIDE)
-            and hole.rim[:, 2].min() - _NEAR <= met.position[2] <= hole.rim[:, 2].max() + _NEAR
+            and hole.rim[:, 2].min() - _STOREY <= met.position[2] <= hole.rim[:, 2].max() + _STOREY
             for hole in holes
         )
     reach = _CLAIMED + (analysed.extent / np.pi) ** 0.5
     near = np.linalg.norm(np.subtract(analysed.position, met.position)) <= reach
     return bool(near) and analysed.kind in ("trap", "one_way") and met.kind in ("trap", "blocked", "stuck")
-
-
-def _clusters(troubles: list[tuple[int, Trouble]]) -> Iterator[list[tuple[int, Trouble]]]:
-    """Troubles around the same places: each joins the first cluster whose first member is near."""
-    clusters: list[list[tuple[int, Trouble]]] = []
-    for each in troubles:
-        where = np.array(each[1].place)
-        near = (c for c in clusters if np.linalg.norm(np.subtract(c[0][1].place, where)) <= _NEAR)
-        home = next(near, None)
-        if home is None:
-            clusters.append([each])
-        else:
-            home.append(each)
-    return iter(clusters)
-
-
-def _middle(cluster: list[tuple[int, Trouble]]) -> np.ndarray:
-    return np.median([each.place for _, each in cluster], axis=0)
-
-
-def sighted(run: BotRun, sighting: Sighting) -> Trouble | None:
-    """The trouble of a bot's ``run`` that a sighting tells of."""
-    return next((each for each in run.troubles if _sighting(run.number, each) == sighting), None)
-
-
-def _sightings(cluster: list[tuple[int, Trouble]]) -> tuple[Sighting, ...]:
-    return tuple(_sighting(bot, each) for bot, each in cluster)
-
-
-def _sighting(bot: int, trouble: Trouble) -> Sighting:
-    return Sighting(bot, round(trouble.time, 2), triple(trouble.place))

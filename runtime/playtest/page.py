@@ -9,7 +9,6 @@ from runtime.playtest.bots import Trouble
 from runtime.playtest.closeup import close_up
 from runtime.playtest.diff import Difference
 from runtime.playtest.fault import Fault
-from runtime.playtest.observation import sighted
 from runtime.playtest.pictures import address, film_strip, heat_map, level_map
 from runtime.playtest.run import Outcome
 from runtime.views.render import Triangles
@@ -78,7 +77,4 @@ def _values(outcome: Outcome, difference: Difference | None, stage: Any) -> dict
 
 
 def _first_trouble(outcome: Outcome, fault: Fault) -> Trouble | None:
-    if not fault.sightings:
-        return None
-    first = fault.sightings[0]
-    return sighted(next(run for run in outcome.runs if run.number == first.bot), first)
+    return outcome.tally.met(fault.sightings[0]) if fault.sightings else None

@@ -8,9 +8,9 @@ from runtime.playtest.bots import run_bot
 from runtime.playtest.fault import Fault
 from runtime.playtest.looks import POSED, capsule, figure_of, poses_along
 from runtime.playtest.movers import CapsuleMover
-from runtime.playtest.observation import sighted
 from runtime.playtest.report import Report
 from runtime.playtest.run import Stage, open_stage
+from runtime.playtest.tally import sighted
 from runtime.traces.recording import level_trace
 from runtime.traces.trace import AgentTrace, PathTrace, Trace
 

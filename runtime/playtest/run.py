@@ -12,7 +12,6 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
-from scipy.spatial import KDTree
 
 import navmesh
 from runtime.errors import RuntimeInputError
@@ -28,6 +27,7 @@ from runtime.playtest.observation import crossings, journeys, observed, with_sig
 from runtime.playtest.plan import LoadedPlan, plan_path
 from runtime.playtest.report import Report, Setup
 from runtime.playtest.site import Site
+from runtime.playtest.tally import Tally
 from surefoot.progress import Progress
 from surefoot.workers.cluster import checked_address
 from surefoot.workers.pool import Place, worker_pool
@@ -38,8 +38,6 @@ __all__ = ["BODY", "MOST_BOTS", "Outcome", "Stage", "open_stage", "playtest"]
 BODY = "walker"
 """Who plays unless something else is said."""
 MOST_BOTS = 100_000
-_MOMENTS = 60  # points of the curve of coverage
-_SEEN = 1.0  # [m] a patch is covered when a bot has been this near to it
 
 
 @dataclass(frozen=True)
@@ -54,11 +52,11 @@ class Stage:
 
 @dataclass(frozen=True)
 class Outcome:
-    """A report, with what it does not say because it must not differ from run to run: ``runs`` of the
-    bots, the ``wall`` time [s] that they took together, and where they are ``kept``."""
+    """A report, with what it does not say because it must not differ from run to run: the ``tally`` of
+    the bots, the ``wall`` time [s] that they took together, and where their runs are ``kept``."""
 
     report: Report
-    runs: tuple[BotRun, ...]
+    tally: Tally
     stage: Stage
     wall: float
     kept: KeptRuns | None = None
@@ -112,19 +110,20 @@ def playtest(
         holes = find_holes(site, reached)
         proved = analyse(site, holes, starts, at[~meant], at[meant])
         proved += broken_expectations(site, stage.plan, starts, at)
-    kept = None if checkpoint is None else KeptRuns(checkpoint, _identity(stage))
+    # the processes that play load the graph, and kept runs are known by it
+    packed = b"" if place == 1 and checkpoint is None else _packed(site.graph)
+    kept = None if checkpoint is None else KeptRuns(checkpoint, _identity(stage, packed))
+    patches, _ = patches_of(site, reached)
+    tally = Tally(patches)
     begun = time.perf_counter()
-    runs, played = [], 0.0
     with progress.stage(f"{bots} bots play") as bar:
-        for run in _all_runs(stage, place, kept):
-            runs.append(run)
-            played += run.seconds
-            pace = played / max(time.perf_counter() - begun, 1e-9)
-            bar.update(len(runs) / bots, f"{len(runs)} done, {pace:.0f} x real time")
+        for done, run in enumerate(_all_runs(stage, packed, place, kept), start=1):
+            tally.add(run)
+            pace = tally.seconds / max(time.perf_counter() - begun, 1e-9)
+            bar.update(done / bots, f"{done} done, {pace:.0f} x real time")
     wall = time.perf_counter() - begun
-    ways, trips = crossings(site, runs, stage.goals.obstacles), journeys(runs)
-    faults = numbered(with_sightings(proved, observed(site, runs, ways, trips), holes))
-    coverage, patches = _coverage(site, reached, runs, seconds)
+    ways, trips = crossings(site, tally, stage.goals.obstacles), journeys(tally.visits)
+    faults = numbered(with_sightings(proved, observed(site, tally, ways, trips), holes))
     report = Report(
         setup=setup,
         digest=site.graph.terrain.digest,
@@ -132,11 +131,11 @@ def playtest(
         faults=tuple(faults),
         crossings=tuple(ways),
         journeys=tuple(trips),
-        coverage=coverage,
-        patches=patches,
+        coverage=tally.coverage.curve(seconds),
+        patches=tally.coverage.visits(),
         reachable=round(float(site.areas[reached].sum()), 2),
     )
-    return Outcome(report, tuple(runs), stage, wall, kept)
+    return Outcome(report, tally, stage, wall, kept)
 
 
 def open_stage(setup: Setup) -> Stage:
@@ -155,11 +154,11 @@ def _build(setup: Setup, character: Character) -> navmesh.NodeGraph:
     return navmesh.NodeGraph.build(terrain, character.rules, character.obstacle_rules(), tags=tags)
 
 
-def _identity(stage: Stage) -> str:
-    """Of all that decides a bot's run, as a name for a folder."""
+def _identity(stage: Stage, graph: bytes) -> str:
+    """Of all that decides a bot's run, as a name for a folder. ``graph``: its file."""
     setup = {key: value for key, value in asdict(stage.setup).items() if key != "bots"}
-    graph = hashlib.sha256(_packed(stage.site.graph)).hexdigest()
-    told = [setup, graph, stage.site.character.to_dict(), stage.plan.plan.model_dump(), own_versions()]
+    digest = hashlib.sha256(graph).hexdigest()
+    told = [setup, digest, stage.site.character.to_dict(), stage.plan.plan.model_dump(), own_versions()]
     return hashlib.sha256(json.dumps(told, sort_keys=True, default=str).encode()).hexdigest()[:16]
 
 
@@ -171,29 +170,35 @@ def _packed(graph: navmesh.NodeGraph) -> bytes:
         return file.read_bytes()
 
 
-def _all_runs(stage: Stage, place: Place, kept: KeptRuns | None) -> Iterator[BotRun]:
+def _all_runs(stage: Stage, graph: bytes, place: Place, kept: KeptRuns | None) -> Iterator[BotRun]:
     """The runs in the order of the bots' numbers, those that are ``kept`` already as they were."""
     numbers = range(stage.setup.bots)
-    known = {} if kept is None else {n: run for n in numbers if (run := kept.read(n)) is not None}
-    with _runs(stage, place, [n for n in numbers if n not in known]) as fresh:
+    if kept is None:
+        with _runs(stage, graph, place, numbers) as fresh:
+            yield from fresh
+        return
+    known = {number for number in numbers if kept.read(number) is not None}  # read again when it is its turn
+    with _runs(stage, graph, place, [number for number in numbers if number not in known]) as fresh:
         for number in numbers:
-            run = known.pop(number, None)
+            if number not in known:
+                kept.keep(next(fresh))
+            run = kept.read(number)
             if run is None:
-                run = next(fresh)
-                if kept is not None:
-                    kept.keep(run)
+                raise RuntimeInputError(
+                    f"the run of bot {number} has been removed from its checkpoint; run it again"
+                )
             yield run
 
 
 @contextmanager
-def _runs(stage: Stage, place: Place, numbers: Sequence[int]) -> Iterator[Iterator[BotRun]]:
-    """The runs of the bots ``numbers``, by whoever works at ``place``."""
+def _runs(stage: Stage, graph: bytes, place: Place, numbers: Sequence[int]) -> Iterator[Iterator[BotRun]]:
+    """The runs of the bots ``numbers``, by whoever works at ``place``; they load the ``graph``."""
     site, goals, setup = stage.site, stage.goals, stage.setup
     if place == 1 or not numbers:
         yield (run_bot(site, goals, setup.seed, number, setup.seconds) for number in numbers)
         return
     most = place if isinstance(place, str) else min(place, len(numbers))
-    common = (_packed(site.graph), site.character, goals, setup.seed, setup.seconds)
+    common = (graph, site.character, goals, setup.seed, setup.seconds)
     with worker_pool(most, _begin, common) as pool:
         yield pool.imap(_run_one, numbers)
 
@@ -214,24 +219,3 @@ def _run_one(number: int) -> BotRun:
     assert _player is not None
     site, goals, seed, seconds = _player
     return run_bot(site, goals, seed, number, seconds)
-
-
-def _coverage(site: Site, reached: np.ndarray, runs: Sequence[BotRun], seconds: float) -> tuple[tuple, tuple]:
-    """The curve of coverage and the patches of floor with their visits."""
-    patches, _ = patches_of(site, reached)
-    first = np.full(len(patches), np.inf)
-    visits = np.zeros(len(patches), dtype=np.int64)
-    tree = KDTree(patches)
-    for run in runs:
-        track = run.track
-        if not len(track):
-            continue
-        away, nearest = (np.asarray(each) for each in tree.query(track[:, 1:]))
-        near = away <= _SEEN
-        np.minimum.at(first, nearest[near], track[near, 0])
-        np.add.at(visits, nearest[near], 1)
-    moments = np.linspace(0.0, seconds, _MOMENTS + 1)
-    share = np.searchsorted(np.sort(first), moments, side="right") / max(len(patches), 1)
-    curve = tuple((round(float(t), 2), round(float(s), 4)) for t, s in zip(moments, share, strict=True))
-    places = np.round(patches, 2).tolist()
-    return curve, tuple((x, y, z, int(n)) for (x, y, z), n in zip(places, visits, strict=True))

@@ -52,9 +52,9 @@ def test_only_bots_that_had_not_finished_run_again(tmp_path, monkeypatch):
     stage = open_stage(Setup(str(tmp_path / "room.obj"), None, None, None, "walker", 6, 4.0, 3))
 
     def play():
-        return list(module._all_runs(stage, 1, KeptRuns(tmp_path / "kept", module._identity(stage))))
+        return list(module._all_runs(stage, b"", 1, KeptRuns(tmp_path / "kept", "one")))
 
-    whole, begun, run_bot = list(module._all_runs(stage, 1, None)), [], module.run_bot
+    whole, begun, run_bot = list(module._all_runs(stage, b"", 1, None)), [], module.run_bot
 
     def interrupted(site, goals, seed, number, seconds):
         begun.append(number)
@@ -72,13 +72,18 @@ def test_only_bots_that_had_not_finished_run_again(tmp_path, monkeypatch):
     assert all(np.array_equal(one.track, other.track) for one, other in zip(again, whole, strict=True))
 
 
+def identity(setup):
+    stage = open_stage(setup)
+    return module._identity(stage, module._packed(stage.site.graph))
+
+
 def test_another_level_seed_or_length_is_another_playtest(tmp_path):
     room(FLOOR, high=3.0).export(tmp_path / "room.obj")
     setup = Setup(str(tmp_path / "room.obj"), None, None, None, "walker", 6, 4.0, 3)
-    one = module._identity(open_stage(setup))
-    assert module._identity(open_stage(replace(setup, bots=60))) == one  # more of the same bots
+    one = identity(setup)
+    assert identity(replace(setup, bots=60)) == one  # more of the same bots
     others = [replace(setup, seed=4), replace(setup, seconds=5.0), replace(setup, body="dog")]
-    names = {module._identity(open_stage(each)) for each in others}
+    names = {identity(each) for each in others}
     room(FLOOR, high=3.5).export(tmp_path / "room.obj")
-    names.add(module._identity(open_stage(setup)))
+    names.add(identity(setup))
     assert len(names | {one}) == 5

@@ -7,7 +7,6 @@ import matplotlib.image
 import numpy as np
 import pytest
 
-from runtime.playtest.observation import sighted
 from runtime.playtest.pictures import address, film_strip, heat_map, level_map
 from runtime.views.render import Triangles
 
@@ -47,7 +46,7 @@ def test_a_film_strip_ends_where_the_trouble_is(outcome):
     site = outcome.stage.site
     triangles = Triangles(site.graph.terrain.vertices, site.graph.terrain.faces)
     fault = next(each for each in outcome.report.faults if each.sightings)
-    trouble = sighted(outcome.runs[fault.sightings[0].bot], fault.sightings[0])
+    trouble = outcome.tally.met(fault.sightings[0])
     strip = pixels(film_strip(site.character, triangles, trouble))
     assert strip.shape[:2] == (170, 5 * 200 + 4 * 4)
     gaps = strip[:, [200 + 204 * k for k in range(4)], :3]

@@ -29,7 +29,7 @@ def night(tmp_path, outcome, monkeypatch):
         report = replace(outcome.report, setup=replace(outcome.report.setup, body=body, seed=seed))
         if (file.stem, seed) == ("two", 8):
             report = replace(report, faults=(*report.faults, CHANCE))
-        return Outcome(report, outcome.runs, outcome.stage, 0.0)
+        return Outcome(report, outcome.tally, outcome.stage, 0.0)
 
     monkeypatch.setattr(module, "playtest", playtest)
     monkeypatch.setattr(module, "write_page", lambda outcome, path, progress: path.write_text("a page"))

@@ -1,6 +1,7 @@
 """How many courses of ten obstacles people complete, and where the others end.
 
     python -m benchmarks.courses [--courses 200] [--obstacles 10] [--kinds jump vault drop] [--rehearsals 16]
+        [--processes 1] [--cluster ADDRESS]
 
 Kinds and heights are drawn evenly (heights from what each skill has learned), 8 to 15 m apart, on a level of
 triangles; from standing, with noise of 0.02 m/s and rad/s. Path tracking, speed planner and skills are those
@@ -12,14 +13,17 @@ import json
 import time
 from collections import Counter
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from benchmarks.workers import add_place, place_of
 from locomotion import Human
 from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.training.skills.vault import DEPTHS
 from runtime.evaluation.courses import Course, make_course, run_course
 from runtime.evaluation.evaluation import start_noise
+from surefoot.workers.pool import worker_pool
 
 APART = (8.0, 15.0)
 
@@ -32,6 +36,28 @@ def draw_course(rng: np.random.Generator, count: int, kinds: list[str]) -> Cours
     return make_course(obstacles, rng.uniform(*APART, count).tolist())
 
 
+_asked: tuple[int, list[str], int] | None = None  # of a worker
+
+
+def _begin(obstacles: int, kinds: list[str], rehearsals: int) -> None:
+    global _asked
+    _asked = obstacles, kinds, rehearsals
+
+
+def _run(number: int) -> dict[str, Any]:
+    """Course ``number``: its kinds, how it ended, and which of them the person took off for."""
+    assert _asked is not None
+    obstacles, among, rehearsals = _asked
+    began = time.process_time()
+    course = draw_course(np.random.default_rng([5, number]), obstacles, among)
+    run = run_course(course, noise=start_noise(5, number), rehearsals=rehearsals)
+    kinds = [obstacle.affordance for obstacle in course.obstacles]
+    return {
+        "kinds": kinds, "ended": run.ended, "cleared": sum(p.cleared for p in run.reports),
+        "seconds": run.seconds, "tried": kinds[: len(run.reports)], "cpu": time.process_time() - began,
+    }  # fmt: skip
+
+
 def main() -> None:
     """Run the courses, print a table, write JSON."""
     parser = argparse.ArgumentParser(
@@ -42,24 +68,23 @@ def main() -> None:
     parser.add_argument("--kinds", nargs="+", default=["jump", "vault", "drop"])
     parser.add_argument("--rehearsals", type=int, default=REHEARSALS, help="as of Human")
     parser.add_argument("--json", type=Path, help="file to write")
+    add_place(parser)
     options = parser.parse_args()
-    rows, last, met, began = [], Counter(), Counter(), time.process_time()
-    for number in range(options.courses):
-        course = draw_course(np.random.default_rng([5, number]), options.obstacles, options.kinds)
-        run = run_course(course, noise=start_noise(5, number), rehearsals=options.rehearsals)
-        kinds = [obstacle.affordance for obstacle in course.obstacles]
-        cleared = sum(p.cleared for p in run.reports)
-        rows.append({"kinds": kinds, "ended": run.ended, "cleared": cleared, "seconds": run.seconds})
-        met.update(kinds[: len(run.reports)])
-        if run.ended != "arrived":
-            at = kinds[len(run.reports) - 1] if run.reports else "no obstacle yet"
-            last[f"{run.ended}, {at}"] += 1
-        if (number + 1) % 20 == 0:
-            print(f"{number + 1} courses, {sum(row['ended'] == 'arrived' for row in rows)} whole", flush=True)
+    rows, last, met = [], Counter(), Counter()
+    asked = options.obstacles, options.kinds, options.rehearsals
+    with worker_pool(place_of(options), _begin, asked) as workers:
+        for row in workers.imap(_run, range(options.courses)):
+            rows.append(row)
+            met.update(row["tried"])
+            if row["ended"] != "arrived":
+                last[f"{row['ended']}, {row['tried'][-1] if row['tried'] else 'no obstacle yet'}"] += 1
+            if len(rows) % 20 == 0:
+                whole = sum(each["ended"] == "arrived" for each in rows)
+                print(f"{len(rows)} courses, {whole} whole", flush=True)
     whole = np.mean([row["ended"] == "arrived" for row in rows])
     print(f"{100 * whole:.1f} % of {len(rows)} courses of {options.obstacles} obstacles whole;"
           f" {np.mean([row['cleared'] for row in rows]):.1f} cleared on average")  # fmt: skip
-    seconds, cpu = sum(row["seconds"] for row in rows), time.process_time() - began
+    seconds, cpu = (sum(row[key] for row in rows) for key in ("seconds", "cpu"))
     print(f"{seconds / len(rows):.0f} s a course; {seconds / cpu:.0f} times real time, rehearsals included")
     print("taken off for:", dict(met))
     print("ended (where, last obstacle):", dict(last.most_common()))
@@ -68,4 +93,6 @@ def main() -> None:
 
 
 if __name__ == "__main__":
+    from benchmarks.courses import main  # by its name, so that other machines find what it sends them
+
     main()

@@ -1,7 +1,7 @@
 """Missions between random reachable points: arrivals, distance from the path, and cost.
 
     python -m benchmarks.missions [--levels undulating courtyard] [--missions 50] [--speed 3.0]
-        [--walk learned] [--json FILE]
+        [--walk learned] [--json FILE] [--processes 1] [--cluster ADDRESS]
 
 For each level the graph is built with a person's rules (`locomotion.PERSON_RULES`), start and goal are drawn
 from its nodes, 10 to 60 m of route apart, and a person in a `runtime.World` is sent there from standing. The
@@ -26,6 +26,7 @@ import json
 import math
 import time
 from collections import Counter
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +35,7 @@ import numpy as np
 
 import navmesh
 from benchmarks.shared_data import LEVELS, level_path, shared_folder, why_absent
+from benchmarks.workers import add_place, place_of
 from locomotion import MOVING, PERSON_RULES, Human, smooth_route
 from locomotion.body.arm_reach import HAND_RADIUS
 from locomotion.body.person import CONTROL_DT, STEPS_PER_TICK
@@ -43,6 +45,8 @@ from navmesh.level.mesh_queries import MeshGrid, brute_crossed, crossed
 from runtime import World
 from runtime.bodies.kinds.kind import WALKS
 from runtime.events import Departed, Fell
+from runtime.world.state import WorldState
+from surefoot.workers.pool import worker_pool
 
 OWN_LEVELS = Path(__file__).resolve().parents[1] / "examples" / "levels"
 LENGTHS = (10.0, 60.0)
@@ -116,10 +120,44 @@ def pierces(human: Human, mesh_grid: MeshGrid, origin: np.ndarray) -> bool:
     )
 
 
-def run_mission(
-    world: World, route: Any, speed: float, mesh_grid: MeshGrid, origin: np.ndarray
-) -> dict[str, Any]:
-    """Send a person along one route; returns what happened."""
+@dataclass(frozen=True)
+class Stage:
+    """A level with all ways that people are sent, and the world in which that is done, as it was at first."""
+
+    graph: navmesh.NodeGraph
+    routes: list
+    world: World
+    fresh: WorldState
+    mesh_grid: MeshGrid
+    origin: np.ndarray
+
+    @classmethod
+    def of(cls, name: str, missions: int, seed: int, walk: str) -> "Stage":
+        terrain, rules = load_level(name), level_rules(name)
+        graph = navmesh.NodeGraph.build(terrain, rules)
+        world, origin = World(graph, walk=walk), terrain.bounds[0] - 1.0
+        grid = MeshGrid(terrain.vertices, terrain.faces, origin, rules.max_slope)
+        return cls(graph, random_routes(graph, missions, seed), world, world.save(), grid, origin)
+
+
+_stage: Stage | None = None  # of a worker
+_speed = 0.0
+
+
+def _begin(name: str, missions: int, seed: int, walk: str, speed: float) -> None:
+    global _stage, _speed
+    _stage, _speed = Stage.of(name, missions, seed, walk), speed
+
+
+def _run(number: int) -> dict[str, Any]:
+    assert _stage is not None
+    return run_mission(_stage, _stage.routes[number], _speed)
+
+
+def run_mission(stage: Stage, route: Any, speed: float) -> dict[str, Any]:
+    """Send a person along one route; returns what happened. It is the same whatever was done before."""
+    world = stage.world
+    world.restore(stage.fresh)
     path = smooth_route(route)
     facing = math.atan2(*(path.points[1] - path.points[0])[1::-1])
     agent = world.spawn("human", path.points[0], facing)
@@ -133,7 +171,7 @@ def run_mission(
         world.step(CONTROL_DT)
         events += world.events
         ticks += 1
-        in_walls = in_walls or (ticks % LOOKS == 0 and pierces(agent.human, mesh_grid, origin))
+        in_walls = in_walls or (ticks % LOOKS == 0 and pierces(agent.human, stage.mesh_grid, stage.origin))
         if agent.status != "getting up":
             lateral.append(abs(agent.human.lateral_error))
             if not any(isinstance(event, Fell) for event in events):
@@ -225,18 +263,14 @@ def time_ticks(human: Human, path: np.ndarray, speed: float) -> tuple[float, flo
 
 def report_on(name: str, options: argparse.Namespace) -> dict[str, Any]:
     """All missions on one level, and what a tick costs there."""
-    terrain = load_level(name)
-    rules = level_rules(name)
-    graph = navmesh.NodeGraph.build(terrain, rules)
-    routes = random_routes(graph, options.missions, options.seed)
-    world = World(graph, walk=options.walk)
-    origin = terrain.bounds[0] - 1.0
-    mesh_grid = MeshGrid(terrain.vertices, terrain.faces, origin, rules.max_slope)
-    results = [run_mission(world, route, options.speed, mesh_grid, origin) for route in routes]
+    asked = name, options.missions, options.seed, options.walk
+    stage = Stage.of(*asked)
+    with worker_pool(place_of(options), _begin, (*asked, options.speed)) as workers:
+        results = list(workers.imap(_run, range(options.missions)))
     lateral, unfallen = (
         np.concatenate([result.pop(name) for result in results]) for name in ("lateral", "unfallen")
     )
-    human = world.spawn("human", routes[0].waypoints[0]).human
+    human = stage.world.spawn("human", stage.routes[0].waypoints[0]).human
     return {
         "missions": results,
         "arrived": sum(r["status"] == "arrived" for r in results),
@@ -247,7 +281,7 @@ def report_on(name: str, options: argparse.Namespace) -> dict[str, Any]:
         "lateral_max": float(lateral.max()),
         "unfallen_p95": float(np.percentile(unfallen, 95)),
         "stopped_by": dict(Counter(r["status"] for r in results if r["status"] != "arrived")),
-        "cost": cost_of_control(human, max(routes, key=lambda r: r.length), options.speed),
+        "cost": cost_of_control(human, max(stage.routes, key=lambda r: r.length), options.speed),
     }
 
 
@@ -259,6 +293,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--walk", default="planned", choices=WALKS, help="as of World")
     parser.add_argument("--json", type=Path, help="write every mission here")
+    add_place(parser)
     options = parser.parse_args()
     report: dict[str, Any] = {"speed": options.speed, "seed": options.seed, "levels": {}}
     print(
@@ -284,4 +319,6 @@ def main() -> None:
 
 
 if __name__ == "__main__":
+    from benchmarks.missions import main  # by its name, so that other machines find what it sends them
+
     main()

@@ -75,6 +75,7 @@ DOORS = BundleType(
     part_leap=int32[::1],
     tile_start=int32[::1],
     tile_part=int32[::1],
+    tile_span=float64[:, ::1],
 )
 """What one body radius makes of the graph.
 
@@ -87,7 +88,8 @@ factor is not 1. The leaps are the typed links on offer, grouped by the node the
 1,), leap_id (l,), leap_from, leap_to (l, 3), leap_from_cell, leap_to_cell (l,), leap_cost (l,) [m]. widest:
 radius [m] of the widest disc. part (m,): which nodes can be walked to from each other, see
 `navmesh.graph.parts`; part_leap_start (p + 1,), part_leap (l,): the parts that the leaps from each part lead
-to; tile_start (t + 1,), tile_part: the parts in each tile.
+to; tile_start (t + 1,), tile_part (p,), tile_span (p, 2): the parts in each tile, and the least and greatest
+height [m] of the floor there.
 """
 
 SCRATCH = BundleType(

@@ -76,8 +76,8 @@ def _checked_links(graph: "NodeGraph", links: Any) -> np.ndarray:
     return index.astype(np.int64)
 
 
-def parts_of(graph: "NodeGraph", radius: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The part of each node for a body of ``radius``, and the parts in each tile (CSR); see
+def parts_of(graph: "NodeGraph", radius: float) -> tuple[np.ndarray, ...]:
+    """The part of each node for a body of ``radius``, and the parts in each tile (CSR) with heights; see
     `navmesh.graph.parts`."""
     kept = graph.cache.setdefault("parts", {})
     if radius not in kept:
@@ -141,7 +141,7 @@ def doors_of(
         if costs.shape != (count,) or not np.all(costs >= 1.0) or not np.all(np.isfinite(costs)):
             raise NavmeshError(f"node_costs: expected {count} finite factors of at least 1, one per node")
     leaps = _leaps_for(graph, radius, offered, closed)
-    part, tile_start, tile_part = parts_of(graph, radius)
+    part, tile_start, tile_part, tile_span = parts_of(graph, radius)
     part_leap_start, part_leap = leaps_by_part(
         part, graph.label[leaps["leap_from_cell"]], graph.label[leaps["leap_to_cell"]]
     )
@@ -151,6 +151,7 @@ def doors_of(
         "part_leap": part_leap,
         "tile_start": tile_start,
         "tile_part": tile_part,
+        "tile_span": tile_span,
     }
     weighted, widest = node_costs is not None, float(graph.radii.max())
     doors = make_doors(radius, portals_of(graph, radius), costs, weighted, leaps, parts, widest)

@@ -1,8 +1,9 @@
-"""The parts of a graph that one body radius leaves: nodes that can be walked to from each other, and in which
-tiles of the grid each part has a place for the body."""
+"""The parts of a graph that one body radius leaves: nodes that can be walked to from each other, and the
+tiles of the grid in which each part has a place for the body."""
 
 import numpy as np
 
+from navmesh.graph.snapping import CANDIDATES, candidate
 from surefoot.kernels import allocating_kernel
 
 __all__ = ["TILE", "leaps_by_part", "parts_of_nodes", "parts_of_tiles"]
@@ -37,36 +38,48 @@ def parts_of_nodes(start, target):
     return part
 
 
-@allocating_kernel
+@allocating_kernel(error_model="numpy")
 def parts_of_tiles(net, part, radius):
-    """Which parts have a cell with ``radius`` clear in each tile of `TILE` x `TILE` columns, or beside it.
+    """In which parts a body of ``radius`` can be in each tile of `TILE` x `TILE` columns, and how high.
 
-    In CSR form: start (t + 1,) int32 and parts (p,) int32; tile tx * tiles_y + ty.
+    In CSR form: start (t + 1,) int32; parts (p,) int32, and the least and the greatest height of the floor
+    there (p, 2) float64 [m]; tile tx * tiles_y + ty.
     """
     across, along = (net.nx + TILE - 1) // TILE, (net.ny + TILE - 1) // TILE
+    least, half = radius - 0.7072 * net.cell, 0.5 * net.cell
     start = np.zeros(across * along + 1, np.int32)
     found = np.empty(256, np.int32)
+    span = np.empty((256, 2))
     count = 0
     for tx in range(across):
         for ty in range(along):
-            first = count
-            for ix in range(max(tx * TILE - 1, 0), min((tx + 1) * TILE + 1, net.nx)):
-                low = net.column_start[ix * net.ny + max(ty * TILE - 1, 0)]
-                high = net.column_start[ix * net.ny + min((ty + 1) * TILE + 1, net.ny)]
+            first = last = count
+            for ix in range(tx * TILE, min((tx + 1) * TILE, net.nx)):
+                low = net.column_start[ix * net.ny + ty * TILE]
+                high = net.column_start[ix * net.ny + min((ty + 1) * TILE, net.ny)]
                 for k in range(low, high):
-                    node = net.label[k]
-                    if node < 0 or net.clearance[k] < radius:
+                    if net.clearance[k] < least:
                         continue
-                    known = False
-                    for i in range(first, count):
-                        known |= found[i] == part[node]
-                    if not known:
-                        if count == found.size:
-                            found = np.concatenate((found, np.empty_like(found)))
-                        found[count] = part[node]
-                        count += 1
+                    rise = half * (abs(net.gradient[k, 0]) + abs(net.gradient[k, 1]))
+                    bottom, top = net.height[k] - rise, net.height[k] + rise
+                    for i in range(1 if net.clearance[k] >= radius else CANDIDATES):
+                        node = candidate(net, k, radius, i)
+                        if node < 0:
+                            continue
+                        at = last if count > first and found[last] == part[node] else first
+                        while at < count and found[at] != part[node]:
+                            at += 1
+                        if at == count:
+                            if count == found.size:
+                                found = np.concatenate((found, np.empty_like(found)))
+                                span = np.concatenate((span, np.empty_like(span)))
+                            found[at], span[at, 0], span[at, 1] = part[node], bottom, top
+                            count += 1
+                        else:
+                            span[at, 0], span[at, 1] = min(span[at, 0], bottom), max(span[at, 1], top)
+                        last = at
             start[tx * along + ty + 1] = count
-    return start, found[:count].copy()
+    return start, found[:count].copy(), span[:count].copy()
 
 
 def leaps_by_part(part: np.ndarray, from_node: np.ndarray, to_node: np.ndarray) -> tuple[np.ndarray, ...]:

@@ -1,5 +1,4 @@
-"""The place for a body nearest to a point: where a route begins, where it ends, and how near it can come to a
-goal that cannot be reached.
+"""The place for a body nearest to a point: where a route begins and where it ends.
 
 A place is a point of the surface with the body's radius clear around it. It is looked for cell by cell, from
 the point outwards: in each cell's square the nearest point that is clear, on the same side of everything that
@@ -10,11 +9,10 @@ from math import sqrt
 
 import numpy as np
 
-from navmesh.graph.parts import TILE
 from navmesh.surface.clearance_field import centre_of, floor_at, gap_at, same_place, walk
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["nearest_reachable", "node_at", "roomy_cell", "snap"]
+__all__ = ["CANDIDATES", "candidate", "node_at", "place_in", "roomy_cell", "snap", "squared_distance"]
 
 _MARGIN = 0.015  # share of the radius: a little more than what string pulling keeps
 _THIN = 1e-3  # [m] radius of a line that only must not cross anything
@@ -96,8 +94,28 @@ def node_at(net, k, x, y, radius):
     return best
 
 
+CANDIDATES = 13
+"""How many nodes `candidate` has to be asked for."""
+
+
 @kernel(error_model="numpy", inline="always")
-def _off(net, k, px, py, x, y, z, step):
+def candidate(net, k, radius, i):
+    """The ``i``-th of the nodes that `node_at` can give for a place in cell ``k``, or -1: that of the cell,
+    then those of the cells beside it."""
+    node = net.label[k]
+    if i == 0:
+        return node if node >= 0 and max(net.clearance[k], net.node_radius[node]) >= radius else -1
+    if node >= 0 and net.clearance[k] >= radius:
+        return -1
+    way, turn = (i - 1) // 3, (i - 1) % 3
+    other = net.link[k, way]
+    if other >= 0 and turn > 0:
+        other = net.link[other, (way + 2 * turn - 1) % 4]
+    return net.label[other] if other >= 0 and net.clearance[other] >= radius else -1
+
+
+@kernel(error_model="numpy", inline="always")
+def squared_distance(net, k, px, py, x, y, z, step):
     """Squared distance of the floor at p in cell ``k`` from (x, y, z); ``step`` of the height is free."""
     rise = max(abs(floor_at(net, k, px, py) - z) - step, 0.0)
     return (px - x) * (px - x) + (py - y) * (py - y) + rise * rise
@@ -113,7 +131,7 @@ def _clear_at(net, k, cx, cy, px, py, room):
 
 
 @kernel(error_model="numpy")
-def _place_in(net, k, x, y, z, radius, step, best):
+def place_in(net, k, x, y, z, radius, step, best):
     """The clear point of cell ``k`` nearest to (x, y, z), where it is nearer than ``best`` (squared).
 
     Returns (squared distance, x, y), with the distance ``best`` where there is none.
@@ -122,7 +140,7 @@ def _place_in(net, k, x, y, z, radius, step, best):
     half = 0.5 * net.cell
     px = min(max(x, cx - half), cx + half)
     py = min(max(y, cy - half), cy + half)
-    off = _off(net, k, px, py, x, y, z, step)
+    off = squared_distance(net, k, px, py, x, y, z, step)
     if off >= best:
         return best, px, py
     if net.clearance[k] >= radius + 0.7072 * net.cell:
@@ -133,7 +151,7 @@ def _place_in(net, k, x, y, z, radius, step, best):
     for _ in range(_PUSHES):
         gap, qx, qy = gap_at(net, k, px, py)
         if gap >= room * (1.0 - 1e-9):
-            off = _off(net, k, px, py, x, y, z, step)
+            off = squared_distance(net, k, px, py, x, y, z, step)
             if off >= best:
                 return best, px, py
             if _clear_at(net, k, cx, cy, px, py, radius):
@@ -154,7 +172,7 @@ def _place_in(net, k, x, y, z, radius, step, best):
         for j in range(_LATTICE):
             px = cx + (2.0 * i / (_LATTICE - 1) - 1.0) * half
             py = cy + (2.0 * j / (_LATTICE - 1) - 1.0) * half
-            off = _off(net, k, px, py, x, y, z, step)
+            off = squared_distance(net, k, px, py, x, y, z, step)
             if off < best and _clear_at(net, k, cx, cy, px, py, radius):
                 best, bx, by = off, px, py
                 found = True
@@ -165,7 +183,7 @@ def _place_in(net, k, x, y, z, radius, step, best):
             for j in range(-1, 2):
                 px = min(max(bx + i * side, cx - half), cx + half)
                 py = min(max(by + j * side, cy - half), cy + half)
-                off = _off(net, k, px, py, x, y, z, step)
+                off = squared_distance(net, k, px, py, x, y, z, step)
                 if off < best and _clear_at(net, k, cx, cy, px, py, radius):
                     best, bx, by = off, px, py
                     moved = True
@@ -208,7 +226,7 @@ def snap(net, x, y, z, radius, reach, rise, step):
                 for k in range(net.column_start[column], net.column_start[column + 1]):
                     if net.clearance[k] < radius - 0.7072 * h:
                         continue
-                    off, px, py = _place_in(net, k, x, y, z, radius, step, best)
+                    off, px, py = place_in(net, k, x, y, z, radius, step, best)
                     if off >= best or (px - x) * (px - x) + (py - y) * (py - y) > reach * reach:
                         continue
                     if abs(floor_at(net, k, px, py) - z) > rise:
@@ -217,70 +235,3 @@ def snap(net, x, y, z, radius, reach, rise, step):
                     if other >= 0:
                         best, node, cell, bx, by = off, other, k, px, py
     return node, cell, bx, by
-
-
-@kernel(error_model="numpy")
-def _search_tile(net, doors, scratch, tile, x, y, z, best, node, cell, bx, by):
-    """The place nearest to (x, y, z) in one tile and in a part that scratch.reached marks, where it is nearer
-    than ``best`` (squared)."""
-    radius = doors.radius
-    reached, mark = scratch.reached, scratch.numbers[0]
-    h = net.cell
-    along = (net.ny + TILE - 1) // TILE
-    tx = tile // along
-    ty = tile - tx * along
-    for ix in range(tx * TILE, min((tx + 1) * TILE, net.nx)):
-        for iy in range(ty * TILE, min((ty + 1) * TILE, net.ny)):
-            column = ix * net.ny + iy
-            dx = max(abs((ix + 0.5) * h - x) - 0.5 * h, 0.0)
-            dy = max(abs((iy + 0.5) * h - y) - 0.5 * h, 0.0)
-            if dx * dx + dy * dy >= best:
-                continue
-            for k in range(net.column_start[column], net.column_start[column + 1]):
-                own = net.label[k] if net.clearance[k] >= radius else -1
-                if own >= 0 and reached[doors.part[own]] != mark:
-                    continue
-                if net.clearance[k] < radius - 0.7072 * h:
-                    continue
-                off, px, py = _place_in(net, k, x, y, z, radius, 0.0, best)
-                if off >= best:
-                    continue
-                other = node_at(net, k, px, py, radius)
-                if other >= 0 and reached[doors.part[other]] == mark:
-                    best, node, cell, bx, by = off, other, k, px, py
-    return best, node, cell, bx, by
-
-
-@kernel(error_model="numpy")
-def nearest_reachable(net, doors, scratch, x, y, z):
-    """The place nearest to (x, y, z) in a straight line among those in the parts that scratch.reached marks.
-
-    Tiles that hold none of these parts are passed over. Returns (node, cell, x, y, distance [m]).
-    """
-    reached, mark = scratch.reached, scratch.numbers[0]
-    side = TILE * net.cell
-    across, along = (net.nx + TILE - 1) // TILE, (net.ny + TILE - 1) // TILE
-    tx = min(max(int(x // side), 0), across - 1)
-    ty = min(max(int(y // side), 0), along - 1)
-    best, node, cell, bx, by = 1e300, -1, -1, x, y
-    for ring in range(max(across, along)):
-        nearest = max(ring - 1, 0) * side
-        if nearest * nearest >= best:
-            break
-        for jx in range(max(tx - ring, 0), min(tx + ring + 1, across)):
-            edge = jx == tx - ring or jx == tx + ring
-            for jy in range(ty - ring, ty + ring + 1, 1 if edge else max(2 * ring, 1)):
-                if jy < 0 or jy >= along:
-                    continue
-                dx = max(abs((jx + 0.5) * side - x) - 0.5 * side, 0.0)
-                dy = max(abs((jy + 0.5) * side - y) - 0.5 * side, 0.0)
-                if dx * dx + dy * dy >= best:
-                    continue
-                tile = jx * along + jy
-                for i in range(doors.tile_start[tile], doors.tile_start[tile + 1]):
-                    if reached[doors.tile_part[i]] == mark:
-                        best, node, cell, bx, by = _search_tile(
-                            net, doors, scratch, tile, x, y, z, best, node, cell, bx, by
-                        )
-                        break
-    return node, cell, bx, by, sqrt(best)

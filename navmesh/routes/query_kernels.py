@@ -4,7 +4,8 @@ from math import sqrt
 
 import numpy as np
 
-from navmesh.graph.snapping import nearest_reachable, snap
+from navmesh.graph.reachable_places import nearest_reachable
+from navmesh.graph.snapping import snap
 from navmesh.routes.graph_search import BEST, COMPLETE, EXPANDED, LABELS, LIMIT, advance, begin, chain, resume
 from navmesh.routes.string_pulling import pull
 from navmesh.surface.clearance_field import cell_at, floor_at, walk

@@ -18,7 +18,7 @@ demo: $(VENV)/.installed
 	@echo "== look at $(OUT)/level.png and $(OUT)/film.png, and open $(OUT)/run.html in a browser"
 
 test: $(VENV)/.installed-dev
-	$(VENV)/bin/python -m pytest -n 2 --dist loadfile
+	$(VENV)/bin/python -m pytest -n 2 --dist worksteal
 
 check:
 	bash .ci/run

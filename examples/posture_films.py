@@ -11,6 +11,7 @@ from matplotlib.figure import Figure as Page
 
 import runtime
 from benchmarks.giving_way import floor
+from runtime.bodies.held_things import Looks
 from runtime.views.filmstrip import show_frame
 from runtime.views.render import Camera, Triangles, render
 
@@ -34,7 +35,8 @@ class Artist:
         place = agent.pose.transforms
         target = np.array([*place[0, :2], 0.8])
         camera = Camera(target + np.array([0.3, -3.6, 0.8]), target, 0.62)
-        return render(self._level, [agent.figure.posed(place)], camera, _SIZE)
+        figure, place = Looks().look(agent.name, agent.figure, place, agent.held[0])
+        return render(self._level, [figure.posed(place)], camera, _SIZE)
 
 
 def postures(artist: Artist) -> _Pictures:

@@ -10,10 +10,31 @@ from dataclasses import dataclass
 
 from locomotion.postures.schema import PostureFile
 
-__all__ = ["STOWED", "DerivedArc", "HeldNode", "derived_arcs", "held_nodes", "node_name", "parts_of"]
+__all__ = [
+    "STOWED",
+    "Capsule",
+    "DerivedArc",
+    "HeldNode",
+    "derived_arcs",
+    "held_nodes",
+    "node_name",
+    "parts_of",
+]
 
 STOWED = "stowed"
 """The state of an object that is in no hand. Every object has it."""
+
+
+@dataclass(frozen=True)
+class Capsule:
+    """A part of what a thing looks like, between two points [m] of its frame: the origin is where the right
+    hand has it, x points to where the left one has it, z up. ``radius`` [m]; ``colour``: red, green and blue,
+    0 to 1."""
+
+    begin: tuple[float, float, float]
+    end: tuple[float, float, float]
+    radius: float
+    colour: tuple[float, float, float]
 
 
 @dataclass(frozen=True)

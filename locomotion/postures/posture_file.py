@@ -8,7 +8,7 @@ import numpy as np
 from locomotion.body.person import BODY_NAMES, JOINT_NAMES
 from locomotion.clips.motion import load_motion
 from locomotion.postures.arcs import arc_between, arc_of_motion, pose_of
-from locomotion.postures.held_objects import HeldNode, derived_arcs, held_nodes
+from locomotion.postures.held_objects import Capsule, HeldNode, derived_arcs, held_nodes
 from locomotion.postures.places import inverse
 from locomotion.postures.posture_check import check_postures
 from locomotion.postures.posture_graph import PostureGraph
@@ -110,6 +110,10 @@ class _Reader:
             first=np.array([first[s] for s in source], np.int32),
             count=np.array([len(made[s][0]) for s in source], np.int32),
             objects={name: tuple(thing.states) for name, thing in file.objects.items()},
+            shapes={
+                name: tuple(Capsule(part.from_, part.to, part.radius, part.colour) for part in thing.shapes)
+                for name, thing in file.objects.items()
+            },
             gaits=tuple(
                 Gait(
                     name, self._posture(gait.posture, ["gaits", name, "posture"]), gait.steps, gait.slowest,

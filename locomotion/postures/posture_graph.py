@@ -15,6 +15,7 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import dijkstra
 
+from locomotion.postures.held_objects import Capsule
 from locomotion.postures.places import placed
 from locomotion.postures.step_order import Gait
 
@@ -34,6 +35,7 @@ class PostureGraph:
         backwards: (a,) bool: whether it is played from its last frame to its first. frames: (f, 46) float64.
         first, count: (a,) int32: the frames of each arc, evenly spaced over its seconds.
         objects: of each thing to hold the states, but for "stowed" (`locomotion.postures.held_objects`).
+        shapes: what each of them looks like.
         gaits: how figures move (`locomotion.postures.step_order`).
     """
 
@@ -51,6 +53,7 @@ class PostureGraph:
     first: np.ndarray
     count: np.ndarray
     objects: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    shapes: dict[str, tuple[Capsule, ...]] = field(default_factory=dict)
     gaits: tuple[Gait, ...] = ()
     least: np.ndarray = field(init=False)
     """(p, p) float64 [s]: the least time from each posture to each other; inf where there is no path."""

@@ -4,9 +4,14 @@ from typing import Annotated, Self
 
 from pydantic import BaseModel, ConfigDict, Field, StrictBool, field_validator, model_validator
 
-__all__ = ["ArcEntry", "GaitEntry", "KeyEntry", "ObjectEntry", "PostureEntry", "PostureFile", "StateEntry"]
+__all__ = [
+    "ArcEntry", "GaitEntry", "KeyEntry", "ObjectEntry", "PostureEntry", "PostureFile", "ShapeEntry",
+    "StateEntry",
+]  # fmt: skip
 
 _Degrees = Annotated[float, Field(ge=-180.0, le=180.0)]
+_Metres = Annotated[float, Field(ge=-10.0, le=10.0)]
+_Share = Annotated[float, Field(ge=0.0, le=1.0)]
 _Seconds = Annotated[float, Field(gt=0.0, le=60.0)]
 
 
@@ -75,9 +80,21 @@ class StateEntry(Joints):
     in_: Annotated[dict[str, Joints], Field(alias="in", min_length=1)]
 
 
-class ObjectEntry(_Strict):
-    """Something to hold. states: what can be done with it, in this order; before the first it is stowed."""
+class ShapeEntry(_Strict):
+    """A capsule between two points [m] of a thing's frame: its origin is where the right hand has it, x
+    points to where the left one has it, z up. radius: [m]. colour: red, green, blue, 0 to 1."""
 
+    from_: Annotated[tuple[_Metres, _Metres, _Metres], Field(alias="from")]
+    to: tuple[_Metres, _Metres, _Metres]
+    radius: Annotated[float, Field(gt=0.0, le=1.0)]
+    colour: tuple[_Share, _Share, _Share] = (0.3, 0.3, 0.3)
+
+
+class ObjectEntry(_Strict):
+    """Something to hold. states: what can be done with it, in this order; before the first it is stowed.
+    shapes: what it looks like, while it is not stowed."""
+
+    shapes: Annotated[list[ShapeEntry], Field(max_length=64)] = []
     states: Annotated[dict[str, StateEntry], Field(min_length=1)]
 
     @field_validator("states")

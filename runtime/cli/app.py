@@ -308,17 +308,24 @@ def view(
         str, typer.Option(envvar="SUREFOOT_TOKEN", help="With a server: its token, if it needs one.")
     ] = "",
     port: Annotated[int, typer.Option(min=0, max=65535, help="Port of the live page; 0: any free port.")] = 0,
+    character: CharacterOption = None,
+    mapping: MappingOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """Write a page that replays a run in a browser, without server or network; or watch a world of `surefoot
     serve` live."""
     commands = _view_commands()
-    if source.startswith(("ws://", "wss://")):
+    served = source.startswith(("ws://", "wss://"))
+    if character is not None and (live or served):
+        raise typer.BadParameter(
+            "a live view shows people as they are; leave out --character", param_hint="--character"
+        )
+    if served:
         _finish(commands.watch_served(source, world, token, port), as_json)
     elif live:
         _finish(commands.watch_mission(Path(source), port), as_json)
     else:
-        _finish(commands.write_view(Path(source), output, follow), as_json)
+        _finish(commands.write_view(Path(source), output, follow, character, mapping), as_json)
 
 
 @app.command()

@@ -20,14 +20,18 @@ if TYPE_CHECKING:
 __all__ = ["export_gltf", "watch_mission", "watch_served", "write_video", "write_view"]
 
 
-def write_view(source: Path, output: Path, follow: str | None) -> Result:
-    """Write the page of a trace, or of a mission, which is run first; the camera follows ``follow``."""
+def write_view(
+    source: Path, output: Path, follow: str | None, character: Path | None, mapping: str | None
+) -> Result:
+    """Write the page of a trace, or of a mission, which is run first; the camera follows ``follow``,
+    and people wear the ``character``."""
     from runtime.views.view import write_page
 
+    rig = _character(character, mapping)
     check_page(output)
     trace, progress = _trace_of(source, output)
     with progress.stage("writing the page"):
-        write_page(trace, output, follow)
+        write_page(trace, output, follow, rig)
     return _written(output, trace, "open it in a browser")
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 
 import navmesh
+from runtime.bodies.held_things import figure_with, thing_figure, things_in
 from runtime.events import Event
 from runtime.traces.trace import AgentTrace, LevelTrace, PathTrace, Trace
 from runtime.world.agent import Agent
@@ -18,6 +19,7 @@ class Recorder:
         self._world = world
         self._times: list[float] = []
         self._poses: dict[str, list[np.ndarray]] = {}
+        self._held: dict[str, list[str]] = {}
         self._agents: dict[str, Agent] = {}
         self.events: list[Event] = []
 
@@ -32,24 +34,15 @@ class Recorder:
             # who comes later stands at its first place until then
             poses = self._poses.setdefault(name, [now] * (len(self._times) - 1))
             poses.append(now)
-        for poses in self._poses.values():
-            poses += poses[-1:] * (len(self._times) - len(poses))
+            held = self._held.setdefault(name, [""] * (len(self._times) - 1))
+            held.append(self._agents[name].held[0])
+        for told in (*self._poses.values(), *self._held.values()):
+            told += told[-1:] * (len(self._times) - len(told))
         return fresh
 
     def trace(self, report: dict) -> Trace:
         """The whole recording, with a ``report`` of plain values."""
-        agents = tuple(
-            AgentTrace(
-                name=name,
-                figure=agent.figure,
-                poses=np.stack(self._poses[name]),
-                paths=tuple(
-                    PathTrace(plan.raw, plan.pulled, plan.points)
-                    for plan in (agent.plans if self._world.agents.get(name) is agent else ())
-                ),
-            )
-            for name, agent in self._agents.items()
-        )
+        agents = tuple(self._agent(name, agent) for name, agent in self._agents.items())
         return Trace(
             level=level_trace(self._world.graph),
             times=np.array(self._times),
@@ -57,6 +50,25 @@ class Recorder:
             events=tuple(event.to_dict() for event in self.events),
             state_hash=self._world.state_hash(),
             report=report,
+        )
+
+    def _agent(self, name: str, agent: Agent) -> AgentTrace:
+        paths = tuple(
+            PathTrace(plan.raw, plan.pulled, plan.points)
+            for plan in (agent.plans if self._world.agents.get(name) is agent else ())
+        )
+        figure, poses, held = agent.figure, np.stack(self._poses[name]), np.array(self._held[name])
+        things = [thing for thing in np.unique(held).tolist() if thing and thing_figure(thing) is not None]
+        if not things:
+            return AgentTrace(name, figure, poses, paths)
+        places = things_in(figure.bodies, poses.astype(np.float64)).astype(np.float32)
+        poses = np.concatenate([poses, *[places[:, None]] * len(things)], axis=1)
+        return AgentTrace(
+            name,
+            figure_with(figure, things),
+            poses,
+            paths,
+            np.stack([held == thing for thing in things], axis=1),
         )
 
 

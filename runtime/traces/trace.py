@@ -51,12 +51,27 @@ class LevelTrace:
 
 @dataclass(frozen=True)
 class AgentTrace:
-    """One figure: ``poses`` (t, nbody, 7) float32, position [m] and quaternion wxyz; its paths in order."""
+    """One figure: ``poses`` (t, nbody, 7) float32, position [m] and quaternion wxyz; its paths in order.
+    ``held`` (t, k) bool: when each of the last k bodies, which are things to hold, is in its hands."""
 
     name: str
     figure: Figure
     poses: np.ndarray
     paths: tuple[PathTrace, ...]
+    held: np.ndarray = field(default_factory=lambda: np.zeros((0, 0), np.bool_))
+
+    @property
+    def own(self) -> int:
+        """How many of the bodies are no things."""
+        return len(self.figure.bodies) - self.held.shape[1]
+
+    def posed(self, moment: int, pose: np.ndarray) -> Shapes:
+        """What is seen of it in a ``pose`` (nbody, 7) at the ``moment`` of that number."""
+        shapes, things = self.figure.posed(pose), self.held.shape[1]
+        if things == 0 or self.held[moment].all():
+            return shapes
+        shown = np.concatenate([np.ones(self.own, np.bool_), self.held[moment]])[self.figure.owner]
+        return Shapes(*(part[shown] for part in (shapes.place, shapes.size, shapes.round, shapes.colour)))
 
 
 @dataclass(frozen=True)
@@ -87,8 +102,13 @@ class Trace:
             arrays[f"level.{name}"] = getattr(self.level, name)
         for i, agent in enumerate(self.agents):
             header["agents"].append(
-                {"name": agent.name, "bodies": list(agent.figure.bodies), "paths": len(agent.paths)}
-            )
+                {
+                    "name": agent.name, "bodies": list(agent.figure.bodies), "paths": len(agent.paths),
+                    "things": agent.held.shape[1],
+                }
+            )  # fmt: skip
+            if agent.held.shape[1]:
+                arrays[f"agent{i}.held"] = agent.held
             arrays[f"agent{i}.poses"] = agent.poses
             arrays[f"agent{i}.parents"], arrays[f"agent{i}.owner"] = agent.figure.parents, agent.figure.owner
             for name in _SHAPE_ARRAYS:
@@ -118,6 +138,7 @@ class _AgentEntry(Header):
     name: str
     bodies: Annotated[tuple[str, ...], Len(1)]
     paths: Annotated[int, Ge(0), Le(100_000)]
+    things: Annotated[int, Ge(0), Le(64)] = 0
 
 
 class _EventEntry(BaseModel):
@@ -167,6 +188,8 @@ def _arrays_of(header: _TraceHeader) -> dict[str, Array]:
             f"{own}round": Flags(shapes),
             f"{own}colour": Numbers(shapes, 3, low=0.0, high=1.0),
         }
+        if agent.things:
+            arrays[f"{own}held"] = Flags("times", agent.things)
         for j in range(agent.paths):
             for name in _PATH_ARRAYS:
                 arrays[f"{own}path{j}.{name}"] = Numbers(f"{name} points of path {i}.{j}", 3)
@@ -184,7 +207,9 @@ def _check(header: _TraceHeader, arrays: dict[str, np.ndarray]) -> str | None:
         return "two of its agents have the same name"
     if unknown := [event.agent for event in header.events if event.agent not in names]:
         return f"tells of {unknown[0][:40]!r}, which is not one of its agents"
-    for i in range(len(names)):
+    for i, agent in enumerate(header.agents):
+        if agent.things >= len(agent.bodies):
+            return f"agent {agent.name[:40]!r} has {len(agent.bodies)} bodies, {agent.things} of them things"
         parents = arrays[f"agent{i}.parents"]
         if (parents >= np.arange(len(parents))).any():
             return f"agent{i}.parents must come before their children"
@@ -213,4 +238,5 @@ def _agent(index: int, entry: _AgentEntry, arrays: Mapping[str, np.ndarray]) -> 
         PathTrace(**{name: arrays[f"{own}path{j}.{name}"] for name in _PATH_ARRAYS})
         for j in range(entry.paths)
     )
-    return AgentTrace(name=entry.name, figure=figure, poses=arrays[own + "poses"], paths=paths)
+    held = arrays.get(own + "held", np.zeros((0, 0), np.bool_))
+    return AgentTrace(entry.name, figure, arrays[own + "poses"], paths, held)

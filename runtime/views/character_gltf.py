@@ -9,18 +9,17 @@ import copy
 import json
 import mimetypes
 import struct
-from collections.abc import Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from locomotion import Ground, Rig
+from locomotion import Rig
 from navmesh import NavmeshError
 from navmesh.meshfiles.gltf_compression import DRACO
 from navmesh.meshfiles.gltf_document import Document
 from navmesh.meshfiles.gltf_nodes import node_order, shown_nodes
 from runtime.errors import RuntimeInputError
-from runtime.traces.trace import AgentTrace, LevelTrace
 
 __all__ = ["continuous", "dressed", "glb"]
 
@@ -30,21 +29,18 @@ _FLOAT = 5126
 
 
 def dressed(
-    content: dict[str, Any], data: bytearray, rig: Rig, level: LevelTrace, agents: Sequence[AgentTrace],
-    times: np.ndarray,
+    content: dict[str, Any], data: bytearray, rig: Rig, worn: Mapping[str, np.ndarray], times: np.ndarray
 ) -> None:  # fmt: skip
-    """Add ``rig``'s character once for each of ``agents``, whose poses are of the ``times`` (t,) [s] from 0,
-    to a glTF file: its JSON ``content`` and binary ``data``.
+    """Add ``rig``'s character to a glTF file, its JSON ``content`` and binary ``data``, once for each agent
+    whose name is in ``worn``, with the places (t, b, 7) of its bones at ``times`` (t,) [s] from 0.
 
     Raises `RuntimeInputError` for a character that cannot be copied, as one compressed with Draco.
     """
-    ground = Ground.from_arrays(level.vertices, level.faces) if len(level.faces) else None
     try:
         source = Document(rig.skeleton.path)
         parts = _Copy(source, content, data)
-        for agent in agents:
-            poses = rig.pose_from(agent.poses, agent.figure.bodies, ground)
-            _Wearer(parts, rig, agent.name).animate(rig.local(poses), times)
+        for name, poses in worn.items():
+            _Wearer(parts, rig, name).animate(rig.local(poses), times)
     except NavmeshError as error:
         raise RuntimeInputError(str(error)) from None
 

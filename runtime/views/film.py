@@ -60,19 +60,23 @@ def frames(
     trace: Trace, agent: AgentTrace, size: tuple[int, int], character: Rig | None = None
 ) -> Iterator[np.ndarray]:
     """The pictures (height, width, 3) uint8 of the run, 25 for each second of it."""
-    wardrobe = None if character is None else Wardrobe(character, trace.level)
+    people = [agent for agent in trace.agents if wears(agent)]
+    wardrobe = None if character is None else Wardrobe(character, trace.level, people)
     level = Triangles(trace.level.vertices, trace.level.faces)
     moments = _moments(trace)
     distance = _AWAY * size_of(agent)
     for moment, camera in zip(moments, follow(agent, trace.times, moments, distance), strict=True):
         plain, skins, shadows = [], [], []
-        for each, pose in _poses(trace, moment):
+        before, share = _place_of(trace.times, moment)
+        for each in trace.agents:
             if wardrobe is not None and wears(each):
-                skin, shadow = wardrobe.worn(each.figure.bodies, pose)
+                skin, held, shadow = wardrobe.worn(each, before, share)
+                plain += held
                 skins.append(skin)
                 shadows.append(shadow)
             else:
-                plain.append(each.figure.posed(pose))
+                ends = each.poses[[before, min(before + 1, len(each.poses) - 1)]].astype(np.float64)
+                plain.append(each.posed(before, between(ends[0], ends[1], share)))
         yield render(level, plain, camera, size, cutaway=0.75 * distance, skins=skins, shadows=shadows)
 
 
@@ -82,12 +86,10 @@ def _moments(trace: Trace) -> np.ndarray:
     return trace.times[0] + np.arange(int(length * RATE + 1e-9) + 1) / RATE
 
 
-def _poses(trace: Trace, moment: float) -> list[tuple[AgentTrace, np.ndarray]]:
-    """All agents with their poses at a moment, between those of the trace."""
-    after = int(np.clip(np.searchsorted(trace.times, moment), 1, max(len(trace.times) - 1, 1)))
-    if len(trace.times) == 1:
-        return [(agent, agent.poses[0].astype(np.float64)) for agent in trace.agents]
-    begin, end = trace.times[after - 1 : after + 1]
-    share = float(np.clip((moment - begin) / (end - begin), 0.0, 1.0))
-    ends = [(agent, agent.poses[after - 1 : after + 1].astype(np.float64)) for agent in trace.agents]
-    return [(agent, between(before, later, share)) for agent, (before, later) in ends]
+def _place_of(times: np.ndarray, moment: float) -> tuple[int, float]:
+    """The number of the pose before a moment, and the share of the way to the next."""
+    if len(times) == 1:
+        return 0, 0.0
+    before = int(np.clip(np.searchsorted(times, moment), 1, len(times) - 1)) - 1
+    begin, end = times[before : before + 2]
+    return before, float(np.clip((moment - begin) / (end - begin), 0.0, 1.0))

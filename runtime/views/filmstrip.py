@@ -38,7 +38,7 @@ def write_filmstrip(trace: Trace, path: str | os.PathLike[str], progress: Progre
     with (progress or Progress(shown=False)).stage("drawing the film strip") as stage:
         for k, (axes, pick) in enumerate(zip(figure.subplots(rows, _COLUMNS).flat, picks, strict=True)):
             stage.update(k / _FRAMES)
-            figures = [each.figure.posed(each.poses[pick]) for each in trace.agents]
+            figures = [each.posed(int(pick), each.poses[pick]) for each in trace.agents]
             shown = agent.figure.posed(agent.poses[pick]).place[:, :3]
             camera, clear = clearest(level, _camera(agent, trace, int(pick)), shown)
             away = float(np.linalg.norm(camera.eye - camera.target))

@@ -19,7 +19,7 @@ from runtime.bodies.pose import Pose
 from runtime.traces.trace import AgentTrace, LevelTrace, Trace
 from runtime.views.character_gltf import continuous, dressed, glb
 from runtime.views.meshes import optional, shape_mesh
-from runtime.views.worn import wearers, wears
+from runtime.views.worn import ground_of, only_things, wearers, wears, worn_poses
 from surefoot.files.atomic_write import whole_file
 
 __all__ = ["write_gltf"]
@@ -39,11 +39,14 @@ def write_gltf(trace: Trace, path: str | os.PathLike[str], character: Rig | None
     if character is None:
         content = b"".join(writer.document(trace).save_to_bytes())
     else:
-        wearing = wearers(trace.agents)
-        others = tuple(agent for agent in trace.agents if not wears(agent))
-        made = writer.document(replace(trace, agents=others))
+        wearing, ground = wearers(trace.agents), ground_of(trace.level)
+        worn = {agent.name: worn_poses(character, agent, ground) for agent in wearing}
+        things = [only_things(agent, character, worn[agent.name]) for agent in wearing]
+        plain = [agent for agent in trace.agents if not wears(agent)]
+        plain += [replace(each, name=f"{each.name}'s") for each in things if each is not None]
+        made = writer.document(replace(trace, agents=tuple(plain)))
         parts, data = json.loads(made.to_json()), bytearray(made.binary_blob())
-        dressed(parts, data, character, trace.level, wearing, trace.times - trace.times[0])
+        dressed(parts, data, character, worn, trace.times - trace.times[0])
         content = glb(parts, bytes(data))
     with whole_file(path) as temporary:
         temporary.write_bytes(content)
@@ -96,6 +99,11 @@ class _Writer:
                 self._channel(animation, node, "translation", times, self._accessor(place, "VEC3"))
             if times >= 0 and np.ptp(turned, axis=0).max() > _STILL:
                 self._channel(animation, node, "rotation", times, self._accessor(turned, "VEC4"))
+            if b >= agent.own:  # of no size while it is not held
+                shown = np.repeat(agent.held[:, b - agent.own, None], 3, axis=1).astype(np.float64)
+                self._gltf.nodes[node].scale = _plain(shown[0])
+                if times >= 0 and np.ptp(shown) > 0.0:
+                    self._channel(animation, node, "scale", times, self._accessor(shown, "VEC3"), "STEP")
         for b, node in enumerate(nodes):
             below = [nodes[c] for c in np.flatnonzero(figure.parents == b)]
             self._gltf.nodes[node].children = below
@@ -166,9 +174,11 @@ class _Writer:
         self._gltf.nodes.append(self._lib.Node(name=name, **parts))
         return len(self._gltf.nodes) - 1
 
-    def _channel(self, animation: Any, node: int, path: str, times: int, values: int) -> None:
+    def _channel(
+        self, animation: Any, node: int, path: str, times: int, values: int, between: str = "LINEAR"
+    ) -> None:
         lib = self._lib
-        animation.samplers.append(lib.AnimationSampler(input=times, output=values))
+        animation.samplers.append(lib.AnimationSampler(input=times, output=values, interpolation=between))
         target = lib.AnimationChannelTarget(node=node, path=path)
         animation.channels.append(lib.AnimationChannel(sampler=len(animation.samplers) - 1, target=target))
 

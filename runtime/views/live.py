@@ -11,6 +11,7 @@ import time
 
 import numpy as np
 
+from runtime.bodies.held_things import Looks
 from runtime.planning.planning import Plan
 from runtime.traces.recording import level_trace
 from runtime.traces.trace import PathTrace
@@ -37,6 +38,7 @@ class LiveView:
         self.address = self._window.address
         self._last = -_APART
         self._ways: dict[str, tuple[Plan, PathTrace]] = {}
+        self._looks = Looks()
 
     def show(self) -> None:
         """Show the world as it is now; call it after `World.step`, as often as you like. Copies the poses, at
@@ -47,9 +49,12 @@ class LiveView:
         self._last = now
         if self._world.graph is not self._graph:
             self._graph, self._level = self._world.graph, level_trace(self._world.graph)
-        agents = self._world.agents
-        figures = {name: agent.figure for name, agent in agents.items()}
-        joined = np.concatenate([np.empty((0, 7)), *self._world.transforms().values()])
+        figures, poses = {}, [np.empty((0, 7))]
+        for name, transforms in self._world.transforms().items():
+            agent = self._world.agents[name]
+            figures[name], pose = self._looks.look(name, agent.figure, transforms, agent.held[0])
+            poses.append(pose)
+        joined = np.concatenate(poses)
         self._window.show(Moment(self._world.time, self._level, figures, joined, self._paths()))
 
     @property

@@ -5,10 +5,13 @@ from typing import Any
 
 import numpy as np
 
+from locomotion import Rig
 from runtime.events import event_text
 from runtime.traces.trace import AgentTrace, LevelTrace, PathTrace, Trace
 from runtime.views.camera import calm_track, size_of
+from runtime.views.meshes import smooth_normals
 from runtime.views.obstacle_colours import in_order, obstacle_colour, parts_of_colour
+from runtime.views.worn import ground_of, only_things, wearers, worn_poses
 
 __all__ = ["page_data"]
 
@@ -36,8 +39,9 @@ class _Block:
         return b"".join(self._parts)
 
 
-def page_data(trace: Trace, follow: str | None) -> tuple[dict[str, Any], bytes]:
-    """Header and arrays of ``trace``'s page, which opens on the agent ``follow``, None: the first.
+def page_data(trace: Trace, follow: str | None, character: Rig | None = None) -> tuple[dict[str, Any], bytes]:
+    """Header and arrays of ``trace``'s page, which opens on the agent ``follow``, None: the first. People
+    wear the ``character``, if there is one; `RuntimeInputError` if there are no people.
 
     Lengths are in metres, relative to the middle of the level, so that single precision is enough.
     """
@@ -49,11 +53,15 @@ def page_data(trace: Trace, follow: str | None) -> tuple[dict[str, Any], bytes]:
         "times": block.add(trace.times[frames], "<f4"),
         "level": _level(block, trace.level, origin),
         "agents": [_agent(block, agent, trace.times, frames, origin) for agent in trace.agents],
+        "skins": [],
         "events": [
             {"time": float(event["time"]), "agent": event["agent"], "text": event_text(event)}
             for event in _in_short(trace.events)
         ],
     }
+    if character is not None:
+        header["skins"] = _skins(block, trace, character, frames, origin)
+        header["character"] = _character(block, character)
     return header, block.joined()
 
 
@@ -105,8 +113,9 @@ def _agent(
     return {
         "name": agent.name,
         "size": size_of(agent),
-        "positions": block.add(poses[..., :3].astype(np.float64) - origin, "<f4"),
-        "turns": block.add(np.rint(poses[..., 3:] * _WIDEST_QUATERNION), "<i2"),
+        **_places(block, poses, origin),
+        "own": agent.own,
+        "held": block.add(agent.held[frames] if agent.held.shape[1] else agent.held, "<i2"),
         "calm": block.add(calm_track(agent, times, times[frames]) - origin, "<f4"),
         "owner": block.add(agent.figure.owner, "<u4"),
         "place": block.add(shapes.place, "<f4"),
@@ -114,6 +123,47 @@ def _agent(
         "round": block.add(shapes.round, "<u4"),
         "colours": block.add(shapes.colour, "<f4"),
         "paths": [_path(block, planned, origin) for planned in agent.paths],
+    }
+
+
+def _places(block: _Block, poses: np.ndarray, origin: np.ndarray) -> dict[str, Any]:
+    """``poses`` (t, n, 7) as arrays of the page."""
+    return {
+        "positions": block.add(poses[..., :3].astype(np.float64) - origin, "<f4"),
+        "turns": block.add(np.rint(poses[..., 3:] * _WIDEST_QUATERNION), "<i2"),
+    }
+
+
+def _skins(
+    block: _Block, trace: Trace, rig: Rig, frames: np.ndarray, origin: np.ndarray
+) -> list[dict[str, Any]]:
+    """Of each agent that wears the character where its bones are, and where what it holds is."""
+    ground, skins = ground_of(trace.level), []
+    for agent in wearers(trace.agents):
+        worn = worn_poses(rig, agent, ground)
+        things = only_things(agent, rig, worn)
+        held = None if things is None else _places(block, things.poses[frames], origin)
+        skins.append(
+            {
+                "agent": trace.agents.index(agent),
+                "bones": _places(block, worn[frames], origin),
+                "things": held,
+            }
+        )
+    return skins
+
+
+def _character(block: _Block, rig: Rig) -> dict[str, Any]:
+    """The mesh of a character: its points at rest, with the bones that move them."""
+    mesh = rig.skeleton.mesh
+    return {
+        "rest": block.add(rig.rest, "<f4"),
+        "points": block.add(mesh.points, "<f4"),
+        "normals": block.add(smooth_normals(mesh.points, mesh.faces), "<f4"),
+        "bones": block.add(mesh.bones, "<u4"),
+        "shares": block.add(mesh.shares, "<f4"),
+        "faces": block.add(mesh.faces, "<u4"),
+        "colours": block.add(mesh.colours, "<f4"),
     }
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from locomotion.recorded.skeletons import LEVELS
 from locomotion.recorded_people.drawing import drawn
 from runtime.bodies.figure import Figure, Shapes
+from runtime.bodies.held_things import Looks, thing_of
 from runtime.errors import RuntimeInputError
 from runtime.server.messages import PROTOCOL
 from runtime.traces.trace import LevelTrace, PathTrace
@@ -34,6 +35,7 @@ class ServedWorld:
         self._figures: dict[str, Figure] = {}
         self._ways: dict[str, tuple[int, PathTrace]] = {}
         self._agents: dict[str, _Seen] = {}
+        self._looks = Looks()
         self._time: float | None = None
         self._gone = False
         try:
@@ -82,12 +84,15 @@ class ServedWorld:
                 known = self._ways.get(name)
                 ways[name] = known if known and known[0] == number else (number, self._way(name))
         self._ways = ways
-        poses = [agent.transforms() for agent in agents.values()]
+        figures, poses = {}, [np.empty((0, 7))]
+        for name, agent in agents.items():
+            figures[name], pose = self._looks.look(name, self._figures[name], agent.transforms(), agent.thing)
+            poses.append(pose)
         return Moment(
             now,
             self.level,
-            {name: self._figures[name] for name in agents},
-            np.concatenate([np.empty((0, 7)), *poses]),
+            figures,
+            np.concatenate(poses),
             tuple(way for _, way in ways.values()),
         )
 
@@ -133,6 +138,7 @@ class _Seen:
 
     def __init__(self) -> None:
         self.way: int | None = None
+        self.thing = ""
         self._root = np.zeros((1, 7))
         self._angles: np.ndarray | None = None
         self._told = np.empty((0, 7))
@@ -140,6 +146,7 @@ class _Seen:
     def change(self, change: Mapping[str, Any]) -> None:
         """Take in a `runtime.server.messages.AgentChange`."""
         self.way = change.get("way", self.way)
+        self.thing = thing_of(change["holds"]) if "holds" in change else self.thing
         if "transforms" in change:
             self._told = np.reshape(change["transforms"], (-1, 7))
         if "root" in change:

@@ -1,4 +1,4 @@
-// Everything that talks to the graphics card: the level, lines, and balls and tubes in many copies.
+// Everything that talks to the graphics card: the level, lines, balls and tubes in many copies, and skins.
 
 const SHADERS = {
   level: [`
@@ -45,6 +45,27 @@ const SHADERS = {
       normal = turn * (along / max(scale, 1e-9));
       own = tint;
       gl_Position = view * pose * vec4(place, 1.0);
+    }`, `
+    in vec3 normal, own;
+    out vec4 colour;
+    void main() {
+      vec3 n = normalize(normal);
+      colour = vec4(own * (0.50 + 0.15 * n.z + 0.50 * max(dot(n, sun), 0.0)), 1.0);
+    }`],
+  // each bone is three texels: the rows of the matrix that moves it from rest
+  skin: [`
+    in vec3 place, outward, tint;
+    in vec4 bone, share;
+    uniform sampler2D rows;
+    out vec3 normal, own;
+    void main() {
+      vec4 sum[3] = vec4[3](vec4(0.0), vec4(0.0), vec4(0.0));
+      for (int k = 0; k < 4; k++)
+        for (int row = 0; row < 3; row++) sum[row] += share[k] * texelFetch(rows, ivec2(row, int(bone[k])), 0);
+      vec4 at = vec4(place, 1.0);
+      normal = vec3(dot(sum[0].xyz, outward), dot(sum[1].xyz, outward), dot(sum[2].xyz, outward));
+      own = tint;
+      gl_Position = view * vec4(dot(sum[0], at), dot(sum[1], at), dot(sum[2], at), 1.0);
     }`, `
     in vec3 normal, own;
     out vec4 colour;
@@ -157,6 +178,30 @@ class Drawing {
     return { array, copies, count: mesh.length / 3 };
   }
 
+  // A character's mesh: every face has corners of its own, since its colour is the face's.
+  skin({ points, normals, bones, shares, faces, colours }) {
+    const gl = this.gl, array = gl.createVertexArray(), program = this.programs.skin;
+    const corners = new Float32Array(17 * faces.length);
+    faces.forEach((point, k) => {
+      corners.set(points.subarray(3 * point, 3 * point + 3), 17 * k);
+      corners.set(normals.subarray(3 * point, 3 * point + 3), 17 * k + 3);
+      corners.set(colours.subarray(3 * Math.floor(k / 3), 3 * Math.floor(k / 3) + 3), 17 * k + 6);
+      corners.set(bones.subarray(4 * point, 4 * point + 4), 17 * k + 9);
+      corners.set(shares.subarray(4 * point, 4 * point + 4), 17 * k + 13);
+    });
+    gl.bindVertexArray(array);
+    this.buffer(corners);
+    let at = 0;
+    for (const [name, size] of [["place", 3], ["outward", 3], ["tint", 3], ["bone", 4], ["share", 4]]) {
+      this.attribute(program, name, size, 68, 4 * at, 0);
+      at += size;
+    }
+    const rows = gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D, rows);
+    for (const which of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, which, gl.NEAREST);
+    return { array, rows, count: faces.length };
+  }
+
   begin(view) {
     const gl = this.gl, ratio = window.devicePixelRatio || 1;
     const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight].map((n) => Math.round(n * ratio));
@@ -196,6 +241,18 @@ class Drawing {
     gl.uniform4fv(program.at("tint"), lines.colour);
     gl.bindVertexArray(lines.array);
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, lines.count);
+  }
+
+  // `rows`: twelve numbers for each bone, a matrix row by row.
+  drawSkin(skin, rows) {
+    const gl = this.gl, program = this.programs.skin;
+    this.use(program);
+    gl.activeTexture(gl.TEXTURE0);
+    gl.bindTexture(gl.TEXTURE_2D, skin.rows);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, 3, rows.length / 12, 0, gl.RGBA, gl.FLOAT, rows);
+    gl.uniform1i(program.at("rows"), 0);
+    gl.bindVertexArray(skin.array);
+    gl.drawArrays(gl.TRIANGLES, 0, skin.count);
   }
 
   // `copies`: 19 numbers each, a matrix and a colour.

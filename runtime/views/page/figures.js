@@ -6,6 +6,7 @@ class Figures {
   constructor(run) {
     this.times = run.times;
     this.agents = run.agents;
+    this.skins = new Map(run.skins.map((skin) => [run.agents[skin.agent], skin]));
     let balls = 0, tubes = 0;
     for (const agent of run.agents)
       for (const round of agent.round) round ? balls++ : ((balls += 2), tubes++);
@@ -25,21 +26,35 @@ class Figures {
     return [low, high, Math.min(Math.max((moment - times[low]) / (times[high] - times[low]), 0), 1)];
   }
 
+  // Place and turn of each body of `poses` at a moment.
+  placed(poses, moment) {
+    const [before, after, share] = this.frame(moment);
+    const bodies = poses.positions.length / 3 / poses.positions.rows, placed = [];
+    for (let body = 0; body < bodies; body++) {
+      const [a, b] = [before * bodies + body, after * bodies + body];
+      placed.push([
+        mix(poses.positions.subarray(3 * a, 3 * a + 3), poses.positions.subarray(3 * b, 3 * b + 3), share),
+        between(turn(poses.turns, a), turn(poses.turns, b), share),
+      ]);
+    }
+    return placed;
+  }
+
+  // Whether body `owner` of an agent is seen: things are while they are held, the others unless a skin is.
+  seen(agent, owner, before) {
+    if (owner < agent.own) return !this.skins.has(agent);
+    return Boolean(agent.held[(agent.held.length / agent.held.rows) * before + owner - agent.own]);
+  }
+
   // Fills `balls` and `tubes` and gives how many there are.
   pose(moment) {
-    const [before, after, share] = this.frame(moment);
+    const [before] = this.frame(moment);
     let balls = 0, tubes = 0;
     for (const agent of this.agents) {
-      const bodies = agent.positions.length / 3 / agent.positions.rows;
-      const placed = [];
-      for (let body = 0; body < bodies; body++) {
-        const [a, b] = [before * bodies + body, after * bodies + body];
-        placed.push([
-          mix(agent.positions.subarray(3 * a, 3 * a + 3), agent.positions.subarray(3 * b, 3 * b + 3), share),
-          between(turn(agent.turns, a), turn(agent.turns, b), share),
-        ]);
-      }
+      const placed = this.placed(agent, moment), skin = this.skins.get(agent);
+      if (skin && skin.things) placed.splice(agent.own, placed.length, ...this.placed(skin.things, moment));
       for (let k = 0; k < agent.owner.length; k++) {
+        if (!this.seen(agent, agent.owner[k], before)) continue;
         const [at, q] = placed[agent.owner[k]];
         const own = Array.from(agent.place.subarray(7 * k, 7 * k + 7));
         const middle = add(at, turned(q, own.slice(0, 3)));

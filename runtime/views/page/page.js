@@ -13,6 +13,7 @@ class Page {
     this.drawing = new Drawing($("canvas"));
     this.camera = new Camera($("canvas"));
     this.figures = new Figures(run);
+    this.skins = new Skins(run, this.figures, this.drawing);
     this.labels = new Labels($("labels"));
     this.layers = {};
     this.begin = run.times[0];
@@ -171,6 +172,7 @@ class Page {
       const { balls, tubes } = figures.pose(moment);
       if (balls) drawing.drawShapes(drawing.ball, figures.balls, balls);
       if (tubes) drawing.drawShapes(drawing.tube, figures.tubes, tubes);
+      this.skins.draw(drawing, moment);
     }
     for (const [name, layer] of Object.entries(this.layers))
       if (shown(name)) for (const lines of layer.lines) drawing.drawLines(lines);

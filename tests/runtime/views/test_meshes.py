@@ -4,10 +4,11 @@ import math
 
 import numpy as np
 import pytest
+import trimesh
 
 from runtime.bodies.figure import Shapes
 from runtime.errors import RuntimeInputError
-from runtime.views.meshes import optional, shape_mesh
+from runtime.views.meshes import optional, shape_mesh, smooth_normals
 
 
 def shape(size, round_):
@@ -34,3 +35,10 @@ def test_a_missing_library_is_named_with_how_to_install_it():
         RuntimeInputError, match=r"^a film needs no_such_library: .* pip install -e '\.\[video\]'$"
     ):
         optional("no_such_library", "video", "a film")
+
+
+def test_normals_are_smooth_over_a_seam():
+    ball = trimesh.creation.icosphere(subdivisions=2)
+    points, faces = ball.vertices[ball.faces].reshape(-1, 3), np.arange(3 * len(ball.faces)).reshape(-1, 3)
+    np.testing.assert_allclose(smooth_normals(points, faces), points, atol=0.05)
+    np.testing.assert_allclose(smooth_normals(np.zeros((3, 3)), np.array([[0, 1, 2]]))[0], [0.0, 0.0, 1.0])

@@ -7,9 +7,12 @@ import re
 import numpy as np
 import pytest
 
+from examples.make_characters import STOUT, write_character
+from locomotion import Rig
 from runtime.events import SkillStarted
 from runtime.views.page_data import page_data
 from runtime.views.view import write_page
+from runtime.views.worn import ground_of
 from tests.browser import BROWSER, opened, screenshot
 
 
@@ -154,3 +157,27 @@ def test_the_camera_goes_with_an_agent(trace, tmp_path):
 
     picture = screenshot(tmp_path / "run.html", tmp_path / "profile", (480, 320), is_drawn, seconds=200.0)
     assert picture is not None, "the person was not drawn in the middle within 200 s"
+
+
+@pytest.mark.skipif(BROWSER is None, reason="no Chromium here to open the page in")
+def test_the_page_shows_people_as_a_character(trace, tmp_path):
+    write_character(STOUT, tmp_path / "stout.glb")
+    rig = Rig.load(tmp_path / "stout.glb")
+    write_page(trace, tmp_path / "run.html", "ada", rig)
+    with opened((tmp_path / "run.html").as_uri() + "#t=0.2", tmp_path / "profile", (480, 320), 200.0) as page:
+        while not page.value("Boolean(window.surefoot)"):
+            pass
+        high = page.value("surefoot.figures.placed(surefoot.run.skins[0].bones, 0)[0][0][2]")
+
+        def brown():
+            """How much of the page has the colour of its shirt."""
+            page.value("document.getElementById('panel').open = false; surefoot.draw()")
+            seen = page.picture()
+            return ((seen[..., 0] - seen[..., 2] > 0.25) & (seen[..., 1] > 0.15)).sum()
+
+        with_it = brown()
+        page.value("document.getElementById('layer-figures').click()")
+        assert with_it > brown() + 100
+    origin = 0.5 * (trace.level.vertices.min(axis=0) + trace.level.vertices.max(axis=0))
+    there = rig.pose_from(trace.agents[0].poses[0], trace.agents[0].figure.bodies, ground_of(trace.level))
+    assert high == pytest.approx(there[0, 2] - origin[2], abs=1e-3)

@@ -7,7 +7,7 @@ from examples.make_characters import STOUT, write_character
 from locomotion import Rig
 from runtime.bodies.figure import rotate
 from runtime.views.film import frames
-from runtime.views.worn import Wardrobe, wearers
+from runtime.views.worn import Wardrobe, ground_of, wearers
 
 SIZE = (160, 90)
 
@@ -21,7 +21,8 @@ def rig(tmp_path_factory):
 
 def test_skin_and_shadow_are_where_the_bones_are(trace, rig):
     agent = trace.agents[0]
-    skin, shadow = Wardrobe(rig, trace.level).worn(agent.figure.bodies, agent.poses[2].astype(float))
+    skin, held, shadow = Wardrobe(rig, trace.level, [agent]).worn(agent, 2)
+    assert held == []
     low, high = skin.corners.min(axis=(0, 1)), skin.corners.max(axis=(0, 1))
     assert abs(low[2]) < 0.02 and 1.0 < high[2] < 1.5
     assert len(skin.corners) == len(skin.colours)
@@ -30,8 +31,7 @@ def test_skin_and_shadow_are_where_the_bones_are(trace, rig):
     ends = shadow.place[:, :3] + rotate(shadow.place[:, 3:], along)
     assert (ends > low - 0.1).all() and (ends < high + 0.1).all()
     bones = {tuple(np.round(end, 6)) for end in ends}
-    ground = Wardrobe(rig, trace.level)._ground
-    pose = rig.pose_from(agent.poses[2], agent.figure.bodies, ground)
+    pose = rig.pose_from(agent.poses[2], agent.figure.bodies, ground_of(trace.level))
     assert all(tuple(np.round(pose[b, :3], 6)) in bones for b in range(1, len(pose)))
 
 

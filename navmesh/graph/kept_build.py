@@ -17,11 +17,11 @@ from navmesh.level.terrain import Terrain
 from navmesh.obstacles.rim_samples import RimSamples, renew_rim_samples, take_rim_samples
 from navmesh.obstacles.rules import ObstacleRules
 from navmesh.rules import WalkRules
-from navmesh.surface.build import Cells, Grid, Window, find_cells, lay_grid, patch_around, reach_of
-from navmesh.surface.splicing import splice
+from navmesh.surface.build import Grid, Window, find_cells, lay_grid, patch_around, reach_of
+from navmesh.surface.renewal import renew_surface
 from navmesh.surface.surface import Surface
 
-__all__ = ["KeptBuild", "all_rim_samples", "grid_for", "renew_cells"]
+__all__ = ["KeptBuild", "all_rim_samples", "grid_for", "renewed_surface"]
 
 _ROOM = 0.25  # of a level's length by which its grid is laid wider on a side that it has outgrown
 
@@ -31,7 +31,8 @@ class KeptBuild:
     """The local stages' results."""
 
     grid: Grid
-    cells: Cells
+    choice: np.ndarray
+    """(n,) uint8, for each cell of the surface; see `navmesh.surface.clearance`."""
     rim_samples: RimSamples | None
     """None where obstacles are not asked for."""
 
@@ -56,21 +57,22 @@ def grid_for(terrain: Terrain, rules: WalkRules, extent: np.ndarray | None, grow
     return lay_grid(bounds, rules, terrain.name)
 
 
-def renew_cells(
-    old: Cells, grid: Grid, changed: list[np.ndarray], terrain: Terrain, rules: WalkRules
-) -> Cells:
-    """The cells of ``terrain``, which differs from that of ``old`` within the ``changed`` bounds (2, 3)
-    [m]."""
-    cells = old
+def renewed_surface(
+    old: Surface, kept: KeptBuild, changed: list[np.ndarray], terrain: Terrain, rules: WalkRules
+) -> tuple[Surface, np.ndarray]:
+    """The surface of ``terrain``, which differs from that of ``old`` within the ``changed`` bounds (2, 3)
+    [m], and its choices."""
+    surface, choice, grid = old, kept.choice, kept.grid
     nx, ny = grid.shape
     reach = reach_of(rules) + 3  # and the links and distances of cells beside one that changes
     for window in _apart([_window(bounds, grid, reach) for bounds in changed]):
         spare = reach_of(rules) + 4
         wide = _clipped((window[0] - spare, window[1] - spare, window[2] + spare, window[3] + spare), nx, ny)
-        cells = splice(cells, find_cells(terrain, rules, grid, wide), window, patch_around(grid, wide), ny)
-    if not len(cells.cell_column):
+        fresh = find_cells(terrain, rules, grid, wide)
+        surface, choice, _ = renew_surface(surface, choice, fresh, window, patch_around(grid, wide), grid)
+    if not len(surface):
         raise NavmeshError(f"{terrain.name}: after the change there is nothing to walk on")
-    return cells
+    return surface, choice
 
 
 def all_rim_samples(

@@ -12,7 +12,7 @@ from navmesh.errors import NavmeshError
 from navmesh.graph import edges, nodes
 from navmesh.graph import spatial_queries as queries
 from navmesh.graph.graph_file import read_graph, write_graph
-from navmesh.graph.kept_build import KeptBuild, all_rim_samples, grid_for, renew_cells
+from navmesh.graph.kept_build import KeptBuild, all_rim_samples, grid_for, renewed_surface
 from navmesh.graph.links import Links, make_links
 from navmesh.level.chunks import change_chunks
 from navmesh.level.terrain import DEFAULT_MATERIAL, Terrain
@@ -24,7 +24,7 @@ from navmesh.routes import path_queries as pathfinding
 from navmesh.routes.path_queries import PathSearch
 from navmesh.routes.route import Route, Routes
 from navmesh.rules import WalkRules
-from navmesh.surface.build import Cells, Grid, find_cells, surface_of
+from navmesh.surface.build import Grid, find_cells, surface_of
 from navmesh.surface.ridges import field_of
 from navmesh.surface.surface import Surface
 from surefoot.words import several
@@ -108,7 +108,8 @@ class NodeGraph:
             raise NavmeshError(f"rules: expected navmesh.WalkRules, not a {type(rules).__name__}")
         rules = rules or WalkRules()
         grid = grid_for(terrain, rules, extent)
-        return cls._made(terrain, rules, obstacle_rules, tags, grid, find_cells(terrain, rules, grid))
+        built = surface_of(find_cells(terrain, rules, grid), grid)
+        return cls._made(terrain, rules, obstacle_rules, tags, grid, built)
 
     def update(self, changes: Mapping[str, Terrain | None]) -> "NodeGraph":
         """The graph after ``changes`` to the level's chunks: by name, a `Terrain` to be added or to replace
@@ -130,10 +131,10 @@ class NodeGraph:
             and grid.shape == kept_build.grid.shape
             and (grid.origin == kept_build.grid.origin).all()
         ):
-            cells = renew_cells(kept_build.cells, kept_build.grid, changed, terrain, rules)
+            built = renewed_surface(self.surface, kept_build, changed, terrain, rules)
         else:
-            cells, kept_build = find_cells(terrain, rules, grid), None
-        return self._made(terrain, rules, self.obstacle_rules, self.tags, grid, cells, kept_build, changed)
+            built, kept_build = surface_of(find_cells(terrain, rules, grid), grid), None
+        return self._made(terrain, rules, self.obstacle_rules, self.tags, grid, built, kept_build, changed)
 
     @classmethod
     def _made(
@@ -143,13 +144,13 @@ class NodeGraph:
         obstacle_rules: ObstacleRules | None,
         tags: TagFile | None,
         grid: Grid,
-        cells: Cells,
+        built: tuple[Surface, np.ndarray],
         before: KeptBuild | None = None,
         changed: Sequence[np.ndarray] = (),
     ) -> "NodeGraph":
-        """The graph of ``cells``; rim samples as ``before``, where it is given, but around ``changed``
-        bounds."""
-        surface = surface_of(cells, grid)
+        """The graph of a surface and its choices; rim samples as ``before``, where it is given, but around
+        ``changed`` bounds."""
+        surface, choice = built
         field_arrays = field_of(surface)
         order = nodes.order_by_clearance(surface.clearance, surface.resolution / 64)
         node_cell, place, label = nodes.select_nodes(order, field_arrays, rules.min_radius)
@@ -182,7 +183,7 @@ class NodeGraph:
             links=make_links(obstacles, surface, rules, (obstacle_rules or _OBSTACLE_RULES).body_radius),
             obstacle_rules=obstacle_rules,
             tags=tags,
-            kept_build=KeptBuild(grid, cells, rim_samples),
+            kept_build=KeptBuild(grid, choice, rim_samples),
         )
 
     @property

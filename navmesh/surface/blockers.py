@@ -17,7 +17,7 @@ from navmesh.surface.segments import comes_near, keep, lies_on, part_in_square, 
 from navmesh.surface.walls import clip_band, nearest_on_polygon, range_in_column, wall_base
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["find_blockers", "nearest_blockers"]
+__all__ = ["find_blockers", "nearest_blockers", "nearest_in_list"]
 
 _OUTLINE = 9
 """Most segments that a triangle leaves in a square: the corners of a triangle cut off four times, and the
@@ -266,26 +266,28 @@ def find_blockers(table, start, triangle, base, cell_column, height, gradient, l
         blocker = twice(blocker)
 
 
+@kernel
+def nearest_in_list(blocker, first, last, x, y):
+    """The vector (dx, dy) from (x, y) to the nearest place on the segments ``blocker[first:last]``."""
+    best, dx, dy = np.inf, np.inf, np.inf
+    for k in range(first, last):
+        ax, ay = blocker[k, 0] - x, blocker[k, 1] - y
+        ex, ey = blocker[k, 2] - blocker[k, 0], blocker[k, 3] - blocker[k, 1]
+        length = ex * ex + ey * ey
+        t = min(max(-(ax * ex + ay * ey) / length, 0.0), 1.0) if length > 0.0 else 0.0
+        vx, vy = ax + t * ex, ay + t * ey
+        if vx * vx + vy * vy < best:
+            best, dx, dy = vx * vx + vy * vy, vx, vy
+    return dx, dy
+
+
 @allocating_kernel
 def nearest_blockers(blocker_start, blocker, cell_column, patch):
     """The vector from each cell's centre to the nearest place in its own list: (n, 2) float64, inf without
     one."""
-    cells = cell_column.shape[0]
-    nearest = np.full((cells, 2), np.inf)
-    for c in range(cells):
-        if blocker_start[c] == blocker_start[c + 1]:
-            continue
-        column = cell_column[c]
-        x, y = middle_of(patch, column)
-        best = np.inf
-        for k in range(blocker_start[c], blocker_start[c + 1]):
-            ax, ay = blocker[k, 0] - x, blocker[k, 1] - y
-            ex, ey = blocker[k, 2] - blocker[k, 0], blocker[k, 3] - blocker[k, 1]
-            length = ex * ex + ey * ey
-            t = min(max(-(ax * ex + ay * ey) / length, 0.0), 1.0) if length > 0.0 else 0.0
-            vx, vy = ax + t * ex, ay + t * ey
-            if vx * vx + vy * vy < best:
-                best = vx * vx + vy * vy
-                nearest[c, 0] = vx
-                nearest[c, 1] = vy
+    nearest = np.full((cell_column.shape[0], 2), np.inf)
+    for c in range(cell_column.shape[0]):
+        if blocker_start[c] < blocker_start[c + 1]:
+            x, y = middle_of(patch, cell_column[c])
+            nearest[c] = nearest_in_list(blocker, blocker_start[c], blocker_start[c + 1], x, y)
     return nearest

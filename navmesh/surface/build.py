@@ -148,12 +148,12 @@ def find_cells(terrain: Terrain, rules: WalkRules, grid: Grid, window: Window | 
     return Cells(column_start, cell_column, height, gradient, link, blocker_start, blocker)
 
 
-def surface_of(cells: Cells, grid: Grid) -> Surface:
-    """The surface that ``cells`` make up."""
+def surface_of(cells: Cells, grid: Grid) -> tuple[Surface, np.ndarray]:
+    """The surface that ``cells`` make up, and how clearances were carried: `spread_clearance`'s choices."""
     start, h, (nx, ny) = cells.blocker_start, grid.resolution, grid.shape
     nearest = blockers.nearest_blockers(start, cells.blocker, cells.cell_column, whole_patch(grid))
     source = np.where(start[1:] > start[:-1], np.arange(len(start) - 1), -1).astype(np.int32)
-    free = clearance.spread_clearance(cells.column_start, cells.link, nearest, source, h, nx, ny)
+    free, choice = clearance.spread_clearance(cells.column_start, cells.link, nearest, source, h, nx, ny)
     surface = Surface(
         origin=grid.origin,
         resolution=grid.resolution,
@@ -169,8 +169,8 @@ def surface_of(cells: Cells, grid: Grid) -> Surface:
         blocker_start=start,
         blocker=cells.blocker,
     )
-    clearance.settle_clearance(field_of(surface))
-    return surface
+    clearance.settle_clearance(field_of(surface), np.ones(len(surface), np.bool_))
+    return surface, choice
 
 
 def build_surface(terrain: Terrain, rules: WalkRules) -> Surface:
@@ -180,4 +180,4 @@ def build_surface(terrain: Terrain, rules: WalkRules) -> Surface:
     would have more than 4·10⁸ columns (wrong units or too fine a resolution).
     """
     grid = lay_grid(terrain.bounds, rules, terrain.name)
-    return surface_of(find_cells(terrain, rules, grid), grid)
+    return surface_of(find_cells(terrain, rules, grid), grid)[0]

@@ -1,6 +1,10 @@
 """How far each cell is from where walking ends: the nearest places that the cells beside walls and the ends
 of the floor know (`navmesh.surface.blockers`), carried on in two passes over the links, so that storeys come
 for free.
+
+Each pass goes over the strips of equal ix, forth and back within a strip: that makes four *turns*. A byte for
+each cell says where it took its place from in each turn (`choice`): so what was known anywhere after any turn
+can be recalled, see `navmesh.surface.clearance_changes`.
 """
 
 import numpy as np
@@ -8,84 +12,135 @@ import numpy as np
 from navmesh.surface.clearance_field import centre_of, gap_at
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["settle_clearance", "spread_clearance"]
+__all__ = ["settle_clearance", "spread_clearance", "sweep"]
+
+OWN, BACK, BACK_AHEAD, BACK_BEHIND, BEHIND_BACK, BEHIND = range(6)
+"""Choices of the first turn of a pass, going forth: what it had; the cell in the strip behind; those beside
+that one; the same as the latter, by the other way; the cell just behind in the strip."""
+AHEAD = 8
+"""The choice of the second turn, going back, where it is not the same as in the first: the cell ahead."""
+
+
+@kernel
+def sweep(
+    turn, column_start, link, nearest, squared, source, choice, resolution, nx, ny, fixed, known, known_source
+):
+    """One pass over all strips, forth where ``turn`` is 0 and back where it is 1; in place.
+
+    ``nearest`` (n, 2) float64, ``squared`` (n,) its square, ``source`` (n,) int32, ``choice`` (n,) uint8, to
+    which four bits are added. Where there are cells in ``fixed`` (n,) bool, those take what they know after
+    each of the four turns from ``known`` (4, n, 2) float64 and ``known_source`` (4, n), and of the others it
+    is put there.
+    """
+    back, side, other = (2, 3, 1) if turn == 0 else (0, 1, 3)
+    h = -resolution if turn == 0 else resolution
+    part = fixed.shape[0] > 0
+    for strip in range(nx):
+        ix = strip if turn == 0 else nx - 1 - strip
+        first, last = column_start[ix * ny], column_start[(ix + 1) * ny]
+        for k in range(first, last):
+            c = k if turn == 0 else first + last - 1 - k
+            if part and fixed[c]:
+                _take(c, 2 * turn, nearest, squared, source, known, known_source)
+                continue
+            best = squared[c]
+            bx, by = nearest[c, 0], nearest[c, 1]
+            origin = c
+            way = OWN
+            n = link[c, back]
+            m = link[c, side]
+            if n >= 0:
+                vx, vy = nearest[n, 0] + h, nearest[n, 1]
+                if vx * vx + vy * vy < best:
+                    best, bx, by, origin, way = vx * vx + vy * vy, vx, vy, n, BACK
+                diagonal = link[n, other]
+                if diagonal >= 0:
+                    vx, vy = nearest[diagonal, 0] + h, nearest[diagonal, 1] - h
+                    if vx * vx + vy * vy < best:
+                        best, bx, by, origin, way = vx * vx + vy * vy, vx, vy, diagonal, BACK_AHEAD
+                diagonal = link[n, side]
+                if diagonal >= 0:
+                    vx, vy = nearest[diagonal, 0] + h, nearest[diagonal, 1] + h
+                    if vx * vx + vy * vy < best:
+                        best, bx, by, origin, way = vx * vx + vy * vy, vx, vy, diagonal, BACK_BEHIND
+            elif m >= 0:
+                diagonal = link[m, back]
+                if diagonal >= 0:
+                    vx, vy = nearest[diagonal, 0] + h, nearest[diagonal, 1] + h
+                    if vx * vx + vy * vy < best:
+                        best, bx, by, origin, way = vx * vx + vy * vy, vx, vy, diagonal, BEHIND_BACK
+            if m >= 0:
+                vx, vy = nearest[m, 0], nearest[m, 1] + h
+                if vx * vx + vy * vy < best:
+                    best, bx, by, origin, way = vx * vx + vy * vy, vx, vy, m, BEHIND
+            if way != OWN:
+                squared[c] = best
+                nearest[c, 0] = bx
+                nearest[c, 1] = by
+                source[c] = source[origin]
+                choice[c] |= way << (4 * turn)
+            if part:
+                _put(c, 2 * turn, nearest, source, known, known_source)
+        for k in range(first, last):
+            c = first + last - 1 - k if turn == 0 else k
+            if part and fixed[c]:
+                _take(c, 2 * turn + 1, nearest, squared, source, known, known_source)
+                continue
+            n = link[c, other]
+            if n >= 0:
+                vx, vy = nearest[n, 0], nearest[n, 1] - h
+                if vx * vx + vy * vy < squared[c]:
+                    squared[c] = vx * vx + vy * vy
+                    nearest[c, 0] = vx
+                    nearest[c, 1] = vy
+                    source[c] = source[n]
+                    choice[c] |= AHEAD << (4 * turn)
+            if part:
+                _put(c, 2 * turn + 1, nearest, source, known, known_source)
+
+
+@kernel(inline="always")
+def _take(c, turn, nearest, squared, source, known, known_source):
+    x, y = known[turn, c, 0], known[turn, c, 1]
+    nearest[c, 0], nearest[c, 1], squared[c], source[c] = x, y, x * x + y * y, known_source[turn, c]
+
+
+@kernel(inline="always")
+def _put(c, turn, nearest, source, known, known_source):
+    known[turn, c, 0], known[turn, c, 1] = nearest[c, 0], nearest[c, 1]
+    known_source[turn, c] = source[c]
 
 
 @allocating_kernel
 def spread_clearance(column_start, link, nearest, source, resolution, nx, ny):
-    """Carry the nearest places over the links, in place; returns the clearance (n,).
+    """Carry the nearest places over the links, in place; returns the clearance (n,) and the choices (n,)
+    uint8.
 
     ``nearest`` (n, 2) float64 are the vectors of `navmesh.surface.blockers.nearest_blockers`, ``source`` (n,)
-    int32 the cell whose list of blockers the place is from, or -1.
-
-    Each pass goes over the strips of equal ix, forth and back within a strip; a cell takes from the cells
-    behind it, the two diagonal ones included.
+    int32 the cell whose list of blockers the place is from, or -1. A cell takes from the cells behind it, the
+    two diagonal ones included.
     """
-    squared = np.empty(link.shape[0])
-    for c in range(link.shape[0]):
+    cells = link.shape[0]
+    squared = np.empty(cells)
+    for c in range(cells):
         squared[c] = nearest[c, 0] * nearest[c, 0] + nearest[c, 1] * nearest[c, 1]
+    choice = np.zeros(cells, np.uint8)
+    fixed, known, known_source = np.empty(0, np.bool_), np.empty((4, 0, 2)), np.empty((4, 0), np.int32)
     for turn in range(2):
-        back, side, other = (2, 3, 1) if turn == 0 else (0, 1, 3)
-        h = -resolution if turn == 0 else resolution
-        for strip in range(nx):
-            ix = strip if turn == 0 else nx - 1 - strip
-            first, last = column_start[ix * ny], column_start[(ix + 1) * ny]
-            for k in range(first, last):
-                c = k if turn == 0 else first + last - 1 - k
-                best = squared[c]
-                bx, by = nearest[c, 0], nearest[c, 1]
-                origin = c
-                before = best
-                n = link[c, back]
-                m = link[c, side]
-                if n >= 0:
-                    vx, vy = nearest[n, 0] + h, nearest[n, 1]
-                    if vx * vx + vy * vy < best:
-                        best, bx, by, origin = vx * vx + vy * vy, vx, vy, n
-                    diagonal = link[n, other]
-                    if diagonal >= 0:
-                        vx, vy = nearest[diagonal, 0] + h, nearest[diagonal, 1] - h
-                        if vx * vx + vy * vy < best:
-                            best, bx, by, origin = vx * vx + vy * vy, vx, vy, diagonal
-                    diagonal = link[n, side]
-                    if diagonal >= 0:
-                        vx, vy = nearest[diagonal, 0] + h, nearest[diagonal, 1] + h
-                        if vx * vx + vy * vy < best:
-                            best, bx, by, origin = vx * vx + vy * vy, vx, vy, diagonal
-                elif m >= 0:
-                    diagonal = link[m, back]
-                    if diagonal >= 0:
-                        vx, vy = nearest[diagonal, 0] + h, nearest[diagonal, 1] + h
-                        if vx * vx + vy * vy < best:
-                            best, bx, by, origin = vx * vx + vy * vy, vx, vy, diagonal
-                if m >= 0:
-                    vx, vy = nearest[m, 0], nearest[m, 1] + h
-                    if vx * vx + vy * vy < best:
-                        best, bx, by, origin = vx * vx + vy * vy, vx, vy, m
-                if best < before:
-                    squared[c] = best
-                    nearest[c, 0] = bx
-                    nearest[c, 1] = by
-                    source[c] = source[origin]
-            for k in range(first, last):
-                c = first + last - 1 - k if turn == 0 else k
-                n = link[c, other]
-                if n >= 0:
-                    vx, vy = nearest[n, 0], nearest[n, 1] - h
-                    if vx * vx + vy * vy < squared[c]:
-                        squared[c] = vx * vx + vy * vy
-                        nearest[c, 0] = vx
-                        nearest[c, 1] = vy
-                        source[c] = source[n]
-    return np.sqrt(squared)
+        sweep(
+            turn, column_start, link, nearest, squared, source, choice, resolution, nx, ny,
+            fixed, known, known_source,
+        )  # fmt: skip
+    return np.sqrt(squared), choice
 
 
 @kernel
-def settle_clearance(field):
-    """Measure the clearance of cells within two cells of where walking ends, in place, in the lists of the
-    cells around: what was carried over the links is the nearest place of another cell."""
+def settle_clearance(field, chosen):
+    """Measure the clearance of those of the ``chosen`` cells (n,) bool that are within two cells of where
+    walking ends, in place, in the lists of the cells around: what was carried over the links is the nearest
+    place of another cell."""
     for c in range(field.clearance.shape[0]):
-        if field.clearance[c] < 2.0 * field.cell:
+        if chosen[c] and field.clearance[c] < 2.0 * field.cell:
             x, y = centre_of(field, c)
             gap, qx, qy = gap_at(field, c, x, y)
             if gap < field.clearance[c]:

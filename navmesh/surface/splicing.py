@@ -10,7 +10,7 @@ from navmesh.level.raster import Patch
 from navmesh.surface.build import Cells, Window
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["runs_around", "splice"]
+__all__ = ["columns_in", "link_in", "runs_around", "splice", "take"]
 
 
 def splice(old: Cells, new: Cells, window: Window, patch: Patch, ny: int) -> Cells:
@@ -116,3 +116,65 @@ def _splice(
                         m = start[old_column[m]] + m - old_start[old_column[m]]
                 link[at + k, d] = m
     return start, owner, height, gradient, link, lists, blocker
+
+
+def take(cells: Cells, window: Window, ny: int) -> tuple[Cells, np.ndarray]:
+    """The columns of ``window`` by themselves, links that lead out of it being -1, and which is the first
+    cell of each of them in the whole: (columns,) int32. ``ny``: of the whole grid."""
+    *arrays, first = _take(
+        cells.column_start, cells.height, cells.gradient, cells.link, cells.blocker_start, cells.blocker,
+        cells.cell_column, np.array(window), ny,
+    )  # fmt: skip
+    return Cells(*arrays), first
+
+
+@allocating_kernel
+def columns_in(column_start, window, ny):
+    """``column_start`` of the columns of ``window`` by themselves, and the first cell of each in the
+    whole."""
+    across, along = window[2] - window[0], window[3] - window[1]
+    start, first = np.empty(across * along + 1, np.int32), np.empty(across * along, np.int32)
+    start[0] = 0
+    for i in range(across):
+        here = (window[0] + i) * ny + window[1]
+        for j in range(along):
+            c = i * along + j
+            first[c] = column_start[here + j]
+            start[c + 1] = start[c] + column_start[here + j + 1] - first[c]
+    return start, first
+
+
+@kernel
+def link_in(m, cell_column, column_start, window, ny, start):
+    """The number of cell ``m`` of the whole among those of ``window``, or -1."""
+    if m < 0:
+        return -1
+    ix = cell_column[m] // ny
+    iy = cell_column[m] - ix * ny
+    if not (window[0] <= ix < window[2] and window[1] <= iy < window[3]):
+        return -1
+    return (
+        start[(ix - window[0]) * (window[3] - window[1]) + iy - window[1]] + m - column_start[cell_column[m]]
+    )
+
+
+@allocating_kernel
+def _take(column_start, height, gradient, link, blocker_start, blocker, cell_column, window, ny):
+    start, first = columns_in(column_start, window, ny)
+    count = start[-1]
+    owner, lists = np.empty(count, np.int32), np.empty(count + 1, np.int32)
+    to_height, to_gradient, to_link = np.empty(count), np.empty((count, 2)), np.empty((count, 4), np.int32)
+    lists[0] = 0
+    for c in range(first.shape[0]):
+        for k in range(start[c], start[c + 1]):
+            m = first[c] + k - start[c]
+            owner[k], to_height[k] = c, height[m]
+            to_gradient[k, 0], to_gradient[k, 1] = gradient[m, 0], gradient[m, 1]
+            lists[k + 1] = lists[k] + blocker_start[m + 1] - blocker_start[m]
+            for d in range(4):
+                to_link[k, d] = link_in(link[m, d], cell_column, column_start, window, ny, start)
+    to_blocker = np.empty((lists[count], 4))
+    for c in range(first.shape[0]):
+        begin, size = blocker_start[first[c]], lists[start[c + 1]] - lists[start[c]]
+        to_blocker[lists[start[c]] : lists[start[c + 1]]] = blocker[begin : begin + size]
+    return start, owner, to_height, to_gradient, to_link, lists, to_blocker, first

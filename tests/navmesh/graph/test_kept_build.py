@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from benchmarks.large_levels import large_level
 from benchmarks.shared_data import level_path, shared_folder
 from navmesh import NavmeshError, NodeGraph, Terrain, WalkRules, join_chunks, split_terrain
 from navmesh.obstacles.tagging import TagFile
@@ -33,6 +34,28 @@ def test_any_sequence_of_changes_gives_the_graph_of_a_build(sequence, rules):
         graph = graph.update(named)
         assert_same(graph, rebuilt(graph))
         assert graph.terrain.digest == join_chunks(level).digest
+
+
+@pytest.mark.parametrize(
+    ("kind", "size", "side"), [("city", 1, 5.0), ("hills", 24, 6.0), ("clutter", 1, 4.0)]
+)
+def test_random_changes_of_generated_levels(kind, size, side):
+    chunks = split_terrain(large_level(kind, size, 3), side)
+    graph = NodeGraph.build(join_chunks(chunks))
+    rng = np.random.default_rng(1)
+    there = dict(chunks)
+    for turn in range(10):
+        name = sorted(chunks)[rng.integers(len(chunks))]
+        moved = Terrain.from_arrays(chunks[name].vertices + rng.uniform(-0.5, 0.5, 3), chunks[name].faces)
+        change = (
+            None if turn % 3 == 0 and name in there and len(there) > 1 else (moved, chunks[name])[turn % 2]
+        )
+        there = {**there, name: change}
+        if change is None:
+            del there[name]
+        graph = graph.update({name: change})
+        assert_same(graph, rebuilt(graph))
+        assert graph.terrain.digest == join_chunks(there).digest
 
 
 @pytest.mark.parametrize("name", ["dungeon", "nav_test"])
@@ -77,11 +100,9 @@ def test_a_chunk_with_nothing_around_it_is_removed():
 
 def test_the_graph_before_stays_as_it_is():
     graph = NodeGraph.build(join_chunks({"a": piece("floor", (0, 0)), "b": piece("floor", (1, 0))}))
-    before = graph.positions.copy(), graph.surface.nearest.copy(), graph.kept_build.cells.blocker.copy()
+    before = graph.positions.copy(), graph.surface.nearest.copy(), graph.surface.blocker.copy()
     graph.update({"b": piece("wall", (1, 0))})
-    for old, now in zip(
-        before, (graph.positions, graph.surface.nearest, graph.kept_build.cells.blocker), strict=True
-    ):
+    for old, now in zip(before, (graph.positions, graph.surface.nearest, graph.surface.blocker), strict=True):
         np.testing.assert_array_equal(old, now)
 
 

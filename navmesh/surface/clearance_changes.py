@@ -1,0 +1,243 @@
+"""Clearances after a change, without going over the whole level.
+
+The two passes of `navmesh.surface.clearance` are gone through again for a rectangle of columns. What the
+cells around it knew after each turn of a pass is recalled from before the change, by following their choices
+back to the place itself. If the cells along the rectangle's edge then know the same after each turn as they
+did before, and none of it comes from a list of blockers that has been found anew, nothing changes beyond, and
+all is bit for bit as if the passes had gone over the whole. If not, the rectangle grows on that side.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from navmesh.level.raster import Patch, middle_of
+from navmesh.surface.blockers import nearest_in_list
+from navmesh.surface.build import Cells, Window
+from navmesh.surface.clearance import (
+    AHEAD,
+    BACK,
+    BACK_AHEAD,
+    BACK_BEHIND,
+    BEHIND,
+    BEHIND_BACK,
+    OWN,
+    sweep,
+)
+from navmesh.surface.splicing import splice, take
+from surefoot.kernels import allocating_kernel, kernel
+
+__all__ = ["Renewed", "renew_clearance"]
+
+_MARGIN = 12
+"""Columns around a change that are looked at first."""
+_GROWTH = 0.5
+"""Share of its extent by which the rectangle grows on a side where something changes beyond it."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Renewed:
+    """What is other than before in a rectangle of columns."""
+
+    window: Window
+    cells: Cells
+    """Of the rectangle; links that lead out of it are -1."""
+    nearest: np.ndarray
+    """(n, 2) float64, of these cells, before `settle_clearance`."""
+    source: np.ndarray
+    """(n,) int32: a cell of the rectangle, -1, or -2 - c for the cell c of the whole before."""
+    choice: np.ndarray
+    """(n,) uint8."""
+
+
+def renew_clearance(
+    old: Cells, choice: np.ndarray, fresh: Cells, window: Window, around: Patch, whole: Patch
+) -> Renewed:
+    """What comes of putting the columns of ``window`` from ``fresh``, the cells of the patch ``around``, in
+    the place of those of ``old``, all cells of the grid ``whole``, whose ``choice`` (n,) is known."""
+    edge = np.array([0, 0, whole.nx, whole.ny])
+    inner = _grown(np.array(window), np.full(4, _MARGIN), edge)
+    while True:
+        outer = _grown(inner, np.ones(4, np.int64), edge)
+        patch = Patch(whole.side, *outer[:2].tolist(), *(outer[2:] - outer[:2]).tolist())
+        rectangle = tuple(outer.tolist())
+        before, first = take(old, rectangle, whole.ny)
+        shifted = tuple((np.array(window) - np.tile(outer[:2], 2)).tolist())
+        at = Patch(around.side, around.left - patch.left, around.near - patch.near, around.nx, around.ny)
+        cells = splice(before, fresh, shifted, at, patch.ny)
+        disturbed, nearest, source, chosen = _swept(
+            cells.column_start, cells.cell_column, cells.link, cells.blocker_start, cells.blocker, patch,
+            old.column_start, old.cell_column, old.link, old.blocker_start, old.blocker, choice, whole,
+            first, inner, _guarded(inner, edge), np.array(window),
+        )  # fmt: skip
+        if not disturbed.any():
+            return Renewed(rectangle, cells, nearest, source, chosen)
+        extent = np.tile(inner[2:] - inner[:2], 2)
+        inner = _grown(inner, np.where(disturbed, np.ceil(_GROWTH * extent), 0).astype(np.int64), edge)
+
+
+def _grown(window: np.ndarray, by: np.ndarray, edge: np.ndarray) -> np.ndarray:
+    low = np.maximum(window[:2] - by[:2], edge[:2])
+    high = np.minimum(window[2:] + by[2:], edge[2:])
+    return np.concatenate([low, high])
+
+
+def _guarded(inner: np.ndarray, edge: np.ndarray) -> np.ndarray:
+    """``inner`` with the sides that are at the edge of the grid moved out of sight: nothing lies beyond."""
+    return np.where(inner == edge, edge + np.array([-2, -2, 2, 2]), inner)
+
+
+@allocating_kernel
+def _recalled(c, turn, link, choice, blocker_start, blocker, cell_column, patch, hops):
+    """What cell ``c`` knew after ``turn``: (x, y, the cell with the list, room for hops)."""
+    count = 0
+    while True:
+        back, side, other = (2, 3, 1) if turn < 2 else (0, 1, 3)
+        bits = choice[c] >> (4 * (turn // 2))
+        dx, dy = 0, 0
+        if turn % 2 == 1:
+            if bits & AHEAD:
+                c, dy = link[c, other], 1
+            else:
+                turn -= 1
+                continue
+        else:
+            way = bits & 7
+            if way == OWN:
+                if turn == 0:
+                    break
+                turn -= 1
+                continue
+            if way == BEHIND:
+                c, dy = link[c, side], -1
+            else:
+                dx = -1
+                turn += 1
+                if way == BACK:
+                    c = link[c, back]
+                elif way == BACK_AHEAD:
+                    c, dy = link[link[c, back], other], 1
+                elif way == BACK_BEHIND:
+                    c, dy = link[link[c, back], side], -1
+                elif way == BEHIND_BACK:
+                    c, dy = link[link[c, side], back], -1
+        if count == hops.shape[0]:
+            hops = np.concatenate((hops, np.empty_like(hops)))
+        forth = 1 if turn < 2 else -1
+        hops[count, 0], hops[count, 1] = forth * dx, forth * dy
+        count += 1
+    if blocker_start[c] == blocker_start[c + 1]:
+        return np.inf, np.inf, -1, hops
+    mx, my = middle_of(patch, cell_column[c])
+    x, y = nearest_in_list(blocker, blocker_start[c], blocker_start[c + 1], mx, my)
+    for k in range(count - 1, -1, -1):  # one by one, as they were added
+        if hops[k, 0] != 0:
+            x += hops[k, 0] * patch.side
+        if hops[k, 1] != 0:
+            y += hops[k, 1] * patch.side
+    return x, y, c, hops
+
+
+@kernel(inline="always")
+def _inside(patch, column, window):
+    """Whether a column of ``patch`` is in ``window``."""
+    ix = column // patch.ny
+    iy = column - ix * patch.ny
+    return window[0] <= ix + patch.left < window[2] and window[1] <= iy + patch.near < window[3]
+
+
+@allocating_kernel
+def _swept(
+    column_start, cell_column, link, blocker_start, blocker, patch,
+    old_start, old_column, old_link, old_list, old_blocker, old_choice, whole, first, inner, guarded, window,
+):  # fmt: skip
+    """Both passes over the cells of ``patch``; those outside of ``inner`` know what they knew before.
+
+    ``first`` (columns,) is the first of a column's cells before, ``guarded`` is ``inner`` without the sides
+    beyond which there is nothing. Returns, for each side, whether the change
+    goes on beyond ``inner`` there, and what `Renewed` holds.
+    """
+    cells = link.shape[0]
+    nearest, source = np.full((cells, 2), np.inf), np.full(cells, -1, np.int32)
+    squared, choice, fixed = np.full(cells, np.inf), np.zeros(cells, np.uint8), np.empty(cells, np.bool_)
+    known, known_source = np.full((4, cells, 2), np.inf), np.full((4, cells), -1, np.int32)
+    disturbed = np.zeros(4, np.bool_)
+    hops = np.empty((64, 2), np.int64)
+    for c in range(cells):
+        column = cell_column[c]
+        fixed[c] = not _inside(patch, column, inner)
+        if fixed[c]:
+            before = first[column] + c - column_start[column]
+            choice[c] = old_choice[before]
+            for turn in range(4):
+                x, y, origin, hops = _recalled(
+                    before, turn, old_link, old_choice, old_list, old_blocker, old_column, whole, hops
+                )
+                known[turn, c, 0], known[turn, c, 1] = x, y
+                known_source[turn, c] = _named(origin, old_start, old_column, column_start, patch, whole)
+                if origin >= 0 and _inside(whole, old_column[origin], window):
+                    _mark(disturbed, patch, column, guarded, 0)
+        elif blocker_start[c] < blocker_start[c + 1]:
+            mx, my = middle_of(patch, column)
+            x, y = nearest_in_list(blocker, blocker_start[c], blocker_start[c + 1], mx, my)
+            nearest[c, 0], nearest[c, 1], squared[c], source[c] = x, y, x * x + y * y, c
+    if disturbed.any():
+        return disturbed, nearest, source, choice
+    for turn in range(2):
+        sweep(
+            turn, column_start, link, nearest, squared, source, choice, patch.side, patch.nx, patch.ny,
+            fixed, known, known_source,
+        )  # fmt: skip
+    for c in range(cells):
+        column = cell_column[c]
+        if fixed[c] or not _at_edge(patch, column, guarded):
+            continue
+        before = first[column] + c - column_start[column]
+        for turn in range(4):
+            x, y, origin, hops = _recalled(
+                before, turn, old_link, old_choice, old_list, old_blocker, old_column, whole, hops
+            )
+            same = known[turn, c, 0] == x and known[turn, c, 1] == y
+            same &= known_source[turn, c] == _named(
+                origin, old_start, old_column, column_start, patch, whole
+            ) and not (origin >= 0 and _inside(whole, old_column[origin], window))
+            if not same:
+                _mark(disturbed, patch, column, guarded, 1)
+    return disturbed, nearest, source, choice
+
+
+@kernel
+def _named(origin, old_start, old_column, column_start, patch, whole):
+    """A cell of the whole before as `Renewed.source` has it; right where its column is not changed."""
+    if origin < 0:
+        return -1
+    column = old_column[origin]
+    ix = column // whole.ny - patch.left
+    iy = column - column // whole.ny * whole.ny - patch.near
+    if not (0 <= ix < patch.nx and 0 <= iy < patch.ny):
+        return -2 - origin
+    return column_start[ix * patch.ny + iy] + origin - old_start[column]
+
+
+@kernel(inline="always")
+def _at_edge(patch, column, inner):
+    ix = column // patch.ny
+    iy = column - ix * patch.ny + patch.near
+    ix += patch.left
+    return ix == inner[0] or ix == inner[2] - 1 or iy == inner[1] or iy == inner[3] - 1
+
+
+@kernel
+def _mark(disturbed, patch, column, inner, within):
+    """Mark the sides of ``inner`` that a column lies beyond, or within along the edge."""
+    ix = column // patch.ny
+    iy = column - ix * patch.ny + patch.near
+    ix += patch.left
+    if ix < inner[0] + within:
+        disturbed[0] = True
+    if iy < inner[1] + within:
+        disturbed[1] = True
+    if ix >= inner[2] - within:
+        disturbed[2] = True
+    if iy >= inner[3] - within:
+        disturbed[3] = True

@@ -1,0 +1,145 @@
+"""The surface after a change, from that before it."""
+
+import numpy as np
+
+from navmesh.level.raster import Patch
+from navmesh.surface.build import Cells, Grid, Window, whole_patch
+from navmesh.surface.clearance import settle_clearance
+from navmesh.surface.clearance_changes import Renewed, renew_clearance
+from navmesh.surface.ridges import Field
+from navmesh.surface.splicing import columns_in, link_in, runs_around, splice
+from navmesh.surface.surface import Surface
+from surefoot.kernels import allocating_kernel, kernel
+
+__all__ = ["field_in", "renew_surface"]
+
+_AROUND = 3
+"""Columns around a cell whose lists of blockers are asked when its clearance is measured."""
+
+
+def cells_of_surface(surface: Surface) -> Cells:
+    """The cells that a surface is made of."""
+    return Cells(
+        surface.column_start, surface.cell_column, surface.height, surface.gradient, surface.link,
+        surface.blocker_start, surface.blocker,
+    )  # fmt: skip
+
+
+def renew_surface(
+    old: Surface, choice: np.ndarray, fresh: Cells, window: Window, around: Patch, grid: Grid
+) -> tuple[Surface, np.ndarray, Window]:
+    """The surface with the columns of ``window`` as in ``fresh``, the cells of the patch ``around``; those
+    just outside of the window are alike in both. ``choice`` is that of `navmesh.surface.build.surface_of`.
+
+    Returns it, its choices, and a window outside of which no cell is other than before, nor its clearance.
+    """
+    whole = whole_patch(grid)
+    before = cells_of_surface(old)
+    new = renew_clearance(before, choice, fresh, window, around, whole)
+    left, near, right, far = new.window
+    patch = Patch(whole.side, left, near, right - left, far - near)
+    cells = splice(before, fresh, window, around, whole.ny)
+    nearest, clearance, source, choice = _splice_values(
+        old.column_start, old.cell_column, old.nearest, old.clearance, old.source, choice,
+        new.cells.column_start, new.cells.cell_column, new.nearest, new.source, new.choice,
+        cells.column_start, len(cells.cell_column), np.array(new.window), patch, whole.ny,
+    )  # fmt: skip
+    surface = Surface(
+        origin=grid.origin, resolution=grid.resolution, shape=grid.shape,
+        column_start=cells.column_start, cell_column=cells.cell_column, height=cells.height,
+        gradient=cells.gradient, link=cells.link, clearance=clearance, nearest=nearest, source=source,
+        blocker_start=cells.blocker_start, blocker=cells.blocker,
+    )  # fmt: skip
+    _settle(surface, new)
+    return surface, choice, new.window
+
+
+def _settle(surface: Surface, new: Renewed) -> None:
+    """`settle_clearance` in the window that was renewed."""
+    nx, ny = surface.shape
+    left, near, right, far = new.window
+    wide = (
+        max(left - _AROUND, 0), max(near - _AROUND, 0), min(right + _AROUND, nx), min(far + _AROUND, ny)
+    )  # fmt: skip
+    field, where = field_in(surface, wide)
+    ix, iy = np.divmod(field.cell_column, ny)
+    inside = (ix >= left) & (ix < right) & (iy >= near) & (iy < far)
+    settle_clearance(field, inside)
+    surface.clearance[where[inside]] = field.clearance[inside]
+    surface.nearest[where[inside]] = field.nearest[inside]
+
+
+def field_in(surface: Surface, window: Window) -> tuple[Field, np.ndarray]:
+    """The `Field` of the columns of ``window``, links that lead out of it being -1, and the number of each of
+    its cells in the whole (n,) int32."""
+    link, where, owner = _links_in(
+        surface.column_start, surface.cell_column, surface.link, np.array(window), surface.shape[1]
+    )
+    source = surface.source[where]
+    nearby = np.stack([surface.blocker_start[source], surface.blocker_start[source + 1]], axis=1)
+    nearby[source < 0] = -1
+    field = Field(
+        surface.resolution, surface.shape[1], owner, link, surface.nearest[where], surface.clearance[where],
+        nearby, surface.blocker,
+    )  # fmt: skip
+    return field, where
+
+
+@allocating_kernel
+def _links_in(column_start, cell_column, link, window, ny):
+    start, first = columns_in(column_start, window, ny)
+    found, where = np.empty((start[-1], 4), np.int32), np.empty(start[-1], np.int32)
+    owner = np.empty(start[-1], np.int32)
+    for c in range(first.shape[0]):
+        for k in range(start[c], start[c + 1]):
+            m = first[c] + k - start[c]
+            where[k], owner[k] = m, cell_column[m]
+            for d in range(4):
+                found[k, d] = link_in(link[m, d], cell_column, column_start, window, ny, start)
+    return found, where, owner
+
+
+@kernel(inline="always")
+def _moved(cell, column, old_start, start):
+    """The number of a cell of an unchanged column in the whole."""
+    return start[column] + cell - old_start[column]
+
+
+@allocating_kernel
+def _splice_values(
+    old_start, old_column, old_nearest, old_clearance, old_source, old_choice,
+    new_start, new_column, new_nearest, new_source, new_choice, start, count, window, patch, ny,
+):  # fmt: skip
+    """nearest, clearance, source and choice of the whole."""
+    runs = np.empty((2 * (window[2] - window[0]) + 1, 4), np.int64)
+    runs_around(old_start, new_start, window, patch, ny, runs)
+    nearest, clearance = np.empty((count, 2)), np.empty(count)
+    source, choice = np.empty(count, np.int32), np.empty(count, np.uint8)
+    for row in range(runs.shape[0]):
+        first, size, at = runs[row, 1], runs[row, 2], runs[row, 3]
+        if runs[row, 0] == 0:
+            nearest[at : at + size] = old_nearest[first : first + size]
+            clearance[at : at + size] = old_clearance[first : first + size]
+            choice[at : at + size] = old_choice[first : first + size]
+            for k in range(size):
+                s = old_source[first + k]
+                if first <= s < first + size:
+                    source[at + k] = s + at - first
+                else:
+                    source[at + k] = _moved(s, old_column[s], old_start, start) if s >= 0 else -1
+            continue
+        for k in range(size):
+            c = first + k
+            x, y = new_nearest[c, 0], new_nearest[c, 1]
+            nearest[at + k, 0], nearest[at + k, 1] = x, y
+            clearance[at + k] = np.sqrt(x * x + y * y)
+            choice[at + k] = new_choice[c]
+            s = new_source[c]
+            if s >= 0:
+                inside = new_column[s]
+                ix = inside // patch.ny
+                column = (ix + patch.left) * ny + inside - ix * patch.ny + patch.near
+                source[at + k] = start[column] + s - new_start[inside]
+            else:
+                source[at + k] = _moved(-2 - s, old_column[-2 - s], old_start, start) if s < -1 else -1
+    return nearest, clearance, source, choice

@@ -12,16 +12,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from navmesh.errors import NavmeshError
+from navmesh.graph.node_changes import Nodes, renew_nodes
+from navmesh.graph.nodes import all_nodes
 from navmesh.level.mesh_queries import MeshGrid
 from navmesh.level.terrain import Terrain
 from navmesh.obstacles.rim_samples import RimSamples, renew_rim_samples, take_rim_samples
 from navmesh.obstacles.rules import ObstacleRules
 from navmesh.rules import WalkRules
-from navmesh.surface.build import Grid, Window, find_cells, lay_grid, patch_around, reach_of
+from navmesh.surface.build import Grid, Window, find_cells, lay_grid, patch_around, reach_of, surface_of
 from navmesh.surface.renewal import renew_surface
+from navmesh.surface.ridges import field_of
 from navmesh.surface.surface import Surface
 
-__all__ = ["KeptBuild", "all_rim_samples", "grid_for", "renewed_surface"]
+__all__ = ["KeptBuild", "all_rim_samples", "built_surface", "grid_for", "renewed_surface"]
 
 _ROOM = 0.25  # of a level's length by which its grid is laid wider on a side that it has outgrown
 
@@ -33,6 +36,7 @@ class KeptBuild:
     grid: Grid
     choice: np.ndarray
     """(n,) uint8, for each cell of the surface; see `navmesh.surface.clearance`."""
+    nodes: Nodes
     rim_samples: RimSamples | None
     """None where obstacles are not asked for."""
 
@@ -57,22 +61,31 @@ def grid_for(terrain: Terrain, rules: WalkRules, extent: np.ndarray | None, grow
     return lay_grid(bounds, rules, terrain.name)
 
 
+def built_surface(terrain: Terrain, rules: WalkRules, grid: Grid) -> tuple[Surface, np.ndarray, Nodes]:
+    """The surface of ``terrain``, its choices and its nodes."""
+    surface, choice = surface_of(find_cells(terrain, rules, grid), grid)
+    cell, place, maker, label = all_nodes(surface, field_of(surface), rules.min_radius)
+    return surface, choice, Nodes(cell, place, maker, label)
+
+
 def renewed_surface(
     old: Surface, kept: KeptBuild, changed: list[np.ndarray], terrain: Terrain, rules: WalkRules
-) -> tuple[Surface, np.ndarray]:
+) -> tuple[Surface, np.ndarray, Nodes]:
     """The surface of ``terrain``, which differs from that of ``old`` within the ``changed`` bounds (2, 3)
-    [m], and its choices."""
-    surface, choice, grid = old, kept.choice, kept.grid
+    [m], its choices and its nodes."""
+    surface, choice, nodes, grid = old, kept.choice, kept.nodes, kept.grid
     nx, ny = grid.shape
     reach = reach_of(rules) + 3  # and the links and distances of cells beside one that changes
     for window in _apart([_window(bounds, grid, reach) for bounds in changed]):
         spare = reach_of(rules) + 4
         wide = _clipped((window[0] - spare, window[1] - spare, window[2] + spare, window[3] + spare), nx, ny)
         fresh = find_cells(terrain, rules, grid, wide)
-        surface, choice, _ = renew_surface(surface, choice, fresh, window, patch_around(grid, wide), grid)
+        before = surface
+        surface, choice, reach = renew_surface(before, choice, fresh, window, patch_around(grid, wide), grid)
+        nodes = renew_nodes(nodes, before, surface, reach, rules.min_radius).nodes
     if not len(surface):
         raise NavmeshError(f"{terrain.name}: after the change there is nothing to walk on")
-    return surface, choice
+    return surface, choice, nodes
 
 
 def all_rim_samples(

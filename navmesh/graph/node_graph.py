@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from navmesh.errors import NavmeshError
-from navmesh.graph import edges, nodes
+from navmesh.graph import edges
 from navmesh.graph import spatial_queries as queries
 from navmesh.graph.graph_file import read_graph, write_graph
-from navmesh.graph.kept_build import KeptBuild, all_rim_samples, grid_for, renewed_surface
+from navmesh.graph.kept_build import KeptBuild, all_rim_samples, built_surface, grid_for, renewed_surface
 from navmesh.graph.links import Links, make_links
+from navmesh.graph.node_changes import Nodes
 from navmesh.level.chunks import change_chunks
 from navmesh.level.terrain import DEFAULT_MATERIAL, Terrain
 from navmesh.obstacles.detection import obstacles_at, with_own_kinds
@@ -24,7 +25,7 @@ from navmesh.routes import path_queries as pathfinding
 from navmesh.routes.path_queries import PathSearch
 from navmesh.routes.route import Route, Routes
 from navmesh.rules import WalkRules
-from navmesh.surface.build import Grid, find_cells, surface_of
+from navmesh.surface.build import Grid
 from navmesh.surface.ridges import field_of
 from navmesh.surface.surface import Surface
 from surefoot.words import several
@@ -108,7 +109,7 @@ class NodeGraph:
             raise NavmeshError(f"rules: expected navmesh.WalkRules, not a {type(rules).__name__}")
         rules = rules or WalkRules()
         grid = grid_for(terrain, rules, extent)
-        built = surface_of(find_cells(terrain, rules, grid), grid)
+        built = built_surface(terrain, rules, grid)
         return cls._made(terrain, rules, obstacle_rules, tags, grid, built)
 
     def update(self, changes: Mapping[str, Terrain | None]) -> "NodeGraph":
@@ -133,7 +134,7 @@ class NodeGraph:
         ):
             built = renewed_surface(self.surface, kept_build, changed, terrain, rules)
         else:
-            built, kept_build = surface_of(find_cells(terrain, rules, grid), grid), None
+            built, kept_build = built_surface(terrain, rules, grid), None
         return self._made(terrain, rules, self.obstacle_rules, self.tags, grid, built, kept_build, changed)
 
     @classmethod
@@ -144,21 +145,19 @@ class NodeGraph:
         obstacle_rules: ObstacleRules | None,
         tags: TagFile | None,
         grid: Grid,
-        built: tuple[Surface, np.ndarray],
+        built: tuple[Surface, np.ndarray, Nodes],
         before: KeptBuild | None = None,
         changed: Sequence[np.ndarray] = (),
     ) -> "NodeGraph":
-        """The graph of a surface and its choices; rim samples as ``before``, where it is given, but around
-        ``changed`` bounds."""
-        surface, choice = built
-        field_arrays = field_of(surface)
-        order = nodes.order_by_clearance(surface.clearance, surface.resolution / 64)
-        node_cell, place, label = nodes.select_nodes(order, field_arrays, rules.min_radius)
-        if len(node_cell) == 0:
+        """The graph of a surface, its choices and its nodes; rim samples as ``before``, where it is given,
+        but around ``changed`` bounds."""
+        surface, choice, nodes = built
+        place = nodes.place
+        if not len(place):
             raise NavmeshError(
                 f"{terrain.name}: no place on it has a clearance of min_radius = {rules.min_radius:g} m"
             )
-        start, target, width, gate, border = edges.join_nodes(label, field_arrays, place)
+        start, target, width, gate, border = edges.join_nodes(nodes.label, field_of(surface), place)
         obstacles, rim_samples = Obstacles.empty(), None
         if obstacle_rules is not None:
             rim_samples, mesh_grid = all_rim_samples(before, changed, terrain, surface, rules, obstacle_rules)
@@ -170,10 +169,10 @@ class NodeGraph:
             terrain=terrain,
             rules=rules,
             surface=surface,
-            positions=surface.lifted(place[:, :2], node_cell),
+            positions=surface.lifted(place[:, :2], nodes.cell),
             radii=place[:, 2].copy(),
-            node_cell=node_cell,
-            label=label,
+            node_cell=nodes.cell,
+            label=nodes.label,
             edge_start=start,
             edge_target=target,
             edge_width=width,
@@ -183,7 +182,7 @@ class NodeGraph:
             links=make_links(obstacles, surface, rules, (obstacle_rules or _OBSTACLE_RULES).body_radius),
             obstacle_rules=obstacle_rules,
             tags=tags,
-            kept_build=KeptBuild(grid, choice, rim_samples),
+            kept_build=KeptBuild(grid, choice, nodes, rim_samples),
         )
 
     @property

@@ -3,10 +3,22 @@
 import numpy as np
 
 from navmesh.surface.clearance_field import centre_of
-from navmesh.surface.ridges import half_width, middle_beside
+from navmesh.surface.ridges import Field, half_width, middle_beside
+from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["order_by_clearance", "select_nodes"]
+__all__ = ["all_nodes", "grain_of", "order_by_clearance", "select_nodes"]
+
+
+def grain_of(surface: Surface) -> float:
+    """[m], steps of the clearance in which cells have their turn."""
+    return surface.resolution / 64
+
+
+def all_nodes(surface: Surface, field: Field, least: float) -> tuple[np.ndarray, ...]:
+    """What `select_nodes` gives for all cells of a surface."""
+    order = order_by_clearance(surface.clearance, grain_of(surface))
+    return select_nodes(order, field, least, np.empty(0, np.int32), np.empty((0, 3)))
 
 
 @allocating_kernel
@@ -49,47 +61,62 @@ def _claim_line(clearance, link, label, power, node, radius, c, d, dx, dy, resol
         dy += step
 
 
+@kernel
+def _claim(field, label, power, node, k, x, y, radius):
+    """Claim what lies in a disc about (x, y), in cell ``k``, and is reached over links: along x, then along
+    y."""
+    clearance, link, resolution = field.clearance, field.link, field.cell
+    cx, cy = centre_of(field, k)
+    for d in range(0, 3, 2):
+        step = resolution if d == 0 else -resolution
+        spine = k if d == 0 else link[k, 2]
+        dx = cx - x if d == 0 else cx - x - resolution
+        while spine >= 0 and dx * dx <= radius * radius:
+            _claim_line(clearance, link, label, power, node, radius, spine, 1, dx, cy - y, resolution)
+            below = link[spine, 3]
+            dy = cy - y - resolution
+            _claim_line(clearance, link, label, power, node, radius, below, 3, dx, dy, resolution)
+            spine = link[spine, d]
+            dx += step
+
+
 @allocating_kernel
-def select_nodes(order, field, least):
+def select_nodes(order, field, least, given_cell, given_place):
     """Greedy cover by maximal discs, (almost) largest first.
 
     ``order`` (n,) int32: cells by falling clearance (`order_by_clearance`); ``field`` is a
     `navmesh.surface.ridges.Field`. A cell with at least ``least`` clearance that no disc as wide as itself
-    covers becomes the place of one: its centre or, between opposite sides, the middle of the passage. Returns
-    ``node_cell`` (m,) int32, ``place`` (m, 3) float64, x, y and radius [m], and ``label`` (n,) int32: of the
-    nodes that cover a cell the one in whose disc it is deepest (least d² - r²), or -1.
+    covers becomes the place of one: its centre or, between opposite sides, the middle of the passage. At -1 -
+    i in the order it is the turn of a node that is there anyway, in ``given_cell[i]`` at ``given_place[i]``.
+
+    Returns ``node_cell`` (m,) int32, ``place`` (m, 3) float64, x, y and radius [m], ``maker`` (m,) int32, the
+    entries of the order that made the nodes, and ``label`` (n,) int32: of the nodes that cover a cell the one
+    in whose disc it is deepest (least d² - r²), or -1.
     """
-    clearance, link, resolution = field.clearance, field.link, field.cell
-    cells = clearance.shape[0]
+    cells = field.clearance.shape[0]
     label = np.full(cells, -1, np.int32)
     power = np.full(cells, np.inf)
-    node_cell = np.empty(cells, np.int32)
-    place = np.empty((cells, 3))
+    node_cell, maker = np.empty(order.shape[0], np.int32), np.empty(order.shape[0], np.int32)
+    place = np.empty((order.shape[0], 3))
     nodes = 0
-    for at in range(cells):
+    for at in range(order.shape[0]):
         c = order[at]
-        if label[c] >= 0:
-            continue
-        k, r = c, clearance[c]
-        x, y = centre_of(field, c)
-        if half_width(field, c) < np.inf:
-            k, x, y, r = middle_beside(field, c)
-        if r < least:
-            continue
-        cx, cy = centre_of(field, k)
-        node_cell[nodes] = k
+        if c < 0:
+            k = given_cell[-1 - c]
+            x, y, r = given_place[-1 - c, 0], given_place[-1 - c, 1], given_place[-1 - c, 2]
+        else:
+            if label[c] >= 0:
+                continue
+            k, r = c, field.clearance[c]
+            x, y = centre_of(field, c)
+            if half_width(field, c) < np.inf:
+                k, x, y, r = middle_beside(field, c)
+            if r < least:
+                continue
+        node_cell[nodes], maker[nodes] = k, c
         place[nodes, 0], place[nodes, 1], place[nodes, 2] = x, y, r
-        for d in range(0, 3, 2):
-            step = resolution if d == 0 else -resolution
-            spine = k if d == 0 else link[k, 2]
-            dx = cx - x if d == 0 else cx - x - resolution
-            while spine >= 0 and dx * dx <= r * r:
-                _claim_line(clearance, link, label, power, nodes, r, spine, 1, dx, cy - y, resolution)
-                below = link[spine, 3]
-                dy = cy - y - resolution
-                _claim_line(clearance, link, label, power, nodes, r, below, 3, dx, dy, resolution)
-                spine = link[spine, d]
-                dx += step
-        label[c] = nodes  # also where the disc is too small to hold the cell's centre
+        _claim(field, label, power, nodes, k, x, y, r)
+        if c >= 0:
+            label[c] = nodes  # also where the disc is too small to hold the cell's centre
         nodes += 1
-    return node_cell[:nodes].copy(), place[:nodes].copy(), label
+    return node_cell[:nodes].copy(), place[:nodes].copy(), maker[:nodes].copy(), label

@@ -1,0 +1,215 @@
+"""The nodes after a change, without choosing all of them anew.
+
+Nodes are chosen in an order that only the cells' clearances and places make (`navmesh.graph.nodes`), and what
+is chosen at a cell depends on the discs that cover it by then. So they are chosen anew in a rectangle, among
+the others whose discs reach into it, each in its turn. If no disc that is new, gone, or over changed cells
+reaches out of the rectangle, the choice is the same everywhere else. If one does, the rectangle grows.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from navmesh.graph.nodes import grain_of, select_nodes
+from navmesh.level.raster import Patch
+from navmesh.surface.build import Window
+from navmesh.surface.renewal import field_in
+from navmesh.surface.splicing import columns_in, runs_around
+from navmesh.surface.surface import Surface
+from surefoot.kernels import allocating_kernel
+
+__all__ = ["Nodes", "RenewedNodes", "renew_nodes"]
+
+_SEEN = 4
+"""Columns around a cell on which it depends what disc it gets."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Nodes:
+    """The discs, in the order in which they were chosen."""
+
+    cell: np.ndarray
+    """(m,) int32: the cell that each lies in."""
+    place: np.ndarray
+    """(m, 3) float64 [m]: x, y from the surface's origin, and radius."""
+    maker: np.ndarray
+    """(m,) int32: the cell at whose turn it was chosen."""
+    label: np.ndarray
+    """(n,) int32: the node that owns each cell, or -1."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RenewedNodes:
+    """Nodes after a change, and what has changed."""
+
+    nodes: Nodes
+    number: np.ndarray
+    """(m before,) int32: what number each node of before has now, or -1."""
+    window: Window
+    """Outside of these columns no label is another than before, but for the numbers."""
+
+
+def renew_nodes(old: Nodes, before: Surface, surface: Surface, window: Window, least: float) -> RenewedNodes:
+    """The nodes of ``surface``, which is as ``before``, with the ``old`` nodes, outside of ``window``.
+
+    ``least`` [m] is the radius of the smallest. Bit for bit those that `select_nodes` finds in the whole.
+    """
+    boxes = _boxes(old.place, surface.resolution)
+    changed = _hull(np.array(window), boxes[:0], 1, surface)
+    area = _hull(np.array(window), boxes[_touch(boxes, changed)], _SEEN, surface)
+    while True:
+        chosen = _choose_in(area, old, boxes, before, surface, least)
+        clipped = np.clip(chosen.boxes, 0, np.tile(surface.shape, 2))
+        beyond = (clipped[:, :2] < area[:2]).any(axis=1) | (clipped[:, 2:] > area[2:]).any(axis=1)
+        if not beyond.any():
+            return _numbered(area, chosen, old, before, surface)
+        area = _hull(area, chosen.boxes[beyond], 0, surface)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Chosen:
+    """Nodes of a rectangle of columns, and those that reach into it."""
+
+    nodes: Nodes
+    """In their order; labels are of the cells ``where``."""
+    was: np.ndarray
+    """(k,) int64: the node of before that each is, or -1."""
+    made: np.ndarray
+    """(k,) bool: whether it was chosen in the rectangle."""
+    where: np.ndarray
+    """(j,) int32: the cells that the labels are of."""
+    boxes: np.ndarray
+    """(b, 4): the columns under the discs that are new or gone."""
+
+
+def _choose_in(
+    area: np.ndarray, old: Nodes, boxes: np.ndarray, before: Surface, surface: Surface, least: float
+) -> _Chosen:
+    """Choose nodes anew in the columns of ``area``; ``boxes`` are those of the old discs."""
+    in_area = _inside(before.cell_column[old.maker], surface, area)
+    given = np.flatnonzero(_touch(boxes, area) & ~in_area)
+    field, where = field_in(surface, tuple(_hull(area, boxes[given], _SEEN, surface).tolist()))
+    candidates = np.flatnonzero(_inside(field.cell_column, surface, area))
+    given_maker = _moved(old.maker[given], before, surface)
+    key = np.concatenate([_keys(where[candidates], surface), _keys(given_maker, surface)])
+    order = np.concatenate([candidates, -1 - np.arange(len(given))])[np.argsort(key)].astype(np.int32)
+    given_cell = np.searchsorted(where, _moved(old.cell[given], before, surface)).astype(np.int32)
+    cell, place, maker, label = select_nodes(order, field, least, given_cell, old.place[given])
+    made = maker >= 0
+    was, whole_maker = np.full(len(maker), -1), np.empty(len(maker), np.int32)
+    was[~made] = given[-1 - maker[~made]]
+    whole_maker[made], whole_maker[~made] = where[maker[made]], given_maker[-1 - maker[~made]]
+    whole_cell = where[cell]
+    there = np.flatnonzero(in_area)
+    was[made] = _found_again(
+        (_spots(old.maker[there], before), _spots(old.cell[there], before), old.place[there]),
+        (_spots(whole_maker[made], surface), _spots(whole_cell[made], surface), place[made]),
+        there,
+    )
+    changed = [boxes[np.setdiff1d(there, was)], _boxes(place[was < 0], surface.resolution)]
+    nodes = Nodes(whole_cell, place, whole_maker, label)
+    return _Chosen(nodes, was, made, where, np.concatenate(changed))
+
+
+def _numbered(
+    area: np.ndarray, chosen: _Chosen, old: Nodes, before: Surface, surface: Surface
+) -> RenewedNodes:
+    """All nodes, those ``chosen`` in the ``area`` and the old ones made elsewhere, in their order."""
+    kept = np.flatnonzero(~_inside(before.cell_column[old.maker], surface, area))
+    kept_maker = _moved(old.maker[kept], before, surface)
+    made = np.flatnonzero(chosen.made)
+    at = np.searchsorted(_keys(kept_maker, surface), _keys(chosen.nodes.maker[made], surface))
+    to = at + np.arange(len(made))  # where those made in the area come to stand
+    from_kept = np.arange(len(kept)) + np.searchsorted(at, np.arange(len(kept)), side="right")
+
+    def merged(of_kept: np.ndarray, of_made: np.ndarray) -> np.ndarray:
+        whole = np.empty((len(kept) + len(made), *of_kept.shape[1:]), of_kept.dtype)
+        whole[from_kept], whole[to] = of_kept, of_made
+        return whole
+
+    number = np.full(len(old.cell), -1, np.int32)
+    number[kept] = from_kept
+    again = chosen.was[made] >= 0
+    number[chosen.was[made][again]] = to[again]
+    local = np.empty(len(chosen.was) + 1, np.int32)
+    local[-1] = -1
+    local[:-1][~chosen.made] = number[chosen.was[~chosen.made]]
+    local[made] = to
+    within = _inside(surface.cell_column[chosen.where], surface, area)
+    label = _spliced_labels(
+        before.column_start, surface.column_start, old.label, number, area, surface.shape[1],
+        chosen.where[within], local[chosen.nodes.label[within]],
+    )  # fmt: skip
+    nodes = Nodes(
+        merged(_moved(old.cell[kept], before, surface), chosen.nodes.cell[made]),
+        merged(old.place[kept], chosen.nodes.place[made]),
+        merged(kept_maker, chosen.nodes.maker[made]),
+        label,
+    )
+    return RenewedNodes(nodes, number, tuple(area.tolist()))
+
+
+def _found_again(old: tuple, new: tuple, names: np.ndarray) -> np.ndarray:
+    """For each new node its name before, or -1: made at the same spot, in the same spot and alike."""
+    if not len(names):
+        return np.full(len(new[0]), -1)
+    by = np.argsort(old[0])
+    at = by[np.minimum(np.searchsorted(old[0][by], new[0]), len(by) - 1)]
+    same = (old[0][at] == new[0]) & (old[1][at] == new[1]) & (old[2][at] == new[2]).all(axis=1)
+    return np.where(same, names[at], -1)
+
+
+def _spots(cells: np.ndarray, surface: Surface) -> np.ndarray:
+    """(k,) int64: column and storey of ``cells``, which say which they are whatever is elsewhere."""
+    columns = surface.cell_column[cells]
+    return (columns.astype(np.int64) << 16) | (cells - surface.column_start[columns])
+
+
+def _moved(cells: np.ndarray, before: Surface, surface: Surface) -> np.ndarray:
+    """The numbers that ``cells`` of unchanged columns have now: (k,) int32."""
+    columns = before.cell_column[cells]
+    return surface.column_start[columns] + cells - before.column_start[columns]
+
+
+def _keys(cells: np.ndarray, surface: Surface) -> np.ndarray:
+    """(k,) int64, by which cells have their turn: the widest first, then the first."""
+    step = (surface.clearance[cells] / grain_of(surface)).astype(np.int64)
+    return ((np.int64(1 << 30) - step) << 32) | cells
+
+
+def _inside(columns: np.ndarray, surface: Surface, area: np.ndarray) -> np.ndarray:
+    ix, iy = np.divmod(columns, surface.shape[1])
+    return (ix >= area[0]) & (ix < area[2]) & (iy >= area[1]) & (iy < area[3])
+
+
+def _boxes(place: np.ndarray, side: float) -> np.ndarray:
+    """(m, 4) int64: windows that hold all columns under discs, and a column more on each side."""
+    low = np.floor((place[:, :2] - place[:, 2:]) / side).astype(np.int64) - 2
+    high = np.floor((place[:, :2] + place[:, 2:]) / side).astype(np.int64) + 3
+    return np.column_stack([low, high])
+
+
+def _touch(boxes: np.ndarray, area: np.ndarray) -> np.ndarray:
+    return np.logical_and(boxes[:, :2] < area[2:], boxes[:, 2:] > area[:2]).all(axis=1)
+
+
+def _hull(area: np.ndarray, boxes: np.ndarray, beyond: int, surface: Surface) -> np.ndarray:
+    """The window of the grid that holds ``area`` and ``boxes``, and so many columns ``beyond``."""
+    every = np.concatenate([area[None], boxes])
+    low, high = every[:, :2].min(axis=0) - beyond, every[:, 2:].max(axis=0) + beyond
+    return np.concatenate([np.maximum(low, 0), np.minimum(high, surface.shape)])
+
+
+@allocating_kernel
+def _spliced_labels(old_start, start, old_label, number, area, ny, where, label):
+    patch = Patch(1.0, area[0], area[1], area[2] - area[0], area[3] - area[1])
+    inside, _ = columns_in(start, area, ny)
+    runs = np.empty((2 * (area[2] - area[0]) + 1, 4), np.int64)
+    whole = np.empty(runs_around(old_start, inside, area, patch, ny, runs), np.int32)
+    for row in range(0, runs.shape[0], 2):
+        for k in range(runs[row, 2]):
+            was = old_label[runs[row, 1] + k]
+            whole[runs[row, 3] + k] = number[was] if was >= 0 else -1
+    for k in range(where.shape[0]):
+        whole[where[k]] = label[k]
+    return whole

@@ -6,7 +6,7 @@ from navmesh.surface.clearance_field import centre_of
 from navmesh.surface.ridges import Field, half_width, widest_through
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["join_nodes"]
+__all__ = ["borders", "join_nodes", "measure_edges", "rows_of_edges"]
 
 
 _WIDE = 1.5
@@ -67,29 +67,18 @@ def _widest(order, first, last, pair, width, least, most, field):
 
 
 @allocating_kernel
-def _assemble(order, key, pair, width, place, field):
-    """CSR arrays of the edges from border pairs that ``order`` sorts by key."""
-    nodes = place.shape[0]
-    degree = np.zeros(nodes + 1, np.int32)
+def _measure(order, key, pair, width, place, field):
+    """The edges that border pairs make up, which ``order`` sorts by key: ends (e, 2) int32, the lesser first;
+    width (e,), gate (e, 2) float64 and pair (e, 2) int32."""
     begin = np.empty(order.shape[0] + 1, np.int32)
     edges = 0
     for k in range(order.shape[0]):
-        i = order[k]
-        if k > 0 and key[order[k - 1]] == key[i]:
-            continue
-        begin[edges] = k
-        edges += 1
-        degree[key[i] >> 32] += 1
-        degree[key[i] & 0xFFFFFFFF] += 1
+        if k == 0 or key[order[k - 1]] != key[order[k]]:
+            begin[edges] = k
+            edges += 1
     begin[edges] = order.shape[0]
-    start = np.zeros(nodes + 1, np.int32)
-    for m in range(nodes):
-        start[m + 1] = start[m] + degree[m]
-    fill = start[:-1].copy()
-    target = np.empty(2 * edges, np.int32)
-    widest = np.empty(2 * edges)
-    gate = np.empty((2 * edges, 2))
-    border = np.empty((2 * edges, 2), np.int32)
+    ends, border = np.empty((edges, 2), np.int32), np.empty((edges, 2), np.int32)
+    widest, gate = np.empty(edges), np.empty((edges, 2))
     for k in range(edges):
         i = order[begin[k]]
         a = np.int32(key[i] >> 32)
@@ -97,17 +86,48 @@ def _assemble(order, key, pair, width, place, field):
         one, other = place[a, 2], place[b, 2]
         lens = 0.5 * (one + other - np.hypot(place[b, 0] - place[a, 0], place[b, 1] - place[a, 1]))
         i, x, y, passes = _widest(order, begin[k], begin[k + 1], pair, width, lens, min(one, other), field)
+        ends[k, 0], ends[k, 1], widest[k], gate[k, 0], gate[k, 1] = a, b, passes, x, y
+        border[k, 0], border[k, 1] = pair[i, 0], pair[i, 1]
+    return ends, widest, gate, border
+
+
+@allocating_kernel
+def rows_of_edges(nodes, ends, widest, gate, border):
+    """`join_nodes`' arrays from those of edges (e, 2), sorted by the lesser and then by the greater end."""
+    start = np.zeros(nodes + 1, np.int32)
+    edges = ends.shape[0]
+    for k in range(edges):
+        start[ends[k, 0] + 1] += 1
+        start[ends[k, 1] + 1] += 1
+    for m in range(nodes):
+        start[m + 1] += start[m]
+    fill = start[:-1].copy()
+    target, width = np.empty(2 * edges, np.int32), np.empty(2 * edges)
+    place, cells = np.empty((2 * edges, 2)), np.empty((2 * edges, 2), np.int32)
+    for k in range(edges):
         for way in range(2):
-            source, goal = (a, b) if way == 0 else (b, a)
-            e = fill[source]
-            fill[source] += 1
-            target[e] = goal
-            widest[e] = passes
-            border[e, 0] = pair[i, way]
-            border[e, 1] = pair[i, 1 - way]
-            gate[e, 0] = x
-            gate[e, 1] = y
-    return start, target, widest, gate, border
+            e = fill[ends[k, way]]
+            fill[ends[k, way]] += 1
+            target[e], width[e] = ends[k, 1 - way], widest[k]
+            cells[e, 0], cells[e, 1] = border[k, way], border[k, 1 - way]
+            place[e, 0], place[e, 1] = gate[k, 0], gate[k, 1]
+    return start, target, width, place, cells
+
+
+def borders(label: np.ndarray, field: Field) -> np.ndarray:
+    """(k,) int64: the pairs of labels that touch, the lesser in the upper half; more than once."""
+    return _border_pairs(label, field.link, field.clearance)[0]
+
+
+def measure_edges(
+    label: np.ndarray, field: Field, place: np.ndarray, wanted: np.ndarray | None = None
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """`_measure` for all pairs of labels that touch, or for those whose `borders` are ``wanted``."""
+    key, pair, width = _border_pairs(label, field.link, field.clearance)
+    if wanted is not None:
+        these = np.isin(key, wanted)
+        key, pair, width = key[these], pair[these], width[these]
+    return _measure(np.argsort(key, kind="stable"), key, pair, width, place, field)
 
 
 def join_nodes(
@@ -119,6 +139,4 @@ def join_nodes(
     that passes is max((Rᵢ + Rⱼ - d)/2, the clearance of the best pair of linked cells on the labels'
     border); where the sides of a passage face each other, the clearance in its middle instead of the cells'.
     """
-    key, pair, width = _border_pairs(label, field.link, field.clearance)
-    order = np.argsort(key, kind="stable")
-    return _assemble(order, key, pair, width, place, field)
+    return rows_of_edges(len(place), *measure_edges(label, field, place))

@@ -1,9 +1,8 @@
 """What is kept of a build, and how it is renewed after a change: `NodeGraph.build` and `NodeGraph.update`.
 
-Local stages are those that look at triangles: cells, links, the clearance beside walls and rims
-(`find_cells`), and the samples at rims. After a change they are done again for a window of columns around
-it, and spliced in. The rest, clearances carried over the cells, discs, edges and the joining of rim samples
-to obstacles, can change far away; it is done again for the whole level.
+Cells, clearances, discs, edges and the samples at rims are found again only where a change reaches, each
+stage as far as it has to go: to the bit what a build of the whole finds. The results are put in the place of
+those of before. Only the joining of rim samples to obstacles goes over the whole level.
 """
 
 from collections.abc import Sequence
@@ -12,6 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from navmesh.errors import NavmeshError
+from navmesh.graph.edge_changes import Edges, renew_edges
+from navmesh.graph.edges import join_nodes
 from navmesh.graph.node_changes import Nodes, renew_nodes
 from navmesh.graph.nodes import all_nodes
 from navmesh.level.mesh_queries import MeshGrid
@@ -24,19 +25,28 @@ from navmesh.surface.renewal import renew_surface
 from navmesh.surface.ridges import field_of
 from navmesh.surface.surface import Surface
 
-__all__ = ["KeptBuild", "all_rim_samples", "built_surface", "grid_for", "renewed_surface"]
+__all__ = ["Built", "KeptBuild", "all_rim_samples", "build_whole", "grid_for", "renewed"]
 
 _ROOM = 0.25  # of a level's length by which its grid is laid wider on a side that it has outgrown
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class KeptBuild:
-    """The local stages' results."""
+class Built:
+    """The surface of a terrain with discs and edges."""
 
     grid: Grid
+    surface: Surface
     choice: np.ndarray
     """(n,) uint8, for each cell of the surface; see `navmesh.surface.clearance`."""
     nodes: Nodes
+    edges: Edges
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class KeptBuild:
+    """What `NodeGraph.update` needs."""
+
+    built: Built
     rim_samples: RimSamples | None
     """None where obstacles are not asked for."""
 
@@ -61,31 +71,41 @@ def grid_for(terrain: Terrain, rules: WalkRules, extent: np.ndarray | None, grow
     return lay_grid(bounds, rules, terrain.name)
 
 
-def built_surface(terrain: Terrain, rules: WalkRules, grid: Grid) -> tuple[Surface, np.ndarray, Nodes]:
-    """The surface of ``terrain``, its choices and its nodes."""
+def build_whole(terrain: Terrain, rules: WalkRules, grid: Grid) -> Built:
+    """Surface, discs and edges of ``terrain``. Raises `NavmeshError` where there are none."""
     surface, choice = surface_of(find_cells(terrain, rules, grid), grid)
-    cell, place, maker, label = all_nodes(surface, field_of(surface), rules.min_radius)
-    return surface, choice, Nodes(cell, place, maker, label)
+    field = field_of(surface)
+    nodes = Nodes(*all_nodes(surface, field, rules.min_radius))
+    if not len(nodes.cell):
+        raise _too_narrow(terrain, rules)
+    return Built(grid, surface, choice, nodes, join_nodes(nodes.label, field, nodes.place))
 
 
-def renewed_surface(
-    old: Surface, kept: KeptBuild, changed: list[np.ndarray], terrain: Terrain, rules: WalkRules
-) -> tuple[Surface, np.ndarray, Nodes]:
-    """The surface of ``terrain``, which differs from that of ``old`` within the ``changed`` bounds (2, 3)
-    [m], its choices and its nodes."""
-    surface, choice, nodes, grid = old, kept.choice, kept.nodes, kept.grid
-    nx, ny = grid.shape
-    reach = reach_of(rules) + 3  # and the links and distances of cells beside one that changes
-    for window in _apart([_window(bounds, grid, reach) for bounds in changed]):
+def renewed(old: Built, changed: list[np.ndarray], terrain: Terrain, rules: WalkRules) -> Built:
+    """Surface, discs and edges of ``terrain``, which differs from that of ``old`` within the ``changed``
+    bounds (2, 3) [m]: what `build_whole` gives."""
+    built, grid = old, old.grid
+    beside = reach_of(rules) + 3  # and the links and distances of cells beside one that changes
+    for window in _apart([_window(bounds, grid, beside) for bounds in changed]):
         spare = reach_of(rules) + 4
-        wide = _clipped((window[0] - spare, window[1] - spare, window[2] + spare, window[3] + spare), nx, ny)
-        fresh = find_cells(terrain, rules, grid, wide)
-        before = surface
-        surface, choice, reach = renew_surface(before, choice, fresh, window, patch_around(grid, wide), grid)
-        nodes = renew_nodes(nodes, before, surface, reach, rules.min_radius).nodes
-    if not len(surface):
+        wide = (window[0] - spare, window[1] - spare, window[2] + spare, window[3] + spare)
+        wide = _clipped(wide, *grid.shape)
+        fresh, around = find_cells(terrain, rules, grid, wide), patch_around(grid, wide)
+        surface, choice, reach = renew_surface(built.surface, built.choice, fresh, window, around, grid)
+        nodes = renew_nodes(built.nodes, built.surface, surface, reach, rules.min_radius)
+        edges = renew_edges(built.edges, built.nodes, built.surface, nodes, surface)
+        built = Built(grid, surface, choice, nodes.nodes, edges)
+    if not len(built.surface):
         raise NavmeshError(f"{terrain.name}: after the change there is nothing to walk on")
-    return surface, choice, nodes
+    if not len(built.nodes.cell):
+        raise _too_narrow(terrain, rules)
+    return built
+
+
+def _too_narrow(terrain: Terrain, rules: WalkRules) -> NavmeshError:
+    return NavmeshError(
+        f"{terrain.name}: no place on it has a clearance of min_radius = {rules.min_radius:g} m"
+    )
 
 
 def all_rim_samples(

@@ -18,7 +18,7 @@ from navmesh.surface.splicing import columns_in, runs_around
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel
 
-__all__ = ["Nodes", "RenewedNodes", "renew_nodes"]
+__all__ = ["Nodes", "RenewedNodes", "boxes_of", "hull", "moved", "renew_nodes"]
 
 _SEEN = 4
 """Columns around a cell on which it depends what disc it gets."""
@@ -54,16 +54,16 @@ def renew_nodes(old: Nodes, before: Surface, surface: Surface, window: Window, l
 
     ``least`` [m] is the radius of the smallest. Bit for bit those that `select_nodes` finds in the whole.
     """
-    boxes = _boxes(old.place, surface.resolution)
-    changed = _hull(np.array(window), boxes[:0], 1, surface)
-    area = _hull(np.array(window), boxes[_touch(boxes, changed)], _SEEN, surface)
+    boxes = boxes_of(old.place, surface.resolution)
+    changed = hull(np.array(window), boxes[:0], 1, surface)
+    area = hull(np.array(window), boxes[_touch(boxes, changed)], _SEEN, surface)
     while True:
         chosen = _choose_in(area, old, boxes, before, surface, least)
         clipped = np.clip(chosen.boxes, 0, np.tile(surface.shape, 2))
         beyond = (clipped[:, :2] < area[:2]).any(axis=1) | (clipped[:, 2:] > area[2:]).any(axis=1)
         if not beyond.any():
             return _numbered(area, chosen, old, before, surface)
-        area = _hull(area, chosen.boxes[beyond], 0, surface)
+        area = hull(area, chosen.boxes[beyond], 0, surface)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -88,12 +88,12 @@ def _choose_in(
     """Choose nodes anew in the columns of ``area``; ``boxes`` are those of the old discs."""
     in_area = _inside(before.cell_column[old.maker], surface, area)
     given = np.flatnonzero(_touch(boxes, area) & ~in_area)
-    field, where = field_in(surface, tuple(_hull(area, boxes[given], _SEEN, surface).tolist()))
+    field, where = field_in(surface, tuple(hull(area, boxes[given], _SEEN, surface).tolist()))
     candidates = np.flatnonzero(_inside(field.cell_column, surface, area))
-    given_maker = _moved(old.maker[given], before, surface)
+    given_maker = moved(old.maker[given], before, surface)
     key = np.concatenate([_keys(where[candidates], surface), _keys(given_maker, surface)])
     order = np.concatenate([candidates, -1 - np.arange(len(given))])[np.argsort(key)].astype(np.int32)
-    given_cell = np.searchsorted(where, _moved(old.cell[given], before, surface)).astype(np.int32)
+    given_cell = np.searchsorted(where, moved(old.cell[given], before, surface)).astype(np.int32)
     cell, place, maker, label = select_nodes(order, field, least, given_cell, old.place[given])
     made = maker >= 0
     was, whole_maker = np.full(len(maker), -1), np.empty(len(maker), np.int32)
@@ -106,7 +106,7 @@ def _choose_in(
         (_spots(whole_maker[made], surface), _spots(whole_cell[made], surface), place[made]),
         there,
     )
-    changed = [boxes[np.setdiff1d(there, was)], _boxes(place[was < 0], surface.resolution)]
+    changed = [boxes[np.setdiff1d(there, was)], boxes_of(place[was < 0], surface.resolution)]
     nodes = Nodes(whole_cell, place, whole_maker, label)
     return _Chosen(nodes, was, made, where, np.concatenate(changed))
 
@@ -116,7 +116,7 @@ def _numbered(
 ) -> RenewedNodes:
     """All nodes, those ``chosen`` in the ``area`` and the old ones made elsewhere, in their order."""
     kept = np.flatnonzero(~_inside(before.cell_column[old.maker], surface, area))
-    kept_maker = _moved(old.maker[kept], before, surface)
+    kept_maker = moved(old.maker[kept], before, surface)
     made = np.flatnonzero(chosen.made)
     at = np.searchsorted(_keys(kept_maker, surface), _keys(chosen.nodes.maker[made], surface))
     to = at + np.arange(len(made))  # where those made in the area come to stand
@@ -141,7 +141,7 @@ def _numbered(
         chosen.where[within], local[chosen.nodes.label[within]],
     )  # fmt: skip
     nodes = Nodes(
-        merged(_moved(old.cell[kept], before, surface), chosen.nodes.cell[made]),
+        merged(moved(old.cell[kept], before, surface), chosen.nodes.cell[made]),
         merged(old.place[kept], chosen.nodes.place[made]),
         merged(kept_maker, chosen.nodes.maker[made]),
         label,
@@ -165,7 +165,7 @@ def _spots(cells: np.ndarray, surface: Surface) -> np.ndarray:
     return (columns.astype(np.int64) << 16) | (cells - surface.column_start[columns])
 
 
-def _moved(cells: np.ndarray, before: Surface, surface: Surface) -> np.ndarray:
+def moved(cells: np.ndarray, before: Surface, surface: Surface) -> np.ndarray:
     """The numbers that ``cells`` of unchanged columns have now: (k,) int32."""
     columns = before.cell_column[cells]
     return surface.column_start[columns] + cells - before.column_start[columns]
@@ -182,7 +182,7 @@ def _inside(columns: np.ndarray, surface: Surface, area: np.ndarray) -> np.ndarr
     return (ix >= area[0]) & (ix < area[2]) & (iy >= area[1]) & (iy < area[3])
 
 
-def _boxes(place: np.ndarray, side: float) -> np.ndarray:
+def boxes_of(place: np.ndarray, side: float) -> np.ndarray:
     """(m, 4) int64: windows that hold all columns under discs, and a column more on each side."""
     low = np.floor((place[:, :2] - place[:, 2:]) / side).astype(np.int64) - 2
     high = np.floor((place[:, :2] + place[:, 2:]) / side).astype(np.int64) + 3
@@ -190,10 +190,10 @@ def _boxes(place: np.ndarray, side: float) -> np.ndarray:
 
 
 def _touch(boxes: np.ndarray, area: np.ndarray) -> np.ndarray:
-    return np.logical_and(boxes[:, :2] < area[2:], boxes[:, 2:] > area[:2]).all(axis=1)
+    return np.all(np.logical_and(boxes[:, :2] < area[2:], boxes[:, 2:] > area[:2]), axis=1)
 
 
-def _hull(area: np.ndarray, boxes: np.ndarray, beyond: int, surface: Surface) -> np.ndarray:
+def hull(area: np.ndarray, boxes: np.ndarray, beyond: int, surface: Surface) -> np.ndarray:
     """The window of the grid that holds ``area`` and ``boxes``, and so many columns ``beyond``."""
     every = np.concatenate([area[None], boxes])
     low, high = every[:, :2].min(axis=0) - beyond, every[:, 2:].max(axis=0) + beyond

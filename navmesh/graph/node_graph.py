@@ -9,12 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from navmesh.errors import NavmeshError
-from navmesh.graph import edges
 from navmesh.graph import spatial_queries as queries
 from navmesh.graph.graph_file import read_graph, write_graph
-from navmesh.graph.kept_build import KeptBuild, all_rim_samples, built_surface, grid_for, renewed_surface
+from navmesh.graph.kept_build import Built, KeptBuild, all_rim_samples, build_whole, grid_for, renewed
 from navmesh.graph.links import Links, make_links
-from navmesh.graph.node_changes import Nodes
 from navmesh.level.chunks import change_chunks
 from navmesh.level.terrain import DEFAULT_MATERIAL, Terrain
 from navmesh.obstacles.detection import obstacles_at, with_own_kinds
@@ -26,7 +24,6 @@ from navmesh.routes.path_queries import PathSearch
 from navmesh.routes.route import Route, Routes
 from navmesh.rules import WalkRules
 from navmesh.surface.build import Grid
-from navmesh.surface.ridges import field_of
 from navmesh.surface.surface import Surface
 from surefoot.words import several
 
@@ -109,8 +106,7 @@ class NodeGraph:
             raise NavmeshError(f"rules: expected navmesh.WalkRules, not a {type(rules).__name__}")
         rules = rules or WalkRules()
         grid = grid_for(terrain, rules, extent)
-        built = built_surface(terrain, rules, grid)
-        return cls._made(terrain, rules, obstacle_rules, tags, grid, built)
+        return cls._made(terrain, obstacle_rules, tags, rules, build_whole(terrain, rules, grid))
 
     def update(self, changes: Mapping[str, Terrain | None]) -> "NodeGraph":
         """The graph after ``changes`` to the level's chunks: by name, a `Terrain` to be added or to replace
@@ -129,35 +125,29 @@ class NodeGraph:
         grid = grid_for(terrain, rules, self.extent, grown=True)
         if (
             kept_build is not None
-            and grid.shape == kept_build.grid.shape
-            and (grid.origin == kept_build.grid.origin).all()
+            and grid.shape == kept_build.built.grid.shape
+            and (grid.origin == kept_build.built.grid.origin).all()
         ):
-            built = renewed_surface(self.surface, kept_build, changed, terrain, rules)
+            built = renewed(kept_build.built, changed, terrain, rules)
         else:
-            built, kept_build = built_surface(terrain, rules, grid), None
-        return self._made(terrain, rules, self.obstacle_rules, self.tags, grid, built, kept_build, changed)
+            built, kept_build = build_whole(terrain, rules, grid), None
+        return self._made(terrain, self.obstacle_rules, self.tags, rules, built, kept_build, changed)
 
     @classmethod
     def _made(
         cls,
         terrain: Terrain,
-        rules: WalkRules,
         obstacle_rules: ObstacleRules | None,
         tags: TagFile | None,
-        grid: Grid,
-        built: tuple[Surface, np.ndarray, Nodes],
+        rules: WalkRules,
+        built: Built,
         before: KeptBuild | None = None,
         changed: Sequence[np.ndarray] = (),
     ) -> "NodeGraph":
-        """The graph of a surface, its choices and its nodes; rim samples as ``before``, where it is given,
-        but around ``changed`` bounds."""
-        surface, choice, nodes = built
-        place = nodes.place
-        if not len(place):
-            raise NavmeshError(
-                f"{terrain.name}: no place on it has a clearance of min_radius = {rules.min_radius:g} m"
-            )
-        start, target, width, gate, border = edges.join_nodes(nodes.label, field_of(surface), place)
+        """The graph of what was ``built``; rim samples as ``before``, where it is given, but around
+        ``changed`` bounds."""
+        surface, nodes = built.surface, built.nodes
+        start, target, width, gate, border = built.edges
         obstacles, rim_samples = Obstacles.empty(), None
         if obstacle_rules is not None:
             rim_samples, mesh_grid = all_rim_samples(before, changed, terrain, surface, rules, obstacle_rules)
@@ -169,8 +159,8 @@ class NodeGraph:
             terrain=terrain,
             rules=rules,
             surface=surface,
-            positions=surface.lifted(place[:, :2], nodes.cell),
-            radii=place[:, 2].copy(),
+            positions=surface.lifted(nodes.place[:, :2], nodes.cell),
+            radii=nodes.place[:, 2].copy(),
             node_cell=nodes.cell,
             label=nodes.label,
             edge_start=start,
@@ -182,7 +172,7 @@ class NodeGraph:
             links=make_links(obstacles, surface, rules, (obstacle_rules or _OBSTACLE_RULES).body_radius),
             obstacle_rules=obstacle_rules,
             tags=tags,
-            kept_build=KeptBuild(grid, choice, nodes, rim_samples),
+            kept_build=KeptBuild(built, rim_samples),
         )
 
     @property

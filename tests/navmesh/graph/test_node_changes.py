@@ -21,6 +21,7 @@ def test_a_pillar_moves(seed):
         NodeGraph.build(plain(*others, tuple(at)), obstacle_rules=None) for at in (here, there)
     )  # fmt: skip
     assert old.kept_build is not None and new.kept_build is not None
+    nodes, expected = old.kept_build.built.nodes, new.kept_build.built.nodes
     apart = np.zeros(new.surface.shape, bool)  # columns in which anything is other than before
     for graph, other in ((old, new), (new, old)):
         known = {
@@ -31,10 +32,10 @@ def test_a_pillar_moves(seed):
             apart.flat[column] |= (column, float(x), float(y)) not in known
     ix, iy = np.nonzero(apart)
     window = int(ix.min()) - 1, int(iy.min()) - 1, int(ix.max()) + 2, int(iy.max()) + 2
-    found = renew_nodes(old.kept_build.nodes, old.surface, new.surface, window, new.rules.min_radius)
+    found = renew_nodes(nodes, old.surface, new.surface, window, new.rules.min_radius)
     for name in ("cell", "place", "maker", "label"):
-        np.testing.assert_array_equal(getattr(found.nodes, name), getattr(new.kept_build.nodes, name), name)
+        np.testing.assert_array_equal(getattr(found.nodes, name), getattr(expected, name), name)
     stay = np.flatnonzero(found.number >= 0)
     assert 0 < len(stay) < len(old)
-    np.testing.assert_array_equal(old.kept_build.nodes.place[stay], found.nodes.place[found.number[stay]])
+    np.testing.assert_array_equal(nodes.place[stay], found.nodes.place[found.number[stay]])
     assert (np.diff(found.number[stay]) > 0).all()  # nobody overtakes anybody

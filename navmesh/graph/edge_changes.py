@@ -1,0 +1,92 @@
+"""The edges after a change: those at whose border anything is other than before are measured anew."""
+
+import numpy as np
+
+from navmesh.graph.edges import borders, measure_edges, rows_of_edges
+from navmesh.graph.node_changes import Nodes, RenewedNodes, boxes_of, hull, moved
+from navmesh.surface.renewal import field_in
+from navmesh.surface.surface import Surface
+from surefoot.kernels import allocating_kernel
+
+__all__ = ["Edges", "renew_edges"]
+
+_SEEN = 4
+"""Columns around a border on which the width of an edge depends."""
+
+Edges = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+"""What `navmesh.graph.edges.join_nodes` gives."""
+
+
+def renew_edges(old: Edges, nodes: Nodes, before: Surface, new: RenewedNodes, surface: Surface) -> Edges:
+    """The edges between the ``new`` nodes of ``surface``; the ``old`` ones were between ``nodes`` of the
+    surface ``before``. Bit for bit those that `join_nodes` finds in the whole."""
+    beside = hull(np.array(new.window), np.empty((0, 4), np.int64), 1, surface)
+    gone = np.unique(_borders_in(beside, before, nodes.label))
+    a, b = new.number[gone >> 32].astype(np.int64), new.number[gone & 0xFFFFFFFF].astype(np.int64)
+    stay = (a >= 0) & (b >= 0)
+    wanted = np.union1d((a[stay] << 32) | b[stay], _borders_in(beside, surface, new.nodes.label))
+    one, other = (
+        boxes_of(new.nodes.place[ends], surface.resolution) for ends in (wanted >> 32, wanted & 0xFFFFFFFF)
+    )
+    shared = np.column_stack([np.maximum(one[:, :2], other[:, :2]), np.minimum(one[:, 2:], other[:, 2:])])
+    field, where = field_in(surface, tuple(hull(beside, shared, _SEEN, surface).tolist()))
+    ends, width, gate, pair = measure_edges(new.nodes.label[where], field, new.nodes.place, wanted)
+    start, target, widths, gates, cells = old
+    both_ways = np.sort(np.concatenate([gone, (gone << 32) | (gone >> 32)]))
+    return _merge(
+        start, target, widths, gates, moved(cells, before, surface), new.number, both_ways,
+        *rows_of_edges(len(new.nodes.cell), ends, width, gate, where[pair]),
+    )  # fmt: skip
+
+
+def _borders_in(window: np.ndarray, surface: Surface, label: np.ndarray) -> np.ndarray:
+    field, where = field_in(surface, tuple(window.tolist()))
+    return borders(label[where], field)
+
+
+@allocating_kernel
+def _merge(
+    start, target, width, gate, cells, number, gone,
+    new_start, new_target, new_width, new_gate, new_cells,
+):  # fmt: skip
+    """The edges of before, renumbered, without those that are ``gone``, and the new ones, by rising ends."""
+    nodes = new_start.shape[0] - 1
+    was = np.full(nodes, -1, np.int32)
+    for i in range(number.shape[0]):
+        if number[i] >= 0:
+            was[number[i]] = i
+    touched = np.zeros(number.shape[0], np.bool_)
+    for k in range(gone.shape[0]):
+        touched[gone[k] >> 32] = True
+    most = target.shape[0] + new_target.shape[0]
+    to_start, to_target, to_width = np.zeros(nodes + 1, np.int32), np.empty(most, np.int32), np.empty(most)
+    to_gate, to_cells = np.empty((most, 2)), np.empty((most, 2), np.int32)
+    count = 0
+    for i in range(nodes):
+        fresh, last = new_start[i], new_start[i + 1]
+        j = was[i]
+        for e in range(start[j], start[j + 1]) if j >= 0 else range(0):
+            if touched[j]:
+                key = (np.int64(j) << 32) | target[e]
+                at = np.searchsorted(gone, key)
+                if at < gone.shape[0] and gone[at] == key:
+                    continue
+            to = number[target[e]]
+            while fresh < last and new_target[fresh] < to:
+                to_target[count], to_width[count] = new_target[fresh], new_width[fresh]
+                to_gate[count], to_cells[count] = new_gate[fresh], new_cells[fresh]
+                count += 1
+                fresh += 1
+            to_target[count], to_width[count] = to, width[e]
+            to_gate[count], to_cells[count] = gate[e], cells[e]
+            count += 1
+        while fresh < last:
+            to_target[count], to_width[count] = new_target[fresh], new_width[fresh]
+            to_gate[count], to_cells[count] = new_gate[fresh], new_cells[fresh]
+            count += 1
+            fresh += 1
+        to_start[i + 1] = count
+    return (
+        to_start, to_target[:count].copy(), to_width[:count].copy(), to_gate[:count].copy(),
+        to_cells[:count].copy(),
+    )  # fmt: skip

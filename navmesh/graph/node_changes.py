@@ -14,9 +14,9 @@ from navmesh.graph.nodes import grain_of, select_nodes
 from navmesh.level.raster import Patch
 from navmesh.surface.build import Window
 from navmesh.surface.renewal import field_in
-from navmesh.surface.splicing import columns_in, runs_around
+from navmesh.surface.splicing import columns_in, runs_of
 from navmesh.surface.surface import Surface
-from surefoot.kernels import allocating_kernel
+from surefoot.kernels import kernel
 
 __all__ = ["Nodes", "RenewedNodes", "boxes_of", "hull", "moved", "renew_nodes"]
 
@@ -136,17 +136,20 @@ def _numbered(
     local[:-1][~chosen.made] = number[chosen.was[~chosen.made]]
     local[made] = to
     within = _inside(surface.cell_column[chosen.where], surface, area)
-    label = _spliced_labels(
-        before.column_start, surface.column_start, old.label, number, area, surface.shape[1],
-        chosen.where[within], local[chosen.nodes.label[within]],
-    )  # fmt: skip
+    start, _ = columns_in(surface.column_start, area, surface.shape[1])
+    patch = Patch(surface.resolution, *area[:2].tolist(), *(area[2:] - area[:2]).tolist())
+    window = tuple(area.tolist())
+    runs, count = runs_of(before.column_start, start, window, patch, surface.shape[1])
+    label = np.empty(count, np.int32)
+    _renumber(old.label, number, runs, label)
+    label[chosen.where[within]] = local[chosen.nodes.label[within]]
     nodes = Nodes(
         merged(moved(old.cell[kept], before, surface), chosen.nodes.cell[made]),
         merged(old.place[kept], chosen.nodes.place[made]),
         merged(kept_maker, chosen.nodes.maker[made]),
         label,
     )
-    return RenewedNodes(nodes, number, tuple(area.tolist()))
+    return RenewedNodes(nodes, number, window)
 
 
 def _found_again(old: tuple, new: tuple, names: np.ndarray) -> np.ndarray:
@@ -200,16 +203,10 @@ def hull(area: np.ndarray, boxes: np.ndarray, beyond: int, surface: Surface) -> 
     return np.concatenate([np.maximum(low, 0), np.minimum(high, surface.shape)])
 
 
-@allocating_kernel
-def _spliced_labels(old_start, start, old_label, number, area, ny, where, label):
-    patch = Patch(1.0, area[0], area[1], area[2] - area[0], area[3] - area[1])
-    inside, _ = columns_in(start, area, ny)
-    runs = np.empty((2 * (area[2] - area[0]) + 1, 4), np.int64)
-    whole = np.empty(runs_around(old_start, inside, area, patch, ny, runs), np.int32)
+@kernel
+def _renumber(old_label, number, runs, label):
+    """Fill in the labels of what lies in runs of before."""
     for row in range(0, runs.shape[0], 2):
         for k in range(runs[row, 2]):
             was = old_label[runs[row, 1] + k]
-            whole[runs[row, 3] + k] = number[was] if was >= 0 else -1
-    for k in range(where.shape[0]):
-        whole[where[k]] = label[k]
-    return whole
+            label[runs[row, 3] + k] = number[was] if was >= 0 else -1

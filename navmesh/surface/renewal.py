@@ -7,7 +7,7 @@ from navmesh.surface.build import Cells, Grid, Window, whole_patch
 from navmesh.surface.clearance import settle_clearance
 from navmesh.surface.clearance_changes import Renewed, renew_clearance
 from navmesh.surface.ridges import Field
-from navmesh.surface.splicing import columns_in, link_in, runs_around, splice
+from navmesh.surface.splicing import columns_in, link_in, runs_of, splice
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel, kernel
 
@@ -39,10 +39,13 @@ def renew_surface(
     left, near, right, far = new.window
     patch = Patch(whole.side, left, near, right - left, far - near)
     cells = splice(before, fresh, window, around, whole.ny)
-    nearest, clearance, source, choice = _splice_values(
+    runs, count = runs_of(old.column_start, new.cells.column_start, new.window, patch, whole.ny)
+    nearest, clearance = np.empty((count, 2)), np.empty(count)
+    source, chosen = np.empty(count, np.int32), np.empty(count, np.uint8)
+    _splice_values(
         old.column_start, old.cell_column, old.nearest, old.clearance, old.source, choice,
         new.cells.column_start, new.cells.cell_column, new.nearest, new.source, new.choice,
-        cells.column_start, len(cells.cell_column), np.array(new.window), patch, whole.ny,
+        runs, cells.column_start, patch, whole.ny, nearest, clearance, source, chosen,
     )  # fmt: skip
     surface = Surface(
         origin=grid.origin, resolution=grid.resolution, shape=grid.shape,
@@ -51,7 +54,7 @@ def renew_surface(
         blocker_start=cells.blocker_start, blocker=cells.blocker,
     )  # fmt: skip
     _settle(surface, new)
-    return surface, choice, new.window
+    return surface, chosen, new.window
 
 
 def _settle(surface: Surface, new: Renewed) -> None:
@@ -105,23 +108,21 @@ def _moved(cell, column, old_start, start):
     return start[column] + cell - old_start[column]
 
 
-@allocating_kernel
+@kernel
 def _splice_values(
     old_start, old_column, old_nearest, old_clearance, old_source, old_choice,
-    new_start, new_column, new_nearest, new_source, new_choice, start, count, window, patch, ny,
+    new_start, new_column, new_nearest, new_source, new_choice,
+    runs, start, patch, ny, nearest, clearance, source, choice,
 ):  # fmt: skip
-    """nearest, clearance, source and choice of the whole."""
-    runs = np.empty((2 * (window[2] - window[0]) + 1, 4), np.int64)
-    runs_around(old_start, new_start, window, patch, ny, runs)
-    nearest, clearance = np.empty((count, 2)), np.empty(count)
-    source, choice = np.empty(count, np.int32), np.empty(count, np.uint8)
+    """Fill in nearest, clearance, source and choice of the whole."""
     for row in range(runs.shape[0]):
         first, size, at = runs[row, 1], runs[row, 2], runs[row, 3]
         if runs[row, 0] == 0:
-            nearest[at : at + size] = old_nearest[first : first + size]
-            clearance[at : at + size] = old_clearance[first : first + size]
-            choice[at : at + size] = old_choice[first : first + size]
             for k in range(size):
+                nearest[at + k, 0] = old_nearest[first + k, 0]
+                nearest[at + k, 1] = old_nearest[first + k, 1]
+                clearance[at + k] = old_clearance[first + k]
+                choice[at + k] = old_choice[first + k]
                 s = old_source[first + k]
                 if first <= s < first + size:
                     source[at + k] = s + at - first
@@ -142,4 +143,3 @@ def _splice_values(
                 source[at + k] = start[column] + s - new_start[inside]
             else:
                 source[at + k] = _moved(-2 - s, old_column[-2 - s], old_start, start) if s < -1 else -1
-    return nearest, clearance, source, choice

@@ -10,17 +10,42 @@ from navmesh.level.raster import Patch
 from navmesh.surface.build import Cells, Window
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["columns_in", "link_in", "runs_around", "splice", "take"]
+__all__ = ["columns_in", "link_in", "runs_of", "splice", "take"]
 
 
 def splice(old: Cells, new: Cells, window: Window, patch: Patch, ny: int) -> Cells:
     """``old`` with the columns of ``window`` as in ``new``, the cells of ``patch``; those just outside of the
     window are alike in both. ``ny``: of the whole grid."""
-    return Cells(*_splice(
+    runs, count = runs_of(old.column_start, new.column_start, window, patch, ny)
+    blockers = 0
+    for fresh, first, size, _ in runs.tolist():
+        lists = (new if fresh else old).blocker_start
+        blockers += int(lists[first + size]) - int(lists[first])
+    # numpy takes large arrays in large pages, which is twice as fast
+    found = Cells(
+        np.empty(len(old.column_start), np.int32), np.empty(count, np.int32), np.empty(count),
+        np.empty((count, 2)), np.empty((count, 4), np.int32), np.empty(count + 1, np.int32),
+        np.empty((blockers, 4)),
+    )  # fmt: skip
+    _columns(
+        old.column_start, new.column_start, np.array(window), patch, ny, runs,
+        found.column_start, found.cell_column,
+    )  # fmt: skip
+    _fill(
         old.column_start, old.cell_column, old.height, old.gradient, old.link, old.blocker_start, old.blocker,
         new.column_start, new.cell_column, new.height, new.gradient, new.link, new.blocker_start, new.blocker,
-        np.array(window), patch, ny,
-    ))  # fmt: skip
+        patch, ny, runs, found.column_start, found.height, found.gradient, found.link, found.blocker_start,
+        found.blocker,
+    )  # fmt: skip
+    return found
+
+
+def runs_of(
+    old_start: np.ndarray, new_start: np.ndarray, window: Window, patch: Patch, ny: int
+) -> tuple[np.ndarray, int]:
+    """The runs of `runs_around`, and the number of cells of the whole."""
+    runs = np.empty((2 * (window[2] - window[0]) + 1, 4), np.int64)
+    return runs, int(runs_around(old_start, new_start, np.array(window), patch, ny, runs))
 
 
 @kernel
@@ -68,37 +93,29 @@ def _columns(old_start, new_start, window, patch, ny, runs, start, owner):
             owner[k] = c
 
 
-@allocating_kernel
-def _splice(
+@kernel
+def _fill(
     old_start, old_column, old_height, old_gradient, old_link, old_list, old_blocker,
     new_start, new_column, new_height, new_gradient, new_link, new_list, new_blocker,
-    window, patch, ny,
+    patch, ny, runs, start, height, gradient, link, lists, blocker,
 ):  # fmt: skip
-    runs = np.empty((2 * (window[2] - window[0]) + 1, 4), np.int64)
-    count = runs_around(old_start, new_start, window, patch, ny, runs)
-    start, owner = np.empty(old_start.shape[0], np.int32), np.empty(count, np.int32)
-    _columns(old_start, new_start, window, patch, ny, runs, start, owner)
-    height, gradient, link = np.empty(count), np.empty((count, 2)), np.empty((count, 4), np.int32)
-    lists = np.empty(count + 1, np.int32)
+    """Fill in the whole, whose ``column_start`` is known."""
     blockers = 0
-    for row in range(runs.shape[0]):
-        part = new_list if runs[row, 0] == 1 else old_list
-        first, size, at = runs[row, 1], runs[row, 2], runs[row, 3]
-        shift = blockers - part[first]
-        for k in range(size):
-            lists[at + k] = part[first + k] + shift
-        blockers += part[first + size] - part[first]
-    lists[count] = blockers
-    blocker = np.empty((blockers, 4))
     for row in range(runs.shape[0]):
         first, size, at = runs[row, 1], runs[row, 2], runs[row, 3]
         fresh = runs[row, 0] == 1
         part_height, part_gradient = (new_height, new_gradient) if fresh else (old_height, old_gradient)
         part_list, part_blocker = (new_list, new_blocker) if fresh else (old_list, old_blocker)
-        height[at : at + size] = part_height[first : first + size]
-        gradient[at : at + size] = part_gradient[first : first + size]
         begin, end = part_list[first], part_list[first + size]
-        blocker[lists[at] : lists[at] + end - begin] = part_blocker[begin:end]
+        for k in range(size):
+            height[at + k] = part_height[first + k]
+            gradient[at + k, 0] = part_gradient[first + k, 0]
+            gradient[at + k, 1] = part_gradient[first + k, 1]
+            lists[at + k] = part_list[first + k] + blockers - begin
+        for k in range(end - begin):
+            for i in range(4):
+                blocker[blockers + k, i] = part_blocker[begin + k, i]
+        blockers += end - begin
         shift = at - first
         for k in range(size):
             for d in range(4):
@@ -115,7 +132,7 @@ def _splice(
                     else:
                         m = start[old_column[m]] + m - old_start[old_column[m]]
                 link[at + k, d] = m
-    return start, owner, height, gradient, link, lists, blocker
+    lists[lists.shape[0] - 1] = blockers
 
 
 def take(cells: Cells, window: Window, ny: int) -> tuple[Cells, np.ndarray]:

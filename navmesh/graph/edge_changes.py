@@ -3,8 +3,8 @@
 import numpy as np
 
 from navmesh.graph.edges import borders, measure_edges, rows_of_edges
-from navmesh.graph.node_changes import Nodes, RenewedNodes, boxes_of, hull, moved
-from navmesh.surface.renewal import field_in
+from navmesh.graph.node_changes import Nodes, RenewedNodes, boxes_of, hull
+from navmesh.surface.renewal import field_in, links_in, moved_cells
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel
 
@@ -32,16 +32,17 @@ def renew_edges(old: Edges, nodes: Nodes, before: Surface, new: RenewedNodes, su
     field, where = field_in(surface, tuple(hull(beside, shared, _SEEN, surface).tolist()))
     ends, width, gate, pair = measure_edges(new.nodes.label[where], field, new.nodes.place, wanted)
     start, target, widths, gates, cells = old
+    moved = moved_cells(cells.reshape(-1), before, surface, new.window).reshape(-1, 2)
     both_ways = np.sort(np.concatenate([gone, (gone << 32) | (gone >> 32)]))
     return _merge(
-        start, target, widths, gates, moved(cells, before, surface), new.number, both_ways,
+        start, target, widths, gates, moved, new.number, both_ways,
         *rows_of_edges(len(new.nodes.cell), ends, width, gate, where[pair]),
     )  # fmt: skip
 
 
 def _borders_in(window: np.ndarray, surface: Surface, label: np.ndarray) -> np.ndarray:
-    field, where = field_in(surface, tuple(window.tolist()))
-    return borders(label[where], field)
+    link, where = links_in(surface, tuple(window.tolist()))
+    return borders(label[where], link)
 
 
 @allocating_kernel

@@ -13,12 +13,12 @@ import numpy as np
 from navmesh.graph.nodes import grain_of, select_nodes
 from navmesh.level.raster import Patch
 from navmesh.surface.build import Window
-from navmesh.surface.renewal import field_in
+from navmesh.surface.renewal import field_in, moved_cells
 from navmesh.surface.splicing import columns_in, runs_of
 from navmesh.surface.surface import Surface
-from surefoot.kernels import kernel
+from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["Nodes", "RenewedNodes", "boxes_of", "hull", "moved", "renew_nodes"]
+__all__ = ["Nodes", "RenewedNodes", "boxes_of", "hull", "renew_nodes"]
 
 _SEEN = 4
 """Columns around a cell on which it depends what disc it gets."""
@@ -76,6 +76,8 @@ class _Chosen:
     """(k,) int64: the node of before that each is, or -1."""
     made: np.ndarray
     """(k,) bool: whether it was chosen in the rectangle."""
+    replaced: np.ndarray
+    """(r,) int64: the nodes of before that were chosen in the rectangle."""
     where: np.ndarray
     """(j,) int32: the cells that the labels are of."""
     boxes: np.ndarray
@@ -86,21 +88,24 @@ def _choose_in(
     area: np.ndarray, old: Nodes, boxes: np.ndarray, before: Surface, surface: Surface, least: float
 ) -> _Chosen:
     """Choose nodes anew in the columns of ``area``; ``boxes`` are those of the old discs."""
-    in_area = _inside(before.cell_column[old.maker], surface, area)
-    given = np.flatnonzero(_touch(boxes, area) & ~in_area)
+    window = tuple(area.tolist())
+    near = np.flatnonzero(_touch(boxes, area))
+    in_area = _inside(before.cell_column[old.maker[near]], surface, area)
+    there, given = near[in_area], near[~in_area]
     field, where = field_in(surface, tuple(hull(area, boxes[given], _SEEN, surface).tolist()))
     candidates = np.flatnonzero(_inside(field.cell_column, surface, area))
-    given_maker = moved(old.maker[given], before, surface)
+    given_maker = moved_cells(old.maker[given], before, surface, window)
     key = np.concatenate([_keys(where[candidates], surface), _keys(given_maker, surface)])
     order = np.concatenate([candidates, -1 - np.arange(len(given))])[np.argsort(key)].astype(np.int32)
-    given_cell = np.searchsorted(where, moved(old.cell[given], before, surface)).astype(np.int32)
+    given_cell = np.searchsorted(where, moved_cells(old.cell[given], before, surface, window)).astype(
+        np.int32
+    )
     cell, place, maker, label = select_nodes(order, field, least, given_cell, old.place[given])
     made = maker >= 0
     was, whole_maker = np.full(len(maker), -1), np.empty(len(maker), np.int32)
     was[~made] = given[-1 - maker[~made]]
     whole_maker[made], whole_maker[~made] = where[maker[made]], given_maker[-1 - maker[~made]]
     whole_cell = where[cell]
-    there = np.flatnonzero(in_area)
     was[made] = _found_again(
         (_spots(old.maker[there], before), _spots(old.cell[there], before), old.place[there]),
         (_spots(whole_maker[made], surface), _spots(whole_cell[made], surface), place[made]),
@@ -108,17 +113,18 @@ def _choose_in(
     )
     changed = [boxes[np.setdiff1d(there, was)], boxes_of(place[was < 0], surface.resolution)]
     nodes = Nodes(whole_cell, place, whole_maker, label)
-    return _Chosen(nodes, was, made, where, np.concatenate(changed))
+    return _Chosen(nodes, was, made, there, where, np.concatenate(changed))
 
 
 def _numbered(
     area: np.ndarray, chosen: _Chosen, old: Nodes, before: Surface, surface: Surface
 ) -> RenewedNodes:
     """All nodes, those ``chosen`` in the ``area`` and the old ones made elsewhere, in their order."""
-    kept = np.flatnonzero(~_inside(before.cell_column[old.maker], surface, area))
-    kept_maker = moved(old.maker[kept], before, surface)
+    window = tuple(area.tolist())
+    kept = np.delete(np.arange(len(old.cell)), chosen.replaced)
+    kept_maker = moved_cells(old.maker[kept], before, surface, window)
     made = np.flatnonzero(chosen.made)
-    at = np.searchsorted(_keys(kept_maker, surface), _keys(chosen.nodes.maker[made], surface))
+    at = _places_among(kept_maker, chosen.nodes.maker[made], surface.clearance, grain_of(surface))
     to = at + np.arange(len(made))  # where those made in the area come to stand
     from_kept = np.arange(len(kept)) + np.searchsorted(at, np.arange(len(kept)), side="right")
 
@@ -138,13 +144,12 @@ def _numbered(
     within = _inside(surface.cell_column[chosen.where], surface, area)
     start, _ = columns_in(surface.column_start, area, surface.shape[1])
     patch = Patch(surface.resolution, *area[:2].tolist(), *(area[2:] - area[:2]).tolist())
-    window = tuple(area.tolist())
     runs, count = runs_of(before.column_start, start, window, patch, surface.shape[1])
     label = np.empty(count, np.int32)
     _renumber(old.label, number, runs, label)
     label[chosen.where[within]] = local[chosen.nodes.label[within]]
     nodes = Nodes(
-        merged(moved(old.cell[kept], before, surface), chosen.nodes.cell[made]),
+        merged(moved_cells(old.cell[kept], before, surface, window), chosen.nodes.cell[made]),
         merged(old.place[kept], chosen.nodes.place[made]),
         merged(kept_maker, chosen.nodes.maker[made]),
         label,
@@ -166,12 +171,6 @@ def _spots(cells: np.ndarray, surface: Surface) -> np.ndarray:
     """(k,) int64: column and storey of ``cells``, which say which they are whatever is elsewhere."""
     columns = surface.cell_column[cells]
     return (columns.astype(np.int64) << 16) | (cells - surface.column_start[columns])
-
-
-def moved(cells: np.ndarray, before: Surface, surface: Surface) -> np.ndarray:
-    """The numbers that ``cells`` of unchanged columns have now: (k,) int32."""
-    columns = before.cell_column[cells]
-    return surface.column_start[columns] + cells - before.column_start[columns]
 
 
 def _keys(cells: np.ndarray, surface: Surface) -> np.ndarray:
@@ -201,6 +200,26 @@ def hull(area: np.ndarray, boxes: np.ndarray, beyond: int, surface: Surface) -> 
     every = np.concatenate([area[None], boxes])
     low, high = every[:, :2].min(axis=0) - beyond, every[:, 2:].max(axis=0) + beyond
     return np.concatenate([np.maximum(low, 0), np.minimum(high, surface.shape)])
+
+
+@allocating_kernel
+def _places_among(makers, others, clearance, grain):
+    """How many of ``makers``, cells in the order of their turns, have it before each of ``others``, which are
+    in that order, too: (k,) int64."""
+    place = np.empty(others.shape[0], np.int64)
+    low = 0
+    for k in range(others.shape[0]):
+        cell, step = others[k], int(clearance[others[k]] / grain)
+        high = makers.shape[0]
+        while low < high:
+            middle = (low + high) // 2
+            its = int(clearance[makers[middle]] / grain)
+            if its > step or (its == step and makers[middle] < cell):
+                low = middle + 1
+            else:
+                high = middle
+        place[k] = low
+    return place
 
 
 @kernel

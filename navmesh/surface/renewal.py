@@ -11,7 +11,7 @@ from navmesh.surface.splicing import columns_in, link_in, runs_of, splice
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["field_in", "renew_surface"]
+__all__ = ["cells_of_surface", "field_in", "links_in", "moved_cells", "renew_surface"]
 
 _AROUND = 3
 """Columns around a cell whose lists of blockers are asked when its clearance is measured."""
@@ -75,37 +75,77 @@ def _settle(surface: Surface, new: Renewed) -> None:
 def field_in(surface: Surface, window: Window) -> tuple[Field, np.ndarray]:
     """The `Field` of the columns of ``window``, links that lead out of it being -1, and the number of each of
     its cells in the whole (n,) int32."""
-    link, where, owner = _links_in(
-        surface.column_start, surface.cell_column, surface.link, np.array(window), surface.shape[1]
+    ny = surface.shape[1]
+    link, where = links_in(surface, window)
+    owner, nearest, clearance, nearby = _taken(
+        where, surface.cell_column, surface.nearest, surface.clearance, surface.source, surface.blocker_start
     )
-    source = surface.source[where]
-    nearby = np.stack([surface.blocker_start[source], surface.blocker_start[source + 1]], axis=1)
-    nearby[source < 0] = -1
-    field = Field(
-        surface.resolution, surface.shape[1], owner, link, surface.nearest[where], surface.clearance[where],
-        nearby, surface.blocker,
+    return Field(surface.resolution, ny, owner, link, nearest, clearance, nearby, surface.blocker), where
+
+
+def moved_cells(cells: np.ndarray, before: Surface, surface: Surface, window: Window) -> np.ndarray:
+    """The numbers on ``surface`` of ``cells`` (k,) of the surface ``before`` it, in columns that are alike in
+    both, as all outside of ``window`` are: (k,) int32."""
+    low, high = window[0] * surface.shape[1], window[2] * surface.shape[1]
+    shift = int(surface.column_start[high]) - int(before.column_start[high])
+    return _moved_all(
+        cells, before.cell_column, before.column_start, surface.column_start,
+        int(before.column_start[low]), int(before.column_start[high]), shift,
     )  # fmt: skip
-    return field, where
+
+
+def links_in(surface: Surface, window: Window) -> tuple[np.ndarray, np.ndarray]:
+    """The links (n, 4) int32 among the cells of ``window``, and the numbers (n,) int32 of these."""
+    ny = surface.shape[1]
+    return _links_in(surface.column_start, surface.cell_column, surface.link, np.array(window), ny)
 
 
 @allocating_kernel
 def _links_in(column_start, cell_column, link, window, ny):
     start, first = columns_in(column_start, window, ny)
     found, where = np.empty((start[-1], 4), np.int32), np.empty(start[-1], np.int32)
-    owner = np.empty(start[-1], np.int32)
     for c in range(first.shape[0]):
         for k in range(start[c], start[c + 1]):
             m = first[c] + k - start[c]
-            where[k], owner[k] = m, cell_column[m]
+            where[k] = m
             for d in range(4):
                 found[k, d] = link_in(link[m, d], cell_column, column_start, window, ny, start)
-    return found, where, owner
+    return found, where
+
+
+@allocating_kernel
+def _taken(where, cell_column, nearest, clearance, source, blocker_start):
+    count = where.shape[0]
+    owner, to_clearance = np.empty(count, np.int32), np.empty(count)
+    to_nearest, nearby = np.empty((count, 2)), np.empty((count, 2), np.int32)
+    for k in range(count):
+        c = where[k]
+        owner[k], to_clearance[k] = cell_column[c], clearance[c]
+        to_nearest[k, 0], to_nearest[k, 1] = nearest[c, 0], nearest[c, 1]
+        s = source[c]
+        nearby[k, 0] = blocker_start[s] if s >= 0 else -1
+        nearby[k, 1] = blocker_start[s + 1] if s >= 0 else -1
+    return owner, to_nearest, to_clearance, nearby
 
 
 @kernel(inline="always")
 def _moved(cell, column, old_start, start):
     """The number of a cell of an unchanged column in the whole."""
     return start[column] + cell - old_start[column]
+
+
+@allocating_kernel
+def _moved_all(cells, old_column, old_start, start, low, high, shift):
+    moved = np.empty(cells.shape[0], np.int32)
+    for k in range(cells.shape[0]):
+        c = cells[k]
+        if c < low:
+            moved[k] = c
+        elif c >= high:
+            moved[k] = c + shift
+        else:
+            moved[k] = _moved(c, old_column[c], old_start, start)
+    return moved
 
 
 @kernel

@@ -16,6 +16,7 @@ from navmesh.areas.kernel_arrays import LANDMARKS, STRAIGHT, make_priced
 from navmesh.areas.line_costs import price
 from navmesh.areas.roadmap import Roadmap, lead, make_roadmap
 from navmesh.graph.kernel_arrays import make_scratch, net_of
+from navmesh.recent import recent
 from surefoot.kernels import allocating_kernel, kernel
 
 if TYPE_CHECKING:
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Priced", "price_of_lead", "priced_of"]
 
-_KEPT = 16  # roadmaps, and prices of them, that are kept
 _AS_GOOD = 1.02
 
 
@@ -36,16 +36,6 @@ class Priced(NamedTuple):
     """`TRIP` each; those that no search has at the moment."""
 
 
-def _kept(kept: dict, key: Any, make: Any) -> Any:
-    """kept[key], made where it is not there; the oldest goes where there are too many."""
-    found = kept.get(key)
-    if found is None:
-        if len(kept) >= _KEPT:
-            kept.pop(next(iter(kept)), None)
-        found = kept[key] = make()
-    return found
-
-
 def priced_of(graph: "NodeGraph", doors: Any, factor: np.ndarray) -> Priced:
     """The roadmap for a body and the leaps that ``doors`` offer it, priced; made once."""
     key = doors.radius, doors.leap_id.tobytes(), factor.tobytes()
@@ -54,10 +44,10 @@ def priced_of(graph: "NodeGraph", doors: Any, factor: np.ndarray) -> Priced:
         return make_roadmap(graph, doors, make_scratch(graph))
 
     def priced() -> Any:
-        road = _kept(graph.cache.setdefault("roadmaps", {}), doors.radius, roadmap)
+        road = recent(graph.cache, "roadmaps", doors.radius, roadmap)
         return Priced(_priced(graph, road, doors, factor), [])
 
-    return _kept(graph.cache.setdefault("priced", {}), key, priced)
+    return recent(graph.cache, "priced", key, priced)
 
 
 @kernel(error_model="numpy")

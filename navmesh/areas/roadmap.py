@@ -17,7 +17,7 @@ from navmesh.areas.kernel_arrays import BENT, STRAIGHT
 from navmesh.areas.roadmap_stops import members, other_stops, portal_stops
 from navmesh.disjoint_sets import root
 from navmesh.graph.kernel_arrays import net_of
-from navmesh.routes.string_pulling import FITS, mend
+from navmesh.routes.string_pulling import CELLS, FITS, mend
 from navmesh.surface.clearance_field import walk
 from surefoot.kernels import allocating_kernel, kernel
 
@@ -112,7 +112,7 @@ def lead(net, doors, scratch, node, ax, ay, k, bx, by, target):
     """
     scratch.points[0, 0], scratch.points[0, 1], scratch.cells[0] = ax, ay, k
     scratch.nodes[0] = node
-    count, state = mend(net, doors, scratch, 0, 1, bx, by, target, 0, 1, True)
+    count, state = mend(net, doors, scratch, 0, 1, bx, by, target, 0, 1, CELLS)
     return state == FITS, count
 
 

@@ -9,7 +9,7 @@ from navmesh.areas.kernel_arrays import STRAIGHT
 from navmesh.areas.line_costs import price
 from navmesh.areas.pricing import price_of_lead
 from navmesh.areas.roadmap_search import BEST
-from navmesh.routes.string_pulling import FITS, mend
+from navmesh.routes.string_pulling import CELLS, FITS, mend
 from navmesh.surface.clearance_field import floor_at, same_place, walk
 from surefoot.kernels import allocating_kernel, kernel
 
@@ -201,7 +201,7 @@ def line_of(net, doors, road, trip, scratch, start_cell, goal_cell):
                 continue
             begun = corners - 1
             scratch.nodes[0] = trip.point_node[i]
-            corners, state = mend(net, doors, scratch, begun, corners, x, y, k, 0, 1, True)
+            corners, state = mend(net, doors, scratch, begun, corners, x, y, k, 0, 1, CELLS)
             if state != FITS:
                 return False, points[:0].copy(), nodes[:0].copy(), leaps[:0].copy(), 0.0
             total += price_of_lead(net, road, road.factor, scratch, begun, corners)

@@ -113,6 +113,8 @@ SCRATCH = BundleType(
     kept=float64[:, ::1],
     kept_nodes=int32[::1],
     kept_leaps=int32[:, ::1],
+    saved=float64[:, ::1],
+    saved_cell=int32[::1],
     stack=float64[:, ::1],
     stack_cell=int32[::1],
     cell_stamp=int64[::1],
@@ -127,8 +129,9 @@ apex, left, right (3), parent, via: the door, or the number of doors + leap. hea
 list; reached: for each part the last search that can get to it, part_stack: those still to be gone on from;
 nodes, edges: the chain found; points, cells: the corners pulled; corner, corner_at: those of the funnel; arc:
 those that round one of them; bend: those that lead a line round a place; trial, trial_cell: corners to be put
-in the place of one; kept, kept_nodes, kept_leaps: the best line so far; stack, stack_cell: corners still to
-be reached; cell_stamp, cell_best, cell_parent: what `navmesh.routes.cell_search` knows of each cell.
+in the place of one; kept, kept_nodes, kept_leaps: the best line so far; saved, saved_cell: corners to go
+back to; stack, stack_cell: corners still to be reached; cell_stamp, cell_best, cell_parent: what
+`navmesh.routes.cell_search` knows of each cell.
 """
 
 
@@ -235,6 +238,8 @@ def make_scratch(graph: "NodeGraph") -> Bundle:
         kept=np.empty((corners, 3)),
         kept_nodes=np.empty(chain, np.int32),
         kept_leaps=np.empty((len(graph.links.obstacle), 2), np.int32),
+        saved=np.empty((16, 2)),
+        saved_cell=np.empty(16, np.int32),
         stack=np.empty((14, 2)),
         stack_cell=np.empty(14, np.int32),
         cell_stamp=np.zeros(cells, np.int64),

@@ -12,6 +12,7 @@ from navmesh.graph.kernel_arrays import make_doors, net_of
 from navmesh.graph.parts import leaps_by_part, parts_of_nodes, parts_of_tiles
 from navmesh.graph.portals import open_portals
 from navmesh.obstacles.kinds import affordances
+from navmesh.recent import recent
 
 if TYPE_CHECKING:
     from navmesh.graph.node_graph import NodeGraph
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
 __all__ = ["checked_radius", "doors_of", "parts_of", "portals_of"]
 
 _NO_LINKS = np.empty(0, np.int64)
-_KEPT = 16  # radii, and offers of skills, that are kept
 
 
 def checked_radius(radius: Any) -> float:
@@ -54,14 +54,10 @@ def _checked_skills(skills: Mapping[str, tuple[float, float]] | None) -> tuple:
 
 
 def portals_of(graph: "NodeGraph", radius: float) -> tuple:
-    kept = graph.cache.setdefault("portals", {})
-    if radius not in kept:
-        if len(kept) >= _KEPT:
-            del kept[next(iter(kept))]
-        kept[radius] = open_portals(
-            net_of(graph), graph.edge_width, graph.edge_cells, graph.edge_gate, radius
-        )
-    return kept[radius]
+    def make() -> tuple:
+        return open_portals(net_of(graph), graph.edge_width, graph.edge_cells, graph.edge_gate, radius)
+
+    return recent(graph.cache, "portals", radius, make)
 
 
 def _checked_links(graph: "NodeGraph", links: Any) -> np.ndarray:
@@ -79,13 +75,12 @@ def _checked_links(graph: "NodeGraph", links: Any) -> np.ndarray:
 def parts_of(graph: "NodeGraph", radius: float) -> tuple[np.ndarray, ...]:
     """The part of each node for a body of ``radius``, and the parts in each tile (CSR) with heights; see
     `navmesh.graph.parts`."""
-    kept = graph.cache.setdefault("parts", {})
-    if radius not in kept:
-        if len(kept) >= _KEPT:
-            del kept[next(iter(kept))]
+
+    def make() -> tuple[np.ndarray, ...]:
         part = parts_of_nodes(*portals_of(graph, radius)[:2])
-        kept[radius] = part, *parts_of_tiles(net_of(graph), part, radius)
-    return kept[radius]
+        return part, *parts_of_tiles(net_of(graph), part, radius)
+
+    return recent(graph.cache, "parts", radius, make)
 
 
 def _leaps_for(graph: "NodeGraph", radius: float, skills: tuple, closed: np.ndarray) -> dict[str, np.ndarray]:
@@ -124,12 +119,18 @@ def doors_of(
     each time)."""
     offered = _checked_skills(skills) if skills else ()
     closed = _checked_links(graph, closed_links)
-    key = radius, offered, closed.tobytes()
-    if node_costs is None:
-        kept = graph.cache.setdefault("doors", {})
-        doors = kept.get(key)
-        if doors is not None:
-            return doors
+
+    def make() -> Any:
+        return _doors(graph, radius, offered, closed, None)
+
+    if node_costs is not None:
+        return _doors(graph, radius, offered, closed, node_costs)
+    return recent(graph.cache, "doors", (radius, offered, closed.tobytes()), make)
+
+
+def _doors(
+    graph: "NodeGraph", radius: float, offered: tuple, closed: np.ndarray, node_costs: np.ndarray | None
+) -> Any:
     count = len(graph.radii)
     if node_costs is None:
         costs = np.ones(count)
@@ -154,9 +155,4 @@ def doors_of(
         "tile_span": tile_span,
     }
     weighted, widest = node_costs is not None, float(graph.radii.max())
-    doors = make_doors(radius, portals_of(graph, radius), costs, weighted, leaps, parts, widest)
-    if node_costs is None:
-        if len(kept) >= _KEPT:
-            del kept[next(iter(kept))]
-        kept[key] = doors
-    return doors
+    return make_doors(radius, portals_of(graph, radius), costs, weighted, leaps, parts, widest)

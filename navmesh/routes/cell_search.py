@@ -1,8 +1,6 @@
 """The last resort of string pulling: a search over the cells themselves, where no straight line can be
 mended."""
 
-from math import sqrt
-
 import numpy as np
 
 from navmesh.routes.heap import push, take_first
@@ -64,20 +62,20 @@ def search_cells(net, scratch, start, goal, radius):
                 if size == keys.size:
                     keys = np.concatenate((keys, np.empty_like(keys)))
                     items = np.concatenate((items, np.empty_like(items)))
-                dx = net.cell_column[other] // net.ny - goal_x
-                dy = net.cell_column[other] % net.ny - goal_y
-                push(keys, items, size, cost + h * sqrt(dx * dx + dy * dy), other)
+                column = net.cell_column[other]
+                steps = abs(column // net.ny - goal_x) + abs(column % net.ny - goal_y)
+                push(keys, items, size, cost + h * steps, other)
                 size += 1
     if not found:
         return np.empty(0, np.int32)
-    steps = 1
+    count = 1
     k = goal
     while k != start:
         k = parent[k]
-        steps += 1
-    cells = np.empty(steps, np.int32)
+        count += 1
+    cells = np.empty(count, np.int32)
     k = goal
-    for i in range(steps - 1, -1, -1):
+    for i in range(count - 1, -1, -1):
         cells[i] = k
         k = parent[k]
     return cells

@@ -19,86 +19,23 @@ import numpy as np
 
 from navmesh.graph.portals import MARGIN
 from navmesh.routes.cell_search import search_cells
-from navmesh.routes.funnel import funnel, round_corner, tangents
+from navmesh.routes.funnel import funnel, round_corner
+from navmesh.routes.leading_round import SLACK, lead_round, push_off, round_in_disc
 from navmesh.routes.tightening import tighten
 from navmesh.surface.clearance_field import centre_of, floor_at, gap_at, same_place, walk
-from navmesh.surface.ridges import middle
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["FITS", "mend", "pull"]
+__all__ = ["CELLS", "DISCS", "FITS", "LINES", "mend", "pull"]
 
-_SLACK = 0.01
-"""Share of the radius kept on top of it where there is room: discs of the corridor hold the path inside."""
 FITS, _BLOCKED, _NO_WAY = range(3)
 """What can come of mending a line."""
+LINES, DISCS, CELLS = range(3)
+"""What is tried where walking ends on a line: to lead it through the discs where it comes near them; also
+where it does not; also a search over cells."""
 _ROUNDS = 4
 """Times that a line is led round what ends walking on it before it is pulled through the lenses."""
 _DEPTH = 12  # of pushes within pushes; scratch.stack holds two more
 _SPLITS = 64  # of one line: corners that fall away when the next is added could take turns for ever
-
-
-@kernel(error_model="numpy")
-def _push(net, k, x, y, qx, qy, radius):
-    """Move (x, y) in cell ``k`` away from (qx, qy) until the body fits with a margin; returns (fits, x, y,
-    cell)."""
-    target = radius * (1.0 + MARGIN)
-    enough = radius * (1.0 + _SLACK)
-    gap = 0.0
-    first = k
-    ax, ay = x, y
-    for _ in range(4):
-        dx = x - qx
-        dy = y - qy
-        d = sqrt(dx * dx + dy * dy)
-        if d < 1e-9:
-            return False, x, y, k
-        nx = qx + dx / d * target
-        ny = qy + dy / d * target
-        reached, cell = walk(net, k, x, y, nx, ny, 0.0, True)[:2]
-        if not reached:
-            return False, x, y, k
-        x, y, k = nx, ny, cell
-        gap, qx, qy = gap_at(net, k, x, y)
-        if gap >= enough:
-            return True, x, y, k
-    if gap < radius:  # pushed to and fro: the passage is hardly wider than the body
-        _, x, y, gap = middle(net, first, ax, ay, net.cell)
-        reached, k = walk(net, first, ax, ay, x, y, 0.0, True)[:2]
-        gap = gap_at(net, k, x, y)[0] if reached else 0.0
-    return gap >= radius, x, y, k
-
-
-@kernel(error_model="numpy")
-def _free_place(net, k, x, y, px, py, enough):
-    """The cell of p, reached straight from (x, y) in cell ``k``; -1 where it is not, or the gap at p is not
-    ``enough``."""
-    reached, cell = walk(net, k, x, y, px, py, 0.0, True)[:2]
-    return cell if reached and gap_at(net, cell, px, py)[0] >= enough else np.int64(-1)
-
-
-@kernel(error_model="numpy")
-def _lead_round(net, scratch, height, k, ax, ay, x, y, bx, by, qx, qy, radius):
-    """Put corners on the stack, of ``height``, that lead the line a-b round q, which it is too close to at
-    (x, y) in cell ``k``; returns how many.
-
-    They lie on the tangents where the body fits there; else (x, y) is pushed.
-    """
-    bend, stack, stack_cell = scratch.bend, scratch.stack, scratch.stack_cell
-    enough = radius * (1.0 + _SLACK)
-    parts = tangents(ax, ay, x, y, bx, by, qx, qy, radius * (1.0 + MARGIN), bend)
-    for part in range(parts):
-        cell = _free_place(net, k, x, y, bend[part, 0], bend[part, 1], enough)
-        if cell < 0:
-            parts = 0
-            break
-        at = height + parts - 1 - part
-        stack[at, 0], stack[at, 1], stack_cell[at] = bend[part, 0], bend[part, 1], cell
-    if parts == 0:
-        pushed, x, y, k = _push(net, k, x, y, qx, qy, radius)
-        if pushed and (x - ax) ** 2 + (y - ay) ** 2 > 1e-12 and (x - bx) ** 2 + (y - by) ** 2 > 1e-12:
-            stack[height, 0], stack[height, 1], stack_cell[height] = x, y, k
-            parts = 1
-    return parts
 
 
 @kernel(error_model="numpy")
@@ -121,7 +58,7 @@ def _cost_along(net, doors, k, ax, ay, bx, by):
 def _append(net, doors, scratch, first, count, x, y, k):
     """Add a corner to the leg that begins at ``first``, dropping corners that the line of sight jumps
     over."""
-    radius = doors.radius * (1.0 + _SLACK)
+    radius = doors.radius * (1.0 + SLACK)
     points = scratch.points
     cells = scratch.cells
     while count - first >= 2:
@@ -155,40 +92,6 @@ def _append(net, doors, scratch, first, count, x, y, k):
 
 
 @kernel(error_model="numpy")
-def _round(net, doors, scratch, low, high, ax, ay, bx, by, place):
-    """A corner inside a disc that leads the line a-b round what ends walking at ``place`` on it.
-
-    The disc is the one of nodes[low:high] that the place is deepest in; the corner is where it comes nearest
-    to the line. Returns (found, x, y, cell).
-    """
-    x = ax + place * (bx - ax)
-    y = ay + place * (by - ay)
-    node = -1
-    least = 1e300
-    for i in range(low, high):
-        other = scratch.nodes[i]
-        dx = x - net.position[other, 0]
-        dy = y - net.position[other, 1]
-        power = dx * dx + dy * dy - net.node_radius[other] ** 2
-        if power < least and net.node_radius[other] > doors.radius:
-            least = power
-            node = other
-    if node < 0:
-        return False, x, y, -1
-    cx, cy = net.position[node, 0], net.position[node, 1]
-    dx, dy = bx - ax, by - ay
-    s = ((cx - ax) * dx + (cy - ay) * dy) / (dx * dx + dy * dy)
-    s = min(max(s, 0.0), 1.0)
-    dx, dy = ax + s * dx - cx, ay + s * dy - cy
-    d = sqrt(dx * dx + dy * dy)
-    room = net.node_radius[node] - doors.radius
-    share = room / d if d > room else 1.0
-    x, y = cx + share * dx, cy + share * dy
-    reached, cell = walk(net, np.int64(net.node_cell[node]), cx, cy, x, y, 0.0, True)[:2]
-    return reached, x, y, cell
-
-
-@kernel(error_model="numpy")
 def _fits_on(net, scratch, count, x, y, radius):
     """Whether a body of ``radius`` gets straight from the last of ``count`` corners to (x, y)."""
     k = np.int64(scratch.cells[count - 1])
@@ -199,14 +102,14 @@ def _fits_on(net, scratch, count, x, y, radius):
 
 
 @allocating_kernel(error_model="numpy")
-def mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_try):
+def mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, effort):
     """Add a walked line from the leg's last corner to g, through nodes[low:high].
 
-    Returns the new count and FITS; _BLOCKED, with only a part of the line added, where walking ends on it
-    and this is not the ``last_try``; or _NO_WAY.
+    ``effort``: `LINES`, `DISCS` or `CELLS`. Returns the new count and FITS; _BLOCKED, with only a part of the
+    line added, where walking ends on it and cells are not searched; or _NO_WAY.
     """
     radius = doors.radius
-    enough = radius * (1.0 + _SLACK)
+    enough = radius * (1.0 + SLACK)
     points, stack, stack_cell = scratch.points, scratch.stack, scratch.stack_cell
     stack[0, 0], stack[0, 1] = gx, gy
     stack_cell[0] = goal_cell
@@ -229,7 +132,7 @@ def mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_t
         if walked and height <= _DEPTH and splits < _SPLITS:
             x = ax + place * (bx - ax)
             y = ay + place * (by - ay)
-            more = _lead_round(net, scratch, height, tight, ax, ay, x, y, bx, by, qx, qy, radius)
+            more = lead_round(net, scratch, height, tight, ax, ay, x, y, bx, by, qx, qy, radius)
             if more > 0:
                 height += more
                 splits += more
@@ -239,14 +142,16 @@ def mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_t
             height -= 1
             continue
         if not walked and height <= _ROUNDS and splits < _SPLITS:
-            found, x, y, at = _round(net, doors, scratch, low, high, ax, ay, bx, by, place)
-            if found and (x - ax) ** 2 + (y - ay) ** 2 > 1e-6 and (x - bx) ** 2 + (y - by) ** 2 > 1e-6:
+            found, x, y, at = round_in_disc(
+                net, doors, scratch, low, high, ax, ay, bx, by, place, effort > LINES
+            )
+            if found:
                 stack[height, 0], stack[height, 1] = x, y
                 stack_cell[height] = at
                 height += 1
                 splits += 1
                 continue
-        if not last_try:
+        if effort < CELLS:
             return count, _BLOCKED
         cells = search_cells(net, scratch, k, target, radius)
         if cells.size == 0 or count + cells.size > room:
@@ -256,7 +161,7 @@ def mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, last_t
             x, y = centre_of(net, at)
             if net.clearance[at] < radius:
                 gap, qx, qy = gap_at(net, at, x, y)
-                _, x, y, at = _push(net, at, x, y, qx, qy, radius)
+                _, x, y, at = push_off(net, at, x, y, qx, qy, radius)
             if not _fits_on(net, scratch, count, x, y, radius):
                 return count, _NO_WAY
             count = _append(net, doors, scratch, first, count, x, y, at)
@@ -283,15 +188,41 @@ def _through_lenses(net, doors, scratch, first, count, low, high, free, gx, gy, 
     work, at = scratch.corner, scratch.corner_at
     sx, sy = scratch.points[count - 1, 0], scratch.points[count - 1, 1]
     corners = funnel(doors, scratch.edges, low, high, True, work, at, free, sx, sy, gx, gy)
+    effort = CELLS if last_try else DISCS
     for i in range(free + 1, free + corners):
         x, y, k = work[i, 0], work[i, 1], goal_cell
         if i < free + corners - 1:
             k = _place_of(net, doors, scratch.edges[at[i] >> 1], at[i] & 1, x, y)
         before, here = at[i - 1] >> 1, at[i] >> 1
-        count, state = mend(net, doors, scratch, first, count, x, y, k, before, here, last_try)
+        count, state = mend(net, doors, scratch, first, count, x, y, k, before, here, effort)
         if state != FITS:
             return count, False
     return count, True
+
+
+@kernel(error_model="numpy")
+def _save(scratch, leg, count):
+    """Note the last corners, from ``leg`` on, so that `_take_back` can bring them back; returns how many."""
+    saved = min(count - leg, scratch.saved_cell.size)
+    for i in range(saved):
+        at = count - saved + i
+        scratch.saved[i, 0], scratch.saved[i, 1] = scratch.points[at, 0], scratch.points[at, 1]
+        scratch.saved_cell[i] = scratch.cells[at]
+    return saved
+
+
+@kernel(error_model="numpy")
+def _take_back(scratch, leg, before, saved, count):
+    """Undo what has been added to ``before`` corners since `_save`, where the first of those noted is still
+    there or is the leg's; returns the new count."""
+    points, first = scratch.points, before - saved
+    there = points[first, 0] == scratch.saved[0, 0] and points[first, 1] == scratch.saved[0, 1]
+    if first > leg and not (there and count > first):
+        return count
+    for i in range(saved):
+        points[first + i, 0], points[first + i, 1] = scratch.saved[i, 0], scratch.saved[i, 1]
+        scratch.cells[first + i] = scratch.saved_cell[i]
+    return before
 
 
 @kernel(error_model="numpy")
@@ -325,13 +256,16 @@ def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell, last_try):
             if parts > 0:
                 px, py = arc[part, 0], arc[part, 1]
                 pk = _place_of(net, doors, door, side, px, py)
-                if gap_at(net, pk, px, py)[0] >= radius * (1.0 + _SLACK):
+                if gap_at(net, pk, px, py)[0] >= radius * (1.0 + SLACK):
                     x, y, k = px, py, pk
             rounding += sqrt((x - lx) ** 2 + (y - ly) ** 2)
             lx, ly = x, y
             low, high = at[i - 1] >> 1, at[i] >> 1
-            count, state = mend(net, doors, scratch, leg, count, x, y, k, low, high, False)
+            saved = _save(scratch, leg, count)
+            before = count
+            count, state = mend(net, doors, scratch, leg, count, x, y, k, low, high, LINES)
             if state == _BLOCKED:
+                count = _take_back(scratch, leg, before, saved, count)
                 low, high = max(low, first), min(high + 1, last)
                 count, fits = _through_lenses(
                     net, doors, scratch, leg, count, low, high, corners, x, y, k, last_try

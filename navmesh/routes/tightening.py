@@ -10,12 +10,12 @@ from math import sqrt
 
 from navmesh.graph.portals import MARGIN
 from navmesh.routes.funnel import tangents
+from navmesh.routes.leading_round import SLACK
 from navmesh.surface.clearance_field import gap_at, same_place, walk
 from surefoot.kernels import kernel
 
 __all__ = ["tighten"]
 
-_SLACK = 0.01  # share of the radius, as in `navmesh.routes.string_pulling`
 _GAIN = 1e-3  # [m] that a change must save
 _FIRST = 1.0 / 16.0  # share of the way from a loose corner to the straight line that is tried first
 _HALVINGS = 6  # of the way then
@@ -183,7 +183,7 @@ def _draw(net, scratch, at, radius, enough, moved):
 @kernel(error_model="numpy")
 def tighten(net, scratch, first, count, radius):
     """Let go what nothing holds on the walked leg scratch.points[first:count]; returns the new count."""
-    enough = radius * (1.0 + _SLACK)
+    enough = radius * (1.0 + SLACK)
     changes = 0
     at = first + 1
     while at < count - 1 and changes < _CHANGES and count + 8 < scratch.cells.size:

@@ -16,7 +16,7 @@ from surefoot.kernels.bundles import Bundle, BundleType, aligned, rows
 if TYPE_CHECKING:
     from navmesh.graph.node_graph import NodeGraph
 
-__all__ = ["DOORS", "NET", "SCRATCH", "make_doors", "make_scratch", "net_of"]
+__all__ = ["DOORS", "NET", "SCRATCH", "door_rows", "make_doors", "make_scratch", "net_of"]
 
 _CELL = np.dtype(
     [
@@ -173,6 +173,11 @@ def net_of(graph: "NodeGraph") -> Any:
     return net
 
 
+def door_rows(target: np.ndarray, portal: np.ndarray, portal_cell: np.ndarray) -> np.ndarray:
+    """The doors' table of `DOORS` from its columns."""
+    return _table(_DOOR, portal=portal, portal_cell=portal_cell, target=target)
+
+
 def make_doors(
     radius: float,
     portals: tuple[np.ndarray, ...],
@@ -182,15 +187,15 @@ def make_doors(
     parts: dict,
     widest: float,
 ) -> Bundle:
-    """`DOORS` from what `open_portals` gives, the costs of the nodes, the ``leap`` arrays and those of the
-    parts."""
-    start, target, portal, portal_cell, lens, block = portals
+    """`DOORS` from ``portals`` (start, `door_rows`, lens, block), which all `DOORS` of a radius share, the
+    costs of the nodes, the ``leap`` arrays and those of the parts."""
+    start, doors, lens, block = portals
     return Bundle(
         DOORS,
         radius=radius,
         weighted=weighted,
         start=start,
-        doors=_table(_DOOR, portal=portal, portal_cell=portal_cell, target=target),
+        doors=doors,
         lens=lens,
         block=block,
         node_cost=costs,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from navmesh.errors import NavmeshError
-from navmesh.graph.kernel_arrays import make_doors, net_of
+from navmesh.graph.kernel_arrays import door_rows, make_doors, net_of
 from navmesh.graph.parts import leaps_by_part, parts_of_nodes, parts_of_tiles
 from navmesh.graph.portals import open_portals
 from navmesh.obstacles.kinds import affordances
@@ -53,9 +53,14 @@ def _checked_skills(skills: Mapping[str, tuple[float, float]] | None) -> tuple:
     return tuple(sorted(offered))
 
 
-def portals_of(graph: "NodeGraph", radius: float) -> tuple:
-    def make() -> tuple:
-        return open_portals(net_of(graph), graph.edge_width, graph.edge_cells, graph.edge_gate, radius)
+def portals_of(graph: "NodeGraph", radius: float) -> tuple[np.ndarray, ...]:
+    """The doors open to a body of ``radius`` in CSR form: start (m + 1,), doors (p,) as of `door_rows`, lens
+    (p, 2), block (p, 4); see `DOORS`."""
+
+    def make() -> tuple[np.ndarray, ...]:
+        widths = graph.edge_width, graph.edge_cells, graph.edge_gate
+        start, target, portal, cells, lens, block = open_portals(net_of(graph), *widths, radius)
+        return start, door_rows(target, portal, cells), lens, block
 
     return recent(graph.cache, "portals", radius, make)
 
@@ -77,7 +82,8 @@ def parts_of(graph: "NodeGraph", radius: float) -> tuple[np.ndarray, ...]:
     `navmesh.graph.parts`."""
 
     def make() -> tuple[np.ndarray, ...]:
-        part = parts_of_nodes(*portals_of(graph, radius)[:2])
+        start, doors = portals_of(graph, radius)[:2]
+        part = parts_of_nodes(start, np.ascontiguousarray(doors["target"]))
         return part, *parts_of_tiles(net_of(graph), part, radius)
 
     return recent(graph.cache, "parts", radius, make)

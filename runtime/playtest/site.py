@@ -53,7 +53,8 @@ class Site:
     @cached_property
     def walks(self) -> csr_array:
         """(m, m) sparse: the distance [m] between the middles of nodes that the body walks between."""
-        start, target = portals_of(self.graph, self.character.radius)[:2]
+        start, doors = portals_of(self.graph, self.character.radius)[:2]
+        target = doors["target"]
         source = np.repeat(np.arange(len(self.graph)), np.diff(start))
         away = np.linalg.norm(self.graph.positions[target] - self.graph.positions[source], axis=1)
         return coo_array((away + 1e-6, (source, target)), shape=(len(self.graph),) * 2).tocsr()

@@ -27,6 +27,7 @@ def test_portals_and_parts_are_kept(graph):
     assert portals_of(graph, 0.3) is portals_of(graph, 0.3)
     assert parts_of(graph, 0.3) is parts_of(graph, 0.3)
     assert doors_of(graph, 0.3, None, None) is doors_of(graph, 0.3, None, None)
+    assert doors_of(graph, 0.3, {"jump": (0.1, 0.5)}, None).doors is doors_of(graph, 0.3, None, None).doors
     assert doors_of(graph, 0.4, None, None) is not doors_of(graph, 0.3, None, None)
 
 

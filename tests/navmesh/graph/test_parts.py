@@ -13,7 +13,8 @@ from tests.navmesh.surface.levels import build, random_level
 @pytest.mark.parametrize("seed", range(3))
 def test_nodes_of_a_part_can_be_walked_to_from_each_other(seed, radius):
     graph = build(*random_level(seed))
-    start, target = portals_of(graph, radius)[:2]
+    start, doors = portals_of(graph, radius)[:2]
+    target = doors["target"]
     walks = networkx.DiGraph()
     walks.add_nodes_from(range(len(graph)))
     for node in range(len(graph)):

@@ -71,7 +71,8 @@ def test_search_agrees_with_the_plain_one(seed: int) -> None:
     graph, rng = scene(seed, 5)
     net, origin = net_of(graph), graph.surface.origin
     doors, scratch = doors_of(graph, 0.3, None, None), make_scratch(graph)
-    start, target, portal = portals_of(graph, 0.3)[:3]
+    start, rows = portals_of(graph, 0.3)[:2]
+    target, portal = rows["target"], rows["portal"]
     checked = longer = 0
     for _ in range(12):
         s, g = np.column_stack([rng.uniform(0.5, 13.5, (2, 2)), np.zeros(2)])

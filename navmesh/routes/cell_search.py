@@ -4,9 +4,12 @@ mended."""
 import numpy as np
 
 from navmesh.routes.heap import push, take_first
-from surefoot.kernels import allocating_kernel
+from navmesh.routes.leading_round import lead_round, push_off
+from navmesh.routes.walked_line import append_corner
+from navmesh.surface.clearance_field import centre_of, gap_at, walk
+from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["DETOURS", "search_cells"]
+__all__ = ["DETOURS", "over_cells", "search_cells"]
 
 DETOURS = 6
 """Place in scratch.numbers that counts these searches."""
@@ -14,6 +17,8 @@ DETOURS = 6
 _TIGHT = 25.0
 """Cost factor of cells whose centre is short of the radius by less than a cell: only where there is no other
 way."""
+_PASSED = 8
+"""Cells that may be passed over because no straight line leads to their middle."""
 
 
 @allocating_kernel(error_model="numpy")
@@ -79,3 +84,63 @@ def search_cells(net, scratch, start, goal, radius):
         cells[i] = k
         k = parent[k]
     return cells
+
+
+@kernel(error_model="numpy", inline="always")
+def _fits_on(net, k, ax, ay, x, y, radius):
+    """Whether a body of ``radius`` gets straight from a, in cell ``k``, to (x, y)."""
+    reached, _, gap = walk(net, k, ax, ay, x, y, radius, True)[:3]
+    return reached and gap >= radius * (1.0 - 1e-9)
+
+
+@allocating_kernel(error_model="numpy")
+def _step_to(net, doors, scratch, first, count, height, x, y, k):
+    """Add a line from the leg's last corner to (x, y) in cell ``k``: straight, or led round what is too near.
+    The stack has ``height`` entries. Returns the new count and whether the body fits."""
+    radius, stack, stack_cell = doors.radius, scratch.stack, scratch.stack_cell
+    a = np.int64(scratch.cells[count - 1])
+    ax, ay = scratch.points[count - 1, 0], scratch.points[count - 1, 1]
+    reached, _, gap, place, qx, qy, tight = walk(net, a, ax, ay, x, y, radius, True)
+    bends = 0
+    if not reached or gap < radius * (1.0 - 1e-9):
+        if not reached or height + 2 > stack_cell.size:
+            return count, False
+        px, py = ax + place * (x - ax), ay + place * (y - ay)
+        bends = lead_round(net, scratch, height, tight, ax, ay, px, py, x, y, qx, qy, radius)
+        if bends == 0:
+            return count, False
+        for i in range(height + bends - 1, height - 1, -1):
+            if not _fits_on(net, a, ax, ay, stack[i, 0], stack[i, 1], radius):
+                return count, False
+            a, ax, ay = np.int64(stack_cell[i]), stack[i, 0], stack[i, 1]
+        if not _fits_on(net, a, ax, ay, x, y, radius):
+            return count, False
+    for i in range(height + bends - 1, height - 1, -1):
+        count = append_corner(
+            net, doors, scratch, first, count, stack[i, 0], stack[i, 1], np.int64(stack_cell[i])
+        )
+    return append_corner(net, doors, scratch, first, count, x, y, k), True
+
+
+@allocating_kernel(error_model="numpy")
+def over_cells(net, doors, scratch, first, count, height, gx, gy, goal_cell):
+    """Add a line from the leg's last corner to g that follows cells; returns the new count and whether the
+    body fits."""
+    radius = doors.radius
+    cells = search_cells(net, scratch, np.int64(scratch.cells[count - 1]), goal_cell, radius)
+    if cells.size == 0 or count + 3 * cells.size > scratch.cells.size:
+        return count, False
+    missed = 0
+    for step in range(1, cells.size):
+        k, x, y = goal_cell, gx, gy
+        if step < cells.size - 1:
+            k = np.int64(cells[step])
+            x, y = centre_of(net, k)
+            if net.clearance[k] < radius:
+                _, qx, qy = gap_at(net, k, x, y)
+                _, x, y, k = push_off(net, k, x, y, qx, qy, radius)
+        count, fits = _step_to(net, doors, scratch, first, count, height, x, y, k)
+        missed = 0 if fits else missed + 1
+        if missed > _PASSED:
+            return count, False
+    return count, missed == 0

@@ -18,11 +18,12 @@ from math import sqrt
 import numpy as np
 
 from navmesh.graph.portals import MARGIN
-from navmesh.routes.cell_search import search_cells
+from navmesh.routes.cell_search import over_cells
 from navmesh.routes.funnel import funnel, round_corner
-from navmesh.routes.leading_round import SLACK, lead_round, push_off, round_in_disc
+from navmesh.routes.leading_round import SLACK, lead_round, round_in_disc
 from navmesh.routes.tightening import tighten
-from navmesh.surface.clearance_field import centre_of, floor_at, gap_at, same_place, walk
+from navmesh.routes.walked_line import append_corner
+from navmesh.surface.clearance_field import floor_at, gap_at, same_place, walk
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["CELLS", "DISCS", "FITS", "LINES", "mend", "pull"]
@@ -36,69 +37,6 @@ _ROUNDS = 4
 """Times that a line is led round what ends walking on it before it is pulled through the lenses."""
 _DEPTH = 12  # of pushes within pushes; scratch.stack holds two more
 _SPLITS = 64  # of one line: corners that fall away when the next is added could take turns for ever
-
-
-@kernel(error_model="numpy")
-def _cost_along(net, doors, k, ax, ay, bx, by):
-    """Length of the line from a, in cell ``k``, to b, weighted by the costs of the nodes that it crosses."""
-    length = sqrt((bx - ax) ** 2 + (by - ay) ** 2)
-    parts = int(length / (0.5 * net.cell)) + 1
-    total = 0.0
-    x, y = ax, ay
-    for i in range(parts):
-        px, py = ax + (bx - ax) * (i + 0.5) / parts, ay + (by - ay) * (i + 0.5) / parts
-        k = walk(net, k, x, y, px, py, 0.0, True)[1]
-        x, y = px, py
-        node = net.label[k]
-        total += length / parts * (doors.node_cost[node] if node >= 0 else 1.0)
-    return total
-
-
-@allocating_kernel(error_model="numpy")
-def _append(net, doors, scratch, first, count, x, y, k):
-    """Add a corner to the leg that begins at ``first``, dropping corners that the line of sight jumps
-    over."""
-    radius = doors.radius * (1.0 + SLACK)
-    points = scratch.points
-    cells = scratch.cells
-    while count - first >= 2:
-        vx, vy = points[count - 1, 0], points[count - 1, 1]
-        ax, ay = points[count - 2, 0], points[count - 2, 1]
-        _, qx, qy = gap_at(net, np.int64(cells[count - 1]), vx, vy)
-        dx = x - ax
-        dy = y - ay
-        length = dx * dx + dy * dy
-        s = ((qx - ax) * dx + (qy - ay) * dy) / length if length > 0.0 else 0.0
-        s = min(max(s, 0.0), 1.0)
-        ex = ax + s * dx - qx
-        ey = ay + s * dy - qy
-        if ex * ex + ey * ey < radius * radius:
-            break
-        reached, cell = walk(net, np.int64(cells[count - 2]), ax, ay, x, y, radius, False)[:2]
-        if not reached or not same_place(net, cell, k):
-            break
-        if doors.weighted:
-            a = np.int64(cells[count - 2])
-            bent = _cost_along(net, doors, a, ax, ay, vx, vy) + _cost_along(
-                net, doors, np.int64(cells[count - 1]), vx, vy, x, y
-            )
-            if _cost_along(net, doors, a, ax, ay, x, y) > bent * (1.0 + 1e-9):
-                break
-        count -= 1
-    points[count, 0] = x
-    points[count, 1] = y
-    cells[count] = k
-    return count + 1
-
-
-@kernel(error_model="numpy")
-def _fits_on(net, scratch, count, x, y, radius):
-    """Whether a body of ``radius`` gets straight from the last of ``count`` corners to (x, y)."""
-    k = np.int64(scratch.cells[count - 1])
-    reached, _, gap = walk(
-        net, k, scratch.points[count - 1, 0], scratch.points[count - 1, 1], x, y, radius, True
-    )[:3]
-    return reached and gap >= radius * (1.0 - 1e-9)
 
 
 @allocating_kernel(error_model="numpy")
@@ -126,7 +64,7 @@ def mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, effort
         reached, cell, gap, place, qx, qy, tight = walk(net, k, ax, ay, bx, by, enough, True)
         walked = reached and same_place(net, cell, target)
         if walked and gap >= enough:
-            count = _append(net, doors, scratch, first, count, bx, by, target)
+            count = append_corner(net, doors, scratch, first, count, bx, by, target)
             height -= 1
             continue
         if walked and height <= _DEPTH and splits < _SPLITS:
@@ -138,7 +76,7 @@ def mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, effort
                 splits += more
                 continue
         if walked and gap >= radius:
-            count = _append(net, doors, scratch, first, count, bx, by, target)
+            count = append_corner(net, doors, scratch, first, count, bx, by, target)
             height -= 1
             continue
         if not walked and height <= _ROUNDS and splits < _SPLITS:
@@ -153,21 +91,9 @@ def mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, effort
                 continue
         if effort < CELLS:
             return count, _BLOCKED
-        cells = search_cells(net, scratch, k, target, radius)
-        if cells.size == 0 or count + cells.size > room:
+        count, fits = over_cells(net, doors, scratch, first, count, height, bx, by, target)
+        if not fits:
             return count, _NO_WAY
-        for step in range(1, cells.size - 1):
-            at = np.int64(cells[step])
-            x, y = centre_of(net, at)
-            if net.clearance[at] < radius:
-                gap, qx, qy = gap_at(net, at, x, y)
-                _, x, y, at = push_off(net, at, x, y, qx, qy, radius)
-            if not _fits_on(net, scratch, count, x, y, radius):
-                return count, _NO_WAY
-            count = _append(net, doors, scratch, first, count, x, y, at)
-        if not _fits_on(net, scratch, count, bx, by, radius):
-            return count, _NO_WAY
-        count = _append(net, doors, scratch, first, count, bx, by, target)
         height -= 1
     return count, FITS
 

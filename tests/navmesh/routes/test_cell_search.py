@@ -11,8 +11,9 @@ import pytest
 
 from navmesh import NodeGraph, Terrain, WalkRules
 from navmesh.graph.kernel_arrays import make_scratch, net_of
-from navmesh.routes.cell_search import search_cells
-from tests.navmesh.routes.path_references import scene
+from navmesh.graph.open_to_body import doors_of
+from navmesh.routes.cell_search import over_cells, search_cells
+from tests.navmesh.routes.path_references import dense_walk, scene
 
 COURTYARD = Path(__file__).resolve().parents[3] / "examples" / "levels" / "courtyard.obj"
 
@@ -49,3 +50,25 @@ def test_it_is_the_cheapest_way_over_cells_with_room(seed):
         assert all(m in surface.link[k] for k, m in pairwise(found))
         least = networkx.dijkstra_path_length(cells, start, goal)
         assert cost[found[1:]].sum() == pytest.approx(least)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_the_line_that_follows_the_cells_can_be_walked(seed):
+    graph, rng = scene(seed, 9)
+    net, scratch, radius = net_of(graph), make_scratch(graph), 0.4
+    doors = doors_of(graph, radius, None, None)
+    centre = graph.surface.centers() - graph.surface.origin
+    wide = np.flatnonzero((graph.surface.clearance >= radius) & (graph.label >= 0))
+    found = 0
+    for start, goal in rng.choice(wide, (12, 2)):
+        if doors.part[graph.label[start]] != doors.part[graph.label[goal]]:
+            continue
+        scratch.points[0], scratch.cells[0] = centre[start], start
+        count, fits = over_cells(net, doors, scratch, 0, 1, 1, *centre[goal, :2], goal)
+        line, cells = scratch.points[:count, :2], scratch.cells
+        assert fits and np.array_equal(line[-1], centre[goal, :2])
+        for i in range(count - 1):
+            reached, _, gap = dense_walk(graph.surface, int(cells[i]), line[i], line[i + 1], 0.01)
+            assert reached and gap > radius - 1e-3
+        found += count > 2
+    assert found >= 3

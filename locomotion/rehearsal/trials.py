@@ -22,6 +22,7 @@ from locomotion.body.person import CONTROL_DT
 from locomotion.body_events import Cleared, TookOff
 from locomotion.gaits.walk.layout import LONGER, WALK_HEADING, WALK_SPEED
 from locomotion.human.state import MOVING, HumanState, same
+from locomotion.paths.gait_plan import braking_length
 from locomotion.rehearsal.contact_report import ContactReport, Watcher
 from locomotion.rehearsal.deciding import Outcome, Question, Trial, tick_unless_asked
 from locomotion.rehearsal.understudy import Chooser, Understudy
@@ -236,8 +237,9 @@ def slows_down_in_time(body: Understudy, state: HumanState) -> Generator[None, N
 
 @dataclass
 class ComesToRest:
-    """Whether a braking body ends up standing, and in how little room: 1 / (1 + distance [m] there and back),
-    much less if it ends facing away from its direction of travel; with its recorded ticks.
+    """Whether a braking body ends up standing, and in how little room [m], there and back: 1 if in no more
+    than plans count on (`braking_length`), else 1 / (1 + room), much less if it ends facing away from its
+    direction of travel; with its recorded ticks.
 
     within: best distance [m] so far; one that needs more is given up.
     """
@@ -249,6 +251,7 @@ class ComesToRest:
         seen: list[HumanState] = []
         body.decider.undecided = False
         begun, velocity, way = body.com, body.velocity, 0.0
+        planned = braking_length(math.hypot(velocity[0], velocity[1]))
         along = velocity / max(float(np.linalg.norm(velocity)), _SLOWEST)
         for _ in range(_AT_REST):
             body.events.clear()
@@ -266,7 +269,7 @@ class ComesToRest:
                 if abs(askew) >= _ASKEW:
                     return 0.1 / (1.0 + room), seen
                 self.within = min(self.within, room)
-                return 1.0 / (1.0 + room), seen
+                return 1.0 if room <= planned else 1.0 / (1.0 + room), seen
         return 0.0, []
 
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 __all__ = [
     "Arrived", "BackedOut", "Cleared", "Event", "Fell", "GotStuck", "GotUp", "LostGround", "MissedGoal",
-    "PostureReached", "SetOff", "StrayedFromPath", "TookOff", "WentBack",
+    "PostureReached", "SetOff", "StrayedFromPath", "TookOff", "TurnedAway", "WentBack",
 ]  # fmt: skip
 
 
@@ -101,6 +101,16 @@ class TookOff(Event):
     height: float
     takeoff_error: float
     speed_error: float
+
+
+@dataclass(frozen=True)
+class TurnedAway(Event):
+    """The body does not run at an obstacle of this affordance and size [m], or breaks its run-up off: its
+    ``odds`` of clearing it, 0 to 1, are too low for its bravery."""
+
+    affordance: str
+    size: float
+    odds: float
 
 
 @dataclass(frozen=True)

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
         SkillFinished,
         SkillStarted,
         Stuck,
+        TurnedAway,
     )
     from runtime.views.live import LiveView
     from runtime.warmup import prepare
@@ -61,6 +62,7 @@ __all__ = [
     "SkillFinished",
     "SkillStarted",
     "Stuck",
+    "TurnedAway",
     "Viewer",
     "World",
     "WorldState",

@@ -24,6 +24,7 @@ __all__ = [
     "SkillStarted",
     "Stuck",
     "Told",
+    "TurnedAway",
     "event_text",
 ]
 
@@ -169,6 +170,19 @@ class Stuck(Event):
 
     def _what(self) -> str:
         return f"is stuck at {_place(self.position)}: {self.reason}"
+
+
+@dataclass(frozen=True)
+class TurnedAway(Event):
+    """The agent does not take off for ``skill`` at an obstacle of ``height`` [m] (of a gap its width): its
+    ``odds``, 0 to 1, are too low for its bravery. It tries again, takes another way, or is `Stuck`."""
+
+    skill: str
+    height: float
+    odds: float
+
+    def _what(self) -> str:
+        return f"turns away from a {self.skill} of {self.height:.2f} m: odds {100.0 * self.odds:.0f} %"
 
 
 @dataclass(frozen=True)

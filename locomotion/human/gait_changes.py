@@ -7,6 +7,7 @@ from functools import partial
 
 from locomotion.body_events import GotStuck
 from locomotion.gaits.limits import run_entry_speed
+from locomotion.human.composition import Composition
 from locomotion.human.person import Person
 from locomotion.human.state import MOVING
 from locomotion.paths.command import HEADING_ASKED
@@ -51,10 +52,11 @@ def _vary_step(body: Chooser, longer: Sequence[float]) -> None:
 
 
 class GaitChanges:
-    """Gait changes of ``person``; ``decider`` chooses among variations."""
+    """Gait changes of ``person``; ``decider`` chooses among variations, or ``composition`` without
+    rehearsals."""
 
-    def __init__(self, person: Person, decider: Decider) -> None:
-        self._person, self._decider = person, decider
+    def __init__(self, person: Person, decider: Decider, composition: Composition) -> None:
+        self._person, self._decider, self._composition = person, decider, composition
         self._steps_on = StepsOn()
 
     # --- walking
@@ -78,6 +80,8 @@ class GaitChanges:
             return
         if not run_up.comes_within(arc, RUN_UP):
             person.run(False, speed)
+            return
+        if self._decider.answer is None and not self._composition.dares_to_set_off():
             return
 
         def set_off(body: Chooser, choice: tuple[bool, Sequence[float]]) -> None:
@@ -114,6 +118,8 @@ class GaitChanges:
     def choose_take_off(self) -> None:
         """Just after a step of a run-up has begun: choose its variation, or abort the run-up."""
         person = self._person
+        if self._decider.answer is None:
+            self._composition.choose_take_off()
         if not person.begins_run_up:
             return
         if self._decider.answer is None:

@@ -40,6 +40,7 @@ from locomotion.gaits.walk.layout import WALK_HEADING
 from locomotion.gaits.walk.skill import WalkSkill, load_walk_skill, rise_walking
 from locomotion.ground.ground import Ground
 from locomotion.human.arrived_or_stuck import ARRIVAL_DISTANCE, STRAYED, notice
+from locomotion.human.composition import Composition, checked_bravery
 from locomotion.human.falls import fall, tick_on_all_fours
 from locomotion.human.gait_changes import GaitChanges
 from locomotion.human.intent import course_on_way, course_to_rest
@@ -81,6 +82,7 @@ class Human(Person):
             "stuck". `held` says whether it is simulated.
         events: list of `locomotion.body_events.Event` in order of time.
         decider: chooses among variations of the next action.
+        composition: decides by the odds of its skills.
     """
 
     status: Status
@@ -123,7 +125,8 @@ class Human(Person):
         super().__init__(ground, on_feet, learned_skills(run) if clearing is None else clearing)
         self.gets_up = gets_up
         self.decider = Decider()
-        self._changes = GaitChanges(self, self.decider)
+        self.composition = Composition(self)
+        self._changes = GaitChanges(self, self.decider, self.composition)
         self._lookahead = Lookahead(self, self._double, rehearsals) if rehearsals else None
         if self._lookahead is not None:
             self.decider.answer = self._lookahead.decide
@@ -135,6 +138,17 @@ class Human(Person):
             raise LocomotionError(f"a person goes on from a HumanState, not from a {type(state).__name__}")
         self.become(state)
         self.decider.predicted.forget()
+
+    @property
+    def bravery(self) -> float | None:
+        """Without rehearsals: from 0 to 1, it takes off where its odds are at least 1 less this, and turns
+        away elsewhere (`locomotion.human.composition`). None: it does not ask for its odds. Can be set;
+        raises `LocomotionError` for another value."""
+        return self.composition.bravery
+
+    @bravery.setter
+    def bravery(self, bravery: float | None) -> None:
+        self.composition.bravery = checked_bravery(bravery)
 
     # --- what it is told
     def reset(self, position: ArrayLike, yaw: float, speed: float = 0.0) -> None:

@@ -36,6 +36,7 @@ from locomotion.skills.interface import ClearingSkill, skill_ranges
 from locomotion.skills.library import learned_skills
 from locomotion.skills.registry import CLEARING
 from runtime.bodies.figure import Figure
+from runtime.bodies.obstacle_odds import odds_at
 from runtime.bodies.protocol import PLANS_KEPT, Driver, Follower, Population, recall, saved_parts
 from runtime.errors import RuntimeInputError
 from runtime.planning.level import Level
@@ -301,6 +302,15 @@ class HumanDriver(Driver):
     @property
     def ground(self) -> Ground | None:
         return self.human.ground
+
+    def heed(self, bravery: float | None) -> None:
+        try:
+            self.human.bravery = bravery
+        except LocomotionError as error:
+            raise RuntimeInputError(str(error)) from None
+
+    def odds(self, obstacle: int | str) -> float:
+        return odds_at(self.human, self._level.graph, obstacle)
 
     def held_in(self, posture: str) -> tuple[str, str]:
         return can_hold(person_postures(), posture, self.held)

@@ -139,6 +139,14 @@ class Driver(ABC):
         """Take a posture that `check_posture` lets pass. Raises `RuntimeInputError` where there is no way to
         it."""
 
+    def heed(self, bravery: float | None) -> None:
+        """As `runtime.Agent.bravery`. Raises `RuntimeInputError` for a body without odds."""
+        raise RuntimeInputError("it has no bravery; only a human has")
+
+    def odds(self, obstacle: int | str) -> float:
+        """As `runtime.Agent.odds`."""
+        raise RuntimeInputError("its odds are not known; only those of a human with physics are")
+
     @abstractmethod
     def plan(self, goals: np.ndarray) -> Plan:
         """The way through ``goals`` (k, 3), not taken. Raises `runtime.planning.planning.NoWay`."""

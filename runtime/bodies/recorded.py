@@ -9,6 +9,7 @@ import numpy as np
 from locomotion import Ground, LocomotionError
 from locomotion.body.models import figure
 from locomotion.crowd.saved_state_check import check_walker
+from locomotion.human.composition import checked_bravery
 from locomotion.recorded.skeletons import LEVELS, level_number
 from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.people import RecordedPeople
@@ -112,6 +113,13 @@ class RecordedDriver(WalkerDriver):
     @property
     def simulated(self) -> RecordedPerson:
         return self.person
+
+    def heed(self, bravery: float | None) -> None:
+        """It clears no obstacles; physics will, once it takes over."""
+        try:
+            checked_bravery(bravery)
+        except LocomotionError as error:
+            raise RuntimeInputError(str(error)) from None
 
     @property
     def _row(self) -> np.ndarray:

@@ -50,12 +50,16 @@ class Up(StrEnum):
     z = "z"
 
 
+PRECONDITIONS = "preconditions"
+"""What is trained and evaluated of all skills together."""
+
+
 def _skills() -> tuple[str, ...]:
-    """Skills that can be trained: gaits, and skills that clear obstacles."""
+    """What can be trained: gaits, skills that clear obstacles, and when these hold."""
     _loaded()
     from locomotion.skills.registry import skill_words
 
-    return ("run", "walk", "walk-policy", "speed-up", "slow-down", "brake", *skill_words())
+    return ("run", "walk", "walk-policy", "speed-up", "slow-down", "brake", *skill_words(), PRECONDITIONS)
 
 
 def _skill(name: str) -> str:
@@ -509,7 +513,8 @@ def train(
         typer.Option(
             "--output",
             "-o",
-            help="Output file for the skill; default: as FILE.yaml says, or the built-in one (--replace).",
+            help="Output file for the skill (preconditions: a folder); default: as FILE.yaml says, or the "
+            "built-in one (--replace).",
         ),
     ] = None,
     seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same skill.")] = 0,
@@ -526,14 +531,17 @@ def train(
     ] = 1.0,
     replace: Annotated[bool, typer.Option("--replace", help="Overwrite the built-in skills.")] = False,
 ) -> None:
-    """Train a skill. If interrupted, run it again to continue from its checkpoint. A skill that never works
-    is not written, and the exit code is 1."""
+    """Train a skill, or the preconditions of all skills. If interrupted, run it again to continue from its
+    checkpoint. A skill that never works is not written, and the exit code is 1."""
     if (skill is None) is not everything or (everything and (output or checkpoint)):
         raise typer.BadParameter("name one skill, or --all without --output and --checkpoint")
     _commands()
     from runtime.cli import skill_commands
+    from runtime.cli.precondition_commands import train_all_preconditions
 
-    if skill is None:
+    if skill == PRECONDITIONS:
+        result = train_all_preconditions(seed, cluster or workers, checkpoint, effort, output, replace)
+    elif skill is None:
         result = skill_commands.train_library(seed, cluster or workers, effort, replace)
     else:
         result = skill_commands.train_skill(
@@ -556,11 +564,46 @@ def evaluate(
     cluster: ClusterOption = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Try a learned skill from many starts and print how often it holds."""
+    """Try a learned skill from many starts and print how often it holds; of preconditions, how good their
+    odds are."""
     _commands()
+    from runtime.cli.precondition_commands import evaluate_preconditions
     from runtime.cli.skill_commands import evaluate_skill
 
-    _finish(evaluate_skill(skill, trials, seed, picture, cluster or processes), as_json)
+    if skill == PRECONDITIONS:
+        _finish(evaluate_preconditions(trials, seed, picture, cluster or processes), as_json)
+    else:
+        _finish(evaluate_skill(skill, trials, seed, picture, cluster or processes), as_json)
+
+
+def _sampled(name: str) -> str:
+    _loaded()
+    from locomotion.training.preconditions.train import sampled_skills
+
+    if name not in sampled_skills():
+        raise typer.BadParameter(f"{name!r}: valid: {', '.join(sampled_skills())}")
+    return name
+
+
+@app.command()
+def sample(
+    skill: Annotated[
+        str,
+        typer.Argument(parser=_sampled, metavar="SKILL", help="A skill for obstacles, or slow-down."),
+    ],
+    output: Annotated[Path, typer.Option("--output", "-o", help="Output file (.npz).")],
+    count: Annotated[int, typer.Option(min=1, help="Number of starts.")] = 1000,
+    seed: Annotated[int, typer.Option(min=0, help="Of the starts.")] = 0,
+    processes: Annotated[int, typer.Option(min=1, help="Number of processes; does not change the file.")] = 1,
+    cluster: ClusterOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Try a skill without rehearsals from many starts, easy and hopeless ones, and write what comes of them.
+    If interrupted, run it again to continue."""
+    _commands()
+    from runtime.cli.precondition_commands import sample_skill
+
+    _finish(sample_skill(skill, count, seed, output, cluster or processes), as_json)
 
 
 @app.command()

@@ -12,6 +12,10 @@ import pathsmooth
 from locomotion import MOVING, Ground, Human
 from locomotion.body_events import GotUp
 from locomotion.gaits.policy.skill import load_policy
+from locomotion.gaits.run.layout import new_state
+from locomotion.preconditions.features import FEATURES, SITE, describe
+from locomotion.preconditions.moments import PLAN
+from locomotion.preconditions.svm import Machine, odds_into
 from locomotion.skills.registry import skill_kinds
 from navmesh.areas.areas import checked_costs
 from navmesh.areas.cheap_routes import priced_route
@@ -117,6 +121,14 @@ def _clear() -> None:
 
     obstacles = [(kind.affordance, kind.usual, 0.3) for kind in skill_kinds()]
     run_course(make_course(obstacles, [13.0] * len(obstacles)))
+
+
+def _ask_for_odds() -> None:
+    features = np.zeros((1, len(FEATURES)))
+    describe(new_state(), np.zeros(len(PLAN)), 0.0, 0.0, 0.0, np.zeros(len(SITE)), features[0])
+    zero, one = np.zeros(1), np.ones(1)
+    machine = Machine(np.zeros(1, np.int32), zero, one, zero, one, np.zeros((1, 1)), one, np.zeros(4))
+    odds_into(*machine, features, np.empty(1))
 
 
 def _fall_and_get_up() -> None:
@@ -237,6 +249,7 @@ FIRST_USES: dict[str, Callable[[], None]] = {
     "animals": _animals,
     "crowds": _crowds,
     "running and jumping": _run_and_jump,
+    "odds": _ask_for_odds,
     "bodies": one_of_each,
     "playtests": _playtest,
     "recorded motion": _play_recorded,

@@ -30,6 +30,7 @@ from runtime.events import (
     SkillFinished,
     SkillStarted,
     Stuck,
+    TurnedAway,
 )
 from runtime.planning.planning import NoWay, Plan
 from runtime.traffic.waiting_and_deadlock import Headway
@@ -76,6 +77,7 @@ class AgentState:
     errand: Errand
     headway: Headway
     detail: str = "physics"
+    bravery: float | None = None
 
     def check(self, name: str) -> None:
         """Raises `RuntimeInputError` for what no agent can have saved, as far as that shows without its
@@ -103,6 +105,7 @@ class Agent:
         self.name = name
         self.body = body
         self.figure = driver.figure
+        self._bravery: float | None = None
         self.take(driver)
         self._host = host
         self._blocked = False
@@ -208,6 +211,33 @@ class Agent:
         evenly at any frame rate, one tick behind `pose`."""
         transforms = self._driver.transforms_between(self._host.clock.blend)
         return Pose(self.figure.bodies, self.figure.parents, transforms)
+
+    # --- odds
+    @property
+    def bravery(self) -> float | None:
+        """Of a person in a world without rehearsals: from 0 to 1, it takes off where its odds are at least 1
+        less this, and turns away elsewhere (`TurnedAway`). None: it does not ask. Can be set; raises
+        `RuntimeInputError` for another value, and for bodies without odds. Takes constant time."""
+        return self._bravery
+
+    @bravery.setter
+    def bravery(self, bravery: float | None) -> None:
+        self._heed(bravery)
+
+    def _heed(self, bravery: float | None) -> None:
+        if bravery is not None or self._bravery is not None:
+            self._driver.heed(bravery)
+        self._bravery = bravery
+
+    def odds(self, obstacle: int | str) -> float:
+        """Chance, 0 to 1, that its bare skill, without rehearsals, clears an obstacle of the level from where
+        it is: an index into `NodeGraph.obstacles`, or a tag. In the run-up to that obstacle it goes by how it
+        moves; elsewhere by the obstacle and the way before it. 0 for a size that none of its skills clears.
+
+        Takes constant time. Raises `RuntimeInputError` for an unknown obstacle, a skill of one's own, of
+        which no odds are known, or a body without odds.
+        """
+        return self._driver.odds(obstacle)
 
     # --- detail and postures
     @property
@@ -435,6 +465,11 @@ class Agent:
         elif times % 2 == 0:
             self._goes_another_way(round_it=times == 2)
 
+    def _close_way(self) -> None:
+        """Have no way lead over the obstacle ahead any more: its odds there will be the same again."""
+        closed = (*self._errand.closed, self._driver.tag_ahead)
+        self._errand = replace(self._errand, closed=closed)
+
     @property
     def _carried_off(self) -> bool:
         """Whether one on its way is so far beside its path that it should not go back there."""
@@ -448,6 +483,8 @@ class Agent:
             if isinstance(event, bodily.WentBack):
                 self._balks(event)
                 continue
+            if isinstance(event, bodily.TurnedAway) and self._driver.status == "stuck":
+                self._close_way()
             among_others = isinstance(event, bodily.GotStuck) and event.among_others
             if isinstance(event, _HELPLESS) and not among_others and self._tries_again():
                 continue
@@ -476,6 +513,7 @@ class Agent:
         """Go on with another body of the same kind."""
         self._body: Driver | None = driver
         self.news = driver.events
+        self._heed(self._bravery)
 
     def leave(self) -> None:
         """Have no body any more; `World.remove` calls this."""
@@ -489,7 +527,7 @@ class Agent:
         """Everything needed to continue from here."""
         return AgentState(
             self.body, self._born, self._driver.save(), self._blocked, self._goal, self._errand,
-            self._headway, self._detail,
+            self._headway, self._detail, self._bravery,
         )  # fmt: skip
 
     def fits(self, state: AgentState) -> bool:
@@ -503,10 +541,12 @@ class Agent:
         self._errand, self._headway = state.errand, state.headway
         self._detail = checked_detail(state.detail, self._host.levels(self.body), self.body)
         self.waits_for_level = True
+        self._heed(state.bravery)
 
     def state_hash(self) -> str:
         """Hexadecimal digest of everything that decides how it goes on."""
-        return self._driver.state_hash()
+        mood = "" if self._bravery is None else repr(self._bravery)
+        return self._driver.state_hash() + mood
 
     def _translated(self, event: bodily.Event) -> Event | None:
         """A body's event as one of the world's, None for what the world reports on its own."""
@@ -523,6 +563,9 @@ class Agent:
             return SkillStarted(**base, skill=skill_kind(event.affordance).skill, height=event.height)
         if isinstance(event, bodily.Cleared):
             return SkillFinished(**base, skill=skill_kind(event.affordance).skill, height=event.height)
+        if isinstance(event, bodily.TurnedAway):
+            skill = skill_kind(event.affordance).skill
+            return TurnedAway(**base, skill=skill, height=event.size, odds=event.odds)
         if isinstance(event, bodily.GotStuck):
             return Stuck(**base, reason=event.reason)
         if isinstance(event, bodily.MissedGoal):

@@ -188,6 +188,7 @@ class World:
         name: str | None = None,
         radius: float | None = None,
         detail: str = PHYSICS,
+        bravery: float | None = None,
     ) -> Agent:
         """Put a standing ``body`` on the walkable surface at ``at`` (3,) [m], facing ``facing`` [rad].
 
@@ -198,9 +199,10 @@ class World:
         The place is moved to the nearest one where the body fits (see `NodeGraph.find_path`). ``name`` is
         its own in this world; by default "human1" and so on. ``detail`` is for humans, as of `Agent.detail`:
         "physics", or for those who play recorded motion "full", "medium" or "low", or "auto", the first of
-        which in a process takes seconds. Raises `RuntimeInputError` for an unknown body, a body file with a
-        mistake, a taken name, a place off the walkable surface, a quadruped without room for its head, or a
-        detail that the body cannot have.
+        which in a process takes seconds. ``bravery`` is for humans, as of `Agent.bravery`. Raises
+        `RuntimeInputError` for an unknown body, a body file with a mistake, a taken name, a place off the
+        walkable surface, a quadruped without room for its head, or a detail or bravery that the body cannot
+        have.
         """
         if not isinstance(body, str) or not isinstance(name, str | None) or name == "":
             raise RuntimeInputError(
@@ -231,7 +233,14 @@ class World:
         detail = checked_detail(detail, kind.levels, body)
         level = LEVELS[-1] if detail == AUTO else detail
         driver = kind.spawn(self._population(body), body, here.waypoints[0], facing, size, level)
-        agent = self.agents[name] = Agent(self._host, name, body, driver)
+        agent = Agent(self._host, name, body, driver)
+        if bravery is not None:
+            try:
+                agent.bravery = bravery
+            except RuntimeInputError:
+                self._population(body).remove(driver)
+                raise
+        self.agents[name] = agent
         if detail == AUTO:
             self._population(body).prepare_levels()
             agent.detail = detail

@@ -1,0 +1,159 @@
+"""Giving control to a skill whose odds are good enough, and turning away from an obstacle otherwise.
+
+A person without rehearsals that has a `bravery` asks the preconditions of its skills
+(`locomotion.preconditions`): before it sets off for an obstacle, and at each step of its run-up, of each
+variation of it. It takes the best variation. Where even that is not good enough, it turns away while it can
+still come to a stand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion.body_events import GotStuck, TurnedAway
+from locomotion.errors import LocomotionError
+from locomotion.gaits.run import controller
+from locomotion.ground.ground import FRICTION
+from locomotion.human.person import Person
+from locomotion.paths.smoothing import ObstacleAhead
+from locomotion.preconditions.features import FEATURES, describe, site_of
+from locomotion.preconditions.moments import planned
+from locomotion.preconditions.precondition import SLOW_DOWN, Precondition, load_preconditions
+from locomotion.rehearsal.trials import BALKINGS, RUN_UPS
+from locomotion.skills.interface import distance_to
+from locomotion.skills.run_up_layout import FARTHER, FASTER
+from surefoot.numeric import is_finite
+
+__all__ = ["Composition", "checked_bravery"]
+
+_TO_SET_OFF = 0.5
+"""Share of the odds wanted in the run-up with which it sets off: it may still turn away."""
+_BETTER = 0.02  # by which the odds of another variation have to be better
+_SURE = (
+    0.85  # odds of slowing down with which it turns away at this step; with less it waits for a better one
+)
+_WAY, _PER_DECELERATION, _MARGIN = 2.0, 0.8, 1.2
+# [m] and [m²/s²] over the deceleration: way from a run-up to a walk; [m] more to a stand
+_STEP = 1.2  # [m] at most, after which there may be no room any more
+
+
+def checked_bravery(bravery: float | None) -> float | None:
+    """``bravery``; raises `LocomotionError` if it is neither None nor a number from 0 to 1."""
+    if bravery is not None and not (is_finite(bravery) and 0.0 <= bravery <= 1.0):
+        raise LocomotionError(f"bravery must be a number from 0 to 1, or None, not {bravery!r}")
+    return None if bravery is None else float(bravery)
+
+
+class Composition:
+    """Decides for ``person`` by odds."""
+
+    def __init__(self, person: Person) -> None:
+        self._person = person
+        self.bravery: float | None = None
+        self.preconditions: Mapping[str, Precondition] | None = None  # None: the package's
+
+    @property
+    def needs(self) -> float:
+        """Odds, 0 to 1, below which it turns away."""
+        return 0.0 if self.bravery is None else 1.0 - self.bravery
+
+    # --- asking
+    def precondition(self, obstacle: ObstacleAhead) -> Precondition | None:
+        """What is known of the skill with which it clears ``obstacle``; None if nothing is, as of skills of
+        one's own."""
+        if self.preconditions is not None:
+            return self.preconditions.get(obstacle.affordance)
+        known = load_preconditions().get(obstacle.affordance)
+        skill = self._person.run_up.skill_for(obstacle)
+        return known if known is not None and known.heights == tuple(skill.heights) else None
+
+    def odds(self, obstacle: ObstacleAhead, room: float) -> float | None:
+        """Chance, 0 to 1, that it clears ``obstacle`` from where it is; None if nothing is known. ``room``:
+        [m] of way before the obstacle."""
+        known = self.precondition(obstacle)
+        if known is None:
+            return None
+        if self._in_run_up and obstacle is self._person.run_up.ahead:
+            choice = self._person.run_up.plan[[FARTHER, FASTER]]
+            return float(known.odds(self._described(obstacle, choice[None]))[0])
+        return known.odds_before(self._site(obstacle), room)
+
+    @property
+    def _in_run_up(self) -> bool:
+        person = self._person
+        return person.on_feet.runs and person.run_up.planned > 0.0 and not person.run_up.clearing
+
+    def _site(self, obstacle: ObstacleAhead) -> NDArray[np.float64]:
+        ground = self._person.ground
+        return site_of(obstacle, FRICTION if ground is None else ground.friction)
+
+    def _described(self, obstacle: ObstacleAhead, choices: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(k, n) features of the present moment, for each of ``choices`` (k, 2) of the run-up."""
+        person, site = self._person, self._site(obstacle)
+        run_up, rows = person.run_up, np.empty((len(choices), len(FEATURES)))
+        memory = run_up.plan.copy()
+        for choice, row in zip(choices, rows, strict=True):
+            memory[[FARTHER, FASTER]] = choice
+            skill, run = run_up.skill_for(obstacle), person.on_feet.run_skill
+            plan = planned(person.control, obstacle, skill, run, memory, run_up.clearing)
+            farther, faster = float(choice[0]), float(choice[1])
+            describe(person.control, plan, farther, faster, person.lateral_error, site, row)
+        return rows
+
+    # --- deciding
+    def dares_to_set_off(self) -> bool:
+        """Whether a walking person runs at the obstacle ahead; if not, its way ends here."""
+        person, obstacle = self._person, self._person.run_up.ahead
+        if self.bravery is None or obstacle is None:
+            return True
+        odds = self.odds(obstacle, obstacle.arc_length - person.run_up.passed)
+        if odds is None or odds >= _TO_SET_OFF * self.needs:
+            return True
+        what = f"the {obstacle.affordance} of {obstacle.size:.2f} m"
+        person.events.append(TurnedAway(person.time, person.point, obstacle.affordance, obstacle.size, odds))
+        reason = f"its odds of clearing {what} are {100.0 * odds:.0f} %"
+        person.end("stuck", GotStuck(person.time, person.point, reason=reason))
+        return False
+
+    def choose_take_off(self) -> None:
+        """Just after a step of a run-up has begun: take the best variation of it, or turn away."""
+        person, obstacle = self._person, self._person.run_up.ahead
+        if self.bravery is None or obstacle is None or not self._in_run_up:
+            return
+        known = self.precondition(obstacle)
+        if known is None or person.control[controller.STEP_TIME] > 0.0:
+            return
+        present = person.run_up.plan[[FARTHER, FASTER]]
+        choices = np.vstack([present, RUN_UPS])
+        odds = known.odds(self._described(obstacle, choices))
+        best = int(np.argmax(odds))
+        if odds[best] > odds[0] + _BETTER:
+            person.run_up.vary(choices[best], person.control, person.run_up.rehearsed)
+        if odds[best] < self.needs:
+            self._turn_away(obstacle, float(odds[best]))
+
+    def _turn_away(self, obstacle: ObstacleAhead, odds: float) -> None:
+        """Break the run-up off where that is likelier to hold than going on with these ``odds``."""
+        person = self._person
+        left = distance_to(obstacle, *person.com[:2])
+        slowings = [each for each in BALKINGS if left >= _WAY + _PER_DECELERATION / each + _MARGIN]
+        if not slowings:
+            return
+        holds = self._odds_of_slowing(obstacle, slowings)
+        best = int(np.argmax(holds))
+        is_last = left - _STEP < _WAY + _PER_DECELERATION / max(slowings) + _MARGIN
+        if holds[best] < _SURE and not (is_last and holds[best] > odds):
+            return
+        person.events.append(TurnedAway(person.time, person.point, obstacle.affordance, obstacle.size, odds))
+        person.balk(slowings[best])
+
+    def _odds_of_slowing(self, obstacle: ObstacleAhead, slowings: list[float]) -> NDArray[np.float64]:
+        """(k,) odds of walking on after having slowed down, for each of ``slowings`` [m/s²]."""
+        known = (self.preconditions or load_preconditions())[SLOW_DOWN]
+        choice = self._person.run_up.plan[[FARTHER, FASTER]]
+        rows = np.repeat(self._described(obstacle, choice[None]), len(slowings), axis=0)
+        rows[:, FEATURES.index("farther")] = slowings
+        return known.odds(rows)

@@ -1,0 +1,1 @@
+"""Preconditions: how likely it is that a skill will hold from the present state."""

@@ -1,0 +1,160 @@
+"""Learned preconditions on disk and in memory, and what they are asked."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion.body.learned_file import SkillHeader, learned_numbers, read_skill
+from locomotion.body.person import person_digest
+from locomotion.data import PRECONDITIONS
+from locomotion.errors import LocomotionError
+from locomotion.preconditions.features import BEFORE, FEATURES, before_run_up
+from locomotion.preconditions.svm import Machine, odds_into
+from locomotion.skills.library import skill_digest
+from locomotion.skills.registry import skill_kinds
+from surefoot.files.archive import write_archive
+from surefoot.files.schema import Indices, Numbers, Schema
+
+__all__ = [
+    "PRECONDITION_FILE", "SLOW_DOWN", "Precondition", "load_precondition", "load_preconditions",
+    "precondition_file", "skill_and_run",
+]  # fmt: skip
+
+SLOW_DOWN = "slow-down"
+"""Breaking a run-up off, by slowing down to a walk; its choice is the deceleration [m/s²]."""
+_SMALLEST = 1e-9
+
+
+@dataclass(frozen=True)
+class Precondition:
+    """The odds that a skill holds.
+
+    Attributes:
+        skill: which, as missions call it. heights: least and greatest size [m] that it has learned.
+        run_up: asked at each step of a run-up, of `features.FEATURES`. before: asked before it, of
+            `features.BEFORE`; None of what is only done in a run-up.
+        digest: of the skill and the run that it was learned on.
+        meta: what made it.
+    """
+
+    skill: str
+    heights: tuple[float, float]
+    run_up: Machine
+    before: Machine | None
+    digest: str
+    meta: dict[str, Any] = field(default_factory=dict)
+
+    def odds_before(self, site: NDArray[np.float64], room: float) -> float:
+        """Odds, 0 to 1, of clearing the obstacle at ``site`` (`features.site_of`) with ``room`` [m] of way
+        before it."""
+        assert self.before is not None
+        return float(self._ask(self.before, before_run_up(site, room)[None])[0])
+
+    def odds(self, features: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(k,) odds, 0 to 1, at moments of a run-up described by ``features`` (k, n)."""
+        return self._ask(self.run_up, features)
+
+    @staticmethod
+    def _ask(machine: Machine, features: NDArray[np.float64]) -> NDArray[np.float64]:
+        out = np.empty(len(features))
+        odds_into(*machine, features, out)
+        return out
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write it for the present person; the file appears whole or not at all."""
+        arrays = {
+            f"{name}_{part}": array
+            for name, machine in (("run_up", self.run_up), ("before", self.before))
+            if machine is not None
+            for part, array in machine._asdict().items()
+        }
+        header = {
+            "person": person_digest(), "skill": self.skill, "heights": list(self.heights),
+            "digest": self.digest, "before": self.before is not None, "features": list(FEATURES),
+            "meta": self.meta,
+        }  # fmt: skip
+        write_archive(path, PRECONDITION_FILE.kind, PRECONDITION_FILE.version, header, arrays)
+
+
+class _PreconditionHeader(SkillHeader):
+    skill: str
+    heights: tuple[float, float]
+    digest: str
+    before: bool
+    features: tuple[str, ...]
+
+
+def _machine(name: str, features: tuple[str, ...]) -> dict[str, Any]:
+    wide, many = f"{name} features", f"{name} centres"
+    return {
+        f"{name}_columns": Indices(wide, into=len(features)),
+        f"{name}_low": learned_numbers(wide),
+        f"{name}_high": learned_numbers(wide),
+        f"{name}_mean": learned_numbers(wide),
+        f"{name}_scale": Numbers(wide, low=_SMALLEST, high=1e6),
+        f"{name}_centres": learned_numbers(wide, many),
+        f"{name}_weights": learned_numbers(many),
+        f"{name}_numbers": learned_numbers(4),
+    }
+
+
+def _arrays(header: _PreconditionHeader) -> dict[str, Any]:
+    before = _machine("before", BEFORE) if header.before else {}
+    return _machine("run_up", FEATURES) | before
+
+
+def _check(header: _PreconditionHeader, arrays: dict[str, NDArray[Any]]) -> str | None:
+    return None if header.features == FEATURES else "was learned of other features than this release's"
+
+
+PRECONDITION_FILE = Schema(
+    kind="precondition",
+    version=1,
+    header=_PreconditionHeader,
+    arrays=_arrays,
+    remedy="learn it anew (surefoot train preconditions)",
+    check=_check,
+)
+
+
+def skill_and_run(skill: str) -> str:
+    """Hex digest of one of the package's skills and of the run under it, as their files are now."""
+    return f"{skill_digest(skill)}{skill_digest('run')}"
+
+
+def precondition_file(skill: str) -> Path:
+    """File of the package's precondition of a ``skill``."""
+    return PRECONDITIONS / f"{skill.replace('-', '_')}.npz"
+
+
+def load_precondition(path: str | os.PathLike[str]) -> Precondition:
+    """Read a precondition; `LocomotionError` if it is missing, damaged, of another version or person, or if
+    the skill has been learned anew since."""
+    header, arrays = read_skill(path, PRECONDITION_FILE)
+    if header.digest != skill_and_run(header.skill):
+        raise LocomotionError(
+            f"{path}: the {header.skill} or the run under it has changed since; {PRECONDITION_FILE.remedy}"
+        )
+    run_up, before = (
+        Machine(*(arrays[f"{name}_{part}"] for part in Machine._fields)) if asked else None
+        for name, asked in (("run_up", True), ("before", header.before))
+    )
+    assert run_up is not None
+    return Precondition(header.skill, header.heights, run_up, before, header.digest, header.meta)
+
+
+@lru_cache(maxsize=1)
+def load_preconditions() -> Mapping[str, Precondition]:
+    """The package's preconditions by affordance, and of `SLOW_DOWN`, read once; `LocomotionError`
+    as of `load_precondition`."""
+    files = {kind.affordance: precondition_file(kind.skill) for kind in skill_kinds()}
+    files[SLOW_DOWN] = precondition_file(SLOW_DOWN)
+    return {asked: load_precondition(file) for asked, file in files.items() if file.exists()}

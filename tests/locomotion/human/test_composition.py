@@ -1,0 +1,71 @@
+"""A person without rehearsals takes off where its odds are good enough, and says so where it turns away."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from locomotion import MOVING, Ground, Human, LocomotionError
+from locomotion.body_events import Cleared, GotStuck, TookOff, TurnedAway, WentBack
+from locomotion.preconditions.precondition import SLOW_DOWN, load_preconditions
+from locomotion.skills.course import make_course
+
+
+def always(odds, known, before=None):
+    """A precondition that always says ``odds``."""
+
+    def constant(machine, value):
+        numbers = np.array([1.0, 0.0, 0.0, np.log(value / (1.0 - value))])
+        return machine._replace(weights=np.zeros_like(machine.weights), numbers=numbers)
+
+    at_first = known.before and constant(known.before, odds if before is None else before)
+    return replace(known, run_up=constant(known.run_up, odds), before=at_first)
+
+
+def goes(odds, bravery, before=None, seconds=20.0):
+    course = make_course([("jump", 0.4, 0.0)], [12.0])
+    human = Human(Ground.from_arrays(course.vertices, course.faces), rehearsals=0)
+    known = load_preconditions()
+    human.composition.preconditions = {
+        "jump": always(odds, known["jump"], before), SLOW_DOWN: known[SLOW_DOWN],
+    }  # fmt: skip
+    human.bravery = bravery
+    human.reset(course.path[0], 0.0)
+    human.follow(course.path, 3.5, course.obstacles)
+    while human.status in MOVING and human.time < seconds:
+        human.tick()
+        if isinstance(human.events[-1], Cleared | WentBack):
+            break
+    return human
+
+
+def of(kind, human):
+    return [event for event in human.events if isinstance(event, kind)]
+
+
+def test_bad_odds_before_the_run_up_end_the_way_in_good_time():
+    human = goes(0.1, 0.5)
+    (away,), (stuck,) = of(TurnedAway, human), of(GotStuck, human)
+    assert away.odds == pytest.approx(0.1) and (away.affordance, away.size) == ("jump", 0.4)
+    assert stuck.reason == "its odds of clearing the jump of 0.40 m are 10 %"
+    assert human.status == "stuck" and not of(TookOff, human) and human.com[0] < 6.0
+
+
+def test_bad_odds_in_the_run_up_break_it_off_for_another_one():
+    human = goes(0.2, 0.5, before=0.9)
+    assert of(TurnedAway, human)[0].odds == pytest.approx(0.2) and not of(TookOff, human)
+    assert len(of(WentBack, human)) == 1
+
+
+@pytest.mark.parametrize(("odds", "bravery"), [(0.9, 0.5), (0.1, 1.0), (0.1, None)])
+def test_who_dares_takes_off(odds, bravery):
+    human = goes(odds, bravery)
+    assert of(TookOff, human) and of(Cleared, human) and not of(TurnedAway, human)
+
+
+def test_bravery_is_a_share():
+    human = Human(rehearsals=0)
+    for wrong in (1.5, -0.1, "brave", float("nan")):
+        with pytest.raises(LocomotionError, match="bravery must be a number from 0 to 1, or None"):
+            human.bravery = wrong
+    assert human.bravery is None

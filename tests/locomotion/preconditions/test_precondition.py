@@ -1,0 +1,46 @@
+"""Preconditions on disk, and what the package's say."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from locomotion import LocomotionError
+from locomotion.preconditions.features import FEATURES, SITE
+from locomotion.preconditions.precondition import (
+    SLOW_DOWN,
+    load_precondition,
+    load_preconditions,
+    precondition_file,
+)
+
+
+def site(size):
+    told = dict.fromkeys(SITE, 0.0) | {"size": size, "depth": 0.3, "grip": 0.9}
+    return np.array(list(told.values()))
+
+
+def test_a_file_holds_the_whole_precondition(tmp_path):
+    first = load_precondition(precondition_file("vault"))
+    first.save(tmp_path / "vault.npz")
+    again = load_precondition(tmp_path / "vault.npz")
+    asked = np.random.default_rng(0).normal(size=(4, len(FEATURES)))
+    assert (first.odds(asked) == again.odds(asked)).all()
+    assert first.odds_before(site(0.8), 12.0) == again.odds_before(site(0.8), 12.0)
+    assert load_precondition(precondition_file(SLOW_DOWN)).before is None
+
+
+def test_one_of_another_skill_is_refused(tmp_path):
+    replace(load_precondition(precondition_file("jump")), digest="0" * 32).save(tmp_path / "jump.npz")
+    with pytest.raises(LocomotionError, match=r"jump or the run under it has changed .*train preconditions"):
+        load_precondition(tmp_path / "jump.npz")
+    with pytest.raises(LocomotionError, match="no such file"):
+        load_precondition(tmp_path / "none.npz")
+
+
+@pytest.mark.parametrize("affordance", ["jump", "vault", "gap"])
+def test_what_is_far_beyond_a_skill_is_nearly_hopeless(affordance):
+    known = load_preconditions()[affordance]
+    low, high = known.heights
+    odds = [known.odds_before(site(size), 12.0) for size in (low, high + (high - low))]
+    assert odds[0] > 0.5 and odds[1] < 0.2

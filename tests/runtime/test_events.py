@@ -18,6 +18,7 @@ from runtime.events import (
     SkillStarted,
     Stuck,
     Told,
+    TurnedAway,
     event_text,
 )  # fmt: skip
 
@@ -38,6 +39,7 @@ SENTENCES = {
     Stuck(1.0, "ada", AT, "others"): "ada is stuck at (1.0, 2.0, 0.0): others",
     PostureReached(1.0, "ada", AT, "kneel", "rifle deployed"): "ada is in the posture kneel, rifle deployed",
     PostureReached(1.0, "ada", AT, "prone", ""): "ada is in the posture prone",
+    TurnedAway(1.0, "ada", AT, "vault", 1.0, 0.284): "ada turns away from a vault of 1.00 m: odds 28 %",
     Told(1.0, "ada", AT, "2 s are over"): "ada is told to do something else: 2 s are over",
 }  # fmt: skip
 

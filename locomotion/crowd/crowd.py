@@ -10,6 +10,7 @@ while ada.status == "walking":
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -62,6 +63,16 @@ class Crowd:
     def rows(self) -> NDArray[np.float64]:
         """(n, `layout.ROW`) the state of all bodies; a view."""
         return self._table[: self._count]
+
+    @property
+    def net(self) -> Any:
+        """The surface and the graph, as kernels know them."""
+        return self._net
+
+    @property
+    def origin(self) -> NDArray[np.float64]:
+        """(3,) float64 [m] that coordinates of kernels are relative to."""
+        return self._origin
 
     @property
     def positions(self) -> NDArray[np.float64]:

@@ -30,7 +30,7 @@ from locomotion.recorded.footfalls import (
     LEFT,
     STRIKES,
     TURNED,
-    footing_at,
+    footings,
 )
 from locomotion.recorded.motion_set import MotionSet
 from locomotion.recorded.posing import posed
@@ -51,6 +51,8 @@ _BEFORE = 0.6  # share of a swing in which a foot that goes up comes to its heig
 _HEEL_AHEAD, _BALL_AHEAD = HEEL[0], BALL[0]
 _LOWEST = 0.3  # [m] by which the pelvis is lowered at most for feet to reach the ground
 _SETTLED = 0.01  # [m] over the ground, up to which an end of a sole counts as on it
+_FREE, _FARTHEST = 0.08, 0.13
+# [m] beside where the recording has it, from which on a foot is held back, and to which it comes at most
 _ROUNDS = 3  # of solving a leg whose ankle cannot turn in or out
 
 
@@ -61,27 +63,31 @@ def planted(
     sample: Sample,
     places: ArrayLike,
     footfalls: ArrayLike,
+    since: ArrayLike | None = None,
 ) -> Sample:
     """Plant n figures of one level. ``moments``: gaits, speeds and phases (n,), from which `sample_gait` made
     the ``sample``. ``places`` (n, 4): where even travel has come to, x, y, z [m] and heading [rad].
-    ``footfalls`` (n, 2, 2, 6): as of `locomotion.recorded.footfalls.Steps`.
+    ``footfalls`` (n, 2, 2, 6): as of `locomotion.recorded.footfalls.Steps`. ``since`` (n, 2): the share of
+    the cycle since each foot struck, 0 to 1, by default as the phase has it; of a figure that is not to be
+    planted below 0. A foot that has been put down far from where the recording has it, as that of a figure
+    which is pushed, slides rather than stretch its leg.
 
     Gives channels (n, c), and roots (n, 7) in the world.
     """
     gaits, speeds, phases = (np.asarray(each, np.float64) for each in moments)
     gaits = gaits.astype(np.int64)
-    footing, strides = np.empty((len(gaits), 2, 5)), stride_of(motions, gaits, speeds)
-    for gait in np.unique(gaits):
-        of_gait = gaits == gait
-        footing[of_gait] = footing_at(motions, int(gait), speeds[of_gait])
+    footing = footings(motions, gaits, speeds)
+    back = motions.travel[motions.cycles[motions.gait_first[gaits]], 0] < 0.0
+    strides = np.where(back, -1.0, 1.0) * stride_of(motions, gaits, speeds)
+    struck = (phases[:, None] - footing[:, :, STRIKES]) % 1.0 if since is None else np.asarray(since)
     own, at = skeleton(LEVELS[level]), np.asarray(places, np.float64)
     steps = np.asarray(footfalls, np.float64)
     channels, roots = sample[0].copy(), placed_roots(sample[1], at)
     bodies = posed(own, *sample)
     feet = np.stack([bodies[:, own.bodies.index(name)] for name in FEET], axis=1)
     columns = _NONE if level == LOW else leg_columns(own)
-    roots[:, 2] = sample[1][:, 2]
-    _plant(columns, footing, strides, phases, feet, steps, channels, roots)
+    roots[:, 2] = np.where(struck[:, 0] < 0.0, roots[:, 2], sample[1][:, 2])
+    _plant(columns, footing, strides, struck, feet, at, steps, channels, roots)
     return channels, roots
 
 
@@ -120,7 +126,21 @@ def _facing(heading, up_ahead, up_left, out):
 
 
 @kernel
-def _foot(footing, stride, phase, foot, steps, axes, point):
+def _held_back(x, y, place, ahead, left):
+    """The middle of a sole at (x, y), or, where that is too far from where the recording has it, ``ahead``
+    and to the ``left`` of the ``place`` (4,) of the figure, nearer to that."""
+    c, s = math.cos(place[3]), math.sin(place[3])
+    dx, dy = x - place[0] - c * ahead + s * left, y - place[1] - s * ahead - c * left
+    off = math.hypot(dx, dy)
+    if off <= _FREE:
+        return x, y
+    spare = _FARTHEST - _FREE
+    less = (_FREE + spare * math.tanh((off - _FREE) / spare)) / off - 1.0
+    return x + less * dx, y + less * dy
+
+
+@kernel
+def _foot(footing, stride, since, foot, steps, place, axes, point):
     """Where a foot has to be: its ``axes`` (3, 3) and the ``point`` (3,) in the world for the end of its sole
     that it stands on, or that is lower; gives where that is ahead of the ankle, and the height of the ground
     for the pelvis. ``foot`` (7,) is its place in the recording, ``steps`` (2, 6) are its last footfall and
@@ -134,8 +154,6 @@ def _foot(footing, stride, phase, foot, steps, axes, point):
     x = foot[0] + end * axes[0, 0] - ANKLE * axes[0, 2] + half * math.cos(turn)
     y = foot[1] + end * axes[1, 0] - ANKLE * axes[1, 2] + half * math.sin(turn)
     z = foot[2] + end * axes[2, 0] - ANKLE * axes[2, 2]
-    since = phase - footing[STRIKES]
-    since -= math.floor(since)
     swung = max(since - footing[BEARS], 0.0) / (1.0 - footing[BEARS])
     free = _smooth(swung / _FADES) * _smooth((1.0 - swung) / _FADES)
     share = (x - footing[AHEAD]) / stride + since - 0.5 * footing[BEARS]
@@ -152,8 +170,11 @@ def _foot(footing, stride, phase, foot, steps, axes, point):
     _facing(heading, slope + up_ahead, tilt + free * up_left, axes)
     flat = half * math.cos(slope)
     left_x, left_y = -math.sin(way - footing[TURNED]), math.cos(way - footing[TURNED])
-    point[0] = steps[0, 0] + share * (steps[1, 0] - steps[0, 0]) + left * left_x - flat * math.cos(heading)
-    point[1] = steps[0, 1] + share * (steps[1, 1] - steps[0, 1]) + left * left_y - flat * math.sin(heading)
+    middle_x = steps[0, 0] + share * (steps[1, 0] - steps[0, 0]) + left * left_x
+    middle_y = steps[0, 1] + share * (steps[1, 1] - steps[0, 1]) + left * left_y
+    middle_x, middle_y = _held_back(middle_x, middle_y, place, x, y)
+    point[0] = middle_x - flat * math.cos(heading)
+    point[1] = middle_y - flat * math.sin(heading)
     point[2] = steps[0, 2] + rise * risen + over + height - half * math.sin(slope)
     return end, steps[0, 2] + swung * rise
 
@@ -166,19 +187,21 @@ def _ankle(point, axes, end, out):
 
 
 @allocating_kernel
-def _plant(columns, footing, strides, phases, feet, footfalls, channels, roots):
+def _plant(columns, footing, strides, since, feet, places, footfalls, channels, roots):
     """Kernel of `planted`; ``channels`` and ``roots`` hold the sample and are changed."""
     pelvis, axes, points = np.empty((3, 3)), np.empty((2, 3, 3)), np.empty((2, 3))
     ends, hip, ankle, angles = np.empty(2), np.empty(3), np.empty(3), np.empty(6)
-    for n in range(phases.shape[0]):
+    for n in range(since.shape[0]):
         root = roots[n]
+        if since[n, 0] < 0.0:
+            continue
         if footing[n, 0, BEARS] == 0.0 or footing[n, 1, BEARS] == 0.0:
             root[2] += 0.25 * (footfalls[n, :, :, 2].sum())
             continue
         for side in range(2):
             found, steps = footing[n, side], footfalls[n, side]
             ends[side], height = _foot(
-                found, strides[n], phases[n], feet[n, side], steps, axes[side], points[side]
+                found, strides[n], since[n, side], feet[n, side], steps, places[n], axes[side], points[side]
             )
             root[2] += 0.5 * height
         if columns[0, 0] < 0:

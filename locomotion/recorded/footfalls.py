@@ -18,12 +18,13 @@ from locomotion.body.anatomy import ANKLE
 from locomotion.errors import LocomotionError
 from locomotion.recorded.motion_set import MotionSet
 from locomotion.recorded.posing import posed
-from locomotion.recorded.sampling import stride_of
+from locomotion.recorded.sampling import cycles_around, stride_of
 from locomotion.recorded.skeletons import FULL, skeleton
+from surefoot.kernels import kernel
 
 __all__ = [
     "AHEAD", "BALL", "BEARS", "FEET", "HALF_SOLE", "HEEL", "LEFT", "STRIKES", "TURNED", "Steps", "footing",
-    "footing_at", "straight_footfalls",
+    "footing_at", "footings", "read_footing", "straight_footfalls",
 ]  # fmt: skip
 
 FEET = ("right_foot", "left_foot")
@@ -42,11 +43,17 @@ Ground = Callable[[NDArray[np.float64]], tuple[NDArray[np.float64], NDArray[np.f
 
 
 def footing(motions: MotionSet) -> NDArray[np.float64]:
-    """Footfalls (cycles, 2, 5) of the right and the left foot in each of ``motions.cycles``; all 0 where
-    `Clip.bears` is 0: such a gait is not planted. Made at the first call for a set."""
+    """Footfalls (k, 2, 5) of the right and the left foot in each of ``motions.clips``. All 0 but in cycles
+    that are planted (`Clip.bears`), and in the postures that they come to rest in: there a foot stands where
+    it is, for good. Made at the first call for a set."""
     found = _tables.get(id(motions))
     if found is None or found[0] is not motions:
-        table = np.array([_footfalls_of(motions, int(clip)) for clip in motions.cycles]).reshape(-1, 2, 5)
+        table = np.zeros((len(motions.clips), 2, 5))
+        for clip in motions.cycles.tolist():
+            if motions.clips[clip].bears > 0.0:
+                table[clip] = _footfalls_of(motions, clip)
+        for clip in {int(rest) for rest in motions.rests if rest >= 0}:
+            table[clip] = _standing_of(motions, clip)
         found = _tables[id(motions)] = (motions, table)
     return found[1]
 
@@ -54,11 +61,19 @@ def footing(motions: MotionSet) -> NDArray[np.float64]:
 _tables: dict[int, tuple[MotionSet, NDArray[np.float64]]] = {}
 
 
+def _standing_of(motions: MotionSet, clip: int) -> NDArray[np.float64]:
+    level, full, out = motions.levels[FULL], skeleton("full"), np.zeros((2, 5))
+    row = slice(level.first[clip], level.first[clip] + 1)
+    places = posed(full, level.channels[row], level.roots[row])
+    for side, foot in enumerate(FEET):
+        centres, turned = sole_centres(places[:, full.bodies.index(foot)])
+        out[side, AHEAD:] = *centres[0, :2], turned[0]
+    return out
+
+
 def _footfalls_of(motions: MotionSet, clip: int) -> NDArray[np.float64]:
     level, full, out = motions.levels[FULL], skeleton("full"), np.zeros((2, 5))
     bears, stride = motions.clips[clip].bears, motions.travel[clip, 0]
-    if bears == 0.0:
-        return out
     rows = slice(level.first[clip], level.first[clip] + level.count[clip])
     places = posed(full, level.channels[rows], level.roots[rows])
     for side, foot in enumerate(FEET):
@@ -86,18 +101,45 @@ def sole_centres(feet: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArra
 
 
 def footing_at(motions: MotionSet, gait: int, speeds: ArrayLike) -> NDArray[np.float64]:
-    """Footfalls (n, 2, 5) of a gait at ``speeds`` (n,): between those of the two cycles around each."""
-    first, end = motions.gait_first[gait : gait + 2]
-    known, table = motions.speeds[motions.cycles[first:end]], footing(motions)[first:end]
-    v = np.asarray(speeds, np.float64)
-    after = np.searchsorted(known, v).clip(1, max(len(known) - 1, 1))
-    if len(known) == 1:
-        return np.repeat(table, len(v), axis=0)
-    share = ((v - known[after - 1]) / (known[after] - known[after - 1])).clip(0.0, 1.0)[:, None, None]
-    out = (1.0 - share) * table[after - 1] + share * table[after]
-    slow = np.sqrt((v / known[0]).clip(0.0, 1.0))  # below the slowest cycle strides shrink
-    out[:, :, AHEAD] *= slow[:, None]
+    """Footfalls (n, 2, 5) of a gait at ``speeds`` (n,): between those of the two cycles around each. Below
+    the slowest cycle they go over into those of the posture at rest."""
+    fast = np.asarray(speeds, np.float64)
+    return footings(motions, np.full(len(fast), gait), fast)
+
+
+def footings(
+    motions: MotionSet, gaits: NDArray[np.int64], speeds: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """As `footing_at`, of a gait (n,) each."""
+    out = np.empty((len(speeds), 2, 5))
+    tables = motions.gait_first, motions.cycles, motions.speeds, motions.rests, footing(motions)
+    _read_footings(tables, np.asarray(gaits, np.int64), speeds, out)
     return out
+
+
+@kernel
+def read_footing(tables, gait, speed, out):
+    """Kernel of `footing_at`, for one figure; ``out`` (2, 5)."""
+    gait_first, cycles, speeds, rests, table = tables
+    slower, faster, share = cycles_around(gait_first, cycles, speeds, gait, speed)
+    rest = -1
+    if slower < 0:
+        rest = slower = rests[gait]
+    for side in range(2):
+        for k in range(5):
+            there = table[faster, side, k]
+            if slower < 0:
+                out[side, k] = share * there if k == AHEAD else there
+            elif rest >= 0 and k <= BEARS:
+                out[side, k] = there
+            else:
+                out[side, k] = (1.0 - share) * table[slower, side, k] + share * there
+
+
+@kernel
+def _read_footings(tables, gaits, speeds, out):
+    for n in range(len(gaits)):
+        read_footing(tables, gaits[n], speeds[n], out[n])
 
 
 class Steps:

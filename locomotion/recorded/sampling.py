@@ -26,8 +26,8 @@ from locomotion.recorded.motion_set import LevelFrames, MotionSet
 from surefoot.kernels import kernel
 
 __all__ = [
-    "mixed", "placed_roots", "read_clips", "read_gait", "sample_clips", "sample_clips_slowly", "sample_gait",
-    "sample_gait_slowly", "stride_of",
+    "cycles_around", "mixed", "placed_roots", "read_clips", "read_gait", "sample_clips",
+    "sample_clips_slowly", "sample_gait", "sample_gait_slowly", "stride_at", "stride_of",
 ]  # fmt: skip
 
 Sample = tuple[NDArray[np.float64], NDArray[np.float64]]
@@ -239,7 +239,7 @@ def read_clips(tables, cyclic, seconds, travel, clips, times, channels, roots):
 
 
 @kernel
-def _neighbours(gait_first, cycles, speeds, gait, speed):
+def cycles_around(gait_first, cycles, speeds, gait, speed):
     """The cycles of a gait at or below a speed, and above it, and the share of the second; the first is -1
     below the slowest: there the share is that of its stride."""
     low, end = gait_first[gait], gait_first[gait + 1]
@@ -262,7 +262,7 @@ def read_gait(tables, gait_first, cycles, known, rests, gaits, speeds, phases, o
     channels[:] = 0.0
     roots[:] = 0.0
     for n in range(gaits.shape[0]):
-        slower, faster, share = _neighbours(gait_first, cycles, known, gaits[n], speeds[n])
+        slower, faster, share = cycles_around(gait_first, cycles, known, gaits[n], speeds[n])
         moves = slower >= 0
         if not moves:
             slower = rests[gaits[n]]
@@ -280,12 +280,17 @@ def read_gait(tables, gait_first, cycles, known, rests, gaits, speeds, phases, o
 
 
 @kernel
+def stride_at(gait_first, cycles, speeds, seconds, gait, speed):
+    """Kernel of `stride_of`, for one figure."""
+    slower, faster, share = cycles_around(gait_first, cycles, speeds, gait, speed)
+    stride = speeds[faster] * seconds[faster]
+    if slower < 0:
+        return stride * max(share, 1e-3)
+    return (1.0 - share) * speeds[slower] * seconds[slower] + share * stride
+
+
+@kernel
 def _strides(gait_first, cycles, speeds, seconds, gaits, fast, out):
     """Kernel of `stride_of`."""
     for n in range(gaits.shape[0]):
-        slower, faster, share = _neighbours(gait_first, cycles, speeds, gaits[n], fast[n])
-        stride = speeds[faster] * seconds[faster]
-        if slower < 0:
-            out[n] = stride * max(share, 1e-3)
-        else:
-            out[n] = (1.0 - share) * speeds[slower] * seconds[slower] + share * stride
+        out[n] = stride_at(gait_first, cycles, speeds, seconds, gaits[n], fast[n])

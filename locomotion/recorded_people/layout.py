@@ -3,8 +3,10 @@
 import numpy as np
 
 from locomotion.body.person import JOINT_NAMES
+from locomotion.recorded.individual import PHASE as TRAIT_PHASE
+from locomotion.recorded.individual import TRAITS as _TRAITS
 
-__all__ = ["BEFORE", "OFFSETS", "PLACE", "RATES", "ROW", "new_row"]
+__all__ = ["BEFORE", "OFFSETS", "PLACE", "RATES", "ROW", "STEPS", "TRAITS", "new_row"]
 
 GAIT = 0
 """Number of the gait (of the posture graph) that it moves in, -1 at rest."""
@@ -31,12 +33,22 @@ OFFSETS = slice(18, 18 + 6 + len(JOINT_NAMES))
 world, joints [rad] (`locomotion.recorded_people.fading`)."""
 RATES = slice(OFFSETS.stop, OFFSETS.stop + 6 + len(JOINT_NAMES))
 """How fast that changed [1/s]."""
-ROW = RATES.stop
+LAID = RATES.stop
+"""1 while it has feet on the ground in `STEPS`: it stands, walks or runs."""
+STILL = LAID + 1
+"""1 while its body is at rest and its feet are where they belong: its steps have come to an end."""
+STEPS = slice(STILL + 1, STILL + 1 + 2 * 3 * 6)
+"""(2, 3, 6) of the right and the left foot: where it stands, is on its way to, and is to be put down
+(`locomotion.recorded_people.stepping`): x, y, z [m], heading, slopes ahead and to the left [rad]."""
+TRAITS = slice(STEPS.stop, STEPS.stop + len(_TRAITS))
+"""What it differs from others in (`locomotion.recorded.individual`)."""
+ROW = TRAITS.stop
 
 
-def new_row(level: int, node: int, phase: float, place: np.ndarray) -> np.ndarray:
-    """One that stands at ``place`` (4,), (ROW,) float64."""
+def new_row(level: int, node: int, traits: np.ndarray, place: np.ndarray) -> np.ndarray:
+    """One with these ``traits`` (7,) that stands at ``place`` (4,), (ROW,) float64."""
     row = np.zeros(ROW)
-    row[GAIT], row[PHASE], row[LEVEL], row[NODE] = -1.0, phase, level, node
+    row[GAIT], row[PHASE], row[LEVEL], row[NODE] = -1.0, traits[TRAIT_PHASE], level, node
+    row[TRAITS] = traits
     row[PLACE] = row[BEFORE] = place
     return row

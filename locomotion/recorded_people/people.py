@@ -22,25 +22,32 @@ from locomotion.crowd import Crowd, Walker
 from locomotion.crowd import layout as body
 from locomotion.data import POSTURES
 from locomotion.gaits.limits import PERSON_RULES
+from locomotion.ground.ground import Ground
 from locomotion.postures.places import placed
 from locomotion.postures.playback import pose_at
 from locomotion.postures.posture_file import load_postures
 from locomotion.postures.posture_graph import PostureGraph
 from locomotion.postures.step_order import gaits_for
+from locomotion.recorded.foot_planting import planted
+from locomotion.recorded.footfalls import BEARS, FEET, footing, footing_at, sole_centres
+from locomotion.recorded.individual import by_hand
 from locomotion.recorded.motion_set import MotionSet, load_motions
-from locomotion.recorded.sampling import placed_roots, sample_gait, stride_of
+from locomotion.recorded.posing import posed
+from locomotion.recorded.sampling import sample_gait
 from locomotion.recorded.skeletons import LEVELS, skeleton
 from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.drawing import drawn
 from locomotion.recorded_people.fading import STEP, fade_from, faded, rates
 from locomotion.recorded_people.person import RecordedPerson
+from locomotion.recorded_people.stepping import AIM, LAST, advance_figures, cadences, lay_feet
 
 __all__ = ["BODY_TICKS", "RecordedPeople", "person_postures"]
 
 BODY_TICKS = 3
 """Ticks for each of the bodies': between them figures are drawn on the straight line."""
-_ACCELERATION = 3.0  # [m/s²] of their bodies
-_SLUGGISH = 0.12  # [s] time constant of the speed at which they are drawn
+_ACCELERATION = 2.0  # [m/s²] of their bodies
+_STRIKES = np.array([0.0, 0.5])  # phases at which the right and the left foot strike
+_BEFORE_STRIKE = 1.0 - 1e-6
 _STANDS = "stand"
 
 
@@ -48,6 +55,15 @@ _STANDS = "stand"
 def person_postures() -> PostureGraph:
     """The package's own posture graph."""
     return load_postures(POSTURES / "person.yaml")
+
+
+def _turn(angle: float) -> float:
+    """The same angle, -π to π."""
+    return (angle + np.pi) % (2.0 * np.pi) - np.pi
+
+
+def _ground_of(surface: navmesh.NodeGraph) -> Ground:
+    return Ground.from_arrays(surface.terrain.vertices, surface.terrain.faces)
 
 
 class RecordedPeople:
@@ -60,8 +76,10 @@ class RecordedPeople:
         graph: PostureGraph | None = None,
         motions: MotionSet | None = None,
         dt: float = 0.01,
+        ground: Ground | None = None,
     ) -> None:
         self.crowd, self.dt = Crowd(surface, BODY_TICKS * dt), dt
+        self._ground = ground or _ground_of(surface)
         self.graph = graph or person_postures()
         self.motions = motions or load_motions()
         self.gaits = tuple(gait for gait in self.graph.gaits if gait.name in self.motions.gaits)
@@ -73,7 +91,9 @@ class RecordedPeople:
         rests = [
             next((k for k, gait in enumerate(self.gaits) if gait.posture == base), 0) for base in self.bases
         ]
-        self._rests = np.array(rests, np.int32)  # of each posture the gait that comes to rest in it
+        self._rests = self._recorded[rests]  # of each posture the gait that comes to rest in it
+        m = self.motions
+        self._motion = m.gait_first, m.cycles, m.speeds, m.seconds, m.rests, footing(m)
         self.stand = self.graph.postures.index(_STANDS)
         self.people: list[RecordedPerson] = []
         self._rows = np.zeros((64, at.ROW))
@@ -90,9 +110,51 @@ class RecordedPeople:
         """One that stands at ``position`` (3,) [m], facing ``yaw`` [rad]; ``chance`` makes it differ from the
         others. Raises `LocomotionError` where there is no room."""
         walker = self.crowd.add(position, PERSON_RULES["radius"], yaw, _ACCELERATION)
-        row = at.new_row(level, self.stand, float(chance.random()), np.array([*walker.position, walker.yaw]))
+        row = at.new_row(
+            level, self.stand, by_hand(phase=float(chance.random())), np.array([*walker.position, walker.yaw])
+        )
         row[at.SINCE] = self._since
-        return self._take_in(walker, row)
+        person = self._take_in(walker, row)
+        self.lay_feet(person.index)
+        return person
+
+    @property
+    def _place(self) -> tuple:
+        """What kernels know of the level: net, its origin, lookup of the ground."""
+        return self.crowd.net, self.crowd.origin, self._ground.lookup
+
+    def lay_feet(self, index: int) -> None:
+        """Let a figure have its feet on the ground from now on, as its gait or its stand has them."""
+        lay_feet(
+            self._place, self._motion, self._recorded, self._rests, self._rows[index], self.crowd.rows[index]
+        )
+
+    def lay_feet_of(self, index: int, pose: NDArray[np.float64]) -> None:
+        """As `lay_feet`, but a foot that bears stands where ``pose`` (46,) has it."""
+        self.lay_feet(index)
+        row = self._rows[index]
+        full, steps = skeleton("full"), row[at.STEPS].reshape(2, 3, 6)
+        bodies = posed(full, pose[None, 7 + full.joints], pose[None, :7])
+        footing = footing_at(self.motions, int(self._played(row[None])[0]), [abs(row[at.SPEED])])[0]
+        for side, name in enumerate(FEET):
+            if (row[at.PHASE] - _STRIKES[side]) % 1.0 >= footing[side, BEARS] and row[at.GAIT] >= 0.0:
+                continue
+            centres, turned = sole_centres(bodies[:, full.bodies.index(name)])
+            last = steps[side, LAST]
+            last[:2], last[3] = centres[0, :2], steps[side, AIM, 3] + _turn(turned[0] - steps[side, AIM, 3])
+            height = float(self._ground.surface_below([centres[0] + [0.0, 0.0, 0.3]])[0][0])
+            if abs(height - last[2]) < 0.3:
+                last[2] = height
+
+    def _played(self, rows: NDArray[np.float64]) -> NDArray[np.int64]:
+        """(n,) numbers of the gaits, in the motions, that are sampled of figures."""
+        gaits, nodes = rows[:, at.GAIT].astype(np.int64), rows[:, at.NODE].astype(np.int64)
+        return np.where(gaits >= 0, self._recorded[gaits], self._rests[nodes])
+
+    def change_level(self, surface: navmesh.NodeGraph, ground: Ground | None = None) -> None:
+        """Go on on another surface, as `Crowd.change_graph`."""
+        self.crowd.change_graph(surface)
+        self._ground = ground or _ground_of(surface)
 
     @property
     def _since(self) -> int:
@@ -136,26 +198,15 @@ class RecordedPeople:
         """Advance all by ``dt``."""
         if not self.people:
             return
-        rows, bodies, dt = self.rows, self.crowd.rows, self.dt
-        rows[:, at.AGE] += 1.0
+        rows, dt = self.rows, self.dt
         since = (self._since + 1) % BODY_TICKS
         rows[:, at.SINCE] = since
         if since == 0:
             rows[:, at.BEFORE] = self._body_places()
             self.crowd.tick()
-        share = (since + 1) / BODY_TICKS
-        moved = self._body_places() - rows[:, at.BEFORE]
-        moved[:, 3] = (moved[:, 3] + np.pi) % (2.0 * np.pi) - np.pi
-        rows[:, at.PLACE] = rows[:, at.BEFORE] + share * moved
-        pace = np.hypot(bodies[:, body.VX], bodies[:, body.VY])
-        ahead = bodies[:, body.VX] * np.cos(bodies[:, body.YAW]) + bodies[:, body.VY] * np.sin(
-            bodies[:, body.YAW]
-        )
-        moved = np.where(ahead < -0.5 * pace, -pace, pace)
-        rows[:, at.SPEED] += (moved - rows[:, at.SPEED]) * min(dt / _SLUGGISH, 1.0)
-        old = rows[:, at.GAIT].astype(np.int32)
-        phase = rows[:, at.PHASE].copy()
-        rows[:, at.PHASE] = (phase + dt * self._cadence(old, rows[:, at.SPEED])) % 1.0
+        old, phase = rows[:, at.GAIT].astype(np.int32), rows[:, at.PHASE].copy()
+        tick = (dt, (since + 1) * dt, (since + 1) / BODY_TICKS)
+        advance_figures(self._place, self._motion, self._recorded, self._rests, rows, self.crowd.rows, tick)
         for index in np.flatnonzero(rows[:, at.BUSY]).tolist():
             self.people[index].tick()
         self._choose_gaits(old, phase)
@@ -180,12 +231,6 @@ class RecordedPeople:
         for k, index in enumerate(of.tolist()):
             old_rates, new_rates = rates(before[k], drawn_now[k], STEP), rates(new[k], after[k], STEP)
             self.people[index].begin_fade(fade_from(drawn_now[k], old_rates, new[k], new_rates))
-
-    def _cadence(self, gaits: NDArray[np.int32], speeds: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Cycles a second."""
-        pace = np.abs(speeds)
-        strides = stride_of(self.motions, self._recorded[np.maximum(gaits, 0)], pace)
-        return np.where(gaits >= 0, pace / strides, 0.0)
 
     # --- poses
     def qpos(self, indices: NDArray[np.int64], ahead: float = 0.0) -> NDArray[np.float64]:
@@ -226,17 +271,22 @@ class RecordedPeople:
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Channels and roots of some figures of one level, by gait, without what is special to them."""
         rows, bodies = self.rows[indices], self.crowd.rows[indices]
-        gaits = rows[:, at.GAIT].astype(np.int32)
-        speeds = np.where(gaits >= 0, np.abs(rows[:, at.SPEED]), 0.0)
-        phases = rows[:, at.PHASE]
+        moves, played = rows[:, at.GAIT] >= 0.0, self._played(rows)
+        speeds = np.where(moves, np.abs(rows[:, at.SPEED]), 0.0)
+        gone = np.zeros(len(rows))
         if ahead != 0.0:
-            phases = phases + ahead * self._cadence(gaits, rows[:, at.SPEED])
-        played = np.where(gaits >= 0, gaits, self._rests[rows[:, at.NODE].astype(np.int32)])
-        channels, roots = sample_gait(self.motions, level, self._recorded[played], speeds, phases)
-        places = rows[:, at.PLACE]
+            cadences(self._motion, self._recorded, rows, bodies, gone)
+            gone *= ahead
+        places, phases = rows[:, at.PLACE], rows[:, at.PHASE] + gone
         if ahead != 0.0:
             places[:, :2] += ahead * bodies[:, [body.VX, body.VY]]
-        return channels, placed_roots(roots, places)
+        sample = sample_gait(self.motions, level, played, speeds, phases)
+        # a foot stays in the part of its cycle that it is in: where it stands is known for that
+        since = (rows[:, at.PHASE, None] - _STRIKES) % 1.0 + gone[:, None]
+        since = np.where(moves[:, None], since.clip(0.0, _BEFORE_STRIKE), 0.0)
+        since[rows[:, at.LAID] == 0.0] = -1.0
+        footfalls = rows[:, at.STEPS].reshape(-1, 2, 3, 6)[:, :, :AIM]
+        return planted(self.motions, level, (played, speeds, phases), sample, places, footfalls, since)
 
     def _adjusted(self, index: int, pose: NDArray[np.float64], ahead: float) -> NDArray[np.float64]:
         """The pose (46,) of a figure: as its gait or postures have it, its hands, and a change of late."""

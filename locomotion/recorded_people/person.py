@@ -62,6 +62,8 @@ class ItsPeople(Protocol):
     @property
     def rows(self) -> NDArray[np.float64]: ...
     def qpos(self, indices: NDArray[np.int64], ahead: float = 0.0) -> NDArray[np.float64]: ...
+    def lay_feet(self, index: int) -> None: ...
+    def lay_feet_of(self, index: int, pose: NDArray[np.float64]) -> None: ...
     def begin_at(self, index: int, place: NDArray[np.float64], velocity: NDArray[np.float64]) -> None: ...
 
 
@@ -81,23 +83,24 @@ class RecordedPerson:
         return self.walker.index
 
     @property
-    def _row(self) -> NDArray[np.float64]:
+    def row(self) -> NDArray[np.float64]:
+        """(`layout.ROW`,) what is remembered of it; a view."""
         return self._people.rows[self.walker.index]
 
     @property
     def time(self) -> float:
         """[s] since it was made."""
-        return float(self._row[at.AGE]) * self._people.dt
+        return float(self.row[at.AGE]) * self._people.dt
 
     @property
     def position(self) -> NDArray[np.float64]:
         """(3,) float64 [m]: the floor point at which it is drawn."""
-        return self._row[at.PLACE][:3].copy()
+        return self.row[at.PLACE][:3].copy()
 
     @property
     def yaw(self) -> float:
         """[rad, -π to π] in which it is drawn to face."""
-        return float((self._row[at.PLACE][3] + np.pi) % (2.0 * np.pi) - np.pi)
+        return float((self.row[at.PLACE][3] + np.pi) % (2.0 * np.pi) - np.pi)
 
     @property
     def events(self) -> list[Event]:
@@ -108,7 +111,7 @@ class RecordedPerson:
     def node(self) -> str:
         """The posture that it is in or on its way to, with what its hands hold."""
         graph = self._people.graph
-        number = int(self._row[at.NODE]) if self.playback is None else self.playback.target
+        number = int(self.row[at.NODE]) if self.playback is None else self.playback.target
         return self.wanted or graph.postures[number]
 
     @property
@@ -124,7 +127,7 @@ class RecordedPerson:
     @property
     def has_free_hands(self) -> bool:
         """Whether it stands or moves with nothing in its hands, and is not asked for anything else."""
-        return self._row[at.BUSY] == 0.0 and int(self._row[at.NODE]) == self._people.stand
+        return self.row[at.BUSY] == 0.0 and int(self.row[at.NODE]) == self._people.stand
 
     @property
     def status(self) -> str:
@@ -137,7 +140,7 @@ class RecordedPerson:
 
     @property
     def _gait_name(self) -> str:
-        gait = int(self._row[at.GAIT])
+        gait = int(self.row[at.GAIT])
         return self._people.gaits[gait].name if gait >= 0 else ""
 
     @property
@@ -161,7 +164,7 @@ class RecordedPerson:
         people = self._people
         points = np.asarray(goals, dtype=np.float64)
         if self._can_move_at(speed):
-            self.wanted, self.errand, self._row[at.BUSY] = "", None, 0.0
+            self.wanted, self.errand, self.row[at.BUSY] = "", None, 0.0
             return self.walker.go_to(points, speed, facing)
         target = node_name("stand", *self.held)
         if target not in people.graph.postures:
@@ -174,7 +177,7 @@ class RecordedPerson:
 
     def _can_move_at(self, speed: float) -> bool:
         """Whether it can set out as it is: it stands, or crawls with free hands."""
-        people, node = self._people, int(self._row[at.NODE])
+        people, node = self._people, int(self.row[at.NODE])
         if self.playback is not None:
             return False
         if people.bases[node] == people.stand:
@@ -203,25 +206,25 @@ class RecordedPerson:
 
     def _check_way(self, node: str) -> None:
         graph = self._people.graph
-        here = self.playback.posture if self.playback is not None else int(self._row[at.NODE])
+        here = self.playback.posture if self.playback is not None else int(self.row[at.NODE])
         if not np.isfinite(graph.least[here, graph.postures.index(node)]):
             raise LocomotionError(f"there is no way from {graph.postures[here]!r} to {node!r}")
 
     def _ask(self, node: str) -> None:
         self.wanted, self.errand = node, None
-        self._row[at.BUSY] = 1.0
+        self.row[at.BUSY] = 1.0
         if self.playback is not None:
             self._begin()
 
     def _begin(self) -> None:
         """Play the way to the posture that is wanted."""
-        graph, row = self._people.graph, self._row
+        graph, row = self._people.graph, self.row
 
         def begin() -> None:
             self.walker.root()
             playback = self.playback or at_rest(graph, graph.postures[int(row[at.NODE])], (0.0, 0.0, 0.0))
             self.playback = asked_for(graph, playback, self.wanted, self.time)
-            row[at.GAIT], row[at.SPEED] = -1.0, 0.0
+            row[at.GAIT], row[at.SPEED], row[at.LAID] = -1.0, 0.0, 0.0
             # to the fatal posture it would blend from its last pose, which the fade does already
             self.playback = replace(self.playback, last=None)
             row[at.BUSY] = 1.0
@@ -235,7 +238,7 @@ class RecordedPerson:
             if np.hypot(*self.walker.velocity) < AT_REST:
                 self._begin()
             return
-        graph, row = self._people.graph, self._row
+        graph, row = self._people.graph, self.row
         self.playback = settled(graph, self.playback, self.time)
         if self.playback.arc >= 0 or not self.wanted or self.playback.posture != self.playback.target:
             return
@@ -253,6 +256,7 @@ class RecordedPerson:
                 row[at.NODE], row[at.BUSY] = number, 0.0
                 if base == self._people.stand:
                     self.walker.stop()
+                    self._people.lay_feet(self.index)
 
             self.change(rest)
         errand, self.errand = self.errand, None
@@ -267,19 +271,19 @@ class RecordedPerson:
     def change(self, what: Callable[[], object]) -> None:
         """Do ``what`` changes where its pose comes from; the difference fades out."""
         old, old_rates = self.qpos, self.qpos_rates
-        self._row[at.FADE_SECONDS] = 0.0
+        self.row[at.FADE_SECONDS] = 0.0
         what()
         self.fade(old, old_rates)
 
     def fade(self, old: NDArray[np.float64], old_rates: NDArray[np.float64]) -> None:
         """Let it look as if it came from pose ``old`` (46,), which changed by ``old_rates`` (45,)."""
-        self._row[at.FADE_SECONDS] = 0.0
+        self.row[at.FADE_SECONDS] = 0.0
         now = self.qpos_at(0.0)
         self.begin_fade(fade_from(old, old_rates, now, rates(now, self.qpos_at(STEP), STEP)))
 
     def begin_fade(self, fade: Fade) -> None:
         """Let a difference fade out from now on."""
-        row = self._row
+        row = self.row
         row[at.OFFSETS], row[at.RATES], row[at.FADE_SECONDS] = fade
         row[at.FADE_BEGUN] = self.time
 
@@ -292,18 +296,20 @@ class RecordedPerson:
     ) -> None:
         """Take over from a body in ``pose`` (46,), which changes by ``pose_rates`` (45,) as `fading.rates`,
         and moves at ``velocity`` (2,) [m/s] over ``place`` (3,): in its gait, at the phase most like it."""
-        people, row = self._people, self._row
+        people, row = self._people, self.row
         people.begin_at(self.index, place, velocity)
         speed = float(np.hypot(*velocity))
         row[at.SPEED] = speed
         now, posture = np.array([-1], np.int32), np.array([people.stand], np.int32)
         row[at.GAIT] = gaits_for(people.gaits, now, posture, np.array([speed]))[0]
+        row[at.LAID] = 0.0  # legs as recorded
         if row[at.GAIT] >= 0.0:
             row[at.PHASE] = self._phase_like(pose, pose_rates)
+        people.lay_feet_of(self.index, pose)
         self.fade(pose, pose_rates)
 
     def _phase_like(self, pose: NDArray[np.float64], pose_rates: NDArray[np.float64]) -> float:
-        row = self._row
+        row = self.row
         least, best = np.inf, 0.0
         for phase in np.arange(_PHASES) / _PHASES:
             row[at.PHASE] = phase
@@ -318,17 +324,17 @@ class RecordedPerson:
     # --- saving
     def save(self) -> PersonState:
         """Everything needed to continue from here."""
-        return PersonState(self.walker.save(), self._row.copy(), self.playback, self.wanted, self.errand)
+        return PersonState(self.walker.save(), self.row.copy(), self.playback, self.wanted, self.errand)
 
     def restore(self, state: PersonState) -> None:
         """Restore a state of this person."""
         self.walker.restore(state.body)
-        self._row[:] = state.row
+        self.row[:] = state.row
         self.playback, self.wanted, self.errand = state.playback, state.wanted, state.errand
 
     def state_hash(self) -> str:
         """Hex digest of everything that decides its future."""
-        hasher = hashlib.sha256(self._row.tobytes())
+        hasher = hashlib.sha256(self.row.tobytes())
         playing = self.playback
         if playing is not None:
             hasher.update(repr((playing.posture, playing.target, playing.arc, playing.begun)).encode())

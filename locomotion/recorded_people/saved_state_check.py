@@ -7,6 +7,7 @@ import math
 from locomotion.errors import LocomotionError
 from locomotion.postures.playback import Playback
 from locomotion.postures.posture_graph import PostureGraph
+from locomotion.recorded.individual import TRAITS
 from locomotion.recorded.skeletons import LEVELS
 from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.people import BODY_TICKS
@@ -33,8 +34,11 @@ def check_recorded(state: PersonState, graph: PostureGraph, gaits: int) -> None:
             (at.SINCE, (0.0, BODY_TICKS - 1.0)),
             (at.FADE_BEGUN, COUNT),
             (at.FADE_SECONDS, (0.0, 10.0)),
+            (at.LAID, FLAG),
+            (at.STILL, FLAG),
+            *((at.TRAITS.start + k, limits[1:]) for k, limits in enumerate(TRAITS.values())),
         ],
-        whole=(at.GAIT, at.LEVEL, at.NODE, at.BUSY, at.AGE, at.SINCE),
+        whole=(at.GAIT, at.LEVEL, at.NODE, at.BUSY, at.AGE, at.SINCE, at.LAID, at.STILL),
     ).check(state.row)
     if state.wanted and state.wanted not in graph.postures:
         raise LocomotionError(

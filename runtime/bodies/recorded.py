@@ -44,7 +44,7 @@ class Recorded(Population):
     def people(self) -> RecordedPeople:
         """Made with the first: worlds without any need no motions."""
         if self._people is None:
-            self._people = RecordedPeople(self.level.graph)
+            self._people = RecordedPeople(self.level.graph, ground=self.level.ground)
         return self._people
 
     def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> "RecordedDriver":
@@ -92,7 +92,7 @@ class Recorded(Population):
 
     def change_level(self) -> None:
         if self._people is not None:
-            self._people.crowd.change_graph(self.level.graph)
+            self._people.change_level(self.level.graph, self.level.ground)
 
     def tick(self) -> None:
         if self._people:

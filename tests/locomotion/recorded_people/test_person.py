@@ -39,7 +39,7 @@ def test_it_goes_on_from_a_body_in_motion_in_step_with_it(speed):
     ada.go_to([(18.0, 5.0, 0.0)], max(speed, 0.1), None)
     if speed == 0.0:
         ada.stop()
-    poses = played(people, ada, 2.0)
+    poses = played(people, ada, 2.6)
     pose, pose_rates = ada.qpos, ada.qpos_rates
     bob.walker.crowd.rows[bob.index, :7] = ada.walker.crowd.rows[ada.index, :7]
     bob.go_on_from(pose, pose_rates, ada.position, ada.walker.velocity)

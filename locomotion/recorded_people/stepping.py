@@ -1,0 +1,291 @@
+"""Where the feet of recorded people stand, and how they go from there to where they are put down next.
+
+A foot that bears stays where it was put down. For one that swings, a place is looked for ahead, where the
+figure will have come to at its velocity: on the walkable surface, at the height and slope of the real ground,
+with the whole sole on one stair. It may change until the foot is most of the way there. One that stands with
+its feet elsewhere than under it takes steps on the spot.
+
+All of it goes by ticks, and not by how often somebody looks, so that a figure's feet are the same at any
+frame rate. Figures whose posture has no such gait have no feet laid: they kneel, lie or crawl.
+"""
+
+import math
+
+import numpy as np
+
+from locomotion.crowd import layout as body
+from locomotion.ground.collider.layout import NX, NZ
+from locomotion.ground.ground import height_below
+from locomotion.postures.step_order import AT_REST
+from locomotion.recorded.footfalls import AHEAD, BEARS, HALF_SOLE, LEFT, TURNED, read_footing
+from locomotion.recorded.individual import PACE, SIZE, WIDTH
+from locomotion.recorded.sampling import stride_at
+from locomotion.recorded_people import layout as at
+from navmesh.surface.clearance_field import floor_at, walk
+from surefoot.kernels import allocating_kernel, kernel
+
+__all__ = ["AIM", "LAST", "NEXT", "advance_figures", "cadence_of", "cadences", "lay_feet"]
+
+_SLUGGISH = 0.12  # [s] time constant of the speed at which they are drawn
+_SETTLES = 0.2  # [m/s] whose steps one takes on the spot
+_BRISK = 0.9  # cycles a second of that
+_ASTRAY, _ASKEW = 0.1, 0.35  # [m], [rad] by which a foot may stand elsewhere than in the posture at rest
+_DECIDED = 0.6  # share of a swing after which a foot goes where it was going to
+_ADJUSTS = 0.03  # [s] time constant with which it does
+_FORESEEN = 1.5  # [s] at most
+_BEND = 0.6  # [rad] by which a figure turns until then at most
+_ROOM = 0.08  # [m] kept from where walking ends
+_EVEN = 0.3  # [m] between the surface and the ground under it
+_RISER = 0.08  # [m] of height within half a sole: the edge of a stair
+_STEEPEST = 0.7  # [rad] of slope that a sole follows
+_LEG = 0.8  # [m] from where legs are spread
+_PLACE, _BEFORE, _TRAITS, _STEPS = (
+    part.start for part in (at.PLACE, at.BEFORE, at.TRAITS, at.STEPS)
+)  # kernels know numbers
+LAST, NEXT, AIM = 0, 1, 2
+"""Of a foot in `layout.STEPS`: where it stands or stood last, where it is on its way to, and where that is to
+be in the end."""
+
+
+@kernel
+def _turn(angle):
+    """The same angle, -π to π."""
+    return (angle + math.pi) % (2.0 * math.pi) - math.pi
+
+
+@kernel
+def _speed_read(row):
+    """The speed at which a figure's gait is read, at rest 0."""
+    if row[at.GAIT] < 0.0:
+        return 0.0
+    return abs(row[at.SPEED]) * row[_TRAITS + PACE] / math.sqrt(row[_TRAITS + SIZE])
+
+
+@kernel
+def _stride_of(motion, gait, row):
+    """[m]"""
+    gait_first, cycles, speeds, seconds = motion[:4]
+    size = row[_TRAITS + SIZE]
+    return size * stride_at(gait_first, cycles, speeds, seconds, gait, _speed_read(row))
+
+
+@kernel
+def cadence_of(motion, recorded, row, walker):
+    """Cycles a second of a figure."""
+    if row[at.GAIT] < 0.0 or row[at.STILL] > 0.0:
+        return 0.0
+    pace = abs(row[at.SPEED])
+    cadence = pace / _stride_of(motion, recorded[int(row[at.GAIT])], row)
+    rests = math.hypot(walker[body.VX], walker[body.VY]) < AT_REST
+    return max(cadence, _BRISK) if rests and row[at.LAID] > 0.0 else cadence
+
+
+@kernel
+def cadences(motion, recorded, rows, walkers, out):
+    """As `cadence_of`, of many."""
+    for n in range(len(out)):
+        out[n] = cadence_of(motion, recorded, rows[n], walkers[n])
+
+
+@kernel
+def _height(lookup, x, y, floor):
+    """Height of the ground near a floor of the surface, and the row of its triangle or -1."""
+    rows, cell_start, cell_triangles, grid, shape, origin = lookup
+    z, which = height_below(
+        rows, cell_start, cell_triangles, grid, shape, x - origin[0], y - origin[1], floor + _EVEN - origin[2]
+    )
+    z += origin[2]
+    return (z, which) if which >= 0 and z > floor - _EVEN else (floor, -1)
+
+
+@kernel
+def _foothold(place, walker, x, y, heading, out):
+    """Put a sole down near (x, y) [m, world], facing ``heading``: ``out`` (6,) as of `footfalls.Steps`."""
+    net, origin, lookup = place
+    cell = int(walker[body.CELL])
+    floor = walker[body.Z] + origin[2]
+    if cell >= 0:
+        ax, ay, bx, by = walker[body.X], walker[body.Y], x - origin[0], y - origin[1]
+        found = walk(net, cell, ax, ay, bx, by, _ROOM, False)
+        if not found[0]:
+            bx, by = ax + found[3] * (bx - ax), ay + found[3] * (by - ay)
+        cell = found[1]
+        x, y = bx + origin[0], by + origin[1]
+        floor = floor_at(net, cell, bx, by) + origin[2]
+    c, s = math.cos(heading), math.sin(heading)
+    z, which = _height(lookup, x, y, floor)
+    ball = _height(lookup, x + HALF_SOLE * c, y + HALF_SOLE * s, floor)[0]
+    heel = _height(lookup, x - HALF_SOLE * c, y - HALF_SOLE * s, floor)[0]
+    shift = 0.0
+    if ball > z + _RISER:
+        shift = -HALF_SOLE
+    elif heel > z + _RISER:
+        shift = HALF_SOLE
+    if shift != 0.0:
+        x, y = x + shift * c, y + shift * s
+        z, which = _height(lookup, x, y, floor)
+    out[0], out[1], out[2], out[3], out[4], out[5] = x, y, z, heading, 0.0, 0.0
+    if which >= 0:
+        normal = lookup[0][which, NX : NZ + 1]
+        ahead = -(c * normal[0] + s * normal[1]) / normal[2]
+        left = -(c * normal[1] - s * normal[0]) / normal[2]
+        out[4] = min(max(math.atan(ahead), -_STEEPEST), _STEEPEST)
+        out[5] = min(max(math.atan(left), -_STEEPEST), _STEEPEST)
+
+
+@kernel
+def _under(row, side, footing, ahead, left, turned):
+    """Where a foot with this ``footing`` (5,) stands under a figure that has gone on by ``ahead`` and
+    ``left`` [m] and has ``turned`` [rad]: x, y [m] and heading [rad]."""
+    size = row[_TRAITS + SIZE]
+    x, y, yaw = row[_PLACE], row[_PLACE + 1], row[_PLACE + 3] + turned
+    outward = (2 * side - 1) * _LEG * row[_TRAITS + WIDTH]
+    c, s = math.cos(yaw), math.sin(yaw)
+    fore, beside = size * footing[AHEAD], size * (footing[LEFT] + outward)
+    return x + ahead + c * fore - s * beside, y + left + s * fore + c * beside, yaw + footing[TURNED]
+
+
+@kernel
+def _gone_on(motion, row, walker, gait, cycles, seconds, elapsed):
+    """How far a figure goes on in the next ``cycles``, which take about so many ``seconds``: x, y [m], and
+    how far it turns [rad]. It gets faster, up to the speed that it wants, or slower, as it does now."""
+    turning = _turn(row[_PLACE + 3] - row[_BEFORE + 3]) / elapsed
+    turned = min(max(turning * seconds, -_BEND), _BEND)
+    pace, now = math.hypot(walker[body.VX], walker[body.VY]), abs(row[at.SPEED])
+    if pace < AT_REST:
+        return 0.0, 0.0, turned
+    gains = (pace - now) / _SLUGGISH
+    gains = min(max(gains, -walker[body.ACCELERATION]), walker[body.ACCELERATION])
+    then = now + 0.5 * gains * seconds
+    then = min(then, max(walker[body.WISH], now)) if gains > 0.0 else max(then, 0.3 * now)
+    size, faster = row[_TRAITS + SIZE], row[_TRAITS + PACE] / math.sqrt(row[_TRAITS + SIZE])
+    stride = size * stride_at(motion[0], motion[1], motion[2], motion[3], gait, then * faster)
+    far = (cycles * stride + gains * _SLUGGISH * seconds) / pace
+    c, s = math.cos(0.5 * turned), math.sin(0.5 * turned)
+    x, y = walker[body.VX] * far, walker[body.VY] * far
+    return c * x - s * y, s * x + c * y, turned
+
+
+@allocating_kernel
+def _lay(place, motion, recorded, rests, row, walker):
+    """Put the feet where those of a figure are that goes, and has gone, straight on as it does."""
+    at_rest = row[at.GAIT] < 0.0
+    gait = rests[int(row[at.NODE])] if at_rest else recorded[int(row[at.GAIT])]
+    footing = np.empty((2, 5))
+    tables = motion[0], motion[1], motion[2], motion[4], motion[5]
+    read_footing(tables, gait, _speed_read(row), footing)
+    steps = row[_STEPS : _STEPS + 36].reshape(2, 3, 6)
+    cadence = cadence_of(motion, recorded, row, walker)
+    for side in range(2):
+        since = row[at.PHASE] - 0.5 * side
+        since -= math.floor(since)
+        for step in range(2):
+            share = step + 0.5 * footing[side, BEARS] - since
+            seconds = share / cadence if cadence > 0.0 else 0.0
+            dx, dy = walker[body.VX] * seconds, walker[body.VY] * seconds
+            x, y, heading = _under(row, side, footing[side], dx, dy, 0.0)
+            _foothold(place, walker, x, y, heading, steps[side, step])
+        for k in range(6):
+            steps[side, AIM, k] = steps[side, NEXT, k]
+    row[at.LAID] = 1.0
+
+
+@allocating_kernel
+def lay_feet(place, motion, recorded, rests, row, walker):
+    """Put the feet of one figure down where it stands, or is in its gait."""
+    _lay(place, motion, recorded, rests, row, walker)
+
+
+@kernel
+def _settles(motion, rests, row, steps, footing):
+    """Whether a foot of one at rest is in the air or stands elsewhere than in the posture at rest, whose
+    ``footing`` (2, 5) is written."""
+    tables = motion[0], motion[1], motion[2], motion[4], motion[5]
+    gait = rests[int(row[at.NODE])]
+    read_footing(tables, gait, 0.0, footing)
+    for side in range(2):
+        since = row[at.PHASE] - 0.5 * side
+        since -= math.floor(since)
+        x, y, heading = _under(row, side, footing[side], 0.0, 0.0, 0.0)
+        last = steps[side, LAST]
+        if math.hypot(last[0] - x, last[1] - y) > _ASTRAY:
+            return True
+        if abs(_turn(last[3] - heading)) > _ASKEW:
+            return True
+        if row[at.GAIT] >= 0.0 and since > footing[side, BEARS]:
+            return True
+    return False
+
+
+@kernel
+def _step(level, row, walker, steps, footing, standing, then, tick):
+    """Let both feet go on, after the phase was as ``then`` and has grown at a cadence: ``then`` (2,).
+    ``footing`` is of the gait, ``standing`` of what feet are put down for."""
+    place, motion, gait = level
+    phase, cadence = then
+    dt, elapsed = tick[0], tick[1]
+    for side in range(2):
+        before, since = phase - 0.5 * side, row[at.PHASE] - 0.5 * side
+        before -= math.floor(before)
+        since -= math.floor(since)
+        bears = footing[side, BEARS]
+        if since < before - 0.5:
+            for k in range(6):
+                steps[side, LAST, k] = steps[side, AIM, k]
+        last = steps[side, LAST]
+        if since < bears or cadence <= 0.0:
+            continue
+        if (since - bears) / (1.0 - bears) < _DECIDED or before < bears:
+            left = 1.0 + 0.5 * bears - since
+            seconds = min(left / cadence, _FORESEEN)
+            dx, dy, turned = _gone_on(motion, row, walker, gait, left, seconds, elapsed)
+            x, y, heading = _under(row, side, standing[side], dx, dy, turned)
+            heading = last[3] + _turn(heading - last[3])
+            _foothold(place, walker, x, y, heading, steps[side, AIM])
+        share = 1.0 if before < bears else 1.0 - math.exp(-dt / _ADJUSTS)
+        for k in range(6):
+            steps[side, NEXT, k] += share * (steps[side, AIM, k] - steps[side, NEXT, k])
+
+
+@allocating_kernel
+def advance_figures(place, motion, recorded, rests, rows, walkers, tick):
+    """Advance all figures by a tick: where they are drawn, their speeds, phases and feet.
+
+    place: net, origin (3,) and ground lookup. motion: gait_first, cycles, speeds, seconds, rests of the
+    motions, `footfalls.footing`. recorded: the number there of each gait. rests: of each posture the one that
+    comes to rest in it. tick: its length [s]; the time since the bodies' last tick began, at its end [s]; and
+    what share that is of the bodies' tick.
+    """
+    dt, share = tick[0], tick[2]
+    footing, standing = np.empty((2, 5)), np.empty((2, 5))
+    tables = motion[0], motion[1], motion[2], motion[4], motion[5]
+    origin = place[1]
+    for n in range(rows.shape[0]):
+        row, walker = rows[n], walkers[n]
+        steps = row[_STEPS : _STEPS + 36].reshape(2, 3, 6)
+        row[at.AGE] += 1.0
+        here, before = _PLACE, _BEFORE
+        for k in range(3):
+            now = walker[body.X + k] + origin[k]
+            row[here + k] = row[before + k] + share * (now - row[before + k])
+        turned = _turn(walker[body.YAW] - row[before + 3])
+        row[here + 3] = row[before + 3] + share * turned
+        vx, vy = walker[body.VX], walker[body.VY]
+        pace = math.hypot(vx, vy)
+        ahead = vx * math.cos(walker[body.YAW]) + vy * math.sin(walker[body.YAW])
+        moved = -pace if ahead < -0.5 * pace else pace
+        laid = row[at.LAID] > 0.0
+        if laid and pace < AT_REST and row[at.BUSY] == 0.0:
+            row[at.STILL] = 0.0 if _settles(motion, rests, row, steps, standing) else 1.0
+            moved = _SETTLES if row[at.STILL] == 0.0 else 0.0
+        else:
+            row[at.STILL] = 0.0
+        row[at.SPEED] += (moved - row[at.SPEED]) * min(dt / _SLUGGISH, 1.0)
+        cadence, phase = cadence_of(motion, recorded, row, walker), row[at.PHASE]
+        row[at.PHASE] = (phase + dt * cadence) % 1.0
+        if not laid or row[at.GAIT] < 0.0:
+            continue
+        gait = recorded[int(row[at.GAIT])]
+        read_footing(tables, gait, _speed_read(row), footing)
+        under = standing if pace < AT_REST else footing
+        _step((place, motion, gait), row, walker, steps, footing, under, (phase, cadence), tick)

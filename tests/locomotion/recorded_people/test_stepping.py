@@ -1,0 +1,126 @@
+"""Feet of recorded people: they stand still on the real ground while they bear, and come to rest."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+import navmesh
+from locomotion.ground.ground import Ground, extruded
+from locomotion.recorded.footfalls import BALL, FEET, HEEL
+from locomotion.recorded.posing import posed
+from locomotion.recorded.skeletons import FULL, LOW, MEDIUM, skeleton
+from locomotion.recorded_people import layout as at
+from locomotion.recorded_people.people import RecordedPeople
+from locomotion.recorded_people.stepping import LAST
+from tests.locomotion.recorded_people.test_people import crowd_of, played
+
+STAIRS = [
+    (-2.0, 0.0),
+    (2.0, 0.0),
+    (2.0, 0.17),
+    (2.3, 0.17),
+    (2.3, 0.34),
+    (2.6, 0.34),
+    (2.6, 0.51),
+    (4.0, 0.51),
+]
+SLOPE = [*STAIRS, (9.0, -0.49)]
+
+
+@cache
+def level():
+    vertices, faces = extruded(SLOPE, 2.0)
+    terrain = navmesh.Terrain.from_arrays(vertices, faces)
+    return navmesh.NodeGraph.build(terrain), Ground.from_arrays(vertices, faces)
+
+
+def soles(person):
+    """Ends (foot, heel and ball, 3) of the soles."""
+    own, pose = skeleton("full"), person.qpos
+    bodies = posed(own, pose[None, 7 + own.joints], pose[None, :7])[0]
+    out = []
+    for name in FEET:
+        place = bodies[own.bodies.index(name)]
+        w, v = place[3], place[4:]
+        out.append(
+            [
+                place[:3] + np.add(end, 2.0 * np.cross(v, np.cross(v, end) + w * np.array(end)))
+                for end in (HEEL, BALL)
+            ]
+        )
+    return np.array(out)
+
+
+@pytest.mark.parametrize("detail", [FULL, MEDIUM])
+def test_a_foot_that_bears_stands_still_on_stairs_and_on_a_slope(detail):
+    graph, ground = level()
+    people = RecordedPeople(graph, ground=ground)
+    ada = people.add((-1.0, 0.0, 0.0), 0.0, detail, np.random.default_rng(1))
+    ada.go_to([(8.0, 0.5, -0.29)], 1.2, None)
+    ends, stood = [], []
+    while ada.status == "walking":
+        people.tick()
+        if ada.position[0] > 0.5 and ada.walker.left > 1.0:
+            ends.append(soles(ada))
+            since = (people.rows[0, at.PHASE] - np.array([0.0, 0.5])) % 1.0
+            stood.append(np.where(since < 0.5, people.rows[0, at.STEPS].reshape(2, 3, 6)[:, LAST, 0], np.nan))
+    ends, stood = np.array(ends), np.array(stood)
+    for foot in range(2):
+        places = np.unique(stood[np.isfinite(stood[:, foot]), foot])
+        assert len(places) > 4
+        for x in places:
+            path = ends[stood[:, foot] == x, foot]
+            on = path[..., 2] < path[..., 2].min(axis=1, keepdims=True) + 0.003
+            slides = [np.ptp(path[on[:, end], end, :2], axis=0).max() for end in range(2) if on[:, end].any()]
+            assert max(slides) < 0.01
+            middle = path[len(path) // 2]
+            over = middle[:, 2] - ground.surface_below(middle + np.array([0.0, 0.0, 0.1]))[0]
+            assert abs(over.min()) < 0.02
+
+
+def test_low_figures_are_at_the_height_of_the_ground_without_a_jump():
+    graph, ground = level()
+    people = RecordedPeople(graph, ground=ground)
+    ada = people.add((0.5, 0.0, 0.0), 0.0, LOW, np.random.default_rng(1))
+    ada.go_to([(3.5, 0.0, 0.51)], 1.2, None)
+    heights = []
+    while ada.status == "walking":
+        people.tick()
+        heights.append(ada.qpos[2])
+    assert np.abs(np.diff(heights)).max() < 0.02
+    assert np.ptp(heights) == pytest.approx(0.51, abs=0.08)
+
+
+def test_who_comes_to_rest_puts_the_feet_together_and_stands_still():
+    people, (ada,) = crowd_of(1)
+    ada.go_to([(5.0, 5.0, 0.0)], 1.4, None)
+    played(people, ada, 5.0)
+    row = people.rows[0]
+    assert ada.status == "arrived" and row[at.GAIT] == -1.0 and row[at.STILL] == 1.0
+    feet = row[at.STEPS].reshape(2, 3, 6)[:, LAST]
+    assert np.linalg.norm(feet[:, :2] - ada.position[:2], axis=1).max() < 0.25
+    poses = played(people, ada, 0.5)
+    np.testing.assert_allclose(poses[-1], poses[0], atol=1e-6)
+
+
+def test_the_pose_is_the_same_however_often_somebody_looks():
+    found = []
+    for looks in (1, 3, 7):
+        people, (ada,) = crowd_of(1)
+        ada.go_to([(9.0, 6.0, 0.0)], 1.3, None)
+        for tick in range(210):
+            people.tick()
+            if tick % looks == 0:
+                people.transforms(np.array([0]), -0.004)
+        found.append(ada.qpos.tobytes())
+    assert len(set(found)) == 1
+
+
+def test_one_who_turns_on_the_spot_takes_steps():
+    people, (ada,) = crowd_of(1)
+    ada.go_to([(3.0, 5.0, 0.0)], 1.2, 2.5)
+    played(people, ada, 4.0)
+    assert ada.yaw == pytest.approx(2.5, abs=0.05)
+    headings = people.rows[0, at.STEPS].reshape(2, 3, 6)[:, LAST, 3]
+    assert np.abs((headings - ada.yaw + np.pi) % (2 * np.pi) - np.pi).max() < 0.4

@@ -10,6 +10,7 @@ while ada.status == "walking":
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -177,17 +178,24 @@ class Crowd:
         return True
 
     # --- routes
-    def find_routes(self, index: int, goals: NDArray[np.float64]) -> list[Route]:
-        """One route for each of ``goals`` (k, 3) [m], in series from where the body is. Raises `NoRoute`."""
-        here = self.positions[index]
+    def find_routes(
+        self,
+        index: int,
+        goals: NDArray[np.float64],
+        skills: Mapping[str, tuple[float, float]] | None = None,
+        here: NDArray[np.float64] | None = None,
+    ) -> list[Route]:
+        """One route for each of ``goals`` (k, 3) [m], in series from ``here`` (3,), by default from where the
+        body is; over obstacles that ``skills`` clear, as of `NodeGraph.find_path`. Raises `NoRoute`."""
+        begin = self.place(index) if here is None else here
         radius = float(self.rows[index, at.RADIUS])
         routes: list[Route] = []
         for goal in goals:
-            route = self.graph.find_path(here, goal, radius=radius)
+            route = self.graph.find_path(begin, goal, radius=radius, skills=skills)
             if route.status != "complete":
-                raise NoRoute(len(routes), route, here)
+                raise NoRoute(len(routes), route, begin)
             routes.append(route)
-            here = route.waypoints[-1]
+            begin = route.waypoints[-1]
         return routes
 
     def lay_routes(self, index: int, routes: list[Route]) -> None:

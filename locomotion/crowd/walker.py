@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
@@ -53,8 +54,16 @@ class ItsCrowd(Protocol):
 
     @property
     def rows(self) -> NDArray[np.float64]: ...
+    @property
+    def origin(self) -> NDArray[np.float64]: ...
     def place(self, index: int) -> NDArray[np.float64]: ...
-    def find_routes(self, index: int, goals: NDArray[np.float64]) -> list[Route]: ...
+    def find_routes(
+        self,
+        index: int,
+        goals: NDArray[np.float64],
+        skills: Mapping[str, tuple[float, float]] | None = None,
+        here: NDArray[np.float64] | None = None,
+    ) -> list[Route]: ...
     def lay_routes(self, index: int, routes: list[Route]) -> None: ...
     def left(self, index: int) -> float: ...
     def way_left(self, index: int) -> NDArray[np.float64]: ...
@@ -104,6 +113,11 @@ class Walker:
     def radius(self) -> float:
         """[m]"""
         return float(self._row[at.RADIUS])
+
+    @property
+    def acceleration(self) -> float:
+        """[m/s²]"""
+        return float(self._row[at.ACCELERATION])
 
     @property
     def left(self) -> float:
@@ -157,6 +171,27 @@ class Walker:
             row[[at.VX, at.VY, at.GO_X, at.GO_Y]] = 0.0
             row[at.MODE], row[at.NOTE], row[at.WEIGHT] = at.ROOTED, at.QUIET, at.UNMOVED
             self.status = "standing"
+
+    def carry(self, place: NDArray[np.float64], velocity: NDArray[np.float64], yaw: float) -> None:
+        """Be moved by somebody else until `put_down`: be at ``place`` (3,) [m], which may be off the surface,
+        with ``velocity`` (2,) [m/s], and face ``yaw`` [rad]."""
+        row = self._row
+        row[at.X : at.Z + 1] = place - self.crowd.origin
+        row[[at.VX, at.VY]] = row[[at.GO_X, at.GO_Y]] = velocity
+        row[at.YAW] = yaw
+        row[at.MODE], row[at.CELL], row[at.NOTE], row[at.WEIGHT] = at.LED, -1.0, at.QUIET, at.UNMOVED
+        self.status = "walking"
+
+    def put_down(self) -> bool:
+        """Stand on the surface again, where it is; False where there is none under it."""
+        row = self._row
+        cells, floors = self.crowd.graph.project(self.position[None])
+        if cells[0] < 0 or abs(floors[0] - self.position[2]) > self.crowd.graph.rules.headroom:
+            return False
+        row[at.CELL], row[at.Z] = cells[0], floors[0] - self.crowd.origin[2]
+        row[at.MODE], row[at.WEIGHT] = at.STANDING, 1.0
+        self.status = "standing"
+        return True
 
     def stop(self) -> None:
         """Stop here."""

@@ -37,7 +37,12 @@ LAID = RATES.stop
 """1 while it has feet on the ground in `STEPS`: it stands, walks or runs."""
 STILL = LAID + 1
 """1 while its body is at rest and its feet are where they belong: its steps have come to an end."""
-STEPS = slice(STILL + 1, STILL + 1 + 2 * 3 * 6)
+CROSSES = STILL + 1
+"""What it does about an obstacle on its way: one of `NOTHING`, `APPROACHES`, `RUNS_UP`, `CLEARS`."""
+NOTHING, APPROACHES, RUNS_UP, CLEARS = 0.0, 1.0, 2.0, 3.0
+HASTE = CROSSES + 1
+"""How many times as quick its steps are as its speed has them: it comes to an obstacle in step."""
+STEPS = slice(HASTE + 1, HASTE + 1 + 2 * 3 * 6)
 """(2, 3, 6) of the right and the left foot: where it stands, is on its way to, and is to be put down
 (`locomotion.recorded_people.stepping`): x, y, z [m], heading, slopes ahead and to the left [rad]."""
 TRAITS = slice(STEPS.stop, STEPS.stop + len(_TRAITS))
@@ -49,6 +54,6 @@ def new_row(level: int, node: int, traits: np.ndarray, place: np.ndarray) -> np.
     """One with these ``traits`` (7,) that stands at ``place`` (4,), (ROW,) float64."""
     row = np.zeros(ROW)
     row[GAIT], row[PHASE], row[LEVEL], row[NODE] = -1.0, traits[TRAIT_PHASE], level, node
-    row[TRAITS] = traits
+    row[TRAITS], row[HASTE] = traits, 1.0
     row[PLACE] = row[BEFORE] = place
     return row

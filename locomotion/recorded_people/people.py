@@ -30,12 +30,13 @@ from locomotion.postures.posture_graph import PostureGraph
 from locomotion.postures.step_order import gaits_for
 from locomotion.recorded.foot_planting import planted
 from locomotion.recorded.footfalls import BEARS, FEET, footing, footing_at, sole_centres
-from locomotion.recorded.individual import by_hand
+from locomotion.recorded.individual import PACE, SIZE, by_chance, styled
 from locomotion.recorded.motion_set import MotionSet, load_motions
 from locomotion.recorded.posing import posed
 from locomotion.recorded.sampling import sample_gait
 from locomotion.recorded.skeletons import LEVELS, skeleton
 from locomotion.recorded_people import layout as at
+from locomotion.recorded_people.clearing import out_of_the_floor, recorded_skills, skill_ranges
 from locomotion.recorded_people.drawing import drawn
 from locomotion.recorded_people.fading import STEP, fade_from, faded, rates
 from locomotion.recorded_people.person import RecordedPerson
@@ -95,6 +96,10 @@ class RecordedPeople:
         m = self.motions
         self._motion = m.gait_first, m.cycles, m.speeds, m.seconds, m.rests, footing(m)
         self.stand = self.graph.postures.index(_STANDS)
+        self.skills = recorded_skills(self.motions)
+        """What it takes to clear obstacles, by affordance."""
+        self.ranges = skill_ranges(self.motions)
+        """Least and greatest size [m] of these."""
         self.people: list[RecordedPerson] = []
         self._rows = np.zeros((64, at.ROW))
 
@@ -110,9 +115,9 @@ class RecordedPeople:
         """One that stands at ``position`` (3,) [m], facing ``yaw`` [rad]; ``chance`` makes it differ from the
         others. Raises `LocomotionError` where there is no room."""
         walker = self.crowd.add(position, PERSON_RULES["radius"], yaw, _ACCELERATION)
-        row = at.new_row(
-            level, self.stand, by_hand(phase=float(chance.random())), np.array([*walker.position, walker.yaw])
-        )
+        traits = by_chance(int(chance.integers(2**31)))
+        traits[SIZE] = 1.0  # all have the build of those that are simulated
+        row = at.new_row(level, self.stand, traits, np.array([*walker.position, walker.yaw]))
         row[at.SINCE] = self._since
         person = self._take_in(walker, row)
         self.lay_feet(person.index)
@@ -128,6 +133,13 @@ class RecordedPeople:
         lay_feet(
             self._place, self._motion, self._recorded, self._rests, self._rows[index], self.crowd.rows[index]
         )
+
+    def cadence(self, index: int) -> float:
+        """Cycles a second of a figure."""
+        out = np.empty(1)
+        part = slice(index, index + 1)
+        cadences(self._motion, self._recorded, self.rows[part], self.crowd.rows[part], out)
+        return float(out[0])
 
     def lay_feet_of(self, index: int, pose: NDArray[np.float64]) -> None:
         """As `lay_feet`, but a foot that bears stands where ``pose`` (46,) has it."""
@@ -204,11 +216,16 @@ class RecordedPeople:
         if since == 0:
             rows[:, at.BEFORE] = self._body_places()
             self.crowd.tick()
+            for index in np.flatnonzero(rows[:, at.CROSSES] >= at.RUNS_UP).tolist():
+                self.people[index].move_on(BODY_TICKS * dt)
         old, phase = rows[:, at.GAIT].astype(np.int32), rows[:, at.PHASE].copy()
         tick = (dt, (since + 1) * dt, (since + 1) / BODY_TICKS)
         advance_figures(self._place, self._motion, self._recorded, self._rests, rows, self.crowd.rows, tick)
         for index in np.flatnonzero(rows[:, at.BUSY]).tolist():
             self.people[index].tick()
+        if since == BODY_TICKS - 1:
+            for index in np.flatnonzero(rows[:, at.CROSSES]).tolist():
+                self.people[index].cross()
         self._choose_gaits(old, phase)
 
     def _body_places(self) -> NDArray[np.float64]:
@@ -221,6 +238,7 @@ class RecordedPeople:
         chosen = gaits_for(self.gaits, old, self.bases[rows[:, at.NODE].astype(np.int32)], rows[:, at.SPEED])
         chosen[rows[:, at.BUSY] > 0.0] = -1
         steps = (2.0 * rows[:, at.PHASE]).astype(np.int32) != (2.0 * phase).astype(np.int32)
+        chosen[rows[:, at.CROSSES] == at.CLEARS] = -1
         may = (chosen != old) & (steps | (old < 0) | (chosen < 0))
         of = np.flatnonzero(may)
         if len(of) == 0:
@@ -255,7 +273,7 @@ class RecordedPeople:
         special = (ages < rows[:, at.FADE_BEGUN] + rows[:, at.FADE_SECONDS]) | (
             rows[:, at.NODE] != self.stand
         )
-        special |= rows[:, at.BUSY] > 0.0
+        special |= (rows[:, at.BUSY] > 0.0) | (rows[:, at.CROSSES] == at.CLEARS)
         for number, name in enumerate(LEVELS):
             of = np.flatnonzero((levels == number) & ~special)
             if len(of):
@@ -272,7 +290,8 @@ class RecordedPeople:
         """Channels and roots of some figures of one level, by gait, without what is special to them."""
         rows, bodies = self.rows[indices], self.crowd.rows[indices]
         moves, played = rows[:, at.GAIT] >= 0.0, self._played(rows)
-        speeds = np.where(moves, np.abs(rows[:, at.SPEED]), 0.0)
+        traits = rows[:, at.TRAITS]
+        speeds = np.where(moves, np.abs(rows[:, at.SPEED]), 0.0) * traits[:, PACE]
         gone = np.zeros(len(rows))
         if ahead != 0.0:
             cadences(self._motion, self._recorded, rows, bodies, gone)
@@ -281,6 +300,7 @@ class RecordedPeople:
         if ahead != 0.0:
             places[:, :2] += ahead * bodies[:, [body.VX, body.VY]]
         sample = sample_gait(self.motions, level, played, speeds, phases)
+        sample = styled(skeleton(LEVELS[level]), sample, traits)
         # a foot stays in the part of its cycle that it is in: where it stands is known for that
         since = (rows[:, at.PHASE, None] - _STRIKES) % 1.0 + gone[:, None]
         since = np.where(moves[:, None], since.clip(0.0, _BEFORE_STRIKE), 0.0)
@@ -292,21 +312,20 @@ class RecordedPeople:
         """The pose (46,) of a figure: as its gait or postures have it, its hands, and a change of late."""
         person, row = self.people[index], self.rows[index]
         now = person.time + ahead
-        if person.playback is not None:
+        if row[at.CROSSES] == at.CLEARS:
+            pose = person.clearing_pose(now)
+        elif person.playback is not None:
             pose = pose_at(self.graph, person.playback, max(now, person.playback.begun))
             x, y, z, yaw = row[at.PLACE]
             pose = placed(pose, np.array([x, y, yaw]))
             pose[2] += z
-        elif int(row[at.NODE]) != self.stand:
+        if person.playback is None and int(row[at.NODE]) != self.stand:
             pose = pose.copy()
             self._hold(pose, int(row[at.NODE]))
-        return faded(
-            pose,
-            row[at.OFFSETS],
-            row[at.RATES],
-            float(row[at.FADE_SECONDS]),
-            max(now - float(row[at.FADE_BEGUN]), 0.0),
-        )
+        elapsed = max(now - float(row[at.FADE_BEGUN]), 0.0)
+        pose = faded(pose, row[at.OFFSETS], row[at.RATES], float(row[at.FADE_SECONDS]), elapsed)
+        floor = person.floor(now)
+        return pose if floor is None else out_of_the_floor(pose, floor)
 
     def _hold(self, pose: NDArray[np.float64], node: int) -> None:
         """Let the hands of ``pose`` (46,) do what they do in a node."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 
 from locomotion.errors import LocomotionError
 from locomotion.postures.playback import Playback
@@ -17,9 +18,9 @@ from locomotion.saved_arrays import COUNT, FLAG, Slots, check_array
 __all__ = ["check_recorded"]
 
 
-def check_recorded(state: PersonState, graph: PostureGraph, gaits: int) -> None:
-    """Raise `LocomotionError` if no person with the postures of ``graph`` and so many ``gaits`` can have this
-    ``state``."""
+def check_recorded(state: PersonState, graph: PostureGraph, gaits: int, skills: Collection[str]) -> None:
+    """Raise `LocomotionError` if no person with the postures of ``graph``, so many ``gaits``, and ``skills``
+    can have this ``state``."""
     Slots(
         "the row of a recorded person",
         at.ROW,
@@ -36,9 +37,11 @@ def check_recorded(state: PersonState, graph: PostureGraph, gaits: int) -> None:
             (at.FADE_SECONDS, (0.0, 10.0)),
             (at.LAID, FLAG),
             (at.STILL, FLAG),
+            (at.CROSSES, (at.NOTHING, at.CLEARS)),
+            (at.HASTE, (0.1, 10.0)),
             *((at.TRAITS.start + k, limits[1:]) for k, limits in enumerate(TRAITS.values())),
         ],
-        whole=(at.GAIT, at.LEVEL, at.NODE, at.BUSY, at.AGE, at.SINCE, at.LAID, at.STILL),
+        whole=(at.GAIT, at.LEVEL, at.NODE, at.BUSY, at.AGE, at.SINCE, at.LAID, at.STILL, at.CROSSES),
     ).check(state.row)
     if state.wanted and state.wanted not in graph.postures:
         raise LocomotionError(
@@ -49,6 +52,7 @@ def check_recorded(state: PersonState, graph: PostureGraph, gaits: int) -> None:
         _check_playback(playing, graph)
     if (playing is not None or state.wanted != "") != (state.row[at.BUSY] > 0.0):
         raise LocomotionError("a recorded person is busy with its posture or not, but not both")
+    _check_crossing(state, skills)
     if errand is not None and not _makes_sense(errand):
         raise LocomotionError("a recorded person has been told to go where nobody can")
 
@@ -62,6 +66,25 @@ def _check_playback(playing: Playback, graph: PostureGraph) -> None:
         raise LocomotionError("a recorded person is on an arc that does not lead to its posture")
     if not math.isfinite(playing.begun) or playing.last is not None:
         raise LocomotionError("a recorded person plays what began at no time")
+
+
+def _check_crossing(state: PersonState, skills: Collection[str]) -> None:
+    of, does = state.crossing, state.row[at.CROSSES]
+    if (of is not None) != (does > at.NOTHING):
+        raise LocomotionError("a recorded person crosses an obstacle or not, but not both")
+    if of is None:
+        return
+    numbers = [
+        of.size, of.depth, of.speed, of.facing or 0.0, of.beyond, of.waited, *of.start, *of.edge, *of.end,
+        *of.origin, *(each for goal in of.goals for each in goal),
+    ]  # fmt: skip
+    if of.affordance not in skills or not all(map(math.isfinite, numbers)) or not of.size > 0.0 < of.speed:
+        raise LocomotionError("a recorded person crosses an obstacle that nobody can")
+    apart = math.dist(of.start[:2], of.edge[:2]), math.dist(of.start[:2], of.end[:2])
+    if min(apart) < 1e-3 or math.isnan(of.last) or (does > at.APPROACHES) != of.under_way:
+        raise LocomotionError("a recorded person crosses an obstacle in a way that nobody can")
+    if math.isinf(of.begun):
+        raise LocomotionError("a recorded person crosses an obstacle at no time")
 
 
 def _makes_sense(errand: Errand) -> bool:

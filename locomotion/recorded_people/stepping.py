@@ -18,7 +18,7 @@ from locomotion.ground.collider.layout import NX, NZ
 from locomotion.ground.ground import height_below
 from locomotion.postures.step_order import AT_REST
 from locomotion.recorded.footfalls import AHEAD, BEARS, HALF_SOLE, LEFT, TURNED, read_footing
-from locomotion.recorded.individual import PACE, SIZE, WIDTH
+from locomotion.recorded.individual import PACE, PHASE, WIDTH
 from locomotion.recorded.sampling import stride_at
 from locomotion.recorded_people import layout as at
 from navmesh.surface.clearance_field import floor_at, walk
@@ -58,15 +58,14 @@ def _speed_read(row):
     """The speed at which a figure's gait is read, at rest 0."""
     if row[at.GAIT] < 0.0:
         return 0.0
-    return abs(row[at.SPEED]) * row[_TRAITS + PACE] / math.sqrt(row[_TRAITS + SIZE])
+    return abs(row[at.SPEED]) * row[_TRAITS + PACE]
 
 
 @kernel
 def _stride_of(motion, gait, row):
     """[m]"""
     gait_first, cycles, speeds, seconds = motion[:4]
-    size = row[_TRAITS + SIZE]
-    return size * stride_at(gait_first, cycles, speeds, seconds, gait, _speed_read(row))
+    return stride_at(gait_first, cycles, speeds, seconds, gait, _speed_read(row))
 
 
 @kernel
@@ -75,7 +74,7 @@ def cadence_of(motion, recorded, row, walker):
     if row[at.GAIT] < 0.0 or row[at.STILL] > 0.0:
         return 0.0
     pace = abs(row[at.SPEED])
-    cadence = pace / _stride_of(motion, recorded[int(row[at.GAIT])], row)
+    cadence = row[at.HASTE] * pace / _stride_of(motion, recorded[int(row[at.GAIT])], row)
     rests = math.hypot(walker[body.VX], walker[body.VY]) < AT_REST
     return max(cadence, _BRISK) if rests and row[at.LAID] > 0.0 else cadence
 
@@ -137,11 +136,10 @@ def _foothold(place, walker, x, y, heading, out):
 def _under(row, side, footing, ahead, left, turned):
     """Where a foot with this ``footing`` (5,) stands under a figure that has gone on by ``ahead`` and
     ``left`` [m] and has ``turned`` [rad]: x, y [m] and heading [rad]."""
-    size = row[_TRAITS + SIZE]
     x, y, yaw = row[_PLACE], row[_PLACE + 1], row[_PLACE + 3] + turned
     outward = (2 * side - 1) * _LEG * row[_TRAITS + WIDTH]
     c, s = math.cos(yaw), math.sin(yaw)
-    fore, beside = size * footing[AHEAD], size * (footing[LEFT] + outward)
+    fore, beside = footing[AHEAD], footing[LEFT] + outward
     return x + ahead + c * fore - s * beside, y + left + s * fore + c * beside, yaw + footing[TURNED]
 
 
@@ -158,9 +156,8 @@ def _gone_on(motion, row, walker, gait, cycles, seconds, elapsed):
     gains = min(max(gains, -walker[body.ACCELERATION]), walker[body.ACCELERATION])
     then = now + 0.5 * gains * seconds
     then = min(then, max(walker[body.WISH], now)) if gains > 0.0 else max(then, 0.3 * now)
-    size, faster = row[_TRAITS + SIZE], row[_TRAITS + PACE] / math.sqrt(row[_TRAITS + SIZE])
-    stride = size * stride_at(motion[0], motion[1], motion[2], motion[3], gait, then * faster)
-    far = (cycles * stride + gains * _SLUGGISH * seconds) / pace
+    stride = stride_at(motion[0], motion[1], motion[2], motion[3], gait, then * row[_TRAITS + PACE])
+    far = (cycles * stride / row[at.HASTE] + gains * _SLUGGISH * seconds) / pace
     c, s = math.cos(0.5 * turned), math.sin(0.5 * turned)
     x, y = walker[body.VX] * far, walker[body.VY] * far
     return c * x - s * y, s * x + c * y, turned
@@ -283,6 +280,8 @@ def advance_figures(place, motion, recorded, rests, rows, walkers, tick):
         row[at.SPEED] += (moved - row[at.SPEED]) * min(dt / _SLUGGISH, 1.0)
         cadence, phase = cadence_of(motion, recorded, row, walker), row[at.PHASE]
         row[at.PHASE] = (phase + dt * cadence) % 1.0
+        if row[at.GAIT] < 0.0:
+            row[at.PHASE] = row[_TRAITS + PHASE]  # with which it sets out again
         if not laid or row[at.GAIT] < 0.0:
             continue
         gait = recorded[int(row[at.GAIT])]

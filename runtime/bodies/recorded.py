@@ -1,6 +1,6 @@
 """Persons in a world who play recorded motion: they move as walkers do, and have postures."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -15,6 +15,7 @@ from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.people import RecordedPeople
 from locomotion.recorded_people.person import PersonState, RecordedPerson, can_hold, checked_node
 from locomotion.recorded_people.saved_state_check import check_recorded
+from navmesh.routes.route import Route
 from runtime.bodies.figure import Figure
 from runtime.bodies.humans import HumanDriver
 from runtime.bodies.protocol import Driver, Population, recall, saved_parts
@@ -73,7 +74,7 @@ class Recorded(Population):
         cannot have given on this level."""
         saved, plans = saved_parts(state, PersonState)
         check_walker(saved.body, self.level.graph)
-        check_recorded(saved, self.people.graph, len(self.people.gaits))
+        check_recorded(saved, self.people.graph, len(self.people.gaits), self.people.skills)
         return saved, plans
 
     def remove(self, driver: Driver) -> None:
@@ -145,7 +146,8 @@ class RecordedDriver(WalkerDriver):
     def left(self) -> float:
         if self.person.errand is not None and self.plans:
             return self.plans[-1].length  # it gets up first
-        return self.walker.left
+        of = self.person.crossing
+        return self.walker.left + (0.0 if of is None else of.beyond)
 
     @property
     def progress(self) -> float:
@@ -155,10 +157,25 @@ class RecordedDriver(WalkerDriver):
     @property
     def goals_left(self) -> int:
         errand = self.person.errand
-        return len(errand.goals) if errand is not None else super().goals_left
+        if errand is not None:
+            return len(errand.goals)
+        of = self.person.crossing
+        if of is None:
+            return super().goals_left
+        return len(of.goals) + (0 if of.under_way else super().goals_left - 1)
 
     def way_holds(self) -> bool:
-        return self.person.errand is not None or super().way_holds()
+        of = self.person.crossing
+        if self.person.errand is not None or (of is not None and of.under_way):
+            return True
+        return super().way_holds() and (of is None or of.is_there(self.walker.crowd.graph))
+
+    @property
+    def skills(self) -> Mapping[str, tuple[float, float]]:
+        return self._population.people.ranges
+
+    def _find_routes(self, goals: np.ndarray) -> list[Route]:
+        return self.walker.crowd.find_routes(self.walker.index, goals, self.skills)
 
     @property
     def hindrance(self) -> str:

@@ -1,12 +1,12 @@
 """Walkers: cheap bodies of any radius that follow their routes and keep out of each other's way."""
 
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
-from locomotion import LocomotionError
+from locomotion import LocomotionError, ObstacleAhead
 from locomotion.body_events import Event
 from locomotion.crowd import Crowd, NoRoute, Walker, WalkerState
 from locomotion.crowd.saved_state_check import check_walker
@@ -102,6 +102,24 @@ class Walkers(Population):
             self.crowd.tick()
 
 
+def _on_the_way(routes: Sequence[Route]) -> Iterator[ObstacleAhead]:
+    """What ``routes``, one after the other, lead over."""
+    begun = 0.0
+    for route in routes:
+        along = np.concatenate(
+            [[0.0], np.cumsum(np.linalg.norm(np.diff(route.waypoints[:, :2], axis=0), axis=1))]
+        )
+        for use in route.links:
+            links, of = route.graph.links, route.graph.obstacles
+            way = (links.start[use.link] - links.end[use.link])[:2]
+            normal = np.array([*(way / np.linalg.norm(way)), 0.0])
+            yield ObstacleAhead(
+                begun + float(along[use.first] + links.run_up[use.link]), str(links.affordance[use.link]),
+                float(of.height[use.obstacle]), links.edge[use.link], normal, float(of.depth[use.obstacle]),
+            )  # fmt: skip
+        begun += float(along[-1])
+
+
 class WalkerDriver(Driver):
     """A walker."""
 
@@ -158,7 +176,7 @@ class WalkerDriver(Driver):
 
     def plan(self, goals: np.ndarray) -> Plan:
         try:
-            return self._plan_of(self.walker.crowd.find_routes(self.walker.index, goals))
+            return self._plan_of(self._find_routes(goals))
         except NoRoute as error:
             raise self._no_way(error, goals) from None
 
@@ -183,12 +201,16 @@ class WalkerDriver(Driver):
     def stop(self) -> None:
         self.simulated.stop()
 
+    def _find_routes(self, goals: np.ndarray) -> list[Route]:
+        return self.walker.crowd.find_routes(self.walker.index, goals)
+
     def _plan_of(self, routes: list[Route]) -> Plan:
         graph = self.walker.crowd.graph
         nodes = np.concatenate([route.nodes for route in routes])
         pulled = np.concatenate([route.waypoints for route in routes])
-        points = np.concatenate([project_to_surface(graph, route.waypoints, _SPACING) for route in routes])
-        return Plan(graph.positions[nodes], pulled, points, ())
+        legs = [leg.waypoints for route in routes for leg in route.legs()]
+        points = [project_to_surface(graph, leg, _SPACING) for leg in legs]
+        return Plan(graph.positions[nodes], pulled, np.concatenate(points), tuple(_on_the_way(routes)))
 
     def _no_way(self, error: NoRoute, goals: np.ndarray) -> NoWay:
         graph, goal = self.walker.crowd.graph, goals[error.goal]

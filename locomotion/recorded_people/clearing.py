@@ -1,0 +1,349 @@
+"""Obstacles that recorded people clear: a recorded skill, warped to the obstacle's size.
+
+A person runs up to where the recording takes off, in its gait, and plays the recording from there. Before the
+edge and behind the landing it goes as recorded, so that feet stand where they stood; what lies between is as
+wide as the real obstacle, and the whole figure is lifted by what that is higher, while it is over it::
+
+    skill = recorded_skills(motions)["vault"]
+    moment = skill.moment(crossing, 0.4)                  # [s] of the recording, 0.4 s after it began
+    pose = skill.pose(motions, LOW, crossing, moment)     # (46,)
+
+All of it is a function of the time since it began.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion.recorded.footfalls import FEET
+from locomotion.recorded.motion_set import MotionSet
+from locomotion.recorded.posing import posed
+from locomotion.recorded.sampling import sample_clips
+from locomotion.recorded.skeletons import FULL, LEVELS, skeleton
+from locomotion.skills.registry import skill_kind, skill_kinds
+from navmesh.graph.node_graph import NodeGraph
+from navmesh.routes.route import LinkUse
+
+__all__ = ["Crossing", "RecordedSkill", "crossing_of", "out_of_the_floor", "recorded_skills", "skill_ranges"]
+
+_FASTEST = 3.4  # [m/s] of a run-up
+_GAINS = 3.0  # [m/s²]
+_SLOWEST = 0.8  # [m/s] at which it begins
+_RATES = (0.6, 1.1)  # least and greatest rate at which a take-off is played
+_CADENCE, _HASTE, _LATE, _EARLY = 1.65, (0.7, 1.35), 0.1, 0.35
+# cycles a second at the end of a run-up; least and greatest haste; [s] before its end, too late to hasten;
+# cycles by which steps are slowed down at most
+_SPRING = 0.12  # [s] before leaving the ground in which one makes ready for what is higher
+_SAME = 0.01  # [m] by which a link may be another and the same
+_GAP = 4  # frames for which a foot that bears may lift off
+_SETTLED = 0.35  # [s] after landing until which a skill is played that ends on the feet
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """An obstacle that a person is to cross, and where it goes then.
+
+    Attributes:
+        affordance: of the obstacle. size, depth: [m] its size, as of `Links.height`, and how thick it is.
+        start, edge, end: (3,) of the link [m].
+        goals, speed, facing: as of `Walker.go_to`, from the end on. beyond: [m] from the start to the last.
+        begun: [s] of the person's time at which the run-up begins; nan before.
+        origin: where that was: x, y, z [m], and its speed there [m/s].
+        last: [m] behind the edge where it goes on in its gait at the latest.
+        waited: [s] that it has waited for others before it.
+    """
+
+    affordance: str
+    size: float
+    depth: float
+    start: tuple[float, float, float]
+    edge: tuple[float, float, float]
+    end: tuple[float, float, float]
+    goals: tuple[tuple[float, float, float], ...]
+    speed: float
+    facing: float | None
+    beyond: float
+    begun: float = math.nan
+    origin: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+    last: float = math.inf
+    waited: float = 0.0
+
+    @property
+    def way(self) -> NDArray[np.float64]:
+        """(2,) unit vector over it."""
+        apart = np.subtract(self.end, self.start)[:2]
+        return apart / np.linalg.norm(apart)
+
+    @property
+    def heading(self) -> float:
+        """[rad] of the way."""
+        x, y = self.way.tolist()
+        return math.atan2(y, x)
+
+    def is_there(self, graph: NodeGraph) -> bool:
+        """Whether ``graph`` has that link."""
+        links = graph.links
+        alike = (links.affordance == self.affordance) & (np.abs(links.height - self.size) <= _SAME)
+        for known, mine in ((links.start, self.start), (links.end, self.end)):
+            alike &= (np.abs(known - np.array(mine)) <= _SAME).all(axis=1)
+        return bool(alike.any())
+
+    @property
+    def under_way(self) -> bool:
+        """Whether the run-up has begun."""
+        return math.isfinite(self.begun)
+
+
+def _smooth(x: float) -> float:
+    x = min(max(x, 0.0), 1.0)
+    return x * x * (3.0 - 2.0 * x)
+
+
+@dataclass(frozen=True)
+class RecordedSkill:
+    """A clip of a skill, and when what happens in it [s]: ``begins`` to be played, ``leaves`` the ground,
+    ``crosses`` the edge with the first foot, has ``passed`` the obstacle with the last, ``lands``, and
+    ``ends``. ``lead``: [m] before the edge at which it begins. ``edge``, ``depth``, ``size``: of its own
+    obstacle, from the clip's begin [m]. ``sideways``: y at begin and end [m]. ``pace``: at the
+    begin [m/s]. ``phase``: of a gait's cycle that it goes on from: 0 or 0.5, the right or the left foot
+    strikes."""
+
+    clip: int
+    crossing: str
+    begins: float
+    leaves: float
+    crosses: float
+    passed: float
+    lands: float
+    ends: float
+    lead: float
+    edge: float
+    depth: float
+    size: float
+    sideways: tuple[float, float]
+    pace: float
+    phase: float
+
+    # --- the run-up
+    def haste(self, of: Crossing, elapsed: float, phase: float, cadence: float) -> float | None:
+        """How many times as quick a person's steps have to be to be in step with the skill at the end of its
+        run-up: it is in this ``phase`` and takes so many cycles a second now. None shortly before that."""
+        left = self.run_up(of, elapsed)[2]
+        if left < _LATE:
+            return None
+        cycles = left * 0.5 * (cadence + _CADENCE)
+        off = (self.phase - phase - cycles + _EARLY) % 1.0 - _EARLY  # rather quicker than slower
+        return min(max((cycles + off) / cycles, _HASTE[0]), _HASTE[1])
+
+    def run_up(self, of: Crossing, elapsed: float) -> tuple[NDArray[np.float64], float, float]:
+        """Where a person is ``elapsed`` [s] after its run-up has begun, x and y [m]; its speed [m/s]; and for
+        how long it still runs [s], 0 or less when it takes off."""
+        begin, target = np.array(of.origin[:2]), np.array(of.edge[:2]) - self._lead(of) * of.way
+        length = float(np.linalg.norm(target - begin))
+        slow = max(of.origin[3], _SLOWEST)
+        fast = max(slow, _FASTEST)
+        until = (fast - slow) / _GAINS
+        to = slow * until + 0.5 * _GAINS * until * until
+        if length <= to:
+            seconds = (math.sqrt(slow * slow + 2.0 * _GAINS * length) - slow) / _GAINS
+        else:
+            seconds = until + (length - to) / fast
+        at = min(max(elapsed, 0.0), seconds)
+        gone = slow * min(at, until) + 0.5 * _GAINS * min(at, until) ** 2 + fast * max(at - until, 0.0)
+        share = gone / length if length > 1e-6 else 1.0
+        return begin + share * (target - begin), min(slow + _GAINS * at, fast), seconds - elapsed
+
+    def _lead(self, of: Crossing) -> float:
+        return min(self.lead, math.dist(of.start[:2], of.edge[:2]))
+
+    # --- the skill
+    def _clock(self, of: Crossing) -> tuple[list[float], list[float]]:
+        """Seconds since it began, and moments of the clip: between these it is played evenly."""
+        entry = self.run_up(of, math.inf)[1]
+        rate = min(max(entry / self.pace, _RATES[0]), _RATES[1])
+        # falls take longer by the root of their height, and leaps by that of their width
+        flies = math.sqrt(self._share(of)) if self.crossing in ("off", "across") else 1.0
+        moments = [self.begins, self.leaves, self.lands, self.ends]
+        lasts = [
+            (self.leaves - self.begins) / rate,
+            (self.lands - self.leaves) * flies,
+            self.ends - self.lands,
+        ]
+        return [0.0, *np.cumsum(lasts).tolist()], moments
+
+    def _share(self, of: Crossing) -> float:
+        return of.size / self.size
+
+    def seconds(self, of: Crossing) -> float:
+        """[s] from the end of the run-up until it goes on in its gait."""
+        return self._clock(of)[0][-1]
+
+    def moment(self, of: Crossing, elapsed: float) -> float:
+        """[s] of the clip, ``elapsed`` [s] after the end of the run-up."""
+        return float(np.interp(elapsed, *self._clock(of)))
+
+    def _along(self, of: Crossing, x: float) -> float:
+        """[m] behind the real edge, of what is at ``x`` [m] in the clip."""
+        ahead = x - self.edge
+        if ahead <= 0.0:
+            return ahead * self._lead(of) / self.lead
+        deep = {"over": of.depth, "across": of.size}.get(self.crossing, 0.0)
+        if ahead < self.depth:
+            return ahead * deep / self.depth
+        return ahead - self.depth + deep
+
+    def _lifted(self, of: Crossing, moment: float) -> float:
+        """[m] by which the figure is higher than in the clip, over the floor at the link's start."""
+        up = of.end[2] - of.start[2]
+        if self.crossing == "onto":
+            return (up - self.size) * _ramp(moment, self.leaves - _SPRING, self.crosses)
+        if self.crossing == "over":
+            more = of.size - self.size
+            rises = more * _ramp(moment, self.leaves - _SPRING, self.crosses)
+            return rises + (up - more) * _ramp(moment, self.passed, self.lands)
+        if self.crossing == "off":
+            fallen = (moment - self.crosses) / (self.lands - self.crosses)
+            return (up + self.size) * min(max(fallen, 0.0), 1.0) ** 2
+        return up * _ramp(moment, self.leaves, self.lands)
+
+    def pose(self, motions: MotionSet, level: int, of: Crossing, moment: float) -> NDArray[np.float64]:
+        """(46,) pose of a person of a ``level`` of detail at a ``moment`` of the clip [s]."""
+        sample = sample_clips(motions, level, [self.clip], [moment])
+        pose = skeleton(LEVELS[level]).as_qpos(*sample)[0]
+        beside = pose[1] - np.interp(moment, (self.begins, self.ends), self.sideways)
+        x, y = self._point(of, float(pose[0]), moment)
+        c, s = of.way
+        pose[:2] = x - s * beside, y + c * beside
+        pose[2] += of.start[2] + self._lifted(of, moment)
+        half_c, half_s = math.cos(0.5 * of.heading), math.sin(0.5 * of.heading)
+        w, i, j, k = pose[3:7]
+        pose[3:7] = (
+            half_c * w - half_s * k,
+            half_c * i - half_s * j,
+            half_c * j + half_s * i,
+            half_c * k + half_s * w,
+        )
+        return pose
+
+    def _point(self, of: Crossing, x: float, moment: float) -> tuple[float, float]:
+        """x and y [m] of what is at ``x`` [m] in the clip."""
+        along = self._along(of, x)
+        if moment > self.lands and along > of.last:
+            along = of.last
+        px, py = (np.array(of.edge[:2]) + along * of.way).tolist()
+        return px, py
+
+    def floor(self, of: Crossing, moment: float) -> float | None:
+        """Height [m] of the floor that its feet are on at a ``moment``; None in between."""
+        if moment < max(self.leaves, self.crosses):
+            return of.start[2]
+        return of.end[2] if moment > self.lands else None
+
+    def place(self, motions: MotionSet, of: Crossing, moment: float) -> NDArray[np.float64]:
+        """(3,) the floor under it, or where that would be [m]."""
+        x = float(sample_clips(motions, FULL, [self.clip], [moment])[1][0, 0])
+        height = of.start[2] + (of.end[2] - of.start[2]) * _ramp(moment, self.crosses, self.lands)
+        return np.array([*self._point(of, x, moment), height])
+
+
+def out_of_the_floor(pose: NDArray[np.float64], floor: float) -> NDArray[np.float64]:
+    """``pose`` (46,), lifted so far that no toe is under a ``floor`` [m]: a pose that fades into another may
+    sink in."""
+    own = skeleton("full")
+    bodies = posed(own, pose[None, 7 + own.joints], pose[None, :7])[0]
+    toes = [own.bodies.index(name) for name in ("right_toes", "left_toes", *FEET)]
+    sunk = floor - float(bodies[toes, 2].min())
+    if sunk > 0.0:
+        pose = pose.copy()
+        pose[2] += sunk
+    return pose
+
+
+def _ramp(moment: float, first: float, last: float) -> float:
+    return _smooth((moment - first) / max(last - first, 1e-3))
+
+
+def _skill_of(motions: MotionSet, clip: int, crossing: str, usual: float) -> RecordedSkill:
+    about, frames, own = motions.clips[clip], motions.levels[FULL], skeleton("full")
+    rows = slice(int(frames.first[clip]), int(frames.first[clip] + frames.count[clip]))
+    times = np.linspace(0.0, about.seconds, int(frames.count[clip]))
+    bodies = posed(own, frames.channels[rows], frames.roots[rows])
+    feet = bodies[:, [own.bodies.index(name) for name in FEET], 0]
+    root, stance = bodies[:, 0, 0], frames.stance[rows]
+    edge, _, depth = about.obstacle
+    over = int(np.argmax(root > edge))
+    before = np.flatnonzero((stance & (feet < edge)).any(axis=1) & (np.arange(len(root)) < over))
+    leaves = int(before[-1])
+    foot = int(np.argmax(stance[leaves] & (feet[leaves] < edge)))
+    begins = _begin_of_stance(stance[:, foot], leaves)
+    # one step earlier, so that what is left of the gait before has faded when it leaves the ground
+    foot = 1 - foot
+    begins = _begin_of_stance(stance[:, foot], int(np.flatnonzero(stance[:begins, foot])[-1]))
+    behind = edge + depth
+    lands = int(np.argmax((stance & (feet > behind)).any(axis=1) & (np.arange(len(root)) > leaves)))
+    crosses = int(np.argmax((feet > edge - 0.1).any(axis=1)))
+    passed = int(np.argmax((feet > behind).all(axis=1)))
+    rolls = crossing == "off"
+    ends = about.seconds if rolls else min(times[lands] + _SETTLED, about.seconds)
+    last = int(np.searchsorted(times, ends - 1e-9))
+    return RecordedSkill(
+        clip, crossing, float(times[begins]), float(times[leaves]), float(times[crosses]),
+        float(times[min(passed, lands)]), float(times[lands]), float(ends), edge - float(root[begins]), edge,
+        depth, usual, (float(bodies[begins, 0, 1]), float(bodies[last, 0, 1])),
+        float((root[begins + 3] - root[begins]) / (times[begins + 3] - times[begins])), 0.5 * foot,
+    )  # fmt: skip
+
+
+def _begin_of_stance(bears: NDArray[np.bool_], frame: int) -> int:
+    """The first frame of the stance that a foot is in at a ``frame``."""
+    while bears[max(frame - _GAP, 0) : frame].any():
+        frame -= 1
+    return frame
+
+
+@lru_cache(maxsize=4)
+def _skills_of(motions: MotionSet) -> dict[str, RecordedSkill]:
+    found, names = {}, motions.names
+    for kind in skill_kinds():
+        about = motions.clips[names.index(kind.affordance)] if kind.affordance in names else None
+        if about is not None and about.kind == "skill" and about.obstacle[0] > 0.0:
+            size = kind.obstacle.size(about.obstacle[1], about.obstacle[2])
+            found[kind.affordance] = _skill_of(
+                motions, names.index(kind.affordance), kind.obstacle.crossing, size
+            )
+    return found
+
+
+def recorded_skills(motions: MotionSet) -> dict[str, RecordedSkill]:
+    """The skills that there are recordings of, by affordance."""
+    return _skills_of(motions)
+
+
+def skill_ranges(motions: MotionSet) -> dict[str, tuple[float, float]]:
+    """Least and greatest size [m] of what recorded people clear, by affordance."""
+    return {name: skill_kind(name).sizes for name in recorded_skills(motions)}
+
+
+def crossing_of(
+    graph: NodeGraph,
+    use: LinkUse,
+    goals: tuple[tuple[float, float, float], ...],
+    speed: float,
+    facing: float | None,
+    beyond: float,
+) -> Crossing:
+    """What is to be crossed on a route over a link of ``graph``; the others as of `Crossing`."""
+    links, number = graph.links, use.link
+    start, edge, end = (
+        (float(x), float(y), float(z))
+        for x, y, z in (links.start[number], links.edge[number], links.end[number])
+    )
+    return Crossing(
+        str(links.affordance[number]), float(links.height[number]),
+        float(graph.obstacles.depth[use.obstacle]), start, edge, end, goals, speed, facing, beyond,
+    )  # fmt: skip

@@ -238,11 +238,12 @@ class RecordedSkill:
         px, py = (np.array(of.edge[:2]) + along * of.way).tolist()
         return px, py
 
-    def floor(self, of: Crossing, moment: float) -> float | None:
-        """Height [m] of the floor that its feet are on at a ``moment``; None in between."""
-        if moment < max(self.leaves, self.crosses):
-            return of.start[2]
-        return of.end[2] if moment > self.lands else None
+    def floor(self, of: Crossing, moment: float) -> tuple[float, float]:
+        """Height [m] of the floor that its feet are on at a ``moment``, and how firmly they are, 0 to 1."""
+        off = max(self.leaves, self.crosses)
+        if moment < off:
+            return of.start[2], 1.0 - _ramp(moment, off - _SPRING, off)
+        return of.end[2], _ramp(moment, self.lands, self.lands + 0.5 * _SPRING)
 
     def place(self, motions: MotionSet, of: Crossing, moment: float) -> NDArray[np.float64]:
         """(3,) the floor under it, or where that would be [m]."""
@@ -251,16 +252,18 @@ class RecordedSkill:
         return np.array([*self._point(of, x, moment), height])
 
 
-def out_of_the_floor(pose: NDArray[np.float64], floor: float) -> NDArray[np.float64]:
-    """``pose`` (46,), lifted so far that no toe is under a ``floor`` [m]: a pose that fades into another may
-    sink in."""
+def out_of_the_floor(pose: NDArray[np.float64], floor: float, firmly: float) -> NDArray[np.float64]:
+    """``pose`` (46,), lifted so far that no toe is under a ``floor`` [m], or by a share of that, ``firmly``:
+    a pose that fades into another may sink in."""
+    if firmly <= 0.0:
+        return pose
     own = skeleton("full")
     bodies = posed(own, pose[None, 7 + own.joints], pose[None, :7])[0]
     toes = [own.bodies.index(name) for name in ("right_toes", "left_toes", *FEET)]
     sunk = floor - float(bodies[toes, 2].min())
     if sunk > 0.0:
         pose = pose.copy()
-        pose[2] += sunk
+        pose[2] += firmly * sunk
     return pose
 
 

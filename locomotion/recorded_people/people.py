@@ -217,7 +217,7 @@ class RecordedPeople:
             rows[:, at.BEFORE] = self._body_places()
             self.crowd.tick()
             for index in np.flatnonzero(rows[:, at.CROSSES] >= at.RUNS_UP).tolist():
-                self.people[index].move_on(BODY_TICKS * dt)
+                self.people[index].course.move_on(BODY_TICKS * dt)
         old, phase = rows[:, at.GAIT].astype(np.int32), rows[:, at.PHASE].copy()
         tick = (dt, (since + 1) * dt, (since + 1) / BODY_TICKS)
         advance_figures(self._place, self._motion, self._recorded, self._rests, rows, self.crowd.rows, tick)
@@ -225,7 +225,7 @@ class RecordedPeople:
             self.people[index].tick()
         if since == BODY_TICKS - 1:
             for index in np.flatnonzero(rows[:, at.CROSSES]).tolist():
-                self.people[index].cross()
+                self.people[index].course.cross()
         self._choose_gaits(old, phase)
 
     def _body_places(self) -> NDArray[np.float64]:
@@ -313,7 +313,7 @@ class RecordedPeople:
         person, row = self.people[index], self.rows[index]
         now = person.time + ahead
         if row[at.CROSSES] == at.CLEARS:
-            pose = person.clearing_pose(now)
+            pose = person.course.pose(now)
         elif person.playback is not None:
             pose = pose_at(self.graph, person.playback, max(now, person.playback.begun))
             x, y, z, yaw = row[at.PLACE]
@@ -324,8 +324,8 @@ class RecordedPeople:
             self._hold(pose, int(row[at.NODE]))
         elapsed = max(now - float(row[at.FADE_BEGUN]), 0.0)
         pose = faded(pose, row[at.OFFSETS], row[at.RATES], float(row[at.FADE_SECONDS]), elapsed)
-        floor = person.floor(now)
-        return pose if floor is None else out_of_the_floor(pose, floor)
+        floor = person.course.floor(now)
+        return pose if floor is None else out_of_the_floor(pose, *floor)
 
     def _hold(self, pose: NDArray[np.float64], node: int) -> None:
         """Let the hands of ``pose`` (46,) do what they do in a node."""

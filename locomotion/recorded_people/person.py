@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Protocol
@@ -12,8 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from locomotion.body.person import JOINT_NAMES
-from locomotion.body_events import Arrived, Cleared, Event, GotStuck, PostureReached, SetOff, TookOff
-from locomotion.crowd import Crowd, NoRoute, Walker, WalkerState
+from locomotion.body_events import Event, PostureReached, SetOff
+from locomotion.crowd import Crowd, Walker, WalkerState
 from locomotion.errors import LocomotionError
 from locomotion.postures.held_objects import STOWED, node_name, parts_of
 from locomotion.postures.playback import Playback, asked_for, at_rest, settled
@@ -23,16 +22,12 @@ from locomotion.recorded.motion_set import MotionSet
 from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.clearing import Crossing, RecordedSkill, crossing_of
 from locomotion.recorded_people.fading import STEP, Fade, difference, fade_from, rates
+from locomotion.recorded_people.obstacle_course import ObstacleCourse
 from locomotion.skills.registry import skill_kind
 from navmesh.routes.route import Route
 
 __all__ = ["Errand", "PersonState", "RecordedPerson", "can_hold", "checked_node"]
 
-_NEAR = 0.9  # [m] before an obstacle's run-up point at which a run-up begins
-_TURNS = 6.0  # [rad/s] at most, meanwhile
-_ABREAST = 1.2  # [m] between two who clear an obstacle side by side
-_PATIENCE = 10.0  # [s] for which one waits for others before an obstacle
-_BODY = 3  # ticks between two of the bodies'
 _PHASES = 40  # that a body which is taken over is compared with
 _AHEAD = 0.06  # [s] for which rates count as much as angles
 _LEGS = np.array([k for k, name in enumerate(JOINT_NAMES) if "hip" in name or "knee" in name])
@@ -92,6 +87,7 @@ class RecordedPerson:
         self.wanted = ""
         self.errand: Errand | None = None
         self.crossing: Crossing | None = None
+        self.course = ObstacleCourse(self, people)
 
     @property
     def index(self) -> int:
@@ -188,7 +184,7 @@ class RecordedPerson:
         if self.row[at.CROSSES] >= at.RUNS_UP:
             return self._go_on_to(points, speed, facing)
         if self._can_move_at(speed):
-            return self._set_out(points, speed, facing)
+            return self.set_out(points, speed, facing)
         target = node_name("stand", *self.held)
         if target not in people.graph.postures:
             target = "stand"
@@ -198,7 +194,7 @@ class RecordedPerson:
         self.errand = Errand(tuple((float(x), float(y), float(z)) for x, y, z in points), speed, facing)
         return routes
 
-    def _set_out(self, points: NDArray[np.float64], speed: float, facing: float | None) -> list[Route]:
+    def set_out(self, points: NDArray[np.float64], speed: float, facing: float | None) -> list[Route]:
         """Go through ``points`` (k, 3), as far as the first obstacle on the way."""
         people = self._people
         able = people.ranges if people.bases[int(self.row[at.NODE])] == people.stand else None
@@ -214,7 +210,7 @@ class RecordedPerson:
             crossing = crossing_of(people.crowd.graph, use, goals, speed, facing, 0.0)
             self.walker.go_to(np.array([*points[:first], crossing.start]), speed)
             crossing = replace(crossing, beyond=max(way - self.walker.left, 0.0))
-            self.events[-1] = SetOff(self.time, self._point, goals[-1], way)
+            self.events[-1] = SetOff(self.time, self.point, goals[-1], way)
         self.wanted, self.errand, self.row[at.BUSY] = "", None, 0.0
         self.crossing, self.row[at.CROSSES] = crossing, at.NOTHING if crossing is None else at.APPROACHES
         return routes
@@ -303,9 +299,7 @@ class RecordedPerson:
         if self.playback.arc >= 0 or not self.wanted or self.playback.posture != self.playback.target:
             return
         posture, held, state = parts_of(self.wanted, graph.objects)
-        reached = PostureReached(
-            self.time, self._point, posture, "" if state == STOWED else f"{held} {state}"
-        )
+        reached = PostureReached(self.time, self.point, posture, "" if state == STOWED else f"{held} {state}")
         self.events.append(reached)
         self.wanted = ""
         number, base = self.playback.posture, graph.postures.index(posture)
@@ -321,134 +315,11 @@ class RecordedPerson:
             self.change(rest)
         errand, self.errand = self.errand, None
         if errand is not None:
-            self._set_out(np.array(errand.goals), errand.speed, errand.facing)
-
-    # --- over obstacles
-    def move_on(self, dt: float) -> None:
-        """Be moved over an obstacle in the next ``dt`` [s], in which bodies move once."""
-        people, of = self._people, self.crossing
-        assert of is not None
-        skill, then = people.skills[of.affordance], self.time - of.begun + dt
-        here = self.walker.position
-        if self.row[at.CROSSES] == at.RUNS_UP:
-            point = skill.run_up(of, then)[0]
-            cadence = people.cadence(self.index) / self.row[at.HASTE]
-            haste = skill.haste(of, then - dt, float(self.row[at.PHASE]), cadence)
-            self.row[at.HASTE] = self.row[at.HASTE] if haste is None else haste
-            cells, floors = people.crowd.graph.project(np.array([[*point, here[2]]]))
-            place = np.array([*point, floors[0] if cells[0] >= 0 else here[2]])
-        else:
-            place = skill.place(people.motions, of, skill.moment(of, then + self._flown))
-        turn = (of.heading - self.walker.yaw + np.pi) % (2.0 * np.pi) - np.pi
-        yaw = self.walker.yaw + float(np.clip(turn, -_TURNS * dt, _TURNS * dt))
-        self.walker.carry(place, (place - here)[:2] / dt, (yaw + np.pi) % (2.0 * np.pi) - np.pi)
+            self.set_out(np.array(errand.goals), errand.speed, errand.facing)
 
     @property
-    def _flown(self) -> float:
-        """[s] to be added to the time since the run-up began for that since the skill did."""
-        of = self.crossing
-        assert of is not None
-        return self._people.skills[of.affordance].run_up(of, 0.0)[2] * -1.0
-
-    def clearing_pose(self, now: float) -> NDArray[np.float64]:
-        """(46,) its pose at the time ``now`` [s], over an obstacle."""
-        people, of = self._people, self.crossing
-        assert of is not None
-        skill = people.skills[of.affordance]
-        moment = skill.moment(of, now - of.begun + self._flown)
-        return skill.pose(people.motions, int(self.row[at.LEVEL]), of, moment)
-
-    def floor(self, now: float) -> float | None:
-        """Height [m] of the floor on which its feet are at the time ``now`` [s], of one over an obstacle."""
-        if self.row[at.CROSSES] != at.CLEARS:
-            return None
-        of = self.crossing
-        assert of is not None
-        skill = self._people.skills[of.affordance]
-        return skill.floor(of, skill.moment(of, now - of.begun + self._flown))
-
-    def cross(self) -> None:
-        """After bodies have moved: begin a run-up, take off, or go on behind the obstacle."""
-        people, of = self._people, self.crossing
-        assert of is not None
-        skill, elapsed = people.skills[of.affordance], self.time - of.begun
-        if self.row[at.CROSSES] == at.APPROACHES:
-            self._begin_run_up(of)
-        elif self.row[at.CROSSES] == at.RUNS_UP:
-            if elapsed + self._flown >= 0.0:
-                self.events.append(TookOff(self.time, self._point, of.affordance, of.size, 0.0, 0.0))
-                self.change(self._take_off)
-        elif elapsed + self._flown >= skill.seconds(of):
-            self._land(of)
-
-    def _begin_run_up(self, of: Crossing) -> None:
-        people, walker = self._people, self.walker
-        if walker.status == "stuck":
-            self.crossing, self.row[at.CROSSES] = None, at.NOTHING
-            return
-        pace = float(np.hypot(*walker.velocity))
-        goals_before = len(people.crowd.goals_left(self.index)) > 1
-        far = max(_NEAR, pace * pace / (2.0 * 0.8 * walker.acceleration) + 0.3)
-        if walker.status == "walking" and (goals_before or walker.left > far):
-            return
-        if walker.status == "arrived":  # it waits for its turn there
-            if isinstance(self.events[-1], Arrived):
-                self.events.pop()
-            walker.status = "walking"
-        if self._waits_for_others(of):
-            self.crossing = replace(of, waited=of.waited + _BODY * people.dt)
-            return
-        skill, graph = people.skills[of.affordance], people.crowd.graph
-        x, y, z = walker.position.tolist()
-        self.crossing = replace(of, begun=self.time, origin=(x, y, z, pace))
-        ends = skill.place(people.motions, self.crossing, skill.ends)
-        cells, floors = graph.project(ends[None])
-        roomy = cells[0] >= 0 and abs(floors[0] - of.end[2]) < graph.rules.max_step
-        if not (roomy and graph.clearance_at(ends) >= walker.radius):
-            self.crossing = replace(self.crossing, last=math.dist(of.edge[:2], of.end[:2]))
-        self.row[at.CROSSES] = at.RUNS_UP
-
-    def _waits_for_others(self, of: Crossing) -> bool:
-        """Whether others are about to clear the same, or stand where it would land."""
-        if of.waited > _PATIENCE:
-            return False
-        people, mine = self._people, self.index
-        for index in np.flatnonzero(people.rows[:, at.CROSSES] >= at.RUNS_UP).tolist():
-            other = people.people[index].crossing
-            if other is not None and math.dist(other.edge, of.edge) < _ABREAST:
-                return True
-        places = people.crowd.positions
-        away = np.linalg.norm(places - np.array(of.end), axis=1)
-        away[mine] = np.inf
-        return bool((away < 2.0 * self.walker.radius).any())
-
-    def _take_off(self) -> None:
-        self.row[at.CROSSES], self.row[at.LAID], self.row[at.GAIT] = at.CLEARS, 0.0, -1.0
-        self.row[at.HASTE] = 1.0
-
-    def _land(self, of: Crossing) -> None:
-        walker = self.walker
-        pose, pose_rates = self.qpos, self.qpos_rates
-        velocity = walker.velocity
-        if not walker.put_down():
-            walker.carry(np.array(of.end), velocity, walker.yaw)
-            walker.put_down()
-        self.crossing, self.row[at.CROSSES] = None, at.NOTHING
-        self.go_on_from(pose, pose_rates, walker.position, velocity)
-        self.events.append(Cleared(self.time, self._point, of.affordance, of.size))
-        if not of.goals or self.row[at.BUSY] > 0.0:
-            walker.stop()
-            return
-        told = len(self.events)
-        try:
-            self._set_out(np.array(of.goals), of.speed, of.facing)
-            del self.events[told:]
-        except NoRoute:
-            walker.status = "stuck"
-            self.events.append(GotStuck(self.time, self._point))
-
-    @property
-    def _point(self) -> tuple[float, float, float]:
+    def point(self) -> tuple[float, float, float]:
+        """`position` as numbers."""
         x, y, z = self.position.tolist()
         return x, y, z
 

@@ -18,7 +18,7 @@ from locomotion.recorded_people.saved_state_check import check_recorded
 from locomotion.skills.course import make_course
 
 EDGE, THICK = 5.0, 0.3
-GIVES = 0.1  # [m] that a joint of the body may be under a surface: toes, where one takes off
+GIVES = 0.12  # [m] that a joint of the body may be under a surface: toes, where one takes off
 
 
 def over(kind, size, level=FULL, speed=1.4):

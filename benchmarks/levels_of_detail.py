@@ -1,12 +1,13 @@
 """People at several levels of detail: switching between them, and what a frame of a thousand costs.
 
     python -m benchmarks.levels_of_detail [--switches 1000] [--seconds 20] [--seed 1] [--only switches|frame]
+    python -m benchmarks.levels_of_detail --only switches --modes vault roll
 
-Switches: a person stands, walks or runs over a plain, plays recorded motion or is simulated, and is told to
-go over to the other at a random moment. Printed are the greatest jump of the pose then; the greatest step of
-a joint and of the root between two frames of 1/60 s in the half second after it, and, for comparison, in the
-half second before it, since knees bend by more than 10 degrees between two frames of any walk; and how many
-have not fallen 5 s later.
+Switches: a person stands, walks or runs over a plain, or has just jumped, vaulted or rolled, plays recorded
+motion or is simulated, and is told to go over to the other at a random moment. Printed are the greatest jump
+of the pose then; the greatest step of a joint and of the root between two frames of 1/60 s in the half second
+after it, and, for comparison, in the half second before it, since knees bend by more than 10 degrees between
+two frames of any walk; and how many have not fallen 5 s later.
 
 Frame: 10 simulated people, 90 in full, 300 in medium and 600 in low detail walk between random places of the
 shared level nav_test, or of a plain where it is absent. A frame is 1/60 s of the world and the transforms of
@@ -17,6 +18,8 @@ import argparse
 import gc
 import math
 import time
+from collections.abc import Sequence
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -24,17 +27,20 @@ import numpy as np
 from benchmarks.giving_way import floor
 from benchmarks.shared_data import level_path, shared_folder, why_absent
 from locomotion.recorded_people.fading import difference
+from locomotion.skills.course import make_course
 from navmesh import NodeGraph, Terrain
-from runtime import Agent, Fell, World
+from runtime import Agent, Fell, SkillFinished, World
 from runtime.bodies.humans import HumanDriver
 from runtime.planning.rules import person_walk_rules
 from runtime.world.level_of_detail import LEVELS, PHYSICS
 
-__all__ = ["COUNTS", "MODES", "frame_figures", "switch_figures"]
+__all__ = ["COUNTS", "MODES", "SKILLS", "frame_figures", "switch_figures"]
 
 FRAME = 1.0 / 60.0
 MODES = {"stand": (0.0, 0.0), "walk": (0.5, 1.9), "run": (2.6, 4.6)}
 """[m/s] least and greatest speed."""
+SKILLS = {"jump": ("jump", 0.3, 0.5), "vault": ("vault", 0.65, 0.9), "roll": ("drop", 1.1, 1.8)}
+"""Obstacles that are cleared before, and least and greatest size [m] of these."""
 COUNTS = (10, 90, 300, 600)
 """People at each of `LEVELS`."""
 _PLAIN = (-5.0, -40.0, 120.0, 40.0)
@@ -52,16 +58,38 @@ def steps(poses: list[np.ndarray]) -> tuple[float, float]:
     return float(np.degrees(np.abs(moved[:, 6:]).max())), float(np.linalg.norm(moved[:, :3], axis=1).max())
 
 
-def switch(graph: NodeGraph, mode: str, to: str, rng: np.random.Generator) -> dict[str, float]:
+def setting(mode: str, rng: np.random.Generator) -> tuple[NodeGraph, np.ndarray, float]:
+    """The level of a switch, the goal and the speed there."""
+    if mode in SKILLS:
+        kind, low, high = SKILLS[mode]
+        course = make_course([(kind, float(rng.uniform(low, high)), 0.3)], [14.0])
+        terrain = Terrain.from_arrays(course.vertices, course.faces)
+        return NodeGraph.build(terrain, person_walk_rules()), course.path[-1], 3.5
+    low, high = MODES[mode]
+    angle = float(rng.uniform(-0.5, 0.5))
+    goal = np.array([100.0 * math.cos(angle), 60.0 * math.sin(angle), 0.0])
+    return plain(), goal, float(rng.uniform(low, high))
+
+
+@lru_cache(maxsize=1)
+def plain() -> NodeGraph:
+    """A level without anything."""
+    return floor(_PLAIN)
+
+
+def switch(mode: str, to: str, rng: np.random.Generator) -> dict[str, float]:
     """One person goes over to the level ``to`` at a random moment."""
+    graph, goal, speed = setting(mode, rng)
     world = World(graph, seed=int(rng.integers(2**31)))
     ada = world.spawn("human", (0.0, 0.0, 0.0), detail="full" if to == PHYSICS else PHYSICS)
-    low, high = MODES[mode]
-    if high > 0.0:
-        angle = float(rng.uniform(-0.5, 0.5))
-        goal = (100.0 * math.cos(angle), 60.0 * math.sin(angle), 0.0)
-        ada.go_to(goal, speed=float(rng.uniform(low, high)))
-    world.step(float(rng.uniform(3.0, 5.0)))
+    if speed > 0.0:
+        ada.go_to(goal, speed=speed)
+    if mode in SKILLS:
+        while not any(isinstance(event, SkillFinished) for event in world.events) and world.time < 20.0:
+            world.step(0.1)
+        world.step(float(rng.uniform(0.0, 0.5)))
+    else:
+        world.step(float(rng.uniform(3.0, 5.0)))
     before = _frames(world, ada, 30)
     last = pose_of(ada)
     asked = world.time
@@ -95,15 +123,16 @@ def _frames(world: World, agent: Agent, count: int) -> list[np.ndarray]:
     return poses
 
 
-def switch_figures(count: int, seed: int) -> dict[tuple[str, str], dict[str, float]]:
-    """For each mode and direction: how many switched and stayed up, and the worst of all else."""
-    graph = floor(_PLAIN)
-    cases = [(mode, to) for mode in MODES for to in (PHYSICS, "full")]
+def switch_figures(
+    count: int, seed: int, modes: Sequence[str] = (*MODES, *SKILLS)
+) -> dict[tuple[str, str], dict[str, float]]:
+    """For each of ``modes`` and each direction: how many switched and stayed up; the worst of the rest."""
+    cases = [(mode, to) for mode in modes for to in (PHYSICS, "full")]
     found: dict[tuple[str, str], dict[str, float]] = {}
     for k, (mode, to) in enumerate(cases):
         of = len(range(k, count, len(cases)))
         rng = np.random.default_rng((seed, k))
-        made = [switch(graph, mode, to, rng) for _ in range(of)]
+        made = [switch(mode, to, rng) for _ in range(of)]
         if made:
             worst = {name: max(each[name] for each in made) for name in made[0]}
             sums = {name: sum(each[name] for each in made) for name in ("switched", "up")}
@@ -165,9 +194,10 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=20.0)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", choices=("switches", "frame"))
+    parser.add_argument("--modes", nargs="+", choices=(*MODES, *SKILLS), default=(*MODES, *SKILLS))
     given = parser.parse_args()
     if given.only != "frame":
-        for (mode, to), of in switch_figures(given.switches, given.seed).items():
+        for (mode, to), of in switch_figures(given.switches, given.seed, given.modes).items():
             print(
                 f"{mode:6} to {to:8} {of['switched']:.0f} of {of['count']:.0f} within {of['waited']:.2f} s; "
                 f"jump {of['jump']:.1e} degrees, {100 * of['jump_root']:.1e} cm; joint step "

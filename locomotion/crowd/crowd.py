@@ -177,6 +177,14 @@ class Crowd:
         row[at.Z] = floor_at(self._net, cell, x, y)
         return True
 
+    def shift(self, index: int, way: NDArray[np.float64]) -> None:
+        """Move a body by ``way`` (3,) [m], a short one, if the surface is clear for it there."""
+        row, there = self.rows[index], self.place(index) + way
+        cells, floors = self.graph.project(there[None])
+        if cells[0] >= 0 and self.graph.clearance_at(there) >= row[at.RADIUS]:
+            row[at.X], row[at.Y], row[at.Z] = [*there[:2], floors[0]] - self._origin
+            row[at.CELL] = cells[0]
+
     # --- routes
     def find_routes(
         self,

@@ -181,11 +181,14 @@ class RecordedPeople:
     def begin_at(self, index: int, place: NDArray[np.float64], velocity: NDArray[np.float64]) -> None:
         """Let a figure be drawn at ``place`` (3,) now, and go on from there at ``velocity`` (2,) [m/s] until
         its body's next tick."""
-        row, bodies = self._rows[index], self.crowd.rows
-        bodies[index, [body.VX, body.VY]] = velocity
-        row[at.PLACE] = *place, bodies[index, body.YAW]
+        row, walker = self._rows[index], self.crowd.rows[index]
+        walker[[body.VX, body.VY]] = velocity
+        row[at.PLACE] = *place, walker[body.YAW]
         left = (BODY_TICKS - 1 - self._since) * self.dt
-        behind = np.array([*((BODY_TICKS * self.dt - left) * velocity), 0.0, 0.0])
+        ahead = np.array([*(left * velocity), 0.0])
+        self.crowd.shift(index, ahead)
+        gone = BODY_TICKS * self.dt - left
+        behind = np.array([*(gone * velocity), 0.0, 0.0])
         row[at.BEFORE] = row[at.PLACE] - behind
 
     def adopt(self, walker: Walker, row: NDArray[np.float64]) -> RecordedPerson:

@@ -12,9 +12,11 @@ def plain():
     return floor((-5.0, -40.0, 120.0, 40.0))
 
 
-@pytest.mark.parametrize(("mode", "to"), [("walk", "physics"), ("walk", "full"), ("run", "physics")])
-def test_nobody_sees_the_switch_and_nobody_falls(plain, mode, to):
-    of = switch(plain, mode, to, np.random.default_rng(4))
+@pytest.mark.parametrize(
+    ("mode", "to"), [("walk", "physics"), ("walk", "full"), ("run", "physics"), ("roll", "physics")]
+)
+def test_nobody_sees_the_switch_and_nobody_falls(mode, to):
+    of = switch(mode, to, np.random.default_rng(4))
     assert of["switched"] == of["up"] == 1.0 and of["waited"] < 0.5
     assert of["jump"] < 1e-6 and of["jump_root"] < 1e-6
     assert (

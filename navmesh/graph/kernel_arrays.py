@@ -11,6 +11,7 @@ import numpy as np
 from numba import float64, int32, int64
 
 from navmesh.routes.graph_search import LABELS
+from surefoot.kernels import kernel
 from surefoot.kernels.bundles import Bundle, BundleType, aligned, rows
 
 if TYPE_CHECKING:
@@ -142,27 +143,32 @@ def _table(dtype: np.dtype, **columns: np.ndarray) -> np.ndarray:
     return table
 
 
+@kernel
+def _fill_cells(net, clearance, height, link, label, cell_column, gradient, source, blocker_start):
+    """Write the rows of all cells, in one go over the memory."""
+    for k in range(clearance.shape[0]):
+        net.clearance[k], net.height[k] = clearance[k], height[k]
+        for d in range(4):
+            net.link[k, d] = link[k, d]
+        net.label[k], net.cell_column[k] = label[k], cell_column[k]
+        net.gradient[k, 0], net.gradient[k, 1] = gradient[k, 0], gradient[k, 1]
+        s = source[k]
+        net.nearby[k, 0] = blocker_start[s] if s >= 0 else -1
+        net.nearby[k, 1] = blocker_start[s + 1] if s >= 0 else -1
+
+
 def net_of(graph: "NodeGraph") -> Any:
     """The graph's `NET`, made once."""
     net = graph.cache.get("net")
     if net is None:
         surface = graph.surface
-        net = graph.cache["net"] = Bundle(
+        net = Bundle(
             NET,
             cell=surface.resolution,
             nx=surface.shape[0],
             ny=surface.shape[1],
             column_start=surface.column_start,
-            cells=_table(
-                _CELL,
-                clearance=surface.clearance,
-                height=surface.height,
-                link=surface.link,
-                label=graph.label,
-                cell_column=surface.cell_column,
-                gradient=surface.gradient,
-                nearby=surface.nearby(),
-            ),
+            cells=aligned(len(surface), _CELL),
             nearest=surface.nearest,
             blocker=surface.blocker,
             nodes=_table(_NODE, position=graph.positions - surface.origin, node_radius=graph.radii),
@@ -170,6 +176,11 @@ def net_of(graph: "NodeGraph") -> Any:
             edge_start=graph.edge_start,
             edge_target=graph.edge_target,
         )
+        _fill_cells(
+            net, surface.clearance, surface.height, surface.link, graph.label, surface.cell_column,
+            surface.gradient, surface.source, surface.blocker_start,
+        )  # fmt: skip
+        graph.cache["net"] = net
     return net
 
 

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from navmesh.graph.nodes import grain_of, select_nodes
+from navmesh.graph.nodes import grain_of, order_by_clearance, select_nodes
 from navmesh.level.raster import Patch
 from navmesh.surface.build import Window
-from navmesh.surface.renewal import field_in, moved_cells
+from navmesh.surface.renewal import field_in, inside_of, moved_cells
 from navmesh.surface.splicing import columns_in, runs_of
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel, kernel
@@ -62,7 +62,7 @@ def renew_nodes(old: Nodes, before: Surface, surface: Surface, window: Window, l
         clipped = np.clip(chosen.boxes, 0, np.tile(surface.shape, 2))
         beyond = (clipped[:, :2] < area[:2]).any(axis=1) | (clipped[:, 2:] > area[2:]).any(axis=1)
         if not beyond.any():
-            return _numbered(area, chosen, old, before, surface)
+            return _numbered(area, changed, chosen, old, before, surface)
         area = hull(area, chosen.boxes[beyond], 0, surface)
 
 
@@ -90,13 +90,14 @@ def _choose_in(
     """Choose nodes anew in the columns of ``area``; ``boxes`` are those of the old discs."""
     window = tuple(area.tolist())
     near = np.flatnonzero(_touch(boxes, area))
-    in_area = _inside(before.cell_column[old.maker[near]], surface, area)
+    in_area = inside_of(before.cell_column[old.maker[near]], window, surface.shape[1])
     there, given = near[in_area], near[~in_area]
     field, where = field_in(surface, tuple(hull(area, boxes[given], _SEEN, surface).tolist()))
-    candidates = np.flatnonzero(_inside(field.cell_column, surface, area))
+    order = order_by_clearance(field.clearance, grain_of(surface))
+    order = order[inside_of(field.cell_column[order], window, surface.shape[1])]
     given_maker = moved_cells(old.maker[given], before, surface, window)
-    key = np.concatenate([_keys(where[candidates], surface), _keys(given_maker, surface)])
-    order = np.concatenate([candidates, -1 - np.arange(len(given))])[np.argsort(key)].astype(np.int32)
+    at = _places_among(where[order], given_maker, surface.clearance, grain_of(surface))
+    order = np.insert(order, at, -1 - np.arange(len(given), dtype=np.int32))
     given_cell = np.searchsorted(where, moved_cells(old.cell[given], before, surface, window)).astype(
         np.int32
     )
@@ -117,9 +118,10 @@ def _choose_in(
 
 
 def _numbered(
-    area: np.ndarray, chosen: _Chosen, old: Nodes, before: Surface, surface: Surface
+    area: np.ndarray, changed: np.ndarray, chosen: _Chosen, old: Nodes, before: Surface, surface: Surface
 ) -> RenewedNodes:
-    """All nodes, those ``chosen`` in the ``area`` and the old ones made elsewhere, in their order."""
+    """All nodes, those ``chosen`` in the ``area`` and the old ones made elsewhere, in their order. Outside of
+    ``changed`` all columns have the cells that they had."""
     window = tuple(area.tolist())
     kept = np.delete(np.arange(len(old.cell)), chosen.replaced)
     kept_maker = moved_cells(old.maker[kept], before, surface, window)
@@ -141,7 +143,7 @@ def _numbered(
     local[-1] = -1
     local[:-1][~chosen.made] = number[chosen.was[~chosen.made]]
     local[made] = to
-    within = _inside(surface.cell_column[chosen.where], surface, area)
+    within = inside_of(surface.cell_column[chosen.where], window, surface.shape[1])
     start, _ = columns_in(surface.column_start, area, surface.shape[1])
     patch = Patch(surface.resolution, *area[:2].tolist(), *(area[2:] - area[:2]).tolist())
     runs, count = runs_of(before.column_start, start, window, patch, surface.shape[1])
@@ -154,7 +156,10 @@ def _numbered(
         merged(kept_maker, chosen.nodes.maker[made]),
         label,
     )
-    return RenewedNodes(nodes, number, window)
+    labelled = _where_labels_change(
+        before.column_start, surface.column_start, old.label, label, number, area, changed, surface.shape[1]
+    )
+    return RenewedNodes(nodes, number, tuple(hull(changed, labelled, _SEEN, surface).tolist()))
 
 
 def _found_again(old: tuple, new: tuple, names: np.ndarray) -> np.ndarray:
@@ -171,17 +176,6 @@ def _spots(cells: np.ndarray, surface: Surface) -> np.ndarray:
     """(k,) int64: column and storey of ``cells``, which say which they are whatever is elsewhere."""
     columns = surface.cell_column[cells]
     return (columns.astype(np.int64) << 16) | (cells - surface.column_start[columns])
-
-
-def _keys(cells: np.ndarray, surface: Surface) -> np.ndarray:
-    """(k,) int64, by which cells have their turn: the widest first, then the first."""
-    step = (surface.clearance[cells] / grain_of(surface)).astype(np.int64)
-    return ((np.int64(1 << 30) - step) << 32) | cells
-
-
-def _inside(columns: np.ndarray, surface: Surface, area: np.ndarray) -> np.ndarray:
-    ix, iy = np.divmod(columns, surface.shape[1])
-    return (ix >= area[0]) & (ix < area[2]) & (iy >= area[1]) & (iy < area[3])
 
 
 def boxes_of(place: np.ndarray, side: float) -> np.ndarray:
@@ -220,6 +214,24 @@ def _places_among(makers, others, clearance, grain):
                 high = middle
         place[k] = low
     return place
+
+
+@allocating_kernel
+def _where_labels_change(old_start, start, old_label, label, number, area, changed, ny):
+    """The window of the columns of ``area``, and not of ``changed``, whose cells have other labels: (1, 4)
+    int64, or (0, 4)."""
+    found = np.array([[1 << 40, 1 << 40, -1, -1]])
+    for ix in range(area[0], area[2]):
+        for iy in range(area[1], area[3]):
+            if changed[0] <= ix < changed[2] and changed[1] <= iy < changed[3]:
+                continue
+            first = old_start[ix * ny + iy]
+            for k in range(start[ix * ny + iy], start[ix * ny + iy + 1]):
+                was = old_label[first + k - start[ix * ny + iy]]
+                if label[k] != (number[was] if was >= 0 else -1):
+                    found[0, 0], found[0, 1] = min(found[0, 0], ix), min(found[0, 1], iy)
+                    found[0, 2], found[0, 3] = max(found[0, 2], ix + 1), max(found[0, 3], iy + 1)
+    return found if found[0, 2] >= 0 else found[:0]
 
 
 @kernel

@@ -11,7 +11,7 @@ from navmesh.surface.splicing import columns_in, link_in, runs_of, splice
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["cells_of_surface", "field_in", "links_in", "moved_cells", "renew_surface"]
+__all__ = ["cells_of_surface", "field_in", "inside_of", "links_in", "moved_cells", "renew_surface"]
 
 _AROUND = 3
 """Columns around a cell whose lists of blockers are asked when its clearance is measured."""
@@ -65,8 +65,7 @@ def _settle(surface: Surface, new: Renewed) -> None:
         max(left - _AROUND, 0), max(near - _AROUND, 0), min(right + _AROUND, nx), min(far + _AROUND, ny)
     )  # fmt: skip
     field, where = field_in(surface, wide)
-    ix, iy = np.divmod(field.cell_column, ny)
-    inside = (ix >= left) & (ix < right) & (iy >= near) & (iy < far)
+    inside = inside_of(field.cell_column, new.window, ny)
     settle_clearance(field, inside)
     surface.clearance[where[inside]] = field.clearance[inside]
     surface.nearest[where[inside]] = field.nearest[inside]
@@ -92,6 +91,21 @@ def moved_cells(cells: np.ndarray, before: Surface, surface: Surface, window: Wi
         cells, before.cell_column, before.column_start, surface.column_start,
         int(before.column_start[low]), int(before.column_start[high]), shift,
     )  # fmt: skip
+
+
+def inside_of(columns: np.ndarray, window: Window, ny: int) -> np.ndarray:
+    """(k,) bool: which of the grid's ``columns`` (k,) are in ``window``."""
+    return _inside_of(columns, np.array(window), ny)
+
+
+@allocating_kernel
+def _inside_of(columns, window, ny):
+    inside = np.empty(columns.shape[0], np.bool_)
+    for k in range(columns.shape[0]):
+        ix = columns[k] // ny
+        iy = columns[k] - ix * ny
+        inside[k] = window[0] <= ix < window[2] and window[1] <= iy < window[3]
+    return inside
 
 
 def links_in(surface: Surface, window: Window) -> tuple[np.ndarray, np.ndarray]:

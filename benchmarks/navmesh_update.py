@@ -27,7 +27,7 @@ from benchmarks.shared_data import LEVELS, level_path
 from navmesh import NodeGraph, Terrain, join_chunks, split_terrain
 
 SIDES = (2.0, 10.0)
-GENERATED = (("city", 1, 5.0), ("hills", 24, 6.0), ("clutter", 1, 4.0))
+GENERATED = (("city", 2, 5.0), ("hills", 60, 6.0), ("clutter", 30, 4.0))
 GRAPH = ("positions", "radii", "label", "edge_start", "edge_target", "edge_width", "edge_gate")
 SURFACE = ("nearest", "link", "clearance", "height")
 

@@ -27,6 +27,10 @@ from navmesh.surface.surface import Surface
 
 __all__ = ["Built", "KeptBuild", "all_rim_samples", "build_whole", "grid_for", "renewed"]
 
+WHOLE = 0.5
+"""Share of a build from which on the whole is built anew."""
+_AROUND = 24  # columns around a window that are mostly looked at, too
+_COPYING = 0.1  # share of a build that it takes to put what stays in place
 _ROOM = 0.25  # of a level's length by which its grid is laid wider on a side that it has outgrown
 
 
@@ -86,7 +90,10 @@ def renewed(old: Built, changed: list[np.ndarray], terrain: Terrain, rules: Walk
     bounds (2, 3) [m]: what `build_whole` gives."""
     built, grid = old, old.grid
     beside = reach_of(rules) + 3  # and the links and distances of cells beside one that changes
-    for window in _apart([_window(bounds, grid, beside) for bounds in changed]):
+    windows = _apart([_window(bounds, grid, beside) for bounds in changed])
+    if sum(_share(window, grid) for window in windows) > WHOLE:
+        return build_whole(terrain, rules, grid)
+    for window in windows:
         spare = reach_of(rules) + 4
         wide = (window[0] - spare, window[1] - spare, window[2] + spare, window[3] + spare)
         wide = _clipped(wide, *grid.shape)
@@ -100,6 +107,12 @@ def renewed(old: Built, changed: list[np.ndarray], terrain: Terrain, rules: Walk
     if not len(built.nodes.cell):
         raise _too_narrow(terrain, rules)
     return built
+
+
+def _share(window: Window, grid: Grid) -> float:
+    """About what share of a build it is to renew a window."""
+    across, along = window[2] - window[0] + 2 * _AROUND, window[3] - window[1] + 2 * _AROUND
+    return across * along / (grid.shape[0] * grid.shape[1]) + _COPYING
 
 
 def _too_narrow(terrain: Terrain, rules: WalkRules) -> NavmeshError:

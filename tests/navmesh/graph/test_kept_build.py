@@ -8,10 +8,20 @@ from hypothesis import strategies as st
 from benchmarks.large_levels import large_level
 from benchmarks.shared_data import level_path, shared_folder
 from navmesh import NavmeshError, NodeGraph, Terrain, WalkRules, join_chunks, split_terrain
+from navmesh.graph import kept_build
 from navmesh.obstacles.tagging import TagFile
 from navmesh.obstacles.tags import Addition, Tags
 from tests.navmesh.pieces import PIECES, SPOTS, assert_same, piece, rebuilt
 from tests.navmesh.shapes import quad, terrain
+
+
+@pytest.fixture(autouse=True, scope="module")
+def never_the_whole():
+    """Small levels are renewed as large ones are."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(kept_build, "WHOLE", np.inf)
+        yield
+
 
 change = st.dictionaries(
     st.sampled_from(SPOTS), st.sampled_from([None, *PIECES]), min_size=1, max_size=3
@@ -128,6 +138,14 @@ def test_saved_and_loaded_graphs_can_be_updated(tmp_path):
     assert_same(one, other)
     assert "bench" in other.obstacles.tag
     assert_same(other.update({"c": None}), rebuilt(one.update({"c": None})))
+
+
+def test_most_of_a_level_is_built_anew_as_a_whole(monkeypatch):
+    monkeypatch.setattr(kept_build, "WHOLE", 0.5)
+    monkeypatch.setattr(kept_build, "renew_surface", None)
+    graph = NodeGraph.build(join_chunks({"a": piece("floor", (0, 0)), "b": piece("floor", (1, 0))}))
+    changed = graph.update({"b": piece("wall", (1, 0))})
+    assert_same(changed, rebuilt(changed))
 
 
 def test_wrong_changes_are_refused():

@@ -52,10 +52,10 @@ SPREAD = (1.0, 0.05, 0.015, 0.25, 0.04, 0.06, 0.04)
 _ARM_JOINTS, _SPREAD_JOINTS = ("shoulder_flexion", "elbow_flexion"), ("hip_abduction",)
 
 
-def by_hand(**traits: float) -> NDArray[np.float64]:
-    """A row of `TRAITS` (7,) float64: those that are named, and the usual ones. Raises `LocomotionError`
-    for an unknown trait, and for a value beyond its least and greatest."""
-    row = np.array([usual for usual, _, _ in TRAITS.values()])
+def by_hand(others: NDArray[np.float64] | None = None, **traits: float) -> NDArray[np.float64]:
+    """A row of `TRAITS` (7,) float64: those that are named, and the ``others`` (7,), by default the usual
+    ones. Raises `LocomotionError` for an unknown trait, and for a value beyond its least and greatest."""
+    row = np.array([usual for usual, _, _ in TRAITS.values()]) if others is None else others.copy()
     for name, value in traits.items():
         if name not in TRAITS:
             raise LocomotionError(f"trait {name!r}: valid: {', '.join(TRAITS)}")

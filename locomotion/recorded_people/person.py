@@ -323,6 +323,10 @@ class RecordedPerson:
         x, y, z = self.position.tolist()
         return x, y, z
 
+    def set_traits(self, traits: NDArray[np.float64]) -> None:
+        """Move in another style: a row of `locomotion.recorded.individual.TRAITS` (7,)."""
+        self.row[at.TRAITS] = traits
+
     def change(self, what: Callable[[], object]) -> None:
         """Do ``what`` changes where its pose comes from; the difference fades out."""
         old, old_rates = self.qpos, self.qpos_rates

@@ -147,6 +147,10 @@ class Driver(ABC):
         """As `runtime.Agent.odds`."""
         raise RuntimeInputError("its odds are not known; only those of a human with physics are")
 
+    def set_style(self, traits: Mapping[str, float]) -> None:
+        """As `runtime.Agent.set_style`."""
+        raise RuntimeInputError("it has no style; only people who play recorded motion have")
+
     @abstractmethod
     def plan(self, goals: np.ndarray) -> Plan:
         """The way through ``goals`` (k, 3), not taken. Raises `runtime.planning.planning.NoWay`."""

@@ -10,6 +10,7 @@ from locomotion import Ground, LocomotionError
 from locomotion.body.models import figure
 from locomotion.crowd.saved_state_check import check_walker
 from locomotion.human.composition import checked_bravery
+from locomotion.recorded.individual import by_hand
 from locomotion.recorded.skeletons import LEVELS, level_number
 from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.people import RecordedPeople
@@ -216,6 +217,15 @@ class RecordedDriver(WalkerDriver):
             self.person.take(posture, held, state)
         except LocomotionError as error:
             raise RuntimeInputError(str(error)) from None
+
+    def set_style(self, traits: Mapping[str, float]) -> None:
+        if "size" in traits:
+            raise RuntimeInputError("trait 'size': people of a world all have the same build")
+        try:
+            row = by_hand(self._row[at.TRAITS], **traits)
+        except (LocomotionError, TypeError) as error:
+            raise RuntimeInputError(str(error)) from None
+        self.person.change(lambda: self.person.set_traits(row))
 
     @property
     def ground(self) -> Ground | None:

@@ -221,12 +221,19 @@ def _play_recorded() -> None:
     from locomotion.recorded.posing import posed
     from locomotion.recorded.sampling import sample_clips, sample_gait
     from locomotion.recorded.skeletons import FULL, skeleton
+    from locomotion.recorded_people.people import RecordedPeople
 
     motions, zero = load_motions(), np.zeros(1)
     posed(skeleton("full"), *sample_clips(motions, FULL, [0], zero))
     walk, place = motions.gait("walk"), np.zeros(4)
     sample, footfalls = sample_gait(motions, FULL, [walk], zero, zero), np.zeros((1, 2, 2, 6))
     planted(motions, FULL, ([walk], zero, zero), sample, [place], footfalls)
+    terrain = tiny_level()
+    ground = Ground.from_arrays(terrain.vertices, terrain.faces)
+    people = RecordedPeople(navmesh.NodeGraph.build(terrain), ground=ground)
+    people.add(terrain.vertices.mean(axis=0), 0.0, FULL, np.random.default_rng(0))
+    people.tick()
+    people.transforms(np.zeros(1, np.int64))
 
 
 def _show_a_character() -> None:

@@ -282,6 +282,14 @@ class Agent:
         """
         self._take(posture, *self._driver.held_in(posture))
 
+    def set_style(self, **traits: float) -> None:
+        """Let a person who plays recorded motion differ from others in these traits from now on: its
+        ``phase``, ``pace``, ``width`` of step, swing of the ``arms``, ``lean`` and ``head``, as of
+        `locomotion.recorded.individual.TRAITS`; the others stay as they are, at first by chance. Raises
+        `RuntimeInputError` for an unknown trait, a value out of its range, and any other body.
+        """
+        self._driver.set_style(traits)
+
     def hold(self, held: str, state: str = "deployed") -> None:
         """Have an object in its hands, such as "rifle", in a state: "deployed", "in use", or "stowed" again.
         Raises `RuntimeInputError` for an object or a state that there is not, or not in its posture."""

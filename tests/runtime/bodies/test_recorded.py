@@ -112,3 +112,29 @@ def test_what_its_hands_cannot_hold_in_a_posture_they_stow(graph):
     assert (ada.posture, ada.held) == ("all-fours", ("", "stowed"))
     told = [str(event) for event in world.events if isinstance(event, PostureReached)]
     assert told[0] == "human1 is in the posture stand, rifle deployed"
+
+
+def test_each_differs_from_the_next_by_chance_and_by_hand(graph):
+    world = World(graph, seed=2)
+    people = [world.spawn("human", (1.0 + 0.7 * k, 3.0, 0.0), detail="full") for k in range(10)]
+    for agent in people:
+        agent.go_to((agent.position[0] + 4.0, 5.0, 0.0), speed=1.2)
+    world.step(1.5)
+    rows = np.array([agent.driver.person.row for agent in people])
+    assert abs(np.exp(2j * np.pi * rows[:, at.PHASE]).mean()) < 0.7  # not in step
+    assert (rows[:, at.TRAITS][:, :6].std(axis=0) > 0.003).all() and (rows[:, at.TRAITS][:, 6] == 1.0).all()
+    before = people[0].pose.transforms
+    people[0].set_style(lean=0.25, arms=1.8)
+    np.testing.assert_allclose(people[0].pose.transforms, before, atol=1e-9)  # it goes over to it
+    world.step(1.0)
+    row = people[0].driver.person.row
+    assert row[at.TRAITS][3] == 1.8 and row[at.TRAITS][1] == rows[0, at.TRAITS][1]
+    for wrong, says in (
+        ({"limp": 1.0}, "valid: phase"),
+        ({"lean": 2.0}, "expected -0.2"),
+        ({"size": 1.1}, "build"),
+    ):
+        with pytest.raises(RuntimeInputError, match=says):
+            people[0].set_style(**wrong)
+    with pytest.raises(RuntimeInputError, match="only people who play"):
+        world.spawn("walker", (9.0, 2.0, 0.0)).set_style(arms=1.0)

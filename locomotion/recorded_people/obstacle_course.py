@@ -7,19 +7,18 @@ and others keep out of its way; where it lands it is a walker again.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion.body_events import Arrived, Cleared, GotStuck, TookOff
-from locomotion.crowd import NoRoute
+from locomotion.body_events import Arrived, Cleared, Event, GotStuck, TookOff
+from locomotion.crowd import Crowd, NoRoute, Walker
+from locomotion.recorded.motion_set import MotionSet
 from locomotion.recorded_people import layout as at
-from locomotion.recorded_people.clearing import Crossing
-
-if TYPE_CHECKING:
-    from locomotion.recorded_people.person import ItsPeople, RecordedPerson
+from locomotion.recorded_people.clearing import Crossing, RecordedSkill
 
 __all__ = ["ObstacleCourse"]
 
@@ -30,10 +29,56 @@ _PATIENCE = 10.0  # [s] for which one waits for others before an obstacle
 _BODY = 3  # ticks between two of the bodies'
 
 
+class Person(Protocol):
+    """What a course asks of its person; members: as of `locomotion.recorded_people.person.RecordedPerson`."""
+
+    walker: Walker
+    crossing: Crossing | None
+
+    @property
+    def index(self) -> int: ...
+    @property
+    def row(self) -> NDArray[np.float64]: ...
+    @property
+    def time(self) -> float: ...
+    @property
+    def point(self) -> tuple[float, float, float]: ...
+    @property
+    def events(self) -> list[Event]: ...
+    @property
+    def qpos(self) -> NDArray[np.float64]: ...
+    @property
+    def qpos_rates(self) -> NDArray[np.float64]: ...
+    def change(self, what: Callable[[], object]) -> None: ...
+    def set_out(self, points: NDArray[np.float64], speed: float, facing: float | None) -> object: ...
+    def go_on_from(
+        self,
+        pose: NDArray[np.float64],
+        pose_rates: NDArray[np.float64],
+        place: NDArray[np.float64],
+        velocity: NDArray[np.float64],
+    ) -> None: ...
+
+
+class People(Protocol):
+    """What it asks of all; members: as of `locomotion.recorded_people.people.RecordedPeople`."""
+
+    crowd: Crowd
+    motions: MotionSet
+    skills: dict[str, RecordedSkill]
+    dt: float
+
+    @property
+    def rows(self) -> NDArray[np.float64]: ...
+    @property
+    def people(self) -> Sequence[Person]: ...
+    def cadence(self, index: int) -> float: ...
+
+
 class ObstacleCourse:
     """A person's obstacles, one after the other: ``RecordedPerson.crossing``."""
 
-    def __init__(self, person: RecordedPerson, people: ItsPeople) -> None:
+    def __init__(self, person: Person, people: People) -> None:
         self._person, self._people = person, people
 
     @property

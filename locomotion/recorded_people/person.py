@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -64,13 +64,14 @@ class ItsPeople(Protocol):
     bases: NDArray[np.int32]
     dt: float
     motions: MotionSet
-    people: list[RecordedPerson]
     skills: dict[str, RecordedSkill]
     ranges: dict[str, tuple[float, float]]
 
     @property
     def rows(self) -> NDArray[np.float64]: ...
     def qpos(self, indices: NDArray[np.int64], ahead: float = 0.0) -> NDArray[np.float64]: ...
+    @property
+    def people(self) -> Sequence[RecordedPerson]: ...
     def cadence(self, index: int) -> float: ...
     def lay_feet(self, index: int) -> None: ...
     def lay_feet_of(self, index: int, pose: NDArray[np.float64]) -> None: ...

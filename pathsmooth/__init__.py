@@ -12,7 +12,7 @@ from pathsmooth.errors import PathSmoothError
 from pathsmooth.exact import solve_exact
 from pathsmooth.problem import Problem
 from pathsmooth.solution import Solution
-from pathsmooth.solver import solve
+from pathsmooth.solver import solve, solve_tightest
 from surefoot import __version__
 from surefoot.compile_notice import announce
 
@@ -25,6 +25,7 @@ __all__ = [
     "curvature_bound",
     "solve",
     "solve_exact",
+    "solve_tightest",
 ]
 
 announce()

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -62,6 +65,38 @@ def solve(
     ):
         return solution
     return solve_with_bound(problem, iterations, tolerance, solution, bounded_state)
+
+
+def solve_tightest(
+    problem: Problem, bounds: Sequence[float], iterations: int, tolerance: float = 0.01
+) -> tuple[Solution, bool]:
+    """Smooth a path under the tightest of some bounds on curvature: what one gets by calling `solve` without
+    a bound, and then with one after the other, the widest first, until one is not met. What the problems
+    share is computed once.
+
+    bounds: [1/m] > 0. iterations: greatest number of iterations under each; a path that takes more without
+        any is returned as soon as it meets one by itself. tolerance: as for `solve`.
+
+    Returns the solution under the last bound that was met, and True; without a bound, and False, if none was.
+    The problem's own bound does not matter. Raises PathSmoothError as `solve` does.
+    """
+    free = solve(replace(problem, max_curvature=None), None, tolerance)
+    if free.status == INFEASIBLE:
+        return free, False
+    bent, best, held = float(curvature(free.points).max()), free, False
+    for bound in sorted(bounds, reverse=True):
+        bounded = replace(problem, max_curvature=bound)
+        if bent <= bound:
+            if free.iterations > iterations:
+                break
+            best = replace(free, problem=bounded)
+        else:
+            found = solve_with_bound(bounded, iterations, tolerance, free)
+            if found.status != COMPLETE:
+                break
+            best = found
+        held = True
+    return best, held
 
 
 def _status(value: float, bound: float, tolerance: float) -> str:

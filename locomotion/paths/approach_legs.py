@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from navmesh.graph.node_graph import NodeGraph
 from navmesh.graph.spatial_queries import cast_ray
-from navmesh.routes.corridor import corridor_of
-from navmesh.routes.route import Leg, Route
+from navmesh.routes.route import Leg, Route, leg_of
 from navmesh.routes.surface_projection import project_to_surface
 
 __all__ = ["SetLeg", "set_legs", "straight_on"]
@@ -53,28 +52,29 @@ def set_legs(
     is room, their points at most ``spacing`` [m] apart. ``start_direction``: (2,) of the body's motion, or
     None.
     """
-    legs = route.legs()
+    walked = route.walked()
     over = [_unit(route.waypoints[use.last] - route.waypoints[use.first]) for use in route.links]
     before = [None if start_direction is None else _unit(start_direction), *over]
     set_ones = []
-    for i, (leg, after) in enumerate(zip(legs, [*over, None], strict=True)):
-        first, last, onward = _ends(route, leg, i, before[i], after, run_up, landing)
-        set_ones.append(_between(route, leg, first, last, spacing, before[i], onward))
+    for i, (points, after) in enumerate(zip(walked, [*over, None], strict=True)):
+        first, last, onward = _ends(route, points, i, before[i], after, run_up, landing)
+        set_ones.append(_between(route, points, first, last, spacing, before[i], onward))
     return set_ones
 
 
 def _ends(
     route: Route,
-    leg: Leg,
+    walked: NDArray[np.float64],
     index: int,
     before: NDArray[np.float64] | None,
     after: NDArray[np.float64] | None,
     run_up: float,
     landing: float,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64] | None]:
-    """(3,) each: where a leg may first and last bend; and its direction at the end: ``after``, or None if a
-    bend would lead too near to what ends the run-up, and the body turns on the spot."""
-    first, last = leg.waypoints[0], leg.waypoints[-1]
+    """(3,) each: where a leg with the waypoints ``walked`` may first and last bend; and its direction at the
+    end: ``after``, or None if a bend would lead too near to what ends the run-up, and the body turns on the
+    spot."""
+    first, last = walked[0], walked[-1]
     way = (last - first)[:2]
     follows = before is not None and after is not None and float(before @ after) > _ALIKE
     begin, end = first, last
@@ -101,26 +101,29 @@ def _ends(
 
 def _between(
     route: Route,
-    leg: Leg,
+    walked: NDArray[np.float64],
     first: NDArray[np.float64],
     last: NDArray[np.float64],
     spacing: float,
     before: NDArray[np.float64] | None,
     after: NDArray[np.float64] | None,
 ) -> SetLeg:
-    """The leg, bending only between ``first`` and ``last`` (3,); unchanged if no way leads there."""
-    none, begin, end = np.empty((0, 3)), leg.waypoints[0], leg.waypoints[-1]
-    as_it_is = SetLeg(leg, none, none, before, after)
+    """The leg with the waypoints ``walked``, bending only between ``first`` and ``last`` (3,); unchanged if
+    no way leads there."""
+    none, begin, end = np.empty((0, 3)), walked[0], walked[-1]
+
+    def as_it_is() -> SetLeg:
+        return SetLeg(leg_of(route, walked), none, none, before, after)
+
     longer = float(np.linalg.norm(first - begin) + np.linalg.norm(end - last))
     if longer == 0.0:
-        return as_it_is
+        return as_it_is()
     way = route.graph.find_path(first, last, radius=route.radius)
-    gone = float(np.linalg.norm(np.diff(leg.waypoints, axis=0), axis=1).sum())
+    gone = float(np.linalg.norm(np.diff(walked, axis=0), axis=1).sum())
     if way.status != "complete" or len(way.waypoints) < 2 or way.length > gone + longer + _DETOUR:
-        return as_it_is
+        return as_it_is()
     if np.abs(way.waypoints[[0, -1]] - np.stack([first, last])).max() > _SAME:
-        return as_it_is
-    corridor = corridor_of(route.graph, way.waypoints, route.radius)
+        return as_it_is()
     onward = (way.waypoints[1] - way.waypoints[0])[:2]
     turns = before is not None and float(before @ onward) < _LEADS_ON * np.linalg.norm(onward)
     if first is not begin and turns:
@@ -131,7 +134,7 @@ def _between(
         else none
     )
     ahead = project_to_surface(route.graph, np.stack([last, end]), spacing)[1:] if last is not end else none
-    return SetLeg(Leg(way.waypoints, corridor.centers, corridor.radii), behind, ahead, before, after)
+    return SetLeg(leg_of(route, way.waypoints), behind, ahead, before, after)
 
 
 def straight_on(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +29,7 @@ __all__ = [
     "RUN_UP",
     "SET_OFF",
     "SLOWS_WITHIN",
+    "Gaits",
     "braking_length",
     "hard_again",
     "plan_gaits",
@@ -55,6 +57,13 @@ _SURELY = 0.75  # [m/s^2] usual least deceleration to a walk
 _BRAKING = 2.5  # [m/s^2] least deceleration to a stand: see `surefoot evaluate brake`
 
 
+class Gaits(NamedTuple):
+    """The limits at each of n points: ``kinds[at[i]]``; ``at`` (n,) int64."""
+
+    kinds: tuple[TrackingLimits, ...]
+    at: NDArray[np.int64]
+
+
 def plan_gaits(
     table: NDArray[np.float64],
     at: NDArray[np.float64],
@@ -64,7 +73,7 @@ def plan_gaits(
     edges: NDArray[np.float64],
     present_speed: float,
     running: bool,
-) -> list[TrackingLimits]:
+) -> Gaits:
     """Write the gaits into ``table`` (n, 8); ``at`` (n,) [m]: arc lengths of its points, with the limits at
     each. Other arguments as in `tracking.make_path`."""
     fastest = min(max(speed, limits.speeds[0]), limits.speeds[1])
@@ -82,7 +91,7 @@ def plan_gaits(
         fast &= at >= _BEGINS
     table[:, GAIT] = np.select([runs, brakes, fast], [RUN, BRAKE, FAST_WALK], WALK)
     usual = replace(walk, speeds=(walk.speeds[0], walk.calm))
-    return [limits if n else walk if f else usual for n, f in zip(near, fast, strict=True)]
+    return Gaits((limits, walk, usual), np.where(near, 0, np.where(fast, 1, 2)))
 
 
 def hard_again(table: NDArray[np.float64], step: float, limits: TrackingLimits, walk: TrackingLimits) -> None:
@@ -186,7 +195,9 @@ def _too_hard(table: NDArray[np.float64], limits: TrackingLimits) -> NDArray[np.
 
 def _can_run(hard: NDArray[np.bool_], at: NDArray[np.float64], slowing: float) -> NDArray[np.bool_]:
     """(n,) bool: where nothing ``hard`` is here or so near ahead that the body has to slow down."""
-    runs = ~hard
-    for each in at[hard]:
-        runs[(at >= each - _BEFORE - slowing) & (at <= each)] = False
-    return runs
+    there = at[hard]
+    if len(there) == 0:
+        return ~hard
+    following = np.searchsorted(there, at)  # the next that is hard, here or ahead
+    next_one = there[np.minimum(following, len(there) - 1)]
+    return (following == len(there)) | (at < next_one - _BEFORE - slowing)

@@ -135,18 +135,13 @@ def _smooth_leg(
     if length < 1e-3:
         return leg.waypoints, True
     for start, end in ((before, after), (None, after), (None, None)):
-        best, held = None, False
-        for bound in (None, *sorted(smoothing.curvatures, reverse=True)):
-            problem = pathsmooth.Problem.from_corridor(
-                leg.waypoints, leg.centers, leg.radii, spacing=smoothing.spacing, start_tangent=start,
-                end_tangent=end, max_curvature=bound, smoothness=smoothing.roundness,
-            )  # fmt: skip
-            solution = pathsmooth.solve(problem, None if bound is None else _ITERATIONS)
-            if solution.status == "infeasible" or (bound is not None and solution.status != "complete"):
-                break
-            best, held = solution, bound is not None
-        if best is not None:
-            return best.points, held
+        problem = pathsmooth.Problem.from_corridor(
+            leg.waypoints, leg.centers, leg.radii, spacing=smoothing.spacing, start_tangent=start,
+            end_tangent=end, smoothness=smoothing.roundness,
+        )  # fmt: skip
+        solution, held = pathsmooth.solve_tightest(problem, smoothing.curvatures, _ITERATIONS)
+        if solution.status != "infeasible":
+            return solution.points, held
     return leg.waypoints, False
 
 

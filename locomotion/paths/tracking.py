@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +11,7 @@ from scipy.ndimage import maximum_filter1d
 
 from locomotion.errors import LocomotionError
 from locomotion.paths.command import HEADING_ASKED, SIDEWAYS_ASKED, SLOPE_THERE, SPEED_ASKED
-from locomotion.paths.gait_plan import hard_again, plan_gaits
+from locomotion.paths.gait_plan import Gaits, hard_again, plan_gaits
 from locomotion.paths.table import (
     CURVATURE,
     GAIT,
@@ -109,7 +108,7 @@ def make_path(
     for edge in crossed:
         table[np.abs(at - edge) < _STEP_REACH, SLOPE] = 0.0
     table[:, GAIT] = RUN
-    gaits = [limits] * count
+    gaits = Gaits((limits,), np.zeros(count, np.int64))
     if walk is not None:
         gaits = plan_gaits(table, at, speed, limits, walk, crossed, present_speed, running)
     _plan_speed(table, length / (count - 1), speed, gaits, present_speed)
@@ -129,15 +128,15 @@ def _directions(table: NDArray[np.float64], step: float) -> None:
     table[:, SLOPE] = (table[high, Z] - table[low, Z]) / ((high - low) * step)
 
 
-def _plan_speed(
-    table: NDArray[np.float64], step: float, speed: float, gaits: Sequence[TrackingLimits], present: float
-) -> None:
+def _plan_speed(table: NDArray[np.float64], step: float, speed: float, gaits: Gaits, present: float) -> None:
     """``gaits``: the limits at each point of the path."""
-    slowest, fastest = np.array([g.speeds for g in gaits]).T
-    sideways, tight, turning = np.array([(g.sideways, *g.tight) for g in gaits]).T
-    faster, slower, uphill, downhill, foresight = np.array(
-        [(g.acceleration, g.deceleration, g.uphill, g.downhill, g.foresight) for g in gaits]
-    ).T
+    each = [
+        (*g.speeds, g.sideways, *g.tight, g.acceleration, g.deceleration, g.uphill, g.downhill, g.foresight)
+        for g in gaits.kinds
+    ]
+    slowest, fastest, sideways, tight, turning, faster, slower, uphill, downhill, foresight = (
+        np.ascontiguousarray(np.array(each).T[:, gaits.at])
+    )
     slope = table[:, SLOPE]
     wished = np.minimum(_speed_in_bends(table, sideways, tight, turning), np.minimum(speed, fastest))
     slowed = uphill * np.maximum(slope, 0.0) + downhill * np.maximum(-slope, 0.0)
@@ -147,12 +146,24 @@ def _plan_speed(
     wished = np.maximum(wished, slowest)
     wished[-1] = slowest[-1]
     squares = wished * wished
+    _slow_down_in_time(squares, slower, step)
+    squares[0] = min(squares[0], max(present, slowest[0]) ** 2 + faster[0] * step)
+    _speed_up_in_time(squares, faster, step)
+    table[:, SPEED] = np.sqrt(squares)
+
+
+@kernel
+def _slow_down_in_time(squares, slower, step):
+    """Lower the squares (n,) of speeds so that decelerations of ``slower`` (n,) [m/s²] do."""
     for i in range(len(squares) - 2, -1, -1):
         squares[i] = min(squares[i], squares[i + 1] + 2.0 * slower[i] * step)
-    squares[0] = min(squares[0], max(present, slowest[0]) ** 2 + faster[0] * step)
+
+
+@kernel
+def _speed_up_in_time(squares, faster, step):
+    """The same for accelerations."""
     for i in range(1, len(squares)):
         squares[i] = min(squares[i], squares[i - 1] + 2.0 * faster[i - 1] * step)
-    table[:, SPEED] = np.sqrt(squares)
 
 
 def _speed_in_bends(
@@ -184,8 +195,7 @@ def shifted(
     present = walk or limits
     bends = _speed_in_bends(table, present.sideways, *present.tight)
     squares = np.minimum(table[:, SPEED], np.maximum(bends, present.speeds[0])) ** 2
-    for i in range(len(squares) - 2, -1, -1):
-        squares[i] = min(squares[i], squares[i + 1] + 2.0 * present.deceleration * step)
+    _slow_down_in_time(squares, np.full(len(squares), present.deceleration), step)
     table[:, SPEED] = np.sqrt(squares)
     if walk is not None:
         hard_again(table, step, limits, walk)

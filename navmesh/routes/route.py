@@ -16,7 +16,7 @@ from surefoot.words import several
 if TYPE_CHECKING:
     from navmesh.graph.node_graph import NodeGraph
 
-__all__ = ["STATUSES", "Leg", "LinkUse", "Route", "Routes", "gathered", "link_uses"]
+__all__ = ["STATUSES", "Leg", "LinkUse", "Route", "Routes", "gathered", "leg_of", "link_uses"]
 
 STATUSES = ("complete", "partial", "no_path", "off_graph")
 """What a route's status can be.
@@ -92,17 +92,20 @@ class Route:
     def legs(self) -> list[Leg]:
         """The walked parts of the route, in order, each with its corridor; the links lie between them."""
         if self._legs is None:
-            bounds = [0]
-            for use in self.links:
-                bounds += [use.first, use.last]
-            bounds.append(len(self.waypoints) - 1)
-            self._legs = []
-            if len(self.waypoints):
-                for first, last in zip(bounds[::2], bounds[1::2], strict=True):
-                    walked = self.waypoints[first : last + 1]
-                    corridor = corridor_of(self.graph, walked, self.radius)
-                    self._legs.append(Leg(walked, corridor.centers, corridor.radii))
+            self._legs = [leg_of(self, walked) for walked in self.walked()]
         return self._legs
+
+    def walked(self) -> list[np.ndarray]:
+        """Waypoints (k, 3) float64 [m] of the walked parts of the route, in order."""
+        if not len(self.waypoints):
+            return []
+        bounds = [0]
+        for use in self.links:
+            bounds += [use.first, use.last]
+        bounds.append(len(self.waypoints) - 1)
+        return [
+            self.waypoints[first : last + 1] for first, last in zip(bounds[::2], bounds[1::2], strict=True)
+        ]
 
     def on_surface(self, spacing: float = 0.25) -> np.ndarray:
         """Points (n, 3) float64 [m] along the walked parts, on the surface, at most ``spacing`` [m] apart.
@@ -129,6 +132,12 @@ class Route:
         return Corridor(
             np.concatenate([leg.centers for leg in legs]), np.concatenate([leg.radii for leg in legs])
         )
+
+
+def leg_of(route: Route, walked: np.ndarray) -> Leg:
+    """A walked part of a route, by its waypoints (k, 3) [m], with its corridor."""
+    corridor = corridor_of(route.graph, walked, route.radius)
+    return Leg(walked, corridor.centers, corridor.radii)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -434,6 +434,8 @@ class HumanDriver(Driver):
     def _closed_links(self, tags: Sequence[str]) -> np.ndarray:
         """Indices of the links over obstacles of these ``tags``, and of those without room for a run-up."""
         graph = self._level.graph
+        if not tags:
+            return cramped_links(graph, PERSON_RULES["radius"])
         of_tags = np.flatnonzero(np.isin(graph.obstacles.tag[graph.links.obstacle], list(tags)))
         return np.union1d(cramped_links(graph, PERSON_RULES["radius"]), of_tags)
 

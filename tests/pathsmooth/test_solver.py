@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from benchmarks.corridors import disc_chain
-from pathsmooth import PathSmoothError, Problem, kernels, reference, solve
+from pathsmooth import PathSmoothError, Problem, kernels, reference, solve, solve_tightest
 from pathsmooth.solver import RELAXATION
 from tests.pathsmooth.chains import corridor, ends
 
@@ -156,3 +156,25 @@ def test_five_thousand_waypoints():
     solution = solve(problem)
     assert solution.status == "complete"
     assert problem.outside(solution.points) < 3e-9
+
+
+@settings(max_examples=12, deadline=None, derandomize=True)
+@given(seed=seeds, tangents=st.booleans(), budget=st.sampled_from([12, 200]))
+def test_the_tightest_bound_is_found_as_by_one_solve_after_the_other(seed, tangents, budget):
+    waypoints, centers, radii = corridor(seed)
+    start, end = ends(waypoints) if tangents else (None, None)
+    bounds, best, held = (0.4, 0.9, 0.15), None, False
+    for bound in (None, *sorted(bounds, reverse=True)):
+        problem = Problem.from_corridor(
+            waypoints, centers, radii, start_tangent=start, end_tangent=end, max_curvature=bound
+        )
+        found = solve(problem, None if bound is None else budget)
+        if found.status == "infeasible" or (bound is not None and found.status != "complete"):
+            break
+        best, held = found, bound is not None
+    got, got_held = solve_tightest(problem, bounds, budget)
+    if best is None:
+        assert got.status == "infeasible" and not got_held
+    else:
+        assert np.array_equal(got.points, best.points) and got_held == held
+        assert got.problem.max_curvature == best.problem.max_curvature

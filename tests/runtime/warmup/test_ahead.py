@@ -13,15 +13,17 @@ from numba.core.dispatcher import Dispatcher
 import navmesh
 import runtime
 from runtime import World
-from runtime.events import Departed, SkillStarted
+from runtime.events import Departed, Fell, SkillStarted
 from runtime.warmup import ahead, compile_kernels, is_compiled
 from runtime.warmup.first_uses import FIRST_USES, tiny_level
 from runtime.warmup.sharing import run_shared
 from runtime.world.event_log import EventLog
+from runtime.world.level_of_detail import Viewer
 from surefoot.compile_notice import counted
 from surefoot.kernels.folder import cache_folder
 from surefoot.preparing import prepare_once
 from surefoot.progress import Progress
+from tests.scenarios.pinned_runs import box
 
 _MAIN = "import runtime.cli.app; runtime.cli.app.main()"
 LEVELS = Path(__file__).parents[3] / "examples" / "levels"
@@ -86,6 +88,57 @@ def test_nothing_compiles_in_a_world():
         graph.find_paths(places[:6], places[6:], radius=0.25)
         graph.cast_ray(places[0], places[1], 0.2)
         graph.random_points(np.random.default_rng(3), 2)
+    assert compiled == []
+
+
+def test_nothing_compiles_whatever_happens_in_a_world():
+    """Every kind of body, skills, a fall, postures, other levels of detail, orders in mid-way, a level that
+    changes, saving and restoring."""
+    compiled = []
+    with counted(compiled.append):
+        graph = navmesh.NodeGraph.build(navmesh.Terrain.load(str(LEVELS / "courtyard.obj"), up="z"))
+        world = World(graph, seed=4)
+        jumper = world.spawn("human", (16.0, 4.4, 0.0), detail="physics")
+        jumper.human.reset((16.0, 4.4, 0.0), 0.0, 3.3)  # it runs already
+        faller = world.spawn("human", (6.0, 8.0, 0.0), facing=0.4)
+        seen = world.spawn("human", (4.0, 24.0, 0.0), detail="auto")
+        far = world.spawn("human", (4.0, 29.0, 0.0), detail="medium")
+        walker = world.spawn("walker", (8.0, 27.0, 0.0))
+        animals = [
+            world.spawn(body, (x, y, 0.0))
+            for body, x, y in (("dog", 4.0, 26.0), ("cat", 12.0, 24.0), ("horse", 16.0, 28.0))
+        ]
+        world.viewers = [Viewer((4.0, 24.0, 1.7), (1.0, 0.0, 0.0))]
+        jumper.go_to((32.0, 4.4, 0.3), speed=3.3)
+        faller.go_to((12.0, 8.0, 0.0), speed=1.3)
+        for agent, goal in ((seen, 12.0), (far, 14.0), (walker, 4.0), *((each, 20.0) for each in animals)):
+            agent.go_to((goal, 26.0, 0.0), speed=1.5)
+        world.step(1.5)
+        faller.human.data.xfrc_applied[faller.human.index.root, :2] = (-200.0, 900.0)
+        world.step(0.2)
+        faller.human.data.xfrc_applied[:] = 0.0
+        far.detail, seen.detail = "full", "physics"
+        animals[0].go_to((4.0, 31.0, 0.0), speed=2.5)
+        animals[1].stop()
+        saved = world.save()
+        world.step(1.0)
+        far.stop()
+        far.hold("rifle")
+        seen.stop()
+        world.transforms()
+        world.step(1.0)
+        far.take_posture("prone")
+        world.viewers = []
+        seen.detail = "low"
+        world.step(0.5)
+        happened = {type(event) for event in world.events}
+        world.restore(saved)
+        world.change_level({"crate": box((10.0, 25.0, 0.0), (11.0, 27.0, 0.7))})
+        walker.go_to((14.0, 24.0, 0.0), speed=1.5)
+        world.step(0.5)
+        for agent in (faller, jumper, far):
+            agent.remove()
+    assert {Fell, SkillStarted} <= happened
     assert compiled == []
 
 

@@ -1,0 +1,175 @@
+"""How long frames take in mixed play, and what an order costs.
+
+    python -m benchmarks.frames [--people 1 10 40] [--dogs 4] [--walkers 20] [--seconds 60] [--seed 1]
+                                [--level FILE] [--speed 3]
+
+People, dogs and walkers get new goals all over a level, are told to stop, and go over to recorded motion and
+back, all drawn by the seed. A frame is `World.step(1 / 60)`. Printed for each number of people are the mean,
+median, 99th percentile and longest of the frames after the first second and of `go_to`, by body; the kernels
+that compiled meanwhile; and the ratio of all frames to bare physics: `mj_step` of the simulated people from
+the states they were in, sampled during the play and timed in the same run.
+"""
+
+import argparse
+import time
+from dataclasses import dataclass, field
+
+import mujoco
+import numpy as np
+
+import navmesh
+from locomotion import Human
+from locomotion.body.person import STEPS_PER_TICK
+from runtime import RuntimeInputError, World
+from runtime.world.agent import Agent
+from surefoot.compile_notice import counted
+
+FRAME = 1.0 / 60.0
+_ORDERS = 0.15  # [1/s] new goals of each
+_STOPS = 0.02  # [1/s]
+_LEVELS = 0.02  # [1/s] of people, to recorded motion or back
+_ROOMY = 0.45  # [m] radius of the discs that goals are in
+_BEGIN = 1.0  # [s] that do not count
+_SAMPLES = 0.25  # [s] between states whose bare physics is timed
+
+
+@dataclass
+class Times:
+    """What was measured. ``frames``: [s] each. ``orders``: of each kind of body, [s] each. ``bare``: [s] of
+    the ticks of bare physics that the frames contain. ``compiled``: kernels."""
+
+    frames: list[float] = field(default_factory=list)
+    orders: dict[str, list[float]] = field(default_factory=dict)
+    bare: float = 0.0
+    compiled: int = 0
+
+
+class Play:
+    """A world with ``people``, ``dogs`` and ``walkers``, who are told to go about at ``speed`` [m/s]."""
+
+    def __init__(self, graph: navmesh.NodeGraph, counts: dict[str, int], speed: float, seed: int) -> None:
+        self.world, self._rng = World(graph, seed), np.random.default_rng(seed)
+        self._speeds = {"human": speed, "dog": 2.0, "walker": 1.4}
+        self._places = graph.positions[graph.radii > _ROOMY]
+        self.times = Times()
+        self._scratch: dict[int, mujoco.MjData] = {}
+        for body, count in counts.items():
+            for _ in range(count):
+                self._spawn(body)
+
+    def _place(self) -> np.ndarray:
+        return self._places[self._rng.integers(len(self._places))]
+
+    def _spawn(self, body: str) -> None:
+        for _ in range(200):
+            try:
+                self.world.spawn(body, self._place(), float(self._rng.uniform(-3.0, 3.0)))
+                return
+            except RuntimeInputError:  # somebody is there already
+                continue
+        raise SystemExit(f"there is no room for another {body}")
+
+    def go_on(self, seconds: float) -> None:
+        """Play, and measure."""
+        due = 0.0
+        with counted(lambda count: setattr(self.times, "compiled", count)):
+            for agent in self.world.agents.values():
+                self._order(agent)
+            while self.world.time < seconds:
+                self._tell()
+                begun = time.perf_counter()
+                self.world.step(FRAME)
+                passed = time.perf_counter() - begun
+                if self.world.time > _BEGIN:
+                    self.times.frames.append(passed)
+                    if self.world.time >= due:
+                        self._time_bare(self.world.time - max(due - _SAMPLES, _BEGIN))
+                        due = self.world.time + _SAMPLES
+
+    def _tell(self) -> None:
+        for agent in self.world.agents.values():
+            chance = float(self._rng.random()) / FRAME
+            if chance < _ORDERS:
+                self._order(agent)
+            elif chance < _ORDERS + _STOPS:
+                agent.stop()
+            elif chance < _ORDERS + _STOPS + _LEVELS and agent.body == "human":
+                agent.detail = "full" if agent.detail == "physics" else "physics"
+
+    def _order(self, agent: Agent) -> None:
+        if agent.status == "fallen":
+            return
+        goal, speed = self._place(), self._speeds[agent.body]
+        begun = time.perf_counter()
+        try:
+            agent.go_to(goal, speed=speed)
+        except RuntimeInputError:
+            return
+        passed = time.perf_counter() - begun
+        if self.world.time > _BEGIN:
+            self.times.orders.setdefault(agent.body, []).append(passed)
+
+    def _time_bare(self, covers: float) -> None:
+        """Add the time of bare physics of ``covers`` [s] of the people as they are now."""
+        for agent in self.world.agents.values():
+            human = agent.driver.simulated
+            if not isinstance(human, Human) or human.held:
+                continue
+            model = human.model
+            if id(model) not in self._scratch:
+                self._scratch[id(model)] = mujoco.MjData(model)
+            copy = self._scratch[id(model)]
+            mujoco.mj_copyData(copy, model, human.data)
+            begun = time.perf_counter()
+            mujoco.mj_step(model, copy, STEPS_PER_TICK)
+            self.times.bare += (time.perf_counter() - begun) * covers / 0.01
+
+
+def told(name: str, seconds: list[float]) -> str:
+    """Mean, median, 99th percentile and longest in a line."""
+    if not seconds:
+        return f"{name}: none"
+    each = 1000.0 * np.array(seconds)
+    middle = float(np.median(each))
+    return (
+        f"{name}: mean {each.mean():.2f}, median {middle:.2f}, p99 {np.quantile(each, 0.99):.2f}, longest "
+        f"{each.max():.2f} ms of {len(each)}; p99 {np.quantile(each, 0.99) / middle:.1f} x, longest "
+        f"{each.max() / middle:.1f} x the median"
+    )
+
+
+def measured(
+    graph: navmesh.NodeGraph, counts: dict[str, int], speed: float, seconds: float, seed: int
+) -> Times:
+    """Play for so long."""
+    play = Play(graph, counts, speed, seed)
+    play.go_on(seconds)
+    return play.times
+
+
+def main() -> None:
+    """Print all."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--people", type=int, nargs="+", default=[1, 10, 40])
+    parser.add_argument("--dogs", type=int, default=4)
+    parser.add_argument("--walkers", type=int, default=20)
+    parser.add_argument("--seconds", type=float, default=60.0)
+    parser.add_argument("--speed", type=float, default=3.0)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--level", default="examples/levels/courtyard.obj")
+    parser.add_argument("--up", default="z")
+    asked = parser.parse_args()
+    graph = navmesh.NodeGraph.build(navmesh.Terrain.load(asked.level, up=asked.up))
+    for people in asked.people:
+        counts = {"human": people, "dog": asked.dogs, "walker": asked.walkers}
+        times = measured(graph, counts, asked.speed, asked.seconds, asked.seed)
+        print(f"{people} people, {asked.dogs} dogs, {asked.walkers} walkers, {asked.seconds:g} s")
+        print(told("  frames", times.frames))
+        for body, orders in times.orders.items():
+            print(told(f"  go_to of a {body}", orders))
+        print(f"  world.step over bare mj_step: {sum(times.frames) / max(times.bare, 1e-9):.2f}")
+        print(f"  kernels compiled: {times.compiled}")
+
+
+if __name__ == "__main__":
+    main()

@@ -31,6 +31,7 @@ _SETTLES = 0.2  # [m/s] whose steps one takes on the spot
 _BRISK = 0.9  # cycles a second of that
 _ASTRAY, _ASKEW = 0.1, 0.35  # [m], [rad] by which a foot may stand elsewhere than in the posture at rest
 _DECIDED = 0.6  # share of a swing after which a foot goes where it was going to
+_LOOKS = 3  # ticks between two looks for its place; figures look in turn
 _ADJUSTS = 0.03  # [s] time constant with which it does
 _FORESEEN = 1.5  # [s] at most
 _BEND = 0.6  # [rad] by which a figure turns until then at most
@@ -218,7 +219,7 @@ def _settles(motion, rests, row, steps, footing):
 def _step(level, row, walker, steps, footing, standing, then, tick):
     """Let both feet go on, after the phase was as ``then`` and has grown at a cadence: ``then`` (2,).
     ``footing`` is of the gait, ``standing`` of what feet are put down for."""
-    place, motion, gait = level
+    place, motion, gait, looks = level
     phase, cadence = then
     dt, elapsed = tick[0], tick[1]
     for side in range(2):
@@ -232,7 +233,8 @@ def _step(level, row, walker, steps, footing, standing, then, tick):
         last = steps[side, LAST]
         if since < bears or cadence <= 0.0:
             continue
-        if (since - bears) / (1.0 - bears) < _DECIDED or before < bears:
+        undecided = looks and (since - bears) / (1.0 - bears) < _DECIDED
+        if undecided or before < bears:
             left = 1.0 + 0.5 * bears - since
             seconds = min(left / cadence, _FORESEEN)
             dx, dy, turned = _gone_on(motion, row, walker, gait, left, seconds, elapsed)
@@ -286,5 +288,6 @@ def advance_figures(place, motion, recorded, rests, rows, walkers, tick):
             continue
         gait = recorded[int(row[at.GAIT])]
         read_footing(tables, gait, _speed_read(row), footing)
+        looks = (int(row[at.AGE]) + n) % _LOOKS == 0
         under = standing if pace < AT_REST else footing
-        _step((place, motion, gait), row, walker, steps, footing, under, (phase, cadence), tick)
+        _step((place, motion, gait, looks), row, walker, steps, footing, under, (phase, cadence), tick)

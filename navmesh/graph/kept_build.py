@@ -29,6 +29,8 @@ __all__ = ["Built", "KeptBuild", "all_rim_samples", "build_whole", "grid_for", "
 
 WHOLE = 0.5
 """Share of a build from which on the whole is built anew."""
+MOST = 0.25
+"""Share of the grid up to which clearances and discs are renewed in a rectangle."""
 _AROUND = 24  # columns around a window that are mostly looked at, too
 _COPYING = 0.1  # share of a build that it takes to put what stays in place
 _ROOM = 0.25  # of a level's length by which its grid is laid wider on a side that it has outgrown
@@ -78,11 +80,23 @@ def grid_for(terrain: Terrain, rules: WalkRules, extent: np.ndarray | None, grow
 def build_whole(terrain: Terrain, rules: WalkRules, grid: Grid) -> Built:
     """Surface, discs and edges of ``terrain``. Raises `NavmeshError` where there are none."""
     surface, choice = surface_of(find_cells(terrain, rules, grid), grid)
+    return _checked(_with_discs(rules, grid, surface, choice), terrain, rules)
+
+
+def _with_discs(rules: WalkRules, grid: Grid, surface: Surface, choice: np.ndarray) -> Built:
     field = field_of(surface)
     nodes = Nodes(*all_nodes(surface, field, rules.min_radius))
-    if not len(nodes.cell):
-        raise _too_narrow(terrain, rules)
     return Built(grid, surface, choice, nodes, join_nodes(nodes.label, field, nodes.place))
+
+
+def _checked(built: Built, terrain: Terrain, rules: WalkRules) -> Built:
+    if not len(built.surface):
+        raise NavmeshError(f"{terrain.name}: after the change there is nothing to walk on")
+    if not len(built.nodes.cell):
+        raise NavmeshError(
+            f"{terrain.name}: no place on it has a clearance of min_radius = {rules.min_radius:g} m"
+        )
+    return built
 
 
 def renewed(old: Built, changed: list[np.ndarray], terrain: Terrain, rules: WalkRules) -> Built:
@@ -98,27 +112,20 @@ def renewed(old: Built, changed: list[np.ndarray], terrain: Terrain, rules: Walk
         wide = (window[0] - spare, window[1] - spare, window[2] + spare, window[3] + spare)
         wide = _clipped(wide, *grid.shape)
         fresh, around = find_cells(terrain, rules, grid, wide), patch_around(grid, wide)
-        surface, choice, reach = renew_surface(built.surface, built.choice, fresh, window, around, grid)
-        nodes = renew_nodes(built.nodes, built.surface, surface, reach, rules.min_radius)
+        surface, choice, reach = renew_surface(built.surface, built.choice, fresh, window, around, grid, MOST)
+        nodes = reach and renew_nodes(built.nodes, built.surface, surface, reach, rules.min_radius, MOST)
+        if nodes is None:
+            built = _with_discs(rules, grid, surface, choice)
+            continue
         edges = renew_edges(built.edges, built.nodes, built.surface, nodes, surface)
         built = Built(grid, surface, choice, nodes.nodes, edges)
-    if not len(built.surface):
-        raise NavmeshError(f"{terrain.name}: after the change there is nothing to walk on")
-    if not len(built.nodes.cell):
-        raise _too_narrow(terrain, rules)
-    return built
+    return _checked(built, terrain, rules)
 
 
 def _share(window: Window, grid: Grid) -> float:
     """About what share of a build it is to renew a window."""
     across, along = window[2] - window[0] + 2 * _AROUND, window[3] - window[1] + 2 * _AROUND
     return across * along / (grid.shape[0] * grid.shape[1]) + _COPYING
-
-
-def _too_narrow(terrain: Terrain, rules: WalkRules) -> NavmeshError:
-    return NavmeshError(
-        f"{terrain.name}: no place on it has a clearance of min_radius = {rules.min_radius:g} m"
-    )
 
 
 def all_rim_samples(

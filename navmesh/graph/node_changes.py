@@ -49,21 +49,25 @@ class RenewedNodes:
     """Outside of these columns no label is another than before, but for the numbers."""
 
 
-def renew_nodes(old: Nodes, before: Surface, surface: Surface, window: Window, least: float) -> RenewedNodes:
+def renew_nodes(
+    old: Nodes, before: Surface, surface: Surface, window: Window, least: float, most: float
+) -> RenewedNodes | None:
     """The nodes of ``surface``, which is as ``before``, with the ``old`` nodes, outside of ``window``.
 
-    ``least`` [m] is the radius of the smallest. Bit for bit those that `select_nodes` finds in the whole.
+    ``least`` [m] is the radius of the smallest. Bit for bit those that `select_nodes` finds in the
+    whole. None where more than the share ``most`` of the grid would have to be looked at.
     """
     boxes = boxes_of(old.place, surface.resolution)
     changed = hull(np.array(window), boxes[:0], 1, surface)
     area = hull(np.array(window), boxes[_touch(boxes, changed)], _SEEN, surface)
-    while True:
+    while np.prod(area[2:] - area[:2]) <= most * np.prod(surface.shape):
         chosen = _choose_in(area, old, boxes, before, surface, least)
         clipped = np.clip(chosen.boxes, 0, np.tile(surface.shape, 2))
         beyond = (clipped[:, :2] < area[:2]).any(axis=1) | (clipped[:, 2:] > area[2:]).any(axis=1)
         if not beyond.any():
             return _numbered(area, changed, chosen, old, before, surface)
         area = hull(area, chosen.boxes[beyond], 0, surface)
+    return None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -51,13 +51,14 @@ class Renewed:
 
 
 def renew_clearance(
-    old: Cells, choice: np.ndarray, fresh: Cells, window: Window, around: Patch, whole: Patch
-) -> Renewed:
+    old: Cells, choice: np.ndarray, fresh: Cells, window: Window, around: Patch, whole: Patch, most: float
+) -> Renewed | None:
     """What comes of putting the columns of ``window`` from ``fresh``, the cells of the patch ``around``, in
-    the place of those of ``old``, all cells of the grid ``whole``, whose ``choice`` (n,) is known."""
+    the place of those of ``old``, all cells of the grid ``whole``, whose ``choice`` (n,) is known. None where
+    more than the share ``most`` of the grid would have to be looked at."""
     edge = np.array([0, 0, whole.nx, whole.ny])
     inner = _grown(np.array(window), np.full(4, _MARGIN), edge)
-    while True:
+    while np.prod(inner[2:] - inner[:2]) <= most * whole.nx * whole.ny:
         outer = _grown(inner, np.ones(4, np.int64), edge)
         patch = Patch(whole.side, *outer[:2].tolist(), *(outer[2:] - outer[:2]).tolist())
         rectangle = tuple(outer.tolist())
@@ -74,6 +75,7 @@ def renew_clearance(
             return Renewed(rectangle, cells, nearest, source, chosen)
         extent = np.tile(inner[2:] - inner[:2], 2)
         inner = _grown(inner, np.where(disturbed, np.ceil(_GROWTH * extent), 0).astype(np.int64), edge)
+    return None
 
 
 def _grown(window: np.ndarray, by: np.ndarray, edge: np.ndarray) -> np.ndarray:

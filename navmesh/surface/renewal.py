@@ -3,7 +3,7 @@
 import numpy as np
 
 from navmesh.level.raster import Patch
-from navmesh.surface.build import Cells, Grid, Window, whole_patch
+from navmesh.surface.build import Cells, Grid, Window, surface_of, whole_patch
 from navmesh.surface.clearance import settle_clearance
 from navmesh.surface.clearance_changes import Renewed, renew_clearance
 from navmesh.surface.ridges import Field
@@ -26,19 +26,22 @@ def cells_of_surface(surface: Surface) -> Cells:
 
 
 def renew_surface(
-    old: Surface, choice: np.ndarray, fresh: Cells, window: Window, around: Patch, grid: Grid
-) -> tuple[Surface, np.ndarray, Window]:
+    old: Surface, choice: np.ndarray, fresh: Cells, window: Window, around: Patch, grid: Grid, most: float
+) -> tuple[Surface, np.ndarray, Window | None]:
     """The surface with the columns of ``window`` as in ``fresh``, the cells of the patch ``around``; those
     just outside of the window are alike in both. ``choice`` is that of `navmesh.surface.build.surface_of`.
 
-    Returns it, its choices, and a window outside of which no cell is other than before, nor its clearance.
+    Returns it, its choices, and a window outside of which no cell is other than before, nor its clearance;
+    None where that is more than about the share ``most`` of the grid.
     """
     whole = whole_patch(grid)
     before = cells_of_surface(old)
-    new = renew_clearance(before, choice, fresh, window, around, whole)
+    cells = splice(before, fresh, window, around, whole.ny)
+    new = renew_clearance(before, choice, fresh, window, around, whole, most)
+    if new is None:
+        return *surface_of(cells, grid), None
     left, near, right, far = new.window
     patch = Patch(whole.side, left, near, right - left, far - near)
-    cells = splice(before, fresh, window, around, whole.ny)
     runs, count = runs_of(old.column_start, new.cells.column_start, new.window, patch, whole.ny)
     nearest, clearance = np.empty((count, 2)), np.empty(count)
     source, chosen = np.empty(count, np.int32), np.empty(count, np.uint8)

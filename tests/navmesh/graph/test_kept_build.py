@@ -20,6 +20,7 @@ def never_the_whole():
     """Small levels are renewed as large ones are."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(kept_build, "WHOLE", np.inf)
+        patch.setattr(kept_build, "MOST", np.inf)
         yield
 
 
@@ -138,6 +139,23 @@ def test_saved_and_loaded_graphs_can_be_updated(tmp_path):
     assert_same(one, other)
     assert "bench" in other.obstacles.tag
     assert_same(other.update({"c": None}), rebuilt(one.update({"c": None})))
+
+
+@pytest.mark.parametrize("most", [0.0, 0.3])
+def test_where_a_change_reaches_far_discs_are_chosen_in_the_whole(monkeypatch, most):
+    monkeypatch.setattr(kept_build, "MOST", most)
+    level = {f"{i},{j}": piece("floor", (i, j)) for i, j in SPOTS}
+    graph = NodeGraph.build(join_chunks(level)).update({"1,1": piece("wall", (1, 1)), "2,2": None})
+    assert_same(graph, rebuilt(graph))
+
+
+@pytest.mark.parametrize("most", [0.0, np.inf])
+def test_all_floor_goes_in_one_place_and_comes_in_another(monkeypatch, most):
+    monkeypatch.setattr(kept_build, "MOST", most)
+    extent = [(0, 0, 0), (40, 4, 0)]
+    graph = NodeGraph.build(join_chunks({"a": piece("floor", (0, 0))}), extent=extent)
+    moved = graph.update({"a": None, "b": piece("floor", (8, 0))})
+    assert_same(moved, rebuilt(moved))
 
 
 def test_most_of_a_level_is_built_anew_as_a_whole(monkeypatch):

@@ -32,7 +32,8 @@ def test_a_pillar_moves(seed):
             apart.flat[column] |= (column, float(x), float(y)) not in known
     ix, iy = np.nonzero(apart)
     window = int(ix.min()) - 1, int(iy.min()) - 1, int(ix.max()) + 2, int(iy.max()) + 2
-    found = renew_nodes(nodes, old.surface, new.surface, window, new.rules.min_radius)
+    found = renew_nodes(nodes, old.surface, new.surface, window, new.rules.min_radius, 1.0)
+    assert found is not None
     for name in ("cell", "place", "maker", "label"):
         np.testing.assert_array_equal(getattr(found.nodes, name), getattr(expected, name), name)
     stay = np.flatnonzero(found.number >= 0)

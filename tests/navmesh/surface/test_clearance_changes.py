@@ -40,8 +40,9 @@ def test_of_rocks_on_a_plain(before, after):
     inner, window = columns(0), columns(8)
     fresh = find_cells(rocks(*after), RULES, grid, window)
     found = renew_clearance(
-        cells_of_surface(old), choice, fresh, inner, patch_around(grid, window), whole_patch(grid)
+        cells_of_surface(old), choice, fresh, inner, patch_around(grid, window), whole_patch(grid), 1.0
     )
+    assert found is not None
     left, near, right, far = found.window
     assert left <= inner[0] and near <= inner[1] and right >= inner[2] and far >= inner[3]
     ix, iy = np.divmod(new.cell_column, grid.shape[1])

@@ -1,6 +1,7 @@
 """Whether dogs, people and walkers give way to each other.
 
     python -m benchmarks.giving_way [--starts 10] [--scenes crossing] [--pairs dog-dog] [--without]
+        [--walk learned]
 
 Scenes: two that meet head-on, two whose paths cross, one and two from each side of a door 1.2 m wide, three
 sent to one place, and three that chase a point that moves at 1.2 m/s and then stops (told twice a second
@@ -20,6 +21,7 @@ import numpy as np
 
 import navmesh
 from runtime import Agent, Fell, World
+from runtime.bodies.kinds.kind import WALKS
 from runtime.planning.rules import person_walk_rules
 
 KINDS = {"dog": ("dog", 1.4), "person": ("human", 1.4), "runner": ("human", 3.0), "walker": ("walker", 1.4)}
@@ -74,8 +76,15 @@ def ways(scene: str, random: np.random.Generator) -> list[tuple[np.ndarray, np.n
     return [*both, (near + up + jitter[2], far + down), (far - up + jitter[3], near - down)]
 
 
-def play(graph: navmesh.NodeGraph, pair: tuple[str, str], scene: str, seed: int, without: bool) -> dict:
-    world, random = World(graph, seed=seed), np.random.default_rng([seed, 7])
+def play(
+    graph: navmesh.NodeGraph,
+    pair: tuple[str, str],
+    scene: str,
+    seed: int,
+    without: bool,
+    walk: str = "planned",
+) -> dict:
+    world, random = World(graph, seed=seed, walk=walk), np.random.default_rng([seed, 7])
     if without:
         world._traffic.direct = lambda tick: None
     agents = []
@@ -138,6 +147,7 @@ def main() -> None:
     parser.add_argument("--scenes", default="head-on,crossing,doorway,doorway of four")
     parser.add_argument("--pairs", default=",".join("-".join(pair) for pair in PAIRS))
     parser.add_argument("--without", action="store_true")
+    parser.add_argument("--walk", default="planned", choices=WALKS, help="as of World")
     parser.add_argument("--json", type=Path, help="file to write")
     options = parser.parse_args()
     graphs = {False: floor(*HALL), True: floor(*DOOR)}
@@ -148,7 +158,7 @@ def main() -> None:
         for pair in options.pairs.split(","):
             kinds = tuple(pair.split("-"))
             runs = [
-                play(graphs[scene.startswith("door")], kinds, scene, seed, options.without)
+                play(graphs[scene.startswith("door")], kinds, scene, seed, options.without, options.walk)
                 for seed in range(options.starts)
             ]
             arrived = sum(all(end == "arrived" for end in run["ended"]) for run in runs)

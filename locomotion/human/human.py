@@ -306,7 +306,7 @@ class Human(Person):
             moving = self.status in MOVING and self.ticks >= follower.starts
             planned = self.run_up.planned
             feet.steer(follower, state, moving, planned, self.ticks, self.command)
-            feet.choose_walk(follower if moving else None, self.simulation, self.command)
+            feet.choose_walk(follower, moving, self.simulation, self.command)
         feet.tick(self.simulation.lookup, state, self.command, data)
         if feet.runs and self.status != "fallen":
             self._clear()

@@ -1,8 +1,8 @@
 """The learned walk of a person: when it takes over from the planned one, and when it gives back.
 
-It walks at `SLOWEST` or faster on ground that is level all around the path ahead. Everything else is planned:
-standing, setting off and stopping, steps aside and on the spot, giving way, slopes, stairs and rubble, and
-the last steps before a run. Both change over where a foot has just come down.
+It stands, sets off, walks, turns, also on the spot, and stops where the ground is level all around the path
+ahead. Slopes, stairs and rubble are walked as planned, and so are the last steps before a run. Both change
+over where a foot has just come down, or in a stand.
 """
 
 import math
@@ -23,6 +23,7 @@ from locomotion.gaits.walk.layout import (
     DOUBLE,
     PHASE,
     SINGLE,
+    STANDING,
     WALK_HEADING,
     WALK_SPEED,
     WALK_STANCE,
@@ -32,7 +33,6 @@ from locomotion.gaits.walk.layout import (
     new_walk,
     wrap,
 )
-from locomotion.human.intent import TURN_FIRST
 from locomotion.human.simulation import Simulation
 from locomotion.paths import table as path
 from locomotion.paths.command import HEADING_ASKED, SIDEWAYS_ASKED, SPEED_ASKED
@@ -40,8 +40,8 @@ from locomotion.paths.follower import PathFollower
 
 __all__ = ["ACTIVE", "MEMORY_SIZE", "SLOWEST", "TICKS", "LearnedWalk"]
 
-SLOWEST = 0.6
-"""[m/s] asked for, below which the walk is planned."""
+SLOWEST = 0.4
+"""[m/s] that it walks at least; who is asked for less than half of it comes to rest."""
 _SEES, _LEAVES = 2.6, 1.6
 # [m] of level ground ahead with which it takes over, and without which it gives back
 _BEHIND = 0.5  # [m] behind it that have to be level, too: a foot is still there
@@ -49,6 +49,7 @@ _AT_LEAST, _ASKEW = 0.5, 0.25  # [m/s] and [rad] off its way with which it takes
 _ROOM = 0.8  # [m] more to where a run begins
 _MOST_TURN, _STEADY_TURN = 0.8, 0.6  # [rad/s] that it turns at most, and in bends that it takes over in
 _EAGERNESS = 2.0  # [1/s] of turning towards the heading asked for
+_FACES = 0.1  # [rad] off that heading up to which a person at rest does not turn
 
 ACTIVE, TICKS = at.STATE_SIZE + at.FELT_SIZE, at.STATE_SIZE + at.FELT_SIZE + 1
 MEMORY_SIZE = TICKS + 1
@@ -81,47 +82,59 @@ class LearnedWalk:
         return float(self._state[at.TOLD])
 
     def suits(
-        self, follower: PathFollower, body: Simulation, command: NDArray, walk: NDArray[np.float64]
+        self,
+        follower: PathFollower,
+        moving: bool,
+        body: Simulation,
+        command: NDArray,
+        walk: NDArray[np.float64],
     ) -> bool:
-        """Whether it can walk on from here, or take over from the planned ``walk``."""
+        """Whether it can go on from here, or take over from the planned ``walk``; ``moving``: whether the
+        person is to go on along its path."""
         way, active, arc = follower.path, self.active, follower.arc
-        if way is None or follower.pace < 1.0 or command[SPEED_ASKED] < SLOWEST:
+        if way is None:
             return False
-        off, far = abs(wrap(command[HEADING_ASKED] - walk[WALK_HEADING])), _LEAVES if active else _SEES
-        if off > (TURN_FIRST if active else _ASKEW) or follower.remaining < far:
-            return False
-        if not active and math.hypot(*body.control[COM_VELOCITY][:2]) < _AT_LEAST:
-            return False  # it has just turned on the spot
+        far = _LEAVES if active else _SEES
+        if not active and walk[PHASE] != STANDING:
+            if not moving or command[SPEED_ASKED] < SLOWEST or follower.remaining < far:
+                return False  # it will stand before long
+            off = abs(wrap(command[HEADING_ASKED] - walk[WALK_HEADING]))
+            if off > _ASKEW or math.hypot(*body.control[COM_VELOCITY][:2]) < _AT_LEAST:
+                return False  # it turns on the spot
         rows = way.table
         first = round(arc / way.length * (len(rows) - 1))
         ahead = rows[first : first + round((far + _ROOM) / path.SPACING)]
         turn = np.abs(ahead[:, path.CURVATURE]) * np.maximum(ahead[:, path.SPEED], SLOWEST)
-        if (ahead[:, path.GAIT] == path.RUN).any() or turn.max() > (_MOST_TURN if active else _STEADY_TURN):
+        if turn.max() > (_MOST_TURN if active else _STEADY_TURN):
+            return False
+        if moving and (ahead[:, path.GAIT] == path.RUN).any():
             return False
         begin, z = max(arc - _BEHIND, 0.0), float(body.position[2])
         return bool(is_level(body.lookup, rows, way.length, begin, arc + far, z))
 
     def take_over(self, body: Simulation, walk: NDArray) -> None:
-        """Move a person from now on that walks as planned and has just put a foot down."""
+        """Move a person from now on that walks as planned and has just put a foot down, or stands."""
         data = body.data
         self._state[:] = new_memory(walk[WALK_HEADING])
-        self._state[at.RUNNING] = 1.0
-        self._state[at.PHASE] = 0.0 if walk[WALK_STANCE] < 0.0 else 0.5
-        heading = walk[WALK_HEADING]
-        speed = math.cos(heading) * data.qvel[0] + math.sin(heading) * data.qvel[1]
-        self._state[[at.SPEED, at.TOLD]] = max(speed, SLOWEST)
-        self._state[at.TURN_RATE] = min(max(walk[WALK_TURN_RATE], -_MOST_TURN), _MOST_TURN)
+        if walk[PHASE] != STANDING:
+            self._state[at.RUNNING] = 1.0
+            self._state[at.PHASE] = 0.0 if walk[WALK_STANCE] < 0.0 else 0.5
+            heading = walk[WALK_HEADING]
+            speed = math.cos(heading) * data.qvel[0] + math.sin(heading) * data.qvel[1]
+            self._state[[at.SPEED, at.TOLD]] = max(speed, SLOWEST)
+            self._state[at.TURN_RATE] = min(max(walk[WALK_TURN_RATE], -_MOST_TURN), _MOST_TURN)
         self.memory[ACTIVE], self.memory[TICKS] = 1.0, 0.0
         feel(self._feet(body.index, data), data, self._felt)
 
     def give_back(self, body: Simulation, walk: NDArray, fastest: float) -> None:
-        """Let the planned walk go on, at ``fastest`` [m/s] at most, just after a foot came down."""
-        data = body.data
+        """Let the planned walk go on, at ``fastest`` [m/s] at most, just after a foot came down, or in a
+        stand."""
+        data, phase = body.data, walk[PHASE]
         stance, steps, ticks = walk[WALK_STANCE], walk[WALK_STEPS], walk[WALK_TICKS]
         heading = float(self._state[at.HEADING])
         walk[:] = new_walk(heading)
         observe_walk(body.index, data, walk)
-        walk[PHASE], walk[WALK_STANCE], walk[WALK_STEPS], walk[WALK_TICKS] = DOUBLE, stance, steps, ticks
+        walk[PHASE], walk[WALK_STANCE], walk[WALK_STEPS], walk[WALK_TICKS] = phase, stance, steps, ticks
         speed = math.cos(heading) * data.qvel[0] + math.sin(heading) * data.qvel[1]
         walk[WALK_SPEED] = min(max(speed, 0.0), fastest)
         self.leave()
@@ -140,7 +153,9 @@ class LearnedWalk:
         landed = math.floor(2.0 * state[at.PHASE]) != math.floor(2.0 * before)
         walk[WALK_TICKS] += 1.0
         walk[PHASE], walk[CLOCK] = (DOUBLE, 0.0) if landed else (SINGLE, walk[CLOCK] + CONTROL_DT)
-        if landed:
+        if state[at.RUNNING] == 0.0:
+            walk[PHASE], walk[CLOCK] = STANDING, 0.0
+        elif landed:
             walk[WALK_STANCE] = -1.0 if state[at.PHASE] < 0.5 else 1.0
             walk[WALK_STEPS] += 1.0
         walk[WALK_HEADING], walk[WALK_SPEED] = state[at.HEADING], state[at.TOLD]
@@ -148,10 +163,13 @@ class LearnedWalk:
 
     def _ask(self, command: NDArray) -> None:
         """What ``command`` asks of a walk that makes no steps aside."""
-        speed = max(float(command[SPEED_ASKED]), SLOWEST)
-        aside = math.atan2(command[SIDEWAYS_ASKED], speed)
+        speed = float(command[SPEED_ASKED])
+        speed = max(speed, SLOWEST) if speed > 0.5 * SLOWEST else 0.0
+        aside = math.atan2(command[SIDEWAYS_ASKED], speed) if speed > 0.0 else 0.0
         off = wrap(command[HEADING_ASKED] + aside - self._state[at.HEADING])
         turn = min(max(_EAGERNESS * off, -_MOST_TURN), _MOST_TURN)
+        if speed == 0.0 and abs(off) < _FACES:
+            turn = 0.0
         self._asked[at.ASKED_SPEED], self._asked[at.ASKED_TURN] = speed, turn
 
     def observe(self, index: PersonIndex, data: mujoco.MjData) -> None:

@@ -2,7 +2,7 @@
 
     feet = OnFeet(run, walk, slow_down, speed_up)
     feet.steer(way, state, moving, planned, tick, command)
-    feet.choose_walk(way, simulation, command)
+    feet.choose_walk(way, moving, simulation, command)
     feet.tick(lookup, state, command, data)
     mujoco.mj_step(model, data, STEPS_PER_TICK)
     feet.observe(index, state, command, data)
@@ -35,6 +35,7 @@ from locomotion.gaits.walk.layout import (
     DOUBLE,
     LONGER,
     PHASE,
+    SINGLE,
     STANDING,
     SUDDEN,
     UNEVEN,
@@ -207,14 +208,14 @@ class OnFeet:
         if pace == 0.0:  # waiting: a person stepping in place drifts into those ahead
             command[HEADING_ASKED], command[SIDEWAYS_ASKED] = heading, 0.0
 
-    def choose_walk(self, follower: PathFollower | None, body: Simulation, command: NDArray) -> None:
-        """Where a foot has just come down: walk on as learned, or as planned. ``follower``: None if it is not
-        to go on."""
+    def choose_walk(self, follower: PathFollower, moving: bool, body: Simulation, command: NDArray) -> None:
+        """Where a foot has just come down, or in a stand: go on as learned, or as planned. ``moving``:
+        whether to continue along the path."""
         learned, walk = self.learned, self.walk
-        if learned is None or not self.walks or walk[PHASE] != DOUBLE or walk[CLOCK] > 0.0:
+        if learned is None or not self.walks or walk[PHASE] == SINGLE or walk[CLOCK] > 0.0:
             return
-        usual = walk[WALK_STEPS] >= _CHANGED and not self.brakes
-        suits = usual and follower is not None and learned.suits(follower, body, command, walk)
+        usual = learned.active or walk[WALK_STEPS] >= _CHANGED or walk[PHASE] == STANDING
+        suits = usual and not self.brakes and learned.suits(follower, moving, body, command, walk)
         if suits and not learned.active:
             learned.take_over(body, walk)
         elif learned.active and not suits:

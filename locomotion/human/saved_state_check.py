@@ -151,7 +151,7 @@ _LEARNED = Slots(
     [
         (policy.PHASE, FLAG),
         (policy.RUNNING, FLAG),
-        (policy.RESTED, _TIME),
+        (policy.RESTED, (-1.0, FARTHEST)),
         (policy.HEADING, _TURNS),
         (policy.SPEED, _SPEED),
         (policy.TURN_RATE, _SPEED),

@@ -18,12 +18,13 @@ PUSH = 300.0
 """[N] at the waist for 0.1 s."""
 _STANDS, _WALKS, _ON, _SCRIPT = 1.0, 8.0, 5.0, 60.0  # [s]
 _CHANGE = (1.5, 5.0)  # [s] between orders
-_STANDING = 0.25  # share of the orders that are to stand
+_STANDING, _ON_THE_SPOT = 0.15, 0.1  # shares of the orders that are to stand, and to turn on the spot
 
 
 def walk_policy_trials(trials: int, seed: int) -> list[Trial]:
     """Three tests of ``trials`` each: from a stand to a speed and on, with a turn; the same with a push of
-    `PUSH` from any side at any moment; a minute of orders to walk, turn, stop and start."""
+    `PUSH` from any side at any moment; a minute of orders to walk, turn, also on the spot, stop and start.
+    """
     tried: list[Trial] = []
     rng, skill = np.random.default_rng(seed), load_policy()
     for k in range(trials):
@@ -57,8 +58,9 @@ def _script(skill: PolicySkill, seed: tuple[int, int]) -> Attempt:
     rng = np.random.default_rng(seed)
     trial, passed, held = PolicyTrial(skill), 0.0, True
     while held and passed < _SCRIPT:
-        stands = rng.random() < _STANDING
-        trial.asked[:] = 0.0 if stands else rng.uniform(*SPEEDS), rng.uniform(-TURN, TURN)
+        kind, speed, turn = rng.random(), rng.uniform(*SPEEDS), rng.uniform(-TURN, TURN)
+        stays, stands = kind < _STANDING + _ON_THE_SPOT, kind < _STANDING
+        trial.asked[:] = 0.0 if stays else speed, 0.0 if stands else turn
         lasts = float(rng.uniform(*_CHANGE))
         held, passed = trial.go(lasts), passed + lasts
     return Attempt(

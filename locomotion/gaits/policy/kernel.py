@@ -27,17 +27,24 @@ from locomotion.gaits.policy import layout as at
 from locomotion.gaits.policy.law import (
     ACCELERATION,
     AT_REST,
+    BEARING,
     BEARS,
+    BOTH_BEAR,
     BRAKING,
     CALM,
+    FACING,
     FEET_OFF,
-    FULL_TURN,
+    FIRST_STEPS,
     LAG_SHARE,
     LIFT_OFF,
+    MOST_ASKEW,
     MOST_MISS,
     MOST_TRIM,
     PENDULUM,
     REACH,
+    REST_TRIM,
+    REST_TRIM_ENDS,
+    REST_TRIM_RATE,
     SETTLING,
     SHIFTING,
     SOLE_AHEAD,
@@ -52,6 +59,7 @@ __all__ = ["Parts", "decide_tick", "feel", "new_memory"]
 _N = len(at.JOINTS)
 _COLUMNS = np.array([JOINT_NAMES.index(name) for name in at.JOINTS])
 _HELD = np.array([k for k, name in enumerate(JOINT_NAMES) if name not in at.JOINTS])
+_TURNS = _COLUMNS[at.HIP_ROTATIONS]
 _SOLE_POINTS = np.array([*at.ANKLE_SOLE, at.TIP])
 _ACTION, _PACE = at.ACTION.start, at.ACTION.stop - 1
 _FORCES = at.FORCES.start
@@ -121,7 +129,9 @@ def _stands(stance, memory, felt, qpos, qvel):
     off_ahead, off_left = off_ahead - (c * x + s * y), off_left - (c * y - s * x)
     miss = math.hypot(off_ahead / SOLE_AHEAD, off_left / (0.5 * max(apart_left, 0.0) + SOLE_ASIDE))
     right, left = felt[_FORCES] + felt[_FORCES + 1], felt[_FORCES + 2] + felt[_FORCES + 3]
-    can = math.hypot(memory[at.LAG_AHEAD], memory[at.LAG_LEFT]) < CALM and miss < MOST_MISS
+    can = math.hypot(memory[at.LAG_AHEAD] + memory[at.SPEED], memory[at.LAG_LEFT]) < CALM
+    can = can and miss < MOST_MISS
+    can = can and abs(memory[at.TURN_RATE]) < FACING
     can = can and min(right, left) > BEARS * at.BODY_WEIGHT
     can = can and abs(apart_ahead) < FEET_OFF[0] and abs(apart_left - stance[1]) < FEET_OFF[1]
     return can, miss > REACH, left > right
@@ -132,15 +142,20 @@ def _advance(speeds, periods, stance, memory, asked, felt, qpos, qvel):
     pace, _ = _cycles_per_second(speeds, periods, memory)
     before, running = memory[at.PHASE], memory[at.RUNNING] > 0.0
     after = before + at.POLICY_DT * pace
-    rests = memory[at.TOLD] < AT_REST and asked[at.ASKED_SPEED] < AT_REST
+    to_stand = asked[at.ASKED_SPEED] < AT_REST and abs(asked[at.ASKED_TURN]) < FACING
+    rests = memory[at.TOLD] < AT_REST and to_stand
     can, must, on_left = _stands(stance, memory, felt, qpos, qvel)
     steps = must and not running
-    memory[at.RESTED] = memory[at.RESTED] + at.POLICY_DT if rests and not steps else 0.0
-    lifts = math.floor(2.0 * (after - LIFT_OFF))
-    lifts_off = lifts > math.floor(2.0 * (before - LIFT_OFF))
-    if lifts_off and memory[at.RESTED] > SETTLING and can:
-        after = 0.5 * lifts + LIFT_OFF
+    rested = memory[at.RESTED] + at.POLICY_DT
+    memory[at.RESTED] = rested if rests and not steps else min(rested, 0.0)
+    if not (running or rests or must):
+        memory[at.RESTED] = -FIRST_STEPS
+    begun = 0.5 * math.floor(2.0 * after)
+    both = running and BOTH_BEAR < after - begun <= LIFT_OFF
+    if both and memory[at.RESTED] > SETTLING and can:
+        after = begun + LIFT_OFF
         memory[at.RUNNING] = 0.0
+        memory[at.LAG_AHEAD] += memory[at.SPEED]
     elif steps or not rests:
         memory[at.RUNNING] = 1.0
         if steps:  # with the foot that bears less
@@ -151,13 +166,16 @@ def _advance(speeds, periods, stance, memory, asked, felt, qpos, qvel):
     memory[at.HEADING] = _wrap(memory[at.HEADING] + at.POLICY_DT * memory[at.TURN_RATE])
     c, s = math.cos(memory[at.HEADING]), math.sin(memory[at.HEADING])
     ahead, left = c * qvel[0] + s * qvel[1], c * qvel[1] - s * qvel[0]
-    wanted = asked[at.ASKED_SPEED] - memory[at.TOLD]
+    wanted = 0.0 if memory[at.RESTED] < 0.0 else asked[at.ASKED_SPEED] - memory[at.TOLD]
     memory[at.TOLD] += min(max(wanted, -BRAKING * at.POLICY_DT), ACCELERATION * at.POLICY_DT)
-    trim = memory[at.TRIM] + TRIM_RATE * at.POLICY_DT * (memory[at.TOLD] - ahead)
-    most = MOST_TRIM * max(memory[at.TOLD], 0.0)
+    slow = min(max(1.0 - memory[at.TOLD] / REST_TRIM_ENDS, 0.0), 1.0) * memory[at.RUNNING]
+    slow = slow if to_stand else 0.0
+    pull = TRIM_RATE + slow * (REST_TRIM_RATE - TRIM_RATE)
+    trim = memory[at.TRIM] + pull * at.POLICY_DT * (memory[at.TOLD] - ahead)
+    most = MOST_TRIM * max(memory[at.TOLD], 0.0) + slow * REST_TRIM
     memory[at.TRIM] = min(max(trim, -most), most)
     memory[at.SPEED] = memory[at.TOLD] + memory[at.TRIM]
-    turn = asked[at.ASKED_TURN] * min(max(memory[at.TOLD] / FULL_TURN, 0.0), 1.0)
+    turn = 0.0 if rests else asked[at.ASKED_TURN]
     most = TURNING * at.POLICY_DT
     memory[at.TURN_RATE] += min(max(turn - memory[at.TURN_RATE], -most), most)
     memory[at.LAG_AHEAD] += LAG_SHARE * (ahead - memory[at.SPEED] - memory[at.LAG_AHEAD])
@@ -215,6 +233,14 @@ def _layer(weights, biases, x, out, last):
 
 
 @kernel
+def _behind(share):
+    """How far a foot of a body that turns by 1 a cycle is turned from it, at a ``share`` of its own cycle."""
+    if share < BEARING:
+        return 0.5 * BEARING - share
+    return BEARING * ((share - BEARING) / (1.0 - BEARING) - 0.5)
+
+
+@kernel
 def _targets(speeds, periods, joints, rates, memory, ctrl):
     """Targets of all joints until the next decision, into ``ctrl`` (39,)."""
     pace, usual = _cycles_per_second(speeds, periods, memory)
@@ -244,6 +270,11 @@ def _targets(speeds, periods, joints, rates, memory, ctrl):
         ctrl[_COLUMNS[n]] = angle + lead * moving + at.SCALE[n] * memory[_ACTION + n]
     for n in range(_HELD.shape[0]):
         ctrl[_HELD[n]] = 0.0
+    turn = memory[at.TURN_RATE] * memory[at.RUNNING] / usual
+    for side in range(2):
+        share = memory[at.PHASE] + (0.5 * at.POLICY_DT + at.LEAD) * pace + 0.5 * side
+        foot = min(max(turn * _behind(share - math.floor(share)), -MOST_ASKEW), MOST_ASKEW)
+        ctrl[_TURNS[side]] += foot if side == 0 else -foot
 
 
 @allocating_kernel

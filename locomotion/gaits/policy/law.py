@@ -32,6 +32,7 @@ from locomotion.gaits.policy.layout import (
     HEADING,
     HEELS_AND_BALLS,
     HEIGHT_SEEN,
+    HIP_ROTATIONS,
     INPUTS,
     LAG_AHEAD,
     LAG_LEFT,
@@ -62,10 +63,11 @@ from locomotion.gaits.policy.layout import (
 from locomotion.gaits.policy.motion import Motion
 
 __all__ = [
-    "ACCELERATION", "AT_REST", "BEARS", "BRAKING", "CALM", "FEET_OFF", "FULL_TURN", "LAG_SHARE", "LIFT_OFF",
-    "MOST_MISS", "MOST_TRIM", "PENDULUM", "REACH", "SETTLING", "SHIFTING", "SOLE_AHEAD", "SOLE_ASIDE",
-    "TRIM_RATE", "TURNING", "Seen", "advance", "along", "decide", "mirrored", "observe", "pace_share",
-    "rate", "standing_miss", "targets", "up_and_yaw", "wrap",
+    "ACCELERATION", "AT_REST", "BEARING", "BEARS", "BOTH_BEAR", "BRAKING", "CALM", "FACING", "FEET_OFF",
+    "FIRST_STEPS", "LAG_SHARE", "LIFT_OFF", "MOST_ASKEW", "MOST_MISS", "MOST_TRIM", "PENDULUM", "REACH",
+    "REST_TRIM", "REST_TRIM_ENDS", "REST_TRIM_RATE", "SETTLING", "SHIFTING", "SOLE_AHEAD", "SOLE_ASIDE",
+    "TRIM_RATE", "TURNING", "Seen", "advance", "along", "decide", "mirrored", "observe", "pace_share", "rate",
+    "standing_miss", "targets", "turned_feet", "turned_in", "up_and_yaw", "wrap",
 ]  # fmt: skip
 
 ACCELERATION, BRAKING, TURNING = 1.0, 0.8, 2.0
@@ -73,15 +75,23 @@ ACCELERATION, BRAKING, TURNING = 1.0, 0.8, 2.0
 TRIM_RATE, MOST_TRIM = 0.5, 0.15
 """Part of the error of the speed that is added to it, per second, and the share of the speed that is added at
 most."""
+REST_TRIM, REST_TRIM_RATE, REST_TRIM_ENDS = 0.35, 1.5, 0.4
+"""[m/s] that is added at most for who is to stand, lest it creeps away as it steps in place; its rate; and
+[m/s] from which on nothing of that is."""
 AT_REST = 0.05
 """[m/s] asked for, below which a person comes to rest."""
-FULL_TURN = 0.5
-"""[m/s] below which turning is slowed down: it does not turn on the spot."""
+FACING = 0.05
+"""[rad/s] asked for, below which a person need not turn, and may come to rest."""
+BEARING, MOST_ASKEW = 0.62, 0.45
+"""Share of the cycle in which a foot stays where it is while the body turns over it, and [rad] that it is
+turned from the body at most."""
 SETTLING = 0.4
 """[s] of steps in place before it stands."""
+FIRST_STEPS = 0.7
+"""[s] that it steps in place when it sets off from a stand, whose feet may be anywhere."""
 CALM = 0.2
 """[m/s] low-passed, below which it may stand, if also:"""
-BEARS, FEET_OFF = 0.15, (0.1, 0.1)
+BEARS, FEET_OFF = 0.12, (0.1, 0.13)
 """each foot bears this share of the weight, and is this near to where it stands: [m] ahead and aside."""
 MOST_MISS, REACH = 0.8, 1.1
 """Where the body would come to rest, as a share of how far the feet reach: up to which it may begin to stand,
@@ -90,9 +100,9 @@ PENDULUM = 3.3
 """[1/s] of a standing body: it comes to rest this part of a second's way ahead."""
 SOLE_AHEAD, SOLE_ASIDE = 0.1, 0.03
 """[m] from the middle of a sole that it reaches."""
-LIFT_OFF = 0.12
-"""Share of the cycle at which the left foot lifts off, and the cycle may stop; the right one half a cycle
-later."""
+BOTH_BEAR, LIFT_OFF = 0.04, 0.12
+"""Shares of the cycle from which both feet bear, so that the cycle may stop, and at which the left foot lifts
+off; the right one half a cycle later."""
 SHIFTING = 0.14
 """Share of the cycle before that at which it goes on: first the weight goes over to the other foot."""
 LAG_SHARE = 0.08
@@ -196,7 +206,27 @@ def targets(memory: NDArray[np.float64], motion: Motion) -> NDArray[np.float64]:
     middle = motion.at(memory[:, PHASE] + 0.5 * POLICY_DT * pace, memory[:, SPEED], memory[:, RUNNING])
     usual = period * pace  # the reference's rates are those of the usual pace
     moving = middle.read(motion.rates) * usual[:, None]
-    return middle.read(motion.joints) + LEAD * moving + SCALE * memory[:, ACTION.start : ACTION.stop - 1]
+    found = middle.read(motion.joints) + LEAD * moving + SCALE * memory[:, ACTION.start : ACTION.stop - 1]
+    phase = memory[:, PHASE] + (0.5 * POLICY_DT + LEAD) * pace
+    found[:, HIP_ROTATIONS] += turned_in(turned_feet(memory, phase, period))
+    return found
+
+
+def turned_feet(
+    memory: NDArray[np.float64], phase: NDArray[np.float64], period: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """How far the right and the left foot are turned from a body that turns, (n, 2) [rad]: a bearing foot
+    stays, a swinging one is turned to where the body will be. ``phase`` (n,) of the right foot."""
+    share = (phase[:, None] + [0.0, 0.5]) % 1.0
+    back = (share - BEARING) / (1.0 - BEARING)
+    off = np.where(share < BEARING, 0.5 * BEARING - share, BEARING * (back - 0.5))
+    turn = memory[:, TURN_RATE] * memory[:, RUNNING] * period
+    return np.clip(turn[:, None] * off, -MOST_ASKEW, MOST_ASKEW)
+
+
+def turned_in(feet: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Hip rotations, right and left, that turn the ``feet`` (n, 2) so far to the left, (n, 2) [rad]."""
+    return feet * [1.0, -1.0]
 
 
 def standing_miss(
@@ -220,7 +250,8 @@ def _stands(
     """Who may begin to stand, and who has to make a step, (n,)."""
     miss, off = standing_miss(memory, motion, seen)
     bears = seen.forces.reshape(-1, 2, 2).sum(axis=2).min(axis=1) > BEARS * BODY_WEIGHT
-    calm = np.hypot(memory[:, LAG_AHEAD], memory[:, LAG_LEFT]) < CALM
+    calm = np.hypot(memory[:, LAG_AHEAD] + memory[:, SPEED], memory[:, LAG_LEFT]) < CALM
+    calm &= np.abs(memory[:, TURN_RATE]) < FACING
     return calm & bears & (miss < MOST_MISS) & (np.abs(off) < FEET_OFF).all(axis=1), miss > REACH
 
 
@@ -230,34 +261,44 @@ def advance(
     asked: NDArray[np.float64],
     seen: Seen,
     halts: bool = True,
+    steadies: bool = True,
 ) -> None:
     """Go on by `POLICY_DT`. ``asked`` (n, 2): speed [m/s] and turn rate [rad/s]; ``seen``: the bodies after
-    it; ``halts``: whether the cycle stops for those who come to rest."""
+    it; ``halts``: whether the cycle stops for those who come to rest; ``steadies``: whether they are helped
+    not to creep away in place, which the policy is to learn by itself."""
     pace = rate(memory, motion.period(memory[:, SPEED]))
     before, running = memory[:, PHASE], memory[:, RUNNING] > 0.0
     after = before + POLICY_DT * pace
-    rests = (memory[:, TOLD] < AT_REST) & (asked[:, ASKED_SPEED] < AT_REST)
+    to_stand = (asked[:, ASKED_SPEED] < AT_REST) & (np.abs(asked[:, ASKED_TURN]) < FACING)
+    rests = (memory[:, TOLD] < AT_REST) & to_stand
     can, must = _stands(memory, motion, seen)
-    memory[:, RESTED] = np.where(rests & (running | ~must), memory[:, RESTED] + POLICY_DT, 0.0)
-    lifts = np.floor(2.0 * (after - LIFT_OFF))
-    stops = (lifts > np.floor(2.0 * (before - LIFT_OFF))) & (memory[:, RESTED] > SETTLING) & can & halts
-    after = np.where(stops, 0.5 * lifts + LIFT_OFF, after)
+    waits = np.minimum(memory[:, RESTED] + POLICY_DT, 0.0)
+    rested = np.where(rests & (running | ~must), memory[:, RESTED] + POLICY_DT, waits)
+    memory[:, RESTED] = np.where(~running & ~rests & ~must, -FIRST_STEPS, rested)
+    begun = 0.5 * np.floor(2.0 * after)
+    both = (after - begun > BOTH_BEAR) & (after - begun <= LIFT_OFF)
+    stops = running & both & (memory[:, RESTED] > SETTLING) & can & halts
+    after = np.where(stops, begun + LIFT_OFF, after)
     steps = ~running & must  # with the foot that bears less
     loads = seen.forces.reshape(-1, 2, 2).sum(axis=2)
     after = np.where(steps, LIFT_OFF + 0.5 * (loads[:, 1] > loads[:, 0]), after)
     after = np.where(~running & ~rests & ~steps, after - SHIFTING, after)
+    memory[:, LAG_AHEAD] += np.where(stops, memory[:, SPEED], 0.0)
     memory[:, RUNNING] = np.where(stops, 0.0, np.where(rests & ~steps, memory[:, RUNNING], 1.0))
     memory[:, PHASE] = after - np.floor(after)
     memory[:, HEADING] = wrap(memory[:, HEADING] + POLICY_DT * memory[:, TURN_RATE])
     v = along(memory[:, HEADING], seen.qvel[:, :3])
-    wanted = asked[:, ASKED_SPEED] - memory[:, TOLD]
+    wanted = np.where(memory[:, RESTED] < 0.0, 0.0, asked[:, ASKED_SPEED] - memory[:, TOLD])
     memory[:, TOLD] += np.clip(wanted, -BRAKING * POLICY_DT, ACCELERATION * POLICY_DT)
-    trim = memory[:, TRIM] + TRIM_RATE * POLICY_DT * (memory[:, TOLD] - v[:, 0])
+    slow = np.clip(1.0 - memory[:, TOLD] / REST_TRIM_ENDS, 0.0, 1.0) * memory[:, RUNNING]
+    slow *= to_stand & steadies
+    pull = TRIM_RATE + slow * (REST_TRIM_RATE - TRIM_RATE)
+    trim = memory[:, TRIM] + pull * POLICY_DT * (memory[:, TOLD] - v[:, 0])
     most = MOST_TRIM * np.maximum(memory[:, TOLD], 0.0)
-    memory[:, TRIM] = np.clip(trim, -most, most)
+    memory[:, TRIM] = np.clip(trim, -most - slow * REST_TRIM, most + slow * REST_TRIM)
     memory[:, SPEED] = memory[:, TOLD] + memory[:, TRIM]
     most = TURNING * POLICY_DT
-    turn = asked[:, ASKED_TURN] * np.clip(memory[:, TOLD] / FULL_TURN, 0.0, 1.0)
+    turn = np.where(rests, 0.0, asked[:, ASKED_TURN])
     memory[:, TURN_RATE] += np.clip(turn - memory[:, TURN_RATE], -most, most)
     memory[:, LAG_AHEAD] += LAG_SHARE * (v[:, 0] - memory[:, SPEED] - memory[:, LAG_AHEAD])
     memory[:, LAG_LEFT] += LAG_SHARE * (v[:, 1] - memory[:, LAG_LEFT])

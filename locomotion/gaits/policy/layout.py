@@ -12,9 +12,9 @@ from locomotion.body.person import CONTROL_DT, JOINT_NAMES, MASS
 __all__ = [
     "ACTION", "ACTIONS", "ANGLES", "ANKLE_SOLE", "ASKED", "ASKED_SPEED", "ASKED_TURN", "BODY_WEIGHT",
     "CONTACTS", "FAST_RATE", "FEET_AHEAD", "FEET_LEFT", "FEET_RISE", "FELT_SIZE", "FLOOR", "FORCES",
-    "GRAVITY_UP", "HEADING", "HEELS_AND_BALLS", "HEIGHT_SEEN", "INPUTS", "JOINTS", "LAGS", "LAG_AHEAD",
-    "LAG_LEFT", "LEAD", "MIRROR_ACTION", "MIRROR_JOINT", "MIRROR_OBSERVED", "MOST_INPUT", "PHASE",
-    "POLICY_DT", "RATES", "RATE_GAIN", "RESTED", "RUNNING", "SCALE", "SIGN_ACTION", "SIGN_JOINT",
+    "GRAVITY_UP", "HEADING", "HEELS_AND_BALLS", "HEIGHT_SEEN", "HIP_ROTATIONS", "INPUTS", "JOINTS", "LAGS",
+    "LAG_AHEAD", "LAG_LEFT", "LEAD", "MIRROR_ACTION", "MIRROR_JOINT", "MIRROR_OBSERVED", "MOST_INPUT",
+    "PHASE", "POLICY_DT", "RATES", "RATE_GAIN", "RESTED", "RUNNING", "SCALE", "SIGN_ACTION", "SIGN_JOINT",
     "SIGN_OBSERVED", "SLOW_RATE", "SOLES", "SOLE_POINTS", "SPEED", "SPIN", "STARTED", "STATE_SIZE",
     "TICKS_PER_DECISION", "TIMING", "TIP", "TOLD", "TRIM", "TURN_RATE", "VELOCITY", "YAW_SEEN",
 ]  # fmt: skip
@@ -40,6 +40,8 @@ ANKLE_SOLE = ((-0.032, 0.0, -0.064), (0.118, 0.0, -0.064))
 TIP = (0.043, 0.0, -0.024)
 """Tip under the toes, in their frame [m]."""
 SOLE_POINTS = ("right_heel", "right_ball", "right_tip", "left_heel", "left_ball", "left_tip")
+HIP_ROTATIONS = [JOINTS.index(f"{side}_hip_rotation") for side in ("right", "left")]
+"""Of `JOINTS`."""
 HEELS_AND_BALLS = [0, 1, 3, 4]
 """Of `SOLE_POINTS`."""
 
@@ -85,10 +87,11 @@ _M = 12
 ACTION = slice(_M, _M + ACTIONS)
 STATE_SIZE = _M + ACTIONS
 """The memory of a policy: share of the cycle, 0 to 1, from the right heel's strike; whether it goes on; [s]
-since it has nothing to do but to stand; heading [rad], speed [m/s] and turn rate [rad/s] that it keeps to;
-low-passed errors of the speed; whether it has decided before; speed [m/s] that follows the one asked for, and
-what it adds to that because it is too slow or too fast; height of the ground under it [m], which whoever
-moves it over a ground keeps up to date; and its last decisions, in the person's own left and right."""
+since it has nothing to do but to stand, below 0 while it sets off; heading [rad], speed [m/s] and turn
+rate [rad/s] that it keeps to; low-passed errors of the speed; whether it has decided before; speed [m/s]
+that follows the one asked for, and what it adds to that because it is too slow or too fast; height of the
+ground under it [m], which whoever moves it over a ground keeps up to date; and its last decisions, in the
+person's own left and right."""
 ASKED_SPEED, ASKED_TURN = 0, 1
 """What a caller asks for: speed [m/s] and turn rate [rad/s]."""
 

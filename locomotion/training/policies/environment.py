@@ -17,6 +17,7 @@ from locomotion.gaits.policy.layout import (
     FORCES,
     HEADING,
     HEELS_AND_BALLS,
+    HIP_ROTATIONS,
     JOINTS,
     PHASE,
     POLICY_DT,
@@ -45,6 +46,8 @@ _WEAKEST = 0.2  # of the greatest push
 _LOWEST, _LEAST_UP, _MOST_YAW, _MOST_SWAY = 0.70, 0.75, 0.9, 1.5  # beyond which a person counts as fallen
 _ANGLE, _SPEED, _RATE = 0.03, 0.08, 0.1  # spread of the starts: [rad], [m/s], [rad/s]
 _TURNING, _BEGIN_TURNING = 0.6, 0.7  # shares of the orders that turn
+_CAUGHT, _CAUGHT_SPEEDS = 0.5, (0.25, 0.9)
+# share of those who begin in a stand, and stay, whom a push has thrown off it, and how fast they are [m/s]
 _SETS_OFF = 0.5  # share of those who begin in a stand and are to walk at once
 
 
@@ -86,7 +89,7 @@ class Environment:
       physics: (n, k) MuJoCo's states; sensed: (n, 22) sensors; age: (n,) decisions since they began.
       whole: on the figure of all 45 degrees of freedom.
 
-    ``starts``: states in which some begin, see `Stage.from_starts`.
+    ``starts``: states in which some begin, see `Stage.from_starts`. ``steadies``: as of `law.advance`.
     """
 
     def __init__(
@@ -97,9 +100,11 @@ class Environment:
         seed: int,
         whole: bool = False,
         starts: Starts | None = None,
+        steadies: bool = False,
     ) -> None:
         self.reference, self.motion = reference, motion_of(reference)
         self.count, self.whole, self.stage, self._starts = count, whole, stage, starts
+        self.steadies = steadies
         self.rng = np.random.default_rng(seed)
         self._rollout = rollout.Rollout(nthread=THREADS)
         self._build(stage)
@@ -177,6 +182,11 @@ class Environment:
         memory[:, PHASE] = np.where(stands, begins % 1.0, rng.random(k))
         sets_off = stands & (rng.random(k) < _SETS_OFF) & (not self.stage.stands)
         orders[:, ASKED_SPEED] += sets_off * rng.uniform(*self.stage.speeds, k)
+        pushed = stands & ~sets_off & (rng.random(k) < _CAUGHT) & bool(self.stage.push)
+        pushed &= not self.stage.stands
+        angle, fast = rng.uniform(0.0, 2.0 * np.pi, k), rng.uniform(*_CAUGHT_SPEEDS, k) * pushed
+        thrown = fast[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+        memory[pushed, PHASE] = law.LIFT_OFF + 0.5 * (thrown[pushed, 1] > 0.0)
         self.memory[ids], self.asked[ids] = memory, orders
         self.age[ids] = self.pushed[ids] = 0
         self.slope[ids] = rng.uniform(-self.stage.slope, self.stage.slope, (k, 2))
@@ -189,7 +199,7 @@ class Environment:
         angles = joints + _ANGLE * rng.standard_normal((k, len(JOINTS)))
         qpos[:, self.figure.angles] = np.clip(angles, limits[:, 0], limits[:, 1])
         qvel[:, :3], qvel[:, 3:6] = root[:, 5:8], place.read(reference.spin)
-        qvel[:, :2] += _SPEED * rng.standard_normal((k, 2))
+        qvel[:, :2] += _SPEED * rng.standard_normal((k, 2)) + thrown
         qvel[:, self.figure.rates] = place.read(reference.rates) + _RATE * rng.standard_normal(
             (k, len(JOINTS))
         )
@@ -235,7 +245,7 @@ class Environment:
         before = self.memory[:, ACTION].copy()
         law.decide(self.memory, decided)
         control = self._control()
-        soles, forces = self.soles.copy(), self.sensed[:, FORCES].copy()
+        soles = self.soles.copy()
         held = np.ascontiguousarray(
             np.broadcast_to(control[:, None], (self.count, self._substeps, self._controls))
         )
@@ -249,7 +259,7 @@ class Environment:
         changes, switched = self._advance()
         self._change_orders()
         self.age += 1
-        moment = self._moment(sensed[:, :, FORCES], soles, forces, before)
+        moment = self._moment(sensed[:, :, FORCES], soles, before)
         terms = rewards(moment)
         reward = np.where(broken, 0.0, total(terms, self.stage.weights))
         fell = broken | self._fallen(moment)
@@ -264,13 +274,14 @@ class Environment:
         """The memories go on; gives for whom the other network would take over, (n,), and with which
         memories. While it learns to walk, who could stand steps in place instead."""
         before = self.memory.copy()
-        law.advance(self.memory, self.motion, self.asked, self.seen())
+        law.advance(self.memory, self.motion, self.asked, self.seen(), steadies=self.steadies)
         changes = self.memory[:, RUNNING] != before[:, RUNNING]
         switched = self.memory.copy()
         if not self.stage.stands and changes.any():
             self.memory[changes] = before[changes]
             some = self.memory[changes]
-            law.advance(some, self.motion, self.asked[changes], _pick(self.seen(), changes), halts=False)
+            seen = _pick(self.seen(), changes)
+            law.advance(some, self.motion, self.asked[changes], seen, halts=False, steadies=self.steadies)
             self.memory[changes] = some
         return changes, switched
 
@@ -292,33 +303,33 @@ class Environment:
         self,
         forces: NDArray[np.float64],
         soles: NDArray[np.float64],
-        forces_before: NDArray[np.float64],
         decided_before: NDArray[np.float64],
     ) -> Moment:
         memory, reference, seen = self.memory, self.reference, self.seen()
         place = self.motion.at(memory[:, PHASE], memory[:, SPEED], memory[:, RUNNING])
         root = place.read(reference.root)
-        roll, pitch, turned = root[:, 2], root[:, 3], root[:, 4]
+        roll, pitch, facing = root[:, 2], root[:, 3], root[:, 4]
         up, yaw = law.up_and_yaw(self.qpos)
         wanted = np.stack([-np.sin(pitch), np.sin(roll) * np.cos(pitch)], axis=1)
-        feet = law.along(memory[:, HEADING], seen.soles - self.qpos[:, None, :3]) - place.read(
-            reference.soles
-        )
+        feet = law.along(memory[:, HEADING], seen.soles - self.qpos[:, None, :3])
+        turned = law.turned_feet(memory, memory[:, PHASE], self.motion.period(memory[:, SPEED]))
+        feet -= _turn(place.read(reference.soles), turned)
         velocity = law.along(memory[:, HEADING], self.qvel[:, :3])
-        loaded = np.minimum(seen.forces, forces_before).reshape(-1, 2, 2).sum(2)
+        joints = place.read(reference.joints)
+        joints[:, HIP_ROTATIONS] += law.turned_in(turned)
         return Moment(
-            angles=seen.angles - place.read(reference.joints),
+            angles=seen.angles - joints,
             rates=seen.rates - place.read(reference.rates),
             feet=feet[:, [0, 2, 3, 5]],
             up=up[:, :2] - wanted,
-            yaw=law.wrap(yaw - memory[:, HEADING] - turned),
+            yaw=law.wrap(yaw - memory[:, HEADING] - facing),
             spin=self.qvel[:, 3:6] - place.read(reference.spin),
             height=self.qpos[:, 2] - root[:, 1],
-            velocity=velocity[:, :2] - root[:, [5, 6]],
+            velocity=velocity - root[:, 5:8],
             forces=forces,
             soles=seen.soles,
             soles_before=soles,
-            loaded=loaded,
+            loads=place.read(reference.loads),
             memory=memory,
             decided_before=decided_before,
         )
@@ -340,6 +351,17 @@ class Environment:
         """Go on from `arrays`."""
         for name in self.arrays():
             setattr(self, name, arrays[name].copy())
+
+
+def _turn(soles: NDArray[np.float64], turned: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Soles (n, 6, 3) whose feet are ``turned`` (n, 2) from a body that goes round a bend."""
+    points = soles.reshape(-1, 2, 3, 3)
+    middle = points[:, :, :2].mean(axis=2, keepdims=True)
+    c, s = np.cos(turned)[:, :, None], np.sin(turned)[:, :, None]
+    off, found = points - middle, points.copy()
+    found[..., 0] = middle[..., 0] - s * middle[..., 1] + c * off[..., 0] - s * off[..., 1]
+    found[..., 1] = middle[..., 1] + 0.5 * s * middle[..., 0] + s * off[..., 0] + c * off[..., 1]
+    return found.reshape(soles.shape)
 
 
 def _pick(seen: law.Seen, who: NDArray[np.bool_]) -> law.Seen:

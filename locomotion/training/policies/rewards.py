@@ -10,13 +10,10 @@ from locomotion.gaits.policy.law import pace_share
 from locomotion.gaits.policy.layout import (
     ACTION,
     BODY_WEIGHT,
-    HEELS_AND_BALLS,
     JOINTS,
     LAG_AHEAD,
     LAG_LEFT,
-    PHASE,
     POLICY_DT,
-    RUNNING,
 )
 
 __all__ = ["LIKENESS", "TERMS", "WEIGHTS", "Moment", "rewards", "sway_off", "total"]
@@ -27,29 +24,28 @@ WEIGHTS: dict[str, float] = {
     "feet": 0.15,
     "root": 0.2,
     "speed": 0.25,
+    "load": 0.25,
+    "rise": 0.0,
     "change": -0.08,
     "effort": -0.01,
     "pace": -0.05,
-    "impact": -0.1,
-    "slide": -0.8,
-    "early": -0.15,
-    "slip": 0.0,
-    "absent": 0.0,
+    "impact": -0.2,
+    "slip": -0.8,
 }
 TERMS = tuple(WEIGHTS)
 """Names of the terms. Up to 1 for being like the reference: ``pose`` (joint angles), ``rates``, ``feet``
-(heels and tips from the root), ``root`` (attitude, height, spin), ``speed``. At a cost: ``change`` and
-``effort`` of decisions, ``pace`` other than the usual, ``impact`` above 1.5 body weights, ``slide`` of
-loaded feet [m/s], ``early``: load on a foot that should swing, ``slip``: speed of the lowest point of a
-foot, toes included, as far as the foot bears [m/s], ``absent``: no load on a foot that should bear."""
+(heels and tips from the root), ``root`` (attitude, height, spin), ``speed``, ``load`` (what each foot bears),
+``rise`` (speed up and down). At a cost: ``change`` and ``effort`` of decisions, ``pace`` other than the
+usual, ``impact`` above 1.5 body weights, ``slip``: speed of the lowest point of a foot, toes included, that
+touches the ground [m/s]."""
 _FIRM = 1.5  # [body weights]
-_LOW = 0.008  # [m] of a sole that may slide
+_TOUCHES = 12.0  # per body weight: a tenth of it counts nearly as the whole
 _WEIGHTED = {
     "knee_flexion": 2.0,
     "hip_abduction": 6.0,
     "toe_extension": 0.1,
     "hip_flexion": 1.0,
-    "ankle_flexion": 1.0,
+    "ankle_flexion": 1.5,
 }
 LIKENESS = np.array(
     [
@@ -61,8 +57,6 @@ LIKENESS = np.array(
     ]
 )
 """How much each joint counts. Without the high value of hip abduction, pushes make the stance wide."""
-_SWINGS = (0.66, 0.96)  # shares of a leg's own cycle in which it should bear nothing
-_BEARS = (0.03, 0.57)  # and in which it should bear something
 
 
 @dataclass(frozen=True)
@@ -73,10 +67,10 @@ class Moment:
       angles, rates: (n, 24) off the reference's.
       feet: (n, 4, 3) heels and tips from the root, off the reference's [m].
       up: (n, 2) tilt off the reference's. yaw: (n,). spin: (n, 3). height: (n,) [m] off the reference's.
-      velocity: (n, 2) ahead and left, off the reference's [m/s].
+      velocity: (n, 3) ahead, left and up, off the reference's [m/s].
       forces: (n, k, 4) [N] under foot and toes, right and left, at each physics step.
       soles, soles_before: (n, 6, 3) `layout.SOLE_POINTS` [m], now and a decision ago.
-      loaded: (n, 2) [N] under the feet, the lesser of now and a decision ago.
+      loads: (n, 2) of the reference, right and left [body weights].
       memory: (n, STATE_SIZE) now; decided_before: (n, ACTIONS) the decision before.
     """
 
@@ -91,7 +85,7 @@ class Moment:
     forces: NDArray[np.float64]
     soles: NDArray[np.float64]
     soles_before: NDArray[np.float64]
-    loaded: NDArray[np.float64]
+    loads: NDArray[np.float64]
     memory: NDArray[np.float64]
     decided_before: NDArray[np.float64]
 
@@ -109,29 +103,23 @@ def rewards(m: Moment) -> dict[str, NDArray[np.float64]]:
     root = 10.0 * (m.up**2).sum(1) + 4.0 * m.yaw**2 + 120.0 * m.height**2 + 0.1 * (m.spin**2).sum(1)
     per_foot = m.forces.reshape(*m.forces.shape[:2], 2, 2).sum(3) / BODY_WEIGHT
     over = np.clip(per_foot.max(1) - _FIRM, 0.0, 2.0)
+    bears = per_foot.mean(1)
     gone = np.linalg.norm(m.soles[:, :, :2] - m.soles_before[:, :, :2], axis=2) / POLICY_DT
-    low = (m.soles[:, :, 2] < _LOW)[:, HEELS_AND_BALLS]
-    bears = np.clip(2.0 * m.loaded / BODY_WEIGHT, 0.0, 1.0)[:, [0, 0, 1, 1]]
     lowest = m.soles[:, :, 2].reshape(-1, 2, 3).argmin(axis=2)
     lowest_moved = np.take_along_axis(gone.reshape(-1, 2, 3), lowest[:, :, None], axis=2)[:, :, 0]
-    own = (m.memory[:, PHASE, None] + np.array([0.0, 0.5])) % 1.0
-    swings = (own > _SWINGS[0]) & (own < _SWINGS[1]) & (m.memory[:, RUNNING, None] > 0.0)
-    loads = np.tanh(3.0 * per_foot.mean(1))
-    stands = (own > _BEARS[0]) & (own < _BEARS[1]) & (m.memory[:, RUNNING, None] > 0.0)
     return {
         "pose": np.exp(-2.0 * (LIKENESS * m.angles**2).sum(1)),
         "rates": np.exp(-0.02 * (LIKENESS * m.rates**2).sum(1)),
         "feet": np.exp(-12.0 * (feet**2).sum((1, 2))),
         "root": np.exp(-root),
-        "speed": np.exp(-4.0 * (m.velocity**2).sum(1) - 25.0 * lag),
+        "speed": np.exp(-4.0 * (m.velocity[:, :2] ** 2).sum(1) - 25.0 * lag),
+        "load": np.exp(-2.0 * ((bears - m.loads) ** 2).sum(1)),
+        "rise": np.exp(-10.0 * m.velocity[:, 2] ** 2),
         "change": ((action - m.decided_before) ** 2).mean(1),
         "effort": (action**2).mean(1),
         "pace": (pace_share(m.memory) - 1.0) ** 2,
         "impact": (over**2).sum(1),
-        "slide": 0.5 * (np.clip(gone[:, HEELS_AND_BALLS], 0.0, 1.0) * low * bears).sum(1),
-        "early": (loads * swings).sum(1),
-        "slip": (np.clip(lowest_moved, 0.0, 1.0) * np.clip(2.0 * per_foot.mean(1), 0.0, 1.0)).sum(1),
-        "absent": ((1.0 - loads) * stands).sum(1),
+        "slip": (np.clip(lowest_moved, 0.0, 1.0) * np.tanh(_TOUCHES * bears)).sum(1),
     }
 
 

@@ -54,7 +54,7 @@ def train_walk_policy(training: Training, out: str | os.PathLike[str] = WALK_POL
 
     walker = learn("walk", walking, 2 * training.seed)
     stops = replace(walking[-1], stand=0.8, push=100.0)
-    environment = Environment(reference, stops, 256, training.seed)
+    environment = Environment(reference, stops, 256, training.seed, steadies=True)
     ends = where_it_ended(environment, lambda seen: walker.decide(walker.scaled(seen)))
     stander = learn("stand", standing, 2 * training.seed + 1, ends)
     motion, meta = motion_of(reference), training.made_by("walk-policy")

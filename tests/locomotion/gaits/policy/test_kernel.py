@@ -192,12 +192,69 @@ def test_who_is_pushed_off_its_feet_steps_with_the_one_that_bears_less(skill):
         assert memory[0, at.PHASE] == pytest.approx(phase)
 
 
+def test_who_is_told_to_turn_on_the_spot_steps_and_then_stands_again(skill):
+    memory, seen = new_memory(0.0)[None], standing(skill, memory=None)
+    soles = seen.soles.copy()
+    for turn, seconds in ((0.8, 2.0), (0.0, 3.0)):
+        asked = np.array([[0.0, turn]])
+        law.advance(memory, skill.motion, asked, seen)
+        assert memory[0, at.RUNNING] == 1.0
+        for _ in range(round(seconds / at.POLICY_DT)):
+            law.advance(memory, skill.motion, asked, seen)
+            seen.soles[:] = law.along(-memory[:, at.HEADING], soles)  # its feet turn with it
+    assert memory[0, at.RUNNING] == 0.0
+    assert memory[0, at.HEADING] == pytest.approx(0.8 * 2.0, abs=0.1)
+
+
+def test_who_sets_off_steps_in_place_first(skill):
+    memory, told = new_memory(0.0)[None], []
+    memory[:, at.STARTED] = 1.0
+    for _ in range(100):
+        law.advance(memory, skill.motion, np.array([[1.0, 0.0]]), standing(skill, memory))
+        assert memory[0, at.RUNNING] == 1.0
+        told.append(memory[0, at.TOLD])
+    waits = round(law.FIRST_STEPS / at.POLICY_DT)
+    assert max(told[: waits - 2]) == 0.0
+    assert told[waits + 5] > 0.0
+    assert memory[0, at.RESTED] == 0.0
+
+
+def test_a_bearing_foot_stays_where_it_is_while_the_body_turns(skill):
+    memory = np.zeros((50, at.STATE_SIZE))
+    memory[:, at.TURN_RATE], memory[:, at.RUNNING] = 0.6, 1.0
+    phase = np.linspace(0.0, 1.0, 50, endpoint=False)
+    feet = law.turned_feet(memory, phase, np.full(50, 1.1))
+    right, left = feet.T
+    np.testing.assert_allclose(left, np.roll(right, 25), atol=1e-12)
+    bears = phase < law.BEARING
+    turned = 0.6 * 1.1 * phase[bears]  # of the body since the foot came down
+    np.testing.assert_allclose(right[bears] + turned, right[0], atol=1e-12)
+    assert right[0] > 0.15, "put down turned ahead"
+    assert np.abs(right.mean()) < 0.01
+
+
 def test_it_is_asked_for_more_where_it_is_too_slow(skill):
     memory = new_memory(0.0)[None]
     memory[:, [at.TOLD, at.SPEED, at.RUNNING]] = 1.0
     for _ in range(400):
         law.advance(memory, skill.motion, np.array([[1.0, 0.0]]), standing(skill, memory, speed=0.9))
     assert memory[0, at.SPEED] == pytest.approx(1.0 + law.MOST_TRIM)
+
+
+@pytest.mark.parametrize("steadies", [True, False])
+def test_who_creeps_in_place_is_asked_for_less_than_nothing_until_it_stands(skill, steadies):
+    memory = new_memory(0.0)[None]
+    memory[:, at.RUNNING] = 1.0
+    for _ in range(100):
+        creeps = standing(skill, memory, speed=0.4)
+        law.advance(memory, skill.motion, np.zeros((1, 2)), creeps, steadies=steadies)
+    assert memory[0, at.SPEED] == pytest.approx(-law.REST_TRIM if steadies else 0.0)
+    assert memory[0, at.RUNNING] == 1.0
+    for _ in range(100):
+        law.advance(memory, skill.motion, np.zeros((1, 2)), standing(skill, memory), steadies=steadies)
+    assert memory[0, at.RUNNING] == 0.0
+    assert memory[0, at.SPEED] == 0.0
+    assert abs(memory[0, at.LAG_AHEAD]) < 0.01
 
 
 def test_a_file_gives_back_the_policy(skill, tmp_path):

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from locomotion.gaits.policy.layout import ACTIONS, JOINTS, RESTED, RUNNING
+from locomotion.gaits.policy.law import LIFT_OFF
+from locomotion.gaits.policy.layout import ACTIONS, JOINTS, PHASE, RESTED, RUNNING
 from locomotion.training.policies.curriculum import STANDING, WALKING
 from locomotion.training.policies.environment import Environment, where_it_ended
 from locomotion.training.policies.learning import LENGTH, Learning
@@ -22,7 +23,7 @@ def reference() -> Reference:
 def stages():
     """Two stages of two improvements each, with all that is random in an environment."""
     short = {"samples": 2 * LENGTH * PEOPLE, "longest": 20}
-    return replace(WALKING[0], **short), replace(WALKING[4], **short)
+    return replace(WALKING[0], **short), replace(WALKING[2], **short)
 
 
 def learning(reference, **options):
@@ -56,7 +57,7 @@ def test_the_reference_alone_walks_a_few_steps(reference):
 
 
 def test_pushes_push_and_orders_change(reference):
-    stage = replace(WALKING[4], push=300.0)
+    stage = replace(WALKING[2], push=300.0)
     environment = Environment(reference, stage, 64, seed=0)
     begun = environment.asked.copy()
     pushed = False
@@ -74,7 +75,7 @@ def decides_nothing(seen):
 
 
 def test_who_could_stand_steps_on_while_the_walk_is_learned(reference):
-    stage = replace(WALKING[4], speeds=(0.0, 0.0), stand=1.0, push=0.0, longest=200)
+    stage = replace(WALKING[2], speeds=(0.0, 0.0), stand=1.0, push=0.0, longest=200)
     environment = Environment(reference, stage, 40, seed=0)
     environment.memory[:, RESTED] = 1.0
     found = where_it_ended(environment, decides_nothing, most=14)
@@ -93,3 +94,14 @@ def test_a_stand_is_over_for_who_has_to_step(reference):
     outcome = environment.step(decides_nothing(environment.observe()))
     assert outcome.fell[:20].all()
     assert not outcome.fell[20:].any()
+
+
+def test_whom_a_push_throws_off_a_stand_steps_with_the_foot_that_bears_less(reference):
+    stage = replace(WALKING[2], speeds=(0.0, 0.0), stand=1.0)
+    environment = Environment(reference, stage, 400, seed=1)
+    fast = np.linalg.norm(environment.qvel[:, :2], axis=1)
+    begins = np.isin(environment.memory[:, PHASE], (LIFT_OFF, LIFT_OFF + 0.5))
+    assert 0.05 < begins.mean() < 0.3
+    assert fast[begins].mean() > 0.4
+    leftward = environment.qvel[:, 1] > 0.3
+    assert (environment.memory[begins & leftward, PHASE] == LIFT_OFF + 0.5).all()

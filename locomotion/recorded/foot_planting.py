@@ -46,6 +46,8 @@ _HIP = 0.085  # [m] of a hip to the side of the pelvis' origin
 _REACH = THIGH + SHANK
 _SOFT = 0.005  # [m] over which the pelvis begins to give way to a leg that is nearly straight
 _FADES = 0.2  # share of a swing over which it takes leave of a footfall, and over which it meets one
+_RUN_NEAR = 0.4  # share of these for a run, whose legs are nearly straight when they strike
+_RUN_FADES = 0.08  # the same of a run, whose feet are far ahead of the body for an instant only
 _OVER = 0.12  # height of a swing over the line between two footfalls, per height of the step
 _BEFORE = 0.6  # share of a swing in which a foot that goes up comes to its height
 _HEEL_AHEAD, _BALL_AHEAD = HEEL[0], BALL[0]
@@ -126,16 +128,17 @@ def _facing(heading, up_ahead, up_left, out):
 
 
 @kernel
-def _held_back(x, y, place, ahead, left):
+def _held_back(x, y, place, ahead, left, share):
     """The middle of a sole at (x, y), or, where that is too far from where the recording has it, ``ahead``
-    and to the ``left`` of the ``place`` (4,) of the figure, nearer to that."""
+    and to the ``left`` of the ``place`` (4,) of the figure, nearer to that: at a ``share`` of `_FARTHEST` at
+    most."""
     c, s = math.cos(place[3]), math.sin(place[3])
     dx, dy = x - place[0] - c * ahead + s * left, y - place[1] - s * ahead - c * left
-    off = math.hypot(dx, dy)
-    if off <= _FREE:
+    off, free = math.hypot(dx, dy), share * _FREE
+    if off <= free:
         return x, y
-    spare = _FARTHEST - _FREE
-    less = (_FREE + spare * math.tanh((off - _FREE) / spare)) / off - 1.0
+    spare = share * _FARTHEST - free
+    less = (free + spare * math.tanh((off - free) / spare)) / off - 1.0
     return x + less * dx, y + less * dy
 
 
@@ -155,7 +158,8 @@ def _foot(footing, stride, since, foot, steps, place, axes, point):
     y = foot[1] + end * axes[1, 0] - ANKLE * axes[1, 2] + half * math.sin(turn)
     z = foot[2] + end * axes[2, 0] - ANKLE * axes[2, 2]
     swung = max(since - footing[BEARS], 0.0) / (1.0 - footing[BEARS])
-    free = _smooth(swung / _FADES) * _smooth((1.0 - swung) / _FADES)
+    fades = _FADES if footing[BEARS] > 0.5 else _RUN_FADES
+    free = _smooth(swung / fades) * _smooth((1.0 - swung) / fades)
     share = (x - footing[AHEAD]) / stride + since - 0.5 * footing[BEARS]
     share = free * min(max(share, 0.0), 1.0) + (1.0 - free) * (0.0 if swung < 0.5 else 1.0)
     # a foot that stands may still have its ball off the ground, on its toes
@@ -172,7 +176,8 @@ def _foot(footing, stride, since, foot, steps, place, axes, point):
     left_x, left_y = -math.sin(way - footing[TURNED]), math.cos(way - footing[TURNED])
     middle_x = steps[0, 0] + share * (steps[1, 0] - steps[0, 0]) + left * left_x
     middle_y = steps[0, 1] + share * (steps[1, 1] - steps[0, 1]) + left * left_y
-    middle_x, middle_y = _held_back(middle_x, middle_y, place, x, y)
+    near = 1.0 if footing[BEARS] > 0.5 else _RUN_NEAR
+    middle_x, middle_y = _held_back(middle_x, middle_y, place, x, y, near)
     point[0] = middle_x - flat * math.cos(heading)
     point[1] = middle_y - flat * math.sin(heading)
     point[2] = steps[0, 2] + rise * risen + over + height - half * math.sin(slope)

@@ -9,7 +9,7 @@ from runtime.bodies.registry import body_kinds, body_names, is_body_file, kind_o
 ROOT = Path(__file__).resolve().parents[3]
 BODIES = "runtime/bodies/"
 NAMED = {
-    "runtime/cli/app.py",  # the default of an option; `--help` imports no registry
+    "runtime/cli/declared/playtests.py",  # the default of an option; `--help` imports no registry
     "runtime/playtest/run.py",  # the same default
     "runtime/warmup/first_uses.py",  # scenes that compile what certain bodies do to each other
 }

@@ -128,10 +128,10 @@ def test_an_interrupted_run_leaves_nothing(folder, number):
     before = names(folder)
     # says that it is up from within main, where interruptions are looked after
     up = (
-        "import runtime.cli.app as c; f = c._commands; "
-        "c._commands = lambda: (print('up', flush=True), f())[1]"
+        "import runtime.cli.app, runtime.cli.declared.missions as c; f = c.begin; "
+        "c.begin = lambda: (print('up', flush=True), f())[1]"
     )
-    command = [sys.executable, "-c", f"{up}; c.main()"]
+    command = [sys.executable, "-c", f"{up}; runtime.cli.app.main()"]
     run = subprocess.Popen(
         [*command, "run", str(folder / "mission.yaml"), "--out", str(folder / "out")],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=dict(os.environ),

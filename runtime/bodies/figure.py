@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["Figure", "Shapes", "rotate", "turn"]
+__all__ = ["NO_JOINTS", "Figure", "Joints", "Shapes", "rotate", "turn"]
 
 
 @dataclass(frozen=True)
@@ -68,6 +68,25 @@ class Figure:
                 colour=np.array(model.geom_rgba[drawn, :3], dtype=np.float64),
             ),
         )
+
+
+@dataclass(frozen=True)
+class Joints:
+    """j hinges, in the order in which they turn their bodies.
+
+    ``names`` (j,); ``body`` (j,) int32: number of the body that each turns; ``axes`` (j, 3) float64: the unit
+    vector in that body's frame that it turns about. ``offsets`` (n, 3) float64 [m]: where each body's origin
+    is in the frame of its parent; those of the root are 0. With all angles at 0, all frames are parallel.
+    """
+
+    names: tuple[str, ...]
+    body: np.ndarray
+    axes: np.ndarray
+    offsets: np.ndarray
+
+
+NO_JOINTS = Joints((), np.empty(0, np.int32), np.empty((0, 3)), np.empty((0, 3)))
+"""Of a body whose pose is not told by angles."""
 
 
 def rotate(quaternion: np.ndarray, vector: np.ndarray) -> np.ndarray:

@@ -35,7 +35,8 @@ from locomotion.saved_arrays import check_array, check_number
 from locomotion.skills.interface import ClearingSkill, skill_ranges
 from locomotion.skills.library import learned_skills
 from locomotion.skills.registry import CLEARING
-from runtime.bodies.figure import Figure
+from runtime.bodies.figure import Figure, Joints
+from runtime.bodies.joints import person_joints
 from runtime.bodies.obstacle_odds import odds_at
 from runtime.bodies.protocol import PLANS_KEPT, Driver, Follower, Population, recall, saved_parts
 from runtime.errors import RuntimeInputError
@@ -358,6 +359,10 @@ class HumanDriver(Driver):
         if elapsed >= fading.seconds:
             return pose
         return faded(pose, fading.offsets, fading.rates, fading.seconds, max(elapsed, 0.0))
+
+    @property
+    def joints(self) -> Joints:
+        return person_joints()
 
     def joint_pose(self) -> np.ndarray:
         return self._faded(self.human.qpos, 0.0)

@@ -1,29 +1,14 @@
 """The joints of a person, for those who turn a skeleton by angles."""
 
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
 from locomotion.body.models import figure
 from locomotion.body.person import JOINT_NAMES
+from runtime.bodies.figure import Joints
 
-__all__ = ["Joints", "person_joints"]
-
-
-@dataclass(frozen=True)
-class Joints:
-    """j hinges, in the order in which they turn their bodies.
-
-    ``names`` (j,); ``body`` (j,) int32: number of the body that each turns; ``axes`` (j, 3) float64: the unit
-    vector in that body's frame that it turns about. ``offsets`` (n, 3) float64 [m]: where each body's origin
-    is in the frame of its parent; those of the root are 0. With all angles at 0, all frames are parallel.
-    """
-
-    names: tuple[str, ...]
-    body: np.ndarray
-    axes: np.ndarray
-    offsets: np.ndarray
+__all__ = ["person_joints"]
 
 
 @lru_cache(maxsize=1)

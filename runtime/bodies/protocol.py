@@ -16,7 +16,7 @@ from locomotion import Ground
 from locomotion.avoidance.yielding import Course
 from locomotion.body_events import Event
 from locomotion.saved_arrays import check_array
-from runtime.bodies.figure import Figure
+from runtime.bodies.figure import NO_JOINTS, Figure, Joints
 from runtime.errors import RuntimeInputError
 from runtime.planning.planning import NoWay, Plan
 
@@ -106,9 +106,14 @@ class Driver(ABC):
         """A ``share`` (0 to 1) of the way from where it was when `Population.remember` was called last."""
         return self.transforms()
 
+    @property
+    def joints(self) -> Joints:
+        """What `joint_pose` turns; `NO_JOINTS` where that is None."""
+        return NO_JOINTS
+
     def joint_pose(self) -> np.ndarray | None:
-        """(7 + j,) its pose by the angles [rad] of `runtime.bodies.joints.person_joints`, after its root's
-        position [m] and quaternion (w, x, y, z) in the world; None for a body that is no person's."""
+        """(7 + j,) its pose by the angles [rad] of its `joints`, after its root's position [m] and quaternion
+        (w, x, y, z) in the world; None for a body whose pose is not told by angles."""
         return None
 
     @property

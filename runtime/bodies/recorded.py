@@ -17,8 +17,9 @@ from locomotion.recorded_people.people import RecordedPeople
 from locomotion.recorded_people.person import PersonState, RecordedPerson, can_hold, checked_node
 from locomotion.recorded_people.saved_state_check import check_recorded
 from navmesh.routes.route import Route
-from runtime.bodies.figure import Figure
+from runtime.bodies.figure import Figure, Joints
 from runtime.bodies.humans import HumanDriver
+from runtime.bodies.joints import person_joints
 from runtime.bodies.protocol import Driver, Population, recall, saved_parts
 from runtime.bodies.walkers import WalkerDriver
 from runtime.errors import RuntimeInputError
@@ -230,6 +231,10 @@ class RecordedDriver(WalkerDriver):
     @property
     def ground(self) -> Ground | None:
         return self._population.level.ground
+
+    @property
+    def joints(self) -> Joints:
+        return person_joints()
 
     def joint_pose(self) -> np.ndarray:
         return self.person.qpos

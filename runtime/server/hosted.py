@@ -15,7 +15,6 @@ import numpy as np
 from pydantic_core import to_json
 
 import navmesh
-from runtime.bodies.joints import Joints, person_joints
 from runtime.dis.gateway import Gateway
 from runtime.errors import RuntimeInputError
 from runtime.planning.planning import Plan
@@ -30,7 +29,6 @@ from surefoot.pausing import pause
 
 __all__ = ["HostedWorld", "graph_message", "level_message", "skeleton", "way_message"]
 
-_NONE = Joints((), np.empty(0, np.int32), np.empty((0, 3)), np.empty((0, 3)))
 _DRAWN = ("positions", "radii", "edges", "rim", "normal", "height")
 
 
@@ -222,8 +220,7 @@ class HostedWorld:
 
 def skeleton(agent: Agent) -> dict[str, Any]:
     """`messages.Skeleton` of an agent."""
-    figure = agent.figure
-    joints = _NONE if agent.driver.joint_pose() is None else person_joints()
+    figure, joints = agent.figure, agent.driver.joints
     turns = zip(joints.names, joints.body.tolist(), joints.axes.tolist(), strict=True)
     return {
         "name": agent.name,

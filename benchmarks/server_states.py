@@ -8,7 +8,6 @@ without the head of the messages, and the joint angles a second.
 
 import argparse
 import json
-import math
 
 import numpy as np
 
@@ -53,10 +52,8 @@ def main() -> None:
     graph = navmesh.NodeGraph.build(navmesh.Terrain(corners, np.array([[0, 1, 2], [0, 2, 3]])))
     whole, _ = told(graph, "low", "world", seconds)
     print(f"transforms of all bodies: {whole:.0f} bytes/s")
-    least = math.inf
     for level in LEVELS:
         size, angles = told(graph, level, "changes", seconds)
-        least = min(least, size)
         print(f"changes, {level}: {size:.0f} bytes/s, {angles:.0f} joint angles/s; {whole / size:.1f} x less")
 
 

@@ -80,6 +80,11 @@ class Crowd:
         """(n, 3) float64 [m]: the floor points under the bodies."""
         return self.rows[:, at.X : at.Z + 1] + self._origin
 
+    @property
+    def places_of_all(self) -> NDArray[np.float64]:
+        """(n + k, 3) float64 [m]: the same, then where those are that `lead` was told of."""
+        return self._table[: self._count + self._led, at.X : at.Z + 1] + self._origin
+
     def place(self, index: int) -> NDArray[np.float64]:
         """(3,) float64 [m]: the floor point under one body."""
         return self._table[index, at.X : at.Z + 1] + self._origin

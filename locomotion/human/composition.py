@@ -98,7 +98,7 @@ class Composition:
         for choice, row in zip(choices, rows, strict=True):
             memory[[FARTHER, FASTER]] = choice
             skill, run = run_up.skill_for(obstacle), person.on_feet.run_skill
-            plan = planned(person.control, obstacle, skill, run, memory, run_up.clearing)
+            plan = planned(person.control, obstacle, skill, run, memory, False)
             farther, faster = float(choice[0]), float(choice[1])
             describe(person.control, plan, farther, faster, person.lateral_error, site, row)
         return rows
@@ -152,7 +152,8 @@ class Composition:
 
     def _odds_of_slowing(self, obstacle: ObstacleAhead, slowings: list[float]) -> NDArray[np.float64]:
         """(k,) odds of walking on after having slowed down, for each of ``slowings`` [m/s²]."""
-        known = (self.preconditions or load_preconditions())[SLOW_DOWN]
+        own = self.preconditions
+        known = (load_preconditions() if own is None else own)[SLOW_DOWN]
         choice = self._person.run_up.plan[[FARTHER, FASTER]]
         rows = np.repeat(self._described(obstacle, choice[None]), len(slowings), axis=0)
         rows[:, FEATURES.index("farther")] = slowings

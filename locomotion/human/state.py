@@ -47,6 +47,7 @@ MOVING: Collection[Status] = _Moving()
 
 class HumanState(NamedTuple):
     """The complete memory of a `Human`; restoring it continues the run bit-identically on the same ground.
+    Its `bravery` is a setting, and no part of it.
 
     ``numbers``: the arrays of its parts, then those of `save_physics`; a single array, since one is kept and
     compared in every predicted tick. ``events``: reported but not yet polled.

@@ -153,8 +153,8 @@ def load_precondition(path: str | os.PathLike[str]) -> Precondition:
 
 @lru_cache(maxsize=1)
 def load_preconditions() -> Mapping[str, Precondition]:
-    """The package's preconditions by affordance, and of `SLOW_DOWN`, read once; `LocomotionError`
-    as of `load_precondition`."""
+    """The package's preconditions by affordance, of those skills that have one, and of `SLOW_DOWN`. Read
+    once; raises `LocomotionError` as `load_precondition` does."""
     files = {kind.affordance: precondition_file(kind.skill) for kind in skill_kinds()}
-    files[SLOW_DOWN] = precondition_file(SLOW_DOWN)
-    return {asked: load_precondition(file) for asked, file in files.items() if file.exists()}
+    known = {asked: load_precondition(file) for asked, file in files.items() if file.exists()}
+    return known | {SLOW_DOWN: load_precondition(precondition_file(SLOW_DOWN))}

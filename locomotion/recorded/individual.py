@@ -22,6 +22,7 @@ from locomotion.errors import LocomotionError
 from locomotion.recorded.motion_set import MotionSet
 from locomotion.recorded.sampling import Sample, stride_of
 from locomotion.recorded.skeletons import Skeleton
+from surefoot.numeric import is_finite
 
 __all__ = [
     "ARMS", "LEAN", "PACE", "PHASE", "SIZE", "SPREAD", "TRAITS", "WIDTH", "by_chance", "by_hand", "pace_of",
@@ -60,8 +61,8 @@ def by_hand(others: NDArray[np.float64] | None = None, **traits: float) -> NDArr
         if name not in TRAITS:
             raise LocomotionError(f"trait {name!r}: valid: {', '.join(TRAITS)}")
         _, least, most = TRAITS[name]
-        if not least <= value <= most:
-            raise LocomotionError(f"{name} is {value}, expected {least:g} to {most:g}")
+        if not (is_finite(value) and least <= value <= most):
+            raise LocomotionError(f"{name} is {value!r}, expected a number from {least:g} to {most:g}")
         row[list(TRAITS).index(name)] = value
     return row
 

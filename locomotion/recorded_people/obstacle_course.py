@@ -14,7 +14,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion.body_events import Arrived, Cleared, Event, GotStuck, TookOff
+from locomotion.body_events import Cleared, Event, GotStuck, LostGround, TookOff
 from locomotion.crowd import Crowd, NoRoute, Walker
 from locomotion.recorded.motion_set import MotionSet
 from locomotion.recorded_people import layout as at
@@ -142,6 +142,27 @@ class ObstacleCourse:
         elif elapsed + self._flown >= skill.seconds(of):
             self._land(of)
 
+    def stay(self) -> None:
+        """After its body has moved: one that has come to where its run-up begins has not arrived, but waits
+        for its turn there."""
+        walker = self._person.walker
+        if walker.status == "arrived":
+            walker.events.pop()
+            walker.status = "walking"
+
+    def give_up(self) -> None:
+        """Its obstacle has gone before it took off: go on from here to what it was told."""
+        of = self.of
+        self._person.crossing, self._person.row[at.CROSSES], self._person.row[at.HASTE] = (
+            None,
+            at.NOTHING,
+            1.0,
+        )
+        if self._person.walker.put_down():
+            self._go_on(of)
+        else:
+            self._lose_ground()
+
     def _begin_run_up(self, of: Crossing) -> None:
         people, walker = self._people, self._person.walker
         if walker.status == "stuck":
@@ -152,10 +173,6 @@ class ObstacleCourse:
         far = max(_NEAR, pace * pace / (2.0 * 0.8 * walker.acceleration) + 0.3)
         if walker.status == "walking" and (goals_before or walker.left > far):
             return
-        if walker.status == "arrived":  # it waits for its turn there
-            if isinstance(self._person.events[-1], Arrived):
-                self._person.events.pop()
-            walker.status = "walking"
         if self._waits_for_others(of):
             self._person.crossing = replace(of, waited=of.waited + _BODY * people.dt)
             return
@@ -178,7 +195,7 @@ class ObstacleCourse:
             other = people.people[index].crossing
             if other is not None and math.dist(other.edge, of.edge) < _ABREAST:
                 return True
-        places = people.crowd.positions
+        places = people.crowd.places_of_all
         away = np.linalg.norm(places - np.array(of.end), axis=1)
         away[mine] = np.inf
         return bool((away < 2.0 * self._person.walker.radius).any())
@@ -195,12 +212,26 @@ class ObstacleCourse:
         walker = self._person.walker
         pose, pose_rates = self._person.qpos, self._person.qpos_rates
         velocity = walker.velocity
-        if not walker.put_down():
+        landed = walker.put_down()
+        if not landed:
             walker.carry(np.array(of.end), velocity, walker.yaw)
-            walker.put_down()
+            landed = walker.put_down()
         self._person.crossing, self._person.row[at.CROSSES] = None, at.NOTHING
         self._person.go_on_from(pose, pose_rates, walker.position, velocity)
         self._person.events.append(Cleared(self._person.time, self._person.point, of.affordance, of.size))
+        if landed:
+            self._go_on(of)
+        else:
+            self._lose_ground()
+
+    def _lose_ground(self) -> None:
+        """There is no floor where it is to go on."""
+        self._person.walker.status = "stuck"
+        self._person.events.append(LostGround(self._person.time, self._person.point))
+
+    def _go_on(self, of: Crossing) -> None:
+        """Set out for what it was told, behind or before the obstacle ``of``."""
+        walker = self._person.walker
         if not of.goals or self._person.row[at.BUSY] > 0.0:
             walker.stop()
             return

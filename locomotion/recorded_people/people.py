@@ -12,7 +12,7 @@ covered. A pose is a function of that state: it is computed when somebody asks f
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -167,6 +167,12 @@ class RecordedPeople:
         """Go on on another surface, as `Crowd.change_graph`."""
         self.crowd.change_graph(surface)
         self._ground = ground or _ground_of(surface)
+        for index in np.flatnonzero(self.rows[:, at.CROSSES] == at.RUNS_UP).tolist():
+            course = self.people[index].course
+            if not course.of.is_there(surface):
+                course.give_up()
+        for index in np.flatnonzero((self.rows[:, at.LAID] > 0.0) & (self.rows[:, at.STILL] > 0.0)).tolist():
+            self.people[index].change(partial(self.lay_feet, index))
 
     @property
     def _since(self) -> int:
@@ -219,6 +225,8 @@ class RecordedPeople:
         if since == 0:
             rows[:, at.BEFORE] = self._body_places()
             self.crowd.tick()
+            for index in np.flatnonzero(rows[:, at.CROSSES] == at.APPROACHES).tolist():
+                self.people[index].course.stay()
             for index in np.flatnonzero(rows[:, at.CROSSES] >= at.RUNS_UP).tolist():
                 self.people[index].course.move_on(BODY_TICKS * dt)
         old, phase = rows[:, at.GAIT].astype(np.int32), rows[:, at.PHASE].copy()

@@ -241,7 +241,7 @@ class RecordedPerson:
         self.errand = None
         if self.row[at.CROSSES] >= at.RUNS_UP:
             assert self.crossing is not None
-            self.crossing = replace(self.crossing, goals=())
+            self.crossing = replace(self.crossing, goals=(), beyond=0.0)
             return
         self.crossing, self.row[at.CROSSES] = None, at.NOTHING
         if self.playback is None:
@@ -249,7 +249,8 @@ class RecordedPerson:
 
     def take(self, posture: str, held: str, state: str) -> None:
         """Take ``posture``, with an object in a state in its hands; one that moves comes to a stand first.
-        To the graph's fatal posture it goes at once. Raises `LocomotionError` for what the graph does not
+        To the graph's fatal posture it goes at once, but for one on its run-up or over an obstacle, who lands
+        first. Raises `LocomotionError` for what the graph does not
         have, or has no way to; nothing has changed then."""
         graph = self._people.graph
         node = checked_node(graph, posture, held, state)

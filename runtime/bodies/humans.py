@@ -27,6 +27,7 @@ from locomotion.human.saved_state_check import check_person
 from locomotion.paths.departures import can_begin, leads
 from locomotion.paths.run_up_room import cramped_links
 from locomotion.postures.step_order import AT_REST
+from locomotion.preconditions.precondition import load_preconditions
 from locomotion.recorded_people.fading import fade_from, faded, rates
 from locomotion.recorded_people.people import person_postures
 from locomotion.recorded_people.person import RecordedPerson, can_hold, checked_node
@@ -179,6 +180,7 @@ class People(Population):
         """Have one less, whose body nobody holds any more: the next one gets it, as good as new."""
         assert isinstance(driver, HumanDriver)
         self.remove(driver)
+        driver.human.bravery = None
         self._spare.append(driver.human)
 
     def remove(self, driver: Driver) -> None:
@@ -306,12 +308,17 @@ class HumanDriver(Driver):
 
     def heed(self, bravery: float | None) -> None:
         try:
+            if bravery is not None:
+                load_preconditions()  # here, lest a tick has to, or finds them out of date
             self.human.bravery = bravery
         except LocomotionError as error:
             raise RuntimeInputError(str(error)) from None
 
     def odds(self, obstacle: int | str) -> float:
-        return odds_at(self.human, self._level.graph, obstacle)
+        try:
+            return odds_at(self.human, self._level.graph, obstacle, self.tag_ahead)
+        except LocomotionError as error:
+            raise RuntimeInputError(str(error)) from None
 
     def held_in(self, posture: str) -> tuple[str, str]:
         return can_hold(person_postures(), posture, self.held)

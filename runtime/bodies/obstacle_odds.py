@@ -10,12 +10,10 @@ from surefoot.numeric import is_whole
 
 __all__ = ["odds_at"]
 
-_SAME = 0.5  # [m] beside one another, at which what is ahead is the obstacle that is asked for
 
-
-def odds_at(human: Human, graph: navmesh.NodeGraph, obstacle: int | str) -> float:
+def odds_at(human: Human, graph: navmesh.NodeGraph, obstacle: int | str, tag_ahead: str) -> float:
     """Chance, 0 to 1, that ``human`` clears an ``obstacle`` of ``graph`` from where it is; see
-    `runtime.Agent.odds`."""
+    `runtime.Agent.odds`. ``tag_ahead``: of the next one on its way."""
     number = _number_of(graph, obstacle)
     obstacles = graph.obstacles
     normal, position = obstacles.normal[number], obstacles.position[number]
@@ -27,10 +25,8 @@ def odds_at(human: Human, graph: navmesh.NodeGraph, obstacle: int | str) -> floa
     if skill_for(human.clearing, asked) is None:
         return 0.0
     ahead = human.obstacle_ahead
-    if ahead is not None and ahead.affordance == asked.affordance:
-        gap = ahead.position - position
-        if abs(float(gap[:2] @ normal[:2])) < _SAME and abs(float(gap[2])) < _SAME:
-            asked = ahead
+    if ahead is not None and tag_ahead == str(obstacles.tag[number]):
+        asked = ahead
     odds = human.composition.odds(asked, float(np.hypot(away[0], away[1])))
     if odds is None:
         what = f"the {asked.affordance} of {asked.size:.2f} m"

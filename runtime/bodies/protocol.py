@@ -145,8 +145,9 @@ class Driver(ABC):
         it."""
 
     def heed(self, bravery: float | None) -> None:
-        """As `runtime.Agent.bravery`. Raises `RuntimeInputError` for a body without odds."""
-        raise RuntimeInputError("it has no bravery; only a human has")
+        """As `runtime.Agent.bravery`. Raises `RuntimeInputError` for a body without odds, unless None."""
+        if bravery is not None:
+            raise RuntimeInputError("it has no bravery; only a human has")
 
     def odds(self, obstacle: int | str) -> float:
         """As `runtime.Agent.odds`."""

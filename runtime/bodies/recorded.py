@@ -51,16 +51,18 @@ class Recorded(Population):
         return self._people
 
     def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> "RecordedDriver":
+        return RecordedDriver(self, self.people.add(place, facing, 0, self._chance(place)))
+
+    def _chance(self, place: np.ndarray) -> np.random.Generator:
+        """What is by chance in somebody who appears at ``place`` (3,) [m]."""
         millimetres = (np.round(1000.0 * place).astype(np.int64) % 2**32).tolist()
-        chance = np.random.default_rng((self._seed, *millimetres))
-        return RecordedDriver(self, self.people.add(place, facing, 0, chance))
+        return np.random.default_rng((self._seed, *millimetres))
 
     def take_over(self, driver: HumanDriver, level: str) -> "RecordedDriver":
         """Let recorded motion go on from where a simulated person is, at a ``level`` of detail."""
         human, index = driver.human, level_number(level)
-        chance = np.random.default_rng(self._seed)
         place, velocity = human.position, human.velocity[:2]
-        person = self.people.add(place, human.yaw, index, chance)
+        person = self.people.add(place, human.yaw, index, self._chance(place))
         pose, pose_rates = driver.drawn()
         person.go_on_from(pose, pose_rates, place, velocity)
         return RecordedDriver(self, person)
@@ -118,7 +120,7 @@ class RecordedDriver(WalkerDriver):
         return self.person
 
     def heed(self, bravery: float | None) -> None:
-        """It clears no obstacles; physics will, once it takes over."""
+        """Kept for when physics takes over: recorded people clear every obstacle of their sizes."""
         try:
             checked_bravery(bravery)
         except LocomotionError as error:
@@ -224,7 +226,7 @@ class RecordedDriver(WalkerDriver):
             raise RuntimeInputError("trait 'size': people of a world all have the same build")
         try:
             row = by_hand(self._row[at.TRAITS], **traits)
-        except (LocomotionError, TypeError) as error:
+        except LocomotionError as error:
             raise RuntimeInputError(str(error)) from None
         self.person.change(lambda: self.person.set_traits(row))
 

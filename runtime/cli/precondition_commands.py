@@ -80,6 +80,10 @@ def evaluate_preconditions(trials: int, seed: int, picture: Path | None = None, 
             outcomes = sample(skill, trials, seed, Path(folder) / f"{skill}.npz", place, progress)
             found, bins[skill] = judge(precondition, outcomes)
             judgements += found
+    better = [each.brier < each.usual for each in judgements if each.count >= 50 and not each.within]
+    bins = {skill: some for skill, some in bins.items() if some}
+    if not better or not bins:
+        raise RuntimeInputError(f"{trials} trials give too few moments to judge by; give more")
     if picture is not None:
         plot_reliability(bins, picture)
     rows = [
@@ -88,7 +92,6 @@ def evaluate_preconditions(trials: int, seed: int, picture: Path | None = None, 
     ]
     reliability = {skill: [asdict(each) for each in some] for skill, some in bins.items()}
     values = {"seed": seed, "trials": trials, "judgements": rows, "reliability": reliability}
-    better = [each.brier < each.usual for each in judgements if each.count >= 50 and not each.within]
 
     def show() -> None:
         print("| skill | asked | sizes | moments | hold | AUC | Brier (usual) | false go | false stop |")

@@ -186,6 +186,11 @@ class HostedWorld:
         self.clients[client] = states
         self._told.pop(client, None)
 
+    def end(self, client: Client) -> bool:
+        """Let ``client`` be no member any more; returns whether it was."""
+        self._told.pop(client, None)
+        return self.clients.pop(client, None) is not None
+
     def _agent_state(self, agent: Agent, states: States) -> dict[str, Any]:
         told = self._agent_fields(agent)
         if states in ("world", "local"):

@@ -82,7 +82,7 @@ class Worlds:
 
     def leave(self, client: Client, hosted: HostedWorld) -> bool:
         """Whether it was a member."""
-        if hosted.clients.pop(client, None) is None:
+        if not hosted.end(client):
             return False
         hosted.spawned = {
             name: hosted.owner if who is client else who for name, who in hosted.spawned.items()

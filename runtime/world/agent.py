@@ -1,5 +1,6 @@
 """An agent: a body in a world that is told where to go."""
 
+import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import chain
@@ -216,7 +217,8 @@ class Agent:
     @property
     def bravery(self) -> float | None:
         """Of a person in a world without rehearsals: from 0 to 1, it takes off where its odds are at least 1
-        less this, and turns away elsewhere (`TurnedAway`). None: it does not ask. Can be set; raises
+        less this, and turns away elsewhere (`TurnedAway`). None: it does not ask. With rehearsals it never
+        does, and this changes nothing. Can be set; raises
         `RuntimeInputError` for another value, and for bodies without odds. Takes constant time."""
         return self._bravery
 
@@ -225,8 +227,7 @@ class Agent:
         self._heed(bravery)
 
     def _heed(self, bravery: float | None) -> None:
-        if bravery is not None or self._bravery is not None:
-            self._driver.heed(bravery)
+        self._driver.heed(bravery)
         self._bravery = bravery
 
     def odds(self, obstacle: int | str) -> float:
@@ -553,8 +554,10 @@ class Agent:
 
     def state_hash(self) -> str:
         """Hexadecimal digest of everything that decides how it goes on."""
-        mood = "" if self._bravery is None else repr(self._bravery)
-        return self._driver.state_hash() + mood
+        own = self._driver.state_hash()
+        return (
+            own if self._bravery is None else hashlib.sha256(f"{own} {self._bravery!r}".encode()).hexdigest()
+        )
 
     def _translated(self, event: bodily.Event) -> Event | None:
         """A body's event as one of the world's, None for what the world reports on its own."""

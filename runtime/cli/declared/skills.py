@@ -70,7 +70,8 @@ def train(
         ),
     ] = None,
     effort: Annotated[
-        float, typer.Option(min=0.01, max=100.0, help="Multiplies the number of generations.")
+        float,
+        typer.Option(min=0.01, max=100.0, help="Multiplies the generations, or starts."),
     ] = 1.0,
     replace: Annotated[bool, typer.Option("--replace", help="Overwrite the built-in skills.")] = False,
 ) -> None:

@@ -6,10 +6,13 @@ import numpy as np
 import pytest
 
 from locomotion import LocomotionError
+from locomotion.body_events import Arrived, Cleared, SetOff, TookOff
 from locomotion.recorded.skeletons import LOW
 from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.saved_state_check import check_recorded
+from navmesh import NodeGraph, Terrain
 from tests.locomotion.recorded_people.test_clearing import EDGE, THICK, over
+from tests.runtime.playtest.levels import box
 
 
 def test_one_who_changes_its_mind_on_the_way_first_lands():
@@ -23,15 +26,58 @@ def test_one_who_changes_its_mind_on_the_way_first_lands():
     assert ada.posture == "kneel" and ada.position[0] > EDGE + THICK and ada.crossing is None
 
 
-def test_two_take_turns():
+def test_two_take_turns_and_neither_arrives_at_its_run_up():
     people, ada = over("vault", 0.8)
     bob = people.add((1.0, 0.7, 0.0), 0.0, LOW, np.random.default_rng(4))
     bob.go_to([(9.0, 0.0, 0.0)], 1.4, None)
-    both = 0
+    both, told = 0, {ada: [], bob: []}
     for _ in range(1500):
         people.tick()
         both += int((people.rows[:, at.CROSSES] == at.CLEARS).sum() == 2)
+        for one, events in told.items():
+            events += [type(event) for event in one.events]
+            one.events.clear()  # as a world does
     assert ada.status == bob.status == "arrived" and both == 0
+    assert all(events == [SetOff, TookOff, Cleared, Arrived] for events in told.values())
+
+
+def test_who_stands_where_one_would_land_is_waited_for():
+    people, ada = over("vault", 0.8)
+    while people.rows[0, at.CROSSES] != at.APPROACHES:
+        people.tick()
+    somebody = [[*ada.crossing.end, 0.0, 0.0, 0.3]]
+    for _ in range(1000):
+        people.crowd.lead(np.array(somebody))
+        people.tick()
+    assert people.rows[0, at.CROSSES] == at.APPROACHES
+    for _ in range(1500):
+        people.crowd.lead(np.empty((0, 6)))
+        people.tick()
+    assert ada.status == "arrived"
+
+
+def test_an_obstacle_that_goes_during_the_run_up_is_not_cleared():
+    people, ada = over("vault", 0.8)
+    while people.rows[0, at.CROSSES] != at.RUNS_UP:
+        people.tick()
+    level = box(-5, 30, -10, 10, -1, 0)
+    people.change_level(NodeGraph.build(Terrain(level.vertices, level.faces)))
+    for _ in range(1500):
+        people.tick()
+    assert ada.status == "arrived" and not any(isinstance(event, TookOff) for event in ada.events)
+
+
+def test_who_stands_is_on_the_floor_when_that_has_moved():
+    people, ada = over("vault", 0.8)
+    ada.stop()
+    for _ in range(200):
+        people.tick()
+    before = ada.qpos[2]
+    level = box(-5, 30, -10, 10, -1, 0.2)
+    people.change_level(NodeGraph.build(Terrain(level.vertices, level.faces)))
+    for _ in range(200):
+        people.tick()
+    assert ada.qpos[2] - before == pytest.approx(0.2, abs=0.01)
 
 
 def test_a_person_saved_over_an_obstacle_goes_on_the_same_way():

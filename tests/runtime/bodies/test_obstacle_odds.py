@@ -25,7 +25,7 @@ def test_odds_are_asked_by_number_or_tag(graph):
     number = int(np.flatnonzero(graph.obstacles.affordance == "jump")[0])
     odds = ada.odds(number)
     assert 0.4 < odds < 1.0 and odds == ada.odds(str(graph.obstacles.tag[number]))
-    assert odds == odds_at(ada.human, graph, number)
+    assert odds == odds_at(ada.human, graph, number, "")
     with pytest.raises(RuntimeInputError, match="obstacle 'moon': the level has"):
         ada.odds("moon")
     with pytest.raises(RuntimeInputError, match="a whole number below"):
@@ -57,3 +57,14 @@ def test_a_timid_person_says_that_it_turns_away_and_stays_so_when_restored(graph
     assert (away.skill, away.odds) == ("jump", 0.2) and away.height == pytest.approx(0.5, abs=0.01)
     assert str(away) == "human1 turns away from a jump of 0.50 m: odds 20 %"
     assert isinstance(told[-1], Stuck)
+
+
+def test_the_next_person_is_not_brave_because_the_last_one_was(graph):
+    world = World(graph, rehearsals=0)
+    ada = world.spawn("human", (0.5, 0.0, 0.0), bravery=0.3)
+    brave = ada.human
+    ada.detail = "full"
+    world.step(0.5)
+    assert ada.level == "full" and ada.bravery == 0.3
+    bob = world.spawn("human", (2.0, 0.0, 0.0))
+    assert bob.human is brave and bob.bravery is None and bob.human.bravery is None

@@ -131,10 +131,21 @@ def test_each_differs_from_the_next_by_chance_and_by_hand(graph):
     assert row[at.TRAITS][3] == 1.8 and row[at.TRAITS][1] == rows[0, at.TRAITS][1]
     for wrong, says in (
         ({"limp": 1.0}, "valid: phase"),
-        ({"lean": 2.0}, "expected -0.2"),
+        ({"lean": 2.0}, "lean is 2.0, expected a number from -0.2"),
+        ({"lean": "x"}, "lean is .x., expected a number"),
         ({"size": 1.1}, "build"),
     ):
         with pytest.raises(RuntimeInputError, match=says):
             people[0].set_style(**wrong)
     with pytest.raises(RuntimeInputError, match="only people who play"):
         world.spawn("walker", (9.0, 2.0, 0.0)).set_style(arms=1.0)
+
+
+def test_people_who_come_from_physics_differ_too(graph):
+    world = World(graph, seed=2)
+    people = [world.spawn("human", (1.0 + 0.7 * k, 3.0, 0.0)) for k in range(3)]
+    for agent in people:
+        agent.detail = "full"
+    world.step(1.0)
+    rows = np.array([agent.driver.person.row for agent in people])
+    assert len(np.unique(rows[:, at.TRAITS], axis=0)) == 3

@@ -38,7 +38,7 @@ def test_traits_by_hand_are_checked():
     assert by_hand(size=1.1)[SIZE] == 1.1
     with pytest.raises(LocomotionError, match="trait 'limp': valid: phase"):
         by_hand(limp=1.0)
-    with pytest.raises(LocomotionError, match=r"size is 3.0, expected 0.8 to 1.2"):
+    with pytest.raises(LocomotionError, match=r"size is 3.0, expected a number from 0.8 to 1.2"):
         by_hand(size=3.0)
 
 

@@ -18,8 +18,15 @@ import numpy as np
 
 from locomotion.preconditions.features import FEATURES
 from locomotion.preconditions.svm import odds_exactly
-from locomotion.training.preconditions.fitting import MOST, Samples, fit_machine, ranked_features, samples_of
-from locomotion.training.preconditions.outcomes import Outcomes, read_outcomes
+from locomotion.training.preconditions.fitting import (
+    MOST,
+    Learning,
+    Samples,
+    fit_machine,
+    ranked_features,
+    samples_of,
+)
+from locomotion.training.preconditions.outcomes import STARTS, Outcomes, read_outcomes
 from runtime.evaluation.preconditions import area_under_curve
 
 PARTS = 4
@@ -29,24 +36,22 @@ def whole_state(outcomes: Outcomes) -> np.ndarray:
     """(m, k) every moment's joints, rates, memory, plan and obstacle, from the obstacle's edge."""
     moments, starts = outcomes.moments, outcomes.starts[outcomes.start_of]
     qpos = moments["qpos"].astype(np.float64)
-    qpos[:, 0] -= starts[:, 2]
+    qpos[:, 0] -= starts[:, STARTS.index("distance")]
     memory = moments["state"][:, :13]
-    told = [qpos, moments["qvel"], memory, moments["plan"], moments["variation"], starts[:, [0, 1, 4]]]
+    site = [STARTS.index(name) for name in ("size", "depth", "friction")]
+    told = [qpos, moments["qvel"], memory, moments["plan"], moments["variation"], starts[:, site]]
     return np.concatenate(told, axis=1)
 
 
 def estimators(seed: int) -> dict:
     """What the machine is compared with, by name."""
-    from sklearn.ensemble import HistGradientBoostingClassifier
     from sklearn.neural_network import MLPClassifier
     from sklearn.pipeline import make_pipeline
     from sklearn.preprocessing import StandardScaler
     from sklearn.svm import SVC
 
     return {
-        "boosted trees": HistGradientBoostingClassifier(
-            max_iter=150, learning_rate=0.05, max_leaf_nodes=15, min_samples_leaf=30, random_state=seed
-        ),
+        "boosted trees": Learning().trees(seed),
         "small network (32, 16)": make_pipeline(
             StandardScaler(), MLPClassifier((32, 16), alpha=1.0, early_stopping=True, random_state=seed)
         ),
@@ -58,9 +63,7 @@ def estimators(seed: int) -> dict:
 
 def sigmoid(decided: np.ndarray, holds: np.ndarray) -> np.ndarray:
     """Calibrated odds of cross-validated decisions."""
-    from sklearn.linear_model import LogisticRegression
-
-    return LogisticRegression().fit(decided[:, None], holds).predict_proba(decided[:, None])[:, 1]
+    return Learning().logistic().fit(decided[:, None], holds).predict_proba(decided[:, None])[:, 1]
 
 
 def shown(name: str, odds: np.ndarray, samples: Samples) -> None:
@@ -95,8 +98,7 @@ def compare(file: Path) -> None:
     print("| learned by | AUC, all sizes | sizes to clear | of these at take-off | Brier |")
     print("| --- | --- | --- | --- | --- |")
     shown("machine", machine_odds(samples, part), samples)
-    kept = ~outcomes.moments["unforeseen"] & (outcomes.ends[outcomes.start_of] != 1)
-    inputs = {"": samples.features, ", whole state": whole_state(outcomes)[kept]}
+    inputs = {"": samples.features, ", whole state": whole_state(outcomes)[outcomes.learned_from]}
     for name, model in estimators(0).items():
         for more, features in inputs.items():
             decided = np.zeros(len(part))

@@ -19,7 +19,7 @@ from locomotion.gaits.run import controller
 from locomotion.ground.ground import FRICTION
 from locomotion.human.person import Person
 from locomotion.paths.smoothing import ObstacleAhead
-from locomotion.preconditions.features import FEATURES, describe, site_of
+from locomotion.preconditions.features import FEATURES, before_run_up, describe, site_of
 from locomotion.preconditions.moments import planned
 from locomotion.preconditions.precondition import SLOW_DOWN, Precondition, load_preconditions
 from locomotion.rehearsal.trials import BALKINGS, RUN_UPS
@@ -64,11 +64,15 @@ class Composition:
     def precondition(self, obstacle: ObstacleAhead) -> Precondition | None:
         """What is known of the skill with which it clears ``obstacle``; None if nothing is, as of skills of
         one's own."""
-        if self.preconditions is not None:
-            return self.preconditions.get(obstacle.affordance)
-        known = load_preconditions().get(obstacle.affordance)
+        known = self._known.get(obstacle.affordance)
+        if known is None or self.preconditions is not None:
+            return known
         skill = self._person.run_up.skill_for(obstacle)
-        return known if known is not None and known.heights == tuple(skill.heights) else None
+        return known if known.heights == tuple(skill.heights) else None
+
+    @property
+    def _known(self) -> Mapping[str, Precondition]:
+        return load_preconditions() if self.preconditions is None else self.preconditions
 
     def odds(self, obstacle: ObstacleAhead, room: float) -> float | None:
         """Chance, 0 to 1, that it clears ``obstacle`` from where it is; None if nothing is known. ``room``:
@@ -79,7 +83,7 @@ class Composition:
         if self._in_run_up and obstacle is self._person.run_up.ahead:
             choice = self._person.run_up.plan[[FARTHER, FASTER]]
             return float(known.odds(self._described(obstacle, choice[None]))[0])
-        return known.odds_before(self._site(obstacle), room)
+        return float(known.odds_before(before_run_up(self._site(obstacle), room)[None])[0])
 
     @property
     def _in_run_up(self) -> bool:
@@ -152,9 +156,7 @@ class Composition:
 
     def _odds_of_slowing(self, obstacle: ObstacleAhead, slowings: list[float]) -> NDArray[np.float64]:
         """(k,) odds of walking on after having slowed down, for each of ``slowings`` [m/s²]."""
-        own = self.preconditions
-        known = (load_preconditions() if own is None else own)[SLOW_DOWN]
         choice = self._person.run_up.plan[[FARTHER, FASTER]]
         rows = np.repeat(self._described(obstacle, choice[None]), len(slowings), axis=0)
         rows[:, FEATURES.index("farther")] = slowings
-        return known.odds(rows)
+        return self._known[SLOW_DOWN].odds(rows)

@@ -16,7 +16,7 @@ from locomotion.body.learned_file import SkillHeader, learned_numbers, read_skil
 from locomotion.body.person import person_digest
 from locomotion.data import PRECONDITIONS
 from locomotion.errors import LocomotionError
-from locomotion.preconditions.features import BEFORE, FEATURES, before_run_up
+from locomotion.preconditions.features import BEFORE, FEATURES
 from locomotion.preconditions.svm import Machine, odds_into
 from locomotion.skills.library import skill_digest
 from locomotion.skills.registry import skill_kinds
@@ -52,11 +52,11 @@ class Precondition:
     digest: str
     meta: dict[str, Any] = field(default_factory=dict)
 
-    def odds_before(self, site: NDArray[np.float64], room: float) -> float:
-        """Odds, 0 to 1, of clearing the obstacle at ``site`` (`features.site_of`) with ``room`` [m] of way
-        before it."""
+    def odds_before(self, features: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(k,) odds, 0 to 1, before the run-up to obstacles described by ``features`` (k, 4), see
+        `features.before_run_up`."""
         assert self.before is not None
-        return float(self._ask(self.before, before_run_up(site, room)[None])[0])
+        return self._ask(self.before, features)
 
     def odds(self, features: NDArray[np.float64]) -> NDArray[np.float64]:
         """(k,) odds, 0 to 1, at moments of a run-up described by ``features`` (k, n)."""

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import rankdata
 
-from locomotion.preconditions.features import FEATURES, SITE
 from locomotion.preconditions.precondition import Precondition
 from locomotion.training.preconditions.fitting import samples_before, samples_of
 from locomotion.training.preconditions.outcomes import Outcomes
@@ -93,10 +92,7 @@ def judge(precondition: Precondition, outcomes: Outcomes) -> tuple[list[Judgemen
     that people are to clear; and its reliability in all run-ups."""
     samples, before, found = samples_of(outcomes), samples_before(outcomes), []
     odds = precondition.odds(samples.features)
-    at_first = np.zeros(0)
-    if precondition.before is not None:
-        asked_of = [(_site(row), float(row[3])) for row in before.features]
-        at_first = np.array([precondition.odds_before(*each) for each in asked_of])
+    at_first = np.zeros(0) if precondition.before is None else precondition.odds_before(before.features)
     for moment, steps in MOMENTS.items():
         if steps is None and precondition.before is None:
             continue
@@ -109,10 +105,3 @@ def judge(precondition: Precondition, outcomes: Outcomes) -> tuple[list[Judgemen
             if chosen.any():
                 found.append(judged(precondition.skill, moment, within, asked[chosen], at.holds[chosen]))
     return found, bins_of(odds, samples.holds)
-
-
-def _site(row: NDArray[np.float64]) -> NDArray[np.float64]:
-    """A site of this size, thickness and grip."""
-    site = np.zeros(len(SITE))
-    site[SITE.index("size") :] = row[: len(FEATURES[:3])]
-    return site

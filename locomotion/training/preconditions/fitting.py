@@ -23,14 +23,22 @@ from locomotion.preconditions.precondition import SLOW_DOWN, Precondition, skill
 from locomotion.preconditions.svm import Machine, decide_exactly
 from locomotion.training.preconditions.outcomes import STARTS, Outcomes, kind_for
 
-__all__ = ["Samples", "fit_machine", "fit_precondition", "ranked_features", "samples_before", "samples_of"]
+__all__ = [
+    "Learning",
+    "Samples",
+    "fit_machine",
+    "fit_precondition",
+    "ranked_features",
+    "samples_before",
+    "samples_of",
+]
 
 MOST = 12
 """Features that count in a run-up."""
 _CENTRES, _CENTRES_BEFORE = 128, 48
 _GAMMA, _COST = 0.05, 1.0
 _LEAST_WEIGHT, _MOST_WEIGHT = 0.3, 2.0  # of a feature, against the fourth best
-_FOLDS = 4
+_FOLDS, _SEED = 4, 0
 _OF_OBSTACLE = (
     "size", "depth", "faster", "steps left", "early", "missing speed", "foot distance", "height over edge",
 )  # fmt: skip
@@ -83,7 +91,7 @@ def samples_of(outcomes: Outcomes) -> Samples:
     size = outcomes.starts[start, STARTS.index("size")]
     steps = np.where(moments["off"], 0, np.maximum(plan[:, 0], 1.0)).astype(np.int64)
     every = Samples(features, outcomes.ends[start] == 0, start, (size >= low) & (size <= high), steps)
-    return every.part(~moments["unforeseen"] & (outcomes.ends[start] != 1))
+    return every.part(outcomes.learned_from)
 
 
 def samples_before(outcomes: Outcomes) -> Samples:
@@ -100,7 +108,7 @@ def samples_before(outcomes: Outcomes) -> Samples:
 def ranked_features(samples: Samples, seed: int) -> list[tuple[int, float]]:
     """Numbers of the features and how much each counts, the best first: by how much the area under the curve
     of boosted trees falls when its values are shuffled, on starts that these were not fitted to."""
-    learning = _Learning()
+    learning = Learning()
     fitted = samples.start % 2 == 0
     rest = samples.part(~fitted & samples.within)
     trees = learning.trees(seed).fit(samples.features[fitted], samples.holds[fitted])
@@ -117,7 +125,7 @@ def fit_machine(
     samples: Samples, ranked: list[tuple[int, float]], seed: int, centres: int = _CENTRES
 ) -> Machine:
     """A machine of the features ``ranked``, with odds that are calibrated on starts left out in turn."""
-    learning = _Learning()
+    learning = Learning()
     fold = np.random.default_rng(seed).integers(0, _FOLDS, int(samples.start.max()) + 1)[samples.start]
     decided = np.zeros(len(fold))
     for k in range(_FOLDS):
@@ -136,7 +144,7 @@ def _uncalibrated(samples: Samples, ranked: list[tuple[int, float]], seed: int, 
     counting = samples.features[:, columns]
     mean, scale = counting.mean(axis=0), np.maximum(counting.std(axis=0), 1e-6) / weight
     scaled = (counting - mean) / scale
-    model = _Learning().machine(_GAMMA, _COST, min(centres, len(scaled)), seed).fit(scaled, samples.holds)
+    model = Learning().machine(_GAMMA, _COST, min(centres, len(scaled)), seed).fit(scaled, samples.holds)
     mapped, linear = model[0], model[1]
     return Machine(
         columns, counting.min(axis=0), counting.max(axis=0), mean, scale,
@@ -145,7 +153,7 @@ def _uncalibrated(samples: Samples, ranked: list[tuple[int, float]], seed: int, 
     )  # fmt: skip
 
 
-def fit_precondition(outcomes: Outcomes, seed: int = 0) -> Precondition:
+def fit_precondition(outcomes: Outcomes) -> Precondition:
     """The precondition of a skill. Raises `LocomotionError` without scikit-learn, or if there are too few
     outcomes, or only of one sort."""
     skill = outcomes.skill
@@ -153,12 +161,12 @@ def fit_precondition(outcomes: Outcomes, seed: int = 0) -> Precondition:
     for each in (samples, before):
         if len(each.holds) < 20 or each.holds.all() or not each.holds.any():
             raise LocomotionError(f"too few outcomes of {skill} to learn from; sample more starts")
-    with _Learning().one_thread():
-        return _fitted(outcomes, samples, before, seed)
+    with Learning().one_thread():
+        return _fitted(outcomes, samples, before)
 
 
-def _fitted(outcomes: Outcomes, samples: Samples, before: Samples, seed: int) -> Precondition:
-    skill, ranked = outcomes.skill, ranked_features(samples, seed)
+def _fitted(outcomes: Outcomes, samples: Samples, before: Samples) -> Precondition:
+    skill, ranked = outcomes.skill, ranked_features(samples, _SEED)
     if skill == SLOW_DOWN:
         ranked = [each for each in ranked if FEATURES[each[0]] not in _OF_OBSTACLE]
         ranked.sort(key=lambda each: FEATURES[each[0]] != "farther")  # first what it chooses
@@ -170,13 +178,13 @@ def _fitted(outcomes: Outcomes, samples: Samples, before: Samples, seed: int) ->
     }  # fmt: skip
     sizes = [(k, 1.0) for k in range(len(BEFORE))]
     return Precondition(
-        skill, kind_for(skill).sizes, fit_machine(samples, ranked, seed),
-        None if skill == SLOW_DOWN else fit_machine(before, sizes, seed, _CENTRES_BEFORE),
+        skill, kind_for(skill).sizes, fit_machine(samples, ranked, _SEED),
+        None if skill == SLOW_DOWN else fit_machine(before, sizes, _SEED, _CENTRES_BEFORE),
         skill_and_run(skill), meta,
     )  # fmt: skip
 
 
-class _Learning:
+class Learning:
     """What is used of scikit-learn, which only learning needs."""
 
     def __init__(self) -> None:

@@ -63,6 +63,11 @@ class Outcomes:
         """(m,) the start of each moment."""
         return np.repeat(np.arange(len(self.ends)), np.diff(self.first))
 
+    @property
+    def learned_from(self) -> NDArray[np.bool_]:
+        """(m,) bool: none before a push, and none of people who never took off."""
+        return ~self.moments["unforeseen"] & (self.ends[self.start_of] != 1)
+
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the file; it appears whole or not at all."""
         arrays = {"starts": self.starts, "ends": self.ends, "clean": self.clean, "first": self.first}

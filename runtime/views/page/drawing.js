@@ -1,5 +1,14 @@
 // Everything that talks to the graphics card: the level, lines, balls and tubes in many copies, and skins.
 
+// a surface in its own colour under the sun
+const SHADED = `
+    in vec3 normal, own;
+    out vec4 colour;
+    void main() {
+      vec3 n = normalize(normal);
+      colour = vec4(own * (0.50 + 0.15 * n.z + 0.50 * max(dot(n, sun), 0.0)), 1.0);
+    }`;
+
 const SHADERS = {
   level: [`
     in vec3 place;
@@ -45,13 +54,7 @@ const SHADERS = {
       normal = turn * (along / max(scale, 1e-9));
       own = tint;
       gl_Position = view * pose * vec4(place, 1.0);
-    }`, `
-    in vec3 normal, own;
-    out vec4 colour;
-    void main() {
-      vec3 n = normalize(normal);
-      colour = vec4(own * (0.50 + 0.15 * n.z + 0.50 * max(dot(n, sun), 0.0)), 1.0);
-    }`],
+    }`, SHADED],
   // each bone is three texels: the rows of the matrix that moves it from rest
   skin: [`
     in vec3 place, outward, tint;
@@ -66,13 +69,7 @@ const SHADERS = {
       normal = vec3(dot(sum[0].xyz, outward), dot(sum[1].xyz, outward), dot(sum[2].xyz, outward));
       own = tint;
       gl_Position = view * vec4(dot(sum[0], at), dot(sum[1], at), dot(sum[2], at), 1.0);
-    }`, `
-    in vec3 normal, own;
-    out vec4 colour;
-    void main() {
-      vec3 n = normalize(normal);
-      colour = vec4(own * (0.50 + 0.15 * n.z + 0.50 * max(dot(n, sun), 0.0)), 1.0);
-    }`],
+    }`, SHADED],
   // a segment is a strip of two triangles, so many pixels wide
   lines: [`
     in vec3 begin, end;

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from locomotion import LocomotionError
-from locomotion.preconditions.features import FEATURES, SITE
+from locomotion.preconditions.features import FEATURES, SITE, before_run_up
 from locomotion.preconditions.precondition import (
     SLOW_DOWN,
     load_precondition,
@@ -26,7 +26,8 @@ def test_a_file_holds_the_whole_precondition(tmp_path):
     again = load_precondition(tmp_path / "vault.npz")
     asked = np.random.default_rng(0).normal(size=(4, len(FEATURES)))
     assert (first.odds(asked) == again.odds(asked)).all()
-    assert first.odds_before(site(0.8), 12.0) == again.odds_before(site(0.8), 12.0)
+    before = before_run_up(site(0.8), 12.0)[None]
+    assert (first.odds_before(before) == again.odds_before(before)).all()
     assert load_precondition(precondition_file(SLOW_DOWN)).before is None
 
 
@@ -42,5 +43,7 @@ def test_one_of_another_skill_is_refused(tmp_path):
 def test_what_is_far_beyond_a_skill_is_nearly_hopeless(affordance):
     known = load_preconditions()[affordance]
     low, high = known.heights
-    odds = [known.odds_before(site(size), 12.0) for size in (low, high + (high - low))]
+    odds = known.odds_before(
+        np.array([before_run_up(site(size), 12.0) for size in (low, high + (high - low))])
+    )
     assert odds[0] > 0.5 and odds[1] < 0.2

@@ -143,8 +143,8 @@ class ObstacleCourse:
             self._land(of)
 
     def stay(self) -> None:
-        """After its body has moved: one that has come to where its run-up begins has not arrived, but waits
-        for its turn there."""
+        """After its body has moved: if it has come to where its run-up begins, it has not arrived. It waits
+        there for its turn."""
         walker = self._person.walker
         if walker.status == "arrived":
             walker.events.pop()

@@ -87,8 +87,9 @@ class Looks:
         self._known: dict[str, tuple[Figure, str, Figure]] = {}
 
     def look(self, name: str, figure: Figure, pose: np.ndarray, thing: str) -> tuple[Figure, np.ndarray]:
-        """The agent called ``name``, whose own ``figure`` is in a ``pose`` (n, 7), with a ``thing`` in its
-        hands, as one figure in a pose (n + 1, 7); as it is if that is "" or looks like nothing."""
+        """The figure and pose of the agent called ``name`` with a ``thing`` in its hands. Its own ``figure``
+        is in the ``pose`` (n, 7); the pose returned is (n + 1, 7). Without a thing, or with one that looks
+        like nothing, both are returned as they are."""
         if not thing or thing_figure(thing) is None:
             self._known.pop(name, None)
             return figure, pose

@@ -108,7 +108,7 @@ class Driver(ABC):
 
     @property
     def joints(self) -> Joints:
-        """What `joint_pose` turns; `NO_JOINTS` where that is None."""
+        """The joints whose angles `joint_pose` gives; `NO_JOINTS` where it gives none."""
         return NO_JOINTS
 
     def joint_pose(self) -> np.ndarray | None:

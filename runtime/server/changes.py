@@ -27,7 +27,7 @@ _DECIMALS = (4, 4, 3)
 
 
 NOTHING: "Mapping[str, Shown]" = {}
-"""What a client has been told of that has just joined."""
+"""What a client knows that has just joined."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +54,7 @@ class Changes:
 
     @property
     def newest(self) -> Mapping[str, Shown]:
-        """What a client has been told of once it has the newest text; it stays as it is."""
+        """The agents as the newest text tells them. This mapping is never changed afterwards."""
         return self._shown
 
     def refresh(self, name: str, world: World, anew: bool = False) -> None:

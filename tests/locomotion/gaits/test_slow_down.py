@@ -26,11 +26,11 @@ def upright(human):
 
 def test_runs_walks_and_stands_at_its_goal():
     human, stood = Human(None, clearing=()), 0
-    for k in range(12):
-        end = [17.0 + 0.31 * k, 0.0, 0.0]
+    for k in range(6):
+        end = [17.0 + 0.62 * k, 0.0, 0.0]
         human.events.clear()
         human.reset((0, 0, 0), 0.0)
-        human.follow([[0, 0, 0], end], 2.3 + 0.1 * k)
+        human.follow([[0, 0, 0], end], 2.3 + 0.2 * k)
         gaits, seen = come_to_rest(human)
         if upright(human):
             stood += 1
@@ -38,15 +38,15 @@ def test_runs_walks_and_stands_at_its_goal():
             assert seen == ["walking", "running", "walking", "arrived"]
             assert [type(event) for event in human.events] == [SetOff, Arrived]
             assert np.linalg.norm(human.position[:2] - end[:2]) < 0.5
-    assert stood >= 11
+    assert stood == 6
 
 
 def test_told_to_stop_it_stands_within_a_few_metres_and_goes_on_when_told_again():
     human, stood = Human(None, clearing=()), 0
-    for k in range(8):
+    for k in range(4):
         human.reset((0, 0, 0), 0.0)
         human.follow([[0, 0, 0], [60, 0, 0]], 3.0)
-        for _ in range(400 + 11 * k):
+        for _ in range(400 + 23 * k):
             human.tick()
         assert human.gait_now == "run"
         begun = human.position
@@ -58,14 +58,14 @@ def test_told_to_stop_it_stands_within_a_few_metres_and_goes_on_when_told_again(
         human.follow(human.position + np.outer([0.0, 20.0], [1, 0, 0]), 3.0)
         gaits, _ = come_to_rest(human)
         stood += upright(human) and gaits == ["walk", "run", "slow run", "walk"]
-    assert stood >= 7
+    assert stood == 4
 
 
 def test_told_of_a_goal_behind_it_while_it_runs_it_comes_to_a_stand_turns_and_goes_there():
     human, arrived = Human(None, clearing=()), 0
-    for k in range(10):
+    for k in range(5):
         human.reset((0, 0, 0), 0.0)
-        human.follow([[0, 0, 0], [40, 0, 0]], 2.5 + 0.1 * k)
+        human.follow([[0, 0, 0], [40, 0, 0]], 2.5 + 0.2 * k)
         while human.position[0] < 9.0:
             human.tick()
         way = [[0, 0, 0], [9, 0, 0], [9.5, 0.5, 0], [9, 1, 0], [0, 1, 0]]
@@ -73,7 +73,7 @@ def test_told_of_a_goal_behind_it_while_it_runs_it_comes_to_a_stand_turns_and_go
         while human.status in MOVING and human.time < 60.0 * (k + 1):
             human.tick()
         arrived += human.status == "arrived"
-    assert arrived >= 9
+    assert arrived == 5
 
 
 @pytest.mark.parametrize("after", [1, 60])

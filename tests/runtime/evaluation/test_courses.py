@@ -14,12 +14,12 @@ def one(affordance, height, distance):
 
 
 @pytest.mark.parametrize(
-    ("affordance", "heights", "least"), [("jump", (0.1, 0.3, 0.5, 0.7), 13), ("vault", (0.6, 0.7), 5)]
+    ("affordance", "heights", "least"), [("jump", (0.1, 0.3, 0.5, 0.7), 7), ("vault", (0.6, 0.7), 3)]
 )
 def test_clears_obstacles_and_goes_on(affordance, heights, least):
     arrived = 0
     for height in heights:
-        for distance in (11.3, 14.7, 18.2, 21.9):
+        for distance in (11.3, 18.2):
             run = run_course(one(affordance, height, distance))
             assert run.reports
             passage = run.reports[0]
@@ -105,11 +105,11 @@ def test_noise_changes_the_start_only():
 def test_who_falls_in_the_run_up_gets_up_goes_back_and_clears_it():
     course = make_course([("jump", 0.4, 0.3)], [12.0])
     ground, cleared = Ground.from_arrays(course.vertices, course.faces), 0
-    for k in range(5):
+    for k in range(3):
         human = Human(ground, gets_up=True)
         human.reset(course.path[0], 0.0)
         human.follow(course.path, 3.5, course.obstacles)
-        while human.arc_length < 6.0 + 0.4 * k:
+        while human.arc_length < 6.0 + 0.8 * k:
             human.tick()
         while human.status == "running":
             human.data.xfrc_applied[human.index.root, :2] = -500.0, 60.0 * (-1.0) ** k
@@ -119,4 +119,4 @@ def test_who_falls_in_the_run_up_gets_up_goes_back_and_clears_it():
             human.tick()
         assert any(isinstance(event, Fell) for event in human.events)
         cleared += human.status == "arrived" and any(isinstance(event, Cleared) for event in human.events)
-    assert cleared >= 4
+    assert cleared == 3

@@ -24,7 +24,7 @@ def test_most_random_ways_are_gone_to_their_end(graph, speed):
     rng = np.random.default_rng(4)
     places = graph.positions[np.flatnonzero(graph.radii > 0.5)]
     arrived, tried, unharmed = 0, 0, 0
-    while tried < 8:
+    while tried < 5:
         start, goal = places[rng.choice(len(places), 2)]
         route = graph.find_path(start, goal, radius=0.3)
         if route.status != "complete" or not 10.0 < route.length < 40.0 or len(route.links):
@@ -38,8 +38,8 @@ def test_most_random_ways_are_gone_to_their_end(graph, speed):
         arrived += person.status == "arrived"
         unharmed += not any(isinstance(event, Fell) for event in world.events)
         assert person.status not in ("lost", "stuck")
-    assert arrived == 8
-    assert unharmed >= 6
+    assert arrived == 5
+    assert unharmed >= 4
 
 
 def test_smoothed_ways_lie_on_the_ground_between_their_corners(graph):

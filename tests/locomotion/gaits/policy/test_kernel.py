@@ -1,5 +1,7 @@
 """The compiled policy against the plain form that learning uses, on the whole figure."""
 
+from dataclasses import replace
+
 import mujoco
 import numpy as np
 import pytest
@@ -74,6 +76,41 @@ def test_it_decides_as_the_plain_form_from_what_its_sensors_say(skill):
         np.testing.assert_allclose(data.ctrl[columns], wanted, atol=2e-5)
     assert halves == {False, True}, "both halves of the cycle were seen"
     assert states == [True] * 100 + [False] + [True] * 59, "and a stand, and a step out of it"
+
+
+def test_it_decides_as_the_plain_form_from_any_state(skill):
+    """Standing, about to, stepping in place, setting off, walking; near a stand and far from one."""
+    rng, columns = np.random.default_rng(5), [JOINT_NAMES.index(name) for name in at.JOINTS]
+    changes = set()
+    for _ in range(400):
+        memory = new_memory(rng.uniform(-3.0, 3.0))
+        memory[at.STARTED], memory[at.RUNNING] = 1.0, rng.integers(2)
+        memory[at.PHASE] = rng.uniform(0.0, 1.0)
+        if rng.random() < 0.5:
+            memory[at.PHASE] = rng.uniform(law.BOTH_BEAR, law.LIFT_OFF) + 0.5 * rng.integers(2)
+        memory[at.RESTED] = rng.choice([-0.3, 0.0, 0.2, 0.6])
+        memory[[at.TOLD, at.SPEED]] = rng.choice([0.0, 0.02, 0.3, 1.2]) + rng.choice([0.0, 0.05])
+        memory[at.TURN_RATE], memory[at.TRIM] = rng.choice([0.0, 0.03, -0.7]), rng.uniform(-0.3, 0.3)
+        memory[[at.LAG_AHEAD, at.LAG_LEFT]] = rng.choice([0.02, 0.5]) * rng.normal(size=2)
+        memory[at.ACTION] = rng.normal(size=at.ACTIONS)
+        asked = np.array([rng.choice([0.0, 0.03, 0.2, 1.5]), rng.choice([0.0, 0.03, 0.9])])
+        seen = standing(skill, memory, rng.choice([0.0, 0.05, 0.1]), rng.choice([0.0, 0.1, 0.5]))
+        seen.forces[0, 2 * rng.integers(2)] *= rng.choice([0.0, 0.5, 1.0])
+        if rng.random() < 0.2:  # nearly at rest
+            memory[[at.TOLD, at.SPEED, at.TURN_RATE, at.LAG_AHEAD, at.LAG_LEFT]] = 0.0
+            seen, asked[:] = standing(skill, memory), 0.0
+        turned = law.along(np.array([-memory[at.HEADING]]), seen.soles)
+        seen = replace(seen, soles=turned, qvel=seen.qvel + 0.02 * rng.normal(size=(1, 6)))
+        qpos, qvel, ctrl = np.zeros(46), np.zeros(45), np.zeros(39)
+        qpos[:7], qvel[:6] = seen.qpos[0], seen.qvel[0]
+        felt, plain = np.append(seen.soles.ravel(), seen.forces), memory[None].copy()
+        wanted = plain_tick(skill, plain, asked, seen)
+        before = memory[at.RUNNING]
+        decide_tick(*skill.tables, memory, asked, felt, qpos, qvel, ctrl)
+        changes.add((before, memory[at.RUNNING]))
+        np.testing.assert_allclose(memory, plain[0], atol=2e-5)
+        np.testing.assert_allclose(ctrl[columns], wanted, atol=2e-5)
+    assert changes == {(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)}
 
 
 def test_the_mirror_image_of_a_person_decides_the_mirror_image(skill):

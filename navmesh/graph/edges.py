@@ -1,9 +1,12 @@
 """Edges between nodes whose cells touch, with the widest body that passes and where it passes."""
 
+from itertools import pairwise
+
 import numpy as np
 
 from navmesh.surface.clearance_field import centre_of
 from navmesh.surface.ridges import Field, half_width, widest_through
+from navmesh.threads import in_threads, shares
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["borders", "join_nodes", "measure_edges", "rows_of_edges"]
@@ -42,6 +45,25 @@ def _border_pairs(label, link, clearance):
     return key, pair, width
 
 
+@allocating_kernel
+def _by_ends(key, nodes):
+    """The border pairs by rising key, those of one key in their order: (k,) int32. Sorted by counting, first
+    by the greater end and then by the lesser."""
+    order, again = np.arange(key.shape[0]).astype(np.int32), np.empty(key.shape[0], np.int32)
+    for shift in (0, 32):
+        start = np.zeros(nodes + 1, np.int32)
+        for k in range(key.shape[0]):
+            start[((key[k] >> shift) & 0xFFFFFFFF) + 1] += 1
+        for m in range(nodes):
+            start[m + 1] += start[m]
+        for k in range(key.shape[0]):
+            m = (key[order[k]] >> shift) & 0xFFFFFFFF
+            again[start[m]] = order[k]
+            start[m] += 1
+        order, again = again, order
+    return order
+
+
 @kernel
 def _widest(order, first, last, pair, width, least, most, field):
     """Where the widest body passes the border pairs ``order[first:last]`` of one edge, and the pair there:
@@ -66,10 +88,10 @@ def _widest(order, first, last, pair, width, least, most, field):
     return best, x, y, min(radius, most)
 
 
-@allocating_kernel
+@allocating_kernel(nogil=True)
 def _measure(order, key, pair, width, place, field):
-    """The edges that border pairs make up, which ``order`` sorts by key: ends (e, 2) int32, the lesser first;
-    width (e,), gate (e, 2) float64 and pair (e, 2) int32."""
+    """The edges that the border pairs in ``order``, which sorts them by key, make up: ends (e, 2) int32, the
+    lesser first; width (e,), gate (e, 2) float64 and pair (e, 2) int32."""
     begin = np.empty(order.shape[0] + 1, np.int32)
     edges = 0
     for k in range(order.shape[0]):
@@ -120,18 +142,24 @@ def borders(label: np.ndarray, link: np.ndarray) -> np.ndarray:
 
 
 def measure_edges(
-    label: np.ndarray, field: Field, place: np.ndarray, wanted: np.ndarray | None = None
+    label: np.ndarray, field: Field, place: np.ndarray, wanted: np.ndarray | None = None, threads: int = 1
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """`_measure` for all pairs of labels that touch, or for those whose `borders` are ``wanted``."""
     key, pair, width = _border_pairs(label, field.link, field.clearance)
     if wanted is not None:
         these = np.isin(key, wanted)
         key, pair, width = key[these], pair[these], width[these]
-    return _measure(np.argsort(key, kind="stable"), key, pair, width, place, field)
+    order = _by_ends(key, len(place))
+    sorted_key = key[order]
+    bounds = np.searchsorted(sorted_key, sorted_key[shares(len(key), threads)[:-1]]) if len(key) else [0]
+    parts = [[order[first:last]] for first, last in pairwise([*bounds, len(key)])]
+    found = in_threads(lambda part: _measure(part, key, pair, width, place, field), parts, threads)
+    ends, widest, gate, border = (np.concatenate(each) for each in zip(*found, strict=True))
+    return ends, widest, gate, border
 
 
 def join_nodes(
-    label: np.ndarray, field: Field, place: np.ndarray
+    label: np.ndarray, field: Field, place: np.ndarray, threads: int = 1
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Edges in CSR form, both ways: start (m + 1,), target (e,), width (e,), gate (e, 2), cells (e, 2).
 
@@ -139,4 +167,4 @@ def join_nodes(
     that passes is max((Rᵢ + Rⱼ - d)/2, the clearance of the best pair of linked cells on the labels'
     border); where the sides of a passage face each other, the clearance in its middle instead of the cells'.
     """
-    return rows_of_edges(len(place), *measure_edges(label, field, place))
+    return rows_of_edges(len(place), *measure_edges(label, field, place, threads=threads))

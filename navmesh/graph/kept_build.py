@@ -23,6 +23,7 @@ from navmesh.rules import WalkRules
 from navmesh.surface.build import Grid, Window, find_cells, lay_grid, patch_around, reach_of, surface_of
 from navmesh.surface.renewal import renew_surface
 from navmesh.surface.ridges import field_of
+from navmesh.surface.strips import all_cells
 from navmesh.surface.surface import Surface
 
 __all__ = ["Built", "KeptBuild", "all_rim_samples", "build_whole", "grid_for", "renewed"]
@@ -77,16 +78,18 @@ def grid_for(terrain: Terrain, rules: WalkRules, extent: np.ndarray | None, grow
     return lay_grid(bounds, rules, terrain.name)
 
 
-def build_whole(terrain: Terrain, rules: WalkRules, grid: Grid) -> Built:
+def build_whole(terrain: Terrain, rules: WalkRules, grid: Grid, threads: int = 1) -> Built:
     """Surface, discs and edges of ``terrain``. Raises `NavmeshError` where there are none."""
-    surface, choice = surface_of(find_cells(terrain, rules, grid), grid)
-    return _checked(_with_discs(rules, grid, surface, choice), terrain, rules)
+    surface, choice = surface_of(all_cells(terrain, rules, grid, threads), grid, threads)
+    return _checked(_with_discs(rules, grid, surface, choice, threads), terrain, rules)
 
 
-def _with_discs(rules: WalkRules, grid: Grid, surface: Surface, choice: np.ndarray) -> Built:
+def _with_discs(
+    rules: WalkRules, grid: Grid, surface: Surface, choice: np.ndarray, threads: int = 1
+) -> Built:
     field = field_of(surface)
     nodes = Nodes(*all_nodes(surface, field, rules.min_radius))
-    return Built(grid, surface, choice, nodes, join_nodes(nodes.label, field, nodes.place))
+    return Built(grid, surface, choice, nodes, join_nodes(nodes.label, field, nodes.place, threads))
 
 
 def _checked(built: Built, terrain: Terrain, rules: WalkRules) -> Built:
@@ -135,12 +138,13 @@ def all_rim_samples(
     surface: Surface,
     rules: WalkRules,
     obstacle_rules: ObstacleRules,
+    threads: int = 1,
 ) -> tuple[RimSamples, MeshGrid]:
     """The samples at the rims of ``terrain``, and its triangles for measuring. Only those near ``changed``
     bounds (2, 3) [m] are taken if there were any ``before``."""
     mesh_grid = MeshGrid(terrain.vertices, terrain.faces, surface.origin, rules.max_slope)
     if before is None or before.rim_samples is None:
-        return take_rim_samples(terrain, surface, rules, obstacle_rules, mesh_grid), mesh_grid
+        return take_rim_samples(terrain, surface, rules, obstacle_rules, mesh_grid, threads), mesh_grid
     areas = np.array([bounds[:, :2] - surface.origin[:2] for bounds in changed])
     renewed = renew_rim_samples(before.rim_samples, areas, terrain, surface, rules, obstacle_rules, mesh_grid)
     return renewed, mesh_grid

@@ -1,7 +1,7 @@
 """The node-radius graph: discs on the walkable surface, joined where a body can pass from one to the next."""
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,9 +14,11 @@ from navmesh.graph.graph_file import read_graph, write_graph
 from navmesh.graph.kept_build import Built, KeptBuild, all_rim_samples, build_whole, grid_for, renewed
 from navmesh.graph.links import Links, make_links
 from navmesh.level.chunks import change_chunks
+from navmesh.level.mesh_queries import MeshGrid
 from navmesh.level.terrain import DEFAULT_MATERIAL, Terrain
 from navmesh.obstacles.detection import obstacles_at, with_own_kinds
 from navmesh.obstacles.obstacles import Obstacles
+from navmesh.obstacles.rim_samples import RimSamples
 from navmesh.obstacles.rules import ObstacleRules
 from navmesh.obstacles.tagging import TagFile
 from navmesh.routes import path_queries as pathfinding
@@ -25,6 +27,7 @@ from navmesh.routes.route import Route, Routes
 from navmesh.rules import WalkRules
 from navmesh.surface.build import Grid
 from navmesh.surface.surface import Surface
+from navmesh.threads import checked_threads
 from surefoot.words import several
 
 if TYPE_CHECKING:
@@ -91,22 +94,27 @@ class NodeGraph:
         obstacle_rules: ObstacleRules | None = _OBSTACLE_RULES,
         tags: TagFile | None = None,
         extent: Any = None,
+        threads: int = 1,
     ) -> "NodeGraph":
         """The graph of ``terrain`` under ``rules`` (default: `WalkRules()`).
 
         ``obstacle_rules`` say what counts as clearable; None leaves the search for obstacles out. ``tags``
         (`navmesh.load_tags`) are the author's additions, changes and removals. ``extent`` (2, 3) [m] are the
         least and the greatest corner of the room that a level which grows (`update`) is going to fill; by
-        default its bounds. Raises `NavmeshError` when nothing is walkable, or when the tags do not fit the
-        level.
+        default its bounds. ``threads``, at least 1, share most of the work; the graph is the same
+        bit for bit. Raises `NavmeshError` when nothing is walkable, or when the tags do not fit the level.
         """
         if not isinstance(terrain, Terrain):
             raise NavmeshError(f"terrain: expected a navmesh.Terrain, not a {type(terrain).__name__}")
         if not isinstance(rules, WalkRules | None):
             raise NavmeshError(f"rules: expected navmesh.WalkRules, not a {type(rules).__name__}")
         rules = rules or WalkRules()
-        grid = grid_for(terrain, rules, extent)
-        return cls._made(terrain, obstacle_rules, tags, rules, build_whole(terrain, rules, grid))
+        threads = checked_threads(threads)
+        built = build_whole(terrain, rules, grid_for(terrain, rules, extent), threads)
+        surface, found = built.surface, None
+        if obstacle_rules is not None:
+            found = all_rim_samples(None, (), terrain, surface, rules, obstacle_rules, threads)
+        return cls._made(terrain, rules, obstacle_rules, tags, built, found)
 
     def update(self, changes: Mapping[str, Terrain | None]) -> "NodeGraph":
         """The graph after ``changes`` to the level's chunks: by name, a `Terrain` to be added or to replace
@@ -131,26 +139,28 @@ class NodeGraph:
             built = renewed(kept_build.built, changed, terrain, rules)
         else:
             built, kept_build = build_whole(terrain, rules, grid), None
-        return self._made(terrain, self.obstacle_rules, self.tags, rules, built, kept_build, changed)
+        found = None
+        if self.obstacle_rules is not None:
+            found = all_rim_samples(kept_build, changed, terrain, built.surface, rules, self.obstacle_rules)
+        return self._made(terrain, rules, self.obstacle_rules, self.tags, built, found)
 
     @classmethod
     def _made(
         cls,
         terrain: Terrain,
+        rules: WalkRules,
         obstacle_rules: ObstacleRules | None,
         tags: TagFile | None,
-        rules: WalkRules,
         built: Built,
-        before: KeptBuild | None = None,
-        changed: Sequence[np.ndarray] = (),
+        found: tuple[RimSamples, MeshGrid] | None,
     ) -> "NodeGraph":
-        """The graph of what was ``built``; rim samples as ``before``, where it is given, but around
-        ``changed`` bounds."""
+        """The graph of what was ``built`` and what was ``found`` at rims (`all_rim_samples`), if there are
+        ``obstacle_rules``."""
         surface, nodes = built.surface, built.nodes
         start, target, width, gate, border = built.edges
         obstacles, rim_samples = Obstacles.empty(), None
-        if obstacle_rules is not None:
-            rim_samples, mesh_grid = all_rim_samples(before, changed, terrain, surface, rules, obstacle_rules)
+        if obstacle_rules is not None and found is not None:
+            rim_samples, mesh_grid = found
             obstacles = obstacles_at(rim_samples, surface, rules, obstacle_rules, mesh_grid)
             obstacles = with_own_kinds(obstacles, terrain, surface, rules)
         if tags is not None:

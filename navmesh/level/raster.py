@@ -15,10 +15,10 @@ import numpy as np
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = [
-    "AX", "AY", "AZ", "BX", "BY", "BZ", "COLUMNS", "CX", "CY", "CZ", "FLOOR", "HEIGHT_AT_ORIGIN", "HIGHEST",
-    "KIND", "LOWEST", "PART", "PLANE", "SAME_SURFACE", "SLOPE_X", "SLOPE_Y", "TOUCH", "UPRIGHT", "Patch",
-    "column_at", "columns_of_triangles", "height_at", "is_over", "middle_of", "near_triangles",
-    "prepare_triangles",
+    "AX", "AY", "AZ", "BX", "BY", "BZ", "COLUMNS", "CX", "CY", "CZ", "FALL", "FLOOR", "HEIGHT_AT_ORIGIN",
+    "HIGHEST", "KIND", "LOWEST", "PART", "PLANE", "SAME_SURFACE", "SLOPE_X", "SLOPE_Y", "TOUCH", "UPHILL_X",
+    "UPHILL_Y", "UPRIGHT", "Patch", "column_at", "columns_of_triangles", "height_at", "is_over", "middle_of",
+    "near_triangles", "prepare_triangles",
 ]  # fmt: skip
 
 AX, AY, AZ, BX, BY, BZ, CX, CY, CZ = range(9)
@@ -31,7 +31,9 @@ KIND = 14
 """`UPRIGHT`, `PLANE` or `FLOOR`."""
 PART = 15
 """The closed part of the mesh that it belongs to (`navmesh.level.solids`), or -1."""
-COLUMNS = 16
+FALL, UPHILL_X, UPHILL_Y = 16, 17, 18
+"""The length of (dz/dx, dz/dy), and the unit vector along it; only of those of kind `PLANE`."""
+COLUMNS = 19
 
 UPRIGHT, PLANE, FLOOR = 0.0, 1.0, 2.0
 """Kinds of triangle: without a height as a function of (x, y); with one; walkable by its slope."""
@@ -56,7 +58,7 @@ class Patch(NamedTuple):
     units of `side`."""
 
 
-@kernel(inline="always")
+@kernel(error_model="numpy", inline="always")
 def middle_of(patch, column):
     """x and y of the middle of a column's square."""
     ix = column // patch.ny
@@ -64,7 +66,7 @@ def middle_of(patch, column):
     return (ix + patch.left + 0.5) * patch.side, (iy + patch.near + 0.5) * patch.side
 
 
-@kernel(inline="always")
+@kernel(error_model="numpy", inline="always")
 def column_at(patch, x, y):
     """The column that (x, y) is in, or -1 where the patch has none."""
     ix = math.floor(x / patch.side) - patch.left
@@ -72,13 +74,13 @@ def column_at(patch, x, y):
     return ix * patch.ny + iy if 0 <= ix < patch.nx and 0 <= iy < patch.ny else -1
 
 
-@kernel
+@kernel(error_model="numpy")
 def height_at(table, f, x, y):
     """Height [m] of triangle ``f``'s plane at (x, y); it is not upright."""
     return table[f, SLOPE_X] * x + table[f, SLOPE_Y] * y + table[f, HEIGHT_AT_ORIGIN]
 
 
-@kernel
+@kernel(error_model="numpy")
 def is_over(table, f, x, y):
     """Whether a prepared triangle that has a height covers (x, y); its edges belong to it."""
     one = (table[f, BX] - table[f, AX]) * (y - table[f, AY]) - (table[f, BY] - table[f, AY]) * (
@@ -95,7 +97,7 @@ def is_over(table, f, x, y):
     )
 
 
-@allocating_kernel
+@allocating_kernel(error_model="numpy", nogil=True)
 def prepare_triangles(vertices, faces, part, origin, steepest):
     """Triangles with what the kernels ask of them.
 
@@ -140,12 +142,17 @@ def prepare_triangles(vertices, faces, part, origin, steepest):
                 - table[kept, SLOPE_Y] * table[kept, AY]
             )
             table[kept, KIND] = FLOOR if normal_z >= steepest * size else PLANE
+            if table[kept, KIND] == PLANE:
+                fall = math.hypot(table[kept, SLOPE_X], table[kept, SLOPE_Y])
+                table[kept, FALL] = fall
+                table[kept, UPHILL_X] = table[kept, SLOPE_X] / fall
+                table[kept, UPHILL_Y] = table[kept, SLOPE_Y] / fall
         table[kept, PART] = part[f]
         kept += 1
     return table[:kept]
 
 
-@allocating_kernel
+@allocating_kernel(error_model="numpy", nogil=True)
 def near_triangles(vertices, faces, low, high):
     """The triangles whose bounds touch the rectangle from ``low`` to ``high`` (2,): (k,) int32, rising."""
     near = np.empty(faces.shape[0], np.int32)
@@ -163,12 +170,13 @@ def near_triangles(vertices, faces, low, high):
     return near[:count].copy()
 
 
-@allocating_kernel
+@allocating_kernel(error_model="numpy", nogil=True)
 def columns_of_triangles(table, patch, window):
     """The triangles that touch each column, as lists: ``start`` (columns + 1,) and ``triangle`` (k,) int32.
 
-    ``table`` comes from `prepare_triangles`. Only columns from (window[0], window[1]) up to, not including,
-    (window[2], window[3]) get any, which are in the `Patch`.
+    Those of a column are in the order of their kinds, `FLOOR` first and `UPRIGHT` last, so that who looks for
+    floor need not look at the others. ``table`` comes from `prepare_triangles`. Only columns from (window[0],
+    window[1]) up to, not including, (window[2], window[3]) get any, which are in the `Patch`.
     """
     count = table.shape[0]
     side, ny = patch.side, patch.ny
@@ -180,7 +188,7 @@ def columns_of_triangles(table, patch, window):
         strips += max(
             min(window[2] - 1, math.floor(high * inverse)) - max(window[0], math.floor(low * inverse)) + 1, 0
         )
-    span = np.empty((strips, 3), np.int32)
+    span = np.empty((strips, 4), np.int32)
     start = np.zeros(patch.nx * ny + 2, np.int32)
     spans = 0
     for t in range(count):
@@ -219,6 +227,7 @@ def columns_of_triangles(table, patch, window):
             first_column = (ix - patch.left) * ny + iy0 - patch.near
             after = first_column + iy1 + 1 - iy0
             span[spans, 0], span[spans, 1], span[spans, 2] = t, first_column, after
+            span[spans, 3] = np.int32(table[t, KIND])
             start[first_column + 1] += 1
             start[after + 1] -= 1
             spans += 1
@@ -233,11 +242,13 @@ def columns_of_triangles(table, patch, window):
         fill[c] = total
         total += running
     triangle = np.empty(total, np.int32)
-    for k in range(spans):
-        t = span[k, 0]
-        for c in range(span[k, 1], span[k, 2]):
-            triangle[fill[c]] = t
-            fill[c] += 1
+    for kind in (FLOOR, PLANE, UPRIGHT):
+        for k in range(spans):
+            if span[k, 3] != kind:
+                continue
+            for c in range(span[k, 1], span[k, 2]):
+                triangle[fill[c]] = span[k, 0]
+                fill[c] += 1
     start[0] = 0
     for c in range(columns):
         start[c + 1] = fill[c]

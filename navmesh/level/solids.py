@@ -49,14 +49,14 @@ def closed_parts(vertices: np.ndarray, faces: np.ndarray, first: np.ndarray) -> 
     return _closed_parts(place, faces, first, _repeated(place, faces, first))
 
 
-@kernel
+@kernel(error_model="numpy")
 def _slot_of(a, b, size):
     """Where to look first for two numbers in a table whose ``size`` is a power of two."""
     mixed = (a * 0x2545F4914F6CDD1D) ^ (b * 0x1B873593CC9E2D51)
     return (mixed ^ (mixed >> 29)) & (size - 1)
 
 
-@allocating_kernel
+@allocating_kernel(error_model="numpy")
 def _repeated(place, faces, first):
     """(f,) bool: whether an earlier face of the chunk has the same corners in the same direction."""
     count = faces.shape[0]
@@ -84,7 +84,7 @@ def _repeated(place, faces, first):
     return repeated
 
 
-@allocating_kernel
+@allocating_kernel(error_model="numpy")
 def _closed_parts(place, faces, first, repeated):
     """`closed_parts` of faces whose corners are at ``place`` (v,) int64; ``first`` ends with their number."""
     count = faces.shape[0]
@@ -132,7 +132,7 @@ def _closed_parts(place, faces, first, repeated):
     return part
 
 
-@kernel
+@kernel(error_model="numpy")
 def _turn_about(table, f, x, y):
     """How often the outline of a prepared triangle, seen from above, goes round (x, y): 1 counter-clockwise,
     -1 clockwise or 0.
@@ -154,7 +154,7 @@ def _turn_about(table, f, x, y):
     return turn
 
 
-@kernel
+@kernel(error_model="numpy")
 def _height(table, f, x, y):
     """The height of a prepared triangle over (x, y), also of one that is all but upright."""
     if table[f, KIND] != UPRIGHT:
@@ -169,7 +169,7 @@ def _height(table, f, x, y):
     return min(max(z, table[f, LOWEST]), table[f, HIGHEST])
 
 
-@kernel
+@kernel(error_model="numpy")
 def _left_above(crossing, count, z):
     """How much more often the parts that hold a point are left than entered above z."""
     left = 0.0
@@ -179,7 +179,7 @@ def _left_above(crossing, count, z):
     return left
 
 
-@kernel
+@kernel(error_model="numpy")
 def _is_hollow(crossing, count, i, z):
     """Whether what is above z within the part of crossing ``i``, whose faces are turned inwards, is hollowed
     out of a solid: whether its ceiling is inside of one."""
@@ -190,7 +190,7 @@ def _is_hollow(crossing, count, i, z):
     return _left_above(crossing, count, ceiling - SAME_SURFACE) > 0.0
 
 
-@kernel
+@kernel(error_model="numpy")
 def inside_solid(table, start, triangle, column, x, y, z, crossing):
     """Whether what is just above (x, y, z), a point of the square of ``column``, is inside a solid: inside of
     more closed parts than are hollowed out of them there.

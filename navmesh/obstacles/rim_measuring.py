@@ -226,7 +226,12 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, reach, kind, size):
     height = z - floor if state == 1 else np.inf
     if height <= limits.step:
         return
-    reachable = reachable and height <= deepest
+    jumps = limits.jump_low <= height <= limits.jump_high
+    vaults = limits.vault_low <= height <= limits.vault_high
+    drops = limits.drop_low <= height <= limits.drop_high
+    reachable = reachable and (jumps or vaults or drops)
+    if not reachable and not leapable:
+        return
     lean = SAME + _NEAR * limits.slope
     if lowest_above(grid, x + _NEAR * ox, y + _NEAR * oy, z + lean, z + limits.headroom) < np.inf:
         return
@@ -234,21 +239,26 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, reach, kind, size):
         return
     _, t = surface_below(grid, x - _NEAR * ox, y - _NEAR * oy, z - lean, z + lean)
     rim = t >= 0 and grid.triangles[t, KIND] == FLOOR
-    top, top_ahead, top_cell = 0.0, 0.0, -1
-    if rim:
-        top, top_ahead, top_cell = _free(grid, cells, x, y, z, -ox, -oy, limits, reach)
+    # free lengths take most of the time: none is measured that decides nothing
     low, low_ahead, low_cell = 0.0, 0.0, -1
     if reachable:
         low, low_ahead, low_cell = _free(grid, cells, x, y, floor, ox, oy, limits, reach)
+    width, other = -1.0, 0.0
+    if leapable and rim:
+        width, other = _across(grid, x, y, z, ox, oy, limits)
+    on_top = low_cell >= 0 and ((jumps and low >= limits.run_up) or (drops and low >= limits.landing))
+    top, top_ahead, top_cell = 0.0, 0.0, -1
+    if rim and (on_top or width >= 0.0):
+        top, top_ahead, top_cell = _free(grid, cells, x, y, z, -ox, -oy, limits, reach)
     lx, ly = x + low_ahead * ox, y + low_ahead * oy
     tx, ty = x - top_ahead * ox, y - top_ahead * oy
     top_z = max(z, cells.height[top_cell]) if top_cell >= 0 else z
     if low_cell >= 0 and low >= limits.run_up:
-        if top >= limits.landing and limits.jump_low <= height <= limits.jump_high:
+        if top >= limits.landing and jumps:
             if _air(grid, lx, ly, z, tx, ty, top_z, limits.headroom):
                 kind[0] = JUMP
                 _note(size[0], height, top, low, top, height)
-        elif limits.vault_low <= height <= limits.vault_high:
+        elif vaults:
             depth, behind = _behind(grid, x, y, z, -ox, -oy, floor, limits)
             if depth >= 0.0:
                 bx, by = x - depth * ox, y - depth * oy
@@ -260,13 +270,10 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, reach, kind, size):
                         _note(size[0], height, depth, low, free, behind - floor)
     if top_cell < 0 or top < limits.run_up:
         return
-    if low_cell >= 0 and low >= limits.landing and limits.drop_low <= height <= limits.drop_high:
+    if low_cell >= 0 and low >= limits.landing and drops:
         if _air(grid, tx, ty, top_z, lx, ly, z, limits.headroom):
             kind[1] = DROP
             _note(size[1], height, 0.0, top, low, -height)
-    if not leapable:
-        return
-    width, other = _across(grid, x, y, z, ox, oy, limits)
     if width >= 0.0:
         bx, by = x + width * ox, y + width * oy
         free, ahead, cell = _free(grid, cells, bx, by, other, ox, oy, limits, reach)
@@ -277,7 +284,7 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, reach, kind, size):
                 _note(size[2], other - z, width, top, free, other - z)
 
 
-@allocating_kernel
+@allocating_kernel(nogil=True)
 def measure(grid, cells, start, end, outward, first, limits, reach):
     """Measure every rim at evenly spread points: the middles of first[i + 1] - first[i] equal parts.
 

@@ -2,6 +2,7 @@
 rims near it are measured anew."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from navmesh.obstacles.rules import ObstacleRules
 from navmesh.rules import WalkRules
 from navmesh.surface.build import reach_of
 from navmesh.surface.surface import Surface
+from navmesh.threads import in_threads, shares
 from surefoot.kernels import allocating_kernel
 
 __all__ = ["RimSamples", "renew_rim_samples", "take_rim_samples"]
@@ -39,13 +41,18 @@ class RimSamples:
 
 
 def take_rim_samples(
-    terrain: Terrain, surface: Surface, walking: WalkRules, rules: ObstacleRules, grid: MeshGrid
+    terrain: Terrain,
+    surface: Surface,
+    walking: WalkRules,
+    rules: ObstacleRules,
+    grid: MeshGrid,
+    threads: int = 1,
 ) -> RimSamples:
     """Find all rims of ``terrain`` and measure at them. ``grid`` are its triangles from the surface's
     origin."""
     rims = find_rims(terrain.vertices - surface.origin, terrain.faces, walking.max_slope)
     first = _first_samples(rims)
-    return RimSamples(rims, first, *_measured(rims, first, grid, surface, walking, rules))
+    return RimSamples(rims, first, *_measured(rims, first, grid, surface, walking, rules, threads))
 
 
 def renew_rim_samples(
@@ -105,12 +112,20 @@ def _measured(
     surface: Surface,
     walking: WalkRules,
     rules: ObstacleRules,
+    threads: int = 1,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Samples at which there is something, with kinds and sizes."""
-    kind, size = measure(
-        grid.arrays, cells_of(surface), rims.start, rims.end, rims.outward, first,
-        Limits.of(rules, walking), _near(walking, rules),
-    )  # fmt: skip
+    mesh, cells = grid.arrays, cells_of(surface)
+    limits, near = Limits.of(rules, walking), _near(walking, rules)
+
+    def share(begin: int, end: int) -> tuple[np.ndarray, np.ndarray]:
+        part = slice(begin, end)
+        start, samples = rims.start[part], first[begin : end + 1] - first[begin]
+        return measure(mesh, cells, start, rims.end[part], rims.outward[part], samples, limits, near)
+
+    bounds = np.searchsorted(first, shares(int(first[-1]), threads)).tolist()
+    found = in_threads(share, list(pairwise(bounds)), threads)
+    kind, size = (np.concatenate(each) for each in zip(*found, strict=True))
     sample = np.flatnonzero(kind.any(axis=1))
     return sample, kind[sample], size[sample]
 

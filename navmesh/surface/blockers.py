@@ -24,7 +24,7 @@ _OUTLINE = 9
 centre of the square that it covers."""
 
 
-@kernel(inline="always")
+@kernel(error_model="numpy", inline="always")
 def _square(link, c, d):
     """What is in the square beside cell ``c`` in direction d, 4 to 7 being the corners, and -1 its own.
 
@@ -44,7 +44,7 @@ def _square(link, c, d):
     return dx, dy, corner, n >= 0 or m >= 0
 
 
-@kernel
+@kernel(error_model="numpy")
 def _outline(table, f, x, y, z, p, q, low, high, rx, ry, half, polygon, spare, rows, count):
     """Put what of a triangle's part between ``low`` and ``high`` above a plane is in the square about (rx,
     ry), seen from above, behind the first ``count`` rows: (their number, corners of the part)."""
@@ -71,7 +71,7 @@ def _outline(table, f, x, y, z, p, q, low, high, rx, ry, half, polygon, spare, r
     return count, corners
 
 
-@kernel
+@kernel(error_model="numpy")
 def _walls_in_square(
     table, start, triangle, there, rx, ry, x, y, z, p, q, low, headroom, side,
     polygon, spare, rows, count,
@@ -96,7 +96,7 @@ def _walls_in_square(
     return count
 
 
-@kernel
+@kernel(error_model="numpy")
 def _own_walls(
     table, start, triangle, base, cell_column, height, gradient, patch, headroom,
     polygon, spare, own, own_start, rows, c,
@@ -121,7 +121,7 @@ def _own_walls(
     return c
 
 
-@kernel
+@kernel(error_model="numpy")
 def _heights_to_ask(link, base, cell_column, height, gradient, start, patch, step, beside, asked):
     """Say which cells are ``beside`` something (1), and which of them not linked to all sides (2); and
     between which heights the floor in a column matters to those: ``asked``."""
@@ -152,7 +152,7 @@ def _heights_to_ask(link, base, cell_column, height, gradient, start, patch, ste
                 asked[there, 1] = max(asked[there, 1], level + reach)
 
 
-@kernel
+@kernel(error_model="numpy")
 def _blockers_from(
     table, start, triangle, base, cell_column, height, gradient, link, patch, step, headroom,
     beside, own_start, own_walls, end_start, floor_ends, polygon, spare, edge, near, blocker_start, rows, c,
@@ -217,7 +217,7 @@ def _blockers_from(
     return c
 
 
-@allocating_kernel
+@allocating_kernel(error_model="numpy", nogil=True)
 def find_blockers(table, start, triangle, base, cell_column, height, gradient, link, patch, step, headroom):
     """The lists of all cells: those of cell c are ``blocker[blocker_start[c]:blocker_start[c + 1]]``.
 
@@ -266,7 +266,7 @@ def find_blockers(table, start, triangle, base, cell_column, height, gradient, l
         blocker = twice(blocker)
 
 
-@kernel
+@kernel(error_model="numpy")
 def nearest_in_list(blocker, first, last, x, y):
     """The vector (dx, dy) from (x, y) to the nearest place on the segments ``blocker[first:last]``."""
     best, dx, dy = np.inf, np.inf, np.inf
@@ -281,7 +281,7 @@ def nearest_in_list(blocker, first, last, x, y):
     return dx, dy
 
 
-@allocating_kernel
+@allocating_kernel(error_model="numpy")
 def nearest_blockers(blocker_start, blocker, cell_column, patch):
     """The vector from each cell's centre to the nearest place in its own list: (n, 2) float64, inf without
     one."""

@@ -7,6 +7,7 @@ found, near and far; it is a fiftieth of the work.
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -17,12 +18,14 @@ from navmesh.rules import WalkRules
 from navmesh.surface import blockers, clearance, floors, walls
 from navmesh.surface.ridges import field_of
 from navmesh.surface.surface import Surface
+from navmesh.threads import in_threads, shares
 
 __all__ = [
     "Cells",
     "Grid",
     "Window",
     "build_surface",
+    "check_floor",
     "find_cells",
     "lay_grid",
     "patch_around",
@@ -118,13 +121,6 @@ def find_cells(terrain: Terrain, rules: WalkRules, grid: Grid, window: Window | 
     column_start, cell_column, height, gradient = floors.find_floors(
         table, start, triangle, patch, math.tan(rules.max_slope), rules.max_step, rules.headroom
     )
-    if len(cell_column) == 0 and whole:
-        raise NavmeshError(
-            f"{terrain.name}: nothing to walk on: no face is within {math.degrees(rules.max_slope):g}° "
-            f"of level, faces up, has {rules.headroom:g} m free above it and is not inside of solids (closed "
-            "parts); check the up axis, the unit scale and the order of the corners of the faces "
-            "(counter-clockwise seen from outside, for floor from above)"
-        )
     link = floors.neighbours_within_step(column_start, cell_column, height, gradient, patch, rules.max_step)
     base = walls.find_walls(
         table, start, triangle, cell_column, height, gradient, patch, rules.max_step, rules.headroom
@@ -145,10 +141,24 @@ def find_cells(terrain: Terrain, rules: WalkRules, grid: Grid, window: Window | 
         rules.max_step,
         rules.headroom,
     )
-    return Cells(column_start, cell_column, height, gradient, link, blocker_start, blocker)
+    cells = Cells(column_start, cell_column, height, gradient, link, blocker_start, blocker)
+    if whole:
+        check_floor(cells, terrain, rules)
+    return cells
 
 
-def surface_of(cells: Cells, grid: Grid) -> tuple[Surface, np.ndarray]:
+def check_floor(cells: Cells, terrain: Terrain, rules: WalkRules) -> None:
+    """Raise `NavmeshError` when there are no ``cells``."""
+    if not len(cells.cell_column):
+        raise NavmeshError(
+            f"{terrain.name}: nothing to walk on: no face is within {math.degrees(rules.max_slope):g}° "
+            f"of level, faces up, has {rules.headroom:g} m free above it and is not inside of solids (closed "
+            "parts); check the up axis, the unit scale and the order of the corners of the faces "
+            "(counter-clockwise seen from outside, for floor from above)"
+        )
+
+
+def surface_of(cells: Cells, grid: Grid, threads: int = 1) -> tuple[Surface, np.ndarray]:
     """The surface that ``cells`` make up, and how clearances were carried: `spread_clearance`'s choices."""
     start, h, (nx, ny) = cells.blocker_start, grid.resolution, grid.shape
     nearest = blockers.nearest_blockers(start, cells.blocker, cells.cell_column, whole_patch(grid))
@@ -169,7 +179,9 @@ def surface_of(cells: Cells, grid: Grid) -> tuple[Surface, np.ndarray]:
         blocker_start=start,
         blocker=cells.blocker,
     )
-    clearance.settle_clearance(field_of(surface), np.ones(len(surface), np.bool_))
+    field, every = field_of(surface), np.ones(len(surface), np.bool_)
+    parts = pairwise(shares(len(surface), threads))
+    in_threads(lambda *part: clearance.settle_clearance(field, every, *part), list(parts), threads)
     return surface, choice
 
 

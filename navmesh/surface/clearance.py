@@ -134,12 +134,12 @@ def spread_clearance(column_start, link, nearest, source, resolution, nx, ny):
     return np.sqrt(squared), choice
 
 
-@kernel
-def settle_clearance(field, chosen):
-    """Measure the clearance of those of the ``chosen`` cells (n,) bool that are within two cells of where
-    walking ends, in place, in the lists of the cells around: what was carried over the links is the nearest
-    place of another cell."""
-    for c in range(field.clearance.shape[0]):
+@kernel(nogil=True)
+def settle_clearance(field, chosen, first, last):
+    """Measure the clearance of those of the ``chosen`` cells (n,) bool from ``first`` up to, not including,
+    ``last`` that are within two cells of where walking ends, in place, in the lists of the cells around: what
+    was carried over the links is the nearest place of another cell."""
+    for c in range(first, last):
         if chosen[c] and field.clearance[c] < 2.0 * field.cell:
             x, y = centre_of(field, c)
             gap, qx, qy = gap_at(field, c, x, y)

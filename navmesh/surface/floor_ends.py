@@ -11,6 +11,7 @@ from navmesh.level.raster import (
     LOWEST,
     PLANE,
     TOUCH,
+    UPRIGHT,
     column_at,
     height_at,
     is_over,
@@ -36,7 +37,7 @@ _BEYOND = 1e-3
 """[m] beyond an edge: there is floor there, or the edge is where it ends."""
 
 
-@kernel
+@kernel(error_model="numpy")
 def _walked_on(table, start, triangle, patch, x, y, z, step, headroom):
     """Whether (x, y) is a floor point (rule 1) within ``step`` of z."""
     column = column_at(patch, x, y)
@@ -46,6 +47,8 @@ def _walked_on(table, start, triangle, patch, x, y, z, step, headroom):
         return True
     for k in range(start[column], start[column + 1]):
         f = triangle[k]
+        if table[f, KIND] == UPRIGHT:
+            break
         if table[f, KIND] != PLANE or not faces_up(table, f):
             continue
         here = height_at(table, f, x, y)
@@ -55,12 +58,14 @@ def _walked_on(table, start, triangle, patch, x, y, z, step, headroom):
     return False
 
 
-@kernel
+@kernel(error_model="numpy")
 def _is_shared(table, start, triangle, column, f, i, j):
     """Whether another floor in the column has the same edge, from corner j to corner i, as triangle f."""
     for k in range(start[column], start[column + 1]):
         g = triangle[k]
-        if table[g, KIND] != FLOOR or g == f:
+        if table[g, KIND] != FLOOR:
+            break
+        if g == f:
             continue
         for m in range(3):
             n = 3 * m + 3 if m < 2 else 0
@@ -73,7 +78,7 @@ def _is_shared(table, start, triangle, column, f, i, j):
     return False
 
 
-@kernel
+@kernel(error_model="numpy")
 def _ends_of_column(table, start, triangle, shared, column, low, high, patch, step, headroom, ends, count):
     """Put the floor ends in the square of ``column``, between two heights, behind the first ``count`` rows;
     returns their number, which is greater than there are rows where those do not suffice."""
@@ -81,7 +86,9 @@ def _ends_of_column(table, start, triangle, shared, column, low, high, patch, st
     x, y = middle_of(patch, column)
     for k in range(start[column], start[column + 1]):
         f = triangle[k]
-        if table[f, KIND] != FLOOR or table[f, HIGHEST] < low or table[f, LOWEST] > high:
+        if table[f, KIND] != FLOOR:
+            break
+        if table[f, HIGHEST] < low or table[f, LOWEST] > high:
             continue
         for m in range(3):
             if shared[f, m] == _SHARED:
@@ -136,7 +143,7 @@ def _ends_of_column(table, start, triangle, shared, column, low, high, patch, st
     return count
 
 
-@kernel
+@kernel(error_model="numpy")
 def _ends_from(table, start, triangle, shared, asked, patch, step, headroom, end_start, ends, column):
     """Fill in the columns from ``column`` on, as far as there are rows; returns the first that is left."""
     while column < asked.shape[0]:
@@ -153,7 +160,7 @@ def _ends_from(table, start, triangle, shared, asked, patch, step, headroom, end
     return column
 
 
-@allocating_kernel
+@allocating_kernel(error_model="numpy")
 def find_floor_ends(table, start, triangle, asked, patch, step, headroom):
     """The floor ends in the squares of all columns: those of column c are
     ``ends[end_start[c]:end_start[c + 1]]``.

@@ -5,6 +5,12 @@ import math
 import numpy as np
 
 from navmesh.level.raster import (
+    AX,
+    AY,
+    BX,
+    BY,
+    CX,
+    CY,
     FLOOR,
     HIGHEST,
     KIND,
@@ -30,7 +36,7 @@ _LEVELS = 8
 """Most gaps above each other that are closed in one column."""
 
 
-@kernel
+@kernel(error_model="numpy")
 def _nearest_on(table, f, x, y):
     """The place on the outline of a triangle, seen from above, that is nearest to (x, y): (distance, x,
     y)."""
@@ -47,7 +53,19 @@ def _nearest_on(table, f, x, y):
     return least, at_x, at_y
 
 
-@kernel
+@kernel(error_model="numpy", inline="always")
+def _is_beyond(table, f, x, y, reach):
+    """Whether a triangle's bounds, seen from above, are more than ``reach`` from (x, y) along an axis."""
+    reach += TOUCH
+    return (
+        max(table[f, AX], table[f, BX], table[f, CX]) < x - reach
+        or min(table[f, AX], table[f, BX], table[f, CX]) > x + reach
+        or max(table[f, AY], table[f, BY], table[f, CY]) < y - reach
+        or min(table[f, AY], table[f, BY], table[f, CY]) > y + reach
+    )
+
+
+@kernel(error_model="numpy")
 def _close_gaps(
     table, start, triangle, patch, c, x, y, hit, hits, step, headroom,
     cell_column, height, gradient, first, cells, tried, crossing,
@@ -62,6 +80,8 @@ def _close_gaps(
         for k in range(start[c], start[c + 1]):
             f = triangle[k]
             if table[f, KIND] != FLOOR:
+                break
+            if _is_beyond(table, f, x, y, best):
                 continue
             level = height_at(table, f, x, y)
             known = False
@@ -103,7 +123,7 @@ def _close_gaps(
     return cells
 
 
-@allocating_kernel
+@allocating_kernel(error_model="numpy", nogil=True)
 def find_floors(table, start, triangle, patch, slope, step, headroom):
     """Rule 1 at the centre of every column; one in a gap narrower than `navmesh.surface.ledges.GAP` is on its
     floor.
@@ -210,7 +230,7 @@ def find_floors(table, start, triangle, patch, slope, step, headroom):
     return column_start, cell_column[:cells].copy(), height[:cells].copy(), gradient[:cells].copy()
 
 
-@allocating_kernel
+@allocating_kernel(error_model="numpy", nogil=True)
 def neighbours_within_step(column_start, cell_column, height, gradient, patch, step):
     """Floors of adjoining columns that meet within ``step`` at the shared border: (n, 4) int32 or -1.
 

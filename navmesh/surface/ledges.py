@@ -21,7 +21,7 @@ GAP = 0.1
 sides."""
 
 
-@kernel
+@kernel(error_model="numpy")
 def comes_first(table, one, other):
     """A choice between two triangles that does not depend on their order in the mesh."""
     for k in range(12):
@@ -30,7 +30,7 @@ def comes_first(table, one, other):
     return False
 
 
-@kernel
+@kernel(error_model="numpy")
 def floor_at(table, start, triangle, patch, x, y, z, step, headroom):
     """The prepared triangle that is floor (rule 1) at (x, y) within ``step`` of z, or -1."""
     column = column_at(patch, x, y)
@@ -41,7 +41,7 @@ def floor_at(table, start, triangle, patch, x, y, z, step, headroom):
     for k in range(start[column], start[column + 1]):
         f = triangle[k]
         if table[f, KIND] != FLOOR:
-            continue
+            break
         here = height_at(table, f, x, y)
         if abs(here - z) > step + TOUCH or here < at or not is_over(table, f, x, y):
             continue
@@ -54,14 +54,14 @@ def floor_at(table, start, triangle, patch, x, y, z, step, headroom):
     for k in range(start[column], start[column + 1]):
         f = triangle[k]
         if table[f, KIND] == UPRIGHT:
-            continue
+            break
         here = height_at(table, f, x, y)
         if at + SAME_SURFACE < here < at + headroom and is_over(table, f, x, y):
             return -1
     return chosen
 
 
-@kernel
+@kernel(error_model="numpy")
 def floor_end(table, start, triangle, patch, x, y, d, z, p, q, step, headroom, edge):
     """How far the floor goes on from (x, y) in direction d (`navmesh.surface.surface.DIRECTIONS`), at most a
     cell.

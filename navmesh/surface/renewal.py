@@ -69,7 +69,7 @@ def _settle(surface: Surface, new: Renewed) -> None:
     )  # fmt: skip
     field, where = field_in(surface, wide)
     inside = inside_of(field.cell_column, new.window, ny)
-    settle_clearance(field, inside)
+    settle_clearance(field, inside, 0, len(inside))
     surface.clearance[where[inside]] = field.clearance[inside]
     surface.nearest[where[inside]] = field.nearest[inside]
 

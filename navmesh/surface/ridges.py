@@ -152,11 +152,16 @@ def widest_through(field, c, n, least):
     _, qx, qy = gap_at(field, k, x, y)
     across_x, across_y = (x - qx) / gap, (y - qy) / gap
     along = 0.5 * h if across_y * (ax - bx) - across_x * (ay - by) > 0.0 else -0.5 * h  # towards c
-    _, px, py, _ = middle(field, k, x + along * across_y, y - along * across_x, 0.5 * h)
-    _, sx, sy, _ = middle(field, k, x - along * across_y, y + along * across_x, 0.5 * h)
-    radius = min(_least_gap(field, k, x, y, px, py), _least_gap(field, k, x, y, sx, sy))
-    if radius <= least:
-        return x, y, least
-    ck, ax, ay, _ = middle(field, c, ax, ay, h)
-    nk, bx, by, _ = middle(field, n, bx, by, h)
-    return x, y, min(radius, _least_gap(field, ck, ax, ay, px, py), _least_gap(field, nk, bx, by, sx, sy))
+    radius = np.inf
+    for end in range(2):
+        off = along if end == 0 else -along
+        k_end, ex, ey = (c, ax, ay) if end == 0 else (n, bx, by)
+        _, px, py, _ = middle(field, k, x + off * across_y, y - off * across_x, 0.5 * h)
+        radius = min(radius, _least_gap(field, k, x, y, px, py))
+        if radius <= least:
+            return x, y, least
+        k_end, ex, ey, _ = middle(field, k_end, ex, ey, h)
+        radius = min(radius, _least_gap(field, k_end, ex, ey, px, py))
+        if radius <= least:
+            return x, y, least
+    return x, y, radius

@@ -1,7 +1,5 @@
 """Rule 1 for steep faces: those of a step, however its riser slants, belong to the floor."""
 
-import math
-
 import numpy as np
 
 from navmesh.level.raster import (
@@ -11,12 +9,13 @@ from navmesh.level.raster import (
     BY,
     CX,
     CY,
+    FALL,
     FLOOR,
     KIND,
     SAME_SURFACE,
-    SLOPE_X,
-    SLOPE_Y,
     TOUCH,
+    UPHILL_X,
+    UPHILL_Y,
     UPRIGHT,
     column_at,
     height_at,
@@ -33,7 +32,7 @@ _BEYOND = 1e-4
 """[m] by which the fall line is followed over an edge, to what lies beyond it."""
 
 
-@kernel
+@kernel(error_model="numpy")
 def faces_up(table, f):
     """Whether a prepared triangle faces up."""
     return (table[f, BX] - table[f, AX]) * (table[f, CY] - table[f, AY]) - (table[f, BY] - table[f, AY]) * (
@@ -41,20 +40,25 @@ def faces_up(table, f):
     ) > 0.0
 
 
-@kernel
-def _way_out(table, f, x, y, dx, dy):
-    """How far it is from (x, y), a point of an upward face, in direction (dx, dy) to the face's edge [m]."""
-    out = np.inf
+@kernel(error_model="numpy")
+def _ways_out(table, f, x, y, dx, dy):
+    """How far it is from (x, y), a point of an upward face, to the face's edge [m]: in direction (dx, dy),
+    and in the opposite one."""
+    ahead, behind = np.inf, np.inf
     for k in range(3):
         j = 3 * k + 3 if k < 2 else 0
         ex, ey = table[f, j] - table[f, 3 * k], table[f, j + 1] - table[f, 3 * k + 1]
         leaving = dx * ey - dy * ex
-        if leaving > 1e-12:
-            out = min(out, ((table[f, 3 * k] - x) * ey - (table[f, 3 * k + 1] - y) * ex) / leaving)
-    return max(out, 0.0)
+        if abs(leaving) > 1e-12:
+            out = ((table[f, 3 * k] - x) * ey - (table[f, 3 * k + 1] - y) * ex) / leaving
+            if leaving > 0.0:
+                ahead = min(ahead, out)
+            else:
+                behind = min(behind, -out)
+    return max(ahead, 0.0), max(behind, 0.0)
 
 
-@kernel
+@kernel(error_model="numpy")
 def _next_face(table, start, triangle, patch, x, y, z, left):
     """The steep face at (x, y, z) that faces up, or -1, and whether a level enough one is within ``left``."""
     column = column_at(patch, x, y)
@@ -64,31 +68,30 @@ def _next_face(table, start, triangle, patch, x, y, z, left):
     level = False
     for k in range(start[column], start[column + 1]):
         t = triangle[k]
-        reach = left + TOUCH if table[t, KIND] == FLOOR else SAME_SURFACE
-        if (
-            table[t, KIND] == UPRIGHT
-            or abs(height_at(table, t, x, y) - z) > reach
-            or not is_over(table, t, x, y)
-        ):
+        if table[t, KIND] == UPRIGHT:
+            break
+        floor = table[t, KIND] == FLOOR
+        reach = left + TOUCH if floor else SAME_SURFACE
+        if (floor and level) or abs(height_at(table, t, x, y) - z) > reach or not is_over(table, t, x, y):
             continue
-        if table[t, KIND] == FLOOR:
+        if floor:
             level = True
         elif faces_up(table, t) and (chosen < 0 or comes_first(table, t, chosen)):
             chosen = t
     return chosen, level
 
 
-@kernel
-def _height_to_floor(table, start, triangle, patch, t, x, y, way, step, headroom):
+@kernel(error_model="numpy")
+def _height_to_floor(table, start, triangle, patch, t, x, y, way, out, step, headroom):
     """Height from (x, y) on the steep face ``t`` along the fall line, up (way 1) or down (way -1), to the
-    first floor [m], or inf when that is more than ``step``."""
+    first floor [m], or inf when that is more than ``step``. It is ``out`` [m] to the edge of ``t``."""
     z = height_at(table, t, x, y)
     begin = z
-    for _ in range(_FACES):
-        fall = math.hypot(table[t, SLOPE_X], table[t, SLOPE_Y])
-        dx, dy = way * table[t, SLOPE_X] / fall, way * table[t, SLOPE_Y] / fall
-        out = _way_out(table, t, x, y, dx, dy)
-        z += way * out * fall
+    for face in range(_FACES):
+        dx, dy = way * table[t, UPHILL_X], way * table[t, UPHILL_Y]
+        if face > 0:
+            out, _ = _ways_out(table, t, x, y, dx, dy)
+        z += way * out * table[t, FALL]
         left = step - abs(z - begin)
         if left < -TOUCH:
             return np.inf
@@ -104,18 +107,18 @@ def _height_to_floor(table, start, triangle, patch, t, x, y, way, step, headroom
     return np.inf
 
 
-@kernel
+@kernel(error_model="numpy")
 def on_riser(table, start, triangle, patch, t, x, y, step, headroom):
     """Whether (x, y) on the steep face ``t``, which faces up, is on a riser: the fall line through it leads
     over steep faces to floor above and to floor below that are at most ``step`` apart in height."""
-    fall = math.hypot(table[t, SLOPE_X], table[t, SLOPE_Y])
-    dx, dy = table[t, SLOPE_X] / fall, table[t, SLOPE_Y] / fall
+    dx, dy = table[t, UPHILL_X], table[t, UPHILL_Y]
     # most steep faces are too high, by themselves or with those above them
-    below = _way_out(table, t, x, y, -dx, -dy) * fall
-    if below + _way_out(table, t, x, y, dx, dy) * fall > step + TOUCH:
+    ahead, behind = _ways_out(table, t, x, y, dx, dy)
+    below = behind * table[t, FALL]
+    if below + ahead * table[t, FALL] > step + TOUCH:
         return False
-    up = _height_to_floor(table, start, triangle, patch, t, x, y, 1.0, step - below, headroom)
+    up = _height_to_floor(table, start, triangle, patch, t, x, y, 1.0, ahead, step - below, headroom)
     if up == np.inf:
         return False
-    down = _height_to_floor(table, start, triangle, patch, t, x, y, -1.0, step - up, headroom)
+    down = _height_to_floor(table, start, triangle, patch, t, x, y, -1.0, behind, step - up, headroom)
     return up + down <= step + TOUCH

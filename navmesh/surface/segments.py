@@ -14,7 +14,7 @@ _SEEN = 0.02
 """[m]: a blocker this near to the way to a neighbour says why there is no link."""
 
 
-@kernel(inline="always")
+@kernel(error_model="numpy", inline="always")
 def put(rows, count, ax, ay, bx, by):
     """Put a segment behind the first ``count`` rows; returns their new number."""
     if (bx, by) < (ax, ay):
@@ -23,7 +23,7 @@ def put(rows, count, ax, ay, bx, by):
     return count + 1
 
 
-@kernel
+@kernel(error_model="numpy")
 def part_in_square(ax, ay, bx, by, x, y, half):
     """From where to where (0 to 1) the segment a-b is in the square about (x, y); the first is greater where
     it is not."""
@@ -41,7 +41,7 @@ def part_in_square(ax, ay, bx, by, x, y, half):
     return first, last
 
 
-@kernel(inline="always")
+@kernel(error_model="numpy", inline="always")
 def _is_at(row, x, y, within):
     """Whether (x, y) is ``within`` [m], along both axes together, of the segment ``row``."""
     ex, ey = row[2] - row[0], row[3] - row[1]
@@ -51,7 +51,7 @@ def _is_at(row, x, y, within):
     return abs(vx - t * ex) + abs(vy - t * ey) <= within
 
 
-@kernel
+@kernel(error_model="numpy")
 def lies_on(rows, count, ax, ay, bx, by):
     """Whether the segment a-b lies on one of the first ``count`` rows: a wall stands at the edge of the
     floor."""
@@ -64,7 +64,7 @@ def lies_on(rows, count, ax, ay, bx, by):
     return False
 
 
-@kernel
+@kernel(error_model="numpy")
 def comes_near(rows, count, ax, ay, bx, by):
     """Whether one of the first ``count`` rows comes near the way from a to b, which runs along an axis. What
     is near to a only does not count: it may lie behind."""
@@ -87,7 +87,7 @@ def comes_near(rows, count, ax, ay, bx, by):
     return False
 
 
-@kernel
+@kernel(error_model="numpy")
 def sort_and_thin(rows, count):
     """Sort the first ``count`` rows and drop those that lie on another one; returns how many are left. So the
     list does not depend on the order of the triangles."""
@@ -129,7 +129,7 @@ def sort_and_thin(rows, count):
     return kept
 
 
-@kernel
+@kernel(error_model="numpy")
 def keep(rows, at, found, count):
     """Put the first ``count`` rows of ``found`` behind the first ``at`` rows; returns how many there are now.
     Where they have no room it puts none and returns -1."""
@@ -141,7 +141,7 @@ def keep(rows, at, found, count):
     return at + count
 
 
-@allocating_kernel
+@allocating_kernel(error_model="numpy")
 def twice(rows):
     """The rows, with room for as many again."""
     more = np.empty((2 * rows.shape[0], rows.shape[1]))

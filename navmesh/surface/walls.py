@@ -26,7 +26,7 @@ __all__ = [
 ]
 
 
-@kernel
+@kernel(error_model="numpy")
 def clip_band(table, f, x, y, z, p, q, low, high, polygon, spare):
     """The part of a triangle between ``low`` and ``high`` above the plane through (x, y, z), seen from above.
 
@@ -68,7 +68,7 @@ def clip_band(table, f, x, y, z, p, q, low, high, polygon, spare):
     return kept
 
 
-@kernel
+@kernel(error_model="numpy")
 def nearest_on_polygon(polygon, count, x, y):
     """The vector (dx, dy) from (x, y) to the nearest point of a convex polygon that may be flat."""
     best = np.inf
@@ -97,7 +97,7 @@ def nearest_on_polygon(polygon, count, x, y):
     return dx, dy
 
 
-@kernel
+@kernel(error_model="numpy")
 def _crosses_polygon(polygon, count, ax, ay, bx, by):
     """Whether the segment a-b meets a convex polygon that may be flat."""
     ex, ey = bx - ax, by - ay
@@ -138,7 +138,7 @@ def _crosses_polygon(polygon, count, ax, ay, bx, by):
     return left or right
 
 
-@kernel
+@kernel(error_model="numpy")
 def range_in_column(table, f, x, y, reach):
     """Bounds of a triangle's height within ``reach`` of (x, y) along both axes."""
     if table[f, KIND] == UPRIGHT:
@@ -148,7 +148,7 @@ def range_in_column(table, f, x, y, reach):
     return max(table[f, LOWEST], middle - spread), min(table[f, HIGHEST], middle + spread)
 
 
-@kernel
+@kernel(error_model="numpy")
 def wall_base(table, start, triangle, column, x, y, z, side, step):
     """Height above z from which on mesh in the column is a wall: step above the highest floor that a body
     standing at z reaches by steps within the column."""
@@ -159,7 +159,7 @@ def wall_base(table, start, triangle, column, x, y, z, side, step):
         for k in range(start[column], start[column + 1]):
             f = triangle[k]
             if table[f, KIND] != FLOOR:
-                continue
+                break
             low, high = range_in_column(table, f, x, y, 0.5 * side)
             if low - z <= reach + step + TOUCH and high - z > reach:
                 reach = high - z
@@ -167,7 +167,7 @@ def wall_base(table, start, triangle, column, x, y, z, side, step):
     return reach + step
 
 
-@allocating_kernel
+@allocating_kernel(error_model="numpy", nogil=True)
 def find_walls(table, start, triangle, cell_column, height, gradient, patch, step, headroom):
     """Height above each cell from which on mesh in its own column is a wall [m], or inf: (n,)."""
     cells = cell_column.shape[0]
@@ -193,7 +193,7 @@ def find_walls(table, start, triangle, cell_column, height, gradient, patch, ste
     return base
 
 
-@kernel
+@kernel(error_model="numpy")
 def _wall_between(
     table, start, triangle, base, height, gradient, c, column, x, y, ax, ay, bx, by, half, headroom,
     polygon, spare,
@@ -214,7 +214,7 @@ def _wall_between(
     return False
 
 
-@allocating_kernel
+@allocating_kernel(error_model="numpy", nogil=True)
 def cut_links_at_walls(table, start, triangle, base, cell_column, height, gradient, link, patch, headroom):
     """Cut, in place, the links whose line from centre to centre meets a wall in either column."""
     polygon = np.empty((8, 3))

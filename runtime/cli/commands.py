@@ -64,6 +64,7 @@ def bake_level(
     scale: float | None,
     tags: Path | None,
     rules: Mapping[str, float | None],
+    threads: int = 1,
 ) -> Result:
     """Build and save the graph of ``level``."""
     beside = navmesh.tags_path(level)
@@ -76,7 +77,7 @@ def bake_level(
         begun = time.perf_counter()
         terrain = navmesh.Terrain.load(level, up=up, scale=scale)
         check_target(output)  # files that the level refers to are inputs too
-        graph = navmesh.NodeGraph.build(terrain, walk_rules, tags=loaded)
+        graph = navmesh.NodeGraph.build(terrain, walk_rules, tags=loaded, threads=threads)
         seconds = time.perf_counter() - begun
         graph.save(output)
     values = {

@@ -34,6 +34,7 @@ def bake(
     max_step: StepOption = None,
     headroom: HeadroomOption = None,
     resolution: ResolutionOption = None,
+    threads: Annotated[int, typer.Option(min=1, help="Threads that build; the graph is the same.")] = 1,
     as_json: JsonOption = False,
 ) -> None:
     """Build a level's navigation graph and write it to a file. The defaults suit a person."""
@@ -43,7 +44,7 @@ def bake(
         "headroom": headroom,
         "resolution": resolution,
     }
-    finish(begin().bake_level(level, output, up, scale, tags, rules), as_json)
+    finish(begin().bake_level(level, output, up, scale, tags, rules, threads), as_json)
 
 
 def obstacles(

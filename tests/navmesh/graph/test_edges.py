@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from navmesh.graph.edges import _by_ends
 from tests.navmesh.shapes import plane
 from tests.navmesh.surface.levels import build, parts, random_level
 
@@ -30,3 +31,10 @@ def test_corridor_narrower_than_two_cells_lets_a_dog_pass():
     assert a == b >= 0
     a, b = parts(graph, 0.2, *ends)
     assert a != b
+
+
+def test_borders_are_sorted_by_their_ends_and_then_stay_in_order():
+    rng = np.random.default_rng(2)
+    ends = rng.integers(0, 9, (500, 2))
+    key = (ends[:, 0] << 32) | ends[:, 1]
+    np.testing.assert_array_equal(_by_ends(key, 9), np.argsort(key, kind="stable"))

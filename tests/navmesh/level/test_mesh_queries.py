@@ -1,6 +1,7 @@
 """Questions to the triangles, against slow references over all of them."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -14,12 +15,20 @@ from navmesh.level.mesh_queries import (
     lowest_above,
     surface_below,
 )
+from navmesh.level.raster import KIND
 
 
 def _soup(seed: int) -> MeshGrid:
     rng = np.random.default_rng(seed)
     vertices = rng.uniform(0.0, 6.0, (60, 3))
     return MeshGrid(vertices, rng.integers(0, 60, (40, 3)).astype(np.int32), np.zeros(3), math.radians(45))
+
+
+def test_columns_list_floors_first_and_upright_faces_last() -> None:
+    grid = _soup(3)
+    kinds = [grid.triangles[grid.member[a:b], KIND] for a, b in pairwise(grid.start)]
+    assert max(len(set(each)) for each in kinds) > 1
+    assert all((np.diff(each) <= 0.0).all() for each in kinds)
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -1,0 +1,104 @@
+"""The cells of a whole level, found strip by strip: so triangles are put into the columns of a few strips at
+a time, and threads can share the strips.
+
+A strip is found with a margin on both sides, which is thrown away (`navmesh.surface.build.find_cells`). So
+the cells are the same to the bit, whatever the strips.
+"""
+
+import math
+from dataclasses import fields
+from itertools import pairwise
+
+import numpy as np
+
+from navmesh.level.terrain import Terrain
+from navmesh.rules import WalkRules
+from navmesh.surface.build import Cells, Grid, check_floor, find_cells, patch_around, reach_of
+from navmesh.threads import in_threads
+
+__all__ = ["all_cells"]
+
+_COLUMNS = 1_000_000
+"""So many columns has a strip, at most; what is found out about one takes 50 to 100 MB."""
+_NARROWEST = 16
+"""A strip is so many times as wide as a margin."""
+_EACH = 2
+"""Strips for each thread: one with much in it keeps nobody waiting for long."""
+_SPARE = 4  # columns that a margin has beside `reach_of`
+
+
+def all_cells(terrain: Terrain, rules: WalkRules, grid: Grid, threads: int = 1) -> Cells:
+    """The cells of ``terrain``, found by so many ``threads``. Raises `NavmeshError` when there is nothing to
+    walk on."""
+    margin = reach_of(rules) + _SPARE
+    bounds = _bounds(grid, _NARROWEST * margin, threads)
+    if len(bounds) == 2:
+        return find_cells(terrain, rules, grid)
+    _ = terrain.solid  # of the whole terrain, found before the threads ask for it
+
+    def strip(first: int, last: int) -> Cells:
+        return _strip(terrain, rules, grid, first, last, margin)
+
+    cells = _joined(in_threads(strip, list(pairwise(bounds)), threads))
+    check_floor(cells, terrain, rules)
+    return cells
+
+
+def _bounds(grid: Grid, narrowest: int, threads: int) -> list[int]:
+    """Where the strips begin and end, along x."""
+    nx, ny = grid.shape
+    rounds = min(_EACH, nx // (threads * narrowest)) if threads > 1 else 1
+    rounds = max(rounds, math.ceil(nx * ny / (_COLUMNS * threads)))
+    strips = max(1, min(rounds * threads, nx // narrowest))
+    return [nx * strip // strips for strip in range(strips + 1)]
+
+
+def _strip(terrain: Terrain, rules: WalkRules, grid: Grid, first: int, last: int, margin: int) -> Cells:
+    """The cells of the columns from ``first`` up to, not including, ``last`` along x. Columns are those of
+    the whole, cells are counted from the strip's first; `column_start` and `blocker_start` lack their
+    ends."""
+    nx, ny = grid.shape
+    window = (max(first - margin, 0), 0, min(last + margin, nx), ny)
+    patch = patch_around(grid, window)
+    found = find_cells(terrain, rules, grid, window)
+    start = found.column_start[:-1].reshape(patch.nx, patch.ny)
+    begin, end = start[first - patch.left, 0], start[last - patch.left, 0]
+    start = start[first - patch.left : last - patch.left, -patch.near : ny - patch.near] - begin
+    column = found.cell_column[begin:end]
+    ix = column // np.int32(patch.ny)
+    column = column - ix * np.int32(patch.ny - ny) + np.int32(patch.left * ny + patch.near)
+    link = found.link[begin:end]
+    lists = found.blocker_start[begin : end + 1]
+    return Cells(
+        start.ravel(),
+        column,
+        found.height[begin:end].copy(),
+        found.gradient[begin:end].copy(),
+        np.where(link >= 0, link - begin, _NONE),
+        lists[:-1] - lists[0],
+        found.blocker[lists[0] : lists[-1]].copy(),
+    )
+
+
+_NONE = np.int32(-(2**30))
+"""No link, in a strip: a link into the margin before has a number below 0, too."""
+
+
+def _joined(strips: list[Cells]) -> Cells:
+    """All cells, from those of the strips, which lose theirs."""
+    parts = [{field.name: getattr(strip, field.name) for field in fields(Cells)} for strip in strips]
+    del strips[:]
+    count = np.cumsum([0, *(len(part["height"]) for part in parts)])
+    lists = np.cumsum([0, *(len(part["blocker"]) for part in parts)])
+    for k, part in enumerate(parts):
+        part["column_start"] += np.int32(count[k])
+        part["blocker_start"] += np.int32(lists[k])
+        link = part["link"]
+        np.add(link, np.int32(count[k]), out=link, where=link > _NONE)
+        link[link == _NONE] = -1
+    end = {"column_start": count[-1], "blocker_start": lists[-1]}
+    whole = {}
+    for name in list(parts[0]):
+        arrays = [part.pop(name) for part in parts]
+        whole[name] = np.concatenate([*arrays, np.array([end[name]], np.int32)] if name in end else arrays)
+    return Cells(**whole)

@@ -13,6 +13,7 @@ import numpy as np
 from annotated_types import Ge, Gt, Le, Len
 
 from navmesh.graph.links import Links
+from navmesh.graph.packed_surface import PACKED_SURFACE, columns_of, pack_surface, unpack_surface
 from navmesh.level.terrain import Chunk, Terrain
 from navmesh.obstacles.kinds import LONGEST_NAME, affordances
 from navmesh.obstacles.obstacles import Obstacles
@@ -20,7 +21,6 @@ from navmesh.obstacles.rules import ObstacleRules
 from navmesh.obstacles.tagging import TagFile
 from navmesh.obstacles.tags import Tags
 from navmesh.rules import WalkRules
-from navmesh.surface.surface import Surface
 from surefoot.files.archive import ArchiveError, read_archive, write_archive
 from surefoot.files.schema import Array, Flags, Header, Indices, Numbers, Offsets, Schema, Words
 
@@ -48,19 +48,6 @@ class _GraphHeader(Header):
     tags: Tags | None
 
 
-_SURFACE: dict[str, Array] = {
-    "origin": Numbers(3),
-    "column_start": Offsets("columns", into="cells"),
-    "cell_column": Indices("cells", into="columns"),
-    "height": Numbers("cells"),
-    "gradient": Numbers("cells", 2),
-    "link": Indices("cells", 4, into="cells", none=True),
-    "clearance": Numbers("cells", low=0.0),
-    "nearest": Numbers("cells", 2),
-    "source": Indices("cells", into="cells", none=True),
-    "blocker_start": Offsets("cells", into="blockers"),
-    "blocker": Numbers("blockers", 4),
-}
 _GRAPH: dict[str, Array] = {
     "positions": Numbers("nodes", 3),
     "radii": Numbers("nodes", low=0.0),
@@ -106,12 +93,18 @@ _TERRAIN: dict[str, Array] = {
     "materials": Words("materials"),
     "face_material": Indices("painted", into="materials"),
 }
-_PARTS = {"surface_": _SURFACE, "": _GRAPH, "obstacles_": _OBSTACLES, "links_": _LINKS, "terrain_": _TERRAIN}
+_PARTS = {
+    "surface_": PACKED_SURFACE,
+    "": _GRAPH,
+    "obstacles_": _OBSTACLES,
+    "links_": _LINKS,
+    "terrain_": _TERRAIN,
+}
 
 
 def _check(header: _GraphHeader, arrays: dict[str, np.ndarray]) -> str | None:
     """What does not hold between the arrays of a graph; None where all does."""
-    for problem in (_check_terrain, _check_surface, _check_nodes, _check_links):
+    for problem in (_check_terrain, _check_nodes, _check_links):
         if found := problem(header, arrays):
             return found
     return None
@@ -134,39 +127,6 @@ def _check_terrain(header: _GraphHeader, arrays: dict[str, np.ndarray]) -> str |
     used = arrays["terrain_faces"]
     if ((used < last - np.repeat(count, owned)[:, None]) | (used >= last)).any():
         return "a chunk has triangles with vertices of another one"
-    return None
-
-
-def _check_surface(header: _GraphHeader, arrays: dict[str, np.ndarray]) -> str | None:
-    """Every cell is in its column and linked to cells beside it that are linked back; no clearance reaches
-    beyond the grid."""
-    nx, ny = header.shape
-    start, column, link = (arrays[f"surface_{name}"] for name in ("column_start", "cell_column", "link"))
-    if len(start) != nx * ny + 1:
-        return f"surface_column_start has {len(start)} rows, expected {nx} * {ny} + 1"
-    if not np.array_equal(column, np.repeat(np.arange(nx * ny, dtype=np.int32), np.diff(start))):
-        return "surface_cell_column is not what surface_column_start says"
-    ix = column // np.int32(ny)
-    iy = column - ix * np.int32(ny)
-    for way in (0, 1):  # those that lead back, 2 and 3, are as many
-        on, back = np.ascontiguousarray(link[:, way]), np.ascontiguousarray(link[:, way + 2])
-        here = np.flatnonzero(on >= 0)
-        there = on[here]
-        beside = column[there] == column[here] + (ny, 1)[way]
-        beside &= back[there] == here
-        if way == 1:
-            beside &= iy[here] < ny - 1
-        if not beside.all():
-            at = int(here[np.argmin(beside)])
-            return (
-                f"surface_link[{at}, {way}] leads to {on[at]}, which is not beside it, or does not lead back"
-            )
-        if np.count_nonzero(back >= 0) != len(here):
-            return f"surface_link[:, {way + 2}] leads where surface_link[:, {way}] does not lead back"
-    room = np.minimum(np.minimum(ix, nx - 1 - ix), np.minimum(iy, ny - 1 - iy))
-    out = arrays["surface_clearance"] > (room + 0.5) * header.resolution + _SLACK
-    if out.any():
-        return f"surface_clearance[{int(np.argmax(out))}] reaches beyond the grid"
     return None
 
 
@@ -203,7 +163,8 @@ def _apart(
     """Whether a place of the array ``name`` (k, 3) is more than ``beyond`` [m] outside of the square of its
     cell (k,)."""
     h = header.resolution
-    squares = np.stack(np.divmod(arrays["surface_cell_column"][cells], header.shape[1]), axis=1) * h
+    columns = columns_of(arrays["surface_count"], cells)
+    squares = np.stack(np.divmod(columns, header.shape[1]), axis=1) * h
     off = (arrays[name] - arrays["surface_origin"])[:, :2] - squares
     out = ((off < -beyond) | (off > h + beyond)).any(axis=1)
     return f"{name}[{int(np.argmax(out))}] is not in its cell" if out.any() else None
@@ -211,7 +172,7 @@ def _apart(
 
 GRAPH_FILE = Schema(
     kind="surefoot navigation graph",
-    version=7,
+    version=8,
     header=_GraphHeader,
     arrays={prefix + name: array for prefix, part in _PARTS.items() for name, array in part.items()},
     remedy="bake it again",
@@ -221,15 +182,13 @@ GRAPH_FILE = Schema(
 
 def write_graph(path: str | os.PathLike[str], graph: NodeGraph) -> None:
     """Write ``graph`` to ``path``, whole or not at all."""
-    parts = {
-        "surface_": graph.surface, "": graph, "obstacles_": graph.obstacles, "links_": graph.links,
-        "terrain_": graph.terrain,
-    }  # fmt: skip
+    parts = {"": graph, "obstacles_": graph.obstacles, "links_": graph.links, "terrain_": graph.terrain}
     arrays = {
         prefix + name: np.asarray(getattr(part, name))
         for prefix, part in parts.items()
         for name in _PARTS[prefix]
     }
+    arrays |= {f"surface_{name}": array for name, array in pack_surface(graph.surface).items()}
     arrays["terrain_materials"] = np.array(graph.terrain.materials, dtype=np.str_)
     header = {
         "terrain": graph.terrain.digest,
@@ -272,10 +231,14 @@ def read_graph(path: str | os.PathLike[str]) -> dict[str, Any]:
         raise ArchiveError(
             f"{path}: the navigation graph's resolution is not that of its rules; bake it again"
         )
+    try:
+        surface = unpack_surface(part["surface_"], header.resolution, header.shape)
+    except ValueError as error:
+        raise ArchiveError(f"{path}: the navigation graph's surface: {error}; bake it again") from None
     return {
         "terrain": terrain,
         "rules": rules,
-        "surface": Surface(resolution=header.resolution, shape=header.shape, **part["surface_"]),
+        "surface": surface,
         **part[""],
         "obstacles": Obstacles(**part["obstacles_"]),
         "links": Links(**part["links_"]),

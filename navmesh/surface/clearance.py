@@ -19,6 +19,19 @@ OWN, BACK, BACK_AHEAD, BACK_BEHIND, BEHIND_BACK, BEHIND = range(6)
 that one; the same as the latter, by the other way; the cell just behind in the strip."""
 AHEAD = 8
 """The choice of the second turn, going back, where it is not the same as in the first: the cell ahead."""
+_NONE = -0.0
+"""[m] This added to a number gives the number, also to -0.0."""
+
+
+@kernel(inline="always")
+def _nearer(nearest, n, dx, dy, way, best, x, y, origin, so_far):
+    """The nearer of the place that cell ``n`` knows, (dx, dy) from here, and the one (x, y) that cell
+    ``origin`` told by the way ``so_far``: (squared distance, x, y, cell, way). -1 is no cell."""
+    if n >= 0:
+        vx, vy = nearest[n, 0] + dx, nearest[n, 1] + dy
+        if vx * vx + vy * vy < best:
+            return vx * vx + vy * vy, vx, vy, np.int64(n), way
+    return best, x, y, origin, so_far
 
 
 @kernel
@@ -43,41 +56,20 @@ def sweep(
             if part and fixed[c]:
                 _take(c, 2 * turn, nearest, squared, source, known, known_source)
                 continue
-            best = squared[c]
-            bx, by = nearest[c, 0], nearest[c, 1]
-            origin = c
-            way = OWN
-            n = link[c, back]
-            m = link[c, side]
+            n, m = link[c, back], link[c, side]
+            ahead = behind = -1  # beside the cell in the strip behind
             if n >= 0:
-                vx, vy = nearest[n, 0] + h, nearest[n, 1]
-                if vx * vx + vy * vy < best:
-                    best, bx, by, origin, way = vx * vx + vy * vy, vx, vy, n, BACK
-                diagonal = link[n, other]
-                if diagonal >= 0:
-                    vx, vy = nearest[diagonal, 0] + h, nearest[diagonal, 1] - h
-                    if vx * vx + vy * vy < best:
-                        best, bx, by, origin, way = vx * vx + vy * vy, vx, vy, diagonal, BACK_AHEAD
-                diagonal = link[n, side]
-                if diagonal >= 0:
-                    vx, vy = nearest[diagonal, 0] + h, nearest[diagonal, 1] + h
-                    if vx * vx + vy * vy < best:
-                        best, bx, by, origin, way = vx * vx + vy * vy, vx, vy, diagonal, BACK_BEHIND
-            elif m >= 0:
-                diagonal = link[m, back]
-                if diagonal >= 0:
-                    vx, vy = nearest[diagonal, 0] + h, nearest[diagonal, 1] + h
-                    if vx * vx + vy * vy < best:
-                        best, bx, by, origin, way = vx * vx + vy * vy, vx, vy, diagonal, BEHIND_BACK
-            if m >= 0:
-                vx, vy = nearest[m, 0], nearest[m, 1] + h
-                if vx * vx + vy * vy < best:
-                    best, bx, by, origin, way = vx * vx + vy * vy, vx, vy, m, BEHIND
+                ahead, behind = link[n, other], link[n, side]
+            other_way = BACK_BEHIND
+            if n < 0 and m >= 0:
+                behind, other_way = link[m, back], BEHIND_BACK
+            best, x, y, origin, way = squared[c], nearest[c, 0], nearest[c, 1], np.int64(c), OWN
+            best, x, y, origin, way = _nearer(nearest, n, h, _NONE, BACK, best, x, y, origin, way)
+            best, x, y, origin, way = _nearer(nearest, ahead, h, -h, BACK_AHEAD, best, x, y, origin, way)
+            best, x, y, origin, way = _nearer(nearest, behind, h, h, other_way, best, x, y, origin, way)
+            best, x, y, origin, way = _nearer(nearest, m, _NONE, h, BEHIND, best, x, y, origin, way)
             if way != OWN:
-                squared[c] = best
-                nearest[c, 0] = bx
-                nearest[c, 1] = by
-                source[c] = source[origin]
+                squared[c], nearest[c, 0], nearest[c, 1], source[c] = best, x, y, source[origin]
                 choice[c] |= way << (4 * turn)
             if part:
                 _put(c, 2 * turn, nearest, source, known, known_source)
@@ -86,15 +78,13 @@ def sweep(
             if part and fixed[c]:
                 _take(c, 2 * turn + 1, nearest, squared, source, known, known_source)
                 continue
-            n = link[c, other]
-            if n >= 0:
-                vx, vy = nearest[n, 0], nearest[n, 1] - h
-                if vx * vx + vy * vy < squared[c]:
-                    squared[c] = vx * vx + vy * vy
-                    nearest[c, 0] = vx
-                    nearest[c, 1] = vy
-                    source[c] = source[n]
-                    choice[c] |= AHEAD << (4 * turn)
+            best, x, y, origin, way = squared[c], nearest[c, 0], nearest[c, 1], np.int64(c), OWN
+            best, x, y, origin, way = _nearer(
+                nearest, link[c, other], _NONE, -h, AHEAD, best, x, y, origin, way
+            )
+            if way != OWN:
+                squared[c], nearest[c, 0], nearest[c, 1], source[c] = best, x, y, source[origin]
+                choice[c] |= way << (4 * turn)
             if part:
                 _put(c, 2 * turn + 1, nearest, source, known, known_source)
 

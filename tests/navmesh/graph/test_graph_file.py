@@ -1,6 +1,7 @@
 """Saving and loading the graph: the same back, and a clear error for every file that does not fit."""
 
 import json
+from dataclasses import fields
 
 import numpy as np
 import pytest
@@ -30,8 +31,8 @@ def test_loaded_graph_is_the_saved_one(graph, level, tmp_path):
     assert back.surface.shape == graph.surface.shape
     for name in ("positions", "radii", "label", "edge_start", "edge_target", "edge_width", "edge_cells"):
         np.testing.assert_array_equal(getattr(back, name), getattr(graph, name))
-    for name in ("column_start", "height", "link", "clearance", "nearest"):
-        np.testing.assert_array_equal(getattr(back.surface, name), getattr(graph.surface, name))
+    for field in fields(graph.surface):
+        np.testing.assert_array_equal(getattr(back.surface, field.name), getattr(graph.surface, field.name))
     assert back.clearance_at((1, 1, 0)) == graph.clearance_at((1, 1, 0))
 
 
@@ -153,18 +154,17 @@ def test_other_headers_are_refused(written, tmp_path, change):
 def test_what_kernels_rely_on_is_checked_between_arrays(written, tmp_path):
     """In range, but not what it must be: links that lead elsewhere, discs beyond the grid."""
     header, arrays = written
-    link, clearance, radii = (arrays[name].copy() for name in ("surface_link", "surface_clearance", "radii"))
-    here = int(np.flatnonzero(link[:, 0] >= 0)[0])
-    link[here, 0] = here
-    clearance[len(clearance) // 2] = 7.0
+    storey, radii = (arrays[name].copy() for name in ("surface_storey", "radii"))
+    storey[-1] = 1  # the last cell is in the corner of the floor: nothing is beyond
     radii[-1] = 7.0
     moved, started = arrays["positions"].copy(), arrays["links_start"].copy()
     moved[0] += [0.3, 0.0, 0.0]
     started[0] += [0.0, 0.3, 0.0]
     for name, odd, said in (
-        ("surface_link", link, "not beside it, or does not lead back"),
-        ("surface_clearance", clearance, "beyond the grid"),
-        ("surface_cell_column", np.sort(arrays["surface_cell_column"])[::-1].copy(), "surface_cell_column"),
+        ("surface_storey", storey, "leads to no cell beside it"),
+        ("surface_blocker", arrays["surface_blocker"] + 100.0, "beyond the grid"),
+        ("surface_count", np.roll(arrays["surface_count"], 7), "is not in its cell|no cell beside it"),
+        ("surface_blocker_count", arrays["surface_blocker_count"] + np.int32(1), "blockers"),
         ("radii", radii, "beyond the grid"),
         ("positions", moved, "not in its cell"),
         ("links_start", started, "not in its cell"),

@@ -1,13 +1,16 @@
 """How time and memory of graph, routes and updates grow with the level, beside Recast and Detour.
 
     python -m benchmarks.navmesh_scale [--levels "city 4" "hills 300" ...] [--pairs 2000] [--json FILE]
+    python -m benchmarks.navmesh_scale --levels "city 4" "city 8" "city 16" "city 33" --pairs 0 --changes 0 \
+        --plot docs/pictures/navmesh-scale.png
 
 Levels are those of `benchmarks.large_levels`; each is measured in a process of its own. The body is that of
 the peers' benchmark (height 2.0 m, step 0.9 m, slope 45°, radius 0.6 m). Columns: time to build without and
-with obstacles, over Recast's where it is there; the most memory that the build takes and what the finished
-graph holds; size of the file; a query in a batch (over Detour's) and from Python; a goal that cannot be
-reached over one that can; an update of a chunk of 10 m (over Recast's rebuild of a tile of 9.6 m); length of
-the routes over Detour's any-angle search.
+with obstacles, over Recast's where it is there, and without by two threads, over one; the most memory that
+the build takes and what the finished graph holds; size of the file; a query in a batch (over Detour's) and
+from Python; a goal that cannot be reached over one that can; an update of a chunk of 10 m (over Recast's
+rebuild of a tile of 9.6 m); length of the routes over Detour's any-angle search. With ``--pairs 0`` and
+``--changes 0`` only the build is measured. ``--plot`` draws its time and memory against the area.
 """
 
 import argparse
@@ -19,6 +22,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -29,14 +33,15 @@ import trimesh
 from benchmarks.large_levels import LARGE_LEVELS, large_level
 from benchmarks.navmesh_levels import ask_peer
 from benchmarks.navmesh_routes import RADIUS, batch_seconds, read_queries
+from benchmarks.scale_plot import draw_growth
 from benchmarks.shared_data import shared_folder, why_absent
 from navmesh import NodeGraph, Terrain, WalkRules, join_chunks, split_terrain
 
 LEVELS = ("city 4", "city 8", "city 16", "hills 300", "clutter 60")
 RULES = WalkRules(max_slope=math.radians(45), max_step=0.9, headroom=2.0)
 COLUMNS = (
-    "triangles", "km2", "build [ms]", "with obstacles [ms]", "most; held [MB]", "file [MB]", "batch [us]",
-    "single [us]", "unreachable [us]", "update [ms]", "length: mean, > 1 % longer, > 10 %",
+    "triangles", "km2", "build [ms]", "with obstacles [ms]", "two threads", "most; held [MB]", "file [MB]",
+    "batch [us]", "single [us]", "unreachable [us]", "update [ms]", "length: mean, > 1 % longer, > 10 %",
 )  # fmt: skip
 CHUNK = 10.0  # [m]
 MEGABYTE = 1e6
@@ -57,6 +62,21 @@ def resident() -> float:
     return psutil.Process().memory_info().rss / MEGABYTE
 
 
+def forget_most() -> None:
+    """Let `most_resident` count from now on, where the system can."""
+    with suppress(OSError):
+        Path("/proc/self/clear_refs").write_text("5")
+
+
+def most_resident() -> float:
+    """The most memory that this process has had since `forget_most` [MB]."""
+    with suppress(OSError):
+        for line in Path("/proc/self/status").read_text().splitlines():
+            if line.startswith("VmHWM:"):
+                return float(line.split()[1]) * 1024 / MEGABYTE
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / MEGABYTE
+
+
 def peer_lines(mode: str, level: Path, *arguments: object) -> list[dict[str, Any]]:
     """What the peer prints; nothing where it gives up."""
     try:
@@ -68,11 +88,16 @@ def peer_lines(mode: str, level: Path, *arguments: object) -> list[dict[str, Any
 def build_figures(terrain: Terrain) -> tuple[NodeGraph, dict[str, float]]:
     """The graph with obstacles, and what building it took. Compiled code has been loaded before."""
     before = resident()
+    forget_most()
     graph = NodeGraph.build(terrain, RULES)
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / MEGABYTE
-    repeats = 3 if len(terrain.faces) < 300_000 else 1
-    figures = {"peak_mb": peak - before, "held_mb": resident() - before}
-    figures["build_ms"] = milliseconds(lambda: NodeGraph.build(terrain, RULES, obstacle_rules=None), repeats)
+    figures = {"peak_mb": most_resident() - before, "held_mb": resident() - before}
+    repeats = 5 if len(graph.surface) < 2_000_000 else 2
+
+    def build(threads: int) -> NodeGraph:
+        return NodeGraph.build(terrain, RULES, obstacle_rules=None, threads=threads)
+
+    figures["build_ms"] = milliseconds(lambda: build(1), repeats)
+    figures["two_threads_ms"] = milliseconds(lambda: build(2), repeats)
     figures["obstacles_ms"] = milliseconds(lambda: NodeGraph.build(terrain, RULES), repeats)
     return graph, figures
 
@@ -120,7 +145,8 @@ def measure(kind: str, size: int, seed: int, pairs: int, changes: int) -> dict[s
     with tempfile.TemporaryDirectory() as folder:
         graph.save(Path(folder) / "graph.npz")
         figures["file_mb"] = (Path(folder) / "graph.npz").stat().st_size / MEGABYTE
-        figures |= unreachable_figures(graph, pairs, rng)
+        if pairs:
+            figures |= unreachable_figures(graph, pairs, rng)
         if shared_folder() is not None:
             y_up = terrain.vertices[:, [0, 2, 1]] * (1.0, 1.0, -1.0)
             level, queries = Path(folder) / "level.obj", Path(folder) / "pairs.csv"
@@ -135,8 +161,10 @@ def measure(kind: str, size: int, seed: int, pairs: int, changes: int) -> dict[s
 def peer_figures(graph: NodeGraph, level: Path, queries: Path, pairs: int) -> dict[str, Any]:
     """The peer's times, and ours for the same pairs; fewer figures where it gives up."""
     figures: dict[str, Any] = {}
-    for solo in peer_lines("solo", level, 3):
+    for solo in peer_lines("solo", level, 5):
         figures["recast_ms"] = solo["build_ms_min"]
+    if not pairs:
+        return figures
     for tiled in peer_lines("tiled", level):
         figures["recast_tile_ms"] = tiled["rebuild_ms_median"]
     if not peer_lines("gen", level, queries, pairs, 7):
@@ -179,6 +207,7 @@ def row(name: str, figures: dict[str, Any]) -> str:
         f"{figures['km2']:.3f}",
         over("build_ms", "recast_ms"),
         over("obstacles_ms", "recast_ms"),
+        over("two_threads_ms", "build_ms"),
         f"{figures['peak_mb']:.0f}; {figures['held_mb']:.0f}",
         f"{figures['file_mb']:.1f}",
         over("batch_us", "detour_us"),
@@ -201,6 +230,7 @@ def main() -> None:
     parser.add_argument("--changes", type=int, default=6, help="chunks removed and put back")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--json", type=Path, help="write every figure here")
+    parser.add_argument("--plot", type=Path, help="draw time and memory of the builds here (PNG)")
     parser.add_argument("--one", help=argparse.SUPPRESS)
     options = parser.parse_args()
     if options.one:
@@ -222,6 +252,8 @@ def main() -> None:
         print(row(name, report[name]), flush=True)
     if options.json:
         options.json.write_text(json.dumps(report, indent=1))
+    if options.plot:
+        draw_growth(report, options.plot)
 
 
 if __name__ == "__main__":

@@ -42,6 +42,7 @@ __all__ = [
     "surface_below",
 ]
 
+_FINEST, _COARSEST = 0.25, 0.5  # [m] sides of squares: about a triangle each, in levels of less than 500 m
 _EDGE = 1e-7  # [m] points this close to a triangle's edge are on it
 
 
@@ -67,7 +68,8 @@ class MeshGrid:
         open_parts = np.full(len(faces), -1, np.int32)  # what is inside of solids is no question here
         self.triangles = prepare_triangles(vertices, faces, open_parts, origin, math.cos(max_slope))
         high = (vertices.max(axis=0) - origin)[:2] if len(vertices) else np.ones(2)
-        self.size = max(0.5, float(high.max()) / 1000.0)
+        spacing = math.sqrt(float(high.prod()) / max(len(self.triangles), 1))
+        self.size = max(min(max(spacing, _FINEST), _COARSEST), float(high.max()) / 1000.0)
         """[m], side of a square."""
         self.shape = (int(high[0] / self.size) + 1, int(high[1] / self.size) + 1)
         self.start, self.member = columns_of_triangles(
@@ -80,7 +82,7 @@ class MeshGrid:
         return MeshArrays(self.triangles, self.start, self.member, self.size, *self.shape)
 
 
-@kernel(inline="always")
+@kernel(error_model="numpy", inline="always")
 def _column(grid, x, y):
     ix = math.floor(x / grid.size)
     iy = math.floor(y / grid.size)
@@ -89,7 +91,7 @@ def _column(grid, x, y):
     return ix * grid.ny + iy
 
 
-@kernel(inline="always")
+@kernel(error_model="numpy", inline="always")
 def _over(table, f, x, y):
     """Whether (x, y) is inside a prepared triangle that has a height there."""
     turn = 0
@@ -98,7 +100,8 @@ def _over(table, f, x, y):
         dx = table[f, j] - table[f, 3 * k]
         dy = table[f, j + 1] - table[f, 3 * k + 1]
         cross = dx * (y - table[f, 3 * k + 1]) - dy * (x - table[f, 3 * k])
-        if abs(cross) <= _EDGE * math.sqrt(dx * dx + dy * dy):
+        off = abs(cross)
+        if off <= _EDGE * (abs(dx) + abs(dy)) and off <= _EDGE * math.sqrt(dx * dx + dy * dy):
             continue
         now = 1 if cross > 0.0 else -1
         if turn == 0:
@@ -108,7 +111,7 @@ def _over(table, f, x, y):
     return True
 
 
-@kernel
+@kernel(error_model="numpy")
 def surface_below(grid, x, y, low, high):
     """The highest surface under (x, y) with a height in [low, high].
 
@@ -123,7 +126,9 @@ def surface_below(grid, x, y, low, high):
         return best, which
     for k in range(grid.start[column], grid.start[column + 1]):
         t = grid.member[k]
-        if table[t, KIND] == UPRIGHT or table[t, LOWEST] > high or table[t, HIGHEST] < best - 1e-6:
+        if table[t, KIND] == UPRIGHT:
+            break
+        if table[t, LOWEST] > high or table[t, HIGHEST] < max(best, low) - 1e-6:
             continue
         z = height_at(table, t, x, y)
         if z > high or z < low or z < best - 1e-6:
@@ -140,7 +145,7 @@ def surface_below(grid, x, y, low, high):
     return best, which
 
 
-@kernel
+@kernel(error_model="numpy")
 def lowest_above(grid, x, y, low, high):
     """Height [m] of the lowest surface over (x, y) strictly between ``low`` and ``high``, or infinity."""
     table = grid.triangles
@@ -150,7 +155,9 @@ def lowest_above(grid, x, y, low, high):
         return best
     for k in range(grid.start[column], grid.start[column + 1]):
         t = grid.member[k]
-        if table[t, KIND] == UPRIGHT or table[t, HIGHEST] <= low or table[t, LOWEST] >= high:
+        if table[t, KIND] == UPRIGHT:
+            break
+        if table[t, HIGHEST] <= low or table[t, LOWEST] >= high or table[t, LOWEST] > best + 1e-6:
             continue
         z = height_at(table, t, x, y)
         if low < z < high and z < best and _over(table, t, x, y):
@@ -158,7 +165,7 @@ def lowest_above(grid, x, y, low, high):
     return best
 
 
-@kernel
+@kernel(error_model="numpy")
 def _hits(table, f, px, py, pz, dx, dy, dz):
     """Whether the segment p to p + d meets a prepared triangle."""
     e1x, e1y, e1z = table[f, BX] - table[f, AX], table[f, BY] - table[f, AY], table[f, BZ] - table[f, AZ]
@@ -184,7 +191,7 @@ def _hits(table, f, px, py, pz, dx, dy, dz):
     return -1e-9 <= t <= 1.0 + 1e-9
 
 
-@allocating_kernel
+@allocating_kernel(error_model="numpy")
 def crossed(grid, px, py, pz, qx, qy, qz):
     """Whether anything of the mesh crosses the segment p-q (metres)."""
     table, size = grid.triangles, grid.size

@@ -46,7 +46,7 @@ def cells_of(surface: Surface) -> CellArrays:
     )  # fmt: skip
 
 
-@kernel
+@kernel(error_model="numpy")
 def seek(cells, x, y, z, dx, dy, slope, nearest, farthest):
     """The first cell from (x, y, z) in direction (dx, dy): a floor near height z whose centre is ahead.
 
@@ -83,7 +83,7 @@ def seek(cells, x, y, z, dx, dy, slope, nearest, farthest):
     return 0.0, -1
 
 
-@kernel
+@kernel(error_model="numpy")
 def march(cells, cell, x, y, dx, dy, limit):
     """Free length [m] from (x, y) in ``cell`` straight in direction (dx, dy), at most ``limit``.
 
@@ -116,7 +116,7 @@ def march(cells, cell, x, y, dx, dy, limit):
         cell = following
 
 
-@kernel
+@kernel(error_model="numpy")
 def room(cells, x, y, z, dx, dy, slope, limit):
     """Free length from an edge point (x, y, z) on, in direction (dx, dy), at most ``limit``.
 
@@ -140,7 +140,7 @@ def room(cells, x, y, z, dx, dy, slope, limit):
     return best, at, first, last
 
 
-@kernel
+@kernel(error_model="numpy")
 def free_length(grid, cells, x, y, z, dx, dy, slope, step, headroom, limit):
     """`room`, with its end looked for on the triangles: (length [m], distance to the first cell [m], cell).
 

@@ -68,7 +68,7 @@ class Limits(NamedTuple):
         )
 
 
-@kernel
+@kernel(error_model="numpy")
 def _foot(grid, x, y, z, dx, dy, lowest):
     """The floor at the foot of an edge: (state, its height at the edge [m]).
 
@@ -90,7 +90,7 @@ def _foot(grid, x, y, z, dx, dy, lowest):
     return 2, 0.0
 
 
-@kernel
+@kernel(error_model="numpy")
 def _air(grid, ax, ay, az, bx, by, bz, headroom):
     """Whether a body passes upright from a to b (heights of its feet) without touching the mesh."""
     for j in range(4):
@@ -100,7 +100,7 @@ def _air(grid, ax, ay, az, bx, by, bz, headroom):
     return True
 
 
-@kernel
+@kernel(error_model="numpy")
 def _behind(grid, x, y, z, dx, dy, floor, limits):
     """Scan across something thin: (its depth [m] or -1, height of the floor behind it [m])."""
     last = 0.0
@@ -130,7 +130,7 @@ def _behind(grid, x, y, z, dx, dy, floor, limits):
     return -1.0, 0.0
 
 
-@kernel
+@kernel(error_model="numpy")
 def _floor_below(cells, x, y, z, dx, dy, limits, deepest):
     """Whether there are cells close by, at most ``deepest`` below z: a quick look before the triangles."""
     size = cells.size
@@ -148,7 +148,7 @@ def _floor_below(cells, x, y, z, dx, dy, limits, deepest):
     return False
 
 
-@kernel
+@kernel(error_model="numpy")
 def _floor_opposite(cells, x, y, z, dx, dy, limits):
     """Whether there are cells at about height z within the width of a gap: a quick look before a scan."""
     size = cells.size
@@ -166,7 +166,7 @@ def _floor_opposite(cells, x, y, z, dx, dy, limits):
     return False
 
 
-@kernel
+@kernel(error_model="numpy")
 def _across(grid, x, y, z, dx, dy, limits):
     """Scan across a gap: (its width [m] or -1, height of the floor on the other side [m])."""
     below = z - max(limits.step, limits.level)
@@ -197,13 +197,13 @@ def _across(grid, x, y, z, dx, dy, limits):
     return -1.0, 0.0
 
 
-@kernel
+@kernel(error_model="numpy")
 def _free(grid, cells, x, y, z, dx, dy, limits, reach):
     slope, step, headroom = limits.slope, limits.step, limits.headroom
     return free_length(grid, cells, x, y, z, dx, dy, slope, step, headroom, reach)
 
 
-@kernel(inline="always")
+@kernel(error_model="numpy", inline="always")
 def _note(row, height, depth, run_up, landing, rise):
     row[0] = height
     row[1] = depth
@@ -212,7 +212,7 @@ def _note(row, height, depth, run_up, landing, rise):
     row[4] = rise
 
 
-@kernel
+@kernel(error_model="numpy")
 def _measure_one(grid, cells, x, y, z, ox, oy, limits, reach, kind, size):
     """Measure at the edge point (x, y, z) with the fall towards (ox, oy); see `measure` for the slots."""
     deepest = max(limits.drop_high, limits.vault_high, limits.jump_high)
@@ -284,7 +284,7 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, reach, kind, size):
                 _note(size[2], other - z, width, top, free, other - z)
 
 
-@allocating_kernel(nogil=True)
+@allocating_kernel(error_model="numpy", nogil=True)
 def measure(grid, cells, start, end, outward, first, limits, reach):
     """Measure every rim at evenly spread points: the middles of first[i + 1] - first[i] equal parts.
 

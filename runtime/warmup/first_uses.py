@@ -52,11 +52,14 @@ def tiny_level() -> navmesh.Terrain:
 
 
 def _navigate() -> None:
+    from navmesh.graph.packed_surface import pack_surface, unpack_surface
     from runtime.planning.rules import person_walk_rules
 
     terrain = tiny_level()
     # with room around: an update that reaches most of a level builds it anew
     graph = navmesh.NodeGraph.build(terrain, person_walk_rules(), extent=[(-40, -40, 0), (60, 60, 0)])
+    surface = graph.surface
+    unpack_surface(pack_surface(surface), surface.resolution, surface.shape)  # as `save` and `load` do
     places = graph.random_points(np.random.default_rng(0), 4, radius=0.3)
     graph.find_path(places[0], places[1], radius=0.3)
     graph.find_paths(places[:2], places[2:], radius=0.3)

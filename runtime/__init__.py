@@ -99,7 +99,11 @@ def _prepare() -> None:
     import_module("runtime.warmup").prepare()
 
 
-prepare_with(_prepare)  # for worlds, which import nothing of the warm-up: it makes worlds
+def _is_prepared() -> bool:
+    return import_module("runtime.warmup").is_kept()
+
+
+prepare_with(_prepare, _is_prepared)  # for worlds, which import nothing of the warm-up: it makes worlds
 
 
 def __dir__() -> list[str]:

@@ -16,7 +16,7 @@ import surefoot
 __all__ = ["Preparing", "mark_of_kernels", "prepare_once", "prepare_with"]
 
 _log = logging.getLogger("surefoot")
-_preparers: list[Callable[[], object]] = []
+_preparers: list[tuple[Callable[[], object], Callable[[], bool]]] = []
 
 
 class Preparing:
@@ -26,27 +26,29 @@ class Preparing:
     going_on = False
 
 
-def prepare_with(prepare: Callable[[], object]) -> None:
-    """Have ``prepare`` called by `prepare_once`."""
-    _preparers[:] = [prepare]
+def prepare_with(prepare: Callable[[], object], is_prepared: Callable[[], bool]) -> None:
+    """Have ``prepare`` called by `prepare_once` unless ``is_prepared``."""
+    _preparers[:] = [(prepare, is_prepared)]
 
 
 def prepare_once() -> None:
-    """Compile all kernels if this version has never done so on this machine. Called by worlds, so that no
-    step of theirs compiles."""
-    mark = None if Preparing.going_on else mark_of_kernels()
-    if mark is None or mark.exists() or not _preparers:
+    """Compile all kernels if this version has never done so on this machine, or what it kept is gone. Called
+    by worlds, so that no step of theirs compiles."""
+    if Preparing.going_on or not _preparers or mark_of_kernels() is None:
+        return
+    prepare, is_prepared = _preparers[0]
+    if is_prepared():
         return
     from surefoot.compile_notice import TIME
 
     _log.warning(
         "surefoot: compiling kernels, once on this machine: %s; runtime.prepare() does it ahead of time", TIME
     )
-    _preparers[0]()
+    prepare()
 
 
 def mark_of_kernels() -> Path | None:
-    """The file that says of which sources all kernels are kept; None without a cache."""
+    """The file that says of which sources all kernels are kept, and in which files; None without a cache."""
     # imported when first asked for: `surefoot --help` needs no compiler
     import llvmlite
     import numba
@@ -57,5 +59,5 @@ def mark_of_kernels() -> Path | None:
     folder = cache_folder()
     versions = (surefoot.__version__, sys.implementation.cache_tag, numba.__version__, llvmlite.__version__)
     machine = f"{versions} {platform.system()} {get_host_cpu_name()}"
-    name = f"all-{hashlib.sha256(machine.encode()).hexdigest()[:24]}"
+    name = f"kept-{hashlib.sha256(machine.encode()).hexdigest()[:24]}"
     return None if folder is None else folder / name

@@ -18,14 +18,14 @@ from locomotion.data import PRECONDITIONS
 from locomotion.errors import LocomotionError
 from locomotion.preconditions.features import BEFORE, FEATURES
 from locomotion.preconditions.svm import Machine, odds_into
-from locomotion.skills.library import skill_digest
+from locomotion.skills.library import package_skill, skill_digest
 from locomotion.skills.registry import skill_kinds
 from surefoot.files.archive import write_archive
 from surefoot.files.schema import Indices, Numbers, Schema
 
 __all__ = [
     "PRECONDITION_FILE", "SLOW_DOWN", "Precondition", "load_precondition", "load_preconditions",
-    "precondition_file", "skill_and_run",
+    "outdated_preconditions", "precondition_file", "skill_and_run",
 ]  # fmt: skip
 
 SLOW_DOWN = "slow-down"
@@ -149,6 +149,18 @@ def load_precondition(path: str | os.PathLike[str]) -> Precondition:
     )
     assert run_up is not None
     return Precondition(header.skill, header.heights, run_up, before, header.digest, header.meta)
+
+
+def outdated_preconditions() -> list[str]:
+    """Skills of the package whose precondition belongs to another skill, or another run under it, than
+    theirs are now."""
+    outdated = []
+    for skill in (*(kind.skill for kind in skill_kinds()), SLOW_DOWN):
+        file = precondition_file(skill)
+        if file.exists() and package_skill(skill).exists() and package_skill("run").exists():
+            if read_skill(file, PRECONDITION_FILE)[0].digest != skill_and_run(skill):
+                outdated.append(skill)
+    return outdated
 
 
 @lru_cache(maxsize=1)

@@ -2,17 +2,21 @@
 
 import hashlib
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
 
-from locomotion.data import CLIPS, SKILLS
-from locomotion.gaits.run.skill import RunSkill
+from locomotion.data import CLIPS, PRECONDITIONS, SKILLS
+from locomotion.gaits.run.skill import RunSkill, load_run_skill
 from locomotion.skills.description import load_described, load_description
 from locomotion.skills.interface import ClearingSkill, skill_ranges
+from locomotion.skills.learned_skill import LearnedSkill
 from locomotion.skills.registry import skill_kinds
 
-__all__ = ["described_ranges", "learned_skills", "package_skill", "skill_digest", "skills_digest"]
+__all__ = [
+    "described_ranges", "learned_digest", "learned_skills", "package_digests", "package_skill",
+    "skill_digest", "skills_digest",
+]  # fmt: skip
 
 
 def package_skill(name: str) -> Path:
@@ -30,11 +34,20 @@ def skill_digest(name: str) -> str:
 def skills_digest(own: tuple[Path, ...] = ()) -> str:
     """Hex digest of everything that the package has learned and of the skills described by ``own``, as their
     files are now: a person does the same only with the same."""
+    return _digest_now(_learned_files(own))
+
+
+def learned_digest(own: tuple[Path, ...] = ()) -> str:
+    """`skills_digest`, and of the preconditions of the package's skills."""
+    return _digest_now([*_learned_files(own), *sorted(PRECONDITIONS.glob("*.npz"))])
+
+
+def _learned_files(own: tuple[Path, ...]) -> list[Path]:
     files = sorted(SKILLS.glob("*.npz"))
     for path in own:
         description = load_description(path)
         files += [path, description.clip, description.learned]
-    return _digest_now(files)
+    return files
 
 
 def _digest_now(files: Sequence[Path]) -> str:
@@ -71,3 +84,10 @@ def learned_skills(run: RunSkill, own: Sequence[str | os.PathLike[str]] = ()) ->
     skills += [skill for kind in skill_kinds() if (skill := kind.load(run)) is not None]
     skill_ranges(skills)
     return tuple(skills)
+
+
+@lru_cache(maxsize=1)
+def package_digests() -> Mapping[str, str]:
+    """`LearnedSkill.digest` of the package's skills, by affordance."""
+    skills = [kind.load(load_run_skill()) for kind in skill_kinds()]
+    return {skill.affordance: skill.digest for skill in skills if isinstance(skill, LearnedSkill)}

@@ -92,8 +92,22 @@ def train_skill(
             print(f"surefoot: {fault}. No skill was written; {kept} holds what was learned", file=sys.stderr)
         else:
             print(f"{name} learned in {timer.minutes:.1f} core-minutes; {kept} is no longer needed")
+        if output is None:
+            _tell_outdated()
 
     return Result(values, not fault, show)
+
+
+def _tell_outdated() -> None:
+    """Say which preconditions belong to skills as they were before."""
+    from locomotion.preconditions.precondition import outdated_preconditions
+
+    if outdated := outdated_preconditions():
+        print(
+            f"surefoot: the preconditions of {', '.join(outdated)} belong to the skills before, and are "
+            "refused from now on; learn them anew (surefoot train preconditions --replace)",
+            file=sys.stderr,
+        )
 
 
 def _package_file(skill: str, replace: bool) -> Path:

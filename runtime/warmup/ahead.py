@@ -1,6 +1,7 @@
 """Compile all kernels in several processes, and load them."""
 
 import hashlib
+import os
 import re
 from collections.abc import Callable
 from functools import cache
@@ -15,7 +16,7 @@ from surefoot.kernels.loading import load_kept
 from surefoot.preparing import Preparing, mark_of_kernels
 from surefoot.progress import Progress
 
-__all__ = ["compile_kernels", "is_compiled", "load_kernels", "prepare"]
+__all__ = ["compile_kernels", "is_compiled", "is_kept", "load_kernels", "prepare"]
 
 _KERNELS = 410
 """Approximate number of kernels."""
@@ -25,7 +26,17 @@ _KERNEL = re.compile(rb"^@(?:allocating_)?kernel\b|\bcfunc\(", re.MULTILINE)
 def is_compiled() -> bool:
     """Whether all kernels, in their present version, are cached on this machine."""
     mark = mark_of_kernels()
-    return mark is not None and mark.exists() and mark.read_text(encoding="ascii") == _sources()
+    return is_kept() and mark is not None and mark.read_text(encoding="utf-8").startswith(_sources())
+
+
+def is_kept() -> bool:
+    """Whether all kernels were compiled once on this machine, perhaps from other sources of this version, and
+    none of their files is gone."""
+    mark = mark_of_kernels()
+    if mark is None or not mark.exists():
+        return False
+    files = set(mark.read_text(encoding="utf-8").splitlines()[1:])
+    return len(files) > 0 and files <= set(os.listdir(mark.parent))
 
 
 def prepare(progress: Callable[[float, str], object] | None = None) -> None:
@@ -58,15 +69,17 @@ def _compile(told: Callable[[float, str], object]) -> None:
         return
     Preparing.going_on = True
     try:
-        if not is_compiled():
+        is_new = not is_compiled()
+        if is_new:
             run_shared(FIRST_USES, lambda count, what: told(min(count / _KERNELS, 0.99), what))
-            mark = mark_of_kernels()
-            if mark is not None:
-                mark.write_text(_sources(), encoding="ascii")
-                forget_old()
         import runtime.world.world  # noqa: F401  what a frame runs
 
-        load_kept()
+        files = load_kept()
+        mark = mark_of_kernels()
+        if is_new and mark is not None:
+            names = sorted({file.name for file in files})
+            mark.write_text("\n".join([_sources(), *names]), encoding="utf-8")
+            forget_old()
     finally:
         Preparing.going_on = False
     told(1.0, "all kernels")

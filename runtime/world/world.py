@@ -15,7 +15,7 @@ import navmesh
 from locomotion import LocomotionError, load_run_skill
 from locomotion.body.person import CONTROL_DT
 from locomotion.rehearsal.trials import REHEARSALS
-from locomotion.skills.library import described_ranges, learned_skills, skills_digest
+from locomotion.skills.library import described_ranges, learned_digest, learned_skills
 from runtime.bodies.kinds.kind import WALKS, BodyKind, Surroundings
 from runtime.bodies.protocol import Driver, Population
 from runtime.bodies.registry import body_kinds, kind_of
@@ -404,7 +404,7 @@ class World:
             pause()
         return WorldState(
             level=self.level_digest,
-            skills=skills_digest(self._skills)
+            skills=learned_digest(self._skills)
             if any(kind_of(each.body).uses_skill_files for each in self.agents.values())
             else "",
             ticks=self._clock.ticks,
@@ -433,7 +433,7 @@ class World:
                 f"the state is of the level {state.level[:12]}…, this world's is {self.level_digest[:12]}…; "
                 "restore it in a world of the same mesh and walk rules"
             )
-        own = skills_digest(self._skills)
+        own = learned_digest(self._skills)
         if state.skills not in ("", own):
             raise RuntimeInputError(
                 f"the state is of people with other skills ({state.skills}) than these ({own}), "

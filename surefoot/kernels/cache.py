@@ -88,10 +88,17 @@ class KernelCache:
 
     def kept_signatures(self, target: Any) -> Iterator[Any]:
         """Signatures with cached code."""
+        for _, signature in self.kept(target):
+            yield signature
+
+    def kept(self, target: Any) -> Iterator[tuple[Path, Any]]:
+        """Files of cached code and their signatures."""
         folder = cache_folder()
         for file in folder.glob(f"{self._stem(target.codegen())}-*{_SUFFIX}") if folder is not None else ():
-            with suppress(Exception), file.open("rb") as opened:
-                yield pickle.load(opened)
+            with suppress(Exception):
+                with file.open("rb") as opened:
+                    signature = pickle.load(opened)
+                yield file, signature
 
     def _file(self, signature: Any, codegen: Any) -> Path | None:
         folder = cache_folder()

@@ -4,7 +4,7 @@ import numba
 import pytest
 
 from surefoot import preparing
-from surefoot.preparing import Preparing, mark_of_kernels, prepare_once, prepare_with
+from surefoot.preparing import Preparing, prepare_once, prepare_with
 
 
 @pytest.fixture
@@ -17,19 +17,23 @@ def done(monkeypatch, tmp_path):
 
 def test_whoever_can_is_asked_until_all_kernels_are_kept(done, caplog):
     prepare_once()
-    prepare_with(lambda: done.append("nobody"))
-    prepare_with(lambda: done.append("all"))
+    prepare_with(lambda: done.append("nobody"), lambda: False)
+    prepare_with(lambda: done.append("all"), lambda: len(done) == 2)
     assert done == [] and not caplog.messages
-    prepare_once()
-    prepare_once()
+    for _ in range(3):
+        prepare_once()
     assert done == ["all", "all"] and "once on this machine" in caplog.messages[0]
-    mark_of_kernels().touch()
+
+
+def test_without_a_cache_nobody_is_asked(done, monkeypatch):
+    prepare_with(lambda: done.append("in vain"), lambda: False)
+    monkeypatch.setattr(preparing, "mark_of_kernels", lambda: None)
     prepare_once()
-    assert len(done) == 2
+    assert done == []
 
 
 def test_nobody_is_asked_while_it_is_going_on(done, monkeypatch):
-    prepare_with(lambda: done.append("again"))
+    prepare_with(lambda: done.append("again"), lambda: False)
     monkeypatch.setattr(Preparing, "going_on", True)
     prepare_once()
     assert done == []

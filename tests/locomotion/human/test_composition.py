@@ -1,5 +1,6 @@
 """A person without rehearsals takes off where its odds are good enough, and says so where it turns away."""
 
+from copy import copy
 from dataclasses import replace
 
 import numpy as np
@@ -69,3 +70,16 @@ def test_bravery_is_a_share():
         with pytest.raises(LocomotionError, match="bravery must be a number from 0 to 1, or None"):
             human.bravery = wrong
     assert human.bravery is None
+
+
+def test_a_skill_of_ones_own_with_the_packages_range_has_no_odds_of_it():
+    course = make_course([("jump", 0.4, 0.0)], [12.0])
+    own = copy(next(skill for skill in Human().clearing if skill.affordance == "jump"))
+    obstacle = course.obstacles[0]
+    assert Human(rehearsals=0).composition.precondition(obstacle) is load_preconditions()["jump"]
+    law = own._law
+    own.__dict__.pop("digest", None)
+    own._tables, own._law = {}, lambda size: replace(law(size), parameters=1.001 * law(size).parameters)
+    human = Human(rehearsals=0, clearing=[own])
+    assert own.heights == load_preconditions()["jump"].heights
+    assert human.composition.precondition(obstacle) is None

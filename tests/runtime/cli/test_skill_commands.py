@@ -8,10 +8,12 @@ from itertools import count
 import pytest
 from filelock import FileLock
 
+from locomotion.preconditions import precondition
 from locomotion.skills import library
 from locomotion.skills.jump.kind import JUMP
 from locomotion.training.progress import Progress
 from locomotion.training.training import NotLearnedError
+from runtime.cli import skill_commands
 from runtime.cli.app import main
 from runtime.cli.skill_commands import _cpu_minutes, _trainers, train_skill
 from runtime.errors import RuntimeInputError
@@ -122,6 +124,17 @@ def test_the_packages_skills_are_replaced_only_when_asked_to(capsys, tmp_path, m
     assert mine.read_text() == "learned with seed 6"
     assert surefoot(capsys, "train", "--all", "--replace", "--seed", 7)[0] == 1  # standing never works
     assert (tmp_path / "package" / "sit.npz").read_text() == "learned with seed 7"
+
+
+def test_who_trains_a_skill_of_the_package_is_told_that_its_precondition_is_outdated(capsys, monkeypatch):
+    skill_commands._tell_outdated()
+    assert capsys.readouterr().err == ""
+    digest = precondition.skill_and_run
+    monkeypatch.setattr(
+        precondition, "skill_and_run", lambda skill: "another" if skill == "vault" else digest(skill)
+    )
+    skill_commands._tell_outdated()
+    assert "the preconditions of vault belong to the skills before" in capsys.readouterr().err
 
 
 def test_the_packages_skills_are_where_they_are_replaced():

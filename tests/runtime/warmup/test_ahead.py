@@ -146,10 +146,15 @@ def test_a_world_prepares_once_and_not_within_a_use(monkeypatch, tmp_path):
     done = []
     monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
     monkeypatch.setattr(ahead, "run_shared", lambda uses, told: done.append(World(tiny_level())))
-    monkeypatch.setattr(ahead, "load_kept", lambda: None)
+    kernel = tmp_path / "surefoot" / "one.kernel"
+    monkeypatch.setattr(ahead, "load_kept", lambda: (kernel.touch(), [kernel])[1])
     prepare_once()
     prepare_once()
     assert len(done) == 1 and is_compiled()
+    kernel.unlink()  # the mark is left
+    assert not is_compiled()
+    prepare_once()
+    assert len(done) == 2 and is_compiled()
 
 
 def test_kernels_elsewhere_do_not_count_when_the_cache_has_a_place_of_its_own(monkeypatch, tmp_path):

@@ -5,7 +5,7 @@ from tests.surefoot.kernels.processes import COUNT
 LOADED = f"""
 {COUNT}
 from surefoot.kernels.loading import load_kept
-count = load_kept()
+count = len(load_kept())
 before = [len(kernel.signatures) for kernel in (high.top, high.apart, high.low.big, high.low.other)]
 print(json.dumps([count, before, high.top(3.0), compiled]))
 """

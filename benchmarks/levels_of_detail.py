@@ -10,8 +10,11 @@ after it, and, for comparison, in the half second before it, since knees bend by
 two frames of any walk; and how many have not fallen 5 s later.
 
 Frame: 10 simulated people, 90 in full, 300 in medium and 600 in low detail walk between random places of the
-shared level nav_test, or of a plain where it is absent. A frame is 1/60 s of the world and the transforms of
-all; times are of one core.
+shared level nav_test, or of a plain where it is absent. A frame is 1/60 s of the world, which is one tick or
+two, and the transforms of those whose turn it is: of people in full detail and of simulated ones always, in
+medium detail 30 times and in low detail 15 times a second. Times are of one core. Printed besides: what
+posing all of them would take, and what MuJoCo takes for the physics of the simulated people alone, below
+which a frame cannot come.
 """
 
 import argparse
@@ -22,10 +25,12 @@ from collections.abc import Sequence
 from functools import lru_cache
 from itertools import pairwise
 
+import mujoco
 import numpy as np
 
 from benchmarks.giving_way import floor
 from benchmarks.shared_data import level_path, shared_folder, why_absent
+from locomotion.body.person import STEPS_PER_TICK
 from locomotion.recorded_people.fading import difference
 from locomotion.skills.course import make_course
 from navmesh import NodeGraph, Terrain
@@ -155,28 +160,47 @@ def frame_figures(graph: NodeGraph, counts: tuple[int, ...], seconds: float, see
         agent.go_to(next(places), speed=float(rng.uniform(0.8, 1.6)))
     world.step(1.0)
     world.transforms()
-    total, moving = [], []
+    total, moving, everybody = [], [], []
     gc.collect()
     gc.freeze()
     for frame in range(round(seconds / FRAME)):
-        begin = time.process_time()
+        begin, drawn = time.process_time(), world.time
         world.step(FRAME)
         stepped = time.process_time()
-        world.transforms()
+        world.transforms(since=drawn)
         total.append(time.process_time() - begin)
         moving.append(stepped - begin)
+        if frame % 10 == 0:
+            begin = time.process_time()
+            world.transforms()
+            everybody.append(time.process_time() - begin)
         for agent in agents[frame % 30 :: 30]:
             if not agent.moving and agent.status != "fallen":
                 agent.go_to(next(places), speed=float(rng.uniform(0.8, 1.6)))
     gc.unfreeze()
     ms = 1000.0 * np.array(total)
+    physics = mujoco_seconds(agents[: counts[0]])
     return {
         "median": float(np.median(ms)),
         "p99": float(np.percentile(ms, 99)),
         "worst": float(ms.max()),
         "posing": float(1000.0 * np.median(np.array(total) - np.array(moving))),
+        "posing_all": float(1000.0 * np.median(everybody)),
+        "physics": 2000.0 * physics,
         "share_moving": float(np.mean([agent.moving for agent in agents])),
     }
+
+
+def mujoco_seconds(agents: Sequence[Agent]) -> float:
+    """[s] that MuJoCo takes for a tick of all of ``agents``, who are simulated, as they are now."""
+    taken = []
+    for _ in range(9):
+        begin = time.process_time()
+        for agent in agents:
+            simulation = agent.human.simulation
+            mujoco.mj_step(simulation.model, simulation.data, STEPS_PER_TICK)
+        taken.append(time.process_time() - begin)
+    return float(np.median(taken))
 
 
 def level() -> NodeGraph:
@@ -209,7 +233,9 @@ def main() -> None:
         people = " + ".join(f"{count} {name}" for name, count in zip(LEVELS, COUNTS, strict=True))
         print(
             f"{people}: a frame takes {of['median']:.1f} ms (median), {of['p99']:.1f} ms (p99), "
-            f"{of['worst']:.1f} ms (worst), posing {of['posing']:.2f} ms of it; {of['share_moving']:.0%} move"
+            f"{of['worst']:.1f} ms (worst), posing {of['posing']:.2f} ms of it; "
+            f"{of['share_moving']:.0%} move; posing all takes {of['posing_all']:.2f} ms; "
+            f"MuJoCo's share of a frame of two ticks is {of['physics']:.1f} ms"
         )
 
 

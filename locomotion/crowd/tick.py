@@ -163,17 +163,30 @@ def advance_all(net, rows, routes, crossings, gates, dt):
     n = rows.shape[0]
     if gates > 0:
         direct(rows, crossings, gates, dt)
-    led = rows[:, at.MODE] >= at.LED  # or rooted
     order, neighbours, counts = find_neighbours(
-        rows[:, at.X].copy(), rows[:, at.Y].copy(), rows[:, at.Z].copy(), _reaches(rows), ~led
+        rows[:, at.X].copy(),
+        rows[:, at.Y].copy(),
+        rows[:, at.Z].copy(),
+        _reaches(rows),
+        rows[:, at.MODE] < at.LED,  # and not rooted
     )
-    planes = np.empty((MOST + MOST_WALLS, 3))
-    work = np.empty((MOST + MOST_WALLS, 3))
-    velocity = np.zeros((n, 2))
-    for s in range(n):
+    planes, velocity = np.empty((2, MOST + MOST_WALLS, 3)), np.zeros((n, 2))
+    _choose_all(net, rows, (routes, crossings), (order, neighbours, counts), planes, velocity, dt)
+    room = rows[:, at.X].copy(), rows[:, at.Y].copy(), np.empty(n, np.int64)
+    _move_all(net, rows, velocity, (order, neighbours, counts), room, dt)
+
+
+@kernel
+def _choose_all(net, rows, ways, near, planes, velocity, dt):
+    """Write the velocity of each body. ``ways``: routes and crossings; ``near``: as of `find_neighbours`.
+    ``planes`` (2, k, 3) is overwritten."""
+    routes, crossings = ways
+    order, neighbours, counts = near
+    planes, work = planes[0], planes[1]
+    for s in range(rows.shape[0]):
         i = order[s]
         row = rows[i]
-        if led[i]:
+        if row[at.MODE] >= at.LED:
             continue
         wx, wy = _wish(net, rows, routes, crossings, i, neighbours[i], counts[i], dt)
         row[at.GO_X], row[at.GO_Y] = wx, wy
@@ -195,19 +208,19 @@ def advance_all(net, rows, routes, crossings, gates, dt):
         if change > most:
             vx, vy = row[at.VX] + dx * most / change, row[at.VY] + dy * most / change
         velocity[i, 0], velocity[i, 1] = vx, vy
-    _move_all(net, rows, velocity, order, neighbours, counts, dt)
 
 
-@allocating_kernel
-def _move_all(net, rows, velocity, order, neighbours, counts, dt):
-    """Take the steps, out of each other and along the walls."""
+@kernel
+def _move_all(net, rows, velocity, near, room, dt):
+    """Take the steps, out of each other and along the walls. ``room``: x and y of all, cells (n,) that are
+    overwritten."""
     n = rows.shape[0]
-    x, y = rows[:, at.X].copy(), rows[:, at.Y].copy()
+    order, neighbours, counts = near
+    x, y, cells = room
     for i in range(n):
         if rows[i, at.MODE] < at.LED:
             x[i] += dt * velocity[i, 0]
             y[i] += dt * velocity[i, 1]
-    cells = np.empty(n, np.int64)
     for turn in range(_ROUNDS):
         for s in range(n):
             i = order[s]

@@ -10,7 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["AT_REST", "Gait", "following", "gaits_for", "step_name"]
+from surefoot.kernels import kernel
+
+__all__ = ["AT_REST", "Gait", "following", "gait_for", "gait_table", "gaits_for", "step_name"]
 
 AT_REST = 0.05
 """[m/s] below which a figure counts as at rest."""
@@ -49,21 +51,42 @@ def gaits_for(
     backwards] allows it. Otherwise the first gait of its posture and direction that is fast enough, or else
     the fastest.
     """
-    chosen = np.full(len(now), -1, np.int32)
-    pace, back = np.abs(speed), speed < 0.0
-    most = np.zeros(len(now))  # the fastest limit among what was found, where none is fast enough
-    fits = np.zeros(len(now), np.bool_)
-    for number, gait in enumerate(gaits):
-        can = (posture == gait.posture) & (back == gait.backwards) & (pace > AT_REST)
-        enough = can & (pace <= gait.fastest) & ~fits
-        fastest_yet = can & ~fits & (gait.fastest > most)
-        chosen[enough | fastest_yet] = number
-        most[fastest_yet] = gait.fastest
-        fits |= enough
-    for number, gait in enumerate(gaits):
-        goes_on = (now == number) & (posture == gait.posture) & (back == gait.backwards) & (pace > AT_REST)
-        chosen[goes_on & (pace >= gait.slowest) & (pace <= gait.fastest)] = number
+    table, chosen = gait_table(gaits), np.empty(len(now), np.int32)
+    _choose_all(table, np.asarray(now, np.int32), np.asarray(posture, np.int32), np.asarray(speed), chosen)
     return chosen
+
+
+def gait_table(gaits: tuple[Gait, ...]) -> NDArray[np.float64]:
+    """(g, 4) of each gait its posture, slowest, fastest, and 1 for one backwards, as `gait_for` takes it."""
+    rows = [[gait.posture, gait.slowest, gait.fastest, float(gait.backwards)] for gait in gaits]
+    return np.array(rows, np.float64).reshape(-1, 4)
+
+
+@kernel
+def gait_for(table, now, posture, speed):
+    """Kernel of `gaits_for`, for one figure."""
+    pace, back = abs(speed), 1.0 if speed < 0.0 else 0.0
+    if pace <= AT_REST:
+        return -1
+    if now >= 0:
+        goes_on = table[now, 0] == posture and table[now, 3] == back
+        if goes_on and table[now, 1] <= pace <= table[now, 2]:
+            return now
+    chosen, most = -1, 0.0  # the fastest of those found so far, none of which is fast enough
+    for number in range(table.shape[0]):
+        if table[number, 0] != posture or table[number, 3] != back:
+            continue
+        if pace <= table[number, 2]:
+            return number
+        if table[number, 2] > most:
+            chosen, most = number, table[number, 2]
+    return chosen
+
+
+@kernel
+def _choose_all(table, now, posture, speed, chosen):
+    for n in range(len(now)):
+        chosen[n] = gait_for(table, now[n], posture[n], speed[n])
 
 
 def following(

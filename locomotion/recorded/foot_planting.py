@@ -10,7 +10,7 @@ of a step. The pelvis goes up and down with the feet. All of it is a function of
     channels, roots = planted(motions, level, (gaits, speeds, phases), (channels, roots), places,
         footfalls)
 
-Full and medium figures are planted. Low ones are only put at the height of the ground.
+Low figures, whose hips do not turn, point their feet where their pelvis has them.
 """
 
 import math
@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from locomotion.body.anatomy import ANKLE, SHANK, THIGH
-from locomotion.body.leg_kinematics import solve_leg
+from locomotion.body.leg_kinematics import solve_leg, solve_plain_leg
 from locomotion.recorded.footfalls import (
     AHEAD,
     BALL,
@@ -35,10 +35,10 @@ from locomotion.recorded.footfalls import (
 from locomotion.recorded.motion_set import MotionSet
 from locomotion.recorded.posing import posed
 from locomotion.recorded.sampling import Sample, placed_roots, stride_of
-from locomotion.recorded.skeletons import LEVELS, LOW, Skeleton, skeleton
+from locomotion.recorded.skeletons import LEVELS, Skeleton, skeleton
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["LEG", "planted"]
+__all__ = ["LEG", "ROOM", "leg_columns", "plant", "planted", "strides_ahead"]
 
 LEG = ("hip_flexion", "hip_abduction", "hip_rotation", "knee_flexion", "ankle_flexion", "ankle_inversion")
 """The joints of a leg that `solve_leg` gives."""
@@ -56,6 +56,10 @@ _SETTLED = 0.01  # [m] over the ground, up to which an end of a sole counts as o
 _FREE, _FARTHEST = 0.08, 0.13
 # [m] beside where the recording has it, from which on a foot is held back, and to which it comes at most
 _ROUNDS = 3  # of solving a leg whose ankle cannot turn in or out
+_PLAIN_ROUNDS = 2  # the same of one whose hip cannot turn either
+_TIPPED = 0.15  # sine of the angle of a sole that stands on one end
+ROOM = (6, 3, 3)
+"""Shape of the memory that `plant` works in."""
 
 
 def planted(
@@ -79,21 +83,21 @@ def planted(
     gaits, speeds, phases = (np.asarray(each, np.float64) for each in moments)
     gaits = gaits.astype(np.int64)
     footing = footings(motions, gaits, speeds)
-    back = motions.travel[motions.cycles[motions.gait_first[gaits]], 0] < 0.0
-    strides = np.where(back, -1.0, 1.0) * stride_of(motions, gaits, speeds)
+    strides = strides_ahead(motions)[gaits] * stride_of(motions, gaits, speeds)
     struck = (phases[:, None] - footing[:, :, STRIKES]) % 1.0 if since is None else np.asarray(since)
     own, at = skeleton(LEVELS[level]), np.asarray(places, np.float64)
     steps = np.asarray(footfalls, np.float64)
     channels, roots = sample[0].copy(), placed_roots(sample[1], at)
     bodies = posed(own, *sample)
     feet = np.stack([bodies[:, own.bodies.index(name)] for name in FEET], axis=1)
-    columns = _NONE if level == LOW else leg_columns(own)
     roots[:, 2] = np.where(struck[:, 0] < 0.0, roots[:, 2], sample[1][:, 2])
-    _plant(columns, footing, strides, struck, feet, at, steps, channels, roots)
+    _plant_all((leg_columns(own), footing, strides, struck), feet, at, steps, (channels, roots))
     return channels, roots
 
 
-_NONE = np.full((2, 6), -1, np.int64)
+def strides_ahead(motions: MotionSet) -> NDArray[np.float64]:
+    """(gaits,) 1 for gaits that go ahead, -1 for those that go backwards."""
+    return np.where(motions.travel[motions.cycles[motions.gait_first[:-1]], 0] < 0.0, -1.0, 1.0)
 
 
 def leg_columns(own: Skeleton) -> NDArray[np.int64]:
@@ -118,23 +122,13 @@ def _axes(place, out):
 
 
 @kernel
-def _facing(heading, up_ahead, up_left, out):
-    """Axes ``out`` (3, 3) of what faces ``heading``, with its front and its left side up by these angles."""
-    c, s, cp, sp = math.cos(heading), math.sin(heading), math.cos(up_ahead), math.sin(up_ahead)
-    cr, sr = math.cos(up_left), math.sin(up_left)
-    out[0, 0], out[1, 0], out[2, 0] = c * cp + s * sr * sp, s * cp - c * sr * sp, cr * sp
-    out[0, 1], out[1, 1], out[2, 1] = -s * cr, c * cr, sr
-    out[0, 2], out[1, 2], out[2, 2] = s * sr * cp - c * sp, -s * sp - c * sr * cp, cr * cp
-
-
-@kernel
 def _held_back(x, y, place, ahead, left, share):
     """The middle of a sole at (x, y), or, where that is too far from where the recording has it, ``ahead``
-    and to the ``left`` of the ``place`` (4,) of the figure, nearer to that: at a ``share`` of `_FARTHEST` at
-    most."""
-    c, s = math.cos(place[3]), math.sin(place[3])
-    dx, dy = x - place[0] - c * ahead + s * left, y - place[1] - s * ahead - c * left
-    off, free = math.hypot(dx, dy), share * _FREE
+    and to the ``left`` of the ``place`` (x, y, and cosine and sine of the heading) of the figure, nearer to
+    that: at a ``share`` of `_FARTHEST` at most."""
+    px, py, c, s = place
+    dx, dy = x - px - c * ahead + s * left, y - py - s * ahead - c * left
+    off, free = math.sqrt(dx * dx + dy * dy), share * _FREE
     if off <= free:
         return x, y
     spare = share * _FARTHEST - free
@@ -143,19 +137,26 @@ def _held_back(x, y, place, ahead, left, share):
 
 
 @kernel
+def _unit_of(x, y):
+    """Cosine and sine of the direction of (x, y)."""
+    size = math.sqrt(x * x + y * y)
+    return (x / size, y / size) if size > 0.0 else (1.0, 0.0)
+
+
+@kernel
 def _foot(footing, stride, since, foot, steps, place, axes, point):
     """Where a foot has to be: its ``axes`` (3, 3) and the ``point`` (3,) in the world for the end of its sole
-    that it stands on, or that is lower; gives where that is ahead of the ankle, and the height of the ground
-    for the pelvis. ``foot`` (7,) is its place in the recording, ``steps`` (2, 6) are its last footfall and
-    the next one."""
+    that it stands on, or that is lower; gives where that is ahead of the ankle, the height of the ground for
+    the pelvis, and the sine of the angle by which its front is up over the ground. ``foot`` (7,) is its place
+    in the recording, ``steps`` (2, 6) are its last footfall and the next one; ``place`` as of `_held_back`.
+    """
     _axes(foot, axes)
-    turn = math.atan2(-axes[0, 1], axes[1, 1])
-    up_ahead = math.atan2(axes[2, 0], axes[2, 2])
-    up_left = math.asin(min(max(axes[2, 1], -1.0), 1.0))
-    half, end = (HALF_SOLE, _HEEL_AHEAD) if up_ahead >= 0.0 else (-HALF_SOLE, _BALL_AHEAD)
+    turn_c, turn_s = _unit_of(axes[1, 1], -axes[0, 1])
+    up_c, up_s = _unit_of(axes[2, 2], axes[2, 0])
+    half, end = (HALF_SOLE, _HEEL_AHEAD) if up_s >= 0.0 else (-HALF_SOLE, _BALL_AHEAD)
     # the middle of the sole in the recording, if it stood flat on that end
-    x = foot[0] + end * axes[0, 0] - ANKLE * axes[0, 2] + half * math.cos(turn)
-    y = foot[1] + end * axes[1, 0] - ANKLE * axes[1, 2] + half * math.sin(turn)
+    x = foot[0] + end * axes[0, 0] - ANKLE * axes[0, 2] + half * turn_c
+    y = foot[1] + end * axes[1, 0] - ANKLE * axes[1, 2] + half * turn_s
     z = foot[2] + end * axes[2, 0] - ANKLE * axes[2, 2]
     swung = max(since - footing[BEARS], 0.0) / (1.0 - footing[BEARS])
     fades = _FADES if footing[BEARS] > 0.5 else _RUN_FADES
@@ -170,18 +171,29 @@ def _foot(footing, stride, since, foot, steps, place, axes, point):
     way = steps[0, 3] + share * (steps[1, 3] - steps[0, 3])
     slope = steps[0, 4] + share * (steps[1, 4] - steps[0, 4])
     tilt = steps[0, 5] + share * (steps[1, 5] - steps[0, 5])
-    heading, left = way + free * (turn - footing[TURNED]), free * (y - footing[LEFT])
-    _facing(heading, slope + up_ahead, tilt + free * up_left, axes)
-    flat = half * math.cos(slope)
-    left_x, left_y = -math.sin(way - footing[TURNED]), math.cos(way - footing[TURNED])
-    middle_x = steps[0, 0] + share * (steps[1, 0] - steps[0, 0]) + left * left_x
-    middle_y = steps[0, 1] + share * (steps[1, 1] - steps[0, 1]) + left * left_y
+    heading, turned = way, way - footing[TURNED]
+    if free > 0.0:
+        heading += free * (math.atan2(turn_s, turn_c) - footing[TURNED])
+        tilt += free * math.asin(min(max(axes[2, 1], -1.0), 1.0))
+    c, s, slope_c, slope_s = math.cos(heading), math.sin(heading), math.cos(slope), math.sin(slope)
+    # faces the heading, with its front and its left side up by these angles
+    cp, sp = slope_c * up_c - slope_s * up_s, slope_s * up_c + slope_c * up_s
+    cr, sr = math.cos(tilt), math.sin(tilt)
+    axes[0, 0], axes[1, 0], axes[2, 0] = c * cp + s * sr * sp, s * cp - c * sr * sp, cr * sp
+    axes[0, 1], axes[1, 1], axes[2, 1] = -s * cr, c * cr, sr
+    axes[0, 2], axes[1, 2], axes[2, 2] = s * sr * cp - c * sp, -s * sp - c * sr * cp, cr * cp
+    middle_x = steps[0, 0] + share * (steps[1, 0] - steps[0, 0])
+    middle_y = steps[0, 1] + share * (steps[1, 1] - steps[0, 1])
+    if free > 0.0:
+        left = free * (y - footing[LEFT])
+        middle_x -= left * math.sin(turned)
+        middle_y += left * math.cos(turned)
     near = 1.0 if footing[BEARS] > 0.5 else _RUN_NEAR
     middle_x, middle_y = _held_back(middle_x, middle_y, place, x, y, near)
-    point[0] = middle_x - flat * math.cos(heading)
-    point[1] = middle_y - flat * math.sin(heading)
-    point[2] = steps[0, 2] + rise * risen + over + height - half * math.sin(slope)
-    return end, steps[0, 2] + swung * rise
+    point[0] = middle_x - half * slope_c * c
+    point[1] = middle_y - half * slope_c * s
+    point[2] = steps[0, 2] + rise * risen + over + height - half * slope_s
+    return end, steps[0, 2] + swung * rise, up_s
 
 
 @kernel
@@ -192,48 +204,86 @@ def _ankle(point, axes, end, out):
 
 
 @allocating_kernel
-def _plant(columns, footing, strides, since, feet, places, footfalls, channels, roots):
-    """Kernel of `planted`; ``channels`` and ``roots`` hold the sample and are changed."""
-    pelvis, axes, points = np.empty((3, 3)), np.empty((2, 3, 3)), np.empty((2, 3))
-    ends, hip, ankle, angles = np.empty(2), np.empty(3), np.empty(3), np.empty(6)
+def _plant_all(cycles, feet, places, footfalls, poses):
+    """Kernel of `planted`; ``poses`` hold the sample and are changed."""
+    columns, footing, strides, since = cycles
+    channels, roots = poses
+    room = np.empty(ROOM)
     for n in range(since.shape[0]):
-        root = roots[n]
-        if since[n, 0] < 0.0:
-            continue
-        if footing[n, 0, BEARS] == 0.0 or footing[n, 1, BEARS] == 0.0:
-            root[2] += 0.25 * (footfalls[n, :, :, 2].sum())
-            continue
+        cycle = columns, footing[n], strides[n], since[n]
+        plant(cycle, feet[n], places[n], footfalls[n], (channels[n], roots[n]), room)
+
+
+@kernel
+def plant(cycle, feet, place, footfalls, pose, room):
+    """Kernel of `planted`, for one figure: ``cycle`` are its legs' columns, footing, stride, and since when
+    its feet stand; ``pose`` its channels and root, which are changed. ``room`` (`ROOM`) is overwritten."""
+    columns, footing, stride, since = cycle
+    channels, root = pose
+    if since[0] < 0.0:
+        return
+    if footing[0, BEARS] == 0.0 or footing[1, BEARS] == 0.0:
         for side in range(2):
-            found, steps = footing[n, side], footfalls[n, side]
-            ends[side], height = _foot(
-                found, strides[n], since[n, side], feet[n, side], steps, places[n], axes[side], points[side]
-            )
-            root[2] += 0.5 * height
-        if columns[0, 0] < 0:
+            root[2] += 0.25 * (footfalls[side, 0, 2] + footfalls[side, 1, 2])
+        return
+    axes, pelvis, points, hip, ankle = room[:2], room[2], room[3], room[4, 0], room[4, 1]
+    ends, tips = room[4, 2], room[5, 2]
+    here = place[0], place[1], math.cos(place[3]), math.sin(place[3])
+    for side in range(2):
+        ends[side], height, tips[side] = _foot(
+            footing[side], stride, since[side], feet[side], footfalls[side], here, axes[side], points[side]
+        )
+        root[2] += 0.5 * height
+    _axes(root, pelvis)
+    stretched = 1.0
+    for side in range(2):
+        _hip(root, pelvis, side, hip)
+        _ankle(points[side], axes[side], ends[side], ankle)
+        reach = _REACH * _REACH - (hip[0] - ankle[0]) ** 2 - (hip[1] - ankle[1]) ** 2
+        over = min(hip[2] - ankle[2] - math.sqrt(max(reach, 0.0)), _LOWEST)
+        stretched += math.exp(over / _SOFT)
+    root[2] -= _SOFT * math.log(stretched)
+    for side in range(2):
+        _hip(root, pelvis, side, hip)
+        foot = points[side], axes[side], ends[side], tips[side]
+        _bend_leg(columns[side], (pelvis, hip), foot, side, channels, room)
+
+
+@kernel
+def _hip(root, pelvis, side, out):
+    """Where a hip is (3,) [m]."""
+    for k in range(3):
+        out[k] = root[k] + (2 * side - 1) * _HIP * pelvis[k, 1]
+
+
+@kernel
+def _bend_leg(columns, body, foot, side, channels, room):
+    """Bend a leg so that an end of the sole is where it has to be; ``body`` are the pelvis' axes and the hip,
+    ``foot`` the point for the end, the foot's axes, where the end is ahead of the ankle, and by how much the
+    front is up over the ground."""
+    pelvis, hip = body
+    point, axes, end, tip = foot
+    ankle, angles = room[4, 1], room[5].reshape(9)[:6]
+    turns, rolls = columns[2] >= 0, columns[5] >= 0
+    if not turns:
+        # its pelvis decides where the foot points: it turns about the end that it stands on, or its middle
+        pivot = _HEEL_AHEAD + HALF_SOLE * (1.0 - min(max(tip / _TIPPED, -1.0), 1.0))
+        for k in range(3):
+            point[k] += (pivot - end) * axes[k, 0]
+        end = pivot
+    for _ in range(1 if rolls else (_ROUNDS if turns else _PLAIN_ROUNDS)):
+        _ankle(point, axes, end, ankle)
+        if not turns:
+            solve_plain_leg(pelvis, hip, axes, ankle, 2 * side - 1, angles)
             continue
-        _axes(root, pelvis)
-        stretched = 1.0
-        for side in range(2):
-            _ankle(points[side], axes[side], ends[side], ankle)
+        solve_leg(pelvis, hip, axes, ankle, 2 * side - 1, angles)
+        if not rolls:
+            # an ankle that cannot turn in or out leaves the foot as the shank has it
+            roll = (2 * side - 1) * angles[5]
+            c, s = math.cos(roll), math.sin(roll)
             for k in range(3):
-                hip[k] = root[k] + (2 * side - 1) * _HIP * pelvis[k, 1]
-            room = _REACH * _REACH - (hip[0] - ankle[0]) ** 2 - (hip[1] - ankle[1]) ** 2
-            over = min(hip[2] - ankle[2] - math.sqrt(max(room, 0.0)), _LOWEST)
-            stretched += math.exp(over / _SOFT)
-        root[2] -= _SOFT * math.log(stretched)
-        for side in range(2):
-            for k in range(3):
-                hip[k] = root[k] + (2 * side - 1) * _HIP * pelvis[k, 1]
-            for _ in range(_ROUNDS if columns[side, 5] < 0 else 1):
-                _ankle(points[side], axes[side], ends[side], ankle)
-                solve_leg(pelvis, hip, axes[side], ankle, 2 * side - 1, angles)
-                if columns[side, 5] < 0:
-                    # an ankle that cannot turn in or out leaves the foot as the shank has it
-                    roll = (2 * side - 1) * angles[5]
-                    c, s = math.cos(roll), math.sin(roll)
-                    for k in range(3):
-                        y, z = axes[side, k, 1], axes[side, k, 2]
-                        axes[side, k, 1], axes[side, k, 2] = c * y + s * z, c * z - s * y
-            for k in range(6):
-                if columns[side, k] >= 0:
-                    channels[n, columns[side, k]] = angles[k]
+                y, z = axes[k, 1], axes[k, 2]
+                axes[k, 1], axes[k, 2] = c * y + s * z, c * z - s * y
+    for k in range(6):
+        if columns[k] >= 0:
+            channels[columns[k]] = angles[k]

@@ -22,11 +22,12 @@ from locomotion.errors import LocomotionError
 from locomotion.recorded.motion_set import MotionSet
 from locomotion.recorded.sampling import Sample, stride_of
 from locomotion.recorded.skeletons import Skeleton
+from surefoot.kernels import kernel
 from surefoot.numeric import is_finite
 
 __all__ = [
     "ARMS", "LEAN", "PACE", "PHASE", "SIZE", "SPREAD", "TRAITS", "WIDTH", "by_chance", "by_hand", "pace_of",
-    "scaled", "styled",
+    "scaled", "style", "styled", "styles_of",
 ]  # fmt: skip
 
 PHASE, PACE, WIDTH, ARMS, LEAN, HEAD, SIZE = range(7)
@@ -50,7 +51,6 @@ as a share.
 """
 SPREAD = (1.0, 0.05, 0.015, 0.25, 0.04, 0.06, 0.04)
 """Standard deviations of the traits by chance; the phase is spread evenly."""
-_ARM_JOINTS, _SPREAD_JOINTS = ("shoulder_flexion", "elbow_flexion"), ("hip_abduction",)
 
 
 def by_hand(others: NDArray[np.float64] | None = None, **traits: float) -> NDArray[np.float64]:
@@ -89,25 +89,41 @@ def pace_of(
 
 def styled(skeleton: Skeleton, sample: Sample, traits: NDArray[np.float64]) -> Sample:
     """A sample with the traits of its figures (n, 7)."""
-    channels, roots = sample[0].copy(), sample[1]
-    for k, name in enumerate(skeleton.channels):
-        joint = name.removeprefix("right_").removeprefix("left_")
-        if joint in _ARM_JOINTS:
-            rest = _REST[joint]
-            channels[:, k] = rest + traits[:, ARMS] * (channels[:, k] - rest)
-        elif joint in _SPREAD_JOINTS:
-            channels[:, k] += traits[:, WIDTH]
-        elif joint == "waist_pitch":
-            channels[:, k] += traits[:, LEAN]
-        elif joint == "neck_pitch":
-            channels[:, k] += traits[:, HEAD] - traits[:, LEAN]
-        elif joint == "ankle_inversion":
-            channels[:, k] += traits[:, WIDTH]
-    return channels, roots
+    channels, styles = sample[0].copy(), styles_of(skeleton)
+    for row, own in zip(channels, traits, strict=True):
+        style(styles, own, row)
+    return channels, sample[1]
 
 
-_REST = {"shoulder_flexion": math.radians(-5.0), "elbow_flexion": math.radians(25.0)}
-# [rad] about which arms swing
+def styles_of(skeleton: Skeleton) -> NDArray[np.int64]:
+    """(c,) what traits do to each channel, as `style` knows it."""
+    joints = [name.removeprefix("right_").removeprefix("left_") for name in skeleton.channels]
+    return np.array([_STYLES.get(joint, _AS_IS) for joint in joints], np.int64)
+
+
+_AS_IS, _SHOULDER, _ELBOW, _SPREADS, _LEANS, _BENDS = range(6)
+_STYLES = {
+    "shoulder_flexion": _SHOULDER, "elbow_flexion": _ELBOW, "hip_abduction": _SPREADS,
+    "ankle_inversion": _SPREADS, "waist_pitch": _LEANS, "neck_pitch": _BENDS,
+}  # fmt: skip
+_SHOULDER_RESTS, _ELBOW_RESTS = math.radians(-5.0), math.radians(25.0)  # about which arms swing
+
+
+@kernel
+def style(styles, traits, channels):
+    """Kernel of `styled`, for one figure: ``channels`` (c,) are changed."""
+    for k in range(channels.shape[0]):
+        what = styles[k]
+        if what == _SHOULDER:
+            channels[k] = _SHOULDER_RESTS + traits[ARMS] * (channels[k] - _SHOULDER_RESTS)
+        elif what == _ELBOW:
+            channels[k] = _ELBOW_RESTS + traits[ARMS] * (channels[k] - _ELBOW_RESTS)
+        elif what == _SPREADS:
+            channels[k] += traits[WIDTH]
+        elif what == _LEANS:
+            channels[k] += traits[LEAN]
+        elif what == _BENDS:
+            channels[k] += traits[HEAD] - traits[LEAN]
 
 
 def scaled(places: NDArray[np.float64], traits: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from locomotion.recorded.skeletons import Skeleton
 from surefoot.kernels import kernel
 
-__all__ = ["pose_bodies", "posed", "posed_slowly", "whole_figures"]
+__all__ = ["pose_bodies", "pose_body", "posed", "posed_slowly", "whole_figures"]
 
 
 def _polynomial(function, terms: int) -> tuple[float, ...]:
@@ -74,33 +74,36 @@ def whole_figures(skeleton: Skeleton, places: NDArray[np.float64]) -> NDArray[np
 @kernel
 def pose_bodies(parents, offsets, first, axes, signs, channels, roots, out):
     """Kernel of `posed`; the first arguments are those of a `Skeleton`."""
+    bones = parents, offsets, first, axes, signs
     for figure in range(channels.shape[0]):
         for k in range(7):
             out[figure, 0, k] = roots[figure, k]
         for body in range(1, parents.shape[0]):
-            parent = parents[body]
-            w, x, y, z = (
-                out[figure, parent, 3],
-                out[figure, parent, 4],
-                out[figure, parent, 5],
-                out[figure, parent, 6],
-            )
-            dx, dy, dz = offsets[body, 0], offsets[body, 1], offsets[body, 2]
-            ax, ay, az = y * dz - z * dy, z * dx - x * dz, x * dy - y * dx
-            out[figure, body, 0] = out[figure, parent, 0] + dx + 2.0 * (w * ax + y * az - z * ay)
-            out[figure, body, 1] = out[figure, parent, 1] + dy + 2.0 * (w * ay + z * ax - x * az)
-            out[figure, body, 2] = out[figure, parent, 2] + dz + 2.0 * (w * az + x * ay - y * ax)
-            for k in range(first[body], first[body + 1]):
-                h = 0.5 * signs[k] * channels[figure, k]
-                t = h * h
-                s = h * (_S0 + t * (_S1 + t * (_S2 + t * (_S3 + t * (_S4 + t * (_S5 + t * _S6))))))
-                c = _C0 + t * (_C1 + t * (_C2 + t * (_C3 + t * (_C4 + t * (_C5 + t * _C6)))))
-                axis = axes[k]
-                if axis == 0:
-                    w, x, y, z = c * w - s * x, c * x + s * w, c * y + s * z, c * z - s * y
-                elif axis == 1:
-                    w, x, y, z = c * w - s * y, c * x - s * z, c * y + s * w, c * z + s * x
-                else:
-                    w, x, y, z = c * w - s * z, c * x + s * y, c * y - s * x, c * z + s * w
-            out[figure, body, 3], out[figure, body, 4] = w, x
-            out[figure, body, 5], out[figure, body, 6] = y, z
+            pose_body(bones, body, channels[figure], out[figure])
+
+
+@kernel
+def pose_body(bones, body, channels, places):
+    """Put one body, other than the pelvis, where its joints have it: ``places`` (b, 7), in which its parent's
+    place is known. ``bones``: parents, offsets, first, axes, signs of a `Skeleton`."""
+    parents, offsets, first, axes, signs = bones
+    parent = parents[body]
+    w, x, y, z = places[parent, 3], places[parent, 4], places[parent, 5], places[parent, 6]
+    dx, dy, dz = offsets[body, 0], offsets[body, 1], offsets[body, 2]
+    ax, ay, az = y * dz - z * dy, z * dx - x * dz, x * dy - y * dx
+    places[body, 0] = places[parent, 0] + dx + 2.0 * (w * ax + y * az - z * ay)
+    places[body, 1] = places[parent, 1] + dy + 2.0 * (w * ay + z * ax - x * az)
+    places[body, 2] = places[parent, 2] + dz + 2.0 * (w * az + x * ay - y * ax)
+    for k in range(first[body], first[body + 1]):
+        h = 0.5 * signs[k] * channels[k]
+        t = h * h
+        s = h * (_S0 + t * (_S1 + t * (_S2 + t * (_S3 + t * (_S4 + t * (_S5 + t * _S6))))))
+        c = _C0 + t * (_C1 + t * (_C2 + t * (_C3 + t * (_C4 + t * (_C5 + t * _C6)))))
+        axis = axes[k]
+        if axis == 0:
+            w, x, y, z = c * w - s * x, c * x + s * w, c * y + s * z, c * z - s * y
+        elif axis == 1:
+            w, x, y, z = c * w - s * y, c * x - s * z, c * y + s * w, c * z + s * x
+        else:
+            w, x, y, z = c * w - s * z, c * x + s * y, c * y - s * x, c * z + s * w
+    places[body, 3], places[body, 4], places[body, 5], places[body, 6] = w, x, y, z

@@ -26,7 +26,7 @@ from locomotion.recorded.motion_set import LevelFrames, MotionSet
 from surefoot.kernels import kernel
 
 __all__ = [
-    "cycles_around", "mixed", "placed_roots", "read_clips", "read_gait", "sample_clips",
+    "cycles_around", "mixed", "placed_roots", "read_clips", "read_cycle", "read_gait", "sample_clips",
     "sample_clips_slowly", "sample_gait", "sample_gait_slowly", "stride_at", "stride_of",
 ]  # fmt: skip
 
@@ -257,26 +257,34 @@ def cycles_around(gait_first, cycles, speeds, gait, speed):
 @kernel
 def read_gait(tables, gait_first, cycles, known, rests, gaits, speeds, phases, out):
     """Kernel of `sample_gait`."""
-    first, count, frames, places = tables
     channels, roots = out
-    channels[:] = 0.0
-    roots[:] = 0.0
+    of_gaits = gait_first, cycles, known, rests
     for n in range(gaits.shape[0]):
-        slower, faster, share = cycles_around(gait_first, cycles, known, gaits[n], speeds[n])
-        moves = slower >= 0
-        if not moves:
-            slower = rests[gaits[n]]
-            if slower < 0:
-                share = 1.0
-        if share < 1.0:
-            taps = _taps(count[slower], moves, phases[n])
-            _add(frames, first[slower], count[slower], taps, 1.0 - share, channels[n])
-            _add(places, first[slower], count[slower], taps, 1.0 - share, roots[n])
-        if share > 0.0:
-            taps = _taps(count[faster], True, phases[n])
-            _add(frames, first[faster], count[faster], taps, share, channels[n])
-            _add(places, first[faster], count[faster], taps, share, roots[n])
-        _unit(roots[n])
+        read_cycle(tables, of_gaits, gaits[n], speeds[n], phases[n], channels[n], roots[n])
+
+
+@kernel
+def read_cycle(tables, of_gaits, gait, speed, phase, channels, root):
+    """Kernel of `sample_gait`, for one figure."""
+    first, count, frames, places = tables
+    gait_first, cycles, known, rests = of_gaits
+    channels[:] = 0.0
+    root[:] = 0.0
+    slower, faster, share = cycles_around(gait_first, cycles, known, gait, speed)
+    moves = slower >= 0
+    if not moves:
+        slower = rests[gait]
+        if slower < 0:
+            share = 1.0
+    if share < 1.0:
+        taps = _taps(count[slower], moves, phase)
+        _add(frames, first[slower], count[slower], taps, 1.0 - share, channels)
+        _add(places, first[slower], count[slower], taps, 1.0 - share, root)
+    if share > 0.0:
+        taps = _taps(count[faster], True, phase)
+        _add(frames, first[faster], count[faster], taps, share, channels)
+        _add(places, first[faster], count[faster], taps, share, root)
+    _unit(root)
 
 
 @kernel

@@ -4,7 +4,7 @@ A person runs up to where the recording takes off, in its gait, and plays the re
 edge and behind the landing it goes as recorded, so that feet stand where they stood; what lies between is as
 wide as the real obstacle, and the whole figure is lifted by what that is higher, while it is over it::
 
-    skill = recorded_skills(motions)["vault"]
+    skill = recorded_skills(motions)["vault"]             # `locomotion.recorded_people.recorded_skills`
     moment = skill.moment(crossing, 0.4)                  # [s] of the recording, 0.4 s after it began
     pose = skill.pose(motions, LOW, crossing, moment)     # (46,)
 
@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,11 +24,9 @@ from locomotion.recorded.motion_set import MotionSet
 from locomotion.recorded.posing import posed
 from locomotion.recorded.sampling import sample_clips
 from locomotion.recorded.skeletons import FULL, LEVELS, skeleton
-from locomotion.skills.registry import skill_kind, skill_kinds
-from navmesh.graph.node_graph import NodeGraph
-from navmesh.routes.route import LinkUse
+from locomotion.recorded_people.crossing import Crossing
 
-__all__ = ["Crossing", "RecordedSkill", "crossing_of", "out_of_the_floor", "recorded_skills", "skill_ranges"]
+__all__ = ["RecordedSkill", "out_of_the_floor"]
 
 _FASTEST = 3.4  # [m/s] of a run-up
 _GAINS = 3.0  # [m/s²]
@@ -39,64 +36,6 @@ _CADENCE, _HASTE, _LATE, _EARLY = 1.65, (0.7, 1.35), 0.1, 0.35
 # cycles a second at the end of a run-up; least and greatest haste; [s] before its end, too late to hasten;
 # cycles by which steps are slowed down at most
 _SPRING = 0.12  # [s] before leaving the ground in which one makes ready for what is higher
-_SAME = 0.01  # [m] by which a link may be another and the same
-_GAP = 4  # frames for which a foot that bears may lift off
-_SETTLED = 0.35  # [s] after landing until which a skill is played that ends on the feet
-
-
-@dataclass(frozen=True)
-class Crossing:
-    """An obstacle that a person is to cross, and where it goes then.
-
-    Attributes:
-        affordance: of the obstacle. size, depth: [m] its size, as of `Links.height`, and how thick it is.
-        start, edge, end: (3,) of the link [m].
-        goals, speed, facing: as of `Walker.go_to`, from the end on. beyond: [m] from the start to the last.
-        begun: [s] of the person's time at which the run-up begins; nan before.
-        origin: where that was: x, y, z [m], and its speed there [m/s].
-        last: [m] behind the edge where it goes on in its gait at the latest.
-        waited: [s] that it has waited for others before it.
-    """
-
-    affordance: str
-    size: float
-    depth: float
-    start: tuple[float, float, float]
-    edge: tuple[float, float, float]
-    end: tuple[float, float, float]
-    goals: tuple[tuple[float, float, float], ...]
-    speed: float
-    facing: float | None
-    beyond: float
-    begun: float = math.nan
-    origin: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
-    last: float = math.inf
-    waited: float = 0.0
-
-    @property
-    def way(self) -> NDArray[np.float64]:
-        """(2,) unit vector over it."""
-        apart = np.subtract(self.end, self.start)[:2]
-        return apart / np.linalg.norm(apart)
-
-    @property
-    def heading(self) -> float:
-        """[rad] of the way."""
-        x, y = self.way.tolist()
-        return math.atan2(y, x)
-
-    def is_there(self, graph: NodeGraph) -> bool:
-        """Whether ``graph`` has that link."""
-        links = graph.links
-        alike = (links.affordance == self.affordance) & (np.abs(links.height - self.size) <= _SAME)
-        for known, mine in ((links.start, self.start), (links.end, self.end)):
-            alike &= (np.abs(known - np.array(mine)) <= _SAME).all(axis=1)
-        return bool(alike.any())
-
-    @property
-    def under_way(self) -> bool:
-        """Whether the run-up has begun."""
-        return math.isfinite(self.begun)
 
 
 def _smooth(x: float) -> float:
@@ -207,7 +146,7 @@ class RecordedSkill:
             rises = more * _ramp(moment, self.leaves - _SPRING, self.crosses)
             return rises + (up - more) * _ramp(moment, self.passed, self.lands)
         if self.crossing == "off":
-            fallen = (moment - self.crosses) / (self.lands - self.crosses)
+            fallen = (moment - self.off) / (self.lands - self.off)
             return (up + self.size) * min(max(fallen, 0.0), 1.0) ** 2
         return up * _ramp(moment, self.leaves, self.lands)
 
@@ -238,11 +177,15 @@ class RecordedSkill:
         px, py = (np.array(of.edge[:2]) + along * of.way).tolist()
         return px, py
 
+    @property
+    def off(self) -> float:
+        """[s] when no foot bears any more before the edge, and one is over it."""
+        return max(self.leaves, self.crosses)
+
     def floor(self, of: Crossing, moment: float) -> tuple[float, float]:
         """Height [m] of the floor that its feet are on at a ``moment``, and how firmly they are, 0 to 1."""
-        off = max(self.leaves, self.crosses)
-        if moment < off:
-            return of.start[2], 1.0 - _ramp(moment, off - _SPRING, off)
+        if moment < self.off:
+            return of.start[2], 1.0 - _ramp(moment, self.off - _SPRING, self.off)
         return of.end[2], _ramp(moment, self.lands, self.lands + 0.5 * _SPRING)
 
     def place(self, motions: MotionSet, of: Crossing, moment: float) -> NDArray[np.float64]:
@@ -269,84 +212,3 @@ def out_of_the_floor(pose: NDArray[np.float64], floor: float, firmly: float) -> 
 
 def _ramp(moment: float, first: float, last: float) -> float:
     return _smooth((moment - first) / max(last - first, 1e-3))
-
-
-def _skill_of(motions: MotionSet, clip: int, crossing: str, usual: float) -> RecordedSkill:
-    about, frames, own = motions.clips[clip], motions.levels[FULL], skeleton("full")
-    rows = slice(int(frames.first[clip]), int(frames.first[clip] + frames.count[clip]))
-    times = np.linspace(0.0, about.seconds, int(frames.count[clip]))
-    bodies = posed(own, frames.channels[rows], frames.roots[rows])
-    feet = bodies[:, [own.bodies.index(name) for name in FEET], 0]
-    root, stance = bodies[:, 0, 0], frames.stance[rows]
-    edge, _, depth = about.obstacle
-    over = int(np.argmax(root > edge))
-    before = np.flatnonzero((stance & (feet < edge)).any(axis=1) & (np.arange(len(root)) < over))
-    leaves = int(before[-1])
-    foot = int(np.argmax(stance[leaves] & (feet[leaves] < edge)))
-    begins = _begin_of_stance(stance[:, foot], leaves)
-    # one step earlier, so that what is left of the gait before has faded when it leaves the ground
-    foot = 1 - foot
-    begins = _begin_of_stance(stance[:, foot], int(np.flatnonzero(stance[:begins, foot])[-1]))
-    behind = edge + depth
-    lands = int(np.argmax((stance & (feet > behind)).any(axis=1) & (np.arange(len(root)) > leaves)))
-    crosses = int(np.argmax((feet > edge - 0.1).any(axis=1)))
-    passed = int(np.argmax((feet > behind).all(axis=1)))
-    rolls = crossing == "off"
-    ends = about.seconds if rolls else min(times[lands] + _SETTLED, about.seconds)
-    last = int(np.searchsorted(times, ends - 1e-9))
-    return RecordedSkill(
-        clip, crossing, float(times[begins]), float(times[leaves]), float(times[crosses]),
-        float(times[min(passed, lands)]), float(times[lands]), float(ends), edge - float(root[begins]), edge,
-        depth, usual, (float(bodies[begins, 0, 1]), float(bodies[last, 0, 1])),
-        float((root[begins + 3] - root[begins]) / (times[begins + 3] - times[begins])), 0.5 * foot,
-    )  # fmt: skip
-
-
-def _begin_of_stance(bears: NDArray[np.bool_], frame: int) -> int:
-    """The first frame of the stance that a foot is in at a ``frame``."""
-    while bears[max(frame - _GAP, 0) : frame].any():
-        frame -= 1
-    return frame
-
-
-@lru_cache(maxsize=4)
-def _skills_of(motions: MotionSet) -> dict[str, RecordedSkill]:
-    found, names = {}, motions.names
-    for kind in skill_kinds():
-        about = motions.clips[names.index(kind.affordance)] if kind.affordance in names else None
-        if about is not None and about.kind == "skill" and about.obstacle[0] > 0.0:
-            size = kind.obstacle.size(about.obstacle[1], about.obstacle[2])
-            found[kind.affordance] = _skill_of(
-                motions, names.index(kind.affordance), kind.obstacle.crossing, size
-            )
-    return found
-
-
-def recorded_skills(motions: MotionSet) -> dict[str, RecordedSkill]:
-    """The skills that there are recordings of, by affordance."""
-    return _skills_of(motions)
-
-
-def skill_ranges(motions: MotionSet) -> dict[str, tuple[float, float]]:
-    """Least and greatest size [m] of what recorded people clear, by affordance."""
-    return {name: skill_kind(name).sizes for name in recorded_skills(motions)}
-
-
-def crossing_of(
-    graph: NodeGraph,
-    use: LinkUse,
-    goals: tuple[tuple[float, float, float], ...],
-    speed: float,
-    facing: float | None,
-    beyond: float,
-) -> Crossing:
-    """What is to be crossed on a route over a link of ``graph``; the others as of `Crossing`."""
-    links, number = graph.links, use.link
-    start, edge, end = (
-        (float(x), float(y), float(z))
-        for x, y, z in (links.start[number], links.edge[number], links.end[number])
-    )
-    return Crossing(
-        str(links.affordance[number]), float(links.height[number]),
-        float(graph.obstacles.depth[use.obstacle]), start, edge, end, goals, speed, facing, beyond,
-    )  # fmt: skip

@@ -18,7 +18,8 @@ from locomotion.body_events import Cleared, Event, GotStuck, LostGround, TookOff
 from locomotion.crowd import Crowd, NoRoute, Walker
 from locomotion.recorded.motion_set import MotionSet
 from locomotion.recorded_people import layout as at
-from locomotion.recorded_people.clearing import Crossing, RecordedSkill
+from locomotion.recorded_people.clearing import RecordedSkill
+from locomotion.recorded_people.crossing import Crossing
 
 __all__ = ["ObstacleCourse"]
 
@@ -153,15 +154,16 @@ class ObstacleCourse:
     def give_up(self) -> None:
         """Its obstacle has gone before it took off: go on from here to what it was told."""
         of = self.of
-        self._person.crossing, self._person.row[at.CROSSES], self._person.row[at.HASTE] = (
-            None,
-            at.NOTHING,
-            1.0,
-        )
-        if self._person.walker.put_down():
+        if self.break_off():
             self._go_on(of)
         else:
             self._lose_ground()
+
+    def break_off(self) -> bool:
+        """Leave a run-up; whether there is a floor under it."""
+        person = self._person
+        person.crossing, person.row[at.CROSSES], person.row[at.HASTE] = None, at.NOTHING, 1.0
+        return person.walker.put_down()
 
     def _begin_run_up(self, of: Crossing) -> None:
         people, walker = self._people, self._person.walker

@@ -27,20 +27,20 @@ from locomotion.postures.places import placed
 from locomotion.postures.playback import pose_at
 from locomotion.postures.posture_file import load_postures
 from locomotion.postures.posture_graph import PostureGraph
-from locomotion.postures.step_order import gaits_for
-from locomotion.recorded.foot_planting import planted
-from locomotion.recorded.footfalls import BEARS, FEET, footing, footing_at, sole_centres
-from locomotion.recorded.individual import PACE, SIZE, by_chance, styled
+from locomotion.recorded.footfalls import BEARS, FEET, footing_at, sole_centres
+from locomotion.recorded.individual import SIZE, by_chance
 from locomotion.recorded.motion_set import MotionSet, load_motions
 from locomotion.recorded.posing import posed
-from locomotion.recorded.sampling import sample_gait
-from locomotion.recorded.skeletons import LEVELS, skeleton
+from locomotion.recorded.skeletons import FULL, LEVELS, skeleton
 from locomotion.recorded_people import layout as at
-from locomotion.recorded_people.clearing import out_of_the_floor, recorded_skills, skill_ranges
+from locomotion.recorded_people.clearing import out_of_the_floor
 from locomotion.recorded_people.drawing import drawn
-from locomotion.recorded_people.fading import STEP, fade_from, faded, rates
+from locomotion.recorded_people.fading import faded
+from locomotion.recorded_people.figure_tables import figure_tables
 from locomotion.recorded_people.person import RecordedPerson
-from locomotion.recorded_people.stepping import AIM, LAST, advance_figures, cadences, lay_feet
+from locomotion.recorded_people.posing_figures import choose_gaits, draw_figures, pose_figures
+from locomotion.recorded_people.recorded_skills import recorded_skills, skill_ranges
+from locomotion.recorded_people.stepping import AIM, LAST, advance_figures, cadence_of, gait_played, lay_feet
 
 __all__ = ["BODY_TICKS", "RecordedPeople", "person_postures"]
 
@@ -48,8 +48,9 @@ BODY_TICKS = 3
 """Ticks for each of the bodies': between them figures are drawn on the straight line."""
 _ACCELERATION = 2.0  # [m/s²] of their bodies
 _STRIKES = np.array([0.0, 0.5])  # phases at which the right and the left foot strike
-_BEFORE_STRIKE = 1.0 - 1e-6
 _STANDS = "stand"
+_RATES = np.array([skeleton(name).rate for name in LEVELS])  # [Hz] at which levels are drawn
+_TURN = 0.5 * (np.sqrt(5.0) - 1.0)  # the golden ratio: any number of figures have their turns evenly
 
 
 @lru_cache(maxsize=1)
@@ -85,16 +86,9 @@ class RecordedPeople:
         self.motions = motions or load_motions()
         self.gaits = tuple(gait for gait in self.graph.gaits if gait.name in self.motions.gaits)
         """Those that there is motion for."""
-        self._recorded = np.array([self.motions.gait(gait.name) for gait in self.gaits], np.int64)
-        names = self.graph.postures
-        self.bases = np.array([names.index(name.partition("/")[0]) for name in names], np.int32)
+        self._figures = figure_tables(self.motions, self.graph, self.gaits)
+        self.bases = self._figures.bases
         """(p,) of each posture the one with free hands."""
-        rests = [
-            next((k for k, gait in enumerate(self.gaits) if gait.posture == base), 0) for base in self.bases
-        ]
-        self._rests = self._recorded[rests]  # of each posture the gait that comes to rest in it
-        m = self.motions
-        self._motion = m.gait_first, m.cycles, m.speeds, m.seconds, m.rests, footing(m)
         self.stand = self.graph.postures.index(_STANDS)
         self.skills = recorded_skills(self.motions)
         """What it takes to clear obstacles, by affordance."""
@@ -124,22 +118,17 @@ class RecordedPeople:
         return person
 
     @property
-    def _place(self) -> tuple:
-        """What kernels know of the level: net, its origin, lookup of the ground."""
-        return self.crowd.net, self.crowd.origin, self._ground.lookup
+    def _level(self) -> tuple:
+        """What kernels know of figures and the level: its net, its origin, lookup of the ground."""
+        return self._figures, self.crowd.net, self.crowd.origin, self._ground.lookup
 
     def lay_feet(self, index: int) -> None:
         """Let a figure have its feet on the ground from now on, as its gait or its stand has them."""
-        lay_feet(
-            self._place, self._motion, self._recorded, self._rests, self._rows[index], self.crowd.rows[index]
-        )
+        lay_feet(*self._level, self._rows[index], self.crowd.rows[index])
 
     def cadence(self, index: int) -> float:
         """Cycles a second of a figure."""
-        out = np.empty(1)
-        part = slice(index, index + 1)
-        cadences(self._motion, self._recorded, self.rows[part], self.crowd.rows[part], out)
-        return float(out[0])
+        return float(cadence_of(self._figures, self._rows[index], self.crowd.rows[index]))
 
     def lay_feet_of(self, index: int, pose: NDArray[np.float64]) -> None:
         """As `lay_feet`, but a foot that bears stands where ``pose`` (46,) has it."""
@@ -147,7 +136,7 @@ class RecordedPeople:
         row = self._rows[index]
         full, steps = skeleton("full"), row[at.STEPS].reshape(2, 3, 6)
         bodies = posed(full, pose[None, 7 + full.joints], pose[None, :7])
-        footing = footing_at(self.motions, int(self._played(row[None])[0]), [abs(row[at.SPEED])])[0]
+        footing = footing_at(self.motions, int(gait_played(self._figures, row)), [abs(row[at.SPEED])])[0]
         for side, name in enumerate(FEET):
             if (row[at.PHASE] - _STRIKES[side]) % 1.0 >= footing[side, BEARS] and row[at.GAIT] >= 0.0:
                 continue
@@ -157,11 +146,6 @@ class RecordedPeople:
             height = float(self._ground.surface_below([centres[0] + [0.0, 0.0, 0.3]])[0][0])
             if abs(height - last[2]) < 0.3:
                 last[2] = height
-
-    def _played(self, rows: NDArray[np.float64]) -> NDArray[np.int64]:
-        """(n,) numbers of the gaits, in the motions, that are sampled of figures."""
-        gaits, nodes = rows[:, at.GAIT].astype(np.int64), rows[:, at.NODE].astype(np.int64)
-        return np.where(gaits >= 0, self._recorded[gaits], self._rests[nodes])
 
     def change_level(self, surface: navmesh.NodeGraph, ground: Ground | None = None) -> None:
         """Go on on another surface, as `Crowd.change_graph`."""
@@ -229,117 +213,73 @@ class RecordedPeople:
                 self.people[index].course.stay()
             for index in np.flatnonzero(rows[:, at.CROSSES] >= at.RUNS_UP).tolist():
                 self.people[index].course.move_on(BODY_TICKS * dt)
-        old, phase = rows[:, at.GAIT].astype(np.int32), rows[:, at.PHASE].copy()
+        phases = rows[:, at.PHASE].copy()
         tick = (dt, (since + 1) * dt, (since + 1) / BODY_TICKS)
-        advance_figures(self._place, self._motion, self._recorded, self._rests, rows, self.crowd.rows, tick)
+        advance_figures(*self._level, rows, self.crowd.rows, tick)
         for index in np.flatnonzero(rows[:, at.BUSY]).tolist():
             self.people[index].tick()
         if since == BODY_TICKS - 1:
             for index in np.flatnonzero(rows[:, at.CROSSES]).tolist():
                 self.people[index].course.cross()
-        self._choose_gaits(old, phase)
+        choose_gaits(self._figures, rows, self.crowd.rows, phases, dt)
 
     def _body_places(self) -> NDArray[np.float64]:
         """(n, 4) x, y, z [m] and yaw [rad] of the bodies."""
         return np.column_stack([self.crowd.positions, self.crowd.yaws])
-
-    def _choose_gaits(self, old: NDArray[np.int32], phase: NDArray[np.float64]) -> None:
-        """At the end of a step, and at rest, each may change its gait."""
-        rows = self.rows
-        chosen = gaits_for(self.gaits, old, self.bases[rows[:, at.NODE].astype(np.int32)], rows[:, at.SPEED])
-        chosen[rows[:, at.BUSY] > 0.0] = -1
-        steps = (2.0 * rows[:, at.PHASE]).astype(np.int32) != (2.0 * phase).astype(np.int32)
-        chosen[rows[:, at.CROSSES] == at.CLEARS] = -1
-        may = (chosen != old) & (steps | (old < 0) | (chosen < 0))
-        of = np.flatnonzero(may)
-        if len(of) == 0:
-            return
-        drawn_now, before = self.qpos(of), self.qpos(of, -STEP)
-        rows[of, at.GAIT], rows[of, at.FADE_SECONDS] = chosen[of], 0.0
-        new, after = self.qpos(of), self.qpos(of, STEP)
-        for k, index in enumerate(of.tolist()):
-            old_rates, new_rates = rates(before[k], drawn_now[k], STEP), rates(new[k], after[k], STEP)
-            self.people[index].begin_fade(fade_from(drawn_now[k], old_rates, new[k], new_rates))
 
     # --- poses
     def qpos(self, indices: NDArray[np.int64], ahead: float = 0.0) -> NDArray[np.float64]:
         """(n, 46) the poses of some, ``ahead`` [s] of now if all goes on as it does: ``qpos`` of the person
         at full detail; what a figure's level has no channel for is 0."""
         out = np.empty((len(indices), 46))
-        levels = self.rows[indices, at.LEVEL].astype(np.int64)
-        for number, name in enumerate(LEVELS):
-            of = np.flatnonzero(levels == number)
-            if len(of):
-                out[of] = skeleton(name).as_qpos(*self._sampled(indices[of], number, ahead))
-        for k, index in enumerate(indices.tolist()):
-            out[k] = self._adjusted(index, out[k], ahead)
+        pose_figures(self._figures, indices, self._rows, self.crowd.rows, (ahead, self.dt), out)
+        for k in self._apart(indices):
+            out[k] = self._adjusted(int(indices[k]), ahead)
         return out
 
     def transforms(self, indices: NDArray[np.int64], ahead: float = 0.0) -> NDArray[np.float64]:
         """(n, 20, 7) places [m] and quaternions (w, x, y, z) of the bodies of some figures, in the order of
         the person's model, ``ahead`` [s] of now."""
         out = np.empty((len(indices), 20, 7))
-        rows, levels = self.rows[indices], self.rows[indices, at.LEVEL].astype(np.int64)
-        ages = rows[:, at.AGE] * self.dt
-        special = (ages < rows[:, at.FADE_BEGUN] + rows[:, at.FADE_SECONDS]) | (
-            rows[:, at.NODE] != self.stand
-        )
-        special |= (rows[:, at.BUSY] > 0.0) | (rows[:, at.CROSSES] == at.CLEARS)
-        for number, name in enumerate(LEVELS):
-            of = np.flatnonzero((levels == number) & ~special)
-            if len(of):
-                out[of] = drawn(name, *self._sampled(indices[of], number, ahead))
-        of = np.flatnonzero(special)
-        if len(of):
+        draw_figures(self._figures, indices, self._rows, self.crowd.rows, (ahead, self.dt), out)
+        of = self._apart(indices)
+        if of:
             qpos, bones = self.qpos(indices[of], ahead), skeleton(LEVELS[0])
             out[of] = drawn(LEVELS[0], qpos[:, 7 + bones.joints], qpos[:, :7])
         return out
 
-    def _sampled(
-        self, indices: NDArray[np.int64], level: int, ahead: float
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Channels and roots of some figures of one level, by gait, without what is special to them."""
-        rows, bodies = self.rows[indices], self.crowd.rows[indices]
-        moves, played = rows[:, at.GAIT] >= 0.0, self._played(rows)
-        traits = rows[:, at.TRAITS]
-        speeds = np.where(moves, np.abs(rows[:, at.SPEED]), 0.0) * traits[:, PACE]
-        gone = np.zeros(len(rows))
-        if ahead != 0.0:
-            cadences(self._motion, self._recorded, rows, bodies, gone)
-            gone *= ahead
-        places, phases = rows[:, at.PLACE], rows[:, at.PHASE] + gone
-        if ahead != 0.0:
-            places[:, :2] += ahead * bodies[:, [body.VX, body.VY]]
-        sample = sample_gait(self.motions, level, played, speeds, phases)
-        sample = styled(skeleton(LEVELS[level]), sample, traits)
-        # a foot stays in the part of its cycle that it is in: where it stands is known for that
-        since = (rows[:, at.PHASE, None] - _STRIKES) % 1.0 + gone[:, None]
-        since = np.where(moves[:, None], since.clip(0.0, _BEFORE_STRIKE), 0.0)
-        since[rows[:, at.LAID] == 0.0] = -1.0
-        footfalls = rows[:, at.STEPS].reshape(-1, 2, 3, 6)[:, :, :AIM]
-        return planted(self.motions, level, (played, speeds, phases), sample, places, footfalls, since)
+    def due(self, indices: NDArray[np.int64], since: float, now: float) -> NDArray[np.bool_]:
+        """(n,) which of some figures have had a moment to be drawn at after the time ``since`` [s], until
+        ``now``: those in full detail always, the others as often as their motion is kept, in turn."""
+        levels, turns = self._rows[indices, at.LEVEL].astype(np.int64), (indices * _TURN) % 1.0
+        moments = np.floor(_RATES[levels] * now - turns) - np.floor(_RATES[levels] * since - turns)
+        return (moments > 0.0) | (levels == FULL)
 
-    def _adjusted(self, index: int, pose: NDArray[np.float64], ahead: float) -> NDArray[np.float64]:
-        """The pose (46,) of a figure: as its gait or postures have it, its hands, and a change of late."""
+    def _apart(self, indices: NDArray[np.int64]) -> list[int]:
+        """Which of ``indices`` play their postures or clear an obstacle."""
+        busy, clears = self._rows[indices, at.BUSY] > 0.0, self._rows[indices, at.CROSSES] == at.CLEARS
+        return [
+            k
+            for k in np.flatnonzero(busy | clears).tolist()
+            if clears[k] or self.people[indices[k]].playback is not None
+        ]
+
+    def _adjusted(self, index: int, ahead: float) -> NDArray[np.float64]:
+        """The pose (46,) of a figure that clears an obstacle or plays its postures, with a change of late."""
         person, row = self.people[index], self.rows[index]
         now = person.time + ahead
         if row[at.CROSSES] == at.CLEARS:
             pose = person.course.pose(now)
-        elif person.playback is not None:
+            if int(row[at.NODE]) != self.stand:
+                held = self._figures.held[int(row[at.NODE])]
+                pose[7:] = np.where(np.isnan(held), pose[7:], held)
+        else:
+            assert person.playback is not None
             pose = pose_at(self.graph, person.playback, max(now, person.playback.begun))
             x, y, z, yaw = row[at.PLACE]
             pose = placed(pose, np.array([x, y, yaw]))
             pose[2] += z
-        if person.playback is None and int(row[at.NODE]) != self.stand:
-            pose = pose.copy()
-            self._hold(pose, int(row[at.NODE]))
         elapsed = max(now - float(row[at.FADE_BEGUN]), 0.0)
         pose = faded(pose, row[at.OFFSETS], row[at.RATES], float(row[at.FADE_SECONDS]), elapsed)
         floor = person.course.floor(now)
         return pose if floor is None else out_of_the_floor(pose, *floor)
-
-    def _hold(self, pose: NDArray[np.float64], node: int) -> None:
-        """Let the hands of ``pose`` (46,) do what they do in a node."""
-        free, held = self.graph.poses[self.bases[node]], self.graph.poses[node]
-        differs = np.flatnonzero(np.abs(held[7:] - free[7:]) > 1e-9) + 7
-        pose[differs] = held[differs]

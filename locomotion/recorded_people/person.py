@@ -10,27 +10,25 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from locomotion.body.person import JOINT_NAMES
 from locomotion.body_events import Event, PostureReached, SetOff
 from locomotion.crowd import Crowd, Walker, WalkerState
 from locomotion.errors import LocomotionError
 from locomotion.postures.held_objects import STOWED, node_name, parts_of
 from locomotion.postures.playback import Playback, asked_for, at_rest, settled
 from locomotion.postures.posture_graph import PostureGraph
-from locomotion.postures.step_order import AT_REST, Gait, gaits_for
+from locomotion.postures.step_order import AT_REST, Gait
 from locomotion.recorded.motion_set import MotionSet
 from locomotion.recorded_people import layout as at
-from locomotion.recorded_people.clearing import Crossing, RecordedSkill, crossing_of
-from locomotion.recorded_people.fading import STEP, Fade, difference, fade_from, rates
+from locomotion.recorded_people.clearing import RecordedSkill
+from locomotion.recorded_people.crossing import Crossing, crossing_of
+from locomotion.recorded_people.fading import STEP, Fade, fade_from, rates
+from locomotion.recorded_people.nodes import checked_node
 from locomotion.recorded_people.obstacle_course import ObstacleCourse
+from locomotion.recorded_people.taking_over import go_on_from
 from locomotion.skills.registry import skill_kind
 from navmesh.routes.route import Route
 
-__all__ = ["Errand", "PersonState", "RecordedPerson", "can_hold", "checked_node"]
-
-_PHASES = 40  # that a body which is taken over is compared with
-_AHEAD = 0.06  # [s] for which rates count as much as angles
-_LEGS = np.array([k for k, name in enumerate(JOINT_NAMES) if "hip" in name or "knee" in name])
+__all__ = ["Errand", "PersonState", "RecordedPerson"]
 
 
 @dataclass(frozen=True)
@@ -249,14 +247,15 @@ class RecordedPerson:
 
     def take(self, posture: str, held: str, state: str) -> None:
         """Take ``posture``, with an object in a state in its hands; one that moves comes to a stand first.
-        To the graph's fatal posture it goes at once, but for one on its run-up or over an obstacle, who lands
-        first. Raises `LocomotionError` for what the graph does not
-        have, or has no way to; nothing has changed then."""
+        To the graph's fatal posture it goes at once, but for one over an obstacle, who lands first. Raises
+        `LocomotionError` for what the graph does not have, or has no way to; nothing has changed then."""
         graph = self._people.graph
         node = checked_node(graph, posture, held, state)
         fatal = graph.fatal >= 0 and node == graph.postures[graph.fatal]
         if not fatal:
             self._check_way(node)
+        if fatal and self.row[at.CROSSES] == at.RUNS_UP:
+            self.course.break_off()
         self.stop()
         self._ask(node)
         if fatal and self.playback is None and self.crossing is None:
@@ -357,30 +356,7 @@ class RecordedPerson:
     ) -> None:
         """Take over from a body in ``pose`` (46,), which changes by ``pose_rates`` (45,) as `fading.rates`,
         and moves at ``velocity`` (2,) [m/s] over ``place`` (3,): in its gait, at the phase most like it."""
-        people, row = self._people, self.row
-        people.begin_at(self.index, place, velocity)
-        speed = float(np.hypot(*velocity))
-        row[at.SPEED] = speed
-        now, posture = np.array([-1], np.int32), np.array([people.stand], np.int32)
-        row[at.GAIT] = gaits_for(people.gaits, now, posture, np.array([speed]))[0]
-        row[at.LAID] = 0.0  # legs as recorded
-        if row[at.GAIT] >= 0.0:
-            row[at.PHASE] = self._phase_like(pose, pose_rates)
-        people.lay_feet_of(self.index, pose)
-        self.fade(pose, pose_rates)
-
-    def _phase_like(self, pose: NDArray[np.float64], pose_rates: NDArray[np.float64]) -> float:
-        row = self.row
-        least, best = np.inf, 0.0
-        for phase in np.arange(_PHASES) / _PHASES:
-            row[at.PHASE] = phase
-            here = self.qpos_at(0.0)
-            off = difference(pose, here)[6:][_LEGS]
-            off_rates = (pose_rates - rates(here, self.qpos_at(STEP), STEP))[6:][_LEGS]
-            unlike = float(off @ off + _AHEAD**2 * (off_rates @ off_rates))
-            if unlike < least:
-                least, best = unlike, float(phase)
-        return best
+        go_on_from(self, self._people, pose, pose_rates, place, velocity)
 
     # --- saving
     def save(self) -> PersonState:
@@ -405,28 +381,3 @@ class RecordedPerson:
             hasher.update(playing.place.tobytes())
         rest = f"{self.wanted}{self.errand}{self.crossing or ''}"
         return f"{self.walker.state_hash()}{hasher.hexdigest()[:16]}{rest}"
-
-
-def checked_node(graph: PostureGraph, posture: str, held: str, state: str) -> str:
-    """The node of ``posture`` with an object in a state. Raises `LocomotionError` if ``graph`` has none."""
-    plain = [name for name in graph.postures if "/" not in name]
-    if posture not in plain:
-        raise LocomotionError(f"posture {posture!r}: valid: {', '.join(plain)}")
-    if held and held not in graph.objects:
-        raise LocomotionError(f"object {held!r}: valid: {', '.join(graph.objects) or 'none'}")
-    if held and state not in (STOWED, *graph.objects[held]):
-        raise LocomotionError(
-            f"state {state!r} of a {held}: valid: {', '.join((STOWED, *graph.objects[held]))}"
-        )
-    node = node_name(posture, held, state)
-    if node not in graph.postures:
-        able = [name.partition("/")[0] for name in graph.postures if name.endswith(f"/{held} {state}")]
-        raise LocomotionError(
-            f"in the posture {posture!r} a {held} cannot be {state}; valid: {', '.join(able)}"
-        )
-    return node
-
-
-def can_hold(graph: PostureGraph, posture: str, held: tuple[str, str]) -> tuple[str, str]:
-    """An object and its state as they are, if they go with ``posture``, or else free hands."""
-    return held if node_name(posture, *held) in graph.postures else ("", STOWED)

@@ -24,7 +24,10 @@ from locomotion.recorded_people import layout as at
 from navmesh.surface.clearance_field import floor_at, walk
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["AIM", "LAST", "NEXT", "advance_figures", "cadence_of", "cadences", "lay_feet"]
+__all__ = [
+    "AIM", "LAST", "NEXT", "advance_figures", "cadence_of", "footing_of", "gait_played", "lay_feet",
+    "speed_read", "stride_of",
+]  # fmt: skip
 
 _SLUGGISH = 0.12  # [s] time constant of the speed at which they are drawn
 _SETTLES = 0.2  # [m/s] whose steps one takes on the spot
@@ -55,7 +58,7 @@ def _turn(angle):
 
 
 @kernel
-def _speed_read(row):
+def speed_read(row):
     """The speed at which a figure's gait is read, at rest 0."""
     if row[at.GAIT] < 0.0:
         return 0.0
@@ -63,28 +66,34 @@ def _speed_read(row):
 
 
 @kernel
-def _stride_of(motion, gait, row):
-    """[m]"""
-    gait_first, cycles, speeds, seconds = motion[:4]
-    return stride_at(gait_first, cycles, speeds, seconds, gait, _speed_read(row))
+def footing_of(figures, gait, speed, out):
+    """As `footfalls.read_footing`."""
+    tables = figures.gait_first, figures.cycles, figures.speeds, figures.rests, figures.footing
+    read_footing(tables, gait, speed, out)
 
 
 @kernel
-def cadence_of(motion, recorded, row, walker):
+def stride_of(figures, gait, speed):
+    """[m] of a figure that goes at a ``speed`` [m/s], as that is read."""
+    return stride_at(figures.gait_first, figures.cycles, figures.speeds, figures.seconds, gait, speed)
+
+
+@kernel
+def gait_played(figures, row):
+    """The number, in the motions, of the gait that is sampled of a figure."""
+    gait = int(row[at.GAIT])
+    return figures.recorded[gait] if gait >= 0 else figures.standing[int(row[at.NODE])]
+
+
+@kernel
+def cadence_of(figures, row, walker):
     """Cycles a second of a figure."""
     if row[at.GAIT] < 0.0 or row[at.STILL] > 0.0:
         return 0.0
-    pace = abs(row[at.SPEED])
-    cadence = row[at.HASTE] * pace / _stride_of(motion, recorded[int(row[at.GAIT])], row)
+    pace, stride = abs(row[at.SPEED]), stride_of(figures, gait_played(figures, row), speed_read(row))
+    cadence = row[at.HASTE] * pace / stride
     rests = math.hypot(walker[body.VX], walker[body.VY]) < AT_REST
     return max(cadence, _BRISK) if rests and row[at.LAID] > 0.0 else cadence
-
-
-@kernel
-def cadences(motion, recorded, rows, walkers, out):
-    """As `cadence_of`, of many."""
-    for n in range(len(out)):
-        out[n] = cadence_of(motion, recorded, rows[n], walkers[n])
 
 
 @kernel
@@ -145,7 +154,7 @@ def _under(row, side, footing, ahead, left, turned):
 
 
 @kernel
-def _gone_on(motion, row, walker, gait, cycles, seconds, elapsed):
+def _gone_on(figures, row, walker, gait, cycles, seconds, elapsed):
     """How far a figure goes on in the next ``cycles``, which take about so many ``seconds``: x, y [m], and
     how far it turns [rad]. It gets faster, up to the speed that it wants, or slower, as it does now."""
     turning = _turn(row[_PLACE + 3] - row[_BEFORE + 3]) / elapsed
@@ -157,7 +166,7 @@ def _gone_on(motion, row, walker, gait, cycles, seconds, elapsed):
     gains = min(max(gains, -walker[body.ACCELERATION]), walker[body.ACCELERATION])
     then = now + 0.5 * gains * seconds
     then = min(then, max(walker[body.WISH], now)) if gains > 0.0 else max(then, 0.3 * now)
-    stride = stride_at(motion[0], motion[1], motion[2], motion[3], gait, then * row[_TRAITS + PACE])
+    stride = stride_of(figures, gait, then * row[_TRAITS + PACE])
     far = (cycles * stride / row[at.HASTE] + gains * _SLUGGISH * seconds) / pace
     c, s = math.cos(0.5 * turned), math.sin(0.5 * turned)
     x, y = walker[body.VX] * far, walker[body.VY] * far
@@ -165,15 +174,12 @@ def _gone_on(motion, row, walker, gait, cycles, seconds, elapsed):
 
 
 @allocating_kernel
-def _lay(place, motion, recorded, rests, row, walker):
+def lay_feet(figures, net, origin, lookup, row, walker):
     """Put the feet where those of a figure are that goes, and has gone, straight on as it does."""
-    at_rest = row[at.GAIT] < 0.0
-    gait = rests[int(row[at.NODE])] if at_rest else recorded[int(row[at.GAIT])]
-    footing = np.empty((2, 5))
-    tables = motion[0], motion[1], motion[2], motion[4], motion[5]
-    read_footing(tables, gait, _speed_read(row), footing)
+    footing, place = np.empty((2, 5)), (net, origin, lookup)
+    footing_of(figures, gait_played(figures, row), speed_read(row), footing)
     steps = row[_STEPS : _STEPS + 36].reshape(2, 3, 6)
-    cadence = cadence_of(motion, recorded, row, walker)
+    cadence = cadence_of(figures, row, walker)
     for side in range(2):
         since = row[at.PHASE] - 0.5 * side
         since -= math.floor(since)
@@ -188,19 +194,11 @@ def _lay(place, motion, recorded, rests, row, walker):
     row[at.LAID] = 1.0
 
 
-@allocating_kernel
-def lay_feet(place, motion, recorded, rests, row, walker):
-    """Put the feet of one figure down where it stands, or is in its gait."""
-    _lay(place, motion, recorded, rests, row, walker)
-
-
 @kernel
-def _settles(motion, rests, row, steps, footing):
+def _settles(figures, row, steps, footing):
     """Whether a foot of one at rest is in the air or stands elsewhere than in the posture at rest, whose
     ``footing`` (2, 5) is written."""
-    tables = motion[0], motion[1], motion[2], motion[4], motion[5]
-    gait = rests[int(row[at.NODE])]
-    read_footing(tables, gait, 0.0, footing)
+    footing_of(figures, figures.standing[int(row[at.NODE])], 0.0, footing)
     for side in range(2):
         since = row[at.PHASE] - 0.5 * side
         since -= math.floor(since)
@@ -219,7 +217,7 @@ def _settles(motion, rests, row, steps, footing):
 def _step(level, row, walker, steps, footing, standing, then, tick):
     """Let both feet go on, after the phase was as ``then`` and has grown at a cadence: ``then`` (2,).
     ``footing`` is of the gait, ``standing`` of what feet are put down for."""
-    place, motion, gait, looks = level
+    place, figures, gait, looks = level
     phase, cadence = then
     dt, elapsed = tick[0], tick[1]
     for side in range(2):
@@ -237,7 +235,7 @@ def _step(level, row, walker, steps, footing, standing, then, tick):
         if undecided or before < bears:
             left = 1.0 + 0.5 * bears - since
             seconds = min(left / cadence, _FORESEEN)
-            dx, dy, turned = _gone_on(motion, row, walker, gait, left, seconds, elapsed)
+            dx, dy, turned = _gone_on(figures, row, walker, gait, left, seconds, elapsed)
             x, y, heading = _under(row, side, standing[side], dx, dy, turned)
             heading = last[3] + _turn(heading - last[3])
             _foothold(place, walker, x, y, heading, steps[side, AIM])
@@ -247,47 +245,50 @@ def _step(level, row, walker, steps, footing, standing, then, tick):
 
 
 @allocating_kernel
-def advance_figures(place, motion, recorded, rests, rows, walkers, tick):
+def advance_figures(figures, net, origin, lookup, rows, walkers, tick):
     """Advance all figures by a tick: where they are drawn, their speeds, phases and feet.
 
-    place: net, origin (3,) and ground lookup. motion: gait_first, cycles, speeds, seconds, rests of the
-    motions, `footfalls.footing`. recorded: the number there of each gait. rests: of each posture the one that
-    comes to rest in it. tick: its length [s]; the time since the bodies' last tick began, at its end [s]; and
-    what share that is of the bodies' tick.
+    figures: as of `figure_tables`. net, origin (3,): of the surface; lookup: of the ground. tick: its length
+    [s]; the time since the bodies' last tick began, at its end [s]; and what share that is of the bodies'
+    tick.
     """
-    dt, share = tick[0], tick[2]
-    footing, standing = np.empty((2, 5)), np.empty((2, 5))
-    tables = motion[0], motion[1], motion[2], motion[4], motion[5]
-    origin = place[1]
+    room = np.empty((2, 2, 5))
     for n in range(rows.shape[0]):
-        row, walker = rows[n], walkers[n]
-        steps = row[_STEPS : _STEPS + 36].reshape(2, 3, 6)
-        row[at.AGE] += 1.0
-        here, before = _PLACE, _BEFORE
-        for k in range(3):
-            now = walker[body.X + k] + origin[k]
-            row[here + k] = row[before + k] + share * (now - row[before + k])
-        turned = _turn(walker[body.YAW] - row[before + 3])
-        row[here + 3] = row[before + 3] + share * turned
-        vx, vy = walker[body.VX], walker[body.VY]
-        pace = math.hypot(vx, vy)
-        ahead = vx * math.cos(walker[body.YAW]) + vy * math.sin(walker[body.YAW])
-        moved = -pace if ahead < -0.5 * pace else pace
-        laid = row[at.LAID] > 0.0
-        if laid and pace < AT_REST and row[at.BUSY] == 0.0:
-            row[at.STILL] = 0.0 if _settles(motion, rests, row, steps, standing) else 1.0
-            moved = _SETTLES if row[at.STILL] == 0.0 else 0.0
-        else:
-            row[at.STILL] = 0.0
-        row[at.SPEED] += (moved - row[at.SPEED]) * min(dt / _SLUGGISH, 1.0)
-        cadence, phase = cadence_of(motion, recorded, row, walker), row[at.PHASE]
-        row[at.PHASE] = (phase + dt * cadence) % 1.0
-        if row[at.GAIT] < 0.0:
-            row[at.PHASE] = row[_TRAITS + PHASE]  # with which it sets out again
-        if not laid or row[at.GAIT] < 0.0:
-            continue
-        gait = recorded[int(row[at.GAIT])]
-        read_footing(tables, gait, _speed_read(row), footing)
-        looks = (int(row[at.AGE]) + n) % _LOOKS == 0
-        under = standing if pace < AT_REST else footing
-        _step((place, motion, gait, looks), row, walker, steps, footing, under, (phase, cadence), tick)
+        _advance(figures, (net, origin, lookup), n, rows[n], walkers[n], tick, room)
+
+
+@kernel
+def _advance(figures, place, n, row, walker, tick, room):
+    """Advance the figure of number ``n``. ``room`` (2, 2, 5) is overwritten."""
+    dt, share, origin = tick[0], tick[2], place[1]
+    footing, standing = room[0], room[1]
+    steps = row[_STEPS : _STEPS + 36].reshape(2, 3, 6)
+    row[at.AGE] += 1.0
+    here, before = _PLACE, _BEFORE
+    for k in range(3):
+        now = walker[body.X + k] + origin[k]
+        row[here + k] = row[before + k] + share * (now - row[before + k])
+    turned = _turn(walker[body.YAW] - row[before + 3])
+    row[here + 3] = row[before + 3] + share * turned
+    vx, vy = walker[body.VX], walker[body.VY]
+    pace = math.hypot(vx, vy)
+    ahead = vx * math.cos(walker[body.YAW]) + vy * math.sin(walker[body.YAW])
+    moved = -pace if ahead < -0.5 * pace else pace
+    laid = row[at.LAID] > 0.0
+    if laid and pace < AT_REST and row[at.BUSY] == 0.0:
+        row[at.STILL] = 0.0 if _settles(figures, row, steps, standing) else 1.0
+        moved = _SETTLES if row[at.STILL] == 0.0 else 0.0
+    else:
+        row[at.STILL] = 0.0
+    row[at.SPEED] += (moved - row[at.SPEED]) * min(dt / _SLUGGISH, 1.0)
+    cadence, phase = cadence_of(figures, row, walker), row[at.PHASE]
+    row[at.PHASE] = (phase + dt * cadence) % 1.0
+    if row[at.GAIT] < 0.0:
+        row[at.PHASE] = row[_TRAITS + PHASE]  # with which it sets out again
+    if not laid or row[at.GAIT] < 0.0:
+        return
+    gait = gait_played(figures, row)
+    footing_of(figures, gait, speed_read(row), footing)
+    looks = (int(row[at.AGE]) + n) % _LOOKS == 0
+    under = standing if pace < AT_REST else footing
+    _step((place, figures, gait, looks), row, walker, steps, footing, under, (phase, cadence), tick)

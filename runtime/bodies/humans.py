@@ -29,8 +29,9 @@ from locomotion.paths.run_up_room import cramped_links
 from locomotion.postures.step_order import AT_REST
 from locomotion.preconditions.precondition import load_preconditions
 from locomotion.recorded_people.fading import fade_from, faded, rates
+from locomotion.recorded_people.nodes import can_hold, checked_node
 from locomotion.recorded_people.people import person_postures
-from locomotion.recorded_people.person import RecordedPerson, can_hold, checked_node
+from locomotion.recorded_people.person import RecordedPerson
 from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.saved_arrays import check_array, check_number
 from locomotion.skills.interface import ClearingSkill, skill_ranges

@@ -7,6 +7,7 @@ import numpy as np
 
 from locomotion.human.motion_start import moments
 from locomotion.recorded.skeletons import LEVELS
+from runtime.bodies.cast import Cast
 from runtime.bodies.humans import HumanDriver, People
 from runtime.bodies.protocol import Driver, Population
 from runtime.bodies.recorded import Recorded, RecordedDriver, is_recorded
@@ -55,12 +56,8 @@ class Persons(Population):
         for part in self.parts():
             part.tick()
 
-    def transforms_of(self, drivers: Sequence[Driver]) -> Sequence[np.ndarray]:
-        recorded = [driver for driver in drivers if isinstance(driver, RecordedDriver)]
-        played = iter(self.recorded.transforms_of(recorded))
-        return [
-            next(played) if isinstance(driver, RecordedDriver) else driver.transforms() for driver in drivers
-        ]
+    def cast(self, drivers: Sequence[Driver]) -> Cast:
+        return _CastOfPersons(drivers, self.recorded)
 
     def prepare_levels(self) -> None:
         moments()
@@ -85,3 +82,26 @@ class Persons(Population):
             else:
                 self.recorded.remove(driver)
         return taken
+
+
+class _CastOfPersons(Cast):
+    """Those who play recorded motion are posed in one call."""
+
+    def __init__(self, drivers: Sequence[Driver], recorded: Recorded) -> None:
+        super().__init__(drivers)
+        self._recorded = recorded
+        played = [
+            (k, each.person.index) for k, each in enumerate(drivers) if isinstance(each, RecordedDriver)
+        ]
+        self._played, self._rows = np.array(played, np.int64).reshape(-1, 2).T
+        self._simulated = [k for k, each in enumerate(drivers) if not isinstance(each, RecordedDriver)]
+
+    def transforms(self, since: float | None, now: float) -> tuple[Sequence[int], Sequence[np.ndarray]]:
+        which, places = self._simulated, [self._drivers[k].transforms() for k in self._simulated]
+        if not len(self._played):
+            return which, places
+        people, played, rows = self._recorded.people, self._played, self._rows
+        if since is not None:
+            due = people.due(rows, since, now)
+            played, rows = played[due], rows[due]
+        return [*which, *played.tolist()], [*places, *people.transforms(rows)]

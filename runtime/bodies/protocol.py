@@ -16,6 +16,7 @@ from locomotion import Ground
 from locomotion.avoidance.yielding import Course
 from locomotion.body_events import Event
 from locomotion.saved_arrays import check_array
+from runtime.bodies.cast import Cast
 from runtime.bodies.figure import NO_JOINTS, Figure, Joints
 from runtime.errors import RuntimeInputError
 from runtime.planning.planning import NoWay, Plan
@@ -329,9 +330,9 @@ class Population(ABC):
         """All of them, if they follow paths; nobody otherwise."""
         return ()
 
-    def transforms_of(self, drivers: "Sequence[Driver]") -> Sequence[np.ndarray]:
-        """`Driver.transforms` of some of them, in order."""
-        return [driver.transforms() for driver in drivers]
+    def cast(self, drivers: "Sequence[Driver]") -> Cast:
+        """Some of them, to be drawn together."""
+        return Cast(drivers)
 
     def remember(self) -> None:  # noqa: B027  those that are drawn as they are
         """Keep where all are, for `Driver.transforms_between`."""

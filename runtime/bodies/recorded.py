@@ -13,8 +13,9 @@ from locomotion.human.composition import checked_bravery
 from locomotion.recorded.individual import by_hand
 from locomotion.recorded.skeletons import LEVELS, level_number
 from locomotion.recorded_people import layout as at
+from locomotion.recorded_people.nodes import can_hold, checked_node
 from locomotion.recorded_people.people import RecordedPeople
-from locomotion.recorded_people.person import PersonState, RecordedPerson, can_hold, checked_node
+from locomotion.recorded_people.person import PersonState, RecordedPerson
 from locomotion.recorded_people.saved_state_check import check_recorded
 from navmesh.routes.route import Route
 from runtime.bodies.figure import Figure, Joints
@@ -90,10 +91,6 @@ class Recorded(Population):
             return np.empty((0, 6))
         crowd, places = self._people.crowd, self._people.rows[:, at.PLACE][:, :3]
         return np.column_stack([places, crowd.velocities, crowd.radii])
-
-    def transforms_of(self, drivers: Sequence[Driver]) -> Sequence[np.ndarray]:
-        indices = [driver.walker.index for driver in drivers if isinstance(driver, RecordedDriver)]
-        return list(self.people.transforms(np.array(indices, np.int64))) if indices else []
 
     def change_level(self) -> None:
         if self._people is not None:

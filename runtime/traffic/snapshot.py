@@ -18,6 +18,23 @@ _YIELDS, _AWAY = round(1.0 / STEP), 1e6
 _SLACK = 3.5  # [m] between two bodies moving straight on within which they are examined closely
 
 
+class Discs(Sequence[np.ndarray]):
+    """Of each body its discs (d, 6); ``groups``: of bodies with equally many each (bodies, d, 6). No array is
+    made for a body before somebody asks for it: there may be thousands."""
+
+    def __init__(self, groups: Sequence[np.ndarray]) -> None:
+        self.all = np.concatenate([np.empty((0, 6)), *(group.reshape(-1, 6) for group in groups)])
+        counts = np.repeat([group.shape[1] for group in groups], [len(group) for group in groups])
+        self.first = np.concatenate([[0], np.cumsum(counts, dtype=np.int64)])
+        """Of each body the row of its first disc in ``all``; then how many there are."""
+
+    def __len__(self) -> int:
+        return len(self.first) - 1
+
+    def __getitem__(self, index: int) -> np.ndarray:  # type: ignore[override]
+        return self.all[self.first[index] : self.first[index + 1]]
+
+
 class Snapshot:
     """``followers``: bodies that can give way; they come first in ``discs``, which holds for each body of
     ``populations`` its discs (d, 6), as in `Population.in_the_way`."""
@@ -33,7 +50,7 @@ class Snapshot:
                 (groups if each else others).append(discs.reshape(len(each) or len(discs), -1, 6))
         groups += others
         self._rows = np.concatenate([np.empty((0, 6)), *(group[:, group.shape[1] // 2] for group in groups)])
-        self.discs = [discs for group in groups for discs in group]
+        self.discs = Discs(groups)
         self._courses: dict[int, Course | None] = {}
         self._groups: dict[int, np.ndarray] = {}
         self._told: dict[int, np.ndarray] = {}
@@ -50,7 +67,8 @@ class Snapshot:
 
     def others(self, index: int) -> np.ndarray:
         """(k, 6) the discs of all other bodies."""
-        return np.concatenate([np.empty((0, 6)), *self.discs[:index], *self.discs[index + 1 :]])
+        first, end = self.discs.first[index : index + 2]
+        return np.concatenate([self.discs.all[:first], self.discs.all[end:]])
 
     def course(self, index: int) -> Course | None:
         """The course of a follower as far as the bodies at its goal allow; not `Course.whole` if they are in
@@ -72,13 +90,22 @@ class Snapshot:
         self.course(index)
         return self._groups[index]
 
+    def are_of(self, group: np.ndarray) -> np.ndarray:
+        """(n,) bool: which of all bodies have a disc where one of ``group`` (k, 6) is."""
+        there = np.zeros(len(self.discs.all), np.bool_)
+        for x, y in group[:, :2]:
+            there |= (self.discs.all[:, 0] == x) & (self.discs.all[:, 1] == y)
+        return np.logical_or.reduceat(there, self.discs.first[:-1])
+
     def gets_away(self, index: int, other: int) -> bool:
         """Whether a follower that overlaps another body moves on all the same, lest both wait for ever: of
         two followers the one that is ahead, or if abreast the first."""
+        if other >= len(self.followers):
+            return False
         own, its = self.discs[index], self.discs[other]
         apart = np.linalg.norm(own[:, None, :2] - its[None, :, :2], axis=2)
         deep = own[:, None, 5] + its[None, :, 5] - apart
-        if deep.max() <= 0.0 or other >= len(self.followers):
+        if deep.max() <= 0.0:
             return False
         mine, theirs = np.unravel_index(int(deep.argmax()), deep.shape)
         if len(own) > 1 and len(its) > 1:
@@ -125,13 +152,16 @@ class Snapshot:
         """Where the discs of some bodies will be (COUNT, k, 2), and their radii (k,) [m]. Walkers are
         foreseen for a second only, since they step aside for others: whoever waited for a gap of `HORIZON`
         in a crowd would wait for ever."""
-        if not indices:
-            return np.empty((COUNT, 0, 2)), np.empty(0)
-        there = np.concatenate([self.foretold(index) for index in indices], axis=1)
-        discs = [self.discs[index] for index in indices]
-        yields = np.repeat([index >= len(self.followers) for index in indices], [len(each) for each in discs])
-        there[_YIELDS:, yields] = _AWAY
-        return there, np.concatenate(discs)[:, 5]
+        follow = [index for index in indices if index < len(self.followers)]
+        told = [self.foretold(index) for index in follow]
+        walkers = np.array([index for index in indices if index >= len(self.followers)], np.int64)
+        first, end = self.discs.first[walkers], self.discs.first[walkers + 1]
+        rows = np.repeat(first - np.cumsum(end - first) + (end - first), end - first)
+        theirs = self.discs.all[rows + np.arange(len(rows))]
+        there = theirs[None, :, :2] + STEP * np.arange(COUNT)[:, None, None] * theirs[None, :, 3:5]
+        there[_YIELDS:] = _AWAY
+        radii = [self.discs[index][:, 5] for index in follow]
+        return np.concatenate([*told, there], axis=1), np.concatenate([*radii, theirs[:, 5]])
 
 
 def foretold_on(course: Course, points: np.ndarray, pace: float, discs: int) -> np.ndarray:

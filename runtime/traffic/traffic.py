@@ -1,6 +1,7 @@
 """Bodies that follow paths (dogs and people) give way to each other and to all others."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -69,12 +70,11 @@ class Traffic:
             group = snapshot.group(index)
             others = [
                 each
-                for each in np.flatnonzero(near).tolist()
-                if not (snapshot.discs[each][:, None, :2] == group[:, :2]).all(axis=2).any()
-                and not snapshot.gets_away(index, each)
+                for each in np.flatnonzero(near & ~snapshot.are_of(group)).tolist()
+                if not snapshot.gets_away(index, each)
             ]
             # a body that halts easily gives way to one that does not
-            halts = any(_rushes(snapshot, other) for other in others)
+            halts = partial(_any_rushes, snapshot, others)
             there, radii = snapshot.all_foretold(others)
             chosen = self._chosen(course, len(snapshot.discs[index]), there, radii, halts, former)
             if chosen.shift is not None or chosen.pace != course.pace:
@@ -104,10 +104,10 @@ class Traffic:
         discs: int,
         there: np.ndarray,
         radii: np.ndarray,
-        halts: bool,
+        halts: Callable[[], bool],
         former: Course | None,
     ) -> Options:
-        """The cheapest option; ``halts``: includes halting for a body that does not halt easily."""
+        """The cheapest option; ``halts``: whether a halt of one that does not halt easily is among them."""
 
         def meeting(option: Options) -> tuple[int, float]:
             """When it would come too near to somebody, and the cost of that."""
@@ -124,7 +124,7 @@ class Traffic:
         if first >= COUNT:
             return onward
         best = onward
-        for option in options(course, first, halts, former):
+        for option in options(course, first, halts(), former):
             if option.cost >= least:
                 break
             cost = option.cost + meeting(option)[1]
@@ -140,7 +140,7 @@ class Traffic:
         return line_holds(self._level.graph, points, course.radius)
 
 
-def _rushes(snapshot: Snapshot, index: int) -> bool:
-    """Whether a body does not halt easily."""
-    course = snapshot.course(index) if index < len(snapshot.followers) else None
-    return course is not None and course.slowest > 0.0
+def _any_rushes(snapshot: Snapshot, bodies: Sequence[int]) -> bool:
+    """Whether one of ``bodies`` does not halt easily."""
+    courses = (snapshot.course(index) for index in bodies if index < len(snapshot.followers))
+    return any(course is not None and course.slowest > 0.0 for course in courses)

@@ -5,7 +5,7 @@ reason, and repeats that as long as nothing else happens to it. Deadlocks are re
 let the others pass; if that does not help, they are stuck.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -42,7 +42,7 @@ class Headway:
 
     def seen(self, left: float, now: float) -> "Headway":
         """The record as of ``now``, with ``left`` [m] to go."""
-        return replace(self, left=left, since=now) if left < self.left - _STEP else self
+        return Headway(left, now, self.told, self.tried) if left < self.left - _STEP else self
 
     def late(self, now: float) -> bool:
         """Whether to report that it makes no progress."""

@@ -401,16 +401,17 @@ class Agent:
     def watch(self) -> None:
         """Say so if it is on its way and gets nowhere, and do something else after a while; `World.step`
         calls this every half second."""
-        if not self.moving:
+        driver = self._driver
+        if driver.status not in MOVING:
             return
         now = self._host.clock.time
-        self._headway = self._headway.seen(self._driver.left, now)
+        self._headway = self._headway.seen(driver.left, now)
         if self._headway.late(now):
-            self._hindered(self._driver.hindrance)
-        if self._driver.tries_other_ways and self._headway.desperate(now):
+            self._hindered(driver.hindrance)
+        if driver.tries_other_ways and self._headway.desperate(now):
             self._headway = replace(self._headway, tried=now)
-            if self._driver.can_turn and not self._tries_again():
-                self._driver.give_up()
+            if driver.can_turn and not self._tries_again():
+                driver.give_up()
 
     def _hindered(self, reason: str) -> None:
         self._tell(Hindered(self._host.clock.time, self.name, _triple(self.position), reason))

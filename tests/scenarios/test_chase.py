@@ -20,7 +20,7 @@ def hall():
 
 def overlap(world):
     """[m] how deep the discs of any two bodies lie in each other, below 0 if they do not."""
-    bodies = Snapshot(world._populations).discs
+    bodies = list(Snapshot(world._populations).discs)
     return max(
         float((a[:, None, 5] + b[:, 5] - np.linalg.norm(a[:, None, :2] - b[:, :2], axis=2)).max())
         for i, a in enumerate(bodies)

@@ -80,7 +80,7 @@ def test_feet_do_not_slide(level, ground):
         assert np.abs(over[bears]).max() < 0.02
 
 
-def test_low_figures_slide_little_without_being_planted():
+def test_low_figures_slide_little_though_their_hips_do_not_turn():
     assert max(slides(*walked(LOW, on_level))) < 0.03
 
 

@@ -9,12 +9,12 @@ from locomotion.ground.ground import Ground
 from locomotion.recorded.motion_set import load_motions
 from locomotion.recorded.skeletons import FULL, LOW, MEDIUM
 from locomotion.recorded_people import layout as at
-from locomotion.recorded_people.clearing import recorded_skills, skill_ranges
 from locomotion.recorded_people.people import RecordedPeople
+from locomotion.recorded_people.recorded_skills import recorded_skills, skill_ranges
 from locomotion.skills.course import make_course
 
 EDGE, THICK = 5.0, 0.3
-GIVES = 0.12  # [m] that a joint of the body may be under a surface: toes, where one takes off
+GIVES = 0.08  # [m] that a joint of the body may be under a surface: toes, where one takes off
 
 
 def over(kind, size, level=FULL, speed=1.4):

@@ -104,3 +104,21 @@ def test_a_person_saved_over_an_obstacle_goes_on_the_same_way():
     ):
         with pytest.raises(LocomotionError):
             check_recorded(wrong, people.graph, len(people.gaits), people.skills)
+
+
+def test_one_who_is_killed_on_the_run_up_falls_there():
+    people, ada = over("vault", 0.8)
+    while people.rows[0, at.CROSSES] != at.RUNS_UP:
+        people.tick()
+    for _ in range(20):
+        people.tick()
+    x = ada.position[0]
+    before = ada.qpos
+    ada.take("dead", "", "stowed")
+    np.testing.assert_allclose(ada.qpos, before, atol=1e-9)
+    check_recorded(ada.save(), people.graph, len(people.gaits), people.skills)
+    for _ in range(300):
+        people.tick()
+    assert ada.posture == "dead" and ada.crossing is None and not people.rows[0, at.CROSSES]
+    assert abs(ada.position[0] - x) < 0.3 and ada.qpos[2] < 0.25
+    assert not [event for event in ada.events if isinstance(event, TookOff | Cleared)]

@@ -5,8 +5,8 @@ import pytest
 
 from locomotion import LocomotionError
 from locomotion.recorded_people import layout as at
+from locomotion.recorded_people.nodes import can_hold, checked_node
 from locomotion.recorded_people.people import person_postures
-from locomotion.recorded_people.person import can_hold, checked_node
 from tests.locomotion.recorded_people.test_people import crowd_of, played, steps
 
 

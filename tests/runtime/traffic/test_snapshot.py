@@ -99,7 +99,7 @@ def test_those_that_can_give_way_come_first(hall):
     assert len(seen) == 4 and len(seen.followers) == 2
     middle = [discs[:, 0].mean() for discs in seen.discs]
     assert middle == pytest.approx([6.0, 9.0, 3.0, 12.0], abs=0.3)
-    assert len(seen.others(0)) == sum(map(len, seen.discs[1:]))
+    assert len(seen.others(0)) == sum(map(len, list(seen.discs)[1:]))
 
 
 def test_a_walker_is_foretold_straight_on_for_a_second(hall):

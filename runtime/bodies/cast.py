@@ -1,26 +1,26 @@
 """Bodies of one population that are drawn together, frame after frame."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from runtime.bodies.protocol import Driver
-
 __all__ = ["Cast"]
+
+
+class _Drawn(Protocol):
+    def transforms(self) -> np.ndarray: ...
 
 
 class Cast:
     """Some bodies of a population, in order. It holds until one of the population is removed or gets another
     driver: what is the same for every frame is looked up once."""
 
-    def __init__(self, drivers: Sequence[Driver]) -> None:
+    def __init__(self, drivers: Sequence[_Drawn]) -> None:
         self._drivers = drivers
 
     def transforms(self, since: float | None, now: float) -> tuple[Sequence[int], Sequence[np.ndarray]]:
-        """Which of them are due, by their place in the order, and `Driver.transforms` of each: all of them,
-        or those whose turn to be drawn anew has come after the time ``since``, until ``now`` [s]."""
+        """Which of them are due, by their place in the order, and `runtime.bodies.protocol.Driver.transforms`
+        of each: all of them, or those whose turn to be drawn anew has come after the time ``since``, until
+        ``now`` [s]."""
         return range(len(self._drivers)), [driver.transforms() for driver in self._drivers]

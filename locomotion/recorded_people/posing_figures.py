@@ -38,7 +38,7 @@ _PLACE, _OFFSETS, _RATES, _STEPS, _TRAITS = (
 _JOINTS, _BODIES = 39, 20
 
 
-@kernel
+@kernel(inline="always")
 def _bones(figures, level):
     """As of `posing.pose_body`."""
     return (

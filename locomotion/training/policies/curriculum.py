@@ -60,7 +60,7 @@ WALKING = (
         noise=(0.12, 0.09), timestep=_COARSE, longest=500,
     ),
     Stage(
-        "careful", 1_800_000, (0.3, 2.2), turn=1.0, push=300.0, slope=0.05, stand=0.3, changes=True,
+        "careful", 4_000_000, (0.3, 2.2), turn=1.0, push=300.0, slope=0.05, stand=0.3, changes=True,
         noise=(0.09, 0.045), longest=500, weights=_CAREFUL,
     ),
 )  # fmt: skip

@@ -29,7 +29,7 @@ SPEEDS = (0.0, 0.35, 0.6, 0.9, 1.25, 1.6, 2.0, 2.3)
 """[m/s] at which the reference is made; at 0 it steps in place."""
 _USUAL = 1.25  # [m/s] of the measured curves
 _LEAN, _TOE_OUT = math.radians(2.0), math.radians(6.0)
-_HALF_WIDTH = 0.05  # [m] from the line of the walk to each foot
+_HALF_WIDTH = 0.06  # [m] from the line of the walk to each foot
 _CLEARANCE = 0.018  # [m] under a swinging foot
 _SOFT = 0.3  # [m/s] at which a heel comes down
 _HEEL = 0.03  # [m] that it is lifted at the end of the swing

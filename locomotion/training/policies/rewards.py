@@ -25,7 +25,7 @@ WEIGHTS: dict[str, float] = {
     "root": 0.2,
     "speed": 0.25,
     "load": 0.25,
-    "rise": 0.0,
+    "rise": 0.2,
     "change": -0.08,
     "effort": -0.01,
     "pace": -0.05,
@@ -99,7 +99,7 @@ def rewards(m: Moment) -> dict[str, NDArray[np.float64]]:
     """All terms, (n,) each."""
     action = m.memory[:, ACTION]
     lag = m.memory[:, LAG_AHEAD] ** 2 + 0.5 * m.memory[:, LAG_LEFT] ** 2
-    feet = m.feet * np.array([1.0, 1.7, 1.0])
+    feet = m.feet * np.array([1.0, 4.0, 1.0])
     root = 10.0 * (m.up**2).sum(1) + 4.0 * m.yaw**2 + 120.0 * m.height**2 + 0.1 * (m.spin**2).sum(1)
     per_foot = m.forces.reshape(*m.forces.shape[:2], 2, 2).sum(3) / BODY_WEIGHT
     over = np.clip(per_foot.max(1) - _FIRM, 0.0, 2.0)

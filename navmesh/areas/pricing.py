@@ -38,14 +38,13 @@ class Priced(NamedTuple):
 
 def priced_of(graph: "NodeGraph", doors: Any, factor: np.ndarray) -> Priced:
     """The roadmap for a body and the leaps that ``doors`` offer it, priced; made once."""
-    blocked = b"" if graph.zone_state is None else graph.zone_state.blocked.tobytes()
-    key = doors.radius, doors.leap_id.tobytes(), factor.tobytes(), blocked
+    key = doors.radius, doors.leap_id.tobytes(), factor.tobytes()
 
     def roadmap() -> Roadmap:
         return make_roadmap(graph, doors, make_scratch(graph))
 
     def priced() -> Any:
-        road = recent(graph.cache, "roadmaps", (doors.radius, blocked), roadmap)
+        road = recent(graph.cache, "roadmaps", doors.radius, roadmap)
         return Priced(_priced(graph, road, doors, factor), [])
 
     return recent(graph.cache, "priced", key, priced)

@@ -233,7 +233,7 @@ def members(net, doors, place, cell, node):
                 known = False
                 for j in range(first, count):
                     known = known or found[j, 1] == other
-                if known or other < 0:
+                if known:
                     continue
                 if other != own:
                     px, py = net.position[other, 0], net.position[other, 1]

@@ -9,7 +9,7 @@ from navmesh.surface.ridges import Field, half_width, widest_through
 from navmesh.threads import in_threads, shares
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["borders", "edges_beside", "join_nodes", "measure_edges", "rows_of_edges"]
+__all__ = ["borders", "join_nodes", "measure_edges", "rows_of_edges"]
 
 
 _WIDE = 1.5
@@ -156,36 +156,6 @@ def measure_edges(
     found = in_threads(lambda part: _measure(part, key, pair, width, place, field), parts, threads)
     ends, widest, gate, border = (np.concatenate(each) for each in zip(*found, strict=True))
     return ends, widest, gate, border
-
-
-@allocating_kernel
-def _pairs_beside(cells, label, link, clearance):
-    """`_border_pairs` of ``cells`` (k,) with those beside them; some twice."""
-    most = 4 * cells.shape[0]
-    key, pair, width = np.empty(most, np.int64), np.empty((most, 2), np.int32), np.empty(most)
-    k = 0
-    for i in range(cells.shape[0]):
-        c = cells[i]
-        for d in range(4):
-            n = link[c, d]
-            if n < 0 or label[n] == label[c] or label[n] < 0 or label[c] < 0:
-                continue
-            first, second = (c, n) if label[c] < label[n] else (n, c)
-            key[k] = (np.int64(label[first]) << 32) | label[second]
-            pair[k, 0] = first
-            pair[k, 1] = second
-            width[k] = min(clearance[c], clearance[n])
-            k += 1
-    return key[:k].copy(), pair[:k].copy(), width[:k].copy()
-
-
-def edges_beside(
-    cells: np.ndarray, label: np.ndarray, field: Field, place: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """`measure_edges` for the pairs of labels that touch at ``cells`` (k,), and only as they touch there."""
-    key, pair, width = _pairs_beside(cells, label, field.link, field.clearance)
-    order = np.argsort(key, kind="stable").astype(np.int32)
-    return _measure(order, key, pair, width, place, field)
 
 
 def join_nodes(

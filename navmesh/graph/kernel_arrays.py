@@ -16,9 +16,8 @@ from surefoot.kernels.bundles import Bundle, BundleType, aligned, rows
 
 if TYPE_CHECKING:
     from navmesh.graph.node_graph import NodeGraph
-    from navmesh.surface.surface import Surface
 
-__all__ = ["DOORS", "NET", "SCRATCH", "bare_net", "door_table", "make_doors", "make_scratch", "net_of"]
+__all__ = ["DOORS", "NET", "SCRATCH", "door_rows", "make_doors", "make_scratch", "net_of"]
 
 _CELL = np.dtype(
     [
@@ -75,9 +74,6 @@ DOORS = BundleType(
     part=int32[::1],
     part_leap_start=int32[::1],
     part_leap=int32[::1],
-    part_leap_view=int32[::1],
-    region=int32[::1],
-    view_missing=int32[::1],
     tile_start=int32[::1],
     tile_part=int32[::1],
     tile_span=float64[:, ::1],
@@ -85,18 +81,16 @@ DOORS = BundleType(
 """What one body radius makes of the graph.
 
 radius [m]; the doors, edges that the body passes, of node i are start[i]:start[i + 1]. For each door: target,
-the node behind, or -1 if a blocked zone is in the way; portal (6): x, y, z of its left and of its right end
-as seen walking through; portal_cell (2): the cells of the ends; lens (2): the part of it (0 left, 1 right)
-that lies in both shrunk discs, all of it where they do not overlap; block (4): x, y of what ends walking at
-its left and at its right end, inf where nothing does. node_cost (m,), at least 1: factor on the length walked
-in each node; weighted: whether any factor is not 1. The leaps are the typed links on offer, grouped by the
-node they start from: leap_start (m + 1,), leap_id (l,), leap_from, leap_to (l, 3), leap_from_cell,
-leap_to_cell (l,), leap_cost (l,) [m]. widest: radius [m] of the widest disc. part (m,): which nodes can be
-walked to from each other, see `navmesh.graph.parts`; part_leap_start (p + 1,), part_leap (l,): the parts that
-the leaps from each part lead to, and open zones; part_leap_view (l,): the view that must be there for that,
-or -1, and view_missing (v,): 0 for those that are, see `navmesh.zones.switching`; region (p,): the same for
-parts that open zones join; tile_start (t + 1,), tile_part (p,), tile_span (p, 2): the parts in each tile, and
-the least and greatest height [m] of the floor there.
+the node behind; portal (6): x, y, z of its left and of its right end as seen walking through; portal_cell
+(2): the cells of the ends; lens (2): the part of it (0 left, 1 right) that lies in both shrunk discs, all of
+it where they do not overlap; block (4): x, y of what ends walking at its left and at its right end, inf where
+nothing does. node_cost (m,), at least 1: factor on the length walked in each node; weighted: whether any
+factor is not 1. The leaps are the typed links on offer, grouped by the node they start from: leap_start (m +
+1,), leap_id (l,), leap_from, leap_to (l, 3), leap_from_cell, leap_to_cell (l,), leap_cost (l,) [m]. widest:
+radius [m] of the widest disc. part (m,): which nodes can be walked to from each other, see
+`navmesh.graph.parts`; part_leap_start (p + 1,), part_leap (l,): the parts that the leaps from each part lead
+to; tile_start (t + 1,), tile_part (p,), tile_span (p, 2): the parts in each tile, and the least and greatest
+height [m] of the floor there.
 """
 
 SCRATCH = BundleType(
@@ -190,20 +184,9 @@ def net_of(graph: "NodeGraph") -> Any:
     return net
 
 
-def bare_net(surface: "Surface", nodes: int) -> Any:
-    """`NET` of a surface with room for ``nodes``, in which nothing is filled in."""
-    none = np.empty(0, np.int32)
-    return Bundle(
-        NET, cell=surface.resolution, nx=surface.shape[0], ny=surface.shape[1],
-        column_start=surface.column_start, cells=aligned(len(surface), _CELL), nearest=surface.nearest,
-        blocker=surface.blocker, nodes=aligned(nodes, _NODE), node_cell=none, edge_start=none,
-        edge_target=none,
-    )  # fmt: skip
-
-
-def door_table(count: int) -> np.ndarray:
-    """The doors' table of `DOORS`, to be filled in."""
-    return aligned(count, _DOOR)
+def door_rows(target: np.ndarray, portal: np.ndarray, portal_cell: np.ndarray) -> np.ndarray:
+    """The doors' table of `DOORS` from its columns."""
+    return _table(_DOOR, portal=portal, portal_cell=portal_cell, target=target)
 
 
 def make_doors(
@@ -215,9 +198,9 @@ def make_doors(
     parts: dict,
     widest: float,
 ) -> Bundle:
-    """`DOORS` from ``portals``, which all `DOORS` of a radius share, the costs of the nodes, the ``leap``
-    arrays and those of the parts."""
-    start, doors, lens, block = portals[:4]
+    """`DOORS` from ``portals`` (start, `door_rows`, lens, block), which all `DOORS` of a radius share, the
+    costs of the nodes, the ``leap`` arrays and those of the parts."""
+    start, doors, lens, block = portals
     return Bundle(
         DOORS,
         radius=radius,

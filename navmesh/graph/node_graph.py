@@ -28,9 +28,6 @@ from navmesh.rules import WalkRules
 from navmesh.surface.build import Grid
 from navmesh.surface.surface import Surface
 from navmesh.threads import checked_threads
-from navmesh.zones.dividing import divided_graph
-from navmesh.zones.outlines import checked_outlines
-from navmesh.zones.zones import Zones
 from surefoot.words import several
 
 if TYPE_CHECKING:
@@ -86,8 +83,6 @@ class NodeGraph:
     """What `build` was given."""
     kept_build: KeptBuild | None = field(default=None, repr=False)
     """What `update` needs of the build; never saved."""
-    zone_state: Zones | None = field(default=None, repr=False)
-    """The zones of `with_zones`; never saved."""
     cache: dict[str, Any] = field(default_factory=dict, repr=False)
     """What queries have worked out and want to keep; never saved, and may be emptied at any time."""
 
@@ -147,57 +142,7 @@ class NodeGraph:
         found = None
         if self.obstacle_rules is not None:
             found = all_rim_samples(kept_build, changed, terrain, built.surface, rules, self.obstacle_rules)
-        graph = self._made(terrain, rules, self.obstacle_rules, self.tags, built, found)
-        if self.zone_state is None:
-            return graph
-        outlines = self.zone_state.outlines
-        return divided_graph(graph, outlines, set(outlines), self.zone_state.blocked)
-
-    def with_zones(self, outlines: Mapping[str, Any]) -> "NodeGraph":
-        """This graph with zones, parts of the floor that can be blocked and opened at once, such as doorways.
-
-        ``outlines`` gives the corners (k, 3) [m] of each zone by its name, in order, on the floor: what
-        counts is floor up to half of `WalkRules.headroom` above or below them. Two corners are a line. Zones
-        that the graph has already stay as they are, but those of the same names. New ones are open; see
-        `block`.
-
-        Takes about a quarter of a build, and 1 to 2 ms for each zone: call it once, when the level is loaded,
-        with all zones. `update` keeps zones, and divides the graph anew; `save` leaves them out. Two zones
-        less than 1.5 m from each other, as the wings of a door, are one wide way if both are open; more of
-        them count as separate ways for wide bodies. Raises `NavmeshError` for outlines that are none, or
-        under which there is no floor.
-        """
-        fresh = checked_outlines(outlines)
-        old = self.zone_state
-        if old is None:
-            return divided_graph(self, fresh, set(), np.zeros(len(fresh), np.int32))
-        kept = dict(zip(old.outlines, old.blocked, strict=True))
-        together = old.outlines | fresh
-        blocked = np.array([0 if name in fresh else kept[name] for name in together], np.int32)
-        return divided_graph(old.undivided, together, set(old.outlines) - set(fresh), blocked)
-
-    def block(self, *zones: str) -> None:
-        """Block ``zones``, by name: from now on nobody can be in them, and no route leads through. Takes time
-        in proportion to the zones and what is within 2.5 m of them, whatever the size of the level. Routes
-        found before can be asked whether they still hold (`Route.holds`). Raises `NavmeshError` for a name
-        that there is not."""
-        self._turn(zones, True)
-
-    def open(self, *zones: str) -> None:
-        """Open ``zones``, by name; as `block`."""
-        self._turn(zones, False)
-
-    def _turn(self, names: tuple[str, ...], blocked: bool) -> None:
-        if self.zone_state is None:
-            raise NavmeshError("the graph has no zones; give it some by with_zones first")
-        self.zone_state.turn(self, names, blocked)
-
-    @property
-    def zones(self) -> dict[str, bool]:
-        """Whether each zone is blocked, by its name."""
-        if self.zone_state is None:
-            return {}
-        return dict(zip(self.zone_state.outlines, map(bool, self.zone_state.blocked), strict=True))
+        return self._made(terrain, rules, self.obstacle_rules, self.tags, built, found)
 
     @classmethod
     def _made(
@@ -260,8 +205,8 @@ class NodeGraph:
         return len(self.radii)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the graph to ``path``, without its zones; `load` reads it back."""
-        write_graph(path, self if self.zone_state is None else self.zone_state.undivided)
+        """Write the graph to ``path``; `load` reads it back."""
+        write_graph(path, self)
 
     @classmethod
     def load(

@@ -7,7 +7,7 @@ from navmesh.surface.ridges import Field, half_width, middle_beside
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["all_nodes", "cover_cells", "grain_of", "order_by_clearance", "select_nodes"]
+__all__ = ["all_nodes", "grain_of", "order_by_clearance", "select_nodes"]
 
 
 def grain_of(surface: Surface) -> float:
@@ -80,40 +80,6 @@ def _claim(field, label, power, node, k, x, y, radius):
             dx += step
 
 
-@kernel
-def _disc_at(field, c):
-    """The disc whose turn it is at cell ``c``: (cell, x, y, radius)."""
-    if half_width(field, c) < np.inf:
-        return middle_beside(field, c)
-    x, y = centre_of(field, c)
-    return np.int64(c), x, y, field.clearance[c]
-
-
-@allocating_kernel
-def cover_cells(order, field, least, label, power, first):
-    """Cover the cells of ``order`` (k,), by falling clearance, as `select_nodes` does, where there are nodes
-    already: new ones are numbered from ``first`` on.
-
-    ``label`` and ``power`` (n,) are kept up to date; cells with a power of -inf are left alone. Returns the
-    new nodes' node_cell (m,) int32 and place (m, 3) float64.
-    """
-    node_cell, place = np.empty(order.shape[0], np.int32), np.empty((order.shape[0], 3))
-    nodes = 0
-    for at in range(order.shape[0]):
-        c = order[at]
-        if label[c] >= 0:
-            continue
-        k, x, y, r = _disc_at(field, c)
-        if r < least:
-            continue
-        node_cell[nodes] = k
-        place[nodes, 0], place[nodes, 1], place[nodes, 2] = x, y, r
-        _claim(field, label, power, first + nodes, k, x, y, r)
-        label[c] = first + nodes
-        nodes += 1
-    return node_cell[:nodes].copy(), place[:nodes].copy()
-
-
 @allocating_kernel
 def select_nodes(order, field, least, given_cell, given_place):
     """Greedy cover by maximal discs, (almost) largest first.
@@ -141,7 +107,10 @@ def select_nodes(order, field, least, given_cell, given_place):
         else:
             if label[c] >= 0:
                 continue
-            k, x, y, r = _disc_at(field, c)
+            k, r = c, field.clearance[c]
+            x, y = centre_of(field, c)
+            if half_width(field, c) < np.inf:
+                k, x, y, r = middle_beside(field, c)
             if r < least:
                 continue
         node_cell[nodes], maker[nodes] = k, c

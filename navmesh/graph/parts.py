@@ -6,7 +6,7 @@ import numpy as np
 from navmesh.graph.snapping import CANDIDATES, candidate
 from surefoot.kernels import allocating_kernel
 
-__all__ = ["TILE", "parts_of_nodes", "parts_of_tiles", "regions_of_parts", "ways_by_part", "with_more_parts"]
+__all__ = ["TILE", "leaps_by_part", "parts_of_nodes", "parts_of_tiles"]
 
 TILE = 16
 """Columns a side of the tiles by which far places are looked for."""
@@ -14,8 +14,7 @@ TILE = 16
 
 @allocating_kernel
 def parts_of_nodes(start, target):
-    """The part of each node over the doors in CSR form, those to -1 left out: (m,) int32, numbered by their
-    first nodes."""
+    """The part of each node over the doors in CSR form: (m,) int32, numbered by their first nodes."""
     count = start.size - 1
     part = np.full(count, -1, np.int32)
     stack = np.empty(count, np.int32)
@@ -31,7 +30,7 @@ def parts_of_nodes(start, target):
             node = stack[size]
             for door in range(start[node], start[node + 1]):
                 other = target[door]
-                if other >= 0 and part[other] < 0:
+                if part[other] < 0:
                     part[other] = parts
                     stack[size] = other
                     size += 1
@@ -83,55 +82,10 @@ def parts_of_tiles(net, part, radius):
     return start, found[:count].copy(), span[:count].copy()
 
 
-def ways_by_part(
-    part: np.ndarray, source: np.ndarray, target: np.ndarray, view: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Which parts one gets to from each over ways from node ``source`` to node ``target`` (l,), which are
-    there with a ``view`` (l,) or, -1, always: start (p + 1,), target and view (w,), each way between parts
-    once."""
+def leaps_by_part(part: np.ndarray, from_node: np.ndarray, to_node: np.ndarray) -> tuple[np.ndarray, ...]:
+    """The parts that leaps lead to, grouped by the part that they start in: start (p + 1,), target (l,)."""
     count = int(part.max(initial=-1)) + 1
-    ways = np.column_stack([part[source], part[target], view]).astype(np.int64)
-    ways = np.unique(ways[ways[:, 0] != ways[:, 1]], axis=0)
-    start = np.searchsorted(ways[:, 0], np.arange(count + 1)).astype(np.int32)
-    return start, ways[:, 1].astype(np.int32), ways[:, 2].astype(np.int32)
-
-
-def with_more_parts(
-    tiles: tuple[np.ndarray, np.ndarray, np.ndarray], tile: np.ndarray, part: np.ndarray, span: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """What `parts_of_tiles` gave, and these parts (k,) with their heights (k, 2) in these tiles (k,)."""
-    start, parts, spans = tiles
-    tile = np.concatenate([np.repeat(np.arange(len(start) - 1), np.diff(start)), tile])
-    part, span = np.concatenate([parts, part]), np.concatenate([spans, span])
-    order = np.lexsort((part, tile))
-    tile, part, span = tile[order], part[order], span[order]
-    fresh = np.flatnonzero(np.append(True, (np.diff(tile) != 0) | (np.diff(part) != 0))[: len(tile)])
-    low = np.minimum.reduceat(span[:, 0], fresh) if len(fresh) else np.empty(0)
-    high = np.maximum.reduceat(span[:, 1], fresh) if len(fresh) else np.empty(0)
-    start = np.searchsorted(tile[fresh], np.arange(len(start))).astype(np.int32)
-    return start, part[fresh].astype(np.int32), np.column_stack([low, high])
-
-
-@allocating_kernel
-def regions_of_parts(touched, start, target, view, view_missing, region):
-    """Number the parts alike between which one gets over ways that are there with a view: ``region`` (p,)
-    int32, by their first parts. Ways that always are there, leaps, do not count. ``touched``: the parts, by
-    rising number, with ways that come and go; the others keep their numbers."""
-    stack = np.empty(touched.size, np.int32)
-    for first in touched:
-        region[first] = -1
-    for first in touched:
-        if region[first] >= 0:
-            continue
-        region[first] = first
-        stack[0] = first
-        size = 1
-        while size > 0:
-            size -= 1
-            part = stack[size]
-            for i in range(start[part], start[part + 1]):
-                other = target[i]
-                if region[other] < 0 and view[i] >= 0 and view_missing[view[i]] == 0:
-                    region[other] = first
-                    stack[size] = other
-                    size += 1
+    source = part[from_node]
+    order = np.argsort(source, kind="stable")
+    start = np.searchsorted(source[order], np.arange(count + 1)).astype(np.int32)
+    return start, part[to_node][order].astype(np.int32)

@@ -14,7 +14,7 @@ from navmesh.surface.clearance_field import centre_of, floor_at, gap_at, walk
 from navmesh.surface.ridges import middle, middle_beside
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["MARGIN", "fill_portals", "mark_open"]
+__all__ = ["MARGIN", "open_portals"]
 
 MARGIN = 0.04
 """Corners keep this share of the radius more than it where there is room, so that straight lines between them
@@ -147,53 +147,60 @@ def _is_open(net, i, j, width, pair, gate, radius):
     return True
 
 
-@kernel
-def mark_open(net, edges, source, view, edge_width, edge_cells, edge_gate, radius, is_open):
-    """Mark in ``is_open`` (e,) which of the ``edges`` (k,), which are those of one view, and their reverse,
-    a body of ``radius`` [m] passes.
+@allocating_kernel
+def open_portals(net, edge_width, edge_cells, edge_gate, radius):
+    """The portals for a body of ``radius`` [m].
 
-    source (e,) int32 and view (e,) int32: the node that each edge leaves, and the view that has it;
-    edge_width (e,) float64, edge_cells (e, 2) int32 and edge_gate (e, 2) float64: its widest body, the pair
-    of cells, one of either node, where the border of its labels is widest, and where that body passes.
+    edge_width (e,) float64, edge_cells (e, 2) int32 and edge_gate (e, 2) float64: each edge's widest body,
+    the pair of cells, one of either node, where the border of its labels is widest, and where that body
+    passes. Returns the arrays of `DOORS`: start (m + 1,), target (p,) int32, portal (p, 6) float64,
+    portal_cell (p, 2) int32, lens (p, 2), block (p, 4) float64.
     """
-    for at in range(edges.size):
-        edge = edges[at]
-        i, j = np.int64(source[edge]), np.int64(net.edge_target[edge])
-        if i < j:
-            is_open[edge] = _is_open(net, i, j, edge_width[edge], edge_cells[edge], edge_gate[edge], radius)
-            for back in range(net.edge_start[j], net.edge_start[j + 1]):
-                if net.edge_target[back] == i and view[back] == view[edge]:
-                    is_open[back] = is_open[edge]
-
-
-@kernel(error_model="numpy")
-def fill_portals(
-    net, edges, source, row, edge_cells, edge_gate, radius, target, portal, cells, lens, block
-):  # fmt: skip
-    """Write the portals of ``edges`` (k,), which a body of ``radius`` [m] passes, into the rows ``row`` (e,)
-    of the arrays of `DOORS`: ``target`` (p,), ``portal`` (p, 6), portal_cell ``cells`` (p, 2), ``lens`` (p,
-    2) and ``block`` (p, 4), which is inf before."""
-    for at in range(edges.size):
-        edge = edges[at]
-        count = np.int64(row[edge])
-        i, j = np.int64(source[edge]), np.int64(net.edge_target[edge])
-        mx, my, lx, ly, k, half, to_left, to_right = _portal(
-            net, i, j, edge_cells[edge], edge_gate[edge], radius
-        )
-        target[count] = j
-        width = to_left + to_right
-        free = half > 0.0 and width > 0.0
-        lens[count, 0] = max((to_left - half) / width, 0.0) if free else 0.0
-        lens[count, 1] = min((to_left + half) / width, 1.0) if free else 1.0
-        for side in range(2):
-            way = to_left if side == 0 else -to_right
-            x, y = mx + lx * way, my + ly * way
-            cell = walk(net, k, mx, my, x, y, 0.0, True)[1]
-            portal[count, 3 * side] = x
-            portal[count, 3 * side + 1] = y
-            portal[count, 3 * side + 2] = floor_at(net, cell, x, y)
-            cells[count, side] = cell
-            gap, qx, qy = gap_at(net, cell, x, y)
-            if gap <= radius * _BESIDE:
-                block[count, 2 * side] = qx
-                block[count, 2 * side + 1] = qy
+    nodes = net.node_radius.size
+    is_open = np.zeros(edge_width.size, np.bool_)
+    for i in range(nodes):
+        for edge in range(net.edge_start[i], net.edge_start[i + 1]):
+            j = net.edge_target[edge]
+            if i < j:
+                is_open[edge] = _is_open(
+                    net, i, j, edge_width[edge], edge_cells[edge], edge_gate[edge], radius
+                )
+                for back in range(net.edge_start[j], net.edge_start[j + 1]):
+                    if net.edge_target[back] == i:
+                        is_open[back] = is_open[edge]
+    count = is_open.sum()
+    start = np.zeros(nodes + 1, np.int32)
+    target = np.empty(count, np.int32)
+    portal = np.empty((count, 6))
+    cells = np.empty((count, 2), np.int32)
+    lens = np.empty((count, 2))
+    block = np.full((count, 4), np.inf)
+    count = 0
+    for i in range(nodes):
+        for edge in range(net.edge_start[i], net.edge_start[i + 1]):
+            if not is_open[edge]:
+                continue
+            j = net.edge_target[edge]
+            mx, my, lx, ly, k, half, to_left, to_right = _portal(
+                net, i, j, edge_cells[edge], edge_gate[edge], radius
+            )
+            target[count] = j
+            width = to_left + to_right
+            free = half > 0.0 and width > 0.0
+            lens[count, 0] = max((to_left - half) / width, 0.0) if free else 0.0
+            lens[count, 1] = min((to_left + half) / width, 1.0) if free else 1.0
+            for side in range(2):
+                way = to_left if side == 0 else -to_right
+                x, y = mx + lx * way, my + ly * way
+                cell = walk(net, k, mx, my, x, y, 0.0, True)[1]
+                portal[count, 3 * side] = x
+                portal[count, 3 * side + 1] = y
+                portal[count, 3 * side + 2] = floor_at(net, cell, x, y)
+                cells[count, side] = cell
+                gap, qx, qy = gap_at(net, cell, x, y)
+                if gap <= radius * _BESIDE:
+                    block[count, 2 * side] = qx
+                    block[count, 2 * side + 1] = qy
+            count += 1
+        start[i + 1] = count
+    return start, target, portal, cells, lens, block

@@ -15,7 +15,7 @@ from scipy.spatial import KDTree
 
 from navmesh.errors import NavmeshError
 from navmesh.graph.kernel_arrays import net_of
-from navmesh.graph.open_to_body import regions_of
+from navmesh.graph.open_to_body import parts_of
 from navmesh.graph.snapping import roomy_cell
 from navmesh.surface.clearance_field import centre_of, floor_at, gap_at, walk
 from surefoot.kernels import allocating_kernel, kernel
@@ -257,7 +257,7 @@ def reachable_nodes(graph: "NodeGraph", start: Any, radius: float = 0.3) -> np.n
         raise NavmeshError(f"start has shape {np.shape(start)}, expected (3,)")
     node = containing_node(graph, local + graph.surface.origin)
     radius = _length(radius, "radius")
-    parts = np.where(graph.radii >= radius, regions_of(graph, radius), -1)
+    parts = np.where(graph.radii >= radius, parts_of(graph, radius)[0], -1)
     if node[0] < 0 or parts[node[0]] < 0:
         return np.empty(0, np.int32)
     return np.flatnonzero(parts == parts[node[0]]).astype(np.int32)

@@ -194,7 +194,7 @@ def advance(net, doors, scratch, budget):
         for door in range(door_start[node], door_start[node + 1]):
             target = targets[door]
             # nothing that goes on from here costs less than the key
-            if target < 0 or target == before or _is_done(seen, totals, stamp, target, key):
+            if target == before or _is_done(seen, totals, stamp, target, key):
                 continue
             plx, ply, plz = portal[door, 0], portal[door, 1], portal[door, 2]
             prx, pry, prz = portal[door, 3], portal[door, 4], portal[door, 5]
@@ -238,8 +238,6 @@ def advance(net, doors, scratch, budget):
             spent = cost + walked + doors.leap_cost[leap]
             rest = _distance(tx, ty, tz, gx, gy, gz)
             target = net.label[doors.leap_to_cell[leap]]
-            if target < 0:
-                continue
             if target == goal_node:
                 rest *= node_cost[target]
             total = max(spent + rest, key)

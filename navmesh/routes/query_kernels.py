@@ -34,7 +34,7 @@ _MORE = 64  # labels that may be expanded then, on top of as many as the search 
 
 @kernel(error_model="numpy", nogil=True)
 def _mark_reached(doors, scratch, part):
-    """Mark in scratch.reached the parts that leaps and open zones lead to from ``part``, with it."""
+    """Mark in scratch.reached the parts that leaps lead to from ``part``, with it."""
     reached, stack = scratch.reached, scratch.part_stack
     mark = scratch.numbers[0]
     reached[part] = mark
@@ -44,8 +44,8 @@ def _mark_reached(doors, scratch, part):
         size -= 1
         here = stack[size]
         for i in range(doors.part_leap_start[here], doors.part_leap_start[here + 1]):
-            other, view = doors.part_leap[i], doors.part_leap_view[i]
-            if reached[other] != mark and (view < 0 or doors.view_missing[view] == 0):
+            other = doors.part_leap[i]
+            if reached[other] != mark:
                 reached[other] = mark
                 stack[size] = other
                 size += 1
@@ -70,7 +70,7 @@ def start_search(net, doors, scratch, sx, sy, sz, gx, gy, gz, reach, rise, step)
     az = floor_at(net, start_cell, ax, ay)
     status = _COMPLETE
     part = doors.part[start_node]
-    if doors.region[doors.part[goal_node]] != doors.region[part]:
+    if doors.part[goal_node] != part:
         _mark_reached(doors, scratch, part)
         if scratch.reached[doors.part[goal_node]] != scratch.numbers[0]:
             status = _PARTIAL

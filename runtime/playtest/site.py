@@ -7,7 +7,7 @@ from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
 import navmesh
-from navmesh.graph.open_to_body import portals_of, regions_of
+from navmesh.graph.open_to_body import parts_of, portals_of
 from navmesh.level.mesh_queries import MeshGrid
 from runtime.playtest.character import Character
 from runtime.playtest.mesh import Mesh
@@ -29,7 +29,7 @@ class Site:
         radius = character.radius
         fits = graph.radii >= radius
         self.node_part = np.full(len(graph), -1)
-        self.node_part[fits] = np.unique(regions_of(graph, radius)[fits], return_inverse=True)[1]
+        self.node_part[fits] = np.unique(parts_of(graph, radius)[0][fits], return_inverse=True)[1]
         part = self.node_part[graph.label]
         self.cell_part = np.where((graph.label >= 0) & (graph.surface.clearance >= radius), part, -1)
         inside = self.cell_part[self.cell_part >= 0]
@@ -56,7 +56,6 @@ class Site:
         start, doors = portals_of(self.graph, self.character.radius)[:2]
         target = doors["target"]
         source = np.repeat(np.arange(len(self.graph)), np.diff(start))
-        source, target = source[target >= 0], target[target >= 0]
         away = np.linalg.norm(self.graph.positions[target] - self.graph.positions[source], axis=1)
         return coo_array((away + 1e-6, (source, target)), shape=(len(self.graph),) * 2).tocsr()
 

@@ -1,7 +1,7 @@
 """What a graph update costs relative to a full build. Prints a table and writes JSON.
 
     python -m benchmarks.navmesh_update [--levels LEVEL ...] [--changes 12] [--json FILE]
-    python -m benchmarks.navmesh_update --random 10000 [--every 100]
+    python -m benchmarks.navmesh_update --random 10000 [--every 100] [--seed 0]
 
 Each level is split into chunks of 2 m and of 10 m; random ones are removed and put back. After each change
 the same level is also built in full, alternating with the update, and both must be bit-identical. Ratios are
@@ -60,10 +60,10 @@ def digest(graph: NodeGraph) -> str:
     return checksum.hexdigest()
 
 
-def random_changes(kind: str, size: int, side: float, changes: int, every: int) -> tuple[int, int]:
+def random_changes(kind: str, size: int, side: float, changes: int, every: int, seed: int) -> tuple[int, int]:
     """How many of the comparisons after random changes found the same graph, and how many there were."""
-    rng = np.random.default_rng(size)
-    chunks = split_terrain(large_level(kind, size), side)
+    rng = np.random.default_rng((size, seed))
+    chunks = split_terrain(large_level(kind, size, seed), side)
     names = sorted(chunks)
     low, high = join_chunks(chunks).bounds
     graph = NodeGraph.build(join_chunks(chunks), extent=[low - 1.0, high + 1.0])
@@ -117,12 +117,17 @@ def main() -> None:
     parser.add_argument("--json", type=Path, help="write every figure here")
     parser.add_argument("--random", type=int, help="random changes to generated levels")
     parser.add_argument("--every", type=int, default=100, help="changes between two comparisons")
+    parser.add_argument("--seed", type=int, default=0, help="of levels and changes of --random")
     options = parser.parse_args()
     if options.random:
         for kind, size, side in GENERATED:
             changes = options.random // len(GENERATED)
-            same, compared = random_changes(kind, size, side, changes, options.every)
-            print(f"{kind} {size} in chunks of {side:g} m: {same} of {compared} hashes are the same")
+            same, compared = random_changes(kind, size, side, changes, options.every, options.seed)
+            print(
+                f"{kind} {size} in chunks of {side:g} m, seed {options.seed}, {changes} changes: "
+                f"{same} of {compared} hashes are the same",
+                flush=True,
+            )
         return
     report: dict[str, Any] = {}
     print(f"{'level':12} {'chunks':>14}  {'update':>8} {'build':>8}  ratio (worst)  the same graph")

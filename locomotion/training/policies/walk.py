@@ -25,6 +25,7 @@ __all__ = ["network_of", "train_walk_policy"]
 _TESTED = (0.8, 1.25, 1.8)
 """Speeds [m/s] that a policy must walk at to be of use."""
 _STANDS, _WALKS = 6.0, 12.0  # [s]
+_PEOPLE = 256  # who learn at once
 
 
 def network_of(agent: Agent) -> Network:
@@ -50,11 +51,14 @@ def train_walk_policy(training: Training, out: str | os.PathLike[str] = WALK_POL
 
     def learn(name: str, stages: Sequence[Stage], seed: int, starts: Starts | None = None) -> Agent:
         checkpoint = training.file(name)
-        return Learning(reference, stages, seed, checkpoint=checkpoint, on_progress=tell, starts=starts).run()
+        learning = Learning(
+            reference, stages, seed, _PEOPLE, checkpoint=checkpoint, on_progress=tell, starts=starts
+        )
+        return learning.run()
 
     walker = learn("walk", walking, 2 * training.seed)
     stops = replace(walking[-1], stand=0.8, push=100.0)
-    environment = Environment(reference, stops, 256, training.seed, steadies=True)
+    environment = Environment(reference, stops, _PEOPLE, training.seed, steadies=True)
     ends = where_it_ended(environment, lambda seen: walker.decide(walker.scaled(seen)))
     stander = learn("stand", standing, 2 * training.seed + 1, ends)
     motion, meta = motion_of(reference), training.made_by("walk-policy")

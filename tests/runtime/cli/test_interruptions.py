@@ -163,9 +163,7 @@ def undisturbed(learned, tmp_path_factory):
     [
         (signal.SIGKILL, 1, -9, 1),
         (signal.SIGTERM, 3, 143, 1),
-        (signal.SIGKILL, 4, -9, 2),
         (signal.SIGINT, 6, 130, 2),
-        (signal.SIGKILL, 10, -9, 1),
     ],
 )
 def test_interrupted_learning_goes_on_from_its_checkpoint(

@@ -134,9 +134,9 @@ def test_rolls_off_a_ledge_and_goes_on(height):
 
 def test_most_drops_succeed():
     rng = np.random.default_rng(4)
-    starts = [(float(rng.uniform(0.9, 2.0)), float(rng.uniform(10, 20))) for _ in range(12)]
+    starts = [(float(rng.uniform(0.9, 2.0)), float(rng.uniform(10, 20))) for _ in range(6)]
     results = [run_course(make_course([("drop", height, 0.0)], [distance])) for height, distance in starts]
-    assert sum(result.ended == "arrived" for result in results) >= 10
+    assert sum(result.ended == "arrived" for result in results) >= 5
     assert all(result.reports[0].peak < 25.0 for result in results)
 
 

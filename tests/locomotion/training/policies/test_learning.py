@@ -3,21 +3,14 @@
 from dataclasses import replace
 
 import numpy as np
-import pytest
 
 from locomotion.gaits.policy.law import LIFT_OFF
 from locomotion.gaits.policy.layout import ACTIONS, JOINTS, PHASE, RESTED, RUNNING
 from locomotion.training.policies.curriculum import STANDING, WALKING
 from locomotion.training.policies.environment import Environment, where_it_ended
 from locomotion.training.policies.learning import LENGTH, Learning
-from locomotion.training.policies.reference import Reference, make_reference
 
 PEOPLE = 6
-
-
-@pytest.fixture(scope="module")
-def reference() -> Reference:
-    return make_reference()
 
 
 def stages():

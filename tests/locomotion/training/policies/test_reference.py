@@ -6,12 +6,7 @@ import pytest
 from locomotion.gaits.policy.layout import JOINTS
 from locomotion.training.policies.figure import Figure
 from locomotion.training.policies.normal_gait import cadence, curve
-from locomotion.training.policies.reference import SAMPLES, SPEEDS, Reference, make_reference, stance
-
-
-@pytest.fixture(scope="module")
-def reference() -> Reference:
-    return make_reference()
+from locomotion.training.policies.reference import SAMPLES, SPEEDS, make_reference, stance
 
 
 def soles_at(reference, k):

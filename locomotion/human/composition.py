@@ -24,7 +24,7 @@ from locomotion.preconditions.moments import planned
 from locomotion.preconditions.precondition import SLOW_DOWN, Precondition, load_preconditions
 from locomotion.rehearsal.trials import BALKINGS, RUN_UPS
 from locomotion.skills.interface import distance_to
-from locomotion.skills.library import package_digests
+from locomotion.skills.library import comes_with_package
 from locomotion.skills.run_up_layout import FARTHER, FASTER
 from surefoot.numeric import is_finite
 
@@ -69,7 +69,7 @@ class Composition:
         if known is None or self.preconditions is not None:
             return known
         skill = self._person.run_up.skill_for(obstacle)
-        return known if getattr(skill, "digest", None) == package_digests()[obstacle.affordance] else None
+        return known if comes_with_package(skill) else None
 
     @property
     def _known(self) -> Mapping[str, Precondition]:

@@ -1,10 +1,9 @@
 """What all skills share that were learned for a range of heights: the range, the run-up, and a control
 law for each height, made when it is first asked for."""
 
-import hashlib
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
@@ -101,17 +100,6 @@ class LearnedSkill:
         if size not in self._tables:
             self._tables[size] = self._law(size)
         return self._tables[size]
-
-    @cached_property
-    def digest(self) -> str:
-        """Hex digest of its laws, in the middle and at both ends of its range."""
-        low, high = self.heights
-        hasher = hashlib.sha256(repr((low, high, self.stride)).encode())
-        for size in (low, 0.5 * (low + high), high):
-            tables = self.tables(size)
-            for array in (tables.parameters, *tables.rest):
-                hasher.update(array.tobytes())
-        return hasher.hexdigest()[:16]
 
     def check(self, memory: NDArray[np.float64], steps: float) -> None:
         """Raises `LocomotionError` for a ``memory`` that it cannot have after so many steps of the run."""

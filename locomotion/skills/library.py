@@ -2,9 +2,12 @@
 
 import hashlib
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from pathlib import Path
+from weakref import WeakSet
+
+import numpy as np
 
 from locomotion.data import CLIPS, PRECONDITIONS, SKILLS
 from locomotion.gaits.run.skill import RunSkill, load_run_skill
@@ -14,9 +17,12 @@ from locomotion.skills.learned_skill import LearnedSkill
 from locomotion.skills.registry import skill_kinds
 
 __all__ = [
-    "described_ranges", "learned_digest", "learned_skills", "package_digests", "package_skill",
+    "comes_with_package", "described_ranges", "learned_digest", "learned_skills", "package_skill",
     "skill_digest", "skills_digest",
 ]  # fmt: skip
+
+_of_package: WeakSet[ClearingSkill] = WeakSet()
+"""Those that `learned_skills` has loaded for the package's run."""
 
 
 def package_skill(name: str) -> Path:
@@ -78,16 +84,21 @@ def described_ranges(run: RunSkill, own: Sequence[str | os.PathLike[str]]) -> di
 def learned_skills(run: RunSkill, own: Sequence[str | os.PathLike[str]] = ()) -> tuple[ClearingSkill, ...]:
     """What clears obstacles on top of a run: the skills described by the files ``own``
     (`locomotion.skills.description`), and then those of all kinds (`locomotion.skills.registry`) that have
-    been learned. `LocomotionError` for files with a
-    mistake, and where the skills for one kind of obstacle leave out sizes in between."""
-    skills = [load_described(path, run) for path in own]
-    skills += [skill for kind in skill_kinds() if (skill := kind.load(run)) is not None]
-    skill_ranges(skills)
-    return tuple(skills)
+    been learned. `LocomotionError` for files with a mistake, and where the skills for one kind of obstacle
+    leave out sizes in between."""
+    described = [load_described(path, run) for path in own]
+    of_kinds = [skill for kind in skill_kinds() if (skill := kind.load(run)) is not None]
+    skill_ranges([*described, *of_kinds])
+    if _are_equal(run.tables, load_run_skill().tables):
+        _of_package.update(skill for skill in of_kinds if isinstance(skill, LearnedSkill))
+    return (*described, *of_kinds)
 
 
-@lru_cache(maxsize=1)
-def package_digests() -> Mapping[str, str]:
-    """`LearnedSkill.digest` of the package's skills, by affordance."""
-    skills = [kind.load(load_run_skill()) for kind in skill_kinds()]
-    return {skill.affordance: skill.digest for skill in skills if isinstance(skill, LearnedSkill)}
+def comes_with_package(skill: ClearingSkill) -> bool:
+    """Whether ``skill`` is one that `learned_skills` gave for a kind of obstacle, on top of the package's
+    run: what is known of the package's skills holds of it. No copy is one, and none of one's own."""
+    return isinstance(skill, LearnedSkill) and skill in _of_package
+
+
+def _are_equal(some: Iterable[np.ndarray], others: Iterable[np.ndarray]) -> bool:
+    return all(np.array_equal(one, other) for one, other in zip(some, others, strict=True))

@@ -10,6 +10,7 @@ from locomotion import Ground, LocomotionError
 from locomotion.body.models import figure
 from locomotion.crowd.saved_state_check import check_walker
 from locomotion.human.composition import checked_bravery
+from locomotion.preconditions.precondition import load_preconditions
 from locomotion.recorded.individual import by_hand
 from locomotion.recorded.skeletons import LEVELS, level_number
 from locomotion.recorded_people import layout as at
@@ -119,6 +120,8 @@ class RecordedDriver(WalkerDriver):
     def heed(self, bravery: float | None) -> None:
         """Kept for when physics takes over: recorded people clear every obstacle of their sizes."""
         try:
+            if bravery is not None:
+                load_preconditions()  # here, lest the tick in which physics takes over has to
             checked_bravery(bravery)
         except LocomotionError as error:
             raise RuntimeInputError(str(error)) from None

@@ -1,5 +1,6 @@
 """A person without rehearsals takes off where its odds are good enough, and says so where it turns away."""
 
+import zipfile
 from copy import copy
 from dataclasses import replace
 
@@ -8,8 +9,10 @@ import pytest
 
 from locomotion import MOVING, Ground, Human, LocomotionError
 from locomotion.body_events import Cleared, GotStuck, TookOff, TurnedAway, WentBack
+from locomotion.gaits.run.skill import load_run_skill
 from locomotion.preconditions.precondition import SLOW_DOWN, load_preconditions
 from locomotion.skills.course import make_course
+from locomotion.skills.learned_skill import LearnedSkill
 
 
 def always(odds, known, before=None):
@@ -78,8 +81,23 @@ def test_a_skill_of_ones_own_with_the_packages_range_has_no_odds_of_it():
     obstacle = course.obstacles[0]
     assert Human(rehearsals=0).composition.precondition(obstacle) is load_preconditions()["jump"]
     law = own._law
-    own.__dict__.pop("digest", None)
     own._tables, own._law = {}, lambda size: replace(law(size), parameters=1.001 * law(size).parameters)
     human = Human(rehearsals=0, clearing=[own])
     assert own.heights == load_preconditions()["jump"].heights
     assert human.composition.precondition(obstacle) is None
+
+
+def test_skills_on_a_run_of_ones_own_have_no_odds():
+    run, obstacle = load_run_skill(), make_course([("jump", 0.4, 0.0)], [12.0]).obstacles[0]
+    assert Human(skill=run, rehearsals=0).composition.precondition(obstacle) is not None
+    other = Human(skill=replace(run, max_lateral=0.9 * run.max_lateral), rehearsals=0)
+    assert other.composition.precondition(obstacle) is None
+
+
+def test_whose_skills_they_are_is_known_without_working_out_a_law_or_loading_any(monkeypatch):
+    """Else the first step of somebody brave would take a second."""
+    human, known = Human(rehearsals=0), load_preconditions()["jump"]
+    monkeypatch.setattr(LearnedSkill, "tables", None)
+    monkeypatch.setattr(zipfile, "ZipFile", None)
+    obstacle = make_course([("jump", 0.4, 0.0)], [12.0]).obstacles[0]
+    assert human.composition.precondition(obstacle) is known

@@ -11,7 +11,7 @@ import surefoot
 from runtime.warmup.sharing import run_shared
 from surefoot.compile_notice import TIME
 from surefoot.kernels.dependencies import PACKAGES
-from surefoot.kernels.folder import forget_old
+from surefoot.kernels.folder import forget_old, note_use
 from surefoot.kernels.loading import load_kept
 from surefoot.preparing import Preparing, mark_of_kernels
 from surefoot.progress import Progress
@@ -24,19 +24,31 @@ _KERNEL = re.compile(rb"^@(?:allocating_)?kernel\b|\bcfunc\(", re.MULTILINE)
 
 
 def is_compiled() -> bool:
-    """Whether all kernels, in their present version, are cached on this machine."""
-    mark = mark_of_kernels()
-    return is_kept() and mark is not None and mark.read_text(encoding="utf-8").startswith(_sources())
+    """Whether all kernels, in their present version, are cached on this machine. Notes that they are used."""
+    return _kept_sources() == _sources()
 
 
 def is_kept() -> bool:
     """Whether all kernels were compiled once on this machine, perhaps from other sources of this version, and
-    none of their files is gone."""
+    none of their files is gone. Notes that they are used: a game loads some only now and then."""
+    return _kept_sources() is not None
+
+
+def _kept_sources() -> str | None:
+    """`_sources` of which all kernels are kept; None if they are not, or what says so cannot be read."""
     mark = mark_of_kernels()
-    if mark is None or not mark.exists():
-        return False
-    files = set(mark.read_text(encoding="utf-8").splitlines()[1:])
-    return len(files) > 0 and files <= set(os.listdir(mark.parent))
+    if mark is None:
+        return None
+    try:
+        sources, *names = mark.read_text(encoding="utf-8").splitlines()
+        if not names or not set(names) <= set(os.listdir(mark.parent)):
+            return None
+    except (OSError, ValueError):  # none, damaged, or removed meanwhile
+        return None
+    if note_use(mark):
+        for name in names:
+            note_use(mark.parent / name)
+    return sources
 
 
 def prepare(progress: Callable[[float, str], object] | None = None) -> None:

@@ -65,11 +65,13 @@ def _is_ours(folder: Path) -> bool:
     return kept.st_uid == os.getuid() and not kept.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
 
 
-def note_use(file: Path) -> None:
-    """Update the date of a file, to note that it is still used."""
+def note_use(file: Path) -> bool:
+    """Update the date of a file, to note that it is still used; returns whether it was not of today."""
     with suppress(OSError):
         if time.time() - file.stat().st_mtime > _NOTED:
             os.utime(file)
+            return True
+    return False
 
 
 def forget_old() -> None:

@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numba
@@ -20,8 +21,8 @@ from runtime.warmup.sharing import run_shared
 from runtime.world.event_log import EventLog
 from runtime.world.level_of_detail import Viewer
 from surefoot.compile_notice import counted
-from surefoot.kernels.folder import cache_folder
-from surefoot.preparing import prepare_once
+from surefoot.kernels.folder import cache_folder, forget_old
+from surefoot.preparing import mark_of_kernels, prepare_once
 from surefoot.progress import Progress
 from tests.scenarios.pinned_runs import box
 
@@ -155,6 +156,28 @@ def test_a_world_prepares_once_and_not_within_a_use(monkeypatch, tmp_path):
     assert not is_compiled()
     prepare_once()
     assert len(done) == 2 and is_compiled()
+
+
+@pytest.fixture
+def kept(monkeypatch, tmp_path):
+    """A prepared cache of one kernel, which nobody loads."""
+    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(ahead, "run_shared", lambda uses, told: None)
+    kernel = tmp_path / "surefoot" / "one.kernel"
+    monkeypatch.setattr(ahead, "load_kept", lambda: (kernel.touch(), [kernel])[1])
+    runtime.prepare()
+    return kernel
+
+
+def test_what_is_in_daily_use_does_not_age(kept):
+    mark = mark_of_kernels()
+    for file in (mark, kept):
+        os.utime(file, (time.time() - 61 * 86400.0,) * 2)
+    World(tiny_level())
+    forget_old()
+    assert all(time.time() - file.stat().st_mtime < 86400.0 for file in (mark, kept))
+    os.utime(kept, (0.0, 0.0))
+    assert is_compiled() and kept.stat().st_mtime == 0.0  # noted once a day
 
 
 def test_kernels_elsewhere_do_not_count_when_the_cache_has_a_place_of_its_own(monkeypatch, tmp_path):

@@ -33,13 +33,18 @@ def prepare_with(prepare: Callable[[], object], is_prepared: Callable[[], bool])
 
 def prepare_once() -> None:
     """Compile all kernels if this version has never done so on this machine, or what it kept is gone. Called
-    by worlds, so that no step of theirs compiles."""
+    by worlds, so that no step of theirs compiles. Where they cannot be kept, as on a full disk, it does so
+    once in a process."""
     if Preparing.going_on or not _preparers or mark_of_kernels() is None:
         return
     prepare, is_prepared = _preparers[0]
     if is_prepared():
         return
     from surefoot.compile_notice import TIME
+    from surefoot.kernels.folder import unwritten
+
+    if unwritten():
+        return
 
     _log.warning(
         "surefoot: compiling kernels, once on this machine: %s; runtime.prepare() does it ahead of time", TIME

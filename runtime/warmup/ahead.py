@@ -11,7 +11,7 @@ import surefoot
 from runtime.warmup.sharing import run_shared
 from surefoot.compile_notice import TIME
 from surefoot.kernels.dependencies import PACKAGES
-from surefoot.kernels.folder import forget_old, note_use
+from surefoot.kernels.folder import forget_old, note_use, unwritten, write_whole
 from surefoot.kernels.loading import load_kept
 from surefoot.preparing import Preparing, mark_of_kernels
 from surefoot.progress import Progress
@@ -88,9 +88,9 @@ def _compile(told: Callable[[float, str], object]) -> None:
 
         files = load_kept()
         mark = mark_of_kernels()
-        if is_new and mark is not None:
+        if is_new and mark is not None and unwritten() <= {mark}:
             names = sorted({file.name for file in files})
-            mark.write_text("\n".join([_sources(), *names]), encoding="utf-8")
+            write_whole(mark, "\n".join([_sources(), *names]).encode())
             forget_old()
     finally:
         Preparing.going_on = False

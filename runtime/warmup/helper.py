@@ -1,6 +1,7 @@
 """A process that runs the uses whose names it reads: ``python -m runtime.warmup.helper``.
 
-It writes a line for each kernel that it compiles, and "done" after each use. It ends with its parent.
+It writes a line for each kernel that it compiles, and "done" after each use. It ends with its parent, and
+where it cannot keep what it compiles: that is then done by its parent, for itself.
 """
 
 import os
@@ -16,12 +17,15 @@ def main() -> None:
     Thread(target=_read, args=(asked,), daemon=True).start()
     from runtime.warmup.first_uses import FIRST_USES
     from surefoot.compile_notice import counted
+    from surefoot.kernels.folder import unwritten
     from surefoot.preparing import Preparing
 
     Preparing.going_on = True
     with counted(lambda count: print("compiled", file=told)):
         while True:
             FIRST_USES[asked.get()]()
+            if unwritten():
+                os._exit(1)
             print("done", file=told)
 
 

@@ -2,11 +2,9 @@
 
 import hashlib
 import io
-import os
 import pickle
 import platform
 import sys
-import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from functools import cache
@@ -21,7 +19,7 @@ from numba.core.serialize import dumps
 
 from surefoot.kernels import linking
 from surefoot.kernels.dependencies import digest_of_code, digest_of_type
-from surefoot.kernels.folder import cache_folder, note_use
+from surefoot.kernels.folder import cache_folder, note_use, write_whole
 from surefoot.kernels.turns import Turns
 
 __all__ = ["KernelCache"]
@@ -77,7 +75,7 @@ class KernelCache:
             if not compiled.library.has_dynamic_globals and not any(
                 not each.can_cache for each in compiled.lifted
             ):
-                _write(file, dumps(signature) + dumps(linking.reduce(compiled)))
+                write_whole(file, dumps(signature) + dumps(linking.reduce(compiled)))
         finally:
             _turns.give_back(file)
 
@@ -131,16 +129,3 @@ class KernelCache:
 
 def _short(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:16]
-
-
-def _write(file: Path, data: bytes) -> None:
-    """Written whole or not at all; a full or read-only disk is no reason to fail."""
-    with suppress(OSError):
-        handle, name = tempfile.mkstemp(dir=file.parent, prefix=".", suffix=".part")
-        try:
-            with os.fdopen(handle, "wb") as part:
-                part.write(data)
-            os.replace(name, file)
-        except OSError:
-            os.unlink(name)
-            raise

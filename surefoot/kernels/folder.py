@@ -12,13 +12,16 @@ from pathlib import Path
 
 from numba.core import config
 
-__all__ = ["LOCKS", "cache_folder", "clear", "forget_old", "note_use", "size_of_cache"]
+__all__ = [
+    "LOCKS", "cache_folder", "clear", "forget_old", "note_use", "size_of_cache", "unwritten", "write_whole",
+]  # fmt: skip
 
 LOCKS = "locks"
 """Subfolder of the empty files that processes lock."""
 _KEPT = 60 * 86400.0
 """[s] after which unused kernels are removed."""
 _NOTED = 86400.0  # [s] between updates of a file's date of last use
+_unwritten: set[Path] = set()
 
 
 def cache_folder() -> Path | None:
@@ -63,6 +66,28 @@ def _is_ours(folder: Path) -> bool:
     if not hasattr(os, "getuid"):
         return True
     return kept.st_uid == os.getuid() and not kept.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
+
+
+def write_whole(file: Path, data: bytes) -> None:
+    """Write a file whole or not at all; a full or read-only disk is no reason to fail."""
+    try:
+        handle, name = tempfile.mkstemp(dir=file.parent, prefix=".", suffix=".part")
+        try:
+            with os.fdopen(handle, "wb") as part:
+                part.write(data)
+            os.replace(name, file)
+        except OSError:
+            os.unlink(name)
+            raise
+        _unwritten.discard(file)
+    except OSError:
+        _unwritten.add(file)
+
+
+def unwritten() -> set[Path]:
+    """Files that the present folder lacks because this process could not write them."""
+    folder = cache_folder()
+    return {file for file in _unwritten if file.parent == folder and not file.exists()}
 
 
 def note_use(file: Path) -> bool:

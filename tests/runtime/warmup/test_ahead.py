@@ -1,5 +1,6 @@
 """Compiled kernels are known for what they are, so that a later start does not warm up again."""
 
+import errno
 import os
 import subprocess
 import sys
@@ -15,13 +16,13 @@ import navmesh
 import runtime
 from runtime import World
 from runtime.events import Departed, Fell, SkillStarted
-from runtime.warmup import ahead, compile_kernels, is_compiled
+from runtime.warmup import ahead, compile_kernels, is_compiled, is_kept
 from runtime.warmup.first_uses import FIRST_USES, tiny_level
 from runtime.warmup.sharing import run_shared
 from runtime.world.event_log import EventLog
 from runtime.world.level_of_detail import Viewer
 from surefoot.compile_notice import counted
-from surefoot.kernels.folder import cache_folder, forget_old
+from surefoot.kernels.folder import cache_folder, clear, forget_old, write_whole
 from surefoot.preparing import mark_of_kernels, prepare_once
 from surefoot.progress import Progress
 from tests.scenarios.pinned_runs import box
@@ -178,6 +179,39 @@ def test_what_is_in_daily_use_does_not_age(kept):
     assert all(time.time() - file.stat().st_mtime < 86400.0 for file in (mark, kept))
     os.utime(kept, (0.0, 0.0))
     assert is_compiled() and kept.stat().st_mtime == 0.0  # noted once a day
+
+
+@pytest.mark.parametrize("damage", [b"\xff\xfe\x00", b"", b"0123", b"0123\n../one.kernel"])
+def test_a_damaged_mark_is_none(kept, damage):
+    mark_of_kernels().write_bytes(damage)
+    assert not is_kept() and not is_compiled()
+    World(tiny_level())
+    assert is_compiled()
+
+
+def test_a_mark_that_is_removed_while_it_is_read_is_none(kept, monkeypatch):
+    monkeypatch.setattr(Path, "exists", lambda path: True)
+    mark_of_kernels().unlink()
+    assert not is_kept()
+
+
+@pytest.mark.parametrize("full", ["for kernels", "for the mark"])
+def test_on_a_full_disk_a_world_is_made_all_the_same_and_nothing_is_said_to_be_kept(kept, monkeypatch, full):
+    def nowhere(*arguments):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    done, two = [], kept.with_name("two.kernel")
+    writes = {"for kernels": lambda: write_whole(two, b"2"), "for the mark": lambda: None}
+    clear()
+    with monkeypatch.context() as while_full:
+        while_full.setattr(ahead, "run_shared", lambda uses, told: (done.append(1), writes[full]()))
+        while_full.setattr(os, "replace", nowhere)
+        for _ in range(2):
+            World(tiny_level())
+        assert done == [1] and not is_kept() and {file.name for file in kept.parent.iterdir()} == {kept.name}
+    write_whole(two, b"2")
+    runtime.prepare()
+    assert is_kept()
 
 
 def test_kernels_elsewhere_do_not_count_when_the_cache_has_a_place_of_its_own(monkeypatch, tmp_path):

@@ -17,10 +17,12 @@ from locomotion.skills.learned_skill import LearnedSkill
 from locomotion.skills.registry import skill_kinds
 
 __all__ = [
-    "comes_with_package", "described_ranges", "learned_digest", "learned_skills", "package_skill",
-    "skill_digest", "skills_digest",
+    "LEARNED", "comes_with_package", "described_ranges", "different", "learned_digest", "learned_skills",
+    "package_skill", "skill_digest", "skills_digest",
 ]  # fmt: skip
 
+LEARNED = ("skills of the package", "skills of their own", "preconditions")
+"""What people can have learned in another way."""
 _of_package: WeakSet[ClearingSkill] = WeakSet()
 """Those that `learned_skills` has loaded for the package's run."""
 
@@ -40,16 +42,30 @@ def skill_digest(name: str) -> str:
 def skills_digest(own: tuple[Path, ...] = ()) -> str:
     """Hex digest of everything that the package has learned and of the skills described by ``own``, as their
     files are now: a person does the same only with the same."""
-    return _digest_now(_learned_files(own))
+    return _digest_now([*_package_files(), *_own_files(own)])
 
 
 def learned_digest(own: tuple[Path, ...] = ()) -> str:
-    """`skills_digest`, and of the preconditions of the package's skills."""
-    return _digest_now([*_learned_files(own), *sorted(PRECONDITIONS.glob("*.npz"))])
+    """Hex digests of all that `skills_digest` is of, and of the preconditions of the package's skills, one
+    for each of `LEARNED`."""
+    files = _package_files(), _own_files(own), sorted(PRECONDITIONS.glob("*.npz"))
+    return " ".join(map(_digest_now, files))
 
 
-def _learned_files(own: tuple[Path, ...]) -> list[Path]:
-    files = sorted(SKILLS.glob("*.npz"))
+def different(one: str, other: str) -> list[str]:
+    """Those of `LEARNED` in which two `learned_digest` differ; all of them if one is no such digest."""
+    some, others = one.split(" "), other.split(" ")
+    if not len(some) == len(others) == len(LEARNED):
+        return [*LEARNED]
+    return [name for name, here, there in zip(LEARNED, some, others, strict=True) if here != there]
+
+
+def _package_files() -> list[Path]:
+    return sorted(SKILLS.glob("*.npz"))
+
+
+def _own_files(own: tuple[Path, ...]) -> list[Path]:
+    files: list[Path] = []
     for path in own:
         description = load_description(path)
         files += [path, description.clip, description.learned]

@@ -25,8 +25,9 @@ __all__ = ["WorldState"]
 class WorldState:
     """A moment of a world, from `World.save`; `World.restore` goes back to it.
 
-    ``level`` is `World.level_digest` of the level that it belongs to, ``skills`` the digest of what its
-    people have learned, empty without any. Neither level nor skills are kept.
+    ``level`` is `World.level_digest` of the level that it belongs to, ``skills`` the digests of what its
+    people have learned (`locomotion.skills.library.learned_digest`), empty without any. Neither level nor
+    skills are kept.
     """
 
     level: str

@@ -15,7 +15,7 @@ import navmesh
 from locomotion import LocomotionError, load_run_skill
 from locomotion.body.person import CONTROL_DT
 from locomotion.rehearsal.trials import REHEARSALS
-from locomotion.skills.library import described_ranges, learned_digest, learned_skills
+from locomotion.skills.library import described_ranges, different, learned_digest, learned_skills
 from runtime.bodies.cast import Cast
 from runtime.bodies.kinds.kind import WALKS, BodyKind, Surroundings
 from runtime.bodies.protocol import Driver, Population
@@ -40,6 +40,12 @@ __all__ = ["World", "WorldState"]
 
 _CHANGES = 1  # of people to physics or from it at once at most: each takes as long as several ticks
 _LOOKS = 50  # ticks between two looks at whether an agent makes headway
+_AS_SAVED = {
+    "skills of the package": "with the release that saved it",
+    "skills of their own": "in a world of the same skills=...",
+    "preconditions": "with the preconditions that it was saved with (those of its release, or learned since)",
+}
+"""What a world is restored with, by what people have learned in another way (`LEARNED` of the library)."""
 _E = TypeVar("_E", bound=Event)
 
 
@@ -450,9 +456,10 @@ class World:
             )
         own = learned_digest(self._skills)
         if state.skills not in ("", own):
+            others = different(state.skills, own)
             raise RuntimeInputError(
-                f"the state is of people with other skills ({state.skills}) than these ({own}), "
-                "who would go on in another way; restore it with the learned skills that it was saved with"
+                f"the state is of people with other {' and other '.join(others)}, who would go on in another "
+                f"way; restore it {' and '.join(_AS_SAVED[each] for each in others)}"
             )
         before, agents = self.save(), dict(self.agents)
         try:

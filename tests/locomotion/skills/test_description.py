@@ -281,7 +281,9 @@ def test_a_world_gives_its_people_the_skills(learned):
     agent = world.spawn("human", (0.0, 0.0, 0.0))
     hop = agent.driver.human.clearing[0]
     assert (hop.affordance, hop.heights) == ("gap", (0.4, 0.6))
-    with pytest.raises(RuntimeInputError, match="other skills"):
+    with pytest.raises(
+        RuntimeInputError, match=r"with other skills of their own, who .* in a world of the same skills="
+    ):
         World(terrain).restore(world.save())
     twin = World(terrain, skills=[learned])
     twin.restore(world.save())

@@ -145,8 +145,21 @@ def test_refuses_people_who_have_learned_something_else(graph, tmp_path):
     state = WorldState.read(tmp_path / "state.npz")
     world.restore(state)
     before = world.state_hash()
-    with pytest.raises(RuntimeInputError, match="with other skills"):
-        world.restore(dataclasses.replace(state, skills="0123456789abcdef"))
+    package, own, known = state.skills.split()
+    for skills, what in (
+        (f"{known} {own} {known}", "other skills of the package, who .* with the release that saved it$"),
+        (
+            f"{package} {own} {package}",
+            "other preconditions, who .* the preconditions that it was saved with",
+        ),
+        (
+            f"{package} {known} {package}",
+            "other skills of their own and other preconditions, who .*skills=.* and with",
+        ),
+        ("0123456789abcdef", "other skills of the package and other skills of their own and other preco"),
+    ):
+        with pytest.raises(RuntimeInputError, match=f"the state is of people with {what}"):
+            world.restore(dataclasses.replace(state, skills=skills))
     assert world.state_hash() == before
 
 

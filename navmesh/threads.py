@@ -7,16 +7,18 @@ from typing import Any, TypeVar
 
 from navmesh.errors import NavmeshError
 
-__all__ = ["checked_threads", "in_threads", "shares"]
+__all__ = ["MOST", "checked_threads", "in_threads", "shares"]
 
+MOST = 256
 _Result = TypeVar("_Result")
 
 
 def checked_threads(threads: Any) -> int:
-    """A number of threads. Raises `NavmeshError` for anything but a whole number of at least 1."""
+    """A number of threads, `MOST` at most: more gain nothing, and the result is the same. Raises
+    `NavmeshError` for anything but a whole number of at least 1."""
     if isinstance(threads, bool) or not isinstance(threads, Integral) or threads < 1:
         raise NavmeshError(f"threads = {threads!r}: expected a whole number of at least 1")
-    return int(threads)
+    return min(int(threads), MOST)
 
 
 def in_threads(
@@ -31,5 +33,7 @@ def in_threads(
 
 
 def shares(count: int, threads: int) -> list[int]:
-    """Where the shares of ``count`` things begin and end: one for each of the ``threads``."""
-    return [count * share // threads for share in range(threads + 1)]
+    """Where the shares of ``count`` things begin and end: one for each of the ``threads``, but no more than
+    things."""
+    number = min(threads, max(count, 1))
+    return [count * share // number for share in range(number + 1)]

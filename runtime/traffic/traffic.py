@@ -107,7 +107,8 @@ class Traffic:
         halts: Callable[[], bool],
         former: Course | None,
     ) -> Options:
-        """The cheapest option; ``halts``: whether a halt of one that does not halt easily is among them."""
+        """The cheapest option; ``halts``: whether somebody near does not halt easily, so that halting is
+        an option."""
 
         def meeting(option: Options) -> tuple[int, float]:
             """When it would come too near to somebody, and the cost of that."""

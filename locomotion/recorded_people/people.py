@@ -51,6 +51,7 @@ _STRIKES = np.array([0.0, 0.5])  # phases at which the right and the left foot s
 _STANDS = "stand"
 _RATES = np.array([skeleton(name).rate for name in LEVELS])  # [Hz] at which levels are drawn
 _TURN = 0.5 * (np.sqrt(5.0) - 1.0)  # the golden ratio: any number of figures have their turns evenly
+_LONG = 1.0  # [s] in which everybody's turn comes
 
 
 @lru_cache(maxsize=1)
@@ -95,6 +96,7 @@ class RecordedPeople:
         self.ranges = skill_ranges(self.motions)
         """Least and greatest size [m] of these."""
         self.people: list[RecordedPerson] = []
+        self._arrivals = 0  # so far
         self._rows = np.zeros((64, at.ROW))
 
     def __len__(self) -> int:
@@ -189,7 +191,8 @@ class RecordedPeople:
         if len(self.people) == len(self._rows):
             self._rows = np.concatenate([self._rows, np.zeros_like(self._rows)])
         self._rows[len(self.people)] = row
-        self.people.append(RecordedPerson(self, walker))
+        self.people.append(RecordedPerson(self, walker, self._arrivals * _TURN % 1.0))
+        self._arrivals += 1
         return self.people[-1]
 
     def remove(self, person: RecordedPerson) -> None:
@@ -248,10 +251,13 @@ class RecordedPeople:
             out[of] = drawn(LEVELS[0], qpos[:, 7 + bones.joints], qpos[:, :7])
         return out
 
-    def due(self, indices: NDArray[np.int64], since: float, now: float) -> NDArray[np.bool_]:
-        """(n,) which of some figures have had a moment to be drawn at after the time ``since`` [s], until
-        ``now``: those in full detail always, the others as often as their motion is kept, in turn."""
-        levels, turns = self._rows[indices, at.LEVEL].astype(np.int64), (indices * _TURN) % 1.0
+    def due(self, indices: NDArray[np.int64], since: ArrayLike, now: float) -> NDArray[np.bool_]:
+        """(n,) which of some figures have had a moment to be drawn at after the time ``since`` [s] (one or
+        (n,)), until ``now``: those in full detail always, the others as often as their motion is kept, in
+        turn. After a time long past or -inf all have."""
+        levels = self._rows[indices, at.LEVEL].astype(np.int64)
+        turns = np.array([self.people[index].turn for index in indices.tolist()])
+        since = np.maximum(since, now - _LONG)
         moments = np.floor(_RATES[levels] * now - turns) - np.floor(_RATES[levels] * since - turns)
         return (moments > 0.0) | (levels == FULL)
 

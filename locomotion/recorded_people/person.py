@@ -42,7 +42,8 @@ class Errand:
 
 @dataclass(frozen=True)
 class PersonState:
-    """Everything that is remembered of a recorded person."""
+    """Everything that is remembered of a recorded person; ``turn`` is not in its hash: it decides only when
+    the person is drawn anew."""
 
     body: WalkerState
     row: NDArray[np.float64]
@@ -50,6 +51,7 @@ class PersonState:
     wanted: str
     errand: Errand | None
     crossing: Crossing | None = None
+    turn: float = 0.0
 
 
 class ItsPeople(Protocol):
@@ -78,10 +80,11 @@ class ItsPeople(Protocol):
 
 class RecordedPerson:
     """``walker``: its body. ``playback``: what it plays of its postures, None while it stands or moves.
-    ``wanted``: the posture that it was asked for last and is not in yet, with what is held; "" if none."""
+    ``wanted``: the posture that it was asked for last and is not in yet, with what is held; "" if none.
+    ``turn``: when it is drawn anew, as a share of the time between two drawings, 0 to 1."""
 
-    def __init__(self, people: ItsPeople, walker: Walker) -> None:
-        self._people, self.walker = people, walker
+    def __init__(self, people: ItsPeople, walker: Walker, turn: float) -> None:
+        self._people, self.walker, self.turn = people, walker, turn
         self.playback: Playback | None = None
         self.wanted = ""
         self.errand: Errand | None = None
@@ -362,7 +365,13 @@ class RecordedPerson:
     def save(self) -> PersonState:
         """Everything needed to continue from here."""
         return PersonState(
-            self.walker.save(), self.row.copy(), self.playback, self.wanted, self.errand, self.crossing
+            self.walker.save(),
+            self.row.copy(),
+            self.playback,
+            self.wanted,
+            self.errand,
+            self.crossing,
+            self.turn,
         )
 
     def restore(self, state: PersonState) -> None:
@@ -370,7 +379,7 @@ class RecordedPerson:
         self.walker.restore(state.body)
         self.row[:] = state.row
         self.playback, self.wanted, self.errand = state.playback, state.wanted, state.errand
-        self.crossing = state.crossing
+        self.crossing, self.turn = state.crossing, state.turn
 
     def state_hash(self) -> str:
         """Hex digest of everything that decides its future."""

@@ -13,7 +13,7 @@ from locomotion.recorded.skeletons import LEVELS
 from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.people import BODY_TICKS
 from locomotion.recorded_people.person import Errand, PersonState
-from locomotion.saved_arrays import COUNT, FLAG, Slots, check_array
+from locomotion.saved_arrays import COUNT, FLAG, Slots, check_array, check_number
 
 __all__ = ["check_recorded"]
 
@@ -47,6 +47,7 @@ def check_recorded(state: PersonState, graph: PostureGraph, gaits: int, skills: 
         raise LocomotionError(
             f"a recorded person wants {state.wanted!r}, which is no posture of {graph.name}"
         )
+    check_number("the turn of a recorded person", state.turn, 0.0, 1.0)
     playing, errand = state.playback, state.errand
     if playing is not None:
         _check_playback(playing, graph)

@@ -19,8 +19,8 @@ class Cast:
     def __init__(self, drivers: Sequence[_Drawn]) -> None:
         self._drivers = drivers
 
-    def transforms(self, since: float | None, now: float) -> tuple[Sequence[int], Sequence[np.ndarray]]:
+    def transforms(self, since: np.ndarray | None, now: float) -> tuple[Sequence[int], Sequence[np.ndarray]]:
         """Which of them are due, by their place in the order, and `runtime.bodies.protocol.Driver.transforms`
-        of each: all of them, or those whose turn to be drawn anew has come after the time ``since``, until
-        ``now`` [s]."""
+        of each: all of them, or those whose turn to be drawn anew has come after the time ``since`` of each
+        (n,), until ``now`` [s]; -inf for those that are due in any case."""
         return range(len(self._drivers)), [driver.transforms() for driver in self._drivers]

@@ -96,12 +96,12 @@ class _CastOfPersons(Cast):
         self._played, self._rows = np.array(played, np.int64).reshape(-1, 2).T
         self._simulated = [k for k, each in enumerate(drivers) if not isinstance(each, RecordedDriver)]
 
-    def transforms(self, since: float | None, now: float) -> tuple[Sequence[int], Sequence[np.ndarray]]:
+    def transforms(self, since: np.ndarray | None, now: float) -> tuple[Sequence[int], Sequence[np.ndarray]]:
         which, places = self._simulated, [self._drivers[k].transforms() for k in self._simulated]
         if not len(self._played):
             return which, places
         people, played, rows = self._recorded.people, self._played, self._rows
         if since is not None:
-            due = people.due(rows, since, now)
+            due = people.due(rows, since[played], now)
             played, rows = played[due], rows[due]
         return [*which, *played.tolist()], [*places, *people.transforms(rows)]

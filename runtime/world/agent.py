@@ -1,6 +1,7 @@
 """An agent: a body in a world that is told where to go."""
 
 import hashlib
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import chain
@@ -99,7 +100,9 @@ class Agent:
 
     ``name`` is unique in its world, ``body`` is what `World.spawn` was given; ``news`` are its
     body's events that the world has not been told of; ``has_levels``: whether it can be drawn in more or
-    less detail; ``waits_for_level``: whether its level may differ from a `detail` that was asked for.
+    less detail; ``waits_for_level``: whether its level may differ from a `detail` that was asked for;
+    ``changed``: the world's time [s] when it got its body or its level of detail
+    last, -inf if that was before the world was restored.
     """
 
     def __init__(self, host: Host, name: str, body: str, driver: Driver) -> None:
@@ -109,6 +112,7 @@ class Agent:
         self._bravery: float | None = None
         self.take(driver)
         self._host = host
+        self.changed = host.clock.time
         self._blocked = False
         self._born = host.clock.time - driver.time
         self._goal = _triple(driver.position)
@@ -313,6 +317,7 @@ class Agent:
         self.waits_for_level = driver is None or driver.detail != self._detail
         if driver is None:
             return False
+        self.changed = self._host.clock.time
         if driver is not self._driver:
             self.take(driver)
             self._born = self._host.clock.time - driver.time
@@ -550,7 +555,7 @@ class Agent:
         self._born, self._blocked, self._goal = state.born, state.blocked, state.goal
         self._errand, self._headway = state.errand, state.headway
         self._detail = checked_detail(state.detail, self._host.levels(self.body), self.body)
-        self.waits_for_level = True
+        self.waits_for_level, self.changed = True, -math.inf
         self._heed(state.bravery)
 
     def state_hash(self) -> str:

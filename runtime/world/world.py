@@ -120,8 +120,10 @@ class World:
         self._viewers: tuple[Viewer, ...] = ()
         self._budget = Budget()
         self._stepping = False
-        self._casts: list[tuple[Cast, list[str]]] | None = None
-        """For `transforms`; None when somebody has come, gone, or got another body."""
+        self._casts: list[tuple[Cast, list[Agent], np.ndarray]] | None = None
+        """For `transforms`, with `Agent.changed` of each; None when somebody has come, gone, or changed."""
+        self._asked: float | None = None
+        """[s] when `transforms` was asked for the first time after the last `restore`; None: not yet."""
 
     def __repr__(self) -> str:
         level, agents = Path(self.graph.terrain.name).name, several(len(self.agents), "agent")
@@ -272,21 +274,28 @@ class World:
         Those of all agents; or, with ``since``, the `time` [s] when this was last asked, of those only whose
         turn has come after it: of people in medium detail 30 times a second, of those in low detail 15
         times, each at moments of its own, so that all frames have equally much to do; of everybody else
-        always. Raises `RuntimeInputError` for a ``since`` that is not finite.
+        always, and at once of those who have come, or got another body or level of detail, since then. It is
+        of all agents, too, when this is asked for the first time after `restore`, and for a ``since`` that is
+        later than now or earlier than that. Raises `RuntimeInputError` for a ``since`` that is not finite.
         """
         after = None if since is None else checked_number(since, "since", "s")
+        if self._asked is None:
+            after, self._asked = None, self.time
+        elif after is not None and not self._asked <= after <= self.time:
+            after = None
         if self._casts is None:
             homes: dict[Population, list[Agent]] = {}
             for agent in self.agents.values():
                 homes.setdefault(self._population(agent.body), []).append(agent)
             self._casts = [
-                (home.cast([agent.driver for agent in agents]), [agent.name for agent in agents])
+                (home.cast([agent.driver for agent in agents]), agents, np.array([a.changed for a in agents]))
                 for home, agents in homes.items()
             ]
         found: dict[str, np.ndarray] = {}
-        for cast, names in self._casts:
-            which, places = cast.transforms(after, self.time)
-            found.update(zip([names[k] for k in which], places, strict=True))
+        for cast, agents, changed in self._casts:
+            each = None if after is None else np.where(changed >= after, -np.inf, after)
+            which, places = cast.transforms(each, self.time)
+            found.update(zip([agents[k].name for k in which], places, strict=True))
         return {name: found[name] for name in self.agents if name in found}
 
     def remove(self, agent: Agent) -> None:
@@ -482,6 +491,7 @@ class World:
             pause()
         self.random.bit_generator.state = dict(state.random)
         self._clock.ticks, self._clock.owed = state.ticks, state.owed
+        self._asked = self._casts = None
         self._log.become(state.events, state.untold)
         self._viewers, self._budget = state.viewers, state.budget
 

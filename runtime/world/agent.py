@@ -69,7 +69,7 @@ class Errand:
 
 @dataclass(frozen=True)
 class AgentState:
-    """What `World.save` keeps of an agent."""
+    """What `World.save` keeps of an agent. ``arrival``: how many bodies in the world came before its own."""
 
     body: str
     born: float
@@ -80,6 +80,7 @@ class AgentState:
     headway: Headway
     detail: str = "physics"
     bravery: float | None = None
+    arrival: int = 0
 
     def check(self, name: str) -> None:
         """Raises `RuntimeInputError` for what no agent can have saved, as far as that shows without its
@@ -101,6 +102,7 @@ class Agent:
     ``name`` is unique in its world, ``body`` is what `World.spawn` was given; ``news`` are its
     body's events that the world has not been told of; ``has_levels``: whether it can be drawn in more or
     less detail; ``waits_for_level``: whether its level may differ from a `detail` that was asked for;
+    ``arrival``: a number, greater than of all bodies that came before its own;
     ``changed``: the world's time [s] when it got its body or its level of detail
     last, -inf if that was before the world was restored.
     """
@@ -110,8 +112,8 @@ class Agent:
         self.body = body
         self.figure = driver.figure
         self._bravery: float | None = None
-        self.take(driver)
         self._host = host
+        self.take(driver)
         self.changed = host.clock.time
         self._blocked = False
         self._born = host.clock.time - driver.time
@@ -527,6 +529,7 @@ class Agent:
     def take(self, driver: Driver) -> None:
         """Go on with another body of the same kind."""
         self._body: Driver | None = driver
+        self.arrival = next(self._host.arrivals)
         self.news = driver.events
         self._heed(self._bravery)
 
@@ -538,11 +541,11 @@ class Agent:
         """Take it out of its world; it cannot be used any more."""
         self._host.remove(self)
 
-    def save(self) -> AgentState:
-        """Everything needed to continue from here."""
+    def save(self, arrival: int) -> AgentState:
+        """Everything needed to continue from here; ``arrival`` as of `AgentState`."""
         return AgentState(
             self.body, self._born, self._driver.save(), self._blocked, self._goal, self._errand,
-            self._headway, self._detail, self._bravery,
+            self._headway, self._detail, self._bravery, arrival,
         )  # fmt: skip
 
     def fits(self, state: AgentState) -> bool:

@@ -1,7 +1,8 @@
 """What a world gives its agents of itself."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from itertools import count
 from typing import Any
 
 from locomotion.body.person import CONTROL_DT
@@ -33,7 +34,8 @@ class Clock:
 @dataclass(frozen=True)
 class Host:
     """``remove`` takes a `runtime.Agent` out of the world; ``at_level`` gives the driver of an agent at a
-    level of detail (and whether at once), None while it cannot have it; ``levels`` those that a body has."""
+    level of detail (and whether at once), None while it cannot have it; ``levels`` those that a body has;
+    ``arrivals`` numbers the bodies as they come."""
 
     clock: Clock
     log: EventLog
@@ -41,3 +43,4 @@ class Host:
     remove: Callable[[Any], None]
     at_level: Callable[[Any, str, bool], Driver | None]
     levels: Callable[[str], tuple[str, ...]]
+    arrivals: Iterator[int] = field(default_factory=count)

@@ -25,7 +25,7 @@ from runtime.events import Event
 from runtime.planning.level import Level
 from runtime.planning.rules import obstacle_rules, person_walk_rules
 from runtime.traffic.traffic import EVERY, Traffic
-from runtime.world.agent import Agent
+from runtime.world.agent import Agent, AgentState
 from runtime.world.agent_services import Clock, Host
 from runtime.world.arguments import checked_files, checked_number, checked_points, checked_whole
 from runtime.world.event_log import EventLog
@@ -424,13 +424,22 @@ class World:
         for name, agent in self.agents.items():
             checksum.update(f"{name}:{agent.state_hash()}".encode())
             pause()
+        order = _by_arrival(self.agents)
+        if order != list(self.agents):
+            checksum.update(repr(order).encode())
         return checksum.hexdigest()[:32]
+
+    @property
+    def _arrivals(self) -> dict[str, int]:
+        """Of each agent how many bodies came before its own: in this order populations have them. It differs
+        from that of the agents once somebody has gone over to another level of detail and back."""
+        return {name: k for k, name in enumerate(_by_arrival(self.agents))}
 
     def save(self) -> WorldState:
         """This moment, for `restore`."""
-        agents = {}
+        agents, arrivals = {}, self._arrivals
         for name, agent in self.agents.items():
-            agents[name] = agent.save()
+            agents[name] = agent.save(arrivals[name])
             pause()
         return WorldState(
             level=self.level_digest,
@@ -484,6 +493,7 @@ class World:
         """Go to ``state``; those of its agents that are ``known`` by name and body are the same objects."""
         here = [(name, agent.body) for name, agent in self.agents.items()]
         same = here == [(name, saved.body) for name, saved in state.agents.items()]
+        same = same and _by_arrival(self.agents) == _by_arrival(state.agents)
         if not same or not all(self.agents[name].fits(saved) for name, saved in state.agents.items()):
             self._populate(state, known)
         for name, saved in state.agents.items():
@@ -496,11 +506,13 @@ class World:
         self._viewers, self._budget = state.viewers, state.budget
 
     def _populate(self, state: WorldState, known: Mapping[str, Agent]) -> None:
-        """Make the agents those of ``state``, in their order."""
+        """Make the agents those of ``state``, in their order, whose bodies come in the order in which they
+        came there."""
         for agent in tuple(self.agents.values()):
             self.remove(agent)
         self._casts = None
-        for name, saved in state.agents.items():
+        for name in _by_arrival(state.agents):
+            saved = state.agents[name]
             driver = self._population(saved.body).revive(saved.body, saved.driver)
             agent = known.get(name)
             if agent is not None and agent.body == saved.body:
@@ -509,3 +521,10 @@ class World:
                 agent = Agent(self._host, name, saved.body, driver)
             self.agents[name] = agent
             pause()
+        for name in state.agents:
+            self.agents[name] = self.agents.pop(name)
+
+
+def _by_arrival(agents: Mapping[str, Agent] | Mapping[str, AgentState]) -> list[str]:
+    """Their names, in the order in which their bodies came into the world."""
+    return sorted(agents, key=lambda name: agents[name].arrival)

@@ -187,7 +187,7 @@ def choose_gaits(figures, rows, walkers, phases, dt):
     for n in range(rows.shape[0]):
         row, walker = rows[n], walkers[n]
         now, chosen = int(row[at.GAIT]), -1
-        if row[at.BUSY] == 0.0 and row[at.CROSSES] != at.CLEARS:
+        if row[at.CROSSES] != at.CLEARS:  # who plays a posture has no speed
             chosen = gait_for(figures.gaits, now, figures.bases[int(row[at.NODE])], row[at.SPEED])
         steps = int(2.0 * row[at.PHASE]) != int(2.0 * phases[n])
         if chosen == now or not (steps or now < 0 or chosen < 0):

@@ -81,6 +81,24 @@ def test_dying_on_the_run_is_no_jump_either():
     assert after[-1, 2] < 0.2 and ada.walker.velocity.max() == 0.0
 
 
+@pytest.mark.parametrize("speed", [1.3, 3.0])
+def test_who_is_told_to_kneel_on_the_way_walks_until_it_stands(speed):
+    people, (ada,) = crowd_of(1)
+    ada.go_to([(18.0, 5.0, 0.0)], speed, None)
+    played(people, ada, 2.0)
+    ada.take("kneel", "", "stowed")
+    poses = [ada.qpos]
+    while np.hypot(*ada.walker.velocity) > 0.1:
+        people.tick()
+        assert people.rows[0, at.GAIT] >= 0.0 and people.rows[0, at.LAID] > 0.0
+        poses.append(ada.qpos)
+    knees = [7 + skeleton("full").channels.index(f"{side}_knee_flexion") for side in ("right", "left")]
+    assert np.ptp(np.array(poses)[:, knees], axis=0).max() > 0.5
+    poses = np.concatenate([poses, played(people, ada, 4.0)[1:]])
+    assert steps(poses)[0] < NATURAL and ada.events[-1].posture == "kneel"
+    assert people.rows[0, at.GAIT] == -1.0
+
+
 def test_what_it_holds_it_holds_on_the_way_and_who_kneels_first_gets_up():
     people, (ada,) = crowd_of(1)
     ada.take("kneel", "rifle", "in use")

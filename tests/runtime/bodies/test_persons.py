@@ -11,9 +11,16 @@ from runtime import Budget, PostureReached, RuntimeInputError, Viewer, World
 def test_a_simulated_person_takes_a_posture_without_a_jump_and_is_simulated_again(graph, moves):
     world = World(graph)
     ada = world.spawn("human", (2.0, 3.0, 0.0))
+    usual = 0.06
     if moves:
-        ada.go_to((9.0, 3.0, 0.0), speed=1.2)
-        world.step(2.0)
+        bob = world.spawn("human", (2.0, 2.0, 0.0), detail="full")  # feet that swing are faster than the rest
+        for each in (ada, bob):
+            each.go_to((9.0, each.position[1], 0.0), speed=1.2)
+        world.step(1.0)
+        for _ in range(60):
+            before = bob.pose.transforms
+            world.step(1 / 60)
+            usual = max(usual, np.abs(bob.pose.transforms[:, :3] - before[:, :3]).max())
     before = ada.pose.transforms
     ada.take_posture("kneel")
     assert ada.level == "full" and ada.detail == "physics"
@@ -25,7 +32,7 @@ def test_a_simulated_person_takes_a_posture_without_a_jump_and_is_simulated_agai
             world.step(1 / 60)
             steps.append(np.abs(ada.pose.transforms[:, :3] - before[:, :3]).max())
             before = ada.pose.transforms
-    assert max(steps) < 0.06
+    assert max(steps) < usual
     assert ada.level == "physics" and ada.human.status == "standing"
     assert [e.posture for e in world.events if isinstance(e, PostureReached)] == ["kneel", "stand"]
 

@@ -157,12 +157,16 @@ class Walker:
 
     def lose_ground(self) -> None:
         """Its floor is gone: become stuck without moving. Called by `Crowd.change_graph`."""
-        row = self._row
-        if row[at.MODE] != at.LED:
-            row[[at.VX, at.VY, at.GO_X, at.GO_Y]] = 0.0
-            row[at.MODE], row[at.CELL], row[at.NOTE] = at.LED, -1.0, at.QUIET
-            self.status = "stuck"
+        if self._row[at.MODE] != at.LED:
+            self.hang()
             self.events.append(LostGround(self.time, self._point()))
+
+    def hang(self) -> None:
+        """Be stuck where it is, without a floor and without moving."""
+        row = self._row
+        row[[at.VX, at.VY, at.GO_X, at.GO_Y]] = 0.0
+        row[at.MODE], row[at.CELL], row[at.NOTE], row[at.WEIGHT] = at.LED, -1.0, at.QUIET, 1.0
+        self.status = "stuck"
 
     def root(self) -> None:
         """Stay where it is, whoever wants by, until `stop` or `go_to`."""

@@ -156,14 +156,15 @@ class ObstacleCourse:
         of = self.of
         if self.break_off():
             self._go_on(of)
-        else:
-            self._lose_ground()
 
     def break_off(self) -> bool:
-        """Leave a run-up; whether there is a floor under it."""
+        """Leave a run-up; whether there is a floor under it. If not, it has lost its ground."""
         person = self._person
         person.crossing, person.row[at.CROSSES], person.row[at.HASTE] = None, at.NOTHING, 1.0
-        return person.walker.put_down()
+        on_floor = person.walker.put_down()
+        if not on_floor:
+            self._lose_ground()
+        return on_floor
 
     def _begin_run_up(self, of: Crossing) -> None:
         people, walker = self._people, self._person.walker
@@ -228,7 +229,7 @@ class ObstacleCourse:
 
     def _lose_ground(self) -> None:
         """There is no floor where it is to go on."""
-        self._person.walker.status = "stuck"
+        self._person.walker.hang()
         self._person.events.append(LostGround(self._person.time, self._person.point))
 
     def _go_on(self, of: Crossing) -> None:

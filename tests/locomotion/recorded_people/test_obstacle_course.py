@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from locomotion import LocomotionError
-from locomotion.body_events import Arrived, Cleared, SetOff, TookOff
+from locomotion.body_events import Arrived, Cleared, LostGround, SetOff, TookOff
 from locomotion.recorded.skeletons import LOW
 from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.saved_state_check import check_recorded
@@ -122,3 +122,16 @@ def test_one_who_is_killed_on_the_run_up_falls_there():
     assert ada.posture == "dead" and ada.crossing is None and not people.rows[0, at.CROSSES]
     assert abs(ada.position[0] - x) < 0.3 and ada.qpos[2] < 0.25
     assert not [event for event in ada.events if isinstance(event, TookOff | Cleared)]
+
+
+def test_one_who_is_killed_on_the_run_up_without_a_floor_below_stays_there():
+    people, ada = over("vault", 0.8)
+    while people.rows[0, at.CROSSES] != at.RUNS_UP:
+        people.tick()
+    ada.walker.carry(ada.walker.position + np.array([0.0, 0.0, 50.0]), ada.walker.velocity, ada.walker.yaw)
+    ada.take("dead", "", "stowed")
+    assert isinstance(ada.events[-1], LostGround) and ada.walker.status == "stuck"
+    for _ in range(400):
+        people.tick()
+    assert not ada.walker.velocity.any() and people.rows[0, at.SPEED] == 0.0 and ada.posture == "dead"
+    check_recorded(ada.save(), people.graph, len(people.gaits), people.skills)

@@ -52,7 +52,13 @@ def gaits_for(
     the fastest.
     """
     table, chosen = gait_table(gaits), np.empty(len(now), np.int32)
-    _choose_all(table, np.asarray(now, np.int32), np.asarray(posture, np.int32), np.asarray(speed), chosen)
+    # of other types the kernel would be compiled once more
+    now, posture, speed = (
+        np.asarray(now, np.int32),
+        np.asarray(posture, np.int32),
+        np.asarray(speed, np.float64),
+    )
+    _choose_all(table, now, posture, speed, chosen)
     return chosen
 
 

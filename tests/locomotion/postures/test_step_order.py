@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from locomotion.postures.posture_file import load_postures
-from locomotion.postures.step_order import following, gaits_for, step_name
+from locomotion.postures.step_order import _choose_all, following, gaits_for, step_name
 from surefoot.files.yamlfile import FileError
 from tests.locomotion.postures.test_playback import person
 from tests.locomotion.postures.test_posture_file import GRAPH, written
@@ -67,3 +67,12 @@ def test_a_gait_of_one_step_is_called_as_it_is():
 def test_mistakes_are_told(tmp_path, gaits, problem):
     with pytest.raises(FileError, match=problem):
         load_postures(written(tmp_path, GRAPH + gaits))
+
+
+def test_a_speed_of_another_type_compiles_nothing_anew():
+    graph = person()
+    here = np.array([graph.postures.index("stand")])
+    for speed in (np.array([1.0]), np.array([1], np.int64), np.array([1.0], np.float32)):
+        chosen = gaits_for(graph.gaits, np.array([-1]), here, speed)
+        assert graph.gaits[chosen[0]].name == "walk"
+    assert len(_choose_all.signatures) == 1

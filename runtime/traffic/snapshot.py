@@ -1,6 +1,6 @@
 """All bodies of a world at one time, with predicted places, computed on demand."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -18,9 +18,9 @@ _YIELDS, _AWAY = round(1.0 / STEP), 1e6
 _SLACK = 3.5  # [m] between two bodies moving straight on within which they are examined closely
 
 
-class Discs(Sequence[np.ndarray]):
-    """Of each body its discs (d, 6); ``groups``: of bodies with equally many each (bodies, d, 6). No array is
-    made for a body before somebody asks for it: there may be thousands."""
+class Discs:
+    """Of each body, by its number, its discs (d, 6); ``groups``: of bodies with equally many each
+    (bodies, d, 6). No array is made for a body before somebody asks for it: there may be thousands."""
 
     def __init__(self, groups: Sequence[np.ndarray]) -> None:
         self.all = np.concatenate([np.empty((0, 6)), *(group.reshape(-1, 6) for group in groups)])
@@ -31,8 +31,12 @@ class Discs(Sequence[np.ndarray]):
     def __len__(self) -> int:
         return len(self.first) - 1
 
-    def __getitem__(self, index: int) -> np.ndarray:  # type: ignore[override]
-        return self.all[self.first[index] : self.first[index + 1]]
+    def __getitem__(self, index: int) -> np.ndarray:
+        number = range(len(self))[index]  # below 0: from the end, as of a list
+        return self.all[self.first[number] : self.first[number + 1]]
+
+    def __iter__(self) -> Iterator[np.ndarray]:
+        return (self[number] for number in range(len(self)))
 
 
 class Snapshot:

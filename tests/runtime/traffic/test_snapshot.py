@@ -99,6 +99,9 @@ def test_those_that_can_give_way_come_first(hall):
     assert len(seen) == 4 and len(seen.followers) == 2
     middle = [discs[:, 0].mean() for discs in seen.discs]
     assert middle == pytest.approx([6.0, 9.0, 3.0, 12.0], abs=0.3)
+    assert (seen.discs[-1] == list(seen.discs)[3]).all() and len(seen.discs[-1]) > 0
+    with pytest.raises(IndexError):
+        seen.discs[4]
     assert len(seen.others(0)) == sum(map(len, list(seen.discs)[1:]))
 
 

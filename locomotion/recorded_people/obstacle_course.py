@@ -27,7 +27,6 @@ _NEAR = 0.9  # [m] before an obstacle's run-up point at which a run-up begins
 _TURNS = 6.0  # [rad/s] at most, meanwhile
 _ABREAST = 1.2  # [m] between two who clear an obstacle side by side
 _PATIENCE = 10.0  # [s] for which one waits for others before an obstacle
-_BODY = 3  # ticks between two of the bodies'
 
 
 class Person(Protocol):
@@ -177,7 +176,7 @@ class ObstacleCourse:
         if walker.status == "walking" and (goals_before or walker.left > far):
             return
         if self._waits_for_others(of):
-            self._person.crossing = replace(of, waited=of.waited + _BODY * people.dt)
+            self._person.crossing = replace(of, waited=of.waited + people.crowd.dt)
             return
         skill, graph = people.skills[of.affordance], people.crowd.graph
         x, y, z = walker.position.tolist()

@@ -61,7 +61,7 @@ class ItsPeople(Protocol):
     graph: PostureGraph
     gaits: tuple[Gait, ...]
     stand: int
-    bases: NDArray[np.int32]
+    bases: NDArray[np.int64]
     dt: float
     motions: MotionSet
     skills: dict[str, RecordedSkill]

@@ -21,7 +21,7 @@ import argparse
 import gc
 import math
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from itertools import pairwise
 
@@ -38,6 +38,7 @@ from runtime import Agent, Fell, SkillFinished, World
 from runtime.bodies.humans import HumanDriver
 from runtime.planning.rules import person_walk_rules
 from runtime.world.level_of_detail import LEVELS, PHYSICS
+from surefoot.progress import Progress
 
 __all__ = ["COUNTS", "MODES", "SKILLS", "frame_figures", "switch_figures"]
 
@@ -58,9 +59,11 @@ def pose_of(agent: Agent) -> np.ndarray:
 
 
 def steps(poses: list[np.ndarray]) -> tuple[float, float]:
-    """Greatest step of a joint [degrees] and of the root [m] between poses."""
+    """Greatest step of a joint [degrees] and of the root [m] between poses. A hinge at π and one at -π are in
+    the same place."""
     moved = np.array([difference(b, a) for a, b in pairwise(poses)])
-    return float(np.degrees(np.abs(moved[:, 6:]).max())), float(np.linalg.norm(moved[:, :3], axis=1).max())
+    turned = (moved[:, 6:] + math.pi) % (2.0 * math.pi) - math.pi
+    return float(np.degrees(np.abs(turned).max())), float(np.linalg.norm(moved[:, :3], axis=1).max())
 
 
 def setting(mode: str, rng: np.random.Generator) -> tuple[NodeGraph, np.ndarray, float]:
@@ -129,20 +132,25 @@ def _frames(world: World, agent: Agent, count: int) -> list[np.ndarray]:
 
 
 def switch_figures(
-    count: int, seed: int, modes: Sequence[str] = (*MODES, *SKILLS)
-) -> dict[tuple[str, str], dict[str, float]]:
-    """For each of ``modes`` and each direction: how many switched and stayed up; the worst of the rest."""
+    count: int, seed: int, modes: Sequence[str] = (*MODES, *SKILLS), progress: Progress | None = None
+) -> Iterator[tuple[str, str, dict[str, float]]]:
+    """Of each of ``modes`` and each direction, as soon as they are made: how many switched and stayed up; the
+    worst of the rest. ``count`` is of all together. A mode's switches are the same whichever modes are asked
+    for."""
+    progress = progress or Progress(shown=False)
     cases = [(mode, to) for mode in modes for to in (PHYSICS, "full")]
-    found: dict[tuple[str, str], dict[str, float]] = {}
     for k, (mode, to) in enumerate(cases):
         of = len(range(k, count, len(cases)))
-        rng = np.random.default_rng((seed, k))
-        made = [switch(mode, to, rng) for _ in range(of)]
+        rng = np.random.default_rng((seed, [*MODES, *SKILLS].index(mode), to == PHYSICS))
+        made = []
+        with progress.stage(f"{mode} to {to}") as stage:
+            for number in range(of):
+                made.append(switch(mode, to, rng))
+                stage.update((number + 1) / of, f"{sum(each['up'] for each in made):.0f} up")
         if made:
             worst = {name: max(each[name] for each in made) for name in made[0]}
             sums = {name: sum(each[name] for each in made) for name in ("switched", "up")}
-            found[mode, to] = {**worst, **sums, "count": of}
-    return found
+            yield mode, to, {**worst, **sums, "count": of}
 
 
 def frame_figures(graph: NodeGraph, counts: tuple[int, ...], seconds: float, seed: int) -> dict[str, float]:
@@ -221,12 +229,13 @@ def main() -> None:
     parser.add_argument("--modes", nargs="+", choices=(*MODES, *SKILLS), default=(*MODES, *SKILLS))
     given = parser.parse_args()
     if given.only != "frame":
-        for (mode, to), of in switch_figures(given.switches, given.seed, given.modes).items():
+        for mode, to, of in switch_figures(given.switches, given.seed, given.modes, Progress()):
             print(
                 f"{mode:6} to {to:8} {of['switched']:.0f} of {of['count']:.0f} within {of['waited']:.2f} s; "
                 f"jump {of['jump']:.1e} degrees, {100 * of['jump_root']:.1e} cm; joint step "
                 f"{of['joint_after']:.1f} (before {of['joint_before']:.1f}) degrees; root step "
-                f"{100 * of['root_after']:.1f} (before {100 * of['root_before']:.1f}) cm; up {of['up']:.0f}"
+                f"{100 * of['root_after']:.1f} (before {100 * of['root_before']:.1f}) cm; up {of['up']:.0f}",
+                flush=True,
             )
     if given.only != "switches":
         of = frame_figures(level(), COUNTS, given.seconds, given.seed)

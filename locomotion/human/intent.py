@@ -25,6 +25,7 @@ _WALK_BEGINS, _RUN_BEGINS = 0.5, 1.0  # [m] ahead where it starts to step aside
 _SETTING_OFF = 0.5  # [s] for the first step after a turn on the spot
 _BESIDE = 0.3  # [m] from its path beyond which it walks there first
 _BERTH = 0.14  # [m] added: it sways beside its path, and drifts while turning on the spot
+_READ = path_table.X, path_table.Y, path_table.Z, path_table.HEADING, path_table.SPEED
 _RADIUS = PERSON_RULES["radius"] + _BERTH
 
 
@@ -45,8 +46,9 @@ def course_on_way(
     far = arc + 2.0 * HORIZON * limits.speeds[1]
     along = np.arange(arc, min(path.length, far) + 1e-9, SPACING)
     rows = np.empty((len(along), path.table.shape[1]))
-    for k in range(rows.shape[1]):
-        rows[:, k] = np.interp(along / step, np.arange(len(path.table)), path.table[:, k])
+    at, known = along / step, np.arange(len(path.table))
+    for k in _READ:
+        rows[:, k] = np.interp(at, known, path.table[:, k])
     points, speeds = rows[:, :3], np.minimum(rows[:, path_table.SPEED], limits.speeds[1])
     speed, turns = float(np.linalg.norm(velocity[:2])), 0.0
     ahead = rows[min(round(_WALK_BEGINS / SPACING), len(rows) - 1), path_table.HEADING]

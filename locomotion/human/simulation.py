@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import mujoco
 import numpy as np
@@ -13,7 +14,7 @@ from locomotion.errors import LocomotionError
 from locomotion.gaits.run import controller
 from locomotion.ground.ground import Ground, plane_lookup
 
-__all__ = ["Simulation"]
+__all__ = ["Simulation", "positions"]
 
 
 class Simulation:
@@ -94,3 +95,15 @@ class Simulation:
         if not abs(z - place[2]) <= 0.5:
             raise LocomotionError(f"there is no ground within 0.5 m of {place.round(2)}")
         return np.array([place[0], place[1], z])
+
+
+def positions(bodies: Sequence[Simulation]) -> NDArray[np.float64]:
+    """(n, 3) float64 [m]: `Simulation.position` of several, who are on the same ground."""
+    places = np.array([body.control[controller.COM] for body in bodies]).reshape(-1, 3)
+    if not bodies or bodies[0].ground is None:
+        places[:, 2] = 0.0
+        return places
+    below = bodies[0].ground.surface_below(places)[0]
+    feet = np.array([body.control[controller.FEET] for body in bodies])
+    places[:, 2] = np.where(np.isfinite(below), below, np.minimum(feet[:, 2], feet[:, 5]))
+    return places

@@ -98,6 +98,8 @@ class RecordedPeople:
         self.people: list[RecordedPerson] = []
         self._arrivals = 0  # so far
         self._rows = np.zeros((64, at.ROW))
+        self.turns = np.zeros(64)
+        """Of each figure `RecordedPerson.turn`."""
 
     def __len__(self) -> int:
         return len(self.people)
@@ -190,8 +192,10 @@ class RecordedPeople:
     def _take_in(self, walker: Walker, row: NDArray[np.float64]) -> RecordedPerson:
         if len(self.people) == len(self._rows):
             self._rows = np.concatenate([self._rows, np.zeros_like(self._rows)])
+            self.turns = np.concatenate([self.turns, np.zeros_like(self.turns)])
         self._rows[len(self.people)] = row
-        self.people.append(RecordedPerson(self, walker, self._arrivals * _TURN % 1.0))
+        self.turns[len(self.people)] = self._arrivals * _TURN % 1.0
+        self.people.append(RecordedPerson(self, walker))
         self._arrivals += 1
         return self.people[-1]
 
@@ -199,6 +203,7 @@ class RecordedPeople:
         """Have one less; the indices of those after it decrease by one."""
         index = person.index
         self._rows[index:-1] = self._rows[index + 1 :]
+        self.turns[index:-1] = self.turns[index + 1 :]
         del self.people[index]
         self.crowd.remove(index)
 
@@ -256,7 +261,7 @@ class RecordedPeople:
         (n,)), until ``now``: those in full detail always, the others as often as their motion is kept, in
         turn. After a time long past or -inf all have."""
         levels = self._rows[indices, at.LEVEL].astype(np.int64)
-        turns = np.array([self.people[index].turn for index in indices.tolist()])
+        turns = self.turns[indices]
         since = np.maximum(since, now - _LONG)
         moments = np.floor(_RATES[levels] * now - turns) - np.floor(_RATES[levels] * since - turns)
         return (moments > 0.0) | (levels == FULL)

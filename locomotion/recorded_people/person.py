@@ -58,6 +58,7 @@ class ItsPeople(Protocol):
     """What a person asks of all; members: as of `locomotion.recorded_people.people.RecordedPeople`."""
 
     crowd: Crowd
+    turns: NDArray[np.float64]
     graph: PostureGraph
     gaits: tuple[Gait, ...]
     stand: int
@@ -80,11 +81,10 @@ class ItsPeople(Protocol):
 
 class RecordedPerson:
     """``walker``: its body. ``playback``: what it plays of its postures, None while it stands or moves.
-    ``wanted``: the posture that it was asked for last and is not in yet, with what is held; "" if none.
-    ``turn``: when it is drawn anew, as a share of the time between two drawings, 0 to 1."""
+    ``wanted``: the posture that it was asked for last and is not in yet, with what is held; "" if none."""
 
-    def __init__(self, people: ItsPeople, walker: Walker, turn: float) -> None:
-        self._people, self.walker, self.turn = people, walker, turn
+    def __init__(self, people: ItsPeople, walker: Walker) -> None:
+        self._people, self.walker = people, walker
         self.playback: Playback | None = None
         self.wanted = ""
         self.errand: Errand | None = None
@@ -100,6 +100,11 @@ class RecordedPerson:
     def row(self) -> NDArray[np.float64]:
         """(`layout.ROW`,) what is remembered of it; a view."""
         return self._people.rows[self.walker.index]
+
+    @property
+    def turn(self) -> float:
+        """When it is drawn anew, as a share of the time between two drawings, 0 to 1."""
+        return float(self._people.turns[self.walker.index])
 
     @property
     def time(self) -> float:
@@ -150,18 +155,14 @@ class RecordedPerson:
         "jumping"."""
         if self.errand is not None:
             return "walking"
-        if self.row[at.CROSSES] >= at.RUNS_UP:
+        row, status = self.row, self.walker.status
+        if row[at.CROSSES] >= at.RUNS_UP:
             assert self.crossing is not None
-            clears = self.row[at.CROSSES] == at.CLEARS
+            clears = row[at.CROSSES] == at.CLEARS
             return skill_kind(self.crossing.affordance).status if clears else "running"
-        if self.walker.status == "walking" and self._gait_name == "run":
-            return "running"
-        return self.walker.status
-
-    @property
-    def _gait_name(self) -> str:
-        gait = int(self.row[at.GAIT])
-        return self._people.gaits[gait].name if gait >= 0 else ""
+        if status == "walking" and row[at.GAIT] >= 0.0:
+            return "running" if self._people.gaits[int(row[at.GAIT])].name == "run" else status
+        return status
 
     @property
     def qpos(self) -> NDArray[np.float64]:
@@ -379,7 +380,7 @@ class RecordedPerson:
         self.walker.restore(state.body)
         self.row[:] = state.row
         self.playback, self.wanted, self.errand = state.playback, state.wanted, state.errand
-        self.crossing, self.turn = state.crossing, state.turn
+        self.crossing, self._people.turns[self.walker.index] = state.crossing, state.turn
 
     def state_hash(self) -> str:
         """Hex digest of everything that decides its future."""

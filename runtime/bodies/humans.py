@@ -24,6 +24,7 @@ from locomotion.gaits.walk.skill import WalkSkill, load_walk_skill
 from locomotion.human.human import BetweenGaits
 from locomotion.human.motion_start import moment_like, set_in_motion
 from locomotion.human.saved_state_check import check_person
+from locomotion.human.simulation import positions
 from locomotion.paths.departures import can_begin, leads
 from locomotion.paths.run_up_room import cramped_links
 from locomotion.postures.step_order import AT_REST
@@ -189,8 +190,11 @@ class People(Population):
 
     def in_the_way(self) -> np.ndarray:
         humans = [driver.human for driver in self._drivers]
-        rows = [[*each.position, *each.velocity[:2], PERSON_RULES["radius"]] for each in humans]
-        return np.array(rows).reshape(-1, 6)
+        rows = np.empty((len(humans), 6))
+        rows[:, :3] = positions([each.simulation for each in humans])
+        rows[:, 3:5] = np.array([each.velocity[:2] for each in humans]).reshape(-1, 2)
+        rows[:, 5] = PERSON_RULES["radius"]
+        return rows
 
     def followers(self) -> Sequence[Follower]:
         return self._drivers

@@ -4,9 +4,9 @@ import hashlib
 import math
 import os
 from collections.abc import Callable, Mapping, Sequence
-from itertools import count
+from itertools import compress, count
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -47,6 +47,25 @@ _AS_SAVED = {
 }
 """What a world is restored with, by what people have learned in another way (`LEARNED` of the library)."""
 _E = TypeVar("_E", bound=Event)
+
+
+class _Drawn(NamedTuple):
+    """The agents of a population that are drawn together: their ``numbers`` (n,) in the order of all agents,
+    ``names``, and `Agent.changed` of each (n,)."""
+
+    cast: Cast
+    numbers: np.ndarray
+    names: list[str]
+    changed: np.ndarray
+
+
+def _drawn(home: Population, members: Sequence[tuple[int, Agent]]) -> _Drawn:
+    return _Drawn(
+        home.cast([agent.driver for _, agent in members]),
+        np.array([number for number, _ in members], np.int64),
+        [agent.name for _, agent in members],
+        np.array([agent.changed for _, agent in members]),
+    )
 
 
 class World:
@@ -120,8 +139,8 @@ class World:
         self._viewers: tuple[Viewer, ...] = ()
         self._budget = Budget()
         self._stepping = False
-        self._casts: list[tuple[Cast, list[Agent], np.ndarray]] | None = None
-        """For `transforms`, with `Agent.changed` of each; None when somebody has come, gone, or changed."""
+        self._casts: list[_Drawn] | None = None
+        """For `transforms`; None when somebody has come, gone, or changed."""
         self._asked: float | None = None
         """[s] when `transforms` was asked for the first time after the last `restore`; None: not yet."""
 
@@ -284,19 +303,21 @@ class World:
         elif after is not None and not self._asked <= after <= self.time:
             after = None
         if self._casts is None:
-            homes: dict[Population, list[Agent]] = {}
-            for agent in self.agents.values():
-                homes.setdefault(self._population(agent.body), []).append(agent)
-            self._casts = [
-                (home.cast([agent.driver for agent in agents]), agents, np.array([a.changed for a in agents]))
-                for home, agents in homes.items()
-            ]
-        found: dict[str, np.ndarray] = {}
-        for cast, agents, changed in self._casts:
-            each = None if after is None else np.where(changed >= after, -np.inf, after)
-            which, places = cast.transforms(each, self.time)
-            found.update(zip([agents[k].name for k in which], places, strict=True))
-        return {name: found[name] for name in self.agents if name in found}
+            homes: dict[Population, list[tuple[int, Agent]]] = {}
+            for number, agent in enumerate(self.agents.values()):
+                homes.setdefault(self._population(agent.body), []).append((number, agent))
+            self._casts = [_drawn(home, members) for home, members in homes.items()]
+        numbers: list[np.ndarray] = [np.empty(0, np.int64)]
+        names: list[str] = []
+        places: list[np.ndarray] = []
+        for drawn in self._casts:
+            each = None if after is None else np.where(drawn.changed >= after, -np.inf, after)
+            which, there = drawn.cast.transforms(each, self.time)
+            numbers.append(drawn.numbers[which])
+            names += [drawn.names[k] for k in which]
+            places += there
+        order = np.argsort(np.concatenate(numbers)).tolist()
+        return {names[k]: places[k] for k in order}
 
     def remove(self, agent: Agent) -> None:
         """Take an agent out of the world; it cannot be used any more. Raises `RuntimeInputError` for one that
@@ -338,11 +359,14 @@ class World:
 
     def _choose_levels(self) -> None:
         """Bring people to the levels of detail that they should have, some of them in each call."""
-        people = [agent for agent in self.agents.values() if agent.has_levels]
+        agents = self.agents.values()
         chosen: list[tuple[Agent, str]] = []
-        unsettled = [each for each in people if each.detail != AUTO and each.waits_for_level]
-        automatic = np.array([agent.detail == AUTO for agent in people], np.bool_)
-        if automatic.any():
+        unsettled = [
+            each for each in agents if each.waits_for_level and each.has_levels and each.detail != AUTO
+        ]
+        if any(agent.detail == AUTO for agent in agents):
+            people = [agent for agent in agents if agent.has_levels]
+            automatic = np.array([agent.detail == AUTO for agent in people], np.bool_)
             now = np.array([LEVELS.index(agent.level) for agent in people])
             places = np.array([agent.position for agent in people])
             levels = levels_for(places, now, ~automatic, self._viewers, self._budget)
@@ -394,11 +418,11 @@ class World:
                     pause()
                 if clock.ticks % LOOKS == 0:
                     self._choose_levels()
-                for agent in self.agents.values():
-                    if agent.news:
-                        agent.notice()
-                        pause()
-                for agent in list(self.agents.values())[clock.ticks % _LOOKS :: _LOOKS]:
+                agents = list(self.agents.values())
+                for agent in compress(agents, [agent.news for agent in agents]):  # those with any
+                    agent.notice()
+                    pause()
+                for agent in agents[clock.ticks % _LOOKS :: _LOOKS]:
                     agent.watch()
                     pause()
                 self._log.tell()

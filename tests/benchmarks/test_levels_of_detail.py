@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from benchmarks.giving_way import floor
-from benchmarks.levels_of_detail import frame_figures, switch
+from benchmarks.levels_of_detail import frame_figures, steps, switch
 
 
 @pytest.fixture(scope="module")
@@ -29,3 +29,10 @@ def test_a_frame_of_people_at_all_levels_is_timed(plain):
     of = frame_figures(plain, (0, 2, 2, 2), 0.1, 1)
     assert 0.0 < of["posing"] <= of["median"] <= of["p99"] <= of["worst"]
     assert of["share_moving"] == 1.0
+
+
+def test_a_hinge_that_goes_on_past_half_a_turn_makes_a_small_step():
+    before, after = np.zeros(46), np.zeros(46)
+    before[3] = after[3] = 1.0
+    before[10], after[10], after[0] = np.pi - 0.01, -np.pi + 0.01, 0.03
+    assert steps([before, after]) == pytest.approx((np.degrees(0.02), 0.03))

@@ -9,7 +9,7 @@ import pytest
 from locomotion.errors import LocomotionError
 from locomotion.gaits.run.layout import COM, FEET
 from locomotion.ground.ground import Ground
-from locomotion.human.simulation import Simulation
+from locomotion.human.simulation import Simulation, positions
 
 CORNERS = np.array([[-5.0, -5, -1.0], [5, -5, 1.0], [5, 5, 1.0], [-5, 5, -1.0]])
 FACES = [[0, 1, 2], [0, 2, 3]]
@@ -75,3 +75,14 @@ def test_on_another_ground_it_has_a_simulation_of_its_own(on_slope):
     model = on_slope.model
     on_slope.stand_on(None)
     assert on_slope.model is not model and on_slope.ground is None and on_slope.data.time == 0.0
+
+
+def test_several_are_where_each_of_them_is(on_slope):
+    beside = Simulation(on_slope.ground)
+    beside.control[COM], beside.control[FEET] = (7.0, 1.0, 1.3), (2.0, 0.9, 0.45, 7.0, 1.1, 0.41)
+    both = [on_slope, beside]
+    assert np.array_equal(positions(both), [each.position for each in both])
+    plane = Simulation(None)
+    plane.control[COM] = 3.0, 4.0, 1.0
+    assert np.array_equal(positions([plane]), [plane.position])
+    assert positions([]).shape == (0, 3)

@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import mujoco
 import numpy as np
@@ -31,6 +31,7 @@ from locomotion.errors import LocomotionError
 from locomotion.gaits.brake import BRAKING, BrakeSkill, load_brake_skill
 from locomotion.gaits.limits import PERSON_RULES
 from locomotion.gaits.policy.skill import PolicySkill
+from locomotion.gaits.residual.skill import ResidualSkill, load_brake_residual
 from locomotion.gaits.run import controller
 from locomotion.gaits.run.controller import observe
 from locomotion.gaits.run.skill import RunSkill, load_run_skill
@@ -66,11 +67,13 @@ _CHANGE = 0.01  # [m] largest change of the ground under a person at rest that n
 
 class BetweenGaits(NamedTuple):
     """How a person comes from a run to a walk, from a walk to a run, and from a run to a stand; None: as the
-    package's skills say."""
+    package's skills say. ``residual``: the network that corrects it while it brakes (True: the package's), or
+    None: none does."""
 
     slow_down: SlowDownSkill | None = None
     speed_up: SpeedUpSkill | None = None
     brake: BrakeSkill | None = None
+    residual: ResidualSkill | Literal[True] | None = True
 
 
 class Human(Person):
@@ -121,6 +124,7 @@ class Human(Person):
             between.speed_up or load_speed_up_skill(),
             between.brake or load_brake_skill(),
             policy,
+            load_brake_residual() if between.residual is True else between.residual,
         )
         super().__init__(ground, on_feet, learned_skills(run) if clearing is None else clearing)
         self.gets_up = gets_up
@@ -358,6 +362,6 @@ class Human(Person):
         feet = self.on_feet
         return Human(
             self.ground, feet.run_skill, self.clearing, feet.walk_skill,
-            BetweenGaits(feet.slow_down_skill, feet.speed_up_skill, feet.brake_skill), 0,
+            BetweenGaits(feet.slow_down_skill, feet.speed_up_skill, feet.brake_skill, feet.residual.skill), 0,
             policy=None if feet.learned is None else feet.learned.skill,
         )  # fmt: skip

@@ -23,6 +23,7 @@ from locomotion.body.person import CONTROL_DT, PersonIndex
 from locomotion.gaits.brake import SLOWEST, BrakeSkill
 from locomotion.gaits.limits import run_limits, walk_limits
 from locomotion.gaits.policy.skill import PolicySkill
+from locomotion.gaits.residual.skill import ResidualSkill
 from locomotion.gaits.run import controller
 from locomotion.gaits.run.controller import run_tick
 from locomotion.gaits.run.skill import RunSkill, run_on
@@ -52,6 +53,7 @@ from locomotion.gaits.walk.skill import RISING, STEADYING_SPEED, WalkSkill
 from locomotion.gaits.walk.steps import TURN_TIME
 from locomotion.human.intent import TURN_FIRST
 from locomotion.human.learned_walk import LearnedWalk
+from locomotion.human.residual import Residual
 from locomotion.human.simulation import Simulation
 from locomotion.paths.command import HEADING_ASKED, SIDEWAYS_ASKED, SPEED_ASKED
 from locomotion.paths.follower import PathFollower
@@ -86,6 +88,7 @@ class OnFeet:
         speed_up: SpeedUpSkill,
         brake: BrakeSkill,
         policy: PolicySkill | None = None,
+        residual: ResidualSkill | None = None,
     ) -> None:
         self.run_skill, self.walk_skill = run, walk
         self.slow_down_skill, self.speed_up_skill, self.brake_skill = slow_down, speed_up, brake
@@ -95,6 +98,7 @@ class OnFeet:
         self.limits, self.walk_limits = run_limits(run), walk_limits(walk)
         self.walk = new_walk()
         self.learned = None if policy is None else LearnedWalk(policy)
+        self.residual = Residual(residual)
         self.slowing, self.brakes, self.hurries, self.speed = 0.0, False, False, 0.0
 
     @property
@@ -239,6 +243,8 @@ class OnFeet:
                 tables = self._braking_run if self.brakes else self._slow_run
             run_tick(*tables, state, command, data.qpos, data.qvel, data.ctrl)
             self.speed = float(state[controller.SPEED])
+        needed = self.brakes and not (self.walks and self.walk[PHASE] == STANDING)
+        self.residual.tick(needed, state, self.walk, data)
 
     def _walk_tables(self) -> NDArray[np.float64]:
         """The gains of its present walk."""
@@ -272,6 +278,7 @@ class OnFeet:
 
     def stop_learned(self) -> None:
         """Something else than the learned walk moves it now."""
+        self.residual.memory[:] = 0.0
         if self.learned is not None:
             self.learned.leave()
 

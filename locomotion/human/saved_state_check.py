@@ -9,6 +9,7 @@ from locomotion.body.person import JOINT_NAMES
 from locomotion.body.physics import physics_size
 from locomotion.errors import LocomotionError
 from locomotion.gaits.policy import layout as policy
+from locomotion.gaits.residual import layout as residual
 from locomotion.gaits.run import layout as run
 from locomotion.gaits.walk import layout as walk
 from locomotion.human import learned_walk
@@ -90,6 +91,12 @@ _PARTS = (
             walk.CAUGHT,
         ),
         open_ended=(walk.BODY_HEIGHT,),
+    ),
+    Slots(
+        "what corrects the braking of a person",
+        residual.MEMORY_SIZE,
+        [(residual.SINCE, COUNT), (residual.DECIDED, _SPEED)],
+        whole=(residual.SINCE,),
     ),
     Slots(
         "the way of a person",

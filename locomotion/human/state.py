@@ -93,6 +93,7 @@ _ARRAYS = operator.attrgetter(
     "command",
     "on_feet.walk",
     "on_feet.learned_memory",
+    "on_feet.residual.memory",
     "follower.memory",
     "fours.memory",
     "run_up.plan",

@@ -88,9 +88,8 @@ SLOWINGS = (1.0, 0.92, 1.08, 0.84, 1.16, 0.76, 1.24, 0.68, 1.32, 0.6, 1.4)
 """[m/s^2] by which the run's reference speed is lowered."""
 BALKINGS = (1.2, 0.9, 1.6, 0.7, 2.2, 3.0)
 """[m/s^2] the same for aborting a run-up: harder ones hold as well, and the obstacle is near."""
-BRAKINGS = (1.65, 1.4, 2.0, 1.3, 1.8, 0.9, 2.5, 2.8)
-"""How hard it brakes, relative to what was learned; those that usually stop sooner come first, so that others
-can be given up early."""
+BRAKINGS = (2.5, 2.8, 2.0, 2.3, 1.65, 1.3, 0.9)
+"""How hard it brakes, relative to what was learned; those that hold most often come first."""
 STEPPINGS = (
     (0.0, 0.0), (0.05, 0.0), (-0.05, 0.0), (0.0, 0.08), (0.0, -0.08), (0.05, 0.08),
     (0.1, 0.0), (0.1, 0.08), (0.0, 0.15), (0.05, -0.08), (-0.05, 0.08), (0.15, 0.0),

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 __all__ = ["evaluate_skill", "show_clip", "train_library", "train_skill"]
 
-_WITHOUT_A_PLANE = ("walk", "walk-policy", "speed-up", "slow-down", "brake")
+_WITHOUT_A_PLANE = ("walk", "walk-policy", "speed-up", "slow-down", "brake", "brake-residual")
 """Skills whose trials do not vary in two numbers, so that no coverage picture can be drawn."""
 
 
@@ -39,10 +39,11 @@ def _trainers() -> Mapping[str, Callable[..., Any]]:
     from locomotion.training.gaits.speed_up import train_speed_up
     from locomotion.training.gaits.walk import train_walk
     from locomotion.training.policies.walk import train_walk_policy
+    from locomotion.training.residual.train import train_brake_residual
 
     return {
         "walk": train_walk, "run": train_run, "speed-up": train_speed_up, "slow-down": train_slow_down,
-        "brake": train_brake, "walk-policy": train_walk_policy,
+        "brake": train_brake, "brake-residual": train_brake_residual, "walk-policy": train_walk_policy,
         **{kind.skill: kind.train for kind in skill_kinds() if kind.train is not None},
     }  # fmt: skip
 

@@ -5,6 +5,7 @@ from functools import partial
 
 from locomotion.skills.registry import skill_kinds
 from runtime.evaluation import evaluation
+from runtime.evaluation.braking import brake_residual_trials
 from runtime.evaluation.evaluation import Attempt, Trial
 from runtime.evaluation.policies import walk_policy_trials
 from surefoot.progress import Progress
@@ -40,6 +41,7 @@ def _trials_of(skill: str, trials: int, seed: int) -> list[Trial]:
         "speed-up": evaluation.speed_up_trials,
         "slow-down": evaluation.slow_down_trials,
         "brake": evaluation.brake_trials,
+        "brake-residual": brake_residual_trials,
         "walk-policy": walk_policy_trials,
         **{kind.skill: partial(evaluation.clearing_trials, kind) for kind in skill_kinds()},
     }

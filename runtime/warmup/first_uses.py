@@ -120,6 +120,13 @@ def _run_and_jump() -> None:
         world.step(0.1)
 
 
+def _brake() -> None:
+    human = Human(None, clearing=(), rehearsals=0)
+    human.reset((0.0, 0.0, 0.0), 0.0, 3.0)
+    human.brake(1.0)
+    human.tick()
+
+
 def _clear() -> None:
     from runtime.evaluation.courses import make_course, run_course
 
@@ -255,6 +262,7 @@ FIRST_USES: dict[str, Callable[[], None]] = {
     "area costs": _find_by_costs,
     "walking and getting up": _fall_and_get_up,
     "learned walk": _walk_as_learned,
+    "braking": _brake,
     "skills": _clear,
     "smoothing": _smooth,
     "animals": _animals,

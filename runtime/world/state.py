@@ -85,7 +85,7 @@ class _StateHeader(Header):
 
 STATE_FILE = Schema(
     kind="surefoot world state",
-    version=6,
+    version=7,
     header=_StateHeader,
     arrays={dtype: Flags(dtype) if dtype == "bool" else Array(dtype, (dtype,)) for dtype in DTYPES},
     remedy="save the world again",

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from locomotion.body.person import JOINT_NAMES, PersonIndex
 from locomotion.gaits.policy import layout as at
+from locomotion.gaits.policy.evaluation import evaluate
 from locomotion.gaits.policy.law import (
     ACCELERATION,
     AT_REST,
@@ -219,20 +220,6 @@ def _observe(memory, felt, qpos, qvel, out):
 
 
 @kernel
-def _layer(weights, biases, x, out, last):
-    """One layer of the network, with tanh but for the ``last``."""
-    for j in range(out.shape[0]):
-        out[j] = biases[j]
-    for i in range(x.shape[0]):
-        v = x[i]
-        for j in range(out.shape[0]):
-            out[j] += v * weights[i, j]
-    if not last:
-        for j in range(out.shape[0]):
-            out[j] = math.tanh(out[j])
-
-
-@kernel
 def _behind(share):
     """How far a foot of a body that turns by 1 a cycle is turned from it, at a ``share`` of its own cycle."""
     if share < BEARING:
@@ -280,17 +267,10 @@ def _targets(speeds, periods, joints, rates, memory, ctrl):
 @allocating_kernel
 def _decide(network, seen, mirrored, memory):
     """What the ``network`` decides, into ``memory``."""
-    mean, deviation, w0, b0, w1, b1, w2, b2 = network
-    inputs = np.empty(at.INPUTS, np.float32)
+    observed, decided = np.empty(at.INPUTS), np.empty(at.ACTIONS, np.float32)
     for k in range(at.INPUTS):
-        value = seen[at.MIRROR_OBSERVED[k]] * at.SIGN_OBSERVED[k] if mirrored else seen[k]
-        value = (value - mean[k]) / deviation[k]
-        inputs[k] = min(max(value, -at.MOST_INPUT), at.MOST_INPUT)
-    first, second = np.empty(b0.shape[0], np.float32), np.empty(b1.shape[0], np.float32)
-    decided = np.empty(at.ACTIONS, np.float32)
-    _layer(w0, b0, inputs, first, False)
-    _layer(w1, b1, first, second, False)
-    _layer(w2, b2, second, decided, True)
+        observed[k] = seen[at.MIRROR_OBSERVED[k]] * at.SIGN_OBSERVED[k] if mirrored else seen[k]
+    evaluate(network, observed, decided)
     for k in range(at.ACTIONS):
         memory[_ACTION + k] = decided[at.MIRROR_ACTION[k]] * at.SIGN_ACTION[k] if mirrored else decided[k]
 

@@ -116,7 +116,12 @@ def run_steadily(rng: np.random.Generator, human: Human, speed: float, bend: flo
 def draw_starts(rng: np.random.Generator, count: int, speeds: tuple[float, float]) -> list[HumanState]:
     """People in steady runs of ``speeds`` [m/s], a third of them in bends."""
     human, starts = (
-        Human(None, clearing=(), rehearsals=0, between=BetweenGaits(brake=brake_of(first_guess()))),
+        Human(
+            None,
+            clearing=(),
+            rehearsals=0,
+            between=BetweenGaits(brake=brake_of(first_guess()), residual=None),
+        ),
         [],
     )
     while len(starts) < count:
@@ -242,7 +247,11 @@ class BrakeProblem:
     ) -> tuple[float, float]:
         """Mean cost of the best ways, and share of the trials in which the person stayed up in these."""
         human = Human(
-            None, self.run, clearing=(), rehearsals=0, between=BetweenGaits(brake=brake_of(candidate))
+            None,
+            self.run,
+            clearing=(),
+            rehearsals=0,
+            between=BetweenGaits(brake=brake_of(candidate), residual=None),
         )
         costs, up = [], []
         for start, ways in scenarios:

@@ -12,12 +12,14 @@ from numpy.typing import NDArray
 from locomotion.gaits.policy import law
 from locomotion.gaits.policy.layout import (
     ACTION,
+    ACTIONS,
     ASKED_SPEED,
     FELT_SIZE,
     FORCES,
     HEADING,
     HEELS_AND_BALLS,
     HIP_ROTATIONS,
+    INPUTS,
     JOINTS,
     PHASE,
     POLICY_DT,
@@ -91,6 +93,8 @@ class Environment:
 
     ``starts``: states in which some begin, see `Stage.from_starts`. ``steadies``: as of `law.advance`.
     """
+
+    inputs, actions, kept = INPUTS, ACTIONS, True
 
     def __init__(
         self,

@@ -8,16 +8,13 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion.gaits.policy.layout import ACTIONS, INPUTS
 from locomotion.training.policies.agent import DISCOUNT, Agent, Batch, advantages
-from locomotion.training.policies.curriculum import Stage
-from locomotion.training.policies.environment import Environment, Starts
-from locomotion.training.policies.reference import Reference
+from locomotion.training.policies.environment import Outcome
 from locomotion.training.search.checkpoint import anew, read_checkpoint
 from surefoot.files.archive import write_archive
 from surefoot.files.schema import Array, Header, Schema
@@ -26,7 +23,6 @@ __all__ = ["LENGTH", "Learning", "PolicyProgress", "show_policy"]
 
 LENGTH = 24
 """Decisions of each person from one improvement of the policy to the next."""
-_KEPT_EVERY = 40
 _KIND, _VERSION = "policy learning", 1
 
 
@@ -63,6 +59,44 @@ def show_policy(p: PolicyProgress) -> None:
     )
 
 
+class Stage(Protocol):
+    """A part of learning.
+
+    name: what it is about. samples: decisions to learn from. noise: standard deviation of what is tried, at
+    the stage's beginning and at its end.
+    """
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def samples(self) -> int: ...
+    @property
+    def noise(self) -> tuple[float, float]: ...
+
+
+class People(Protocol):
+    """Many people at once whom a policy moves: those of `environment.Environment`, or of
+    `locomotion.training.residual.braking`.
+
+    count: people. inputs, actions: numbers observed and decided. kept: whether `arrays` are all that goes on;
+    where not, everybody begins anew whenever intermediate results are kept. rng: what everything is drawn
+    from.
+    """
+
+    count: int
+    inputs: int
+    actions: int
+    kept: bool
+    rng: np.random.Generator
+
+    def begin(self, stage: Any) -> None: ...
+    def reset(self, who: NDArray[np.bool_]) -> None: ...
+    def observe(self) -> NDArray[np.float64]: ...
+    def step(self, decided: NDArray[np.floating]) -> Outcome: ...
+    def arrays(self) -> dict[str, NDArray[Any]]: ...
+    def restore(self, arrays: dict[str, NDArray[Any]]) -> None: ...
+
+
 class _Header(Header):
     stage: int
     iteration: int
@@ -72,38 +106,34 @@ class _Header(Header):
 
 @dataclass
 class Learning:
-    """Learning of a policy by ``count`` people at once. The same ``seed`` gives the same policy, interrupted
-    or not.
+    """Learning of a policy. The same ``seed`` gives the same policy, interrupted or not.
 
     Attributes:
-      reference: what is imitated. stages: what is learned, in turn. checkpoint: file of intermediate results;
-        None: they are not kept. on_progress: called after each improvement of the policy. starts: states in
-        which some begin.
+      people: makes those who try it, in the first stage and from a seed. stages: what is learned, in turn.
+      checkpoint: file of intermediate results; None: they are not kept. on_progress: called after each
+        improvement of the policy. kept_every: improvements after which they are kept.
       agent, environment: policy and critic, and the people. stage, iteration: how far it is.
     """
 
-    reference: Reference
+    people: Callable[[int], People]
     stages: Sequence[Stage]
     seed: int = 0
-    count: int = 256
     checkpoint: Path | None = None
     on_progress: Callable[[PolicyProgress], None] = show_policy
-    starts: Starts | None = None
+    kept_every: int = 40
     agent: Agent = field(init=False)
-    environment: Environment = field(init=False)
+    environment: People = field(init=False)
 
     def __post_init__(self) -> None:
         seeds = np.random.SeedSequence(self.seed).generate_state(2)
         rng = np.random.default_rng(seeds[0])
-        self.agent = Agent(INPUTS, ACTIONS, rng, self.stages[0].noise[0])
-        self.environment = Environment(
-            self.reference, self.stages[0], self.count, int(seeds[1]), starts=self.starts
-        )
+        self.environment = self.people(int(seeds[1]))
+        self.agent = Agent(self.environment.inputs, self.environment.actions, rng, self.stages[0].noise[0])
         self.stage, self.iteration = 0, 0
 
     def iterations(self, stage: Stage) -> int:
         """Improvements of the policy in a stage."""
-        return max(round(stage.samples / (LENGTH * self.count)), 1)
+        return max(round(stage.samples / (LENGTH * self.environment.count)), 1)
 
     def run(self, most: int | None = None) -> Agent:
         """Learn all stages, or at most so many improvements, from where it stopped; gives policy and
@@ -120,7 +150,7 @@ class Learning:
                     return self.agent
                 self._improve(stage, self.iteration / total)
                 self.iteration, done = self.iteration + 1, done + 1
-                if done % _KEPT_EVERY == 0:
+                if self.iteration % self.kept_every == 0:
                     self._keep()
             self._keep()
             self.stage, self.iteration = self.stage + 1, 0
@@ -129,6 +159,8 @@ class Learning:
         return self.agent
 
     def _improve(self, stage: Stage, share: float) -> None:
+        if not self.environment.kept and self.iteration % self.kept_every == 0:
+            self.environment.begin(stage)
         first, last = stage.noise
         self.agent.limit_noise(first * (last / first) ** min(share / 0.8, 1.0))
         batch, observed, report = self._try()
@@ -148,10 +180,11 @@ class Learning:
     def _try(self) -> tuple[Batch, NDArray[np.float64], tuple[float, float, dict[str, float]]]:
         """Decide and go on `LENGTH` times; gives what to learn from, what was observed, and a report."""
         agent, environment = self.agent, self.environment
-        shape = (LENGTH, self.count)
-        inputs, observed = np.empty((*shape, INPUTS), np.float32), np.empty((*shape, INPUTS))
-        means, decided = np.empty((*shape, ACTIONS), np.float32), np.empty((*shape, ACTIONS), np.float32)
-        likelihood, value = np.empty(shape, np.float32), np.empty((LENGTH + 1, self.count), np.float32)
+        shape = (LENGTH, environment.count)
+        wide, narrow = (*shape, environment.inputs), (*shape, environment.actions)
+        inputs, observed = np.empty(wide, np.float32), np.empty(wide)
+        means, decided = np.empty(narrow, np.float32), np.empty(narrow, np.float32)
+        likelihood, value = np.empty(shape, np.float32), np.empty((LENGTH + 1, environment.count), np.float32)
         reward, done, falls, terms = np.empty(shape), np.empty(shape, bool), 0, []
         if agent.counted < 1.0:
             agent.count_in(environment.observe())
@@ -172,11 +205,11 @@ class Learning:
         gained = advantages(reward, value, done)
         returns = (gained + value[:-1]).ravel().astype(np.float32)
         gained = (gained - gained.mean()) / (gained.std() + 1e-6)
-        seen, meant, done_so = (each.reshape(-1, each.shape[-1]) for each in (inputs, means, decided))
-        batch = Batch(seen, meant, done_so, likelihood.ravel(), gained.ravel().astype(np.float32), returns)
+        seen, meant, chosen = (each.reshape(-1, each.shape[-1]) for each in (inputs, means, decided))
+        batch = Batch(seen, meant, chosen, likelihood.ravel(), gained.ravel().astype(np.float32), returns)
         averaged = {name: float(np.mean([each[name] for each in terms])) for name in terms[0]}
         report = (float(reward.mean()), falls / reward.size, averaged)
-        return batch, observed.reshape(-1, INPUTS), report
+        return batch, observed.reshape(-1, environment.inputs), report
 
     def _arrays(self) -> dict[str, NDArray[Any]]:
         return {**self.agent.arrays(), **self.environment.arrays()}

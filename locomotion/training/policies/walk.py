@@ -4,11 +4,13 @@ import hashlib
 import os
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from locomotion.body.person import person_digest
-from locomotion.gaits.policy.skill import WALK_POLICY, Network, PolicySkill
+from locomotion.gaits.policy.network_file import Network
+from locomotion.gaits.policy.skill import WALK_POLICY, PolicySkill
 from locomotion.training.policies.agent import Agent
 from locomotion.training.policies.curriculum import STANDING, WALKING, Stage
 from locomotion.training.policies.environment import Environment, Starts, motion_of, where_it_ended
@@ -51,10 +53,8 @@ def train_walk_policy(training: Training, out: str | os.PathLike[str] = WALK_POL
 
     def learn(name: str, stages: Sequence[Stage], seed: int, starts: Starts | None = None) -> Agent:
         checkpoint = training.file(name)
-        learning = Learning(
-            reference, stages, seed, _PEOPLE, checkpoint=checkpoint, on_progress=tell, starts=starts
-        )
-        return learning.run()
+        people = partial(Environment, reference, stages[0], _PEOPLE, starts=starts)
+        return Learning(people, stages, seed, checkpoint, tell).run()
 
     walker = learn("walk", walking, 2 * training.seed)
     stops = replace(walking[-1], stand=0.8, push=100.0)

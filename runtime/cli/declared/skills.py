@@ -18,7 +18,17 @@ def _skills() -> tuple[str, ...]:
     loaded()
     from locomotion.skills.registry import skill_words
 
-    return ("run", "walk", "walk-policy", "speed-up", "slow-down", "brake", *skill_words(), PRECONDITIONS)
+    return (
+        "run",
+        "walk",
+        "walk-policy",
+        "speed-up",
+        "slow-down",
+        "brake",
+        "brake-residual",
+        *skill_words(),
+        PRECONDITIONS,
+    )
 
 
 def _skill(name: str) -> str:

@@ -28,7 +28,10 @@ def test_help(surefoot, command):
         (["bake"], "argument"),
         (["bake", "level.obj", "-o", "graph.npz", "--up", "w"], "'x', 'y', 'z'"),
         (["path", "graph.npz", "--start", "1", "2"], "start"),
-        (["train", "swim"], "valid: run, walk, walk-policy, speed-up, slow-down, brake, jump"),
+        (
+            ["train", "swim"],
+            "valid: run, walk, walk-policy, speed-up, slow-down, brake, brake-residual, jump",
+        ),
         (["train"], "one skill"),
         (["train", "run", "--all"], "one skill"),
         (["train", "--all", "--checkpoint", "kept"], "one skill"),

@@ -1,6 +1,7 @@
 """Learning goes on from a checkpoint as if it had not been interrupted, and comes from the seed alone."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -20,7 +21,8 @@ def stages():
 
 
 def learning(reference, **options):
-    return Learning(reference, stages(), count=PEOPLE, on_progress=lambda _: None, **options)
+    people = partial(Environment, reference, stages()[0], PEOPLE)
+    return Learning(people, stages(), on_progress=lambda _: None, **options)
 
 
 def same(one, other):

@@ -1,0 +1,1 @@
+"""Networks that correct what the planned gaits do."""

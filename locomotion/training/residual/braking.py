@@ -1,0 +1,154 @@
+"""Many people at once who brake from a run, corrected by a residual policy."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from locomotion.body.person import MASS
+from locomotion.gaits.brake import BrakeSkill
+from locomotion.gaits.policy.layout import MIRROR_JOINT, POLICY_DT, SIGN_JOINT, TICKS_PER_DECISION
+from locomotion.gaits.residual.layout import ACTIONS, DECIDED, INPUTS
+from locomotion.gaits.run import layout as run
+from locomotion.human.human import BetweenGaits, Human
+from locomotion.human.state import HumanState
+from locomotion.training.policies.environment import Outcome
+
+__all__ = ["BrakingPeople", "BrakingStage"]
+
+_PUSH_TIME = 0.1  # [s]
+_WEAKEST = 0.2  # of the greatest push
+_FALL, _STANDS = 3.0, 1.0  # what a fall costs, and what a stand is worth
+_HARD = 4.5  # body weights of ground reaction that cost nothing
+
+
+@dataclass(frozen=True)
+class BrakingStage:
+    """A part of learning; all that it asks is drawn uniformly.
+
+    Attributes:
+      name: what it is about. samples: decisions to learn from.
+      harder: how hard people brake, relative to the skill.
+      pushed: share that is pushed; push: greatest force at the waist [N], for 0.1 s.
+      noise: standard deviation of what is tried, at the stage's beginning and at its end.
+      longest: decisions after which somebody begins anew.
+    """
+
+    name: str
+    samples: int
+    harder: tuple[float, float] = (0.9, 2.8)
+    pushed: float = 0.0
+    push: float = 0.0
+    noise: tuple[float, float] = (0.3, 0.3)
+    longest: int = 175
+
+
+class BrakingPeople:
+    """``count`` people who were told to stop in one of the ``starts``.
+
+    Attributes:
+      inputs, actions: numbers observed and decided.
+    """
+
+    inputs, actions, kept = INPUTS, ACTIONS, False
+
+    def __init__(
+        self, skill: BrakeSkill, starts: Sequence[HumanState], stage: BrakingStage, count: int, seed: int
+    ) -> None:
+        self.stage, self.count, self.starts = stage, count, starts
+        self.rng = np.random.default_rng(seed)
+        between = BetweenGaits(brake=skill, residual=None)
+        self.people = [Human(None, clearing=(), rehearsals=0, between=between) for _ in range(count)]
+        self.residuals = [human.on_feet.residual for human in self.people]
+        self.age = np.zeros(count, np.int64)
+        self.ahead = np.zeros((count, 2))
+        self.before = np.zeros((count, ACTIONS))
+        self.pushed_at = np.zeros(count, np.int64)
+        self.force = np.zeros((count, 2))
+        self.left = np.zeros(count, bool)
+        self._waist = self.people[0].model.body("waist").id
+        self.reset(np.ones(count, bool))
+
+    def begin(self, stage: BrakingStage) -> None:
+        """Everybody begins anew, in another stage."""
+        self.stage = stage
+        self.reset(np.ones(self.count, bool))
+
+    def reset(self, who: NDArray[np.bool_]) -> None:
+        """Some begin anew."""
+        rng, stage = self.rng, self.stage
+        for i in np.flatnonzero(who).tolist():
+            human = self.people[i]
+            start = self.starts[int(rng.integers(len(self.starts)))]
+            self.residuals[i].memory[:] = 0.0
+            human.restore_state(start)
+            human.data.xfrc_applied[:] = 0.0
+            human.stop()
+            human.brake(float(rng.uniform(*stage.harder)))
+            velocity = human.velocity[:2]
+            self.ahead[i] = velocity / np.linalg.norm(velocity)
+            self.age[i], self.before[i] = 0, 0.0
+            pushed = rng.random() < stage.pushed
+            self.pushed_at[i] = rng.integers(0, 60) if pushed else -100
+            force, angle = rng.uniform(_WEAKEST, 1.0) * stage.push, rng.uniform(0.0, 2.0 * np.pi)
+            self.force[i] = force * math.cos(angle), force * math.sin(angle)
+
+    def observe(self) -> NDArray[np.float64]:
+        """What the policies observe, (n, INPUTS)."""
+        seen = np.empty((self.count, INPUTS))
+        for i, (human, residual) in enumerate(zip(self.people, self.residuals, strict=True)):
+            self.left[i] = residual.observe(human.control, human.on_feet.walk, human.data)
+            seen[i] = residual.observed
+        return seen
+
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """Nothing: everybody begins anew."""
+        return {}
+
+    def restore(self, arrays: dict[str, NDArray[Any]]) -> None:
+        """Nothing to restore."""
+
+    def step(self, decided: NDArray[np.floating]) -> Outcome:
+        """Do what the policies ``decided`` (n, ACTIONS) until the next decision."""
+        action = decided.astype(np.float64)
+        action[self.left] = action[self.left][:, MIRROR_JOINT] * SIGN_JOINT
+        n = self.count
+        way, tilt, hard = np.zeros(n), np.zeros(n), np.zeros(n)
+        fell, stood = np.zeros(n, bool), np.zeros(n, bool)
+        for i, (human, residual) in enumerate(zip(self.people, self.residuals, strict=True)):
+            residual.memory[DECIDED] = action[i]
+            pushing = 0 <= self.age[i] - self.pushed_at[i] < _PUSH_TIME / POLICY_DT
+            human.data.xfrc_applied[self._waist, :2] = self.force[i] if pushing else 0.0
+            before = human.control[run.COM][:2].copy()
+            for _ in range(TICKS_PER_DECISION):
+                human.tick()
+                if human.status == "fallen":
+                    break
+            way[i] = float(self.ahead[i] @ (human.control[run.COM][:2] - before))
+            tilt[i] = float(human.data.qpos[4:6] @ human.data.qpos[4:6])
+            hard[i] = max(float(human.control[run.CONTACT].sum()) / (9.81 * MASS) - _HARD, 0.0)
+            fell[i] = human.status == "fallen"
+            stood[i] = not fell[i] and not human.on_feet.brakes
+        self.age += 1
+        change = ((action - self.before) ** 2).mean(axis=1)
+        self.before = action
+        terms = {
+            "way": -np.abs(way),
+            "tilt": -0.1 * tilt,
+            "hard": -0.02 * hard,
+            "up": np.full(n, 0.01),
+            "effort": -0.004 * (action**2).mean(axis=1),
+            "change": -0.004 * change,
+            "fall": -_FALL * fell,
+            "stand": _STANDS * stood,
+        }
+        reward = np.sum(list(terms.values()), axis=0)
+        over = (self.age >= self.stage.longest) & ~fell & ~stood
+        done = fell | stood
+        means = {name: float(values.mean()) for name, values in terms.items()}
+        means["falls of ends"] = float(fell.sum()) / max(float((done | over).sum()), 1.0)
+        nobody = np.zeros(n, bool)
+        return Outcome(reward, done, over, nobody, np.zeros((0,)), means)

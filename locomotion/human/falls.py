@@ -29,7 +29,7 @@ def fall(person: Person, gets_up: bool) -> None:
     speed, slope = person.on_feet.speed, float(person.follower.memory[SLOPE_HERE])
     person.end("fallen", Fell(person.time, person.point, speed, slope, person.arc_length))
     if gets_up and person.simulation.over_ground:
-        person.status, person.on_feet.slowing = "getting up", 0.0
+        person.status, person.on_feet.slowing, person.on_feet.brakes = "getting up", 0.0, False
         person.on_feet.walk[:] = new_walk()
         person.on_feet.stop_learned()
         person.run_up.give_up()

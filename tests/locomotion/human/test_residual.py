@@ -51,3 +51,20 @@ def test_whoever_is_put_elsewhere_forgets():
     human.tick()
     human.reset(WAY[0], 0.0)
     assert not human.on_feet.residual.memory.any()
+
+
+def test_whoever_falls_while_it_brakes_gets_up_without_it():
+    human = Human(None, clearing=(), rehearsals=0, gets_up=True)
+    human.reset(WAY[0], 0.0, 3.0)
+    human.follow(WAY, 3.0)
+    for _ in range(100):
+        human.tick()
+    human.stop()
+    human.brake(2.5)
+    for _ in range(200):
+        human.data.xfrc_applied[human.index.chest, :2] = 0.0, 700.0
+        human.tick()
+        if human.status == "getting up":
+            break
+    assert human.status == "getting up"
+    assert not human.on_feet.brakes and not human.on_feet.residual.memory.any()

@@ -10,7 +10,8 @@ of a step. The pelvis goes up and down with the feet. All of it is a function of
     channels, roots = planted(motions, level, (gaits, speeds, phases), (channels, roots), places,
         footfalls)
 
-Low figures, whose hips do not turn, point their feet where their pelvis has them.
+The hips of low figures do not turn: their feet point where their pelvis does. So that it stays still over a
+foot that stands, it faces the way they go, and does not turn to and fro as in the recording.
 """
 
 import math
@@ -46,7 +47,7 @@ _HIP = 0.085  # [m] of a hip to the side of the pelvis' origin
 _REACH = THIGH + SHANK
 _SOFT = 0.005  # [m] over which the pelvis begins to give way to a leg that is nearly straight
 _FADES = 0.2  # share of a swing over which it takes leave of a footfall, and over which it meets one
-_RUN_NEAR = 0.4  # share of these for a run, whose legs are nearly straight when they strike
+_RUN_NEAR = 0.25  # share of these for a run, whose legs are nearly straight when they strike, and would kick
 _RUN_FADES = 0.08  # the same of a run, whose feet are far ahead of the body for an instant only
 _OVER = 0.12  # height of a swing over the line between two footfalls, per height of the step
 _BEFORE = 0.6  # share of a swing in which a foot that goes up comes to its height
@@ -144,12 +145,15 @@ def _unit_of(x, y):
 
 
 @kernel
-def _foot(footing, stride, since, foot, steps, place, axes, point):
+def _foot(cycle, foot, steps, place, turns, axes, point):
     """Where a foot has to be: its ``axes`` (3, 3) and the ``point`` (3,) in the world for the end of its sole
     that it stands on, or that is lower; gives where that is ahead of the ankle, the height of the ground for
-    the pelvis, and the sine of the angle by which its front is up over the ground. ``foot`` (7,) is its place
-    in the recording, ``steps`` (2, 6) are its last footfall and the next one; ``place`` as of `_held_back`.
+    the pelvis, and the sine of the angle by which its front is up over the ground. ``cycle``: its footing,
+    the stride and since when it stands; ``foot`` (7,) is its place in the recording, ``steps`` (2, 6) are its
+    last footfall and the next one; ``place`` as of `_held_back`; ``turns``: whether hips do, so that a foot
+    keeps its heading when the figure turns.
     """
+    footing, stride, since = cycle
     _axes(foot, axes)
     turn_c, turn_s = _unit_of(axes[1, 1], -axes[0, 1])
     up_c, up_s = _unit_of(axes[2, 2], axes[2, 0])
@@ -172,8 +176,11 @@ def _foot(footing, stride, since, foot, steps, place, axes, point):
     slope = steps[0, 4] + share * (steps[1, 4] - steps[0, 4])
     tilt = steps[0, 5] + share * (steps[1, 5] - steps[0, 5])
     heading, turned = way, way - footing[TURNED]
-    if free > 0.0:
+    if not turns:
+        heading = math.atan2(place[3], place[2])
+    elif free > 0.0:
         heading += free * (math.atan2(turn_s, turn_c) - footing[TURNED])
+    if free > 0.0:
         tilt += free * math.asin(min(max(axes[2, 1], -1.0), 1.0))
     c, s, slope_c, slope_s = math.cos(heading), math.sin(heading), math.cos(slope), math.sin(slope)
     # faces the heading, with its front and its left side up by these angles
@@ -228,12 +235,16 @@ def plant(cycle, feet, place, footfalls, pose, room):
         return
     axes, pelvis, points, hip, ankle = room[:2], room[2], room[3], room[4, 0], room[4, 1]
     ends, tips = room[4, 2], room[5, 2]
+    turns = columns[0, 2] >= 0
     here = place[0], place[1], math.cos(place[3]), math.sin(place[3])
     for side in range(2):
+        its = footing[side], stride, since[side]
         ends[side], height, tips[side] = _foot(
-            footing[side], stride, since[side], feet[side], footfalls[side], here, axes[side], points[side]
+            its, feet[side], footfalls[side], here, turns, axes[side], points[side]
         )
         root[2] += 0.5 * height
+    if not turns:
+        _face(root, place[3])
     _axes(root, pelvis)
     stretched = 1.0
     for side in range(2):
@@ -247,6 +258,15 @@ def plant(cycle, feet, place, footfalls, pose, room):
         _hip(root, pelvis, side, hip)
         foot = points[side], axes[side], ends[side], tips[side]
         _bend_leg(columns[side], (pelvis, hip), foot, side, channels, room)
+
+
+@kernel
+def _face(root, heading):
+    """Turn a pelvis about the vertical so that it faces a ``heading`` [rad]."""
+    w, x, y, z = root[3], root[4], root[5], root[6]
+    off = 0.5 * (heading - math.atan2(2.0 * (x * y + w * z), 1.0 - 2.0 * (y * y + z * z)))
+    c, s = math.cos(off), math.sin(off)
+    root[3], root[4], root[5], root[6] = c * w - s * z, c * x - s * y, c * y + s * x, c * z + s * w
 
 
 @kernel

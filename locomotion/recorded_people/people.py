@@ -51,6 +51,7 @@ _STRIKES = np.array([0.0, 0.5])  # phases at which the right and the left foot s
 _STANDS = "stand"
 _RATES = np.array([skeleton(name).rate for name in LEVELS])  # [Hz] at which levels are drawn
 _TURN = 0.5 * (np.sqrt(5.0) - 1.0)  # the golden ratio: any number of figures have their turns evenly
+_ASIDE = 0.02  # [m] of where its gait has it, within which a foot is left standing where it does
 _LONG = 1.0  # [s] in which everybody's turn comes
 
 
@@ -135,7 +136,8 @@ class RecordedPeople:
         return float(cadence_of(self._figures, self._rows[index], self.crowd.rows[index]))
 
     def lay_feet_of(self, index: int, pose: NDArray[np.float64]) -> None:
-        """As `lay_feet`, but a foot that bears stands where ``pose`` (46,) has it."""
+        """As `lay_feet`, but a foot that bears stands where ``pose`` (46,) has it, or nearly: one that is far
+        from where the gait has it would drag the pelvis down and kick."""
         self.lay_feet(index)
         row = self._rows[index]
         full, steps = skeleton("full"), row[at.STEPS].reshape(2, 3, 6)
@@ -146,7 +148,9 @@ class RecordedPeople:
                 continue
             centres, turned = sole_centres(bodies[:, full.bodies.index(name)])
             last = steps[side, LAST]
-            last[:2], last[3] = centres[0, :2], steps[side, AIM, 3] + _turn(turned[0] - steps[side, AIM, 3])
+            off = centres[0, :2] - last[:2]
+            last[:2] += off * min(1.0, _ASIDE / max(float(np.hypot(*off)), _ASIDE))
+            last[3] = steps[side, AIM, 3] + _turn(turned[0] - steps[side, AIM, 3])
             height = float(self._ground.surface_below([centres[0] + [0.0, 0.0, 0.3]])[0][0])
             if abs(height - last[2]) < 0.3:
                 last[2] = height

@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from locomotion.crowd import layout as body
-from locomotion.postures.step_order import gait_for
+from locomotion.postures.step_order import AT_REST, gait_for
 from locomotion.recorded.foot_planting import ROOM, plant
 from locomotion.recorded.individual import style
 from locomotion.recorded.posing import pose_body
@@ -32,6 +32,7 @@ from surefoot.kernels import allocating_kernel, kernel
 __all__ = ["choose_gaits", "draw_figures", "pose_figures"]
 
 _BEFORE_STRIKE = 1.0 - 1e-6
+_SOON = 0.3  # [s]
 _PLACE, _OFFSETS, _RATES, _STEPS, _TRAITS = (
     part.start for part in (at.PLACE, at.OFFSETS, at.RATES, at.STEPS, at.TRAITS)
 )  # kernels know numbers
@@ -178,6 +179,16 @@ def draw_figures(figures, indices, rows, walkers, moment, out):
         draw(_bones(figures, level), figures.bodies[level], carriers, channels, root, bodies, out[n])
 
 
+@kernel
+def _speed_soon(row, walker):
+    """[m/s] of a figure that gets faster, in the middle of its next step: a runner's first steps are those of
+    a run. Of others now."""
+    speed, wish = row[at.SPEED], walker[body.WISH]
+    if speed <= AT_REST or wish <= speed:
+        return speed
+    return min(speed + _SOON * walker[body.ACCELERATION], wish)
+
+
 @allocating_kernel
 def choose_gaits(figures, rows, walkers, phases, dt):
     """At the end of a step, and at rest, each figure may change its gait; the difference fades out.
@@ -188,7 +199,7 @@ def choose_gaits(figures, rows, walkers, phases, dt):
         row, walker = rows[n], walkers[n]
         now, chosen = int(row[at.GAIT]), -1
         if row[at.CROSSES] != at.CLEARS:  # who plays a posture has no speed
-            chosen = gait_for(figures.gaits, now, figures.bases[int(row[at.NODE])], row[at.SPEED])
+            chosen = gait_for(figures.gaits, now, figures.bases[int(row[at.NODE])], _speed_soon(row, walker))
         steps = int(2.0 * row[at.PHASE]) != int(2.0 * phases[n])
         if chosen == now or not (steps or now < 0 or chosen < 0):
             continue

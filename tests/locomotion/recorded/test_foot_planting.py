@@ -6,7 +6,16 @@ from scipy.spatial.transform import Rotation
 
 from locomotion.errors import LocomotionError
 from locomotion.recorded.foot_planting import planted
-from locomotion.recorded.footfalls import BALL, BEARS, FEET, HEEL, STRIKES, Steps, footing_at
+from locomotion.recorded.footfalls import (
+    BALL,
+    BEARS,
+    FEET,
+    HEEL,
+    STRIKES,
+    Steps,
+    footing_at,
+    straight_footfalls,
+)
 from locomotion.recorded.motion_set import load_motions
 from locomotion.recorded.posing import posed
 from locomotion.recorded.sampling import sample_gait
@@ -83,6 +92,17 @@ def test_feet_do_not_slide(level, ground):
 @pytest.mark.parametrize("ground", GROUNDS)
 def test_low_figures_slide_little_though_their_hips_do_not_turn(ground):
     assert max(slides(*walked(LOW, GROUNDS[ground]))) < 0.015
+
+
+@pytest.mark.parametrize("turned", np.linspace(-3.1, 3.1, 9))
+def test_a_foot_turns_along_with_a_figure_that_turns_far_while_it_stands(turned):
+    walk, still = MOTIONS.gait("walk"), np.zeros(4)
+    footfalls = straight_footfalls(MOTIONS, walk, 0.8, 0.2, still)
+    moment = [walk], [0.8], [0.2]
+    sample = sample_gait(MOTIONS, FULL, *moment)
+    channels, _ = planted(MOTIONS, FULL, moment, sample, [[0.0, 0.0, 0.0, turned]], [footfalls])
+    hips = [skeleton("full").channels.index(f"{side}_hip_rotation") for side in ("right", "left")]
+    assert np.abs(channels[:, hips]).max() < 1.4
 
 
 def test_a_footfall_does_not_depend_on_when_it_is_asked_for():

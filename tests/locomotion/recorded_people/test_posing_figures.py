@@ -65,3 +65,17 @@ def test_turns_come_as_often_as_motion_is_kept_and_in_equal_parts():
     due = np.array([people.due(everybody, k / 60.0, (k + 1) / 60.0) for k in range(60)])
     assert due[:, :10].all() and set(due[:, 10:].sum(axis=0)) <= {14, 15, 16}
     assert np.ptp(due[:, 10:].sum(axis=1)) < 0.05 * len(everybody)
+
+
+@pytest.mark.parametrize("speed", [2.1, 3.5])
+def test_one_who_sets_out_runs_only_to_get_fast(speed):
+    people, (ada,) = crowd_of(1)
+    ada.go_to([(18.0, 5.0, 0.0)], speed, None)
+    walked = []
+    for _ in range(200):
+        people.tick()
+        if people.rows[ada.index, at.GAIT] == 0.0:
+            walked.append(people.rows[ada.index, at.SPEED])
+    # nobody walks much faster than 2.2 m/s, though the first step of a run waits for the end of a walk's
+    assert people.gaits[0].name == "walk" and max(walked) < 2.5
+    assert (people.rows[ada.index, at.GAIT] == 0.0) == (speed < 2.2)

@@ -17,3 +17,16 @@ def test_one_who_takes_over_from_one_like_it_is_in_its_phase():
     np.testing.assert_allclose(bob.qpos, pose, atol=1e-9)
     apart = (people.rows[bob.index, at.PHASE] - people.rows[ada.index, at.PHASE] + 0.5) % 1.0 - 0.5
     assert abs(apart) < 0.12
+
+
+def test_one_who_takes_over_from_a_slow_runner_runs():
+    people, (ada, bob) = crowd_of(2)
+    ada.go_to([(18.0, 5.0, 0.0)], 3.5, None)
+    played(people, ada, 2.5)
+    ada.walker.stop()
+    while people.rows[ada.index, at.SPEED] > 2.1:  # a speed at which others walk
+        people.tick()
+    run = people.rows[ada.index, at.GAIT]
+    assert people.gaits[int(run)].name == "run"
+    go_on_from(bob, people, ada.qpos, ada.qpos_rates, ada.position, ada.walker.velocity)
+    assert people.rows[bob.index, at.GAIT] == run

@@ -136,29 +136,31 @@ class RecordedSkill:
             return ahead * deep / self.depth
         return ahead - self.depth + deep
 
-    def _lifted(self, of: Crossing, moment: float) -> float:
-        """[m] by which the figure is higher than in the clip, over the floor at the link's start."""
-        up = of.end[2] - of.start[2]
+    def _lifted(self, of: Crossing, moment: float, size: float) -> float:
+        """[m] by which a figure of a ``size`` is higher than in the clip, over the floor at its start."""
+        up, own = of.end[2] - of.start[2], size * self.size
         if self.crossing == "onto":
-            return (up - self.size) * _ramp(moment, self.leaves - _SPRING, self.crosses)
+            return (up - own) * _ramp(moment, self.leaves - _SPRING, self.crosses)
         if self.crossing == "over":
-            more = of.size - self.size
+            more = of.size - own
             rises = more * _ramp(moment, self.leaves - _SPRING, self.crosses)
             return rises + (up - more) * _ramp(moment, self.passed, self.lands)
         if self.crossing == "off":
             fallen = (moment - self.off) / (self.lands - self.off)
-            return (up + self.size) * min(max(fallen, 0.0), 1.0) ** 2
+            return (up + own) * min(max(fallen, 0.0), 1.0) ** 2
         return up * _ramp(moment, self.leaves, self.lands)
 
-    def pose(self, motions: MotionSet, level: int, of: Crossing, moment: float) -> NDArray[np.float64]:
-        """(46,) pose of a person of a ``level`` of detail at a ``moment`` of the clip [s]."""
+    def pose(
+        self, motions: MotionSet, level: int, of: Crossing, moment: float, size: float = 1.0
+    ) -> NDArray[np.float64]:
+        """(46,) pose of a person of a ``level`` of detail and a ``size`` at a ``moment`` of the clip [s]."""
         sample = sample_clips(motions, level, [self.clip], [moment])
         pose = skeleton(LEVELS[level]).as_qpos(*sample)[0]
         beside = pose[1] - np.interp(moment, (self.begins, self.ends), self.sideways)
         x, y = self._point(of, float(pose[0]), moment)
         c, s = of.way
         pose[:2] = x - s * beside, y + c * beside
-        pose[2] += of.start[2] + self._lifted(of, moment)
+        pose[2] = size * pose[2] + of.start[2] + self._lifted(of, moment, size)
         half_c, half_s = math.cos(0.5 * of.heading), math.sin(0.5 * of.heading)
         w, i, j, k = pose[3:7]
         pose[3:7] = (
@@ -195,15 +197,17 @@ class RecordedSkill:
         return np.array([*self._point(of, x, moment), height])
 
 
-def out_of_the_floor(pose: NDArray[np.float64], floor: float, firmly: float) -> NDArray[np.float64]:
-    """``pose`` (46,), lifted so far that no toe is under a ``floor`` [m], or by a share of that, ``firmly``:
-    a pose that fades into another may sink in."""
+def out_of_the_floor(
+    pose: NDArray[np.float64], floor: float, firmly: float, size: float = 1.0
+) -> NDArray[np.float64]:
+    """``pose`` (46,) of a figure of a ``size``, lifted so far that no toe is under a ``floor`` [m], or by a
+    share of that, ``firmly``: a pose that fades into another may sink in."""
     if firmly <= 0.0:
         return pose
     own = skeleton("full")
     bodies = posed(own, pose[None, 7 + own.joints], pose[None, :7])[0]
     toes = [own.bodies.index(name) for name in ("right_toes", "left_toes", *FEET)]
-    sunk = floor - float(bodies[toes, 2].min())
+    sunk = floor - float(pose[2] + size * (bodies[toes, 2].min() - pose[2]))
     if sunk > 0.0:
         pose = pose.copy()
         pose[2] += firmly * sunk

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from locomotion.body_events import Cleared, Event, GotStuck, LostGround, TookOff
 from locomotion.crowd import Crowd, NoRoute, Walker
+from locomotion.recorded.individual import SIZE
 from locomotion.recorded.motion_set import MotionSet
 from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.clearing import RecordedSkill
@@ -117,7 +118,8 @@ class ObstacleCourse:
         people, of = self._people, self.of
         skill = people.skills[of.affordance]
         moment = skill.moment(of, now - of.begun + self._flown)
-        return skill.pose(people.motions, int(self._person.row[at.LEVEL]), of, moment)
+        row = self._person.row
+        return skill.pose(people.motions, int(row[at.LEVEL]), of, moment, float(row[at.TRAITS][SIZE]))
 
     def floor(self, now: float) -> tuple[float, float] | None:
         """As `RecordedSkill.floor` at the time ``now`` [s], of one over an obstacle."""

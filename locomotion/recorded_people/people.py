@@ -115,7 +115,7 @@ class RecordedPeople:
         others. Raises `LocomotionError` where there is no room."""
         walker = self.crowd.add(position, PERSON_RULES["radius"], yaw, _ACCELERATION)
         traits = by_chance(int(chance.integers(2**31)))
-        traits[SIZE] = 1.0  # all have the build of those that are simulated
+        traits[SIZE] = 1.0  # that of those who are simulated, into whom it may change
         row = at.new_row(level, self.stand, traits, np.array([*walker.position, walker.yaw]))
         row[at.SINCE] = self._since
         person = self._take_in(walker, row)
@@ -142,6 +142,7 @@ class RecordedPeople:
         row = self._rows[index]
         full, steps = skeleton("full"), row[at.STEPS].reshape(2, 3, 6)
         bodies = posed(full, pose[None, 7 + full.joints], pose[None, :7])
+        bodies[:, :, :3] = pose[:3] + row[at.TRAITS][SIZE] * (bodies[:, :, :3] - pose[:3])
         footing = footing_at(self.motions, int(gait_played(self._figures, row)), [abs(row[at.SPEED])])[0]
         for side, name in enumerate(FEET):
             if (row[at.PHASE] - _STRIKES[side]) % 1.0 >= footing[side, BEARS] and row[at.GAIT] >= 0.0:
@@ -257,7 +258,10 @@ class RecordedPeople:
         of = self._apart(indices)
         if of:
             qpos, bones = self.qpos(indices[of], ahead), skeleton(LEVELS[0])
-            out[of] = drawn(LEVELS[0], qpos[:, 7 + bones.joints], qpos[:, :7])
+            figures = drawn(LEVELS[0], qpos[:, 7 + bones.joints], qpos[:, :7])
+            sizes = self._rows[indices[of], at.TRAITS.start + SIZE, None, None]
+            figures[:, :, :3] = qpos[:, None, :3] + sizes * (figures[:, :, :3] - qpos[:, None, :3])
+            out[of] = figures
         return out
 
     def due(self, indices: NDArray[np.int64], since: ArrayLike, now: float) -> NDArray[np.bool_]:
@@ -282,7 +286,7 @@ class RecordedPeople:
     def _adjusted(self, index: int, ahead: float) -> NDArray[np.float64]:
         """The pose (46,) of a figure that clears an obstacle or plays its postures, with a change of late."""
         person, row = self.people[index], self.rows[index]
-        now = person.time + ahead
+        now, size = person.time + ahead, float(row[at.TRAITS][SIZE])
         if row[at.CROSSES] == at.CLEARS:
             pose = person.course.pose(now)
             if int(row[at.NODE]) != self.stand:
@@ -291,10 +295,11 @@ class RecordedPeople:
         else:
             assert person.playback is not None
             pose = pose_at(self.graph, person.playback, max(now, person.playback.begun))
+            pose[:3] *= size
             x, y, z, yaw = row[at.PLACE]
             pose = placed(pose, np.array([x, y, yaw]))
             pose[2] += z
         elapsed = max(now - float(row[at.FADE_BEGUN]), 0.0)
         pose = faded(pose, row[at.OFFSETS], row[at.RATES], float(row[at.FADE_SECONDS]), elapsed)
         floor = person.course.floor(now)
-        return pose if floor is None else out_of_the_floor(pose, *floor)
+        return pose if floor is None else out_of_the_floor(pose, *floor, size)

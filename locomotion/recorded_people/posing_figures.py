@@ -12,7 +12,7 @@ import numpy as np
 from locomotion.crowd import layout as body
 from locomotion.postures.step_order import AT_REST, gait_for
 from locomotion.recorded.foot_planting import ROOM, plant
-from locomotion.recorded.individual import style
+from locomotion.recorded.individual import SIZE, style
 from locomotion.recorded.posing import pose_body
 from locomotion.recorded.sampling import read_cycle
 from locomotion.recorded.skeletons import FULL, LOW, MEDIUM
@@ -78,8 +78,11 @@ def _settle_down(place, root):
 @kernel
 def _as_gait_has_it(figures, row, walker, ahead, out, room):
     """The channels (c,) and root (7,) ``out`` of a figure ``ahead`` [s] of now, without what is special to
-    it. ``room``: memory for feet (2, 7), footing (2, 5), since (2,), place (4,), bodies and `plant`."""
-    feet, footing, since, place, bodies, planting = room
+    it. ``room``: memory for feet (2, 7), footing (2, 5), since (2,), place (4,), footfalls (2, 2, 6), bodies
+    and `plant`. One of another size is posed as one of the usual size would be where all is smaller by that.
+    """
+    feet, footing, since, place, steps, bodies, planting = room
+    size = row[_TRAITS + SIZE]
     channels, root = out
     level, moves = int(row[at.LEVEL]), row[at.GAIT] >= 0.0
     gait, speed = gait_played(figures, row), speed_read(row)
@@ -89,11 +92,14 @@ def _as_gait_has_it(figures, row, walker, ahead, out, room):
     if ahead != 0.0:
         place[0] += ahead * walker[body.VX]
         place[1] += ahead * walker[body.VY]
+    for k in range(3):
+        place[k] /= size
     _sample(figures, level, gait, speed, row[at.PHASE] + gone, out)
     style(figures.styles[level], row[_TRAITS:], channels)
     if row[at.LAID] == 0.0:
         _settle_down(place, root)
         root[2] += place[2]
+        _enlarge(root, size)
         return
     for k in range(7):
         bodies[0, k] = root[k]
@@ -111,7 +117,26 @@ def _as_gait_has_it(figures, row, walker, ahead, out, room):
     stride = figures.directions[gait] * stride_of(figures, gait, speed)
     _settle_down(place, root)
     cycle = figures.columns[level], footing, stride, since
-    plant(cycle, feet, place, row[_STEPS : _STEPS + 36].reshape(2, 3, 6)[:, :AIM], out, planting)
+    _small_steps(row[_STEPS : _STEPS + 36].reshape(2, 3, 6), size, steps)
+    plant(cycle, feet, place, steps, out, planting)
+    _enlarge(root, size)
+
+
+@kernel
+def _small_steps(steps, size, out):
+    """Of ``steps`` as of `layout.STEPS` those that a foot is between, ``out`` (2, 2, 6), as many times as
+    small as a figure of a ``size`` is large."""
+    for side in range(2):
+        for step in range(AIM):
+            for k in range(6):
+                out[side, step, k] = steps[side, step, k] / size if k < 3 else steps[side, step, k]
+
+
+@kernel(inline="always")
+def _enlarge(root, size):
+    """Put a root where that of a figure of a ``size`` is."""
+    for k in range(3):
+        root[k] *= size
 
 
 @kernel
@@ -152,7 +177,7 @@ def _memory():
     """What `_pose` works in: channels, root, and as of `_as_gait_has_it`."""
     return (
         np.empty(_JOINTS), np.empty(7), np.empty((2, 7)), np.empty((2, 5)), np.empty(2), np.empty(4),
-        np.empty((_BODIES, 7)), np.empty(ROOM),
+        np.empty((2, 2, 6)), np.empty((_BODIES, 7)), np.empty(ROOM),
     )  # fmt: skip
 
 
@@ -177,6 +202,10 @@ def draw_figures(figures, indices, rows, walkers, moment, out):
             level, channels, root = FULL, pose[7:], pose[:7]
         carriers = figures.carrier[level], figures.carried[level]
         draw(_bones(figures, level), figures.bodies[level], carriers, channels, root, bodies, out[n])
+        size = row[_TRAITS + SIZE]
+        for place in range(out.shape[1]):
+            for k in range(3):
+                out[n, place, k] = root[k] + size * (out[n, place, k] - root[k])
 
 
 @kernel

@@ -18,7 +18,7 @@ from locomotion.ground.collider.layout import NX, NZ
 from locomotion.ground.ground import height_below
 from locomotion.postures.step_order import AT_REST
 from locomotion.recorded.footfalls import AHEAD, BEARS, HALF_SOLE, LEFT, TURNED, read_footing
-from locomotion.recorded.individual import PACE, PHASE, WIDTH
+from locomotion.recorded.individual import PACE, PHASE, SIZE, WIDTH
 from locomotion.recorded.sampling import stride_at
 from locomotion.recorded_people import layout as at
 from navmesh.surface.clearance_field import floor_at, walk
@@ -59,10 +59,10 @@ def _turn(angle):
 
 @kernel
 def speed_read(row):
-    """The speed at which a figure's gait is read, at rest 0."""
+    """The speed at which a figure's gait is read, at rest 0: as of `individual.pace_of`."""
     if row[at.GAIT] < 0.0:
         return 0.0
-    return abs(row[at.SPEED]) * row[_TRAITS + PACE]
+    return abs(row[at.SPEED]) * row[_TRAITS + PACE] / math.sqrt(row[_TRAITS + SIZE])
 
 
 @kernel
@@ -74,7 +74,7 @@ def footing_of(figures, gait, speed, out):
 
 @kernel
 def stride_of(figures, gait, speed):
-    """[m] of a figure that goes at a ``speed`` [m/s], as that is read."""
+    """[m] of a figure of the usual size that goes at a ``speed`` [m/s], as that is read."""
     return stride_at(figures.gait_first, figures.cycles, figures.speeds, figures.seconds, gait, speed)
 
 
@@ -91,7 +91,7 @@ def cadence_of(figures, row, walker):
     if row[at.GAIT] < 0.0 or row[at.STILL] > 0.0:
         return 0.0
     pace, stride = abs(row[at.SPEED]), stride_of(figures, gait_played(figures, row), speed_read(row))
-    cadence = row[at.HASTE] * pace / stride
+    cadence = row[at.HASTE] * pace / (stride * row[_TRAITS + SIZE])
     rests = math.hypot(walker[body.VX], walker[body.VY]) < AT_REST
     return max(cadence, _BRISK) if rests and row[at.LAID] > 0.0 else cadence
 
@@ -146,10 +146,10 @@ def _foothold(place, walker, x, y, heading, out):
 def _under(row, side, footing, ahead, left, turned):
     """Where a foot with this ``footing`` (5,) stands under a figure that has gone on by ``ahead`` and
     ``left`` [m] and has ``turned`` [rad]: x, y [m] and heading [rad]."""
-    x, y, yaw = row[_PLACE], row[_PLACE + 1], row[_PLACE + 3] + turned
+    x, y, yaw, size = row[_PLACE], row[_PLACE + 1], row[_PLACE + 3] + turned, row[_TRAITS + SIZE]
     outward = (2 * side - 1) * _LEG * row[_TRAITS + WIDTH]
     c, s = math.cos(yaw), math.sin(yaw)
-    fore, beside = footing[AHEAD], footing[LEFT] + outward
+    fore, beside = size * footing[AHEAD], size * (footing[LEFT] + outward)
     return x + ahead + c * fore - s * beside, y + left + s * fore + c * beside, yaw + footing[TURNED]
 
 
@@ -166,7 +166,8 @@ def _gone_on(figures, row, walker, gait, cycles, seconds, elapsed):
     gains = min(max(gains, -walker[body.ACCELERATION]), walker[body.ACCELERATION])
     then = now + 0.5 * gains * seconds
     then = min(then, max(walker[body.WISH], now)) if gains > 0.0 else max(then, 0.3 * now)
-    stride = stride_of(figures, gait, then * row[_TRAITS + PACE])
+    size = row[_TRAITS + SIZE]
+    stride = size * stride_of(figures, gait, then * row[_TRAITS + PACE] / math.sqrt(size))
     far = (cycles * stride / row[at.HASTE] + gains * _SLUGGISH * seconds) / pace
     c, s = math.cos(0.5 * turned), math.sin(0.5 * turned)
     x, y = walker[body.VX] * far, walker[body.VY] * far

@@ -1,6 +1,6 @@
 """What a figure looks like: capsules and ellipsoids on the bodies of its skeleton."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -44,6 +44,12 @@ class Figure:
         place[:, :3] = body[:, :3] + rotate(body[:, 3:], local[:, :3])
         place[:, 3:] = turn(body[:, 3:], local[:, 3:])
         return Shapes(place, self.shapes.size, self.shapes.round, self.shapes.colour)
+
+    def scaled(self, size: float) -> "Figure":
+        """The same, ``size`` times as large."""
+        own = self.shapes
+        place = np.hstack([size * own.place[:, :3], own.place[:, 3:]])
+        return replace(self, shapes=replace(own, place=place, size=size * own.size))
 
     @classmethod
     def from_model(cls, model: Any) -> "Figure":

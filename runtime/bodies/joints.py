@@ -11,12 +11,13 @@ from runtime.bodies.figure import Joints
 __all__ = ["person_joints"]
 
 
-@lru_cache(maxsize=1)
-def person_joints() -> Joints:
-    """Those of all persons, at every level of detail; the bodies are those of a person's `Figure`."""
+@lru_cache(maxsize=256)
+def person_joints(size: float = 1.0) -> Joints:
+    """Those of persons of a ``size``, at every level of detail; bodies are those of a person's `Figure`."""
     model = figure()
     joints = [model.joint(name) for name in JOINT_NAMES]
     body = np.array([int(joint.bodyid[0]) - 1 for joint in joints], np.int32)
     offsets = np.array(model.body_pos[1:], dtype=np.float64)[: 1 + int(body.max())]
     offsets[0] = 0.0
+    offsets *= size
     return Joints(JOINT_NAMES, body, np.array([joint.axis for joint in joints]), offsets)

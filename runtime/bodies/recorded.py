@@ -11,7 +11,7 @@ from locomotion.body.models import figure
 from locomotion.crowd.saved_state_check import check_walker
 from locomotion.human.composition import checked_bravery
 from locomotion.preconditions.precondition import load_preconditions
-from locomotion.recorded.individual import by_hand
+from locomotion.recorded.individual import SIZE, by_hand
 from locomotion.recorded.skeletons import LEVELS, level_number
 from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.nodes import can_hold, checked_node
@@ -31,10 +31,14 @@ from runtime.planning.planning import Plan
 __all__ = ["Recorded", "RecordedDriver", "is_recorded", "person_figure"]
 
 
-@lru_cache(maxsize=1)
-def person_figure() -> Figure:
-    """What a person looks like, at any level of detail."""
-    return Figure.from_model(figure())
+def person_figure(size: float = 1.0) -> Figure:
+    """What a person of a ``size`` looks like, at any level of detail."""
+    return _figure_of(size)
+
+
+@lru_cache(maxsize=256)
+def _figure_of(size: float) -> Figure:
+    return Figure.from_model(figure()).scaled(size)
 
 
 class Recorded(Population):
@@ -111,7 +115,12 @@ class RecordedDriver(WalkerDriver):
     def __init__(self, population: Recorded, person: RecordedPerson) -> None:
         super().__init__(population, person.walker)
         self._population: Recorded = population
-        self.person, self.figure = person, person_figure()
+        self.person = person
+        self.figure = person_figure(self._size)
+
+    @property
+    def _size(self) -> float:
+        return float(self._row[at.TRAITS][SIZE])
 
     @property
     def simulated(self) -> RecordedPerson:
@@ -222,13 +231,12 @@ class RecordedDriver(WalkerDriver):
             raise RuntimeInputError(str(error)) from None
 
     def set_style(self, traits: Mapping[str, float]) -> None:
-        if "size" in traits:
-            raise RuntimeInputError("trait 'size': people of a world all have the same build")
         try:
             row = by_hand(self._row[at.TRAITS], **traits)
         except LocomotionError as error:
             raise RuntimeInputError(str(error)) from None
         self.person.change(lambda: self.person.set_traits(row))
+        self.figure = person_figure(self._size)
 
     @property
     def ground(self) -> Ground | None:
@@ -236,7 +244,7 @@ class RecordedDriver(WalkerDriver):
 
     @property
     def joints(self) -> Joints:
-        return person_joints()
+        return person_joints(self._size)
 
     def joint_pose(self) -> np.ndarray:
         return self.person.qpos
@@ -257,6 +265,7 @@ class RecordedDriver(WalkerDriver):
     def restore(self, state: Any) -> None:
         saved, plans = self._population.checked(state)
         self.person.restore(saved)
+        self.figure = person_figure(self._size)
         recall(self.plans, plans)
 
     def state_hash(self) -> str:

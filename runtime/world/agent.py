@@ -15,6 +15,7 @@ from locomotion import body_events as bodily
 from locomotion.avoidance.yielding import Course
 from locomotion.quadruped import Animal
 from locomotion.skills.registry import CLEARING, skill_kind
+from runtime.bodies.figure import Figure
 from runtime.bodies.pose import Pose
 from runtime.bodies.protocol import Driver
 from runtime.errors import RuntimeInputError
@@ -110,7 +111,6 @@ class Agent:
     def __init__(self, host: Host, name: str, body: str, driver: Driver) -> None:
         self.name = name
         self.body = body
-        self.figure = driver.figure
         self._bravery: float | None = None
         self._host = host
         self.take(driver)
@@ -128,6 +128,11 @@ class Agent:
         if self._body is None:
             return f"<Agent {self.name!r}: a {self.body}, removed from its world>"
         return f"<Agent {self.name!r}: a {self.body}, {self.status} at {self.position.round(2).tolist()}>"
+
+    @property
+    def figure(self) -> Figure:
+        """Its bodies and what they look like; of one that was removed as it was last."""
+        return self._figure if self._body is None else self._body.figure
 
     @property
     def human(self) -> Human:
@@ -291,9 +296,11 @@ class Agent:
 
     def set_style(self, **traits: float) -> None:
         """Let a person who plays recorded motion differ from others in these traits from now on: its
-        ``phase``, ``pace``, ``width`` of step, swing of the ``arms``, ``lean`` and ``head``, as of
-        `locomotion.recorded.individual.TRAITS`; the others stay as they are, at first by chance. Raises
-        `RuntimeInputError` for an unknown trait, a value out of its range, and any other body.
+        ``phase``, ``pace``, ``width`` of step, swing of the ``arms``, ``lean``, ``head`` and ``size``, as of
+        `locomotion.recorded.individual.TRAITS`; the others stay as they are, at first by chance, and the size
+        1: that of a simulated person, 1.76 m. Recordings and clients take the size that one has when they
+        begin or it appears. Raises `RuntimeInputError` for an unknown trait, a value out of its range, and
+        any other body.
         """
         self._driver.set_style(traits)
 
@@ -529,12 +536,14 @@ class Agent:
     def take(self, driver: Driver) -> None:
         """Go on with another body of the same kind."""
         self._body: Driver | None = driver
+        self._figure = driver.figure
         self.arrival = next(self._host.arrivals)
         self.news = driver.events
         self._heed(self._bravery)
 
     def leave(self) -> None:
         """Have no body any more; `World.remove` calls this."""
+        self._figure = self.figure
         self._body = None
 
     def remove(self) -> None:

@@ -8,6 +8,7 @@ import pytest
 import navmesh
 from locomotion.ground.ground import Ground, extruded
 from locomotion.recorded.footfalls import BALL, FEET, HEEL
+from locomotion.recorded.individual import SIZE, by_hand
 from locomotion.recorded.posing import posed
 from locomotion.recorded.skeletons import FULL, LOW, MEDIUM, skeleton
 from locomotion.recorded_people import layout as at
@@ -36,7 +37,7 @@ def level():
 
 
 def soles(person):
-    """Ends (foot, heel and ball, 3) of the soles."""
+    """Ends (foot, heel and ball, 3) of the soles of one, of any size."""
     own, pose = skeleton("full"), person.qpos
     bodies = posed(own, pose[None, 7 + own.joints], pose[None, :7])[0]
     out = []
@@ -49,14 +50,16 @@ def soles(person):
                 for end in (HEEL, BALL)
             ]
         )
-    return np.array(out)
+    return pose[:3] + person.row[at.TRAITS][SIZE] * (np.array(out) - pose[:3])
 
 
-@pytest.mark.parametrize("detail", [FULL, MEDIUM])
-def test_a_foot_that_bears_stands_still_on_stairs_and_on_a_slope(detail):
+@pytest.mark.parametrize(("detail", "size"), [(FULL, 1.0), (MEDIUM, 1.0), (FULL, 0.88), (MEDIUM, 1.08)])
+def test_a_foot_that_bears_stands_still_on_stairs_and_on_a_slope(detail, size):
     graph, ground = level()
     people = RecordedPeople(graph, ground=ground)
     ada = people.add((-1.0, 0.0, 0.0), 0.0, detail, np.random.default_rng(1))
+    ada.set_traits(by_hand(ada.row[at.TRAITS], size=size))
+    people.lay_feet(ada.index)
     ada.go_to([(8.0, 0.5, -0.29)], 1.2, None)
     ends, stood = [], []
     while ada.status == "walking":

@@ -39,6 +39,15 @@ def test_shapes_go_with_their_bodies():
     assert posed.size is shapes.size
 
 
+def test_a_figure_can_be_larger():
+    shapes = Shapes(
+        np.array([[0.5, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]), np.ones((1, 3)), np.array([True]), np.zeros((1, 3))
+    )
+    larger = Figure(("a",), np.array([-1]), np.array([0]), shapes).scaled(2.0)
+    assert larger.shapes.place[0].tolist() == [1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]
+    assert larger.shapes.size.tolist() == [[2.0, 2.0, 2.0]]
+
+
 MODEL = """
 <mujoco><worldbody>
   <geom type="plane" size="9 9 1"/>

@@ -133,12 +133,45 @@ def test_each_differs_from_the_next_by_chance_and_by_hand(graph):
         ({"limp": 1.0}, "valid: phase"),
         ({"lean": 2.0}, "lean is 2.0, expected a number from -0.2"),
         ({"lean": "x"}, "lean is .x., expected a number"),
-        ({"size": 1.1}, "build"),
+        ({"size": 1.3}, "size is 1.3, expected a number from 0.8 to 1.2"),
     ):
         with pytest.raises(RuntimeInputError, match=says):
             people[0].set_style(**wrong)
     with pytest.raises(RuntimeInputError, match="only people who play"):
         world.spawn("walker", (9.0, 2.0, 0.0)).set_style(arms=1.0)
+
+
+@pytest.mark.parametrize("level", ["full", "low"])
+@pytest.mark.parametrize("size", [0.88, 1.08])
+def test_a_person_of_another_size_stands_goes_and_kneels_on_the_ground(graph, level, size):
+    world = World(graph, seed=2)
+    ada, bob = (world.spawn("human", (1.0, 3.0 + k, 0.0), detail=level) for k in range(2))
+    for agent, large in ((ada, size), (bob, 1.0)):
+        agent.set_style(size=large, pace=1.0, lean=0.0, head=0.0)
+    world.step(2.0)
+    ankle, head = ada.figure.bodies.index("right_foot"), ada.figure.bodies.index("head")
+    for part in (head, ankle):
+        assert ada.pose.transforms[part, 2] == pytest.approx(size * bob.pose.transforms[part, 2], abs=0.01)
+    np.testing.assert_allclose(ada.figure.shapes.size, size * bob.figure.shapes.size)
+    np.testing.assert_allclose(ada.driver.joints.offsets, size * bob.driver.joints.offsets)
+    for agent in (ada, bob):
+        agent.go_to((6.0, agent.position[1], 0.0), speed=1.3)
+    world.step(2.0)
+    cadences = [agent.driver._population.people.cadence(agent.driver.person.index) for agent in (ada, bob)]
+    assert (cadences[0] > cadences[1]) == (size < 1.0)  # shorter people take more steps
+    lowest = []
+    while ada.moving:
+        world.step(0.05)
+        lowest.append(ada.pose.transforms[:, 2].min())
+    assert min(lowest) > 0.01 and max(lowest) < 0.08
+    for agent in (ada, bob):
+        agent.take_posture("kneel")
+    world.step(4.0)
+    assert ada.pose.transforms[head, 2] == pytest.approx(size * bob.pose.transforms[head, 2], abs=0.01)
+    state = world.save()
+    ada.set_style(size=1.0)
+    world.restore(state)
+    np.testing.assert_allclose(world.agents[ada.name].figure.shapes.size, size * bob.figure.shapes.size)
 
 
 def test_people_who_come_from_physics_differ_too(graph):

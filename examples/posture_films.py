@@ -1,4 +1,5 @@
-"""Strips of people at all levels of detail: docs/pictures/postures.png, and a switch as level-switch.png.
+"""Strips of people at all levels of detail: docs/pictures/postures.png, a switch as level-switch.png, and
+people of several sizes as recorded-sizes.png.
 
 python -m examples.posture_films docs/pictures
 """
@@ -17,7 +18,7 @@ from runtime.views.render import Camera, Triangles, render
 
 LEVELS = ("full", "medium", "low")
 POSTURES = ("stand", "crouch", "kneel", "all-fours", "prone", "sit", "dead")
-_SIZE = (160, 168)
+_SIZE, _WIDE = (160, 168), (400, 260)
 _APART = 2 / 60  # [s] between pictures of a switch
 _Pictures = list[list[tuple[np.ndarray, str]]]
 
@@ -37,6 +38,14 @@ class Artist:
         camera = Camera(target + np.array([0.3, -3.6, 0.8]), target, 0.62)
         figure, place = Looks().look(agent.name, agent.figure, place, agent.held[0])
         return render(self._level, [figure.posed(place)], camera, _SIZE)
+
+    def draw_all(self, world: runtime.World) -> np.ndarray:
+        """(height, width, 3) uint8 all agents of a ``world``, from before them."""
+        agents = list(world.agents.values())
+        target = np.mean([agent.position for agent in agents], axis=0) + np.array([0.0, 0.0, 0.9])
+        camera = Camera(target + np.array([5.5, -1.5, 0.6]), target, 0.62)
+        figures = [agent.figure.posed(agent.pose.transforms) for agent in agents]
+        return render(self._level, figures, camera, _WIDE)
 
 
 def postures(artist: Artist) -> _Pictures:
@@ -82,11 +91,26 @@ def switches(artist: Artist) -> _Pictures:
     return rows
 
 
+def sizes(artist: Artist) -> _Pictures:
+    """People of 1.55 to 1.90 m who walk side by side, at each level."""
+    row = []
+    for level in LEVELS:
+        world = runtime.World(artist.graph, seed=3)
+        for number, size in enumerate(np.linspace(0.88, 1.08, 5)):
+            agent = world.spawn("human", (0.0, 5.0 + 0.8 * number, 0.0), detail=level)
+            agent.set_style(size=float(size))
+            agent.go_to((55.0, 5.0 + 0.8 * number, 0.0), speed=1.3)
+        world.step(4.0)
+        row.append((artist.draw_all(world), f"{level}: 1.55 to 1.90 m"))
+    return [row]
+
+
 def write(rows: _Pictures, path: Path) -> None:
     """Put the pictures into one file."""
-    page = Page(figsize=(1.6 * len(rows[0]), 1.68 * len(rows)), dpi=75)
+    height, width = rows[0][0][0].shape[:2]
+    page = Page(figsize=(0.01 * width * len(rows[0]), 0.01 * height * len(rows)), dpi=75)
     page.subplots_adjust(0.0, 0.0, 1.0, 1.0, 0.02, 0.02)
-    for line, row in zip(page.subplots(len(rows), len(rows[0])), rows, strict=True):
+    for line, row in zip(page.subplots(len(rows), len(rows[0]), squeeze=False), rows, strict=True):
         for axes, (picture, label) in zip(line, row, strict=True):
             show_frame(axes, picture, label)
     page.savefig(path)
@@ -96,3 +120,4 @@ if __name__ == "__main__":
     folder, painter = Path(sys.argv[1]), Artist()
     write(postures(painter), folder / "postures.png")
     write(switches(painter), folder / "level-switch.png")
+    write(sizes(painter), folder / "recorded-sizes.png")

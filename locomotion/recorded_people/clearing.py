@@ -25,6 +25,7 @@ from locomotion.recorded.posing import posed
 from locomotion.recorded.sampling import sample_clips
 from locomotion.recorded.skeletons import FULL, LEVELS, skeleton
 from locomotion.recorded_people.crossing import Crossing
+from locomotion.recorded_people.hand_holds import HandHold, hand_of, with_hand_at
 
 __all__ = ["RecordedSkill", "out_of_the_floor"]
 
@@ -35,6 +36,8 @@ _RATES = (0.6, 1.1)  # least and greatest rate at which a take-off is played
 _CADENCE, _HASTE, _LATE, _EARLY = 1.65, (0.7, 1.35), 0.1, 0.35
 # cycles a second at the end of a run-up; least and greatest haste; [s] before its end, too late to hasten;
 # cycles by which steps are slowed down at most
+_INSIDE = 0.03  # [m] from a wall's sides to a hand on it
+_REACHES = 0.15  # [s] in which a hand comes to what it holds on to, and goes back
 _SPRING = 0.12  # [s] before leaving the ground in which one makes ready for what is higher
 
 
@@ -50,7 +53,7 @@ class RecordedSkill:
     ``ends``. ``lead``: [m] before the edge at which it begins. ``edge``, ``depth``, ``size``: of its own
     obstacle, from the clip's begin [m]. ``sideways``: y at begin and end [m]. ``pace``: at the
     begin [m/s]. ``phase``: of a gait's cycle that it goes on from: 0 or 0.5, the right or the left foot
-    strikes."""
+    strikes. ``holds``: when hands rest on the obstacle."""
 
     clip: int
     crossing: str
@@ -67,6 +70,7 @@ class RecordedSkill:
     sideways: tuple[float, float]
     pace: float
     phase: float
+    holds: tuple[HandHold, ...] = ()
 
     # --- the run-up
     def haste(self, of: Crossing, elapsed: float, phase: float, cadence: float) -> float | None:
@@ -169,6 +173,30 @@ class RecordedSkill:
             half_c * j + half_s * i,
             half_c * k + half_s * w,
         )
+        return pose
+
+    def on_its_hands(
+        self,
+        motions: MotionSet,
+        of: Crossing,
+        moment: float,
+        pose: NDArray[np.float64],
+        look: tuple[int, float],
+    ) -> NDArray[np.float64]:
+        """``pose`` (46,) at a ``moment`` [s], with hands on the top of the obstacle that rest on it in the
+        clip: where they come down, or next to it. ``look``: level and size of the person."""
+        level, size = look
+        for hold in self.holds:
+            share = _ramp(moment, hold.first - _REACHES, hold.first)
+            share -= _ramp(moment, hold.last, hold.last + _REACHES)
+            if share <= 0.0:
+                continue
+            then = self.pose(motions, level, of, 0.5 * (hold.first + hold.last), size)
+            point = hand_of(then, hold.side, size)
+            ahead = float((point[:2] - of.edge[:2]) @ of.way)
+            point[:2] += (min(max(ahead, _INSIDE), of.depth - _INSIDE) - ahead) * of.way
+            point[2] = of.start[2] + of.size
+            pose = with_hand_at(pose, hold.side, point, share, size)
         return pose
 
     def _point(self, of: Crossing, x: float, moment: float) -> tuple[float, float]:

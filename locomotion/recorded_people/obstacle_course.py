@@ -113,13 +113,26 @@ class ObstacleCourse:
         of = self.of
         return self._people.skills[of.affordance].run_up(of, 0.0)[2] * -1.0
 
+    def moment(self, now: float) -> float:
+        """[s] of the recording that is played at the time ``now`` [s], over an obstacle."""
+        of = self.of
+        return self._people.skills[of.affordance].moment(of, now - of.begun + self._flown)
+
     def pose(self, now: float) -> NDArray[np.float64]:
         """(46,) its pose at the time ``now`` [s], over an obstacle."""
         people, of = self._people, self.of
         skill = people.skills[of.affordance]
-        moment = skill.moment(of, now - of.begun + self._flown)
+        moment = self.moment(now)
         row = self._person.row
         return skill.pose(people.motions, int(row[at.LEVEL]), of, moment, float(row[at.TRAITS][SIZE]))
+
+    def on_its_hands(self, pose: NDArray[np.float64], now: float) -> NDArray[np.float64]:
+        """``pose`` (46,) at the time ``now`` [s], over an obstacle, with hands on that which rest on it."""
+        people, of, row = self._people, self.of, self._person.row
+        skill = people.skills[of.affordance]
+        moment = self.moment(now)
+        look = int(row[at.LEVEL]), float(row[at.TRAITS][SIZE])
+        return skill.on_its_hands(people.motions, of, moment, pose, look)
 
     def floor(self, now: float) -> tuple[float, float] | None:
         """As `RecordedSkill.floor` at the time ``now`` [s], of one over an obstacle."""
@@ -127,7 +140,7 @@ class ObstacleCourse:
             return None
         of = self.of
         skill = self._people.skills[of.affordance]
-        return skill.floor(of, skill.moment(of, now - of.begun + self._flown))
+        return skill.floor(of, self.moment(now))
 
     def cross(self) -> None:
         """After bodies have moved: begin a run-up, take off, or go on behind the obstacle."""

@@ -301,5 +301,7 @@ class RecordedPeople:
             pose[2] += z
         elapsed = max(now - float(row[at.FADE_BEGUN]), 0.0)
         pose = faded(pose, row[at.OFFSETS], row[at.RATES], float(row[at.FADE_SECONDS]), elapsed)
+        if row[at.CROSSES] == at.CLEARS and int(row[at.NODE]) == self.stand:
+            pose = person.course.on_its_hands(pose, now)
         floor = person.course.floor(now)
         return pose if floor is None else out_of_the_floor(pose, *floor, size)

@@ -12,6 +12,7 @@ from locomotion.recorded.motion_set import MotionSet
 from locomotion.recorded.posing import posed
 from locomotion.recorded.skeletons import FULL, skeleton
 from locomotion.recorded_people.clearing import RecordedSkill
+from locomotion.recorded_people.hand_holds import holds_of
 from locomotion.skills.registry import skill_kind, skill_kinds
 
 __all__ = ["recorded_skills", "skill_ranges"]
@@ -48,6 +49,7 @@ def _skill_of(motions: MotionSet, clip: int, crossing: str, usual: float) -> Rec
         float(times[min(passed, lands)]), float(times[lands]), float(ends), edge - float(root[begins]), edge,
         depth, usual, (float(bodies[begins, 0, 1]), float(bodies[last, 0, 1])),
         float((root[begins + 3] - root[begins]) / (times[begins + 3] - times[begins])), 0.5 * foot,
+        holds_of(own.as_qpos(frames.channels[rows], frames.roots[rows]), times, about.obstacle),
     )  # fmt: skip
 
 

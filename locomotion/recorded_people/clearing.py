@@ -33,7 +33,7 @@ _FASTEST = 3.4  # [m/s] of a run-up
 _GAINS = 3.0  # [m/s²]
 _SLOWEST = 0.8  # [m/s] at which it begins
 _RATES = (0.6, 1.1)  # least and greatest rate at which a take-off is played
-_CADENCE, _HASTE, _LATE, _EARLY = 1.65, (0.7, 1.35), 0.1, 0.35
+_CADENCE, _HASTE, _LATE, _EARLY = 1.65, (0.65, 1.6), 0.05, 0.4
 # cycles a second at the end of a run-up; least and greatest haste; [s] before its end, too late to hasten;
 # cycles by which steps are slowed down at most
 _INSIDE = 0.03  # [m] from a wall's sides to a hand on it

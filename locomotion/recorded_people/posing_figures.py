@@ -211,8 +211,10 @@ def draw_figures(figures, indices, rows, walkers, moment, out):
 @kernel
 def _speed_soon(row, walker):
     """[m/s] of a figure that gets faster, in the middle of its next step: a runner's first steps are those of
-    a run. Of others now."""
+    a run, and so are those of a run-up. Of others now."""
     speed, wish = row[at.SPEED], walker[body.WISH]
+    if row[at.CROSSES] == at.RUNS_UP:
+        wish = math.inf
     if speed <= AT_REST or wish <= speed:
         return speed
     return min(speed + _SOON * walker[body.ACCELERATION], wish)

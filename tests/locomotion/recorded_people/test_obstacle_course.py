@@ -26,6 +26,17 @@ def test_one_who_changes_its_mind_on_the_way_first_lands():
     assert ada.posture == "kneel" and ada.position[0] > EDGE + THICK and ada.crossing is None
 
 
+@pytest.mark.parametrize("speed", [1.0, 1.8, 2.6, 3.4])
+@pytest.mark.parametrize("kind", ["jump", "vault", "gap"])
+def test_a_run_up_ends_in_step_with_the_recording(kind, speed):
+    people, _ = over(kind, 0.7, speed=speed)
+    row, phase = people.rows[0], 0.0
+    while row[at.CROSSES] != at.CLEARS:
+        phase = row[at.PHASE]
+        people.tick()
+    assert abs((phase - people.skills[kind].phase + 0.5) % 1.0 - 0.5) < 0.1
+
+
 def test_two_take_turns_and_neither_arrives_at_its_run_up():
     people, ada = over("vault", 0.8)
     bob = people.add((1.0, 0.7, 0.0), 0.0, LOW, np.random.default_rng(4))

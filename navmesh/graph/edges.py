@@ -9,7 +9,7 @@ from navmesh.surface.ridges import Field, half_width, widest_through
 from navmesh.threads import in_threads, shares
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["borders", "join_nodes", "measure_edges", "rows_of_edges"]
+__all__ = ["borders", "join_nodes", "measure_edges", "rows_of_edges", "widest_pair"]
 
 
 _WIDE = 1.5
@@ -65,7 +65,7 @@ def _by_ends(key, nodes):
 
 
 @kernel
-def _widest(order, first, last, pair, width, least, most, field):
+def widest_pair(order, first, last, pair, width, least, most, field):
     """Where the widest body passes the border pairs ``order[first:last]`` of one edge, and the pair there:
     (index of the pair, x, y, radius). Radii up to ``least`` [m] and from ``most`` on are all the same."""
     best = order[first]
@@ -107,7 +107,9 @@ def _measure(order, key, pair, width, place, field):
         b = np.int32(key[i] & 0xFFFFFFFF)
         one, other = place[a, 2], place[b, 2]
         lens = 0.5 * (one + other - np.hypot(place[b, 0] - place[a, 0], place[b, 1] - place[a, 1]))
-        i, x, y, passes = _widest(order, begin[k], begin[k + 1], pair, width, lens, min(one, other), field)
+        i, x, y, passes = widest_pair(
+            order, begin[k], begin[k + 1], pair, width, lens, min(one, other), field
+        )
         ends[k, 0], ends[k, 1], widest[k], gate[k, 0], gate[k, 1] = a, b, passes, x, y
         border[k, 0], border[k, 1] = pair[i, 0], pair[i, 1]
     return ends, widest, gate, border

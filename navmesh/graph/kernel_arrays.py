@@ -17,7 +17,7 @@ from surefoot.kernels.bundles import Bundle, BundleType, aligned, rows
 if TYPE_CHECKING:
     from navmesh.graph.node_graph import NodeGraph
 
-__all__ = ["DOORS", "NET", "SCRATCH", "door_rows", "make_doors", "make_scratch", "net_of"]
+__all__ = ["DOORS", "NET", "SCRATCH", "bare_net", "door_rows", "make_doors", "make_scratch", "net_of"]
 
 _CELL = np.dtype(
     [
@@ -55,6 +55,8 @@ cell_column, height, gradient (2 float32), link (4), clearance, nearby (2), near
 edge_target (e,).
 """
 
+_NO_SLOTS = np.empty(0, np.int32)
+
 DOORS = BundleType(
     radius=float64,
     weighted=int64,
@@ -62,7 +64,10 @@ DOORS = BundleType(
     doors=rows(_DOOR),
     lens=float64[:, ::1],
     block=float64[:, ::1],
+    head=int32[::1],
+    following=int32[::1],
     node_cost=float64[::1],
+    whole=int32[::1],
     leap_start=int32[::1],
     leap_id=int32[::1],
     leap_from=float64[:, ::1],
@@ -70,8 +75,13 @@ DOORS = BundleType(
     leap_to=float64[:, ::1],
     leap_to_cell=int32[::1],
     leap_cost=float64[::1],
+    leap_closed=int32[::1],
     widest=float64,
     part=int32[::1],
+    region=int32[::1],
+    ring=int32[::1],
+    part_whole=int32[::1],
+    anywhere=int64,
     part_leap_start=int32[::1],
     part_leap=int32[::1],
     tile_start=int32[::1],
@@ -80,17 +90,22 @@ DOORS = BundleType(
 )
 """What one body radius makes of the graph.
 
-radius [m]; the doors, edges that the body passes, of node i are start[i]:start[i + 1]. For each door: target,
-the node behind; portal (6): x, y, z of its left and of its right end as seen walking through; portal_cell
-(2): the cells of the ends; lens (2): the part of it (0 left, 1 right) that lies in both shrunk discs, all of
-it where they do not overlap; block (4): x, y of what ends walking at its left and at its right end, inf where
-nothing does. node_cost (m,), at least 1: factor on the length walked in each node; weighted: whether any
-factor is not 1. The leaps are the typed links on offer, grouped by the node they start from: leap_start (m +
-1,), leap_id (l,), leap_from, leap_to (l, 3), leap_from_cell, leap_to_cell (l,), leap_cost (l,) [m]. widest:
+radius [m]; the doors, edges that the body passes, of node i are start[i]:start[i + 1]. Where there are zones
+(`navmesh.zones`) it has those of a list of slots, too: head[i] is the first, following[s] the next after slot
+s, until -1; slot s is door target.size - following.size + s. For each door: target, the node behind, or -1
+where a blocked zone is in the way; portal (6): x, y, z of its left and of its right end as seen walking
+through; portal_cell (2): the cells of the ends; lens (2): the part of it (0 left, 1 right) that lies in both
+shrunk discs, all of it where they do not overlap; block (4): x, y of what ends walking at its left and at its
+right end, inf where nothing does. node_cost (m,), at least 1: factor on the length walked in each node;
+weighted: whether any factor is not 1. The leaps are the typed links on offer, grouped by the node they start
+from: leap_start (m + 1,), leap_id (l,), leap_from, leap_to (l, 3), leap_from_cell, leap_to_cell (l,),
+leap_cost (l,) [m]; leap_closed (l,): 1 for those in whose way a blocked zone is. Those of a piece of a disc
+are among those of whole (m,), the node that it is a piece of; of other nodes it is the node itself. widest:
 radius [m] of the widest disc. part (m,): which nodes can be walked to from each other, see
-`navmesh.graph.parts`; part_leap_start (p + 1,), part_leap (l,): the parts that the leaps from each part lead
-to; tile_start (t + 1,), tile_part (p,), tile_span (p, 2): the parts in each tile, and the least and greatest
-height [m] of the floor there.
+`navmesh.graph.parts`; region (p,): the same for parts that open zones join, by its first part, and ring (p,)
+the next part of it; part_whole (p,): as whole; part_leap_start (p + 1,), part_leap (l,): the leaps from each
+part; anywhere: the part that stands in tiles for those near zones, or -1; tile_start (t + 1,), tile_part
+(p,), tile_span (p, 2): the parts in each tile, and the least and greatest height [m] of the floor there.
 """
 
 SCRATCH = BundleType(
@@ -161,26 +176,31 @@ def net_of(graph: "NodeGraph") -> Any:
     """The graph's `NET`, made once."""
     net = graph.cache.get("net")
     if net is None:
-        surface = graph.surface
-        net = Bundle(
-            NET,
-            cell=surface.resolution,
-            nx=surface.shape[0],
-            ny=surface.shape[1],
-            column_start=surface.column_start,
-            cells=aligned(len(surface), _CELL),
-            nearest=surface.nearest,
-            blocker=surface.blocker,
-            nodes=_table(_NODE, position=graph.positions - surface.origin, node_radius=graph.radii),
-            node_cell=graph.node_cell,
-            edge_start=graph.edge_start,
-            edge_target=graph.edge_target,
-        )
-        _fill_cells(
-            net, surface.clearance, surface.height, surface.link, graph.label, surface.cell_column,
-            surface.gradient, surface.source, surface.blocker_start,
-        )  # fmt: skip
-        graph.cache["net"] = net
+        net = graph.cache["net"] = bare_net(graph)
+    return net
+
+
+def bare_net(graph: "NodeGraph") -> Any:
+    """The graph's `NET`, which is not kept."""
+    surface = graph.surface
+    net = Bundle(
+        NET,
+        cell=surface.resolution,
+        nx=surface.shape[0],
+        ny=surface.shape[1],
+        column_start=surface.column_start,
+        cells=aligned(len(surface), _CELL),
+        nearest=surface.nearest,
+        blocker=surface.blocker,
+        nodes=_table(_NODE, position=graph.positions - surface.origin, node_radius=graph.radii),
+        node_cell=graph.node_cell,
+        edge_start=graph.edge_start,
+        edge_target=graph.edge_target,
+    )
+    _fill_cells(
+        net, surface.clearance, surface.height, surface.link, graph.label, surface.cell_column,
+        surface.gradient, surface.source, surface.blocker_start,
+    )  # fmt: skip
     return net
 
 
@@ -198,9 +218,11 @@ def make_doors(
     parts: dict,
     widest: float,
 ) -> Bundle:
-    """`DOORS` from ``portals`` (start, `door_rows`, lens, block), which all `DOORS` of a radius share, the
-    costs of the nodes, the ``leap`` arrays and those of the parts."""
-    start, doors, lens, block = portals
+    """`DOORS` from ``portals`` (start, `door_rows`, lens, block and, where there are zones, head and
+    following), which all `DOORS` of a radius share, the costs of the nodes, the ``leap`` arrays and those of
+    the parts."""
+    start, doors, lens, block, *slots = portals
+    head, following = slots or (_NO_SLOTS, _NO_SLOTS)
     return Bundle(
         DOORS,
         radius=radius,
@@ -209,6 +231,8 @@ def make_doors(
         doors=doors,
         lens=lens,
         block=block,
+        head=head,
+        following=following,
         node_cost=costs,
         widest=widest,
         **leaps,
@@ -218,13 +242,12 @@ def make_doors(
 
 def _most_opened(graph: "NodeGraph") -> int:
     """How many entries the open list can get: whenever a label is expanded, one for each way on."""
-    links = graph.links
-    start = graph.label[links.start_cell]
-    leaving = np.bincount(start[start >= 0], minlength=len(graph.radii))
-    return LABELS * int((np.diff(graph.edge_start) + leaving).sum()) + 1
+    zones = graph.zone_state
+    slots = 0 if zones is None else zones.slots
+    return LABELS * (len(graph.edge_target) + len(graph.links) + slots) + 1
 
 
-def make_scratch(graph: "NodeGraph") -> Bundle:
+def make_scratch(graph: "NodeGraph") -> Any:
     """`SCRATCH` for searches over the graph, with room for all that can come up. Most of it is never touched
     and so takes no memory."""
     nodes, cells = len(graph.radii), len(graph.surface)
@@ -232,15 +255,15 @@ def make_scratch(graph: "NodeGraph") -> Bundle:
     opened = _most_opened(graph)
     chain = labels + 1
     corners = cells + 4096
-    return Bundle(
+    scratch: Any = Bundle(
         SCRATCH,
         numbers=np.zeros(16, np.int64),
         ends=np.zeros(12),
         labels=aligned(labels, _LABEL),
         heap_key=np.empty(opened),
         heap_item=np.empty(opened, np.int32),
-        reached=np.zeros(nodes, np.int64),
-        part_stack=np.empty(nodes, np.int32),
+        reached=np.zeros(nodes + 1, np.int64),
+        part_stack=np.empty(nodes + 1, np.int32),
         nodes=np.empty(chain, np.int32),
         edges=np.empty(chain, np.int32),
         points=np.empty((corners, 3)),
@@ -262,3 +285,5 @@ def make_scratch(graph: "NodeGraph") -> Bundle:
         cell_best=np.empty(cells),
         cell_parent=np.empty(cells, np.int32),
     )
+    scratch.slots = 0 if graph.zone_state is None else graph.zone_state.slots
+    return scratch

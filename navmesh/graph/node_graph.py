@@ -28,6 +28,9 @@ from navmesh.rules import WalkRules
 from navmesh.surface.build import Grid
 from navmesh.surface.surface import Surface
 from navmesh.threads import checked_threads
+from navmesh.zones.outlines import checked_outlines
+from navmesh.zones.plain import plain_graph
+from navmesh.zones.zones import Zones, rebuilt, zoned_graph
 from surefoot.words import several
 
 if TYPE_CHECKING:
@@ -55,7 +58,8 @@ class NodeGraph:
     """(m, 3) float64 [m], world coordinates of the nodes: points of the surface, centres of cells or, in a
     narrow passage, its middle."""
     radii: np.ndarray
-    """(m,) float64 [m]: horizontal distance from the node to the nearest place where walking ends."""
+    """(m,) float64 [m]: horizontal distance from the node to the nearest place where walking ends; -1 for
+    nodes that are not there with the zones that are blocked now."""
     node_cell: np.ndarray
     """(m,) int32: the cell that the node lies in."""
     label: np.ndarray
@@ -83,6 +87,8 @@ class NodeGraph:
     """What `build` was given."""
     kept_build: KeptBuild | None = field(default=None, repr=False)
     """What `update` needs of the build; never saved."""
+    zone_state: Zones | None = field(default=None, repr=False)
+    """What `with_zones` was given, and what is blocked; never saved."""
     cache: dict[str, Any] = field(default_factory=dict, repr=False)
     """What queries have worked out and want to keep; never saved, and may be emptied at any time."""
 
@@ -142,7 +148,71 @@ class NodeGraph:
         found = None
         if self.obstacle_rules is not None:
             found = all_rim_samples(kept_build, changed, terrain, built.surface, rules, self.obstacle_rules)
-        return self._made(terrain, rules, self.obstacle_rules, self.tags, built, found)
+        graph = self._made(terrain, rules, self.obstacle_rules, self.tags, built, found)
+        if self.zone_state is None:
+            return graph
+        return rebuilt(graph, self.zone_state.outlines, self.zones)
+
+    def with_zones(self, outlines: Mapping[str, Any]) -> "NodeGraph":
+        """This graph with zones, parts of the floor that can be blocked and opened at once, such as doorways.
+
+        ``outlines`` gives the corners (k, 3) [m] of each zone by its name, in order, on the floor: what
+        counts is floor up to half of `WalkRules.headroom` above or below them. Two corners are a line. Zones
+        that the graph has already stay as they are, but those of the same names. New ones are open; see
+        `block`. With all zones open every query answers as it does on this graph.
+
+        Call it once, when the level is loaded, with all zones: it looks at the whole graph. `update` keeps
+        zones and what is blocked, `save` leaves them out, a copy of the graph has its own. ``node_costs`` of
+        `find_path` then are for nodes that are not there now, too. Raises `NavmeshError` for outlines that
+        are none, or under which there is no floor.
+        """
+        fresh = checked_outlines(outlines)
+        old = self.zone_state
+        if old is None:
+            return zoned_graph(self, fresh, set(), {})
+        blocked = {name: blocked for name, blocked in self.zones.items() if name not in fresh}
+        return zoned_graph(old.undivided, old.outlines | fresh, set(old.outlines) - set(fresh), blocked)
+
+    def block(self, *zones: str) -> None:
+        """Block ``zones``, by name: from now on nobody can be in them, and no route leads through or jumps
+        over. Takes time in proportion to the zones and what is near them, whatever the size of the level.
+
+        This changes the graph itself: not while another thread asks it something. Routes found before can be
+        asked whether they still hold (`Route.holds`). Raises `NavmeshError` for a name that there is not.
+        """
+        self._turn(zones, True)
+
+    def open(self, *zones: str) -> None:
+        """Open ``zones``, by name; as `block`."""
+        self._turn(zones, False)
+
+    def _turn(self, names: tuple[str, ...], blocked: bool) -> None:
+        if self.zone_state is None:
+            raise NavmeshError("the graph has no zones; expected one that with_zones has given some")
+        self.zone_state.turn(self, names, blocked)
+
+    @property
+    def zones(self) -> dict[str, bool]:
+        """Whether each zone is blocked, by its name."""
+        return {} if self.zone_state is None else self.zone_state.names
+
+    @property
+    def undivided(self) -> "NodeGraph":
+        """The graph that `with_zones` was called on, as it is with all zones open; itself if it has none."""
+        return self if self.zone_state is None else self.zone_state.undivided
+
+    def without_zones(self) -> "NodeGraph":
+        """The graph of what there is now, with the zones that are blocked, and without zones: for analysis.
+        Its nodes are numbered anew. Takes time in proportion to the level, once after a zone was turned."""
+        return plain_graph(self)
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        if self.zone_state is None:
+            return super().__reduce_ex__(protocol)
+        return rebuilt, (self.zone_state.undivided, self.zone_state.outlines, self.zones)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return self.__dict__ | {"cache": {}}
 
     @classmethod
     def _made(
@@ -205,8 +275,8 @@ class NodeGraph:
         return len(self.radii)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the graph to ``path``; `load` reads it back."""
-        write_graph(path, self)
+        """Write the graph to ``path``, without its zones; `load` reads it back."""
+        write_graph(path, self.undivided)
 
     @classmethod
     def load(
@@ -331,6 +401,8 @@ class NodeGraph:
         and ``length`` (distance between centres), all in metres."""
         import networkx  # takes a tenth of a second, which only analysis should
 
+        if self.zone_state is not None:
+            return self.without_zones().to_networkx()
         graph = networkx.Graph()
         for i, (position, radius) in enumerate(
             zip(self.positions.tolist(), self.radii.tolist(), strict=True)

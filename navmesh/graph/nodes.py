@@ -7,7 +7,7 @@ from navmesh.surface.ridges import Field, half_width, middle_beside
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["all_nodes", "grain_of", "order_by_clearance", "select_nodes"]
+__all__ = ["all_nodes", "disc_at", "grain_of", "order_by_clearance", "select_nodes"]
 
 
 def grain_of(surface: Surface) -> float:
@@ -80,6 +80,15 @@ def _claim(field, label, power, node, k, x, y, radius):
             dx += step
 
 
+@kernel
+def disc_at(field, c):
+    """The disc whose turn it is at cell ``c``: (cell, x, y, radius)."""
+    if half_width(field, c) < np.inf:
+        return middle_beside(field, c)
+    x, y = centre_of(field, c)
+    return np.int64(c), x, y, field.clearance[c]
+
+
 @allocating_kernel
 def select_nodes(order, field, least, given_cell, given_place):
     """Greedy cover by maximal discs, (almost) largest first.
@@ -107,10 +116,7 @@ def select_nodes(order, field, least, given_cell, given_place):
         else:
             if label[c] >= 0:
                 continue
-            k, r = c, field.clearance[c]
-            x, y = centre_of(field, c)
-            if half_width(field, c) < np.inf:
-                k, x, y, r = middle_beside(field, c)
+            k, x, y, r = disc_at(field, c)
             if r < least:
                 continue
         node_cell[nodes], maker[nodes] = k, c

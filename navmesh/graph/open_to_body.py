@@ -13,11 +13,13 @@ from navmesh.graph.parts import leaps_by_part, parts_of_nodes, parts_of_tiles
 from navmesh.graph.portals import open_portals
 from navmesh.obstacles.kinds import affordances
 from navmesh.recent import recent
+from navmesh.zones.bodies import zoned_body
+from navmesh.zones.leaps import settle_leaps
 
 if TYPE_CHECKING:
     from navmesh.graph.node_graph import NodeGraph
 
-__all__ = ["checked_radius", "doors_of", "parts_of", "portals_of"]
+__all__ = ["checked_radius", "doors_of", "parts_of", "portals_of", "regions_of"]
 
 _NO_LINKS = np.empty(0, np.int64)
 
@@ -89,21 +91,33 @@ def parts_of(graph: "NodeGraph", radius: float) -> tuple[np.ndarray, ...]:
     return recent(graph.cache, "parts", radius, make)
 
 
+def regions_of(graph: "NodeGraph", radius: float) -> np.ndarray:
+    """(m,) int32: alike for nodes between which a body of ``radius`` can walk, with the zones that are open
+    now."""
+    zones = graph.zone_state
+    if zones is None:
+        return parts_of(graph, radius)[0]
+    with zones.lock:
+        body = zoned_body(graph, radius)
+        return body.region[body.part]
+
+
 def _leaps_for(graph: "NodeGraph", radius: float, skills: tuple, closed: np.ndarray) -> dict[str, np.ndarray]:
     """The links on offer but the ``closed`` ones, grouped by the node they start from: the ``leap`` arrays of
     `DOORS`."""
-    count = len(graph.radii)
-    links = graph.links
+    zones = graph.zone_state
+    undivided = graph if zones is None else zones.undivided
+    count, label, links = len(undivided), undivided.label, graph.links
     chosen = []
     for name, low, high in skills:
         of_kind = (links.affordance == name) & (links.height >= low) & (links.height <= high)
         chosen.append(np.flatnonzero(of_kind & (links.radius >= radius)))
     index = np.setdiff1d(np.concatenate(chosen), closed) if chosen else np.empty(0, np.int64)
-    index = index[(graph.label[links.start_cell[index]] >= 0) & (graph.label[links.end_cell[index]] >= 0)]
+    index = index[(label[links.start_cell[index]] >= 0) & (label[links.end_cell[index]] >= 0)]
     origin = graph.surface.origin
     start, end = links.start[index] - origin, links.end[index] - origin
     start_cell, end_cell = links.start_cell[index], links.end_cell[index]
-    node = graph.label[start_cell]
+    node = label[start_cell]
     order = np.lexsort((index, node))
     starts = np.searchsorted(node[order], np.arange(count + 1)).astype(np.int32)
     cost = np.maximum(links.cost[index], np.linalg.norm(end - start, axis=1))
@@ -115,6 +129,8 @@ def _leaps_for(graph: "NodeGraph", radius: float, skills: tuple, closed: np.ndar
         "leap_to": np.ascontiguousarray(end[order]),
         "leap_to_cell": end_cell[order],
         "leap_cost": cost[order],
+        "leap_closed": np.zeros(len(order), np.int32),
+        "leap_node": node[order],
     }
 
 
@@ -129,9 +145,17 @@ def doors_of(
     def make() -> Any:
         return _doors(graph, radius, offered, closed, None)
 
-    if node_costs is not None:
-        return _doors(graph, radius, offered, closed, node_costs)
-    return recent(graph.cache, "doors", (radius, offered, closed.tobytes()), make)
+    zones = graph.zone_state
+    if zones is None:
+        if node_costs is not None:
+            return _doors(graph, radius, offered, closed, node_costs)
+        return recent(graph.cache, "doors", (radius, offered, closed.tobytes()), make)
+    with zones.lock:
+        zoned_body(graph, radius)
+        key = radius, offered, closed.tobytes(), zones.slots
+        doors = make() if node_costs is not None else recent(graph.cache, "doors", key, make)
+        settle_leaps(zones, doors)
+        return doors
 
 
 def _doors(
@@ -147,18 +171,25 @@ def _doors(
             costs = np.empty(0)
         if costs.shape != (count,) or not np.all(costs >= 1.0) or not np.all(np.isfinite(costs)):
             raise NavmeshError(f"node_costs: expected {count} finite factors of at least 1, one per node")
-    leaps = _leaps_for(graph, radius, offered, closed)
+    leaps, weighted = _leaps_for(graph, radius, offered, closed), node_costs is not None
+    if graph.zone_state is not None:
+        return zoned_body(graph, radius).doors(leaps, costs, weighted)
     part, tile_start, tile_part, tile_span = parts_of(graph, radius)
-    part_leap_start, part_leap = leaps_by_part(
-        part, graph.label[leaps["leap_from_cell"]], graph.label[leaps["leap_to_cell"]]
-    )
+    every = np.arange(int(part.max(initial=-1)) + 1, dtype=np.int32)
+    part_leap_start, part_leap = leaps_by_part(part[leaps.pop("leap_node")], len(every))
+    leaps["whole"] = np.arange(count, dtype=np.int32)
     parts = {
         "part": part,
+        "region": every,
+        "ring": every,
+        "part_whole": every,
+        "anywhere": -1,
         "part_leap_start": part_leap_start,
         "part_leap": part_leap,
         "tile_start": tile_start,
         "tile_part": tile_part,
         "tile_span": tile_span,
     }
-    weighted, widest = node_costs is not None, float(graph.radii.max())
-    return make_doors(radius, portals_of(graph, radius), costs, weighted, leaps, parts, widest)
+    return make_doors(
+        radius, portals_of(graph, radius), costs, weighted, leaps, parts, float(graph.radii.max())
+    )

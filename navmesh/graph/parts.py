@@ -4,9 +4,10 @@ tiles of the grid in which each part has a place for the body."""
 import numpy as np
 
 from navmesh.graph.snapping import CANDIDATES, candidate
+from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel
 
-__all__ = ["TILE", "leaps_by_part", "parts_of_nodes", "parts_of_tiles"]
+__all__ = ["TILE", "leaps_by_part", "parts_in_tiles", "parts_of_nodes", "parts_of_tiles"]
 
 TILE = 16
 """Columns a side of the tiles by which far places are looked for."""
@@ -14,7 +15,8 @@ TILE = 16
 
 @allocating_kernel
 def parts_of_nodes(start, target):
-    """The part of each node over the doors in CSR form: (m,) int32, numbered by their first nodes."""
+    """The part of each node over the doors in CSR form, those to -1 left out: (m,) int32, numbered by their
+    first nodes."""
     count = start.size - 1
     part = np.full(count, -1, np.int32)
     stack = np.empty(count, np.int32)
@@ -30,7 +32,7 @@ def parts_of_nodes(start, target):
             node = stack[size]
             for door in range(start[node], start[node + 1]):
                 other = target[door]
-                if part[other] < 0:
+                if other >= 0 and part[other] < 0:
                     part[other] = parts
                     stack[size] = other
                     size += 1
@@ -82,10 +84,31 @@ def parts_of_tiles(net, part, radius):
     return start, found[:count].copy(), span[:count].copy()
 
 
-def leaps_by_part(part: np.ndarray, from_node: np.ndarray, to_node: np.ndarray) -> tuple[np.ndarray, ...]:
-    """The parts that leaps lead to, grouped by the part that they start in: start (p + 1,), target (l,)."""
-    count = int(part.max(initial=-1)) + 1
-    source = part[from_node]
-    order = np.argsort(source, kind="stable")
-    start = np.searchsorted(source[order], np.arange(count + 1)).astype(np.int32)
-    return start, part[to_node][order].astype(np.int32)
+def leaps_by_part(part: np.ndarray, parts: int) -> tuple[np.ndarray, np.ndarray]:
+    """The leaps from each of so many ``parts``, of which ``part`` (l,) are those that they start in: start
+    (p + 1,), leap (l,) int32."""
+    order = np.argsort(part, kind="stable")
+    start = np.searchsorted(part[order], np.arange(parts + 1)).astype(np.int32)
+    return start, order.astype(np.int32)
+
+
+def parts_in_tiles(
+    tiles: tuple[np.ndarray, np.ndarray, np.ndarray], surface: Surface, cells: np.ndarray, part: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """What `parts_of_tiles` gave with one ``part`` more, in the tiles of these ``cells`` (k,)."""
+    start, parts, spans = tiles
+    ix, iy = np.divmod(surface.cell_column[cells], surface.shape[1])
+    more = ix // TILE * ((surface.shape[1] + TILE - 1) // TILE) + iy // TILE
+    rise = 0.5 * surface.resolution * np.abs(surface.gradient[cells]).sum(axis=1)
+    high = np.column_stack([surface.height[cells] - rise, surface.height[cells] + rise])
+    tile = np.concatenate([np.repeat(np.arange(len(start) - 1), np.diff(start)), more])
+    part_of = np.concatenate([parts, np.full(len(more), part)])
+    span = np.concatenate([spans, high])
+    order = np.lexsort((part_of, tile))
+    tile, part_of, span = tile[order], part_of[order], span[order]
+    fresh = np.flatnonzero(np.append(True, (np.diff(tile) != 0) | (np.diff(part_of) != 0))[: len(tile)])
+    if len(fresh):
+        low, top = np.minimum.reduceat(span[:, 0], fresh), np.maximum.reduceat(span[:, 1], fresh)
+        span = np.column_stack([low, top])
+    start = np.searchsorted(tile[fresh], np.arange(len(start))).astype(np.int32)
+    return start, part_of[fresh].astype(np.int32), np.ascontiguousarray(span)

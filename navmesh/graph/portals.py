@@ -14,7 +14,7 @@ from navmesh.surface.clearance_field import centre_of, floor_at, gap_at, walk
 from navmesh.surface.ridges import middle, middle_beside
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["MARGIN", "open_portals"]
+__all__ = ["BESIDE", "MARGIN", "fill_portal", "is_open_to", "open_portals"]
 
 MARGIN = 0.04
 """Corners keep this share of the radius more than it where there is room, so that straight lines between them
@@ -22,7 +22,7 @@ clear what is round."""
 _BENDS = 6  # times that a line through a narrow gate is led off what is too near
 _PUSHED = 1.01
 """Share of the radius that it is led off."""
-_BESIDE = 1.1
+BESIDE = 1.1
 """Share of the radius up to which the gap at an end says that what ends walking there bounds the portal."""
 
 
@@ -119,7 +119,7 @@ def _gets_through(net, k, ax, ay, bx, by, radius):
 
 
 @kernel
-def _is_open(net, i, j, width, pair, gate, radius):
+def is_open_to(net, i, j, width, pair, gate, radius):
     """Whether a body of ``radius`` gets from node i through the gate to node j, where the ``width`` of the
     edge between them leaves that open."""
     if width < radius:
@@ -147,6 +147,29 @@ def _is_open(net, i, j, width, pair, gate, radius):
     return True
 
 
+@kernel
+def fill_portal(net, i, j, pair, gate, radius, at, portal, cells, lens, block):
+    """Write the portal from node i to node j for a body of ``radius`` [m] into row ``at`` of the arrays of
+    `DOORS`: ``portal`` (p, 6), portal_cell ``cells`` (p, 2), ``lens`` (p, 2) and ``block`` (p, 4)."""
+    mx, my, lx, ly, k, half, to_left, to_right = _portal(net, i, j, pair, gate, radius)
+    width = to_left + to_right
+    free = half > 0.0 and width > 0.0
+    lens[at, 0] = max((to_left - half) / width, 0.0) if free else 0.0
+    lens[at, 1] = min((to_left + half) / width, 1.0) if free else 1.0
+    for side in range(2):
+        way = to_left if side == 0 else -to_right
+        x, y = mx + lx * way, my + ly * way
+        cell = walk(net, k, mx, my, x, y, 0.0, True)[1]
+        portal[at, 3 * side] = x
+        portal[at, 3 * side + 1] = y
+        portal[at, 3 * side + 2] = floor_at(net, cell, x, y)
+        cells[at, side] = cell
+        gap, qx, qy = gap_at(net, cell, x, y)
+        near = gap <= radius * BESIDE
+        block[at, 2 * side] = qx if near else np.inf
+        block[at, 2 * side + 1] = qy if near else np.inf
+
+
 @allocating_kernel
 def open_portals(net, edge_width, edge_cells, edge_gate, radius):
     """The portals for a body of ``radius`` [m].
@@ -162,7 +185,7 @@ def open_portals(net, edge_width, edge_cells, edge_gate, radius):
         for edge in range(net.edge_start[i], net.edge_start[i + 1]):
             j = net.edge_target[edge]
             if i < j:
-                is_open[edge] = _is_open(
+                is_open[edge] = is_open_to(
                     net, i, j, edge_width[edge], edge_cells[edge], edge_gate[edge], radius
                 )
                 for back in range(net.edge_start[j], net.edge_start[j + 1]):
@@ -174,33 +197,17 @@ def open_portals(net, edge_width, edge_cells, edge_gate, radius):
     portal = np.empty((count, 6))
     cells = np.empty((count, 2), np.int32)
     lens = np.empty((count, 2))
-    block = np.full((count, 4), np.inf)
+    block = np.empty((count, 4))
     count = 0
     for i in range(nodes):
         for edge in range(net.edge_start[i], net.edge_start[i + 1]):
             if not is_open[edge]:
                 continue
             j = net.edge_target[edge]
-            mx, my, lx, ly, k, half, to_left, to_right = _portal(
-                net, i, j, edge_cells[edge], edge_gate[edge], radius
-            )
             target[count] = j
-            width = to_left + to_right
-            free = half > 0.0 and width > 0.0
-            lens[count, 0] = max((to_left - half) / width, 0.0) if free else 0.0
-            lens[count, 1] = min((to_left + half) / width, 1.0) if free else 1.0
-            for side in range(2):
-                way = to_left if side == 0 else -to_right
-                x, y = mx + lx * way, my + ly * way
-                cell = walk(net, k, mx, my, x, y, 0.0, True)[1]
-                portal[count, 3 * side] = x
-                portal[count, 3 * side + 1] = y
-                portal[count, 3 * side + 2] = floor_at(net, cell, x, y)
-                cells[count, side] = cell
-                gap, qx, qy = gap_at(net, cell, x, y)
-                if gap <= radius * _BESIDE:
-                    block[count, 2 * side] = qx
-                    block[count, 2 * side + 1] = qy
+            fill_portal(
+                net, i, j, edge_cells[edge], edge_gate[edge], radius, count, portal, cells, lens, block
+            )
             count += 1
         start[i + 1] = count
     return start, target, portal, cells, lens, block

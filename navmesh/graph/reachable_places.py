@@ -16,7 +16,7 @@ def _may_reach(net, doors, scratch, k):
     """Whether scratch.reached marks the part of any node that `node_at` can give for cell ``k``."""
     for i in range(CANDIDATES):
         node = candidate(net, k, doors.radius, i)
-        if node >= 0 and scratch.reached[doors.part[node]] == scratch.numbers[0]:
+        if node >= 0 and scratch.reached[doors.region[doors.part[node]]] == scratch.numbers[0]:
             return True
     return False
 
@@ -25,10 +25,10 @@ def _may_reach(net, doors, scratch, k):
 def _search_column(net, doors, scratch, column, square, x, y, z, best, node, cell, bx, by, refine):
     """`_search_tile` for one column; its square is ``square`` away from (x, y), squared."""
     radius, half = doors.radius, 0.5 * net.cell
-    reached, mark, part = scratch.reached, scratch.numbers[0], doors.part
+    reached, mark, part, region = scratch.reached, scratch.numbers[0], doors.part, doors.region
     for k in range(net.column_start[column], net.column_start[column + 1]):
         if not refine:
-            if net.clearance[k] < radius or net.label[k] < 0 or reached[part[net.label[k]]] != mark:
+            if net.clearance[k] < radius or net.label[k] < 0 or reached[region[part[net.label[k]]]] != mark:
                 continue
             px, py = centre_of(net, k)
             off = squared_distance(net, k, px, py, x, y, z, 0.0)
@@ -44,7 +44,7 @@ def _search_column(net, doors, scratch, column, square, x, y, z, best, node, cel
         off, px, py = place_in(net, k, x, y, z, radius, 0.0, 1e300)
         if off < best:
             other = node_at(net, k, px, py, radius)
-            if other >= 0 and reached[part[other]] == mark:
+            if other >= 0 and reached[region[part[other]]] == mark:
                 best, node, cell, bx, by = off, other, k, px, py
     return best, node, cell, bx, by
 
@@ -87,7 +87,7 @@ def _search_tile(net, doors, scratch, tile, low, x, y, z, best, node, cell, bx, 
 def _search_tiles(net, doors, scratch, x, y, z, best, node, cell, bx, by, refine):
     """`_search_tile` over all tiles, from (x, y) outwards; those without a part that is marked, or with no
     floor of one at a height that is near enough, are passed over."""
-    reached, mark = scratch.reached, scratch.numbers[0]
+    reached, mark, region = scratch.reached, scratch.numbers[0], doors.region
     tile_part, tile_span = doors.tile_part, doors.tile_span
     side = TILE * net.cell
     across, along = (net.nx + TILE - 1) // TILE, (net.ny + TILE - 1) // TILE
@@ -109,7 +109,7 @@ def _search_tiles(net, doors, scratch, x, y, z, best, node, cell, bx, by, refine
                 tile = jx * along + jy
                 low = 1e300
                 for i in range(doors.tile_start[tile], doors.tile_start[tile + 1]):
-                    if reached[tile_part[i]] == mark:
+                    if reached[region[tile_part[i]]] == mark:
                         rise = max(tile_span[i, 0] - z, z - tile_span[i, 1], 0.0)
                         low = min(low, rise * rise)
                 if dx * dx + dy * dy + low < best:

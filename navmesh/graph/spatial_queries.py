@@ -15,7 +15,7 @@ from scipy.spatial import KDTree
 
 from navmesh.errors import NavmeshError
 from navmesh.graph.kernel_arrays import net_of
-from navmesh.graph.open_to_body import parts_of
+from navmesh.graph.open_to_body import regions_of
 from navmesh.graph.snapping import roomy_cell
 from navmesh.surface.clearance_field import centre_of, floor_at, gap_at, walk
 from surefoot.kernels import allocating_kernel, kernel
@@ -215,10 +215,13 @@ def clearance_at(graph: "NodeGraph", points: Any) -> Any:
 def nearest_node(graph: "NodeGraph", points: Any) -> Any:
     """The node whose centre is nearest to each of ``points`` in space: int32."""
     local, single = _local(graph, points)
-    if "node_tree" not in graph.cache:
-        graph.cache["node_tree"] = KDTree(graph.positions - graph.surface.origin)
-    nodes = np.asarray(graph.cache["node_tree"].query(local)[1], dtype=np.int32)
-    return _answer(nodes, single)
+    changes = 0 if graph.zone_state is None else graph.zone_state.changes
+    if graph.cache.get("node_tree", (-1,))[0] != changes:
+        there = np.flatnonzero(graph.radii >= 0.0).astype(np.int32)
+        tree = KDTree(graph.positions[there] - graph.surface.origin)
+        graph.cache["node_tree"] = changes, tree, there
+    _, tree, there = graph.cache["node_tree"]
+    return _answer(there[tree.query(local)[1]], single)
 
 
 def containing_node(graph: "NodeGraph", points: Any) -> Any:
@@ -257,7 +260,7 @@ def reachable_nodes(graph: "NodeGraph", start: Any, radius: float = 0.3) -> np.n
         raise NavmeshError(f"start has shape {np.shape(start)}, expected (3,)")
     node = containing_node(graph, local + graph.surface.origin)
     radius = _length(radius, "radius")
-    parts = np.where(graph.radii >= radius, parts_of(graph, radius)[0], -1)
+    parts = np.where(graph.radii >= radius, regions_of(graph, radius), -1)
     if node[0] < 0 or parts[node[0]] < 0:
         return np.empty(0, np.int32)
     return np.flatnonzero(parts == parts[node[0]]).astype(np.int32)

@@ -14,6 +14,8 @@ estimate of the rest, a straight line, never is too much. Lengths are three-dime
 
 from math import sqrt
 
+import numpy as np
+
 from navmesh.routes.heap import push, take_first
 from surefoot.kernels import kernel
 
@@ -162,6 +164,9 @@ def advance(net, doors, scratch, budget):
     portal, targets, node_cost = doors.portal, doors.target, doors.node_cost
     weighted = doors.weighted != 0
     doors_count = targets.size
+    head, following = doors.head, doors.following
+    slots = following.size
+    first_slot = doors_count - slots
     nearest, limit = scratch.ends[_NEAREST], scratch.ends[LIMIT]
     state = RUNNING
     while budget > 0:
@@ -191,8 +196,18 @@ def advance(net, doors, scratch, budget):
             numbers[BEST] = label
         before = parent[label] // LABELS
         factor = node_cost[node]
-        for door in range(door_start[node], door_start[node + 1]):
+        on, last = door_start[node], door_start[node + 1]
+        more = head[node] if slots > 0 else -1
+        while on < last or more >= 0:
+            if on < last:
+                door = np.int64(on)
+                on += 1
+            else:
+                door = np.int64(first_slot + more)
+                more = following[more]
             target = targets[door]
+            if target < 0:
+                continue
             # nothing that goes on from here costs less than the key
             if target == before or _is_done(seen, totals, stamp, target, key):
                 continue
@@ -231,13 +246,16 @@ def advance(net, doors, scratch, budget):
             right[slot, 0], right[slot, 1], right[slot, 2] = prx, pry, prz
             push(keys, items, size, total, slot)
             size += 1
-        for leap in range(leap_start[node], leap_start[node + 1]):
+        own = doors.whole[node]
+        for leap in range(leap_start[own], leap_start[own + 1]):
+            target = net.label[doors.leap_to_cell[leap]]
+            if target < 0 or doors.leap_closed[leap] or net.label[doors.leap_from_cell[leap]] != node:
+                continue
             fx, fy, fz = doors.leap_from[leap, 0], doors.leap_from[leap, 1], doors.leap_from[leap, 2]
             tx, ty, tz = doors.leap_to[leap, 0], doors.leap_to[leap, 1], doors.leap_to[leap, 2]
             walked = factor * _out_of_funnel(ax, ay, az, lx, ly, lz, rx, ry, rz, fx, fy, fz)
             spent = cost + walked + doors.leap_cost[leap]
             rest = _distance(tx, ty, tz, gx, gy, gz)
-            target = net.label[doors.leap_to_cell[leap]]
             if target == goal_node:
                 rest *= node_cost[target]
             total = max(spent + rest, key)

@@ -25,6 +25,7 @@ from navmesh.graph.open_to_body import checked_radius, doors_of
 from navmesh.routes.graph_search import RUNNING, advance
 from navmesh.routes.query_kernels import SEARCHING, answer, answer_all, answer_search, start_search
 from navmesh.routes.route import STATUSES, Route, Routes, gathered, link_uses
+from navmesh.zones.plain import plain_graph
 
 if TYPE_CHECKING:
     from navmesh.graph.node_graph import NodeGraph
@@ -34,11 +35,21 @@ __all__ = ["PathSearch", "find_path", "find_paths"]
 _STATUSES = np.array(STATUSES)
 
 
+def _changes_of(graph: "NodeGraph") -> int:
+    """How often zones of the graph have been blocked or opened."""
+    return 0 if graph.zone_state is None else graph.zone_state.changes
+
+
 def _scratch_for(graph: "NodeGraph") -> Any:
     """Memory for one search, taken from the graph's stock; give it back with
     ``graph.cache["scratch"].append``."""
+    slots = 0 if graph.zone_state is None else graph.zone_state.slots
     stock = graph.cache.setdefault("scratch", [])
-    return stock.pop() if stock else make_scratch(graph)
+    while stock:
+        scratch = stock.pop()
+        if scratch.slots == slots:
+            return scratch
+    return make_scratch(graph)
 
 
 @cache
@@ -83,6 +94,10 @@ def find_path(
     costs: Mapping[str, float] | None = None,
 ) -> Route:
     """See `NodeGraph.find_path`."""
+    if costs is not None and graph.zone_state is not None:
+        return find_path(
+            plain_graph(graph), start, goal, radius, skills, node_costs, closed_links, extent, costs
+        )
     sx, sy, sz = _point("start", start)
     gx, gy, gz = _point("goal", goal)
     radius = checked_radius(radius)
@@ -152,6 +167,9 @@ def find_paths(
     costs: Mapping[str, float] | None = None,
 ) -> Routes:
     """See `NodeGraph.find_paths`."""
+    if costs is not None and graph.zone_state is not None:
+        plain = plain_graph(graph)
+        return find_paths(plain, starts, goals, radius, skills, node_costs, workers, extent, costs)
     first, second = _points("starts", starts), _points("goals", goals)
     if len(first) != len(second):
         raise NavmeshError(f"{len(first)} starts but {len(second)} goals: expected as many of each")
@@ -231,7 +249,10 @@ class PathSearch:
         costs: Mapping[str, float] | None = None,
     ) -> None:
         first, second = _point("start", start), _point("goal", goal)
+        if costs is not None:
+            graph = plain_graph(graph)
         self._graph = graph
+        self._changes = _changes_of(graph)
         self._radius = checked_radius(radius)
         self._doors = doors_of(graph, self._radius, skills, node_costs)
         self._net = net_of(graph)
@@ -253,6 +274,7 @@ class PathSearch:
         """Expand at most ``nodes`` nodes (each about 0.1 µs); True when the search is done."""
         if not isinstance(nodes, Integral) or nodes < 1:
             raise NavmeshError(f"nodes = {nodes!r}: expected a whole number of at least 1")
+        self._check()
         if self._area is not None:
             return self._area.advance(int(nodes))
         if self._status not in SEARCHING:
@@ -261,6 +283,7 @@ class PathSearch:
 
     def finish(self) -> Route:
         """The route to the goal, or a partial one if the search is not done."""
+        self._check()
         if self._area is not None and isinstance(self._priced, Priced):
             route = self._area.finish()
             if route is None:
@@ -270,6 +293,12 @@ class PathSearch:
         return (
             route if isinstance(self._priced, Priced) else replace(route, _cost=self._priced * route.length)
         )
+
+    def _check(self) -> None:
+        if _changes_of(self._graph) != self._changes:
+            raise NavmeshError(
+                "a zone of the graph was blocked or opened since begin_path; expected a new search"
+            )
 
     def _plain(self) -> Route:
         if self._status not in SEARCHING:

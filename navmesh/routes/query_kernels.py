@@ -33,22 +33,34 @@ _MORE = 64  # labels that may be expanded then, on top of as many as the search 
 
 
 @kernel(error_model="numpy", nogil=True)
-def _mark_reached(doors, scratch, part):
-    """Mark in scratch.reached the parts that leaps lead to from ``part``, with it."""
+def _mark_reached(net, doors, scratch, region):
+    """Mark in scratch.reached the regions that leaps lead to from ``region``, with it."""
     reached, stack = scratch.reached, scratch.part_stack
     mark = scratch.numbers[0]
-    reached[part] = mark
-    stack[0] = part
+    if doors.anywhere >= 0:
+        reached[doors.anywhere] = mark
+    reached[region] = mark
+    stack[0] = region
     size = 1
     while size > 0:
         size -= 1
         here = stack[size]
-        for i in range(doors.part_leap_start[here], doors.part_leap_start[here + 1]):
-            other = doors.part_leap[i]
-            if reached[other] != mark:
-                reached[other] = mark
-                stack[size] = other
-                size += 1
+        part = here
+        while True:
+            own = doors.part_whole[part]
+            for i in range(doors.part_leap_start[own], doors.part_leap_start[own + 1]):
+                leap = doors.part_leap[i]
+                node, to = net.label[doors.leap_from_cell[leap]], net.label[doors.leap_to_cell[leap]]
+                if doors.leap_closed[leap] or node < 0 or to < 0 or doors.region[doors.part[node]] != here:
+                    continue
+                other = doors.region[doors.part[to]]
+                if reached[other] != mark:
+                    reached[other] = mark
+                    stack[size] = other
+                    size += 1
+            part = doors.ring[part]
+            if part == here:
+                break
 
 
 @kernel(error_model="numpy", nogil=True)
@@ -69,10 +81,10 @@ def start_search(net, doors, scratch, sx, sy, sz, gx, gy, gz, reach, rise, step)
     scratch.numbers[0] += 1  # marks of the last search hold no more
     az = floor_at(net, start_cell, ax, ay)
     status = _COMPLETE
-    part = doors.part[start_node]
-    if doors.part[goal_node] != part:
-        _mark_reached(doors, scratch, part)
-        if scratch.reached[doors.part[goal_node]] != scratch.numbers[0]:
+    region = doors.region[doors.part[start_node]]
+    if doors.region[doors.part[goal_node]] != region:
+        _mark_reached(net, doors, scratch, region)
+        if scratch.reached[doors.region[doors.part[goal_node]]] != scratch.numbers[0]:
             status = _PARTIAL
             goal_node, goal_cell, bx, by, near = nearest_reachable(net, doors, scratch, gx, gy, gz)
             now = sqrt((ax - gx) * (ax - gx) + (ay - gy) * (ay - gy) + (az - gz) * (az - gz))

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from navmesh.graph.spatial_queries import cast_ray, project
+from navmesh.zones.leaps import link_room
 
 if TYPE_CHECKING:
     from navmesh.graph.node_graph import NodeGraph
@@ -45,9 +46,10 @@ def route_holds(route: "Route", graph: "NodeGraph") -> bool:
     ):
         return False
     old, new = route.graph.links, graph.links
+    room = link_room(graph)
     for use in route.links:
         k = use.link
-        alike = (new.affordance == old.affordance[k]) & (new.radius >= route.radius - _SLACK)
+        alike = (new.affordance == old.affordance[k]) & (room >= route.radius - _SLACK)
         alike &= np.abs(new.height - old.height[k]) <= _SAME
         alike &= (np.abs(new.start - old.start[k]) <= _SAME).all(axis=1)
         alike &= (np.abs(new.end - old.end[k]) <= _SAME).all(axis=1)

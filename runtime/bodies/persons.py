@@ -52,6 +52,10 @@ class Persons(Population):
         for part in self.parts():
             part.change_level()
 
+    def change_zones(self) -> None:
+        for part in self.parts():
+            part.change_zones()
+
     def tick(self) -> None:
         for part in self.parts():
             part.tick()

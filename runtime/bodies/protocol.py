@@ -341,6 +341,10 @@ class Population(ABC):
     def change_level(self) -> None:
         """Go on on the level as it is now, where all are."""
 
+    def change_zones(self) -> None:  # noqa: B027
+        """Go on after zones of the level's graph have been blocked or opened. Bodies that ask the graph anew
+        for each route need nothing."""
+
     @abstractmethod
     def tick(self) -> None:
         """Advance all by 10 ms."""

@@ -101,6 +101,9 @@ class Recorded(Population):
         if self._people is not None:
             self._people.change_level(self.level.graph, self.level.ground)
 
+    def change_zones(self) -> None:
+        self.change_level()
+
     def tick(self) -> None:
         if self._people:
             if self._people.bodies_move:

@@ -95,6 +95,9 @@ class Walkers(Population):
     def change_level(self) -> None:
         self.crowd.change_graph(self._level.graph)
 
+    def change_zones(self) -> None:
+        self.change_level()
+
     def tick(self) -> None:
         if len(self.crowd):
             others = [each.in_the_way() for each in self._populations if each is not self]

@@ -9,7 +9,7 @@ from locomotion import Ground
 __all__ = ["Level"]
 
 _grounds: WeakKeyDictionary[navmesh.NodeGraph, Ground] = WeakKeyDictionary()
-"""Made once for all worlds on a graph: neither ever changes."""
+"""Made once for all worlds on a graph, with zones or without: it never changes."""
 
 
 @dataclass
@@ -23,10 +23,10 @@ class Level:
     def of(cls, graph: navmesh.NodeGraph) -> "Level":
         """The level that a graph was built for. Raises `locomotion.LocomotionError` for one without a
         triangle that has an area."""
-        ground = _grounds.get(graph)
+        ground = _grounds.get(graph.undivided)
         if ground is None:
             terrain, rules = graph.terrain, graph.rules
-            ground = _grounds[graph] = Ground.from_arrays(
+            ground = _grounds[graph.undivided] = Ground.from_arrays(
                 terrain.vertices, terrain.faces, max_slope=rules.max_slope, max_step=rules.max_step
             )
         return cls(graph, ground)

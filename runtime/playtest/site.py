@@ -24,7 +24,7 @@ class Site:
     """
 
     def __init__(self, graph: navmesh.NodeGraph, character: Character) -> None:
-        self.graph = graph
+        graph = self.graph = graph.without_zones()
         self.character = character
         radius = character.radius
         fits = graph.radii >= radius

@@ -74,6 +74,7 @@ class Recorder:
 
 def level_trace(graph: navmesh.NodeGraph) -> LevelTrace:
     """What is drawn of a graph."""
+    graph = graph.without_zones()
     source = np.repeat(np.arange(len(graph), dtype=np.int32), np.diff(graph.edge_start))
     once = source < graph.edge_target
     obstacles = graph.obstacles

@@ -73,6 +73,10 @@ def _navigate() -> None:
     graph.cast_ray(places[:2], places[2:], 0.3)
     graph.reachable_nodes(places[0], 0.3)
     graph.room_to_turn(places, 1.0)
+    zoned = graph.with_zones({name: [(x, 1, 0), (x, 2, 0)] for name, x in (("door", 2.0), ("wing", 2.5))})
+    zoned.block("door")
+    zoned.find_path(places[0], places[1], radius=0.3)
+    zoned.without_zones()
     crate = [[4.0, 6.0, 0.5], [5.0, 6.0, 0.5], [5.0, 7.0, 0.5], [4.0, 7.0, 0.5]]
     graph.update({"crate": navmesh.Terrain.from_arrays(np.array(crate), np.array([[0, 1, 2], [0, 2, 3]]))})
 

@@ -40,6 +40,8 @@ class WorldState:
     agents: dict[str, AgentState]
     viewers: tuple[Viewer, ...] = ()
     budget: Budget = field(default_factory=Budget)
+    blocked: tuple[str, ...] = ()
+    """Zones of the level's graph that are blocked, in the order of their names."""
 
     def __repr__(self) -> str:
         return f"<WorldState after {self.ticks} ticks: {several(len(self.agents), 'agent')}>"
@@ -85,7 +87,7 @@ class _StateHeader(Header):
 
 STATE_FILE = Schema(
     kind="surefoot world state",
-    version=7,
+    version=8,
     header=_StateHeader,
     arrays={dtype: Flags(dtype) if dtype == "bool" else Array(dtype, (dtype,)) for dtype in DTYPES},
     remedy="save the world again",

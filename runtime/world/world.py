@@ -4,6 +4,7 @@ import hashlib
 import math
 import os
 from collections.abc import Callable, Mapping, Sequence
+from copy import copy
 from itertools import compress, count
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
@@ -108,7 +109,7 @@ class World:
             except LocomotionError as error:
                 raise RuntimeInputError(str(error)) from None
         if isinstance(terrain, navmesh.NodeGraph):
-            graph = terrain
+            graph = copy(terrain) if terrain.zones else terrain  # its doors are its own
         elif isinstance(terrain, navmesh.Terrain):
             graph = navmesh.NodeGraph.build(terrain, person_walk_rules(), obstacle_rules(own))
         else:
@@ -353,6 +354,34 @@ class World:
         for agent in self.agents.values():
             agent.look_at_way()
 
+    def block(self, *zones: str) -> None:
+        """Block zones of the level's graph, by name, between two ticks, such as doors that are shut; see
+        `navmesh.NodeGraph.with_zones` and `navmesh.NodeGraph.block`. The world has its own copy of a graph
+        with zones: block them here, not there.
+
+        Agents whose route is still valid keep walking; the others look for another route to the same goals,
+        and stop, with `Blocked`, where there is none. Nobody is moved, and nothing is put into the level:
+        whoever stands in a zone stays there until it is opened or the agent is removed. Raises
+        `navmesh.NavmeshError` for a zone that there is not.
+        """
+        self._turn_zones(zones, True)
+
+    def open(self, *zones: str) -> None:
+        """Open zones of the level's graph, as `block`. Agents keep their routes; those that have stopped wait
+        for another order."""
+        self._turn_zones(zones, False)
+
+    def _turn_zones(self, zones: tuple[str, ...], blocked: bool) -> None:
+        before = self.graph.zones
+        (self.graph.block if blocked else self.graph.open)(*zones)
+        if self.graph.zones == before:
+            return
+        for population in self._populations:
+            population.change_zones()
+        if blocked:
+            for agent in self.agents.values():
+                agent.look_at_way()
+
     def _at_level(self, agent: Agent, level: str, at_once: bool) -> Driver | None:
         self._casts = None
         return self._population(agent.body).at_level(agent.driver, level, at_once)
@@ -448,10 +477,17 @@ class World:
         for name, agent in self.agents.items():
             checksum.update(f"{name}:{agent.state_hash()}".encode())
             pause()
+        if self._blocked:
+            checksum.update(repr(self._blocked).encode())
         order = _by_arrival(self.agents)
         if order != list(self.agents):
             checksum.update(repr(order).encode())
         return checksum.hexdigest()[:32]
+
+    @property
+    def _blocked(self) -> tuple[str, ...]:
+        """The zones that are blocked, in the order of their names."""
+        return tuple(sorted(name for name, blocked in self.graph.zones.items() if blocked))
 
     @property
     def _arrivals(self) -> dict[str, int]:
@@ -478,6 +514,7 @@ class World:
             agents=agents,
             viewers=self._viewers,
             budget=self._budget,
+            blocked=self._blocked,
         )
 
     def restore(self, state: WorldState) -> None:
@@ -495,6 +532,12 @@ class World:
             raise RuntimeInputError(
                 f"the state is of the level {state.level[:12]}…, this world's is {self.level_digest[:12]}…; "
                 "restore it in a world of the same mesh and walk rules"
+            )
+        unknown = sorted(set(state.blocked) - set(self.graph.zones))
+        if unknown:
+            raise RuntimeInputError(
+                f"the state has a blocked zone {unknown[0]!r}, this world's graph has none of that name; "
+                "restore it in a world of a graph with the same zones"
             )
         own = learned_digest(self._skills)
         if state.skills not in ("", own):
@@ -515,6 +558,11 @@ class World:
 
     def _become(self, state: WorldState, known: Mapping[str, Agent]) -> None:
         """Go to ``state``; those of its agents that are ``known`` by name and body are the same objects."""
+        if state.blocked != self._blocked:
+            self.graph.open(*set(self._blocked) - set(state.blocked))
+            self.graph.block(*state.blocked)
+            for population in self._populations:
+                population.change_zones()
         here = [(name, agent.body) for name, agent in self.agents.items()]
         same = here == [(name, saved.body) for name, saved in state.agents.items()]
         same = same and _by_arrival(self.agents) == _by_arrival(state.agents)

@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 from navmesh.graph.open_to_body import parts_of, portals_of
-from navmesh.graph.parts import leaps_by_part
+from navmesh.graph.parts import leaps_by_part, parts_in_tiles
+from tests.navmesh.shapes import plane
 from tests.navmesh.surface.levels import build, random_level
 
 
@@ -28,7 +29,16 @@ def test_nodes_of_a_part_can_be_walked_to_from_each_other(seed, radius):
 
 
 def test_leaps_are_grouped_by_the_part_that_they_start_in():
-    part = np.array([0, 0, 1, 2, 1], np.int32)
-    start, target = leaps_by_part(part, np.array([0, 1, 2, 4]), np.array([2, 3, 0, 3]))
-    found = [sorted(set(target[start[p] : start[p + 1]].tolist())) for p in range(len(start) - 1)]
-    assert found[:2] == [[1, 2], [0, 2]] and all(each == [] for each in found[2:])
+    start, leap = leaps_by_part(np.array([0, 0, 1, 2, 0]), 4)
+    assert [leap[start[p] : start[p + 1]].tolist() for p in range(4)] == [[0, 1, 4], [2], [3], []]
+
+
+def test_a_part_is_added_to_tiles():
+    surface = build(plane(0, 9, 0, 9)).surface
+    cells = np.flatnonzero(surface.centers()[:, 0] < 1.0).astype(np.int32)
+    tiles = np.array([0, 2, *[2] * 8], np.int32), np.array([1, 4], np.int32), np.array([(5.0, 6.0)] * 2)
+    start, part, span = parts_in_tiles(tiles, surface, cells, 9)
+    by_tile = [part[start[t] : start[t + 1]].tolist() for t in range(9)]
+    assert by_tile == [[1, 4, 9], [9], [9], *[[]] * 6]
+    assert span[:2].tolist() == [[5.0, 6.0]] * 2
+    np.testing.assert_allclose(span[2], surface.height[0])

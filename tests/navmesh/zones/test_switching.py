@@ -1,0 +1,95 @@
+"""Blocking and opening zones: what there is follows from what is blocked, not from what was."""
+
+import numpy as np
+import pytest
+
+from benchmarks.apartments import apartment
+from navmesh import NodeGraph
+from navmesh.graph.edges import measure_edges
+from navmesh.graph.kernel_arrays import net_of
+from navmesh.surface.ridges import field_of
+from navmesh.zones.switching import SWITCHES
+from navmesh.zones.zones import zones_of
+from tests.navmesh.shapes import box, plane, terrain
+from tests.navmesh.zones.alike import assert_alike, edges_of_pieces
+
+SQUARES = {
+    f"{x}, {y}": [(x, y, 0.0), (x + 1.2, y, 0.0), (x + 1.2, y + 0.3, 0.0), (x, y + 0.3, 0.0)]
+    for x in (1.0, 2.5, 4.0, 7.0)
+    for y in (2.0, 2.4, 6.0)
+}
+"""Zones in the open, some of them close to each other."""
+
+
+def in_the_open() -> tuple[NodeGraph, dict]:
+    level = terrain(plane(0, 10, 0, 9), box(5.5, 6.0, 4.0, 9.0, 0.0, 2.0))
+    return NodeGraph.build(level, obstacle_rules=None), SQUARES
+
+
+def in_an_apartment() -> tuple[NodeGraph, dict]:
+    level = apartment(2, 5)
+    return NodeGraph.build(level.terrain, obstacle_rules=None), level.doors
+
+
+@pytest.mark.parametrize("level", [in_the_open, in_an_apartment])
+def test_the_order_of_changes_leaves_no_trace(level):
+    base, outlines = level()
+    graph = base.with_zones(outlines)
+    names = list(outlines)
+    rng = np.random.default_rng(1)
+    for turn in range(60):
+        (graph.block if rng.random() < 0.5 else graph.open)(*rng.choice(names, 2))
+        if rng.random() < 0.4:  # doors of this body are brought up to date now and then
+            graph.find_path(*graph.positions[:2], radius=0.45)
+        if turn % 20 == 19:
+            fresh = base.with_zones(outlines)
+            fresh.block(*(name for name, blocked in graph.zones.items() if blocked))
+            assert_alike(graph, fresh)
+            graph.cache.clear()
+            assert_alike(graph, fresh)
+    graph.open(*names)
+    assert_alike(graph, base.with_zones(outlines))
+
+
+@pytest.mark.parametrize("level", [in_the_open, in_an_apartment])
+def test_cells_are_as_wide_as_they_say_and_have_a_node_as_wide(level):
+    base, outlines = level()
+    graph = base.with_zones(outlines)
+    rng = np.random.default_rng(2)
+    slack = 0.01  # [m], as in graphs without zones: what is nearest is known to the passes of the clearance
+    for share in (0.2, 0.6, 1.0):
+        graph.open(*outlines)
+        graph.block(*(name for name in outlines if rng.random() < share))
+        surface, label = graph.surface, graph.label
+        owned = label >= 0
+        assert (graph.radii[label[owned]] >= surface.clearance[owned] - slack).all()
+        assert owned[surface.clearance >= graph.rules.min_radius].all()
+        np.testing.assert_allclose(np.hypot(*surface.nearest.T), surface.clearance, atol=1e-9)
+        there = graph.radii > 0.0
+        gap = graph.clearance_at(graph.positions[there])
+        assert (gap >= graph.radii[there] - slack).all()
+
+
+def test_edges_of_pieces_are_those_that_the_whole_would_have():
+    base, outlines = in_an_apartment()
+    graph = base.with_zones(outlines)
+    graph.block(*list(outlines)[::2])
+    net, pieces = net_of(graph), zones_of(graph).switches.first_piece
+    place = np.column_stack([net.nodes["position"][:, :2], graph.radii])
+    ends, width, gate, _ = measure_edges(graph.label, field_of(graph.surface), place)
+    found = {(a, b): (wide, *where) for a, b, wide, *where, _, _ in edges_of_pieces(graph) if a < b}
+    wanted = {
+        (int(a), int(b)): (w, *where)
+        for (a, b), w, where in zip(ends, width, gate.tolist(), strict=True)
+        if max(a, b) >= pieces
+    }
+    assert found.keys() == wanted.keys() and len(found) > 50
+    same = [found[key] == pytest.approx(wanted[key], abs=1e-9) for key in found]
+    assert np.mean(same) > 0.9  # of equally wide pairs of cells another may come first
+    assert all(found[key][0] == pytest.approx(wanted[key][0], abs=0.01) for key in found)
+
+
+def test_there_is_a_place_for_everything():
+    base, outlines = in_an_apartment()
+    graph = base.with_zones(outlines)
+    assert all(hasattr(zones_of(graph).switches, name) for name in SWITCHES.fields)

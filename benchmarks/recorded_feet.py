@@ -84,7 +84,7 @@ def _bears(agent: Agent) -> list[bool]:
     if row[at.GAIT] != 0.0:
         return [False, False]
     table = footing_at(_MOTIONS, _MOTIONS.gait("walk"), [row[at.SPEED]])[0]
-    return [bool((row[at.PHASE] - foot[STRIKES]) % 1.0 < foot[BEARS]) for foot in table]
+    return [bool((driver.person.phase - foot[STRIKES]) % 1.0 < foot[BEARS]) for foot in table]
 
 
 def slides_of(

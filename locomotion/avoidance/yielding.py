@@ -11,14 +11,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["HORIZON", "SPACING", "Course", "Options", "first_meeting", "foretell", "meetings", "options"]
+__all__ = ["HORIZON", "SPACING", "Course", "first_meeting", "foretell", "meetings"]
 
 HORIZON = 4.5
 """[s] length of a prediction."""
@@ -35,19 +34,6 @@ AT_ONCE = 1.0 / STEP
 """[1/s] eagerness of a body that changes its speed as hard as it can until the end."""
 HARD = 0.5
 """[m/s] from which a body that runs into another bears all the blame."""
-_ASIDE = (0.4, 0.8, 1.2, 1.6)
-"""[m] to each side that a sidestep leads."""
-_PACES = (1.0, 0.6, 0.3, 0.0)
-_LEFT_COSTS, _SLOW_COSTS = 1.2, 2.0
-"""Cost for each metre to the left instead of the right; cost of standing."""
-_NEAR_COSTS, _TOUCHING_COSTS, _SOONER_COSTS, _DEEPER_COSTS = 1.5, 2.5, 6.0, 20.0
-"""Costs of coming too near to somebody (less than standing, lest two wait for each other for ever), of
-touching them, of doing so soon, and of passing through them."""
-_KEPT = (4.0, 2.0, 1.0)
-"""[m] for which a body keeps its former path."""
-_KEEPING_COSTS = 0.2
-_QUINTIC = 5.7735  # largest second derivative of a smooth step from 0 to 1
-_AFTERWARDS = 1.0  # [m] that a body stays aside beyond the place of meeting
 
 
 @dataclass(frozen=True)
@@ -177,88 +163,3 @@ def meetings(places, velocities, heights, followers, slack, storey):
             x, y = x + when * vx, y + when * vy
             near[f, j] = x * x + y * y < slack * slack
     return near
-
-
-@dataclass(frozen=True)
-class Options:
-    """An option of a body: a ``pace``, and ``shift`` (k, 2) [m] added to its course, None for none; ``cost``
-    without meetings."""
-
-    pace: float
-    shift: NDArray[np.float64] | None
-    cost: float
-
-
-def cost_of_meeting(near: int, touches: int, depth: float) -> float:
-    """Cost of a meeting found by `first_meeting`; 0 for none."""
-    cost = _NEAR_COSTS if near < COUNT else 0.0
-    if touches < COUNT:
-        cost += _TOUCHING_COSTS + _SOONER_COSTS * (1.0 - touches / COUNT) + _DEEPER_COSTS * depth
-    return cost
-
-
-def options(course: Course, meeting: int, halts: bool = True, former: Course | None = None) -> list[Options]:
-    """Options of a body that would meet somebody at step ``meeting``, cheapest first. ``halts``: whether to
-    include a halt for one that does not halt easily. ``former``: its course before it was given another
-    goal just now.
-    """
-    paces = _paces(course, halts)
-    found = [Options(pace, None, _SLOW_COSTS * (1.0 - pace)) for pace in paces]
-    if course.aside and former is not None:
-        found += _kept(course, former, paces)
-    if course.aside:
-        arcs = SPACING * np.arange(len(course.points))
-        ahead = course.points[np.minimum(np.arange(len(arcs)) + 1, len(arcs) - 1), :2]
-        behind = course.points[np.maximum(np.arange(len(arcs)) - 1, 0), :2]
-        along = (ahead - behind) / np.maximum(np.linalg.norm(ahead - behind, axis=1), 1e-9)[:, None]
-        left = np.column_stack([-along[:, 1], along[:, 0]])
-        reach = float(np.interp(meeting * STEP, [0.0, HORIZON], [0.0, HORIZON * course.speeds.max()]))
-        for aside in _ASIDE:
-            bend = math.sqrt(_QUINTIC * aside / course.sharpest)
-            until = max(course.length + reach + _AFTERWARDS, course.begins + bend)
-            if until + bend > arcs[-1]:
-                until = arcs[-1] - bend
-            if until < course.begins + bend:
-                continue
-            profile = _quintic((arcs - course.begins) / bend) - _quintic((arcs - until) / bend)
-            for side, dear in ((-1.0, 1.0), (1.0, _LEFT_COSTS)):
-                shift = (side * aside * profile)[:, None] * left
-                found += [
-                    Options(pace, shift, dear * aside + _SLOW_COSTS * (1.0 - pace))
-                    for pace in paces
-                    if pace > 0.0
-                ]
-    return sorted(found, key=lambda option: option.cost)
-
-
-def _kept(course: Course, former: Course, paces: list[float]) -> list[Options]:
-    """Option to continue as in ``former`` for a while, if that was about to step aside: on ``course`` it
-    would be too late for that."""
-    arcs = SPACING * np.arange(len(course.points))
-    same = np.minimum(np.arange(len(arcs)), len(former.points) - 1)
-    apart = former.points[same, :2] - course.points[:, :2]
-    found = []
-    for until in _KEPT:
-        far = float(np.linalg.norm(apart[min(round(until / SPACING), len(arcs) - 1)]))
-        bend = max(math.sqrt(_QUINTIC * far / course.sharpest), course.length)
-        if until + bend <= arcs[-1]:
-            shift = (1.0 - _quintic((arcs - until) / bend))[:, None] * apart
-            found += [Options(pace, shift, _KEEPING_COSTS + _SLOW_COSTS * (1.0 - pace)) for pace in paces]
-    return found
-
-
-def _paces(course: Course, halts: bool) -> list[float]:
-    """Paces that make a difference; ``halts``: includes 0 also for one that does not halt easily."""
-    wanted = float(course.speeds[0])
-    slows = course.slowest < 0.8 * wanted
-    return [
-        pace
-        for pace in _PACES
-        if pace == 1.0
-        or (slows or pace * wanted >= course.slowest if pace > 0.0 else halts or course.slowest == 0.0)
-    ]
-
-
-def _quintic(share: NDArray[Any]) -> NDArray[np.float64]:
-    u = np.clip(share, 0.0, 1.0)
-    return u * u * u * (10.0 + u * (-15.0 + 6.0 * u))

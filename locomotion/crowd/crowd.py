@@ -236,11 +236,11 @@ class Crowd:
 
     def left(self, index: int) -> float:
         """[m] left of a body's route."""
-        row = self.rows[index]
+        row = self._table[index].tolist()
         if row[at.MODE] != at.WALKING:
             return 0.0
-        point = self.routes.rows[int(row[at.ROUTE_START] + row[at.NEXT])]
-        return float(np.hypot(point[0] - row[at.X], point[1] - row[at.Y]) + point[at.LEFT])
+        point = self.routes.rows[int(row[at.ROUTE_START] + row[at.NEXT])].tolist()
+        return float(np.hypot(point[0] - row[at.X], point[1] - row[at.Y])) + point[at.LEFT]
 
     def goals_left(self, index: int) -> NDArray[np.float64]:
         """(k, 3) [m]: the places that a walking body has still to visit."""
@@ -331,13 +331,15 @@ class Crowd:
                 self._lay(index, self.routes.table(index)[int(row[at.NEXT]) - 1 :])
 
     # --- time
-    def tick(self) -> None:
-        """Advance all bodies by `dt`."""
+    def tick(self, turns: NDArray[np.bool_] | None = None) -> None:
+        """Advance all bodies by `dt`; or only those whose turn it is, ``turns`` (n,): a host that gives each
+        body its turn every k-th of its own ticks, some in each, has equally much to do in all of them."""
         if self._count:
             gates = self._gates or self._find_gates()
             advance_all(
-                self._net, self._table[: self._count + self._led], self.routes.rows,
-                self._crossings.rows, len(gates.width), self.dt,
+                self._net, self._table[: self._count + self._led],
+                np.ones(self._count, np.bool_) if turns is None else turns,
+                (self.routes.rows, self._crossings.rows), len(gates.width), self.dt,
             )  # fmt: skip
             for index in np.flatnonzero(self.rows[:, at.NOTE] != at.QUIET).tolist():
                 self.walkers[index].notice()

@@ -95,8 +95,9 @@ def _next_gate(row, crossings):
 
 
 @allocating_kernel
-def direct(rows, crossings, gates, dt):
-    """Decide who of ``rows`` may pass the ``gates`` (how many there are) now."""
+def direct(rows, crossings, gates, turns, dt):
+    """Decide who of ``rows`` may pass the ``gates`` (how many there are) now. Those whose turn it is,
+    ``turns`` (m,) bool of the first m, have waited for ``dt`` [s] more."""
     n = rows.shape[0]
     passing = np.zeros((gates, 2), np.int64)  # by direction: admitted and not out yet
     coming = np.zeros((gates, 2), np.int64)  # of these, not inside yet
@@ -118,7 +119,7 @@ def direct(rows, crossings, gates, dt):
         if row[at.PASSAGE] == at.FAR and to < NEAR:
             row[at.PASSAGE] = at.WAITING if to > 0.0 else at.PASSING
         if row[at.PASSAGE] == at.WAITING:
-            row[at.GATE_WAIT] += dt
+            row[at.GATE_WAIT] += dt if turns[i] else 0.0
             longest[gate, side] = max(longest[gate, side], row[at.GATE_WAIT])
         if row[at.PASSAGE] == at.PASSING:
             row[at.WEIGHT] = _URGENT

@@ -158,36 +158,50 @@ def _turn(row, dt):
 
 
 @allocating_kernel
-def advance_all(net, rows, routes, crossings, gates, dt):
-    """Advance all bodies of ``rows`` (n, ROW) by ``dt`` [s]; ``gates``: how many there are."""
-    n = rows.shape[0]
+def advance_all(net, rows, turns, ways, gates, dt):
+    """Advance the bodies of ``rows`` (n, ROW) whose turn it is, ``turns`` (m,) bool of the first m, by ``dt``
+    [s]; the others are where they are, moving as they do. ``ways``: routes and crossings; ``gates``: how many
+    there are."""
+    n, crossings = rows.shape[0], ways[1]
+    moves = np.zeros(n, np.bool_)
+    for i in range(turns.size):
+        moves[i] = turns[i] and rows[i, at.MODE] < at.LED  # and not rooted
     if gates > 0:
-        direct(rows, crossings, gates, dt)
+        direct(rows, crossings, gates, turns, dt)
     order, neighbours, counts = find_neighbours(
         rows[:, at.X].copy(),
         rows[:, at.Y].copy(),
         rows[:, at.Z].copy(),
         _reaches(rows),
-        rows[:, at.MODE] < at.LED,  # and not rooted
+        moves,
     )
-    planes, velocity = np.empty((2, MOST + MOST_WALLS, 3)), np.zeros((n, 2))
-    _choose_all(net, rows, (routes, crossings), (order, neighbours, counts), planes, velocity, dt)
+    movers = np.empty(n, np.int64)
+    count = 0
+    for i in order:
+        if moves[i]:
+            movers[count] = i
+            count += 1
+    movers = movers[:count]
+    near = movers, neighbours, counts
+    planes, velocity = np.empty((2, MOST + MOST_WALLS, 3)), np.empty((n, 2))
+    _choose_all(net, rows, ways, near, planes, velocity, dt)
     room = rows[:, at.X].copy(), rows[:, at.Y].copy(), np.empty(n, np.int64)
-    _move_all(net, rows, velocity, (order, neighbours, counts), room, dt)
+    _move_all(net, rows, velocity, near, room, dt)
+    for i in range(turns.size):
+        if turns[i]:
+            rows[i, at.AGE] += 1.0
 
 
 @kernel
 def _choose_all(net, rows, ways, near, planes, velocity, dt):
-    """Write the velocity of each body. ``ways``: routes and crossings; ``near``: as of `find_neighbours`.
-    ``planes`` (2, k, 3) is overwritten."""
+    """Write the velocity of each body that moves. ``ways``: routes and crossings; ``near``: their numbers,
+    such that near ones are near each other among them, then as of `find_neighbours`. ``planes`` (2, k, 3) is
+    overwritten."""
     routes, crossings = ways
-    order, neighbours, counts = near
+    movers, neighbours, counts = near
     planes, work = planes[0], planes[1]
-    for s in range(rows.shape[0]):
-        i = order[s]
+    for i in movers:
         row = rows[i]
-        if row[at.MODE] >= at.LED:
-            continue
         wx, wy = _wish(net, rows, routes, crossings, i, neighbours[i], counts[i], dt)
         row[at.GO_X], row[at.GO_Y] = wx, wy
         radius, top = row[at.RADIUS], max(row[at.WISH], 0.5)
@@ -214,28 +228,20 @@ def _choose_all(net, rows, ways, near, planes, velocity, dt):
 def _move_all(net, rows, velocity, near, room, dt):
     """Take the steps, out of each other and along the walls. ``room``: x and y of all, cells (n,) that are
     overwritten."""
-    n = rows.shape[0]
-    order, neighbours, counts = near
+    movers, neighbours, counts = near
     x, y, cells = room
-    for i in range(n):
-        if rows[i, at.MODE] < at.LED:
-            x[i] += dt * velocity[i, 0]
-            y[i] += dt * velocity[i, 1]
+    for i in movers:
+        x[i] += dt * velocity[i, 0]
+        y[i] += dt * velocity[i, 1]
     for turn in range(_ROUNDS):
-        for s in range(n):
-            i = order[s]
-            if rows[i, at.MODE] >= at.LED:
-                continue
+        for i in movers:
             part(rows, x, y, i, neighbours[i], counts[i])
             if turn == _ROUNDS - 1 or net.clearance[int(rows[i, at.CELL])] < 2.0 * rows[i, at.RADIUS]:
                 cells[i], x[i], y[i] = slide(
                     net, int(rows[i, at.CELL]), rows[i, at.X], rows[i, at.Y], x[i], y[i], rows[i, at.RADIUS]
                 )
-    for i in range(n):
+    for i in movers:
         row = rows[i]
-        row[at.AGE] += 1.0
-        if row[at.MODE] >= at.LED:
-            continue
         row[at.VX], row[at.VY] = (x[i] - row[at.X]) / dt, (y[i] - row[at.Y]) / dt
         top = max(row[at.WISH], 0.5)
         speed = sqrt(row[at.VX] * row[at.VX] + row[at.VY] * row[at.VY])

@@ -13,6 +13,7 @@ from locomotion.paths import table as path_table
 from locomotion.paths.follower import PathFollower
 from locomotion.paths.gait_plan import COME_TO_REST
 from locomotion.paths.table import TrackingLimits
+from surefoot.kernels import kernel
 
 __all__ = ["TURN_FIRST", "course_on_way", "course_to_rest"]
 
@@ -25,7 +26,6 @@ _WALK_BEGINS, _RUN_BEGINS = 0.5, 1.0  # [m] ahead where it starts to step aside
 _SETTING_OFF = 0.5  # [s] for the first step after a turn on the spot
 _BESIDE = 0.3  # [m] from its path beyond which it walks there first
 _BERTH = 0.14  # [m] added: it sways beside its path, and drifts while turning on the spot
-_READ = path_table.X, path_table.Y, path_table.Z, path_table.HEADING, path_table.SPEED
 _RADIUS = PERSON_RULES["radius"] + _BERTH
 
 
@@ -44,14 +44,11 @@ def course_on_way(
     assert path is not None
     arc, step = follower.arc, path.length / (len(path.table) - 1)
     far = arc + 2.0 * HORIZON * limits.speeds[1]
-    along = np.arange(arc, min(path.length, far) + 1e-9, SPACING)
-    rows = np.empty((len(along), path.table.shape[1]))
-    at, known = along / step, np.arange(len(path.table))
-    for k in _READ:
-        rows[:, k] = np.interp(at, known, path.table[:, k])
-    points, speeds = rows[:, :3], np.minimum(rows[:, path_table.SPEED], limits.speeds[1])
-    speed, turns = float(np.linalg.norm(velocity[:2])), 0.0
-    ahead = rows[min(round(_WALK_BEGINS / SPACING), len(rows) - 1), path_table.HEADING]
+    count = math.ceil((min(path.length, far) + 1e-9 - arc) / SPACING)
+    points, speeds, headings = np.empty((count, 3)), np.empty(count), np.empty(count)
+    _read_path(path.table, arc / step, SPACING / step, limits.speeds[1], points, speeds, headings)
+    speed, turns = math.hypot(*velocity[:2].tolist()), 0.0
+    ahead = headings[min(round(_WALK_BEGINS / SPACING), count - 1)]
     off = abs(math.remainder(ahead - facing, 2.0 * math.pi))
     before = place[None]
     if off > TURN_FIRST:
@@ -72,6 +69,24 @@ def course_on_way(
         stops=COME_TO_REST if walks else COME_TO_REST + (speed * speed) / (2.0 * limits.slowing),
         turns=turns,
     )
+
+
+@kernel
+def _read_path(table, first, step, fastest, points, speeds, headings):
+    """Write what a path's ``table`` has every ``step`` rows from row ``first`` on, at speeds of up to
+    ``fastest`` [m/s]."""
+    last = table.shape[0] - 1
+    for n in range(points.shape[0]):
+        row = min(first + n * step, float(last))
+        i = max(min(int(row), last - 1), 0)
+        w = row - i
+        before, after = table[i], table[min(i + 1, last)]
+        for k in range(3):
+            points[n, k] = (1.0 - w) * before[path_table.X + k] + w * after[path_table.X + k]
+        at = path_table.SPEED
+        speeds[n] = min((1.0 - w) * before[at] + w * after[at], fastest)
+        at = path_table.HEADING
+        headings[n] = (1.0 - w) * before[at] + w * after[at]
 
 
 def course_to_rest(

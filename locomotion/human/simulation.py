@@ -84,7 +84,9 @@ class Simulation:
     def body_transforms(self) -> NDArray[np.float64]:
         """Position [m] and quaternion (w, x, y, z) of each body of the model, (nbody, 7) float64."""
         mujoco.mj_kinematics(self.model, self.data)
-        return np.hstack([self.data.xpos, self.data.xquat])
+        out = np.empty((self.model.nbody, 7))
+        out[:, :3], out[:, 3:] = self.data.xpos, self.data.xquat
+        return out
 
     def on_ground(self, place: NDArray[np.float64]) -> NDArray[np.float64]:
         """``place`` (3,) moved vertically onto the ground. Raises `LocomotionError` if that is more than 0.5
@@ -99,11 +101,14 @@ class Simulation:
 
 def positions(bodies: Sequence[Simulation]) -> NDArray[np.float64]:
     """(n, 3) float64 [m]: `Simulation.position` of several, who are on the same ground."""
-    places = np.array([body.control[controller.COM] for body in bodies]).reshape(-1, 3)
+    places = np.empty((len(bodies), 3))
+    for place, each in zip(places, bodies, strict=True):
+        place[:] = each.control[controller.COM]
     if not bodies or bodies[0].ground is None:
         places[:, 2] = 0.0
         return places
-    below = bodies[0].ground.surface_below(places)[0]
-    feet = np.array([body.control[controller.FEET] for body in bodies])
-    places[:, 2] = np.where(np.isfinite(below), below, np.minimum(feet[:, 2], feet[:, 5]))
+    places[:, 2] = bodies[0].ground.surface_below(places)[0]
+    for k in np.flatnonzero(np.isnan(places[:, 2])).tolist():
+        feet = bodies[k].control[controller.FEET]
+        places[k, 2] = min(feet[2], feet[5])
     return places

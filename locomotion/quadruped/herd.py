@@ -343,6 +343,8 @@ class Herd:
     def discs(self) -> NDArray[np.float64]:
         """(DISCS n, 6) discs that cover all animals on the ground, at the rear feet, the middle and the front
         feet: x, y, z [m], velocity of the root in x and y [m/s], radius [m]."""
+        if not self.bodies:
+            return np.empty((0, 6))
         rows = np.zeros((len(self), DISCS, 6))
         rows[:, :, :2] = between_feet(self.state[:, [at.X, at.Y]], self.state[:, [at.FRONT_X, at.FRONT_Y]])
         rows[:, :, 2] = self.state[:, [at.HEIGHT]]

@@ -21,33 +21,35 @@ NODE = 4
 BUSY = 5
 """1 while it plays its postures or is about to."""
 AGE, SINCE = 6, 7
-"""Ticks since it was made, and since its body's last; the latter is the same for all."""
-PLACE = slice(8, 12)
-"""x, y, z [m] and yaw [rad] where it is drawn: between its body's last two places."""
-BEFORE = slice(12, 16)
-"""The first of these."""
-FADE_BEGUN, FADE_SECONDS = 16, 17
-"""[s] of its own time when its motion last changed from one source to another, and how long that shows."""
-OFFSETS = slice(18, 18 + 6 + len(JOINT_NAMES))
-"""How it then differed from where the new motion has it: root [m], its turn as a rotation vector [rad] in the
-world, joints [rad] (`locomotion.recorded_people.fading`)."""
-RATES = slice(OFFSETS.stop, OFFSETS.stop + 6 + len(JOINT_NAMES))
-"""How fast that changed [1/s]."""
-LAID = RATES.stop
-"""1 while it has feet on the ground in `STEPS`: it stands, walks or runs."""
-STILL = LAID + 1
-"""1 while its body is at rest and its feet are where they belong: its steps have come to an end."""
-CROSSES = STILL + 1
+"""Ticks since it was made, and since its body's last: bodies have theirs in turns."""
+CROSSES = 8
 """What it does about an obstacle on its way: one of `NOTHING`, `APPROACHES`, `RUNS_UP`, `CLEARS`."""
 NOTHING, APPROACHES, RUNS_UP, CLEARS = 0.0, 1.0, 2.0, 3.0
-HASTE = CROSSES + 1
+LATE = 9
+"""[s] since its steps went on last, by which its phase, speed and feet are behind."""
+PLACE = slice(10, 14)
+"""x, y, z [m] and yaw [rad] where it is drawn: between its body's last two places."""
+BEFORE = slice(14, 18)
+"""The first of these. What every tick needs of everybody ends here; memory is read in this order."""
+LAID = 18
+"""1 while it has feet on the ground in `STEPS`: it stands, walks or runs."""
+STILL = 19
+"""1 while its body is at rest and its feet are where they belong: its steps have come to an end."""
+HASTE = 20
 """How many times as quick its steps are as its speed has them: it comes to an obstacle in step."""
-STEPS = slice(HASTE + 1, HASTE + 1 + 2 * 3 * 6)
+FADE_BEGUN, FADE_SECONDS = 21, 22
+"""[s] of its own time when its motion last changed from one source to another, and how long that shows."""
+TRAITS = slice(23, 23 + len(_TRAITS))
+"""What it differs from others in (`locomotion.recorded.individual`)."""
+STEPS = slice(TRAITS.stop, TRAITS.stop + 2 * 3 * 6)
 """(2, 3, 6) of the right and the left foot: where it stands, is on its way to, and is to be put down
 (`locomotion.recorded_people.stepping`): x, y, z [m], heading, slopes ahead and to the left [rad]."""
-TRAITS = slice(STEPS.stop, STEPS.stop + len(_TRAITS))
-"""What it differs from others in (`locomotion.recorded.individual`)."""
-ROW = TRAITS.stop
+OFFSETS = slice(STEPS.stop, STEPS.stop + 6 + len(JOINT_NAMES))
+"""How it differed, when its motion last changed, from where the new motion has it: root [m], its turn as a
+rotation vector [rad] in the world, joints [rad] (`locomotion.recorded_people.fading`)."""
+RATES = slice(OFFSETS.stop, OFFSETS.stop + 6 + len(JOINT_NAMES))
+"""How fast that changed [1/s]."""
+ROW = RATES.stop
 
 
 def new_row(level: int, node: int, traits: np.ndarray, place: np.ndarray) -> np.ndarray:

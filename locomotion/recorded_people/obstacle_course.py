@@ -41,6 +41,8 @@ class Person(Protocol):
     @property
     def row(self) -> NDArray[np.float64]: ...
     @property
+    def phase(self) -> float: ...
+    @property
     def time(self) -> float: ...
     @property
     def point(self) -> tuple[float, float, float]: ...
@@ -97,7 +99,7 @@ class ObstacleCourse:
         if self._person.row[at.CROSSES] == at.RUNS_UP:
             point = skill.run_up(of, then)[0]
             cadence = people.cadence(self._person.index) / self._person.row[at.HASTE]
-            haste = skill.haste(of, then - dt, float(self._person.row[at.PHASE]), cadence)
+            haste = skill.haste(of, then - dt, self._person.phase, cadence)
             self._person.row[at.HASTE] = self._person.row[at.HASTE] if haste is None else haste
             cells, floors = people.crowd.graph.project(np.array([[*point, here[2]]]))
             place = np.array([*point, floors[0] if cells[0] >= 0 else here[2]])

@@ -31,8 +31,9 @@ from locomotion.recorded.footfalls import BEARS, FEET, footing_at, sole_centres
 from locomotion.recorded.individual import SIZE, by_chance
 from locomotion.recorded.motion_set import MotionSet, load_motions
 from locomotion.recorded.posing import posed
-from locomotion.recorded.skeletons import FULL, LEVELS, skeleton
+from locomotion.recorded.skeletons import LEVELS, skeleton
 from locomotion.recorded_people import layout as at
+from locomotion.recorded_people.between_ticks import come_due, take_turns, write_discs
 from locomotion.recorded_people.clearing import out_of_the_floor
 from locomotion.recorded_people.drawing import drawn
 from locomotion.recorded_people.fading import faded
@@ -40,19 +41,25 @@ from locomotion.recorded_people.figure_tables import figure_tables
 from locomotion.recorded_people.person import RecordedPerson
 from locomotion.recorded_people.posing_figures import choose_gaits, draw_figures, pose_figures
 from locomotion.recorded_people.recorded_skills import recorded_skills, skill_ranges
-from locomotion.recorded_people.stepping import AIM, LAST, advance_figures, cadence_of, gait_played, lay_feet
+from locomotion.recorded_people.stepping import (
+    AIM,
+    LAST,
+    advance_figures,
+    cadence_of,
+    gait_played,
+    lay_feet,
+    since_strike,
+)
 
 __all__ = ["BODY_TICKS", "RecordedPeople", "person_postures"]
 
 BODY_TICKS = 3
 """Ticks for each of the bodies': between them figures are drawn on the straight line."""
 _ACCELERATION = 2.0  # [m/s²] of their bodies
-_STRIKES = np.array([0.0, 0.5])  # phases at which the right and the left foot strike
 _STANDS = "stand"
-_RATES = np.array([skeleton(name).rate for name in LEVELS])  # [Hz] at which levels are drawn
+_RATES = np.array([float(skeleton(name).rate) for name in LEVELS])  # [Hz] at which levels are drawn
 _TURN = 0.5 * (np.sqrt(5.0) - 1.0)  # the golden ratio: any number of figures have their turns evenly
 _ASIDE = 0.02  # [m] of where its gait has it, within which a foot is left standing where it does
-_LONG = 1.0  # [s] in which everybody's turn comes
 
 
 @lru_cache(maxsize=1)
@@ -110,6 +117,10 @@ class RecordedPeople:
         """A view."""
         return self._rows[: len(self.people)]
 
+    def row(self, index: int) -> NDArray[np.float64]:
+        """(`layout.ROW`,) what is remembered of one; a view."""
+        return self._rows[index]
+
     def add(self, position: ArrayLike, yaw: float, level: int, chance: np.random.Generator) -> RecordedPerson:
         """One that stands at ``position`` (3,) [m], facing ``yaw`` [rad]; ``chance`` makes it differ from the
         others. Raises `LocomotionError` where there is no room."""
@@ -117,7 +128,7 @@ class RecordedPeople:
         traits = by_chance(int(chance.integers(2**31)))
         traits[SIZE] = 1.0  # that of those who are simulated, into whom it may change
         row = at.new_row(level, self.stand, traits, np.array([*walker.position, walker.yaw]))
-        row[at.SINCE] = self._since
+        row[at.SINCE] = self._least_taken_turn
         person = self._take_in(walker, row)
         self.lay_feet(person.index)
         return person
@@ -145,7 +156,7 @@ class RecordedPeople:
         bodies[:, :, :3] = pose[:3] + row[at.TRAITS][SIZE] * (bodies[:, :, :3] - pose[:3])
         footing = footing_at(self.motions, int(gait_played(self._figures, row)), [abs(row[at.SPEED])])[0]
         for side, name in enumerate(FEET):
-            if (row[at.PHASE] - _STRIKES[side]) % 1.0 >= footing[side, BEARS] and row[at.GAIT] >= 0.0:
+            if since_strike(row[at.PHASE], side) >= footing[side, BEARS] and row[at.GAIT] >= 0.0:
                 continue
             centres, turned = sole_centres(bodies[:, full.bodies.index(name)])
             last = steps[side, LAST]
@@ -168,14 +179,9 @@ class RecordedPeople:
             self.people[index].change(partial(self.lay_feet, index))
 
     @property
-    def _since(self) -> int:
-        """Ticks since the bodies' last."""
-        return int(self._rows[0, at.SINCE]) if self.people else 0
-
-    @property
-    def bodies_move(self) -> bool:
-        """Whether the next tick is one of the bodies, too."""
-        return self._since == BODY_TICKS - 1
+    def _least_taken_turn(self) -> int:
+        """The turn that the fewest bodies have, as ticks since their last."""
+        return int(np.argmin(np.bincount(self.rows[:, at.SINCE].astype(np.int64), minlength=BODY_TICKS)))
 
     def begin_at(self, index: int, place: NDArray[np.float64], velocity: NDArray[np.float64]) -> None:
         """Let a figure be drawn at ``place`` (3,) now, and go on from there at ``velocity`` (2,) [m/s] until
@@ -183,7 +189,7 @@ class RecordedPeople:
         row, walker = self._rows[index], self.crowd.rows[index]
         walker[[body.VX, body.VY]] = velocity
         row[at.PLACE] = *place, walker[body.YAW]
-        left = (BODY_TICKS - 1 - self._since) * self.dt
+        left = (BODY_TICKS - 1 - row[at.SINCE]) * self.dt
         ahead = np.array([*(left * velocity), 0.0])
         self.crowd.shift(index, ahead)
         gone = BODY_TICKS * self.dt - left
@@ -212,50 +218,51 @@ class RecordedPeople:
         del self.people[index]
         self.crowd.remove(index)
 
+    def discs(self) -> NDArray[np.float64]:
+        """(n, 6) discs that cover all figures where they are drawn, as of `Crowd.lead`."""
+        out = np.empty((len(self.people), 6))
+        write_discs(self._rows, self.crowd.rows, out)
+        return out
+
     def tick(self) -> None:
         """Advance all by ``dt``."""
         if not self.people:
             return
-        rows, dt = self.rows, self.dt
-        since = (self._since + 1) % BODY_TICKS
-        rows[:, at.SINCE] = since
-        if since == 0:
-            rows[:, at.BEFORE] = self._body_places()
-            self.crowd.tick()
-            for index in np.flatnonzero(rows[:, at.CROSSES] == at.APPROACHES).tolist():
+        rows, dt, count = self.rows, self.dt, len(self.people)
+        turns, apart, phases = np.empty(count, np.bool_), np.empty(count, np.bool_), np.empty(count)
+        take_turns(rows, self.crowd.rows, self.crowd.origin, BODY_TICKS, turns, apart)
+        self.crowd.tick(turns)
+        special = np.flatnonzero(apart).tolist()
+        for index in special:
+            if turns[index] and rows[index, at.CROSSES] == at.APPROACHES:
                 self.people[index].course.stay()
-            for index in np.flatnonzero(rows[:, at.CROSSES] >= at.RUNS_UP).tolist():
+            elif turns[index] and rows[index, at.CROSSES] >= at.RUNS_UP:
                 self.people[index].course.move_on(BODY_TICKS * dt)
-        phases = rows[:, at.PHASE].copy()
-        tick = (dt, (since + 1) * dt, (since + 1) / BODY_TICKS)
-        advance_figures(*self._level, rows, self.crowd.rows, tick)
-        for index in np.flatnonzero(rows[:, at.BUSY]).tolist():
-            self.people[index].tick()
-        if since == BODY_TICKS - 1:
-            for index in np.flatnonzero(rows[:, at.CROSSES]).tolist():
+        advance_figures(*self._level, rows, self.crowd.rows, (dt, BODY_TICKS), phases)
+        for index in special:
+            if rows[index, at.BUSY]:
+                self.people[index].tick()
+        for index in special:
+            if rows[index, at.CROSSES] and rows[index, at.SINCE] == BODY_TICKS - 1.0:
                 self.people[index].course.cross()
         choose_gaits(self._figures, rows, self.crowd.rows, phases, dt)
-
-    def _body_places(self) -> NDArray[np.float64]:
-        """(n, 4) x, y, z [m] and yaw [rad] of the bodies."""
-        return np.column_stack([self.crowd.positions, self.crowd.yaws])
 
     # --- poses
     def qpos(self, indices: NDArray[np.int64], ahead: float = 0.0) -> NDArray[np.float64]:
         """(n, 46) the poses of some, ``ahead`` [s] of now if all goes on as it does: ``qpos`` of the person
         at full detail; what a figure's level has no channel for is 0."""
-        out = np.empty((len(indices), 46))
-        pose_figures(self._figures, indices, self._rows, self.crowd.rows, (ahead, self.dt), out)
-        for k in self._apart(indices):
+        out, apart = np.empty((len(indices), 46)), np.empty(len(indices), np.bool_)
+        pose_figures(self._figures, indices, self._rows, self.crowd.rows, (ahead, self.dt), out, apart)
+        for k in self._apart(indices, apart):
             out[k] = self._adjusted(int(indices[k]), ahead)
         return out
 
     def transforms(self, indices: NDArray[np.int64], ahead: float = 0.0) -> NDArray[np.float64]:
         """(n, 20, 7) places [m] and quaternions (w, x, y, z) of the bodies of some figures, in the order of
         the person's model, ``ahead`` [s] of now."""
-        out = np.empty((len(indices), 20, 7))
-        draw_figures(self._figures, indices, self._rows, self.crowd.rows, (ahead, self.dt), out)
-        of = self._apart(indices)
+        out, apart = np.empty((len(indices), 20, 7)), np.empty(len(indices), np.bool_)
+        draw_figures(self._figures, indices, self._rows, self.crowd.rows, (ahead, self.dt), out, apart)
+        of = self._apart(indices, apart)
         if of:
             qpos, bones = self.qpos(indices[of], ahead), skeleton(LEVELS[0])
             figures = drawn(LEVELS[0], qpos[:, 7 + bones.joints], qpos[:, :7])
@@ -268,19 +275,17 @@ class RecordedPeople:
         """(n,) which of some figures have had a moment to be drawn at after the time ``since`` [s] (one or
         (n,)), until ``now``: those in full detail always, the others as often as their motion is kept, in
         turn. After a time long past or -inf all have."""
-        levels = self._rows[indices, at.LEVEL].astype(np.int64)
-        turns = self.turns[indices]
-        since = np.maximum(since, now - _LONG)
-        moments = np.floor(_RATES[levels] * now - turns) - np.floor(_RATES[levels] * since - turns)
-        return (moments > 0.0) | (levels == FULL)
+        after, due = np.empty(len(indices)), np.empty(len(indices), np.bool_)
+        after[:] = since
+        come_due(_RATES, self._rows, self.turns, indices, after, now, due)
+        return due
 
-    def _apart(self, indices: NDArray[np.int64]) -> list[int]:
-        """Which of ``indices`` play their postures or clear an obstacle."""
-        busy, clears = self._rows[indices, at.BUSY] > 0.0, self._rows[indices, at.CROSSES] == at.CLEARS
+    def _apart(self, indices: NDArray[np.int64], may_be: NDArray[np.bool_]) -> list[int]:
+        """Which of ``indices``, of those that ``may_be`` (n,), play their postures or clear an obstacle."""
         return [
             k
-            for k in np.flatnonzero(busy | clears).tolist()
-            if clears[k] or self.people[indices[k]].playback is not None
+            for k in np.flatnonzero(may_be).tolist()
+            if self._rows[indices[k], at.CROSSES] == at.CLEARS or self.people[indices[k]].playback is not None
         ]
 
     def _adjusted(self, index: int, ahead: float) -> NDArray[np.float64]:

@@ -2,56 +2,32 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from locomotion.body_events import Event, PostureReached, SetOff
-from locomotion.crowd import Crowd, Walker, WalkerState
-from locomotion.errors import LocomotionError
-from locomotion.postures.held_objects import STOWED, node_name, parts_of
-from locomotion.postures.playback import Playback, asked_for, at_rest, settled
+from locomotion.body_events import Event, SetOff
+from locomotion.crowd import Crowd, Walker
+from locomotion.postures.held_objects import node_name, parts_of
+from locomotion.postures.playback import Playback
 from locomotion.postures.posture_graph import PostureGraph
-from locomotion.postures.step_order import AT_REST, Gait
+from locomotion.postures.step_order import Gait
 from locomotion.recorded.motion_set import MotionSet
 from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.clearing import RecordedSkill
 from locomotion.recorded_people.crossing import Crossing, crossing_of
 from locomotion.recorded_people.fading import STEP, Fade, fade_from, rates
-from locomotion.recorded_people.nodes import checked_node
 from locomotion.recorded_people.obstacle_course import ObstacleCourse
+from locomotion.recorded_people.person_state import Errand, PersonState, digest
+from locomotion.recorded_people.posture_orders import PostureOrders
 from locomotion.recorded_people.taking_over import go_on_from
 from locomotion.skills.registry import skill_kind
 from navmesh.routes.route import Route
 
-__all__ = ["Errand", "PersonState", "RecordedPerson"]
-
-
-@dataclass(frozen=True)
-class Errand:
-    """A way that begins once it stands: as of `RecordedPerson.go_to`."""
-
-    goals: tuple[tuple[float, float, float], ...]
-    speed: float
-    facing: float | None
-
-
-@dataclass(frozen=True)
-class PersonState:
-    """Everything that is remembered of a recorded person; ``turn`` is not in its hash: it decides only when
-    the person is drawn anew."""
-
-    body: WalkerState
-    row: NDArray[np.float64]
-    playback: Playback | None
-    wanted: str
-    errand: Errand | None
-    crossing: Crossing | None = None
-    turn: float = 0.0
+__all__ = ["RecordedPerson"]
 
 
 class ItsPeople(Protocol):
@@ -70,6 +46,7 @@ class ItsPeople(Protocol):
 
     @property
     def rows(self) -> NDArray[np.float64]: ...
+    def row(self, index: int) -> NDArray[np.float64]: ...
     def qpos(self, indices: NDArray[np.int64], ahead: float = 0.0) -> NDArray[np.float64]: ...
     @property
     def people(self) -> Sequence[RecordedPerson]: ...
@@ -90,6 +67,7 @@ class RecordedPerson:
         self.errand: Errand | None = None
         self.crossing: Crossing | None = None
         self.course = ObstacleCourse(self, people)
+        self._orders = PostureOrders(self, people)
 
     @property
     def index(self) -> int:
@@ -99,12 +77,18 @@ class RecordedPerson:
     @property
     def row(self) -> NDArray[np.float64]:
         """(`layout.ROW`,) what is remembered of it; a view."""
-        return self._people.rows[self.walker.index]
+        return self._people.row(self.walker.index)
 
     @property
     def turn(self) -> float:
         """When it is drawn anew, as a share of the time between two drawings, 0 to 1."""
         return float(self._people.turns[self.walker.index])
+
+    @property
+    def phase(self) -> float:
+        """Of its gait's cycle, 0 to 1, from the right foot's strike."""
+        late = float(self.row[at.LATE])
+        return (float(self.row[at.PHASE]) + late * self._people.cadence(self.index)) % 1.0
 
     @property
     def time(self) -> float:
@@ -191,9 +175,9 @@ class RecordedPerson:
         target = node_name("stand", *self.held)
         if target not in people.graph.postures:
             target = "stand"
-        self._check_way(target)
+        self._orders.check_way(target)
         routes = people.crowd.find_routes(self.index, points, people.ranges)
-        self._ask(target)
+        self._orders.ask(target)
         self.errand = Errand(tuple((float(x), float(y), float(z)) for x, y, z in points), speed, facing)
         return routes
 
@@ -253,74 +237,12 @@ class RecordedPerson:
         """Take ``posture``, with an object in a state in its hands; one that moves comes to a stand first.
         To the graph's fatal posture it goes at once, but for one over an obstacle, who lands first. Raises
         `LocomotionError` for what the graph does not have, or has no way to; nothing has changed then."""
-        graph = self._people.graph
-        node = checked_node(graph, posture, held, state)
-        fatal = graph.fatal >= 0 and node == graph.postures[graph.fatal]
-        if not fatal:
-            self._check_way(node)
-        if fatal and self.row[at.CROSSES] == at.RUNS_UP:
-            self.course.break_off()
-        self.stop()
-        self._ask(node)
-        if fatal and self.playback is None and self.crossing is None:
-            self._begin()
-
-    def _check_way(self, node: str) -> None:
-        graph = self._people.graph
-        here = self.playback.posture if self.playback is not None else int(self.row[at.NODE])
-        if not np.isfinite(graph.least[here, graph.postures.index(node)]):
-            raise LocomotionError(f"there is no way from {graph.postures[here]!r} to {node!r}")
-
-    def _ask(self, node: str) -> None:
-        self.wanted, self.errand = node, None
-        self.row[at.BUSY] = 1.0
-        if self.playback is not None:
-            self._begin()
-
-    def _begin(self) -> None:
-        """Play the way to the posture that is wanted."""
-        graph, row = self._people.graph, self.row
-
-        def begin() -> None:
-            self.walker.root()
-            playback = self.playback or at_rest(graph, graph.postures[int(row[at.NODE])], (0.0, 0.0, 0.0))
-            self.playback = asked_for(graph, playback, self.wanted, self.time)
-            row[at.GAIT], row[at.SPEED], row[at.LAID] = -1.0, 0.0, 0.0
-            # to the fatal posture it would blend from its last pose, which the fade does already
-            self.playback = replace(self.playback, last=None)
-            row[at.BUSY] = 1.0
-
-        self.change(begin)
+        self._orders.take(posture, held, state)
 
     # --- time
     def tick(self) -> None:
         """After its body has moved: go on with its postures."""
-        if self.playback is None:
-            if np.hypot(*self.walker.velocity) < AT_REST and self.crossing is None:
-                self._begin()
-            return
-        graph, row = self._people.graph, self.row
-        self.playback = settled(graph, self.playback, self.time)
-        if self.playback.arc >= 0 or not self.wanted or self.playback.posture != self.playback.target:
-            return
-        posture, held, state = parts_of(self.wanted, graph.objects)
-        reached = PostureReached(self.time, self.point, posture, "" if state == STOWED else f"{held} {state}")
-        self.events.append(reached)
-        self.wanted = ""
-        number, base = self.playback.posture, graph.postures.index(posture)
-        if any(gait.posture == base for gait in self._people.gaits):
-
-            def rest() -> None:
-                self.playback = None
-                row[at.NODE], row[at.BUSY] = number, 0.0
-                if base == self._people.stand:
-                    self.walker.stop()
-                    self._people.lay_feet(self.index)
-
-            self.change(rest)
-        errand, self.errand = self.errand, None
-        if errand is not None:
-            self.set_out(np.array(errand.goals), errand.speed, errand.facing)
+        self._orders.tick()
 
     @property
     def point(self) -> tuple[float, float, float]:
@@ -384,10 +306,4 @@ class RecordedPerson:
 
     def state_hash(self) -> str:
         """Hex digest of everything that decides its future."""
-        hasher = hashlib.sha256(self.row.tobytes())
-        playing = self.playback
-        if playing is not None:
-            hasher.update(repr((playing.posture, playing.target, playing.arc, playing.begun)).encode())
-            hasher.update(playing.place.tobytes())
-        rest = f"{self.wanted}{self.errand}{self.crossing or ''}"
-        return f"{self.walker.state_hash()}{hasher.hexdigest()[:16]}{rest}"
+        return digest(self.save(), self.walker.state_hash())

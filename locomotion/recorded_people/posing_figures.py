@@ -24,6 +24,7 @@ from locomotion.recorded_people.stepping import (
     cadence_of,
     footing_of,
     gait_played,
+    since_strike,
     speed_read,
     stride_of,
 )
@@ -86,7 +87,8 @@ def _as_gait_has_it(figures, row, walker, ahead, out, room):
     channels, root = out
     level, moves = int(row[at.LEVEL]), row[at.GAIT] >= 0.0
     gait, speed = gait_played(figures, row), speed_read(row)
-    gone = ahead * cadence_of(figures, row, walker) if ahead != 0.0 else 0.0
+    beyond = ahead + row[at.LATE]
+    gone = beyond * cadence_of(figures, row, walker) if beyond != 0.0 else 0.0
     for k in range(4):
         place[k] = row[_PLACE + k]
     if ahead != 0.0:
@@ -110,8 +112,7 @@ def _as_gait_has_it(figures, row, walker, ahead, out, room):
         for k in range(7):
             feet[side, k] = bodies[figures.feet[level, side], k]
         # a foot stays in the part of its cycle that it is in: where it stands is known for that
-        struck = row[at.PHASE] - 0.5 * side
-        struck += gone - math.floor(struck)
+        struck = since_strike(row[at.PHASE], side) + gone
         since[side] = min(max(struck, 0.0), _BEFORE_STRIKE) if moves else 0.0
     footing_of(figures, gait, speed, footing)
     stride = figures.directions[gait] * stride_of(figures, gait, speed)
@@ -181,22 +182,29 @@ def _memory():
     )  # fmt: skip
 
 
+@kernel
+def _is_apart(row):
+    return row[at.BUSY] > 0.0 or row[at.CROSSES] == at.CLEARS
+
+
 @allocating_kernel
-def pose_figures(figures, indices, rows, walkers, moment, out):
+def pose_figures(figures, indices, rows, walkers, moment, out, apart):
     """Poses ``out`` (n, 46) of the figures ``indices`` (n,); ``figures`` as of `figure_tables`, ``rows`` as
     of `layout`, ``walkers`` as of `locomotion.crowd.layout`. ``moment``: ahead of now [s], and the length of
-    a tick [s]."""
+    a tick [s]. ``apart`` (n,) bool is written: who may play its postures or clear an obstacle."""
     room = _memory()
     for n in range(indices.shape[0]):
+        apart[n] = _is_apart(rows[indices[n]])
         _pose(figures, rows[indices[n]], walkers[indices[n]], moment, out[n], room)
 
 
 @allocating_kernel
-def draw_figures(figures, indices, rows, walkers, moment, out):
+def draw_figures(figures, indices, rows, walkers, moment, out, apart):
     """Places ``out`` (n, 20, 7) of the bodies of figures, the rest as of `pose_figures`."""
     room, pose, bodies = _memory(), np.empty(7 + _JOINTS), np.empty((_BODIES, 7))
     for n in range(indices.shape[0]):
         row = rows[indices[n]]
+        apart[n] = _is_apart(row)
         level, channels, root = int(row[at.LEVEL]), room[0], room[1]
         if _pose(figures, row, walkers[indices[n]], moment, pose, room):
             level, channels, root = FULL, pose[7:], pose[:7]
@@ -228,6 +236,8 @@ def choose_gaits(figures, rows, walkers, phases, dt):
     poses, apart = np.empty((2, 7 + _JOINTS)), np.empty((3, 6 + _JOINTS))
     for n in range(rows.shape[0]):
         row, walker = rows[n], walkers[n]
+        if row[at.LATE] > 0.0:
+            continue
         now, chosen = int(row[at.GAIT]), -1
         if row[at.CROSSES] != at.CLEARS:  # who plays a posture has no speed
             chosen = gait_for(figures.gaits, now, figures.bases[int(row[at.NODE])], _speed_soon(row, walker))

@@ -12,7 +12,7 @@ from locomotion.recorded.individual import TRAITS
 from locomotion.recorded.skeletons import LEVELS
 from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.people import BODY_TICKS
-from locomotion.recorded_people.person import Errand, PersonState
+from locomotion.recorded_people.person_state import Errand, PersonState
 from locomotion.saved_arrays import COUNT, FLAG, Slots, check_array, check_number
 
 __all__ = ["check_recorded"]
@@ -39,6 +39,7 @@ def check_recorded(state: PersonState, graph: PostureGraph, gaits: int, skills: 
             (at.STILL, FLAG),
             (at.CROSSES, (at.NOTHING, at.CLEARS)),
             (at.HASTE, (0.1, 10.0)),
+            (at.LATE, (0.0, 0.1)),
             *((at.TRAITS.start + k, limits[1:]) for k, limits in enumerate(TRAITS.values())),
         ],
         whole=(at.GAIT, at.LEVEL, at.NODE, at.BUSY, at.AGE, at.SINCE, at.LAID, at.STILL, at.CROSSES),

@@ -6,7 +6,9 @@ with the whole sole on one stair. It may change until the foot is most of the wa
 its feet elsewhere than under it takes steps on the spot.
 
 All of it goes by ticks, and not by how often somebody looks, so that a figure's feet are the same at any
-frame rate. Figures whose posture has no such gait have no feet laid: they kneel, lie or crawl.
+frame rate. In full detail steps go on in every tick; in less detail, which is drawn less often, when it is
+the body's turn, for all the time since the last: a third of these figures in each tick. Figures whose posture
+has no such gait have no feet laid: they kneel, lie or crawl.
 """
 
 import math
@@ -20,13 +22,15 @@ from locomotion.postures.step_order import AT_REST
 from locomotion.recorded.footfalls import AHEAD, BEARS, HALF_SOLE, LEFT, TURNED, read_footing
 from locomotion.recorded.individual import PACE, PHASE, SIZE, WIDTH
 from locomotion.recorded.sampling import stride_at
+from locomotion.recorded.skeletons import FULL
 from locomotion.recorded_people import layout as at
+from locomotion.recorded_people.between_ticks import go_on, turn
 from navmesh.surface.clearance_field import floor_at, walk
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = [
     "AIM", "LAST", "NEXT", "advance_figures", "cadence_of", "footing_of", "gait_played", "lay_feet",
-    "speed_read", "stride_of",
+    "since_strike", "speed_read", "stride_of"
 ]  # fmt: skip
 
 _SLUGGISH = 0.12  # [s] time constant of the speed at which they are drawn
@@ -34,7 +38,6 @@ _SETTLES = 0.2  # [m/s] whose steps one takes on the spot
 _BRISK = 0.9  # cycles a second of that
 _ASTRAY, _ASKEW = 0.1, 0.35  # [m], [rad] by which a foot may stand elsewhere than in the posture at rest
 _DECIDED = 0.6  # share of a swing after which a foot goes where it was going to
-_LOOKS = 3  # ticks between two looks for its place; figures look in turn
 _ADJUSTS = 0.03  # [s] time constant with which it does
 _FORESEEN = 1.5  # [s] at most
 _BEND = 0.6  # [rad] by which a figure turns until then at most
@@ -52,9 +55,11 @@ be in the end."""
 
 
 @kernel
-def _turn(angle):
-    """The same angle, -π to π."""
-    return (angle + math.pi) % (2.0 * math.pi) - math.pi
+def since_strike(phase, side):
+    """Share of the cycle, 0 to 1, since the foot of a ``side`` struck: the right one (0) does at the phase 0,
+    the left one (1) at 0.5."""
+    since = phase - 0.5 * side
+    return since - math.floor(since)
 
 
 @kernel
@@ -157,7 +162,7 @@ def _under(row, side, footing, ahead, left, turned):
 def _gone_on(figures, row, walker, gait, cycles, seconds, elapsed):
     """How far a figure goes on in the next ``cycles``, which take about so many ``seconds``: x, y [m], and
     how far it turns [rad]. It gets faster, up to the speed that it wants, or slower, as it does now."""
-    turning = _turn(row[_PLACE + 3] - row[_BEFORE + 3]) / elapsed
+    turning = turn(row[_PLACE + 3] - row[_BEFORE + 3]) / elapsed
     turned = min(max(turning * seconds, -_BEND), _BEND)
     pace, now = math.hypot(walker[body.VX], walker[body.VY]), abs(row[at.SPEED])
     if pace < AT_REST:
@@ -181,9 +186,10 @@ def lay_feet(figures, net, origin, lookup, row, walker):
     footing_of(figures, gait_played(figures, row), speed_read(row), footing)
     steps = row[_STEPS : _STEPS + 36].reshape(2, 3, 6)
     cadence = cadence_of(figures, row, walker)
+    row[at.PHASE] = (row[at.PHASE] + row[at.LATE] * cadence) % 1.0
+    row[at.LATE] = 0.0
     for side in range(2):
-        since = row[at.PHASE] - 0.5 * side
-        since -= math.floor(since)
+        since = since_strike(row[at.PHASE], side)
         for step in range(2):
             share = step + 0.5 * footing[side, BEARS] - since
             seconds = share / cadence if cadence > 0.0 else 0.0
@@ -201,13 +207,12 @@ def _settles(figures, row, steps, footing):
     ``footing`` (2, 5) is written."""
     footing_of(figures, figures.standing[int(row[at.NODE])], 0.0, footing)
     for side in range(2):
-        since = row[at.PHASE] - 0.5 * side
-        since -= math.floor(since)
+        since = since_strike(row[at.PHASE], side)
         x, y, heading = _under(row, side, footing[side], 0.0, 0.0, 0.0)
         last = steps[side, LAST]
         if math.hypot(last[0] - x, last[1] - y) > _ASTRAY:
             return True
-        if abs(_turn(last[3] - heading)) > _ASKEW:
+        if abs(turn(last[3] - heading)) > _ASKEW:
             return True
         if row[at.GAIT] >= 0.0 and since > footing[side, BEARS]:
             return True
@@ -222,9 +227,7 @@ def _step(level, row, walker, steps, footing, standing, then, tick):
     phase, cadence = then
     dt, elapsed = tick[0], tick[1]
     for side in range(2):
-        before, since = phase - 0.5 * side, row[at.PHASE] - 0.5 * side
-        before -= math.floor(before)
-        since -= math.floor(since)
+        before, since = since_strike(phase, side), since_strike(row[at.PHASE], side)
         bears = footing[side, BEARS]
         if since < before - 0.5:
             for k in range(6):
@@ -238,7 +241,7 @@ def _step(level, row, walker, steps, footing, standing, then, tick):
             seconds = min(left / cadence, _FORESEEN)
             dx, dy, turned = _gone_on(figures, row, walker, gait, left, seconds, elapsed)
             x, y, heading = _under(row, side, standing[side], dx, dy, turned)
-            heading = last[3] + _turn(heading - last[3])
+            heading = last[3] + turn(heading - last[3])
             _foothold(place, walker, x, y, heading, steps[side, AIM])
         share = 1.0 if before < bears else 1.0 - math.exp(-dt / _ADJUSTS)
         for k in range(6):
@@ -246,31 +249,31 @@ def _step(level, row, walker, steps, footing, standing, then, tick):
 
 
 @allocating_kernel
-def advance_figures(figures, net, origin, lookup, rows, walkers, tick):
+def advance_figures(figures, net, origin, lookup, rows, walkers, tick, phases):
     """Advance all figures by a tick: where they are drawn, their speeds, phases and feet.
 
     figures: as of `figure_tables`. net, origin (3,): of the surface; lookup: of the ground. tick: its length
-    [s]; the time since the bodies' last tick began, at its end [s]; and what share that is of the bodies'
-    tick.
+    [s], and how many of them a body's tick takes. phases (n,): what they were is written there.
     """
     room = np.empty((2, 2, 5))
     for n in range(rows.shape[0]):
-        _advance(figures, (net, origin, lookup), n, rows[n], walkers[n], tick, room)
+        row, walker = rows[n], walkers[n]
+        phases[n] = row[at.PHASE]
+        go_on(row, walker, origin, tick)
+        closely = int(row[at.LEVEL]) == FULL or row[at.BUSY] > 0.0 or row[at.CROSSES] > at.NOTHING
+        looks = row[at.SINCE] == tick[1] - 1  # its body has come to where it was to
+        if closely or looks:
+            _advance(figures, (net, origin, lookup), row, walker, looks, tick, room)
 
 
 @kernel
-def _advance(figures, place, n, row, walker, tick, room):
-    """Advance the figure of number ``n``. ``room`` (2, 2, 5) is overwritten."""
-    dt, share, origin = tick[0], tick[2], place[1]
+def _advance(figures, place, row, walker, looks, tick, room):
+    """Let a figure's steps go on for as long as they are late; ``looks``: whether it looks for places for its
+    feet. ``tick``: as of `advance_figures`. ``room`` (2, 2, 5) is overwritten."""
+    dt, elapsed = row[at.LATE], (row[at.SINCE] + 1.0) * tick[0]
+    row[at.LATE] = 0.0
     footing, standing = room[0], room[1]
     steps = row[_STEPS : _STEPS + 36].reshape(2, 3, 6)
-    row[at.AGE] += 1.0
-    here, before = _PLACE, _BEFORE
-    for k in range(3):
-        now = walker[body.X + k] + origin[k]
-        row[here + k] = row[before + k] + share * (now - row[before + k])
-    turned = _turn(walker[body.YAW] - row[before + 3])
-    row[here + 3] = row[before + 3] + share * turned
     vx, vy = walker[body.VX], walker[body.VY]
     pace = math.hypot(vx, vy)
     ahead = vx * math.cos(walker[body.YAW]) + vy * math.sin(walker[body.YAW])
@@ -281,7 +284,7 @@ def _advance(figures, place, n, row, walker, tick, room):
         moved = _SETTLES if row[at.STILL] == 0.0 else 0.0
     else:
         row[at.STILL] = 0.0
-    row[at.SPEED] += (moved - row[at.SPEED]) * min(dt / _SLUGGISH, 1.0)
+    row[at.SPEED] += (moved - row[at.SPEED]) * (1.0 - math.exp(-dt / _SLUGGISH))
     cadence, phase = cadence_of(figures, row, walker), row[at.PHASE]
     row[at.PHASE] = (phase + dt * cadence) % 1.0
     if row[at.GAIT] < 0.0:
@@ -290,6 +293,5 @@ def _advance(figures, place, n, row, walker, tick, room):
         return
     gait = gait_played(figures, row)
     footing_of(figures, gait, speed_read(row), footing)
-    looks = (int(row[at.AGE]) + n) % _LOOKS == 0
     under = standing if pace < AT_REST else footing
-    _step((place, figures, gait, looks), row, walker, steps, footing, under, (phase, cadence), tick)
+    _step((place, figures, gait, looks), row, walker, steps, footing, under, (phase, cadence), (dt, elapsed))

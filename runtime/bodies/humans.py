@@ -195,7 +195,8 @@ class People(Population):
         humans = [driver.human for driver in self._drivers]
         rows = np.empty((len(humans), 6))
         rows[:, :3] = positions([each.simulation for each in humans])
-        rows[:, 3:5] = np.array([each.velocity[:2] for each in humans]).reshape(-1, 2)
+        for row, human in zip(rows, humans, strict=True):
+            row[3:5] = human.velocity[:2]
         rows[:, 5] = PERSON_RULES["radius"]
         return rows
 

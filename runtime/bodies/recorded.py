@@ -16,7 +16,8 @@ from locomotion.recorded.skeletons import LEVELS, level_number
 from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.nodes import can_hold, checked_node
 from locomotion.recorded_people.people import RecordedPeople
-from locomotion.recorded_people.person import PersonState, RecordedPerson
+from locomotion.recorded_people.person import RecordedPerson
+from locomotion.recorded_people.person_state import PersonState
 from locomotion.recorded_people.saved_state_check import check_recorded
 from navmesh.routes.route import Route
 from runtime.bodies.figure import Figure, Joints
@@ -94,8 +95,7 @@ class Recorded(Population):
     def in_the_way(self) -> np.ndarray:
         if not self._people:
             return np.empty((0, 6))
-        crowd, places = self._people.crowd, self._people.rows[:, at.PLACE][:, :3]
-        return np.column_stack([places, crowd.velocities, crowd.radii])
+        return self._people.discs()
 
     def change_level(self) -> None:
         if self._people is not None:
@@ -106,9 +106,8 @@ class Recorded(Population):
 
     def tick(self) -> None:
         if self._people:
-            if self._people.bodies_move:
-                others = [each.in_the_way() for each in self._populations if each is not self]
-                self._people.crowd.lead(np.concatenate([np.empty((0, 6)), *others]))
+            others = [each.in_the_way() for each in self._populations if each is not self]
+            self._people.crowd.lead(np.concatenate([np.empty((0, 6)), *others]))
             self._people.tick()
 
 
@@ -140,7 +139,7 @@ class RecordedDriver(WalkerDriver):
 
     @property
     def _row(self) -> np.ndarray:
-        return self._population.people.rows[self.person.index]
+        return self.person.row
 
     @property
     def status(self) -> str:

@@ -76,6 +76,8 @@ class Walkers(Population):
 
     def in_the_way(self) -> np.ndarray:
         crowd = self.crowd
+        if not len(crowd):
+            return np.empty((0, 6))
         return np.column_stack([crowd.positions, crowd.velocities, crowd.radii])
 
     def remember(self) -> None:

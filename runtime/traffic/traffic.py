@@ -6,15 +6,8 @@ from functools import partial
 import numpy as np
 
 from locomotion.avoidance.goal_occupancy import ROOM, is_before, who_stands_at
-from locomotion.avoidance.yielding import (
-    COUNT,
-    SPACING,
-    Course,
-    Options,
-    cost_of_meeting,
-    first_meeting,
-    options,
-)
+from locomotion.avoidance.options import cheapest, cost_of_meeting, options
+from locomotion.avoidance.yielding import COUNT, SPACING, Course, first_meeting
 from navmesh.routes.route_validity import line_holds
 from runtime.bodies.protocol import Follower, Population
 from runtime.planning.level import Level
@@ -24,9 +17,9 @@ from surefoot.pausing import pause
 
 __all__ = ["EVERY", "Traffic"]
 
-EVERY = 4
+EVERY = 2
 """Ticks between choices."""
-_TURNS = 5  # choices in which everybody has one turn, which spreads the work over ticks
+_TURNS = 10  # choices in which everybody has one turn, which spreads the work over ticks
 _UNTIL_NEXT = 0.01 * EVERY * _TURNS  # [s]
 _MORE = 0.2  # [m] before it must, at which a body prepares to stop beside others at its goal
 
@@ -40,8 +33,12 @@ class Traffic:
 
     def direct(self, tick: int) -> None:
         """Let those whose turn it is choose; called before every `EVERY`th ``tick``."""
+        slot = tick // EVERY % _TURNS
+        turn = slot // 2 + _TURNS // 2 * (slot % 2)  # of few, two do not choose close to each other
+        if turn >= sum(len(population.followers()) for population in self._populations):
+            return
         snapshot = Snapshot(self._populations)
-        turns = np.arange(tick // EVERY % _TURNS, len(snapshot.followers), _TURNS)
+        turns = np.arange(turn, len(snapshot.followers), _TURNS)
         self._let_choose(snapshot, turns)
         for index in turns.tolist():
             if (snapshot.followers[index].waited or 0.0) >= STANDSTILL:
@@ -75,10 +72,10 @@ class Traffic:
             ]
             # a body that halts easily gives way to one that does not
             halts = partial(_any_rushes, snapshot, others)
-            there, radii = snapshot.all_foretold(others)
-            chosen = self._chosen(course, len(snapshot.discs[index]), there, radii, halts, former)
-            if chosen.shift is not None or chosen.pace != course.pace:
-                follower.give_way(chosen.pace, chosen.shift)
+            told = (*snapshot.all_foretold(others), ROOM)
+            pace, shift = self._chosen(course, len(snapshot.discs[index]), told, halts, former)
+            if shift is not None or pace != course.pace:
+                follower.give_way(pace, shift)
                 snapshot.forget(index)
             self._stop_at_the_group(follower, snapshot.course(index), group)
 
@@ -102,36 +99,25 @@ class Traffic:
         self,
         course: Course,
         discs: int,
-        there: np.ndarray,
-        radii: np.ndarray,
+        others: tuple[np.ndarray, np.ndarray, float],
         halts: Callable[[], bool],
         former: Course | None,
-    ) -> Options:
-        """The cheapest option; ``halts``: whether somebody near does not halt easily, so that halting is
-        an option."""
-
-        def meeting(option: Options) -> tuple[int, float]:
-            """When it would come too near to somebody, and the cost of that."""
-            points = course.points
-            if option.shift is not None:
-                points = points.copy()
-                points[:, :2] += option.shift
-            places = foretold_on(course, points, option.pace, discs)
-            met = first_meeting(places, course.radius, there, radii, ROOM)
-            return met[0], cost_of_meeting(*met)
-
-        onward = Options(1.0, None, 0.0)
-        first, least = meeting(onward)
-        if first >= COUNT:
-            return onward
-        best = onward
-        for option in options(course, first, halts(), former):
-            if option.cost >= least:
-                break
-            cost = option.cost + meeting(option)[1]
-            if cost < least and (option.shift is None or self._is_free(course, option.shift)):
-                best, least = option, cost
-        return best
+    ) -> tuple[float, np.ndarray | None]:
+        """The pace and the shift of the cheapest option; ``others`` as of `cheapest`; ``halts``: whether
+        somebody near does not halt easily, so that halting is an option."""
+        met = first_meeting(foretold_on(course, course.points, 1.0, discs), course.radius, *others)
+        if met[0] >= COUNT:
+            return 1.0, None
+        found, least = options(course, met[0], halts(), former), cost_of_meeting(*met)
+        barred, meetings = np.zeros(len(found.shifts), np.bool_), np.full(len(found), np.nan)
+        while True:
+            best = cheapest(course, found, barred, others, discs, least, meetings)
+            if best < 0:
+                return 1.0, None
+            shift = found.shift(best)
+            if shift is None or self._is_free(course, shift):
+                return float(found.paces[best]), shift
+            barred[found.ways[best]] = True
 
     def _is_free(self, course: Course, shift: np.ndarray) -> bool:
         """Whether a course shifted to one side stays on the surface, away from its edges."""

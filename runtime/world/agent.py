@@ -102,7 +102,8 @@ class Agent:
 
     ``name`` is unique in its world, ``body`` is what `World.spawn` was given; ``news`` are its
     body's events that the world has not been told of; ``has_levels``: whether it can be drawn in more or
-    less detail; ``waits_for_level``: whether its level may differ from a `detail` that was asked for;
+    less detail; ``waits_for_level``: whether its level may differ from a `detail` that was asked for, as that
+    of "auto" always may;
     ``arrival``: a number, greater than of all bodies that came before its own;
     ``changed``: the world's time [s] when it got its body or its level of detail
     last, -inf if that was before the world was restored.

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 import navmesh
 from locomotion import LocomotionError, load_run_skill
+from locomotion import body_events as bodily
 from locomotion.body.person import CONTROL_DT
 from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.skills.library import described_ranges, different, learned_digest, learned_skills
@@ -142,6 +143,8 @@ class World:
         self._stepping = False
         self._casts: list[_Drawn] | None = None
         """For `transforms`; None when somebody has come, gone, or changed."""
+        self._roster: tuple[list[Agent], list[list[bodily.Event]]] | None = None
+        """All agents and their news, in order; None as of `_casts`."""
         self._asked: float | None = None
         """[s] when `transforms` was asked for the first time after the last `restore`; None: not yet."""
 
@@ -271,7 +274,8 @@ class World:
             except RuntimeInputError:
                 self._population(body).remove(driver)
                 raise
-        self.agents[name], self._casts = agent, None
+        self.agents[name] = agent
+        self._forget_order()
         if detail == AUTO:
             self._population(body).prepare_levels()
             agent.detail = detail
@@ -284,7 +288,7 @@ class World:
         if not name or name in self.agents:
             raise RuntimeInputError(f"name {name!r} is taken or empty; names are unique in a world")
         agent = self.agents[name] = Agent(self._host, name, body, self._population(body).revive(body, state))
-        self._casts = None
+        self._forget_order()
         return agent
 
     def transforms(self, since: float | None = None) -> dict[str, np.ndarray]:
@@ -329,7 +333,7 @@ class World:
             raise RuntimeInputError(f"{agent.name} is not in this world")
         self._population(agent.body).remove(agent.driver)
         del self.agents[agent.name]
-        self._casts = None
+        self._forget_order()
         agent.leave()
 
     def change_level(self, changes: Mapping[str, navmesh.Terrain | None]) -> None:
@@ -382,19 +386,20 @@ class World:
             for agent in self.agents.values():
                 agent.look_at_way()
 
+    def _forget_order(self) -> None:
+        self._casts = self._roster = None
+
     def _at_level(self, agent: Agent, level: str, at_once: bool) -> Driver | None:
-        self._casts = None
+        self._forget_order()
         return self._population(agent.body).at_level(agent.driver, level, at_once)
 
     def _choose_levels(self) -> None:
         """Bring people to the levels of detail that they should have, some of them in each call."""
-        agents = self.agents.values()
         chosen: list[tuple[Agent, str]] = []
-        unsettled = [
-            each for each in agents if each.waits_for_level and each.has_levels and each.detail != AUTO
-        ]
-        if any(agent.detail == AUTO for agent in agents):
-            people = [agent for agent in agents if agent.has_levels]
+        waiting = [each for each in self.agents.values() if each.waits_for_level and each.has_levels]
+        unsettled = [each for each in waiting if each.detail != AUTO]
+        if len(unsettled) < len(waiting):
+            people = [agent for agent in self.agents.values() if agent.has_levels]
             automatic = np.array([agent.detail == AUTO for agent in people], np.bool_)
             now = np.array([LEVELS.index(agent.level) for agent in people])
             places = np.array([agent.position for agent in people])
@@ -447,8 +452,11 @@ class World:
                     pause()
                 if clock.ticks % LOOKS == 0:
                     self._choose_levels()
-                agents = list(self.agents.values())
-                for agent in compress(agents, [agent.news for agent in agents]):  # those with any
+                if self._roster is None:
+                    everybody = list(self.agents.values())
+                    self._roster = everybody, [agent.news for agent in everybody]
+                agents, news = self._roster
+                for agent in compress(agents, news):  # those with any
                     agent.notice()
                     pause()
                 for agent in agents[clock.ticks % _LOOKS :: _LOOKS]:
@@ -573,7 +581,8 @@ class World:
             pause()
         self.random.bit_generator.state = dict(state.random)
         self._clock.ticks, self._clock.owed = state.ticks, state.owed
-        self._asked = self._casts = None
+        self._asked = None
+        self._forget_order()
         self._log.become(state.events, state.untold)
         self._viewers, self._budget = state.viewers, state.budget
 
@@ -582,7 +591,7 @@ class World:
         came there."""
         for agent in tuple(self.agents.values()):
             self.remove(agent)
-        self._casts = None
+        self._forget_order()
         for name in _by_arrival(state.agents):
             saved = state.agents[name]
             driver = self._population(saved.body).revive(saved.body, saved.driver)

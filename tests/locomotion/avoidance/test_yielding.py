@@ -12,7 +12,6 @@ from locomotion.avoidance.yielding import (
     first_meeting,
     foretell,
     meetings,
-    options,
 )
 
 ALONG = np.column_stack([0.1 * np.arange(200), np.zeros(200), np.zeros(200)])
@@ -65,18 +64,6 @@ def test_a_body_slackens_as_it_does():
     assert places(course(speed=0.5), 0.0)[-1, 0, 0] == pytest.approx(0.5**2 / 4.0, abs=0.05)
 
 
-def test_one_that_was_about_to_step_aside_may_go_on_with_that():
-    aside = ALONG.copy()
-    aside[:, 1] = 0.5
-    found = options(course(points=ALONG), 5, former=course(points=aside))
-    shifts = [option.shift for option in found if option.shift is not None and option.pace == 1.0]
-    kept = min(shifts, key=lambda shift: abs(shift[:10, 1] - 0.5).max())
-    assert kept[:10] == pytest.approx(np.tile([0.0, 0.5], (10, 1))) and kept[-1] == pytest.approx([0.0, 0.0])
-    assert all(
-        abs(option.shift[:3]).max() < 0.1 for option in options(course(), 5) if option.shift is not None
-    )
-
-
 def test_the_first_meeting_is_that_of_every_pair():
     random = np.random.default_rng(3)
     for _ in range(200):
@@ -118,25 +105,3 @@ def test_who_comes_near():
     velocities = np.array([[1.5, 0.0], [-1.5, 0.0], [0.0, 1.0], [1.5, 0.0]])
     near = meetings(spots, velocities, np.array([0.0, 0.0, 0.0, 5.0]), np.array([0]), 2.0, 1.5)
     assert near.tolist() == [[False, True, False, False]]
-
-
-def test_ways_aside_leave_and_come_back_as_curved_as_may_be():
-    found = options(course(), 15)
-    assert [each.cost for each in found] == sorted(each.cost for each in found)
-    assert {each.pace for each in found if each.shift is None} == {1.0, 0.6, 0.3, 0.0}
-    aside = [each for each in found if each.shift is not None]
-    assert {np.sign(each.shift[:, 1].sum()) for each in aside} == {-1.0, 1.0}
-    for each in aside:
-        y = each.shift[:, 1]
-        assert np.abs(y[:6]).max() == 0.0 and abs(y[-1]) < 1e-9
-        assert np.abs(np.diff(y, 2)).max() / 0.01 <= 1.05
-    right = next(each for each in aside if each.pace == 1.0)
-    assert right.shift[:, 1].min() < 0.0  # along x, the right is -y
-    assert all(each.shift is None for each in options(course(aside=False), 15))
-    assert all(each.shift is None for each in options(course(points=ALONG[:20]), 15))
-
-
-def test_who_does_not_halt_easily_halts_only_when_told_that_it_must():
-    runner, walker = course(slowest=1.0), course()
-    for of, halts, wanted in ((runner, False, False), (runner, True, True), (walker, False, True)):
-        assert any(each.pace == 0.0 for each in options(of, 20, halts)) is wanted

@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from locomotion.crowd import Crowd
+from locomotion.crowd import layout as at
 from tests.locomotion.crowd.levels import corner, graph_of, hall, run
 
 
@@ -64,6 +65,25 @@ def test_nobody_leaves_the_surface_or_its_connected_part(seed):
     for _ in range(90):
         crowd.tick()
         assert (corner().clearance_at(crowd.positions) >= 0.99 * 0.3).all()
+
+
+def test_bodies_that_have_their_ticks_in_turns_go_as_far_and_pass_each_other():
+    crowd = Crowd(corner(), dt=0.03)
+    walkers = [crowd.add((1.0 + 0.7 * k, 1.0 + 4.0 * (k % 2), 0.0)) for k in range(6)]
+    for walker in walkers:
+        x, y, _ = walker.position
+        walker.go_to([(x, 6.0 - y, 0.0)], speed=1.4)
+    nearest = np.inf
+    for tick in range(900):
+        turns = np.arange(6) % 3 == tick % 3
+        before = crowd.rows.copy()
+        crowd.tick(turns)
+        kept = crowd.rows == before
+        assert kept[~turns][:, [at.X, at.Y, at.VX, at.VY, at.YAW, at.AGE]].all()
+        assert (crowd.rows[turns, at.AGE] == before[turns, at.AGE] + 1.0).all()
+        away = np.linalg.norm(crowd.positions[:, None] - crowd.positions, axis=2)
+        nearest = min(nearest, away[~np.eye(6, dtype=bool)].min())
+    assert [walker.status for walker in walkers] == ["arrived"] * 6 and nearest > 0.55
 
 
 def test_the_same_calls_give_the_same_bits_and_a_saved_moment_goes_on_the_same_way():

@@ -63,35 +63,39 @@ def put(row, crossing, before):
     row[at.X] = crossing[at.IN_X] - crossing[at.INTO_X] * before
 
 
+def go_on(rows, crossings):
+    direct(rows, crossings, 1, np.ones(len(rows), np.bool_), DT)
+
+
 def passing(rows):
     return [int(i) for i in np.flatnonzero(rows[:, at.PASSAGE] == at.PASSING)]
 
 
 def test_only_those_near_a_gate_wait_for_their_turn():
     rows, crossings = at_gate((2.6, 1.0), (2.4, 1.0))
-    direct(rows, crossings, 1, DT)
+    go_on(rows, crossings)
     assert rows[0, at.PASSAGE] == at.FAR and rows[1, at.PASSAGE] == at.PASSING
 
 
 def test_one_direction_at_a_time_the_nearest_first():
     rows, crossings = at_gate((2.0, 1.0), (1.0, 1.0), (1.5, -1.0))
     rows[:2, at.GATE_WAIT] = 1.0
-    direct(rows, crossings, 1, DT)
+    go_on(rows, crossings)
     assert passing(rows) == [1]
-    direct(rows, crossings, 1, DT)
+    go_on(rows, crossings)
     assert passing(rows) == [0, 1]
     for _ in range(5):
-        direct(rows, crossings, 1, DT)
+        go_on(rows, crossings)
     assert passing(rows) == [0, 1] and rows[2, at.PASSAGE] == at.WAITING
 
 
 def test_at_most_four_are_on_their_way_in():
     rows, crossings = at_gate(*((0.5 + 0.3 * k, 1.0) for k in range(6)))
     for _ in range(10):
-        direct(rows, crossings, 1, DT)
+        go_on(rows, crossings)
     assert passing(rows) == [0, 1, 2, 3]
     put(rows[0], crossings[0], -1.0)  # it is inside
-    direct(rows, crossings, 1, DT)
+    go_on(rows, crossings)
     assert passing(rows) == [0, 1, 2, 3, 4]
 
 
@@ -99,29 +103,29 @@ def test_the_other_side_goes_once_it_has_waited_and_the_gate_is_empty():
     rows, crossings = at_gate((0.5, 1.0), (1.0, -1.0), (2.0, 1.0))
     rows[0, at.PASSAGE] = at.PASSING
     rows[1, [at.PASSAGE, at.GATE_WAIT]] = at.WAITING, 8.0
-    direct(rows, crossings, 1, DT)
+    go_on(rows, crossings)
     assert passing(rows) == [0], "no more are let in on the side that goes"
     put(rows[0], crossings[0], -PASSAGE - 0.6)  # it is out
-    direct(rows, crossings, 1, DT)
+    go_on(rows, crossings)
     assert passing(rows) == [1]
 
 
 def test_of_two_that_meet_inside_the_outnumbered_one_goes_back():
     rows, crossings = at_gate((-1.0, 1.0), (-0.5, 1.0), (-1.0, -1.0))
-    direct(rows, crossings, 1, DT)
-    direct(rows, crossings, 1, DT)
+    go_on(rows, crossings)
+    go_on(rows, crossings)
     assert passing(rows) == [0, 1] and rows[2, at.PASSAGE] == at.RETREATING
     put(rows[2], crossings[2], 1.3)
-    direct(rows, crossings, 1, DT)
+    go_on(rows, crossings)
     assert rows[2, at.PASSAGE] == at.WAITING
 
 
 def test_who_comes_out_has_the_right_of_way_for_six_metres():
     rows, crossings = at_gate((-PASSAGE - 0.6, 1.0))
-    direct(rows, crossings, 1, DT)
+    go_on(rows, crossings)
     assert rows[0, at.GATE_NEXT] == 1.0 and rows[0, at.WEIGHT] == 6.0
     rows[0, at.LEFT_NOW] = crossings[0, at.LEFT_OUT] - 6.1
-    direct(rows, crossings, 1, DT)
+    go_on(rows, crossings)
     assert rows[0, at.WEIGHT] == 1.0
 
 

@@ -22,10 +22,13 @@ def step_by_step(people, level):
         [motions.gait(people.gaits[int(gait)].name if gait >= 0.0 else "walk") for gait in rows[:, at.GAIT]]
     )
     speeds = np.where(moves, np.abs(rows[:, at.SPEED]) * rows[:, at.TRAITS][:, PACE], 0.0)
-    sample = styled(own, sample_gait(motions, level, gaits, speeds, rows[:, at.PHASE]), rows[:, at.TRAITS])
-    since = np.where(moves[:, None], (rows[:, at.PHASE, None] - [0.0, 0.5]) % 1.0, 0.0)
+    late = rows[:, at.LATE] * [people.cadence(k) for k in range(len(rows))]
+    phases = rows[:, at.PHASE] + late
+    sample = styled(own, sample_gait(motions, level, gaits, speeds, phases % 1.0), rows[:, at.TRAITS])
+    since = (rows[:, at.PHASE, None] - [0.0, 0.5]) % 1.0 + late[:, None]
+    since = np.where(moves[:, None], np.minimum(since, 1.0), 0.0)  # a foot does not strike before its tick
     steps = rows[:, at.STEPS].reshape(-1, 2, 3, 6)[:, :, :2]
-    moments = gaits, speeds, rows[:, at.PHASE]
+    moments = gaits, speeds, phases
     return planted(motions, level, moments, sample, rows[:, at.PLACE], steps, since)
 
 
@@ -50,9 +53,10 @@ def test_a_figure_is_posed_alike_alone_and_among_others():
     played(people, persons[0], 0.5)  # while they change from one motion to another
     figures = figure_tables(people.motions, people.graph, people.gaits)
     together, alone = np.empty((4, 46)), np.empty((1, 46))
-    pose_figures(figures, np.arange(4), people.rows, people.crowd.rows, (0.004, people.dt), together)
+    apart = np.empty(4, np.bool_)
+    pose_figures(figures, np.arange(4), people.rows, people.crowd.rows, (0.004, people.dt), together, apart)
     for k in range(4):
-        pose_figures(figures, np.array([k]), people.rows, people.crowd.rows, (0.004, people.dt), alone)
+        pose_figures(figures, np.array([k]), people.rows, people.crowd.rows, (0.004, people.dt), alone, apart)
         assert alone[0].tobytes() == together[k].tobytes()
 
 

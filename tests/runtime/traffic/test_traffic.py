@@ -7,6 +7,7 @@ from benchmarks.giving_way import floor
 from locomotion.gaits.run.layout import STEPS
 from navmesh.routes.route_validity import line_holds
 from runtime import World
+from runtime.traffic.traffic import Traffic
 
 
 @pytest.fixture(scope="module")
@@ -53,6 +54,18 @@ def test_two_who_meet_pass_each_other(bodies, level, request):
             nearest = min(nearest, gap(world))
         assert [agent.status for agent in world.agents.values()] == ["arrived"] * 2
         assert nearest > -0.01
+
+
+def test_everybody_chooses_five_times_a_second_in_turns(hall, monkeypatch):
+    world = World(hall)
+    for k in range(12):
+        world.spawn("dog" if k % 2 else "human", (2.0 + k, 4.0, 0.0))
+    chosen = []
+    monkeypatch.setattr(Traffic, "_let_choose", lambda _, __, turns, ___=None: chosen.append(turns.tolist()))
+    for _ in range(40):
+        world.step(0.01)
+    assert max(map(len, chosen)) == 2 and len(chosen) == 20
+    assert sorted(index for turns in chosen for index in turns) == sorted(2 * list(range(12)))
 
 
 def test_ways_aside_stay_on_the_surface(door):

@@ -10,8 +10,7 @@ from navmesh.graph.portals import open_portals
 from navmesh.recent import recent
 from navmesh.zones.lists import grouped
 from navmesh.zones.memo import nothing_kept
-from navmesh.zones.settling import join_regions, settle_doors
-from navmesh.zones.switching import TURNS
+from navmesh.zones.settling import count_reached, join_regions, settle_doors
 from navmesh.zones.zones import Zones, zones_of
 
 if TYPE_CHECKING:
@@ -41,10 +40,13 @@ class ZonedBody:
         self._edges = base.edge_cells, base.edge_gate
         pieces = len(graph) - len(base)
         self._start = np.concatenate([start, np.full(pieces, start[-1], np.int32)])
+        self._base_rows = tuple(rows)
+        self._reached = np.zeros(len(target), np.int32)
+        self._counted = np.zeros(len(zones.outlines), np.int32)
         self._rows = target.copy(), *rows
         self._with_slots()
         self._parts(net, start)
-        self._settled, self._turn = -1, 0
+        self._settled = -1
         keys = nothing_kept(_KEPT * len(zones.outlines))
         self._kept = keys, np.empty((len(keys), 12)), np.empty((len(keys), 3), np.int32)
 
@@ -95,13 +97,19 @@ class ZonedBody:
             return
         if self._bare is None:
             self._bare = self.doors(_no_leaps(), np.empty(0), False)
-        base = self._base_target, self._base_edge, *self._edges
-        since = self._turn, *zones.divided.user_near
-        for zone in zones.turned_since(self._settled):
-            outline = zones.local[zone]
-            settle_doors(self._net, zones.switches, self._bare, base, zone, outline, since, self._kept)
+        base = self._base_target, self._base_edge, *self._base_rows, *self._edges
+        turned = zones.turned_since(self._settled)
+        for zone in turned:
+            by = int(zones.blocked[zone] - self._counted[zone])
+            if by:
+                portal, outline = self._base_rows[0], zones.local[zone]
+                count_reached(zones.switches, self._bare, portal, zone, outline, by, self._reached)
+                self._counted[zone] += by
+        near = zones.divided.user_near
+        for zone in turned:
+            settle_doors(self._net, zones.switches, self._bare, base, zone, near, self._reached, self._kept)
         join_regions(zones.switches, self._bare, zones.divided.fringe, *self.ways)
-        self._settled, self._turn = zones.changes, int(zones.switches.numbers[TURNS])
+        self._settled = zones.changes
 
     def doors(self, leaps: dict[str, np.ndarray], costs: np.ndarray, weighted: bool) -> Any:
         """`DOORS` with these ``leaps``, which start at the nodes of the undivided graph."""

@@ -199,6 +199,17 @@ def _near(graph: "NodeGraph", outlines: list[np.ndarray], users: Arrays) -> tupl
         away = segments_to_outline(flat, np.column_stack([place[close], place[close]]))
         close = close[away < np.maximum(_SIDEWAYS * radii[close], 2.0 * radii[close] + wide)]
         own = users["whole"][users["user"][users["user_start"][zone] : users["user_start"][zone + 1]]]
+        for user in own:  # whose cells get other discs: lines over them are measured in other pieces
+            those = np.concatenate(
+                [
+                    those[tree.query_ball_point(place[user], radii[user] + _SIDEWAYS * most + wide)]
+                    for tree, those, most in trees
+                ]
+            ).astype(np.int64)
+            off = np.hypot(*(place[those] - place[user]).T) - radii[user]
+            close = np.union1d(
+                close, those[off < np.maximum(_SIDEWAYS * radii[those], 2.0 * radii[those] + wide)]
+            )
         close = np.union1d(close, own)
         beside = _listed(graph.edge_start, graph.edge_target, close)
         nodes.append(np.union1d(close, beside).astype(np.int32))

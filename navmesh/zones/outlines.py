@@ -40,12 +40,45 @@ def checked_outlines(outlines: Any) -> dict[str, np.ndarray]:
             array = np.array(corners, dtype=np.float64)
         except (TypeError, ValueError):
             array = np.empty(0)
-        if array.ndim != 2 or array.shape[1:] != (3,) or len(array) < 2 or not np.isfinite(array).all():
+        if array.ndim != 2 or array.shape[1:] != (3,) or len(array) < 2:
             raise NavmeshError(
                 f"zone {name!r}: expected two corners or more (k, 3) [m] on the floor, not {corners!r}"
             )
+        _check_corners(name, array)
         checked[name] = array
     return checked
+
+
+def _check_corners(name: str, corners: np.ndarray) -> None:
+    finite = np.isfinite(corners).all(axis=1)
+    if not finite.all():
+        at = int(np.argmin(finite))
+        raise NavmeshError(
+            f"zone {name!r}, corner {at}: expected finite coordinates [m], not {corners[at].tolist()}"
+        )
+    flat = corners[:, :2]
+    if (flat == flat[0]).all():
+        raise NavmeshError(
+            f"zone {name!r}: expected corners at different places, all are at {flat[0].tolist()}"
+        )
+    count = len(flat)
+    for i in range(count):
+        for j in range(i + 2, count if i else count - 1):
+            side = np.stack([flat[j], flat[(j + 1) % count]])
+            if _cross(flat[i], flat[i + 1], *side):
+                raise NavmeshError(
+                    f"zone {name!r}: the sides from corners {i} and {j} cross; expected the corners in order "
+                    "round the zone"
+                )
+
+
+def _cross(a: np.ndarray, b: np.ndarray, p: np.ndarray, q: np.ndarray) -> bool:
+    """Whether the lines from a to b and from p to q cross, but for their ends."""
+
+    def turn(u: np.ndarray, v: np.ndarray, w: np.ndarray) -> float:
+        return float((v[0] - u[0]) * (w[1] - u[1]) - (v[1] - u[1]) * (w[0] - u[0]))
+
+    return turn(a, b, p) * turn(a, b, q) < 0.0 and turn(p, q, a) * turn(p, q, b) < 0.0
 
 
 def concerned_by(
@@ -104,13 +137,15 @@ def _concerned(
     for i in range(outline.shape[0]):
         left, right = min(left, outline[i, 0]), max(right, outline[i, 0])
         near, far = min(near, outline[i, 1]), max(far, outline[i, 1])
-    # from the cells inside and those with a cut link outwards
+    # from the cells inside, those with a cut link and those under the outline outwards
     for ix in range(max(int(np.floor(left / h)) - 1, 0), min(int(np.floor(right / h)) + 2, nx)):
         for iy in range(max(int(np.floor(near / h)) - 1, 0), min(int(np.floor(far / h)) + 2, ny)):
             x, y = (ix + 0.5) * h, (iy + 0.5) * h
             inside = is_inside(outline, x, y)
+            dx, dy = _to_outline(outline, x, y)
+            under = inside or dx * dx + dy * dy <= 0.5 * h * h
             for k in range(column_start[ix * ny + iy], column_start[ix * ny + iy + 1]):
-                first = inside and low <= height[k] <= high
+                first = under and low <= height[k] <= high
                 for d in range(4):
                     other = link[k, d]
                     if other < 0:

@@ -7,50 +7,62 @@ from navmesh.zones.distances import segment_to_outline
 from navmesh.zones.memo import place_of, sign_of
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["join_regions", "settle_doors"]
+__all__ = ["count_reached", "join_regions", "settle_doors"]
 
 _SLACK = 0.01  # [m]: ends of portals are where a body still fits, to some millimetres
 
 
 @kernel(error_model="numpy", inline="always")
-def _reaches(doors, door, outline, box):
-    """Whether a portal's ends, or what bounds it there, may be what a zone makes them. ``box``: the least x
-    and y and the greatest of what is near its outline."""
-    ax, ay, bx, by = (
-        doors.portal[door, 0],
-        doors.portal[door, 1],
-        doors.portal[door, 3],
-        doors.portal[door, 4],
-    )
+def _reaches(portal, door, outline, box, room):
+    """Whether the ends of a portal, or what bounds it there, may be what a zone makes them. ``box``: the
+    least x and y and the greatest of what is within ``room`` [m] of its outline."""
+    ax, ay, bx, by = portal[door, 0], portal[door, 1], portal[door, 3], portal[door, 4]
     if max(ax, bx) < box[0] or max(ay, by) < box[1] or min(ax, bx) > box[2] or min(ay, by) > box[3]:
         return False
-    return segment_to_outline(outline, ax, ay, bx, by) <= BESIDE * doors.radius + _SLACK
+    return segment_to_outline(outline, ax, ay, bx, by) <= room
 
 
 @allocating_kernel(error_model="numpy")
-def settle_doors(net, switches, doors, base, zone, outline, since, kept):
-    """Bring doors near a ``zone`` with this ``outline`` (k, 2) [m] to what they are now, for one body.
-
-    ``base`` are the targets and edges (p,) of the doors of the undivided graph, and the border cells and
-    gates of its edges. ``since``: the turn at which doors were last brought to what they were then; then
-    the starts and the values of the discs, by zone, whose doors or those of whose pieces may change.
-    ``kept``: the keys and rows of doors that came up before.
-    """
-    base_target, base_edge, border, gate = base
-    turn, user_start, users = since
+def count_reached(switches, doors, base, zone, outline, by, reached):
+    """Add ``by`` to ``reached`` (p,) for the doors of the undivided graph that a ``zone`` reaches."""
     room = BESIDE * doors.radius + _SLACK
     low_x, low_y = outline[:, 0].min() - room, outline[:, 1].min() - room
     box = low_x, low_y, outline[:, 0].max() + room, outline[:, 1].max() + room
-    target = doors.target
+    for at in range(switches.around_start[zone], switches.around_start[zone + 1]):
+        i = np.int64(switches.around[at])
+        for door in range(doors.start[i], doors.start[i + 1]):
+            if _reaches(base, door, outline, box, room):
+                reached[door] += by
+
+
+@allocating_kernel(error_model="numpy")
+def settle_doors(net, switches, doors, base, zone, near, reached, kept):
+    """Bring doors near a ``zone`` to what they are now, for one body.
+
+    ``base`` are the targets and edges (p,) of the doors of the undivided graph, its portals, their cells,
+    lenses and blocks, and the border cells and gates of its edges. ``near``: the starts and the values of the
+    discs, by zone, whose doors or those of whose pieces may change. ``reached`` (p,): how many blocked zones
+    reach each door. ``kept``: the keys and rows of doors that came up before.
+    """
+    base_target, base_edge, portal, cells, lens, block, border, gate = base
+    user_start, users = near
     for at in range(switches.around_start[zone], switches.around_start[zone + 1]):
         i = np.int64(switches.around[at])
         for door in range(doors.start[i], doors.start[i + 1]):
             j = np.int64(base_target[door])
             if net.node_radius[i] <= 0.0 or net.node_radius[j] <= 0.0:
-                target[door] = -1
-            elif target[door] < 0 or _reaches(doors, door, outline, box):
+                doors.target[door] = -1
+            elif reached[door] > 0:
                 e = base_edge[door]
                 _renew(net, switches, doors, kept, i, j, door, 1e300, border[e], gate[e])
+            else:
+                doors.target[door] = j
+                for c in range(6):
+                    doors.portal[door, c] = portal[door, c]
+                for c in range(2):
+                    doors.lens[door, c], doors.portal_cell[door, c] = lens[door, c], cells[door, c]
+                for c in range(4):
+                    doors.block[door, c] = block[door, c]
     first_door = base_target.size
     for at in range(user_start[zone], user_start[zone + 1]):
         user = users[at]
@@ -59,14 +71,13 @@ def settle_doors(net, switches, doors, base, zone, outline, since, kept):
             i = np.int64(switches.whole[user]) if k < 0 else np.int64(switches.piece[first + k])
             slot = np.int64(switches.head[i])
             while slot >= 0:
-                if switches.made[slot] > turn or _reaches(doors, first_door + slot, outline, box):
-                    j = np.int64(switches.target[slot])
-                    for way in range(2):
-                        at_slot, a, b = (slot, i, j) if way == 0 else (slot ^ 1, j, i)
-                        _renew(
-                            net, switches, doors, kept, a, b, first_door + at_slot, switches.width[at_slot],
-                            switches.border[at_slot], switches.gate[at_slot],
-                        )  # fmt: skip
+                j = np.int64(switches.target[slot])
+                for way in range(2):
+                    at_slot, a, b = (slot, i, j) if way == 0 else (slot ^ 1, j, i)
+                    _renew(
+                        net, switches, doors, kept, a, b, first_door + at_slot, switches.width[at_slot],
+                        switches.border[at_slot], switches.gate[at_slot],
+                    )  # fmt: skip
                 slot = np.int64(switches.following[slot])
 
 

@@ -75,7 +75,9 @@ def test_a_zone_is_of_one_storey():
         ({"": TURNED}, "a name"),
         ({"door": TURNED[:1]}, "two corners or more"),
         ({"door": TURNED[:, :2]}, "two corners or more"),
-        ({"door": [(0, 0, np.nan), (1, 0, 0)]}, "two corners or more"),
+        ({"door": [(1, 0, 0), (0, 0, np.nan)]}, "'door', corner 1: expected finite"),
+        ({"door": [(1, 2, 0), (1, 2, 0)]}, "'door': expected corners at different places"),
+        ({"door": TURNED[[0, 2, 1, 3]]}, "'door': the sides from corners 0 and 2 cross"),
         ({"door": "here"}, "two corners or more"),
     ],
 )

@@ -11,6 +11,7 @@ from navmesh.surface.ridges import field_of
 from navmesh.zones.switching import SWITCHES
 from navmesh.zones.zones import zones_of
 from tests.navmesh.shapes import box, plane, terrain
+from tests.navmesh.surface.levels import random_level
 from tests.navmesh.zones.alike import assert_alike, edges_of_pieces
 
 SQUARES = {
@@ -48,6 +49,27 @@ def test_the_order_of_changes_leaves_no_trace(level):
             graph.cache.clear()
             assert_alike(graph, fresh)
     graph.open(*names)
+    assert_alike(graph, base.with_zones(outlines))
+
+
+@pytest.mark.parametrize("seed", [165, 437, 535])
+def test_many_zones_in_each_others_way_leave_no_trace(seed):
+    rng = np.random.default_rng(seed)
+    base = NodeGraph.build(terrain(*random_level(seed)), obstacle_rules=None)
+    outlines = {}
+    for number, place in enumerate(base.random_points(rng, 12, 0.3)):
+        angles, wide = np.sort(rng.uniform(0.0, 2.0 * np.pi, 4)), rng.uniform(0.3, 1.5)
+        corners = wide * np.column_stack([np.cos(angles), np.sin(angles), np.zeros(4)])
+        outlines[str(number)] = place + corners - corners.mean(axis=0)
+    graph = base.with_zones(outlines)
+    for _ in range(40):
+        (graph.block if rng.random() < 0.5 else graph.open)(*rng.choice(list(outlines), 2))
+        for radius in (0.2, 0.45):
+            graph.find_path(*base.positions[:2], radius=radius)
+    fresh = base.with_zones(outlines)
+    fresh.block(*(name for name, blocked in graph.zones.items() if blocked))
+    assert_alike(graph, fresh)
+    graph.open(*outlines)
     assert_alike(graph, base.with_zones(outlines))
 
 

@@ -240,3 +240,17 @@ def test_names_that_there_are_not_are_refused(rooms):
 def test_a_zone_without_floor_is_refused():
     with pytest.raises(NavmeshError, match=r"'attic'.*on the floor"):
         NodeGraph.build(terrain(*ROOMS)).with_zones({"attic": [(1, 1, 5), (2, 1, 5), (2, 2, 5)]})
+
+
+def test_a_zone_between_the_centres_of_cells_is_in_the_way():
+    """A bollard of 6 cm, and a bar of 15 cm, in a floor that is sampled every 25 cm."""
+    graph = NodeGraph.build(terrain(plane(0, 10, 0, 4)))
+    for shift in np.linspace(0.0, 0.24, 7):
+        x, y = 5.0 + shift, 2.0 + 0.7 * shift
+        corners = [(x + dx, y + dy, 0.0) for dx, dy in ((0, 0), (0.06, 0), (0.06, 0.06), (0, 0.06))]
+        zoned = graph.with_zones({"bollard": corners, "bar": [(x, y + 1, 0.0), (x, y + 1.15, 0.0)]})
+        zoned.block("bollard", "bar")
+        assert zoned.clearance_at((x, y - 0.3, 0.0)) == pytest.approx(0.3)
+        assert zoned.clearance_at((x - 0.2, y + 1.1, 0.0)) == pytest.approx(0.2)
+        route = zoned.find_path((2.0, y, 0.0), (8.0, y, 0.0), radius=0.3)
+        assert route.status == "complete" and route.length > 6.01

@@ -140,6 +140,7 @@ def set_in_motion(human: Human, moment: Moment, root: NDArray[np.float64], groun
     data.qacc_warmstart[:3] = carry.vectors(moment.warmstart[:3])
     human.control[:] = _carried_control(moment.control, carry)
     feet.walk[:] = _carried_walk(moment.walking, carry)
+    feet.stop_learned()
     feet.slowing, feet.brakes, feet.hurries, feet.speed = 0.0, False, False, moment.asked
     human.command[:] = yaw, moment.asked, 0.0, 0.0
     human.status = "running" if moment.runs else "walking"

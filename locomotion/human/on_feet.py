@@ -219,7 +219,8 @@ class OnFeet:
         if learned is None or not self.walks or walk[PHASE] == SINGLE or walk[CLOCK] > 0.0:
             return
         usual = learned.active or walk[WALK_STEPS] >= _CHANGED or walk[PHASE] == STANDING
-        suits = usual and not self.brakes and learned.suits(follower, moving, body, command, walk)
+        usual = usual and not self.brakes and not self.residual.acts
+        suits = usual and learned.suits(follower, moving, body, command, walk)
         if suits and not learned.active:
             learned.take_over(body, walk)
         elif learned.active and not suits:
@@ -243,8 +244,7 @@ class OnFeet:
                 tables = self._braking_run if self.brakes else self._slow_run
             run_tick(*tables, state, command, data.qpos, data.qvel, data.ctrl)
             self.speed = float(state[controller.SPEED])
-        needed = self.brakes and not (self.walks and self.walk[PHASE] == STANDING)
-        self.residual.tick(needed, state, self.walk, data)
+        self.residual.tick(self.brakes, state, self.walk, data)
 
     def _walk_tables(self) -> NDArray[np.float64]:
         """The gains of its present walk."""
@@ -278,7 +278,7 @@ class OnFeet:
 
     def stop_learned(self) -> None:
         """Something else than the learned walk moves it now."""
-        self.residual.memory[:] = 0.0
+        self.residual.forget()
         if self.learned is not None:
             self.learned.leave()
 

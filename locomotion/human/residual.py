@@ -26,6 +26,15 @@ class Residual:
         self.memory = np.zeros(MEMORY_SIZE)
         self.observed = np.zeros(INPUTS)
 
+    @property
+    def acts(self) -> bool:
+        """Whether it moves the targets, if only while it fades."""
+        return bool(self.memory[SINCE] > 0.0)
+
+    def forget(self) -> None:
+        """Something else moves the person now."""
+        self.memory[:] = 0.0
+
     def observe(self, state: NDArray, walk: NDArray, data: mujoco.MjData) -> bool:
         """Read `observed`; gives whether it is the mirror image."""
         return observe(self.memory, state, walk, data.qpos, data.qvel, self.observed)
@@ -38,10 +47,10 @@ class Residual:
                 left = self.observe(state, walk, data)
                 decide(self.skill.network, self.observed, left, memory)
             memory[SINCE] += 1.0
-        elif memory[SINCE] > 0.0:
+        elif self.acts:
             decided = memory[DECIDED]
             decided *= _FADES
             if np.abs(decided).max() < _GONE:
-                memory[:] = 0.0
-        if memory[SINCE] > 0.0:
+                self.forget()
+        if self.acts:
             add_to(memory, data.ctrl)

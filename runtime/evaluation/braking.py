@@ -15,7 +15,7 @@ __all__ = ["brake_residual_trials"]
 PUSH = 200.0
 """[N] at the waist for 0.1 s."""
 _SPEEDS, _HARDER, _WHILE = (2.0, 3.7), 2.5, 40  # [m/s]; of the braking; ticks in which a push begins
-_PUSHED, _LONGEST, _STAYS = 10, 600, 100  # ticks of a push; to a stand; in which it must not fall then
+_PUSHED, _LONGEST, _STAYS = 10, 600, 100  # ticks of a push; of a trial; at rest, without a fall
 
 
 def brake_residual_trials(trials: int, seed: int) -> list[Trial]:
@@ -39,20 +39,26 @@ def brake_residual_trials(trials: int, seed: int) -> list[Trial]:
 def _brake(human: Human, test: str, start: HumanState, push: tuple[int, float] | None) -> Attempt:
     human.restore_state(start)
     human.data.xfrc_applied[:] = 0.0
-    waist, begun, velocity = human.model.body("waist").id, human.com, human.velocity
-    speed = float(np.linalg.norm(velocity))
+    begun, velocity, feet = human.com, human.velocity, human.on_feet
+    speed, waist = float(np.linalg.norm(velocity)), human.model.body("waist").id
     human.stop()
     human.brake(_HARDER)
-    way, stood = 0.0, 0
+    way, rested = 0.0, 0
     for tick in range(_LONGEST):
         pushing = push is not None and 0 <= tick - push[0] < _PUSHED
         force = (PUSH * math.cos(push[1]), PUSH * math.sin(push[1])) if push and pushing else (0.0, 0.0)
         human.data.xfrc_applied[waist, :2] = force
         human.tick()
         way = max(way, float(velocity @ (human.com - begun)) / speed)
-        stood += not human.on_feet.brakes
-        if human.status == "fallen" or stood > _STAYS:
+        if feet.at_rest(human.control):
+            rested += 1
+            feet.stir(human.control)  # simulated on, so that a fall would show
+        human.ended_at = human.ticks
+        if human.status == "fallen" or rested > _STAYS:
             break
-    held = stood > _STAYS and human.status != "fallen"
-    what = f"{speed:.2f} m/s, {way:.2f} m"
-    return Attempt(test, what, "stands" if held else human.status, held, {"way [m]": way} if held else {})
+    held = rested > 0 and human.status != "fallen"
+    what, ends = f"{speed:.2f} m/s, {way:.2f} m", "stands" if held else "fallen"
+    if not held and human.status != "fallen":
+        ends = "does not come to rest"
+    figures = {"way [m]": way} if held else {}
+    return Attempt(test, what, ends, held, figures, compared=feet.residual.skill is None)

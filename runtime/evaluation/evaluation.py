@@ -56,7 +56,8 @@ _FAST, _RUNS_ON = 3.1, 10.0  # [m/s] of a step to most obstacles; [m] that it mu
 @dataclass(frozen=True)
 class Attempt:
     """One trial: of which test, what was tried, how it ended, whether that is a success, figures to take the
-    mean of, and where it lies in the plane of what was tried, by the names of its axes."""
+    mean of, where it lies in the plane of what was tried, by the names of its axes, and whether it is only
+    there to compare with."""
 
     test: str
     what: str
@@ -64,6 +65,7 @@ class Attempt:
     held: bool
     figures: dict[str, float] = field(default_factory=dict)
     at: dict[str, float] = field(default_factory=dict)
+    compared: bool = False
 
 
 Trial = Callable[[], Attempt]

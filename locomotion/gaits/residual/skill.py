@@ -26,15 +26,18 @@ class ResidualSkill:
 
     Attributes:
       network: it decides from `locomotion.gaits.residual.layout.INPUTS` numbers.
+      corrects: digests of the skills that it was learned on, by name (`locomotion.skills.library`).
       meta: what made it.
     """
 
     network: Network
+    corrects: dict[str, str] = field(default_factory=dict)
     meta: dict[str, Any] = field(default_factory=dict)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the skill for the present person; the file appears whole or not at all."""
-        header = {"person": person_digest(), "joints": list(JOINTS), "meta": self.meta}
+        header = {"person": person_digest(), "joints": list(JOINTS)}
+        header |= {"corrects": self.corrects, "meta": self.meta}
         write_archive(
             path, RESIDUAL_FILE.kind, RESIDUAL_FILE.version, header, network_arrays("residual", self.network)
         )
@@ -42,6 +45,7 @@ class ResidualSkill:
 
 class _Header(SkillHeader):
     joints: tuple[str, ...]
+    corrects: dict[str, str]
 
 
 def _check(header: _Header, arrays: dict[str, np.ndarray]) -> str | None:
@@ -49,7 +53,7 @@ def _check(header: _Header, arrays: dict[str, np.ndarray]) -> str | None:
 
 
 RESIDUAL_FILE = Schema(
-    "residual policy", 1, _Header, network_schema("residual", INPUTS, ACTIONS), remedy=RELEARN, check=_check
+    "residual policy", 2, _Header, network_schema("residual", INPUTS, ACTIONS), remedy=RELEARN, check=_check
 )
 
 
@@ -57,4 +61,4 @@ def load_brake_residual(path: str | os.PathLike[str] = BRAKE_RESIDUAL) -> Residu
     """Read what corrects braking; `LocomotionError` if it is missing, cut off, of another version or another
     person."""
     header, arrays = read_skill(path, RESIDUAL_FILE)
-    return ResidualSkill(read_network("residual", arrays), header.meta)
+    return ResidualSkill(read_network("residual", arrays), header.corrects, header.meta)

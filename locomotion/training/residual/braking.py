@@ -117,7 +117,7 @@ class BrakingPeople:
         action[self.left] = action[self.left][:, MIRROR_JOINT] * SIGN_JOINT
         n = self.count
         way, tilt, hard = np.zeros(n), np.zeros(n), np.zeros(n)
-        fell, stood = np.zeros(n, bool), np.zeros(n, bool)
+        fell, stood, ended = np.zeros(n, bool), np.zeros(n, bool), np.zeros(n, bool)
         for i, (human, residual) in enumerate(zip(self.people, self.residuals, strict=True)):
             residual.memory[DECIDED] = action[i]
             pushing = 0 <= self.age[i] - self.pushed_at[i] < _PUSH_TIME / POLICY_DT
@@ -131,7 +131,8 @@ class BrakingPeople:
             tilt[i] = float(human.data.qpos[4:6] @ human.data.qpos[4:6])
             hard[i] = max(float(human.control[run.CONTACT].sum()) / (9.81 * MASS) - _HARD, 0.0)
             fell[i] = human.status == "fallen"
-            stood[i] = not fell[i] and not human.on_feet.brakes
+            stood[i] = not fell[i] and human.on_feet.at_rest(human.control)
+            ended[i] = not (fell[i] or stood[i] or human.on_feet.brakes)
         self.age += 1
         change = ((action - self.before) ** 2).mean(axis=1)
         self.before = action
@@ -146,8 +147,8 @@ class BrakingPeople:
             "stand": _STANDS * stood,
         }
         reward = np.sum(list(terms.values()), axis=0)
-        over = (self.age >= self.stage.longest) & ~fell & ~stood
-        done = fell | stood
+        done = fell | stood | ended
+        over = (self.age >= self.stage.longest) & ~done
         means = {name: float(values.mean()) for name, values in terms.items()}
         means["falls of ends"] = float(fell.sum()) / max(float((done | over).sum()), 1.0)
         nobody = np.zeros(n, bool)

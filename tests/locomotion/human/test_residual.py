@@ -18,7 +18,12 @@ def test_it_acts_only_while_the_person_brakes():
     assert memory[SINCE] == 10.0 and memory[DECIDED].any()
     for _ in range(500):
         human.tick()
-    assert human.status == "standing" and not human.on_feet.brakes and not memory.any()
+    assert human.status == "standing" and human.held and not human.on_feet.brakes
+    here = human.position
+    human.follow(here + np.array([[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]]), 1.0)
+    for _ in range(100):
+        human.tick()
+    assert human.status == "walking" and not memory.any()
 
 
 def test_a_person_restored_while_it_brakes_goes_on_bit_for_bit():

@@ -14,3 +14,8 @@ def test_corrected_more_come_to_a_stand_than_as_planned():
     ]  # fmt: skip
     assert held["corrected"] >= 4
     assert sum(list(held.values())[2:]) > sum(list(held.values())[:2])
+
+
+def test_only_the_correction_has_to_hold():
+    compared = {trial().test: trial().compared for trial in brake_residual_trials(1, 12)}
+    assert [*compared.values()] == [True, True, False, False]

@@ -29,6 +29,7 @@ from tests.scenarios.pinned_runs import box
 
 _MAIN = "import runtime.cli.app; runtime.cli.app.main()"
 LEVELS = Path(__file__).parents[3] / "examples" / "levels"
+_ASKED_FOR = "navmesh.obstacles.low_passages"  # compiled by the first graph with such a kind
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -61,7 +62,8 @@ def test_every_kernel_of_a_world_was_used():
     kept = {file.name.partition("-")[0] for file in cache_folder().glob("*.kernel")}
     unused = []
     for name, module in sorted(sys.modules.items()):
-        if name.partition(".")[0] in ("navmesh", "pathsmooth", "locomotion") and "training" not in name:
+        ours = name.partition(".")[0] in ("navmesh", "pathsmooth", "locomotion")
+        if ours and "training" not in name and name != _ASKED_FOR:
             for kernel in vars(module).values():
                 if isinstance(kernel, Dispatcher) and kernel.py_func.__module__ == name:
                     inlined = kernel.targetoptions.get("inline") == "always"

@@ -18,6 +18,7 @@ from locomotion.training.training import NotLearnedError, Training
 def short(monkeypatch):
     monkeypatch.setattr(train, "BRAKING_STAGES", train.BRAKING_STAGES[1:])
     monkeypatch.setattr(train, "_PEOPLE", 2)
+    monkeypatch.setattr(train, "_TRIALS", 2)
     monkeypatch.setattr(train, "_HOLD", 1.1)
 
 
@@ -47,3 +48,9 @@ def test_an_interrupted_learning_ends_with_the_same_bits(tmp_path):
     assert all(
         np.array_equal(a, b) for a, b in zip(whole.arrays().values(), last.arrays().values(), strict=True)
     )
+
+
+def test_a_correction_of_other_skills_is_outdated(monkeypatch):
+    assert not train.brake_residual_is_outdated()
+    monkeypatch.setattr(train, "skill_digest", lambda name: "another")
+    assert train.brake_residual_is_outdated()

@@ -30,6 +30,7 @@ from locomotion.paths.departures import can_begin, leads
 from locomotion.paths.run_up_room import cramped_links
 from locomotion.postures.step_order import AT_REST
 from locomotion.preconditions.precondition import load_preconditions
+from locomotion.recorded.individual import by_hand
 from locomotion.recorded_people.fading import fade_from, faded, rates
 from locomotion.recorded_people.nodes import can_hold, checked_node
 from locomotion.recorded_people.people import person_postures
@@ -320,6 +321,12 @@ class HumanDriver(Driver):
             if bravery is not None:
                 load_preconditions()  # here, lest a tick has to, or finds them out of date
             self.human.bravery = bravery
+        except LocomotionError as error:
+            raise RuntimeInputError(str(error)) from None
+
+    def set_style(self, traits: Mapping[str, float]) -> None:
+        try:
+            by_hand(None, **traits)  # to be worn when it plays recorded motion
         except LocomotionError as error:
             raise RuntimeInputError(str(error)) from None
 

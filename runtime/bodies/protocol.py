@@ -156,7 +156,7 @@ class Driver(ABC):
 
     def set_style(self, traits: Mapping[str, float]) -> None:
         """As `runtime.Agent.set_style`."""
-        raise RuntimeInputError("it has no style; only people who play recorded motion have")
+        raise RuntimeInputError("it has no style; only people have")
 
     @abstractmethod
     def plan(self, goals: np.ndarray) -> Plan:

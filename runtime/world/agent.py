@@ -3,7 +3,7 @@
 import hashlib
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import chain
 from typing import Any, TypeVar
 
@@ -14,6 +14,7 @@ from locomotion import MOVING, Ground, Human, LocomotionError
 from locomotion import body_events as bodily
 from locomotion.avoidance.yielding import Course
 from locomotion.quadruped import Animal
+from locomotion.recorded.individual import by_hand
 from locomotion.skills.registry import CLEARING, skill_kind
 from runtime.bodies.figure import Figure
 from runtime.bodies.pose import Pose
@@ -70,7 +71,8 @@ class Errand:
 
 @dataclass(frozen=True)
 class AgentState:
-    """What `World.save` keeps of an agent. ``arrival``: how many bodies in the world came before its own."""
+    """What `World.save` keeps of an agent. ``arrival``: how many bodies in the world came before its own;
+    ``style``: the traits that it was told."""
 
     body: str
     born: float
@@ -82,6 +84,7 @@ class AgentState:
     detail: str = "physics"
     bravery: float | None = None
     arrival: int = 0
+    style: Mapping[str, float] = field(default_factory=dict)
 
     def check(self, name: str) -> None:
         """Raises `RuntimeInputError` for what no agent can have saved, as far as that shows without its
@@ -95,6 +98,10 @@ class AgentState:
             raise RuntimeInputError(f"{name} remembers of its way what is no number")
         if not name or errand.attempts < 0 or (errand.goals and errand.speed <= 0.0):
             raise RuntimeInputError(f"{name!r} has been told what nobody can do")
+        try:
+            by_hand(None, **self.style)
+        except LocomotionError as error:
+            raise RuntimeInputError(f"the style of {name!r}: {error}") from None
 
 
 class Agent:
@@ -113,6 +120,7 @@ class Agent:
         self.name = name
         self.body = body
         self._bravery: float | None = None
+        self._style: dict[str, float] = {}
         self._host = host
         self.take(driver)
         self.changed = host.clock.time
@@ -296,14 +304,15 @@ class Agent:
         self._take(posture, *self._driver.held_in(posture))
 
     def set_style(self, **traits: float) -> None:
-        """Let a person who plays recorded motion differ from others in these traits from now on: its
-        ``phase``, ``pace``, ``width`` of step, swing of the ``arms``, ``lean``, ``head`` and ``size``, as of
+        """Let a person differ from others in these traits whenever it plays recorded motion: its ``phase``,
+        ``pace``, ``width`` of step, swing of the ``arms``, ``lean``, ``head`` and ``size``, as of
         `locomotion.recorded.individual.TRAITS`; the others stay as they are, at first by chance, and the size
-        1: that of a simulated person, 1.76 m. Recordings and clients take the size that one has when they
-        begin or it appears. Raises `RuntimeInputError` for an unknown trait, a value out of its range, and
-        any other body.
+        1: that of a simulated person, 1.76 m. It keeps them while it is simulated. Recordings and clients
+        take the size that one has when they begin or it appears. Raises `RuntimeInputError` for an unknown
+        trait, a value out of its range, and any other body.
         """
         self._driver.set_style(traits)
+        self._style |= traits
 
     def hold(self, held: str, state: str = "deployed") -> None:
         """Have an object in its hands, such as "rifle", in a state: "deployed", "in use", or "stowed" again.
@@ -541,6 +550,8 @@ class Agent:
         self.arrival = next(self._host.arrivals)
         self.news = driver.events
         self._heed(self._bravery)
+        if self._style:
+            driver.set_style(self._style)
 
     def leave(self) -> None:
         """Have no body any more; `World.remove` calls this."""
@@ -555,7 +566,7 @@ class Agent:
         """Everything needed to continue from here; ``arrival`` as of `AgentState`."""
         return AgentState(
             self.body, self._born, self._driver.save(), self._blocked, self._goal, self._errand,
-            self._headway, self._detail, self._bravery, arrival,
+            self._headway, self._detail, self._bravery, arrival, dict(self._style),
         )  # fmt: skip
 
     def fits(self, state: AgentState) -> bool:
@@ -570,13 +581,16 @@ class Agent:
         self._detail = checked_detail(state.detail, self._host.levels(self.body), self.body)
         self.waits_for_level, self.changed = True, -math.inf
         self._heed(state.bravery)
+        self._style = dict(state.style)
 
     def state_hash(self) -> str:
         """Hexadecimal digest of everything that decides how it goes on."""
         own = self._driver.state_hash()
-        return (
-            own if self._bravery is None else hashlib.sha256(f"{own} {self._bravery!r}".encode()).hexdigest()
-        )
+        if self._bravery is not None:
+            own = hashlib.sha256(f"{own} {self._bravery!r}".encode()).hexdigest()
+        if self._style:
+            own = hashlib.sha256(f"{own} {sorted(self._style.items())!r}".encode()).hexdigest()
+        return own
 
     def _translated(self, event: bodily.Event) -> Event | None:
         """A body's event as one of the world's, None for what the world reports on its own."""

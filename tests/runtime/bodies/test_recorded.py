@@ -137,8 +137,33 @@ def test_each_differs_from_the_next_by_chance_and_by_hand(graph):
     ):
         with pytest.raises(RuntimeInputError, match=says):
             people[0].set_style(**wrong)
-    with pytest.raises(RuntimeInputError, match="only people who play"):
+    with pytest.raises(RuntimeInputError, match="only people have"):
         world.spawn("walker", (9.0, 2.0, 0.0)).set_style(arms=1.0)
+
+
+def test_a_style_outlasts_physics_and_is_taken_at_any_level(graph, tmp_path):
+    world = World(graph, seed=1)
+    ada = world.spawn("human", (3.0, 3.0, 0.0), detail="full")
+    bob = world.spawn("human", (6.0, 3.0, 0.0))
+    ada.set_style(arms=1.6, lean=0.2)
+    bob.set_style(arms=1.4)
+    with pytest.raises(RuntimeInputError, match="lean is 2"):
+        bob.set_style(lean=2.0)
+    ada.detail = "physics"
+    world.step(1.0)
+    assert ada.level == bob.level == "physics"
+    world.save().write(tmp_path / "state.npz")
+    plain = world.state_hash()
+    other = World(graph, seed=1)
+    other.restore(WorldState.read(tmp_path / "state.npz"))
+    assert other.state_hash() == plain
+    for each in (world, other):
+        for name in (ada.name, bob.name):
+            each.agents[name].detail = "full"
+        each.step(1.0)
+        traits = [each.agents[name].driver.person.row[at.TRAITS] for name in (ada.name, bob.name)]
+        assert traits[0][[3, 4]].tolist() == [1.6, 0.2] and traits[1][3] == 1.4
+    assert other.state_hash() == world.state_hash() != plain
 
 
 @pytest.mark.parametrize("level", ["full", "low"])

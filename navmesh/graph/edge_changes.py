@@ -87,7 +87,4 @@ def _merge(
             count += 1
             fresh += 1
         to_start[i + 1] = count
-    return (
-        to_start, to_target[:count].copy(), to_width[:count].copy(), to_gate[:count].copy(),
-        to_cells[:count].copy(),
-    )  # fmt: skip
+    return to_start, to_target[:count], to_width[:count], to_gate[:count], to_cells[:count]

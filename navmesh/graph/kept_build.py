@@ -88,7 +88,8 @@ def _with_discs(
     rules: WalkRules, grid: Grid, surface: Surface, choice: np.ndarray, threads: int = 1
 ) -> Built:
     field = field_of(surface)
-    nodes = Nodes(*all_nodes(surface, field, rules.min_radius))
+    cell, place, maker, label = all_nodes(surface, field, rules.min_radius)
+    nodes = Nodes(cell, place, maker, label, surface.lifted(place[:, :2], cell))
     return Built(grid, surface, choice, nodes, join_nodes(nodes.label, field, nodes.place, threads))
 
 

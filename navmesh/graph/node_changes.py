@@ -36,6 +36,8 @@ class Nodes:
     """(m,) int32: the cell at whose turn it was chosen."""
     label: np.ndarray
     """(n,) int32: the node that owns each cell, or -1."""
+    position: np.ndarray
+    """(m, 3) float64 [m]: the places on the floor, world coordinates."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -57,11 +59,11 @@ def renew_nodes(
     ``least`` [m] is the radius of the smallest. Bit for bit those that `select_nodes` finds in the
     whole. None where more than the share ``most`` of the grid would have to be looked at.
     """
-    boxes = boxes_of(old.place, surface.resolution)
-    changed = hull(np.array(window), boxes[:0], 1, surface)
-    area = hull(np.array(window), boxes[_touch(boxes, changed)], _SEEN, surface)
+    changed = hull(np.array(window), np.empty((0, 4), np.int64), 1, surface)
+    reaching = old.place[_near(old.place, surface.resolution, changed)]
+    area = hull(np.array(window), boxes_of(reaching, surface.resolution), _SEEN, surface)
     while np.prod(area[2:] - area[:2]) <= most * np.prod(surface.shape):
-        chosen = _choose_in(area, old, boxes, before, surface, least)
+        chosen = _choose_in(area, old, before, surface, least)
         clipped = np.clip(chosen.boxes, 0, np.tile(surface.shape, 2))
         beyond = (clipped[:, :2] < area[:2]).any(axis=1) | (clipped[:, 2:] > area[2:]).any(axis=1)
         if not beyond.any():
@@ -88,15 +90,15 @@ class _Chosen:
     """(b, 4): the columns under the discs that are new or gone."""
 
 
-def _choose_in(
-    area: np.ndarray, old: Nodes, boxes: np.ndarray, before: Surface, surface: Surface, least: float
-) -> _Chosen:
-    """Choose nodes anew in the columns of ``area``; ``boxes`` are those of the old discs."""
-    window = tuple(area.tolist())
-    near = np.flatnonzero(_touch(boxes, area))
+def _choose_in(area: np.ndarray, old: Nodes, before: Surface, surface: Surface, least: float) -> _Chosen:
+    """Choose nodes anew in the columns of ``area``."""
+    window, side = tuple(area.tolist()), surface.resolution
+    near = _near(old.place, side, area)
     in_area = inside_of(before.cell_column[old.maker[near]], window, surface.shape[1])
     there, given = near[in_area], near[~in_area]
-    field, where = field_in(surface, tuple(hull(area, boxes[given], _SEEN, surface).tolist()))
+    field, where = field_in(
+        surface, tuple(hull(area, boxes_of(old.place[given], side), _SEEN, surface).tolist())
+    )
     order = order_by_clearance(field.clearance, grain_of(surface))
     order = order[inside_of(field.cell_column[order], window, surface.shape[1])]
     given_maker = moved_cells(old.maker[given], before, surface, window)
@@ -116,9 +118,9 @@ def _choose_in(
         (_spots(whole_maker[made], surface), _spots(whole_cell[made], surface), place[made]),
         there,
     )
-    changed = [boxes[np.setdiff1d(there, was)], boxes_of(place[was < 0], surface.resolution)]
-    nodes = Nodes(whole_cell, place, whole_maker, label)
-    return _Chosen(nodes, was, made, there, where, np.concatenate(changed))
+    changed = np.concatenate([old.place[np.setdiff1d(there, was)], place[was < 0]])
+    nodes = Nodes(whole_cell, place, whole_maker, label, surface.lifted(place[:, :2], whole_cell))
+    return _Chosen(nodes, was, made, there, where, boxes_of(changed, side))
 
 
 def _numbered(
@@ -132,7 +134,7 @@ def _numbered(
     made = np.flatnonzero(chosen.made)
     at = _places_among(kept_maker, chosen.nodes.maker[made], surface.clearance, grain_of(surface))
     to = at + np.arange(len(made))  # where those made in the area come to stand
-    from_kept = np.arange(len(kept)) + np.searchsorted(at, np.arange(len(kept)), side="right")
+    from_kept = np.arange(len(kept)) + np.cumsum(np.bincount(at, minlength=len(kept) + 1)[: len(kept)])
 
     def merged(of_kept: np.ndarray, of_made: np.ndarray) -> np.ndarray:
         whole = np.empty((len(kept) + len(made), *of_kept.shape[1:]), of_kept.dtype)
@@ -152,13 +154,14 @@ def _numbered(
     patch = Patch(surface.resolution, *area[:2].tolist(), *(area[2:] - area[:2]).tolist())
     runs, count = runs_of(before.column_start, start, window, patch, surface.shape[1])
     label = np.empty(count, np.int32)
-    _renumber(old.label, number, runs, label)
+    _renumber(old.label, np.concatenate([[-1], number]).astype(np.int32), runs, label)
     label[chosen.where[within]] = local[chosen.nodes.label[within]]
     nodes = Nodes(
         merged(moved_cells(old.cell[kept], before, surface, window), chosen.nodes.cell[made]),
         merged(old.place[kept], chosen.nodes.place[made]),
         merged(kept_maker, chosen.nodes.maker[made]),
         label,
+        merged(old.position[kept], chosen.nodes.position[made]),
     )
     labelled = _where_labels_change(
         before.column_start, surface.column_start, old.label, label, number, area, changed, surface.shape[1]
@@ -189,8 +192,22 @@ def boxes_of(place: np.ndarray, side: float) -> np.ndarray:
     return np.column_stack([low, high])
 
 
-def _touch(boxes: np.ndarray, area: np.ndarray) -> np.ndarray:
-    return np.all(np.logical_and(boxes[:, :2] < area[2:], boxes[:, 2:] > area[:2]), axis=1)
+@allocating_kernel
+def _near(place, side, area):
+    """(k,) int64: the discs whose `boxes_of` touch ``area``."""
+    found = np.empty(place.shape[0], np.int64)
+    count = 0
+    for i in range(place.shape[0]):
+        x, y, r = place[i, 0], place[i, 1], place[i, 2]
+        if (
+            np.floor((x - r) / side) - 2 < area[2]
+            and np.floor((y - r) / side) - 2 < area[3]
+            and np.floor((x + r) / side) + 3 > area[0]
+            and np.floor((y + r) / side) + 3 > area[1]
+        ):
+            found[count] = i
+            count += 1
+    return found[:count].copy()
 
 
 def hull(area: np.ndarray, boxes: np.ndarray, beyond: int, surface: Surface) -> np.ndarray:
@@ -240,8 +257,9 @@ def _where_labels_change(old_start, start, old_label, label, number, area, chang
 
 @kernel
 def _renumber(old_label, number, runs, label):
-    """Fill in the labels of what lies in runs of before."""
+    """Fill in the labels of what lies in runs of before: ``number[was + 1]``."""
     for row in range(0, runs.shape[0], 2):
-        for k in range(runs[row, 2]):
-            was = old_label[runs[row, 1] + k]
-            label[runs[row, 3] + k] = number[was] if was >= 0 else -1
+        first, at = runs[row, 1], runs[row, 3]
+        given, taken = old_label[first : first + runs[row, 2]], label[at : at + runs[row, 2]]
+        for k in range(given.shape[0]):
+            taken[k] = number[np.uint32(given[k] + 1)]

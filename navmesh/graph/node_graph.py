@@ -239,7 +239,7 @@ class NodeGraph:
             terrain=terrain,
             rules=rules,
             surface=surface,
-            positions=surface.lifted(nodes.place[:, :2], nodes.cell),
+            positions=nodes.position,
             radii=nodes.place[:, 2].copy(),
             node_cell=nodes.cell,
             label=nodes.label,

@@ -7,7 +7,7 @@ from navmesh.surface.build import Cells, Grid, Window, surface_of, whole_patch
 from navmesh.surface.clearance import settle_clearance
 from navmesh.surface.clearance_changes import Renewed, renew_clearance
 from navmesh.surface.ridges import Field
-from navmesh.surface.splicing import columns_in, link_in, runs_of, splice
+from navmesh.surface.splicing import columns_in, copy_run, link_in, renumber_run, runs_of, splice
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel, kernel
 
@@ -46,9 +46,9 @@ def renew_surface(
     nearest, clearance = np.empty((count, 2)), np.empty(count)
     source, chosen = np.empty(count, np.int32), np.empty(count, np.uint8)
     _splice_values(
-        old.column_start, old.cell_column, old.nearest, old.clearance, old.source, choice,
+        old.column_start, old.cell_column, old.nearest.reshape(-1), old.clearance, old.source, choice,
         new.cells.column_start, new.cells.cell_column, new.nearest, new.source, new.choice,
-        runs, cells.column_start, patch, whole.ny, nearest, clearance, source, chosen,
+        runs, cells.column_start, patch, whole.ny, nearest.reshape(-1), clearance, source, chosen,
     )  # fmt: skip
     surface = Surface(
         origin=grid.origin, resolution=grid.resolution, shape=grid.shape,
@@ -171,25 +171,19 @@ def _splice_values(
     new_start, new_column, new_nearest, new_source, new_choice,
     runs, start, patch, ny, nearest, clearance, source, choice,
 ):  # fmt: skip
-    """Fill in nearest, clearance, source and choice of the whole."""
+    """Fill in nearest, flat, clearance, source and choice of the whole."""
     for row in range(runs.shape[0]):
         first, size, at = runs[row, 1], runs[row, 2], runs[row, 3]
         if runs[row, 0] == 0:
-            for k in range(size):
-                nearest[at + k, 0] = old_nearest[first + k, 0]
-                nearest[at + k, 1] = old_nearest[first + k, 1]
-                clearance[at + k] = old_clearance[first + k]
-                choice[at + k] = old_choice[first + k]
-                s = old_source[first + k]
-                if first <= s < first + size:
-                    source[at + k] = s + at - first
-                else:
-                    source[at + k] = _moved(s, old_column[s], old_start, start) if s >= 0 else -1
+            copy_run(old_nearest, 2 * first, 2 * size, nearest, 2 * at)
+            copy_run(old_clearance, first, size, clearance, at)
+            copy_run(old_choice, first, size, choice, at)
+            renumber_run(old_source, 1, first, size, at, old_column, old_start, start, source)
             continue
         for k in range(size):
             c = first + k
             x, y = new_nearest[c, 0], new_nearest[c, 1]
-            nearest[at + k, 0], nearest[at + k, 1] = x, y
+            nearest[2 * (at + k)], nearest[2 * (at + k) + 1] = x, y
             clearance[at + k] = np.sqrt(x * x + y * y)
             choice[at + k] = new_choice[c]
             s = new_source[c]

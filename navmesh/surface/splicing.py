@@ -10,7 +10,10 @@ from navmesh.level.raster import Patch
 from navmesh.surface.build import Cells, Window
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["columns_in", "link_in", "runs_of", "splice", "take"]
+__all__ = ["columns_in", "copy_run", "link_in", "renumber_run", "runs_of", "splice", "take"]
+
+_BLOCK = 2048
+"""So many numbers are moved at a time, before it is looked whether all could be moved alike."""
 
 
 def splice(old: Cells, new: Cells, window: Window, patch: Patch, ny: int) -> Cells:
@@ -28,14 +31,16 @@ def splice(old: Cells, new: Cells, window: Window, patch: Patch, ny: int) -> Cel
         np.empty((blockers, 4)),
     )  # fmt: skip
     _columns(
-        old.column_start, new.column_start, np.array(window), patch, ny, runs,
+        old.column_start, old.cell_column, new.column_start, np.array(window), patch, ny, runs,
         found.column_start, found.cell_column,
     )  # fmt: skip
     _fill(
-        old.column_start, old.cell_column, old.height, old.gradient, old.link, old.blocker_start, old.blocker,
-        new.column_start, new.cell_column, new.height, new.gradient, new.link, new.blocker_start, new.blocker,
-        patch, ny, runs, found.column_start, found.height, found.gradient, found.link, found.blocker_start,
-        found.blocker,
+        old.column_start, old.cell_column, old.height, old.gradient.reshape(-1), old.link.reshape(-1),
+        old.blocker_start, old.blocker.reshape(-1),
+        new.column_start, new.cell_column, new.height, new.gradient.reshape(-1), new.link.reshape(-1),
+        new.blocker_start, new.blocker.reshape(-1),
+        patch, ny, runs, found.column_start, found.height, found.gradient.reshape(-1), found.link.reshape(-1),
+        found.blocker_start, found.blocker.reshape(-1),
     )  # fmt: skip
     return found
 
@@ -70,7 +75,7 @@ def runs_around(old_start, new_start, window, patch, ny, runs):
 
 
 @kernel
-def _columns(old_start, new_start, window, patch, ny, runs, start, owner):
+def _columns(old_start, old_owner, new_start, window, patch, ny, runs, start, owner):
     """Fill in ``column_start`` and ``cell_column`` of the whole."""
     column = 0  # of the whole, up to which all is filled in
     for row in range(runs.shape[0]):
@@ -84,13 +89,17 @@ def _columns(old_start, new_start, window, patch, ny, runs, start, owner):
         else:
             last = row == runs.shape[0] - 1
             end = start.shape[0] if last else (window[0] + row // 2) * ny + window[1]
-            shift = at - first
-            for c in range(column, end):
-                start[c] = old_start[c] + shift
+            add_run(old_start, column, end - column, at - first, start, column)
         column = end
-    for c in range(start.shape[0] - 1):
-        for k in range(start[c], start[c + 1]):
-            owner[k] = c
+    for row in range(runs.shape[0]):
+        first, size, at = runs[row, 1], runs[row, 2], runs[row, 3]
+        if runs[row, 0] == 0:
+            copy_run(old_owner, first, size, owner, at)
+            continue
+        ix = window[0] + row // 2
+        for c in range(ix * ny + window[1], ix * ny + window[3]):
+            for k in range(start[c], start[c + 1]):
+                owner[k] = c
 
 
 @kernel
@@ -99,40 +108,79 @@ def _fill(
     new_start, new_column, new_height, new_gradient, new_link, new_list, new_blocker,
     patch, ny, runs, start, height, gradient, link, lists, blocker,
 ):  # fmt: skip
-    """Fill in the whole, whose ``column_start`` is known."""
+    """Fill in the whole, whose ``column_start`` is known. Gradients, links and blockers are flat."""
     blockers = 0
     for row in range(runs.shape[0]):
         first, size, at = runs[row, 1], runs[row, 2], runs[row, 3]
         fresh = runs[row, 0] == 1
-        part_height, part_gradient = (new_height, new_gradient) if fresh else (old_height, old_gradient)
         part_list, part_blocker = (new_list, new_blocker) if fresh else (old_list, old_blocker)
         begin, end = part_list[first], part_list[first + size]
-        for k in range(size):
-            height[at + k] = part_height[first + k]
-            gradient[at + k, 0] = part_gradient[first + k, 0]
-            gradient[at + k, 1] = part_gradient[first + k, 1]
-            lists[at + k] = part_list[first + k] + blockers - begin
-        for k in range(end - begin):
-            for i in range(4):
-                blocker[blockers + k, i] = part_blocker[begin + k, i]
+        copy_run(new_height if fresh else old_height, first, size, height, at)
+        copy_run(new_gradient if fresh else old_gradient, 2 * first, 2 * size, gradient, 2 * at)
+        copy_run(part_blocker, 4 * begin, 4 * (end - begin), blocker, 4 * blockers)
+        add_run(part_list, first, size, blockers - begin, lists, at)
         blockers += end - begin
-        shift = at - first
-        for k in range(size):
-            for d in range(4):
-                m = new_link[first + k, d] if fresh else old_link[first + k, d]
-                if m >= 0:
-                    if first <= m < first + size:
-                        m += shift
-                    elif fresh:
-                        inside = new_column[m]
-                        ix = inside // patch.ny
-                        c = (ix + patch.left) * ny + inside - ix * patch.ny + patch.near
-                        # the same one of its column's cells: also where that column is from the other part
-                        m = start[c] + m - new_start[inside]
-                    else:
-                        m = start[old_column[m]] + m - old_start[old_column[m]]
-                link[at + k, d] = m
+        if not fresh:
+            renumber_run(old_link, 4, first, size, at, old_column, old_start, start, link)
+            continue
+        for k in range(4 * first, 4 * (first + size)):
+            m = new_link[k]
+            if first <= m < first + size:
+                m += at - first
+            elif m >= 0:
+                inside = new_column[m]
+                ix = inside // patch.ny
+                c = (ix + patch.left) * ny + inside - ix * patch.ny + patch.near
+                # the same one of its column's cells: also where that column is from the other part
+                m = start[c] + m - new_start[inside]
+            link[k + 4 * (at - first)] = m
     lists[lists.shape[0] - 1] = blockers
+
+
+@kernel
+def copy_run(values, first, size, whole, at):
+    """Copy ``size`` of the ``values`` (k,), from ``first`` on, into the ``whole`` from ``at`` on."""
+    given, taken = values[first : first + size], whole[at : at + size]
+    for k in range(size):  # over slices it compiles to vector code
+        taken[k] = given[k]
+
+
+@kernel
+def add_run(values, first, size, by, whole, at):
+    """As `copy_run`, with ``by`` added to each."""
+    given, taken, step = values[first : first + size], whole[at : at + size], np.int32(by)
+    for k in range(size):
+        taken[k] = np.int32(given[k] + step)
+
+
+@kernel
+def renumber_run(numbers, each, first, size, at, old_column, old_start, start, whole):
+    """Copy a run of ``numbers`` of cells (k,), ``each`` of them for a cell, into the ``whole``, as the numbers
+    that these cells have there; those below 0 stay. Nearly all are of the run itself, which moves as one."""
+    shift, last = at - first, first + size
+    for begin in range(each * first, each * last, _BLOCK):
+        end = min(begin + _BLOCK, each * last)
+        given, taken = numbers[begin:end], whole[begin + each * shift : end + each * shift]
+        least, most = _shift(given, shift, taken)
+        if least < first or most >= last:
+            for k in range(end - begin):
+                m = given[k]
+                if m >= last or 0 <= m < first:
+                    taken[k] = start[old_column[m]] + m - old_start[old_column[m]]
+
+
+@kernel
+def _shift(given, shift, taken):
+    """Fill ``taken`` with the numbers ``given`` (k,) and ``shift`` added, except to those below 0. Returns
+    the least of those that it was added to, and the greatest."""
+    none, step = np.int32(0x7FFFFFFF), np.int32(shift)
+    least, most = none, np.int32(-1)
+    for k in range(given.shape[0]):
+        m = given[k]
+        most = max(most, m)
+        least = min(least, m if m >= 0 else none)
+        taken[k] = np.int32(m + step) if m >= 0 else m
+    return least, most
 
 
 def take(cells: Cells, window: Window, ny: int) -> tuple[Cells, np.ndarray]:

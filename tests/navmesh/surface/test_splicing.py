@@ -5,7 +5,7 @@ import pytest
 
 from navmesh.level.raster import Patch
 from navmesh.surface.build import Cells
-from navmesh.surface.splicing import splice
+from navmesh.surface.splicing import renumber_run, splice
 
 NX, NY = 4, 3
 
@@ -57,3 +57,26 @@ def test_inside_it_is_as_in_the_new_and_outside_as_in_the_old(window):
     # links from outside into the window are those of the old part, which knew as many storeys there as it had
     within = inside[found.cell_column]
     np.testing.assert_array_equal(found.link[within], expected.link[within])
+
+
+@pytest.mark.parametrize(
+    "first, size, at", [(0, 5000, 0), (0, 5000, 40), (3000, 6500, 2500), (9000, 1000, 9700)]
+)
+def test_numbers_of_cells_move_with_the_cells(first, size, at):
+    rng = np.random.default_rng(size)
+    column = np.sort(rng.integers(0, 4000, 10_000)).astype(np.int32)
+    old_start = np.searchsorted(column, np.arange(4001)).astype(np.int32)
+    start = (old_start + rng.integers(0, 50, 4001).cumsum()).astype(np.int32)
+    numbers = rng.integers(-1, 10_000, 20_000).astype(np.int32)
+    numbers[::3] = np.clip(numbers[::3], first, first + size - 1)
+    numbers[2 * first : 2 * first + 4500] = rng.integers(first, first + size, 20_000)[
+        2 * first : 2 * first + 4500
+    ]
+    whole = np.full(30_000, -7, np.int32)
+    renumber_run(numbers, 2, first, size, at, column, old_start, start, whole)
+    for k in range(2 * first, 2 * (first + size)):
+        m = numbers[k]
+        inside = first <= m < first + size
+        expected = m if m < 0 else m + at - first if inside else start[column[m]] + m - old_start[column[m]]
+        assert whole[k + 2 * (at - first)] == expected
+    assert (whole[: 2 * at] == -7).all() and (whole[2 * (at + size) :] == -7).all()

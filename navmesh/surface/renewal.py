@@ -7,7 +7,7 @@ from navmesh.surface.build import Cells, Grid, Window, surface_of, whole_patch
 from navmesh.surface.clearance import settle_clearance
 from navmesh.surface.clearance_changes import Renewed, renew_clearance
 from navmesh.surface.ridges import Field
-from navmesh.surface.splicing import columns_in, copy_run, link_in, renumber_run, runs_of, splice
+from navmesh.surface.splicing import columns_in, copy_run, links_within, renumber_run, runs_of, splice
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel, kernel
 
@@ -114,19 +114,17 @@ def _inside_of(columns, window, ny):
 def links_in(surface: Surface, window: Window) -> tuple[np.ndarray, np.ndarray]:
     """The links (n, 4) int32 among the cells of ``window``, and the numbers (n,) int32 of these."""
     ny = surface.shape[1]
-    return _links_in(surface.column_start, surface.cell_column, surface.link, np.array(window), ny)
+    return _links_in(surface.column_start, surface.link, np.array(window), ny)
 
 
 @allocating_kernel
-def _links_in(column_start, cell_column, link, window, ny):
+def _links_in(column_start, link, window, ny):
     start, first = columns_in(column_start, window, ny)
     found, where = np.empty((start[-1], 4), np.int32), np.empty(start[-1], np.int32)
+    links_within(link, start, first, window, found)
     for c in range(first.shape[0]):
         for k in range(start[c], start[c + 1]):
-            m = first[c] + k - start[c]
-            where[k] = m
-            for d in range(4):
-                found[k, d] = link_in(link[m, d], cell_column, column_start, window, ny, start)
+            where[k] = first[c] + k - start[c]
     return found, where
 
 

@@ -10,7 +10,7 @@ from navmesh.level.raster import Patch
 from navmesh.surface.build import Cells, Window
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["columns_in", "copy_run", "link_in", "renumber_run", "runs_of", "splice", "take"]
+__all__ = ["columns_in", "copy_run", "links_within", "renumber_run", "runs_of", "splice", "take"]
 
 _BLOCK = 2048
 """So many numbers are moved at a time, before it is looked whether all could be moved alike."""
@@ -155,8 +155,8 @@ def add_run(values, first, size, by, whole, at):
 
 @kernel
 def renumber_run(numbers, each, first, size, at, old_column, old_start, start, whole):
-    """Copy a run of ``numbers`` of cells (k,), ``each`` of them for a cell, into the ``whole``, as the numbers
-    that these cells have there; those below 0 stay. Nearly all are of the run itself, which moves as one."""
+    """Copy a run of ``numbers`` of cells (k,), ``each`` of them for a cell, into the ``whole``, as the
+    numbers that these cells have there; those below 0 stay. Nearly all are of the run, which moves as one."""
     shift, last = at - first, first + size
     for begin in range(each * first, each * last, _BLOCK):
         end = min(begin + _BLOCK, each * last)
@@ -188,7 +188,7 @@ def take(cells: Cells, window: Window, ny: int) -> tuple[Cells, np.ndarray]:
     cell of each of them in the whole: (columns,) int32. ``ny``: of the whole grid."""
     *arrays, first = _take(
         cells.column_start, cells.height, cells.gradient, cells.link, cells.blocker_start, cells.blocker,
-        cells.cell_column, np.array(window), ny,
+        np.array(window), ny,
     )  # fmt: skip
     return Cells(*arrays), first
 
@@ -210,34 +210,45 @@ def columns_in(column_start, window, ny):
 
 
 @kernel
-def link_in(m, cell_column, column_start, window, ny, start):
-    """The number of cell ``m`` of the whole among those of ``window``, or -1."""
-    if m < 0:
-        return -1
-    ix = cell_column[m] // ny
-    iy = cell_column[m] - ix * ny
-    if not (window[0] <= ix < window[2] and window[1] <= iy < window[3]):
-        return -1
-    return (
-        start[(ix - window[0]) * (window[3] - window[1]) + iy - window[1]] + m - column_start[cell_column[m]]
-    )
+def links_within(link, start, first, window, found):
+    """Fill in the links of the cells of a ``window``, by the cells' numbers in it; -1 for those that lead
+    out. ``start`` and ``first`` are those of `columns_in`. Cells of a strip are in a row, in the window and
+    in the whole, so all links to a strip change by the same number."""
+    across, along = window[2] - window[0], window[3] - window[1]
+    for i in range(across if along > 0 else 0):
+        left, here, right = max(i - 1, 0) * along, i * along, min(i + 1, across - 1) * along
+        size = start[here + along] - start[here]
+        given = link[first[here] : first[here] + size]
+        taken = found[start[here] : start[here] + size]
+        by = np.int32(start[here] - first[here])
+        ahead, back = np.int32(start[right] - first[right]), np.int32(start[left] - first[left])
+        for k in range(size):
+            for d in range(4):
+                m = given[k, d]
+                shift = ahead if d == 0 else (back if d == 2 else by)
+                taken[k, d] = np.int32(m + shift) if m >= 0 else m
+        if i == 0:
+            taken[:, 2] = -1
+        if i == across - 1:
+            taken[:, 0] = -1
+        taken[: start[here + 1] - start[here], 3] = -1
+        taken[start[here + along - 1] - start[here] :, 1] = -1
 
 
 @allocating_kernel
-def _take(column_start, height, gradient, link, blocker_start, blocker, cell_column, window, ny):
+def _take(column_start, height, gradient, link, blocker_start, blocker, window, ny):
     start, first = columns_in(column_start, window, ny)
     count = start[-1]
     owner, lists = np.empty(count, np.int32), np.empty(count + 1, np.int32)
     to_height, to_gradient, to_link = np.empty(count), np.empty((count, 2)), np.empty((count, 4), np.int32)
     lists[0] = 0
+    links_within(link, start, first, window, to_link)
     for c in range(first.shape[0]):
         for k in range(start[c], start[c + 1]):
             m = first[c] + k - start[c]
             owner[k], to_height[k] = c, height[m]
             to_gradient[k, 0], to_gradient[k, 1] = gradient[m, 0], gradient[m, 1]
             lists[k + 1] = lists[k] + blocker_start[m + 1] - blocker_start[m]
-            for d in range(4):
-                to_link[k, d] = link_in(link[m, d], cell_column, column_start, window, ny, start)
     to_blocker = np.empty((lists[count], 4))
     for c in range(first.shape[0]):
         begin, size = blocker_start[first[c]], lists[start[c + 1]] - lists[start[c]]

@@ -259,7 +259,8 @@ def measure(motion: Recorded, rig: Rig | None) -> Fit:
     held = np.empty(0)
     soles = person
     if rig is not None:
-        poses = rig.pose_from(motion.places, BODY_NAMES, ground, grip=float(motion.grip))
+        times = motion.step * np.arange(len(motion.places))
+        poses = rig.pose_motion(motion.places, times, BODY_NAMES, ground, float(motion.grip))
         soles = _soles(rig, poses)
         off = _hands_off(rig, poses, motion.places)
         held = np.linalg.norm(off, axis=2)[hands > _TOUCHES]

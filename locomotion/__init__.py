@@ -1,5 +1,6 @@
 """Bodies that follow paths: people, animals and crowds."""
 
+from locomotion.characters.footing import Footing
 from locomotion.characters.rig import Rig
 from locomotion.errors import LocomotionError
 from locomotion.gaits.run.skill import RunSkill, load_run_skill
@@ -18,6 +19,7 @@ __all__ = [
     "PERSON_RULES",
     "ApproachPlan",
     "ApproachWeights",
+    "Footing",
     "Ground",
     "Human",
     "HumanState",

@@ -1,5 +1,5 @@
 """What of a person touches the level (numba kernels): hands that have to be where the person's are, and how
-far its feet have sunk into the ground, as those of simulated bodies do under load."""
+far its feet have sunk into the ground, as those of simulated bodies do under load, or are above it."""
 
 from typing import NamedTuple
 
@@ -34,6 +34,8 @@ class Contacts(NamedTuple):
     """(n, 2) float64, 0 to 1: how much a hand has to be where the person's is"""
     sunk: np.ndarray
     """(n, 2) float64 [m]: how deep a foot is in the ground"""
+    depths: np.ndarray
+    """(n, 2) float64 [m]: the same, below 0 for a foot above the ground; -0.15 at least, also if unknown"""
     near: np.ndarray
     """(n, 2) float64, 0 to 1: how near a foot is to the ground, if that is known"""
     loads: np.ndarray
@@ -47,7 +49,8 @@ class Contacts(NamedTuple):
 def no_contacts(count: int) -> Contacts:
     """Of so many persons of whom nothing is known."""
     hands, sunk, near = (np.zeros((count, 2)) for _ in range(3))
-    return Contacts(hands, sunk, near, np.ones((count, 2)), np.zeros(count), np.zeros((count, 2, 3)))
+    depths, loads = np.full((count, 2), -_FREE), np.ones((count, 2))
+    return Contacts(hands, sunk, depths, near, loads, np.zeros(count), np.zeros((count, 2, 3)))
 
 
 def contacts_with(ground: Ground, places: NDArray[np.float64]) -> Contacts:
@@ -98,7 +101,7 @@ def _find(level, origin, person, places, contacts):
                     if which >= 0 and height - low > deep:
                         deep = height - low
                         contacts.normals[i, side] = rows[which, NX : NX + 3]
-            contacts.sunk[i, side] = max(deep, 0.0)
+            contacts.sunk[i, side], contacts.depths[i, side] = max(deep, 0.0), deep
             share = min(max(deep + _LEFT, 0.0) / _LEFT, 1.0)
             contacts.near[i, side] = share * share * (3.0 - 2.0 * share)
             share = min((deep + _FREE) / _FREE, 1.0)

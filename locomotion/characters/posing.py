@@ -11,6 +11,7 @@ import numpy as np
 
 from locomotion.characters.driven_bones import BESIDE, DRIVEN, SOURCES
 from locomotion.characters.feet import lift_heel, place_foot, planted, reach_of_lifted_heel, rest_foot
+from locomotion.characters.footing import hold_foot, hold_turn
 from locomotion.characters.limb_ik import reach
 from locomotion.characters.quaternions import between, multiply, rotate
 from surefoot.kernels import allocating_kernel
@@ -31,11 +32,12 @@ _HINGE = np.array([0.0, 1.0, 0.0])
 
 
 @allocating_kernel
-def pose_characters(rig, person, places, contacts, out):
-    """Pose a character once for each of n persons.
+def pose_characters(rig, person, places, contacts, footing, out):
+    """Pose a character once for each of n persons, or n times for one.
 
     rig: `RigArrays`; person: `PersonArrays`. places: (n, 20, 7) of the person's bodies. contacts:
-    `Contacts`. out: (n, b, 7) is filled with position [m] and quaternion wxyz of the bones in the world.
+    `Contacts`. footing: `FootingArrays`. out: (n, b, 7) is filled with position [m] and quaternion wxyz of
+    the bones in the world.
     """
     turns = np.empty((_SOURCES, 4))
     hips, shift = np.empty(3), np.empty(3)
@@ -47,7 +49,8 @@ def pose_characters(rig, person, places, contacts, out):
         _place_pelvis(rig, person, places[i], hips)
         _follow(rig, turns, hips, out[i])
         _lean(rig, person, places[i], turns, contacts.hands[i], hips, out[i])
-        _place_legs(rig, person, places[i], contacts, i, turns, hips, out[i])
+        feet = places[i], contacts, footing, i
+        _place_legs(rig, person, feet, turns, hips, out[i])
         grip = contacts.grips[i]
         if grip > 0.0:
             grip *= _shift(rig, person, places[i], turns, hips, out[i], shift)
@@ -111,9 +114,10 @@ def _follow(rig, turns, hips, out):
 
 
 @allocating_kernel
-def _place_legs(rig, person, places, contacts, i, turns, hips, out):
+def _place_legs(rig, person, feet, turns, hips, out):
     """Lower ``hips`` until both feet are in reach, and turn the legs' parts so that they are where the
-    person's are. ``out`` is from before."""
+    person's are. ``out`` is from before; ``feet``: places of the person, contacts, footing, its number."""
+    places, contacts, footing, i = feet
     ankles, lifts, weights = np.empty((2, 3)), np.empty(2), np.empty(2)
     lifted, ankle = np.empty(4), np.empty(3)
     lower = 0.0
@@ -121,6 +125,9 @@ def _place_legs(rig, person, places, contacts, i, turns, hips, out):
     for side in range(2):
         thigh, shank = person.limbs[_THIGH, side], person.limbs[_SHANK, side]
         foot = turns[person.limbs[_FOOT, side]]
+        if footing.steps[i] >= 0.0:
+            toes = turns[person.limbs[_TOES, side]]
+            hold_turn(person, places, contacts, footing, i, side, foot, toes)
         leg = rig.lengths[0, side] + rig.lengths[1, side]
         hip = out[rig.limbs[0, side], :3] + shift
         weights[side] = planted(turns[shank])
@@ -132,6 +139,7 @@ def _place_legs(rig, person, places, contacts, i, turns, hips, out):
         lifts[side] = loaded * reach_of_lifted_heel(rig, side, hip, ankles[side], foot, leg)
         for k in range(3):
             ankles[side, k] = ankle[k] + weights[side] * (ankles[side, k] - ankle[k])
+            ankles[side, k] += footing.offsets[side, k]
         needed = _too_high(hip, ankles[side], leg)
         if needed > 0.0 and lifts[side] > 0.0:
             lift_heel(foot, lifts[side], lifted)
@@ -154,10 +162,14 @@ def _place_legs(rig, person, places, contacts, i, turns, hips, out):
                     _lifted_ankle(rig, side, plain, foot, end, ankles[side])
                 else:
                     place_foot(rig, person, places, contacts, i, side, foot, ankles[side])
+                    ankles[side] += footing.offsets[side]
                 if _too_high(hip, ankles[side], leg) > 0.0:
                     low = 0.5 * (low + high)
                 else:
                     high = 0.5 * (low + high)
+        if footing.steps[i] >= 0.0:
+            foot, toes = turns[person.limbs[_FOOT, side]], turns[person.limbs[_TOES, side]]
+            hold_foot(rig, contacts, footing, i, side, foot, toes, ankles[side])
         rotate(turns[shank], _HINGE, hinge)
         reach(
             hip, ankles[side], rig.lengths[0, side], rig.lengths[1, side], hinge, 1.0, turns[thigh],

@@ -1,6 +1,7 @@
 """The user's own rigged character, showing the motion of our persons."""
 
 import os
+import weakref
 from collections.abc import Sequence
 from typing import Any
 
@@ -12,6 +13,7 @@ from locomotion.characters.bone_names import bones_of_parts
 from locomotion.characters.character_file import Skeleton, read_character
 from locomotion.characters.contacts import contacts_with, no_contacts
 from locomotion.characters.driven_bones import rig_arrays
+from locomotion.characters.footing import Footing, FootingArrays, no_footing
 from locomotion.characters.local_poses import local_poses
 from locomotion.characters.person_measures import person_arrays
 from locomotion.characters.posing import pose_characters
@@ -49,6 +51,7 @@ class Rig:
         measured = rest_pose(skeleton, parts)
         self._arrays = rig_arrays(skeleton, parts, measured)
         self.hand_points = hand_points(skeleton, parts, measured)
+        self._footings: weakref.WeakKeyDictionary[Any, Footing] = weakref.WeakKeyDictionary()
 
     @classmethod
     def load(
@@ -83,13 +86,18 @@ class Rig:
 
         agent: a `runtime.Agent` that is a person, at any level of detail, or whatever has a ``pose`` with
         ``names`` and ``transforms``. Its ``ground``, a `locomotion.Ground` or None, is what its feet stand on
-        and its hands touch; its ``held``, such as ("rifle", "deployed"), what both hands hold. Constant-time.
-        Raises `LocomotionError` for other bodies.
+        and its hands touch; its ``held``, such as ("rifle", "deployed"), what both hands hold. If it has a
+        ``time`` [s], feet that stand stay where this rig put them for this agent before, as `pose_motion`
+        says, unless that is more than 0.25 s ago. Constant-time. Raises `LocomotionError` for other bodies.
         """
         found = agent.pose
         thing, state = getattr(agent, "held", ("", STOWED))
-        held = float(thing != "" and state != STOWED)
-        return self.pose_from(found.transforms, found.names, getattr(agent, "ground", None), grip=held)
+        held, ground = float(thing != "" and state != STOWED), getattr(agent, "ground", None)
+        time = getattr(agent, "time", None)
+        if time is None:
+            return self.pose_from(found.transforms, found.names, ground, grip=held)
+        footing = self._footings.setdefault(agent, Footing())
+        return self.pose_motion(found.transforms[None], [time], found.names, ground, held, footing)[0]
 
     def local_pose(self, agent: Any) -> NDArray[np.float64]:
         """The same relative to the bones' parents, as engines take it: (b, 7) float64, the translation in the
@@ -117,10 +125,49 @@ class Rig:
         are, and feet that have sunk into it, as simulated ones do under load, are put on it. None: nothing
         is known. hands: (..., 2), 0 to 1: how much else the right and the left hand have to be where the
         person's are. grip: (...), 0 to 1: how much both hands hold one thing, so that they stay apart as the
-        person's are. Raises `LocomotionError` for other shapes, and
-        bodies without pelvis and thighs.
+        person's are. Each pose is made by itself; feet that stand slide less in those of `pose_motion`.
+        Raises `LocomotionError` for other shapes, and bodies without pelvis and thighs.
         """
         given = np.asarray(places, dtype=np.float64)
+        count = int(np.prod(given.shape[:-2]))
+        return self._posed(given, bodies, ground, hands, grip, no_footing(count))
+
+    def pose_motion(
+        self,
+        places: ArrayLike,
+        times: ArrayLike,
+        bodies: Sequence[str] = BODY_NAMES,
+        ground: Ground | None = None,
+        grip: ArrayLike = 0.0,
+        footing: Footing | None = None,
+    ) -> NDArray[np.float64]:
+        """Where the bones are for one person in motion: (t, b, 7), arguments as of `pose_from`.
+
+        What of a foot touches the ground stays there while the person's foot stands, up to 12 cm from where
+        `pose_from` puts it; in the air the foot goes back. This needs a ``ground``. places: (t, k, 7) at the
+        ``times`` (t,) [s], in order. grip: one for all, or (t,). footing: what the calls before for the same
+        person left; it is changed. Raises `LocomotionError` as `pose_from`, and for other times.
+        """
+        given, moments = np.asarray(places, np.float64), np.asarray(times, np.float64)
+        if given.ndim != 3 or moments.shape != given.shape[:1]:
+            raise LocomotionError(
+                f"places have the shape {given.shape}, times {moments.shape}; "
+                f"give (t, {len(bodies)}, 7) and (t,)"
+            )
+        if not np.isfinite(moments).all() or np.any(np.diff(moments) < 0.0):
+            raise LocomotionError("times have to be finite numbers [s] that do not decrease")
+        arrays = (footing or Footing()).at(moments)
+        return self._posed(given, bodies, ground, (0.0, 0.0), grip, arrays)
+
+    def _posed(
+        self,
+        given: NDArray[np.float64],
+        bodies: Sequence[str],
+        ground: Ground | None,
+        hands: ArrayLike,
+        grip: ArrayLike,
+        footing: FootingArrays,
+    ) -> NDArray[np.float64]:
         if given.ndim < 2 or given.shape[-2:] != (len(bodies), 7):
             raise LocomotionError(
                 f"places have the shape {given.shape}; give (..., {len(bodies)}, 7) for {len(bodies)} bodies"
@@ -139,7 +186,7 @@ class Rig:
             raise LocomotionError(f"grip = {grip!r}: give 0 to 1 for each person") from None
         np.maximum(contacts.hands, np.clip(held, 0.0, 1.0), out=contacts.hands)
         out = np.empty((len(each), len(self.names), 7))
-        pose_characters(self._arrays, person_arrays(), np.ascontiguousarray(each), contacts, out)
+        pose_characters(self._arrays, person_arrays(), np.ascontiguousarray(each), contacts, footing, out)
         return out.reshape(*given.shape[:-2], len(self.names), 7)
 
     def local(self, pose: ArrayLike) -> NDArray[np.float64]:

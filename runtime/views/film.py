@@ -61,7 +61,7 @@ def frames(
 ) -> Iterator[np.ndarray]:
     """The pictures (height, width, 3) uint8 of the run, 25 for each second of it."""
     people = [agent for agent in trace.agents if wears(agent)]
-    wardrobe = None if character is None else Wardrobe(character, trace.level, people)
+    wardrobe = None if character is None else Wardrobe(character, trace, people)
     level = Triangles(trace.level.vertices, trace.level.faces)
     moments = _moments(trace)
     distance = _AWAY * size_of(agent)

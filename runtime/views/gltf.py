@@ -40,7 +40,7 @@ def write_gltf(trace: Trace, path: str | os.PathLike[str], character: Rig | None
         content = b"".join(writer.document(trace).save_to_bytes())
     else:
         wearing, ground = wearers(trace.agents), ground_of(trace.level)
-        worn = {agent.name: worn_poses(character, agent, ground) for agent in wearing}
+        worn = {agent.name: worn_poses(character, agent, trace.times, ground) for agent in wearing}
         things = [only_things(agent, character, worn[agent.name]) for agent in wearing]
         plain = [agent for agent in trace.agents if not wears(agent)]
         plain += [replace(each, name=f"{each.name}'s") for each in things if each is not None]

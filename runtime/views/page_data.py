@@ -140,7 +140,7 @@ def _skins(
     """Of each agent that wears the character where its bones are, and where what it holds is."""
     ground, skins = ground_of(trace.level), []
     for agent in wearers(trace.agents):
-        worn = worn_poses(rig, agent, ground)
+        worn = worn_poses(rig, agent, trace.times, ground)
         things = only_things(agent, rig, worn)
         held = None if things is None else _places(block, things.poses[frames], origin)
         skins.append(

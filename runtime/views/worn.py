@@ -12,7 +12,7 @@ from runtime.bodies.figure import Figure, Shapes, rotate
 from runtime.bodies.held_things import place_between
 from runtime.bodies.pose import between
 from runtime.errors import RuntimeInputError
-from runtime.traces.trace import AgentTrace, LevelTrace
+from runtime.traces.trace import AgentTrace, LevelTrace, Trace
 from runtime.views.render import Triangles
 
 __all__ = ["Wardrobe", "ground_of", "only_things", "wearers", "wears", "worn_poses"]
@@ -39,10 +39,10 @@ def ground_of(level: LevelTrace) -> Ground | None:
     return Ground.from_arrays(level.vertices, level.faces) if len(level.faces) else None
 
 
-def worn_poses(rig: Rig, agent: AgentTrace, ground: Ground | None) -> np.ndarray:
-    """(t, b, 7) the bones of a ``rig`` that an agent wears, at all moments of its trace."""
+def worn_poses(rig: Rig, agent: AgentTrace, times: np.ndarray, ground: Ground | None) -> np.ndarray:
+    """(t, b, 7) the bones of a ``rig`` that an agent wears, at the ``times`` (t,) [s] of its trace."""
     own, grip = agent.own, agent.held.any(axis=1) if agent.held.shape[1] else 0.0
-    return rig.pose_from(agent.poses[:, :own], agent.figure.bodies[:own], ground, grip=grip)
+    return rig.pose_motion(agent.poses[:, :own], times, agent.figure.bodies[:own], ground, grip)
 
 
 def only_things(agent: AgentTrace, rig: Rig, worn: np.ndarray) -> AgentTrace | None:
@@ -72,11 +72,11 @@ def only_things(agent: AgentTrace, rig: Rig, worn: np.ndarray) -> AgentTrace | N
 
 
 class Wardrobe:
-    """A ``rig`` as the ``agents`` of a trace wear it, who are people, at all of its moments."""
+    """A ``rig`` as ``agents`` of a ``trace`` wear it, who are people, at all of its moments."""
 
-    def __init__(self, rig: Rig, level: LevelTrace, agents: Sequence[AgentTrace]) -> None:
-        self._rig, self._mesh, ground = rig, rig.skeleton.mesh, ground_of(level)
-        self._poses = {agent.name: worn_poses(rig, agent, ground) for agent in agents}
+    def __init__(self, rig: Rig, trace: Trace, agents: Sequence[AgentTrace]) -> None:
+        self._rig, self._mesh, ground = rig, rig.skeleton.mesh, ground_of(trace.level)
+        self._poses = {agent.name: worn_poses(rig, agent, trace.times, ground) for agent in agents}
         self._things = {agent.name: only_things(agent, rig, self._poses[agent.name]) for agent in agents}
 
     def worn(

@@ -258,7 +258,8 @@ def _show_a_character() -> None:
 
     skeleton, level = person_skeleton(), tiny_level()
     rig = Rig(skeleton, bones_of_parts(skeleton, "surefoot"))
-    rig.local(rig.pose_from(rig.rest, rig.names, Ground.from_arrays(level.vertices, level.faces)))
+    ground = Ground.from_arrays(level.vertices, level.faces)
+    rig.local(rig.pose_motion(rig.rest[None], [0.0], rig.names, ground))
 
 
 FIRST_USES: dict[str, Callable[[], None]] = {

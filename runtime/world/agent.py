@@ -222,6 +222,11 @@ class Agent:
         return self._driver.ground
 
     @property
+    def time(self) -> float:
+        """The time [s] of the world's last tick, at which `pose` is."""
+        return self._host.clock.time
+
+    @property
     def pose(self) -> Pose:
         """Where its skeleton is, at the last tick."""
         return Pose(self.figure.bodies, self.figure.parents, self._driver.transforms())

@@ -71,7 +71,7 @@ def test_a_trace_keeps_what_is_held_and_when(held):
 def test_a_character_has_it_in_its_own_hands(held, tmp_path):
     write_character(STOUT, tmp_path / "stout.glb")
     rig, ada = Rig.load(tmp_path / "stout.glb"), held.agents[0]
-    worn = worn_poses(rig, ada, None)
+    worn = worn_poses(rig, ada, held.times, None)
     things = only_things(ada, rig, worn)
     bone = worn[:, rig.names.index(rig.parts["right_hand"])]
     grip = bone[:, :3] + rotate(bone[:, 3:], rig.hand_points[0])

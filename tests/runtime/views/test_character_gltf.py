@@ -100,8 +100,9 @@ def moved(file, moment):
 def test_bones_are_where_the_rig_says(trace, rigs, files, who):
     rig, agent = rigs[who], trace.agents[0]
     ground = Ground.from_arrays(trace.level.vertices, trace.level.faces)
+    poses = rig.pose_motion(agent.poses, trace.times, agent.figure.bodies, ground)
     for moment in (0, len(trace.times) - 1):
-        pose = rig.pose_from(agent.poses[moment], agent.figure.bodies, ground)
+        pose = poses[moment]
         places = moved(files[who], moment)
         for name in ("ada", "bob"):
             found = np.array([places[f"{name}/{bone}"] for bone in rig.names])
@@ -129,7 +130,7 @@ def test_three_js_plays_it(trace, rigs, files):
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
     found = json.loads(done.stdout)
     ground = Ground.from_arrays(trace.level.vertices, trace.level.faces)
-    pose = rig.pose_from(agent.poses[moment], agent.figure.bodies, ground)
+    pose = rig.pose_motion(agent.poses, trace.times, agent.figure.bodies, ground)[moment]
     for bone in ("pelvis", "hand_l", "ball_r", "head"):
         np.testing.assert_allclose(UPRIGHT @ found[f"ada/{bone}"], pose[rig.names.index(bone), :3], atol=2e-3)
     assert "mesh" in found

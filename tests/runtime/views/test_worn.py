@@ -21,7 +21,7 @@ def rig(tmp_path_factory):
 
 def test_skin_and_shadow_are_where_the_bones_are(trace, rig):
     agent = trace.agents[0]
-    skin, held, shadow = Wardrobe(rig, trace.level, [agent]).worn(agent, 2)
+    skin, held, shadow = Wardrobe(rig, trace, [agent]).worn(agent, 2)
     assert held == []
     low, high = skin.corners.min(axis=(0, 1)), skin.corners.max(axis=(0, 1))
     assert abs(low[2]) < 0.02 and 1.0 < high[2] < 1.5
@@ -31,7 +31,7 @@ def test_skin_and_shadow_are_where_the_bones_are(trace, rig):
     ends = shadow.place[:, :3] + rotate(shadow.place[:, 3:], along)
     assert (ends > low - 0.1).all() and (ends < high + 0.1).all()
     bones = {tuple(np.round(end, 6)) for end in ends}
-    pose = rig.pose_from(agent.poses[2], agent.figure.bodies, ground_of(trace.level))
+    pose = rig.pose_motion(agent.poses[:3], trace.times[:3], agent.figure.bodies, ground_of(trace.level))[2]
     assert all(tuple(np.round(pose[b, :3], 6)) in bones for b in range(1, len(pose)))
 
 

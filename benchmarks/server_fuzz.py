@@ -42,7 +42,7 @@ GOOD = [
     {"type": "go_to", "id": 2, "world": "world1", "agent": "rex", "points": [[3, 3, 0]], "speed": 1},
     {"type": "join", "id": 3, "world": "world2", "states": "local"},
     {"type": "restore", "id": 4, "world": "world999"},
-    {"type": "hello", "id": 5, "version": 1},
+    {"type": "hello", "id": 5, "version": 2},
     {"type": "step", "id": 6, "world": "world999", "dt": 0.01},
 ]
 
@@ -61,7 +61,7 @@ TYPED = [
     {"type": "join", "id": 3, "world": "{world}", "states": "local"},
     {"type": "step", "id": 4, "world": "{world}", "dt": 0.01},
     {"type": "create", "id": 5, "level": "floor", "seed": 1, "clock": "manual"},
-    {"type": "hello", "id": 6, "version": 1, "token": ""},
+    {"type": "hello", "id": 6, "version": 2, "token": ""},
     {"type": "level", "id": 7, "level": "floor"},
 ]  # whose every value is given another type
 
@@ -110,7 +110,7 @@ class Client:
 
 async def greeted(address: str) -> Client:
     client = Client(await connect(address, compression=None, max_size=None))
-    await client.ask("hello", version=1)
+    await client.ask("hello", version=2)
     return client
 
 

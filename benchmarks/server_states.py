@@ -17,6 +17,7 @@ from runtime.server.messages import States
 
 SIDE, SPEED, FRAME = 40.0, 1.3, 1.0 / 60.0
 LEVELS = ("physics", "full", "medium", "low")
+ANGLES = 11  # the first channel that is a joint angle
 
 
 class Somebody:
@@ -37,9 +38,9 @@ def told(graph: navmesh.NodeGraph, level: str, states: States, seconds: float) -
     for _ in range(round(seconds / FRAME)):
         hosted.step(FRAME)
         message = json.loads(hosted.state_for(client) or b"{}")  # type: ignore[arg-type]
-        for agent in message["agents"]:
-            size += len(json.dumps(agent, separators=(",", ":"))) + 1
-            angles += len(agent.get("angles", {"indices": ()})["indices"])
+        for told in [*message["agents"], *message.get("moved", ())]:
+            size += len(json.dumps(told, separators=(",", ":"))) + 1
+        angles += sum(index >= ANGLES for _, indices, _ in message.get("moved", ()) for index in indices)
     return size / seconds, angles / seconds
 
 
@@ -51,10 +52,13 @@ def main() -> None:
     corners = SIDE * np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
     graph = navmesh.NodeGraph.build(navmesh.Terrain(corners, np.array([[0, 1, 2], [0, 2, 3]])))
     whole, _ = told(graph, "low", "world", seconds)
+    figures = {level: told(graph, level, "changes", seconds) for level in LEVELS}
     print(f"transforms of all bodies: {whole:.0f} bytes/s")
     for level in LEVELS:
-        size, angles = told(graph, level, "changes", seconds)
+        size, angles = figures[level]
         print(f"changes, {level}: {size:.0f} bytes/s, {angles:.0f} joint angles/s; {whole / size:.1f} x less")
+    (full, many), (low, few) = figures["full"], figures["low"]
+    print(f"low against full: {full / low:.1f} x fewer bytes, {many / few:.1f} x fewer joint angles")
 
 
 if __name__ == "__main__":

@@ -136,7 +136,7 @@ onresize = () => {
 
 let world;
 socket.onopen = async () => {
-  const { levels } = await ask("hello", { version: 1, token: new URLSearchParams(location.search).get("token") ?? "" });
+  const { levels } = await ask("hello", { version: 2, token: new URLSearchParams(location.search).get("token") ?? "" });
   drawLevel(await ask("level", { level: levels[0] }));
   ({ world } = await ask("create", { level: levels[0], states: "world" }));
   tell(`${world} on ${levels[0]}`);

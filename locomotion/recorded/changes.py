@@ -1,7 +1,7 @@
 """Only what changed: the joint angles that differ from those a figure was sent before.
 
 A level keeps its motion at a rate of its own (60, 30, 15 Hz), and a figure of that level is told at that
-rate: at the moments ``k / rate``, whatever the frame rate of the world is. Angles are sent as whole
+rate: at the state nearest to each of the moments ``k / rate``, whatever the frame rate of the world is. Angles are sent as whole
 multiples of a step that cannot be seen at the distance at which the level is used. So a figure far away
 costs a fraction of one that is near, and one that stands still costs nothing::
 
@@ -23,7 +23,7 @@ from locomotion.recorded.skeletons import LEVELS, skeleton
 
 __all__ = ["STEPS", "Update", "applied", "changes", "decoded", "encoded", "in_steps", "moment_of"]
 
-STEPS = (0.001, 0.004, 0.025)
+STEPS = (0.001, 0.004, 0.03)
 """[rad] of one step of an angle, by level: 1 mm at the end of an arm near by, 2 cm far away, where every
 angle fits in a byte."""
 _HEAD = struct.Struct("<IB")
@@ -38,8 +38,8 @@ class Update(NamedTuple):
 
 
 def moment_of(level: int, now: float) -> int:
-    """The number of the last moment at which a figure of ``level`` was to be told, at ``now`` [s]."""
-    return math.floor(now * skeleton(LEVELS[level]).rate + 1e-9)
+    """The number of the moment nearest to ``now`` [s] at which a figure of ``level`` is to be told."""
+    return math.floor(now * skeleton(LEVELS[level]).rate + 0.5)
 
 
 def in_steps(level: int, channels: NDArray[np.float64]) -> NDArray[np.int16]:

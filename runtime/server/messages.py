@@ -48,7 +48,7 @@ __all__ = [
     "write_schema",
 ]
 
-PROTOCOL = 1
+PROTOCOL = 2
 """Version of the messages; `Hello` must name it."""
 
 _Name = Annotated[str, Field(min_length=1, max_length=40, pattern=r"^[\w .-]+$")]
@@ -368,17 +368,10 @@ class State(_Message):
     agents: list[AgentState]
 
 
-class Angles(_Message):
-    """Joints that turned: numbers in `Skeleton.joints`, and the angles as multiples of ``step`` [rad]."""
-
-    step: float
-    indices: list[int]
-    values: list[int]
-
-
 class AgentChange(_Message):
-    """What is left out is as it was told last. Fields as in `AgentState`; ``root``: position and quaternion
-    of a person's root in the world; ``angles`` of its joints. Others have ``transforms`` in the world."""
+    """What is left out is as it was told last. Fields as in `AgentState`. A person has a ``number``, by which
+    `Changes` tells where it is, in multiples of ``steps``: of places [m], and of angles [rad]. Others have
+    ``position``, ``facing`` and ``transforms`` in the world."""
 
     name: str
     status: str | None = None
@@ -388,19 +381,25 @@ class AgentChange(_Message):
     position: tuple[float, float, float] | None = None
     facing: float | None = None
     way: int | None = None
-    root: list[float] | None = None
-    angles: Angles | None = None
+    number: int | None = None
+    steps: tuple[float, float] | None = None
     transforms: list[float] | None = None
 
 
 class Changes(_Message):
     """What has changed since the last message of this kind. Agents that have not are left out. Recorded
-    people are looked at 60, 30 or 15 times a second, by their level. The first message tells everything."""
+    people are looked at 60, 30 or 15 times a second, by their level. The first message tells everything.
+
+    ``moved``: of each person that did its number, the indices of its channels that changed, and their values
+    as multiples of a step. Channels: 0 to 2 its position, and 4 to 6 from there to its root, in steps of
+    places; 3 its facing, and from 11 on the angles of `Skeleton.joints`, in steps of angles; 7 to 10 the
+    quaternion of its root, in half steps of angles."""
 
     type: Literal["changes"]
     world: str
     time: float
     agents: list[AgentChange]
+    moved: list[tuple[int, list[int], list[int]]]
 
 
 Answer = Annotated[

@@ -1,7 +1,7 @@
 """A world of `surefoot serve` as a spectator sees it."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -35,6 +35,7 @@ class ServedWorld:
         self._figures: dict[str, Figure] = {}
         self._ways: dict[str, tuple[int, PathTrace]] = {}
         self._agents: dict[str, _Seen] = {}
+        self._numbered: dict[int, _Seen] = {}
         self._looks = Looks()
         self._time: float | None = None
         self._gone = False
@@ -124,7 +125,12 @@ class ServedWorld:
         if message["type"] == "changes":
             self._time = message["time"]
             for change in message["agents"]:
-                self._agents.setdefault(change["name"], _Seen()).change(change)
+                seen = self._agents.setdefault(change["name"], _Seen())
+                seen.change(change)
+                if "number" in change:
+                    self._numbered[change["number"]] = seen
+            for number, indices, values in message["moved"]:
+                self._numbered[number].move(indices, values)
         elif message["type"] == "agent":
             self._figures[message["agent"]["name"]] = _figure(message["agent"])
         elif message["type"] == "gone":
@@ -139,8 +145,8 @@ class _Seen:
     def __init__(self) -> None:
         self.way: int | None = None
         self.thing = ""
-        self._root = np.zeros((1, 7))
-        self._angles: np.ndarray | None = None
+        self._channels = np.empty(0)
+        self._steps = 1.0, 1.0
         self._told = np.empty((0, 7))
 
     def change(self, change: Mapping[str, Any]) -> None:
@@ -149,17 +155,22 @@ class _Seen:
         self.thing = thing_of(change["holds"]) if "holds" in change else self.thing
         if "transforms" in change:
             self._told = np.reshape(change["transforms"], (-1, 7))
-        if "root" in change:
-            self._root = np.reshape(change["root"], (1, 7))
-        if "angles" in change:
-            turned = change["angles"]
-            if self._angles is None:
-                self._angles = np.zeros((1, len(turned["indices"])))
-            self._angles[0, turned["indices"]] = turned["step"] * np.array(turned["values"])
+        self._steps = change.get("steps", self._steps)
+
+    def move(self, indices: Sequence[int], values: Sequence[int]) -> None:
+        """Take in an entry of `runtime.server.messages.Changes.moved`."""
+        if len(self._channels) == 0:
+            self._channels = np.zeros(len(indices))
+        self._channels[indices] = values
 
     def transforms(self) -> np.ndarray:
         """(n, 7) of its bodies in the world."""
-        return self._told if self._angles is None else drawn(LEVELS[0], self._angles, self._root)[0]
+        if len(self._channels) == 0:
+            return self._told
+        (place, turn), told = self._steps, self._channels
+        root = np.concatenate([place * (told[0:3] + told[4:7]), 0.5 * turn * told[7:11]])
+        root[3:] /= np.linalg.norm(root[3:])
+        return drawn(LEVELS[0], turn * told[None, 11:], root[None])[0]
 
 
 def _chosen(address: str, worlds: list[str], name: str | None) -> str:

@@ -30,11 +30,17 @@ def test_who_does_not_move_costs_nothing():
 
 
 def test_each_level_is_told_at_its_own_rate():
-    times = np.arange(600) / 600.0
+    times = np.arange(6000) / 600.0
     told = [len({moment_of(level, time) for time in times}) for level in (FULL, MEDIUM, LOW)]
-    assert told == [60, 30, 15]
+    assert told == [601, 301, 151]  # the first and the last moment in half
     assert len(STEPS) == len(LEVELS)
     assert moment_of(FULL, 0.1 + 0.2) == 18
+
+
+@pytest.mark.parametrize(("level", "rate"), [(FULL, 60), (MEDIUM, 30), (LOW, 15)])
+def test_states_60_times_a_second_on_ticks_of_10_ms_lose_no_moment(level, rate):
+    times = np.floor(np.arange(1, 601) / 60.0 * 100.0 + 1e-9) / 100.0
+    assert len({moment_of(level, time) for time in times}) in (10 * rate, 10 * rate + 1)
 
 
 def test_angles_are_off_by_half_a_step_at_most():

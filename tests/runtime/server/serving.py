@@ -65,7 +65,7 @@ def talk(graph, conversation, **options):
                 socket = await connect(f"ws://127.0.0.1:{port}", compression=None)
                 client = Client(socket)
                 if hello:
-                    await client.ask("hello", version=1, token=token)
+                    await client.ask("hello", version=2, token=token)
                 return client
 
             return await conversation(server, join, port)

@@ -21,7 +21,7 @@ from tests.runtime.server.serving import talk
         ({"type": "spawn", "world": "world1", "body": "dog", "at": [2, 3, 0], "size": 3}, "spawn.size"),
         ({"type": "go_to", "world": "world1", "agent": "ada", "points": [[2, 3, 0]]}, "no agent 'ada'"),
         ({"type": "restore", "world": "world1"}, "has not been saved"),
-        ({"type": "hello", "version": 1}, "already"),
+        ({"type": "hello", "version": 2}, "already"),
         (
             {"type": "spawn", "world": "world1", "body": "goose.yaml", "at": [2, 3, 0]},
             "spawn.body.*'human'",

@@ -47,9 +47,9 @@ def test_all_who_joined_hear_of_a_world_that_runs_by_itself(graph):
 
 def test_lets_in_only_who_says_the_version_and_the_token(graph):
     async def conversation(server, join, port):
-        for fields in ({"version": 2, "token": "s3cret"}, {"version": 1}, {"version": 1, "token": "secret"}):
+        for fields in ({"version": 1, "token": "s3cret"}, {"version": 2}, {"version": 2, "token": "secret"}):
             client = await join(hello=False)
-            with pytest.raises(ValueError, match=r"version 2|wrong token"):
+            with pytest.raises(ValueError, match=r"version 1|wrong token"):
                 await client.ask("hello", **fields)
             with pytest.raises(ConnectionClosed):
                 await client.hear()
@@ -118,7 +118,7 @@ def test_thousands_of_wrong_messages_change_nothing(graph):
         {"type": "spawn", "id": 1, "world": "world1", "body": "dog", "at": [2, 3, 0], "facing": 0.1},
         {"type": "go_to", "id": 2, "world": "world1", "agent": "rex", "points": [[3, 3, 0]], "speed": 1},
         {"type": "join", "id": 3, "world": "world2", "states": "local"},
-        {"type": "hello", "id": 4, "version": 1},
+        {"type": "hello", "id": 4, "version": 2},
         {"type": "level", "id": 5, "level": "small"},
     ]
 

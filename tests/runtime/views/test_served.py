@@ -29,7 +29,7 @@ def talk(graph, conversation, **options):
         async with serving(graph, **options) as (server, port):
             address = f"ws://127.0.0.1:{port}"
             client = Client(await connect(address, compression=None))
-            await client.ask("hello", version=1, token=options.get("token", ""))
+            await client.ask("hello", version=2, token=options.get("token", ""))
             return await conversation(server, client, address)
 
     return asyncio.run(asyncio.wait_for(main(), 240))

@@ -58,6 +58,7 @@ function tell(text) {
 // --- figures: a group for each body of the skeleton, with its capsules and ellipsoids
 const agents = new Map();
 function addAgent(figure) {
+  removeAgent(figure.name); // one of another size
   const groups = figure.bodies.map(() => new THREE.Group());
   const root = new THREE.Group();
   root.add(...groups);

@@ -54,33 +54,30 @@ class Footing:
 
     def __init__(self) -> None:
         self._time = -math.inf
-        self._places = _nowhere()
-        self._before: tuple[float, tuple[np.ndarray, ...]] | None = None
+        self._last = no_footing(0)
+        self._before: tuple[float, FootingArrays] | None = None
 
     def at(self, times: np.ndarray) -> FootingArrays:
         """For poses at ``times`` (n,) [s]. What was before is forgotten where time goes back, or leaps. A
         single pose at the time of the last one takes its place."""
         if len(times) == 1:
             if times[0] == self._time and self._before is not None:
-                self._time, self._places = self._before
-            self._before = self._time, tuple(each.copy() for each in self._places)
+                self._time, self._last = self._before
+            self._before = self._time, FootingArrays(*(each.copy() for each in self._last))
         elif len(times):
             self._before = None
         steps = np.diff(times, prepend=self._time)
         steps[(steps < 0.0) | (steps > _PAUSE)] = np.inf
         if len(times):
             self._time = float(times[-1])
-        return FootingArrays(*self._places, steps)
+        return self._last._replace(steps=steps)
 
 
 def no_footing(count: int) -> FootingArrays:
     """For so many persons of whom each is posed once."""
-    return FootingArrays(*_nowhere(), np.full(count, -1.0))
-
-
-def _nowhere() -> tuple[np.ndarray, ...]:
-    return (
+    return FootingArrays(
         np.zeros((2, 3)), np.zeros(2), np.zeros(2), np.zeros((2, 3)), np.zeros((2, 2, 4)), np.zeros((2, 7)),
+        np.full(count, -1.0),
     )  # fmt: skip
 
 

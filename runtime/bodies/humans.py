@@ -221,7 +221,8 @@ class People(Population):
 
 class HumanDriver(Driver):
     """A person. ``before``: (46,) its joints as they were when `People.remember` was called, or None.
-    ``hesitates``: [s] after which it sets out from a stand: people told the same do not step as one."""
+    ``hesitates``: [s] after which it sets out from a stand: people told the same do not step as one.
+    ``style``: traits to be worn when it plays recorded motion."""
 
     tries_other_ways = True
 
@@ -233,6 +234,7 @@ class HumanDriver(Driver):
         self.plans: deque[Plan] = deque(maxlen=PLANS_KEPT)
         self.before: np.ndarray | None = None
         self.hesitates = 0.0
+        self.style: dict[str, float] = {}
         self._fading: Fading | None = None
 
     @property
@@ -326,9 +328,10 @@ class HumanDriver(Driver):
 
     def set_style(self, traits: Mapping[str, float]) -> None:
         try:
-            by_hand(None, **traits)  # to be worn when it plays recorded motion
+            by_hand(None, **traits)
         except LocomotionError as error:
             raise RuntimeInputError(str(error)) from None
+        self.style |= traits
 
     def odds(self, obstacle: int | str) -> float:
         try:
@@ -584,7 +587,7 @@ class HumanDriver(Driver):
         self.human.restore_state(body)
         recall(self.plans, plans)
         self.hesitates, self._fading = hesitates, fading
-        self.before = None
+        self.before, self.style = None, {}
 
     def state_hash(self) -> str:
         return self.human.state_hash()

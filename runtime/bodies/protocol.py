@@ -158,6 +158,11 @@ class Driver(ABC):
         """As `runtime.Agent.set_style`."""
         raise RuntimeInputError("it has no style; only people have")
 
+    @property
+    def traits(self) -> Mapping[str, float]:
+        """All of `locomotion.recorded.individual.TRAITS` of one that plays recorded motion; else none."""
+        return {}
+
     @abstractmethod
     def plan(self, goals: np.ndarray) -> Plan:
         """The way through ``goals`` (k, 3), not taken. Raises `runtime.planning.planning.NoWay`."""

@@ -11,7 +11,7 @@ from locomotion.body.models import figure
 from locomotion.crowd.saved_state_check import check_walker
 from locomotion.human.composition import checked_bravery
 from locomotion.preconditions.precondition import load_preconditions
-from locomotion.recorded.individual import SIZE, by_hand
+from locomotion.recorded.individual import SIZE, TRAITS, by_hand
 from locomotion.recorded.skeletons import LEVELS, level_number
 from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.nodes import can_hold, checked_node
@@ -70,6 +70,7 @@ class Recorded(Population):
         human, index = driver.human, level_number(level)
         place, velocity = human.position, human.velocity[:2]
         person = self.people.add(place, human.yaw, index, self._chance(place))
+        person.set_traits(by_hand(person.row[at.TRAITS], **driver.style))
         pose, pose_rates = driver.drawn()
         person.go_on_from(pose, pose_rates, place, velocity)
         return RecordedDriver(self, person)
@@ -237,8 +238,13 @@ class RecordedDriver(WalkerDriver):
             row = by_hand(self._row[at.TRAITS], **traits)
         except LocomotionError as error:
             raise RuntimeInputError(str(error)) from None
-        self.person.change(lambda: self.person.set_traits(row))
-        self.figure = person_figure(self._size)
+        if (row != self._row[at.TRAITS]).any():
+            self.person.change(lambda: self.person.set_traits(row))
+            self.figure = person_figure(self._size)
+
+    @property
+    def traits(self) -> Mapping[str, float]:
+        return dict(zip(TRAITS, self._row[at.TRAITS].tolist(), strict=True))
 
     @property
     def ground(self) -> Ground | None:

@@ -100,9 +100,14 @@ def _place(loaded: LoadedMission, world: World, index: int, spec: AgentSpec) -> 
     except ValueError as error:
         raise loaded.error(("agents", index, "detail"), str(error)) from None
     try:
-        world.spawn(body, point, math.radians(spec.facing_deg), spec.name, detail=spec.detail)
+        agent = world.spawn(body, point, math.radians(spec.facing_deg), spec.name, detail=spec.detail)
     except ValueError as error:
         raise loaded.error(("agents", index, "start"), str(error)) from None
+    if spec.style is not None:
+        try:
+            agent.set_style(**spec.style.traits)
+        except ValueError as error:
+            raise loaded.error(("agents", index, "style"), str(error)) from None
 
 
 Chain = list[tuple[Address, np.ndarray]]

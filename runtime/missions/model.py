@@ -304,6 +304,30 @@ class Expectation(_Strict):
     keeps_distance: list[Distance] | None = None
 
 
+class Style(_Strict):
+    """How a person differs whenever it plays recorded motion; what is left out is by chance."""
+
+    phase: Annotated[float, Ge(0.0), Le(1.0)] | None = None
+    """Of its steps, as a share of two of them."""
+    pace: Annotated[float, Ge(0.8), Le(1.25)] | None = None
+    """Share of its speed whose strides it takes: above 1 longer and fewer ones."""
+    width: Annotated[float, Ge(-0.05), Le(0.15)] | None = None
+    """[rad] By which each leg is spread."""
+    arms: Annotated[float, Ge(0.0), Le(2.0)] | None = None
+    """How far they swing, as a share."""
+    lean: Annotated[float, Ge(-0.2), Le(0.3)] | None = None
+    """[rad] Of the trunk, ahead."""
+    head: Annotated[float, Ge(-0.3), Le(0.3)] | None = None
+    """[rad] Bent ahead."""
+    size: Annotated[float, Ge(0.8), Le(1.2)] | None = None
+    """Of the whole figure, as a share of 1.76 m; by default 1. Others need the detail full, medium or low."""
+
+    @property
+    def traits(self) -> dict[str, float]:
+        """Those that are given."""
+        return self.model_dump(exclude_none=True)
+
+
 class AgentSpec(_Strict):
     """One figure: where it starts and what it does."""
 
@@ -316,6 +340,8 @@ class AgentSpec(_Strict):
     """[°] Counter-clockwise from the X axis."""
     detail: Detail = PHYSICS
     """Of a person: simulated, or drawn by recorded motion; `auto`: by who of the `viewers` looks on."""
+    style: Style | None = None
+    """Of a person."""
     speed: Speed = 3.5
     """[m/s] Along its path."""
     goto: Places | None = None

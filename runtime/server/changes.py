@@ -63,8 +63,8 @@ class Changes:
         for agent in world.agents.values():
             known, moment = self._shown.get(agent.name), _moment(agent, now)
             if anew or known is None or known.agent is not agent or known.moment != moment:
-                same = known is not None and known.agent is agent
-                known = self._looked_at(agent, moment, known.fields.get("number") if same else None)
+                number = known.fields.get("number") if known is not None and known.agent is agent else None
+                known = self._looked_at(agent, moment, number)
                 pause()
             shown[agent.name] = known
         self._shown = shown

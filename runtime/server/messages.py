@@ -38,6 +38,7 @@ __all__ = [
     "Restore",
     "Save",
     "SetDetail",
+    "SetStyle",
     "Spawn",
     "States",
     "Step",
@@ -171,6 +172,16 @@ class SetDetail(_Request):
     detail: Detail
 
 
+class SetStyle(_Request):
+    """Let a person differ from others whenever it plays recorded motion; all who joined are told the skeleton
+    that it then has."""
+
+    type: Literal["style"]
+    world: _Name
+    agent: _Name
+    traits: Annotated[dict[Annotated[str, Field(max_length=40)], float], Field(min_length=1, max_length=16)]
+
+
 class Viewer(_Message):
     """A camera or a player; ``field_of_view`` [rad] from edge to edge."""
 
@@ -257,6 +268,7 @@ Request = Annotated[
     | TakePosture
     | Hold
     | SetDetail
+    | SetStyle
     | Viewers
     | Stop
     | Way
@@ -299,7 +311,7 @@ class Event(_Ordered):
 
 
 class Joined(_Ordered):
-    """An agent has come into a world."""
+    """An agent has come into a world, or has another size."""
 
     type: Literal["agent"]
     world: str

@@ -144,6 +144,19 @@ class Requests:
             lambda hosted: setattr(hosted.agent(request.agent), "detail", request.detail),
         )
 
+    async def _do_style(self, client: Client, request: m.SetStyle) -> Any:
+        hosted = self._worlds.joined(client, request.world)
+
+        def dress() -> dict[str, Any]:
+            agent = hosted.agent(request.agent)
+            agent.set_style(**request.traits)
+            return skeleton(agent)
+
+        dressed = await self._work(client, hosted, dress)
+        if "size" in request.traits:
+            self._worlds.announce(hosted, {"type": "agent", "world": hosted.name, "agent": dressed})
+        return {}
+
     async def _do_viewers(self, client: Client, request: m.Viewers) -> Any:
         viewers = [Viewer(each.position, each.direction, each.field_of_view) for each in request.viewers]
         return await self._tell(

@@ -102,6 +102,7 @@ class AgentState:
             by_hand(None, **self.style)
         except LocomotionError as error:
             raise RuntimeInputError(f"the style of {name!r}: {error}") from None
+        _check_size(name, self.style, self.detail)
 
 
 class Agent:
@@ -276,8 +277,9 @@ class Agent:
 
     @detail.setter
     def detail(self, detail: str) -> None:
-        self._detail = checked_detail(detail, self._host.levels(self.body), self.body)
-        self.waits_for_level = True
+        asked = checked_detail(detail, self._host.levels(self.body), self.body)
+        _check_size(self.name, self._style, asked)
+        self._detail, self.waits_for_level = asked, True
         if detail not in (AUTO, self.level):
             self.change_level(detail)
 
@@ -308,14 +310,17 @@ class Agent:
         """
         self._take(posture, *self._driver.held_in(posture))
 
-    def set_style(self, **traits: float) -> None:
+    def set_style(self, /, **traits: float) -> None:
         """Let a person differ from others in these traits whenever it plays recorded motion: its ``phase``,
         ``pace``, ``width`` of step, swing of the ``arms``, ``lean``, ``head`` and ``size``, as of
         `locomotion.recorded.individual.TRAITS`; the others stay as they are, at first by chance, and the size
-        1: that of a simulated person, 1.76 m. It keeps them while it is simulated. Recordings and clients
-        take the size that one has when they begin or it appears. Raises `RuntimeInputError` for an unknown
-        trait, a value out of its range, and any other body.
+        1: that of a simulated person, 1.76 m. It keeps all of them while it is simulated. Recordings and
+        clients take the size that one has when they begin or it appears. Raises `RuntimeInputError` for an
+        unknown trait, a value out of its range, another size than 1 for a person whose `detail` is "physics"
+        or "auto", and any other body.
         """
+        if self.has_levels:
+            _check_size(self.name, checked_style(traits), self._detail)
         self._driver.set_style(traits)
         self._style |= traits
 
@@ -337,12 +342,14 @@ class Agent:
         goes on with what it does. The world calls this."""
         self.notice()
         going, goals = self.moving, self._goals_left if self._errand.goals else None
+        traits = self._driver.traits
         driver = self._host.at_level(self, level, at_once)
         self.waits_for_level = driver is None or driver.detail != self._detail
         if driver is None:
             return False
         self.changed = self._host.clock.time
         if driver is not self._driver:
+            self._style |= traits  # those by chance, too
             self.take(driver)
             self._born = self._host.clock.time - driver.time
             if going and goals is not None:
@@ -587,6 +594,8 @@ class Agent:
         self.waits_for_level, self.changed = True, -math.inf
         self._heed(state.bravery)
         self._style = dict(state.style)
+        if self._style:
+            self._driver.set_style(self._style)
 
     def state_hash(self) -> str:
         """Hexadecimal digest of everything that decides how it goes on."""
@@ -628,6 +637,25 @@ class Agent:
         if isinstance(event, bodily.StrayedFromPath):
             return Lost(**base, reason=f"is {event.distance:.1f} m beside its path")
         return None
+
+
+def checked_style(traits: Mapping[str, float]) -> Mapping[str, float]:
+    """``traits``. Raises `RuntimeInputError` as `Agent.set_style`, but for sizes."""
+    try:
+        by_hand(None, **traits)
+    except LocomotionError as error:
+        raise RuntimeInputError(str(error)) from None
+    return traits
+
+
+def _check_size(name: str, style: Mapping[str, float], detail: str) -> None:
+    """Raises `RuntimeInputError` for a size that would jump when physics takes over."""
+    size = style.get("size", 1.0)
+    if size != 1.0 and detail in (AUTO, PHYSICS):
+        raise RuntimeInputError(
+            f"{name} with the detail {detail!r} cannot have the size {size:g}; simulated people have 1: "
+            'give it the detail "full", "medium" or "low", or size=1'
+        )
 
 
 def _triple(point: ArrayLike) -> tuple[float, float, float]:

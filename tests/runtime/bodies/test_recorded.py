@@ -1,5 +1,7 @@
 """Recorded persons in worlds: they go, take postures, are seen, saved and removed."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -207,3 +209,60 @@ def test_people_who_come_from_physics_differ_too(graph):
     world.step(1.0)
     rows = np.array([agent.driver.person.row for agent in people])
     assert len(np.unique(rows[:, at.TRAITS], axis=0)) == 3
+
+
+@pytest.mark.parametrize("visit", ["detail", "posture"])
+def test_traits_by_chance_are_the_same_after_physics(graph, tmp_path, visit):
+    """Elsewhere than before, so that chance would give others; also in a world restored in between."""
+    world = World(graph, seed=5)
+    ada = world.spawn("human", (2.0, 3.0, 0.0), detail="full")
+    bob = world.spawn("human", (2.0, 2.0, 0.0), detail="full")
+    before = {each.name: dict(each.driver.traits) for each in (ada, bob)}
+    assert before[ada.name] != before[bob.name]
+    for each in (ada, bob):
+        each.detail = "physics"
+    world.step(1.0)
+    for each in (ada, bob):
+        each.go_to((3.5, each.position[1], 0.0), speed=1.3)
+    while ada.moving or bob.moving:
+        world.step(0.5)
+    world.step(1.0)
+    assert ada.level == bob.level == "physics" and ada.driver.traits == {}
+    ada.set_style(arms=1.9)
+    before[ada.name]["arms"] = 1.9
+    world.save().write(tmp_path / "state.npz")
+    other = World(graph, seed=5)
+    other.restore(WorldState.read(tmp_path / "state.npz"))
+    for each in (world, other):
+        for name in before:
+            agent = each.agents[name]
+            if visit == "detail":
+                agent.detail = "low"
+            else:
+                agent.take_posture("kneel")
+        each.step(0.5)
+        for name, traits in before.items():
+            assert each.agents[name].level != "physics"
+            assert each.agents[name].driver.traits == traits
+    assert other.state_hash() == world.state_hash()
+
+
+@pytest.mark.parametrize("detail", ["physics", "auto"])
+def test_nobody_who_may_be_simulated_has_another_size(graph, detail):
+    world = World(graph)
+    ada = world.spawn("human", (2.0, 3.0, 0.0), detail=detail)
+    bob = world.spawn("human", (4.0, 3.0, 0.0), detail="low")
+    told = world.state_hash()
+    with pytest.raises(RuntimeInputError, match=f"human1 with .* '{detail}' cannot have the size 0.9"):
+        ada.set_style(size=0.9, arms=1.5)
+    ada.set_style(size=1.0)
+    bob.set_style(size=0.9)
+    with pytest.raises(RuntimeInputError, match=f"human2 with .* '{detail}' cannot have the size 0.9"):
+        bob.detail = detail
+    assert (bob.detail, bob.level) == ("low", "low")
+    state = world.agents["human2"].save(0)
+    with pytest.raises(RuntimeInputError, match="cannot have the size"):
+        replace(state, detail=detail).check("human2")
+    bob.set_style(size=1.0)
+    bob.detail = detail
+    assert world.state_hash() != told

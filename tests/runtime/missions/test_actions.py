@@ -5,8 +5,10 @@ import pytest
 
 from benchmarks.mission_fuzz import MISSION as EVERYTHING
 from benchmarks.mission_fuzz import Fuzz, mutated
+from locomotion.recorded.individual import TRAITS
 from runtime.events import Arrived, Departed, PostureReached
 from runtime.missions.check import prepare_mission
+from runtime.missions.model import Style
 from surefoot.files.yamlfile import FileError
 from surefoot.progress import Progress
 from tests.runtime.missions.scripts import REX, load, path_of, refused, run, verdicts
@@ -116,11 +118,30 @@ def test_takes_postures_and_holds_things(graph, tmp_path):
         (BOB.replace("low", "high") + "goto: east}", "detail", "'auto', 'physics'"),
         (REX + "script: [{posture: sit}]}", "posture", "a dog has no postures"),
         (REX + "detail: low, goto: east}", "detail", "valid: physics"),
+        (REX + "style: {arms: 1.4}, goto: east}", "style", "only people have"),
+        (BOB + "style: {arm: 1.4}, goto: east}", "style", "unknown key 'arm'|arm"),
+        (BOB + "style: {lean: 1.4}, goto: east}", "style", "0.3"),
+        (BOB.replace("low", "auto") + "style: {size: 0.9}, goto: east}", "style", "cannot have the size 0.9"),
     ],
 )
 def test_postures_that_there_are_not_are_refused(graph, tmp_path, agent, at, says):
     with pytest.raises(FileError, match=says):
         run(graph, tmp_path, agent + "\n")
+
+
+def test_a_mission_says_how_people_differ(graph, tmp_path):
+    loaded = load(tmp_path, BOB + "style: {arms: 1.7, size: 0.9}, goto: east}\n")
+    bob = prepare_mission(loaded, Progress(shown=False), graph).world.agents["bob"]
+    assert (bob.driver.traits["arms"], bob.driver.traits["size"]) == (1.7, 0.9)
+
+
+def test_the_style_of_missions_has_the_traits_that_there_are():
+    """Names and ranges are those of `locomotion.recorded.individual.TRAITS`."""
+    fields = Style.model_json_schema()["properties"]
+    ranges = {
+        name: [field["anyOf"][0][end] for end in ("minimum", "maximum")] for name, field in fields.items()
+    }
+    assert ranges == {name: list(ends) for name, (_, *ends) in TRAITS.items()}
 
 
 def test_a_mission_says_who_looks_on(graph, tmp_path):

@@ -1,5 +1,6 @@
 """What is asked of the server is done, or refused with the reason."""
 
+import numpy as np
 import pytest
 
 pytest.importorskip("websockets", reason="needs the extra 'serve'")
@@ -101,5 +102,29 @@ def test_people_take_postures_hold_things_and_are_seen_from_somewhere(graph):
         ):
             with pytest.raises(ValueError, match=says):
                 await client.ask(kind, world=world, agent="ada", **fields)
+
+    talk(graph, conversation)
+
+
+def test_a_style_is_worn_and_another_size_is_told(graph):
+    async def conversation(server, join, port):
+        client = await join()
+        world = (await client.ask("create", level="small", clock="manual"))["world"]
+        await client.ask("spawn", world=world, body="human", at=[2, 3, 0], name="ada", detail="low")
+        await client.ask("spawn", world=world, body="human", at=[4, 3, 0], name="bob")
+        await client.ask("style", world=world, agent="ada", traits={"arms": 1.5, "lean": 0.1})
+        await client.ask("style", world=world, agent="ada", traits={"size": 0.9})
+        traits = server._worlds.hosted[world].world.agents["ada"].driver.traits
+        assert [traits[name] for name in ("arms", "lean", "size")] == [1.5, 0.1, 0.9]
+        ada, _, smaller = [each["agent"] for each in client.told if each["type"] == "agent"]
+        assert smaller["name"] == "ada"
+        np.testing.assert_allclose(smaller["offsets"], 0.9 * np.array(ada["offsets"]), atol=2e-5)
+        for agent, wrong, says in (
+            ("ada", {"self": 1.0}, "trait 'self': valid: phase"), ("ada", {"lean": 2.0}, "from -0.2 to 0.3"),
+            ("ada", {"lean": "much"}, "valid number"), ("ada", {}, "at least 1"),
+            ("bob", {"size": 0.9}, "cannot have the size"),
+        ):  # fmt: skip
+            with pytest.raises(ValueError, match=says):
+                await client.ask("style", world=world, agent=agent, traits=wrong)
 
     talk(graph, conversation)

@@ -19,13 +19,13 @@ __all__ = ["Footing", "FootingArrays", "hold_foot", "hold_turn", "no_footing"]
 _TOES = 3  # row of `PersonArrays.limbs`
 _STANDING, _LEFT = 0.002, 0.012
 """[m] over the ground: up to the first a person's foot stands, from the second on it does not."""
-_SLOW, _FAST = 1.0, 2.0
+_SLOW, _FAST = 2.0, 3.0
 """[m/s] of the person's toes along the ground: up to the first its foot stands, from the second on it
 slides."""
 _TOUCHING = 0.002  # [m] over the lowest point of a foot, of what touches
 _BACK = 0.06  # [s] in which a foot in the air goes half of the way back
-_FURTHEST, _MOST_TURNED = 0.12, 0.6
-"""[m], [rad] that a foot is held from where it would be."""
+_FURTHEST, _MOST_TURNED = 0.15, 0.7
+"""[m] for legs as long as the person's, [rad]: most that a foot is held from where it would be."""
 _PAUSE = 0.25  # [s] after which where a foot stood counts no more
 
 
@@ -146,7 +146,7 @@ def hold_foot(rig, contacts, footing, i, side, foot, toes, ankle):
             change[k] = offset[k] - held * (slide[k] - along * normal[k])
             change[k] *= held + (1.0 - held) * 0.5 ** (step / _BACK)
             size += change[k] * change[k]
-        size = min(_FURTHEST / max(math.sqrt(size), 1e-9), 1.0)
+        size = min(_FURTHEST * rig.scale / max(math.sqrt(size), 1e-9), 1.0)
         for k in range(3):
             ankle[k] += size * change[k] - offset[k]
             offset[k] = size * change[k]

@@ -143,7 +143,8 @@ class Rig:
     ) -> NDArray[np.float64]:
         """Where the bones are for one person in motion: (t, b, 7), arguments as of `pose_from`.
 
-        What of a foot touches the ground stays there while the person's foot stands, up to 12 cm from where
+        What of a foot touches the ground stays there while the person's foot stands, up to 15 cm (of legs as long as the person's) from
+        where
         `pose_from` puts it; in the air the foot goes back. This needs a ``ground``. places: (t, k, 7) at the
         ``times`` (t,) [s], in order. grip: one for all, or (t,). footing: what the calls before for the same
         person left; it is changed. Raises `LocomotionError` as `pose_from`, and for other times.

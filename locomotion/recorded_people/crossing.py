@@ -24,7 +24,7 @@ class Crossing:
         affordance: of the obstacle. size, depth: [m] its size, as of `Links.height`, and how thick it is.
         start, edge, end: (3,) of the link [m].
         goals, speed, facing: as of `Walker.go_to`, from the end on. beyond: [m] from the start to the last.
-        begun: [s] of the person's time at which the run-up begins; nan before.
+        begun: [s] of the person's time at which the run-up begins; inf before.
         origin: where that was: x, y, z [m], and its speed there [m/s].
         last: [m] behind the edge where it goes on in its gait at the latest.
         waited: [s] that it has waited for others before it.
@@ -40,7 +40,7 @@ class Crossing:
     speed: float
     facing: float | None
     beyond: float
-    begun: float = math.nan
+    begun: float = math.inf
     origin: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
     last: float = math.inf
     waited: float = 0.0

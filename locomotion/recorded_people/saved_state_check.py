@@ -85,7 +85,7 @@ def _check_crossing(state: PersonState, skills: Collection[str]) -> None:
     apart = math.dist(of.start[:2], of.edge[:2]), math.dist(of.start[:2], of.end[:2])
     if min(apart) < 1e-3 or math.isnan(of.last) or (does > at.APPROACHES) != of.under_way:
         raise LocomotionError("a recorded person crosses an obstacle in a way that nobody can")
-    if math.isinf(of.begun):
+    if of.begun < 0.0:
         raise LocomotionError("a recorded person crosses an obstacle at no time")
 
 

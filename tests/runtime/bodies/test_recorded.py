@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 from locomotion.recorded_people import layout as at
+from navmesh import NodeGraph, Terrain
 from runtime import Arrived, PostureReached, RuntimeInputError, World, WorldState
 from runtime.bodies.recorded import RecordedDriver, person_figure
+from runtime.evaluation.courses import make_course
 from runtime.traces.recording import Recorder
 
 
@@ -53,6 +55,27 @@ def test_a_world_with_recorded_people_comes_back_from_a_file(graph, tmp_path):
     here = agents[3].position
     world.remove(agents[0])
     np.testing.assert_array_equal(agents[3].position, here)
+
+
+def test_a_world_with_somebody_at_an_obstacle_comes_back_from_a_file(tmp_path):
+    """Before it, in the run-up and over it."""
+    course = make_course([("jump", 0.4, 0.3)], [6.0])
+    graph = NodeGraph.build(Terrain.from_arrays(course.vertices, course.faces))
+    world, stages = World(graph, seed=3), []
+    ada = world.spawn("human", (0.0, 0.0, 0.0), detail="full")
+    ada.go_to((course.obstacles[0].position[0] + 4.0, 0.0, 0.0), speed=3.0)
+    while ada.moving:
+        world.step(0.2)
+        stage = ada.driver.person.row[at.CROSSES]
+        if stage not in stages:
+            stages.append(stage)
+            world.save().write(tmp_path / f"{stage}.npz")
+    assert stages == [at.APPROACHES, at.RUNS_UP, at.CLEARS, at.NOTHING]
+    for stage in stages:
+        other = World(graph, seed=3)
+        other.restore(WorldState.read(tmp_path / f"{stage}.npz"))
+        other.step(world.time - other.time)
+        assert other.state_hash() == world.state_hash()
 
 
 def test_a_damaged_state_of_one_is_refused(graph):

@@ -58,6 +58,9 @@ _FREE, _FARTHEST = 0.08, 0.13
 # [m] beside where the recording has it, from which on a foot is held back, and to which it comes at most
 _TURNS_FREE, _TURNS_MOST = 0.6, 1.0
 # [rad] beside where its figure faces, from which on a foot turns along, and which it is beside it at most
+_TURNS_SWINGING = (
+    0.3  # share of these for a foot in the air: a folded leg with its foot aside would flip over
+)
 _ROUNDS = 3  # of solving a leg whose ankle cannot turn in or out
 _PLAIN_ROUNDS = 2  # the same of one whose hip cannot turn either
 _TIPPED = 0.15  # sine of the angle of a sole that stands on one end
@@ -140,14 +143,16 @@ def _held_back(x, y, place, ahead, left, share):
 
 
 @kernel
-def _pivoted(heading, ahead):
-    """The heading of a foot whose figure faces ``ahead`` [rad]: it turns along with one that turns far."""
+def _pivoted(heading, ahead, swings):
+    """The heading of a foot whose figure faces ``ahead`` [rad]: it turns along with one that turns far, the
+    sooner the more it ``swings``, 0 to 1."""
     off = (heading - ahead + math.pi) % (2.0 * math.pi) - math.pi
-    far = abs(off) - _TURNS_FREE
+    share = 1.0 - (1.0 - _TURNS_SWINGING) * swings
+    far = abs(off) - share * _TURNS_FREE
     if far <= 0.0:
         return heading
-    spare = _TURNS_MOST - _TURNS_FREE
-    kept = (_TURNS_FREE + spare * math.tanh(far / spare)) * min(math.pi - abs(off), 1.0)
+    spare = share * (_TURNS_MOST - _TURNS_FREE)
+    kept = (share * _TURNS_FREE + spare * math.tanh(far / spare)) * min(math.pi - abs(off), 1.0)
     return ahead + math.copysign(kept, off)
 
 
@@ -197,7 +202,7 @@ def _foot(cycle, foot, steps, place, turns, axes, point):
         heading += free * (math.atan2(turn_s, turn_c) - footing[TURNED])
     if free > 0.0:
         tilt += free * math.asin(min(max(axes[2, 1], -1.0), 1.0))
-    heading = _pivoted(heading, ahead)
+    heading = _pivoted(heading, ahead, free)
     c, s, slope_c, slope_s = math.cos(heading), math.sin(heading), math.cos(slope), math.sin(slope)
     # faces the heading, with its front and its left side up by these angles
     cp, sp = slope_c * up_c - slope_s * up_s, slope_s * up_c + slope_c * up_s

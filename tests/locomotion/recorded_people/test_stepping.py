@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import navmesh
+from benchmarks.giving_way import floor
 from locomotion.ground.ground import Ground, extruded
 from locomotion.recorded.footfalls import BALL, FEET, HEEL
 from locomotion.recorded.individual import SIZE, by_hand
@@ -129,3 +130,26 @@ def test_one_who_turns_on_the_spot_takes_steps():
     assert ada.yaw == pytest.approx(2.5, abs=0.05)
     headings = people.rows[0, at.STEPS].reshape(2, 3, 6)[:, LAST, 3]
     assert np.abs((headings - ada.yaw + np.pi) % (2 * np.pi) - np.pi).max() < 0.4
+
+
+@pytest.mark.parametrize("detail", [FULL, MEDIUM])
+def test_legs_do_not_flip_over_when_people_turn_far_as_they_run_off(detail):
+    """Whose foot still points elsewhere in the swing: its leg whirled round within a tick, by a metre."""
+    people = RecordedPeople(floor((0.0, 0.0, 60.0, 60.0)))
+    everybody = [
+        people.add((4.0 + 8 * (k % 7), 4.0 + 8 * (k // 7), 0.0), 0.13 * k, detail, np.random.default_rng(k))
+        for k in range(48)
+    ]
+    each, worst = np.arange(len(everybody)), 0.0
+    for order in range(4):
+        for k, person in enumerate(everybody):
+            way = 2.4 * order + k
+            goal = (person.position[:2] + 8.0 * np.array([np.cos(way), np.sin(way)])).clip(1.0, 59.0)
+            person.go_to([(*goal, 0.0)], 3.5 if (k + order) % 3 else 1.4, None)
+        before = people.transforms(each)
+        for _ in range(100):
+            people.tick()
+            now = people.transforms(each)
+            worst = max(worst, np.linalg.norm((now - before)[:, :, :3], axis=2).max())
+            before = now
+    assert worst < 0.4

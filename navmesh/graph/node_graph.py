@@ -31,6 +31,7 @@ from navmesh.threads import checked_threads
 from navmesh.zones.outlines import checked_outlines
 from navmesh.zones.plain import plain_graph
 from navmesh.zones.zones import Zones, rebuilt, zoned_graph
+from surefoot.freed_memory import give_back
 from surefoot.words import several
 
 if TYPE_CHECKING:
@@ -39,6 +40,8 @@ if TYPE_CHECKING:
 __all__ = ["NodeGraph"]
 
 _OBSTACLE_RULES = ObstacleRules()
+_MANY = 500_000
+"""Cells from which on it is worth while to give back to the system what the build has freed."""
 
 
 @dataclass(eq=False)
@@ -120,7 +123,10 @@ class NodeGraph:
         surface, found = built.surface, None
         if obstacle_rules is not None:
             found = all_rim_samples(None, (), terrain, surface, rules, obstacle_rules, threads)
-        return cls._made(terrain, rules, obstacle_rules, tags, built, found)
+        graph = cls._made(terrain, rules, obstacle_rules, tags, built, found)
+        if len(surface) > _MANY:
+            give_back()
+        return graph
 
     def update(self, changes: Mapping[str, Terrain | None]) -> "NodeGraph":
         """The graph after ``changes`` to the level's chunks: by name, a `Terrain` to be added or to replace

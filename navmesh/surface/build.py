@@ -162,7 +162,8 @@ def surface_of(cells: Cells, grid: Grid, threads: int = 1) -> tuple[Surface, np.
     """The surface that ``cells`` make up, and how clearances were carried: `spread_clearance`'s choices."""
     start, h, (nx, ny) = cells.blocker_start, grid.resolution, grid.shape
     nearest = blockers.nearest_blockers(start, cells.blocker, cells.cell_column, whole_patch(grid))
-    source = np.where(start[1:] > start[:-1], np.arange(len(start) - 1), -1).astype(np.int32)
+    source = np.arange(len(start) - 1, dtype=np.int32)
+    source[start[1:] == start[:-1]] = -1
     free, choice = clearance.spread_clearance(cells.column_start, cells.link, nearest, source, h, nx, ny)
     surface = Surface(
         origin=grid.origin,

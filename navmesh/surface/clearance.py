@@ -121,7 +121,9 @@ def spread_clearance(column_start, link, nearest, source, resolution, nx, ny):
             turn, column_start, link, nearest, squared, source, choice, resolution, nx, ny,
             fixed, known, known_source,
         )  # fmt: skip
-    return np.sqrt(squared), choice
+    for c in range(cells):
+        squared[c] = np.sqrt(squared[c])  # in place: another array would be a tenth of what there is
+    return squared, choice
 
 
 @kernel(nogil=True)

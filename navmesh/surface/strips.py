@@ -15,6 +15,7 @@ from navmesh.level.terrain import Terrain
 from navmesh.rules import WalkRules
 from navmesh.surface.build import Cells, Grid, check_floor, find_cells, patch_around, reach_of
 from navmesh.threads import in_threads
+from surefoot.freed_memory import give_back
 
 __all__ = ["all_cells"]
 
@@ -101,4 +102,6 @@ def _joined(strips: list[Cells]) -> Cells:
     for name in list(parts[0]):
         arrays = [part.pop(name) for part in parts]
         whole[name] = np.concatenate([*arrays, np.array([end[name]], np.int32)] if name in end else arrays)
+        del arrays
+        give_back()  # or all strips' memory stays until the end
     return Cells(**whole)

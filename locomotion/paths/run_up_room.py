@@ -5,6 +5,7 @@ from numpy.typing import NDArray
 
 from navmesh.graph.node_graph import NodeGraph
 from navmesh.graph.spatial_queries import cast_ray
+from navmesh.recent import recent
 
 __all__ = ["LEAST_RUN_UP", "cramped_links", "straight_before"]
 
@@ -15,11 +16,13 @@ and size."""
 
 def cramped_links(graph: NodeGraph, radius: float) -> NDArray[np.int64]:
     """(k,) indices of the links of ``graph`` with less than `LEAST_RUN_UP` of straight run-up for a body of
-    ``radius`` [m]; computed once."""
-    kept = graph.cache.setdefault("cramped_links", {})
-    if radius not in kept:
-        kept[radius] = np.flatnonzero(straight_before(graph, radius, LEAST_RUN_UP) < LEAST_RUN_UP - 1e-6)
-    return kept[radius]
+    ``radius`` [m], with the zones that are blocked now; those looked at last are kept."""
+
+    def make() -> NDArray[np.int64]:
+        return np.flatnonzero(straight_before(graph, radius, LEAST_RUN_UP) < LEAST_RUN_UP - 1e-6)
+
+    blocked = b"" if graph.zone_state is None else graph.zone_state.blocked.tobytes()
+    return recent(graph.cache, "cramped_links", (radius, blocked), make)
 
 
 def straight_before(graph: NodeGraph, radius: float, most: float) -> NDArray[np.float64]:

@@ -27,6 +27,19 @@ def test_links_with_less_than_the_least_run_up_are_cramped():
     assert len(cramped_links(long, 0.3)) == 0 and len(cramped_links(long, 5.0 - LEAST_RUN_UP + 0.1))
 
 
+def test_a_blocked_zone_takes_the_run_up_as_long_as_it_is_blocked():
+    graph = ledge(9.0).with_zones({"gate": [(0.0, 1.0, 0.0), (12.0, 1.0, 0.0)]})
+    assert len(cramped_links(graph, 0.3)) == 0
+    graph.block("gate")
+    shut = graph.without_zones()
+    blocked = cramped_links(graph, 0.3)
+    assert blocked.tolist() == list(range(len(graph.links))) == cramped_links(shut, 0.3).tolist()
+    graph.open("gate")
+    assert len(cramped_links(graph, 0.3)) == 0
+    graph.block("gate")
+    assert cramped_links(graph, 0.3) is blocked  # a door that shuts again is looked up
+
+
 def test_a_level_without_links_has_no_cramped_ones():
     floor = graph_of(((0, 0, -1), (6, 6, 0)))
     assert straight_before(floor, 0.3, 6.0).shape == (0,) and len(cramped_links(floor, 0.3)) == 0

@@ -21,7 +21,7 @@ def recent(cache: dict[str, Any], kind: str, key: Hashable, make: Callable[[], A
         found = kept[key] = make()
         while len(kept) > KEPT:
             kept.popitem(last=False)
-    elif next(reversed(kept)) != key:
+    else:
         try:
             kept.move_to_end(key)
         except KeyError:  # dropped by another thread meanwhile

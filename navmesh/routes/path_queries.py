@@ -45,11 +45,13 @@ def _scratch_for(graph: "NodeGraph") -> Any:
     ``graph.cache["scratch"].append``."""
     slots = 0 if graph.zone_state is None else graph.zone_state.slots
     stock = graph.cache.setdefault("scratch", [])
-    while stock:
-        scratch = stock.pop()
+    while True:
+        try:
+            scratch = stock.pop()
+        except IndexError:  # it is empty, or another thread has just taken the last
+            return make_scratch(graph)
         if scratch.slots == slots:
             return scratch
-    return make_scratch(graph)
 
 
 @cache

@@ -23,7 +23,7 @@ from tests.navmesh.routes.path_references import (
     scene,
     turned,
 )
-from tests.navmesh.shapes import box, join, plane
+from tests.navmesh.shapes import box, join, plane, terrain
 
 RADII = st.sampled_from([0.15, 0.3, 0.6, 0.9])
 SEEDS = st.integers(0, 10_000)
@@ -255,3 +255,16 @@ def test_bodies_wider_than_the_level_fit_nowhere_at_once() -> None:
     for radius in (50.0, 2000.0, 1e9):
         assert graph.find_path((1.0, 1.0, 0.0), (5.0, 5.0, 0.0), radius).status == "off_graph"
         assert not graph.room_to_turn((3.0, 3.0, 0.0), radius)
+
+
+def test_another_thread_takes_the_last_memory_for_a_search() -> None:
+    class TakenMeanwhile(list):
+        def __bool__(self) -> bool:
+            return True  # as it was when it was looked at
+
+    graph = NodeGraph.build(terrain(plane(0, 4, 0, 4)))
+    ends = (0.5, 0.5, 0.0), (3.5, 3.5, 0.0)
+    expected = graph.find_path(*ends)
+    graph.cache["scratch"] = TakenMeanwhile()
+    assert graph.find_path(*ends).length == expected.length
+    assert len(graph.cache["scratch"]) == 1

@@ -102,6 +102,17 @@ def cadence_of(figures, row, walker):
 
 
 @kernel
+def _phase_at_rest(figures, row, footing):
+    """The phase with which one on its feet sets out: both bear, and one is soon taken up. Which one, and how
+    soon, differs from figure to figure. ``footing`` (2, 5) is overwritten."""
+    footing_of(figures, gait_played(figures, row), 0.0, footing)
+    own = 2.0 * row[_TRAITS + PHASE]
+    side, less = math.floor(own), 0.5 * (own % 1.0)
+    both = max(footing[0, BEARS] - 0.5, 0.0)
+    return (0.5 * side + (1.0 - less) * both) % 1.0
+
+
+@kernel
 def _height(lookup, x, y, floor):
     """Height of the ground near a floor of the surface, and the row of its triangle or -1."""
     rows, cell_start, cell_triangles, grid, shape, origin = lookup
@@ -183,6 +194,8 @@ def _gone_on(figures, row, walker, gait, cycles, seconds, elapsed):
 def lay_feet(figures, net, origin, lookup, row, walker):
     """Put the feet where those of a figure are that goes, and has gone, straight on as it does."""
     footing, place = np.empty((2, 5)), (net, origin, lookup)
+    if row[at.GAIT] < 0.0:
+        row[at.PHASE] = _phase_at_rest(figures, row, footing)
     footing_of(figures, gait_played(figures, row), speed_read(row), footing)
     steps = row[_STEPS : _STEPS + 36].reshape(2, 3, 6)
     cadence = cadence_of(figures, row, walker)
@@ -288,7 +301,7 @@ def _advance(figures, place, row, walker, looks, tick, room):
     cadence, phase = cadence_of(figures, row, walker), row[at.PHASE]
     row[at.PHASE] = (phase + dt * cadence) % 1.0
     if row[at.GAIT] < 0.0:
-        row[at.PHASE] = row[_TRAITS + PHASE]  # with which it sets out again
+        row[at.PHASE] = _phase_at_rest(figures, row, standing) if laid else row[_TRAITS + PHASE]
     if not laid or row[at.GAIT] < 0.0:
         return
     gait = gait_played(figures, row)

@@ -7,6 +7,7 @@ import pytest
 
 import navmesh
 from benchmarks.giving_way import floor
+from benchmarks.recorded_starts import WAYS, foot_steps
 from locomotion.ground.ground import Ground, extruded
 from locomotion.recorded.footfalls import BALL, FEET, HEEL
 from locomotion.recorded.individual import SIZE, by_hand
@@ -153,3 +154,23 @@ def test_legs_do_not_flip_over_when_people_turn_far_as_they_run_off(detail):
             worst = max(worst, np.linalg.norm((now - before)[:, :, :3], axis=2).max())
             before = now
     assert worst < 0.4
+
+
+@pytest.mark.parametrize("detail", [FULL, MEDIUM, LOW])
+@pytest.mark.parametrize("way", WAYS)
+def test_who_sets_out_from_a_stand_does_not_jerk_a_foot(detail, way):
+    """Feet that began in the middle of a swing jumped by 0.3 m between two frames."""
+    assert 0.02 < foot_steps(detail, way, 1.3, 41).max() < 0.13
+
+
+def test_who_sets_out_has_both_feet_on_the_ground_and_not_all_take_up_the_same():
+    people, everybody = crowd_of(16)
+    first = np.full(16, np.nan)
+    for k, person in enumerate(everybody):
+        person.go_to([(2.0 + k, 5.0 + (-1.0) ** k, 0.0)], 1.3, None)
+    for _ in range(60):
+        people.tick()
+        begin = np.isnan(first) & (people.rows[:, at.GAIT] >= 0.0)
+        first[begin] = people.rows[begin, at.PHASE]
+    assert (first % 0.5 < 0.05).all()
+    assert {0, 1} == set((2.0 * first).astype(int).tolist()) and len(np.unique(first)) == 16

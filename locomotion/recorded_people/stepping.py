@@ -22,7 +22,7 @@ from locomotion.postures.step_order import AT_REST
 from locomotion.recorded.footfalls import AHEAD, BEARS, HALF_SOLE, LEFT, TURNED, read_footing
 from locomotion.recorded.individual import PACE, PHASE, SIZE, WIDTH
 from locomotion.recorded.sampling import stride_at
-from locomotion.recorded.skeletons import FULL
+from locomotion.recorded.skeletons import FULL, LOW
 from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.between_ticks import go_on, turn
 from navmesh.surface.clearance_field import floor_at, walk
@@ -46,6 +46,9 @@ _EVEN = 0.3  # [m] between the surface and the ground under it
 _RISER = 0.08  # [m] of height within half a sole: the edge of a stair
 _STEEPEST = 0.7  # [rad] of slope that a sole follows
 _LEG = 0.8  # [m] from where legs are spread
+_WIDER, _HIGH = 0.05, 0.2
+# [m] to the side by which low figures step that much or more up or down: hips that do not turn would turn
+# the foot of a bent leg that stands far inside
 _PLACE, _BEFORE, _TRAITS, _STEPS = (
     part.start for part in (at.PLACE, at.BEFORE, at.TRAITS, at.STEPS)
 )  # kernels know numbers
@@ -256,6 +259,11 @@ def _step(level, row, walker, steps, footing, standing, then, tick):
             x, y, heading = _under(row, side, standing[side], dx, dy, turned)
             heading = last[3] + turn(heading - last[3])
             _foothold(place, walker, x, y, heading, steps[side, AIM])
+            rise = abs(steps[side, AIM, 2] - last[2])
+            if rise > _RISER and int(row[at.LEVEL]) == LOW:
+                out = (2 * side - 1) * _WIDER * min(rise / _HIGH, 1.0)
+                x, y = x - out * math.sin(heading), y + out * math.cos(heading)
+                _foothold(place, walker, x, y, heading, steps[side, AIM])
         share = 1.0 if before < bears else 1.0 - math.exp(-dt / _ADJUSTS)
         for k in range(6):
             steps[side, NEXT, k] += share * (steps[side, AIM, k] - steps[side, NEXT, k])

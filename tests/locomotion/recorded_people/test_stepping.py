@@ -84,6 +84,27 @@ def test_a_foot_that_bears_stands_still_on_stairs_and_on_a_slope(detail, size):
             assert abs(over.min()) < 0.02
 
 
+@pytest.mark.parametrize("seed", [1, 2])
+def test_feet_of_low_figures_hardly_turn_while_they_bear_on_stairs(seed):
+    """Their hips do not turn: a bent leg whose foot stood far inside turned it by up to 30 degrees."""
+    graph, ground = level()
+    people = RecordedPeople(graph, ground=ground)
+    ada = people.add((-1.0, 0.1 * seed, 0.0), 0.0, LOW, np.random.default_rng(seed))
+    ada.go_to([(3.8, 0.0, 0.51)], 1.1 + 0.1 * seed, None)
+    headings, stood = [], []
+    while ada.status == "walking":
+        people.tick()
+        heel, ball = np.moveaxis(soles(ada), 1, 0)
+        headings.append(np.degrees(np.arctan2(*(ball - heel)[:, 1::-1].T)))
+        since = (ada.phase - np.array([0.0, 0.5])) % 1.0
+        last = people.rows[0, at.STEPS].reshape(2, 3, 6)[:, LAST]
+        stood.append(np.where((0.05 < since) & (since < 0.5) & (last[:, 2] > 0.1), last[:, 0], np.nan))
+    headings, stood = np.array(headings), np.array(stood)
+    for foot in range(2):
+        for x in np.unique(stood[np.isfinite(stood[:, foot]), foot]):
+            assert np.ptp(headings[stood[:, foot] == x, foot]) < 8.0
+
+
 def test_low_figures_come_up_stairs_as_full_ones_do():
     graph, ground = level()
     heights = {FULL: [], LOW: []}

@@ -9,7 +9,8 @@ the peers' benchmark (height 2.0 m, step 0.9 m, slope 45°, radius 0.6 m). Colum
 with obstacles, over Recast's where it is there, and without by two threads, over one; the most memory that
 the build takes and what the finished graph holds; size of the file; a query in a batch (over Detour's) and
 from Python; a goal that cannot be reached over one that can; an update of a chunk of 10 m (over Recast's
-rebuild of a tile of 9.6 m); length of the routes over Detour's any-angle search. With ``--pairs 0`` and
+rebuild of a tile of 9.6 m), and that update with the first query on the new graph, of the same radius as
+those before; length of the routes over Detour's any-angle search. With ``--pairs 0`` and
 ``--changes 0`` only the build is measured. ``--plot`` draws its time and memory against the area.
 """
 
@@ -41,7 +42,8 @@ LEVELS = ("city 4", "city 8", "city 16", "hills 300", "clutter 60")
 RULES = WalkRules(max_slope=math.radians(45), max_step=0.9, headroom=2.0)
 COLUMNS = (
     "triangles", "km2", "build [ms]", "with obstacles [ms]", "two threads", "most; held [MB]", "file [MB]",
-    "batch [us]", "single [us]", "unreachable [us]", "update [ms]", "length: mean, > 1 % longer, > 10 %",
+    "batch [us]", "single [us]", "unreachable [us]", "update [ms]", "update and first query [ms]",
+    "length: mean, > 1 % longer, > 10 %",
 )  # fmt: skip
 CHUNK = 10.0  # [m]
 MEGABYTE = 1e6
@@ -119,17 +121,25 @@ def unreachable_figures(graph: NodeGraph, count: int, rng: np.random.Generator) 
 
 
 def update_figures(terrain: Terrain, changes: int, rng: np.random.Generator) -> dict[str, float]:
-    """Median time [ms] of removing a chunk and putting it back."""
+    """Median time [ms] of removing a chunk and putting it back, of both that and the first query on the new
+    graph, and of the same query asked again."""
     chunks = split_terrain(terrain, CHUNK)
     graph = NodeGraph.build(join_chunks(chunks, terrain.name), RULES, obstacle_rules=None)
     names = sorted(chunks)
+    start, goal = graph.positions[rng.choice(np.flatnonzero(graph.radii >= RADIUS), 2)]
+    graph.find_path(start, goal, radius=RADIUS)
     times = []
     for name in rng.choice(names, changes):
         for change in (None, chunks[name]):
             begin = time.perf_counter()
             graph = graph.update({name: change})
-            times.append(time.perf_counter() - begin)
-    return {"update_ms": 1e3 * float(np.median(times[2:]))}
+            updated = time.perf_counter()
+            graph.find_path(start, goal, radius=RADIUS)
+            asked = time.perf_counter()
+            graph.find_path(start, goal, radius=RADIUS)
+            times.append((updated - begin, asked - begin, time.perf_counter() - asked))
+    median = 1e3 * np.median(times[2:], axis=0)
+    return dict(zip(("update_ms", "update_and_query_ms", "next_query_ms"), median.tolist(), strict=True))
 
 
 def measure(kind: str, size: int, seed: int, pairs: int, changes: int) -> dict[str, Any]:
@@ -214,6 +224,7 @@ def row(name: str, figures: dict[str, Any]) -> str:
         over("single_us", ""),
         over("unreachable_us", "reachable_us"),
         over("update_ms", "recast_tile_ms"),
+        over("update_and_query_ms", ""),
     ]
     if "length" in figures:
         longer = f"{100 * figures['longer_1']:.1f} %, {100 * figures['longer_10']:.1f} %"

@@ -5,7 +5,7 @@ from math import sqrt
 import numpy as np
 
 from navmesh.areas.areas import PARTS
-from navmesh.surface.clearance_field import same_place
+from navmesh.surface.clearance_field import same_place, slope_at
 from surefoot.kernels import kernel
 
 __all__ = ["area_at", "price"]
@@ -103,7 +103,8 @@ def price(net, areas, part, weight, k, ax, ay, bx, by, target, most):
     while True:
         leave = min(next_x, next_y, length)
         if leave > s:
-            rise = net.gradient[k, 0] * ux + net.gradient[k, 1] * uy
+            slope_x, slope_y = slope_at(net, k)
+            rise = slope_x * ux + slope_y * uy
             steep = sqrt(1.0 + rise * rise)
             if row[k] < 0:
                 total += (leave - s) * steep * weight[area[k]]

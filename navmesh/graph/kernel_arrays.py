@@ -1,8 +1,8 @@
 """The arrays that the search kernels read, bundled so that a call passes three arguments, not fifty.
 
 `NET` is the graph with its field of clearances, `DOORS` is what one body radius makes of it, and `SCRATCH` is
-the memory of one search at a time. What is read together lies together: a cell, a door, and what a search
-knows of a node are one line of the cache each. All coordinates are relative to the surface's origin.
+the memory of one search at a time. What is read together lies together: a door, and what a search knows of a
+node, are one line of the cache each. All coordinates are relative to the surface's origin.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -11,20 +11,13 @@ import numpy as np
 from numba import float64, int32, int64
 
 from navmesh.routes.graph_search import LABELS
-from surefoot.kernels import kernel
 from surefoot.kernels.bundles import Bundle, BundleType, aligned, rows
 
 if TYPE_CHECKING:
     from navmesh.graph.node_graph import NodeGraph
 
-__all__ = ["DOORS", "NET", "SCRATCH", "bare_net", "door_rows", "make_doors", "make_scratch", "net_of"]
+__all__ = ["DOORS", "NET", "SCRATCH", "door_rows", "make_doors", "make_scratch", "net_of"]
 
-_CELL = np.dtype(
-    [
-        ("clearance", "f8"), ("height", "f8"), ("link", "i4", 4), ("label", "i4"), ("cell_column", "i4"),
-        ("gradient", "f4", 2), ("nearby", "i4", 2), ("", "i4", 2),
-    ]
-)  # fmt: skip
 _NODE = np.dtype([("position", "f8", 3), ("node_radius", "f8")])
 _DOOR = np.dtype([("portal", "f8", 6), ("portal_cell", "i4", 2), ("target", "i4"), ("", "i4")])
 _LABEL = np.dtype(
@@ -39,9 +32,16 @@ NET = BundleType(
     nx=int64,
     ny=int64,
     column_start=int32[::1],
-    cells=rows(_CELL),
+    cell_column=int32[::1],
+    height=float64[::1],
+    gradient=float64[:, ::1],
+    link=int32[:, ::1],
+    clearance=float64[::1],
     nearest=float64[:, ::1],
+    source=int32[::1],
+    blocker_start=int32[::1],
     blocker=float64[:, ::1],
+    label=int32[::1],
     nodes=rows(_NODE),
     node_cell=int32[::1],
     edge_start=int32[::1],
@@ -49,10 +49,10 @@ NET = BundleType(
 )
 """The surface and the graph.
 
-cell: side of a grid square [m]; nx, ny: columns. Of `Surface`: column_start (nx*ny + 1,) and, for each cell,
-cell_column, height, gradient (2 float32), link (4), clearance, nearby (2), nearest (2); blocker (k, 4). Of
-`NodeGraph`: label of each cell; position (3), node_radius and node_cell of each node; edge_start (m + 1,),
-edge_target (e,).
+cell: side of a grid square [m]; nx, ny: columns. The arrays of `Surface` themselves: column_start
+(nx*ny + 1,) and, for each cell, cell_column, height, gradient (2), link (4), clearance, nearest (2), source;
+blocker_start (n + 1,), blocker (k, 4). Of `NodeGraph`: label of each cell; position (3), node_radius and
+node_cell of each node; edge_start (m + 1,), edge_target (e,).
 """
 
 _NO_SLOTS = np.empty(0, np.int32)
@@ -158,50 +158,37 @@ def _table(dtype: np.dtype, **columns: np.ndarray) -> np.ndarray:
     return table
 
 
-@kernel
-def _fill_cells(net, clearance, height, link, label, cell_column, gradient, source, blocker_start):
-    """Write the rows of all cells, in one go over the memory."""
-    for k in range(clearance.shape[0]):
-        net.clearance[k], net.height[k] = clearance[k], height[k]
-        for d in range(4):
-            net.link[k, d] = link[k, d]
-        net.label[k], net.cell_column[k] = label[k], cell_column[k]
-        net.gradient[k, 0], net.gradient[k, 1] = gradient[k, 0], gradient[k, 1]
-        s = source[k]
-        net.nearby[k, 0] = blocker_start[s] if s >= 0 else -1
-        net.nearby[k, 1] = blocker_start[s + 1] if s >= 0 else -1
-
-
 def net_of(graph: "NodeGraph") -> Any:
     """The graph's `NET`, made once."""
     net = graph.cache.get("net")
     if net is None:
-        net = graph.cache["net"] = bare_net(graph)
+        net = graph.cache["net"] = _net(graph)
     return net
 
 
-def bare_net(graph: "NodeGraph") -> Any:
-    """The graph's `NET`, which is not kept."""
+def _net(graph: "NodeGraph") -> Any:
     surface = graph.surface
-    net = Bundle(
+    return Bundle(
         NET,
         cell=surface.resolution,
         nx=surface.shape[0],
         ny=surface.shape[1],
         column_start=surface.column_start,
-        cells=aligned(len(surface), _CELL),
+        cell_column=surface.cell_column,
+        height=surface.height,
+        gradient=surface.gradient,
+        link=surface.link,
+        clearance=surface.clearance,
         nearest=surface.nearest,
+        source=surface.source,
+        blocker_start=surface.blocker_start,
         blocker=surface.blocker,
+        label=graph.label,
         nodes=_table(_NODE, position=graph.positions - surface.origin, node_radius=graph.radii),
         node_cell=graph.node_cell,
         edge_start=graph.edge_start,
         edge_target=graph.edge_target,
     )
-    _fill_cells(
-        net, surface.clearance, surface.height, surface.link, graph.label, surface.cell_column,
-        surface.gradient, surface.source, surface.blocker_start,
-    )  # fmt: skip
-    return net
 
 
 def door_rows(target: np.ndarray, portal: np.ndarray, portal_cell: np.ndarray) -> np.ndarray:

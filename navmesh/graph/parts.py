@@ -4,6 +4,7 @@ tiles of the grid in which each part has a place for the body."""
 import numpy as np
 
 from navmesh.graph.snapping import CANDIDATES, candidate
+from navmesh.surface.clearance_field import slope_at
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel
 
@@ -62,7 +63,8 @@ def parts_of_tiles(net, part, radius):
                 for k in range(low, high):
                     if net.clearance[k] < least:
                         continue
-                    rise = half * (abs(net.gradient[k, 0]) + abs(net.gradient[k, 1]))
+                    slope_x, slope_y = slope_at(net, k)
+                    rise = half * (abs(slope_x) + abs(slope_y))
                     bottom, top = net.height[k] - rise, net.height[k] + rise
                     for i in range(1 if net.clearance[k] >= radius else CANDIDATES):
                         node = candidate(net, k, radius, i)

@@ -5,7 +5,7 @@ from math import sqrt
 
 from navmesh.graph.parts import TILE
 from navmesh.graph.snapping import CANDIDATES, candidate, node_at, place_in, squared_distance
-from navmesh.surface.clearance_field import centre_of
+from navmesh.surface.clearance_field import centre_of, slope_at
 from surefoot.kernels import kernel
 
 __all__ = ["nearest_reachable"]
@@ -35,8 +35,8 @@ def _search_column(net, doors, scratch, column, square, x, y, z, best, node, cel
             if off < best:
                 best, node, cell, bx, by = off, net.label[k], k, px, py
             continue
-        slope = abs(net.gradient[k, 0]) + abs(net.gradient[k, 1])
-        rise = max(abs(net.height[k] - z) - slope * half, 0.0)
+        slope_x, slope_y = slope_at(net, k)
+        rise = max(abs(net.height[k] - z) - (abs(slope_x) + abs(slope_y)) * half, 0.0)
         if net.clearance[k] < radius - 1.4144 * half or square + rise * rise >= best:
             continue
         if not _may_reach(net, doors, scratch, k):

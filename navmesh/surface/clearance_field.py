@@ -13,7 +13,16 @@ import numpy as np
 
 from surefoot.kernels import kernel
 
-__all__ = ["cell_at", "centre_of", "floor_at", "gap_at", "same_place", "stretch_gap", "walk"]
+__all__ = ["cell_at", "centre_of", "floor_at", "gap_at", "same_place", "slope_at", "stretch_gap", "walk"]
+
+
+@kernel(error_model="numpy", inline="always")
+def _list_of(net, cell):
+    """The blockers that cell ``cell`` knows: from the first up to, not including, the last."""
+    source = np.int64(net.source[cell])
+    if source < 0:
+        return 0, 0
+    return np.int64(net.blocker_start[source]), np.int64(net.blocker_start[source + 1])
 
 
 @kernel(error_model="numpy", inline="always")
@@ -21,7 +30,8 @@ def _from_list(net, cell, px, py, least, x, y):
     """The least squared distance of p to the blockers that cell ``cell`` knows, where that is less than
     ``least``: (squared, the place on the blocker: x, y)."""
     blocker = net.blocker
-    for k in range(net.nearby[cell, 0], net.nearby[cell, 1]):
+    first, last = _list_of(net, cell)
+    for k in range(first, last):
         ax, ay = blocker[k, 0], blocker[k, 1]
         ex, ey = blocker[k, 2] - ax, blocker[k, 3] - ay
         length = ex * ex + ey * ey
@@ -41,7 +51,8 @@ def _along_list(net, cell, px, py, ux, uy, stretch, gap, s, x, y):
     the list of cell ``cell``, where that is less than ``gap``: (distance, where on the line [m], the place
     on the blocker: x, y)."""
     blocker = net.blocker
-    for k in range(net.nearby[cell, 0], net.nearby[cell, 1]):
+    first, last = _list_of(net, cell)
+    for k in range(first, last):
         # the blocker's ends as seen from p: how far ahead, and how far to the side
         dx, dy = blocker[k, 0] - px, blocker[k, 1] - py
         ax, ay = dx * ux + dy * uy, dy * ux - dx * uy
@@ -80,17 +91,17 @@ def _along_list(net, cell, px, py, ux, uy, stretch, gap, s, x, y):
 def _around(net, k, right, up):
     """Cell ``k``, those beside it in the directions ``right`` and ``up``, and the one between these; -1 for
     one that is not there, or has no list of blockers, or the same as one before."""
-    link, nearby = net.link, net.nearby
+    link, source = net.link, net.source
     side, other = np.int64(link[k, right]), np.int64(link[k, up])
     corner = np.int64(-1)
     if side >= 0:
         corner = np.int64(link[side, up])
     elif other >= 0:
         corner = np.int64(link[other, right])
-    first = nearby[k, 0]
-    second = nearby[side, 0] if side >= 0 else first
-    third = nearby[other, 0] if other >= 0 else first
-    fourth = nearby[corner, 0] if corner >= 0 else first
+    first = source[k]
+    second = source[side] if side >= 0 else first
+    third = source[other] if other >= 0 else first
+    fourth = source[corner] if corner >= 0 else first
     if fourth == first or fourth == second or fourth == third:
         corner = -1
     if third == first or third == second:
@@ -180,11 +191,18 @@ def same_place(net, k, other):
     return False
 
 
+@kernel(error_model="numpy", inline="always")
+def slope_at(net, k):
+    """Slope of the floor in cell ``k``, dz/dx and dz/dy, in single precision."""
+    return np.float32(net.gradient[k, 0]), np.float32(net.gradient[k, 1])
+
+
 @kernel(error_model="numpy")
 def floor_at(net, k, x, y):
     """Height [m] of the floor at (x, y) in cell ``k``: the plane through its centre."""
     cx, cy = centre_of(net, k)
-    return net.height[k] + net.gradient[k, 0] * (x - cx) + net.gradient[k, 1] * (y - cy)
+    slope_x, slope_y = slope_at(net, k)
+    return net.height[k] + slope_x * (x - cx) + slope_y * (y - cy)
 
 
 @kernel(error_model="numpy", inline="always")

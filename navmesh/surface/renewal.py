@@ -79,10 +79,11 @@ def field_in(surface: Surface, window: Window) -> tuple[Field, np.ndarray]:
     its cells in the whole (n,) int32."""
     ny = surface.shape[1]
     link, where = links_in(surface, window)
-    owner, nearest, clearance, nearby = _taken(
-        where, surface.cell_column, surface.nearest, surface.clearance, surface.source, surface.blocker_start
+    owner, nearest, clearance, source = _taken(
+        where, surface.cell_column, surface.nearest, surface.clearance, surface.source
     )
-    return Field(surface.resolution, ny, owner, link, nearest, clearance, nearby, surface.blocker), where
+    lists = surface.blocker_start, surface.blocker  # of the whole, as the sources are
+    return Field(surface.resolution, ny, owner, link, nearest, clearance, source, *lists), where
 
 
 def moved_cells(cells: np.ndarray, before: Surface, surface: Surface, window: Window) -> np.ndarray:
@@ -129,18 +130,16 @@ def _links_in(column_start, link, window, ny):
 
 
 @allocating_kernel
-def _taken(where, cell_column, nearest, clearance, source, blocker_start):
+def _taken(where, cell_column, nearest, clearance, source):
     count = where.shape[0]
     owner, to_clearance = np.empty(count, np.int32), np.empty(count)
-    to_nearest, nearby = np.empty((count, 2)), np.empty((count, 2), np.int32)
+    to_nearest, to_source = np.empty((count, 2)), np.empty(count, np.int32)
     for k in range(count):
         c = where[k]
         owner[k], to_clearance[k] = cell_column[c], clearance[c]
         to_nearest[k, 0], to_nearest[k, 1] = nearest[c, 0], nearest[c, 1]
-        s = source[c]
-        nearby[k, 0] = blocker_start[s] if s >= 0 else -1
-        nearby[k, 1] = blocker_start[s + 1] if s >= 0 else -1
-    return owner, to_nearest, to_clearance, nearby
+        to_source[k] = source[c]
+    return owner, to_nearest, to_clearance, to_source
 
 
 @kernel(inline="always")

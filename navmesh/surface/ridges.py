@@ -30,7 +30,8 @@ class Field(NamedTuple):
     link: np.ndarray
     nearest: np.ndarray
     clearance: np.ndarray
-    nearby: np.ndarray
+    source: np.ndarray
+    blocker_start: np.ndarray
     blocker: np.ndarray
 
 
@@ -43,7 +44,8 @@ def field_of(surface: Surface) -> Field:
         surface.link,
         surface.nearest,
         surface.clearance,
-        surface.nearby(),
+        surface.source,
+        surface.blocker_start,
         surface.blocker,
     )
 

@@ -10,8 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surefoot.kernels import kernel
-
 __all__ = ["DIRECTIONS", "Surface"]
 
 DIRECTIONS = np.array([(1, 0), (0, 1), (-1, 0), (0, -1)], dtype=np.int32)
@@ -54,13 +52,6 @@ class Surface:
     def __len__(self) -> int:
         return len(self.cell_column)
 
-    def nearby(self) -> np.ndarray:
-        """(n, 2) int32: the list of blockers with the place nearest to cell c, blocker[nearby[c, 0]:nearby[c,
-        1]]; -1 where walking ends nowhere."""
-        found = np.empty((len(self.source), 2), np.int32)
-        _look_up(self.source, self.blocker_start, found)
-        return found
-
     def centers(self, cells: np.ndarray | None = None) -> np.ndarray:
         """World coordinates (k, 3) float64 of the centres of ``cells`` (k,), or of all."""
         columns = self.cell_column if cells is None else self.cell_column[cells]
@@ -75,11 +66,3 @@ class Surface:
         centers = self.centers(cells) - self.origin
         rise = np.einsum("ij,ij->i", places - centers[:, :2], self.gradient[cells])
         return np.column_stack([places, centers[:, 2] + rise]) + self.origin
-
-
-@kernel
-def _look_up(source, blocker_start, found):
-    for k in range(source.shape[0]):
-        s = source[k]
-        found[k, 0] = blocker_start[s] if s >= 0 else -1
-        found[k, 1] = blocker_start[s + 1] if s >= 0 else -1

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from navmesh.graph.kernel_arrays import bare_net, door_rows, make_doors, net_of
+from navmesh.graph.kernel_arrays import door_rows, make_doors, net_of
 from navmesh.graph.parts import leaps_by_part, parts_in_tiles, parts_of_nodes, parts_of_tiles
 from navmesh.graph.portals import open_portals
 from navmesh.recent import recent
@@ -29,7 +29,7 @@ class ZonedBody:
         self._zones = zones
         self._net = net_of(graph)
         base = zones.undivided
-        net = base.cache["net"] if "net" in base.cache else bare_net(base)
+        net = net_of(base)
         widths = base.edge_width, base.edge_cells, base.edge_gate
         start, target, *rows = open_portals(net, *widths, radius)
         self._base_target = target

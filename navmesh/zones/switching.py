@@ -134,13 +134,12 @@ def turn(switches, net, zone, blocked):
         cell, way = switches.cut[at, 0], switches.cut[at, 1]
         to = np.int32(-1) if switches.cut_count[at] > 0 else switches.cut[at, 2]
         switches.all_link[cell, way] = to
-        net.link[cell, way] = to
     for i in range(switches.side_start[zone], switches.side_start[zone + 1]):
         row = switches.side_row[i]
         for j in range(4):
             switches.all_blocker[row, j] = switches.side[i, j] if blocked == 1 else _OPEN
     for i in range(switches.cell_start[zone], switches.cell_start[zone + 1]):
-        _settle(switches, net, switches.cell_known[i])
+        _settle(switches, switches.cell_known[i])
     for i in range(switches.around_start[zone], switches.around_start[zone + 1]):
         switches.node_sign[switches.around[i]] ^= switches.zone_sign[zone]
     first, last = switches.user_start[zone], switches.user_start[zone + 1]
@@ -167,7 +166,7 @@ def turn(switches, net, zone, blocked):
 
 
 @kernel(error_model="numpy", inline="always")
-def _settle(switches, net, known):
+def _settle(switches, known):
     """Put in place how wide it is at a cell now."""
     x, y = switches.known_nearest[known, 0], switches.known_nearest[known, 1]
     square = x * x + y * y
@@ -180,9 +179,7 @@ def _settle(switches, net, known):
                 changed = True
     cell = switches.known_cell[known]
     switches.all_nearest[cell, 0], switches.all_nearest[cell, 1] = x, y
-    clearance = np.sqrt(square) if changed else switches.known_clearance[known]
-    switches.all_clearance[cell] = clearance
-    net.clearance[cell] = clearance
+    switches.all_clearance[cell] = np.sqrt(square) if changed else switches.known_clearance[known]
 
 
 @kernel(error_model="numpy")
@@ -232,16 +229,12 @@ def _put_together(switches, net, user, buckets, order):
     if switches.broken[user] == 0:
         switches.all_radius[whole] = net.node_radius[whole] = switches.whole_radius[user]
         for row in range(first, last):
-            cell = row_cell[row]
-            label[cell] = whole
-            net.label[cell] = whole
+            label[row_cell[row]] = whole
         return
     switches.all_radius[whole] = net.node_radius[whole] = -1.0
     if switches.kept_count[user] >= 0 and switches.kept_sign[user] == switches.node_sign[whole]:
         for row in range(first, last):
-            cell = row_cell[row]
-            label[cell] = switches.kept_label[row]
-            net.label[cell] = switches.kept_label[row]
+            label[row_cell[row]] = switches.kept_label[row]
         switches.piece_count[user] = switches.kept_count[user]
         for i in range(first, first + switches.kept_count[user]):
             node = np.int64(switches.kept_piece[i])
@@ -254,7 +247,6 @@ def _put_together(switches, net, user, buckets, order):
     for row in range(first, last):
         cell = row_cell[row]
         label[cell], power[row] = -1, np.inf
-        net.label[cell] = -1
         buckets[steps - min(np.int64(clearance[cell] / grain), steps - 1)] += 1
     for k in range(steps):
         buckets[k + 1] += buckets[k]
@@ -273,7 +265,6 @@ def _put_together(switches, net, user, buckets, order):
         node = switches.first_piece + row
         _claim(switches, net, user, node, k, x, y, radius)
         label[cell] = node
-        net.label[cell] = node
         at = first + switches.piece_count[user]
         switches.piece[at], switches.kept_piece[at], switches.kept_radius[at] = node, node, radius
         switches.piece_count[user] += 1
@@ -328,7 +319,6 @@ def _claim_line(switches, net, user, node, radius, c, d, dx, dy):
         if first <= row < last and score < switches.row_power[row] and net.clearance[c] <= radius:
             switches.row_power[row] = score
             switches.all_label[c] = node
-            net.label[c] = node
         c = np.int64(net.link[c, d])
         dy += step
 

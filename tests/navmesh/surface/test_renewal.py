@@ -12,8 +12,9 @@ def test_the_field_of_a_window():
     whole, (part, where) = field_of(surface), field_in(surface, (5, 8, 30, 25))
     ix, iy = np.divmod(surface.cell_column[where], surface.shape[1])
     assert ix.min() == 5 and ix.max() == 29 and iy.min() == 8 and iy.max() == 24
-    for name in ("cell_column", "nearest", "clearance", "nearby"):
+    for name in ("cell_column", "nearest", "clearance", "source"):
         np.testing.assert_array_equal(getattr(part, name), getattr(whole, name)[where], name)
+    assert part.blocker_start is surface.blocker_start and part.blocker is surface.blocker
     inside = np.full(len(surface) + 1, -1)
     inside[where] = np.arange(len(where))
     np.testing.assert_array_equal(part.link, inside[surface.link[where]])

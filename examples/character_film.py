@@ -57,8 +57,8 @@ def main() -> None:
         data.qpos[:] = qpos
         mujoco.mj_kinematics(model, data)
         places = np.hstack([data.xpos, data.xquat])[1 : 1 + len(figure.bodies)]
-        target = np.array([qpos[0], qpos[1], 0.95 if column < 6 else 0.7])
-        camera = Camera(target + np.array([0.9, -4.0, 0.6]), target, 0.62)
+        target = np.array([qpos[0], qpos[1], 1.1 if column < 6 else 0.75])
+        camera = Camera(target + np.array([0.9, -4.0, 0.6]), target, 0.66)
         pictures = [render(level, [figure.posed(places)], camera, (220, 260))]
         for rig in rigs:
             points = posed_points(rig.skeleton, rig.pose_from(places, figure.bodies, ground))

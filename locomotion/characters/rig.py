@@ -143,11 +143,11 @@ class Rig:
     ) -> NDArray[np.float64]:
         """Where the bones are for one person in motion: (t, b, 7), arguments as of `pose_from`.
 
-        What of a foot touches the ground stays there while the person's foot stands, up to 15 cm (of legs as long as the person's) from
-        where
-        `pose_from` puts it; in the air the foot goes back. This needs a ``ground``. places: (t, k, 7) at the
-        ``times`` (t,) [s], in order. grip: one for all, or (t,). footing: what the calls before for the same
-        person left; it is changed. Raises `LocomotionError` as `pose_from`, and for other times.
+        What of a foot touches the ground stays there while the person's foot stands, up to 15 cm (of legs as
+        long as the person's) from where `pose_from` puts it; in the air the foot goes back. This needs a
+        ``ground``. places: (t, k, 7) at the ``times`` (t,) [s], in order. grip: one for all, or (t,).
+        footing: what the calls before for the same person left; it is changed. Raises `LocomotionError` as
+        `pose_from`, and for other times.
         """
         given, moments = np.asarray(places, np.float64), np.asarray(times, np.float64)
         if given.ndim != 3 or moments.shape != given.shape[:1]:

@@ -1,9 +1,9 @@
 """Only what changed: the joint angles that differ from those a figure was sent before.
 
 A level keeps its motion at a rate of its own (60, 30, 15 Hz), and a figure of that level is told at that
-rate: at the state nearest to each of the moments ``k / rate``, whatever the frame rate of the world is. Angles are sent as whole
-multiples of a step that cannot be seen at the distance at which the level is used. So a figure far away
-costs a fraction of one that is near, and one that stands still costs nothing::
+rate: at the state nearest to each of the moments ``k / rate``, whatever the frame rate of the world is.
+Angles are sent as whole multiples of a step that cannot be seen at the distance at which the level is used.
+So a figure far away costs a fraction of one that is near, and one that stands still costs nothing::
 
     moment = moment_of(LOW, now)                   # the same until 1/15 s have passed
     angles = in_steps(LOW, channels)               # (c,) int16

@@ -15,6 +15,7 @@ from navmesh.graph.edge_changes import Edges, renew_edges
 from navmesh.graph.edges import join_nodes
 from navmesh.graph.node_changes import Nodes, renew_nodes
 from navmesh.graph.nodes import all_nodes
+from navmesh.graph.portal_changes import Changes
 from navmesh.level.mesh_queries import MeshGrid
 from navmesh.level.terrain import Terrain
 from navmesh.obstacles.rim_samples import RimSamples, renew_rim_samples, take_rim_samples
@@ -103,14 +104,17 @@ def _checked(built: Built, terrain: Terrain, rules: WalkRules) -> Built:
     return built
 
 
-def renewed(old: Built, changed: list[np.ndarray], terrain: Terrain, rules: WalkRules) -> Built:
+def renewed(
+    old: Built, changed: list[np.ndarray], terrain: Terrain, rules: WalkRules
+) -> tuple[Built, Changes | None]:
     """Surface, discs and edges of ``terrain``, which differs from that of ``old`` within the ``changed``
-    bounds (2, 3) [m]: what `build_whole` gives."""
+    bounds (2, 3) [m]: what `build_whole` gives. And what has changed, or None for all of it."""
     built, grid = old, old.grid
+    changes: Changes | None = Changes(np.arange(len(old.nodes.cell), dtype=np.int32), ())
     beside = reach_of(rules) + 3  # and the links and distances of cells beside one that changes
     windows = _apart([_window(bounds, grid, beside) for bounds in changed])
     if sum(_share(window, grid) for window in windows) > WHOLE:
-        return build_whole(terrain, rules, grid)
+        return build_whole(terrain, rules, grid), None
     for window in windows:
         spare = reach_of(rules) + 4
         wide = (window[0] - spare, window[1] - spare, window[2] + spare, window[3] + spare)
@@ -119,11 +123,12 @@ def renewed(old: Built, changed: list[np.ndarray], terrain: Terrain, rules: Walk
         surface, choice, reach = renew_surface(built.surface, built.choice, fresh, window, around, grid, MOST)
         nodes = reach and renew_nodes(built.nodes, built.surface, surface, reach, rules.min_radius, MOST)
         if nodes is None:
-            built = _with_discs(rules, grid, surface, choice)
+            built, changes = _with_discs(rules, grid, surface, choice), None
             continue
         edges = renew_edges(built.edges, built.nodes, built.surface, nodes, surface)
         built = Built(grid, surface, choice, nodes.nodes, edges)
-    return _checked(built, terrain, rules)
+        changes = changes and changes.and_then(Changes(nodes.number, (nodes.window,)))
+    return _checked(built, terrain, rules), changes
 
 
 def _share(window: Window, grid: Grid) -> float:

@@ -13,6 +13,7 @@ from navmesh.graph import spatial_queries as queries
 from navmesh.graph.graph_file import read_graph, write_graph
 from navmesh.graph.kept_build import Built, KeptBuild, all_rim_samples, build_whole, grid_for, renewed
 from navmesh.graph.links import Links, make_links
+from navmesh.graph.portal_changes import carry_over
 from navmesh.level.chunks import change_chunks
 from navmesh.level.mesh_queries import MeshGrid
 from navmesh.level.terrain import DEFAULT_MATERIAL, Terrain
@@ -148,14 +149,16 @@ class NodeGraph:
             and grid.shape == kept_build.built.grid.shape
             and (grid.origin == kept_build.built.grid.origin).all()
         ):
-            built = renewed(kept_build.built, changed, terrain, rules)
+            built, moved = renewed(kept_build.built, changed, terrain, rules)
         else:
-            built, kept_build = build_whole(terrain, rules, grid), None
+            built, kept_build, moved = build_whole(terrain, rules, grid), None, None
         found = None
         if self.obstacle_rules is not None:
             found = all_rim_samples(kept_build, changed, terrain, built.surface, rules, self.obstacle_rules)
         graph = self._made(terrain, rules, self.obstacle_rules, self.tags, built, found)
         if self.zone_state is None:
+            if moved is not None:
+                carry_over(self, graph, moved)
             return graph
         return rebuilt(graph, self.zone_state.outlines, self.zones)
 

@@ -10,7 +10,7 @@ import numpy as np
 from navmesh.errors import NavmeshError
 from navmesh.graph.kernel_arrays import door_rows, make_doors, net_of
 from navmesh.graph.parts import leaps_by_part, parts_of_nodes, parts_of_tiles
-from navmesh.graph.portals import open_portals
+from navmesh.graph.portal_changes import portals_for
 from navmesh.obstacles.kinds import affordances
 from navmesh.recent import recent
 from navmesh.zones.bodies import zoned_body
@@ -60,8 +60,7 @@ def portals_of(graph: "NodeGraph", radius: float) -> tuple[np.ndarray, ...]:
     (p, 2), block (p, 4); see `DOORS`."""
 
     def make() -> tuple[np.ndarray, ...]:
-        widths = graph.edge_width, graph.edge_cells, graph.edge_gate
-        start, target, portal, cells, lens, block = open_portals(net_of(graph), *widths, radius)
+        start, target, portal, cells, lens, block = portals_for(graph, radius)
         return start, door_rows(target, portal, cells), lens, block
 
     return recent(graph.cache, "portals", radius, make)

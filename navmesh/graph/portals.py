@@ -14,12 +14,13 @@ from navmesh.surface.clearance_field import centre_of, floor_at, gap_at, walk
 from navmesh.surface.ridges import middle, middle_beside
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["BESIDE", "MARGIN", "fill_portal", "is_open_to", "open_portals"]
+__all__ = ["BENDS", "BESIDE", "MARGIN", "fill_portal", "is_open_to", "open_portals"]
 
 MARGIN = 0.04
 """Corners keep this share of the radius more than it where there is room, so that straight lines between them
 clear what is round."""
-_BENDS = 6  # times that a line through a narrow gate is led off what is too near
+BENDS = 6
+"""Times that a line through a narrow gate is led off what is too near."""
 _PUSHED = 1.01
 """Share of the radius that it is led off."""
 BESIDE = 1.1
@@ -86,8 +87,8 @@ def _portal(net, i, j, pair, gate, radius):
 def _gets_through(net, k, ax, ay, bx, by, radius):
     """Whether a body of ``radius`` gets from a, in cell ``k``, to b on a line that is led off what is too
     near, a few times."""
-    path = np.empty((_BENDS + 2, 2))
-    cell = np.empty(_BENDS + 2, np.int64)
+    path = np.empty((BENDS + 2, 2))
+    cell = np.empty(BENDS + 2, np.int64)
     path[0, 0], path[0, 1], path[1, 0], path[1, 1] = bx, by, ax, ay
     cell[1] = k
     size = 2  # what is left to walk, the next corner last
@@ -102,7 +103,7 @@ def _gets_through(net, k, ax, ay, bx, by, radius):
             continue
         tx, ty = x + place * (px - x), y + place * (py - y)
         off = sqrt((tx - qx) ** 2 + (ty - qy) ** 2)
-        if gap <= 0.0 or off < 1e-9 or bends == _BENDS or not 1e-3 < place < 1.0 - 1e-3:
+        if gap <= 0.0 or off < 1e-9 or bends == BENDS or not 1e-3 < place < 1.0 - 1e-3:
             return False
         bends += 1
         push = radius * _PUSHED / off

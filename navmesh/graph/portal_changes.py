@@ -1,0 +1,171 @@
+"""Portals after a change: those near it are worked out anew, the others carried over from the graph before.
+
+What a portal is depends on the clearance field under its two discs and as far beside them as a body can be
+led off its line (`navmesh.graph.portals`).
+"""
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from navmesh.graph.kernel_arrays import net_of
+from navmesh.graph.portals import BENDS, fill_portal, is_open_to, open_portals
+from navmesh.recent import KEPT
+from navmesh.surface.build import Window
+from surefoot.kernels import allocating_kernel, kernel
+
+if TYPE_CHECKING:
+    from navmesh.graph.node_graph import NodeGraph
+
+__all__ = ["Changes", "EarlierPortals", "carry_over", "portals_for"]
+
+Portals = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+"""start (m + 1,), doors (p,), lens (p, 2), block (p, 4) of `navmesh.graph.kernel_arrays.DOORS`."""
+
+_EARLIER = "earlier portals"
+_MOST = 16
+"""Changed windows after which portals that nobody asked for are not kept any longer."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Changes:
+    """What is other than before on a surface and its nodes."""
+
+    number: np.ndarray
+    """(m before,) int32: what number each node of before has now, rising, or -1 for those that are gone."""
+    windows: tuple[Window, ...]
+    """Outside of them all cells, clearances and labels are as before, but for the numbers."""
+
+    def and_then(self, later: "Changes") -> "Changes":
+        """These changes and ``later`` ones."""
+        number = np.append(later.number, np.int32(-1))[self.number]  # -1 stays -1
+        return Changes(number, self.windows + later.windows)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class EarlierPortals:
+    """Portals of a graph before some changes."""
+
+    portals: Portals
+    column_start: np.ndarray
+    cell_column: np.ndarray
+    """Those of the surface then."""
+    changes: Changes
+
+
+def carry_over(before: "NodeGraph", after: "NodeGraph", changes: Changes) -> None:
+    """Let the graph ``after`` some changes take over the portals of the graph ``before`` them, of each radius
+    when it is first asked for: also those that ``before`` itself has not taken over yet."""
+    known, waiting = before.cache.get("portals", {}), before.cache.get(_EARLIER, {})
+    found = {}
+    for radius in tuple(waiting):  # another thread may ask for one meanwhile
+        earlier = waiting.get(radius)
+        if earlier is not None and len(earlier.changes.windows) + len(changes.windows) <= _MOST:
+            found[radius] = replace(earlier, changes=earlier.changes.and_then(changes))
+    surface = before.surface
+    for radius in tuple(known):
+        portals = known.get(radius)
+        if portals is not None:
+            found[radius] = EarlierPortals(portals, surface.column_start, surface.cell_column, changes)
+    after.cache[_EARLIER] = dict(list(found.items())[-KEPT:])
+
+
+def portals_for(graph: "NodeGraph", radius: float) -> tuple[np.ndarray, ...]:
+    """The graph's portals for a body of ``radius`` [m]: what `open_portals` gives."""
+    net, edges = net_of(graph), (graph.edge_width, graph.edge_cells, graph.edge_gate)
+    earlier = graph.cache.get(_EARLIER, {}).pop(radius, None)
+    if earlier is None:
+        return open_portals(net, *edges, radius)
+    return _renewed(net, edges, radius, earlier)
+
+
+def _renewed(
+    net: Any, edges: tuple[np.ndarray, np.ndarray, np.ndarray], radius: float, earlier: EarlierPortals
+) -> tuple[np.ndarray, ...]:
+    start, doors, lens, block = earlier.portals
+    windows = np.array(earlier.changes.windows, np.int64).reshape(-1, 4)
+    return _renew(
+        net, *edges, radius, earlier.changes.number, windows, earlier.column_start, earlier.cell_column,
+        start, doors["target"], doors["portal"], doors["portal_cell"], lens, block,
+    )  # fmt: skip
+
+
+@kernel(error_model="numpy")
+def _is_near(net, windows, i, j, radius):
+    """Whether the portal between nodes i and j depends on anything in the ``windows`` (w, 4)."""
+    room = 2.0 * max(net.node_radius[i], net.node_radius[j]) + (BENDS + 1) * (1.1 * radius + net.cell)
+    room += 8.0 * net.cell
+    left = (min(net.position[i, 0], net.position[j, 0]) - room) / net.cell
+    right = (max(net.position[i, 0], net.position[j, 0]) + room) / net.cell
+    near = (min(net.position[i, 1], net.position[j, 1]) - room) / net.cell
+    far = (max(net.position[i, 1], net.position[j, 1]) + room) / net.cell
+    for w in range(windows.shape[0]):
+        if left < windows[w, 2] and right > windows[w, 0] and near < windows[w, 3] and far > windows[w, 1]:
+            return True
+    return False
+
+
+@allocating_kernel(error_model="numpy")
+def _renew(
+    net, edge_width, edge_cells, edge_gate, radius, number, windows, old_column_start, old_column,
+    old_start, old_target, old_portal, old_cells, old_lens, old_block,
+):  # fmt: skip
+    nodes = net.node_radius.size
+    was = np.full(nodes, -1, np.int32)
+    for i in range(number.size):
+        if number[i] >= 0:
+            was[number[i]] = i
+    door = np.full(edge_width.size, -1, np.int32)  # -1: shut, -2: to be worked out, else its row of before
+    count = 0
+    for i in range(nodes):
+        before = was[i]
+        at = np.int64(old_start[before]) if before >= 0 else 0
+        for edge in range(net.edge_start[i], net.edge_start[i + 1]):
+            j = net.edge_target[edge]
+            if before >= 0 and was[j] >= 0 and not _is_near(net, windows, i, j, radius):
+                last = old_start[before + 1]
+                while at < last and old_target[at] < was[j]:
+                    at += 1
+                if at < last and old_target[at] == was[j]:
+                    door[edge] = at
+                    count += 1
+            elif i < j and is_open_to(net, i, j, edge_width[edge], edge_cells[edge], edge_gate[edge], radius):
+                door[edge] = -2
+                for back in range(net.edge_start[j], net.edge_start[j + 1]):
+                    if net.edge_target[back] == i:
+                        door[back] = -2
+                count += 2
+    low, high = old_column_start.size - 1, np.int64(0)  # columns before and after all that has changed
+    for w in range(windows.shape[0]):
+        low = min(low, windows[w, 0] * net.ny)
+        high = max(high, windows[w, 2] * net.ny)
+    first, beyond = old_column_start[low], old_column_start[high]
+    shift = net.column_start[high] - beyond
+    start, target = np.zeros(nodes + 1, np.int32), np.empty(count, np.int32)
+    portal, cells = np.empty((count, 6)), np.empty((count, 2), np.int32)
+    lens, block = np.empty((count, 2)), np.empty((count, 4))
+    count = 0
+    for i in range(nodes):
+        for edge in range(net.edge_start[i], net.edge_start[i + 1]):
+            at, j = door[edge], net.edge_target[edge]
+            if at == -1:
+                continue
+            target[count] = j
+            if at == -2:
+                fill_portal(
+                    net, i, j, edge_cells[edge], edge_gate[edge], radius, count, portal, cells, lens, block
+                )
+            else:
+                portal[count], lens[count], block[count] = old_portal[at], old_lens[at], old_block[at]
+                for side in range(2):
+                    cell = old_cells[at, side]
+                    if cell >= beyond:
+                        cell += shift
+                    elif cell >= first:
+                        column = old_column[cell]
+                        cell += net.column_start[column] - old_column_start[column]
+                    cells[count, side] = cell
+            count += 1
+        start[i + 1] = count
+    return start, target, portal, cells, lens, block

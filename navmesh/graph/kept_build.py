@@ -11,11 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from navmesh.errors import NavmeshError
+from navmesh.graph.carrying import Changes
 from navmesh.graph.edge_changes import Edges, renew_edges
 from navmesh.graph.edges import join_nodes
 from navmesh.graph.node_changes import Nodes, renew_nodes
 from navmesh.graph.nodes import all_nodes
-from navmesh.graph.portal_changes import Changes
 from navmesh.level.mesh_queries import MeshGrid
 from navmesh.level.terrain import Terrain
 from navmesh.obstacles.rim_samples import RimSamples, renew_rim_samples, take_rim_samples

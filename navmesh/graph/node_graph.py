@@ -10,10 +10,10 @@ import numpy as np
 
 from navmesh.errors import NavmeshError
 from navmesh.graph import spatial_queries as queries
+from navmesh.graph.carrying import carry_over
 from navmesh.graph.graph_file import read_graph, write_graph
 from navmesh.graph.kept_build import Built, KeptBuild, all_rim_samples, build_whole, grid_for, renewed
 from navmesh.graph.links import Links, make_links
-from navmesh.graph.portal_changes import carry_over
 from navmesh.level.chunks import change_chunks
 from navmesh.level.mesh_queries import MeshGrid
 from navmesh.level.terrain import DEFAULT_MATERIAL, Terrain

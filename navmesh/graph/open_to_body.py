@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from navmesh.errors import NavmeshError
-from navmesh.graph.kernel_arrays import door_rows, make_doors, net_of
-from navmesh.graph.parts import leaps_by_part, parts_of_nodes, parts_of_tiles
+from navmesh.graph.kernel_arrays import door_rows, make_doors
+from navmesh.graph.part_changes import tiles_for
+from navmesh.graph.parts import leaps_by_part, parts_of_nodes
 from navmesh.graph.portal_changes import portals_for
 from navmesh.obstacles.kinds import affordances
 from navmesh.recent import recent
@@ -85,7 +86,7 @@ def parts_of(graph: "NodeGraph", radius: float) -> tuple[np.ndarray, ...]:
     def make() -> tuple[np.ndarray, ...]:
         start, doors = portals_of(graph, radius)[:2]
         part = parts_of_nodes(start, np.ascontiguousarray(doors["target"]))
-        return part, *parts_of_tiles(net_of(graph), part, radius)
+        return part, *tiles_for(graph, part, radius)
 
     return recent(graph.cache, "parts", radius, make)
 

@@ -1,6 +1,8 @@
 """The parts of a graph that one body radius leaves: nodes that can be walked to from each other, and the
 tiles of the grid in which each part has a place for the body."""
 
+from typing import Any, NamedTuple
+
 import numpy as np
 
 from navmesh.graph.snapping import CANDIDATES, candidate
@@ -8,7 +10,7 @@ from navmesh.surface.clearance_field import slope_at
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel
 
-__all__ = ["TILE", "leaps_by_part", "parts_in_tiles", "parts_of_nodes", "parts_of_tiles"]
+__all__ = ["TILE", "KeptTiles", "leaps_by_part", "parts_in_tiles", "parts_of_nodes", "parts_of_tiles"]
 
 TILE = 16
 """Columns a side of the tiles by which far places are looked for."""
@@ -41,13 +43,33 @@ def parts_of_nodes(start, target):
     return part
 
 
-@allocating_kernel(error_model="numpy")
-def parts_of_tiles(net, part, radius):
+class KeptTiles(NamedTuple):
+    """What is known of some tiles."""
+
+    kept: np.ndarray
+    """(t,) bool: of which."""
+    start: np.ndarray
+    part: np.ndarray
+    span: np.ndarray
+    """As `parts_of_tiles` gives them; read where kept."""
+
+
+def parts_of_tiles(
+    net: Any, part: np.ndarray, radius: float, known: KeptTiles | None = None
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """In which parts a body of ``radius`` can be in each tile of `TILE` x `TILE` columns, and how high.
 
     In CSR form: start (t + 1,) int32; parts (p,) int32, and the least and the greatest height of the floor
-    there (p, 2) float64 [m]; tile tx * tiles_y + ty.
+    there (p, 2) float64 [m]; tile tx * tiles_y + ty. What is ``known`` of tiles is not worked out.
     """
+    if known is None:
+        none = np.zeros(-(-net.nx // TILE) * -(-net.ny // TILE), np.bool_)
+        known = KeptTiles(none, np.empty(0, np.int32), np.empty(0, np.int32), np.empty((0, 2)))
+    return _parts_of_tiles(net, part, radius, known)
+
+
+@allocating_kernel(error_model="numpy")
+def _parts_of_tiles(net, part, radius, known):
     across, along = (net.nx + TILE - 1) // TILE, (net.ny + TILE - 1) // TILE
     least, half = radius - 0.7072 * net.cell, 0.5 * net.cell
     start = np.zeros(across * along + 1, np.int32)
@@ -57,6 +79,17 @@ def parts_of_tiles(net, part, radius):
     for tx in range(across):
         for ty in range(along):
             first = last = count
+            tile = tx * along + ty
+            if known.kept[tile]:
+                for at in range(known.start[tile], known.start[tile + 1]):
+                    if count == found.size:
+                        found = np.concatenate((found, np.empty_like(found)))
+                        span = np.concatenate((span, np.empty_like(span)))
+                    found[count] = known.part[at]
+                    span[count, 0], span[count, 1] = known.span[at, 0], known.span[at, 1]
+                    count += 1
+                start[tile + 1] = count
+                continue
             for ix in range(tx * TILE, min((tx + 1) * TILE, net.nx)):
                 low = net.column_start[ix * net.ny + ty * TILE]
                 high = net.column_start[ix * net.ny + min((ty + 1) * TILE, net.ny)]
@@ -82,7 +115,7 @@ def parts_of_tiles(net, part, radius):
                         else:
                             span[at, 0], span[at, 1] = min(span[at, 0], bottom), max(span[at, 1], top)
                         last = at
-            start[tx * along + ty + 1] = count
+            start[tile + 1] = count
     return start, found[:count].copy(), span[:count].copy()
 
 

@@ -4,86 +4,34 @@ What a portal is depends on the clearance field under its two discs and as far b
 led off its line (`navmesh.graph.portals`).
 """
 
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from navmesh.graph.carrying import Earlier, earlier_of
 from navmesh.graph.kernel_arrays import net_of
 from navmesh.graph.portals import BENDS, fill_portal, is_open_to, open_portals
-from navmesh.recent import KEPT
-from navmesh.surface.build import Window
 from surefoot.kernels import allocating_kernel, kernel
 
 if TYPE_CHECKING:
     from navmesh.graph.node_graph import NodeGraph
 
-__all__ = ["Changes", "EarlierPortals", "carry_over", "portals_for"]
-
-Portals = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
-"""start (m + 1,), doors (p,), lens (p, 2), block (p, 4) of `navmesh.graph.kernel_arrays.DOORS`."""
-
-_EARLIER = "earlier portals"
-_MOST = 16
-"""Changed windows after which portals that nobody asked for are not kept any longer."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Changes:
-    """What is other than before on a surface and its nodes."""
-
-    number: np.ndarray
-    """(m before,) int32: what number each node of before has now, rising, or -1 for those that are gone."""
-    windows: tuple[Window, ...]
-    """Outside of them all cells, clearances and labels are as before, but for the numbers."""
-
-    def and_then(self, later: "Changes") -> "Changes":
-        """These changes and ``later`` ones."""
-        number = np.append(later.number, np.int32(-1))[self.number]  # -1 stays -1
-        return Changes(number, self.windows + later.windows)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class EarlierPortals:
-    """Portals of a graph before some changes."""
-
-    portals: Portals
-    column_start: np.ndarray
-    cell_column: np.ndarray
-    """Those of the surface then."""
-    changes: Changes
-
-
-def carry_over(before: "NodeGraph", after: "NodeGraph", changes: Changes) -> None:
-    """Let the graph ``after`` some changes take over the portals of the graph ``before`` them, of each radius
-    when it is first asked for: also those that ``before`` itself has not taken over yet."""
-    known, waiting = before.cache.get("portals", {}), before.cache.get(_EARLIER, {})
-    found = {}
-    for radius in tuple(waiting):  # another thread may ask for one meanwhile
-        earlier = waiting.get(radius)
-        if earlier is not None and len(earlier.changes.windows) + len(changes.windows) <= _MOST:
-            found[radius] = replace(earlier, changes=earlier.changes.and_then(changes))
-    surface = before.surface
-    for radius in tuple(known):
-        portals = known.get(radius)
-        if portals is not None:
-            found[radius] = EarlierPortals(portals, surface.column_start, surface.cell_column, changes)
-    after.cache[_EARLIER] = dict(list(found.items())[-KEPT:])
+__all__ = ["portals_for"]
 
 
 def portals_for(graph: "NodeGraph", radius: float) -> tuple[np.ndarray, ...]:
     """The graph's portals for a body of ``radius`` [m]: what `open_portals` gives."""
     net, edges = net_of(graph), (graph.edge_width, graph.edge_cells, graph.edge_gate)
-    earlier = graph.cache.get(_EARLIER, {}).pop(radius, None)
+    earlier = earlier_of(graph, "portals", radius)
     if earlier is None:
         return open_portals(net, *edges, radius)
     return _renewed(net, edges, radius, earlier)
 
 
 def _renewed(
-    net: Any, edges: tuple[np.ndarray, np.ndarray, np.ndarray], radius: float, earlier: EarlierPortals
+    net: Any, edges: tuple[np.ndarray, np.ndarray, np.ndarray], radius: float, earlier: Earlier
 ) -> tuple[np.ndarray, ...]:
-    start, doors, lens, block = earlier.portals
+    start, doors, lens, block = earlier.known
     windows = np.array(earlier.changes.windows, np.int64).reshape(-1, 4)
     return _renew(
         net, *edges, radius, earlier.changes.number, windows, earlier.column_start, earlier.cell_column,

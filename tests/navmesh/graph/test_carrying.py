@@ -1,4 +1,4 @@
-"""Portals carried over from before an update are, to the bit, those of a graph that was built anew."""
+"""Portals and parts carried over from before an update are, to the bit, those of a graph built anew."""
 
 from functools import cache
 
@@ -8,7 +8,7 @@ import pytest
 from benchmarks.large_levels import large_level
 from navmesh import NodeGraph, Terrain, join_chunks, split_terrain
 from navmesh.graph import portal_changes
-from navmesh.graph.open_to_body import portals_of
+from navmesh.graph.open_to_body import parts_of, portals_of
 
 RADII = (0.25, 0.6, 1.4)
 
@@ -36,18 +36,19 @@ def test_random_changes(kind, size, side, monkeypatch):
         for name in map(str, rng.choice(names, rng.integers(1, 3), replace=False)):
             if turn % 3 != 2:  # now and then nobody asks between two updates
                 for radius in RADII:
-                    portals_of(graph, radius)
+                    parts_of(graph, radius)
             shift = rng.uniform(-0.5, 0.5, 3) * (rng.random() < 0.5)
             moved = Terrain.from_arrays(chunks[name].vertices + shift, chunks[name].faces)
             change = None if name in there and rng.random() < 0.5 else moved
             graph = graph.update({name: change})
             there = {key: each for key, each in (there | {name: change}).items() if each is not None}
         times.clear()
-        found = [portals_of(graph, radius) for radius in RADII]
+        found = [(*portals_of(graph, radius), *parts_of(graph, radius)) for radius in RADII]
         carried += not times
         fresh = built(there, chunks)
-        for radius, portals in zip(RADII, found, strict=True):
-            for mine, expected in zip(portals, portals_of(fresh, radius), strict=True):
+        for radius, arrays in zip(RADII, found, strict=True):
+            others = *portals_of(fresh, radius), *parts_of(fresh, radius)
+            for mine, expected in zip(arrays, others, strict=True):
                 np.testing.assert_array_equal(mine, expected, f"radius {radius}, turn {turn}")
     assert carried >= 3
 

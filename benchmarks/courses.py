@@ -1,11 +1,12 @@
 """How many courses of ten obstacles people complete, and where the others end.
 
     python -m benchmarks.courses [--courses 200] [--obstacles 10] [--kinds jump vault drop] [--rehearsals 16]
-        [--processes 1] [--cluster ADDRESS]
+        [--rehearsal-ticks 20] [--processes 1] [--cluster ADDRESS]
 
 Kinds and heights are drawn evenly (heights from what each skill has learned), 8 to 15 m apart, on a level of
-triangles; from standing, with noise of 0.02 m/s and rad/s. Path tracking, speed planner and skills are those
-of missions.
+triangles; from standing, with noise of 0.02 m/s and rad/s. ``--rehearsal-ticks``: in each tick of the person,
+as of `runtime.World`; without it each decision takes what it needs at the moment. Path tracking, speed
+planner and skills are those of missions.
 """
 
 import argparse
@@ -36,21 +37,21 @@ def draw_course(rng: np.random.Generator, count: int, kinds: list[str]) -> Cours
     return make_course(obstacles, rng.uniform(*APART, count).tolist())
 
 
-_asked: tuple[int, list[str], int] | None = None  # of a worker
+_asked: tuple[int, list[str], int, int | None] | None = None  # of a worker
 
 
-def _begin(obstacles: int, kinds: list[str], rehearsals: int) -> None:
+def _begin(obstacles: int, kinds: list[str], rehearsals: int, ticks: int | None) -> None:
     global _asked
-    _asked = obstacles, kinds, rehearsals
+    _asked = obstacles, kinds, rehearsals, ticks
 
 
 def _run(number: int) -> dict[str, Any]:
     """Course ``number``: its kinds, how it ended, and which of them the person took off for."""
     assert _asked is not None
-    obstacles, among, rehearsals = _asked
+    obstacles, among, rehearsals, ticks = _asked
     began = time.process_time()
     course = draw_course(np.random.default_rng([5, number]), obstacles, among)
-    run = run_course(course, noise=start_noise(5, number), rehearsals=rehearsals)
+    run = run_course(course, noise=start_noise(5, number), rehearsals=rehearsals, rehearsal_ticks=ticks)
     kinds = [obstacle.affordance for obstacle in course.obstacles]
     return {
         "kinds": kinds, "ended": run.ended, "cleared": sum(p.cleared for p in run.reports),
@@ -67,11 +68,12 @@ def main() -> None:
     parser.add_argument("--obstacles", type=int, default=10)
     parser.add_argument("--kinds", nargs="+", default=["jump", "vault", "drop"])
     parser.add_argument("--rehearsals", type=int, default=REHEARSALS, help="as of Human")
+    parser.add_argument("--rehearsal-ticks", type=int)
     parser.add_argument("--json", type=Path, help="file to write")
     add_place(parser)
     options = parser.parse_args()
     rows, last, met = [], Counter(), Counter()
-    asked = options.obstacles, options.kinds, options.rehearsals
+    asked = options.obstacles, options.kinds, options.rehearsals, options.rehearsal_ticks
     with worker_pool(place_of(options), _begin, asked) as workers:
         for row in workers.imap(_run, range(options.courses)):
             rows.append(row)

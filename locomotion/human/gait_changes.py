@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from functools import partial
 
@@ -33,7 +34,9 @@ from locomotion.rehearsal.understudy import Chooser, Understudy
 __all__ = ["GaitChanges"]
 
 _TOO_NEAR = 2.0  # [m] before an obstacle at which a walking person stops
-_AGAIN, _TRIES = 5, 40  # ticks between attempts to brake after a stop command; ticks during which it attempts
+_TRIES = 40  # ticks after a stop command in which it attempts to brake
+_SURE = 3.7  # [m/s] up to which braking mostly holds unrehearsed: it is learned so far
+_SAME = 1e-9  # [m/s²]
 
 _CLEARS = partial(clears, notes=True)
 _WALKS_ON = partial(walks_on, notes=True)
@@ -87,8 +90,8 @@ class GaitChanges:
         def set_off(body: Chooser, choice: tuple[bool, Sequence[float]]) -> None:
             body.set_off(choice, speed)
 
-        choice, went, seen = self._decider.best(person, SETTING_OFF, set_off, _CLEARS)
-        if went >= HOLDS:
+        choice, went, seen, known = self._decider.best(person, SETTING_OFF, set_off, _CLEARS)
+        if went >= HOLDS and (known or self._decider.answer is None):
             person.set_off(choice, speed)
             self._decider.predicted.expect(person, seen)
 
@@ -96,7 +99,7 @@ class GaitChanges:
         """Just after a foot came down on uneven ground: choose the duration of the next step."""
         person = self._person
         if person.on_feet.begins_uneven_step:
-            choice, _, seen = self._decider.best(person, STEPPINGS, _vary_step, self._steps_on)
+            choice, _, seen, _ = self._decider.best(person, STEPPINGS, _vary_step, self._steps_on)
             person.vary_step(choice)
             self._decider.predicted.expect(person, seen)
 
@@ -107,8 +110,12 @@ class GaitChanges:
         person, feet, follower = self._person, self._person.on_feet, self._person.follower
         told = person.status == "standing"
         stops = told or follower.pace == 0.0 or follower.brakes
-        if stops and not feet.brakes and self._brakes_or_will(told):
-            return
+        if not feet.brakes:
+            follower.stops_since = (follower.stops_since or person.ticks) if stops else 0
+            if stops and self._brakes_or_will(told):
+                return
+        elif feet.slowing > 0.0 and follower.stops_since:
+            self._brake_better()
         if feet.slowing == 0.0:
             if person.status not in MOVING or not follower.runs or follower.pace == 0.0:
                 self._slow_down_or_will(stops)
@@ -125,8 +132,8 @@ class GaitChanges:
         if self._decider.answer is None:
             self._decider.undecided = True
             return
-        choice, went, seen = self._decider.best(person, RUN_UPS, vary_run_up, _CLEARS)
-        person.run_up.vary(choice, person.control, went >= HOLDS)
+        choice, went, seen, known = self._decider.best(person, RUN_UPS, vary_run_up, _CLEARS)
+        person.run_up.vary(choice, person.control, known and went >= HOLDS)
         if went >= HOLDS:
             self._decider.predicted.expect(person, seen)
         else:
@@ -136,44 +143,62 @@ class GaitChanges:
         """Try to brake; return whether it does, or will try again shortly.
 
         If rehearsals fail but the person was just ``told`` to stop, or has just reached its braking point, it
-        waits for the next attempt; one that slows down meanwhile keeps trying.
+        waits for the next attempt; so does one that is too fast to brake without a rehearsal. One that slows
+        down meanwhile keeps trying.
         """
         if self._decider.answer is None:
             return False
         person = self._person
-        since, runs = person.ticks - person.ended_at, person.on_feet.slowing == 0.0
-        may_wait = runs and (since < _TRIES if told else person.follower.begins_to_slow)
-        now = (since if told else person.ticks) % _AGAIN == 1 or (runs and not may_wait)
-        return (now and self._brakes_well()) or may_wait
+        since, runs = person.ticks - person.follower.stops_since, person.on_feet.slowing == 0.0
+        unsure = not self._decider.waits and math.hypot(person.velocity[0], person.velocity[1]) > _SURE
+        may_wait = runs and (since < _TRIES if told or unsure else person.follower.begins_to_slow)
+        now = since % self._decider.again == 0 or (runs and not may_wait)
+        return (now and self._brakes_well(unsure and may_wait)) or may_wait
+
+    def _brake_better(self) -> None:
+        """If it brakes as it has not rehearsed, brake otherwise if that does not hold."""
+        person = self._person
+        if (person.ticks - person.follower.stops_since) % self._decider.again:
+            return
+        learned = person.on_feet.brake_skill.deceleration
+        ways = sorted(BRAKINGS, key=lambda harder: abs(harder * learned - person.on_feet.slowing) > _SAME)
+        self._slow_as_rehearsed(ways, _brake, ComesToRest())
 
     def _slow_down_or_will(self, must: bool) -> None:
         """Slow down to a walk; if rehearsals fail, brake, or run on for a moment if there is room."""
         follower, ticks = self._person.follower, self._person.ticks
         may_wait = not must and self._decider.answer is not None and follower.begins_to_slow
-        if may_wait and follower.tried_to_slow and ticks - follower.tried_to_slow < _AGAIN:
+        if may_wait and follower.tried_to_slow and ticks - follower.tried_to_slow < self._decider.again:
             return
-        if self._slow_as_rehearsed(SLOWINGS, _slow_down, _WALKS_ON):
+        if self._slow_as_rehearsed(SLOWINGS, _slow_down, _WALKS_ON, may_wait):
             return
-        if not must and self._brakes_well():
+        if not must and self._brakes_well(may_wait):
             return
         if may_wait:
             follower.tried_to_slow = ticks
         else:
             self._person.slow_down(SLOWINGS[0])
 
-    def _brakes_well(self) -> bool:
-        """Brake if rehearsals succeed; return whether it does."""
-        return self._slow_as_rehearsed(BRAKINGS, _brake, ComesToRest())
+    def _brakes_well(self, may_wait: bool) -> bool:
+        """Brake if rehearsals succeed; return whether it does. ``may_wait``: see `_slow_as_rehearsed`."""
+        return self._slow_as_rehearsed(BRAKINGS, _brake, ComesToRest(), may_wait)
 
     def _slow_as_rehearsed(
         self,
         decelerations: Sequence[float],
         slow: Callable[[Chooser, float], None],
         goes_well: Callable[[Understudy], Trial],
+        may_wait: bool = False,
     ) -> bool:
-        """Slow down in a way that succeeds in rehearsal; return whether there is one."""
-        deceleration, went, seen = self._decider.best(self._person, decelerations, slow, goes_well)
-        if went > 0.0:
-            slow(self._person, deceleration)
-            self._decider.predicted.expect(self._person, seen)
-        return went > 0.0
+        """Slow down in a way that succeeds in rehearsal; return whether there is one. What has not been
+        rehearsed is done only if it may not wait."""
+        person = self._person
+        deceleration, went, seen, known = self._decider.best(person, decelerations, slow, goes_well)
+        does = went > 0.0 and (known or not may_wait)
+        if does:
+            since = person.follower.stops_since
+            slow(person, deceleration)
+            self._decider.predicted.expect(person, seen)
+            if not known:
+                person.follower.stops_since = since  # it will see whether that holds
+        return does

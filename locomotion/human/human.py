@@ -52,7 +52,7 @@ from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.paths.tracking import make_path
 from locomotion.recovery.on_all_fours import OnAllFours
 from locomotion.rehearsal.deciding import Decider
-from locomotion.rehearsal.lookahead import Lookahead
+from locomotion.rehearsal.lookahead import PER_TICK, Lookahead
 from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.skills.interface import ClearingSkill
 from locomotion.skills.library import learned_skills
@@ -131,8 +131,10 @@ class Human(Person):
         self.decider = Decider()
         self.composition = Composition(self)
         self._changes = GaitChanges(self, self.decider, self.composition)
-        self._lookahead = Lookahead(self, self._double, rehearsals) if rehearsals else None
-        if self._lookahead is not None:
+        self._rehearsals = rehearsals
+        self._lookahead = None
+        if rehearsals:
+            self._lookahead = Lookahead(self, self._double, rehearsals)
             self.decider.answer = self._lookahead.decide
 
     def restore_state(self, state: HumanState) -> None:
@@ -142,6 +144,26 @@ class Human(Person):
             raise LocomotionError(f"a person goes on from a HumanState, not from a {type(state).__name__}")
         self.become(state)
         self.decider.predicted.forget()
+        if self._lookahead is not None:
+            self._lookahead.recall(state.foresight)
+
+    def save_state(self) -> HumanState:
+        """Everything needed to continue from here."""
+        state = super().save_state()
+        return state if self._lookahead is None else state._replace(foresight=self._lookahead.memory)
+
+    @property
+    def waits(self) -> bool:
+        """Whether a tick rehearses all that it has to decide, however long that takes. Else it does without
+        what `look_ahead` has not rehearsed before, which its owner then calls after each tick. Can be set."""
+        return self._lookahead is None or self._lookahead.waits
+
+    @waits.setter
+    def waits(self, waits: bool) -> None:
+        if self._lookahead is not None:
+            self.decider.waits = waits
+            self._lookahead = Lookahead(self, self._double, self._rehearsals, waits)
+            self.decider.answer = self._lookahead.decide
 
     @property
     def bravery(self) -> float | None:
@@ -240,7 +262,7 @@ class Human(Person):
         before, state = self.simulation.footing, self.save_state()
         self.simulation.stand_on(ground)
         self.fours = OnAllFours(self.model, self.index)
-        self.restore_state(state)
+        self.restore_state(state._replace(foresight=(0, 0)))
         now = self.simulation.footing
         bottomless = bool(np.isnan(now).all() and not np.isnan(before).all())
         if bottomless or (self.held and not np.all(np.abs(now - before) <= _CHANGE)):
@@ -291,11 +313,29 @@ class Human(Person):
     # --- time
     def tick(self) -> None:
         """Advance by 10 ms: track the path, control, step the physics, observe, report events."""
+        lookahead = self._lookahead
+        if lookahead is not None:
+            lookahead.catch_up()
         came_true = self.decider.predicted.comes_true(self)
         if not came_true:
             self._tick()
-        if self._lookahead is not None:
-            self._lookahead.go_on(came_true)
+        if lookahead is not None:
+            lookahead.look_back(came_true)
+            if lookahead.waits:
+                lookahead.go_on(PER_TICK)
+
+    @property
+    def foresees(self) -> int | None:
+        """How many ticks ahead what it rehearses is; None if it has nothing to rehearse."""
+        if self._lookahead is None:
+            return None
+        self._lookahead.catch_up()
+        return self._lookahead.ahead
+
+    def look_ahead(self, ticks: int) -> int:
+        """Rehearse what it will have to decide, for up to ``ticks`` of its double; return how many it
+        took."""
+        return 0 if self._lookahead is None else self._lookahead.go_on(ticks)
 
     def _tick(self) -> None:
         """A tick that was not predicted."""
@@ -360,8 +400,10 @@ class Human(Person):
     def _double(self) -> Human:
         """A copy with the same skills on the same ground that does not rehearse."""
         feet = self.on_feet
-        return Human(
+        double = Human(
             self.ground, feet.run_skill, self.clearing, feet.walk_skill,
             BetweenGaits(feet.slow_down_skill, feet.speed_up_skill, feet.brake_skill, feet.residual.skill), 0,
             policy=None if feet.learned is None else feet.learned.skill,
         )  # fmt: skip
+        double.decider.waits = self.decider.waits
+        return double

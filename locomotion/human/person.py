@@ -236,6 +236,8 @@ class Person:
     def decides_soon(self) -> bool:
         """Whether something may have to be rehearsed within the next seconds."""
         follower, feet, arc = self.follower, self.on_feet, self.arc_length
+        if follower.stops_since and not feet.walks and (feet.brakes or feet.runs):
+            return True
         if feet.on_uneven_ground and not self.fours.active and not self.held:
             return True
         if follower.path is None or self.status not in MOVING or self.fours.active or feet.slowing > 0.0:
@@ -275,7 +277,8 @@ class Person:
         self.on_feet.slow_down(deceleration)
 
     def brake(self, harder: float) -> None:
-        """Begin to brake, ``harder`` than learned by that share."""
+        """Begin to brake, ``harder`` than learned by that share; this will hold."""
+        self.follower.stops_since = 0
         self.on_feet.slow_down(harder * self.on_feet.brake_skill.deceleration, brakes=True)
 
     def vary_step(self, longer: Sequence[float]) -> None:

@@ -28,6 +28,7 @@ __all__ = ["check_person"]
 
 _SPEED, _TURNS, _TIME = (-100.0, 100.0), (-1e4, 1e4), (0.0, FARTHEST)
 _UNIT = 1e-2  # by which the length of a quaternion may be off 1
+_MOST_REHEARSED = 100_000  # ticks, which are simulated again when it is restored
 _OFF_LEVEL = 1e3  # [m] beside the level
 _FASTEST, _MOST_ANGLE = 1e3, 100.0  # [m/s, rad/s], [rad] of a joint
 
@@ -107,8 +108,9 @@ _PARTS = (
             (tracking.BACKED, (0.0, 1e3)),
             (tracking.WAITED, COUNT),
             (tracking.TRIED, COUNT),
+            (tracking.STOPS_SINCE, COUNT),
         ],
-        whole=(tracking.BACKED, tracking.TRIED),
+        whole=(tracking.BACKED, tracking.TRIED, tracking.STOPS_SINCE),
     ),
     Slots(
         "what a person on hands and feet remembers",
@@ -200,6 +202,9 @@ def check_person(state: HumanState, human: Human) -> None:
         raise LocomotionError(f"a person is {state.status} along no path")
     for what in (state.ticks, state.ended_at):
         check_number("a tick of a person", what, 0, 2**53)
+    spent, begins = state.foresight
+    check_number("what a person has rehearsed", spent, 0, _MOST_REHEARSED)
+    check_number("the tick from which a person rehearses", begins, 0, 2**53)
     for what in (state.slowing, state.speed, state.back_to, *state.on_all_fours):
         check_number("a mood of a person", what)
     for obstacle in state.obstacles:

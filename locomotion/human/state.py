@@ -50,7 +50,8 @@ class HumanState(NamedTuple):
     Its `bravery` is a setting, and no part of it.
 
     ``numbers``: the arrays of its parts, then those of `save_physics`; a single array, since one is kept and
-    compared in every predicted tick. ``events``: reported but not yet polled.
+    compared in every predicted tick. ``events``: reported but not yet polled. ``foresight``: see
+    `locomotion.rehearsal.lookahead.Lookahead.memory`.
     """
 
     numbers: NDArray[np.float64]
@@ -68,6 +69,7 @@ class HumanState(NamedTuple):
     ticks: int
     ended_at: int
     events: tuple[Event, ...]
+    foresight: tuple[int, int] = (0, 0)
 
 
 def _same_path(one: PathTable | None, other: PathTable | None) -> bool:
@@ -79,8 +81,8 @@ def _same_memory(one: NDArray | None, other: NDArray | None) -> bool:
 
 
 class _Field(NamedTuple):
-    """A field of `HumanState` apart from numbers and events: the part of the person and its attribute ("": of
-    the person itself), and whether two values continue in the same way."""
+    """A field of `HumanState` apart from numbers, events and foresight: the part of the person and its
+    attribute ("": of the person itself), and whether two values continue in the same way."""
 
     name: str
     part: str
@@ -129,7 +131,7 @@ def save(person: _Person) -> HumanState:
     body = person.simulation
     numbers = np.concatenate((*_ARRAYS(person), save_physics(body.model, body.data)))
     values = (value.copy() if isinstance(value, np.ndarray) else value for value in _VALUES(person))
-    return HumanState._make((numbers, *values, tuple(person.events)))
+    return HumanState._make((numbers, *values, tuple(person.events), (0, 0)))
 
 
 def restore(person: _Person, state: HumanState) -> None:
@@ -148,7 +150,7 @@ def restore(person: _Person, state: HumanState) -> None:
 
 
 def same(one: HumanState, other: HumanState) -> bool:
-    """Whether two states continue in the same way; past events do not matter."""
+    """Whether two states continue in the same way; past events and foresight do not matter."""
     if not all(field.same(getattr(one, field.name), getattr(other, field.name)) for field in _FIELDS):
         return False
     return one.numbers.tobytes() == other.numbers.tobytes()

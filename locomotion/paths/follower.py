@@ -108,6 +108,15 @@ class PathFollower:
         self.memory[path_tracking.TRIED] = tick
 
     @property
+    def stops_since(self) -> int:
+        """Tick since which one that runs wants to stop without having rehearsed it; 0: it does not."""
+        return int(self.memory[path_tracking.STOPS_SINCE])
+
+    @stops_since.setter
+    def stops_since(self, tick: int) -> None:
+        self.memory[path_tracking.STOPS_SINCE] = tick
+
+    @property
     def starts(self) -> int:
         """Tick before which it does not start."""
         return int(self.memory[path_tracking.STARTS])

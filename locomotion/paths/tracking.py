@@ -32,21 +32,22 @@ from surefoot.numeric import as_floats, is_finite
 
 __all__ = [
     "ARC", "BACKED", "HEADWAY", "HEADWAY_TICK", "LATERAL", "PACE", "REMAINING", "SLOPE_HERE", "SPEED_HERE",
-    "STARTS", "TRACK_SIZE", "TRIED", "WAITED", "back_along", "checked_points", "make_path", "new_track",
-    "shifted", "track",
+    "STARTS", "STOPS_SINCE", "TRACK_SIZE", "TRIED", "WAITED", "back_along", "checked_points", "make_path",
+    "new_track", "shifted", "track",
 ]  # fmt: skip
 
 (
     ARC, LATERAL, INTEGRAL, REMAINING, SPEED_HERE, SLOPE_HERE, HEADWAY, HEADWAY_TICK, PACE, WAITED, BACKED,
-    TRIED, STARTS,
-) = range(13)  # fmt: skip
+    TRIED, STARTS, STOPS_SINCE,
+) = range(14)  # fmt: skip
 """The tracker's memory: arc length of the body's foot point [m], distance to the left of the path [m], its
 integral [m s], length left [m], planned speed [m/s] and slope here, greatest arc length so far and the
 tick at which it last grew by `_STEP`, present share of the planned speed while giving way, ticks of giving
 way since then, how often it has gone back to let others pass, the tick at which it found no way to slow
-down, and the tick before which it does not start.
+down, the tick before which it does not start, and the one since which it wants to stop without having
+rehearsed it (0: it does not).
 """
-TRACK_SIZE = 13
+TRACK_SIZE = 14
 _STEP = 0.25
 _STEP_REACH = 0.7  # [m] around an obstacle's edge where its height would show as slope
 _LEVEL = 0.05  # slope up to which ground is level

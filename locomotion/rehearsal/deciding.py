@@ -9,25 +9,28 @@ from locomotion.human.state import HumanState, same
 from locomotion.rehearsal.predicted import Predicted
 from locomotion.rehearsal.understudy import Chooser, Understudy
 
-__all__ = ["Decider", "Outcome", "Question", "Trial", "known_answer", "tick_unless_asked"]
+__all__ = ["RECONSIDERS", "Decider", "Outcome", "Question", "Trial", "known_answer", "tick_unless_asked"]
 
 _T = TypeVar("_T")
 
+RECONSIDERS = 15
+"""Ticks between attempts to decide the same, of one that does not wait."""
 Trial = Generator[None, None, tuple[float, list[HumanState]]]
 """Advances a body tick by tick; returns how well it did and what was recorded (`Outcome`)."""
 
 
 class Outcome(NamedTuple, Generic[_T]):
     """The choice made, how well it did, and the states recorded after each tick, each with that tick's events
-    only; empty if nothing was recorded."""
+    only; empty if nothing was recorded. ``known``: whether it was rehearsed, or is only assumed to hold."""
 
     choice: _T
     went: float
     seen: list[HumanState]
+    known: bool = True
 
 
 class Question(NamedTuple):
-    """A decision to be made in ``state``; see `trials.first_good`."""
+    """A decision to be made in ``state``; see `trials.Rehearsal`."""
 
     state: HumanState
     choices: Sequence[Any]
@@ -42,13 +45,20 @@ class Question(NamedTuple):
 class Decider:
     """Chooses a variation of the next action. ``answer``: function that knows the answers; None: take the
     first choice. ``undecided``: whether a question had no answer since this was set to False.
-    ``predicted``: known next ticks.
+    ``predicted``: known next ticks. ``waits``: see `locomotion.human.human.Human.waits`.
     """
 
     def __init__(self) -> None:
         self.answer: Callable[[Question], Outcome] | None = None
         self.undecided = False
         self.predicted = Predicted()
+        self.waits = True
+
+    @property
+    def again(self) -> int:
+        """Ticks between attempts to decide the same: one that does not wait rehearses some variations in
+        them."""
+        return 5 if self.waits else RECONSIDERS
 
     def best(
         self,
@@ -57,11 +67,11 @@ class Decider:
         choose: Callable[[Chooser, _T], None],
         goes_well: Callable[[Understudy], Trial],
     ) -> Outcome[_T]:
-        """The best of ``choices``, see `trials.first_good`; without rehearsals the first one, assumed to
+        """The best of ``choices``, see `trials.Rehearsal`; without rehearsals the first one, assumed to
         succeed. Recorded ticks are kept, so that they need not be simulated again."""
         if self.answer is None:
             self.undecided = True
-            return Outcome(choices[0], 1.0, [])
+            return Outcome(choices[0], 1.0, [], known=False)
         return self.answer(Question(body.save_state(), choices, choose, goes_well))
 
 

@@ -1,88 +1,158 @@
-"""Rehearse ahead of time, so that no single tick has to pay for a whole rehearsal.
+"""Rehearse ahead of time, so that no tick has to pay for a whole rehearsal.
 
 What a person decides by rehearsal (`locomotion.rehearsal.trials`) depends only on its state at that moment,
 and the simulation is exact. So a double runs ahead, a few ticks in each tick of the person, to the next
 decision, and rehearses there. The person then replays the double's ticks (`locomotion.rehearsal.predicted`),
-decisions included. After a push, or when it gives way, the prediction no longer holds and it rehearses on the
-spot, all at once: decisions never depend on how far the double is ahead.
+decisions included. A push, or giving way, makes the prediction void.
+
+What was not foreseen in time is either rehearsed on the spot, however long that takes, or the person does
+without it: it takes the best variation that held so far, or else the one that is being tried. Only in this
+second case do decisions depend on how far the double is; `Lookahead.memory` is what has to be saved of that.
 """
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Generator
 
 from locomotion.human.state import HumanState
 from locomotion.rehearsal.deciding import Outcome, Question, known_answer, tick_unless_asked
 from locomotion.rehearsal.predicted import Predicted
-from locomotion.rehearsal.trials import at_once, first_good
+from locomotion.rehearsal.trials import Rehearsal, at_once
 from locomotion.rehearsal.understudy import Understudy
 from surefoot.pausing import pause
 
-__all__ = ["Lookahead"]
+__all__ = ["PER_TICK", "Lookahead"]
 
-_PER_TICK = 20  # ticks of the double in each of the person's
+PER_TICK = 20
+"""Most ticks of the double in each of the person's."""
 _FAR = 400  # most ticks that the double is ahead
-_LOOKS = 10  # ticks between checks whether there is something to predict
-_REST = 50  # ticks before the next attempt after a wrong prediction
+_LOOKS = 10  # ticks of the double between checks whether there is something to predict
+_REST = 10  # ticks before the next attempt after a wrong prediction
 
 
 class Lookahead:
-    """What a person knows in advance."""
+    """What a person knows in advance.
 
-    def __init__(self, person: Understudy, double: Callable[[], Understudy], most: int) -> None:
+    Attributes:
+      waits: whether it rehearses on the spot what it did not foresee.
+    """
+
+    def __init__(
+        self, person: Understudy, double: Callable[[], Understudy], most: int, waits: bool = True
+    ) -> None:
         """``double``: makes a copy of ``person`` on the same ground that does not rehearse. ``most``: most
         choices to rehearse for one decision."""
-        self._person, self._make_double, self._most = person, double, most
+        self._person, self._make_double, self._most, self.waits = person, double, most, waits
         self._double: Understudy | None = None
         self._task: Generator[None, None, None] | None = None
-        self._asked: Question | None = None  # the double's rehearsal in progress
+        self._rehearsal: Rehearsal | None = None  # the double's, in progress
         self._answers: list[tuple[Question, Outcome]] = []
-        self._until = self._last = self._begins = 0
-        # the double's tick; the person's last tick; the tick from which to look ahead
+        self._spent: deque[int] = deque()
+        """By tick from the person's to the double's: ticks spent until the double came there."""
+        self._until = self._last = self._begins = self._total = self._owed = 0
+        # the double's tick; the person's last tick; the tick from which to look ahead; ticks spent in all;
+        # how many of them have to be made up for
 
-    def go_on(self, came_true: bool) -> None:
-        """After each tick of the person: advance its double and add the new ticks to the prediction.
-        came_true: whether this tick was predicted."""
-        person = self._person
-        now = person.ticks
+    # --- after a saved state
+    @property
+    def memory(self) -> tuple[int, int]:
+        """What of it makes a difference to the person: ticks spent beyond the present one, and the tick from
+        which it may look ahead. Both 0 for one that waits."""
+        if self.waits:
+            return 0, 0
+        beyond = self._total - self._spent[0] if self._spent else self._owed
+        return beyond, self._begins
+
+    def recall(self, memory: tuple[int, int]) -> None:
+        """The person was restored to a state that was saved with this `memory`."""
+        self._last = self._person.ticks
+        self._forget(self._last)
+        if not self.waits:
+            self._owed, self._begins = memory
+
+    def catch_up(self) -> None:
+        """Before all else: do again what was known when the person was saved."""
+        owed, self._owed = self._owed, 0
+        if owed:
+            self._begin()
+            for _ in range(owed):
+                if self._task is not None:
+                    next(self._task, None)
+                    pause()
+
+    # --- tick by tick
+    def look_back(self, came_true: bool) -> None:
+        """After each tick of the person: forget what no longer holds. came_true: whether this tick was
+        predicted."""
+        now = self._person.ticks
         if now != self._last + 1:
-            self._forget(now)  # it was restored
-        elif now < self._until and not came_true:
+            self._forget(now)  # it was put somewhere else
+        elif now <= self._until and not came_true:
             self._forget(now + _REST)
+        elif self._spent:
+            self._spent.popleft()
+            behind = now > self._until or (now == self._until and self._rehearsal is None)
+            if behind and self._task is not None and not self.waits:
+                self._forget(now)
         self._last = now
         self._answers[:] = [answer for answer in self._answers if answer[0].state.ticks >= now]
+
+    @property
+    def ahead(self) -> int | None:
+        """Ticks that the double is ahead, if it has something to do; else None."""
+        now = self._person.ticks
         if self._task is None:
-            if now < max(self._until, self._begins) or now % _LOOKS or not person.decides_soon:
-                return
-            self._answers.clear()
-            person.decider.predicted.begin(person)
-            self._task = self._go_ahead(person.save_state(), self._double_now(), person.decider.predicted)
-        for _ in range(_PER_TICK):
-            if self._task is not None and (self._asked is not None or self._until - now < _FAR):
-                next(self._task, None)
+            begins = now >= max(self._until, self._begins) and self._person.decides_soon
+            return 0 if begins else None
+        ahead = self._until - now
+        return ahead if self._rehearsal is not None or ahead < _FAR else None
+
+    def go_on(self, ticks: int) -> int:
+        """Advance the double by up to so many ticks and add the new ones to the prediction. Returns how many
+        it took."""
+        taken = 0
+        while taken < ticks and self.ahead is not None:
+            if self._task is None:
+                self._begin()
+            assert self._task is not None
+            before = self._total
+            next(self._task, None)
+            taken += self._total - before
+        return taken
 
     def decide(self, question: Question) -> Outcome:
         """The best choice and how well it does."""
-        double = self._double_now()
-        while self._task is not None and self._asked is not None and question.is_also(self._asked):
-            next(self._task, None)
-            pause()
+        rehearsal = self._rehearsal
+        asked = rehearsal is not None and question.is_also(rehearsal.question)
+        if self.waits and asked:
+            while self._rehearsal is rehearsal and self._task is not None:
+                next(self._task, None)
+                pause()
         known = known_answer(question, self._answers)
         if known is not None:
             return known
         self._forget(self._person.ticks)
-        return at_once(self._rehearse(double, question))
+        if self.waits:
+            return at_once(Rehearsal(question, self._most).run(self._double_now()))
+        if asked and rehearsal is not None:
+            return rehearsal.so_far
+        return Outcome(question.choices[0], 1.0, [], known=False)
 
-    def _rehearse(self, double: Understudy, question: Question) -> Generator[None, None, Outcome]:
-        state, choices, choose, goes_well = question
-        return first_good(state, double, choices[: self._most], choose, goes_well)
+    def _begin(self) -> None:
+        person, double = self._person, self._double_now()
+        self._forget(self._begins)
+        self._until = person.ticks
+        self._spent.append(self._total)
+        person.decider.predicted.begin(person)
+        self._task = self._go_ahead(person.save_state(), double, person.decider.predicted)
 
     def _go_ahead(
         self, state: HumanState, double: Understudy, future: Predicted
     ) -> Generator[None, None, None]:
-        """Advance the double from ``state`` and rehearse each decision on its way."""
+        """Advance the double from ``state`` and rehearse each decision on its way. Each step takes one tick,
+        also where the ticks are known already: so it takes as many steps from any state on the way."""
         double.restore_state(state)
-        self._until = double.ticks
         while (
             double.ticks % _LOOKS or double.decides_soon or double.decider.predicted.knows(double.ticks + 1)
         ):
@@ -90,22 +160,24 @@ class Lookahead:
             states = double.decider.predicted.all_come_true(double)
             question = None if states else tick_unless_asked(double, self._answers)
             while question is not None:
-                self._asked = question
-                self._answers.append((question, (yield from self._rehearse(double, question))))
-                self._asked = None
+                self._rehearsal = rehearsal = Rehearsal(question, self._most)
+                for _ in rehearsal.run(double):
+                    self._total += 1
+                    yield
+                self._answers.append((question, rehearsal.outcome))
+                self._rehearsal = None
                 double.restore_state(state)
                 double.events.clear()
                 question = tick_unless_asked(double, self._answers)
             if double.status == "fallen":
                 break  # the person may get up
-            states = states or [double.save_state()]
-            state = states[-1]
-            self._until = state.ticks
-            for known in states:
-                if known.ticks >= self._last:
-                    future.add(known)
-            yield
-        self._task = None
+            for state in states or [double.save_state()]:
+                self._total += 1
+                self._until = state.ticks
+                self._spent.append(self._total)
+                future.add(state)
+                yield
+        self._task, self._begins = None, self._until + 1
 
     def _double_now(self) -> Understudy:
         if self._double is None or self._double.model is not self._person.model:
@@ -117,6 +189,7 @@ class Lookahead:
         """Start over at tick ``begins`` or later."""
         if self._task is not None:
             self._task.close()
-        self._task = self._asked = None
+        self._task = self._rehearsal = None
         self._answers.clear()
-        self._until, self._begins = 0, begins
+        self._spent.clear()
+        self._until, self._begins, self._owed = 0, begins, 0

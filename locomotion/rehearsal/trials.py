@@ -13,7 +13,7 @@ import math
 from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import NamedTuple, TypeVar
+from typing import Generic, NamedTuple, TypeVar
 
 import mujoco
 import numpy as np
@@ -39,6 +39,7 @@ __all__ = [
     "STAYS_UP",
     "STEPPINGS",
     "ComesToRest",
+    "Rehearsal",
     "StepsOn",
     "at_once",
     "balk",
@@ -112,6 +113,42 @@ def at_once(task: Generator[None, None, _R]) -> _R:
         pause()
 
 
+class Rehearsal(Generic[_T]):
+    """Trying the choices of a question until one succeeds perfectly. Else the first of the best is taken.
+
+    Attributes:
+      question: whose first ``most`` choices are tried.
+      outcome: of the best choice so far.
+    """
+
+    def __init__(self, question: Question, most: int | None = None) -> None:
+        self.question = question
+        self._choices = question.choices[:most]
+        self._trying = self._choices[0]
+        self.outcome: Outcome[_T] = Outcome(self._trying, 0.0, [])
+
+    def run(self, understudy: Understudy) -> Generator[None, None, Outcome[_T]]:
+        """Advance the ``understudy`` tick by tick; returns the outcome."""
+        state, _, choose, goes_well = self.question
+        for choice in self._choices:
+            self._trying = choice
+            understudy.restore_state(state)
+            understudy.data.xfrc_applied[:] = 0.0
+            choose(understudy, choice)
+            went, seen = yield from goes_well(understudy)
+            if went > self.outcome.went:
+                self.outcome = Outcome(choice, went, seen)
+            if went >= 1.0:
+                break
+        return self.outcome
+
+    @property
+    def so_far(self) -> Outcome[_T]:
+        """What to do if there is no time left: what has held, else what is being tried."""
+        held = self.outcome.went > 0.0
+        return self.outcome if held else Outcome(self._trying, 1.0, [], known=False)
+
+
 def first_good(
     state: HumanState,
     understudy: Understudy,
@@ -119,23 +156,8 @@ def first_good(
     choose: Callable[[Chooser, _T], None],
     goes_well: Callable[[Understudy], Trial],
 ) -> Generator[None, None, Outcome[_T]]:
-    """The first of ``choices`` in ``state`` that succeeds perfectly, else the first of the best; advances the
-    ``understudy`` tick by tick.
-
-    choose: makes a body take a choice. goes_well: advances it and returns a score from 0 (it fell) to 1
-    (perfect).
-    """
-    best = Outcome(choices[0], 0.0, [])
-    for choice in choices:
-        understudy.restore_state(state)
-        understudy.data.xfrc_applied[:] = 0.0
-        choose(understudy, choice)
-        went, seen = yield from goes_well(understudy)
-        if went > best.went:
-            best = Outcome(choice, went, seen)
-        if went >= 1.0:
-            break
-    return best
+    """The best of ``choices`` in ``state``, see `Rehearsal`; advances the ``understudy`` tick by tick."""
+    return Rehearsal(Question(state, choices, choose, goes_well)).run(understudy)
 
 
 def clears(body: Understudy, looks_on: bool = True, notes: bool = False) -> Trial:
@@ -302,6 +324,8 @@ class StepsOn:
         moments = self._known(body)
         if moments:
             body.become(moments[-1].state)
+        for _ in moments:
+            yield  # takes as many ticks as if they were not known
         while not (moments and _ends(moments[-1])) and len(moments) < _STEPPING:
             body.events.clear()
             body.decider.undecided = False

@@ -35,6 +35,7 @@ from locomotion.recorded_people.fading import fade_from, faded, rates
 from locomotion.recorded_people.nodes import can_hold, checked_node
 from locomotion.recorded_people.people import person_postures
 from locomotion.recorded_people.person import RecordedPerson
+from locomotion.rehearsal.sharing import REHEARSAL_TICKS, allot
 from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.saved_arrays import check_array, check_number
 from locomotion.skills.interface import ClearingSkill, skill_ranges
@@ -50,6 +51,7 @@ from runtime.planning.planning import Beginning, NoWay, Plan, make_plan, way_hol
 from runtime.traffic.snapshot import foretold_on
 from surefoot.numeric import is_finite
 from surefoot.pausing import pause
+from surefoot.workers.threads import Threads
 
 __all__ = ["HumanDriver", "People"]
 
@@ -94,7 +96,7 @@ class Fading:
 class People(Population):
     """Simulated persons. ``skills``: descriptions of those of one's own that they have besides the
     package's; ``rehearsals``: as of `Human`; ``seed`` decides how long each of them hesitates; ``walk``: one
-    of `runtime.bodies.kinds.kind.WALKS`."""
+    of `runtime.bodies.kinds.kind.WALKS`; ``rehearsal_ticks``, ``threads``: as of `runtime.World`."""
 
     def __init__(
         self,
@@ -103,9 +105,13 @@ class People(Population):
         rehearsals: int = REHEARSALS,
         seed: int = 0,
         walk: str = "planned",
+        rehearsal_ticks: int | None = REHEARSAL_TICKS,
+        threads: int = 1,
     ) -> None:
-        self._level, self._skills, self._rehearsals = level, skills, rehearsals
-        self._seed, self._walk = seed, walk
+        self._level, self._skills = level, skills
+        self._rehearsals = 0 if rehearsal_ticks == 0 else rehearsals
+        self._seed, self._walk, self._rehearsal_ticks = seed, walk, rehearsal_ticks
+        self._threads = Threads(threads)
         self._drivers: list[HumanDriver] = []
         self._learned: _Learned | None = None  # shared by all
         self._spare: list[Human] = []
@@ -179,6 +185,7 @@ class People(Population):
         human = Human(
             self._level.ground, run, clearing, walk, between, self._rehearsals, gets_up=True, policy=policy
         )
+        human.waits = self._rehearsal_ticks is None
         self._unused = self._unused or human.save_state()
         return HumanDriver(self._level, human)
 
@@ -214,9 +221,16 @@ class People(Population):
             driver.human.change_ground(self._level.ground)
 
     def tick(self) -> None:
-        for driver in self._drivers:
-            driver.human.tick()
+        humans = [driver.human for driver in self._drivers]
+        allotted = None if self._rehearsal_ticks is None else allot(humans, self._rehearsal_ticks)
+
+        def go_on(number: int) -> None:
+            humans[number].tick()
+            if allotted is not None and allotted[number]:
+                humans[number].look_ahead(allotted[number])
             pause()
+
+        self._threads.each(go_on, len(humans))
 
 
 class HumanDriver(Driver):

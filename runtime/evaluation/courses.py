@@ -81,10 +81,13 @@ def run_course(
     keep_frames: bool = False,
     rehearsals: int = REHEARSALS,
     push: Push | None = None,
+    rehearsal_ticks: int | None = None,
 ) -> CourseRun:
-    """Run over a course from standing, on the level's triangles, pushed once if there is a ``push``; other
-    arguments as of `enter_course`."""
+    """Run over a course from standing, on the level's triangles, pushed once if there is a ``push``.
+    rehearsal_ticks: as of `runtime.World`; None: as many as it needs at the moment. Other arguments as of
+    `enter_course`."""
     human = enter_course(course, clearing, noise, rehearsals)
+    human.waits = rehearsal_ticks is None
     longest = float(course.path[-1, 0]) / _SLOWEST
     run, seen, where = CourseRun(), 0, 0
     report: ContactReport | None = None
@@ -95,6 +98,8 @@ def run_course(
             human.data.xfrc_applied[human.index.root, :2] = push.force if pushed < push.ticks else 0.0
             pushed += 1
         human.tick()
+        if rehearsal_ticks is not None:
+            human.look_ahead(rehearsal_ticks)
         if keep_frames:
             run.frames.append(human.qpos)
         for event in human.events[seen:]:

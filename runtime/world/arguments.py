@@ -38,10 +38,10 @@ def checked_points(points: ArrayLike, what: str) -> NDArray[np.float64]:
     return checked.reshape(-1, 3)
 
 
-def checked_whole(value: Any, what: str) -> int:
-    """``value`` as an int; `RuntimeInputError` unless it is a whole number of at least 0."""
-    if not is_whole(value):
-        raise RuntimeInputError(f"{what} must be a whole number of at least 0, not {value!r}")
+def checked_whole(value: Any, what: str, least: int = 0) -> int:
+    """``value`` as an int; `RuntimeInputError` unless it is a whole number of at least ``least``."""
+    if not (is_whole(value) and value >= least):
+        raise RuntimeInputError(f"{what} must be a whole number of at least {least}, not {value!r}")
     return int(value)
 
 

@@ -16,6 +16,7 @@ import navmesh
 from locomotion import LocomotionError, load_run_skill
 from locomotion import body_events as bodily
 from locomotion.body.person import CONTROL_DT
+from locomotion.rehearsal.sharing import REHEARSAL_TICKS
 from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.skills.library import described_ranges, different, learned_digest, learned_skills
 from runtime.bodies.cast import Cast
@@ -71,7 +72,10 @@ def _drawn(home: Population, members: Sequence[tuple[int, Agent]]) -> _Drawn:
 
 
 class World:
-    """A level with agents. No threads, no display, no state outside the object.
+    """A level with agents. No display, no state outside the object.
+
+    Making one takes load time: it compiles what is not compiled yet, and builds a graph of a terrain. Its
+    methods say what time they take: constant, sliced over the ticks, or load time.
 
     ``terrain`` is the level; or a graph that was built or loaded, whose rules should suit a person. The same
     seed and the same calls give the same run, bit for bit.
@@ -79,10 +83,16 @@ class World:
     ``skills``: files that describe skills of your own (`locomotion.skills.description`), which its people
     have besides the package's; a graph that it builds counts what they clear among the obstacles. Raises
     `RuntimeInputError` for one with a mistake. ``rehearsals``: how many variations of a take-off or a
-    slowing-down a person tries within one tick at most; with fewer the longest ticks are shorter, and skills
-    hold less often. ``walk``: "planned", or "learned": where the ground is level, people walk as a network
-    has learned it from people (`locomotion.human.learned_walk`). A state is restored in a world with the
-    same ``walk``.
+    slowing-down a person tries at most. ``rehearsal_ticks``: how many ticks of their trials all people
+    simulate in each tick of the world at most. Who has to decide before it could rehearse takes what has held
+    so far; who stands before an obstacle tries again at its next step. None: as many as they need at that
+    moment, so that skills hold most often, but a tick takes up to a second. 0 of either: nobody rehearses.
+
+    ``walk``: "planned", or "learned": where the ground is level, people walk as a network has learned it from
+    people (`locomotion.human.learned_walk`). A state is restored in a world with the same ``walk``.
+
+    ``threads``: how many advance people side by side; the run is the same with any number, but not with other
+    ``rehearsals`` or ``rehearsal_ticks``.
 
     ``agents``: by name, in order of their making. ``random``: the
     `numpy.random.Generator` for whatever chance the host needs, saved, restored and hashed with the rest.
@@ -95,8 +105,12 @@ class World:
         skills: Sequence[str | os.PathLike[str]] = (),
         rehearsals: int = REHEARSALS,
         walk: str = "planned",
+        rehearsal_ticks: int | None = REHEARSAL_TICKS,
+        threads: int = 1,
     ) -> None:
         checked_whole(rehearsals, "rehearsals")
+        if rehearsal_ticks is not None:
+            checked_whole(rehearsal_ticks, "rehearsal_ticks")
         if walk not in WALKS:
             raise RuntimeInputError(f"walk must be one of {', '.join(map(repr, WALKS))}, not {walk!r}")
         checked_whole(seed, "seed")
@@ -123,7 +137,15 @@ class World:
         self._populations: list[Population] = []
         self._traffic = Traffic(self._level, self._populations)
         around = Surroundings(
-            self._level, self._traffic, self._populations, self._skills, rehearsals, int(seed), walk
+            self._level,
+            self._traffic,
+            self._populations,
+            self._skills,
+            rehearsals,
+            rehearsal_ticks,
+            checked_whole(threads, "threads", least=1),
+            int(seed),
+            walk,
         )
         self._homes: dict[BodyKind, Population] = {}
         for kind in sorted(body_kinds(), key=lambda kind: kind.avoids_all):
@@ -231,7 +253,8 @@ class World:
         `locomotion.quadruped.load_body`); or what was added by `runtime.bodies.registry.register`. A
         quadruped stands with its rear feet there. ``radius`` [m] is for walkers only, by default a person's.
         The place is moved to the nearest one where the body fits (see `NodeGraph.find_path`). ``name`` is
-        its own in this world; by default "human1" and so on. ``detail`` is for humans, as of `Agent.detail`:
+        its own in this world; by default "human1" and so on. The first of a kind takes load time, the others
+        constant time. ``detail`` is for humans, as of `Agent.detail`:
         "physics", or for those who play recorded motion "full", "medium" or "low", or "auto", the first of
         which in a process takes seconds. ``bravery`` is for humans, as of `Agent.bravery`. Raises
         `RuntimeInputError` for an unknown body, a body file with a mistake, a taken name, a place off the
@@ -338,7 +361,7 @@ class World:
 
     def change_level(self, changes: Mapping[str, navmesh.Terrain | None]) -> None:
         """Change the level's chunks, between two ticks: by name, a `navmesh.Terrain` to be added or to
-        replace the one of that name, None to remove it; see `navmesh.NodeGraph.update`.
+        replace the one of that name, None to remove it; see `navmesh.NodeGraph.update`. Takes load time.
 
         Nobody is moved. Agents whose route is still valid keep walking; the others look for another route to
         the same goals, and stop, with `Blocked`, where there is none. If its ground is removed, a quadruped
@@ -360,7 +383,8 @@ class World:
 
     def block(self, *zones: str) -> None:
         """Block zones of the level's graph, by name, between two ticks, such as doors that are shut; see
-        `navmesh.NodeGraph.with_zones` and `navmesh.NodeGraph.block`. The world has its own copy of a graph
+        `navmesh.NodeGraph.with_zones` and `navmesh.NodeGraph.block`. Takes constant time, and that of
+        `Agent.go_to` for each agent that has to look for another route. The world has its own copy of a graph
         with zones: block them here, not there.
 
         Agents whose route is still valid keep walking; the others look for another route to the same goals,
@@ -426,7 +450,8 @@ class World:
         return population
 
     def step(self, dt: float) -> int:
-        """Advance by ``dt`` [s] ≥ 0, in whole ticks of 10 ms; the rest is owed to later calls.
+        """Advance by ``dt`` [s] ≥ 0, in whole ticks of 10 ms; the rest is owed to later calls. A tick takes
+        constant time for each agent; people rehearse in slices (see ``rehearsal_ticks``).
 
         It can be interrupted between short pieces, see `surefoot.pausing`. Returns how many ticks were
         made. Raises `RuntimeInputError` for a ``dt`` below 0 or not finite.
@@ -504,7 +529,7 @@ class World:
         return {name: k for k, name in enumerate(_by_arrival(self.agents))}
 
     def save(self) -> WorldState:
-        """This moment, for `restore`."""
+        """This moment, for `restore`. Takes load time."""
         agents, arrivals = {}, self._arrivals
         for name, agent in self.agents.items():
             agents[name] = agent.save(arrivals[name])
@@ -528,7 +553,8 @@ class World:
     def restore(self, state: WorldState) -> None:
         """Go back to a moment that `save` gave, in this world or any other with the same level; the run then
         goes on bit for bit as it did. Agents are made and removed as needed; those that were there by the
-        same name and body stay the same objects.
+        same name and body stay the same objects. Takes load time, and so does the next tick: people rehearse
+        again what they had rehearsed.
 
         Raises `RuntimeInputError` when the level or the release is another, or from within a callback; the
         world is then as it was.

@@ -26,7 +26,8 @@ class Surroundings:
 
     ``level`` is the same object through all changes of the level. ``populations``: all of the world, in the
     order in which they are advanced; complete once the world is made. ``skills``: descriptions of skills of
-    the user's own; ``rehearsals``, ``walk``: as of `runtime.World`; ``seed``: the world's.
+    the user's own; ``rehearsals``, ``rehearsal_ticks``, ``threads``, ``walk``: as of `runtime.World`;
+    ``seed``: the world's.
     """
 
     level: Level
@@ -34,6 +35,8 @@ class Surroundings:
     populations: Sequence[Population]
     skills: tuple[Path, ...]
     rehearsals: int
+    rehearsal_ticks: int | None
+    threads: int
     seed: int
     walk: str
 

@@ -55,5 +55,13 @@ class PersonKind(BodyKind):
         return population.spawn_recorded(body, place, facing, radius, level)
 
     def populate(self, around: Surroundings) -> Population:
-        physical = People(around.level, around.skills, around.rehearsals, around.seed, around.walk)
+        physical = People(
+            around.level,
+            around.skills,
+            around.rehearsals,
+            around.seed,
+            around.walk,
+            around.rehearsal_ticks,
+            around.threads,
+        )
         return Persons(physical, Recorded(around.level, around.populations, around.seed))

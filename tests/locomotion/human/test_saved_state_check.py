@@ -39,6 +39,12 @@ def changed(human, place, value):
     return state._replace(numbers=numbers)
 
 
+@pytest.mark.parametrize("foresight", [(-1, 0), (10**9, 0), (0, -3), (0, float("nan"))])
+def test_what_nobody_can_have_rehearsed_is_refused(human, foresight):
+    with pytest.raises(LocomotionError, match="rehearse"):
+        check_person(human.save_state()._replace(foresight=foresight), human)
+
+
 def test_every_state_of_a_walk_a_run_and_a_stop_is_accepted():
     human = Human(flat_ground(), rehearsals=0)
     check_person(human.save_state(), human)

@@ -4,9 +4,12 @@ import pytest
 
 from locomotion.human.human import Human
 from locomotion.human.state import MOVING
-from locomotion.rehearsal.lookahead import Lookahead
+from locomotion.rehearsal.deciding import RECONSIDERS
+from locomotion.rehearsal.lookahead import PER_TICK, Lookahead
 from locomotion.rehearsal.predicted import Predicted
+from locomotion.rehearsal.trials import BRAKINGS, ComesToRest
 from runtime.evaluation.courses import enter_course, make_course
+from tests.locomotion.gaits.runners import running
 
 COURSE = [("jump", 0.4, 0.3), ("vault", 0.7, 0.3)], [14.0, 9.0]
 
@@ -40,7 +43,7 @@ def push(human):
 @pytest.mark.parametrize("disturb", [None, push])
 def test_it_decides_as_if_it_rehearsed_at_the_moment(monkeypatch, disturb):
     foreseeing = hashes(enter(), disturb)
-    monkeypatch.setattr(Lookahead, "go_on", lambda *_: None)
+    monkeypatch.setattr(Lookahead, "go_on", lambda *_: 0)
     assert foreseeing == hashes(enter(), disturb)
     monkeypatch.setattr(Predicted, "comes_true", lambda *_: False)
     assert foreseeing == hashes(enter(), disturb)
@@ -73,7 +76,7 @@ def test_no_tick_bears_a_whole_rehearsal(monkeypatch):
         return result
 
     beforehand = most(enter())
-    monkeypatch.setattr(Lookahead, "go_on", lambda *_: None)
+    monkeypatch.setattr(Lookahead, "go_on", lambda *_: 0)
     assert beforehand <= 50 and most(enter()) > 300
 
 
@@ -85,3 +88,114 @@ def test_a_restored_person_goes_on_as_before():
     first = hashes(human)
     human.restore_state(state)
     assert first == hashes(human)
+
+
+# --- within a budget
+def hurried():
+    """A person that does not wait for what it has not rehearsed."""
+    human = enter()
+    human.waits = False
+    return human
+
+
+def budgeted(human, ticks, disturb=push, until=60.0):
+    """Hashes of its states, until it ends; it rehearses for so many ticks in each of its own."""
+    seen = []
+    while human.status in MOVING and human.time < until:
+        human.tick()
+        human.look_ahead(ticks)
+        disturb(human)
+        seen.append(human.state_hash())
+    return seen
+
+
+@pytest.mark.parametrize("ticks", [1, 7, PER_TICK])
+def test_one_that_does_not_wait_never_takes_more_than_its_budget(monkeypatch, ticks):
+    made = [0]
+    tick = Human._tick
+
+    def counted(human):
+        made[0] += 1
+        tick(human)
+
+    monkeypatch.setattr(Human, "_tick", counted)
+    human, most, unfinished = hurried(), 0, 0
+    while human.status in MOVING and human.time < 30.0:
+        made[0] = 0
+        human.tick()
+        own, taken = made[0], human.look_ahead(ticks)
+        assert own <= 1 and taken <= ticks
+        most = max(most, made[0])
+        unfinished += taken == ticks
+        push(human)
+    assert unfinished > 100  # it had more to rehearse
+    assert most <= 2 * ticks + 1  # a decision is met once before it is rehearsed, and once after
+
+
+@pytest.mark.parametrize("ticks", [3, PER_TICK])
+def test_one_that_does_not_wait_is_restored_with_what_it_knew(ticks):
+    human, moments, states = hurried(), (211, 260, 333, 418, 700, 1040), {}
+    seen = []
+    while human.status in MOVING and human.time < 60.0:
+        human.tick()
+        human.look_ahead(ticks)
+        push(human)
+        if human.ticks in moments:
+            states[human.ticks] = human.save_state()
+        seen.append(human.state_hash())
+    assert sum(state.foresight[0] > 0 for state in states.values()) >= 3
+    other = hurried()
+    for state in states.values():
+        other.restore_state(state)
+        assert other.save_state().foresight == state.foresight
+        assert budgeted(other, ticks) == seen[state.ticks :]
+
+
+def test_who_knows_that_it_will_hold_sets_off_and_who_does_not_know_walks_on():
+    human, states = hurried(), []
+    while human.gait_now == "walk":
+        states.append(human.save_state())
+        human.tick()
+        human.look_ahead(PER_TICK)
+    knowing = states[-3]
+
+    def sets_off(state):
+        human.restore_state(state)
+        for _ in range(3):
+            human.tick()
+        return human.gait_now == "run"
+
+    assert sets_off(knowing) and not sets_off(knowing._replace(foresight=(0, 0)))
+
+
+def test_told_to_stop_it_brakes_at_once_and_better_when_it_has_seen_itself_fall(monkeypatch):
+    """In rehearsal only the third way of braking holds, from a moment later on."""
+
+    def holds(self, body):
+        yield
+        state = body.save_state()
+        good = body.on_feet.slowing == pytest.approx(BRAKINGS[2] * body.on_feet.brake_skill.deceleration)
+        return (1.0 if good else 0.0), [state]
+
+    monkeypatch.setattr(ComesToRest, "__call__", holds)
+    human = running(300)
+    human.waits = False
+    learned = human.on_feet.brake_skill.deceleration
+    human.stop()
+    slowing = []
+    for _ in range(RECONSIDERS + 2):
+        human.tick()
+        human.look_ahead(PER_TICK)
+        slowing.append(human.on_feet.slowing / learned)
+    assert slowing[:RECONSIDERS] == pytest.approx([BRAKINGS[0]] * RECONSIDERS)
+    assert slowing[RECONSIDERS:] == pytest.approx([BRAKINGS[2]] * 2)
+
+
+def test_told_to_stop_it_comes_to_a_stand_within_a_budget():
+    human = running(300)
+    human.waits = False
+    human.stop()
+    for _ in range(500):
+        human.tick()
+        human.look_ahead(PER_TICK)
+    assert human.held and human.status == "standing"

@@ -17,14 +17,14 @@ def test_people_rehearse_as_much_as_their_world_says(graph, monkeypatch):
         yield
         return 0.0, []
 
-    monkeypatch.setattr(Lookahead, "go_on", lambda *_: None)  # all at the moment
+    monkeypatch.setattr(Lookahead, "go_on", lambda *_: 0)  # all at the moment
     with pytest.raises(RuntimeInputError, match="rehearsals must be"):
         World(graph, rehearsals=-1)
     course = make_course([("jump", 0.4, 0.0)], [10.0])
     terrain = navmesh.Terrain.from_arrays(course.vertices, course.faces)
     tried = []
     for most in (0, 1, 3):
-        world = World(terrain, rehearsals=most)
+        world = World(terrain, rehearsals=most, rehearsal_ticks=None)
         human = world.spawn("human", (0.0, 0.0, 0.0)).human
         seen = []
         choose = human.decider.best
@@ -107,3 +107,39 @@ def test_people_walk_as_their_world_says():
         world.step(0.01)
     assert agent.human.on_feet.walks_as_learned
     assert not World(level).spawn("human", (2.0, 2.0, 0.0)).human.on_feet.walks_as_learned
+
+
+def crowd(graph, threads, **options):
+    """Hashes of five people who run about in a world, and are told to stop and go on."""
+    world, chance = World(graph, seed=2, threads=threads, **options), np.random.default_rng(2)
+    for k in range(5):
+        world.spawn("human", (2.0, 1.5 * k - 3.0, 0.0))
+    seen = []
+    for tick in range(400):
+        if tick % 130 == 0:
+            for agent in world.agents.values():
+                agent.go_to((float(chance.uniform(10.0, 22.0)), float(chance.uniform(-4.0, 4.0)), 0.0), 3.0)
+        if tick == 300:
+            world.agents["human1"].stop()
+        world.step(0.01)
+        seen.append(world.state_hash())
+    return seen
+
+
+def test_any_number_of_threads_gives_the_same_run():
+    graph = floor((-5.0, -8.0, 25.0, 8.0))
+    alone = crowd(graph, 1)
+    assert crowd(graph, 2) == crowd(graph, 4) == alone
+
+
+@pytest.mark.parametrize(
+    "wrong", [{"threads": 0}, {"threads": 1.5}, {"rehearsal_ticks": -1}, {"rehearsal_ticks": "all"}]
+)
+def test_wrong_numbers_of_threads_and_ticks_are_refused(graph, wrong):
+    with pytest.raises(RuntimeInputError, match=f"{next(iter(wrong))} must be a whole number of at least"):
+        World(graph, **wrong)
+
+
+def test_people_of_a_world_without_ticks_for_it_do_not_rehearse(graph):
+    assert World(graph, rehearsal_ticks=0).spawn("human", (2.0, 3.0, 0.0)).human.decider.answer is None
+    assert World(graph).spawn("human", (2.0, 3.0, 0.0)).human.decider.answer is not None

@@ -20,6 +20,11 @@ def graph_of(*boxes):
     )
 
 
+def unhurried(graph):
+    """A world in which each decision is rehearsed in full."""
+    return World(graph, rehearsal_ticks=None)
+
+
 @pytest.fixture(scope="module")
 def field():
     return graph_of(((-40, -40, -1), (60, 40, 0)))
@@ -33,7 +38,7 @@ def terrace():
 
 def running(graph, start, towards, until, speed=3.5):
     """A world with one that runs along x and has come to x = ``until``."""
-    world = World(graph)
+    world = unhurried(graph)
     agent = world.spawn("human", start)
     agent.go_to(towards, speed=speed)
     while agent.position[0] < until:
@@ -62,7 +67,7 @@ def run_up(field):
         return running(field, (-35, 0, 0), (55, 0, 0), until, speed)[0].save()
 
     def restored(speed, until):
-        world = World(field)
+        world = unhurried(field)
         world.restore(saved(speed, until))
         (agent,) = world.agents.values()
         return world, agent
@@ -85,10 +90,30 @@ def test_it_turns_or_stops_first_and_arrives(run_up, angle, speed, until):
     assert np.linalg.norm((agent.position - goal)[:2]) < 0.7
 
 
+@pytest.mark.parametrize("speed", [2.5, 3.5])
+def test_within_the_budget_of_a_frame_most_stay_up_too(field, speed):
+    """Told to go elsewhere while they run: not foreseen, and hardly rehearsed."""
+    fell, told = 0, 0
+    for until in (-9.3, -8.9, -8.5, -8.1):
+        world = World(field)
+        agent = world.spawn("human", (-22, 0, 0))
+        agent.go_to((55, 0, 0), speed=speed)
+        while agent.position[0] < until:
+            world.step(0.01)
+        state = world.save()
+        for angle in (45, 180):
+            world.restore(state)
+            way = np.array([math.cos(math.radians(angle)), math.sin(math.radians(angle)), 0.0])
+            agent.go_to(agent.position + 10.0 * way, speed=speed)
+            told += 1
+            fell += any(isinstance(event, Fell) for event in happens(world, agent, 12.0))
+    assert fell <= 0.25 * told
+
+
 @pytest.mark.parametrize("speed", [1.25, 3.5])
 @pytest.mark.parametrize("seconds", [0.3, 1.0, 4.0, 4.6, 6.1])
 def test_told_to_stay_where_it_is_it_comes_back(field, speed, seconds):
-    world = World(field)
+    world = unhurried(field)
     agent = world.spawn("human", (0, 0, 0))
     agent.go_to((40, 0, 0), speed=speed)
     world.step(seconds)
@@ -104,7 +129,7 @@ def test_told_to_stay_where_it_is_it_comes_back(field, speed, seconds):
     ("body", "speed", "farthest"), [("human", 3.5, 3.2), ("dog", 2.0, 1.5), ("walker", 1.4, 0.8)]
 )
 def test_told_to_stop_it_stands_soon_and_goes_on_when_told(field, body, speed, farthest):
-    world = World(field)
+    world = unhurried(field)
     agent = world.spawn(body, (0, 0, 0))
     agent.go_to((40, 0, 0), speed=speed)
     world.step(6.0)
@@ -122,7 +147,7 @@ def test_told_to_stop_it_stands_soon_and_goes_on_when_told(field, body, speed, f
 
 
 def test_told_to_stop_as_it_clears_something_it_does_that_first(terrace):
-    world = World(terrace)
+    world = unhurried(terrace)
     agent = world.spawn("human", (40, -6, 0))
     agent.go_to((40, 12, 0.4))
     while agent.status != "jumping":
@@ -145,7 +170,7 @@ def test_one_that_runs_along_a_platform_takes_off_in_front_of_it(terrace, beside
 
 @pytest.mark.parametrize("start", [(40, 0, 0), (20, 2, 0), (40, -12, 0)])
 def test_a_platform_is_gone_up_from_the_side_without_trying_again(terrace, start):
-    world = World(terrace)
+    world = unhurried(terrace)
     agent = world.spawn("human", start)
     agent.go_to((55, 10, 0.4))
     events = happens(world, agent, 80.0)

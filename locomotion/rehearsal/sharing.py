@@ -1,0 +1,29 @@
+"""What several people may rehearse in one tick."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from locomotion.rehearsal.lookahead import PER_TICK
+
+__all__ = ["REHEARSAL_TICKS", "allot"]
+
+REHEARSAL_TICKS = 20
+"""Default for the ticks that all people of a world rehearse in each of its own."""
+
+
+class _Rehearses(Protocol):
+    @property
+    def foresees(self) -> int | None: ...
+
+
+def allot(people: Sequence[_Rehearses], ticks: int) -> list[int]:
+    """How many of ``ticks`` each of ``people`` may rehearse: those first who have to decide soonest,
+    `PER_TICK` each at most."""
+    waiting = [(ahead, number) for number, each in enumerate(people) if (ahead := each.foresees) is not None]
+    allotted = [0] * len(people)
+    for _, number in sorted(waiting):
+        allotted[number] = min(ticks, PER_TICK)
+        ticks -= allotted[number]
+    return allotted

@@ -35,7 +35,7 @@ __all__ = ["GaitChanges"]
 
 _TOO_NEAR = 2.0  # [m] before an obstacle at which a walking person stops
 _TRIES = 40  # ticks after a stop command in which it attempts to brake
-_SURE = 3.7  # [m/s] up to which braking mostly holds unrehearsed: it is learned so far
+_SURE = 3.2  # [m/s] up to which braking mostly holds unrehearsed
 _SAME = 1e-9  # [m/s²]
 
 _CLEARS = partial(clears, notes=True)

@@ -56,15 +56,20 @@ def test_what_the_double_went_through_is_not_simulated_again(monkeypatch):
     assert human.status == "arrived" and sum(made) < 0.5 * human.ticks and len(made) < 2.5 * human.ticks
 
 
-def test_no_tick_bears_a_whole_rehearsal(monkeypatch):
-    made = [0]
-    tick = Human._tick
+@pytest.fixture
+def made(monkeypatch):
+    """[count] of ticks that were simulated."""
+    count, tick = [0], Human._tick
 
     def counted(human):
-        made[0] += 1
+        count[0] += 1
         tick(human)
 
     monkeypatch.setattr(Human, "_tick", counted)
+    return count
+
+
+def test_no_tick_bears_a_whole_rehearsal(monkeypatch, made):
 
     def most(human):
         result = 0
@@ -98,27 +103,22 @@ def hurried():
     return human
 
 
-def budgeted(human, ticks, disturb=push, until=60.0):
-    """Hashes of its states, until it ends; it rehearses for so many ticks in each of its own."""
-    seen = []
-    while human.status in MOVING and human.time < until:
+def budgeted(human, ticks, moments=()):
+    """Hashes of its states, until it ends, and its states at these ``moments``; it rehearses for so many
+    ticks in each of its own."""
+    seen, states = [], []
+    while human.status in MOVING and human.time < 60.0:
         human.tick()
         human.look_ahead(ticks)
-        disturb(human)
+        push(human)
+        if human.ticks in moments:
+            states.append(human.save_state())
         seen.append(human.state_hash())
-    return seen
+    return seen, states
 
 
 @pytest.mark.parametrize("ticks", [1, 7, PER_TICK])
-def test_one_that_does_not_wait_never_takes_more_than_its_budget(monkeypatch, ticks):
-    made = [0]
-    tick = Human._tick
-
-    def counted(human):
-        made[0] += 1
-        tick(human)
-
-    monkeypatch.setattr(Human, "_tick", counted)
+def test_one_that_does_not_wait_never_takes_more_than_its_budget(made, ticks):
     human, most, unfinished = hurried(), 0, 0
     while human.status in MOVING and human.time < 30.0:
         made[0] = 0
@@ -134,21 +134,13 @@ def test_one_that_does_not_wait_never_takes_more_than_its_budget(monkeypatch, ti
 
 @pytest.mark.parametrize("ticks", [3, PER_TICK])
 def test_one_that_does_not_wait_is_restored_with_what_it_knew(ticks):
-    human, moments, states = hurried(), (211, 260, 333, 418, 700, 1040), {}
-    seen = []
-    while human.status in MOVING and human.time < 60.0:
-        human.tick()
-        human.look_ahead(ticks)
-        push(human)
-        if human.ticks in moments:
-            states[human.ticks] = human.save_state()
-        seen.append(human.state_hash())
-    assert sum(state.foresight[0] > 0 for state in states.values()) >= 3
+    seen, states = budgeted(hurried(), ticks, (211, 260, 333, 418, 700, 1040))
+    assert sum(state.foresight[0] > 0 for state in states) >= 3
     other = hurried()
-    for state in states.values():
+    for state in states:
         other.restore_state(state)
         assert other.save_state().foresight == state.foresight
-        assert budgeted(other, ticks) == seen[state.ticks :]
+        assert budgeted(other, ticks)[0] == seen[state.ticks :]
 
 
 def test_who_knows_that_it_will_hold_sets_off_and_who_does_not_know_walks_on():

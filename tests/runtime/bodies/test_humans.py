@@ -109,9 +109,9 @@ def test_people_walk_as_their_world_says():
     assert not World(level).spawn("human", (2.0, 2.0, 0.0)).human.on_feet.walks_as_learned
 
 
-def crowd(graph, threads, **options):
+def crowd(graph, threads):
     """Hashes of five people who run about in a world, and are told to stop and go on."""
-    world, chance = World(graph, seed=2, threads=threads, **options), np.random.default_rng(2)
+    world, chance = World(graph, seed=2, threads=threads), np.random.default_rng(2)
     for k in range(5):
         world.spawn("human", (2.0, 1.5 * k - 3.0, 0.0))
     seen = []

@@ -145,12 +145,12 @@ class Human(Person):
         self.become(state)
         self.decider.predicted.forget()
         if self._lookahead is not None:
-            self._lookahead.recall(state.foresight)
+            self._lookahead.recall(state)
 
     def save_state(self) -> HumanState:
         """Everything needed to continue from here."""
         state = super().save_state()
-        return state if self._lookahead is None else state._replace(foresight=self._lookahead.memory)
+        return state if self._lookahead is None else state._replace(foresight=self._lookahead.memory(state))
 
     @property
     def waits(self) -> bool:
@@ -318,19 +318,18 @@ class Human(Person):
             lookahead.catch_up()
         came_true = self.decider.predicted.comes_true(self)
         if not came_true:
+            if lookahead is not None:
+                lookahead.be_surprised()
             self._tick()
         if lookahead is not None:
-            lookahead.look_back(came_true)
+            lookahead.look_back()
             if lookahead.waits:
                 lookahead.go_on(PER_TICK)
 
     @property
     def foresees(self) -> int | None:
         """How many ticks ahead what it rehearses is; None if it has nothing to rehearse."""
-        if self._lookahead is None:
-            return None
-        self._lookahead.catch_up()
-        return self._lookahead.ahead
+        return None if self._lookahead is None else self._lookahead.foresees()
 
     def look_ahead(self, ticks: int) -> int:
         """Rehearse what it will have to decide, for up to ``ticks`` of its double; return how many it

@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Generator
 
-from locomotion.human.state import HumanState
+from locomotion.human.state import HumanState, same
 from locomotion.rehearsal.deciding import Outcome, Question, known_answer, tick_unless_asked
 from locomotion.rehearsal.predicted import Predicted
 from locomotion.rehearsal.trials import Rehearsal, at_once
@@ -50,46 +50,73 @@ class Lookahead:
         self._answers: list[tuple[Question, Outcome]] = []
         self._spent: deque[int] = deque()
         """By tick from the person's to the double's: ticks spent until the double came there."""
-        self._until = self._last = self._begins = self._total = self._owed = 0
-        # the double's tick; the person's last tick; the tick from which to look ahead; ticks spent in all;
-        # how many of them have to be made up for
+        self._until = self._last = self._begins = self._total = 0
+        # the double's tick; the person's last tick; the tick from which to look ahead, 0 while it does; ticks
+        # spent in all
+        self._saved: HumanState | None = None  # restored, and its ticks ahead are not yet made again
 
     # --- after a saved state
-    @property
-    def memory(self) -> tuple[int, int]:
-        """What of it makes a difference to the person: ticks spent beyond the present one, and the tick from
-        which it may look ahead. Both 0 for one that waits."""
+    def memory(self, state: HumanState) -> tuple[int, int]:
+        """What of it makes a difference to the person, which is in ``state``: ticks spent beyond it, and the
+        tick from which it may look ahead. Both 0 for one that waits."""
         if self.waits:
             return 0, 0
-        beyond = self._total - self._spent[0] if self._spent else self._owed
-        return beyond, self._begins
+        if self._saved is not None:
+            if same(self._saved, state):
+                return self._saved.foresight
+            self.catch_up()  # it has been disturbed since it was restored
+        if not self._spent:
+            return 0, self._begins
+        if not self._person.decider.predicted.holds(state):
+            return 0, self._after_disturbance
+        return self._total - self._spent[0], self._begins
 
-    def recall(self, memory: tuple[int, int]) -> None:
-        """The person was restored to a state that was saved with this `memory`."""
+    def recall(self, state: HumanState) -> None:
+        """The person was restored to this state."""
         self._last = self._person.ticks
         self._forget(self._last)
         if not self.waits:
-            self._owed, self._begins = memory
+            spent, self._begins = state.foresight
+            self._saved = state if spent else None
 
     def catch_up(self) -> None:
         """Before all else: do again what was known when the person was saved."""
-        owed, self._owed = self._owed, 0
-        if owed:
-            self._begin()
-            for _ in range(owed):
-                if self._task is not None:
-                    next(self._task, None)
-                    pause()
+        saved = self._saved
+        if saved is None:
+            return
+        spent, begins = saved.foresight
+        self._begin(saved)
+        for _ in range(spent):
+            if self._task is not None:
+                next(self._task, None)
+                pause()
+        if begins and self._task is not None:
+            next(self._task, None)  # it was through
 
     # --- tick by tick
-    def look_back(self, came_true: bool) -> None:
-        """After each tick of the person: forget what no longer holds. came_true: whether this tick was
-        predicted."""
+    @property
+    def _after_disturbance(self) -> int:
+        """The tick from which to look ahead if the prediction does not hold any more."""
+        now = self._person.ticks
+        return now + 1 + (_REST if self._until > now else 0)
+
+    def foresees(self) -> int | None:
+        """Before a tick of the person: `ahead`, after what has happened to it since the last one."""
+        self.catch_up()
+        if self._spent and not self._person.decider.predicted.holds(self._person.save_state()):
+            self._forget(self._after_disturbance)
+        return self.ahead
+
+    def be_surprised(self) -> None:
+        """Before a tick of the person that was not predicted."""
+        if self._until > self._person.ticks:
+            self._forget(self._after_disturbance)
+
+    def look_back(self) -> None:
+        """After each tick of the person: forget what no longer holds."""
         now = self._person.ticks
         if now != self._last + 1:
             self._forget(now)  # it was put somewhere else
-        elif now <= self._until and not came_true:
-            self._forget(now + _REST)
         elif self._spent:
             self._spent.popleft()
             behind = now > self._until or (now == self._until and self._rehearsal is None)
@@ -114,7 +141,7 @@ class Lookahead:
         taken = 0
         while taken < ticks and self.ahead is not None:
             if self._task is None:
-                self._begin()
+                self._begin(self._person.save_state())
             assert self._task is not None
             before = self._total
             next(self._task, None)
@@ -139,13 +166,13 @@ class Lookahead:
             return rehearsal.so_far
         return Outcome(question.choices[0], 1.0, [], known=False)
 
-    def _begin(self) -> None:
-        person, double = self._person, self._double_now()
-        self._forget(self._begins)
-        self._until = person.ticks
+    def _begin(self, state: HumanState) -> None:
+        double, future = self._double_now(), self._person.decider.predicted
+        self._forget(0)
+        self._until = state.ticks
         self._spent.append(self._total)
-        person.decider.predicted.begin(person)
-        self._task = self._go_ahead(person.save_state(), double, person.decider.predicted)
+        future.begin(self._person.model, state)
+        self._task = self._go_ahead(state, double, future)
 
     def _go_ahead(
         self, state: HumanState, double: Understudy, future: Predicted
@@ -153,11 +180,9 @@ class Lookahead:
         """Advance the double from ``state`` and rehearse each decision on its way. Each step takes one tick,
         also where the ticks are known already: so it takes as many steps from any state on the way."""
         double.restore_state(state)
-        while (
-            double.ticks % _LOOKS or double.decides_soon or double.decider.predicted.knows(double.ticks + 1)
-        ):
+        while double.ticks % _LOOKS or double.decides_soon:
             double.events.clear()
-            states = double.decider.predicted.all_come_true(double)
+            states = _through_known(double)
             question = None if states else tick_unless_asked(double, self._answers)
             while question is not None:
                 self._rehearsal = rehearsal = Rehearsal(question, self._most)
@@ -177,6 +202,8 @@ class Lookahead:
                 self._spent.append(self._total)
                 future.add(state)
                 yield
+        for state in double.decider.predicted.all_come_true(double):
+            future.add(state)  # costs nothing
         self._task, self._begins = None, self._until + 1
 
     def _double_now(self) -> Understudy:
@@ -192,4 +219,20 @@ class Lookahead:
         self._task = self._rehearsal = None
         self._answers.clear()
         self._spent.clear()
-        self._until, self._begins, self._owed = 0, begins, 0
+        self._saved = None
+        self._until, self._begins = 0, begins
+
+
+def _through_known(double: Understudy) -> list[HumanState]:
+    """Advance the double through the ticks that it knows, up to one in which there is nothing to decide soon;
+    return their states."""
+    known = double.decider.predicted.all_come_true(double)
+    for count, state in enumerate(known, 1):
+        if state.ticks % _LOOKS == 0:
+            double.become(state)
+            if not double.decides_soon:
+                double.decider.predicted.expect(double, known[count:])
+                return known[:count]
+    if known:
+        double.become(known[-1])
+    return known

@@ -39,15 +39,15 @@ class Predicted:
         not include any force that is pushing the person now."""
         self.forget()
         if not person.data.xfrc_applied.any():
-            self.begin(person)
+            self.begin(person.model, person.save_state())
             for state in states:
                 self.add(state)
 
-    def begin(self, person: _Person) -> None:
-        """Later additions follow the present state of ``person``."""
+    def begin(self, model: mujoco.MjModel, state: HumanState) -> None:
+        """Later additions follow ``state`` of a person on ``model``."""
         self.forget()
-        self._model = person.model
-        self.add(person.save_state())
+        self._model = model
+        self.add(state)
 
     def add(self, state: HumanState) -> None:
         """Add ``state`` for its tick."""
@@ -56,6 +56,11 @@ class Predicted:
     def knows(self, tick: int) -> bool:
         """Whether ``tick`` is predicted."""
         return tick in self._states
+
+    def holds(self, state: HumanState) -> bool:
+        """Whether ``state`` is the predicted one."""
+        predicted = self._states.get(state.ticks)
+        return predicted is not None and same(predicted, state)
 
     def forget(self) -> None:
         """Nothing is known."""

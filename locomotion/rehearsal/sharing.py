@@ -14,16 +14,23 @@ REHEARSAL_TICKS = 20
 
 
 class _Rehearses(Protocol):
+    ticks: int
+
     @property
     def foresees(self) -> int | None: ...
 
 
 def allot(people: Sequence[_Rehearses], ticks: int) -> list[int]:
     """How many of ``ticks`` each of ``people`` may rehearse: those first who have to decide soonest,
-    `PER_TICK` each at most."""
-    waiting = [(ahead, number) for number, each in enumerate(people) if (ahead := each.foresees) is not None]
+    `PER_TICK` each at most. Among equals the first is another one in each tick, so nobody goes short."""
+    turn = people[0].ticks if people else 0
+    waiting = [
+        (ahead, (number - turn) % len(people), number)
+        for number, each in enumerate(people)
+        if (ahead := each.foresees) is not None
+    ]
     allotted = [0] * len(people)
-    for _, number in sorted(waiting):
+    for _, _, number in sorted(waiting):
         allotted[number] = min(ticks, PER_TICK)
         ticks -= allotted[number]
     return allotted

@@ -2,6 +2,7 @@
 
 import pytest
 
+from locomotion.body_events import Cleared
 from locomotion.human.human import Human
 from locomotion.human.state import MOVING
 from locomotion.rehearsal.deciding import RECONSIDERS
@@ -141,6 +142,60 @@ def test_one_that_does_not_wait_is_restored_with_what_it_knew(ticks):
         other.restore_state(state)
         assert other.save_state().foresight == state.foresight
         assert budgeted(other, ticks)[0] == seen[state.ticks :]
+
+
+def through(human, ticks):
+    """What is to be the same after a saved state, for so many ticks."""
+    seen = []
+    for _ in range(ticks):
+        human.tick()
+        human.look_ahead(PER_TICK)
+        seen.append((human.state_hash(), human.save_state().foresight))
+    return seen
+
+
+def test_it_goes_on_alike_after_any_state_in_which_it_was_saved():
+    """Also while it knows ticks in which there is nothing to decide, behind an obstacle."""
+    human, other = hurried(), hurried()
+    states = []
+    for _ in range(820):
+        states.append(human.save_state())
+        human.tick()
+        human.look_ahead(PER_TICK)
+    assert any(isinstance(event, Cleared) for event in human.events)
+    for before, after in zip(states[9::57], states[24::57], strict=False):
+        other.restore_state(before)
+        through(other, after.ticks - before.ticks)
+        assert other.save_state().foresight == after.foresight
+
+
+@pytest.mark.parametrize("foreseen", [True, False])
+@pytest.mark.parametrize("restored", [True, False])
+@pytest.mark.parametrize("tick", [45, 150])  # in the middle of a rehearsal, and after it
+def test_one_disturbed_just_after_it_was_saved_or_before_goes_on_alike(foreseen, restored, tick):
+    """Before, it asks how many ticks ahead it is or not, as a world does."""
+
+    def slower(human):
+        human.give_way(0.9, None)
+
+    def goes_on(human):
+        assert foreseen is False or human.foresees is None  # for some ticks
+        return through(human, 30)
+
+    human, other = hurried(), hurried()
+    through(human, tick)
+    before = human.save_state()
+    assert before.foresight[0] > 100
+    if restored:
+        human.restore_state(before)
+    slower(human)
+    after = human.save_state()
+    expected = goes_on(human)
+    other.restore_state(before)
+    slower(other)
+    assert goes_on(other) == expected
+    other.restore_state(after)
+    assert goes_on(other) == expected
 
 
 def test_who_knows_that_it_will_hold_sets_off_and_who_does_not_know_walks_on():

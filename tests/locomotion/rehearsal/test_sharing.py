@@ -11,6 +11,7 @@ from locomotion.rehearsal.sharing import allot
 @dataclass
 class Person:
     foresees: int | None
+    ticks: int = 0
 
 
 @pytest.mark.parametrize("ticks", [0, 7, PER_TICK, 2 * PER_TICK + 5, 1000])
@@ -27,3 +28,14 @@ def test_who_has_to_decide_soonest_rehearses_first(ticks):
 
 def test_nobody_gets_anything_if_nobody_is_there():
     assert allot([], 20) == []
+
+
+def test_nobody_goes_short_where_more_have_to_decide_than_can_rehearse():
+    """Each of forty is as far ahead as it has just rehearsed, and comes nearer to it tick by tick."""
+    people, shares = [Person(0) for _ in range(40)], [0] * 40
+    for _ in range(400):
+        for number, ticks in enumerate(allot(people, PER_TICK)):
+            shares[number] += ticks > 0
+            people[number].foresees = max(people[number].foresees - 1, 0) + ticks
+            people[number].ticks += 1
+    assert min(shares) == max(shares) == 10

@@ -130,7 +130,7 @@ def _rounds(
         code, count, value, low = bounded_kernels.solve_bounded(
             packed, bound * margin, problem.first, problem.last, RELAXATION,
             min(FREE_LIMIT if free else _ROUND_LIMIT, left),
-            tolerance, 0.2 * SLACK_OF_BOUND, _CHECK_EVERY, state, displacements,
+            tolerance, 0.2 * SLACK_OF_BOUND, _CHECK_EVERY, not free, state, displacements,
         )  # fmt: skip
         done += count
         left -= count

@@ -47,6 +47,8 @@ CONVERGED = 0
 LIMIT = 1
 IMPOSSIBLE = 2
 
+CERTAIN = 1e-6  # share of the bound by which a proof must hold, for rounding
+
 
 @kernel(inline="always")
 def _bend(packed, d, i, axis):
@@ -184,12 +186,37 @@ def _bounds(packed, kappa, d, y, u, force, pull, first, last):
     return low, high
 
 
+@kernel
+def excludes(packed, kappa, ray, pull, first, last):
+    """Whether ``ray`` (n, 2) proves that no displacements inside the discs keep the bound: of every feasible
+    d, <ray, D(p + d)> is at most sum_i kappa_i |ray_i|, but its least value over the discs is more.
+
+    Where there are no such displacements, u grows along such a ray for ever, and its change over some
+    iterations is one (Applegate et al., Infeasibility detection with primal-dual hybrid gradient, 2021). Ends
+    of ray do not count; pull (n, 2): room for D^T ray.
+    """
+    n = packed.shape[1]
+    value = 0.0
+    size = 0.0
+    for i in range(1, n - 1):
+        length = np.sqrt(ray[i, 0] ** 2 + ray[i, 1] ** 2)
+        value += ray[i, 0] * packed[EX, i] + ray[i, 1] * packed[EY, i] - kappa[i] * length
+        size += kappa[i] * length
+    _spread(packed, ray, pull, first, last)
+    for i in range(first, last):
+        value += lowest(packed, i, pull[i, 0], pull[i, 1])
+    return value > CERTAIN * size
+
+
 @allocating_kernel
-def solve_bounded(packed, kappa, first, last, relaxation, limit, tolerance, slack, check_every, state, best):
+def solve_bounded(
+    packed, kappa, first, last, relaxation, limit, tolerance, slack, check_every, gives_up, state, best
+):  # fmt: skip
     """Iterate until the gap and the violation of the bound are small, or the bound is proven impossible.
 
-    kappa (n,) [1/m]; slack: relative violation of it that counts as small; state (4, n, 2): d, y, v, u,
-    changed in place; best (n, 2): displacements inside the discs, written.
+    kappa (n,) [1/m]; slack: relative violation of it that counts as small; gives_up: whether to look for the
+    proof by `excludes` as well, which comes sooner; state (4, n, 2): d, y, v, u, changed in place; best
+    (n, 2): displacements inside the discs, written.
     Returns (code, iterations, objective, bound on the optimum).
     """
     n = packed.shape[1]
@@ -197,6 +224,8 @@ def solve_bounded(packed, kappa, first, last, relaxation, limit, tolerance, slac
     new = np.zeros((n, 2))
     force = np.zeros((n, 2))
     pull = np.zeros((n, 2))
+    before = u.copy()
+    widened = (1.0 + slack) * kappa
     done = 0
     code = LIMIT
     bound = 0.0
@@ -212,6 +241,13 @@ def solve_bounded(packed, kappa, first, last, relaxation, limit, tolerance, slac
         if low > high * (1.0 + 1e-6) + 1e-9:
             code = IMPOSSIBLE
             break
+        if gives_up:
+            for i in range(n):
+                force[i, 0], force[i, 1] = u[i, 0] - before[i, 0], u[i, 1] - before[i, 1]
+            before[:] = u
+            if excludes(packed, widened, force, pull, first, last):
+                code = IMPOSSIBLE
+                break
         worst = 0.0
         for i in range(1, n - 1):
             x = packed[EX, i] + _bend(packed, best, i, 0)

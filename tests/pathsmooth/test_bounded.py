@@ -6,7 +6,7 @@ import pytest
 from benchmarks.corridors import bounded_curve, disc_chain, sharp_corner, turn_on_the_spot
 from pathsmooth import Problem, curvature, solve, solve_exact
 from pathsmooth.bounded import SLACK_OF_BOUND
-from pathsmooth.bounded_kernels import solve_bounded
+from pathsmooth.bounded_kernels import CONVERGED, IMPOSSIBLE, excludes, solve_bounded
 from pathsmooth.packing import with_bound
 from pathsmooth.solution import COMPLETE, INFEASIBLE, ITERATION_LIMIT
 
@@ -62,10 +62,51 @@ def test_convex_problem_with_a_bound_agrees_with_cvxpy():
     state, d = np.zeros((4, problem.count, 2)), np.zeros((problem.count, 2))
     _, _, value, bound = solve_bounded(
         with_bound(problem.packed, problem.first, problem.last), np.full(problem.count, 0.5), problem.first,
-        problem.last, 1.7, 20000, 1e-5, 1e-4, 50, state, d,
+        problem.last, 1.7, 20000, 1e-5, 1e-4, 50, True, state, d,
     )  # fmt: skip
     assert value == pytest.approx(exact.objective, rel=1e-3)
     assert bound <= exact.objective * (1 + 1e-6)
+
+
+def tried(problem, bound, gives_up):
+    """(code, iterations) of the convex problem with a bound."""
+    state, d = np.zeros((4, problem.count, 2)), np.zeros((problem.count, 2))
+    return solve_bounded(
+        with_bound(problem.packed, problem.first, problem.last), np.full(problem.count, bound), problem.first,
+        problem.last, 1.7, 6000, 0.01, 0.006, 20, gives_up, state, d,
+    )[:2]  # fmt: skip
+
+
+def test_what_is_proven_impossible_is_impossible_for_cvxpy_too_and_soon():
+    proven, possible, soon, late = 0, 0, 0, 0
+    for seed in range(24):
+        waypoints, centers, radii = disc_chain(np.random.default_rng(seed), 5, (0.4, 1.2), 0.4)
+        bound = (0.02, 0.05, 0.1, 0.3)[seed % 4]
+        problem = Problem.from_corridor(waypoints, centers, radii, max_curvature=bound)
+        exact = solve_exact(problem).status
+        code, count = tried(problem, bound, gives_up=True)
+        if code == IMPOSSIBLE:
+            assert exact == INFEASIBLE
+            proven, soon = proven + 1, soon + count
+            late += tried(problem, bound, gives_up=False)[1]
+        else:
+            assert code == CONVERGED
+            possible += exact == COMPLETE
+    assert proven >= 6 and possible >= 6 and soon < 0.5 * late
+
+
+def test_no_direction_excludes_what_is_possible():
+    """A curve that keeps the bound is among the displacements; so no direction proves that there is none."""
+    rng = np.random.default_rng(0)
+    corridor = disc_chain(rng, 8, (0.8, 2.5), 0.5)
+    problem = Problem.from_corridor(*corridor, max_curvature=0.5)
+    assert solve_exact(problem).status == COMPLETE
+    packed, kappa = with_bound(problem.packed, problem.first, problem.last), np.full(problem.count, 0.5)
+    pull = np.zeros((problem.count, 2))
+    for size in np.geomspace(1e-6, 1e3, 200):
+        ray = size * rng.normal(size=(problem.count, 2)) * (rng.random((problem.count, 1)) < 0.3)
+        assert not excludes(packed, kappa, ray, pull, problem.first, problem.last)
+    assert not excludes(packed, kappa, np.zeros((problem.count, 2)), pull, problem.first, problem.last)
 
 
 def test_a_bound_that_does_not_bind_changes_nothing():

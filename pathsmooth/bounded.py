@@ -28,13 +28,17 @@ SLACK_OF_BOUND = 0.03
 """Relative amount by which the true curvature of a complete solution may exceed the bound."""
 
 ROUNDS = 15
+ROUGH_TOLERANCE, ROUGH_SLACK = 0.1, SLACK_OF_BOUND  # of the first round, on waypoints yet to be spread
+HOPELESS = (np.inf, 1.4, 1.3)
+"""True curvature over the bound after the first, second and later rounds from which a limited run has not
+come to meet it, on routes of two levels."""
 RELAXATION = 1.7
 # rounds from a way found by the search
 FREE_ROUNDS = 40
 FREE_LIMIT = 200  # iterations in one
 FREE_REACH = 0.06  # radii of the tightest curve that a waypoint may move in one
 FREE_TIGHTEN = 1.3  # excess of curvature below which the bound is tightened
-_CHECK_EVERY = 20
+_CHECK_EVERY = 12
 _ROUND_LIMIT = 3000  # iterations in one round
 
 SEARCHES = tuple(
@@ -113,8 +117,8 @@ def _rounds(
 ) -> _Trial:
     """Solve, spread the waypoints and tighten the bound where the curvature exceeds it, until it holds.
 
-    Each round starts from the state of the round before. free: each round takes the previous curve as its
-    pulled path and stays near it, so that a loop is not pulled tight.
+    Each round starts from the state of the round before; the first one is solved only roughly. free: each
+    round takes the previous curve as its pulled path and stays near it, so that a loop is not pulled tight.
     """
     bound = float(problem.max_curvature or np.inf)
     margin = np.ones(problem.count)
@@ -122,7 +126,8 @@ def _rounds(
     state = np.zeros((4, problem.count, 2)) if state is None else state.copy()
     best = None
     done = 0
-    for _ in range(FREE_ROUNDS if free else ROUNDS):
+    for number in range(FREE_ROUNDS if free else ROUNDS):
+        rough = number == 0 and not free
         packed = with_bound(problem.packed, problem.first, problem.last)
         if free:
             keep_near(packed, FREE_REACH / bound)
@@ -130,16 +135,23 @@ def _rounds(
         code, count, value, low = bounded_kernels.solve_bounded(
             packed, bound * margin, problem.first, problem.last, RELAXATION,
             min(FREE_LIMIT if free else _ROUND_LIMIT, left),
-            tolerance, 0.2 * SLACK_OF_BOUND, _CHECK_EVERY, not free, state, displacements,
+            max(tolerance, ROUGH_TOLERANCE) if rough else tolerance,
+            ROUGH_SLACK if rough else 0.2 * SLACK_OF_BOUND, _CHECK_EVERY, not free, state, displacements,
         )  # fmt: skip
         done += count
         left -= count
         points = problem.targets + displacements
         excess = curvature(points) / bound
         trial = _Trial(problem, displacements, state, value, low, float(excess.max()), done)
-        if best is None or trial.worst < best.worst:
+        if best is None or trial.complete or trial.worst < best.worst:
             best = trial
-        if trial.complete or (code == bounded_kernels.IMPOSSIBLE and not free) or left <= 0:
+        if (code == bounded_kernels.IMPOSSIBLE and not free) or left <= 0:
+            break
+        if trial.complete:
+            if rough:
+                continue  # the waypoints may stay
+            break
+        if limit is not None and trial.worst > HOPELESS[min(number, len(HOPELESS) - 1)]:
             break
         for _ in range(2):
             excess[1:-1] = np.maximum(np.maximum(excess[:-2], excess[2:]), excess[1:-1])

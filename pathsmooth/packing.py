@@ -15,7 +15,8 @@ DISC_STEP = 10.0  # [1/m] of the discs, per weight of an evenly placed waypoint
 RIM_STEP = 80.0  # [1/m] in addition where the target lies on a rim, as the corners of a pulled path do
 DISC_STIFFNESS = 0.3  # of a disc as stiff as the path bent within the disc's size
 CLOSE_STIFFNESS = 0.02  # of a waypoint as stiff as the path bent between it and a close neighbour
-CURVE_STEP = 4.0  # of the bound on curvature, per weight of the bending term
+CURVE_STEP = 2.0  # of the bound on curvature, per weight of the bending term
+BOUNDED_NORM_STEP = 0.3  # of the distance term under a bound on curvature, of that without
 _RIM = 0.02  # [m]
 _SMALLEST_SIZE = 0.1  # [m]
 _ROUNDING = 1e-11  # [m]
@@ -36,6 +37,7 @@ def with_bound(packed: NDArray[np.float64], first: int, last: int) -> NDArray[np
     """A copy of the packed arrays for the loops of `bounded_kernels`."""
     packed = packed.copy()
     packed[k.CURVE_STEP] = CURVE_STEP * 2.0 * packed[k.BEND]
+    packed[k.NORM_STEP] *= BOUNDED_NORM_STEP
     k.factorise(packed, first, last)
     return packed
 

@@ -21,7 +21,7 @@ from navmesh.routes.surface_projection import project_curve_to_surface
 
 __all__ = ["RUNNING", "ObstacleAhead", "SmoothPath", "Smoothing", "smooth_route"]
 
-_ITERATIONS = 600  # per bound on curvature, some milliseconds; an exhaustive search takes seconds
+_ITERATIONS = 450  # per bound on curvature, a millisecond; an exhaustive search takes seconds
 
 
 @dataclass(frozen=True)

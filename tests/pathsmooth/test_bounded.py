@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from benchmarks.corridors import bounded_curve, disc_chain, sharp_corner, turn_on_the_spot
-from pathsmooth import Problem, curvature, solve, solve_exact
+from pathsmooth import Problem, bounded, curvature, solve, solve_exact
 from pathsmooth.bounded import SLACK_OF_BOUND
 from pathsmooth.bounded_kernels import CONVERGED, IMPOSSIBLE, excludes, solve_bounded
 from pathsmooth.packing import with_bound
@@ -121,6 +121,22 @@ def test_an_iteration_limit_is_kept():
     solution = solve(problem_of(corridor, 0.5), iterations=50)
     assert solution.status == ITERATION_LIMIT
     assert solution.iterations <= 70
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_curve_is_as_near_to_the_best_as_was_asked_for_whatever_its_rounds(seed):
+    """Also where the first round, which is a rough one, meets the bound at once."""
+    solution = solve(problem_of(bounded_curve(np.random.default_rng(seed), 0.5, 0.1 + 0.06 * seed), 0.5))
+    assert solution.gap <= 0.01 * solution.objective
+
+
+def test_only_a_limited_run_gives_up_what_looks_hopeless(monkeypatch):
+    corridor = bounded_curve(np.random.default_rng(1), 1.0, 0.1)
+    patient, full = (solve(problem_of(corridor, 1.0), iterations=limit) for limit in (2000, None))
+    monkeypatch.setattr(bounded, "HOPELESS", (1.0 + SLACK_OF_BOUND,))
+    given_up, still = (solve(problem_of(corridor, 1.0), iterations=limit) for limit in (2000, None))
+    assert patient.status == COMPLETE and np.array_equal(full.points, still.points)
+    assert given_up.status == ITERATION_LIMIT and given_up.iterations < patient.iterations
 
 
 def test_warm_start_under_a_bound_saves_iterations():

@@ -36,7 +36,38 @@ where it does not; also a search over cells."""
 _ROUNDS = 4
 """Times that a line is led round what ends walking on it before it is pulled through the lenses."""
 _DEPTH = 12  # of pushes within pushes; scratch.stack holds two more
+_ON = 1.0
+"""[m] beyond what ends walking on a line, to which the cells are searched if there is a portal."""
 _SPLITS = 64  # of one line: corners that fall away when the next is added could take turns for ever
+
+
+@kernel(error_model="numpy")
+def _place_of(net, doors, door, side, x, y):
+    """The cell of (x, y), a place on a portal or beside its left (0) or right (1) end."""
+    ex, ey = doors.portal[door, 3 * side], doors.portal[door, 3 * side + 1]
+    return walk(net, np.int64(doors.portal_cell[door, side]), ex, ey, x, y, 0.0, True)[1]
+
+
+@kernel(error_model="numpy")
+def _beyond(net, doors, scratch, low, high, ax, ay, bx, by, place):
+    """Where the line a-b, on which walking ends at ``place``, can go on: the middle of a portal's lens.
+
+    Of the portals edges[low:high] it is the first by `_ON` farther along the line. Returns (found, x, y,
+    cell).
+    """
+    dx, dy = bx - ax, by - ay
+    length = sqrt(dx * dx + dy * dy)
+    least, most = place * length + _ON, length - _ON
+    found, x, y, k = False, bx, by, np.int64(-1)
+    for i in range(low, high):
+        door = scratch.edges[i]
+        t = 0.5 * (doors.lens[door, 0] + doors.lens[door, 1])
+        px = doors.portal[door, 0] + t * (doors.portal[door, 3] - doors.portal[door, 0])
+        py = doors.portal[door, 1] + t * (doors.portal[door, 4] - doors.portal[door, 1])
+        along = ((px - ax) * dx + (py - ay) * dy) / length
+        if least < along < most:
+            found, x, y, k, most = True, px, py, _place_of(net, doors, door, 0, px, py), along
+    return found, x, y, k
 
 
 @allocating_kernel(error_model="numpy")
@@ -52,7 +83,7 @@ def mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, effort
     stack[0, 0], stack[0, 1] = gx, gy
     stack_cell[0] = goal_cell
     height = 1
-    splits = 0
+    splits = parts = 0
     room = scratch.cells.size
     while height > 0:
         if count >= room:
@@ -91,18 +122,18 @@ def mend(net, doors, scratch, first, count, gx, gy, goal_cell, low, high, effort
                 continue
         if effort < CELLS:
             return count, _BLOCKED
+        if parts < high - low:  # to search few cells
+            found, x, y, at = _beyond(net, doors, scratch, low + 1, high, ax, ay, bx, by, place)
+            if found:
+                parts += 1
+                count, fits = over_cells(net, doors, scratch, first, count, height, x, y, at)
+                if fits:
+                    continue
         count, fits = over_cells(net, doors, scratch, first, count, height, bx, by, target)
         if not fits:
             return count, _NO_WAY
         height -= 1
     return count, FITS
-
-
-@kernel(error_model="numpy")
-def _place_of(net, doors, door, side, x, y):
-    """The cell of (x, y), a place on a portal or beside its left (0) or right (1) end."""
-    ex, ey = doors.portal[door, 3 * side], doors.portal[door, 3 * side + 1]
-    return walk(net, np.int64(doors.portal_cell[door, side]), ex, ey, x, y, 0.0, True)[1]
 
 
 @kernel(error_model="numpy")
@@ -152,6 +183,14 @@ def _take_back(scratch, leg, before, saved, count):
 
 
 @kernel(error_model="numpy")
+def _put_on_floor(net, scratch, first, last):
+    """Give the corners [first:last] the height of the floor."""
+    points, cells = scratch.points, scratch.cells
+    for i in range(first, last):
+        points[i, 2] = floor_at(net, np.int64(cells[i]), points[i, 0], points[i, 1])
+
+
+@kernel(error_model="numpy")
 def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell, last_try):
     """Pull one walked leg taut: from the last corner in ``scratch.points`` through the portals of
     edges[first:last].
@@ -198,10 +237,9 @@ def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell, last_try):
                 )
                 state = FITS if fits else _NO_WAY
             if state != FITS:
+                _put_on_floor(net, scratch, leg, count)
                 return count, False, rounding
     if not doors.weighted:
         count = tighten(net, scratch, leg, count, radius)
-    points, cells = scratch.points, scratch.cells
-    for i in range(leg, count):
-        points[i, 2] = floor_at(net, np.int64(cells[i]), points[i, 0], points[i, 1])
+    _put_on_floor(net, scratch, leg, count)
     return count, True, rounding

@@ -23,6 +23,9 @@ Arrays = dict[str, np.ndarray]
 _TOUCH = 1e-9  # [m]
 _COLUMNS = 5
 """Cells beyond twice a disc's radius at which its cells, and those beside them, can know of a zone."""
+_STEPS = 4
+"""Links from a cell to those whose lists its disc's place follows from: it is looked for in cells up to a
+corner away, and these ask theirs (`navmesh.surface.ridges.middle_beside`)."""
 _SIDEWAYS = 4.2
 """Times its radius that an edge of a disc, or of a piece of it, can reach sideways from its centre: its
 radius to the piece's centre, as much to the portal's middle, and from there to its end, and a body's radius
@@ -139,8 +142,7 @@ def _users(graph: "NodeGraph", outlines: list[np.ndarray], found: list[Concerned
         gate, width = np.tile(graph.edge_gate[edges], (2, 1)), np.tile(graph.edge_width[edges], 2)
         way = segments_to_outline(flat, np.column_stack([place[ends], gate]))
         cut.append(np.union1d(inside, ends[way < width - _TOUCH]))
-        near = np.hypot(*each.nearest.T) < graph.surface.clearance[each.cell]
-        owner = graph.label[each.cell[near]]
+        owner = graph.label[_linked(graph.surface.link, each.cell, _STEPS)]
         follow.append(np.union1d(owner[owner >= 0], cut[-1]))
     whole = np.unique(np.concatenate(cut)).astype(np.int32)
     follow = [each[np.isin(each, whole)] for each in follow]
@@ -169,6 +171,16 @@ def _users(graph: "NodeGraph", outlines: list[np.ndarray], found: list[Concerned
         "kept_radius": np.empty(len(row_cell)), "rim_start": rim_start, "rim": rim,
         "seam_count": np.zeros(len(whole), np.int32), "seam": np.empty(len(row_cell), np.int32),
     }  # fmt: skip
+
+
+def _linked(link: np.ndarray, cells: np.ndarray, steps: int) -> np.ndarray:
+    """``cells``, and those that so many ``steps`` over links lead to."""
+    there = fresh = np.unique(cells)
+    for _ in range(steps):
+        beside = link[fresh].ravel()
+        fresh = np.setdiff1d(beside[beside >= 0], there)
+        there = np.union1d(there, fresh)
+    return there
 
 
 def _listed(start: np.ndarray, values: np.ndarray, groups: np.ndarray) -> np.ndarray:

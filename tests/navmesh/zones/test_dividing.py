@@ -6,6 +6,8 @@ from benchmarks.apartments import apartment
 from navmesh import NodeGraph
 from navmesh.zones.distances import segments_to_outline
 from navmesh.zones.dividing import divide
+from tests.navmesh.shapes import plane, terrain
+from tests.navmesh.zones.alike import assert_alike
 
 
 def test_discs_that_a_zone_reaches_into_are_those_that_it_breaks():
@@ -46,3 +48,13 @@ def test_rows_are_the_cells_of_discs_that_can_be_broken():
     assert set(users["rim"]) == set(np.flatnonzero(at_rim))
     assert (made.surface.clearance == graph.surface.clearance).all()
     assert made.surface.link is not graph.surface.link
+
+
+def test_pieces_do_not_depend_on_the_order_in_which_zones_were_blocked():
+    """Two bars of one disc, the one in none of the cells whose width the other changes."""
+    bars = {"a": [(1.0, 2.0, 0.0), (1.0, 4.0, 0.0)], "b": [(5.0, 2.75, 0.0), (5.75, 2.75, 0.0)]}
+    base = NodeGraph.build(terrain(plane(0, 6, 0, 4)))
+    one, other = base.with_zones(bars), base.with_zones(bars)
+    one.block("a", "b")
+    other.block("b", "a")
+    assert_alike(one, other)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from pathsmooth import bounded_kernels, kernels, reach
 from pathsmooth.curvature import curvature
 from pathsmooth.errors import PathSmoothError
-from pathsmooth.geometry import nearest_in_lens
+from pathsmooth.geometry import arc_along, interpolated, nearest_in_lens, steps_along
 from pathsmooth.packing import keep_near, with_bound
 from pathsmooth.placement import cover
 from pathsmooth.problem import SLACK, Problem
@@ -157,7 +157,7 @@ def _rounds(
             excess[1:-1] = np.maximum(np.maximum(excess[:-2], excess[2:]), excess[1:-1])
         if not free or trial.worst < FREE_TIGHTEN:
             margin = margin / np.maximum(1.0, excess)
-        along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
+        along = arc_along(steps_along(points))
         used = np.unique(problem.segment_disc)
         if free:
             problem = _from_curve(problem, np.column_stack([points, problem.heights]), used)
@@ -178,13 +178,12 @@ def _carried(
     waypoints are spread along the same points."""
     moved = np.zeros((4, problem.count, 2))
     free = slice(problem.first, problem.last)
-    for axis in range(2):
-        place = np.interp(problem.arc, along, points[:, axis])
-        moved[kernels.DISPLACEMENT, free, axis] = (place - problem.targets[:, axis])[free]
-        for row in (kernels.NORM_DUAL, kernels.DISC_DUAL):
-            moved[row, free, axis] = np.interp(problem.arc, along, state[row, :, axis])[free]
-        force = np.interp(problem.arc, along, state[kernels.CURVE_DUAL, :, axis])
-        moved[kernels.CURVE_DUAL, 1:-1, axis] = force[1:-1]
+    duals = (state[kernels.NORM_DUAL], state[kernels.DISC_DUAL], state[kernels.CURVE_DUAL])
+    rows = interpolated(problem.arc, along, np.concatenate((points, *duals), axis=1))
+    moved[kernels.DISPLACEMENT, free] = (rows[:, :2] - problem.targets)[free]
+    moved[kernels.NORM_DUAL, free] = rows[free, 2:4]
+    moved[kernels.DISC_DUAL, free] = rows[free, 4:6]
+    moved[kernels.CURVE_DUAL, 1:-1] = rows[1:-1, 6:]
     return moved
 
 
@@ -239,7 +238,7 @@ def _curve(problem: Problem, positions: NDArray[np.float64], discs: NDArray[np.i
 
     # height of the nearest place of the pulled path within the stretch of each point's disc, never going back
     path = problem.path[:, :2] - problem.path[0, :2]
-    arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))])
+    arc = arc_along(steps_along(path))
     _, _, _, begin, end = cover(path, arc, centers - problem.path[0, :2], radii, SLACK)
     samples = np.linspace(0.0, arc[-1], 20 * len(arc) + 200)
     on_path = np.column_stack([np.interp(samples, arc, problem.path[:, axis]) for axis in range(2)])

@@ -17,7 +17,7 @@ def curvature(points: ArrayLike) -> NDArray[np.float64]:
     xy = np.asarray(points, dtype=np.float64)
     if xy.ndim != 2 or xy.shape[1] not in (2, 3):
         raise PathSmoothError(f"points has shape {xy.shape}, not (n, 2) or (n, 3)")
-    step = np.diff(xy[:, :2], axis=0)
+    step = xy[1:, :2] - xy[:-1, :2]
     length = np.hypot(step[:, 0], step[:, 1])
     a, b = step[:-1], step[1:]
     turn = np.abs(np.arctan2(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(axis=1)))

@@ -1,10 +1,48 @@
-"""Small planar geometry on discs, compiled."""
+"""Small planar geometry on polylines and discs."""
 
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from surefoot.kernels import kernel
+
+
+def steps_along(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n - 1,) horizontal distances between ``points`` (n, 2) or (n, 3)."""
+    return np.hypot(points[1:, 0] - points[:-1, 0], points[1:, 1] - points[:-1, 1])
+
+
+def arc_along(steps: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n,) arc lengths, from 0, of points that lie ``steps`` (n - 1,) apart."""
+    arc = np.zeros(len(steps) + 1)
+    np.cumsum(steps, out=arc[1:])
+    return arc
+
+
+def interpolated(
+    at: NDArray[np.float64], places: NDArray[np.float64], rows: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """(n, k): what `numpy.interp` gives for each column of ``rows`` (m, k) at ``places`` (m,), read ``at``
+    (n,); both not decreasing."""
+    result = np.empty((len(at), rows.shape[1]))
+    _interpolate(at, places, np.ascontiguousarray(rows), result)
+    return result
+
+
+@kernel
+def _interpolate(at, places, rows, result):
+    last = len(places) - 1
+    j = 0
+    for i in range(len(at)):
+        while j < last and places[j + 1] <= at[i]:
+            j += 1
+        for column in range(rows.shape[1]):
+            value = rows[j, column]
+            if j < last and at[i] > places[j]:
+                slope = (rows[j + 1, column] - value) / (places[j + 1] - places[j])
+                value = slope * (at[i] - places[j]) + value
+            result[i, column] = value
 
 
 @kernel(inline="always")

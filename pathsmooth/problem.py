@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pathsmooth import kernels
 from pathsmooth.errors import PathSmoothError
+from pathsmooth.geometry import arc_along, interpolated, steps_along
 from pathsmooth.packing import into_discs, pack
 from pathsmooth.placement import COVERED, END_OUTSIDE, START_OUTSIDE, cover, place, point_at
 
@@ -146,11 +147,10 @@ class Problem:
         (j,): the discs that the curve passes, in order. The targets stay on the pulled path, and may lie
         outside the discs of their waypoints.
         """
-        step = np.hypot(*np.diff(curve, axis=0).T)
-        keep = np.concatenate([[True], step > SLACK])
+        keep = np.concatenate([[True], steps_along(curve) > SLACK])
         keep[-1] = True
         curve, source = curve[keep], source[keep]
-        arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(curve, axis=0).T))])
+        arc = arc_along(steps_along(curve))
         centers, radii = self.centers[discs], self.radii[discs]
         local, local_centers = curve - curve[0], centers - curve[0]
         code, disc, reached, begin, end = cover(local, arc, local_centers, radii, 10 * SLACK)
@@ -200,8 +200,7 @@ class Problem:
                 pins[len(waypoint_arc) - 2] = path[-1, :2] - length * end
         n = len(waypoint_arc)
         waypoint_source = np.interp(waypoint_arc, arc, source)
-        path_arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path[:, :2], axis=0).T))])
-        targets = np.column_stack([np.interp(waypoint_source, path_arc, path[:, axis]) for axis in range(3)])
+        targets = interpolated(waypoint_source, arc_along(steps_along(path)), path)
         heights = targets[:, 2].copy()
         targets = np.ascontiguousarray(targets[:, :2])
         if source is arc:
@@ -273,7 +272,7 @@ def _path(waypoints: ArrayLike):
     if len(given) < 2:
         raise PathSmoothError(f"waypoints has {len(given)} rows; a path has at least 2")
     path = given if given.shape[1] == 3 else np.column_stack([given, np.zeros(len(given))])
-    step = np.hypot(*np.diff(path[:, :2], axis=0).T)
+    step = steps_along(path)
     keep = np.concatenate([[True], step > SLACK])
     keep[-1] = True
     if not np.any(step > SLACK):
@@ -285,8 +284,7 @@ def _path(waypoints: ArrayLike):
     if len(path) > 2 and np.hypot(*(path[-1, :2] - path[-2, :2])) <= SLACK:
         path = np.delete(path, -2, axis=0)
     xy = np.ascontiguousarray(path[:, :2])
-    arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(xy, axis=0).T))])
-    return path, xy, arc
+    return path, xy, arc_along(steps_along(xy))
 
 
 def _discs(centers: ArrayLike, radii: ArrayLike):

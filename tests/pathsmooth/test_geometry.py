@@ -1,11 +1,11 @@
-"""The nearest point of two overlapping discs."""
+"""The nearest point of two overlapping discs; lengths and values along polylines."""
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pathsmooth.geometry import lens_corners, nearest_in_lens
+from pathsmooth.geometry import arc_along, interpolated, lens_corners, nearest_in_lens, steps_along
 
 DIRECTIONS = np.column_stack([f(np.linspace(0.0, 2.0 * np.pi, 2001)) for f in (np.cos, np.sin)])
 
@@ -57,3 +57,20 @@ def test_discs_that_touch_have_one_point():
 def test_rims_meet_at_two_corners():
     corners = lens_corners.py_func(-0.6, 0.0, 1.0, 0.6, 0.0, 1.0)
     assert corners == pytest.approx((0.0, 0.8, 0.0, -0.8), abs=1e-12)
+
+
+@given(seed=st.integers(0, 10_000), count=st.integers(2, 30), columns=st.integers(1, 4))
+@settings(max_examples=60, deadline=None, derandomize=True)
+def test_interpolation_of_several_columns_is_numpys_of_each(seed, count, columns):
+    rng = np.random.default_rng(seed)
+    steps = rng.choice([0.0, 0.1, 1.0], count - 1) * rng.random(count - 1)
+    places, rows = arc_along(steps), rng.normal(size=(count, columns))
+    at = np.sort(np.concatenate([places, rng.uniform(-1.0, places[-1] + 1.0, 40)]))
+    expected = np.column_stack([np.interp(at, places, rows[:, k]) for k in range(columns)])
+    assert np.array_equal(interpolated(at, places, rows), expected)
+
+
+def test_arc_lengths_add_up_the_horizontal_steps():
+    points = np.array([[0.0, 0.0, 5.0], [3.0, 4.0, 9.0], [3.0, 4.0, 1.0], [3.0, 6.0, 1.0]])
+    assert steps_along(points).tolist() == [5.0, 0.0, 2.0]
+    assert arc_along(steps_along(points)).tolist() == [0.0, 5.0, 5.0, 7.0]

@@ -88,7 +88,7 @@ def plain() -> NodeGraph:
 def switch(mode: str, to: str, rng: np.random.Generator) -> dict[str, float]:
     """One person goes over to the level ``to`` at a random moment."""
     graph, goal, speed = setting(mode, rng)
-    world = World(graph, seed=int(rng.integers(2**31)), rehearsal_ticks=None)  # it is about the switch
+    world = World(graph, seed=int(rng.integers(2**31)))
     ada = world.spawn("human", (0.0, 0.0, 0.0), detail="full" if to == PHYSICS else PHYSICS)
     if speed > 0.0:
         ada.go_to(goal, speed=speed)

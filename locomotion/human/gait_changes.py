@@ -13,7 +13,7 @@ from locomotion.human.person import Person
 from locomotion.human.state import MOVING
 from locomotion.paths.command import HEADING_ASKED
 from locomotion.paths.gait_plan import RUN_UP
-from locomotion.rehearsal.deciding import Decider, Trial
+from locomotion.rehearsal.deciding import RECONSIDERS, Decider, Trial
 from locomotion.rehearsal.trials import (
     BALKINGS,
     BRAKINGS,
@@ -37,6 +37,7 @@ _TOO_NEAR = 2.0  # [m] before an obstacle at which a walking person stops
 _TRIES = 40  # ticks after a stop command in which it attempts to brake
 _SURE = 3.2  # [m/s] up to which braking mostly holds unrehearsed
 _SAME = 1e-9  # [m/s²]
+_LOOKS_AGAIN = 2 * RECONSIDERS  # ticks between attempts to slow down in another way: longer to rehearse
 
 _CLEARS = partial(clears, notes=True)
 _WALKS_ON = partial(walks_on, notes=True)
@@ -116,6 +117,8 @@ class GaitChanges:
                 return
         elif feet.slowing > 0.0 and follower.stops_since:
             self._brake_better()
+        if feet.slowing > 0.0 and not feet.brakes and follower.tried_to_slow:
+            self._slow_down_better()
         if feet.slowing == 0.0:
             if person.status not in MOVING or not follower.runs or follower.pace == 0.0:
                 self._slow_down_or_will(stops)
@@ -164,13 +167,25 @@ class GaitChanges:
         ways = sorted(BRAKINGS, key=lambda harder: abs(harder * learned - person.on_feet.slowing) > _SAME)
         self._slow_as_rehearsed(ways, _brake, ComesToRest())
 
+    def _slow_down_better(self) -> None:
+        """If it slows down as it has not rehearsed, do so otherwise, or brake, if that does not hold."""
+        person = self._person
+        since = person.ticks - person.follower.tried_to_slow
+        if self._decider.answer is None or since == 0 or since % _LOOKS_AGAIN:
+            return
+        now = person.on_feet.slowing
+        ways = (now, *(each for each in SLOWINGS if each != now))
+        if not self._slow_as_rehearsed(ways, _slow_down, _WALKS_ON):
+            self._slow_as_rehearsed(BRAKINGS, _brake, ComesToRest())
+
     def _slow_down_or_will(self, must: bool) -> None:
-        """Slow down to a walk; if rehearsals fail, brake, or run on for a moment if there is room."""
+        """Slow down to a walk, at once if there was no time to rehearse it; if rehearsals fail, brake, or run
+        on for a moment if there is room."""
         follower, ticks = self._person.follower, self._person.ticks
         may_wait = not must and self._decider.answer is not None and follower.begins_to_slow
         if may_wait and follower.tried_to_slow and ticks - follower.tried_to_slow < self._decider.again:
             return
-        if self._slow_as_rehearsed(SLOWINGS, _slow_down, _WALKS_ON, may_wait):
+        if self._slow_as_rehearsed(SLOWINGS, _slow_down, _WALKS_ON):
             return
         if not must and self._brakes_well(may_wait):
             return
@@ -199,6 +214,6 @@ class GaitChanges:
             since = person.follower.stops_since
             slow(person, deceleration)
             self._decider.predicted.expect(person, seen)
-            if not known:
-                person.follower.stops_since = since  # it will see whether that holds
+            if not known and self._decider.answer is not None:  # it will see whether that holds
+                person.follower.stops_since, person.follower.tried_to_slow = since, person.ticks
         return does

@@ -33,7 +33,7 @@ __all__ = ["Person"]
 _SETTLING = 600  # ticks for a person that has stopped walking to come to rest
 _FALL_TICKS = 100  # ticks for which a fallen body is simulated before it is held
 _HEMMED_IN = 9.0  # [m] before an obstacle in which it may not change to a walk
-_SOON_WALKED, _SOON_RUN, _SOON_SLOWS = 2.5, 4.0, 1.5
+_SOON_WALKED, _SOON_RUN, _SOON_SLOWS = 2.5, 4.0, 5.0
 # [m] before something is to be rehearsed from which it looks ahead: a run-up, walking, running; slowing down
 
 
@@ -238,6 +238,8 @@ class Person:
         follower, feet, arc = self.follower, self.on_feet, self.arc_length
         if follower.stops_since and not feet.walks and (feet.brakes or feet.runs):
             return True
+        if follower.tried_to_slow and feet.slowing > 0.0 and not feet.brakes:
+            return True
         if feet.on_uneven_ground and not self.fours.active and not self.held:
             return True
         if follower.path is None or self.status not in MOVING or self.fours.active or feet.slowing > 0.0:
@@ -273,7 +275,8 @@ class Person:
         self.slow_down(deceleration)
 
     def slow_down(self, deceleration: float) -> None:
-        """Begin to slow down from the run to a walk [m/s^2]."""
+        """Begin to slow down from the run to a walk [m/s^2]; this will hold."""
+        self.follower.tried_to_slow = 0
         self.on_feet.slow_down(deceleration)
 
     def brake(self, harder: float) -> None:

@@ -17,6 +17,7 @@ __all__ = ["PathFollower"]
 
 _ROOM = 2.5, 5.0  # [m] that it goes back at least to let others pass, the first and the second time
 _STRAIGHT, _AT_EDGE = 0.35, 0.3  # [rad] by which a run-up may bend; [m] before an edge
+_SLOWING = [path_tracking.TRIED, path_tracking.STOPS_SINCE]
 _LEAST = 0.5  # [m] behind the edge from which it does
 
 
@@ -30,10 +31,13 @@ class PathFollower:
         self.back_to = 0.0
         self.memory = new_track()
 
-    def begin(self, path: PathTable, tick: int) -> None:
-        """Follow ``path`` from its beginning."""
+    def begin(self, path: PathTable, tick: int, slows: bool = False) -> None:
+        """Follow ``path`` from its beginning. ``slows``: whether it is slowing down; it goes on with that."""
         self.path, self.interrupted = path, None
+        slowing = self.memory[_SLOWING]
         self.memory[:] = new_track()
+        if slows:
+            self.memory[_SLOWING] = slowing
         self.memory[path_tracking.HEADWAY_TICK] = tick
         self.memory[path_tracking.REMAINING] = path.length
 
@@ -100,7 +104,8 @@ class PathFollower:
 
     @property
     def tried_to_slow(self) -> int:
-        """Tick at which it found no way to slow down to a walk; 0: it has not tried."""
+        """Tick at which it found no way to slow down to a walk, or began to without having rehearsed it; 0:
+        it has not tried, or knows that it holds."""
         return int(self.memory[path_tracking.TRIED])
 
     @tried_to_slow.setter

@@ -44,8 +44,8 @@ __all__ = [
 integral [m s], length left [m], planned speed [m/s] and slope here, greatest arc length so far and the
 tick at which it last grew by `_STEP`, present share of the planned speed while giving way, ticks of giving
 way since then, how often it has gone back to let others pass, the tick at which it found no way to slow
-down, the tick before which it does not start, and the one since which it wants to stop without having
-rehearsed it (0: it does not).
+down or began to without having rehearsed it, the tick before which it does not start, and the one since
+which it wants to stop without having rehearsed it (0: it does not).
 """
 TRACK_SIZE = 14
 _STEP = 0.25

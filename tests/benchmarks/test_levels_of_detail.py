@@ -25,6 +25,12 @@ def test_nobody_sees_the_switch_and_nobody_falls(mode, to):
     )
 
 
+@pytest.mark.parametrize("mode", ["roll", "vault"])
+def test_behind_an_obstacle_physics_takes_over_and_holds(mode):
+    rng = np.random.default_rng(5)
+    assert [switch(mode, "physics", rng)["up"] for _ in range(6)] == [1.0] * 6
+
+
 def test_a_frame_of_people_at_all_levels_is_timed(plain):
     of = frame_figures(plain, (0, 2, 2, 2), 0.1, 1)
     assert 0.0 < of["posing"] <= of["median"] <= of["p99"] <= of["worst"]

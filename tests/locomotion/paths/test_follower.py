@@ -55,6 +55,15 @@ def test_it_knows_where_on_its_path_it_is():
     assert made.arc == 0.0 and made.remaining == 5.0 and made.without_headway(99) == 0.0
 
 
+def test_one_that_slows_down_as_it_has_not_rehearsed_knows_so_on_another_path():
+    made, other = follower(), make_path([[0, 0, 0], [0, 5, 0]], 1.25, WALK, 1.25)
+    made.tried_to_slow, made.stops_since = 7, 9
+    made.begin(other, 20, slows=True)
+    assert (made.tried_to_slow, made.stops_since, made.arc) == (7, 9, 0.0)
+    made.begin(other, 30)
+    assert (made.tried_to_slow, made.stops_since) == (0, 0)
+
+
 def test_time_without_headway_does_not_count_giving_way():
     made = follower(tick=100)
     tick = walk(made, 0.0, 2.0, 100)

@@ -1,14 +1,16 @@
 """A person that rehearses beforehand decides what one does that rehearses at the moment, in lighter ticks."""
 
+import numpy as np
 import pytest
 
 from locomotion.body_events import Cleared
+from locomotion.human import gait_changes
 from locomotion.human.human import Human
 from locomotion.human.state import MOVING
 from locomotion.rehearsal.deciding import RECONSIDERS
 from locomotion.rehearsal.lookahead import PER_TICK, Lookahead
 from locomotion.rehearsal.predicted import Predicted
-from locomotion.rehearsal.trials import BRAKINGS, ComesToRest
+from locomotion.rehearsal.trials import BRAKINGS, SLOWINGS, ComesToRest
 from runtime.evaluation.courses import enter_course, make_course
 from tests.locomotion.gaits.runners import running
 
@@ -246,3 +248,114 @@ def test_told_to_stop_it_comes_to_a_stand_within_a_budget():
         human.tick()
         human.look_ahead(PER_TICK)
     assert human.held and human.status == "standing"
+
+
+# --- surprised within a budget: sent to a place so near that it has to slow down at once
+NEAR = 8.0  # [m]
+
+
+def surprised(speed=3.0, ticks=300):
+    """A runner that does not wait, and has just been sent to a place near ahead."""
+    human = running(ticks, speed)
+    human.waits = False
+    send(human, NEAR)
+    return human
+
+
+def send(human, ahead):
+    """Give it another way, straight on."""
+    here = human.position
+    human.follow([here, here + np.array([ahead, 0.0, 0.0])], 3.5)
+
+
+def goes_on(human, ticks=600):
+    """What `budgeted` gives, for so many ticks."""
+    for _ in range(ticks):
+        human.tick()
+        human.look_ahead(PER_TICK)
+        yield human.state_hash()
+
+
+def hold_if(monkeypatch, holds):
+    """In rehearsal a way of slowing down holds as ``holds`` says of its deceleration [m/s²]."""
+
+    def trial(body):
+        yield
+        return (1.0 if holds(body.on_feet.slowing) else 0.0), [body.save_state()]
+
+    monkeypatch.setattr(gait_changes, "_WALKS_ON", trial)
+
+
+def test_a_surprised_runner_slows_down_at_once_and_otherwise_when_it_has_seen_itself_fall(monkeypatch):
+    hold_if(monkeypatch, lambda slowing: slowing == SLOWINGS[2])
+    human = surprised()
+    slowing = [human.on_feet.slowing for _ in goes_on(human, 2 * RECONSIDERS + 3)]
+    assert slowing[: 2 * RECONSIDERS] == [SLOWINGS[0]] * 2 * RECONSIDERS
+    assert slowing[2 * RECONSIDERS :] == [SLOWINGS[2]] * 3
+    assert human.follower.tried_to_slow == 0 and human.foresees is None  # it knows that this holds
+
+
+def test_it_brakes_if_no_way_of_slowing_down_holds(monkeypatch):
+    hold_if(monkeypatch, lambda _: False)
+    human = surprised()
+    brakes = [human.on_feet.brakes for _ in goes_on(human, 2 * RECONSIDERS + 1)]
+    assert brakes == [False] * 2 * RECONSIDERS + [True]
+
+
+def test_sent_on_meanwhile_it_still_looks_whether_it_stays_up(monkeypatch):
+    hold_if(monkeypatch, lambda slowing: slowing == SLOWINGS[2])
+    human = surprised()
+    for _ in goes_on(human, 10):
+        pass
+    send(human, NEAR + 1.0)
+    slowing = [human.on_feet.slowing for _ in goes_on(human, 2 * RECONSIDERS)]
+    assert slowing[0] == SLOWINGS[0] and slowing[-1] == SLOWINGS[2]
+
+
+@pytest.mark.parametrize("speed", [2.8, 3.6, 4.4])
+def test_surprised_runners_arrive(speed):
+    """At eight moments of a stride."""
+    human = running(260, speed)
+    human.waits = False
+    for _ in range(8):
+        for _ in range(5):
+            human.tick()
+            human.look_ahead(PER_TICK)
+        state = human.save_state()
+        send(human, NEAR + 3.0)
+        for _ in goes_on(human, 1000):
+            if human.status not in MOVING:
+                break
+        assert human.status == "arrived"
+        human.restore_state(state)
+
+
+def test_a_surprised_runner_is_restored_with_what_it_knew():
+    human, states = surprised(), {}
+    seen = []
+    for each in goes_on(human):
+        seen.append(each)
+        if len(seen) in (3, 17, 29, 60, 140):
+            states[len(seen)] = human.save_state()
+    assert any(state.foresight[0] > 0 for state in states.values())
+    other = running(1)
+    other.waits = False
+    for made, state in states.items():
+        other.restore_state(state)
+        assert list(goes_on(other, 600 - made)) == seen[made:]
+
+
+def test_at_the_end_of_its_way_it_has_had_time_for_several_ways_of_slowing_down(monkeypatch):
+    """A trial takes as long as a real one, and only the third way holds."""
+
+    def trial(body):
+        for _ in range(400):
+            yield
+        return (1.0 if body.on_feet.slowing == SLOWINGS[2] else 0.0), [body.save_state()]
+
+    monkeypatch.setattr(gait_changes, "_WALKS_ON", trial)
+    human = running(200, 3.5)
+    human.waits = False
+    send(human, 30.0)
+    slowing = [human.on_feet.slowing for _ in goes_on(human, 800)]
+    assert next(filter(None, slowing)) == SLOWINGS[2]

@@ -3,8 +3,11 @@
 import numpy as np
 import pytest
 
+from benchmarks.giving_way import floor
 from locomotion.human.falls import fall
-from runtime import Budget, PostureReached, RuntimeInputError, Viewer, World
+from locomotion.human.human import Human
+from locomotion.rehearsal.sharing import REHEARSAL_TICKS
+from runtime import Budget, Fell, PostureReached, RuntimeInputError, Viewer, World
 
 
 @pytest.mark.parametrize("moves", [False, True])
@@ -92,6 +95,66 @@ def test_after_a_change_to_physics_and_back_a_restored_world_goes_on_the_same_wa
             poses += [places.tobytes() for places in each.transforms().values()]
         ends.append((each.state_hash(), poses))
     assert ends[0] == ends[1]
+
+
+# --- in the middle of a run, so near its goal that it has to slow down at once, without having rehearsed it
+@pytest.fixture(scope="module")
+def plain():
+    return floor((-5.0, -10.0, 40.0, 10.0))
+
+
+def runner(plain, left=8.5, threads=1):
+    """A world with one in recorded motion who runs, and has so many [m] left; and one who is simulated."""
+    world = World(plain, seed=5, threads=threads)
+    ada = world.spawn("human", (0.0, 0.0, 0.0), detail="low", name="ada")
+    bob = world.spawn("human", (0.0, 5.0, 0.0), name="bob")
+    ada.go_to((20.0, 0.0, 0.0), speed=3.5)
+    bob.go_to((30.0, 5.0, 0.0), speed=3.0)
+    while ada.position[0] < 20.0 - left:
+        world.step(0.01)
+    return world, ada
+
+
+def test_a_runner_goes_over_to_physics_at_once_and_no_tick_is_long(plain, monkeypatch):
+    world, ada = runner(plain)
+    made, tick = [0], Human._tick
+
+    def counted(human):
+        made[0] += 1
+        tick(human)
+
+    monkeypatch.setattr(Human, "_tick", counted)
+    ada.detail = "physics"
+    assert ada.level == "physics"
+    world.step(0.01)
+    assert ada.human.on_feet.slowing > 0.0 and ada.human.follower.tried_to_slow > 0  # not rehearsed
+    while ada.moving:
+        made[0] = 0
+        world.step(0.01)
+        assert made[0] <= REHEARSAL_TICKS + 1 + len(world.agents)
+    assert ada.status == "arrived"
+
+
+@pytest.mark.parametrize("then", ["nothing", "goes on", "stops", "is pushed"])
+def test_a_runner_that_goes_over_to_physics_stays_up_and_is_restored(plain, then):
+    world, ada = runner(plain)
+    ada.detail = "physics"
+    world.step(0.15)
+    saved, hashes = world.save(), []
+    for each in (world, World(plain, seed=5, threads=2)):
+        each.restore(saved)
+        ada = each.agents["ada"]
+        if then == "goes on":
+            ada.go_to((35.0, 2.0, 0.0), speed=2.0)
+        elif then == "stops":
+            ada.stop()
+        for tick in range(500):
+            pushed = then == "is pushed" and tick < 5
+            ada.human.data.xfrc_applied[1, 1] = 60.0 if pushed else 0.0
+            each.step(0.01)
+        assert not [event for event in each.events if isinstance(event, Fell)]
+        hashes.append(each.state_hash())
+    assert hashes[0] == hashes[1]
 
 
 def test_who_lies_on_the_ground_takes_no_posture_but_the_last(graph):

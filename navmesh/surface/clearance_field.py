@@ -80,7 +80,8 @@ def _along_list(net, cell, px, py, ux, uy, stretch, gap, s, x, y):
                     off = (ax + w * ex - on) * (ax + w * ex - on) + (ay + w * ey) * (ay + w * ey)
                     if off < least:
                         least, place, t = off, on, w
-        if least < gap * gap:
+        # roots are rounded: of blockers that are equally far the first counts, however often they are asked
+        if least < gap * gap and sqrt(least) < gap:
             gap, s = sqrt(least), place
             x = blocker[k, 0] + t * (blocker[k, 2] - blocker[k, 0])
             y = blocker[k, 1] + t * (blocker[k, 3] - blocker[k, 1])

@@ -13,6 +13,7 @@ from navmesh.zones.distances import segments_to_outline
 from navmesh.zones.leaps import links_near
 from navmesh.zones.lists import grouped, lists_with, sides_of
 from navmesh.zones.outlines import Concerned, concerned_by
+from surefoot.kernels import allocating_kernel
 
 if TYPE_CHECKING:
     from navmesh.graph.node_graph import NodeGraph
@@ -131,7 +132,7 @@ def _users(graph: "NodeGraph", outlines: list[np.ndarray], found: list[Concerned
     source = np.repeat(np.arange(len(graph)), np.diff(graph.edge_start))
     node_start, node_at = grouped(graph.node_cell, len(graph.label), np.arange(len(graph)))
     edge_start, edge_at = grouped(graph.edge_cells[:, 0], len(graph.label), np.arange(len(source)))
-    cut, follow = [], []
+    cut, follow, mark = [], [], np.zeros(len(graph.label), np.int32)
     for outline, each in zip(outlines, found, strict=True):
         flat = np.ascontiguousarray(outline[:, :2])
         nodes = _listed(node_start, node_at, each.cell)
@@ -142,7 +143,8 @@ def _users(graph: "NodeGraph", outlines: list[np.ndarray], found: list[Concerned
         gate, width = np.tile(graph.edge_gate[edges], (2, 1)), np.tile(graph.edge_width[edges], 2)
         way = segments_to_outline(flat, np.column_stack([place[ends], gate]))
         cut.append(np.union1d(inside, ends[way < width - _TOUCH]))
-        owner = graph.label[_linked(graph.surface.link, each.cell, _STEPS)]
+        number = len(follow) + 1
+        owner = np.unique(graph.label[_linked(graph.surface.link, each.cell, _STEPS, mark, number)])
         follow.append(np.union1d(owner[owner >= 0], cut[-1]))
     whole = np.unique(np.concatenate(cut)).astype(np.int32)
     follow = [each[np.isin(each, whole)] for each in follow]
@@ -173,14 +175,28 @@ def _users(graph: "NodeGraph", outlines: list[np.ndarray], found: list[Concerned
     }  # fmt: skip
 
 
-def _linked(link: np.ndarray, cells: np.ndarray, steps: int) -> np.ndarray:
-    """``cells``, and those that so many ``steps`` over links lead to."""
-    there = fresh = np.unique(cells)
+@allocating_kernel
+def _linked(link, cells, steps, mark, number):
+    """``cells`` (k,), and those that up to so many ``steps`` over links lead to. ``mark`` (n,) int32 are
+    notes of which cells have been come to for which ``number``, above 0."""
+    found = np.empty(2 * cells.size + 64, np.int32)
+    found[: cells.size] = cells
+    mark[cells] = number
+    first, count = 0, cells.size
     for _ in range(steps):
-        beside = link[fresh].ravel()
-        fresh = np.setdiff1d(beside[beside >= 0], there)
-        there = np.union1d(there, fresh)
-    return there
+        last = count
+        for i in range(first, last):
+            for d in range(4):
+                other = link[found[i], d]
+                if other < 0 or mark[other] == number:
+                    continue
+                if count == found.size:
+                    found = np.concatenate((found, np.empty_like(found)))
+                mark[other] = number
+                found[count] = other
+                count += 1
+        first = last
+    return found[:count].copy()
 
 
 def _listed(start: np.ndarray, values: np.ndarray, groups: np.ndarray) -> np.ndarray:
@@ -199,6 +215,19 @@ def _near(graph: "NodeGraph", outlines: list[np.ndarray], users: Arrays) -> tupl
     number = np.full(len(graph), -1, np.int32)
     number[users["whole"]] = np.arange(len(users["whole"]))
     nodes, near, wide = [], [], _COLUMNS * graph.surface.resolution
+    beside_disc: dict[int, np.ndarray] = {}
+
+    def lines_near(user: int) -> np.ndarray:
+        """The nodes whose lines are measured in pieces of a disc where that is broken: its cells get other
+        discs."""
+        those = [
+            its[tree.query_ball_point(place[user], radii[user] + _SIDEWAYS * most + wide)]
+            for tree, its, most in trees
+        ]
+        those = np.concatenate(those).astype(np.int64)
+        off = np.hypot(*(place[those] - place[user]).T) - radii[user]
+        return those[off < np.maximum(_SIDEWAYS * radii[those], 2.0 * radii[those] + wide)]
+
     for zone, outline in enumerate(outlines):
         flat = np.ascontiguousarray(outline[:, :2])
         middle = flat.mean(axis=0)
@@ -211,18 +240,10 @@ def _near(graph: "NodeGraph", outlines: list[np.ndarray], users: Arrays) -> tupl
         away = segments_to_outline(flat, np.column_stack([place[close], place[close]]))
         close = close[away < np.maximum(_SIDEWAYS * radii[close], 2.0 * radii[close] + wide)]
         own = users["whole"][users["user"][users["user_start"][zone] : users["user_start"][zone + 1]]]
-        for user in own:  # whose cells get other discs: lines over them are measured in other pieces
-            those = np.concatenate(
-                [
-                    those[tree.query_ball_point(place[user], radii[user] + _SIDEWAYS * most + wide)]
-                    for tree, those, most in trees
-                ]
-            ).astype(np.int64)
-            off = np.hypot(*(place[those] - place[user]).T) - radii[user]
-            close = np.union1d(
-                close, those[off < np.maximum(_SIDEWAYS * radii[those], 2.0 * radii[those] + wide)]
-            )
-        close = np.union1d(close, own)
+        for user in own.tolist():
+            if user not in beside_disc:
+                beside_disc[user] = lines_near(user)
+        close = np.unique(np.concatenate([close, own, *(beside_disc[user] for user in own.tolist())]))
         beside = _listed(graph.edge_start, graph.edge_target, close)
         nodes.append(np.union1d(close, beside).astype(np.int32))
         near.append(number[nodes[-1]][number[nodes[-1]] >= 0])

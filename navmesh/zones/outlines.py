@@ -137,7 +137,7 @@ def _concerned(
     for i in range(outline.shape[0]):
         left, right = min(left, outline[i, 0]), max(right, outline[i, 0])
         near, far = min(near, outline[i, 1]), max(far, outline[i, 1])
-    # from the cells inside, those with a cut link and those under the outline outwards
+    # from the cells inside, those with a cut link and those under the outline or beside it outwards
     for ix in range(max(int(np.floor(left / h)) - 1, 0), min(int(np.floor(right / h)) + 2, nx)):
         for iy in range(max(int(np.floor(near / h)) - 1, 0), min(int(np.floor(far / h)) + 2, ny)):
             x, y = (ix + 0.5) * h, (iy + 0.5) * h
@@ -145,7 +145,9 @@ def _concerned(
             dx, dy = _to_outline(outline, x, y)
             under = inside or dx * dx + dy * dy <= 0.5 * h * h
             for k in range(column_start[ix * ny + iy], column_start[ix * ny + iy + 1]):
-                first = under and low <= height[k] <= high
+                # what is nearer than where walking ends is seen, also where no cell is under it
+                seen = dx * dx + dy * dy < clearance[k] * clearance[k]
+                first = (under or seen) and low <= height[k] <= high
                 for d in range(4):
                     other = link[k, d]
                     if other < 0:

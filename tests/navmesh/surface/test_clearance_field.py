@@ -7,7 +7,8 @@ import pytest
 
 from navmesh.graph.kernel_arrays import net_of
 from navmesh.graph.snapping import snap
-from navmesh.surface.clearance_field import gap_at, walk
+from navmesh.surface.clearance_field import gap_at, stretch_gap, walk
+from navmesh.surface.ridges import Field
 from tests.navmesh.routes.path_references import (
     FIELD_ERROR,
     build,
@@ -62,3 +63,20 @@ def test_the_gap_to_a_wall_is_right_off_the_centres() -> None:
             assert node >= 0
             gap = gap_at(net, cell, x, y)[0]
             assert true - 1e-9 <= gap <= true + FIELD_ERROR
+
+
+def test_of_two_equally_near_blockers_the_first_counts_however_often_it_is_asked() -> None:
+    """Zones give cells lists of their own, which say the same while these are open."""
+    rng = np.random.default_rng(1)
+    link = np.array([[1, 2, -1, -1], [-1, -1, 0, -1], [-1, -1, -1, 0]], np.int32)
+    for off, ahead in rng.uniform(0.1, 0.9, (50, 2)):
+        blocker = np.repeat([[off, ahead], [-off, ahead], [off, ahead]], 2, axis=0).reshape(3, 4)
+        told = []
+        for source in ((0, 1, 0), (0, 1, 2)):
+            field = Field(
+                0.25, 9, np.zeros(3, np.int32), link, np.zeros((3, 2)), np.ones(3),
+                np.array(source, np.int32), np.arange(4, dtype=np.int32), blocker,
+            )  # fmt: skip
+            told.append(stretch_gap(field, 0, -1.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.05, 2.0))
+        assert told[0] == told[1]
+        assert told[0][2] == off

@@ -62,6 +62,21 @@ def test_a_line_cuts_what_is_on_its_two_sides():
     assert (np.hypot(*found.nearest.T) > 0.0).all()
 
 
+def test_cells_know_the_end_of_a_zone_that_is_over_none():
+    """It sticks 4 cm out of a wall, beside cells that begin 10 cm on."""
+    surface = build(plane(0, 10, 0, 8), box(4.9, 5.15, 1.0, 7.0, 0.0, 2.5)).surface
+    line = np.array([(4.0, 3.6, 0.0), (5.19, 3.6, 0.0)]) - surface.origin
+    found = concerned_by(line, surface, 1.0, np.zeros(len(surface), np.int32), 1)
+    beyond = surface.centers()[:, 0] > 5.15
+    must = np.flatnonzero(
+        beyond & (far_from(line, surface.centers()[:, :2] - surface.origin[:2]) < surface.clearance - 1e-3)
+    )
+    assert len(must) and set(must.tolist()) <= set(found.cell.tolist())
+    thick = np.array([(4.0, 3.6, 0.0), (5.14, 3.6, 0.0)]) - surface.origin
+    found = concerned_by(thick, surface, 1.0, np.zeros(len(surface), np.int32), 1)
+    assert not beyond[found.cell].any()  # a wall is between
+
+
 def test_a_zone_is_of_one_storey():
     surface = build(plane(0, 10, 0, 8), plane(0, 10, 0, 8, 3.0)).surface
     found = concerned_by(TURNED - surface.origin, surface, 1.0, np.zeros(len(surface), np.int32), 1)

@@ -32,6 +32,7 @@ def fall(person: Person, gets_up: bool) -> None:
         person.status, person.on_feet.slowing, person.on_feet.brakes = "getting up", 0.0, False
         person.on_feet.walk[:] = new_walk()
         person.on_feet.stop_learned()
+        person.on_feet.landing.forget()
         person.run_up.give_up()
         person.fours.fall(person.data)
         person.fours.fell_at, person.fours.on_way = float(person.ticks), float(on_way)

@@ -31,7 +31,7 @@ from locomotion.errors import LocomotionError
 from locomotion.gaits.brake import BRAKING, BrakeSkill, load_brake_skill
 from locomotion.gaits.limits import PERSON_RULES
 from locomotion.gaits.policy.skill import PolicySkill
-from locomotion.gaits.residual.skill import ResidualSkill, load_brake_residual
+from locomotion.gaits.residual.skill import ResidualSkill, load_brake_residual, load_landing_residual
 from locomotion.gaits.run import controller
 from locomotion.gaits.run.controller import observe
 from locomotion.gaits.run.skill import RunSkill, load_run_skill
@@ -68,12 +68,13 @@ _CHANGE = 0.01  # [m] largest change of the ground under a person at rest that n
 class BetweenGaits(NamedTuple):
     """How a person comes from a run to a walk, from a walk to a run, and from a run to a stand; None: as the
     package's skills say. ``residual``: the network that corrects it while it brakes (True: the package's), or
-    None: none does."""
+    None: none does; ``landing``: the same for what follows a landing behind an obstacle."""
 
     slow_down: SlowDownSkill | None = None
     speed_up: SpeedUpSkill | None = None
     brake: BrakeSkill | None = None
     residual: ResidualSkill | Literal[True] | None = True
+    landing: ResidualSkill | Literal[True] | None = True
 
 
 class Human(Person):
@@ -125,6 +126,7 @@ class Human(Person):
             between.brake or load_brake_skill(),
             policy,
             load_brake_residual() if between.residual is True else between.residual,
+            load_landing_residual() if between.landing is True else between.landing,
         )
         super().__init__(ground, on_feet, learned_skills(run) if clearing is None else clearing)
         self.gets_up = gets_up
@@ -353,6 +355,7 @@ class Human(Person):
         feet.tick(self.simulation.lookup, state, self.command, data)
         if feet.runs and self.status != "fallen":
             self._clear()
+        feet.landing.tick(self.run_up, not feet.brakes, state, feet.walk, data)
         if self.run_up.rehearsed and data.xfrc_applied.any():
             self.run_up.disturb()
         mujoco.mj_step(self.model, data, STEPS_PER_TICK)
@@ -383,10 +386,12 @@ class Human(Person):
         obstacle = self.run_up.ahead
         if isinstance(happened, TakeOff):
             assert obstacle is not None
+            self.on_feet.landing.takes_off(self.run_up.skill)
             kind, size = obstacle.affordance, obstacle.size
             self.status = CLEARING[kind]
             self.events.append(TookOff(self.time, self.point, kind, size, happened.early, happened.fast))
         elif happened is not None:
+            self.on_feet.landing.cleared()
             ends = self.run_up.skill_for(happened).ends
             if self.status in MOVING:
                 self.status = ends
@@ -401,7 +406,8 @@ class Human(Person):
         feet = self.on_feet
         double = Human(
             self.ground, feet.run_skill, self.clearing, feet.walk_skill,
-            BetweenGaits(feet.slow_down_skill, feet.speed_up_skill, feet.brake_skill, feet.residual.skill), 0,
+            BetweenGaits(feet.slow_down_skill, feet.speed_up_skill, feet.brake_skill, feet.residual.skill,
+                         feet.landing.skill), 0,
             policy=None if feet.learned is None else feet.learned.skill,
         )  # fmt: skip
         double.decider.waits = self.decider.waits

@@ -52,6 +52,7 @@ from locomotion.gaits.walk.layout import (
 from locomotion.gaits.walk.skill import RISING, STEADYING_SPEED, WalkSkill
 from locomotion.gaits.walk.steps import TURN_TIME
 from locomotion.human.intent import TURN_FIRST
+from locomotion.human.landing import Landing
 from locomotion.human.learned_walk import LearnedWalk
 from locomotion.human.residual import Residual
 from locomotion.human.simulation import Simulation
@@ -89,6 +90,7 @@ class OnFeet:
         brake: BrakeSkill,
         policy: PolicySkill | None = None,
         residual: ResidualSkill | None = None,
+        landing: ResidualSkill | None = None,
     ) -> None:
         self.run_skill, self.walk_skill = run, walk
         self.slow_down_skill, self.speed_up_skill, self.brake_skill = slow_down, speed_up, brake
@@ -99,6 +101,7 @@ class OnFeet:
         self.walk = new_walk()
         self.learned = None if policy is None else LearnedWalk(policy)
         self.residual = Residual(residual)
+        self.landing = Landing(landing)
         self.slowing, self.brakes, self.hurries, self.speed = 0.0, False, False, 0.0
 
     @property
@@ -219,7 +222,7 @@ class OnFeet:
         if learned is None or not self.walks or walk[PHASE] == SINGLE or walk[CLOCK] > 0.0:
             return
         usual = learned.active or walk[WALK_STEPS] >= _CHANGED or walk[PHASE] == STANDING
-        usual = usual and not self.brakes and not self.residual.acts
+        usual = usual and not self.brakes and not self.residual.acts and not self.landing.acts
         suits = usual and learned.suits(follower, moving, body, command, walk)
         if suits and not learned.active:
             learned.take_over(body, walk)

@@ -64,6 +64,7 @@ class Person:
         feet where it is too steep to stand."""
         self.fours.leave()
         self.on_feet.stop_learned()
+        self.on_feet.landing.forget()
         body, walk = self.simulation, self.on_feet.walk
         if speed == 0.0 and too_steep_around(body.ground, position):
             self.fours.crouch(body.lookup, body.data, position, yaw)

@@ -14,6 +14,7 @@ from locomotion.gaits.run import layout as run
 from locomotion.gaits.walk import layout as walk
 from locomotion.human import learned_walk
 from locomotion.human.human import Human
+from locomotion.human.landing import NEVER
 from locomotion.human.state import BUSY, CLEARING, HumanState
 from locomotion.paths import tracking
 from locomotion.paths.command import COMMAND_SIZE, HEADING_ASKED, SIDEWAYS_ASKED, SLOPE_THERE, SPEED_ASKED
@@ -97,6 +98,12 @@ _PARTS = (
         "what corrects the braking of a person",
         residual.MEMORY_SIZE,
         [(residual.SINCE, COUNT), (residual.DECIDED, _SPEED)],
+        whole=(residual.SINCE,),
+    ),
+    Slots(
+        "what corrects the landing of a person",
+        residual.MEMORY_SIZE,
+        [(residual.SINCE, (NEVER, FARTHEST)), (residual.DECIDED, _SPEED)],
         whole=(residual.SINCE,),
     ),
     Slots(

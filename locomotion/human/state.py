@@ -96,6 +96,7 @@ _ARRAYS = operator.attrgetter(
     "on_feet.walk",
     "on_feet.learned_memory",
     "on_feet.residual.memory",
+    "on_feet.landing.memory",
     "follower.memory",
     "fours.memory",
     "run_up.plan",

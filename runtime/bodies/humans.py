@@ -17,7 +17,7 @@ from locomotion.body.person import CONTROL_DT
 from locomotion.body_events import PostureReached
 from locomotion.gaits.brake import load_brake_skill
 from locomotion.gaits.policy.skill import PolicySkill, load_policy
-from locomotion.gaits.residual.skill import load_brake_residual
+from locomotion.gaits.residual.skill import load_brake_residual, load_landing_residual
 from locomotion.gaits.run.skill import RunSkill
 from locomotion.gaits.slow_down import load_slow_down_skill
 from locomotion.gaits.speed_up import load_speed_up_skill
@@ -76,7 +76,11 @@ class _Learned(NamedTuple):
     def read(cls, skills: Sequence[Path], walk: str) -> "_Learned":
         run = load_run_skill()
         between = BetweenGaits(
-            load_slow_down_skill(), load_speed_up_skill(), load_brake_skill(), load_brake_residual()
+            load_slow_down_skill(),
+            load_speed_up_skill(),
+            load_brake_skill(),
+            load_brake_residual(),
+            load_landing_residual(),
         )
         policy = load_policy() if walk == "learned" else None
         return cls(run, tuple(learned_skills(run, skills)), load_walk_skill(), between, policy)

@@ -26,7 +26,15 @@ if TYPE_CHECKING:
 
 __all__ = ["evaluate_skill", "show_clip", "train_library", "train_skill"]
 
-_WITHOUT_A_PLANE = ("walk", "walk-policy", "speed-up", "slow-down", "brake", "brake-residual")
+_WITHOUT_A_PLANE = (
+    "walk",
+    "walk-policy",
+    "speed-up",
+    "slow-down",
+    "brake",
+    "brake-residual",
+    "landing-residual",
+)
 """Skills whose trials do not vary in two numbers, so that no coverage picture can be drawn."""
 
 
@@ -39,12 +47,13 @@ def _trainers() -> Mapping[str, Callable[..., Any]]:
     from locomotion.training.gaits.speed_up import train_speed_up
     from locomotion.training.gaits.walk import train_walk
     from locomotion.training.policies.walk import train_walk_policy
-    from locomotion.training.residual.train import train_brake_residual
+    from locomotion.training.residual.train import train_brake_residual, train_landing_residual
 
     return {
         "walk": train_walk, "run": train_run, "speed-up": train_speed_up, "slow-down": train_slow_down,
         "brake": train_brake, "brake-residual": train_brake_residual, "walk-policy": train_walk_policy,
         **{kind.skill: kind.train for kind in skill_kinds() if kind.train is not None},
+        "landing-residual": train_landing_residual,
     }  # fmt: skip
 
 
@@ -100,18 +109,16 @@ def train_skill(
 
 
 def _tell_outdated() -> None:
-    """Say whether the correction of braking, and which preconditions, belong to skills as they were
-    before."""
+    """Say which corrections and which preconditions belong to skills as they were before."""
     from locomotion.preconditions.precondition import outdated_preconditions
-    from locomotion.training.residual.train import brake_residual_is_outdated
+    from locomotion.training.residual.train import outdated_residuals
 
-    if brake_residual_is_outdated():
+    for name in outdated_residuals():
         print(
-            "surefoot: brake-residual corrects skills as they were before; learn it anew (surefoot train "
-            "brake-residual --replace)",
+            f"surefoot: {name} corrects skills as they were before; learn it anew (surefoot train {name} "
+            "--replace)",
             file=sys.stderr,
         )
-
     if outdated := outdated_preconditions():
         print(
             f"surefoot: the preconditions of {', '.join(outdated)} belong to the skills before, and are "

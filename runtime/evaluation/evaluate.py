@@ -7,6 +7,7 @@ from locomotion.skills.registry import skill_kinds
 from runtime.evaluation import evaluation
 from runtime.evaluation.braking import brake_residual_trials
 from runtime.evaluation.evaluation import Attempt, Trial
+from runtime.evaluation.landing import landing_residual_trials
 from runtime.evaluation.policies import walk_policy_trials
 from surefoot.progress import Progress
 from surefoot.workers.pool import Place, worker_pool
@@ -42,6 +43,7 @@ def _trials_of(skill: str, trials: int, seed: int) -> list[Trial]:
         "slow-down": evaluation.slow_down_trials,
         "brake": evaluation.brake_trials,
         "brake-residual": brake_residual_trials,
+        "landing-residual": landing_residual_trials,
         "walk-policy": walk_policy_trials,
         **{kind.skill: partial(evaluation.clearing_trials, kind) for kind in skill_kinds()},
     }

@@ -8,11 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from locomotion.gaits.policy.layout import JOINTS, MIRROR_JOINT, SIGN_JOINT
+from navmesh.obstacles.kinds import CROSSINGS
 
 __all__ = [
-    "ACTIONS", "ANGLES", "ASKED", "BEFORE", "CONTACTS", "DECIDED", "FEET", "GRAVITY_UP", "HEIGHT", "INPUTS",
-    "MEMORY_SIZE", "MIRROR_OBSERVED", "RATES", "SCALE", "SIGN_OBSERVED", "SINCE", "SPIN", "TIMING",
-    "VELOCITY", "YAW",
+    "ACTIONS", "ANGLES", "ASKED", "BEFORE", "CLEARS", "CONTACTS", "CROSSING", "DECIDED", "FEET",
+    "GRAVITY_UP", "HEIGHT", "INPUTS", "LANDED", "LANDING_INPUTS", "MEMORY_SIZE", "MIRROR_OBSERVED", "RATES",
+    "SCALE", "SIGN_OBSERVED", "SINCE", "SPIN", "TIMING", "VELOCITY", "YAW",
 ]  # fmt: skip
 
 ACTIONS = len(JOINTS)
@@ -34,6 +35,13 @@ the heading [rad]; right and left ankle from the centre of mass, ahead, left, up
 0 to 1; angles [rad] and a tenth of the rates [rad/s] of the joints; whether it runs, whether both feet bear
 a walk, share of the running step, [s] since the step began; speed [m/s] of the gait's reference; the
 decisions before."""
+
+LANDED, CLEARS = INPUTS, INPUTS + 1
+CROSSING = slice(INPUTS + 2, INPUTS + 2 + len(CROSSINGS))
+LANDING_INPUTS = CROSSING.stop
+"""Numbers observed after a landing: the same, and share of its time since the landing; whether the skill is
+still at work; how the obstacle is crossed, one number for each of `navmesh.obstacles.kinds.CROSSINGS`. The
+mirror image has the same."""
 
 SINCE = 0
 DECIDED = slice(1, 1 + _N)

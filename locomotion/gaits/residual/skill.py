@@ -1,4 +1,4 @@
-"""The learned correction of braking on disk."""
+"""The learned corrections of braking and of landing on disk."""
 
 import os
 from dataclasses import dataclass, field
@@ -11,21 +11,25 @@ from locomotion.body.person import person_digest
 from locomotion.data import SKILLS
 from locomotion.gaits.policy.layout import JOINTS
 from locomotion.gaits.policy.network_file import Network, network_arrays, network_schema, read_network
-from locomotion.gaits.residual.layout import ACTIONS, INPUTS
+from locomotion.gaits.residual.layout import ACTIONS, INPUTS, LANDING_INPUTS
 from surefoot.files.archive import write_archive
 from surefoot.files.schema import Schema
 
-__all__ = ["BRAKE_RESIDUAL", "RESIDUAL_FILE", "ResidualSkill", "load_brake_residual"]
+__all__ = [
+    "BRAKE_RESIDUAL", "LANDING_RESIDUAL", "ResidualSkill", "load_brake_residual", "load_landing_residual",
+]  # fmt: skip
 
-BRAKE_RESIDUAL = SKILLS / "brake_residual.npz"
+BRAKE_RESIDUAL, LANDING_RESIDUAL = SKILLS / "brake_residual.npz", SKILLS / "landing_residual.npz"
+_KIND, _VERSION = "residual policy", 2
 
 
 @dataclass(frozen=True)
 class ResidualSkill:
-    """What corrects a planned gait.
+    """What corrects a planned motion.
 
     Attributes:
-      network: it decides from `locomotion.gaits.residual.layout.INPUTS` numbers.
+      network: it decides from ``INPUTS`` (braking) or ``LANDING_INPUTS`` numbers of
+        `locomotion.gaits.residual.layout`.
       corrects: digests of the skills that it was learned on, by name (`locomotion.skills.library`).
       meta: what made it.
     """
@@ -38,9 +42,7 @@ class ResidualSkill:
         """Write the skill for the present person; the file appears whole or not at all."""
         header = {"person": person_digest(), "joints": list(JOINTS)}
         header |= {"corrects": self.corrects, "meta": self.meta}
-        write_archive(
-            path, RESIDUAL_FILE.kind, RESIDUAL_FILE.version, header, network_arrays("residual", self.network)
-        )
+        write_archive(path, _KIND, _VERSION, header, network_arrays("residual", self.network))
 
 
 class _Header(SkillHeader):
@@ -52,13 +54,18 @@ def _check(header: _Header, arrays: dict[str, np.ndarray]) -> str | None:
     return None if header.joints == JOINTS else f"moves other joints than the {len(JOINTS)} of this release"
 
 
-RESIDUAL_FILE = Schema(
-    "residual policy", 2, _Header, network_schema("residual", INPUTS, ACTIONS), remedy=RELEARN, check=_check
-)
-
-
 def load_brake_residual(path: str | os.PathLike[str] = BRAKE_RESIDUAL) -> ResidualSkill:
     """Read what corrects braking; `LocomotionError` if it is missing, cut off, of another version or another
     person."""
-    header, arrays = read_skill(path, RESIDUAL_FILE)
+    return _read(path, INPUTS)
+
+
+def load_landing_residual(path: str | os.PathLike[str] = LANDING_RESIDUAL) -> ResidualSkill:
+    """Read what corrects landings; errors as of `load_brake_residual`."""
+    return _read(path, LANDING_INPUTS)
+
+
+def _read(path: str | os.PathLike[str], inputs: int) -> ResidualSkill:
+    arrays = network_schema("residual", inputs, ACTIONS)
+    header, arrays = read_skill(path, Schema(_KIND, _VERSION, _Header, arrays, remedy=RELEARN, check=_check))
     return ResidualSkill(read_network("residual", arrays), header.corrects, header.meta)

@@ -15,11 +15,12 @@ from numpy.typing import NDArray
 
 from locomotion.training.policies.agent import DISCOUNT, Agent, Batch, advantages
 from locomotion.training.policies.environment import Outcome
+from locomotion.training.progress import Progress
 from locomotion.training.search.checkpoint import anew, read_checkpoint
 from surefoot.files.archive import write_archive
 from surefoot.files.schema import Array, Header, Schema
 
-__all__ = ["LENGTH", "Learning", "PolicyProgress", "show_policy"]
+__all__ = ["LENGTH", "Learning", "PolicyProgress", "show_policy", "tells"]
 
 LENGTH = 24
 """Decisions of each person from one improvement of the policy to the next."""
@@ -57,6 +58,17 @@ def show_policy(p: PolicyProgress) -> None:
         file=sys.stderr,
         flush=True,
     )
+
+
+def tells(on_progress: Callable[[Progress], None]) -> Callable[[PolicyProgress], None]:
+    """Tell ``on_progress`` of the learning of a policy as of other trainings."""
+
+    def tell(p: PolicyProgress) -> None:
+        on_progress(
+            Progress(p.stage, p.iteration, p.iterations, -p.reward, 1.0 - p.falls, p.elapsed, p.remaining)
+        )
+
+    return tell
 
 
 class Stage(Protocol):

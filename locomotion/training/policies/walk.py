@@ -14,10 +14,9 @@ from locomotion.gaits.policy.skill import WALK_POLICY, PolicySkill
 from locomotion.training.policies.agent import Agent
 from locomotion.training.policies.curriculum import STANDING, WALKING, Stage
 from locomotion.training.policies.environment import Environment, Starts, motion_of, where_it_ended
-from locomotion.training.policies.learning import Learning, PolicyProgress
+from locomotion.training.policies.learning import Learning, tells
 from locomotion.training.policies.reference import make_reference
 from locomotion.training.policies.trial import PolicyTrial
-from locomotion.training.progress import Progress
 from locomotion.training.search.checkpoint import claim
 from locomotion.training.training import NotLearnedError, Training
 from surefoot.files.archive import check_target
@@ -46,15 +45,10 @@ def train_walk_policy(training: Training, out: str | os.PathLike[str] = WALK_POL
         claim(training.checkpoint, {**asked, "person": person_digest(), "stages": stages})
     reference = make_reference()
 
-    def tell(p: PolicyProgress) -> None:
-        training.on_progress(
-            Progress(p.stage, p.iteration, p.iterations, -p.reward, 1.0 - p.falls, p.elapsed, p.remaining)
-        )
-
     def learn(name: str, stages: Sequence[Stage], seed: int, starts: Starts | None = None) -> Agent:
         checkpoint = training.file(name)
         people = partial(Environment, reference, stages[0], _PEOPLE, starts=starts)
-        return Learning(people, stages, seed, checkpoint, tell).run()
+        return Learning(people, stages, seed, checkpoint, tells(training.on_progress)).run()
 
     walker = learn("walk", walking, 2 * training.seed)
     stops = replace(walking[-1], stand=0.8, push=100.0)

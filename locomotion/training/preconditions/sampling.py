@@ -151,6 +151,7 @@ def _begin(kind: SkillKind, start: Start, rng: np.random.Generator) -> tuple[Hum
     if start.friction < FRICTION:
         make_slippery(bare.model, start.friction)
     human = Human(ground, clearing=[WiderSkill(each) for each in bare.clearing], rehearsals=0)
+    human.on_feet.landing.behind = lambda skill: True
     place = course.path[0] + (0.0, start.beside, 0.0)
     human.reset(place, start.askew, start.running)
     human.data.qvel[:] += start.noise * rng.normal(size=human.model.nv)

@@ -3,21 +3,24 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from locomotion.body.person import MASS
-from locomotion.gaits.brake import BrakeSkill
+from locomotion.gaits.brake import BrakeSkill, load_brake_skill
 from locomotion.gaits.policy.layout import MIRROR_JOINT, POLICY_DT, SIGN_JOINT, TICKS_PER_DECISION
 from locomotion.gaits.residual.layout import ACTIONS, DECIDED, INPUTS
 from locomotion.gaits.run import layout as run
 from locomotion.human.human import BetweenGaits, Human
 from locomotion.human.state import HumanState
+from locomotion.training.gaits.brake import draw_starts
 from locomotion.training.policies.environment import Outcome
 
-__all__ = ["BrakingPeople", "BrakingStage"]
+__all__ = ["SPEEDS", "BrakingPeople", "BrakingStage", "braking_group"]
+
+SPEEDS = (2.0, 5.0)
+"""[m/s] of the runs that they brake from."""
 
 _PUSH_TIME = 0.1  # [s]
 _WEAKEST = 0.2  # of the greatest push
@@ -43,7 +46,7 @@ class BrakingStage:
     pushed: float = 0.0
     push: float = 0.0
     noise: tuple[float, float] = (0.3, 0.3)
-    longest: int = 175
+    longest: int = 200
 
 
 class BrakingPeople:
@@ -53,13 +56,10 @@ class BrakingPeople:
       inputs, actions: numbers observed and decided.
     """
 
-    inputs, actions, kept = INPUTS, ACTIONS, False
+    inputs, actions = INPUTS, ACTIONS
 
-    def __init__(
-        self, skill: BrakeSkill, starts: Sequence[HumanState], stage: BrakingStage, count: int, seed: int
-    ) -> None:
-        self.stage, self.count, self.starts = stage, count, starts
-        self.rng = np.random.default_rng(seed)
+    def __init__(self, skill: BrakeSkill, starts: Sequence[HumanState], count: int) -> None:
+        self.count, self.starts = count, starts
         between = BetweenGaits(brake=skill, residual=None)
         self.people = [Human(None, clearing=(), rehearsals=0, between=between) for _ in range(count)]
         self.residuals = [human.on_feet.residual for human in self.people]
@@ -70,11 +70,10 @@ class BrakingPeople:
         self.force = np.zeros((count, 2))
         self.left = np.zeros(count, bool)
         self._waist = self.people[0].model.body("waist").id
-        self.reset(np.ones(count, bool))
 
-    def begin(self, stage: BrakingStage) -> None:
-        """Everybody begins anew, in another stage."""
-        self.stage = stage
+    def begin(self, stage: BrakingStage, seed: int) -> None:
+        """Everybody begins anew."""
+        self.stage, self.rng = stage, np.random.default_rng(seed)
         self.reset(np.ones(self.count, bool))
 
     def reset(self, who: NDArray[np.bool_]) -> None:
@@ -104,19 +103,12 @@ class BrakingPeople:
             seen[i] = residual.observed
         return seen
 
-    def arrays(self) -> dict[str, NDArray[Any]]:
-        """Nothing: everybody begins anew."""
-        return {}
-
-    def restore(self, arrays: dict[str, NDArray[Any]]) -> None:
-        """Nothing to restore."""
-
     def step(self, decided: NDArray[np.floating]) -> Outcome:
         """Do what the policies ``decided`` (n, ACTIONS) until the next decision."""
         action = decided.astype(np.float64)
         action[self.left] = action[self.left][:, MIRROR_JOINT] * SIGN_JOINT
         n = self.count
-        way, tilt, hard = np.zeros(n), np.zeros(n), np.zeros(n)
+        way, aside, tilt, hard = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
         fell, stood, ended = np.zeros(n, bool), np.zeros(n, bool), np.zeros(n, bool)
         for i, (human, residual) in enumerate(zip(self.people, self.residuals, strict=True)):
             residual.memory[DECIDED] = action[i]
@@ -127,7 +119,9 @@ class BrakingPeople:
                 human.tick()
                 if human.status == "fallen":
                     break
-            way[i] = float(self.ahead[i] @ (human.control[run.COM][:2] - before))
+            moved = human.control[run.COM][:2] - before
+            way[i] = float(self.ahead[i] @ moved)
+            aside[i] = float(self.ahead[i, 0] * moved[1] - self.ahead[i, 1] * moved[0])
             tilt[i] = float(human.data.qpos[4:6] @ human.data.qpos[4:6])
             hard[i] = max(float(human.control[run.CONTACT].sum()) / (9.81 * MASS) - _HARD, 0.0)
             fell[i] = human.status == "fallen"
@@ -138,6 +132,7 @@ class BrakingPeople:
         self.before = action
         terms = {
             "way": -np.abs(way),
+            "aside": -np.abs(aside),
             "tilt": -0.1 * tilt,
             "hard": -0.02 * hard,
             "up": np.full(n, 0.01),
@@ -153,3 +148,9 @@ class BrakingPeople:
         means["falls of ends"] = float(fell.sum()) / max(float((done | over).sum()), 1.0)
         nobody = np.zeros(n, bool)
         return Outcome(reward, done, over, nobody, np.zeros((0,)), means)
+
+
+def braking_group(count: int, starts: int, seed: int, number: int) -> BrakingPeople:
+    """Group ``number`` of ``count`` people, who brake from ``starts`` runs of their own."""
+    runs = draw_starts(np.random.default_rng([seed, 1, number]), starts, SPEEDS)
+    return BrakingPeople(load_brake_skill(), runs, count)

@@ -27,6 +27,7 @@ def _skills() -> tuple[str, ...]:
         "brake",
         "brake-residual",
         *skill_words(),
+        "landing-residual",
         PRECONDITIONS,
     )
 

@@ -1,0 +1,14 @@
+"""Trials of landings without rehearsals."""
+
+from runtime.evaluation.landing import landing_residual_trials
+
+
+def test_corrected_more_stay_up_than_as_planned():
+    attempts = [trial() for trial in landing_residual_trials(2, 13)]
+    held = {False: 0, True: 0}
+    for each in attempts:
+        assert each.status == "stays up" if each.held else each.status.startswith("fallen")
+        assert each.compared == ("as planned" in each.test)
+        held[not each.compared] += each.held
+    assert held[True] > held[False]
+    assert len({each.test for each in attempts}) == 16

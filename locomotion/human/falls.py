@@ -25,6 +25,7 @@ _LOOKS = 20  # ticks between checks whether one on hands and feet can walk on
 def fall(person: Person, gets_up: bool) -> None:
     """The person has lost its balance; ``gets_up``: whether it gets up again if there is ground."""
     let_go_both(person.data)
+    person.on_feet.landing.forget()
     on_way = person.status in MOVING
     speed, slope = person.on_feet.speed, float(person.follower.memory[SLOPE_HERE])
     person.end("fallen", Fell(person.time, person.point, speed, slope, person.arc_length))
@@ -32,7 +33,6 @@ def fall(person: Person, gets_up: bool) -> None:
         person.status, person.on_feet.slowing, person.on_feet.brakes = "getting up", 0.0, False
         person.on_feet.walk[:] = new_walk()
         person.on_feet.stop_learned()
-        person.on_feet.landing.forget()
         person.run_up.give_up()
         person.fours.fall(person.data)
         person.fours.fell_at, person.fours.on_way = float(person.ticks), float(on_way)

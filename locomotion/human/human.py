@@ -342,6 +342,7 @@ class Human(Person):
         """A tick that was not predicted."""
         self.ticks += 1
         if self.held:
+            self.on_feet.landing.forget()
             return
         if self.fours.active:
             tick_on_all_fours(self, self.gets_up)
@@ -353,9 +354,10 @@ class Human(Person):
             feet.steer(follower, state, moving, planned, self.ticks, self.command)
             feet.choose_walk(follower, moving, self.simulation, self.command)
         feet.tick(self.simulation.lookup, state, self.command, data)
-        if feet.runs and self.status != "fallen":
-            self._clear()
-        feet.landing.tick(self.run_up, not feet.brakes, state, feet.walk, data)
+        if self.status != "fallen":
+            if feet.runs:
+                self._clear()
+            feet.landing.tick(self.run_up, not feet.brakes, state, feet.walk, data)
         if self.run_up.rehearsed and data.xfrc_applied.any():
             self.run_up.disturb()
         mujoco.mj_step(self.model, data, STEPS_PER_TICK)
@@ -410,5 +412,6 @@ class Human(Person):
                          feet.landing.skill), 0,
             policy=None if feet.learned is None else feet.learned.skill,
         )  # fmt: skip
+        double.on_feet.landing.behind = feet.landing.behind
         double.decider.waits = self.decider.waits
         return double

@@ -8,22 +8,14 @@ behind the package's skills, which it was learned on.
 from collections.abc import Callable
 
 import mujoco
-import numpy as np
 from numpy.typing import NDArray
 
 from locomotion.gaits.policy.layout import TICKS_PER_DECISION
-from locomotion.gaits.residual.kernel import add_to, decide, observe
-from locomotion.gaits.residual.layout import (
-    CLEARS,
-    CROSSING,
-    DECIDED,
-    LANDED,
-    LANDING_INPUTS,
-    MEMORY_SIZE,
-    SINCE,
-)
+from locomotion.gaits.residual.kernel import decide, observe
+from locomotion.gaits.residual.layout import CLEARS, CROSSING, LANDED, LANDING_INPUTS, SINCE
 from locomotion.gaits.residual.skill import ResidualSkill
 from locomotion.gaits.run.layout import CONTACT
+from locomotion.human.residual import Correction
 from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.skills.interface import ClearingSkill
 from locomotion.skills.library import comes_with_package
@@ -36,35 +28,22 @@ __all__ = ["LASTS", "NEVER", "Landing"]
 LASTS = 250
 """Ticks for which it acts."""
 _FLIES = 12  # ticks without a contact that are a flight
-_FADES, _GONE = 0.9, 1e-3  # share that is left a tick after it has ended; below this: nothing
 NEVER = -1e6
-"""Of `SINCE` while a skill is at work that it does not correct."""
+"""`SINCE` while a skill is at work behind which it does not act."""
 
 
-class Landing:
-    """``skill``: what decides; None: nothing does, or, in training, who writes into ``memory``. ``memory``:
-    (MEMORY_SIZE,), all that has to be saved; its `SINCE` counts ticks of a flight down from 0, and ticks
-    since the landing up from it. ``behind``: tells behind which clearing skills it acts."""
+class Landing(Correction):
+    """``behind``: tells behind which clearing skills it acts. Its `SINCE` counts ticks of a flight down from
+    0, and ticks since the landing up from it, to ``LASTS + 1``."""
 
     def __init__(self, skill: ResidualSkill | None) -> None:
-        self.skill = skill
+        super().__init__(skill, LANDING_INPUTS)
         self.behind: Callable[[ClearingSkill], bool] = comes_with_package
-        self.memory = np.zeros(MEMORY_SIZE)
-        self.observed = np.zeros(LANDING_INPUTS)
-
-    @property
-    def acts(self) -> bool:
-        """Whether it moves the targets, if only while it fades."""
-        return bool(self.memory[SINCE] > 0.0)
 
     @property
     def decides(self) -> bool:
         """Whether it is still to decide."""
         return bool(0.0 < self.memory[SINCE] <= LASTS)
-
-    def forget(self) -> None:
-        """Something else moves the person now."""
-        self.memory[:] = 0.0
 
     def takes_off(self, skill: ClearingSkill) -> None:
         """``skill`` has begun."""
@@ -92,24 +71,23 @@ class Landing:
         """After the ticks of gait and skill: move their targets ``data.ctrl``. ``needed``: nothing else
         corrects them."""
         memory = self.memory
-        if run_up.clearing and NEVER < memory[SINCE] <= 0.0:
+        if not self.acts:
             self._look_for_landing(run_up, state)
-        if needed and self.decides:
-            if self.skill is not None and (memory[SINCE] - 1.0) % TICKS_PER_DECISION == 0.0:
-                left = self.observe(run_up, state, walk, data)
-                decide(self.skill.network, self.observed, left, memory)
-            memory[SINCE] += 1.0
-        elif self.acts:
-            decided = memory[DECIDED]
-            decided *= _FADES
-            if np.abs(decided).max() < _GONE:
-                self.forget()
-        if self.acts:
-            add_to(memory, data.ctrl)
+            if not self.acts:
+                return
+        needed = needed and self.decides
+        if needed and self.skill is not None and (memory[SINCE] - 1.0) % TICKS_PER_DECISION == 0.0:
+            left = self.observe(run_up, state, walk, data)
+            decide(self.skill.network, self.observed, left, memory)
+        self.move(needed, data)
 
     def _look_for_landing(self, run_up: RunUp, state: NDArray) -> None:
         memory = self.memory
-        if state[CONTACT].sum() <= 0.0:
+        if not run_up.clearing:
+            memory[SINCE] = 0.0  # nothing will be cleared if it was sent elsewhere in mid-air
+        elif memory[SINCE] == NEVER:
+            return
+        elif state[CONTACT].sum() <= 0.0:
             memory[SINCE] -= 1.0
         else:
             flew = memory[SINCE] <= -_FLIES and run_up.skill.ends == "running"

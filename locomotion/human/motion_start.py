@@ -141,6 +141,7 @@ def set_in_motion(human: Human, moment: Moment, root: NDArray[np.float64], groun
     human.control[:] = _carried_control(moment.control, carry)
     feet.walk[:] = _carried_walk(moment.walking, carry)
     feet.stop_learned()
+    feet.landing.forget()
     feet.slowing, feet.brakes, feet.hurries, feet.speed = 0.0, False, False, moment.asked
     human.command[:] = yaw, moment.asked, 0.0, 0.0
     human.status = "running" if moment.runs else "walking"

@@ -14,7 +14,7 @@ from locomotion.gaits.run import layout as run
 from locomotion.gaits.walk import layout as walk
 from locomotion.human import learned_walk
 from locomotion.human.human import Human
-from locomotion.human.landing import NEVER
+from locomotion.human.landing import LASTS, NEVER
 from locomotion.human.state import BUSY, CLEARING, HumanState
 from locomotion.paths import tracking
 from locomotion.paths.command import COMMAND_SIZE, HEADING_ASKED, SIDEWAYS_ASKED, SLOPE_THERE, SPEED_ASKED
@@ -103,7 +103,7 @@ _PARTS = (
     Slots(
         "what corrects the landing of a person",
         residual.MEMORY_SIZE,
-        [(residual.SINCE, (NEVER, FARTHEST)), (residual.DECIDED, _SPEED)],
+        [(residual.SINCE, (NEVER, LASTS + 1.0)), (residual.DECIDED, _SPEED)],
         whole=(residual.SINCE,),
     ),
     Slots(

@@ -7,6 +7,7 @@ from locomotion import Ground, Human
 from locomotion.gaits.residual.layout import CLEARS, CROSSING, DECIDED, LANDED, SINCE
 from locomotion.human.human import BetweenGaits
 from locomotion.human.landing import LASTS, NEVER
+from locomotion.human.motion_start import moment_like, set_in_motion
 from locomotion.skills.course import make_course
 from navmesh.obstacles.kinds import CROSSINGS
 
@@ -21,11 +22,11 @@ def on_its_way(**options):
     return human
 
 
-def landed(human):
+def landed(human, clears="jumping"):
     """Tick until it lands."""
     while not human.on_feet.landing.acts:
         human.tick()
-        assert human.status in ("walking", "running", "jumping")
+        assert human.status in ("walking", "running", clears)
     return human
 
 
@@ -114,3 +115,56 @@ def test_whoever_falls_then_gets_up_without_it(landing):
         human.data.xfrc_applied[human.index.chest, :2] = 0.0, 900.0
         human.tick()
     assert not human.on_feet.landing.memory.any()
+
+
+def test_whoever_falls_for_good_is_no_longer_corrected(landing):
+    human = on_its_way()
+    human.restore_state(landing)
+    while human.status != "fallen":
+        human.data.xfrc_applied[human.index.chest, :2] = 0.0, 900.0
+        human.tick()
+    for _ in range(30):
+        assert not human.on_feet.landing.memory.any()
+        human.tick()
+
+
+def test_whoever_rests_meanwhile_sets_off_without_it():
+    course = make_course([("drop", 1.0, 0.0)], [12.0])
+    human = Human(Ground.from_arrays(course.vertices, course.faces), rehearsals=0)
+    human.reset(course.path[0], 0.0)
+    human.follow(course.path, 3.5, course.obstacles)
+    landed(human, "dropping")
+    human.stop()
+    while not human.held:
+        human.tick()
+    assert human.status == "standing" and human.on_feet.landing.acts
+    human.tick()
+    assert not human.on_feet.landing.memory.any()
+
+
+@pytest.mark.parametrize("own", [False, True])
+def test_sent_elsewhere_in_mid_air_it_waits_for_no_landing(own):
+    human = on_its_way()
+    human.on_feet.landing.behind = lambda skill: not own
+    memory = human.on_feet.landing.memory
+    while memory[SINCE] >= 0.0:
+        human.tick()
+    here = human.position
+    human.follow([here, here + np.array([6.0, 0.0, 0.0])], 3.0)
+    human.tick()
+    assert not memory.any()
+
+
+def test_whoever_goes_on_from_recorded_motion_forgets(landing):
+    human = on_its_way()
+    human.restore_state(landing)
+    moment = moment_like(True, 3.0, human.qpos, human.data.qvel[6:45])
+    assert moment is not None
+    set_in_motion(human, moment, human.qpos[:2], float(human.position[2]), 0.0)
+    assert not human.on_feet.landing.memory.any()
+
+
+def test_it_rehearses_with_the_same_skills_left_alone():
+    human = on_its_way()
+    human.on_feet.landing.behind = lambda skill: False
+    assert human._double().on_feet.landing.behind is human.on_feet.landing.behind

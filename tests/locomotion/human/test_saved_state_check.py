@@ -7,9 +7,11 @@ import pytest
 
 from locomotion.body.physics import physics_size
 from locomotion.errors import LocomotionError
+from locomotion.gaits.residual.layout import MEMORY_SIZE
 from locomotion.gaits.run import layout as run
 from locomotion.gaits.walk import layout as walk
 from locomotion.human.human import Human
+from locomotion.human.landing import LASTS
 from locomotion.human.saved_state_check import check_person
 from locomotion.human.state import MOVING
 from locomotion.paths.command import COMMAND_SIZE
@@ -18,7 +20,8 @@ from locomotion.paths.table import GAIT
 from tests.locomotion.human.people import flat_ground
 
 WALK = run.STATE_SIZE + COMMAND_SIZE
-"""Where the walk's numbers begin."""
+LANDING = WALK + walk.WALK_SIZE + MEMORY_SIZE
+"""Where the numbers of the walk, and of what corrects a landing, begin."""
 STAIR = ObstacleAhead(10.0, "jump", 0.4, np.array([10.0, 0.0, 0.4]), np.array([-1.0, 0.0, 0.0]))
 
 
@@ -71,6 +74,9 @@ def test_every_state_of_a_walk_a_run_and_a_stop_is_accepted():
         (run.PHASE, 1.5, f"the run of a person: number {run.PHASE}"),
         (run.STATE_SIZE, np.nan, "the command of a person: number 0 is nan"),
         (WALK + walk.PHASE, 7.0, f"the walk of a person: number {walk.PHASE} is 7"),
+        (LANDING, LASTS + 2, "what corrects the landing of a person: number 0 is 252"),
+        (LANDING, -0.5, "what corrects the landing of a person: number 0 is -0.5, expected a whole number"),
+        (LANDING + 1, np.nan, "what corrects the landing of a person: number 1 is nan"),
         (-1, np.inf, "the physics of a person holds numbers that are not finite"),
     ],
 )

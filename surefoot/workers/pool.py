@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any, Protocol
 
-__all__ = ["Place", "Workers", "worker_pool"]
+__all__ = ["Place", "Workers", "spared_ctrl_c", "worker_pool"]
 
 Place = int | str
 """Where the workers are: a number of processes on this machine, or the address of a Dask scheduler, see
@@ -55,12 +55,18 @@ def worker_pool(place: Place, begin: Callable[..., None], arguments: tuple[Any, 
 
 
 def _processes(count: int, begin: Callable[..., None], arguments: tuple[Any, ...]) -> Any:
-    """New processes. They ignore Ctrl-C, which a terminal sends to all processes; this one ends them. They
-    inherit that from the start."""
+    with spared_ctrl_c():
+        return multiprocessing.get_context("spawn").Pool(count, begin, arguments)
+
+
+@contextmanager
+def spared_ctrl_c() -> Iterator[None]:
+    """Processes that are started in this block ignore Ctrl-C, which a terminal sends to all processes; who
+    started them ends them. They inherit that from the start."""
     is_main = threading.current_thread() is threading.main_thread()
     before = signal.signal(signal.SIGINT, signal.SIG_IGN) if is_main else None
     try:
-        return multiprocessing.get_context("spawn").Pool(count, begin, arguments)
+        yield
     finally:
         if is_main:
             signal.signal(signal.SIGINT, before or signal.SIG_DFL)

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import multiprocessing
 import os
-import signal
 from collections.abc import Callable
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from locomotion.errors import LocomotionError
 from locomotion.training.policies.environment import Outcome
+from surefoot.errors import SurefootError
+from surefoot.workers.pool import spared_ctrl_c
 
 __all__ = ["Group", "Groups"]
 
@@ -46,7 +48,8 @@ class Groups:
         self, make: Callable[[int], Group], groups: int, processes: int, stage: Any, seed: int
     ) -> None:
         """``make``: makes the group of a number below ``groups``; other processes can import it.
-        ``processes``: 1 is this one."""
+        ``processes``: 1 is this one. Raises `LocomotionError` if one of them ends by itself; so do `begin`
+        and `step`."""
         self.rng = np.random.default_rng(seed)
         processes = min(processes, groups)
         self._numbers = [list(range(first, groups, processes)) for first in range(processes)]
@@ -55,11 +58,15 @@ class Groups:
             self._workers = [_Here(make, self._numbers[0])]
         else:
             self._workers = [_Process(make, numbers) for numbers in self._numbers]
-        sizes = [size for worker in self._workers for size in worker.answers()]
         self._places = np.argsort(np.concatenate(self._numbers))
-        self._counts = [sizes[k][0] for k in self._places]
-        self.count, (_, self.inputs, self.actions) = sum(self._counts), sizes[0]
-        self.begin(stage)
+        try:
+            sizes = self._answers()
+            self._counts = [count for count, _, _ in sizes]
+            self.count, (_, self.inputs, self.actions) = sum(self._counts), sizes[0]
+            self.begin(stage)
+        except BaseException:
+            self.end()
+            raise
 
     def begin(self, stage: Any) -> None:
         """Everybody begins anew, in another stage."""
@@ -101,6 +108,9 @@ class Groups:
         """Answers of all groups, in order."""
         for worker, numbers in zip(self._workers, self._numbers, strict=True):
             worker.ask([questions[k] for k in numbers])
+        return self._answers()
+
+    def _answers(self) -> list[Any]:
         found = [answer for worker in self._workers for answer in worker.answers()]
         return [found[k] for k in self._places]
 
@@ -132,30 +142,55 @@ class _Process:
         before = {name: os.environ.get(name) for name in _ONE_CORE}
         os.environ.update(_ONE_CORE)
         try:
-            self._process.start()
+            with spared_ctrl_c():
+                self._process.start()
         finally:
             for name, value in before.items():
                 os.environ.pop(name) if value is None else os.environ.update({name: value})
         there.close()
 
     def ask(self, questions: list[tuple[Any, ...]]) -> None:
-        self._pipe.send(questions)
+        try:
+            self._pipe.send(questions)
+        except OSError:
+            raise self._has_ended() from None
 
     def answers(self) -> list[Any]:
-        return self._pipe.recv()
+        try:
+            answers = self._pipe.recv()
+        except (EOFError, OSError):
+            raise self._has_ended() from None
+        if isinstance(answers, SurefootError):
+            raise answers
+        return answers
 
     def end(self) -> None:
-        self._pipe.send(None)
+        self._process.terminate()  # it may be sending an answer that nobody reads
         self._process.join()
+        self._pipe.close()
+
+    def _has_ended(self) -> LocomotionError:
+        self._process.join()
+        code = self._process.exitcode
+        return LocomotionError(
+            f"a process of the training has ended by itself (exit code {code}); if it was killed because "
+            "memory ran out, use fewer workers; the same command goes on from the checkpoint"
+        )
 
 
 def _work(pipe: Any, make: Callable[[int], Group], numbers: list[int]) -> None:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the process that began this one ends it
-    here = _Here(make, numbers)
-    pipe.send(here.answers())
-    while (questions := pipe.recv()) is not None:
-        here.ask(questions)
+    try:
+        here = _Here(make, numbers)
         pipe.send(here.answers())
+        while True:
+            try:
+                questions = pipe.recv()
+            except EOFError:
+                return  # the process that began this one is gone
+            here.ask(questions)
+            pipe.send(here.answers())
+    except SurefootError as error:
+        pipe.send(error)
 
 
 def _sizes(group: Group) -> tuple[int, int, int]:

@@ -112,9 +112,12 @@ def _train(
         lambda seed: Groups(make, groups, processes, asked[0], seed), asked, training.seed,
         training.file(name), tells(training.on_progress),
     )  # fmt: skip
-    agent = learning.run()
-    assert isinstance(learning.environment, Groups)
-    learning.environment.end()
+    people = learning.environment
+    assert isinstance(people, Groups)
+    try:
+        agent = learning.run()
+    finally:
+        people.end()
     skill = ResidualSkill(network_of(agent), corrected(name), training.made_by(name))
     held = holds(skill, training.seed)
     if held < _HOLD * _TRIALS:

@@ -1,10 +1,13 @@
 """Groups of people who learn do the same on any number of processes."""
 
+import multiprocessing
+import os
 from functools import partial
 
 import numpy as np
 import pytest
 
+from locomotion.errors import LocomotionError
 from locomotion.training.policies.environment import Outcome
 from locomotion.training.policies.groups import Groups
 
@@ -55,3 +58,36 @@ def test_the_number_of_processes_changes_nothing():
     here, there = run(1), run(2)
     assert any(each.any() for each in here if each.dtype == bool)
     assert all(np.array_equal(a, b) for a, b in zip(here, there, strict=True))
+
+
+class Doomed(Walkers):
+    """The last group's process dies in its first step. They are so many that a pipe does not take their
+    answers at once."""
+
+    count = 40_000
+
+    def step(self, decided: np.ndarray) -> Outcome:
+        if self.factor > 2.0:
+            os._exit(3)
+        return super().step(decided)
+
+
+def refused(number: int) -> Walkers:
+    if number == 2:
+        raise LocomotionError("group 2 has no ground")
+    return Walkers(0.5, number)
+
+
+def test_a_process_that_dies_is_an_error_and_the_others_end():
+    people = Groups(partial(Doomed, 0.5), 3, 2, 0.4, seed=7)
+    for _ in range(2):
+        with pytest.raises(LocomotionError, match=r"ended by itself \(exit code 3\).* fewer workers"):
+            people.step(np.zeros((people.count, 1)))
+    people.end()
+    assert not multiprocessing.active_children()
+
+
+def test_what_a_group_refuses_is_told_and_no_process_is_left():
+    with pytest.raises(LocomotionError, match="group 2 has no ground"):
+        Groups(refused, 3, 2, 0.4, seed=7)
+    assert not multiprocessing.active_children()

@@ -40,7 +40,8 @@ class Training:
       checkpoint: folder for intermediate results; an interrupted training continues from there with the same
       result.
         None: they are not kept.
-      workers: number of processes, or address of a cluster (`surefoot.workers.pool`).
+      workers: number of processes, or address of a cluster (`surefoot.workers.pool`). The learned walk is
+        learned in this process in any case; so are the corrections of braking and landing if it is a cluster.
       effort: scales the number of generations, and below 1 some numbers of start states.
       on_progress: called after each generation.
     """

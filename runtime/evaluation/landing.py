@@ -68,7 +68,7 @@ def _land(
         cleared = cleared or any(isinstance(event, Cleared) for event in human.events)
         stayed += cleared
     held = stayed == _STAYS or human.status == "arrived"
-    ends = "stays up" if held else f"fallen {'behind it' if landed else 'before'}"
+    ends = "stays up" if held else f"{human.status} {'behind it' if landed else 'before'}"
     test = f"{affordance}, {'corrected' if corrected else 'as planned'}"
     test += f", pushed with {PUSH:.0f} N" if push else ""
     what = f"{size:.2f} m, {depth:.2f} m thick, from {distance:.1f} m"

@@ -189,10 +189,10 @@ class GaitChanges:
             return
         if not must and self._brakes_well(may_wait):
             return
-        if may_wait:
-            follower.tried_to_slow = ticks
-        else:
+        if not may_wait:
             self._person.slow_down(SLOWINGS[0])
+        if self._decider.answer is not None:
+            follower.tried_to_slow = ticks
 
     def _brakes_well(self, may_wait: bool) -> bool:
         """Brake if rehearsals succeed; return whether it does. ``may_wait``: see `_slow_as_rehearsed`."""
@@ -215,5 +215,6 @@ class GaitChanges:
             slow(person, deceleration)
             self._decider.predicted.expect(person, seen)
             if not known and self._decider.answer is not None:  # it will see whether that holds
-                person.follower.stops_since, person.follower.tried_to_slow = since, person.ticks
+                began = person.ticks if person.on_feet.brakes else 0
+                person.follower.stops_since, person.follower.tried_to_slow = since or began, person.ticks
         return does

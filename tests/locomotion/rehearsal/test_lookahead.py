@@ -276,14 +276,19 @@ def goes_on(human, ticks=600):
         yield human.state_hash()
 
 
-def hold_if(monkeypatch, holds):
-    """In rehearsal a way of slowing down holds as ``holds`` says of its deceleration [m/s²]."""
+def holds_if(holds):
+    """A rehearsal that succeeds as ``holds`` says of the body."""
 
     def trial(body):
         yield
-        return (1.0 if holds(body.on_feet.slowing) else 0.0), [body.save_state()]
+        return (1.0 if holds(body) else 0.0), [body.save_state()]
 
-    monkeypatch.setattr(gait_changes, "_WALKS_ON", trial)
+    return trial
+
+
+def hold_if(monkeypatch, holds):
+    """In rehearsal a way of slowing down holds as ``holds`` says of its deceleration [m/s²]."""
+    monkeypatch.setattr(gait_changes, "_WALKS_ON", holds_if(lambda body: holds(body.on_feet.slowing)))
 
 
 def test_a_surprised_runner_slows_down_at_once_and_otherwise_when_it_has_seen_itself_fall(monkeypatch):
@@ -300,6 +305,29 @@ def test_it_brakes_if_no_way_of_slowing_down_holds(monkeypatch):
     human = surprised()
     brakes = [human.on_feet.brakes for _ in goes_on(human, 2 * RECONSIDERS + 1)]
     assert brakes == [False] * 2 * RECONSIDERS + [True]
+
+
+def test_who_brakes_instead_without_having_rehearsed_that_looks_whether_it_holds(monkeypatch):
+    hold_if(monkeypatch, lambda _: False)
+    human = surprised()
+    for _ in range(2 * RECONSIDERS + 1):
+        assert not human.on_feet.brakes
+        human.tick()
+        human.look_ahead(2)  # enough to see that it falls, and not for a stop
+    assert human.on_feet.brakes and human.follower.stops_since == human.ticks and human.decides_soon
+
+
+def test_who_finds_no_way_of_slowing_down_slows_down_and_looks_again(monkeypatch):
+    human, slowing = running(300, 3.0), []
+    holds_from = human.ticks + 3 * RECONSIDERS
+    later = holds_if(lambda body: body.ticks >= holds_from and body.on_feet.slowing == SLOWINGS[1])
+    monkeypatch.setattr(gait_changes, "_WALKS_ON", later)
+    monkeypatch.setattr(gait_changes, "ComesToRest", lambda: holds_if(lambda body: False))
+    send(human, NEAR)
+    for _ in range(5 * RECONSIDERS):
+        human.tick()
+        slowing.append(human.on_feet.slowing)
+    assert SLOWINGS[0] in slowing[: 3 * RECONSIDERS] and slowing[-1] == SLOWINGS[1]
 
 
 def test_sent_on_meanwhile_it_still_looks_whether_it_stays_up(monkeypatch):

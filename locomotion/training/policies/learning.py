@@ -87,8 +87,7 @@ class Stage(Protocol):
 
 
 class People(Protocol):
-    """Many people at once whom a policy moves: those of `environment.Environment`, or of
-    `locomotion.training.residual.braking`.
+    """Many people at once whom a policy moves: those of `environment.Environment`, or of `groups.Groups`.
 
     count: people. inputs, actions: numbers observed and decided. kept: whether `arrays` are all that goes on;
     where not, everybody begins anew whenever intermediate results are kept. rng: what everything is drawn

@@ -28,6 +28,7 @@ from locomotion.skills.interface import skill_for
 __all__ = ["check_person"]
 
 _SPEED, _TURNS, _TIME = (-100.0, 100.0), (-1e4, 1e4), (0.0, FARTHEST)
+_SLOWER = 0.05  # of a step: a skill may hold back its first tick, which takes no more
 _UNIT = 1e-2  # by which the length of a quaternion may be off 1
 _MOST_REHEARSED = 100_000  # ticks, which are simulated again when it is restored
 _OFF_LEVEL = 1e3  # [m] beside the level
@@ -38,7 +39,7 @@ _PARTS = (
         "the run of a person",
         run.STATE_SIZE,
         [
-            (run.PHASE, FLAG),
+            (run.PHASE, (-_SLOWER, 1.0)),
             (run.STANCE, SIDE),
             (run.HEADING, _TURNS),
             (run.SPEED, _SPEED),

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from locomotion import Ground
 from locomotion.body.physics import physics_size
 from locomotion.errors import LocomotionError
 from locomotion.gaits.residual.layout import MEMORY_SIZE
@@ -17,6 +18,7 @@ from locomotion.human.state import MOVING
 from locomotion.paths.command import COMMAND_SIZE
 from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.paths.table import GAIT
+from locomotion.skills.course import make_course
 from tests.locomotion.human.people import flat_ground
 
 WALK = run.STATE_SIZE + COMMAND_SIZE
@@ -130,3 +132,18 @@ def test_parts_that_do_not_fit_each_other_are_refused(human):
     for says, change in damages(state).items():
         with pytest.raises(LocomotionError, match=says):
             check_person(state._replace(**change), human)
+
+
+def test_every_tick_of_a_leap_can_be_saved():
+    course = make_course([("gap", 1.2, 0.0)], [12.0])
+    made = Human(Ground.from_arrays(course.vertices, course.faces), rehearsals=0)
+    made.reset(course.path[0], 0.0)
+    made.follow(course.path, 3.5, course.obstacles)
+    phases = []
+    while not phases or made.run_up.clearing:
+        made.tick()
+        assert made.status in MOVING
+        if made.run_up.clearing:
+            check_person(made.save_state(), made)
+            phases.append(made.control[run.PHASE])
+    assert min(phases) < 0.0  # a step that is held back from its first tick on

@@ -1,6 +1,5 @@
 """Many people at once who brake from a run, corrected by a residual policy."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -9,21 +8,21 @@ from numpy.typing import NDArray
 
 from locomotion.body.person import MASS
 from locomotion.gaits.brake import BrakeSkill, load_brake_skill
-from locomotion.gaits.policy.layout import MIRROR_JOINT, POLICY_DT, SIGN_JOINT, TICKS_PER_DECISION
+from locomotion.gaits.policy.layout import MIRROR_JOINT, SIGN_JOINT, TICKS_PER_DECISION
 from locomotion.gaits.residual.layout import ACTIONS, DECIDED, INPUTS
 from locomotion.gaits.run import layout as run
 from locomotion.human.human import BetweenGaits, Human
 from locomotion.human.state import HumanState
 from locomotion.training.gaits.brake import draw_starts
 from locomotion.training.policies.environment import Outcome
+from locomotion.training.residual.pushes import Pushes
 
 __all__ = ["SPEEDS", "BrakingPeople", "BrakingStage", "braking_group"]
 
 SPEEDS = (2.0, 5.0)
 """[m/s] of the runs that they brake from."""
 
-_PUSH_TIME = 0.1  # [s]
-_WEAKEST = 0.2  # of the greatest push
+_PUSH_WITHIN = (0, 60)  # decisions
 _FALL, _STANDS = 3.0, 1.0  # what a fall costs, and what a stand is worth
 _HARD = 4.5  # body weights of ground reaction that cost nothing
 
@@ -66,10 +65,8 @@ class BrakingPeople:
         self.age = np.zeros(count, np.int64)
         self.ahead = np.zeros((count, 2))
         self.before = np.zeros((count, ACTIONS))
-        self.pushed_at = np.zeros(count, np.int64)
-        self.force = np.zeros((count, 2))
         self.left = np.zeros(count, bool)
-        self._waist = self.people[0].model.body("waist").id
+        self.pushes = Pushes(self.people)
 
     def begin(self, stage: BrakingStage, seed: int) -> None:
         """Everybody begins anew."""
@@ -84,16 +81,12 @@ class BrakingPeople:
             start = self.starts[int(rng.integers(len(self.starts)))]
             self.residuals[i].memory[:] = 0.0
             human.restore_state(start)
-            human.data.xfrc_applied[:] = 0.0
             human.stop()
             human.brake(float(rng.uniform(*stage.harder)))
             velocity = human.velocity[:2]
             self.ahead[i] = velocity / np.linalg.norm(velocity)
             self.age[i], self.before[i] = 0, 0.0
-            pushed = rng.random() < stage.pushed
-            self.pushed_at[i] = rng.integers(0, 60) if pushed else -100
-            force, angle = rng.uniform(_WEAKEST, 1.0) * stage.push, rng.uniform(0.0, 2.0 * np.pi)
-            self.force[i] = force * math.cos(angle), force * math.sin(angle)
+            self.pushes.draw(i, rng, stage.pushed, stage.push, _PUSH_WITHIN)
 
     def observe(self) -> NDArray[np.float64]:
         """What the policies observe, (n, INPUTS)."""
@@ -112,8 +105,7 @@ class BrakingPeople:
         fell, stood, ended = np.zeros(n, bool), np.zeros(n, bool), np.zeros(n, bool)
         for i, (human, residual) in enumerate(zip(self.people, self.residuals, strict=True)):
             residual.memory[DECIDED] = action[i]
-            pushing = 0 <= self.age[i] - self.pushed_at[i] < _PUSH_TIME / POLICY_DT
-            human.data.xfrc_applied[self._waist, :2] = self.force[i] if pushing else 0.0
+            self.pushes.apply(i, int(self.age[i]))
             before = human.control[run.COM][:2].copy()
             for _ in range(TICKS_PER_DECISION):
                 human.tick()

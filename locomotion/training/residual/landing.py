@@ -1,13 +1,12 @@
 """Many people at once who land behind obstacles, corrected by a residual policy."""
 
-import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from locomotion.body.person import MASS
-from locomotion.gaits.policy.layout import MIRROR_JOINT, POLICY_DT, SIGN_JOINT, TICKS_PER_DECISION
+from locomotion.gaits.policy.layout import MIRROR_JOINT, SIGN_JOINT, TICKS_PER_DECISION
 from locomotion.gaits.residual.layout import ACTIONS, DECIDED, LANDING_INPUTS, SINCE
 from locomotion.gaits.residual.skill import ResidualSkill
 from locomotion.gaits.run import layout as run
@@ -18,6 +17,7 @@ from locomotion.human.state import MOVING, HumanState
 from locomotion.skills.course import Course, make_course
 from locomotion.skills.registry import skill_kinds
 from locomotion.training.policies.environment import Outcome
+from locomotion.training.residual.pushes import Pushes
 
 __all__ = ["LandingPeople", "LandingStage", "landing_group", "on_course"]
 
@@ -27,8 +27,7 @@ _SPEED, _NOISE = (3.0, 4.0), 0.05  # [m/s] asked for; [m/s, rad/s] at the beginn
 _AGAIN = 0.8  # [m] behind an obstacle from which who has fallen there goes on
 _NEAR = 6.0  # [m] before an obstacle, farther than which it has fallen behind the one before
 _LONGEST = 12_000  # ticks on a course
-_PUSH_TIME, _PUSH_WITHIN = 0.1, 100  # [s]; decisions
-_WEAKEST = 0.2  # of the greatest push
+_PUSH_WITHIN = 100  # decisions
 _FALL = 3.0  # what a fall costs
 _HARD = 4.5  # body weights of ground reaction that cost nothing
 
@@ -74,10 +73,8 @@ class LandingPeople:
         self.landings = [human.on_feet.landing for human in self.people]
         self.age = np.zeros(count, np.int64)
         self.before = np.zeros((count, ACTIONS))
-        self.pushed_at = np.zeros(count, np.int64)
-        self.force = np.zeros((count, 2))
         self.left = np.zeros(count, bool)
-        self._waist = self.people[0].model.body("waist").id
+        self.pushes = Pushes(self.people)
 
     def begin(self, stage: LandingStage, seed: int) -> None:
         """Everybody begins anew."""
@@ -91,15 +88,13 @@ class LandingPeople:
             human = self.people[i]
             human.restore_state(self.starts[i][int(rng.integers(len(self.starts[i])))])
             human.data.qvel[:] += stage.shaken * rng.normal(size=human.model.nv)
-            human.data.xfrc_applied[:] = 0.0
             memory = self.landings[i].memory
             memory[:] = 0.0
             memory[SINCE] = 1.0
             self.age[i], self.before[i] = rng.integers(0, 25), 0.0
-            pushed = rng.random() < stage.pushed
-            self.pushed_at[i] = self.age[i] + rng.integers(0, _PUSH_WITHIN) if pushed else -100
-            force, angle = rng.uniform(_WEAKEST, 1.0) * stage.push, rng.uniform(0.0, 2.0 * np.pi)
-            self.force[i] = force * math.cos(angle), force * math.sin(angle)
+            self.pushes.draw(
+                i, rng, stage.pushed, stage.push, (int(self.age[i]), int(self.age[i]) + _PUSH_WITHIN)
+            )
 
     def observe(self) -> NDArray[np.float64]:
         """What the policies observe, (n, LANDING_INPUTS)."""
@@ -118,8 +113,7 @@ class LandingPeople:
         fell, ended = np.zeros(n, bool), np.zeros(n, bool)
         for i, (human, landing) in enumerate(zip(self.people, self.landings, strict=True)):
             landing.memory[DECIDED] = action[i]
-            pushing = 0 <= self.age[i] - self.pushed_at[i] < _PUSH_TIME / POLICY_DT
-            human.data.xfrc_applied[self._waist, :2] = self.force[i] if pushing else 0.0
+            self.pushes.apply(i, int(self.age[i]))
             for _ in range(TICKS_PER_DECISION):
                 human.tick()
                 if human.status == "fallen":

@@ -408,7 +408,7 @@ class Agent:
 
     def stop(self) -> None:
         """Give up its way and come to a stand, as soon as it can without falling; an obstacle that it is
-        clearing is cleared first. An agent that is not on its way stays as it is. Takes constant time."""
+        clearing is cleared first. Without a way it stays as it is. Takes constant time."""
         if self.moving:
             self._driver.stop()
         self._errand, self._blocked = Errand(), False

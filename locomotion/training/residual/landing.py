@@ -5,9 +5,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion.body.person import MASS
-from locomotion.gaits.policy.layout import MIRROR_JOINT, SIGN_JOINT, TICKS_PER_DECISION
-from locomotion.gaits.residual.layout import ACTIONS, DECIDED, LANDING_INPUTS, SINCE
+from locomotion.gaits.policy.layout import TICKS_PER_DECISION
+from locomotion.gaits.residual.layout import LANDING_INPUTS, SINCE
 from locomotion.gaits.residual.skill import ResidualSkill
 from locomotion.gaits.run import layout as run
 from locomotion.ground.ground import Ground
@@ -17,7 +16,7 @@ from locomotion.human.state import MOVING, HumanState
 from locomotion.skills.course import Course, make_course
 from locomotion.skills.registry import skill_kinds
 from locomotion.training.policies.environment import Outcome
-from locomotion.training.residual.pushes import Pushes
+from locomotion.training.residual.people import CorrectedPeople, outcome
 
 __all__ = ["LandingPeople", "LandingStage", "landing_group", "on_course"]
 
@@ -27,9 +26,7 @@ _SPEED, _NOISE = (3.0, 4.0), 0.05  # [m/s] asked for; [m/s, rad/s] at the beginn
 _AGAIN = 0.8  # [m] behind an obstacle from which who has fallen there goes on
 _NEAR = 6.0  # [m] before an obstacle, farther than which it has fallen behind the one before
 _LONGEST = 12_000  # ticks on a course
-_PUSH_WITHIN = 100  # decisions
-_FALL = 3.0  # what a fall costs
-_HARD = 4.5  # body weights of ground reaction that cost nothing
+_PUSH_WITHIN, _LATEST = 100, 25  # decisions; after the landing that somebody begins at most
 
 
 @dataclass(frozen=True)
@@ -51,7 +48,7 @@ class LandingStage:
     shaken: float = 0.05
 
 
-class LandingPeople:
+class LandingPeople(CorrectedPeople):
     """``count`` people, each on a course of its own, who have just landed behind one of its obstacles.
 
     Attributes:
@@ -59,89 +56,54 @@ class LandingPeople:
       starts: where each of them may begin.
     """
 
-    inputs, actions = LANDING_INPUTS, ACTIONS
+    inputs = LANDING_INPUTS
 
     def __init__(self, count: int, rng: np.random.Generator) -> None:
-        self.count, self.rng = count, rng
-        self.people: list[Human] = []
-        self.starts: list[list[HumanState]] = []
-        while len(self.people) < count:
-            human, starts = on_course(self.rng, None)
+        on_courses: list[tuple[Human, list[HumanState]]] = []
+        while len(on_courses) < count:
+            human, starts = on_course(rng, None)
             if starts:
-                self.people.append(human)
-                self.starts.append(starts)
-        self.landings = [human.on_feet.landing for human in self.people]
-        self.age = np.zeros(count, np.int64)
-        self.before = np.zeros((count, ACTIONS))
-        self.left = np.zeros(count, bool)
-        self.pushes = Pushes(self.people)
+                on_courses.append((human, starts))
+        people = [human for human, _ in on_courses]
+        super().__init__(people, [human.on_feet.landing for human in people])
+        self.starts = [starts for _, starts in on_courses]
 
-    def begin(self, stage: LandingStage, seed: int) -> None:
-        """Everybody begins anew."""
-        self.stage, self.rng = stage, np.random.default_rng(seed)
-        self.reset(np.ones(self.count, bool))
-
-    def reset(self, who: NDArray[np.bool_]) -> None:
-        """Some begin anew."""
+    def _begin_anew(self, i: int, human: Human) -> None:
         rng, stage = self.rng, self.stage
-        for i in np.flatnonzero(who).tolist():
-            human = self.people[i]
-            human.restore_state(self.starts[i][int(rng.integers(len(self.starts[i])))])
-            human.data.qvel[:] += stage.shaken * rng.normal(size=human.model.nv)
-            memory = self.landings[i].memory
-            memory[:] = 0.0
-            memory[SINCE] = 1.0
-            self.age[i], self.before[i] = rng.integers(0, 25), 0.0
-            self.pushes.draw(
-                i, rng, stage.pushed, stage.push, (int(self.age[i]), int(self.age[i]) + _PUSH_WITHIN)
-            )
+        human.restore_state(self.starts[i][int(rng.integers(len(self.starts[i])))])
+        human.data.qvel[:] += stage.shaken * rng.normal(size=human.model.nv)
+        self.corrections[i].forget()
+        self.corrections[i].memory[SINCE] = 1.0
+        self.age[i], self.before[i] = rng.integers(0, _LATEST), 0.0
+        within = int(self.age[i]), int(self.age[i]) + _PUSH_WITHIN
+        self.pushes.draw(i, rng, stage.pushed, stage.push, within)
 
     def observe(self) -> NDArray[np.float64]:
         """What the policies observe, (n, LANDING_INPUTS)."""
         seen = np.empty((self.count, LANDING_INPUTS))
-        for i, (human, landing) in enumerate(zip(self.people, self.landings, strict=True)):
-            self.left[i] = landing.observe(human.run_up, human.control, human.on_feet.walk, human.data)
-            seen[i] = landing.observed
+        for i, human in enumerate(self.people):
+            feet = human.on_feet
+            self.left[i] = feet.landing.observe(human.run_up, human.control, feet.walk, human.data)
+            seen[i] = feet.landing.observed
         return seen
 
     def step(self, decided: NDArray[np.floating]) -> Outcome:
         """Do what the policies ``decided`` (n, ACTIONS) until the next decision."""
-        action = decided.astype(np.float64)
-        action[self.left] = action[self.left][:, MIRROR_JOINT] * SIGN_JOINT
-        n = self.count
-        tilt, hard, aside, slow = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
-        fell, ended = np.zeros(n, bool), np.zeros(n, bool)
-        for i, (human, landing) in enumerate(zip(self.people, self.landings, strict=True)):
-            landing.memory[DECIDED] = action[i]
-            self.pushes.apply(i, int(self.age[i]))
-            for _ in range(TICKS_PER_DECISION):
-                human.tick()
-                if human.status == "fallen":
-                    break
-            tilt[i] = float(human.data.qpos[4:6] @ human.data.qpos[4:6])
-            hard[i] = max(float(human.control[run.CONTACT].sum()) / (9.81 * MASS) - _HARD, 0.0)
+        action, n, moved = self._in_own_sides(decided), self.count, []
+        aside, slow, ended = np.zeros(n), np.zeros(n), np.zeros(n, bool)
+        for i, human in enumerate(self.people):
+            moved.append(self._move(i, action[i]))
             ahead, beside = human.control[run.COM_VELOCITY][:2]
             aside[i], slow[i] = abs(beside), abs(ahead - human.on_feet.speed)
-            fell[i] = human.status == "fallen"
-            ended[i] = not fell[i] and (human.status not in MOVING or not landing.decides)
-        self.age += 1
-        change = ((action - self.before) ** 2).mean(axis=1)
-        self.before = action
-        terms = {
+            ended[i] = human.status not in MOVING or not human.on_feet.landing.decides
+        fell = np.array([each.fell for each in moved])
+        terms = self._usual_terms(action, moved) | {
             "up": np.full(n, 0.02),
-            "tilt": -0.1 * tilt,
-            "hard": -0.02 * hard,
             "aside": -0.01 * aside,
             "slow": -0.005 * slow,
-            "effort": -0.004 * (action**2).mean(axis=1),
-            "change": -0.004 * change,
-            "fall": -_FALL * fell,
         }
-        reward = np.sum(list(terms.values()), axis=0)
-        over = ended | ((self.age >= LASTS // TICKS_PER_DECISION) & ~fell)
-        means = {name: float(values.mean()) for name, values in terms.items()}
-        means["falls of ends"] = float(fell.sum()) / max(float((fell | over).sum()), 1.0)
-        return Outcome(reward, fell, over, np.zeros(n, bool), np.zeros((0,)), means)
+        over = (ended | (self.age >= LASTS // TICKS_PER_DECISION)) & ~fell
+        return outcome(terms, fell, over)
 
 
 def landing_group(count: int, seed: int, number: int) -> LandingPeople:

@@ -1,6 +1,7 @@
 """Pushes at the waists of people who learn."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -21,7 +22,7 @@ class Pushes:
       begins: (n,) the decision at which it begins. force: (n, 2) [N].
     """
 
-    def __init__(self, people: list[Human]) -> None:
+    def __init__(self, people: Sequence[Human]) -> None:
         self._people = people
         self.begins = np.full(len(people), _NEVER)
         self.force = np.zeros((len(people), 2))

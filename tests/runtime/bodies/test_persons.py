@@ -104,7 +104,7 @@ def plain():
 
 
 def runner(plain, left=8.5, threads=1):
-    """A world with one in recorded motion who runs, and has so many [m] left; and one who is simulated."""
+    """A world in which ada runs in recorded motion and has ``left`` [m] to go, and bob is simulated."""
     world = World(plain, seed=5, threads=threads)
     ada = world.spawn("human", (0.0, 0.0, 0.0), detail="low", name="ada")
     bob = world.spawn("human", (0.0, 5.0, 0.0), name="bob")

@@ -72,6 +72,7 @@ class Ground:
         self, vertices: NDArray[np.float64], faces: NDArray[np.int64], max_slope: float, max_step: float
     ) -> None:
         self.vertices, self.faces = vertices, faces
+        self._rules = max_slope, max_step
         floors = _HOLD * math.tan(max_slope)
         fronts = _HOLD * _steepest_front(vertices, faces, max_slope, max_step)
         self.friction, self.steep = max(FRICTION, floors, fronts), floors > FRICTION
@@ -116,6 +117,10 @@ class Ground:
         if not 0.0 <= max_step < math.inf:
             raise LocomotionError(f"max_step is {max_step} m; give a finite number from 0 on")
         return cls(points, np.ascontiguousarray(triangles, dtype=np.int64), max_slope, max_step)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # a copy takes a place of its own among those of its process, or it would lie where another does
+        return _copied, (self.vertices, self.faces, *self._rules, self.friction)
 
     @property
     def arrays(self):
@@ -234,6 +239,14 @@ def plane_lookup() -> tuple[NDArray[Any], ...]:
     corners = np.array([[-half, -half, 0.0], [half, -half, 0.0], [half, half, 0.0], [-half, half, 0.0]])
     a = build_triangle_arrays(corners, np.array([[0, 1, 2], [0, 2, 3]]))
     return a.rows, a.cell_start, a.cell_triangles, a.grid, a.shape, np.zeros(3)
+
+
+def _copied(
+    vertices: NDArray[np.float64], faces: NDArray[np.int64], slope: float, step: float, friction: float
+) -> Ground:
+    ground = Ground(vertices, faces, slope, step)
+    ground.friction = friction
+    return ground
 
 
 def _release(slot: int, kept: Any) -> None:

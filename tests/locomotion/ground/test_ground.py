@@ -1,8 +1,13 @@
 """The level's triangles as ground: against analytic shapes, the slow reference, and moving bodies."""
 
+import copy
+import gc
+import pickle
+
 import mujoco
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from locomotion.body.person import build_person
 from locomotion.errors import LocomotionError
@@ -22,6 +27,28 @@ def test_person_stands_on_a_mesh_as_on_the_plane_and_repeats_bit_for_bit():
         ends.append(data.qpos.copy())
     assert ends[0].tobytes() == ends[1].tobytes()
     np.testing.assert_allclose(ends[0], ends[2], atol=2e-4)
+
+
+@pytest.mark.parametrize("copied", [lambda g: pickle.loads(pickle.dumps(g)), copy.copy, copy.deepcopy])
+def test_copy_of_a_ground_is_one_of_its_own(copied):
+    ground = Ground.from_arrays(*floor(5.0, 7), max_slope=0.7)
+    ground.friction = 0.45
+    other = copied(ground)
+    expected = _after_a_second(ground)
+    del ground
+    gc.collect()
+    in_its_place = Ground.from_arrays(*floor(4.0, 5))
+    assert other.friction == 0.45 and other.steep
+    assert _after_a_second(other).tobytes() == expected.tobytes()
+    assert len(in_its_place.faces) == 50
+
+
+def _after_a_second(ground: Ground) -> NDArray:
+    model = build_person(ground)
+    ground.check(model)
+    data = mujoco.MjData(model)
+    mujoco.mj_step(model, data, 400)
+    return data.qpos.copy()
 
 
 @pytest.mark.parametrize(

@@ -22,6 +22,7 @@ from navmesh.routes.graph_search import BEST, COMPLETE, EMPTY, GOAL_NODE, LABELS
 from navmesh.routes.query_kernels import GOAL_CELL, NEARER, START_CELL, start_search
 from navmesh.routes.route import STATUSES, Route, link_uses
 from navmesh.surface.clearance_field import centre_of, walk
+from navmesh.surface.floor_store import height_of
 from surefoot.kernels import allocating_kernel, kernel
 
 if TYPE_CHECKING:
@@ -82,8 +83,8 @@ def _nearest_cell(net, road, trip, radius, x, y, z, reach, rise, reached):
                         continue
                     cx, cy = centre_of(net, k)
                     flat = (cx - x) ** 2 + (cy - y) ** 2
-                    off = flat + (net.height[k] - z) ** 2
-                    if off >= best or flat > reach * reach or abs(net.height[k] - z) > rise:
+                    off = flat + (height_of(net, k) - z) ** 2
+                    if off >= best or flat > reach * reach or abs(height_of(net, k) - z) > rise:
                         continue
                     if not _is_allowed(net, road, k, cx, cy):
                         continue
@@ -115,13 +116,13 @@ def _start_trip(net, doors, road, trip, scratch, origin, sx, sy, sz, gx, gy, gz,
                 return _OFF_GRAPH
             start_node = np.int64(net.label[start_cell])
             ax, ay = centre_of(net, start_cell)
-            az = net.height[start_cell]
+            az = height_of(net, start_cell)
         if status == _COMPLETE and not _is_allowed(net, road, goal_cell, bx, by):
             cell = np.int64(_nearest_cell(net, road, trip, doors.radius, gx, gy, gz, reach, rise, False))
             if cell >= 0:
                 goal_cell, goal_node = cell, np.int64(net.label[cell])
                 bx, by = centre_of(net, cell)
-                bz = net.height[cell]
+                bz = height_of(net, cell)
     trip.numbers[_START], trip.numbers[_GOAL] = start_cell, goal_cell
     begin_trip(net, doors, road, trip, start_node, goal_node, start_cell, goal_cell, ax, ay, az, bx, by, bz)
     return status
@@ -147,7 +148,7 @@ def _end_trip(net, doors, road, trip, scratch, origin, gx, gy, gz):
         status = _NO_PATH
         if cell >= 0:
             bx, by = centre_of(net, cell)
-            bz = net.height[cell]
+            bz = height_of(net, cell)
             if np.sqrt((bx - gx) ** 2 + (by - gy) ** 2 + (bz - gz) ** 2) <= now - NEARER:
                 start_cell = numbers[_START]
                 numbers[_GOAL] = cell

@@ -33,8 +33,10 @@ NET = BundleType(
     ny=int64,
     column_start=int32[::1],
     cell_column=int32[::1],
-    height=float64[::1],
-    gradient=float64[:, ::1],
+    floor_shift=int32[::1],
+    floor_height=float64[::1],
+    floor_slope=int32[::1],
+    slopes=float64[:, ::1],
     link=int32[:, ::1],
     clearance=float64[::1],
     nearest=float64[:, ::1],
@@ -50,9 +52,10 @@ NET = BundleType(
 """The surface and the graph.
 
 cell: side of a grid square [m]; nx, ny: columns. The arrays of `Surface` themselves: column_start
-(nx*ny + 1,) and, for each cell, cell_column, height, gradient (2), link (4), clearance, nearest (2), source;
-blocker_start (n + 1,), blocker (k, 4). Of `NodeGraph`: label of each cell; position (3), node_radius and
-node_cell of each node; edge_start (m + 1,), edge_target (e,).
+(nx*ny + 1,) and, for each cell, cell_column, link (4), clearance, nearest (2), source; blocker_start
+(n + 1,), blocker (k, 4). Height and slope of a cell are found by floor_shift, floor_height, floor_slope and
+slopes, see `navmesh.surface.floor_store.height_of`. Of `NodeGraph`: label of each cell; position (3),
+node_radius and node_cell of each node; edge_start (m + 1,), edge_target (e,).
 """
 
 _NO_SLOTS = np.empty(0, np.int32)
@@ -175,8 +178,10 @@ def _net(graph: "NodeGraph") -> Any:
         ny=surface.shape[1],
         column_start=surface.column_start,
         cell_column=surface.cell_column,
-        height=surface.height,
-        gradient=surface.gradient,
+        floor_shift=surface.floor.shift(surface.column_start),
+        floor_height=surface.floor.height,
+        floor_slope=surface.floor.slope,
+        slopes=surface.floor.slopes,
         link=surface.link,
         clearance=surface.clearance,
         nearest=surface.nearest,

@@ -13,6 +13,7 @@ from navmesh.obstacles.free_length import cells_of, room
 from navmesh.obstacles.kinds import CROSSINGS, kind_of
 from navmesh.obstacles.obstacles import Obstacles
 from navmesh.rules import WalkRules
+from navmesh.surface.floor_store import gradient_of, height_of
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel, kernel
 
@@ -150,7 +151,8 @@ def _place(cells, clearance, x, y, z, dx, dy, slope, longest, lateral, point):
                 best, best_cell, best_gap = away, k, gap
                 point[0] = x + away * dx
                 point[1] = y + away * dy
-                point[2] = cells.height[k] + cells.gradient[k, 0] * ux + cells.gradient[k, 1] * uy
+                slope_x, slope_y = gradient_of(cells, k)
+                point[2] = height_of(cells, k) + slope_x * ux + slope_y * uy
                 if gap >= enough:
                     break
         away -= _STRIDE

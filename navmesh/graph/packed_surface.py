@@ -8,6 +8,7 @@ them would, and gives the same bits as the build (`navmesh.surface.build.surface
 import numpy as np
 
 from navmesh.surface.build import Cells, Grid, surface_of
+from navmesh.surface.floor_store import pack_floors
 from navmesh.surface.surface import Surface
 from surefoot.files.schema import Array, Numbers
 from surefoot.kernels import kernel
@@ -33,11 +34,12 @@ def pack_surface(surface: Surface) -> dict[str, np.ndarray]:
     """The arrays of `PACKED_SURFACE`."""
     storey = np.zeros((len(surface), 2), np.int32)
     _storeys(surface.column_start, surface.cell_column, surface.link, storey)
+    height, gradient = surface.floor.unpacked(surface.column_start)
     return {
         "origin": surface.origin,
         "count": np.diff(surface.column_start),
-        "height": surface.height,
-        "gradient": surface.gradient,
+        "height": height,
+        "gradient": gradient,
         "storey": storey,
         "blocker_count": np.diff(surface.blocker_start),
         "blocker": surface.blocker,
@@ -64,9 +66,8 @@ def unpack_surface(arrays: dict[str, np.ndarray], resolution: float, shape: tupl
     odd = _links(start, column, arrays["storey"], link, ny)
     if odd >= 0:
         raise ValueError(f"surface_storey[{odd}] leads to no cell beside it, or to one that another leads to")
-    found = Cells(
-        start, column, arrays["height"], arrays["gradient"], link, _starts(lists), arrays["blocker"]
-    )
+    floor = pack_floors(start, arrays["height"], arrays["gradient"])
+    found = Cells(start, column, link, _starts(lists), arrays["blocker"], floor)
     surface, _ = surface_of(found, Grid(arrays["origin"], resolution, shape))
     ix = column // np.int32(ny)
     iy = column - ix * np.int32(ny)

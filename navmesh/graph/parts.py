@@ -7,6 +7,7 @@ import numpy as np
 
 from navmesh.graph.snapping import CANDIDATES, candidate
 from navmesh.surface.clearance_field import slope_at
+from navmesh.surface.floor_store import height_of
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel
 
@@ -98,7 +99,7 @@ def _parts_of_tiles(net, part, radius, known):
                         continue
                     slope_x, slope_y = slope_at(net, k)
                     rise = half * (abs(slope_x) + abs(slope_y))
-                    bottom, top = net.height[k] - rise, net.height[k] + rise
+                    bottom, top = height_of(net, k) - rise, height_of(net, k) + rise
                     for i in range(1 if net.clearance[k] >= radius else CANDIDATES):
                         node = candidate(net, k, radius, i)
                         if node < 0:
@@ -134,8 +135,9 @@ def parts_in_tiles(
     start, parts, spans = tiles
     ix, iy = np.divmod(surface.cell_column[cells], surface.shape[1])
     more = ix // TILE * ((surface.shape[1] + TILE - 1) // TILE) + iy // TILE
-    rise = 0.5 * surface.resolution * np.abs(surface.gradient[cells]).sum(axis=1)
-    high = np.column_stack([surface.height[cells] - rise, surface.height[cells] + rise])
+    rise = 0.5 * surface.resolution * np.abs(surface.gradients(cells)).sum(axis=1)
+    height = surface.heights(cells)
+    high = np.column_stack([height - rise, height + rise])
     tile = np.concatenate([np.repeat(np.arange(len(start) - 1), np.diff(start)), more])
     part_of = np.concatenate([parts, np.full(len(more), part)])
     span = np.concatenate([spans, high])

@@ -6,6 +6,7 @@ from math import sqrt
 from navmesh.graph.parts import TILE
 from navmesh.graph.snapping import CANDIDATES, candidate, node_at, place_in, squared_distance
 from navmesh.surface.clearance_field import centre_of, slope_at
+from navmesh.surface.floor_store import height_of
 from surefoot.kernels import kernel
 
 __all__ = ["nearest_reachable"]
@@ -36,7 +37,7 @@ def _search_column(net, doors, scratch, column, square, x, y, z, best, node, cel
                 best, node, cell, bx, by = off, net.label[k], k, px, py
             continue
         slope_x, slope_y = slope_at(net, k)
-        rise = max(abs(net.height[k] - z) - (abs(slope_x) + abs(slope_y)) * half, 0.0)
+        rise = max(abs(height_of(net, k) - z) - (abs(slope_x) + abs(slope_y)) * half, 0.0)
         if net.clearance[k] < radius - 1.4144 * half or square + rise * rise >= best:
             continue
         if not _may_reach(net, doors, scratch, k):

@@ -11,6 +11,7 @@ import numpy as np
 
 from navmesh.level.mesh_queries import crossed, lowest_above, surface_below
 from navmesh.level.raster import FLOOR, KIND
+from navmesh.surface.floor_store import gradient_of, height_of
 from navmesh.surface.surface import Surface
 from surefoot.kernels import kernel
 
@@ -29,8 +30,11 @@ class CellArrays(NamedTuple):
 
     column_start: np.ndarray
     cell_column: np.ndarray
-    height: np.ndarray
-    gradient: np.ndarray
+    floor_shift: np.ndarray
+    """(blocks,) int32, and the arrays of `navmesh.surface.floor_store.FloorStore`: see `height_of`."""
+    floor_height: np.ndarray
+    floor_slope: np.ndarray
+    slopes: np.ndarray
     link: np.ndarray
     size: float
     """[m], side of a cell."""
@@ -40,9 +44,10 @@ class CellArrays(NamedTuple):
 
 def cells_of(surface: Surface) -> CellArrays:
     """What the kernels take as ``cells``."""
+    floor = surface.floor
     return CellArrays(
-        surface.column_start, surface.cell_column, surface.height, surface.gradient, surface.link,
-        surface.resolution, *surface.shape,
+        surface.column_start, surface.cell_column, floor.shift(surface.column_start), floor.height,
+        floor.slope, floor.slopes, surface.link, surface.resolution, *surface.shape,
     )  # fmt: skip
 
 
@@ -69,11 +74,8 @@ def seek(cells, x, y, z, dx, dy, slope, nearest, farthest):
                 best = -1
                 least = SAME + ahead * slope
                 for k in range(cells.column_start[column], cells.column_start[column + 1]):
-                    there = (
-                        cells.height[k]
-                        + cells.gradient[k, 0] * (px - x - ux)
-                        + cells.gradient[k, 1] * (py - y - uy)
-                    )
+                    slope_x, slope_y = gradient_of(cells, k)
+                    there = height_of(cells, k) + slope_x * (px - x - ux) + slope_y * (py - y - uy)
                     if abs(there - z) < least:
                         least = abs(there - z)
                         best = k
@@ -160,11 +162,8 @@ def free_length(grid, cells, x, y, z, dx, dy, slope, step, headroom, limit):
     while True:
         at = end + _STRIDE
         px, py = x + at * dx, y + at * dy
-        expected = (
-            cells.height[last]
-            + cells.gradient[last, 0] * (ux + at * dx)
-            + cells.gradient[last, 1] * (uy + at * dy)
-        )
+        slope_x, slope_y = gradient_of(cells, last)
+        expected = height_of(cells, last) + slope_x * (ux + at * dx) + slope_y * (uy + at * dy)
         floor, t = surface_below(grid, px, py, expected - step - SAME, expected + step + SAME)
         if t < 0 or grid.triangles[t, KIND] != FLOOR:
             break

@@ -19,6 +19,7 @@ from navmesh.obstacles.kinds import ObstacleKind
 from navmesh.obstacles.obstacles import Obstacles, tag_names
 from navmesh.rules import WalkRules
 from navmesh.surface.build import Grid, find_cells, surface_of
+from navmesh.surface.floor_store import gradient_of, height_of
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel, kernel
 from surefoot.numeric import is_finite
@@ -111,7 +112,7 @@ def _edges_of_low_places(surface: Surface, low: Surface) -> tuple[np.ndarray, np
     cell, segment, across, length = cell[real], segment[real], across[real], length[real]
     away, side = away[real], side[real]
     outward = np.column_stack((-across[:, 1], across[:, 0])) * (side / length)[:, None]
-    floor = surface.height[cell] - np.einsum("ij,ij->i", surface.gradient[cell], away)
+    floor = surface.heights(cell) - np.einsum("ij,ij->i", surface.gradients(cell), away)
     # the same piece is in the lists of several cells: the nearest of them says how high the floor is
     order = np.argsort(np.hypot(away[:, 0], away[:, 1]), kind="stable")
     key = np.column_stack((np.rint(segment / _SAME_PLACE), side, np.rint(floor)))[order]
@@ -135,7 +136,7 @@ def _listed(surface: Surface) -> np.ndarray:
     """Every blocker with the place of the cell in whose list it is: (k, 6), in units that count as the same
     place. The top of a beam ends where the way under it does, but not at the same height."""
     cell = np.repeat(np.arange(len(surface)), np.diff(surface.blocker_start))
-    values = np.column_stack((surface.blocker, surface.height[cell])) / _SAME_PLACE
+    values = np.column_stack((surface.blocker, surface.heights(cell))) / _SAME_PLACE
     return np.column_stack((np.rint(values).astype(np.int64), surface.cell_column[cell]))
 
 
@@ -220,11 +221,11 @@ def _free_height(grid, x, y, z, dx, dy, depth, rise, step, least, headroom):
 @allocating_kernel
 def _upright_cells(tall, low):
     """The cell of ``tall`` that each of ``low`` is, or -1 where one has to bend down: (n,) int32."""
-    upright = np.full(low.height.size, -1, np.int32)
-    for c in range(low.height.size):
+    upright = np.full(low.cell_column.size, -1, np.int32)
+    for c in range(low.cell_column.size):
         column = low.cell_column[c]
         for k in range(tall.column_start[column], tall.column_start[column + 1]):
-            if abs(tall.height[k] - low.height[c]) < _SAME_PLACE:
+            if abs(height_of(tall, k) - height_of(low, c)) < _SAME_PLACE:
                 upright[c] = k
     return upright
 
@@ -271,7 +272,8 @@ def _measure(grid, tall, low, blocker_start, blocker, edge, outward, floor, slop
         ix = column // tall.ny
         ux = x + depth * dx - (ix + 0.5) * tall.size
         uy = y + depth * dy - (column - ix * tall.ny + 0.5) * tall.size
-        behind = tall.height[cell] + tall.gradient[cell, 0] * ux + tall.gradient[cell, 1] * uy
+        slope_x, slope_y = gradient_of(tall, cell)
+        behind = height_of(tall, cell) + slope_x * ux + slope_y * uy
         before, _, _ = free_length(grid, tall, x, y, z, -dx, -dy, slope, step, headroom, REACH)
         after, _, _ = free_length(
             grid, tall, x + depth * dx, y + depth * dy, behind, dx, dy, slope, step, headroom, REACH

@@ -14,6 +14,7 @@ from navmesh.level.raster import FLOOR, KIND, PLANE, height_at
 from navmesh.obstacles.free_length import SAME, free_length
 from navmesh.obstacles.rules import ObstacleRules
 from navmesh.rules import WalkRules
+from navmesh.surface.floor_store import height_of
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["FOUND", "Limits", "measure"]
@@ -142,7 +143,7 @@ def _floor_below(cells, x, y, z, dx, dy, limits, deepest):
         iy = math.floor((y + t * dy) / size)
         if 0 <= ix < cells.nx and 0 <= iy < ny:
             for k in range(cells.column_start[ix * ny + iy], cells.column_start[ix * ny + iy + 1]):
-                if -deepest - slack <= cells.height[k] - z <= slack - limits.step:
+                if -deepest - slack <= height_of(cells, k) - z <= slack - limits.step:
                     return True
         t += 0.25 * size
     return False
@@ -160,7 +161,7 @@ def _floor_opposite(cells, x, y, z, dx, dy, limits):
         iy = math.floor((y + t * dy) / size)
         if 0 <= ix < cells.nx and 0 <= iy < ny:
             for k in range(cells.column_start[ix * ny + iy], cells.column_start[ix * ny + iy + 1]):
-                if abs(cells.height[k] - z) <= near:
+                if abs(height_of(cells, k) - z) <= near:
                     return True
         t += 0.5 * size
     return False
@@ -252,7 +253,7 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, reach, kind, size):
         top, top_ahead, top_cell = _free(grid, cells, x, y, z, -ox, -oy, limits, reach)
     lx, ly = x + low_ahead * ox, y + low_ahead * oy
     tx, ty = x - top_ahead * ox, y - top_ahead * oy
-    top_z = max(z, cells.height[top_cell]) if top_cell >= 0 else z
+    top_z = max(z, height_of(cells, top_cell)) if top_cell >= 0 else z
     if low_cell >= 0 and low >= limits.run_up:
         if top >= limits.landing and jumps:
             if _air(grid, lx, ly, z, tx, ty, top_z, limits.headroom):
@@ -279,7 +280,7 @@ def _measure_one(grid, cells, x, y, z, ox, oy, limits, reach, kind, size):
         free, ahead, cell = _free(grid, cells, bx, by, other, ox, oy, limits, reach)
         if cell >= 0 and free >= limits.landing:
             fx, fy = bx + ahead * ox, by + ahead * oy
-            if _air(grid, tx, ty, top_z, fx, fy, max(other, cells.height[cell]), limits.headroom):
+            if _air(grid, tx, ty, top_z, fx, fy, max(other, height_of(cells, cell)), limits.headroom):
                 kind[2] = GAP
                 _note(size[2], other - z, width, top, free, other - z)
 

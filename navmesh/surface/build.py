@@ -8,6 +8,7 @@ found, near and far; it is a fiftieth of the work.
 import math
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,17 +17,21 @@ from navmesh.level import raster
 from navmesh.level.terrain import Terrain
 from navmesh.rules import WalkRules
 from navmesh.surface import blockers, clearance, floors, walls
+from navmesh.surface.floor_store import FloorStore, pack_floors
 from navmesh.surface.ridges import field_of
 from navmesh.surface.surface import Surface
 from navmesh.threads import in_threads, shares
 
 __all__ = [
     "Cells",
+    "FoundCells",
     "Grid",
+    "LinkedCells",
     "Window",
     "build_surface",
     "check_floor",
     "find_cells",
+    "found_cells",
     "lay_grid",
     "patch_around",
     "reach_of",
@@ -59,8 +64,25 @@ class Grid:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Cells:
-    """The cells of a surface before clearances are carried over them; arrays as in `Surface`."""
+class LinkedCells:
+    """Cells, their links and lists of blockers; arrays as in `Surface`."""
+
+    column_start: np.ndarray
+    cell_column: np.ndarray
+    link: np.ndarray
+    blocker_start: np.ndarray
+    blocker: np.ndarray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cells(LinkedCells):
+    """The cells of a surface before clearances are carried over them."""
+
+    floor: FloorStore
+
+
+class FoundCells(NamedTuple):
+    """Cells as they are found; arrays as in `Surface`."""
 
     column_start: np.ndarray
     cell_column: np.ndarray
@@ -69,6 +91,13 @@ class Cells:
     link: np.ndarray
     blocker_start: np.ndarray
     blocker: np.ndarray
+
+    def packed(self) -> Cells:
+        """The same with their floors packed."""
+        return Cells(
+            self.column_start, self.cell_column, self.link, self.blocker_start, self.blocker,
+            pack_floors(self.column_start, self.height, self.gradient),
+        )  # fmt: skip
 
 
 def lay_grid(bounds: np.ndarray, rules: WalkRules, name: str) -> Grid:
@@ -103,6 +132,11 @@ def patch_around(grid: Grid, window: Window) -> raster.Patch:
 
 
 def find_cells(terrain: Terrain, rules: WalkRules, grid: Grid, window: Window | None = None) -> Cells:
+    """The cells of ``terrain``, or those of a ``window`` of it; see `found_cells`."""
+    return found_cells(terrain, rules, grid, window).packed()
+
+
+def found_cells(terrain: Terrain, rules: WalkRules, grid: Grid, window: Window | None = None) -> FoundCells:
     """The cells of ``terrain``, or those of a ``window`` of it, in its `patch_around`: right but for the
     window's outermost columns, as many as `reach_of` and three more. Raises `NavmeshError` when there is
     nothing to walk on at all."""
@@ -141,13 +175,13 @@ def find_cells(terrain: Terrain, rules: WalkRules, grid: Grid, window: Window | 
         rules.max_step,
         rules.headroom,
     )
-    cells = Cells(column_start, cell_column, height, gradient, link, blocker_start, blocker)
+    cells = FoundCells(column_start, cell_column, height, gradient, link, blocker_start, blocker)
     if whole:
         check_floor(cells, terrain, rules)
     return cells
 
 
-def check_floor(cells: Cells, terrain: Terrain, rules: WalkRules) -> None:
+def check_floor(cells: Cells | FoundCells, terrain: Terrain, rules: WalkRules) -> None:
     """Raise `NavmeshError` when there are no ``cells``."""
     if not len(cells.cell_column):
         raise NavmeshError(
@@ -171,8 +205,7 @@ def surface_of(cells: Cells, grid: Grid, threads: int = 1) -> tuple[Surface, np.
         shape=grid.shape,
         column_start=cells.column_start,
         cell_column=cells.cell_column,
-        height=cells.height,
-        gradient=cells.gradient,
+        floor=cells.floor,
         link=cells.link,
         clearance=free,
         nearest=nearest,

@@ -13,7 +13,7 @@ import numpy as np
 
 from navmesh.level.raster import Patch, middle_of
 from navmesh.surface.blockers import nearest_in_list
-from navmesh.surface.build import Cells, Window
+from navmesh.surface.build import LinkedCells, Window
 from navmesh.surface.clearance import (
     AHEAD,
     BACK,
@@ -40,7 +40,7 @@ class Renewed:
     """What is other than before in a rectangle of columns."""
 
     window: Window
-    cells: Cells
+    cells: LinkedCells
     """Of the rectangle; links that lead out of it are -1."""
     nearest: np.ndarray
     """(n, 2) float64, of these cells, before `settle_clearance`."""
@@ -51,7 +51,13 @@ class Renewed:
 
 
 def renew_clearance(
-    old: Cells, choice: np.ndarray, fresh: Cells, window: Window, around: Patch, whole: Patch, most: float
+    old: LinkedCells,
+    choice: np.ndarray,
+    fresh: LinkedCells,
+    window: Window,
+    around: Patch,
+    whole: Patch,
+    most: float,
 ) -> Renewed | None:
     """What comes of putting the columns of ``window`` from ``fresh``, the cells of the patch ``around``, in
     the place of those of ``old``, all cells of the grid ``whole``, whose ``choice`` (n,) is known. None where

@@ -11,6 +11,7 @@ from math import sqrt
 
 import numpy as np
 
+from navmesh.surface.floor_store import gradient_of, height_of
 from surefoot.kernels import kernel
 
 __all__ = ["cell_at", "centre_of", "floor_at", "gap_at", "same_place", "slope_at", "stretch_gap", "walk"]
@@ -168,7 +169,7 @@ def cell_at(net, x, y, z):
     best = -1
     least = 1e300
     for k in range(net.column_start[column], net.column_start[column + 1]):
-        off = abs(net.height[k] - z)
+        off = abs(height_of(net, k) - z)
         if off < least:
             least = off
             best = k
@@ -195,7 +196,8 @@ def same_place(net, k, other):
 @kernel(error_model="numpy", inline="always")
 def slope_at(net, k):
     """Slope of the floor in cell ``k``, dz/dx and dz/dy, in single precision."""
-    return np.float32(net.gradient[k, 0]), np.float32(net.gradient[k, 1])
+    slope_x, slope_y = gradient_of(net, k)
+    return np.float32(slope_x), np.float32(slope_y)
 
 
 @kernel(error_model="numpy")
@@ -203,7 +205,7 @@ def floor_at(net, k, x, y):
     """Height [m] of the floor at (x, y) in cell ``k``: the plane through its centre."""
     cx, cy = centre_of(net, k)
     slope_x, slope_y = slope_at(net, k)
-    return net.height[k] + slope_x * (x - cx) + slope_y * (y - cy)
+    return height_of(net, k) + slope_x * (x - cx) + slope_y * (y - cy)
 
 
 @kernel(error_model="numpy", inline="always")

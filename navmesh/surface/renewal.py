@@ -6,6 +6,7 @@ from navmesh.level.raster import Patch
 from navmesh.surface.build import Cells, Grid, Window, surface_of, whole_patch
 from navmesh.surface.clearance import settle_clearance
 from navmesh.surface.clearance_changes import Renewed, renew_clearance
+from navmesh.surface.floor_store import renew_floors
 from navmesh.surface.ridges import Field
 from navmesh.surface.splicing import columns_in, copy_run, links_within, renumber_run, runs_of, splice
 from navmesh.surface.surface import Surface
@@ -20,8 +21,8 @@ _AROUND = 3
 def cells_of_surface(surface: Surface) -> Cells:
     """The cells that a surface is made of."""
     return Cells(
-        surface.column_start, surface.cell_column, surface.height, surface.gradient, surface.link,
-        surface.blocker_start, surface.blocker,
+        surface.column_start, surface.cell_column, surface.link, surface.blocker_start, surface.blocker,
+        surface.floor,
     )  # fmt: skip
 
 
@@ -36,7 +37,14 @@ def renew_surface(
     """
     whole = whole_patch(grid)
     before = cells_of_surface(old)
-    cells = splice(before, fresh, window, around, whole.ny)
+    linked = splice(before, fresh, window, around, whole.ny)
+    floor = renew_floors(
+        old.floor, old.column_start, fresh.floor, fresh.column_start, linked.column_start, window, around,
+        whole.ny,
+    )  # fmt: skip
+    cells = Cells(
+        linked.column_start, linked.cell_column, linked.link, linked.blocker_start, linked.blocker, floor
+    )
     new = renew_clearance(before, choice, fresh, window, around, whole, most)
     if new is None:
         return *surface_of(cells, grid), None
@@ -52,9 +60,9 @@ def renew_surface(
     )  # fmt: skip
     surface = Surface(
         origin=grid.origin, resolution=grid.resolution, shape=grid.shape,
-        column_start=cells.column_start, cell_column=cells.cell_column, height=cells.height,
-        gradient=cells.gradient, link=cells.link, clearance=clearance, nearest=nearest, source=source,
-        blocker_start=cells.blocker_start, blocker=cells.blocker,
+        column_start=cells.column_start, cell_column=cells.cell_column, floor=floor, link=cells.link,
+        clearance=clearance, nearest=nearest, source=source, blocker_start=cells.blocker_start,
+        blocker=cells.blocker,
     )  # fmt: skip
     _settle(surface, new)
     return surface, chosen, new.window

@@ -7,7 +7,7 @@ same number of places.
 import numpy as np
 
 from navmesh.level.raster import Patch
-from navmesh.surface.build import Cells, Window
+from navmesh.surface.build import LinkedCells, Window
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["columns_in", "copy_run", "links_within", "renumber_run", "runs_of", "splice", "take"]
@@ -16,7 +16,7 @@ _BLOCK = 2048
 """So many numbers are moved at a time, before it is looked whether all could be moved alike."""
 
 
-def splice(old: Cells, new: Cells, window: Window, patch: Patch, ny: int) -> Cells:
+def splice(old: LinkedCells, new: LinkedCells, window: Window, patch: Patch, ny: int) -> LinkedCells:
     """``old`` with the columns of ``window`` as in ``new``, the cells of ``patch``; those just outside of the
     window are alike in both. ``ny``: of the whole grid."""
     runs, count = runs_of(old.column_start, new.column_start, window, patch, ny)
@@ -25,22 +25,19 @@ def splice(old: Cells, new: Cells, window: Window, patch: Patch, ny: int) -> Cel
         lists = (new if fresh else old).blocker_start
         blockers += int(lists[first + size]) - int(lists[first])
     # numpy takes large arrays in large pages, which is twice as fast
-    found = Cells(
-        np.empty(len(old.column_start), np.int32), np.empty(count, np.int32), np.empty(count),
-        np.empty((count, 2)), np.empty((count, 4), np.int32), np.empty(count + 1, np.int32),
-        np.empty((blockers, 4)),
+    found = LinkedCells(
+        np.empty(len(old.column_start), np.int32), np.empty(count, np.int32), np.empty((count, 4), np.int32),
+        np.empty(count + 1, np.int32), np.empty((blockers, 4)),
     )  # fmt: skip
     _columns(
         old.column_start, old.cell_column, new.column_start, np.array(window), patch, ny, runs,
         found.column_start, found.cell_column,
     )  # fmt: skip
     _fill(
-        old.column_start, old.cell_column, old.height, old.gradient.reshape(-1), old.link.reshape(-1),
-        old.blocker_start, old.blocker.reshape(-1),
-        new.column_start, new.cell_column, new.height, new.gradient.reshape(-1), new.link.reshape(-1),
-        new.blocker_start, new.blocker.reshape(-1),
-        patch, ny, runs, found.column_start, found.height, found.gradient.reshape(-1), found.link.reshape(-1),
-        found.blocker_start, found.blocker.reshape(-1),
+        old.column_start, old.cell_column, old.link.reshape(-1), old.blocker_start, old.blocker.reshape(-1),
+        new.column_start, new.cell_column, new.link.reshape(-1), new.blocker_start, new.blocker.reshape(-1),
+        patch, ny, runs, found.column_start, found.link.reshape(-1), found.blocker_start,
+        found.blocker.reshape(-1),
     )  # fmt: skip
     return found
 
@@ -104,19 +101,17 @@ def _columns(old_start, old_owner, new_start, window, patch, ny, runs, start, ow
 
 @kernel
 def _fill(
-    old_start, old_column, old_height, old_gradient, old_link, old_list, old_blocker,
-    new_start, new_column, new_height, new_gradient, new_link, new_list, new_blocker,
-    patch, ny, runs, start, height, gradient, link, lists, blocker,
+    old_start, old_column, old_link, old_list, old_blocker,
+    new_start, new_column, new_link, new_list, new_blocker,
+    patch, ny, runs, start, link, lists, blocker,
 ):  # fmt: skip
-    """Fill in the whole, whose ``column_start`` is known. Gradients, links and blockers are flat."""
+    """Fill in the whole, whose ``column_start`` is known. Links and blockers are flat."""
     blockers = 0
     for row in range(runs.shape[0]):
         first, size, at = runs[row, 1], runs[row, 2], runs[row, 3]
         fresh = runs[row, 0] == 1
         part_list, part_blocker = (new_list, new_blocker) if fresh else (old_list, old_blocker)
         begin, end = part_list[first], part_list[first + size]
-        copy_run(new_height if fresh else old_height, first, size, height, at)
-        copy_run(new_gradient if fresh else old_gradient, 2 * first, 2 * size, gradient, 2 * at)
         copy_run(part_blocker, 4 * begin, 4 * (end - begin), blocker, 4 * blockers)
         add_run(part_list, first, size, blockers - begin, lists, at)
         blockers += end - begin
@@ -183,14 +178,13 @@ def _shift(given, shift, taken):
     return least, most
 
 
-def take(cells: Cells, window: Window, ny: int) -> tuple[Cells, np.ndarray]:
+def take(cells: LinkedCells, window: Window, ny: int) -> tuple[LinkedCells, np.ndarray]:
     """The columns of ``window`` by themselves, links that lead out of it being -1, and which is the first
     cell of each of them in the whole: (columns,) int32. ``ny``: of the whole grid."""
     *arrays, first = _take(
-        cells.column_start, cells.height, cells.gradient, cells.link, cells.blocker_start, cells.blocker,
-        np.array(window), ny,
+        cells.column_start, cells.link, cells.blocker_start, cells.blocker, np.array(window), ny
     )  # fmt: skip
-    return Cells(*arrays), first
+    return LinkedCells(*arrays), first
 
 
 @allocating_kernel
@@ -236,21 +230,20 @@ def links_within(link, start, first, window, found):
 
 
 @allocating_kernel
-def _take(column_start, height, gradient, link, blocker_start, blocker, window, ny):
+def _take(column_start, link, blocker_start, blocker, window, ny):
     start, first = columns_in(column_start, window, ny)
     count = start[-1]
     owner, lists = np.empty(count, np.int32), np.empty(count + 1, np.int32)
-    to_height, to_gradient, to_link = np.empty(count), np.empty((count, 2)), np.empty((count, 4), np.int32)
+    to_link = np.empty((count, 4), np.int32)
     lists[0] = 0
     links_within(link, start, first, window, to_link)
     for c in range(first.shape[0]):
         for k in range(start[c], start[c + 1]):
             m = first[c] + k - start[c]
-            owner[k], to_height[k] = c, height[m]
-            to_gradient[k, 0], to_gradient[k, 1] = gradient[m, 0], gradient[m, 1]
+            owner[k] = c
             lists[k + 1] = lists[k] + blocker_start[m + 1] - blocker_start[m]
     to_blocker = np.empty((lists[count], 4))
     for c in range(first.shape[0]):
         begin, size = blocker_start[first[c]], lists[start[c + 1]] - lists[start[c]]
         to_blocker[lists[start[c]] : lists[start[c + 1]]] = blocker[begin : begin + size]
-    return start, owner, to_height, to_gradient, to_link, lists, to_blocker, first
+    return start, owner, to_link, lists, to_blocker, first

@@ -8,12 +8,14 @@ the cells are the same to the bit, whatever the strips.
 import math
 from dataclasses import fields
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
 from navmesh.level.terrain import Terrain
 from navmesh.rules import WalkRules
-from navmesh.surface.build import Cells, Grid, check_floor, find_cells, patch_around, reach_of
+from navmesh.surface.build import Cells, Grid, check_floor, find_cells, found_cells, patch_around, reach_of
+from navmesh.surface.floor_store import SIDE, join_floors, pack_floors
 from navmesh.threads import in_threads
 from surefoot.freed_memory import give_back
 
@@ -46,12 +48,13 @@ def all_cells(terrain: Terrain, rules: WalkRules, grid: Grid, threads: int = 1) 
 
 
 def _bounds(grid: Grid, narrowest: int, threads: int) -> list[int]:
-    """Where the strips begin and end, along x."""
+    """Where the strips begin and end, along x: where blocks of columns do (`navmesh.surface.floor_store`)."""
     nx, ny = grid.shape
     rounds = min(_EACH, nx // (threads * narrowest)) if threads > 1 else 1
     rounds = max(rounds, math.ceil(nx * ny / (_COLUMNS * threads)))
     strips = max(1, min(rounds * threads, nx // narrowest))
-    return [nx * strip // strips for strip in range(strips + 1)]
+    whole = SIDE // math.gcd(SIDE, ny)
+    return [nx * strip // strips // whole * whole for strip in range(strips)] + [nx]
 
 
 def _strip(terrain: Terrain, rules: WalkRules, grid: Grid, first: int, last: int, margin: int) -> Cells:
@@ -61,7 +64,7 @@ def _strip(terrain: Terrain, rules: WalkRules, grid: Grid, first: int, last: int
     nx, ny = grid.shape
     window = (max(first - margin, 0), 0, min(last + margin, nx), ny)
     patch = patch_around(grid, window)
-    found = find_cells(terrain, rules, grid, window)
+    found = found_cells(terrain, rules, grid, window)
     start = found.column_start[:-1].reshape(patch.nx, patch.ny)
     begin, end = start[first - patch.left, 0], start[last - patch.left, 0]
     start = start[first - patch.left : last - patch.left, -patch.near : ny - patch.near] - begin
@@ -70,14 +73,16 @@ def _strip(terrain: Terrain, rules: WalkRules, grid: Grid, first: int, last: int
     column = column - ix * np.int32(patch.ny - ny) + np.int32(patch.left * ny + patch.near)
     link = found.link[begin:end]
     lists = found.blocker_start[begin : end + 1]
+    start = start.ravel()
     return Cells(
-        start.ravel(),
+        start,
         column,
-        found.height[begin:end].copy(),
-        found.gradient[begin:end].copy(),
         np.where(link >= 0, link - begin, _NONE),
         lists[:-1] - lists[0],
         found.blocker[lists[0] : lists[-1]].copy(),
+        pack_floors(
+            np.append(start, np.int32(end - begin)), found.height[begin:end], found.gradient[begin:end]
+        ),
     )
 
 
@@ -89,7 +94,7 @@ def _joined(strips: list[Cells]) -> Cells:
     """All cells, from those of the strips, which lose theirs."""
     parts = [{field.name: getattr(strip, field.name) for field in fields(Cells)} for strip in strips]
     del strips[:]
-    count = np.cumsum([0, *(len(part["height"]) for part in parts)])
+    count = np.cumsum([0, *(len(part["cell_column"]) for part in parts)])
     lists = np.cumsum([0, *(len(part["blocker"]) for part in parts)])
     for k, part in enumerate(parts):
         part["column_start"] += np.int32(count[k])
@@ -98,7 +103,7 @@ def _joined(strips: list[Cells]) -> Cells:
         np.add(link, np.int32(count[k]), out=link, where=link > _NONE)
         link[link == _NONE] = -1
     end = {"column_start": count[-1], "blocker_start": lists[-1]}
-    whole = {}
+    whole: dict[str, Any] = {"floor": join_floors([part.pop("floor") for part in parts])}
     for name in list(parts[0]):
         arrays = [part.pop(name) for part in parts]
         whole[name] = np.concatenate([*arrays, np.array([end[name]], np.int32)] if name in end else arrays)

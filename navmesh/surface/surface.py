@@ -10,6 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from navmesh.surface.floor_store import FloorStore
+
 __all__ = ["DIRECTIONS", "Surface"]
 
 DIRECTIONS = np.array([(1, 0), (0, 1), (-1, 0), (0, -1)], dtype=np.int32)
@@ -30,11 +32,8 @@ class Surface:
     """(nx·ny + 1,) int32: the cells of column c are column_start[c]:column_start[c + 1], lowest first."""
     cell_column: np.ndarray
     """(n,) int32: the column of each cell."""
-    height: np.ndarray
-    """(n,) float64 [m]: height of the floor at the cell's centre, above origin[2]."""
-    gradient: np.ndarray
-    """(n, 2) float64: slope of the floor at the cell's centre, dz/dx and dz/dy; on a riser cut to what
-    `max_slope` allows."""
+    floor: FloorStore
+    """`height` and `gradient` of the cells, packed."""
     link: np.ndarray
     """(n, 4) int32: the cell that one walks to in +x, +y, -x, -y, or -1 where walking ends. Symmetric."""
     clearance: np.ndarray
@@ -52,10 +51,30 @@ class Surface:
     def __len__(self) -> int:
         return len(self.cell_column)
 
+    @property
+    def height(self) -> np.ndarray:
+        """(n,) float64 [m]: height of the floor at the cell's centre, above origin[2]; unpacked each time."""
+        return self.floor.unpacked(self.column_start)[0]
+
+    @property
+    def gradient(self) -> np.ndarray:
+        """(n, 2) float64: slope of the floor at the cell's centre, dz/dx and dz/dy; on a riser cut to what
+        `max_slope` allows. Unpacked each time."""
+        return self.floor.unpacked(self.column_start)[1]
+
+    def heights(self, cells: np.ndarray) -> np.ndarray:
+        """`height` of ``cells`` (k,)."""
+        return self.floor.height[self.floor.places(self.column_start, self.cell_column, cells)]
+
+    def gradients(self, cells: np.ndarray) -> np.ndarray:
+        """`gradient` (k, 2) of ``cells`` (k,)."""
+        floor = self.floor
+        return floor.slopes[floor.slope[floor.places(self.column_start, self.cell_column, cells)]]
+
     def centers(self, cells: np.ndarray | None = None) -> np.ndarray:
         """World coordinates (k, 3) float64 of the centres of ``cells`` (k,), or of all."""
         columns = self.cell_column if cells is None else self.cell_column[cells]
-        heights = self.height if cells is None else self.height[cells]
+        heights = self.height if cells is None else self.heights(cells)
         ix, iy = np.divmod(columns, self.shape[1])
         half = np.stack([ix + 0.5, iy + 0.5], axis=1) * self.resolution
         return np.column_stack([half, heights]) + self.origin
@@ -64,5 +83,5 @@ class Surface:
         """World coordinates (k, 3) float64 of ``places`` (k, 2) [m], relative to the origin, on the floor of
         ``cells`` (k,)."""
         centers = self.centers(cells) - self.origin
-        rise = np.einsum("ij,ij->i", places - centers[:, :2], self.gradient[cells])
+        rise = np.einsum("ij,ij->i", places - centers[:, :2], self.gradients(cells))
         return np.column_stack([places, centers[:, 2] + rise]) + self.origin

@@ -7,6 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from navmesh.errors import NavmeshError
+from navmesh.obstacles.free_length import cells_of
+from navmesh.surface.floor_store import height_of
 from navmesh.surface.surface import Surface
 from navmesh.zones.distances import is_inside, touches
 from surefoot.kernels import allocating_kernel, kernel
@@ -91,9 +93,7 @@ def concerned_by(
     """
     low, high = outline[:, 2].min() - rise, outline[:, 2].max() + rise
     cell, nearest, cut = _concerned(
-        np.ascontiguousarray(outline[:, :2]), low, high, surface.column_start, surface.cell_column,
-        surface.height, surface.link, surface.clearance, surface.shape[0], surface.shape[1],
-        surface.resolution, mark, number,
+        np.ascontiguousarray(outline[:, :2]), low, high, cells_of(surface), surface.clearance, mark, number
     )  # fmt: skip
     order = np.argsort(cell, kind="stable")
     return Concerned(cell[order], nearest[order], cut)
@@ -117,17 +117,16 @@ def _to_outline(outline, x, y):
 
 
 @kernel(error_model="numpy", inline="always")
-def _is_cut(outline, low, high, height, k, other, x, y, px, py):
+def _is_cut(outline, low, high, cells, k, other, x, y, px, py):
     """Whether the outline cuts the link from cell ``k``, at (x, y), to the ``other``, at p."""
-    if not (low <= height[k] <= high or low <= height[other] <= high):
+    if not (low <= height_of(cells, k) <= high or low <= height_of(cells, other) <= high):
         return False
     return touches(outline, x, y, px, py)
 
 
 @allocating_kernel(error_model="numpy")
-def _concerned(
-    outline, low, high, column_start, cell_column, height, link, clearance, nx, ny, h, mark, number
-):  # fmt: skip
+def _concerned(outline, low, high, cells, clearance, mark, number):
+    column_start, link, nx, ny, h = cells.column_start, cells.link, cells.nx, cells.ny, cells.size
     queue = np.empty(1024, np.int32)
     size = 0
     cut = np.empty((256, 2), np.int32)
@@ -147,13 +146,13 @@ def _concerned(
             for k in range(column_start[ix * ny + iy], column_start[ix * ny + iy + 1]):
                 # what is nearer than where walking ends is seen, also where no cell is under it
                 seen = dx * dx + dy * dy < clearance[k] * clearance[k]
-                first = (under or seen) and low <= height[k] <= high
+                first = (under or seen) and low <= height_of(cells, k) <= high
                 for d in range(4):
                     other = link[k, d]
                     if other < 0:
                         continue
                     px, py = x + ((d == 0) - (d == 2)) * h, y + ((d == 1) - (d == 3)) * h
-                    if _is_cut(outline, low, high, height, k, other, x, y, px, py):
+                    if _is_cut(outline, low, high, cells, k, other, x, y, px, py):
                         if cuts == cut.shape[0]:
                             cut = np.concatenate((cut, np.empty_like(cut)))
                         cut[cuts, 0], cut[cuts, 1] = k, d
@@ -172,11 +171,11 @@ def _concerned(
     while head < size:
         k = queue[head]
         head += 1
-        column = cell_column[k]
+        column = cells.cell_column[k]
         ix = column // ny
         x, y = (ix + 0.5) * h, (column - ix * ny + 0.5) * h
         dx, dy = 0.0, 0.0
-        if not (low <= height[k] <= high and is_inside(outline, x, y)):
+        if not (low <= height_of(cells, k) <= high and is_inside(outline, x, y)):
             dx, dy = _to_outline(outline, x, y)
         if sqrt(dx * dx + dy * dy) > clearance[k] + _BESIDE * h:
             continue
@@ -190,7 +189,7 @@ def _concerned(
             if other < 0 or mark[other] == number:
                 continue
             px, py = x + ((d == 0) - (d == 2)) * h, y + ((d == 1) - (d == 3)) * h
-            if _is_cut(outline, low, high, height, k, other, x, y, px, py):
+            if _is_cut(outline, low, high, cells, k, other, x, y, px, py):
                 continue
             mark[other] = number
             if size == queue.size:

@@ -15,6 +15,7 @@ from scipy.spatial import KDTree
 from navmesh.disjoint_sets import root
 from navmesh.level.mesh_queries import MeshGrid, crossed, lowest_above
 from navmesh.obstacles.free_length import cells_of
+from navmesh.surface.floor_store import gradient_of, height_of
 from runtime.playtest.floorplan import Allowance
 from runtime.playtest.openings import Barrier, Opening
 from runtime.playtest.site import Site
@@ -173,14 +174,14 @@ def _ledges(grid, cells, cell_column, step, headroom):
 
     Returns (lower, higher (k,) int32, rise (k,) float64 [m], at their shared border).
     """
-    start, _, height, gradient, link, size, nx, ny = cells
-    most = 4 * len(height)
+    start, link, size, nx, ny = cells.column_start, cells.link, cells.size, cells.nx, cells.ny
+    most = 4 * len(cell_column)
     low = np.empty(most, np.int32)
     high = np.empty(most, np.int32)
     rise = np.empty(most, np.float64)
     count = 0
     half = 0.5 * size
-    for c in range(len(height)):
+    for c in range(len(cell_column)):
         column = cell_column[c]
         ix = column // ny
         iy = column - ix * ny
@@ -188,17 +189,17 @@ def _ledges(grid, cells, cell_column, step, headroom):
             jx, jy = (ix + 1, iy) if d == 0 else (ix, iy + 1)
             if link[c, d] >= 0 or jx >= nx or jy >= ny:
                 continue
-            z = height[c] + gradient[c, d] * half
+            z = height_of(cells, c) + gradient_of(cells, c)[d] * half
             for n in range(start[jx * ny + jy], start[jx * ny + jy + 1]):
-                other = height[n] - gradient[n, d] * half
+                other = height_of(cells, n) - gradient_of(cells, n)[d] * half
                 if link[n, d + 2] >= 0 or abs(other - z) > HIGHEST or count >= most:
                     continue
                 a, b = (c, n) if other >= z else (n, c)
                 column_a, column_b = cell_column[a], cell_column[b]
                 ax, ay = (column_a // ny + 0.5) * size, (column_a % ny + 0.5) * size
                 bx, by = (column_b // ny + 0.5) * size, (column_b % ny + 0.5) * size
-                top = max(height[b], max(z, other))
-                free = lowest_above(grid, ax, ay, height[a] + 0.05, top + 0.6 * headroom) == np.inf
+                top = max(height_of(cells, b), max(z, other))
+                free = lowest_above(grid, ax, ay, height_of(cells, a) + 0.05, top + 0.6 * headroom) == np.inf
                 for k in range(3):
                     up = top + step + (0.05 + 0.4 * k) * (headroom - step)
                     free = free and not crossed(grid, ax, ay, up, bx, by, up)

@@ -1,10 +1,12 @@
 """Graphs of small levels with known answers, and random levels."""
 
 import math
+from dataclasses import fields
 
 import numpy as np
 
 from navmesh import NodeGraph, WalkRules
+from navmesh.surface.surface import Surface
 from tests.navmesh.shapes import box, plane, quad, terrain
 
 RULES = WalkRules(max_step=0.4, headroom=2.0, resolution=0.25)
@@ -12,6 +14,12 @@ RULES = WalkRules(max_step=0.4, headroom=2.0, resolution=0.25)
 
 def build(*meshes, rules: WalkRules = RULES) -> NodeGraph:
     return NodeGraph.build(terrain(*meshes), rules, obstacle_rules=None)
+
+
+def arrays_of(surface: Surface) -> dict[str, np.ndarray]:
+    """All that a surface holds, by name, its floors unpacked."""
+    kept = {field.name: getattr(surface, field.name) for field in fields(surface) if field.name != "floor"}
+    return kept | {"height": surface.height, "gradient": surface.gradient}
 
 
 def parts(graph: NodeGraph, radius: float, *points) -> list[int]:
